@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+/// What a layout file says, checked but not yet interpreted. World coordinates: metres, double precision,
+/// X east, Y north, Z up. Angles in degrees, counter-clockwise from +X. Times in seconds from the first frame.
+namespace throng::authoring {
+
+/// Where a value stands in its file, so that errors found long after parsing still point at it.
+struct SourcePosition {
+    int line = 0;         ///< from 1; 0 when the value was not written in the file
+    int column = 0;       ///< from 1
+    std::string pointer;  ///< JSON pointer (RFC 6901), e.g. "/roads/0/width"
+};
+
+/// A per-person quantity. Every draw is clamped to [minimum, maximum].
+struct Distribution {
+    enum class Kind { constant, uniform, normal };
+    Kind kind = Kind::constant;
+    double mean = 0.0;                ///< the value (constant) or the mean (normal); unused by uniform
+    double standard_deviation = 0.0;  ///< normal only
+    double minimum = 0.0;
+    double maximum = 0.0;
+};
+
+/// How a person differs from the next. Speeds in m/s, lengths in metres.
+struct PersonSettings {
+    /// Preferred walking speed, 0.05 to 10 m/s. Free walking of adults: mean 1.34, deviation 0.26 (Weidmann 1993).
+    Distribution speed{Distribution::Kind::normal, 1.34, 0.26, 0.6, 2.2};
+    /// Body radius, 0.1 to 1 m: half the shoulder breadth.
+    Distribution radius{Distribution::Kind::uniform, 0.25, 0.0, 0.22, 0.28};
+    /// Highest speed as a multiple of the preferred one, 1 to 3.
+    double maximum_speed_factor = 1.4;
+};
+
+enum class DiagramMethod { automatic, gradient1, per_site };
+
+struct SimulationSettings {
+    double duration = 10.0;         ///< s, (0, 86400]: the length of the shot
+    double warmup = 0.0;            ///< s, [0, 3600]: simulated before the first frame and not recorded
+    double fps = 24.0;              ///< frames/s, [1, 240]: the shot's frame rate
+    int substeps = 2;               ///< simulation steps per frame, [1, 64]
+    std::uint64_t seed = 1;         ///< [0, 2^53]: same layout, seed and driver give the same bytes
+    double tile_radius = 0.6;       ///< m, [0.05, 10]: a site's tile in the diagram; at least the largest body radius
+    double field_of_view = 200.0;   ///< degrees, (0, 360]: what a person sees ahead
+    int samples_per_ray = 6;        ///< [1, 64]: reach R = a + (samples - 1) * tile radius
+    double pixels_per_metre = 0.0;  ///< px/m, 0 = one pixel per smallest body radius; (0, 100]: diagram resolution
+    DiagramMethod method = DiagramMethod::automatic;
+    int neighbours = 10;              ///< [1, 32]: nearest sites kept by each person
+    double time_horizon = 2.0;        ///< s, [0.1, 20]: how far ahead people avoid each other
+    double wall_time_horizon = 0.6;   ///< s, [0.05, 20]: how far ahead people avoid walls
+    double contact_range = 1.0;       ///< m, [0.5, 3]: those nearer than this are felt whatever the field of view
+    int contact_iterations = 4;       ///< [0, 32]: projections per step that keep bodies apart
+    double maximum_acceleration = 4.0;  ///< m/s^2, [0.1, 100]
+};
+
+struct Road {
+    std::string id;
+    std::vector<glm::dvec2> centreline;  ///< at least two points
+    double width = 3.0;                  ///< m
+    bool one_way = false;                ///< true: walked from the centreline's first point to its last only
+    SourcePosition where;
+};
+
+struct Area {
+    std::string id;
+    std::vector<glm::dvec2> polygon;  ///< simple, any winding, not closed by a repeated point
+    SourcePosition where;
+};
+
+struct Wall {
+    std::string id;
+    std::vector<glm::dvec2> points;
+    bool closed = false;     ///< true: a solid polygon; nobody is inside it
+    double thickness = 0.2;  ///< m, open walls only
+    double height = 3.0;     ///< m, for the exported meshes; the simulation is flat
+    SourcePosition where;
+};
+
+/// A place that people come from or go to: an area, or one end of a road.
+struct Place {
+    enum class Kind { area, road_start, road_end };
+    Kind kind = Kind::area;
+    std::size_t index = 0;  ///< into Layout::areas or Layout::roads
+    SourcePosition where;
+};
+
+enum class Arrival { leave, stay };
+
+struct Flow {
+    std::string id;
+    Place from;
+    std::vector<Place> via;
+    Place to;
+    std::optional<std::uint64_t> count;  ///< people in all, spread evenly over [start, end]
+    std::optional<double> rate;          ///< people per second (Poisson arrivals, seeded); exactly one of count, rate
+    double start = 0.0;                  ///< s
+    double end = 0.0;                    ///< s; the reader fills in the duration where the file says nothing
+    PersonSettings people;
+    Arrival arrival = Arrival::leave;
+    SourcePosition where;
+};
+
+struct CircleFormation {
+    glm::dvec2 centre{0.0};
+    double radius = 10.0;
+    std::uint64_t count = 0;  ///< evenly spaced; everybody's goal is the diametrically opposite point
+};
+
+struct GridFormation {
+    glm::dvec2 origin{0.0};     ///< centre of the first row's first person
+    std::uint64_t rows = 1;     ///< along the grid's own +Y
+    std::uint64_t columns = 1;  ///< along the grid's own +X
+    double spacing = 1.0;       ///< m
+    double jitter = 0.0;        ///< m: each coordinate moves by up to this much, uniformly
+    double rotation = 0.0;      ///< degrees about the origin point
+    std::variant<glm::dvec2, Place> goal;  ///< an offset added to each person's position, or a place
+};
+
+struct ListedAgent {
+    glm::dvec2 position{0.0};
+    glm::dvec2 goal{0.0};
+    std::optional<double> speed;    ///< m/s; otherwise drawn
+    std::optional<double> radius;   ///< m; otherwise drawn
+    std::optional<double> heading;  ///< degrees; otherwise towards the goal
+    SourcePosition where;
+};
+
+struct ListFormation {
+    std::vector<ListedAgent> agents;
+};
+
+struct Formation {
+    std::string id;
+    std::variant<CircleFormation, GridFormation, ListFormation> shape;
+    double start = 0.0;  ///< s: when they appear
+    PersonSettings people;
+    Arrival arrival = Arrival::stay;
+    double goal_tolerance = 0.3;  ///< m: this near a point goal is arrived
+    SourcePosition where;
+};
+
+struct Layout {
+    std::string name;
+    SimulationSettings simulation;
+    std::vector<Road> roads;
+    std::vector<Area> areas;
+    std::vector<Wall> walls;
+    std::vector<Flow> flows;
+    std::vector<Formation> formations;
+};
+
+}  // namespace throng::authoring

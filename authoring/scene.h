@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <string>
+#include <vector>
+
+#include "authoring/layout.h"
+#include "shaders/shared/scene_types.h"
+
+namespace throng::authoring {
+
+/// The raster that all distance fields and the road distance share. Cell (i, j) has its centre at
+/// minimum + (i + 0.5, j + 0.5) * cell_size and the index j * width + i.
+struct FieldGrid {
+    glm::vec2 minimum{0.0f};  ///< m, scene frame
+    float cell_size = 1.0f;   ///< m
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+};
+
+/// Where a group of rows came from, for the account and the table of agents.
+struct Group {
+    std::string id;  ///< the flow's or formation's id
+    bool is_flow = false;
+};
+
+/// Everything the simulation needs, in the scene frame: single precision, metres from `origin`.
+///
+/// `origin` is a whole number of metres near the middle of the layout, and local coordinates are multiples of
+/// 2^-16 m, so a layout moved by whole metres (a UTM offset, say) gives the very same scene.
+struct Scene {
+    SimulationSettings settings;
+    glm::dvec2 origin{0.0};         ///< world = origin + scene
+    glm::dvec2 output_origin{0.0};  ///< streams hold world - output_origin; zero for layouts near the world's origin
+    glm::vec2 minimum{0.0f};        ///< bounds of all that people can reach, with a margin
+    glm::vec2 maximum{0.0f};
+
+    std::vector<gpu::Person> people;
+    std::vector<glm::vec2> goals;  ///< per row, the middle of the last target, for the table of agents
+    std::vector<gpu::Stage> stages;
+    std::vector<gpu::Entry> entries;
+    std::vector<glm::vec2> entry_points;
+    std::vector<gpu::SpawnQueue> queues;
+    std::vector<Group> groups;
+
+    std::vector<gpu::WallSegment> wall_segments;
+    std::vector<gpu::WallTile> wall_tiles;
+
+    FieldGrid grid;
+    std::vector<gpu::FieldCell> fields;  ///< field f holds cells [f * cells, (f + 1) * cells)
+    std::uint32_t field_count = 0;
+    std::vector<float> road_distance;  ///< m, per grid cell: positive on roads and areas, negative off them; empty without roads
+
+    float smallest_radius = 0.0f;  ///< of all people, m
+    float largest_radius = 0.0f;
+};
+
+}  // namespace throng::authoring
