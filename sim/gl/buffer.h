@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace throng::gl {
+
+/// A buffer in the device's memory. Moves, never copies.
+class Buffer {
+  public:
+    enum class Use {
+        device,     ///< written by shaders; the CPU reaches it through upload() and download() only
+        read_back,  ///< persistently mapped for reading: see mapped()
+    };
+
+    Buffer() = default;
+    /// @param bytes at least 4 are allocated, so that an empty scene still has something to bind
+    /// @throws GraphicsError when the device has no memory left; `name` goes in the message and into debuggers
+    Buffer(const std::string& name, std::size_t bytes, Use use = Use::device);
+    ~Buffer();
+    Buffer(Buffer&& other) noexcept;
+    Buffer& operator=(Buffer&& other) noexcept;
+
+    std::uint32_t handle() const { return handle_; }
+    std::size_t bytes() const { return bytes_; }
+
+    /// Mapped memory of a read_back buffer. Valid contents need a fence after the commands that wrote it.
+    const std::byte* mapped() const { return mapped_; }
+
+    void fill(std::uint32_t word);
+    void copyFrom(const Buffer& source);
+
+    template <class T>
+    void upload(std::span<const T> items, std::size_t first_item = 0) {
+        uploadBytes(std::as_bytes(items), first_item * sizeof(T));
+    }
+    template <class T>
+    void upload(const std::vector<T>& items) {
+        upload(std::span<const T>(items));
+    }
+    /// Waits for the device: for tests and for the end of a bake, never inside a step.
+    template <class T>
+    std::vector<T> download(std::size_t count, std::size_t first_item = 0) const {
+        std::vector<T> items(count);
+        downloadBytes(std::as_writable_bytes(std::span<T>(items)), first_item * sizeof(T));
+        return items;
+    }
+
+  private:
+    void uploadBytes(std::span<const std::byte> bytes, std::size_t offset);
+    void downloadBytes(std::span<std::byte> bytes, std::size_t offset) const;
+    void release();
+
+    std::uint32_t handle_ = 0;
+    std::size_t bytes_ = 0;
+    const std::byte* mapped_ = nullptr;
+};
+
+/// A buffer that holds `items` from the start.
+template <class T>
+Buffer makeBuffer(const std::string& name, const std::vector<T>& items) {
+    Buffer buffer(name, items.size() * sizeof(T));
+    if (!items.empty()) buffer.upload(items);
+    return buffer;
+}
+
+}  // namespace throng::gl

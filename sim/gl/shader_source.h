@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace throng::gl {
+
+using Definitions = std::vector<std::pair<std::string, std::string>>;
+
+/// Where shaders come from: embedded in the binary, or a folder that takes their place for live editing.
+class ShaderLibrary {
+  public:
+    ShaderLibrary() = default;
+    /// @param folder a copy of the project's shaders/ folder; files that it lacks come from the binary
+    explicit ShaderLibrary(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+    /// The complete GLSL of one shader: version line, definitions, and its includes put in place, each once.
+    /// @param path e.g. "shaders/sense.comp"
+    /// @param files receives the names behind the #line numbers of compiler messages
+    /// @throws GraphicsError for a missing file
+    std::string load(const std::string& path, const Definitions& definitions, std::vector<std::string>& files) const;
+
+  private:
+    std::string readFile(const std::string& path) const;
+    void append(const std::string& path, std::vector<std::string>& files, std::string& out) const;
+
+    std::filesystem::path folder_;
+};
+
+}  // namespace throng::gl
