@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/gl/program.h"
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "sim/gl/context.h"
+
+namespace throng::gl {
+namespace {
+
+GLenum stageOf(const std::string& path) {
+    if (path.ends_with(".comp")) return GL_COMPUTE_SHADER;
+    if (path.ends_with(".vert")) return GL_VERTEX_SHADER;
+    if (path.ends_with(".frag")) return GL_FRAGMENT_SHADER;
+    throw std::logic_error("unknown kind of shader: " + path);
+}
+
+std::string infoLog(GLuint object, bool is_program) {
+    GLint length = 0;
+    is_program ? glGetProgramiv(object, GL_INFO_LOG_LENGTH, &length) : glGetShaderiv(object, GL_INFO_LOG_LENGTH, &length);
+    std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
+    is_program ? glGetProgramInfoLog(object, length, nullptr, log.data())
+               : glGetShaderInfoLog(object, length, nullptr, log.data());
+    return log.c_str();
+}
+
+GLuint compile(const ShaderLibrary& library, const std::string& path, const Definitions& definitions) {
+    std::vector<std::string> files;
+    const std::string source = library.load(path, definitions, files);
+    const GLuint shader = glCreateShader(stageOf(path));
+    const char* text = source.c_str();
+    glShaderSource(shader, 1, &text, nullptr);
+    glCompileShader(shader);
+    GLint compiled = 0;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
+    if (compiled) return shader;
+    std::string message = fmt::format("the driver cannot compile {}:\n{}", path, infoLog(shader, false));
+    for (std::size_t i = 0; i < files.size(); ++i) message += fmt::format("  (file {} is {})\n", i, files[i]);
+    glDeleteShader(shader);
+    throw GraphicsError(message);
+}
+
+std::string resourceName(GLuint program, GLenum interface, GLuint index) {
+    char name[128] = {};
+    glGetProgramResourceName(program, interface, index, sizeof name, nullptr, name);
+    return name;
+}
+
+}  // namespace
+
+Program::Program(const ShaderLibrary& library, const std::vector<std::string>& paths, const Definitions& definitions) {
+    for (const std::string& path : paths) name_ += (name_.empty() ? "" : " + ") + path;
+    handle_ = glCreateProgram();
+    std::vector<GLuint> shaders;
+    for (const std::string& path : paths) {
+        shaders.push_back(compile(library, path, definitions));
+        glAttachShader(handle_, shaders.back());
+    }
+    glLinkProgram(handle_);
+    for (GLuint shader : shaders) {
+        glDetachShader(handle_, shader);
+        glDeleteShader(shader);
+    }
+    GLint linked = 0;
+    glGetProgramiv(handle_, GL_LINK_STATUS, &linked);
+    if (!linked) throw GraphicsError(fmt::format("the driver cannot link {}:\n{}", name_, infoLog(handle_, true)));
+    glObjectLabel(GL_PROGRAM, handle_, static_cast<GLsizei>(name_.size()), name_.c_str());
+    reflect();
+}
+
+void Program::reflect() {
+    GLint count = 0;
+    glGetProgramInterfaceiv(handle_, GL_SHADER_STORAGE_BLOCK, GL_ACTIVE_RESOURCES, &count);
+    for (GLuint index = 0; index < static_cast<GLuint>(count); ++index) {
+        blocks_.push_back({resourceName(handle_, GL_SHADER_STORAGE_BLOCK, index), 0});
+        glShaderStorageBlockBinding(handle_, index, index);
+    }
+    glGetProgramInterfaceiv(handle_, GL_UNIFORM, GL_ACTIVE_RESOURCES, &count);
+    for (GLuint index = 0; index < static_cast<GLuint>(count); ++index) {
+        const std::string uniform_name = resourceName(handle_, GL_UNIFORM, index);
+        uniforms_.push_back({uniform_name, glGetUniformLocation(handle_, uniform_name.c_str()), false});
+    }
+}
+
+Program::~Program() {
+    if (handle_) glDeleteProgram(handle_);
+}
+
+Program::Program(Program&& other) noexcept { *this = std::move(other); }
+
+Program& Program::operator=(Program&& other) noexcept {
+    std::swap(handle_, other.handle_);
+    std::swap(name_, other.name_);
+    std::swap(blocks_, other.blocks_);
+    std::swap(uniforms_, other.uniforms_);
+    return *this;
+}
+
+bool Program::hasBlock(const std::string& block) const {
+    return std::any_of(blocks_.begin(), blocks_.end(), [&](const Block& b) { return b.name == block; });
+}
+
+void Program::bind(const std::string& block, const Buffer& buffer) {
+    std::string known;
+    for (Block& candidate : blocks_) {
+        if (candidate.name == block) {
+            candidate.buffer = buffer.handle();
+            return;
+        }
+        known += " " + candidate.name;
+    }
+    throw std::logic_error(fmt::format("{} has no storage block `{}`; it has:{}", name_, block, known));
+}
+
+void Program::bindAll(const std::vector<std::pair<std::string, const Buffer*>>& buffers) {
+    for (const auto& [block, buffer] : buffers)
+        if (hasBlock(block)) bind(block, *buffer);
+}
+
+Program::Uniform& Program::uniform(const std::string& name) {
+    for (Uniform& candidate : uniforms_) {
+        if (candidate.name == name) {
+            candidate.set = true;
+            return candidate;
+        }
+    }
+    throw std::logic_error(fmt::format("{} has no uniform `{}`", name_, name));
+}
+
+void Program::set(const std::string& name, std::uint32_t value) { glProgramUniform1ui(handle_, uniform(name).location, value); }
+void Program::set(const std::string& name, float value) { glProgramUniform1f(handle_, uniform(name).location, value); }
+void Program::set(const std::string& name, glm::vec2 value) {
+    glProgramUniform2f(handle_, uniform(name).location, value.x, value.y);
+}
+
+void Program::use() const {
+    for (std::size_t index = 0; index < blocks_.size(); ++index) {
+        if (!blocks_[index].buffer)
+            throw std::logic_error(fmt::format("{}: no buffer is bound to `{}`", name_, blocks_[index].name));
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(index), blocks_[index].buffer);
+    }
+    for (const Uniform& candidate : uniforms_)
+        if (!candidate.set) throw std::logic_error(fmt::format("{}: uniform `{}` was never set", name_, candidate.name));
+    glUseProgram(handle_);
+}
+
+ComputeProgram::ComputeProgram(const ShaderLibrary& library, const std::string& path, const Definitions& definitions)
+    : Program(library, {path}, definitions) {
+    GLint size[3] = {1, 1, 1};
+    glGetProgramiv(handle(), GL_COMPUTE_WORK_GROUP_SIZE, size);
+    if (size[1] != 1 || size[2] != 1) throw std::logic_error(name() + ": groups are expected to be one-dimensional");
+    group_size_ = static_cast<std::uint32_t>(size[0]);
+}
+
+void ComputeProgram::dispatch(std::uint64_t invocations) const {
+    if (invocations == 0) return;
+    const std::uint64_t groups = (invocations + group_size_ - 1) / group_size_;
+    if (groups > 65535) throw std::logic_error(fmt::format("{}: {} groups are more than every device takes", name(), groups));
+    use();
+    glDispatchCompute(static_cast<GLuint>(groups), 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+}
+
+void ComputeProgram::dispatchIndirect(const Buffer& arguments, std::size_t offset) const {
+    use();
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, arguments.handle());
+    glDispatchComputeIndirect(static_cast<GLintptr>(offset));
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+}
+
+}  // namespace throng::gl

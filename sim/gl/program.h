@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <string>
+#include <vector>
+
+#include "sim/gl/buffer.h"
+#include "sim/gl/shader_source.h"
+
+namespace throng::gl {
+
+/// A linked program and what reflection says it needs. Buffers are bound to block names, uniforms set by name: there
+/// are no binding numbers to keep in step, and use() refuses to run with anything missing.
+class Program {
+  public:
+    Program() = default;
+    Program(const ShaderLibrary& library, const std::vector<std::string>& paths, const Definitions& definitions);
+    ~Program();
+    Program(Program&& other) noexcept;
+    Program& operator=(Program&& other) noexcept;
+
+    /// Remembers which buffer serves a storage block. Buffers must outlive the program's last use.
+    /// @throws std::logic_error for a block that the program does not have, naming those it has
+    void bind(const std::string& block, const Buffer& buffer);
+    /// The same for several blocks; blocks that the compiler removed as unused are passed over.
+    void bindAll(const std::vector<std::pair<std::string, const Buffer*>>& buffers);
+    bool hasBlock(const std::string& block) const;
+
+    /// @throws std::logic_error for a uniform that the program does not have
+    void set(const std::string& uniform, std::uint32_t value);
+    void set(const std::string& uniform, float value);
+    void set(const std::string& uniform, glm::vec2 value);
+
+    /// Makes the program and its buffers current.
+    /// @throws std::logic_error when a block has no buffer or a uniform no value
+    void use() const;
+
+    std::uint32_t handle() const { return handle_; }
+    const std::string& name() const { return name_; }
+
+  private:
+    struct Block {
+        std::string name;
+        std::uint32_t buffer = 0;
+    };
+    struct Uniform {
+        std::string name;
+        int location = -1;
+        bool set = false;
+    };
+    Uniform& uniform(const std::string& name);
+    void reflect();
+
+    std::uint32_t handle_ = 0;
+    std::string name_;
+    std::vector<Block> blocks_;  // the index is the binding
+    std::vector<Uniform> uniforms_;
+};
+
+/// A program with one compute shader. Its group size is read back from the compiler, never repeated in C++.
+class ComputeProgram : public Program {
+  public:
+    ComputeProgram() = default;
+    ComputeProgram(const ShaderLibrary& library, const std::string& path, const Definitions& definitions = {});
+
+    std::uint32_t groupSize() const { return group_size_; }
+
+    /// Runs at least `invocations` invocations in one dimension, then makes its writes visible to later commands.
+    void dispatch(std::uint64_t invocations) const;
+    /// The same with the number of groups read on the device: three words at `offset` of `arguments`.
+    void dispatchIndirect(const Buffer& arguments, std::size_t offset = 0) const;
+
+  private:
+    std::uint32_t group_size_ = 1;
+};
+
+}  // namespace throng::gl
