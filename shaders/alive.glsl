@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: Apache-2.0
+
+/// Whether a row takes part: others see it, the diagram has its tile, the frame shows it.
+bool isAlive(uint status, uint flags) {
+    return status == STATUS_WALKING || (status == STATUS_ARRIVED && (flags & PERSON_STAYS) != 0u);
+}

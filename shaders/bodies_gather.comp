@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Orders the people of each cell by row, so that a bake repeats byte for byte, and gathers what neighbours read of
+// each other into slot order: that memory locality is what makes sensing fast.
+#include "shaders/shared/simulation_types.h"
+
+layout(local_size_x = AGENT_GROUP_SIZE) in;
+layout(std430) readonly buffer ParametersBlock { Parameters parameters; };
+layout(std430) readonly buffer LiveDispatch { uint live_groups[3]; uint live_count; };
+layout(std430) readonly buffer People { Person people[]; };
+layout(std430) readonly buffer States { AgentState states[]; };
+layout(std430) readonly buffer RowCells { uint row_cells[]; };
+layout(std430) readonly buffer CellStarts { uint cell_starts[]; };
+layout(std430) readonly buffer LooseRows { uint loose_rows[]; };
+layout(std430) writeonly buffer RowSlots { uint row_slots[]; };
+layout(std430) writeonly buffer Bodies { Body bodies[]; };
+layout(std430) writeonly buffer Sites { DiagramSite sites[]; };
+
+void main() {
+    uint loose = gl_GlobalInvocationID.x;
+    if (loose >= live_count) return;
+    uint row = loose_rows[loose];
+    uint cell = row_cells[row];
+    uint first = cell_starts[cell];
+    uint last = cell_starts[cell + 1u];
+    uint slot = first;
+    for (uint other = first; other < last; ++other) slot += loose_rows[other] < row ? 1u : 0u;
+    row_slots[row] = slot;
+
+    Body body;
+    body.position = states[row].position;
+    body.velocity = states[row].velocity;
+    body.radius = people[row].radius;
+    body.heading = states[row].heading;
+    body.row = row;
+    body.maximum_speed = people[row].maximum_speed;
+    bodies[slot] = body;
+
+    precise vec2 pixel = (body.position - parameters.diagram_minimum) * parameters.pixels_per_metre;
+    DiagramSite site;
+    site.position = pixel;
+    site.radius = max(parameters.tile_radius, body.radius) * parameters.pixels_per_metre;
+    site.id = row;
+    sites[slot] = site;
+}

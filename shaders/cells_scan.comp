@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Second half of the prefix sum: where each cell's people start, and how many groups a pass over people needs.
+#include "shaders/shared/simulation_types.h"
+
+layout(local_size_x = SCAN_GROUP_SIZE) in;
+layout(std430) readonly buffer CellCounts { uint cell_counts[]; };
+layout(std430) readonly buffer GroupSums { uint group_sums[]; };
+layout(std430) writeonly buffer CellStarts { uint cell_starts[]; };
+layout(std430) writeonly buffer CellCursors { uint cell_cursors[]; };
+layout(std430) writeonly buffer LiveDispatch { uint live_groups[3]; uint live_count; };
+uniform uint cell_count;
+
+shared uint thread_sums[SCAN_GROUP_SIZE];
+
+void main() {
+    uint thread = gl_LocalInvocationID.x;
+    uint first = gl_GlobalInvocationID.x * CELLS_PER_THREAD;
+    uint last = min(first + CELLS_PER_THREAD, cell_count);
+
+    // What stands before this group, added up by all its threads together.
+    uint before = 0u;
+    for (uint group = thread; group < gl_WorkGroupID.x; group += SCAN_GROUP_SIZE) before += group_sums[group];
+    thread_sums[thread] = before;
+    barrier();
+    uint start = 0u;
+    for (uint i = 0u; i < SCAN_GROUP_SIZE; ++i) start += thread_sums[i];
+    barrier();
+
+    uint sum = 0u;
+    for (uint cell = first; cell < last; ++cell) sum += cell_counts[cell];
+    thread_sums[thread] = sum;
+    barrier();
+    for (uint i = 0u; i < thread; ++i) start += thread_sums[i];
+
+    for (uint cell = first; cell < last; ++cell) {
+        cell_starts[cell] = start;
+        cell_cursors[cell] = start;
+        start += cell_counts[cell];
+    }
+    if (first < cell_count && last == cell_count) {
+        cell_starts[cell_count] = start;
+        live_groups[0] = (start + AGENT_GROUP_SIZE - 1u) / AGENT_GROUP_SIZE;
+        live_groups[1] = 1u;
+        live_groups[2] = 1u;
+        live_count = start;
+    }
+}

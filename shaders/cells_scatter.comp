@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Puts every row into its cell's run of slots, in whatever order the device runs: bodies_gather mends that.
+#include "shaders/shared/simulation_types.h"
+
+layout(local_size_x = AGENT_GROUP_SIZE) in;
+layout(std430) readonly buffer ParametersBlock { Parameters parameters; };
+layout(std430) readonly buffer RowCells { uint row_cells[]; };
+layout(std430) buffer CellCursors { uint cell_cursors[]; };
+layout(std430) writeonly buffer LooseRows { uint loose_rows[]; };
+layout(std430) writeonly buffer RowSlots { uint row_slots[]; };
+
+void main() {
+    uint row = gl_GlobalInvocationID.x;
+    if (row >= parameters.row_count) return;
+    uint cell = row_cells[row];
+    if (cell == NO_INDEX)
+        row_slots[row] = NO_INDEX;
+    else
+        loose_rows[atomicAdd(cell_cursors[cell], 1u)] = row;
+}

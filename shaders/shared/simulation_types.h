@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// Structures and constants of the running simulation, shared by C++ and GLSL (std430).
+#ifndef THRONG_SHARED_SIMULATION_TYPES_H
+#define THRONG_SHARED_SIMULATION_TYPES_H
+
+#include "shaders/shared/scene_types.h"
+
+THRONG_SHARED_BEGIN
+
+const uint AGENT_GROUP_SIZE = 64u;  // invocations per group of every pass over agents
+const uint SCAN_GROUP_SIZE = 64u;   // invocations per group of the cell scan
+const uint CELLS_PER_THREAD = 16u;  // cells that one invocation of the scan adds up
+const uint SPAWN_GROUP_SIZE = 64u;  // people of one queue that may try to enter in one step
+
+const uint STATUS_WAITING = 0u;  // the numbers of throng::AgentStatus
+const uint STATUS_WALKING = 1u;
+const uint STATUS_ARRIVED = 2u;
+
+/// A neighbour key is a slot, or a wall segment with this bit.
+const uint NEIGHBOUR_IS_WALL = 0x80000000u;
+
+/// Wall constraints that one person heeds at a time: the nearest ones.
+const uint WALL_CONSTRAINTS = 8u;
+
+/// What changes about one row.
+struct AgentState {
+    vec2 position;      // m, scene frame
+    vec2 velocity;      // m/s, of the last step, contact included
+    float heading;      // rad
+    float phase;        // gait cycles, unwrapped
+    float walked;       // m
+    uint status;        // STATUS_*
+    uint stage;         // stages of the route already passed
+    uint spawn_step;    // steps since the simulation began; NO_INDEX = never
+    uint arrival_step;  // likewise
+    uint attempts;      // how often it asked for room at its entry
+};
+
+/// A person in the scene, in the order of the cells ("slot") so that neighbours lie together in memory.
+struct Body {
+    vec2 position;  // m, at the start of the step
+    vec2 velocity;  // m/s
+    float radius;   // m
+    float heading;  // rad
+    uint row;
+    float maximum_speed;  // m/s
+};
+
+/// A site of the diagram, in pixels from the window's corner.
+struct DiagramSite {
+    vec2 position;
+    float radius;  // the tile's
+    uint id;       // agents: the row; wall tiles: the number of rows + the tile's index
+};
+
+/// What a person asks for when it wants to enter.
+struct SpawnProposal {
+    vec2 position;
+    float radius;
+    uint row;  // NO_INDEX = does not ask, or there is no room
+};
+
+/// Everything that stays the same during a bake.
+struct Parameters {
+    vec2 cells_minimum;   // m
+    float cell_size;      // m, at least the contact range and twice the largest radius
+    uint cells_width;
+    uint cells_height;
+    uint row_count;
+    vec2 diagram_minimum;  // m, corner of pixel (0, 0)
+    float pixels_per_metre;
+    uint diagram_width;
+    uint diagram_height;
+    float tile_radius;  // m, of agents
+    float step_seconds;
+    float time_horizon;       // s
+    float wall_time_horizon;  // s
+    float contact_range;      // m
+    float maximum_acceleration;  // m/s^2
+    uint sample_count;        // of the sensing pattern
+    uint seed;
+    uint queue_count;
+    vec2 grid_minimum;  // m, distance fields
+    float grid_cell;    // m
+    uint grid_width;
+    uint grid_height;
+    uint has_roads;  // 0 or 1
+};
+
+THRONG_SHARED_END
+
+#endif
