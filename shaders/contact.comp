@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// One round of keeping bodies out of each other and out of walls, by moving positions (position-based dynamics, Mueller
+// et al. 2007): avoidance foresees, but in a crush there may be nothing to foresee that works.
+//
+// All people move at once from the same positions (a Jacobi round), so the result does not depend on the order. Walls come
+// last and do not give: whatever neighbours push, a body ends up on the side of the wall on which it began the step.
+#include "shaders/shared/simulation_types.h"
+
+layout(local_size_x = AGENT_GROUP_SIZE) in;
+layout(std430) readonly buffer ParametersBlock { Parameters parameters; };
+layout(std430) readonly buffer LiveDispatch { uint live_groups[3]; uint live_count; };
+layout(std430) readonly buffer Bodies { Body bodies[]; };
+layout(std430) readonly buffer CellStarts { uint cell_starts[]; };
+layout(std430) readonly buffer WallSegments { WallSegment wall_segments[]; };
+layout(std430) readonly buffer WallStarts { uint wall_starts[]; };
+layout(std430) readonly buffer WallItems { uint wall_items[]; };
+layout(std430) readonly buffer TargetsBefore { vec2 targets_before[]; };
+layout(std430) writeonly buffer TargetsAfter { vec2 targets_after[]; };
+
+#include "shaders/cells.glsl"
+#include "shaders/cell_runs.glsl"
+#include "shaders/walls.glsl"
+
+/// Bodies are pushed this much further apart than touching (m), so that rounding and late rounds leave no overlap.
+const float SKIN = 0.002;
+/// The furthest that contact moves anybody in one step, as a share of its radius: a crush may not fling people.
+const float MOST_PUSH = 0.5;
+
+vec2 apartDirection(vec2 offset, float size, uint row, uint other_row) {
+    if (size > 1.0e-6) return offset / size;
+    // Two bodies in exactly the same place part along a direction that both agree on.
+    float angle = float((row ^ other_row) % 64u) * 0.098174770;
+    return (row < other_row ? 1.0 : -1.0) * vec2(cos(angle), sin(angle));
+}
+
+vec2 pushFromNeighbours(Body self, vec2 position) {
+    vec2 push = vec2(0.0);
+    float touching = 0.0;
+    ivec2 cell = cellOf(self.position);
+    for (int y = cell.y - 1; y <= cell.y + 1; ++y) {
+        uvec2 run = slotRun(cell.x, y);
+        for (uint slot = run.x; slot < run.y; ++slot) {
+            vec2 offset = position - targets_before[slot];
+            float reach = self.radius + bodies[slot].radius + SKIN;
+            float size_squared = dot(offset, offset);
+            if (size_squared >= reach * reach || bodies[slot].row == self.row) continue;
+            float size = sqrt(size_squared);
+            push += apartDirection(offset, size, self.row, bodies[slot].row) * (reach - size) * 0.5;
+            touching += 1.0;
+        }
+    }
+    // Plain sums overshoot where many push: a mild over-relaxed average converges and does not ring.
+    return touching > 1.0 ? push * (1.6 / touching) : push;
+}
+
+/// Moves `position` to the side of the wall that `before` is on, clear of it by the body's radius.
+vec2 pushFromWall(WallSegment wall, vec2 before, vec2 position, float radius) {
+    vec2 axis = wall.b - wall.a;
+    float reach = radius + wall.half_thickness;
+    float side_before = axis.x * (before.y - wall.a.y) - axis.y * (before.x - wall.a.x);
+    float side_after = axis.x * (position.y - wall.a.y) - axis.y * (position.x - wall.a.x);
+    if (side_before * side_after < 0.0) {
+        // Did the step pass through the wall itself, or only round its end?
+        vec2 crossing = mix(before, position, side_before / (side_before - side_after));
+        float along = dot(crossing - wall.a, axis) / max(dot(axis, axis), 1.0e-12);
+        if (along >= 0.0 && along <= 1.0) position = crossing + (before - crossing) * 1.0e-3;
+    }
+    vec2 nearest = nearestOnSegment(position, wall.a, wall.b);
+    vec2 offset = position - nearest;
+    float size = length(offset);
+    if (size >= reach) return position;
+    vec2 outward = size > 1.0e-5 ? offset / size
+                                 : normalize(vec2(-axis.y, axis.x)) * (side_before >= 0.0 ? 1.0 : -1.0);
+    return nearest + outward * reach;
+}
+
+vec2 keepOutOfWalls(Body self, vec2 position) {
+    uint cell = cellIndex(cellOf(self.position));
+    uint first = wall_starts[cell];
+    uint last = wall_starts[cell + 1u];
+    if (first == last) return position;
+    // Leaving one wall may lead into the next: a few rounds settle corners.
+    for (int round = 0; round < 3; ++round)
+        for (uint i = first; i < last; ++i)
+            position = pushFromWall(wall_segments[wall_items[i]], self.position, position, self.radius);
+    return position;
+}
+
+void main() {
+    uint slot = gl_GlobalInvocationID.x;
+    if (slot >= live_count) return;
+    Body self = bodies[slot];
+    vec2 position = targets_before[slot];
+    vec2 push = pushFromNeighbours(self, position);
+    float size = length(push);
+    float most = MOST_PUSH * self.radius;
+    if (size > most) push *= most / size;
+    targets_after[slot] = keepOutOfWalls(self, position + push);
+}

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lays out one frame as the streams hold it: all rows, dead or alive.
+#include "shaders/shared/simulation_types.h"
+
+layout(local_size_x = AGENT_GROUP_SIZE) in;
+layout(std430) readonly buffer ParametersBlock { Parameters parameters; };
+layout(std430) readonly buffer People { Person people[]; };
+layout(std430) readonly buffer States { AgentState states[]; };
+layout(std430) writeonly buffer FrameBlock { float frame[]; };  // positions of all rows, then directions, then states
+
+#include "shaders/alive.glsl"
+
+void put(uint stream, uint row, vec3 value) {
+    uint at = (stream * parameters.row_count + row) * 3u;
+    frame[at] = value.x;
+    frame[at + 1u] = value.y;
+    frame[at + 2u] = value.z;
+}
+
+void main() {
+    uint row = gl_GlobalInvocationID.x;
+    if (row >= parameters.row_count) return;
+    AgentState state = states[row];
+    bool alive = isAlive(state.status, people[row].flags);
+    put(0u, row, vec3(state.position, 0.0));
+    put(1u, row, vec3(cos(state.heading), sin(state.heading), alive ? length(state.velocity) : 0.0));
+    put(2u, row, vec3(alive ? 1.0 : 0.0, float(people[row].variation), state.phase));
+}

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where a route leads from a position: a straight line to a point, or downhill on a distance field.
+// Needs the blocks Stages and Fields.
+
+struct RouteAhead {
+    vec2 direction;   // unit vector, or zero at the target itself
+    float remaining;  // m
+};
+
+/// The bilinear weights' cell and fraction on the distance fields' grid.
+void gridPosition(vec2 position, out uvec2 cell, out vec2 fraction) {
+    vec2 size = vec2(parameters.grid_width, parameters.grid_height);
+    vec2 at = clamp((position - parameters.grid_minimum) / parameters.grid_cell - 0.5, vec2(0.0), size - 1.001);
+    cell = uvec2(at);
+    fraction = at - vec2(cell);
+}
+
+RouteAhead sampleField(uint field, vec2 position) {
+    uvec2 cell;
+    vec2 fraction;
+    gridPosition(position, cell, fraction);
+    uint base = field * parameters.grid_width * parameters.grid_height + cell.y * parameters.grid_width + cell.x;
+    FieldCell corner[4] = FieldCell[4](fields[base], fields[base + 1u], fields[base + parameters.grid_width],
+                                       fields[base + parameters.grid_width + 1u]);
+    vec4 weight = vec4((1.0 - fraction.x) * (1.0 - fraction.y), fraction.x * (1.0 - fraction.y),
+                       (1.0 - fraction.x) * fraction.y, fraction.x * fraction.y);
+    RouteAhead ahead = RouteAhead(vec2(0.0), 0.0);
+    for (int i = 0; i < 4; ++i) {
+        ahead.direction += weight[i] * unpackSnorm2x16(corner[i].direction);
+        ahead.remaining += weight[i] * corner[i].distance;
+    }
+    float size = length(ahead.direction);
+    // Where routes part (behind an obstacle) the corners cancel out: take one side, always the same.
+    ahead.direction = size > 0.05 ? ahead.direction / size : unpackSnorm2x16(corner[0].direction);
+    return ahead;
+}
+
+RouteAhead routeAhead(Stage stage, vec2 position) {
+    if (stage.field != NO_INDEX) return sampleField(stage.field, position);
+    vec2 offset = stage.point - position;
+    float remaining = length(offset);
+    return RouteAhead(remaining > 1.0e-6 ? offset / remaining : vec2(0.0), remaining);
+}

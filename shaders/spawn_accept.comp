@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Of those who found room, the ones that would stand in each other's way give way to the smaller row, and the rest enter.
+#include "shaders/shared/simulation_types.h"
+
+layout(local_size_x = SPAWN_GROUP_SIZE) in;
+layout(std430) readonly buffer ParametersBlock { Parameters parameters; };
+layout(std430) readonly buffer People { Person people[]; };
+layout(std430) readonly buffer Stages { Stage stages[]; };
+layout(std430) readonly buffer Fields { FieldCell fields[]; };
+layout(std430) readonly buffer Proposals { SpawnProposal proposals[]; };
+layout(std430) buffer States { AgentState states[]; };
+uniform uint step_index;
+
+#include "shaders/route.glsl"
+
+const float NEWCOMER_MARGIN = 0.05;  // m
+
+void main() {
+    SpawnProposal mine = proposals[gl_GlobalInvocationID.x];
+    if (mine.row == NO_INDEX) return;
+    uint count = parameters.queue_count * SPAWN_GROUP_SIZE;
+    for (uint i = 0u; i < count; ++i) {
+        SpawnProposal other = proposals[i];
+        if (other.row < mine.row && distance(other.position, mine.position) < other.radius + mine.radius + NEWCOMER_MARGIN)
+            return;
+    }
+    Person person = people[mine.row];
+    RouteAhead ahead = routeAhead(stages[person.first_stage], mine.position);
+    AgentState state = states[mine.row];
+    bool turned = (person.flags & PERSON_FIXED_SPAWN) == 0u && ahead.direction != vec2(0.0);
+    state.heading = turned ? atan(ahead.direction.y, ahead.direction.x) : person.heading;
+    state.position = mine.position;
+    // People walk in rather than start from a stand.
+    state.velocity = turned ? ahead.direction * person.preferred_speed * 0.8 : vec2(0.0);
+    state.status = STATUS_WALKING;
+    state.spawn_step = step_index;
+    states[mine.row] = state;
+}
