@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/buffers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <stdexcept>
+
+#include "sim/wall_index.h"
+
+namespace throng::sim {
+namespace {
+
+constexpr std::size_t kWord = sizeof(std::uint32_t);
+// Largest diagram: what the texture and buffer limits that every OpenGL 4.5 device has allow.
+constexpr double kMostPixels = 33'554'432.0;
+constexpr double kMostPixelsPerSide = 16'384.0;
+
+std::vector<gpu::AgentState> initialStates(const authoring::Scene& scene) {
+    std::vector<gpu::AgentState> states;
+    states.reserve(scene.people.size());
+    for (const gpu::Person& person : scene.people) {
+        gpu::AgentState state{};
+        const bool fixed = person.flags & gpu::PERSON_FIXED_SPAWN;
+        const bool present = person.flags & gpu::PERSON_PRESENT_AT_START;
+        state.position = fixed ? person.spawn_position : scene.entry_points.at(scene.entries.at(person.entry).first_point);
+        state.heading = person.heading;
+        state.phase = person.phase;
+        state.status = present ? gpu::STATUS_WALKING : gpu::STATUS_WAITING;
+        state.spawn_step = present ? 0 : gpu::NO_INDEX;
+        state.arrival_step = gpu::NO_INDEX;
+        states.push_back(state);
+    }
+    return states;
+}
+
+std::vector<std::uint32_t> initialRowSlots(const authoring::Scene& scene) {
+    const std::size_t rows = scene.people.size();
+    std::vector<std::uint32_t> slots(rows + scene.wall_tiles.size(), gpu::NO_INDEX);
+    for (std::size_t tile = 0; tile < scene.wall_tiles.size(); ++tile)
+        slots[rows + tile] = static_cast<std::uint32_t>(rows + tile);
+    return slots;
+}
+
+std::uint32_t pixels(float extent, float per_metre) { return static_cast<std::uint32_t>(std::ceil(extent * per_metre)); }
+
+void checkWindow(const gpu::Parameters& parameters, glm::vec2 extent) {
+    const double width = parameters.diagram_width;
+    const double height = parameters.diagram_height;
+    if (width <= kMostPixelsPerSide && height <= kMostPixelsPerSide && width * height <= kMostPixels) return;
+    const double by_area = std::sqrt(kMostPixels / (double{extent.x} * double{extent.y}));
+    const double by_side = kMostPixelsPerSide / std::max(extent.x, extent.y);
+    throw std::runtime_error(fmt::format(
+        "the layout covers {:.0f} x {:.0f} m, which at {:.2f} pixels per metre is a diagram of {:.0f} x {:.0f} pixels; the limit is "
+        "{:.0f} a side and {:.0f} million in all. Set simulation.pixels_per_metre to at most {:.2f}, or split the layout.",
+        extent.x, extent.y, parameters.pixels_per_metre, width, height, kMostPixelsPerSide, kMostPixels / 1e6,
+        std::floor(std::min(by_area, by_side) * 100.0) / 100.0));
+}
+
+}  // namespace
+
+gpu::Parameters makeParameters(const authoring::Scene& scene) {
+    const authoring::SimulationSettings& settings = scene.settings;
+    const glm::vec2 extent = glm::max(scene.maximum - scene.minimum, glm::vec2(1.0f));
+    gpu::Parameters parameters{};
+    parameters.cells_minimum = scene.minimum;
+    parameters.cell_size = std::max(static_cast<float>(settings.contact_range), 2.0f * scene.largest_radius + 0.25f);
+    parameters.cells_width = std::max(1u, pixels(extent.x, 1.0f / parameters.cell_size));
+    parameters.cells_height = std::max(1u, pixels(extent.y, 1.0f / parameters.cell_size));
+    parameters.row_count = static_cast<std::uint32_t>(scene.people.size());
+    parameters.diagram_minimum = scene.minimum;
+    parameters.pixels_per_metre = settings.pixels_per_metre > 0.0 ? static_cast<float>(settings.pixels_per_metre)
+                                                                  : 1.0f / std::max(scene.smallest_radius, 0.05f);
+    parameters.diagram_width = pixels(extent.x, parameters.pixels_per_metre);
+    parameters.diagram_height = pixels(extent.y, parameters.pixels_per_metre);
+    parameters.tile_radius = static_cast<float>(settings.tile_radius);
+    parameters.step_seconds = static_cast<float>(1.0 / (settings.fps * settings.substeps));
+    parameters.time_horizon = static_cast<float>(settings.time_horizon);
+    parameters.wall_time_horizon = static_cast<float>(settings.wall_time_horizon);
+    parameters.contact_range = static_cast<float>(settings.contact_range);
+    parameters.maximum_acceleration = static_cast<float>(settings.maximum_acceleration);
+    parameters.seed = static_cast<std::uint32_t>(settings.seed ^ (settings.seed >> 32));
+    parameters.queue_count = static_cast<std::uint32_t>(scene.queues.size());
+    parameters.grid_minimum = scene.grid.minimum;
+    parameters.grid_cell = scene.grid.cell_size;
+    parameters.grid_width = scene.grid.width;
+    parameters.grid_height = scene.grid.height;
+    parameters.has_roads = scene.road_distance.empty() ? 0 : 1;
+    checkWindow(parameters, extent);
+    return parameters;
+}
+
+std::vector<gpu::DiagramSite> wallSites(const authoring::Scene& scene, const gpu::Parameters& parameters) {
+    std::vector<gpu::DiagramSite> sites;
+    sites.reserve(scene.wall_tiles.size());
+    for (const gpu::WallTile& tile : scene.wall_tiles) {
+        gpu::DiagramSite site{};
+        site.position = (tile.position - parameters.diagram_minimum) * parameters.pixels_per_metre;
+        site.radius = tile.tile_radius * parameters.pixels_per_metre;
+        site.id = static_cast<std::uint32_t>(parameters.row_count + sites.size());
+        sites.push_back(site);
+    }
+    return sites;
+}
+
+Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter_values,
+                 const std::vector<glm::vec2>& pattern)
+    : parameters(gl::makeBuffer("parameters", std::vector{parameter_values})),
+      people(gl::makeBuffer("people", scene.people)),
+      states(gl::makeBuffer("states", initialStates(scene))),
+      stages(gl::makeBuffer("stages", scene.stages)),
+      fields(gl::makeBuffer("distance fields", scene.fields)),
+      road_distances(gl::makeBuffer("road distances", scene.road_distance)),
+      queues(gl::makeBuffer("queues", scene.queues)),
+      queue_heads("queue heads", kWord * scene.queues.size()),
+      entries(gl::makeBuffer("entries", scene.entries)),
+      entry_points(gl::makeBuffer("entry points", scene.entry_points)),
+      proposals("spawn proposals", sizeof(gpu::SpawnProposal) * gpu::SPAWN_GROUP_SIZE * scene.queues.size()),
+      wall_segments(gl::makeBuffer("wall segments", scene.wall_segments)),
+      wall_tiles(gl::makeBuffer("wall tiles", scene.wall_tiles)) {
+    const std::size_t rows = scene.people.size();
+    const std::size_t cells = std::size_t{parameter_values.cells_width} * parameter_values.cells_height;
+    const WallIndex walls =
+        indexWalls(scene.wall_segments, parameter_values, parameter_values.contact_range + scene.largest_radius);
+    wall_starts = gl::makeBuffer("wall starts", walls.starts);
+    wall_items = gl::makeBuffer("wall items", walls.items);
+
+    const std::size_t cells_per_group = std::size_t{gpu::SCAN_GROUP_SIZE} * gpu::CELLS_PER_THREAD;
+    cell_counts = gl::Buffer("cell counts", kWord * cells);
+    group_sums = gl::Buffer("cell group sums", kWord * (cells / cells_per_group + 1));
+    cell_starts = gl::Buffer("cell starts", kWord * (cells + 1));
+    cell_cursors = gl::Buffer("cell cursors", kWord * cells);
+    row_cells = gl::Buffer("row cells", kWord * rows);
+    loose_rows = gl::Buffer("loose rows", kWord * rows);
+    live_dispatch = gl::Buffer("live dispatch", kWord * 4);
+
+    row_slots = gl::makeBuffer("row slots", initialRowSlots(scene));
+    bodies = gl::Buffer("bodies", sizeof(gpu::Body) * rows);
+    sites = gl::Buffer("sites", sizeof(gpu::DiagramSite) * (rows + scene.wall_tiles.size()));
+    const std::vector<gpu::DiagramSite> fixed = wallSites(scene, parameter_values);
+    if (!fixed.empty()) sites.upload(std::span<const gpu::DiagramSite>(fixed), rows);
+
+    sensing_pattern = gl::makeBuffer("sensing pattern", pattern);
+    neighbours = gl::Buffer("neighbours", kWord * rows * static_cast<std::size_t>(scene.settings.neighbours));
+    neighbour_counts = gl::Buffer("neighbour counts", kWord * rows);
+    preferred_velocities = gl::Buffer("preferred velocities", sizeof(glm::vec2) * rows);
+    targets = gl::Buffer("targets", sizeof(glm::vec2) * rows);
+    targets_after = gl::Buffer("targets after contact", sizeof(glm::vec2) * rows);
+    queue_heads.fill(0);
+}
+
+std::vector<std::pair<std::string, const gl::Buffer*>> Buffers::named() const {
+    return {{"ParametersBlock", &parameters}, {"People", &people}, {"States", &states}, {"Stages", &stages},
+            {"Fields", &fields}, {"RoadDistances", &road_distances}, {"Queues", &queues}, {"QueueHeads", &queue_heads},
+            {"Entries", &entries}, {"EntryPoints", &entry_points}, {"Proposals", &proposals},
+            {"WallSegments", &wall_segments}, {"WallTiles", &wall_tiles}, {"WallStarts", &wall_starts},
+            {"WallItems", &wall_items}, {"CellCounts", &cell_counts}, {"GroupSums", &group_sums},
+            {"CellStarts", &cell_starts}, {"CellCursors", &cell_cursors}, {"RowCells", &row_cells},
+            {"LooseRows", &loose_rows}, {"LiveDispatch", &live_dispatch}, {"RowSlots", &row_slots}, {"Bodies", &bodies},
+            {"Sites", &sites}, {"SensingPattern", &sensing_pattern}, {"Neighbours", &neighbours},
+            {"NeighbourCounts", &neighbour_counts}, {"PreferredVelocities", &preferred_velocities}, {"Targets", &targets}};
+}
+
+}  // namespace throng::sim

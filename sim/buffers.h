@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "authoring/scene.h"
+#include "shaders/shared/simulation_types.h"
+#include "sim/gl/buffer.h"
+
+namespace throng::sim {
+
+/// Everything of a simulation that lives on the device. A buffer serves the storage block named beside it in named().
+struct Buffers {
+    /// @throws GraphicsError when the device has no room
+    Buffers(const authoring::Scene& scene, const gpu::Parameters& parameters, const std::vector<glm::vec2>& sensing_pattern);
+
+    gl::Buffer parameters;
+
+    gl::Buffer people, states;                        // per row
+    gl::Buffer stages, fields, road_distances;        // routes
+    gl::Buffer queues, queue_heads, entries, entry_points, proposals;  // entering
+    gl::Buffer wall_segments, wall_tiles, wall_starts, wall_items;
+
+    gl::Buffer cell_counts, group_sums, cell_starts, cell_cursors, row_cells, loose_rows, live_dispatch;
+    gl::Buffer row_slots;  // rows, then wall tiles: also the order in which gradient1 draws
+    gl::Buffer bodies, sites;
+    gl::Buffer sensing_pattern, neighbours, neighbour_counts;
+    gl::Buffer preferred_velocities, targets, targets_after;
+
+    std::vector<std::pair<std::string, const gl::Buffer*>> named() const;
+};
+
+/// Cells, windows and limits that follow from a scene.
+/// @throws std::runtime_error for scenes too large for one diagram, saying what would fit
+gpu::Parameters makeParameters(const authoring::Scene& scene);
+
+/// The wall tiles as sites of the diagram, with ids after all rows.
+std::vector<gpu::DiagramSite> wallSites(const authoring::Scene& scene, const gpu::Parameters& parameters);
+
+}  // namespace throng::sim

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/frame_pump.h"
+
+#include <epoxy/gl.h>
+
+#include <array>
+#include <cmath>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "sim/gl/context.h"
+
+namespace throng::sim {
+namespace {
+
+constexpr std::size_t kSlots = 3;
+
+struct Slot {
+    gl::Buffer frame;
+    gl::Buffer owners;
+    gl::Buffer distances;
+    GLsync fence = nullptr;
+    std::uint32_t index = 0;
+    float distance_to_metres = 0.0f;  // metres per square root of a stored distance
+    bool has_diagram = false;
+    bool busy = false;  // between submit() and the receiver's return
+};
+
+template <class T>
+std::span<const T> view(const gl::Buffer& buffer, std::size_t first, std::size_t count) {
+    return {reinterpret_cast<const T*>(buffer.mapped()) + first, count};
+}
+
+}  // namespace
+
+struct FramePump::State {
+    Simulation& simulation;
+    Receiver receiver;
+    std::array<Slot, kSlots> slots;
+    std::size_t next = 0;
+    std::size_t rows = 0;
+    DiagramImage image;             // all but the pixels
+    std::vector<float> metres;
+
+    std::deque<Slot*> in_flight;  // GL thread only: submitted, fence not yet seen
+
+    std::mutex mutex;
+    std::condition_variable changed;
+    std::deque<Slot*> ready;
+    std::exception_ptr failure;
+    bool closing = false;
+    std::thread thread;
+
+    explicit State(Simulation& the_simulation, Receiver the_receiver)
+        : simulation(the_simulation), receiver(std::move(the_receiver)) {}
+
+    void receiveAll();
+    void deliver(const Slot& slot);
+    void handOver(bool wait);
+    void rethrow();
+};
+
+FramePump::FramePump(Simulation& simulation, bool with_diagrams, Receiver receiver)
+    : state_(std::make_unique<State>(simulation, std::move(receiver))) {
+    const gpu::Parameters& parameters = simulation.parameters();
+    state_->rows = parameters.row_count;
+    const std::size_t pixels = std::size_t{parameters.diagram_width} * parameters.diagram_height;
+    state_->image.width = parameters.diagram_width;
+    state_->image.height = parameters.diagram_height;
+    state_->image.minimum = parameters.diagram_minimum;
+    state_->image.pixels_per_metre = parameters.pixels_per_metre;
+    state_->image.agent_count = parameters.row_count;
+    for (Slot& slot : state_->slots) {
+        slot.frame = gl::Buffer("frame read-back", simulation.frameBytes(), gl::Buffer::Use::read_back);
+        if (!with_diagrams) continue;
+        slot.owners = gl::Buffer("diagram owners read-back", pixels * 4, gl::Buffer::Use::read_back);
+        slot.distances = gl::Buffer("diagram distances read-back", pixels * 4, gl::Buffer::Use::read_back);
+    }
+    state_->thread = std::thread([state = state_.get()] { state->receiveAll(); });
+}
+
+FramePump::~FramePump() {
+    {
+        const std::lock_guard lock(state_->mutex);
+        state_->closing = true;
+    }
+    state_->changed.notify_all();
+    state_->thread.join();
+    for (Slot& slot : state_->slots)
+        if (slot.fence) glDeleteSync(slot.fence);
+}
+
+void FramePump::submit(std::uint32_t index, bool with_diagram) {
+    State& state = *state_;
+    Slot& slot = state.slots[state.next];
+    state.next = (state.next + 1) % kSlots;
+    while (!state.in_flight.empty() && state.in_flight.front() == &slot) state.handOver(true);
+    {
+        std::unique_lock lock(state.mutex);
+        state.changed.wait(lock, [&] { return !slot.busy || state.failure; });
+    }
+    state.rethrow();
+
+    slot.index = index;
+    slot.has_diagram = with_diagram;
+    state.simulation.packFrame(slot.frame);
+    if (with_diagram) {
+        const Diagram& diagram = state.simulation.buildDiagramNow();
+        slot.owners.copyFrom(diagram.owners());
+        slot.distances.copyFrom(diagram.distances());
+        slot.distance_to_metres = std::sqrt(diagram.distanceScale()) / state.image.pixels_per_metre;
+    }
+    glMemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT);
+    slot.fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    {
+        const std::lock_guard lock(state.mutex);
+        slot.busy = true;
+    }
+    state.in_flight.push_back(&slot);
+    state.handOver(false);
+}
+
+void FramePump::finish() {
+    State& state = *state_;
+    while (!state.in_flight.empty()) state.handOver(true);
+    {
+        std::unique_lock lock(state.mutex);
+        state.changed.wait(lock, [&] {
+            for (const Slot& slot : state.slots)
+                if (slot.busy) return state.failure != nullptr;
+            return true;
+        });
+    }
+    state.rethrow();
+}
+
+/// Gives the receiver those frames whose fences have been passed, in order.
+void FramePump::State::handOver(bool wait) {
+    while (!in_flight.empty()) {
+        Slot* slot = in_flight.front();
+        const GLuint64 patience = wait ? 1'000'000'000 : 0;
+        const GLenum status = glClientWaitSync(slot->fence, GL_SYNC_FLUSH_COMMANDS_BIT, patience);
+        if (status == GL_WAIT_FAILED || glGetGraphicsResetStatus() != GL_NO_ERROR)
+            throw gl::GraphicsError("the GPU was lost while a frame was under way");
+        if (status == GL_TIMEOUT_EXPIRED) {
+            if (wait) continue;
+            return;
+        }
+        glDeleteSync(slot->fence);
+        slot->fence = nullptr;
+        in_flight.pop_front();
+        {
+            const std::lock_guard lock(mutex);
+            ready.push_back(slot);
+        }
+        changed.notify_all();
+        wait = false;
+    }
+}
+
+void FramePump::State::rethrow() {
+    const std::lock_guard lock(mutex);
+    if (failure) std::rethrow_exception(failure);
+}
+
+void FramePump::State::receiveAll() {
+    for (;;) {
+        Slot* slot = nullptr;
+        {
+            std::unique_lock lock(mutex);
+            changed.wait(lock, [&] { return !ready.empty() || closing; });
+            if (closing) return;
+            slot = ready.front();
+            ready.pop_front();
+        }
+        try {
+            deliver(*slot);
+        } catch (...) {
+            const std::lock_guard lock(mutex);
+            failure = std::current_exception();
+            changed.notify_all();
+            return;
+        }
+        {
+            const std::lock_guard lock(mutex);
+            slot->busy = false;
+        }
+        changed.notify_all();
+    }
+}
+
+void FramePump::State::deliver(const Slot& slot) {
+    Frame frame;
+    frame.index = slot.index;
+    const std::size_t floats = rows * 3;
+    frame.positions = view<float>(slot.frame, 0, floats);
+    frame.directions = view<float>(slot.frame, floats, floats);
+    frame.states = view<float>(slot.frame, 2 * floats, floats);
+    DiagramImage diagram = image;
+    if (slot.has_diagram) {
+        const std::size_t pixels = std::size_t{image.width} * image.height;
+        diagram.site = view<std::uint32_t>(slot.owners, 0, pixels);
+        const std::span<const float> squared = view<float>(slot.distances, 0, pixels);
+        metres.resize(pixels);
+        for (std::size_t i = 0; i < pixels; ++i) metres[i] = std::sqrt(squared[i]) * slot.distance_to_metres;
+        diagram.distance = metres;
+        frame.diagram = &diagram;
+    }
+    receiver(frame);
+}
+
+}  // namespace throng::sim

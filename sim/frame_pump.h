@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "sim/frame.h"
+#include "sim/simulation.h"
+
+namespace throng::sim {
+
+/// Carries frames from the device to a receiver on another thread, without stopping the simulation: the device packs a
+/// frame into one of a few persistently mapped buffers, a fence says when it is there, and the receiver reads it in place.
+///
+/// submit() and finish() belong to the GL thread. Frames arrive in order. An exception of the receiver comes out of the next
+/// submit() or of finish().
+class FramePump {
+  public:
+    using Receiver = std::function<void(const Frame&)>;
+
+    /// @param with_diagrams whether submit() will ever ask for the diagram (its buffers are large)
+    FramePump(Simulation& simulation, bool with_diagrams, Receiver receiver);
+    /// Waits for the receiver; frames not yet handed over are dropped.
+    ~FramePump();
+
+    /// Captures the present state as frame `index`. Waits only when all buffers are still being read.
+    void submit(std::uint32_t index, bool with_diagram);
+    /// Waits until the receiver has had every frame.
+    void finish();
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace throng::sim

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/passes.h"
+
+#include <utility>
+
+namespace throng::sim {
+namespace {
+
+gl::ComputeProgram connected(const gl::ShaderLibrary& library, const std::string& path, const Buffers& buffers,
+                             const gl::Definitions& definitions = {}) {
+    gl::ComputeProgram program(library, path, definitions);
+    program.bindAll(buffers.named());
+    return program;
+}
+
+gl::Definitions listLength(int neighbours) { return {{"NEIGHBOURS", std::to_string(neighbours)}}; }
+
+}  // namespace
+
+CellSort::CellSort(const gl::ShaderLibrary& library, Buffers& buffers, const gpu::Parameters& parameters)
+    : buffers_(buffers),
+      rows_(parameters.row_count),
+      count_(connected(library, "shaders/cells_count.comp", buffers)),
+      sum_(connected(library, "shaders/cells_sum.comp", buffers)),
+      scan_(connected(library, "shaders/cells_scan.comp", buffers)),
+      scatter_(connected(library, "shaders/cells_scatter.comp", buffers)),
+      gather_(connected(library, "shaders/bodies_gather.comp", buffers)) {
+    const std::uint32_t cells = parameters.cells_width * parameters.cells_height;
+    sum_.set("cell_count", cells);
+    scan_.set("cell_count", cells);
+    scan_threads_ = (cells + gpu::CELLS_PER_THREAD - 1) / gpu::CELLS_PER_THREAD;
+}
+
+void CellSort::run() {
+    buffers_.cell_counts.fill(0);
+    count_.dispatch(rows_);
+    sum_.dispatch(scan_threads_);
+    scan_.dispatch(scan_threads_);
+    scatter_.dispatch(rows_);
+    gather_.dispatchIndirect(buffers_.live_dispatch);
+}
+
+Spawner::Spawner(const gl::ShaderLibrary& library, Buffers& buffers, const gpu::Parameters& parameters)
+    : invocations_(std::uint64_t{parameters.queue_count} * gpu::SPAWN_GROUP_SIZE),
+      propose_(connected(library, "shaders/spawn_propose.comp", buffers)),
+      accept_(connected(library, "shaders/spawn_accept.comp", buffers)) {}
+
+void Spawner::run(float now, std::uint32_t steps_done) {
+    propose_.set("now", now);
+    accept_.set("steps_done", steps_done);
+    propose_.dispatch(invocations_);
+    accept_.dispatch(invocations_);
+}
+
+Sensing::Sensing(const gl::ShaderLibrary& library, Buffers& buffers, const Diagram& diagram,
+                 const gpu::Parameters& parameters, int neighbours)
+    : buffers_(buffers) {
+    gl::Definitions definitions = listLength(neighbours);
+    definitions.emplace_back("SENSING_SAMPLES", std::to_string(parameters.sample_count));
+    program_ = connected(library, "shaders/sense.comp", buffers, definitions);
+    program_.bind("Owners", diagram.owners());
+    program_.set("slot_capacity", parameters.row_count);
+}
+
+void Sensing::run() { program_.dispatchIndirect(buffers_.live_dispatch); }
+
+Avoidance::Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, const gpu::Parameters& parameters, int neighbours)
+    : buffers_(buffers),
+      steer_(connected(library, "shaders/steer.comp", buffers)),
+      avoid_(connected(library, "shaders/avoid.comp", buffers, listLength(neighbours))) {
+    avoid_.set("slot_capacity", parameters.row_count);
+}
+
+void Avoidance::run() {
+    steer_.dispatchIndirect(buffers_.live_dispatch);
+    avoid_.dispatchIndirect(buffers_.live_dispatch);
+}
+
+Contacts::Contacts(const gl::ShaderLibrary& library, Buffers& buffers, int iterations)
+    : buffers_(buffers),
+      iterations_(iterations),
+      forth_(connected(library, "shaders/contact.comp", buffers)),
+      back_(connected(library, "shaders/contact.comp", buffers)) {
+    forth_.bind("TargetsBefore", buffers.targets);
+    forth_.bind("TargetsAfter", buffers.targets_after);
+    back_.bind("TargetsBefore", buffers.targets_after);
+    back_.bind("TargetsAfter", buffers.targets);
+}
+
+void Contacts::run() {
+    for (int iteration = 0; iteration < iterations_; ++iteration)
+        (iteration % 2 ? back_ : forth_).dispatchIndirect(buffers_.live_dispatch);
+}
+
+Motion::Motion(const gl::ShaderLibrary& library, Buffers& buffers, const gl::Buffer& targets)
+    : buffers_(buffers), program_(connected(library, "shaders/move.comp", buffers)) {
+    program_.bind("Targets", targets);
+}
+
+void Motion::run(std::uint32_t steps_done) {
+    program_.set("steps_done", steps_done);
+    program_.dispatchIndirect(buffers_.live_dispatch);
+}
+
+}  // namespace throng::sim

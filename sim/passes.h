@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "sim/buffers.h"
+#include "sim/diagram.h"
+#include "sim/gl/program.h"
+
+/// The passes of a step. Each owns its programs, binds them to the buffers once, and has one verb.
+namespace throng::sim {
+
+/// Sorts people into cells and gathers their bodies in that order (counting sort, deterministic).
+class CellSort {
+  public:
+    CellSort(const gl::ShaderLibrary& library, Buffers& buffers, const gpu::Parameters& parameters);
+    void run();
+
+  private:
+    Buffers& buffers_;
+    std::uint32_t rows_;
+    std::uint64_t scan_threads_;
+    gl::ComputeProgram count_, sum_, scan_, scatter_, gather_;
+};
+
+/// Lets people enter where there is room.
+class Spawner {
+  public:
+    Spawner(const gl::ShaderLibrary& library, Buffers& buffers, const gpu::Parameters& parameters);
+    /// @param now s, simulation time at the start of the step; @param steps_done counted with this step
+    void run(float now, std::uint32_t steps_done);
+
+  private:
+    std::uint64_t invocations_;
+    gl::ComputeProgram propose_, accept_;
+};
+
+/// Finds each person's nearest neighbours by marching rays through the diagram.
+class Sensing {
+  public:
+    /// @param neighbours the length of each person's list
+    Sensing(const gl::ShaderLibrary& library, Buffers& buffers, const Diagram& diagram, const gpu::Parameters& parameters,
+            int neighbours);
+    void run();
+
+  private:
+    Buffers& buffers_;
+    gl::ComputeProgram program_;
+};
+
+/// Wished velocities along the routes, then velocities that avoid everybody sensed.
+class Avoidance {
+  public:
+    Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, const gpu::Parameters& parameters, int neighbours);
+    void run();
+
+  private:
+    Buffers& buffers_;
+    gl::ComputeProgram steer_, avoid_;
+};
+
+/// Keeps bodies out of each other and out of walls.
+class Contacts {
+  public:
+    Contacts(const gl::ShaderLibrary& library, Buffers& buffers, int iterations);
+    void run();
+    /// Where run() leaves the positions.
+    const gl::Buffer& result() const { return iterations_ % 2 ? buffers_.targets_after : buffers_.targets; }
+
+  private:
+    Buffers& buffers_;
+    int iterations_;
+    gl::ComputeProgram forth_, back_;
+};
+
+/// Ends the step: positions, headings, gait, routes, arrivals.
+class Motion {
+  public:
+    Motion(const gl::ShaderLibrary& library, Buffers& buffers, const gl::Buffer& targets);
+    void run(std::uint32_t steps_done);
+
+  private:
+    Buffers& buffers_;
+    gl::ComputeProgram program_;
+};
+
+}  // namespace throng::sim

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "authoring/scene.h"
+#include "sim/diagram.h"
+#include "sim/frame.h"
+#include "sim/gl/shader_source.h"
+
+namespace throng::sim {
+
+/// Steps of the warm-up, before the first frame.
+std::uint32_t warmupSteps(const authoring::SimulationSettings& settings);
+
+/// A crowd on the GPU. Needs a current gl::Context and stays on its thread. Nothing is read back inside a step.
+class Simulation {
+  public:
+    /// @throws GraphicsError (shaders, memory), std::runtime_error (a scene too large for one diagram)
+    Simulation(const authoring::Scene& scene, const gl::ShaderLibrary& library);
+    ~Simulation();
+    Simulation(Simulation&&) noexcept;
+
+    /// Advances by 1 / (fps * substeps) seconds.
+    void step();
+    std::uint32_t stepsDone() const;
+
+    /// Puts the present frame into `buffer`: positions, directions and states of all rows, three floats each.
+    void packFrame(const gl::Buffer& buffer);
+    std::size_t frameBytes() const;
+
+    /// Brings the diagram, with its distances, up to the present positions; the next step builds its own.
+    const Diagram& buildDiagramNow();
+
+    /// What became of everybody; waits for the device. Steps are turned into frames by the scene's settings.
+    Account account() const;
+
+    /// Each pass and how long it takes on average, ms, over `steps` more steps; waits after every pass.
+    std::vector<std::pair<std::string, double>> profile(int steps);
+
+    const gpu::Parameters& parameters() const;
+
+    struct Parts;
+    /// The passes and their buffers, for tests of single passes.
+    Parts& parts();
+
+  private:
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace throng::sim

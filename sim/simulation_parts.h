@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "sim/buffers.h"
+#include "sim/diagram.h"
+#include "sim/passes.h"
+#include "sim/simulation.h"
+
+namespace throng::sim {
+
+struct Simulation::Parts {
+    Parts(const authoring::Scene& scene, const gl::ShaderLibrary& library);
+
+    authoring::SimulationSettings settings;
+    gpu::Parameters parameters;
+    Buffers buffers;
+    Diagram diagram;
+    CellSort cells;
+    Spawner spawner;
+    Sensing sensing;
+    Avoidance avoidance;
+    Contacts contacts;
+    Motion motion;
+    gl::ComputeProgram pack;
+
+    std::uint32_t rows = 0;
+    std::uint32_t steps_done = 0;
+    bool anybody_enters_later = false;
+
+    /// Simulation time at the start of the coming step, s; negative during the warm-up.
+    float now() const;
+};
+
+}  // namespace throng::sim
