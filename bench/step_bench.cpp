@@ -4,7 +4,8 @@
 #include <benchmark/benchmark.h>
 #include <epoxy/gl.h>
 
-#include <memory>
+#include <algorithm>
+#include <chrono>
 #include <random>
 
 #include "sim/diagram_methods.h"
@@ -23,7 +24,7 @@ gl::Context& context() {
 }
 
 authoring::Scene benchScene(std::uint32_t count) {
-    authoring::Scene scene = test::uniformScene(count, 2.0f, 7);
+    authoring::Scene scene = test::uniformScene(count, 2.0f, 7);  // one person per 4 m^2
     scene.settings.tile_radius = 0.6;
     scene.settings.field_of_view = 200.0;
     scene.settings.samples_per_ray = 6;
@@ -31,42 +32,77 @@ authoring::Scene benchScene(std::uint32_t count) {
     return scene;
 }
 
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+template <class Work>
+double milliseconds(Work&& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    glFinish();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// The yardstick: `count` sites of `radius` px drawn into 1,024 x 1,024 px.
+class Gradient1 {
+  public:
+    Gradient1(std::uint32_t count, float radius) : diagram_(gl::ShaderLibrary(), {1024, 1024, radius}) {
+        std::mt19937 random(11);
+        std::uniform_real_distribution<float> anywhere(0.0f, 1024.0f);
+        std::vector<gpu::DiagramSite> sites(count);
+        std::vector<std::uint32_t> order(count);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            sites[i] = {{anywhere(random), anywhere(random)}, radius, i};
+            order[i] = i;
+        }
+        sites_ = gl::makeBuffer("sites", sites);
+        order_ = gl::makeBuffer("order", order);
+        diagram_.connect({&sites_, nullptr, &order_, count});
+    }
+    void draw() { diagram_.draw(); }
+
+  private:
+    sim::GradientDiagram diagram_;
+    gl::Buffer sites_, order_;
+};
+
 void gradient1Diagram(benchmark::State& state) {
     context();
-    const auto count = static_cast<std::uint32_t>(state.range(0));
-    const auto radius = static_cast<float>(state.range(1));
-    sim::GradientDiagram diagram(gl::ShaderLibrary(), {1024, 1024, radius});
-    std::mt19937 random(11);
-    std::uniform_real_distribution<float> anywhere(0.0f, 1024.0f);
-    std::vector<gpu::DiagramSite> sites(count);
-    std::vector<std::uint32_t> order(count);
-    for (std::uint32_t i = 0; i < count; ++i) {
-        sites[i] = {{anywhere(random), anywhere(random)}, radius, i};
-        order[i] = i;
-    }
-    const gl::Buffer site_buffer = gl::makeBuffer("sites", sites);
-    const gl::Buffer draw_order = gl::makeBuffer("order", order);
-    diagram.connect({&site_buffer, nullptr, &draw_order, count});
-    diagram.draw();
-    glFinish();
-    for (auto _ : state) {
-        diagram.draw();
-        glFinish();
-    }
+    Gradient1 yardstick(static_cast<std::uint32_t>(state.range(0)), static_cast<float>(state.range(1)));
+    milliseconds([&] { yardstick.draw(); });
+    for (auto _ : state) milliseconds([&] { yardstick.draw(); });
 }
 
 void wholeStep(benchmark::State& state) {
     context();
     sim::Simulation simulation(benchScene(static_cast<std::uint32_t>(state.range(0))), gl::ShaderLibrary());
-    for (int i = 0; i < 5; ++i) simulation.step();
-    glFinish();
-    for (auto _ : state) {
-        simulation.step();
-        glFinish();
-    }
-    for (const auto& [pass, milliseconds] : simulation.profile(5)) state.counters[pass] = milliseconds;
+    for (int i = 0; i < 5; ++i) milliseconds([&] { simulation.step(); });
+    for (auto _ : state) milliseconds([&] { simulation.step(); });
+    for (const auto& [pass, time] : simulation.profile(20)) state.counters[pass] = time;
 }
 
+/// Steps and yardsticks in turn, so that both meet the same noise. `ratio` is the median of the pairs' ratios.
+void stepOverGradient1(benchmark::State& state) {
+    context();
+    Gradient1 yardstick(16384, 8.0f);
+    sim::Simulation simulation(benchScene(16384), gl::ShaderLibrary());
+    for (int i = 0; i < 5; ++i) milliseconds([&] { simulation.step(), yardstick.draw(); });
+    std::vector<double> steps, yardsticks, ratios;
+    for (auto _ : state) {
+        steps.push_back(milliseconds([&] { simulation.step(); }));
+        yardsticks.push_back(milliseconds([&] { yardstick.draw(); }));
+        ratios.push_back(steps.back() / yardsticks.back());
+    }
+    state.counters["step_ms"] = median(steps);
+    state.counters["gradient1_ms"] = median(yardsticks);
+    state.counters["ratio"] = median(ratios);
+    for (const auto& [pass, time] : simulation.profile(20)) state.counters[pass] = time;
+}
+
+BENCHMARK(stepOverGradient1)->Iterations(100)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(gradient1Diagram)->Args({16384, 8})->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(wholeStep)->RangeMultiplier(4)->Range(256, 262144)->Unit(benchmark::kMillisecond)->UseRealTime();
 

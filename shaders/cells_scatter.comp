@@ -3,7 +3,7 @@
 #include "shaders/shared/simulation_types.h"
 
 layout(local_size_x = AGENT_GROUP_SIZE) in;
-layout(std430) readonly buffer ParametersBlock { Parameters parameters; };
+layout(std140) uniform ParametersBlock { Parameters parameters; };
 layout(std430) readonly buffer RowCells { uint row_cells[]; };
 layout(std430) buffer CellCursors { uint cell_cursors[]; };
 layout(std430) writeonly buffer LooseRows { uint loose_rows[]; };

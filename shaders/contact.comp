@@ -7,9 +7,10 @@
 #include "shaders/shared/simulation_types.h"
 
 layout(local_size_x = AGENT_GROUP_SIZE) in;
-layout(std430) readonly buffer ParametersBlock { Parameters parameters; };
+layout(std140) uniform ParametersBlock { Parameters parameters; };
 layout(std430) readonly buffer LiveDispatch { uint live_groups[3]; uint live_count; };
 layout(std430) readonly buffer Bodies { Body bodies[]; };
+layout(std430) readonly buffer NearestBodies { float nearest_bodies[]; };
 layout(std430) readonly buffer CellStarts { uint cell_starts[]; };
 layout(std430) readonly buffer WallSegments { WallSegment wall_segments[]; };
 layout(std430) readonly buffer WallStarts { uint wall_starts[]; };
@@ -91,9 +92,11 @@ void main() {
     if (slot >= live_count) return;
     Body self = bodies[slot];
     vec2 position = targets_before[slot];
-    vec2 push = pushFromNeighbours(self, position);
-    float size = length(push);
-    float most = MOST_PUSH * self.radius;
-    if (size > most) push *= most / size;
-    targets_after[slot] = keepOutOfWalls(self, position + push);
+    if (nearest_bodies[slot] < self.radius + parameters.largest_radius + parameters.contact_slack) {
+        vec2 push = pushFromNeighbours(self, position);
+        float size = length(push);
+        float most = MOST_PUSH * self.radius;
+        position += size > most ? push * (most / size) : push;
+    }
+    targets_after[slot] = keepOutOfWalls(self, position);
 }

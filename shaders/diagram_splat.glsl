@@ -13,10 +13,10 @@
 #include "shaders/diagram_distance.glsl"
 
 /// Pixels that a tile may reach, clipped to the window: corner and one past the opposite corner. Empty when outside.
+/// A hundredth of a pixel more than the tile makes up for rounding; the test on the exact distance decides.
 ivec4 tileBox(vec2 position, float radius) {
-    ivec2 window = ivec2(diagram_size);
-    // Compared as floats first: far away sites would overflow the integers.
-    vec2 lower = clamp(floor(position - radius - 0.5), vec2(0.0), diagram_size);
-    vec2 upper = clamp(ceil(position + radius + 0.5), vec2(0.0), diagram_size);
-    return ivec4(ivec2(lower), min(ivec2(upper), window));
+    vec2 lower = ceil(position - radius - 0.51);
+    vec2 upper = floor(position + radius - 0.49) + 1.0;
+    // Clamped as floats: far away sites would overflow the integers.
+    return ivec4(clamp(lower, vec2(0.0), diagram_size), clamp(upper, vec2(0.0), diagram_size));
 }

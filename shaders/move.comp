@@ -3,7 +3,7 @@
 #include "shaders/shared/simulation_types.h"
 
 layout(local_size_x = AGENT_GROUP_SIZE) in;
-layout(std430) readonly buffer ParametersBlock { Parameters parameters; };
+layout(std140) uniform ParametersBlock { Parameters parameters; };
 layout(std430) readonly buffer LiveDispatch { uint live_groups[3]; uint live_count; };
 layout(std430) readonly buffer People { Person people[]; };
 layout(std430) readonly buffer Bodies { Body bodies[]; };
@@ -11,7 +11,7 @@ layout(std430) readonly buffer Targets { vec2 targets[]; };
 layout(std430) readonly buffer Stages { Stage stages[]; };
 layout(std430) readonly buffer Fields { FieldCell fields[]; };
 layout(std430) buffer States { AgentState states[]; };
-uniform uint step_index;
+uniform uint steps_done;  // counted with this one
 
 #include "shaders/route.glsl"
 
@@ -53,7 +53,7 @@ void main() {
         state.stage = stage + 1u;
         if (state.stage == person.stage_count) {
             state.status = STATUS_ARRIVED;
-            state.arrival_step = step_index;
+            state.arrival_step = steps_done;
         }
     }
     states[self.row] = state;

@@ -15,18 +15,19 @@
 #include "shaders/shared/simulation_types.h"
 
 layout(local_size_x = AGENT_GROUP_SIZE) in;
-layout(std430) readonly buffer ParametersBlock { Parameters parameters; };
+layout(std140) uniform ParametersBlock { Parameters parameters; };
 layout(std430) readonly buffer LiveDispatch { uint live_groups[3]; uint live_count; };
 layout(std430) readonly buffer Bodies { Body bodies[]; };
 layout(std430) readonly buffer CellStarts { uint cell_starts[]; };
 layout(std430) readonly buffer RowSlots { uint row_slots[]; };
 layout(std430) readonly buffer Owners { uint owners[]; };
-layout(std430) readonly buffer SensingPattern { vec2 pattern[]; };  // m, in the person's own frame
 layout(std430) readonly buffer WallTiles { WallTile wall_tiles[]; };
 layout(std430) readonly buffer WallSegments { WallSegment wall_segments[]; };
 layout(std430) writeonly buffer Neighbours { uint neighbours[]; };
 layout(std430) writeonly buffer NeighbourCounts { uint neighbour_counts[]; };
+layout(std430) writeonly buffer NearestBodies { float nearest_bodies[]; };  // m, to the nearest other's centre, at most the contact range
 uniform uint slot_capacity;
+uniform vec2 pattern[SENSING_SAMPLES];  // m, in the person's own frame: where it looks
 
 #include "shaders/cells.glsl"
 #include "shaders/cell_runs.glsl"
@@ -54,7 +55,8 @@ void keepNearest(float distance_squared, uint key) {
     }
 }
 
-void feelContacts(Body self) {
+float feelContacts(Body self) {
+    float nearest = parameters.contact_range * parameters.contact_range;
     ivec2 cell = cellOf(self.position);
     float range_squared = parameters.contact_range * parameters.contact_range;
     for (int y = cell.y - 1; y <= cell.y + 1; ++y) {
@@ -62,9 +64,12 @@ void feelContacts(Body self) {
         for (uint slot = run.x; slot < run.y; ++slot) {
             vec2 offset = bodies[slot].position - self.position;
             float distance_squared = dot(offset, offset);
-            if (distance_squared <= range_squared && bodies[slot].row != self.row) keepNearest(distance_squared, slot);
+            if (distance_squared > range_squared || bodies[slot].row == self.row) continue;
+            keepNearest(distance_squared, slot);
+            nearest = min(nearest, distance_squared);
         }
     }
+    return sqrt(nearest);
 }
 
 /// Site ids met by the samples, without immediate repetitions; at most one per sample.
@@ -76,7 +81,7 @@ int marchRays(Body self) {
     vec2 upper = vec2(parameters.diagram_width, parameters.diagram_height) - 1.0;
     int count = 0;
     uint previous = self.row;
-    for (uint i = 0u; i < parameters.sample_count; ++i) {
+    for (int i = 0; i < SENSING_SAMPLES; ++i) {
         vec2 local = pattern[i];
         vec2 pixel = centre + vec2(forward.x * local.x - forward.y * local.y, forward.y * local.x + forward.x * local.y);
         uvec2 at = uvec2(clamp(pixel, vec2(0.0), upper));
@@ -112,7 +117,7 @@ void main() {
         nearest_distance[i] = FAR;
         nearest_key[i] = NO_INDEX;
     }
-    feelContacts(self);
+    nearest_bodies[slot] = feelContacts(self);
     int count = marchRays(self);
     for (int i = 0; i < count; ++i) weighCandidate(self, candidates[i]);
 

@@ -3,13 +3,13 @@
 #include "shaders/shared/simulation_types.h"
 
 layout(local_size_x = SPAWN_GROUP_SIZE) in;
-layout(std430) readonly buffer ParametersBlock { Parameters parameters; };
+layout(std140) uniform ParametersBlock { Parameters parameters; };
 layout(std430) readonly buffer People { Person people[]; };
 layout(std430) readonly buffer Stages { Stage stages[]; };
 layout(std430) readonly buffer Fields { FieldCell fields[]; };
 layout(std430) readonly buffer Proposals { SpawnProposal proposals[]; };
 layout(std430) buffer States { AgentState states[]; };
-uniform uint step_index;
+uniform uint steps_done;  // counted with this one
 
 #include "shaders/route.glsl"
 
@@ -33,6 +33,6 @@ void main() {
     // People walk in rather than start from a stand.
     state.velocity = turned ? ahead.direction * person.preferred_speed * 0.8 : vec2(0.0);
     state.status = STATUS_WALKING;
-    state.spawn_step = step_index;
+    state.spawn_step = steps_done;
     states[mine.row] = state;
 }

@@ -18,6 +18,15 @@ constexpr std::size_t kWord = sizeof(std::uint32_t);
 constexpr double kMostPixels = 33'554'432.0;
 constexpr double kMostPixelsPerSide = 16'384.0;
 
+// How far contact may move somebody in one step and still be sure to meet everybody it is moved into, m.
+constexpr float kPushAllowance = 0.05f;
+
+float fastest(const authoring::Scene& scene) {
+    float speed = 0.0f;
+    for (const gpu::Person& person : scene.people) speed = std::max(speed, person.maximum_speed);
+    return speed;
+}
+
 std::vector<gpu::AgentState> initialStates(const authoring::Scene& scene) {
     std::vector<gpu::AgentState> states;
     states.reserve(scene.people.size());
@@ -65,8 +74,14 @@ gpu::Parameters makeParameters(const authoring::Scene& scene) {
     const authoring::SimulationSettings& settings = scene.settings;
     const glm::vec2 extent = glm::max(scene.maximum - scene.minimum, glm::vec2(1.0f));
     gpu::Parameters parameters{};
+    parameters.step_seconds = static_cast<float>(1.0 / (settings.fps * settings.substeps));
+    parameters.largest_radius = scene.largest_radius;
+    // Both may walk, and both may be pushed.
+    parameters.contact_slack = 2.0f * fastest(scene) * parameters.step_seconds + 2.0f * kPushAllowance;
+    parameters.contact_range =
+        std::max(static_cast<float>(settings.contact_range), 2.0f * scene.largest_radius + parameters.contact_slack);
     parameters.cells_minimum = scene.minimum;
-    parameters.cell_size = std::max(static_cast<float>(settings.contact_range), 2.0f * scene.largest_radius + 0.25f);
+    parameters.cell_size = parameters.contact_range;
     parameters.cells_width = std::max(1u, pixels(extent.x, 1.0f / parameters.cell_size));
     parameters.cells_height = std::max(1u, pixels(extent.y, 1.0f / parameters.cell_size));
     parameters.row_count = static_cast<std::uint32_t>(scene.people.size());
@@ -76,10 +91,8 @@ gpu::Parameters makeParameters(const authoring::Scene& scene) {
     parameters.diagram_width = pixels(extent.x, parameters.pixels_per_metre);
     parameters.diagram_height = pixels(extent.y, parameters.pixels_per_metre);
     parameters.tile_radius = static_cast<float>(settings.tile_radius);
-    parameters.step_seconds = static_cast<float>(1.0 / (settings.fps * settings.substeps));
     parameters.time_horizon = static_cast<float>(settings.time_horizon);
     parameters.wall_time_horizon = static_cast<float>(settings.wall_time_horizon);
-    parameters.contact_range = static_cast<float>(settings.contact_range);
     parameters.maximum_acceleration = static_cast<float>(settings.maximum_acceleration);
     parameters.seed = static_cast<std::uint32_t>(settings.seed ^ (settings.seed >> 32));
     parameters.queue_count = static_cast<std::uint32_t>(scene.queues.size());
@@ -105,8 +118,7 @@ std::vector<gpu::DiagramSite> wallSites(const authoring::Scene& scene, const gpu
     return sites;
 }
 
-Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter_values,
-                 const std::vector<glm::vec2>& pattern)
+Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter_values)
     : parameters(gl::makeBuffer("parameters", std::vector{parameter_values})),
       people(gl::makeBuffer("people", scene.people)),
       states(gl::makeBuffer("states", initialStates(scene))),
@@ -142,9 +154,9 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
     const std::vector<gpu::DiagramSite> fixed = wallSites(scene, parameter_values);
     if (!fixed.empty()) sites.upload(std::span<const gpu::DiagramSite>(fixed), rows);
 
-    sensing_pattern = gl::makeBuffer("sensing pattern", pattern);
     neighbours = gl::Buffer("neighbours", kWord * rows * static_cast<std::size_t>(scene.settings.neighbours));
     neighbour_counts = gl::Buffer("neighbour counts", kWord * rows);
+    nearest_bodies = gl::Buffer("nearest bodies", kWord * rows);
     preferred_velocities = gl::Buffer("preferred velocities", sizeof(glm::vec2) * rows);
     targets = gl::Buffer("targets", sizeof(glm::vec2) * rows);
     targets_after = gl::Buffer("targets after contact", sizeof(glm::vec2) * rows);
@@ -159,8 +171,8 @@ std::vector<std::pair<std::string, const gl::Buffer*>> Buffers::named() const {
             {"WallItems", &wall_items}, {"CellCounts", &cell_counts}, {"GroupSums", &group_sums},
             {"CellStarts", &cell_starts}, {"CellCursors", &cell_cursors}, {"RowCells", &row_cells},
             {"LooseRows", &loose_rows}, {"LiveDispatch", &live_dispatch}, {"RowSlots", &row_slots}, {"Bodies", &bodies},
-            {"Sites", &sites}, {"SensingPattern", &sensing_pattern}, {"Neighbours", &neighbours},
-            {"NeighbourCounts", &neighbour_counts}, {"PreferredVelocities", &preferred_velocities}, {"Targets", &targets}};
+            {"Sites", &sites}, {"Neighbours", &neighbours},
+            {"NeighbourCounts", &neighbour_counts}, {"NearestBodies", &nearest_bodies}, {"PreferredVelocities", &preferred_velocities}, {"Targets", &targets}};
 }
 
 }  // namespace throng::sim

@@ -14,7 +14,7 @@ namespace throng::sim {
 /// Everything of a simulation that lives on the device. A buffer serves the storage block named beside it in named().
 struct Buffers {
     /// @throws GraphicsError when the device has no room
-    Buffers(const authoring::Scene& scene, const gpu::Parameters& parameters, const std::vector<glm::vec2>& sensing_pattern);
+    Buffers(const authoring::Scene& scene, const gpu::Parameters& parameters);
 
     gl::Buffer parameters;
 
@@ -26,10 +26,12 @@ struct Buffers {
     gl::Buffer cell_counts, group_sums, cell_starts, cell_cursors, row_cells, loose_rows, live_dispatch;
     gl::Buffer row_slots;  // rows, then wall tiles: also the order in which gradient1 draws
     gl::Buffer bodies, sites;
-    gl::Buffer sensing_pattern, neighbours, neighbour_counts;
+    gl::Buffer neighbours, neighbour_counts, nearest_bodies;
     gl::Buffer preferred_velocities, targets, targets_after;
 
     std::vector<std::pair<std::string, const gl::Buffer*>> named() const;
+    /// Slots that per-slot lists are laid out for.
+    std::uint32_t slotCapacity() const { return static_cast<std::uint32_t>(bodies.bytes() / sizeof(gpu::Body)); }
 };
 
 /// Cells, windows and limits that follow from a scene.

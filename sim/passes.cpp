@@ -53,22 +53,23 @@ void Spawner::run(float now, std::uint32_t steps_done) {
 }
 
 Sensing::Sensing(const gl::ShaderLibrary& library, Buffers& buffers, const Diagram& diagram,
-                 const gpu::Parameters& parameters, int neighbours)
+                 const std::vector<glm::vec2>& pattern, int neighbours)
     : buffers_(buffers) {
     gl::Definitions definitions = listLength(neighbours);
-    definitions.emplace_back("SENSING_SAMPLES", std::to_string(parameters.sample_count));
+    definitions.emplace_back("SENSING_SAMPLES", std::to_string(pattern.size()));
     program_ = connected(library, "shaders/sense.comp", buffers, definitions);
     program_.bind("Owners", diagram.owners());
-    program_.set("slot_capacity", parameters.row_count);
+    program_.set("pattern", pattern);
+    program_.set("slot_capacity", buffers.slotCapacity());
 }
 
 void Sensing::run() { program_.dispatchIndirect(buffers_.live_dispatch); }
 
-Avoidance::Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, const gpu::Parameters& parameters, int neighbours)
+Avoidance::Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, int neighbours)
     : buffers_(buffers),
       steer_(connected(library, "shaders/steer.comp", buffers)),
       avoid_(connected(library, "shaders/avoid.comp", buffers, listLength(neighbours))) {
-    avoid_.set("slot_capacity", parameters.row_count);
+    avoid_.set("slot_capacity", buffers.slotCapacity());
 }
 
 void Avoidance::run() {

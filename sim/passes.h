@@ -38,9 +38,9 @@ class Spawner {
 /// Finds each person's nearest neighbours by marching rays through the diagram.
 class Sensing {
   public:
-    /// @param neighbours the length of each person's list
-    Sensing(const gl::ShaderLibrary& library, Buffers& buffers, const Diagram& diagram, const gpu::Parameters& parameters,
-            int neighbours);
+    /// @param pattern where a person looks, m, in its own frame; @param neighbours the length of each person's list
+    Sensing(const gl::ShaderLibrary& library, Buffers& buffers, const Diagram& diagram,
+            const std::vector<glm::vec2>& pattern, int neighbours);
     void run();
 
   private:
@@ -51,7 +51,7 @@ class Sensing {
 /// Wished velocities along the routes, then velocities that avoid everybody sensed.
 class Avoidance {
   public:
-    Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, const gpu::Parameters& parameters, int neighbours);
+    Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, int neighbours);
     void run();
 
   private:

@@ -23,12 +23,6 @@ std::vector<glm::vec2> patternFor(const authoring::Scene& scene) {
     return thinnedPattern(geometry);
 }
 
-gpu::Parameters parametersFor(const authoring::Scene& scene) {
-    gpu::Parameters parameters = makeParameters(scene);
-    parameters.sample_count = static_cast<std::uint32_t>(patternFor(scene).size());
-    return parameters;
-}
-
 Diagram diagramFor(const authoring::Scene& scene, const gpu::Parameters& parameters, const gl::ShaderLibrary& library) {
     // Without a calibration of the device, per-site is the safe choice: it needs no raster hardware.
     const auto method = scene.settings.method == authoring::DiagramMethod::gradient1 ? Diagram::Method::gradient1
@@ -70,13 +64,13 @@ std::uint32_t warmupSteps(const authoring::SimulationSettings& settings) {
 
 Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary& library)
     : settings(scene.settings),
-      parameters(parametersFor(scene)),
-      buffers(scene, parameters, patternFor(scene)),
+      parameters(makeParameters(scene)),
+      buffers(scene, parameters),
       diagram(diagramFor(scene, parameters, library)),
       cells(library, buffers, parameters),
       spawner(library, buffers, parameters),
-      sensing(library, buffers, diagram, parameters, settings.neighbours),
-      avoidance(library, buffers, parameters, settings.neighbours),
+      sensing(library, buffers, diagram, patternFor(scene), settings.neighbours),
+      avoidance(library, buffers, settings.neighbours),
       contacts(library, buffers, settings.contact_iterations),
       motion(library, buffers, contacts.result()),
       pack(library, "shaders/pack_frame.comp"),

@@ -31,7 +31,7 @@ struct AgentState {
     float walked;       // m
     uint status;        // STATUS_*
     uint stage;         // stages of the route already passed
-    uint spawn_step;    // steps since the simulation began; NO_INDEX = never
+    uint spawn_step;    // how many steps were done when it first was there; NO_INDEX = never
     uint arrival_step;  // likewise
     uint attempts;      // how often it asked for room at its entry
 };
@@ -76,8 +76,9 @@ struct Parameters {
     float time_horizon;       // s
     float wall_time_horizon;  // s
     float contact_range;      // m
+    float largest_radius;     // m, of all people
+    float contact_slack;      // m: two people further apart than their radii and this cannot touch within one step
     float maximum_acceleration;  // m/s^2
-    uint sample_count;        // of the sensing pattern
     uint seed;
     uint queue_count;
     vec2 grid_minimum;  // m, distance fields

@@ -74,16 +74,23 @@ Program::Program(const ShaderLibrary& library, const std::vector<std::string>& p
 }
 
 void Program::reflect() {
-    GLint count = 0;
-    glGetProgramInterfaceiv(handle_, GL_SHADER_STORAGE_BLOCK, GL_ACTIVE_RESOURCES, &count);
-    for (GLuint index = 0; index < static_cast<GLuint>(count); ++index) {
-        blocks_.push_back({resourceName(handle_, GL_SHADER_STORAGE_BLOCK, index), 0});
+    const auto active = [this](GLenum interface) {
+        GLint count = 0;
+        glGetProgramInterfaceiv(handle_, interface, GL_ACTIVE_RESOURCES, &count);
+        return static_cast<GLuint>(count);
+    };
+    for (GLuint index = 0; index < active(GL_SHADER_STORAGE_BLOCK); ++index) {
+        blocks_.push_back({resourceName(handle_, GL_SHADER_STORAGE_BLOCK, index), GL_SHADER_STORAGE_BUFFER, index, 0});
         glShaderStorageBlockBinding(handle_, index, index);
     }
-    glGetProgramInterfaceiv(handle_, GL_UNIFORM, GL_ACTIVE_RESOURCES, &count);
-    for (GLuint index = 0; index < static_cast<GLuint>(count); ++index) {
+    for (GLuint index = 0; index < active(GL_UNIFORM_BLOCK); ++index) {
+        blocks_.push_back({resourceName(handle_, GL_UNIFORM_BLOCK, index), GL_UNIFORM_BUFFER, index, 0});
+        glUniformBlockBinding(handle_, index, index);
+    }
+    for (GLuint index = 0; index < active(GL_UNIFORM); ++index) {
         const std::string uniform_name = resourceName(handle_, GL_UNIFORM, index);
-        uniforms_.push_back({uniform_name, glGetUniformLocation(handle_, uniform_name.c_str()), false});
+        const GLint location = glGetUniformLocation(handle_, uniform_name.c_str());
+        if (location >= 0) uniforms_.push_back({uniform_name, location, false});  // members of blocks have none
     }
 }
 
@@ -114,7 +121,7 @@ void Program::bind(const std::string& block, const Buffer& buffer) {
         }
         known += " " + candidate.name;
     }
-    throw std::logic_error(fmt::format("{} has no storage block `{}`; it has:{}", name_, block, known));
+    throw std::logic_error(fmt::format("{} has no block `{}`; it has:{}", name_, block, known));
 }
 
 void Program::bindAll(const std::vector<std::pair<std::string, const Buffer*>>& buffers) {
@@ -137,12 +144,15 @@ void Program::set(const std::string& name, float value) { glProgramUniform1f(han
 void Program::set(const std::string& name, glm::vec2 value) {
     glProgramUniform2f(handle_, uniform(name).location, value.x, value.y);
 }
+void Program::set(const std::string& name, const std::vector<glm::vec2>& values) {
+    if (values.empty()) return;
+    glProgramUniform2fv(handle_, uniform(name + "[0]").location, static_cast<GLsizei>(values.size()), &values.front().x);
+}
 
 void Program::use() const {
-    for (std::size_t index = 0; index < blocks_.size(); ++index) {
-        if (!blocks_[index].buffer)
-            throw std::logic_error(fmt::format("{}: no buffer is bound to `{}`", name_, blocks_[index].name));
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(index), blocks_[index].buffer);
+    for (const Block& block : blocks_) {
+        if (!block.buffer) throw std::logic_error(fmt::format("{}: no buffer is bound to `{}`", name_, block.name));
+        glBindBufferBase(block.target, block.binding, block.buffer);
     }
     for (const Uniform& candidate : uniforms_)
         if (!candidate.set) throw std::logic_error(fmt::format("{}: uniform `{}` was never set", name_, candidate.name));

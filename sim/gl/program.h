@@ -21,7 +21,7 @@ class Program {
     Program(Program&& other) noexcept;
     Program& operator=(Program&& other) noexcept;
 
-    /// Remembers which buffer serves a storage block. Buffers must outlive the program's last use.
+    /// Remembers which buffer serves a storage or uniform block. Buffers must outlive the program's last use.
     /// @throws std::logic_error for a block that the program does not have, naming those it has
     void bind(const std::string& block, const Buffer& buffer);
     /// The same for several blocks; blocks that the compiler removed as unused are passed over.
@@ -32,6 +32,7 @@ class Program {
     void set(const std::string& uniform, std::uint32_t value);
     void set(const std::string& uniform, float value);
     void set(const std::string& uniform, glm::vec2 value);
+    void set(const std::string& uniform, const std::vector<glm::vec2>& values);
 
     /// Makes the program and its buffers current.
     /// @throws std::logic_error when a block has no buffer or a uniform no value
@@ -43,6 +44,8 @@ class Program {
   private:
     struct Block {
         std::string name;
+        std::uint32_t target = 0;  // storage or uniform buffer
+        std::uint32_t binding = 0;
         std::uint32_t buffer = 0;
     };
     struct Uniform {
@@ -55,7 +58,7 @@ class Program {
 
     std::uint32_t handle_ = 0;
     std::string name_;
-    std::vector<Block> blocks_;  // the index is the binding
+    std::vector<Block> blocks_;
     std::vector<Uniform> uniforms_;
 };
 
