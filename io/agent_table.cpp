@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/agent_table.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <stdexcept>
+
+namespace throng::io {
+namespace {
+
+const char* outcomeName(AgentStatus status) {
+    if (status == AgentStatus::walking) return "walking";
+    if (status == AgentStatus::arrived) return "arrived";
+    return "refused";
+}
+
+std::string reasonOf(const AgentOutcome& outcome) {
+    if (outcome.status == AgentStatus::waiting) return "the bake was stopped before it could enter";
+    if (outcome.status == AgentStatus::refused && outcome.reason.empty())
+        return "the bake ended before it could enter";
+    return outcome.reason;
+}
+
+std::string quoted(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::string result = "\"";
+    for (const char c : text) {
+        if (c == '"') result += '"';
+        result += c;
+    }
+    return result + '"';
+}
+
+std::string frameNumber(std::uint32_t frame) {
+    return frame == kNone ? std::string() : std::to_string(frame);
+}
+
+}  // namespace
+
+AccountTotals countOutcomes(const Account& account) {
+    AccountTotals totals;
+    totals.agents = static_cast<std::uint32_t>(account.agents.size());
+    for (const AgentOutcome& outcome : account.agents) {
+        if (outcome.status == AgentStatus::walking) ++totals.walking;
+        if (outcome.status == AgentStatus::arrived) ++totals.arrived;
+        if (outcome.status != AgentStatus::refused && outcome.status != AgentStatus::waiting) continue;
+        ++totals.refused;
+        ++totals.refused_reasons[reasonOf(outcome)];
+    }
+    totals.spawned = totals.walking + totals.arrived;
+    return totals;
+}
+
+std::string agentTable(const BakeDescription& description, const Account& account) {
+    if (account.agents.size() != description.agents.size())
+        throw std::invalid_argument("the account and the description differ in their number of people");
+    std::string table =
+        "id,group,kind,radius,preferred_speed,variation,spawn_frame,arrival_frame,outcome,reason,goal_x,goal_"
+        "y,"
+        "distance_walked\n";
+    for (std::size_t row = 0; row < description.agents.size(); ++row) {
+        const BakeAgent& agent = description.agents[row];
+        const BakeGroup& group = description.groups.at(agent.group);
+        const AgentOutcome& outcome = account.agents[row];
+        fmt::format_to(std::back_inserter(table), "{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row,
+                       quoted(group.id), group.is_flow ? "flow" : "formation", agent.radius,
+                       agent.preferred_speed, agent.variation, frameNumber(outcome.spawn_frame),
+                       frameNumber(outcome.arrival_frame), outcomeName(outcome.status),
+                       quoted(reasonOf(outcome)), agent.goal.x, agent.goal.y, outcome.distance_walked);
+    }
+    return table;
+}
+
+}  // namespace throng::io

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <string>
+#include <vector>
+
+#include "authoring/layout.h"
+
+namespace throng::io {
+
+/// A flow or a formation of the layout.
+struct BakeGroup {
+    std::string id;
+    bool is_flow = false;
+};
+
+/// What is known of a row before the simulation begins.
+struct BakeAgent {
+    std::uint32_t group = 0;       ///< index into BakeDescription::groups
+    float radius = 0.0f;           ///< m
+    float preferred_speed = 0.0f;  ///< m/s
+    std::uint32_t variation = 0;
+    glm::dvec2 goal{0.0};  ///< m, world
+};
+
+/// All that a bake's files say besides the frames. World coordinates unless told otherwise; metres and
+/// seconds.
+struct BakeDescription {
+    std::filesystem::path output;  ///< the folder to make
+    bool force = false;            ///< replace an existing bake
+
+    std::string name;         ///< the layout's
+    std::string layout_text;  ///< the layout file, byte for byte
+    std::uint64_t seed = 1;
+    double fps = 24.0;
+    std::uint32_t frames = 0;  ///< expected
+    std::uint32_t substeps = 1;
+    double duration = 0.0;
+    double warmup = 0.0;
+    std::uint32_t variations = 1;
+    double stride_length = 1.4;  ///< m per gait cycle, of the cast's walk
+
+    glm::dvec2 scene_origin{0.0};   ///< world = scene_origin + what the frames hold
+    glm::dvec2 output_origin{0.0};  ///< world = output_origin + what the streams hold
+    glm::dvec2 minimum{0.0};        ///< bounds of all that people can reach
+    glm::dvec2 maximum{0.0};
+
+    std::vector<BakeGroup> groups;
+    std::vector<BakeAgent> agents;  ///< one per row
+    std::vector<authoring::Road> roads;
+    std::vector<authoring::Area> areas;
+    std::vector<authoring::Wall> walls;
+
+    std::string renderer;  ///< GL_RENDERER
+    std::string driver;    ///< GL_VERSION
+
+    bool gltf = true;
+    std::uint32_t gltf_agents = 2000;  ///< at most this many people in crowd.glb; the rest is left out
+    std::uint32_t diagram_every = 0;   ///< frames between diagram images; 0 = none
+};
+
+}  // namespace throng::io

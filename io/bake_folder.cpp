@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/bake_folder.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <stdio.h>
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <random>
+#include <system_error>
+
+#include "io/files/output_file.h"
+
+namespace throng::io {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr int kAttempts = 100;
+
+std::string randomSuffix() {
+    std::random_device device;
+    std::string suffix;
+    for (int i = 0; i < 6; ++i)
+        suffix += "abcdefghijklmnopqrstuvwxyz0123456789"[device() % 36];
+    return suffix;
+}
+
+/// Creates `BASE.tmp-XXXXXX` with the permissions that the user's umask gives to new folders.
+fs::path createTemporary(const fs::path& base) {
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+        const fs::path path = base.string() + ".tmp-" + randomSuffix();
+        if (::mkdir(path.c_str(), 0777) == 0) return path;
+        if (errno != EEXIST) throw OutputError(path, "create", errno);
+    }
+    throw OutputError(base, "create a temporary folder beside", EEXIST);
+}
+
+/// `--force` must not be able to remove somebody's home because of a slip of the keyboard.
+void requireReplaceable(const fs::path& path) {
+    const fs::file_status status = fs::symlink_status(path);
+    if (!fs::is_directory(status))
+        throw OutputError(path, "exists and is not a folder; it will not be replaced");
+    if (!fs::is_empty(path) && !fs::exists(path / "bake.json"))
+        throw OutputError(path, "exists and is not a bake (no bake.json inside); it will not be replaced");
+}
+
+bool isTaken(const fs::path& path) {
+    return fs::exists(fs::symlink_status(path));
+}
+
+/// Renames without ever replacing. False when `to` exists. Some network file systems know no flags for
+/// renaming: there, a rename after a check is the best there is, and it still cannot replace a folder that
+/// has files in it.
+bool renameNoReplace(const fs::path& from, const fs::path& to) {
+    if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return true;
+    if (errno == EEXIST) return false;
+    if (errno != EINVAL && errno != ENOSYS) throw OutputError(to, "rename the finished bake to", errno);
+    if (isTaken(to)) return false;
+    if (::rename(from.c_str(), to.c_str()) == 0) return true;
+    if (errno == EEXIST || errno == ENOTEMPTY) return false;
+    throw OutputError(to, "rename the finished bake to", errno);
+}
+
+/// Puts `fresh` in the place of `old` and returns where the old one is now.
+fs::path exchange(const fs::path& fresh, const fs::path& old) {
+    if (::renameat2(AT_FDCWD, fresh.c_str(), AT_FDCWD, old.c_str(), RENAME_EXCHANGE) == 0) return fresh;
+    if (errno != EINVAL && errno != ENOSYS) throw OutputError(old, "replace", errno);
+    const fs::path aside = old.string() + ".old-" + randomSuffix();
+    if (::rename(old.c_str(), aside.c_str()) != 0) throw OutputError(old, "move aside", errno);
+    if (::rename(fresh.c_str(), old.c_str()) != 0) {
+        const int reason = errno;
+        if (::rename(aside.c_str(), old.c_str()) != 0) throw OutputError(aside, "move back", errno);
+        throw OutputError(old, "replace", reason);
+    }
+    return aside;
+}
+
+fs::path withoutTrailingSlash(const fs::path& path) {
+    const fs::path normal = path.lexically_normal();
+    return normal.has_filename() ? normal : normal.parent_path();
+}
+
+fs::path parentOf(const fs::path& path) {
+    return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+}  // namespace
+
+BakeFolder::BakeFolder(const fs::path& final_path, bool force)
+    : final_(withoutTrailingSlash(final_path)), force_(force) {
+    if (!final_.has_filename() || final_.filename() == "." || final_.filename() == "..")
+        throw OutputError(final_path, "is no name for a bake");
+    try {
+        if (isTaken(final_)) {
+            if (!force) throw OutputError(final_, "exists; give another name, or --force to replace it");
+            requireReplaceable(final_);
+        }
+        fs::create_directories(parentOf(final_));
+    } catch (const fs::filesystem_error& error) {
+        throw OutputError(final_, "create", error.code().value());
+    }
+    temporary_ = createTemporary(final_);
+}
+
+BakeFolder::~BakeFolder() {
+    std::error_code ignored;
+    if (!committed_) fs::remove_all(temporary_, ignored);
+}
+
+fs::path BakeFolder::addFolder(const fs::path& name) {
+    const fs::path path = temporary_ / name;
+    if (::mkdir(path.c_str(), 0777) != 0) throw OutputError(path, "create", errno);
+    return path;
+}
+
+void BakeFolder::syncAll() const {
+    std::error_code error;
+    for (fs::recursive_directory_iterator it(temporary_, error), end; !error && it != end;
+         it.increment(error))
+        if (it->is_directory(error)) syncFolder(it->path());
+    if (error) throw OutputError(temporary_, "list", error.value());
+    syncFolder(temporary_);
+}
+
+fs::path BakeFolder::commit() {
+    syncAll();
+    if (!renameNoReplace(temporary_, final_)) {
+        if (!force_) throw OutputError(final_, "came into being during the bake; it will not be replaced");
+        requireReplaceable(final_);
+        const fs::path old = exchange(temporary_, final_);
+        forget();
+        std::error_code error;
+        fs::remove_all(old, error);
+        if (error) throw OutputError(old, "remove the replaced bake", error.value());
+    }
+    forget();
+    syncFolder(parentOf(final_));
+    return final_;
+}
+
+fs::path BakeFolder::commitPartial() {
+    syncAll();
+    for (int attempt = 1; attempt <= kAttempts; ++attempt) {
+        const fs::path partial =
+            final_.string() + ".partial" + (attempt > 1 ? fmt::format("-{}", attempt) : "");
+        if (!renameNoReplace(temporary_, partial)) continue;
+        forget();
+        syncFolder(parentOf(final_));
+        return partial;
+    }
+    throw OutputError(final_.string() + ".partial", "exists, and so do many others like it");
+}
+
+}  // namespace throng::io

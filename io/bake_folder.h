@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "io/files/errors.h"
+
+namespace throng::io {
+
+/// A folder that appears under its name only when it is complete.
+///
+/// Everything is written into `NAME.tmp-XXXXXX` beside it; commit() gives it its name in one step. A folder
+/// that was never committed is removed by the destructor. All members throw OutputError.
+class BakeFolder {
+  public:
+    /// Creates the temporary folder (and the parents of `final_path`). An error before any work when
+    /// `final_path` exists, unless `force`; and even then when what exists is neither a bake nor an empty
+    /// folder.
+    BakeFolder(const std::filesystem::path& final_path, bool force);
+    BakeFolder(const BakeFolder&) = delete;
+    BakeFolder& operator=(const BakeFolder&) = delete;
+    ~BakeFolder();
+
+    /// Where the files go until then.
+    const std::filesystem::path& path() const { return temporary_; }
+    /// Creates a folder inside.
+    std::filesystem::path addFolder(const std::filesystem::path& name);
+
+    /// Makes all durable and gives the folder its name, replacing an existing bake with `force`. Returns the
+    /// path.
+    std::filesystem::path commit();
+    /// The same under the name `NAME.partial`, or `NAME.partial-2` and so on: nothing is ever replaced.
+    std::filesystem::path commitPartial();
+
+  private:
+    void syncAll() const;
+    void forget() { committed_ = true; }
+
+    std::filesystem::path final_;
+    std::filesystem::path temporary_;
+    bool force_ = false;
+    bool committed_ = false;
+};
+
+}  // namespace throng::io

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/bake_description.h"
+#include "io/bake_folder.h"
+#include "io/manifest.h"
+#include "io/streams/stream_writer.h"
+#include "sim/frame.h"
+
+namespace throng::io {
+
+/// What finish() made.
+struct BakeResult {
+    std::filesystem::path path;
+    std::uint32_t frames = 0;
+    AccountTotals account;
+    std::optional<GltfSummary> gltf;  ///< people are left out where agents < of
+    std::uint32_t diagrams = 0;       ///< images
+};
+
+/// Turns a stream of frames into a bake folder (docs/bake.md), which appears under its name only when it is
+/// complete. Not thread-safe, but any one thread may own it. Members throw OutputError when anything cannot
+/// be written; after that, or without finish(), the destructor removes all that was written.
+class BakeWriter {
+  public:
+    /// An error before any work when the bake exists (see BakeFolder).
+    explicit BakeWriter(BakeDescription description);
+
+    /// Takes the frames in order, index 0 first. The spans need to live during the call only. A diagram is
+    /// written when the frame has one and its index is a multiple of `diagram_every`. Throws
+    /// std::invalid_argument when the frame does not fit the description.
+    void write(const Frame& frame);
+
+    /// Completes the bake; std::logic_error unless all expected frames were written.
+    BakeResult finish(const Account& account, const BakeTiming& timing);
+    /// Completes what there is as `NAME.partial`, with "complete": false: for bakes that were interrupted.
+    BakeResult finishPartial(const Account& account, const BakeTiming& timing);
+
+    std::uint32_t framesWritten() const { return frames_; }
+
+  private:
+    struct Stream {
+        Stream(const std::filesystem::path& folder, const std::string& name,
+               const BakeDescription& description);
+        void append(std::span<const float> frame);
+        void finish(std::span<const std::uint32_t> first_alive,
+                    const std::array<BackFill, kComponents>& rule);
+
+        std::string name;
+        StreamWriter npy;
+        StreamWriter pc2;
+    };
+
+    void trackFirstAlive(const Frame& frame);
+    void writeDiagram(const Frame& frame);
+    void finishStreams();
+    BakeOutcome writeAll(const Account& account, const BakeTiming& timing, bool complete);
+    BakeResult resultAt(std::filesystem::path path, const BakeOutcome& outcome) const;
+
+    BakeDescription description_;
+    BakeFolder folder_;
+    std::filesystem::path streams_folder_;
+    Stream positions_;
+    Stream directions_;
+    Stream states_;
+    std::uint32_t frames_ = 0;
+    std::vector<std::uint32_t> first_alive_;  ///< per row, the first frame it is alive in, or kNone
+    std::vector<float> shifted_;              ///< one frame of positions in the output frame of reference
+    std::optional<DiagramSummary> diagrams_;
+    std::vector<std::string> diagram_files_;
+};
+
+}  // namespace throng::io

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <glm/vec2.hpp>
+
+#include "io/files/errors.h"
+#include "sim/frame.h"
+
+namespace throng::io {
+
+/// Writes one diagram as OpenEXR (lossless, scan lines, ZIP). The top row of the image has the highest y.
+///
+/// Channels: `id` UINT (row of the person, number of the wall tile, or 4294967295), `kind` UINT (0 none, 1
+/// person, 2 wall), `distance` FLOAT in metres (-1 where there is no owner). Header: `throng:worldToPixel`
+/// (M33d, for row vectors [x y 1] in world coordinates), `throng:minimum` (V2d, world, the lower left corner
+/// of the image), `throng:pixelsPerMetre`, `throng:frame` (the scene's frame, index + 1), `framesPerSecond`.
+///
+/// `scene_origin` is what takes the image's frame of reference to the world, in metres. No state is shared:
+/// any thread may call it. Throws OutputError.
+void writeDiagramExr(const std::filesystem::path& path, const DiagramImage& image, glm::dvec2 scene_origin,
+                     std::uint32_t frame_index, double fps);
+
+}  // namespace throng::io

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "io/files/output_file.h"
+#include "io/gltf/crowd_glb.h"
+
+namespace throng::io {
+
+/// A row of the bake that goes into the glTF file.
+struct TrackRow {
+    std::uint32_t row = 0;
+    float width_scale = 1.0f;   ///< of the body mesh, horizontally
+    bool is_ever_dead = false;  ///< then it has a scale track, 0 while it is not alive
+};
+
+inline constexpr std::uint32_t kTranslationBytes = 3 * sizeof(float);
+inline constexpr std::uint32_t kRotationBytes =
+    4 * sizeof(std::int16_t);  // normalised: half the size of floats
+inline constexpr std::uint32_t kScaleBytes = 3 * sizeof(float);
+inline constexpr std::uint32_t kLargestKeyBytes = kTranslationBytes + kRotationBytes + kScaleBytes;
+
+/// Marks the rows that are not alive in some frame.
+void findDeadRows(const StreamReader& states, std::vector<TrackRow>& rows);
+
+/// Writes for each row in turn: its translations, its rotations and, if it is ever dead, its scales; Y up.
+void writeTracks(OutputFile& file, const StreamSet& streams, const std::vector<TrackRow>& rows);
+
+}  // namespace throng::io

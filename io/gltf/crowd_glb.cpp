@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/gltf/crowd_glb.h"
+
+#include <algorithm>
+#include <array>
+
+#include "io/files/output_file.h"
+#include "io/gltf/animation_tracks.h"
+#include "io/gltf/glb_document.h"
+#include "io/gltf/meshes.h"
+#include "io/palette.h"
+
+namespace throng::io {
+namespace {
+
+constexpr double kGroundMargin = 5.0;  // m
+// Flat surfaces lie a little above each other, or renderers could not tell which one is on top.
+constexpr double kAreaHeight = 0.01;  // m
+constexpr double kRoadHeight = 0.02;  // m
+
+constexpr std::uint64_t kLargestTracks = std::uint64_t{2'000} << 20;
+
+std::vector<glm::dvec2> relative(const std::vector<glm::dvec2>& points, glm::dvec2 origin) {
+    std::vector<glm::dvec2> result = points;
+    for (glm::dvec2& point : result)
+        point -= origin;
+    return result;
+}
+
+void addScenery(GlbDocument& document, const BakeDescription& description) {
+    const glm::dvec2 origin = description.output_origin;
+    const int ground = document.addMaterial("ground", colourFromHex(0x9a978f), 0.95);
+    const int area = document.addMaterial("area", colourFromHex(0x86837b), 0.9);
+    const int road = document.addMaterial("road", colourFromHex(0x6b6a68), 0.85);
+    const int wall = document.addMaterial("wall", colourFromHex(0xcfc8bb), 0.8);
+    document.addMeshNode("ground",
+                         groundMesh(description.minimum - origin - kGroundMargin,
+                                    description.maximum - origin + kGroundMargin, 0.0),
+                         ground);
+    for (const authoring::Area& entry : description.areas)
+        document.addMeshNode("area " + entry.id, polygonMesh(relative(entry.polygon, origin), kAreaHeight),
+                             area);
+    for (const authoring::Road& entry : description.roads)
+        document.addMeshNode("road " + entry.id,
+                             ribbonMesh(relative(entry.centreline, origin), entry.width, kRoadHeight), road);
+    for (const authoring::Wall& entry : description.walls) {
+        const std::vector<glm::dvec2> points = relative(entry.points, origin);
+        document.addMeshNode("wall " + entry.id,
+                             entry.closed ? closedWallMesh(points, entry.height)
+                                          : openWallMesh(points, entry.thickness, entry.height),
+                             wall);
+    }
+}
+
+/// One mesh for each group, as they differ in colour; the geometry is stored once.
+std::vector<int> addBodies(GlbDocument& document, const BakeDescription& description) {
+    std::vector<int> meshes;
+    if (description.agents.empty()) return meshes;
+    const GlbDocument::Geometry body = document.addGeometry(bodyMesh());
+    for (std::size_t group = 0; group < description.groups.size(); ++group) {
+        const std::string& name = description.groups[group].id;
+        meshes.push_back(document.addMesh(name, body, document.addMaterial(name, groupColour(group), 0.7)));
+    }
+    return meshes;
+}
+
+std::vector<std::uint32_t> chooseRows(std::uint32_t rows, std::uint32_t frames, std::uint32_t cap) {
+    std::uint64_t count = std::min(rows, cap);
+    if (frames == 0) count = 0;
+    if (frames > 0) count = std::min(count, kLargestTracks / (std::uint64_t{frames} * kLargestKeyBytes));
+    std::vector<std::uint32_t> chosen;
+    for (std::uint64_t i = 0; i < count; ++i)
+        chosen.push_back(static_cast<std::uint32_t>(i * rows / count));
+    return chosen;
+}
+
+void addPeople(GlbDocument& document, const BakeDescription& description, const std::vector<TrackRow>& rows,
+               std::uint32_t frames) {
+    const std::vector<int> bodies = addBodies(document, description);
+    if (rows.empty()) return;
+    const int people = document.addEmptyNode("people");
+    const int times = document.addTimes(frames, description.fps);
+    for (const TrackRow& row : rows) {
+        const std::uint32_t group = description.agents.at(row.row).group;
+        document.addAnimatedNode(people, "person " + std::to_string(row.row), bodies.at(group),
+                                 row.width_scale, times, frames, row.is_ever_dead);
+    }
+}
+
+}  // namespace
+
+GltfSummary writeCrowdGlb(const std::filesystem::path& path, const BakeDescription& description,
+                          const StreamSet& streams) {
+    const std::uint32_t frames = streams.positions.frames();
+    const std::uint32_t all_rows = streams.positions.rows();
+    std::vector<TrackRow> rows;
+    for (const std::uint32_t row : chooseRows(all_rows, frames, description.gltf_agents))
+        rows.push_back({row, static_cast<float>(description.agents.at(row).radius / kBodyRadius), false});
+    findDeadRows(streams.states, rows);
+
+    GlbDocument document(description.name, {description.output_origin.x, 0.0, -description.output_origin.y});
+    addScenery(document, description);
+    addPeople(document, description, rows, frames);
+
+    OutputFile file(path);
+    document.writeHead(file);
+    writeTracks(file, streams, rows);
+    if (file.position() != document.fileSize())
+        throw OutputError(path, "came out with another size than its header says");
+    file.finish();
+    return {static_cast<std::uint32_t>(rows.size()), all_rows};
+}
+
+}  // namespace throng::io

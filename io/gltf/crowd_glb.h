@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "io/bake_description.h"
+#include "io/streams/stream_reader.h"
+
+namespace throng::io {
+
+/// The finished streams of a bake.
+struct StreamSet {
+    StreamReader positions;
+    StreamReader directions;
+    StreamReader states;
+};
+
+struct GltfSummary {
+    std::uint32_t agents = 0;  ///< people in the file
+    std::uint32_t of = 0;      ///< people in the bake
+};
+
+/// Writes crowd.glb (glTF 2.0, Y up): ground, roads, areas and walls as meshes, and one animated node for
+/// each person, at most `description.gltf_agents` of them, evenly chosen; fewer where the file would pass 2
+/// GiB. Memory stays bounded however long the bake. Throws OutputError and InputError.
+GltfSummary writeCrowdGlb(const std::filesystem::path& path, const BakeDescription& description,
+                          const StreamSet& streams);
+
+}  // namespace throng::io

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/manifest.h"
+
+namespace throng::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json pointToJson(glm::dvec2 point) {
+    return Json::array({point.x, point.y});
+}
+
+Json pointsToJson(const std::vector<glm::dvec2>& points, glm::dvec2 origin) {
+    Json list = Json::array();
+    for (const glm::dvec2 point : points)
+        list.push_back(pointToJson(point - origin));
+    return list;
+}
+
+Json geometryToJson(const BakeDescription& description) {
+    const glm::dvec2 origin = description.output_origin;
+    Json geometry{{"walls", Json::array()}, {"roads", Json::array()}, {"areas", Json::array()}};
+    for (const authoring::Wall& wall : description.walls)
+        geometry["walls"].push_back({{"id", wall.id},
+                                     {"points", pointsToJson(wall.points, origin)},
+                                     {"closed", wall.closed},
+                                     {"thickness", wall.thickness},
+                                     {"height", wall.height}});
+    for (const authoring::Road& road : description.roads)
+        geometry["roads"].push_back({{"id", road.id},
+                                     {"centreline", pointsToJson(road.centreline, origin)},
+                                     {"width", road.width},
+                                     {"one_way", road.one_way}});
+    for (const authoring::Area& area : description.areas)
+        geometry["areas"].push_back({{"id", area.id}, {"polygon", pointsToJson(area.polygon, origin)}});
+    return geometry;
+}
+
+Json streamToJson(const std::string& name, const Json& components) {
+    return {
+        {"npy", "streams/" + name + ".npy"}, {"pc2", "streams/" + name + ".pc2"}, {"components", components}};
+}
+
+Json accountToJson(const AccountTotals& account) {
+    return {{"agents", account.agents},
+            {"spawned", account.spawned},
+            {"walking", account.walking},
+            {"arrived", account.arrived},
+            {"refused", account.refused},
+            {"refused_reasons",
+             account.refused_reasons.empty() ? Json::object() : Json(account.refused_reasons)}};
+}
+
+Json diagramsToJson(const BakeDescription& description, const std::optional<DiagramSummary>& diagrams) {
+    if (!diagrams) return nullptr;
+    return {{"pattern", "diagrams/diagram.####.exr"},
+            {"every", description.diagram_every},
+            {"count", diagrams->count},
+            {"width", diagrams->width},
+            {"height", diagrams->height},
+            {"pixels_per_metre", diagrams->pixels_per_metre},
+            {"min", pointToJson(diagrams->minimum)}};
+}
+
+Json gltfToJson(const std::optional<GltfSummary>& gltf) {
+    if (!gltf) return nullptr;
+    return {{"file", "crowd.glb"}, {"agents", gltf->agents}, {"of", gltf->of}};
+}
+
+Json timingToJson(const BakeTiming& timing) {
+    const double rate =
+        timing.wall_seconds > 0.0 ? static_cast<double>(timing.steps) / timing.wall_seconds : 0.0;
+    return {{"wall_seconds", timing.wall_seconds}, {"steps", timing.steps}, {"steps_per_second", rate}};
+}
+
+Json filesToJson(const std::vector<BakeOutcome::File>& files) {
+    Json list = Json::array();
+    for (const BakeOutcome::File& file : files)
+        list.push_back({{"path", file.path}, {"bytes", file.hash.bytes}, {"xxh3", file.hash.xxh3}});
+    return list;
+}
+
+}  // namespace
+
+Json bakeManifest(const BakeDescription& description, const BakeOutcome& outcome) {
+    const glm::dvec2 origin = description.output_origin;
+    Json json;
+    json["format"] = "throng bake";
+    json["version"] = 1;
+    json["generator"] = "throng " THRONG_VERSION;
+    json["name"] = description.name;
+    json["complete"] = outcome.complete;
+    json["layout"] = {{"file", "layout.json"}, {"hash", "xxh3:" + hashText(description.layout_text)}};
+    json["seed"] = description.seed;
+    json["fps"] = description.fps;
+    json["frames"] = outcome.frames;
+    json["frame_start"] = 1;
+    json["substeps"] = description.substeps;
+    json["duration"] = description.duration;
+    json["warmup"] = description.warmup;
+    json["agents"] = description.agents.size();
+    json["variations"] = description.variations;
+    json["stride_length"] = description.stride_length;
+    json["units"] = "metres";
+    json["up_axis"] = "Z";
+    json["origin"] = {origin.x, origin.y, 0.0};
+    json["bounds"] = {{"min", pointToJson(description.minimum - origin)},
+                      {"max", pointToJson(description.maximum - origin)}};
+    json["streams"] = {{"pos", streamToJson("pos", {"x", "y", "z"})},
+                       {"dir", streamToJson("dir", {"cos_heading", "sin_heading", "speed"})},
+                       {"state", streamToJson("state", {"alive", "variation", "phase"})}};
+    json["table"] = "agents.csv";
+    json["gltf"] = gltfToJson(outcome.gltf);
+    json["diagrams"] = diagramsToJson(description, outcome.diagrams);
+    json["geometry"] = geometryToJson(description);
+    json["account"] = accountToJson(outcome.account);
+    json["device"] = {{"renderer", description.renderer}, {"driver", description.driver}};
+    json["timing"] = timingToJson(outcome.timing);
+    json["files"] = filesToJson(outcome.files);
+    return json;
+}
+
+}  // namespace throng::io

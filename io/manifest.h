@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/agent_table.h"
+#include "io/bake_description.h"
+#include "io/files/hash.h"
+#include "io/gltf/crowd_glb.h"
+
+namespace throng::io {
+
+/// How long the bake took.
+struct BakeTiming {
+    double wall_seconds = 0.0;
+    std::uint64_t steps = 0;
+};
+
+/// The diagram images of a bake.
+struct DiagramSummary {
+    std::uint32_t count = 0;
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    double pixels_per_metre = 0.0;
+    glm::dvec2 minimum{0.0};  ///< m, relative to the output origin
+};
+
+/// What is known once the last frame is written.
+struct BakeOutcome {
+    bool complete = false;
+    std::uint32_t frames = 0;
+    AccountTotals account;
+    BakeTiming timing;
+    std::optional<GltfSummary> gltf;
+    std::optional<DiagramSummary> diagrams;
+    struct File {
+        std::string path;  ///< relative to the bake, with forward slashes
+        FileHash hash;
+    };
+    std::vector<File> files;
+};
+
+/// The content of bake.json.
+nlohmann::ordered_json bakeManifest(const BakeDescription& description, const BakeOutcome& outcome);
+
+}  // namespace throng::io

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+/// The two containers of a stream: frames x rows x 3 float32, little endian, frame after frame.
+namespace throng::io {
+
+enum class StreamFormat {
+    npy,  ///< NumPy array file, version 1.0
+    pc2,  ///< point cache as Blender's Mesh Cache modifier reads it
+};
+
+inline constexpr std::size_t kComponents = 3;
+
+/// The size of the header depends on the format only, so that the counts can be mended in place.
+constexpr std::size_t headerSize(StreamFormat format) {
+    return format == StreamFormat::npy ? 128 : 32;
+}
+
+/// The largest count that the format can express, of frames as well as of rows.
+constexpr std::uint64_t largestCount(StreamFormat format) {
+    return format == StreamFormat::npy ? 0xffffffffu : 0x7fffffffu;
+}
+
+/// All bytes before the first frame.
+std::string streamHeader(StreamFormat format, std::uint64_t frames, std::uint64_t rows);
+
+}  // namespace throng::io
