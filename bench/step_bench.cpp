@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <random>
 
 #include "sim/diagram_methods.h"
@@ -21,6 +22,12 @@ using namespace throng;
 gl::Context& context() {
     static gl::Context instance({});
     return instance;
+}
+
+/// THRONG_SHADER_DIR lets variants of a shader be timed without building.
+gl::ShaderLibrary shaders() {
+    const char* folder = std::getenv("THRONG_SHADER_DIR");
+    return folder ? gl::ShaderLibrary(folder) : gl::ShaderLibrary();
 }
 
 authoring::Scene benchScene(std::uint32_t count) {
@@ -78,7 +85,7 @@ void gradient1Diagram(benchmark::State& state) {
 
 void wholeStep(benchmark::State& state) {
     context();
-    sim::Simulation simulation(benchScene(static_cast<std::uint32_t>(state.range(0))), gl::ShaderLibrary());
+    sim::Simulation simulation(benchScene(static_cast<std::uint32_t>(state.range(0))), shaders());
     for (int i = 0; i < 5; ++i) milliseconds([&] { simulation.step(); });
     for (auto _ : state) milliseconds([&] { simulation.step(); });
     for (const auto& [pass, time] : simulation.profile(20)) state.counters[pass] = time;
@@ -88,7 +95,7 @@ void wholeStep(benchmark::State& state) {
 void stepOverGradient1(benchmark::State& state) {
     context();
     Gradient1 yardstick(16384, 8.0f);
-    sim::Simulation simulation(benchScene(16384), gl::ShaderLibrary());
+    sim::Simulation simulation(benchScene(16384), shaders());
     for (int i = 0; i < 5; ++i) milliseconds([&] { simulation.step(), yardstick.draw(); });
     std::vector<double> steps, yardsticks, ratios;
     for (auto _ : state) {

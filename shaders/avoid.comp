@@ -10,11 +10,14 @@ layout(std430) readonly buffer Bodies { Body bodies[]; };
 layout(std430) readonly buffer PreferredVelocities { vec2 preferred_velocities[]; };
 layout(std430) readonly buffer Neighbours { uint neighbours[]; };
 layout(std430) readonly buffer NeighbourCounts { uint neighbour_counts[]; };
+layout(std430) readonly buffer RowSlots { uint row_slots[]; };
+layout(std430) readonly buffer TouchWords { uint touch_words[]; };
 layout(std430) readonly buffer WallSegments { WallSegment wall_segments[]; };
 layout(std430) readonly buffer WallStarts { uint wall_starts[]; };
 layout(std430) readonly buffer WallItems { uint wall_items[]; };
 layout(std430) readonly buffer RoadDistances { float road_distances[]; };
 layout(std430) writeonly buffer Targets { vec2 targets[]; };  // where each person will be unless bodies touch
+layout(std430) writeonly buffer TargetsAfter { vec2 targets_after[]; };  // the same, for those whom contact passes over
 uniform uint slot_capacity;
 
 // Room for the sensed people, the nearest walls, and the kerb.
@@ -110,13 +113,14 @@ void main() {
     uint slot = gl_GlobalInvocationID.x;
     if (slot >= live_count) return;
     Body self = bodies[slot];
-    int hard = gatherWalls(self, slot);
+    bool walls = (touch_words[slot] & (TOUCH_WALL_NEAR | TOUCH_WALL_SENSED)) != 0u;
+    int hard = walls ? gatherWalls(self, slot) : 0;
     int count = hard;
     uint sensed = neighbour_counts[slot];
     for (uint i = 0u; i < sensed; ++i) {
         uint key = neighbours[i * slot_capacity + slot];
         if ((key & NEIGHBOUR_IS_WALL) != 0u) continue;
-        Body other = bodies[key];
+        Body other = bodies[row_slots[key]];
         constraints[count++] = avoidanceConstraint(self.velocity, other.position - self.position,
                                                    self.velocity - other.velocity, self.radius + other.radius,
                                                    parameters.time_horizon, OVERLAP_HORIZON, 0.5);
@@ -130,5 +134,7 @@ void main() {
     if (obeyed < count) relax(hard, obeyed, count, self.maximum_speed, velocity);
 
     velocity = limitChange(self.velocity, velocity, parameters.maximum_acceleration * parameters.step_seconds);
-    targets[slot] = self.position + velocity * parameters.step_seconds;
+    vec2 target = self.position + velocity * parameters.step_seconds;
+    targets[slot] = target;
+    targets_after[slot] = target;
 }

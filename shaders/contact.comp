@@ -10,7 +10,8 @@ layout(local_size_x = AGENT_GROUP_SIZE) in;
 layout(std140) uniform ParametersBlock { Parameters parameters; };
 layout(std430) readonly buffer LiveDispatch { uint live_groups[3]; uint live_count; };
 layout(std430) readonly buffer Bodies { Body bodies[]; };
-layout(std430) readonly buffer NearestBodies { float nearest_bodies[]; };
+layout(std430) readonly buffer TouchWords { uint touch_words[]; };
+layout(std430) readonly buffer TouchLists { uint touch_lists[]; };
 layout(std430) readonly buffer CellStarts { uint cell_starts[]; };
 layout(std430) readonly buffer WallSegments { WallSegment wall_segments[]; };
 layout(std430) readonly buffer WallStarts { uint wall_starts[]; };
@@ -34,24 +35,30 @@ vec2 apartDirection(vec2 offset, float size, uint row, uint other_row) {
     return (row < other_row ? 1.0 : -1.0) * vec2(cos(angle), sin(angle));
 }
 
-vec2 pushFromNeighbours(Body self, vec2 position) {
-    vec2 push = vec2(0.0);
-    float touching = 0.0;
-    ivec2 cell = cellOf(self.position);
-    for (int y = cell.y - 1; y <= cell.y + 1; ++y) {
-        uvec2 run = slotRun(cell.x, y);
-        for (uint slot = run.x; slot < run.y; ++slot) {
-            vec2 offset = position - targets_before[slot];
-            float reach = self.radius + bodies[slot].radius + SKIN;
-            float size_squared = dot(offset, offset);
-            if (size_squared >= reach * reach || bodies[slot].row == self.row) continue;
-            float size = sqrt(size_squared);
-            push += apartDirection(offset, size, self.row, bodies[slot].row) * (reach - size) * 0.5;
-            touching += 1.0;
+/// What one neighbour adds to the push: direction and depth, and one more to average over.
+void addPush(Body self, uint self_slot, uint slot, vec2 position, inout vec3 push) {
+    vec2 offset = position - targets_before[slot];
+    float reach = self.radius + bodies[slot].radius + SKIN;
+    float size_squared = dot(offset, offset);
+    if (size_squared >= reach * reach || slot == self_slot) return;
+    float size = sqrt(size_squared);
+    push += vec3(apartDirection(offset, size, self.row, bodies[slot].row) * (reach - size) * 0.5, 1.0);
+}
+
+vec2 pushFromNeighbours(Body self, uint self_slot, uint touching, vec2 position) {
+    vec3 push = vec3(0.0);
+    if (touching <= TOUCH_CAPACITY) {
+        for (uint i = 0u; i < touching; ++i)
+            addPush(self, self_slot, touch_lists[self_slot * TOUCH_CAPACITY + i], position, push);
+    } else {
+        ivec2 cell = cellOf(self.position);
+        for (int y = cell.y - 1; y <= cell.y + 1; ++y) {
+            uvec2 run = slotRun(cell.x, y);
+            for (uint slot = run.x; slot < run.y; ++slot) addPush(self, self_slot, slot, position, push);
         }
     }
-    // Plain sums overshoot where many push: a mild over-relaxed average converges and does not ring.
-    return touching > 1.0 ? push * (1.6 / touching) : push;
+    // Plain sums overshoot where many push: a mildly over-relaxed average converges and does not ring.
+    return push.z > 1.0 ? push.xy * (1.6 / push.z) : push.xy;
 }
 
 /// Moves `position` to the side of the wall that `before` is on, clear of it by the body's radius.
@@ -79,7 +86,6 @@ vec2 keepOutOfWalls(Body self, vec2 position) {
     uint cell = cellIndex(cellOf(self.position));
     uint first = wall_starts[cell];
     uint last = wall_starts[cell + 1u];
-    if (first == last) return position;
     // Leaving one wall may lead into the next: a few rounds settle corners.
     for (int round = 0; round < 3; ++round)
         for (uint i = first; i < last; ++i)
@@ -90,13 +96,15 @@ vec2 keepOutOfWalls(Body self, vec2 position) {
 void main() {
     uint slot = gl_GlobalInvocationID.x;
     if (slot >= live_count) return;
+    uint touch_word = touch_words[slot];
+    uint touching = touch_word & TOUCH_COUNT_MASK;
+    if (touching == 0u && (touch_word & TOUCH_WALL_NEAR) == 0u) return;  // both target buffers already agree
+
     Body self = bodies[slot];
     vec2 position = targets_before[slot];
-    if (nearest_bodies[slot] < self.radius + parameters.largest_radius + parameters.contact_slack) {
-        vec2 push = pushFromNeighbours(self, position);
-        float size = length(push);
-        float most = MOST_PUSH * self.radius;
-        position += size > most ? push * (most / size) : push;
-    }
-    targets_after[slot] = keepOutOfWalls(self, position);
+    vec2 push = pushFromNeighbours(self, slot, touching, position);
+    float size = length(push);
+    float most = MOST_PUSH * self.radius;
+    position += size > most ? push * (most / size) : push;
+    targets_after[slot] = (touch_word & TOUCH_WALL_NEAR) != 0u ? keepOutOfWalls(self, position) : position;
 }

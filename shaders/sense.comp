@@ -20,12 +20,14 @@ layout(std430) readonly buffer LiveDispatch { uint live_groups[3]; uint live_cou
 layout(std430) readonly buffer Bodies { Body bodies[]; };
 layout(std430) readonly buffer CellStarts { uint cell_starts[]; };
 layout(std430) readonly buffer RowSlots { uint row_slots[]; };
-layout(std430) readonly buffer Owners { uint owners[]; };
 layout(std430) readonly buffer WallTiles { WallTile wall_tiles[]; };
 layout(std430) readonly buffer WallSegments { WallSegment wall_segments[]; };
+layout(std430) readonly buffer WallStarts { uint wall_starts[]; };
 layout(std430) writeonly buffer Neighbours { uint neighbours[]; };
 layout(std430) writeonly buffer NeighbourCounts { uint neighbour_counts[]; };
-layout(std430) writeonly buffer NearestBodies { float nearest_bodies[]; };  // m, to the nearest other's centre, at most the contact range
+layout(std430) writeonly buffer TouchWords { uint touch_words[]; };
+layout(std430) writeonly buffer TouchLists { uint touch_lists[]; };  // TOUCH_CAPACITY slots each
+uniform usamplerBuffer owners;
 uniform uint slot_capacity;
 uniform vec2 pattern[SENSING_SAMPLES];  // m, in the person's own frame: where it looks
 
@@ -37,12 +39,16 @@ const float FAR = 1.0e30;
 float nearest_distance[NEIGHBOURS];
 uint nearest_key[NEIGHBOURS];
 
-/// Keeps the list sorted by (distance, key), each key once. The key decides between equals so that the result does not
-/// depend on the order of the candidates.
+bool isKept(uint key) {
+    bool kept = false;
+    for (int i = 0; i < NEIGHBOURS; ++i) kept = kept || nearest_key[i] == key;
+    return kept;
+}
+
+/// Keeps the list sorted by (distance, key). The key decides between equals so that the result does not depend on the
+/// order of the candidates.
 void keepNearest(float distance_squared, uint key) {
-    bool known = false;
-    for (int i = 0; i < NEIGHBOURS; ++i) known = known || nearest_key[i] == key;
-    float carried = known ? FAR : distance_squared;
+    float carried = distance_squared;
     uint carried_key = key;
     for (int i = 0; i < NEIGHBOURS; ++i) {
         bool nearer = carried < nearest_distance[i] || (carried == nearest_distance[i] && carried_key < nearest_key[i]);
@@ -55,21 +61,29 @@ void keepNearest(float distance_squared, uint key) {
     }
 }
 
-float feelContacts(Body self) {
-    float nearest = parameters.contact_range * parameters.contact_range;
+/// Everybody within the contact range, exactly. Those who may touch within this step are listed for the contact pass.
+/// @returns the touch word
+uint feelContacts(Body self, uint self_slot) {
     ivec2 cell = cellOf(self.position);
+    uint cell_number = cellIndex(cell);
+    uint touching = 0u;
+    float reach = self.radius + parameters.contact_slack;
     float range_squared = parameters.contact_range * parameters.contact_range;
     for (int y = cell.y - 1; y <= cell.y + 1; ++y) {
         uvec2 run = slotRun(cell.x, y);
         for (uint slot = run.x; slot < run.y; ++slot) {
             vec2 offset = bodies[slot].position - self.position;
             float distance_squared = dot(offset, offset);
-            if (distance_squared > range_squared || bodies[slot].row == self.row) continue;
-            keepNearest(distance_squared, slot);
-            nearest = min(nearest, distance_squared);
+            if (distance_squared > range_squared || slot == self_slot) continue;
+            keepNearest(distance_squared, bodies[slot].row);
+            float touch_distance = reach + bodies[slot].radius;
+            if (distance_squared > touch_distance * touch_distance) continue;
+            if (touching < TOUCH_CAPACITY) touch_lists[self_slot * TOUCH_CAPACITY + touching] = slot;
+            ++touching;
         }
     }
-    return sqrt(nearest);
+    bool walls = wall_starts[cell_number] != wall_starts[cell_number + 1u];
+    return min(touching, TOUCH_COUNT_MASK) | (walls ? TOUCH_WALL_NEAR : 0u);
 }
 
 /// Site ids met by the samples, without immediate repetitions; at most one per sample.
@@ -85,7 +99,7 @@ int marchRays(Body self) {
         vec2 local = pattern[i];
         vec2 pixel = centre + vec2(forward.x * local.x - forward.y * local.y, forward.y * local.x + forward.x * local.y);
         uvec2 at = uvec2(clamp(pixel, vec2(0.0), upper));
-        uint owner = owners[at.y * parameters.diagram_width + at.x];
+        uint owner = texelFetch(owners, int(at.y * parameters.diagram_width + at.x)).r;
         bool fresh = owner != NO_INDEX && owner != previous && owner != self.row;
         candidates[count] = owner;
         count += fresh ? 1 : 0;
@@ -94,19 +108,21 @@ int marchRays(Body self) {
     return count;
 }
 
-void weighCandidate(Body self, uint site) {
-    if (site < parameters.row_count) {
-        uint slot = row_slots[site];
-        vec2 offset = bodies[slot].position - self.position;
-        keepNearest(dot(offset, offset), slot);
-    } else {
-        // A long wall has many tiles and is one neighbour.
-        uint segment = wall_tiles[site - parameters.row_count].segment;
-        WallSegment wall = wall_segments[segment];
-        vec2 offset = nearestOnSegment(self.position, wall.a, wall.b) - self.position;
-        float gap = max(length(offset) - wall.half_thickness, 0.0);
-        keepNearest(gap * gap, NEIGHBOUR_IS_WALL | segment);
-    }
+void weighBody(Body self, uint row) {
+    if (isKept(row)) return;
+    vec2 offset = bodies[row_slots[row]].position - self.position;
+    keepNearest(dot(offset, offset), row);
+}
+
+/// A long wall has many tiles and is one neighbour.
+void weighWall(Body self, uint tile) {
+    uint segment = wall_tiles[tile].segment;
+    uint key = NEIGHBOUR_IS_WALL | segment;
+    if (isKept(key)) return;
+    WallSegment wall = wall_segments[segment];
+    vec2 offset = nearestOnSegment(self.position, wall.a, wall.b) - self.position;
+    float gap = max(length(offset) - wall.half_thickness, 0.0);
+    keepNearest(gap * gap, key);
 }
 
 void main() {
@@ -117,14 +133,24 @@ void main() {
         nearest_distance[i] = FAR;
         nearest_key[i] = NO_INDEX;
     }
-    nearest_bodies[slot] = feelContacts(self);
+    uint touch_word = feelContacts(self, slot);
     int count = marchRays(self);
-    for (int i = 0; i < count; ++i) weighCandidate(self, candidates[i]);
+    for (int i = 0; i < count; ++i) {
+        uint site = candidates[i];
+        if (site < parameters.row_count)
+            weighBody(self, site);
+        else
+            weighWall(self, site - parameters.row_count);
+    }
 
     uint found = 0u;
+    bool wall_found = false;
     for (int i = 0; i < NEIGHBOURS; ++i) {
+        if (nearest_distance[i] == FAR) break;
         neighbours[uint(i) * slot_capacity + slot] = nearest_key[i];
-        found += nearest_distance[i] < FAR ? 1u : 0u;
+        wall_found = wall_found || (nearest_key[i] & NEIGHBOUR_IS_WALL) != 0u;
+        ++found;
     }
     neighbour_counts[slot] = found;
+    touch_words[slot] = touch_word | (wall_found ? TOUCH_WALL_SENSED : 0u);
 }

@@ -156,7 +156,8 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
 
     neighbours = gl::Buffer("neighbours", kWord * rows * static_cast<std::size_t>(scene.settings.neighbours));
     neighbour_counts = gl::Buffer("neighbour counts", kWord * rows);
-    nearest_bodies = gl::Buffer("nearest bodies", kWord * rows);
+    touch_words = gl::Buffer("touch words", kWord * rows);
+    touch_lists = gl::Buffer("touch lists", kWord * rows * gpu::TOUCH_CAPACITY);
     preferred_velocities = gl::Buffer("preferred velocities", sizeof(glm::vec2) * rows);
     targets = gl::Buffer("targets", sizeof(glm::vec2) * rows);
     targets_after = gl::Buffer("targets after contact", sizeof(glm::vec2) * rows);
@@ -172,7 +173,7 @@ std::vector<std::pair<std::string, const gl::Buffer*>> Buffers::named() const {
             {"CellStarts", &cell_starts}, {"CellCursors", &cell_cursors}, {"RowCells", &row_cells},
             {"LooseRows", &loose_rows}, {"LiveDispatch", &live_dispatch}, {"RowSlots", &row_slots}, {"Bodies", &bodies},
             {"Sites", &sites}, {"Neighbours", &neighbours},
-            {"NeighbourCounts", &neighbour_counts}, {"NearestBodies", &nearest_bodies}, {"PreferredVelocities", &preferred_velocities}, {"Targets", &targets}};
+            {"NeighbourCounts", &neighbour_counts}, {"TouchWords", &touch_words}, {"TouchLists", &touch_lists}, {"PreferredVelocities", &preferred_velocities}, {"Targets", &targets}, {"TargetsAfter", &targets_after}};
 }
 
 }  // namespace throng::sim

@@ -54,11 +54,11 @@ void Spawner::run(float now, std::uint32_t steps_done) {
 
 Sensing::Sensing(const gl::ShaderLibrary& library, Buffers& buffers, const Diagram& diagram,
                  const std::vector<glm::vec2>& pattern, int neighbours)
-    : buffers_(buffers) {
+    : buffers_(buffers), owners_(diagram.owners()) {
     gl::Definitions definitions = listLength(neighbours);
     definitions.emplace_back("SENSING_SAMPLES", std::to_string(pattern.size()));
     program_ = connected(library, "shaders/sense.comp", buffers, definitions);
-    program_.bind("Owners", diagram.owners());
+    program_.bind("owners", owners_);
     program_.set("pattern", pattern);
     program_.set("slot_capacity", buffers.slotCapacity());
 }

@@ -45,6 +45,7 @@ class Sensing {
 
   private:
     Buffers& buffers_;
+    gl::WordTexture owners_;
     gl::ComputeProgram program_;
 };
 

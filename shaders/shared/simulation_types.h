@@ -16,8 +16,16 @@ const uint STATUS_WAITING = 0u;  // the numbers of throng::AgentStatus
 const uint STATUS_WALKING = 1u;
 const uint STATUS_ARRIVED = 2u;
 
-/// A neighbour key is a slot, or a wall segment with this bit.
+/// A neighbour key is a row, or a wall segment with this bit.
 const uint NEIGHBOUR_IS_WALL = 0x80000000u;
+
+/// A touch word counts those who may touch somebody within this step (its low bits) and says whether walls matter to it.
+const uint TOUCH_COUNT_MASK = 0xffffu;
+const uint TOUCH_WALL_NEAR = 0x80000000u;    // the cell's list of walls is not empty
+const uint TOUCH_WALL_SENSED = 0x40000000u;  // there is a wall among its neighbours
+
+/// Touch lists hold this many slots; where more bodies crowd together, contact goes back to the cells.
+const uint TOUCH_CAPACITY = 16u;
 
 /// Wall constraints that one person heeds at a time: the nearest ones.
 const uint WALL_CONSTRAINTS = 8u;

@@ -76,4 +76,25 @@ void Buffer::release() {
     mapped_ = nullptr;
 }
 
+WordTexture::WordTexture(const Buffer& buffer) {
+    GLint limit = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
+    if (buffer.bytes() / 4 > static_cast<std::size_t>(limit))
+        throw GraphicsError(fmt::format("a diagram of {} pixels is more than the {} that this device can sample",
+                                        buffer.bytes() / 4, limit));
+    glCreateTextures(GL_TEXTURE_BUFFER, 1, &handle_);
+    glTextureBuffer(handle_, GL_R32UI, buffer.handle());
+}
+
+WordTexture::~WordTexture() {
+    if (handle_) glDeleteTextures(1, &handle_);
+}
+
+WordTexture::WordTexture(WordTexture&& other) noexcept : handle_(std::exchange(other.handle_, 0)) {}
+
+WordTexture& WordTexture::operator=(WordTexture&& other) noexcept {
+    std::swap(handle_, other.handle_);
+    return *this;
+}
+
 }  // namespace throng::gl

@@ -60,6 +60,22 @@ class Buffer {
     const std::byte* mapped_ = nullptr;
 };
 
+/// A view of a buffer as unsigned words that shaders fetch through a sampler: for random reads, which some devices serve
+/// faster that way. The buffer must stay in place.
+class WordTexture {
+  public:
+    WordTexture() = default;
+    /// @throws GraphicsError when the buffer has more words than the device can address
+    explicit WordTexture(const Buffer& buffer);
+    ~WordTexture();
+    WordTexture(WordTexture&& other) noexcept;
+    WordTexture& operator=(WordTexture&& other) noexcept;
+    std::uint32_t handle() const { return handle_; }
+
+  private:
+    std::uint32_t handle_ = 0;
+};
+
 /// A buffer that holds `items` from the start.
 template <class T>
 Buffer makeBuffer(const std::string& name, const std::vector<T>& items) {

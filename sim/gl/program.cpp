@@ -13,6 +13,10 @@
 namespace throng::gl {
 namespace {
 
+/// What a pass wrote may next be read as storage, as dispatch arguments, by copies, or through a sampler.
+constexpr GLbitfield kWritesVisible = GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
+                                      GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT;
+
 GLenum stageOf(const std::string& path) {
     if (path.ends_with(".comp")) return GL_COMPUTE_SHADER;
     if (path.ends_with(".vert")) return GL_VERTEX_SHADER;
@@ -105,6 +109,7 @@ Program& Program::operator=(Program&& other) noexcept {
     std::swap(name_, other.name_);
     std::swap(blocks_, other.blocks_);
     std::swap(uniforms_, other.uniforms_);
+    std::swap(samplers_, other.samplers_);
     return *this;
 }
 
@@ -127,6 +132,12 @@ void Program::bind(const std::string& block, const Buffer& buffer) {
 void Program::bindAll(const std::vector<std::pair<std::string, const Buffer*>>& buffers) {
     for (const auto& [block, buffer] : buffers)
         if (hasBlock(block)) bind(block, *buffer);
+}
+
+void Program::bind(const std::string& sampler, const WordTexture& texture) {
+    const auto unit = static_cast<std::uint32_t>(samplers_.size());
+    glProgramUniform1i(handle_, uniform(sampler).location, static_cast<GLint>(unit));
+    samplers_.push_back({unit, texture.handle()});
 }
 
 Program::Uniform& Program::uniform(const std::string& name) {
@@ -156,6 +167,7 @@ void Program::use() const {
     }
     for (const Uniform& candidate : uniforms_)
         if (!candidate.set) throw std::logic_error(fmt::format("{}: uniform `{}` was never set", name_, candidate.name));
+    for (const Sampler& sampler : samplers_) glBindTextureUnit(sampler.unit, sampler.texture);
     glUseProgram(handle_);
 }
 
@@ -173,14 +185,14 @@ void ComputeProgram::dispatch(std::uint64_t invocations) const {
     if (groups > 65535) throw std::logic_error(fmt::format("{}: {} groups are more than every device takes", name(), groups));
     use();
     glDispatchCompute(static_cast<GLuint>(groups), 1, 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    glMemoryBarrier(kWritesVisible);
 }
 
 void ComputeProgram::dispatchIndirect(const Buffer& arguments, std::size_t offset) const {
     use();
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, arguments.handle());
     glDispatchComputeIndirect(static_cast<GLintptr>(offset));
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    glMemoryBarrier(kWritesVisible);
 }
 
 }  // namespace throng::gl

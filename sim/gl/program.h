@@ -26,6 +26,8 @@ class Program {
     void bind(const std::string& block, const Buffer& buffer);
     /// The same for several blocks; blocks that the compiler removed as unused are passed over.
     void bindAll(const std::vector<std::pair<std::string, const Buffer*>>& buffers);
+    /// Remembers which texture serves a sampler.
+    void bind(const std::string& sampler, const WordTexture& texture);
     bool hasBlock(const std::string& block) const;
 
     /// @throws std::logic_error for a uniform that the program does not have
@@ -53,6 +55,10 @@ class Program {
         int location = -1;
         bool set = false;
     };
+    struct Sampler {
+        std::uint32_t unit = 0;
+        std::uint32_t texture = 0;
+    };
     Uniform& uniform(const std::string& name);
     void reflect();
 
@@ -60,6 +66,7 @@ class Program {
     std::string name_;
     std::vector<Block> blocks_;
     std::vector<Uniform> uniforms_;
+    std::vector<Sampler> samplers_;
 };
 
 /// A program with one compute shader. Its group size is read back from the compiler, never repeated in C++.
