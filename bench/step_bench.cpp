@@ -36,6 +36,8 @@ authoring::Scene benchScene(std::uint32_t count) {
     scene.settings.field_of_view = 200.0;
     scene.settings.samples_per_ray = 6;
     scene.settings.neighbours = 10;
+    for (gpu::Person& person : scene.people) person.radius = 0.3f;
+    scene.smallest_radius = scene.largest_radius = 0.3f;
     return scene;
 }
 

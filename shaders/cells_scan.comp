@@ -8,6 +8,7 @@ layout(std430) readonly buffer GroupSums { uint group_sums[]; };
 layout(std430) writeonly buffer CellStarts { uint cell_starts[]; };
 layout(std430) writeonly buffer CellCursors { uint cell_cursors[]; };
 layout(std430) writeonly buffer LiveDispatch { uint live_groups[3]; uint live_count; };
+layout(std430) writeonly buffer TouchDispatch { uint touch_groups[3]; uint touch_count; };
 uniform uint cell_count;
 
 shared uint thread_sums[SCAN_GROUP_SIZE];
@@ -43,5 +44,10 @@ void main() {
         live_groups[1] = 1u;
         live_groups[2] = 1u;
         live_count = start;
+        // Sensing counts up to what the contact pass needs.
+        touch_groups[0] = 0u;
+        touch_groups[1] = 1u;
+        touch_groups[2] = 1u;
+        touch_count = 0u;
     }
 }

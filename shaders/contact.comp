@@ -8,7 +8,8 @@
 
 layout(local_size_x = AGENT_GROUP_SIZE) in;
 layout(std140) uniform ParametersBlock { Parameters parameters; };
-layout(std430) readonly buffer LiveDispatch { uint live_groups[3]; uint live_count; };
+layout(std430) readonly buffer TouchDispatch { uint touch_groups[3]; uint touch_count; };
+layout(std430) readonly buffer TouchSlots { uint touch_slots[]; };
 layout(std430) readonly buffer Bodies { Body bodies[]; };
 layout(std430) readonly buffer TouchWords { uint touch_words[]; };
 layout(std430) readonly buffer TouchLists { uint touch_lists[]; };
@@ -94,12 +95,11 @@ vec2 keepOutOfWalls(Body self, vec2 position) {
 }
 
 void main() {
-    uint slot = gl_GlobalInvocationID.x;
-    if (slot >= live_count) return;
+    // Only those who may touch something are listed; for all others the two target buffers already agree.
+    if (gl_GlobalInvocationID.x >= touch_count) return;
+    uint slot = touch_slots[gl_GlobalInvocationID.x];
     uint touch_word = touch_words[slot];
     uint touching = touch_word & TOUCH_COUNT_MASK;
-    if (touching == 0u && (touch_word & TOUCH_WALL_NEAR) == 0u) return;  // both target buffers already agree
-
     Body self = bodies[slot];
     vec2 position = targets_before[slot];
     vec2 push = pushFromNeighbours(self, slot, touching, position);

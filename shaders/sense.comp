@@ -27,6 +27,8 @@ layout(std430) writeonly buffer Neighbours { uint neighbours[]; };
 layout(std430) writeonly buffer NeighbourCounts { uint neighbour_counts[]; };
 layout(std430) writeonly buffer TouchWords { uint touch_words[]; };
 layout(std430) writeonly buffer TouchLists { uint touch_lists[]; };  // TOUCH_CAPACITY slots each
+layout(std430) buffer TouchDispatch { uint touch_groups[3]; uint touch_count; };
+layout(std430) writeonly buffer TouchSlots { uint touch_slots[]; };  // those whom the contact pass has to look at
 uniform usamplerBuffer owners;
 uniform uint slot_capacity;
 uniform vec2 pattern[SENSING_SAMPLES];  // m, in the person's own frame: where it looks
@@ -86,7 +88,8 @@ uint feelContacts(Body self, uint self_slot) {
     return min(touching, TOUCH_COUNT_MASK) | (walls ? TOUCH_WALL_NEAR : 0u);
 }
 
-/// Site ids met by the samples, without immediate repetitions; at most one per sample.
+/// Site ids met by the samples, without those met among the last three; at most one per sample. The samples come in the order
+/// of their angle, so what lies in one direction is met in one go and few ids come twice.
 uint candidates[SENSING_SAMPLES];
 
 int marchRays(Body self) {
@@ -94,16 +97,16 @@ int marchRays(Body self) {
     vec2 forward = vec2(cos(self.heading), sin(self.heading)) * parameters.pixels_per_metre;
     vec2 upper = vec2(parameters.diagram_width, parameters.diagram_height) - 1.0;
     int count = 0;
-    uint previous = self.row;
+    uvec3 recent = uvec3(self.row);
     for (int i = 0; i < SENSING_SAMPLES; ++i) {
         vec2 local = pattern[i];
         vec2 pixel = centre + vec2(forward.x * local.x - forward.y * local.y, forward.y * local.x + forward.x * local.y);
         uvec2 at = uvec2(clamp(pixel, vec2(0.0), upper));
         uint owner = texelFetch(owners, int(at.y * parameters.diagram_width + at.x)).r;
-        bool fresh = owner != NO_INDEX && owner != previous && owner != self.row;
+        bool fresh = owner != NO_INDEX && owner != self.row && owner != recent.x && owner != recent.y && owner != recent.z;
         candidates[count] = owner;
         count += fresh ? 1 : 0;
-        previous = owner;
+        recent = fresh ? uvec3(owner, recent.xy) : recent;
     }
     return count;
 }
@@ -146,11 +149,17 @@ void main() {
     uint found = 0u;
     bool wall_found = false;
     for (int i = 0; i < NEIGHBOURS; ++i) {
-        if (nearest_distance[i] == FAR) break;
-        neighbours[uint(i) * slot_capacity + slot] = nearest_key[i];
-        wall_found = wall_found || (nearest_key[i] & NEIGHBOUR_IS_WALL) != 0u;
-        ++found;
+        bool kept = nearest_distance[i] < FAR;
+        if (kept) neighbours[uint(i) * slot_capacity + slot] = nearest_key[i];
+        wall_found = wall_found || (kept && (nearest_key[i] & NEIGHBOUR_IS_WALL) != 0u);
+        found += kept ? 1u : 0u;
     }
     neighbour_counts[slot] = found;
     touch_words[slot] = touch_word | (wall_found ? TOUCH_WALL_SENSED : 0u);
+    // In whatever order: the contact pass writes to each person's own place only.
+    if (touch_word != 0u) {
+        uint place = atomicAdd(touch_count, 1u);
+        touch_slots[place] = slot;
+        if (place % AGENT_GROUP_SIZE == 0u) atomicAdd(touch_groups[0], 1u);
+    }
 }

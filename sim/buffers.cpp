@@ -158,6 +158,8 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
     neighbour_counts = gl::Buffer("neighbour counts", kWord * rows);
     touch_words = gl::Buffer("touch words", kWord * rows);
     touch_lists = gl::Buffer("touch lists", kWord * rows * gpu::TOUCH_CAPACITY);
+    touch_slots = gl::Buffer("touch slots", kWord * rows);
+    touch_dispatch = gl::Buffer("touch dispatch", kWord * 4);
     preferred_velocities = gl::Buffer("preferred velocities", sizeof(glm::vec2) * rows);
     targets = gl::Buffer("targets", sizeof(glm::vec2) * rows);
     targets_after = gl::Buffer("targets after contact", sizeof(glm::vec2) * rows);
@@ -173,7 +175,8 @@ std::vector<std::pair<std::string, const gl::Buffer*>> Buffers::named() const {
             {"CellStarts", &cell_starts}, {"CellCursors", &cell_cursors}, {"RowCells", &row_cells},
             {"LooseRows", &loose_rows}, {"LiveDispatch", &live_dispatch}, {"RowSlots", &row_slots}, {"Bodies", &bodies},
             {"Sites", &sites}, {"Neighbours", &neighbours},
-            {"NeighbourCounts", &neighbour_counts}, {"TouchWords", &touch_words}, {"TouchLists", &touch_lists}, {"PreferredVelocities", &preferred_velocities}, {"Targets", &targets}, {"TargetsAfter", &targets_after}};
+            {"NeighbourCounts", &neighbour_counts}, {"TouchWords", &touch_words}, {"TouchLists", &touch_lists}, {"TouchSlots", &touch_slots},
+            {"TouchDispatch", &touch_dispatch}, {"PreferredVelocities", &preferred_velocities}, {"Targets", &targets}, {"TargetsAfter", &targets_after}};
 }
 
 }  // namespace throng::sim

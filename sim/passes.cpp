@@ -90,7 +90,7 @@ Contacts::Contacts(const gl::ShaderLibrary& library, Buffers& buffers, int itera
 
 void Contacts::run() {
     for (int iteration = 0; iteration < iterations_; ++iteration)
-        (iteration % 2 ? back_ : forth_).dispatchIndirect(buffers_.live_dispatch);
+        (iteration % 2 ? back_ : forth_).dispatchIndirect(buffers_.touch_dispatch);
 }
 
 Motion::Motion(const gl::ShaderLibrary& library, Buffers& buffers, const gl::Buffer& targets)

@@ -39,10 +39,15 @@ std::vector<glm::vec2> fullPattern(const SensingGeometry& geometry) {
     return samples;
 }
 
-std::vector<glm::vec2> thinnedPattern(const SensingGeometry& geometry) {
+std::vector<glm::vec2> thinnedPattern(const SensingGeometry& geometry, float felt_range) {
     std::vector<glm::vec2> samples;
-    for (int sample = 0; sample < geometry.samples_per_ray; ++sample)
-        appendRing(geometry, sample, raysAtRadius(geometry, ringRadius(geometry, sample)), samples);
+    for (int sample = 0; sample < geometry.samples_per_ray; ++sample) {
+        const float radius = ringRadius(geometry, sample);
+        const bool outermost = sample + 1 == geometry.samples_per_ray;
+        if (radius > felt_range || outermost) appendRing(geometry, sample, raysAtRadius(geometry, radius), samples);
+    }
+    std::stable_sort(samples.begin(), samples.end(),
+                     [](glm::vec2 a, glm::vec2 b) { return std::atan2(a.y, a.x) < std::atan2(b.y, b.x); });
     return samples;
 }
 

@@ -24,7 +24,8 @@ int raysAtRadius(const SensingGeometry& geometry, float radius);
 /// Every ray with all its samples, as the paper has it.
 std::vector<glm::vec2> fullPattern(const SensingGeometry& geometry);
 
-/// The same circles with only as many samples as each needs for a gap of at most M: about half of them.
-std::vector<glm::vec2> thinnedPattern(const SensingGeometry& geometry);
+/// The same circles with only as many samples as each needs for a gap of at most M, about half of them, and none within
+/// `felt_range` (m), where everybody is found exactly anyway. In the order of their angle. At least one sample.
+std::vector<glm::vec2> thinnedPattern(const SensingGeometry& geometry, float felt_range);
 
 }  // namespace throng::sim

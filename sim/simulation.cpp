@@ -14,13 +14,13 @@
 namespace throng::sim {
 namespace {
 
-std::vector<glm::vec2> patternFor(const authoring::Scene& scene) {
+std::vector<glm::vec2> patternFor(const authoring::Scene& scene, const gpu::Parameters& parameters) {
     SensingGeometry geometry;
     geometry.body_radius = scene.smallest_radius;
     geometry.tile_radius = static_cast<float>(scene.settings.tile_radius);
     geometry.samples_per_ray = scene.settings.samples_per_ray;
     geometry.field_of_view = static_cast<float>(scene.settings.field_of_view * std::numbers::pi / 180.0);
-    return thinnedPattern(geometry);
+    return thinnedPattern(geometry, parameters.contact_range);
 }
 
 Diagram diagramFor(const authoring::Scene& scene, const gpu::Parameters& parameters, const gl::ShaderLibrary& library) {
@@ -69,7 +69,7 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
       diagram(diagramFor(scene, parameters, library)),
       cells(library, buffers, parameters),
       spawner(library, buffers, parameters),
-      sensing(library, buffers, diagram, patternFor(scene), settings.neighbours),
+      sensing(library, buffers, diagram, patternFor(scene, parameters), settings.neighbours),
       avoidance(library, buffers, settings.neighbours),
       contacts(library, buffers, settings.contact_iterations),
       motion(library, buffers, contacts.result()),
