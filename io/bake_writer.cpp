@@ -125,7 +125,10 @@ BakeOutcome BakeWriter::writeAll(const Account& account, const BakeTiming& timin
     files.insert(files.end(), diagram_files_.begin(), diagram_files_.end());
     for (const std::string& file : files)
         outcome.files.push_back({file, hashFile(folder_.path() / file)});
-    writeFile(folder_.path() / "bake.json", bakeManifest(description_, outcome).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    writeFile(
+        folder_.path() / "bake.json",
+        bakeManifest(description_, outcome).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) +
+            "\n");
     return outcome;
 }
 

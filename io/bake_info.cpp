@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/bake_info.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "io/files/hash.h"
+#include "io/numbers.h"
+#include "io/streams/stream_reader.h"
+
+namespace throng::io {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+bool isStream(const std::string& path) {
+    return path.ends_with(".npy") || path.ends_with(".pc2");
+}
+
+std::optional<std::string> problemOf(const Bake& bake, const Bake::File& file) {
+    const fs::path path = bake.folder / file.path;
+    std::error_code error;
+    if (!fs::exists(path, error)) return "missing";
+    try {
+        const std::uint64_t size = InputFile(path).size();
+        if (size != file.bytes)
+            return fmt::format("{}: {} of {} bytes", size < file.bytes ? "truncated" : "too long", size,
+                               file.bytes);
+        if (hashFile(path).xxh3 != file.xxh3) return "changed: its hash is not the one in bake.json";
+        if (isStream(file.path)) {
+            const StreamReader stream(path);
+            if (stream.frames() != bake.frames || stream.rows() != bake.agents)
+                return fmt::format("holds {} frames of {} people where bake.json says {} of {}",
+                                   stream.frames(), stream.rows(), bake.frames, bake.agents);
+        }
+    } catch (const InputError& problem) {
+        return problem.what();
+    }
+    return std::nullopt;
+}
+
+std::uint64_t totalBytes(const Bake& bake) {
+    std::uint64_t total = 0;
+    for (const Bake::File& file : bake.files)
+        total += file.bytes;
+    return total;
+}
+
+/// A member of the manifest that is for show only and so may be missing.
+std::string optionalText(const Json& manifest, const char* pointer) {
+    const Json::json_pointer where(pointer);
+    if (!manifest.contains(where)) return "unknown";
+    const Json& value = manifest.at(where);
+    return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+std::string refusedReasons(const Bake& bake) {
+    const Json::json_pointer where("/account/refused_reasons");
+    std::string lines;
+    if (!bake.manifest.contains(where) || !bake.manifest.at(where).is_object()) return lines;
+    for (const auto& [reason, count] : bake.manifest.at(where).items())
+        if (count.is_number_unsigned())
+            lines +=
+                fmt::format("              {} refused: {}\n", grouped(count.get<std::uint64_t>()), reason);
+    return lines;
+}
+
+std::string extras(const Bake& bake) {
+    std::string lines;
+    if (bake.manifest.contains("gltf") && bake.manifest["gltf"].is_object())
+        lines +=
+            fmt::format("glTF:         {} of {} people in {}\n", optionalText(bake.manifest, "/gltf/agents"),
+                        optionalText(bake.manifest, "/gltf/of"), optionalText(bake.manifest, "/gltf/file"));
+    if (bake.manifest.contains("diagrams") && bake.manifest["diagrams"].is_object())
+        lines += fmt::format(
+            "diagrams:     {}, {} x {} pixels, every {} frames\n",
+            optionalText(bake.manifest, "/diagrams/count"), optionalText(bake.manifest, "/diagrams/width"),
+            optionalText(bake.manifest, "/diagrams/height"), optionalText(bake.manifest, "/diagrams/every"));
+    return lines;
+}
+
+}  // namespace
+
+std::vector<BakeProblem> verifyBake(const Bake& bake) {
+    std::vector<BakeProblem> problems;
+    for (const Bake::File& file : bake.files)
+        if (const auto problem = problemOf(bake, file)) problems.push_back({file.path, *problem});
+    for (const char* stream : {"pos", "dir", "state"})
+        for (const char* extension : {".npy", ".pc2"}) {
+            const std::string path = std::string("streams/") + stream + extension;
+            if (std::ranges::none_of(bake.files, [&](const Bake::File& file) { return file.path == path; }))
+                problems.push_back({path, "not listed in bake.json"});
+        }
+    return problems;
+}
+
+std::string infoText(const Bake& bake) {
+    const glm::dvec2 size = bake.maximum - bake.minimum;
+    std::string text;
+    text += fmt::format("bake:         {} ({})\n", bake.folder.string(),
+                        bake.complete ? "complete" : "INCOMPLETE: the bake was interrupted");
+    text += fmt::format("layout:       {}, seed {}\n", bake.name, bake.seed);
+    text += fmt::format("frames:       {} at {} fps = {:.2f} s, {} steps per frame\n", grouped(bake.frames),
+                        bake.fps, bake.frames / bake.fps, optionalText(bake.manifest, "/substeps"));
+    text += fmt::format("people:       {}: {} arrived, {} walking, {} refused\n",
+                        grouped(bake.account.agents), grouped(bake.account.arrived),
+                        grouped(bake.account.walking), grouped(bake.account.refused));
+    text += refusedReasons(bake);
+    text += fmt::format(
+        "site:         {:.1f} x {:.1f} m, {} roads, {} areas, {} walls, origin {:.3f} {:.3f}\n", size.x,
+        size.y, bake.roads.size(), bake.areas.size(), bake.walls.size(), bake.origin.x, bake.origin.y);
+    text += extras(bake);
+    text += fmt::format("files:        {}, {}\n", bake.files.size(), readableBytes(totalBytes(bake)));
+    text += fmt::format("made by:      {} on {}\n", optionalText(bake.manifest, "/generator"),
+                        optionalText(bake.manifest, "/device/renderer"));
+    return text;
+}
+
+Json infoJson(const Bake& bake) {
+    Json json = bake.manifest;
+    json.erase("geometry");
+    json.erase("files");
+    json["path"] = bake.folder.string();
+    json["file_count"] = bake.files.size();
+    json["bytes"] = totalBytes(bake);
+    return json;
+}
+
+}  // namespace throng::io

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/bake_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/files/csv.h"
+#include "io/files/input_file.h"
+
+namespace throng::io {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Reads members of the manifest; every error names the file and the member.
+class ManifestReader {
+  public:
+    ManifestReader(const fs::path& path, const Json& json) : path_(path), json_(json) {}
+
+    [[noreturn]] void fail(const std::string& pointer, const char* expected) const {
+        throw InputError(path_, fmt::format("`{}` is missing or not {}", pointer, expected));
+    }
+
+    const Json& at(const std::string& pointer) const {
+        const Json::json_pointer where(pointer);
+        if (!json_.contains(where)) fail(pointer, "what it should be");
+        return json_.at(where);
+    }
+    const Json& list(const std::string& pointer) const {
+        const Json& value = at(pointer);
+        if (!value.is_array()) fail(pointer, "a list");
+        return value;
+    }
+    std::string text(const std::string& pointer) const {
+        const Json& value = at(pointer);
+        if (!value.is_string()) fail(pointer, "a text");
+        return value.get<std::string>();
+    }
+    bool flag(const std::string& pointer) const {
+        const Json& value = at(pointer);
+        if (!value.is_boolean()) fail(pointer, "true or false");
+        return value.get<bool>();
+    }
+    double number(const std::string& pointer) const {
+        const Json& value = at(pointer);
+        if (!value.is_number() || !std::isfinite(value.get<double>())) fail(pointer, "a number");
+        return value.get<double>();
+    }
+    std::uint64_t count(const std::string& pointer, std::uint64_t largest) const {
+        const Json& value = at(pointer);
+        if (!value.is_number_unsigned() || value.get<std::uint64_t>() > largest) fail(pointer, "a count");
+        return value.get<std::uint64_t>();
+    }
+    std::uint32_t count(const std::string& pointer) const {
+        return static_cast<std::uint32_t>(count(pointer, 0xffffffffu));
+    }
+    glm::dvec2 point(const std::string& pointer) const {
+        return {number(pointer + "/0"), number(pointer + "/1")};
+    }
+    std::vector<glm::dvec2> points(const std::string& pointer) const {
+        std::vector<glm::dvec2> result;
+        for (std::size_t i = 0; i < list(pointer).size(); ++i)
+            result.push_back(point(fmt::format("{}/{}", pointer, i)));
+        return result;
+    }
+
+  private:
+    const fs::path& path_;
+    const Json& json_;
+};
+
+Json parseManifest(const fs::path& path) {
+    try {
+        return Json::parse(readFile(path));
+    } catch (const nlohmann::json::exception& error) {
+        throw InputError(path, std::string("not a manifest: ") + error.what());
+    }
+}
+
+void readGeometry(const ManifestReader& reader, Bake& bake) {
+    for (std::size_t i = 0; i < reader.list("/geometry/roads").size(); ++i) {
+        const std::string at = fmt::format("/geometry/roads/{}", i);
+        bake.roads.push_back({reader.text(at + "/id"),
+                              reader.points(at + "/centreline"),
+                              reader.number(at + "/width"),
+                              reader.flag(at + "/one_way"),
+                              {}});
+    }
+    for (std::size_t i = 0; i < reader.list("/geometry/areas").size(); ++i) {
+        const std::string at = fmt::format("/geometry/areas/{}", i);
+        bake.areas.push_back({reader.text(at + "/id"), reader.points(at + "/polygon"), {}});
+    }
+    for (std::size_t i = 0; i < reader.list("/geometry/walls").size(); ++i) {
+        const std::string at = fmt::format("/geometry/walls/{}", i);
+        bake.walls.push_back({reader.text(at + "/id"),
+                              reader.points(at + "/points"),
+                              reader.flag(at + "/closed"),
+                              reader.number(at + "/thickness"),
+                              reader.number(at + "/height"),
+                              {}});
+    }
+}
+
+/// A manifest may come from anywhere: nothing outside its folder is read because of what it says.
+bool staysInside(const std::string& path) {
+    const fs::path relative(path);
+    return !path.empty() && relative.is_relative() &&
+           std::ranges::none_of(relative, [](const fs::path& part) { return part == ".."; });
+}
+
+void readFiles(const ManifestReader& reader, Bake& bake) {
+    for (std::size_t i = 0; i < reader.list("/files").size(); ++i) {
+        const std::string at = fmt::format("/files/{}", i);
+        Bake::File file{reader.text(at + "/path"), reader.count(at + "/bytes", ~std::uint64_t{0}),
+                        reader.text(at + "/xxh3")};
+        if (!staysInside(file.path)) reader.fail(at + "/path", "a path inside the bake");
+        bake.files.push_back(std::move(file));
+    }
+}
+
+}  // namespace
+
+Bake loadBake(const fs::path& path) {
+    const fs::path manifest_path = fs::is_directory(path) ? path / "bake.json" : path;
+    Bake bake;
+    bake.folder = manifest_path.has_parent_path() ? manifest_path.parent_path() : fs::path(".");
+    bake.manifest = parseManifest(manifest_path);
+    const ManifestReader reader(manifest_path, bake.manifest);
+    if (!bake.manifest.is_object() || bake.manifest.value("format", Json()) != "throng bake")
+        throw InputError(manifest_path, "not the manifest of a bake");
+    if (reader.count("/version") != 1)
+        throw InputError(manifest_path, "written by a newer version of Throng: its `version` is not 1");
+    bake.name = reader.text("/name");
+    bake.complete = reader.flag("/complete");
+    bake.fps = reader.number("/fps");
+    if (bake.fps <= 0.0) reader.fail("/fps", "more than 0");
+    bake.frames = reader.count("/frames");
+    bake.agents = reader.count("/agents");
+    bake.seed = reader.count("/seed", ~std::uint64_t{0});
+    bake.origin = reader.point("/origin");
+    bake.minimum = reader.point("/bounds/min");
+    bake.maximum = reader.point("/bounds/max");
+    if (bake.minimum.x >= bake.maximum.x || bake.minimum.y >= bake.maximum.y)
+        reader.fail("/bounds", "a rectangle with an area");
+    readGeometry(reader, bake);
+    bake.account = {reader.count("/account/agents"), reader.count("/account/spawned"),
+                    reader.count("/account/walking"), reader.count("/account/arrived"),
+                    reader.count("/account/refused")};
+    readFiles(reader, bake);
+    return bake;
+}
+
+GroupTable loadGroups(const Bake& bake) {
+    const fs::path path = bake.folder / "agents.csv";
+    CsvReader table(readFile(path));
+    std::vector<std::string> fields;
+    table.next(fields);
+    const auto column = static_cast<std::size_t>(std::ranges::find(fields, "group") - fields.begin());
+    if (column == fields.size()) throw InputError(path, "has no column `group`");
+    GroupTable groups;
+    while (table.next(fields)) {
+        if (column >= fields.size())
+            throw InputError(path, fmt::format("line {} is short of fields", groups.group_of.size() + 2));
+        const auto found = std::ranges::find(groups.names, fields[column]);
+        groups.group_of.push_back(static_cast<std::uint32_t>(found - groups.names.begin()));
+        if (found == groups.names.end()) groups.names.push_back(fields[column]);
+    }
+    if (groups.group_of.size() != bake.agents)
+        throw InputError(
+            path, fmt::format("has {} people where bake.json has {}", groups.group_of.size(), bake.agents));
+    return groups;
+}
+
+}  // namespace throng::io

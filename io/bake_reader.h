@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "authoring/layout.h"
+#include "io/files/errors.h"
+
+namespace throng::io {
+
+/// What a bake's manifest says. Lengths in metres; geometry and bounds relative to `origin`.
+struct Bake {
+    std::filesystem::path folder;
+    nlohmann::ordered_json manifest;  ///< all of bake.json
+
+    std::string name;
+    bool complete = false;
+    double fps = 24.0;
+    std::uint32_t frames = 0;
+    std::uint32_t agents = 0;
+    std::uint64_t seed = 0;
+    glm::dvec2 origin{0.0};
+    glm::dvec2 minimum{0.0};
+    glm::dvec2 maximum{0.0};
+    std::vector<authoring::Road> roads;
+    std::vector<authoring::Area> areas;
+    std::vector<authoring::Wall> walls;
+
+    struct Account {
+        std::uint32_t agents = 0;
+        std::uint32_t spawned = 0;
+        std::uint32_t walking = 0;
+        std::uint32_t arrived = 0;
+        std::uint32_t refused = 0;
+    } account;
+
+    struct File {
+        std::string path;  ///< relative to the folder; never leads out of it
+        std::uint64_t bytes = 0;
+        std::string xxh3;
+    };
+    std::vector<File> files;
+
+    /// "pos", "dir" or "state" as NPY.
+    std::filesystem::path streamPath(const std::string& stream) const {
+        return folder / "streams" / (stream + ".npy");
+    }
+};
+
+/// Reads the manifest of a bake: `path` is the folder or its bake.json. Throws InputError, which says what is
+/// missing or wrong; reads no other file.
+Bake loadBake(const std::filesystem::path& path);
+
+/// Which group each row belongs to.
+struct GroupTable {
+    std::vector<std::string> names;       ///< in the order in which they first appear
+    std::vector<std::uint32_t> group_of;  ///< per row, index into names
+};
+
+/// Reads agents.csv. Throws InputError, also when the rows are not as many as the manifest says.
+GroupTable loadGroups(const Bake& bake);
+
+}  // namespace throng::io
