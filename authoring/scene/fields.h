@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "authoring/scene.h"
+
+namespace throng::authoring {
+
+/// A road or an area in the scene frame (m).
+struct LocalRoad {
+    std::vector<glm::vec2> centreline;
+    float width = 3.0f;
+    bool one_way = false;
+};
+using LocalPolygon = std::vector<glm::vec2>;
+
+/// What the rasters are made from, all in the scene frame.
+struct WalkGeometry {
+    glm::vec2 minimum{0.0f};
+    glm::vec2 maximum{0.0f};
+    std::vector<gpu::WallSegment> walls;
+    std::vector<LocalPolygon> solids;  ///< closed walls: nobody is inside
+    std::vector<LocalRoad> roads;
+    std::vector<LocalPolygon> areas;
+    float smallest_radius = 0.25f;  ///< of all people, m
+    float largest_radius = 0.25f;
+};
+
+/// How hard it is to walk, cell by cell.
+struct WalkMap {
+    FieldGrid grid;
+    std::vector<float> cost;        ///< >= 1 per metre walked; infinity where nobody can stand
+    std::vector<glm::vec2> one_way;  ///< unit direction that may not be walked against, or zero; empty when there is none
+};
+
+/// The grid for a scene: cells of 0.1 to 1 m, at most about 1.5 million of them.
+FieldGrid makeGrid(const WalkGeometry& geometry);
+
+/// @param keep_to_roads whether ground outside roads and areas costs several times more, and one-way roads bind
+WalkMap makeWalkMap(const WalkGeometry& geometry, const FieldGrid& grid, bool keep_to_roads);
+
+/// Signed distance to the edge of the union of roads and areas, m, positive inside, at every cell's centre. Empty without roads.
+std::vector<float> roadDistance(const WalkGeometry& geometry, const FieldGrid& grid);
+
+/// Marks a distance that no path leads to, before blocked cells are filled in.
+inline constexpr float kUnreachable = std::numeric_limits<float>::infinity();
+
+/// One solved distance field.
+struct Field {
+    std::vector<gpu::FieldCell> cells;  ///< finite everywhere, as the GPU wants them
+    std::vector<float> reachable;       ///< the same distances, kUnreachable where no path leads to the target
+};
+
+/// Walking distance to the nearest target cell (Eikonal equation, fast marching: Sethian 1996) and the way downhill.
+/// @param targets cell indices; blocked ones among them are ignored
+Field solveField(const WalkMap& map, std::span<const std::uint32_t> targets);
+
+/// Cells whose centre lies in the polygon, and for thin polygons at least the cell of its middle.
+std::vector<std::uint32_t> cellsInPolygon(const FieldGrid& grid, const LocalPolygon& polygon);
+
+/// The cell of a point, clamped to the grid.
+std::uint32_t cellAt(const FieldGrid& grid, glm::vec2 point);
+
+}  // namespace throng::authoring
