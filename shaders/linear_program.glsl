@@ -45,10 +45,9 @@ bool solveOnLine(int base, int index, float limit, vec2 wish, bool furthest, ino
 }
 
 /// @returns how many constraints could be obeyed, in order; `count` when all
-int solveInDisc(int base, int count, float limit, vec2 wish, bool furthest, inout vec2 velocity) {
+int solveInDisc(int base, int count, float limit, vec2 wish, bool furthest, out vec2 velocity) {
     float size = length(wish);
-    vec2 start = furthest ? wish * limit : (size > limit ? wish * (limit / size) : wish);
-    velocity = start;
+    velocity = furthest ? wish * limit : (size > limit ? wish * (limit / size) : wish);
     for (int i = 0; i < count; ++i) {
         vec3 line = constraints[base + i];
         if (dot(line.xy, velocity) >= line.z) continue;
@@ -76,7 +75,7 @@ void relax(int hard, int first_violated, int count, float limit, inout vec2 velo
             if (size <= PARALLEL) continue;
             constraints[CONSTRAINT_CAPACITY + projected++] = vec3(normal, constraints[j].z - line.z) / size;
         }
-        vec2 relaxed = velocity;
+        vec2 relaxed;
         if (solveInDisc(CONSTRAINT_CAPACITY, projected, limit, line.xy, true, relaxed) == projected) velocity = relaxed;
         worst = max(worst, line.z - dot(line.xy, velocity));
     }

@@ -12,10 +12,16 @@ float ringRadius(const SensingGeometry& geometry, int sample) {
     return geometry.body_radius + static_cast<float>(sample) * geometry.tile_radius;
 }
 
+bool isAllRound(const SensingGeometry& geometry) {
+    return geometry.field_of_view > 2.0f * std::numbers::pi_v<float> - 1.0e-3f;
+}
+
 void appendRing(const SensingGeometry& geometry, int sample, int rays, std::vector<glm::vec2>& out) {
     const float radius = ringRadius(geometry, sample);
+    // The outermost rays lie on the edges of the field of view; all round, the last gap is the one back to the first ray.
+    const int gaps = isAllRound(geometry) ? rays : rays - 1;
     for (int ray = 0; ray < rays; ++ray) {
-        const float share = (static_cast<float>(ray) + 0.5f) / static_cast<float>(rays) - 0.5f;
+        const float share = gaps > 0 ? static_cast<float>(ray) / static_cast<float>(gaps) - 0.5f : 0.0f;
         const float angle = geometry.field_of_view * share;
         out.push_back({radius * std::cos(angle), radius * std::sin(angle)});
     }
@@ -29,7 +35,8 @@ int raysAtRadius(const SensingGeometry& geometry, float radius) {
     const float gap = geometry.tile_radius;
     const float cosine = std::max(-1.0f, 1.0f - gap * gap / (2.0f * radius * radius));
     const float angle = std::min(std::acos(cosine), std::numbers::pi_v<float>);
-    return std::max(1, static_cast<int>(std::ceil(geometry.field_of_view / angle - 1.0e-4f)));
+    const int gaps = std::max(1, static_cast<int>(std::ceil(geometry.field_of_view / angle - 1.0e-4f)));
+    return isAllRound(geometry) ? gaps : gaps + 1;
 }
 
 std::vector<glm::vec2> fullPattern(const SensingGeometry& geometry) {

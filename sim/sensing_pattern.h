@@ -17,7 +17,8 @@ struct SensingGeometry {
 /// R = a + (s - 1) b: how far a ray reaches, m.
 float sensingReach(const SensingGeometry& geometry);
 
-/// vt / theta with theta = arccos(1 - M^2 / (2 rho^2)): the rays that leave no gap above M on a circle of radius rho.
+/// vt / theta with theta = arccos(1 - M^2 / (2 rho^2)), rounded up: the rays that leave no gap above M on a circle of radius
+/// rho; one more where the field of view has two edges, so that both have a ray.
 int raysAtRadius(const SensingGeometry& geometry, float radius);
 
 /// Sample points in a person's own frame (looking along +X), m.

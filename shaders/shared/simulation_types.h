@@ -68,32 +68,32 @@ struct SpawnProposal {
     uint row;  // NO_INDEX = does not ask, or there is no room
 };
 
-/// Everything that stays the same during a bake.
+/// Everything that stays the same during a bake. Vectors first: GLSL aligns them to eight bytes and C++ to four.
 struct Parameters {
-    vec2 cells_minimum;   // m
-    float cell_size;      // m, at least the contact range and twice the largest radius
+    vec2 cells_minimum;    // m
+    vec2 diagram_minimum;  // m, corner of pixel (0, 0)
+    vec2 grid_minimum;     // m, distance fields
+    float cell_size;       // m, at least the contact range and twice the largest radius
     uint cells_width;
     uint cells_height;
-    uint row_count;
-    vec2 diagram_minimum;  // m, corner of pixel (0, 0)
     float pixels_per_metre;
     uint diagram_width;
     uint diagram_height;
-    float tile_radius;  // m, of agents
-    float step_seconds;
-    float time_horizon;       // s
-    float wall_time_horizon;  // s
-    float contact_range;      // m
-    float largest_radius;     // m, of all people
-    float contact_slack;      // m: two people further apart than their radii and this cannot touch within one step
-    float maximum_acceleration;  // m/s^2
-    uint seed;
-    uint queue_count;
-    vec2 grid_minimum;  // m, distance fields
-    float grid_cell;    // m
+    float grid_cell;  // m
     uint grid_width;
     uint grid_height;
-    uint has_roads;  // 0 or 1
+    uint row_count;
+    uint queue_count;
+    uint seed;
+    uint has_roads;              // 0 or 1
+    float tile_radius;           // m, of agents
+    float largest_radius;        // m, of all people
+    float step_seconds;
+    float time_horizon;          // s
+    float wall_time_horizon;     // s
+    float contact_range;         // m
+    float contact_slack;         // m: two people further apart than their radii and this cannot touch within one step
+    float maximum_acceleration;  // m/s^2
 };
 
 THRONG_SHARED_END

@@ -1,1 +1,198 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "sim/sensing_pattern.h"
+#include "sim/simulation_parts.h"
+#include "tests/sim/gpu_test.h"
+#include "tests/sim/scenes.h"
+
+namespace throng::test {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+
+TEST(SensingPattern, FollowsThePapersEquations) {
+    // a = 0.3, r_s = 0.6, s = 6: R = 3.3; theta = arccos(1 - 0.36 / 21.78) = 0.18207 rad; 200 degrees / theta = 19.2
+    // gaps between rays, so 20 gaps and 21 rays; all round, 34.5 and so 35.
+    const sim::SensingGeometry geometry{0.3f, 0.6f, 6, 200.0f * kPi / 180.0f};
+    EXPECT_FLOAT_EQ(sim::sensingReach(geometry), 3.3f);
+    EXPECT_EQ(sim::raysAtRadius(geometry, 3.3f), 21);
+    EXPECT_EQ(sim::fullPattern(geometry).size(), 21u * 6u);
+    EXPECT_EQ(sim::raysAtRadius({0.3f, 0.6f, 6, 2.0f * kPi}, 3.3f), 35);
+}
+
+TEST(SensingPattern, LeavesNoGapAboveTheTileRadius) {
+    for (const float view : {0.5f, 200.0f * kPi / 180.0f, 2.0f * kPi})
+        for (const float tile : {0.25f, 0.6f, 1.5f}) {
+            const sim::SensingGeometry geometry{0.25f, tile, 6, view};
+            for (const auto& pattern : {sim::fullPattern(geometry), sim::thinnedPattern(geometry, 0.0f)}) {
+                // On each circle, neighbouring samples lie at most M apart.
+                for (int ring = 0; ring < geometry.samples_per_ray; ++ring) {
+                    const float radius = geometry.body_radius + static_cast<float>(ring) * tile;
+                    std::vector<float> angles;
+                    for (const glm::vec2 sample : pattern)
+                        if (std::abs(std::hypot(sample.x, sample.y) - radius) < 1.0e-3f)
+                            angles.push_back(std::atan2(sample.y, sample.x));
+                    ASSERT_FALSE(angles.empty());
+                    std::sort(angles.begin(), angles.end());
+                    for (std::size_t i = 1; i < angles.size(); ++i) {
+                        const float gap = 2.0f * radius * std::sin(0.5f * (angles[i] - angles[i - 1]));
+                        EXPECT_LE(gap, tile * 1.0001f) << "view " << view << ", ring " << ring;
+                    }
+                }
+            }
+        }
+}
+
+TEST(SensingPattern, StaysInsideTheFieldOfView) {
+    const sim::SensingGeometry geometry{0.25f, 0.6f, 6, 1.0f};
+    for (const glm::vec2 sample : sim::thinnedPattern(geometry, 1.0f)) {
+        EXPECT_LE(std::abs(std::atan2(sample.y, sample.x)), 0.5001f);
+        EXPECT_GT(std::hypot(sample.x, sample.y), 1.0f);
+    }
+}
+
+/// Neighbour lists as sets of keys, after the passes up to sensing.
+std::vector<std::vector<std::uint32_t>> sensed(sim::Simulation& simulation) {
+    sim::Simulation::Parts& parts = simulation.parts();
+    parts.cells.run();
+    parts.diagram.build();
+    parts.sensing.run();
+    const std::uint32_t capacity = parts.buffers.slotCapacity();
+    const auto slots = parts.buffers.row_slots.download<std::uint32_t>(parts.rows);
+    const auto counts = parts.buffers.neighbour_counts.download<std::uint32_t>(parts.rows);
+    const auto keys = parts.buffers.neighbours.download<std::uint32_t>(
+        std::size_t{capacity} * static_cast<std::size_t>(parts.settings.neighbours));
+    std::vector<std::vector<std::uint32_t>> lists(parts.rows);
+    for (std::uint32_t row = 0; row < parts.rows; ++row)
+        for (std::uint32_t i = 0; i < counts[slots[row]]; ++i) lists[row].push_back(keys[i * capacity + slots[row]]);
+    return lists;
+}
+
+/// The k nearest within the reach and the field of view, plus everybody within the contact range, by comparing all.
+std::vector<std::uint32_t> nearestByBruteForce(const authoring::Scene& scene, std::uint32_t row, float reach,
+                                               float contact_range) {
+    const gpu::Person& self = scene.people[row];
+    const float half_view = static_cast<float>(scene.settings.field_of_view) * kPi / 360.0f;
+    std::vector<std::pair<float, std::uint32_t>> found;
+    for (std::uint32_t other = 0; other < scene.people.size(); ++other) {
+        if (other == row) continue;
+        const glm::vec2 offset = scene.people[other].spawn_position - self.spawn_position;
+        const float distance = std::hypot(offset.x, offset.y);
+        float turn = std::atan2(offset.y, offset.x) - self.heading;
+        turn -= 2.0f * kPi * std::round(turn / (2.0f * kPi));
+        if (distance <= contact_range || (distance <= reach && std::abs(turn) <= half_view)) found.emplace_back(distance, other);
+    }
+    std::sort(found.begin(), found.end());
+    const auto most = std::min(found.size(), static_cast<std::size_t>(scene.settings.neighbours));
+    std::vector<std::uint32_t> rows;
+    for (std::size_t i = 0; i < most; ++i) rows.push_back(found[i].second);
+    return rows;
+}
+
+float distanceBetween(const authoring::Scene& scene, std::uint32_t row, std::uint32_t other) {
+    return glm::distance(scene.people[row].spawn_position, scene.people[other].spawn_position);
+}
+
+class SensingTest : public GpuTest {
+  protected:
+    /// The share of true nearest neighbours that sensing found. Samples also meet some whose tile, but not whose centre, is
+    /// in view; where such a one is nearer and the list is full, the true neighbour it displaces is not a miss.
+    double recall(authoring::Scene scene) {
+        sim::Simulation simulation(scene, library);
+        const auto lists = sensed(simulation);
+        const sim::SensingGeometry geometry{scene.smallest_radius, static_cast<float>(scene.settings.tile_radius),
+                                            scene.settings.samples_per_ray,
+                                            static_cast<float>(scene.settings.field_of_view) * kPi / 180.0f};
+        std::size_t expected = 0, found = 0;
+        for (std::uint32_t row = 0; row < scene.people.size(); ++row) {
+            const std::set<std::uint32_t> list(lists[row].begin(), lists[row].end());
+            const bool full = list.size() == static_cast<std::size_t>(scene.settings.neighbours);
+            const float farthest = full ? distanceBetween(scene, row, lists[row].back()) : INFINITY;
+            for (const std::uint32_t other : nearestByBruteForce(scene, row, sim::sensingReach(geometry),
+                                                                 simulation.parameters().contact_range)) {
+                if (distanceBetween(scene, row, other) > farthest) continue;
+                ++expected;
+                found += list.count(other);
+            }
+        }
+        const double share = expected ? static_cast<double>(found) / static_cast<double>(expected) : 1.0;
+        RecordProperty("recall", std::to_string(share));
+        std::printf("    recall %.4f %% of %zu neighbours\n", 100.0 * share, expected);
+        return share;
+    }
+};
+
+TEST_F(SensingTest, FindsNearlyAllNeighboursInOpenCrowds) {
+    for (const std::uint32_t count : {2u, 63u, 1234u, 4096u}) EXPECT_GE(recall(uniformScene(count, 2.0f, count)), 0.995) << count;
+}
+
+/// Crowding cuts the tiles until some are narrower than the gap between samples: the bars are what was measured, less a little.
+/// Whoever is within the contact range is never among the missed.
+TEST_F(SensingTest, LosesFewNeighboursWhenCrowdingCutsTheTiles) {
+    struct Bar {
+        float spacing, tile_radius;
+        double least;
+    };
+    for (const Bar bar : {Bar{1.0f, 0.6f, 0.99}, Bar{0.75f, 0.6f, 0.94}, Bar{0.62f, 0.6f, 0.93},  //
+                          Bar{1.0f, 0.3f, 0.998}, Bar{0.75f, 0.3f, 0.998}, Bar{0.62f, 0.3f, 0.997}}) {
+        authoring::Scene scene = uniformScene(1234, bar.spacing, 5);
+        scene.settings.tile_radius = bar.tile_radius;
+        scene.settings.samples_per_ray = bar.tile_radius < 0.5f ? 11 : 6;
+        EXPECT_GE(recall(scene), bar.least) << "tile radius " << bar.tile_radius << ", one person per " << bar.spacing << " m squared";
+    }
+}
+
+TEST_F(SensingTest, DoesNotSeeBehindItselfBeyondTheContactRange) {
+    authoring::Scene scene = emptyScene({-10, -10}, {10, 10});
+    addPerson(scene, {0, 0}, {5, 0});
+    addPerson(scene, {2, 0}, {9, 0});    // ahead
+    addPerson(scene, {-2, 0}, {-9, 0});  // behind, out of touch
+    addPerson(scene, {-0.8f, 0}, {-9, 0});  // behind, within the contact range
+    sim::Simulation simulation(scene, library);
+    const auto lists = sensed(simulation);
+    EXPECT_EQ(std::set<std::uint32_t>(lists[0].begin(), lists[0].end()), (std::set<std::uint32_t>{1, 3}));
+    EXPECT_EQ(lists[0].front(), 3u) << "the nearest comes first";
+}
+
+TEST_F(SensingTest, SeesALongWallAsOneNeighbour) {
+    authoring::Scene scene = emptyScene({-10, -10}, {10, 10});
+    addPerson(scene, {0, 0}, {5, 0});
+    addPerson(scene, {2.5f, 0.5f}, {5, 0});
+    addWall(scene, {-8, 1.5f}, {8, 1.5f});
+    sim::Simulation simulation(scene, library);
+    const auto lists = sensed(simulation);
+    EXPECT_EQ(std::set<std::uint32_t>(lists[0].begin(), lists[0].end()),
+              (std::set<std::uint32_t>{1u, gpu::NEIGHBOUR_IS_WALL | 0u}));
+}
+
+TEST_F(SensingTest, KeepsTheNearestWhenThereAreMoreThanTheListHolds) {
+    authoring::Scene scene = emptyScene({-10, -10}, {10, 10});
+    scene.settings.neighbours = 4;
+    addPerson(scene, {0, 0}, {5, 0});
+    for (int i = 0; i < 24; ++i) {
+        const float angle = (static_cast<float>(i) - 11.5f) / 24.0f * 3.0f;
+        const float distance = 1.1f + 0.08f * static_cast<float>((i * 7) % 24);
+        addPerson(scene, {distance * std::cos(angle), distance * std::sin(angle)}, {5, 0}, 1.3f, 0.1f);
+    }
+    scene.settings.tile_radius = 0.2;
+    scene.settings.samples_per_ray = 20;
+    sim::Simulation simulation(scene, library);
+    EXPECT_EQ(sensed(simulation)[0],
+              nearestByBruteForce(scene, 0, 4.0f, simulation.parameters().contact_range));
+}
+
+TEST_F(SensingTest, GradientAndPerSiteDiagramsGiveTheSameNeighbours) {
+    authoring::Scene scene = uniformScene(1234, 1.2f, 21);
+    addWall(scene, {5, 5}, {30, 22});
+    scene.settings.method = authoring::DiagramMethod::per_site;
+    sim::Simulation per_site(scene, library);
+    scene.settings.method = authoring::DiagramMethod::gradient1;
+    sim::Simulation gradient(scene, library);
+    EXPECT_EQ(sensed(per_site), sensed(gradient));
+}
+
+}  // namespace
+}  // namespace throng::test
