@@ -134,6 +134,8 @@ std::vector<std::pair<std::string, double>> Simulation::profile(int steps) {
 
 std::uint32_t Simulation::stepsDone() const { return parts_->steps_done; }
 
+void Simulation::wait() const { glFinish(); }
+
 std::size_t Simulation::frameBytes() const { return std::size_t{parts_->rows} * 9 * sizeof(float); }
 
 void Simulation::packFrame(const gl::Buffer& buffer) {

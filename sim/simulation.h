@@ -28,6 +28,8 @@ class Simulation {
     /// Advances by 1 / (fps * substeps) seconds.
     void step();
     std::uint32_t stepsDone() const;
+    /// Waits until the device has done all that was asked.
+    void wait() const;
 
     /// Puts the present frame into `buffer`: positions, directions and states of all rows, three floats each.
     void packFrame(const gl::Buffer& buffer);

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+/// Each command adds itself to the application and runs as CLI11's callback. A new one is a file and a line here and in main.
+namespace throng::cli {
+
+void addBake(CLI::App& app);
+void addCheck(CLI::App& app);
+void addInfo(CLI::App& app);
+void addPreview(CLI::App& app);
+void addSchema(CLI::App& app);
+void addDevices(CLI::App& app);
+
+}  // namespace throng::cli

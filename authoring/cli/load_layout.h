@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "authoring/diagnostics.h"
+#include "authoring/layout.h"
+#include "authoring/scene.h"
+
+namespace throng::cli {
+
+/// A layout file, read, checked and made into a scene.
+struct LoadedLayout {
+    std::string text;  ///< the file, byte for byte
+    authoring::Layout layout;
+    authoring::Scene scene;
+    authoring::Diagnostics diagnostics;  ///< warnings
+};
+
+/// What came of trying: `valid` or a list of errors.
+struct LoadAttempt {
+    LoadedLayout loaded;
+    bool valid = false;
+};
+
+/// Reads a layout ("-" is standard input) and builds its scene.
+/// @throws io::InputError when the file cannot be read at all
+LoadAttempt tryLoadLayout(const std::string& path, const std::vector<std::string>& overrides);
+
+/// The same, printing what is wrong to stderr.
+/// @throws Exit with kInvalidInput when there are errors
+LoadedLayout loadLayout(const std::string& path, const std::vector<std::string>& overrides);
+
+/// Prints all diagnostics to stderr.
+void printDiagnostics(const LoadedLayout& loaded);
+
+}  // namespace throng::cli

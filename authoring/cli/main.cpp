@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+
+#include "authoring/cli/commands.h"
+#include "authoring/cli/exit_codes.h"
+#include "authoring/cli/suggestions.h"
+#include "io/files/errors.h"
+#include "sim/gl/context.h"
+
+namespace {
+
+using namespace throng;
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  throng check examples/intersection.json\n"
+    "  throng bake examples/intersection.json -o bakes/intersection\n"
+    "  throng preview bakes/intersection -o intersection.png\n"
+    "\nExit codes: 0 ok, 2 usage, 3 invalid input, 4 no usable OpenGL, 5 output failed, 130 interrupted.";
+
+int parseAndRun(CLI::App& app, int argc, char** argv) {
+    try {
+        app.parse(argc, argv);
+        return cli::kOk;
+    } catch (const CLI::Success& success) {  // --help and --version
+        return app.exit(success);
+    } catch (const CLI::ParseError& error) {
+        fmt::print(stderr, "throng: {}\n", error.what());
+        const std::string hint = cli::suggestFor(app, argc, argv);
+        if (!hint.empty()) fmt::print(stderr, "  hint: {}\n", hint);
+        fmt::print(stderr, "  `throng --help` lists the commands, `throng COMMAND --help` a command's options.\n");
+        return cli::kUsage;
+    }
+}
+
+int fail(int code, const std::exception& error) {
+    fmt::print(stderr, "throng: {}\n", error.what());
+    return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Bakes crowds: layouts of roads, walls and flows of people in; animation caches and diagrams out.", "throng");
+    app.set_version_flag("--version", "throng " THRONG_VERSION);
+    app.require_subcommand(1);
+    app.footer(kFooter);
+    cli::addBake(app);
+    cli::addCheck(app);
+    cli::addInfo(app);
+    cli::addPreview(app);
+    cli::addSchema(app);
+    cli::addDevices(app);
+    try {
+        return parseAndRun(app, argc, argv);
+    } catch (const cli::Exit& exit) {
+        return exit.code;
+    } catch (const gl::GraphicsError& error) {
+        return fail(cli::kNoGraphics, error);
+    } catch (const io::OutputError& error) {
+        return fail(cli::kOutputFailed, error);
+    } catch (const std::exception& error) {
+        return fail(cli::kInvalidInput, error);
+    }
+}
