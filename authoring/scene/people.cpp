@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "authoring/scene/people.h"
+
+#include <cmath>
+
+namespace throng::authoring {
+namespace {
+
+constexpr double kStride = 1.4;  // m per gait cycle of somebody of average height
+constexpr double kLeastHeight = 0.92, kMostHeight = 1.08;  // of the average: strides are as long as legs
+constexpr double kBriskest = 1.0e7;  // more people than this from one rate is a mistake
+
+}  // namespace
+
+gpu::Person drawPerson(const PersonSettings& settings, const GroupRandom& random, std::uint64_t index, std::uint32_t group) {
+    gpu::Person person{};
+    const double speed = random.draw(settings.speed, index, Purpose::speed);
+    person.radius = static_cast<float>(random.draw(settings.radius, index, Purpose::radius));
+    person.preferred_speed = static_cast<float>(speed);
+    person.maximum_speed = static_cast<float>(speed * settings.maximum_speed_factor);
+    const double height = kLeastHeight + (kMostHeight - kLeastHeight) * random.unit(index, Purpose::height);
+    person.stride_length = static_cast<float>(kStride * height);
+    person.phase = static_cast<float>(random.unit(index, Purpose::phase));
+    person.variation = static_cast<std::uint32_t>(random.word(index, Purpose::variation) % kVariations);
+    person.entry = gpu::NO_INDEX;
+    person.group = group;
+    return person;
+}
+
+std::vector<double> entryTimes(const Flow& flow, const GroupRandom& random, double warmup) {
+    // Those of the first moment have the warm-up to come in.
+    const double start = flow.start == 0.0 ? -warmup : flow.start;
+    std::vector<double> times;
+    if (flow.count) {
+        const double slot = (flow.end - start) / static_cast<double>(*flow.count);
+        for (std::uint64_t i = 0; i < *flow.count; ++i)
+            times.push_back(start + (static_cast<double>(i) + random.unit(i, Purpose::time)) * slot);
+    } else if (flow.rate) {
+        double time = start;
+        for (std::uint64_t i = 0; static_cast<double>(i) < kBriskest; ++i) {
+            time -= std::log(1.0 - random.unit(i, Purpose::time)) / *flow.rate;
+            if (time >= flow.end) break;
+            times.push_back(time);
+        }
+    }
+    return times;
+}
+
+}  // namespace throng::authoring

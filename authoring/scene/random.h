@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <string_view>
+
+#include "authoring/layout.h"
+
+/// Randomness by counting: a number depends on the seed, its group's id, the person and the purpose, and on nothing drawn before,
+/// so adding a flow changes nobody in the others. The standard library's distributions differ between implementations: not used.
+namespace throng::authoring {
+
+/// SplitMix64's finaliser (Steele, Lea and Flood 2014).
+inline std::uint64_t scramble(std::uint64_t x) {
+    x += 0x9e3779b97f4a7c15ull;
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
+    return x ^ (x >> 31);
+}
+
+/// FNV-1a.
+inline std::uint64_t hashText(std::string_view text) {
+    std::uint64_t hash = 0xcbf29ce484222325ull;
+    for (const char letter : text) hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3ull;
+    return hash;
+}
+
+enum class Purpose : std::uint64_t { speed, radius, time, phase, variation, height, jitter_x, jitter_y };
+
+class GroupRandom {
+  public:
+    GroupRandom(std::uint64_t seed, std::string_view group_id) : key_(scramble(seed) ^ hashText(group_id)) {}
+
+    std::uint64_t word(std::uint64_t person, Purpose purpose, std::uint64_t draw = 0) const {
+        return scramble(key_ ^ scramble(person ^ scramble(static_cast<std::uint64_t>(purpose) << 32 | draw)));
+    }
+    /// In [0, 1).
+    double unit(std::uint64_t person, Purpose purpose, std::uint64_t draw = 0) const {
+        return static_cast<double>(word(person, purpose, draw) >> 11) * 0x1.0p-53;
+    }
+    double draw(const Distribution& distribution, std::uint64_t person, Purpose purpose) const {
+        switch (distribution.kind) {
+            case Distribution::Kind::constant: return distribution.mean;
+            case Distribution::Kind::uniform:
+                return distribution.minimum + (distribution.maximum - distribution.minimum) * unit(person, purpose);
+            case Distribution::Kind::normal: break;
+        }
+        // Box and Muller 1958.
+        const double radius = std::sqrt(-2.0 * std::log(1.0 - unit(person, purpose, 0)));
+        const double normal = radius * std::cos(2.0 * std::numbers::pi * unit(person, purpose, 1));
+        return std::clamp(distribution.mean + distribution.standard_deviation * normal, distribution.minimum, distribution.maximum);
+    }
+
+  private:
+    std::uint64_t key_;
+};
+
+}  // namespace throng::authoring

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "authoring/diagnostics.h"
+#include "authoring/scene/fields.h"
+#include "authoring/scene/rebase.h"
+
+namespace throng::authoring {
+
+/// Places as polygons, and the distance fields that lead to them. Every field is solved once, when first asked for.
+class Routes {
+  public:
+    Routes(const Layout& layout, const Rebase& rebase, const WalkGeometry& geometry, const FieldGrid& grid);
+
+    /// A place's outline in the scene frame: the area, or a strip of the road of this depth (m) at its end.
+    LocalPolygon outline(const Place& place, float depth) const;
+    static constexpr float kTargetDepth = 1.0f;  // m
+    static constexpr float kEntryDepth = 4.0f;   // m
+
+    /// The field that leads to a place, for people who keep to the roads or do not.
+    std::uint32_t fieldTo(const Place& place, bool keep_to_roads);
+    /// The field that leads to a point; points in the same cell share it.
+    std::uint32_t fieldTo(glm::vec2 point);
+
+    /// Metres of walking, kUnreachable where no path leads.
+    float reachable(std::uint32_t field, glm::vec2 from) const;
+    float reachable(std::uint32_t field, const LocalPolygon& from) const;
+
+    bool tooManyFields() const { return too_many_; }
+    std::uint32_t fieldCount() const { return static_cast<std::uint32_t>(fields_.size()); }
+    /// Moves all cells out, field after field.
+    std::vector<gpu::FieldCell> takeCells();
+
+    /// What a layout calls the place, for messages.
+    std::string name(const Place& place) const;
+
+  private:
+    std::uint32_t solve(const std::vector<std::uint32_t>& targets, bool keep_to_roads);
+    const WalkMap& mapFor(bool keep_to_roads);
+
+    const Layout& layout_;
+    const Rebase& rebase_;
+    const WalkGeometry& geometry_;
+    FieldGrid grid_;
+    std::optional<WalkMap> maps_[2];
+    std::map<std::string, std::uint32_t> known_;
+    std::vector<Field> fields_;
+    bool too_many_ = false;
+};
+
+}  // namespace throng::authoring

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "authoring/scene/raster.h"
+
+namespace throng::authoring {
+namespace {
+
+constexpr double kMostCells = 400'000.0;
+constexpr float kSmallestCell = 0.1f;   // m
+constexpr float kWallComfort = 0.2f;    // m beyond the largest radius: nearer to a wall, walking costs more
+constexpr float kWallCost = 4.0f;       // added at the wall itself
+constexpr float kOffRoadCost = 6.0f;    // per metre off the roads, for those who keep to them
+
+/// Distance from every cell's centre to the nearest wall surface, as far as `reach`; infinity beyond.
+std::vector<float> wallDistance(const WalkGeometry& geometry, const FieldGrid& grid, float reach) {
+    std::vector<float> distance(cellCount(grid), kUnreachable);
+    for (const gpu::WallSegment& wall : geometry.walls) {
+        const glm::vec2 ends[] = {wall.a, wall.b};
+        const Box box = boundsOf(ends, reach + wall.half_thickness);
+        visitBox(grid, box.lower, box.upper, [&](std::uint32_t cell, glm::vec2 centre) {
+            const float here = segmentDistance(centre, wall.a, wall.b) - wall.half_thickness;
+            if (here < reach) distance[cell] = std::min(distance[cell], here);
+        });
+    }
+    return distance;
+}
+
+/// How near to a wall a cell's centre may be. At least so that walls without thickness leave no gap between cells, and less
+/// than the smallest body needs by half a cell, so that rasterising never closes a door that a body fits through.
+float wallClearance(const WalkGeometry& geometry, const FieldGrid& grid) {
+    return std::max(0.6f * grid.cell_size, 0.9f * geometry.smallest_radius - 0.5f * grid.cell_size);
+}
+
+void blockWalls(const WalkGeometry& geometry, WalkMap& map) {
+    const float comfort = geometry.largest_radius + kWallComfort;
+    const float clearance = wallClearance(geometry, map.grid);
+    const std::vector<float> distance = wallDistance(geometry, map.grid, std::max(comfort, clearance));
+    for (std::size_t cell = 0; cell < distance.size(); ++cell) {
+        if (distance[cell] < clearance) {
+            map.cost[cell] = kUnreachable;
+        } else if (distance[cell] < comfort) {
+            const float nearness = 1.0f - distance[cell] / comfort;
+            map.cost[cell] += kWallCost * nearness * nearness;
+        }
+    }
+    for (const LocalPolygon& solid : geometry.solids) {
+        const Box box = boundsOf(solid, 0.0f);
+        visitBox(map.grid, box.lower, box.upper, [&](std::uint32_t cell, glm::vec2 centre) {
+            if (insidePolygon(solid, centre)) map.cost[cell] = kUnreachable;
+        });
+    }
+}
+
+void markOneWays(const WalkGeometry& geometry, WalkMap& map) {
+    if (std::none_of(geometry.roads.begin(), geometry.roads.end(), [](const LocalRoad& road) { return road.one_way; })) return;
+    map.one_way.assign(cellCount(map.grid), glm::vec2(0.0f));
+    for (const LocalRoad& road : geometry.roads) {
+        if (!road.one_way) continue;
+        for (std::size_t i = 0; i + 1 < road.centreline.size(); ++i) {
+            const LocalRoad piece{{road.centreline[i], road.centreline[i + 1]}, road.width, true};
+            const glm::vec2 along = glm::normalize(piece.centreline[1] - piece.centreline[0]);
+            const Box box = boundsOf(piece.centreline, 0.5f * road.width);
+            visitBox(map.grid, box.lower, box.upper, [&](std::uint32_t cell, glm::vec2 centre) {
+                if (onRoad(piece, centre)) map.one_way[cell] = along;
+            });
+        }
+    }
+    // Where another road or an area lies over it, one may also walk that road's way.
+    const auto release = [&](const Box& box, auto&& covers) {
+        visitBox(map.grid, box.lower, box.upper, [&](std::uint32_t cell, glm::vec2 centre) {
+            if (covers(centre)) map.one_way[cell] = glm::vec2(0.0f);
+        });
+    };
+    for (const LocalRoad& road : geometry.roads)
+        if (!road.one_way)
+            release(boundsOf(road.centreline, 0.5f * road.width), [&](glm::vec2 centre) { return onRoad(road, centre); });
+    for (const LocalPolygon& area : geometry.areas)
+        release(boundsOf(area, 0.0f), [&](glm::vec2 centre) { return insidePolygon(area, centre); });
+}
+
+}  // namespace
+
+FieldGrid makeGrid(const WalkGeometry& geometry) {
+    const glm::vec2 extent = geometry.maximum - geometry.minimum;
+    FieldGrid grid;
+    grid.minimum = geometry.minimum;
+    const double area = static_cast<double>(extent.x) * static_cast<double>(extent.y);
+    grid.cell_size = std::max(kSmallestCell, static_cast<float>(std::sqrt(area / kMostCells)));
+    grid.width = std::max(2u, static_cast<std::uint32_t>(std::ceil(extent.x / grid.cell_size)));
+    grid.height = std::max(2u, static_cast<std::uint32_t>(std::ceil(extent.y / grid.cell_size)));
+    return grid;
+}
+
+WalkMap makeWalkMap(const WalkGeometry& geometry, const FieldGrid& grid, bool keep_to_roads) {
+    WalkMap map;
+    map.grid = grid;
+    map.cost.assign(cellCount(grid), 1.0f);
+    if (keep_to_roads && !geometry.roads.empty()) {
+        const std::vector<float> distance = roadDistance(geometry, grid);
+        for (std::size_t cell = 0; cell < distance.size(); ++cell)
+            if (distance[cell] < 0.0f) map.cost[cell] = kOffRoadCost;
+        markOneWays(geometry, map);
+    }
+    blockWalls(geometry, map);
+    return map;
+}
+
+std::vector<std::uint32_t> cellsInPolygon(const FieldGrid& grid, const LocalPolygon& polygon) {
+    std::vector<std::uint32_t> cells;
+    const Box box = boundsOf(polygon, 0.0f);
+    visitBox(grid, box.lower, box.upper, [&](std::uint32_t cell, glm::vec2 centre) {
+        if (insidePolygon(polygon, centre)) cells.push_back(cell);
+    });
+    if (cells.empty()) {
+        glm::vec2 middle(0.0f);
+        for (const glm::vec2 point : polygon) middle += point / static_cast<float>(polygon.size());
+        cells.push_back(cellAt(grid, middle));
+    }
+    return cells;
+}
+
+std::uint32_t cellAt(const FieldGrid& grid, glm::vec2 point) { return row(grid, point.y) * grid.width + column(grid, point.x); }
+
+}  // namespace throng::authoring

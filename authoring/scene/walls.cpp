@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "authoring/scene/walls.h"
+
+#include "authoring/scene/raster.h"
+
+namespace throng::authoring {
+namespace {
+
+/// Walls up to this half thickness (m) have one row of tiles on their axis; thicker ones have a row on each side.
+constexpr float kThin = 0.15f;
+
+void tilesAlong(glm::vec2 a, glm::vec2 b, float spacing, float tile_radius, std::uint32_t segment, std::vector<gpu::WallTile>& tiles) {
+    const int count = std::max(1, static_cast<int>(std::ceil(glm::distance(a, b) / spacing)));
+    for (int i = 0; i < count; ++i) {
+        const float along = (static_cast<float>(i) + 0.5f) / static_cast<float>(count);
+        tiles.push_back({a + (b - a) * along, tile_radius, segment});
+    }
+}
+
+float cross(glm::vec2 a, glm::vec2 b) { return a.x * b.y - a.y * b.x; }
+
+/// Distance between two segments; zero when they cross.
+float segmentsApart(glm::vec2 a, glm::vec2 b, glm::vec2 c, glm::vec2 d) {
+    const float side_c = cross(b - a, c - a);
+    const float side_d = cross(b - a, d - a);
+    const float side_a = cross(d - c, a - c);
+    const float side_b = cross(d - c, b - c);
+    if (side_c * side_d < 0.0f && side_a * side_b < 0.0f) return 0.0f;
+    return std::min({segmentDistance(a, c, d), segmentDistance(b, c, d), segmentDistance(c, a, b), segmentDistance(d, a, b)});
+}
+
+}  // namespace
+
+void buildWalls(const Layout& layout, const Rebase& rebase, WalkGeometry& geometry) {
+    for (std::uint32_t index = 0; index < layout.walls.size(); ++index) {
+        const Wall& wall = layout.walls[index];
+        const std::vector<glm::vec2> points = rebase.local(wall.points);
+        const float half_thickness = wall.closed ? 0.0f : static_cast<float>(0.5 * wall.thickness);
+        for (std::size_t i = 0; i + 1 < points.size(); ++i)
+            geometry.walls.push_back({points[i], points[i + 1], half_thickness, index});
+        if (!wall.closed) continue;
+        geometry.walls.push_back({points.back(), points.front(), 0.0f, index});
+        geometry.solids.push_back(points);
+    }
+}
+
+std::vector<gpu::WallTile> wallTiles(const std::vector<gpu::WallSegment>& segments, float spacing, float tile_radius) {
+    std::vector<gpu::WallTile> tiles;
+    for (std::uint32_t index = 0; index < segments.size(); ++index) {
+        const gpu::WallSegment& segment = segments[index];
+        const float length = glm::distance(segment.a, segment.b);
+        if (segment.half_thickness <= kThin || length <= 0.0f) {
+            tilesAlong(segment.a, segment.b, spacing, tile_radius, index, tiles);
+            continue;
+        }
+        const glm::vec2 along = (segment.b - segment.a) / length;
+        const glm::vec2 aside = glm::vec2(-along.y, along.x) * segment.half_thickness;
+        tilesAlong(segment.a + aside, segment.b + aside, spacing, tile_radius, index, tiles);
+        tilesAlong(segment.a - aside, segment.b - aside, spacing, tile_radius, index, tiles);
+        // The rounded ends, half a circle each.
+        const int steps = std::max(1, static_cast<int>(std::ceil(3.14159265f * segment.half_thickness / spacing)));
+        for (int i = 1; i < steps; ++i) {
+            const float angle = 3.14159265f * static_cast<float>(i) / static_cast<float>(steps);
+            const glm::vec2 outward = along * (std::sin(angle) * segment.half_thickness);
+            const glm::vec2 round = aside * std::cos(angle);
+            tiles.push_back({segment.b + outward + round, tile_radius, index});
+            tiles.push_back({segment.a - outward + round, tile_radius, index});
+        }
+    }
+    return tiles;
+}
+
+float wallDepth(const WalkGeometry& geometry, glm::vec2 position, float radius) {
+    float depth = -kUnreachable;
+    for (const gpu::WallSegment& wall : geometry.walls)
+        depth = std::max(depth, radius + wall.half_thickness - segmentDistance(position, wall.a, wall.b));
+    for (const LocalPolygon& solid : geometry.solids)
+        if (insidePolygon(solid, position)) depth = std::max(depth, radius);
+    return depth;
+}
+
+bool straightIsClear(const WalkGeometry& geometry, glm::vec2 a, glm::vec2 b, float radius) {
+    const glm::vec2 ends[] = {a, b};
+    const Box path = boundsOf(ends, radius);
+    for (const gpu::WallSegment& wall : geometry.walls) {
+        const float reach = wall.half_thickness;
+        if (std::max(wall.a.x, wall.b.x) + reach < path.lower.x || std::min(wall.a.x, wall.b.x) - reach > path.upper.x) continue;
+        if (std::max(wall.a.y, wall.b.y) + reach < path.lower.y || std::min(wall.a.y, wall.b.y) - reach > path.upper.y) continue;
+        if (segmentsApart(a, b, wall.a, wall.b) < radius + reach) return false;
+    }
+    return true;
+}
+
+}  // namespace throng::authoring
