@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <vector>
+
+namespace throng::authoring {
+
+struct Crossing {
+    glm::dvec2 point{0.0};
+    std::size_t first_edge = 0;  ///< edge i runs from point i to the next
+    std::size_t second_edge = 0;
+};
+
+/// The first place where a polygon's outline crosses or touches itself. Sweeps over the edges sorted by x.
+std::optional<Crossing> selfCrossing(const std::vector<glm::dvec2>& polygon);
+
+/// Positive for counter-clockwise polygons, m^2.
+double signedArea(const std::vector<glm::dvec2>& polygon);
+
+}  // namespace throng::authoring
