@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Throng for Blender: imports crowds baked by `throng bake`. Playback is native: no Python runs at render time."""
+
+bl_info = {
+    "name": "Throng",
+    "description": "Import crowds baked by Throng; they play back and render without the add-on",
+    "author": "The Throng developers",
+    "version": (0, 1, 0),
+    "blender": (3, 4, 0),
+    "location": "File > Import > Throng bake (bake.json)",
+    "category": "Import-Export",
+}
+
+
+def register():
+    from . import operators
+
+    operators.register()
+
+
+def unregister():
+    from . import operators
+
+    operators.unregister()

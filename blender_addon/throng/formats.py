@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a bake on disk holds, checked. Pure Python: no Blender, no numpy."""
+import json
+import os
+import struct
+
+STREAMS = ("pos", "dir", "state")
+_PC2 = struct.Struct("<12siiffi")
+_PC2_MAGIC = b"POINTCACHE2\0"
+
+
+class BakeError(Exception):
+    """A bake cannot be used; the message says why and what to do."""
+
+
+class Bake:
+    """A bake's manifest, and where its streams are."""
+
+    def __init__(self, manifest, folder):
+        self.manifest = manifest
+        self.folder = folder
+        self.name = manifest.get("name") or os.path.basename(folder)
+        self.agents = _whole(manifest, "agents")
+        self.frames = _whole(manifest, "frames")
+        self.fps = float(manifest.get("fps", 24.0))
+        self.stride_length = float(manifest.get("stride_length", 1.4))
+        self.variations = max(1, int(manifest.get("variations", 1)))
+        self.complete = bool(manifest.get("complete", False))
+        self.origin = tuple(float(value) for value in manifest.get("origin", (0.0, 0.0, 0.0)))
+
+    def stream_path(self, stream):
+        try:
+            relative = self.manifest["streams"][stream]["pc2"]
+        except (KeyError, TypeError):
+            raise BakeError(f"bake.json names no PC2 file for the stream `{stream}`: bake again") from None
+        return os.path.join(self.folder, *relative.split("/"))
+
+
+def _whole(manifest, key):
+    value = manifest.get(key)
+    if not isinstance(value, int) or isinstance(value, bool) or value < 0:
+        raise BakeError(f"bake.json: `{key}` should be a whole number, found {value!r}")
+    return value
+
+
+def check_pc2(path, points, samples):
+    """Compares a PC2 file's header and size with what the manifest says."""
+    name = os.path.basename(path)
+    try:
+        size = os.path.getsize(path)
+        with open(path, "rb") as file:
+            header = file.read(_PC2.size)
+    except OSError as error:
+        raise BakeError(f"the stream {name} cannot be read: {error.strerror}. Copy the whole bake folder, not only bake.json") from None
+    if len(header) < _PC2.size:
+        raise BakeError(f"{name} is not a point cache: it has only {size} bytes")
+    magic, version, file_points, _, _, file_samples = _PC2.unpack(header)
+    if magic != _PC2_MAGIC or version != 1:
+        raise BakeError(f"{name} is not a PC2 point cache of version 1")
+    if file_points != points or file_samples != samples:
+        raise BakeError(f"{name} holds {file_samples} frames of {file_points} people, bake.json says {samples} of {points}: "
+                        "the files are of different bakes")
+    expected = _PC2.size + 12 * points * samples
+    if size != expected:
+        raise BakeError(f"{name} is truncated: {size} of {expected} bytes. Copy or bake it again")
+
+
+def load_bake(path):
+    """Reads bake.json (or the folder that holds it) and checks its streams. Raises BakeError."""
+    if os.path.isdir(path):
+        path = os.path.join(path, "bake.json")
+    try:
+        with open(path, encoding="utf-8") as file:
+            manifest = json.load(file)
+    except OSError as error:
+        raise BakeError(f"{path} cannot be read: {error.strerror}") from None
+    except ValueError as error:
+        raise BakeError(f"{path} is not JSON: {error}") from None
+    if not isinstance(manifest, dict) or manifest.get("format") != "throng bake":
+        raise BakeError(f"{os.path.basename(path)} is not the manifest of a Throng bake: choose the file bake.json in the bake's folder")
+    if manifest.get("version") != 1:
+        raise BakeError(f"this bake has format version {manifest.get('version')}, the add-on reads version 1: update the add-on")
+    bake = Bake(manifest, os.path.dirname(os.path.abspath(path)))
+    if bake.agents == 0 or bake.frames == 0:
+        raise BakeError("there is nobody in this bake")
+    for stream in STREAMS:
+        check_pc2(bake.stream_path(stream), bake.agents, bake.frames)
+    return bake

@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Puts a bake into the scene: the crowd, its cast, and what it walks among."""
+import os
+
+import bpy
+
+from . import cast, environment, playback
+from .formats import STREAMS, load_bake
+
+POSES = 24
+
+
+def _stored_path(path, relative):
+    if not relative or not bpy.data.filepath:
+        return path
+    try:
+        return bpy.path.relpath(path)
+    except ValueError:  # another drive on Windows
+        return path
+
+
+def set_up_scene(scene, bake, frame_start):
+    """The bake's frame rate and range, and a shutter that is centred on the frame: poses change between shutters."""
+    whole = round(bake.fps)
+    scene.render.fps, scene.render.fps_base = whole, whole / bake.fps
+    scene.frame_start, scene.frame_end = frame_start, frame_start + bake.frames - 1
+    scene.frame_set(frame_start)
+    scene.render.use_motion_blur = True
+    scene.render.motion_blur_shutter = 0.5
+    if hasattr(scene.render, "motion_blur_position"):
+        scene.render.motion_blur_position = "CENTER"
+    else:
+        scene.cycles.motion_blur_position = "CENTER"
+
+
+def import_bake(context, path, *, frame_start=1, walls=True, roads=True, scenery=True, camera=True, relative=True):
+    """Imports a bake and returns the crowd's object. Raises formats.BakeError before anything is changed."""
+    bake = load_bake(path)
+    scene = context.scene
+    collection = bpy.data.collections.new(f"Throng {bake.name}")
+    scene.collection.children.link(collection)
+    collection["throng_bake"] = os.path.join(bake.folder, "bake.json")
+    collection["throng_origin"] = bake.origin
+
+    variations = min(bake.variations, cast.VARIATIONS)
+    people = cast.build_cast(variations, POSES, bake.stride_length, f"Throng {bake.name} cast")
+    paths = {stream: _stored_path(bake.stream_path(stream), relative) for stream in STREAMS}
+    crowd = playback.build_crowd(bake, f"Throng {bake.name} crowd", people, POSES, variations, frame_start, paths)
+    collection.objects.link(crowd)
+    set_up_scene(scene, bake, frame_start)
+    environment.build_environment(context, bake.manifest, collection, walls=walls, roads=roads, ground=scenery, light=scenery, camera=camera)
+    return crowd

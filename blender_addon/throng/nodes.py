@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Small helpers over node trees, whose interface changed in Blender 4.0."""
+import bpy
+
+
+def new_tree(name, inputs=(), outputs=()):
+    """A geometry node tree with sockets [(name, type)]; returns (tree, input node, output node)."""
+    tree = bpy.data.node_groups.new(name, "GeometryNodeTree")
+    for direction, sockets in (("INPUT", inputs), ("OUTPUT", outputs)):
+        for socket_name, kind in sockets:
+            if hasattr(tree, "interface"):
+                tree.interface.new_socket(name=socket_name, in_out=direction, socket_type=kind)
+            else:
+                (tree.inputs if direction == "INPUT" else tree.outputs).new(kind, socket_name)
+    return tree, tree.nodes.new("NodeGroupInput"), tree.nodes.new("NodeGroupOutput")
+
+
+def socket(sockets, name=None):
+    """The enabled socket of a name: nodes keep hidden twins for other data types."""
+    return next(s for s in sockets if s.enabled and (name is None or s.name == name))
+
+
+class Maths:
+    """Writes arithmetic as nodes."""
+
+    def __init__(self, tree):
+        self.tree = tree
+
+    def node(self, kind, **settings):
+        node = self.tree.nodes.new(kind)
+        for name, value in settings.items():
+            setattr(node, name, value)
+        return node
+
+    def link(self, source, target):
+        self.tree.links.new(source, target)
+
+    def math(self, operation, *values):
+        node = self.node("ShaderNodeMath", operation=operation)
+        for slot, value in zip(node.inputs, values):
+            if isinstance(value, (int, float)):
+                slot.default_value = value
+            else:
+                self.link(value, slot)
+        return node.outputs[0]
+
+    def greater(self, value, threshold):
+        node = self.node("FunctionNodeCompare", data_type="FLOAT", operation="GREATER_THAN")
+        enabled = [s for s in node.inputs if s.enabled]
+        self.link(value, enabled[0])
+        enabled[1].default_value = threshold
+        return socket(node.outputs)

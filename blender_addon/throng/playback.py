@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Native playback: one object of loose vertices, a stack of modifiers, no Python at render time.
+
+Each Mesh Cache modifier overwrites the vertices with one stream, and a node group behind it files them away as an attribute; the
+last one leaves the positions. The instancer then puts a pose on every vertex that is alive. `state` is read without interpolation,
+because a pose index between two others would be a third one, and must not change while the shutter is open.
+"""
+import bpy
+
+from .formats import STREAMS
+from .nodes import Maths, new_tree, socket
+
+STANDING_SPEED = 0.1  # m/s: slower people take the idle pose
+GEOMETRY = [("Geometry", "NodeSocketGeometry")]
+
+
+def _store_tree(attribute):
+    tree, inputs, outputs = new_tree(f"Throng store {attribute}", GEOMETRY, GEOMETRY)
+    maths = Maths(tree)
+    store = maths.node("GeometryNodeStoreNamedAttribute", data_type="FLOAT_VECTOR", domain="POINT")
+    store.inputs["Name"].default_value = attribute
+    maths.link(inputs.outputs[0], store.inputs["Geometry"])
+    maths.link(maths.node("GeometryNodeInputPosition").outputs[0], socket(store.inputs, "Value"))
+    maths.link(store.outputs[0], outputs.inputs[0])
+    return tree
+
+
+def _components(maths, attribute):
+    named = maths.node("GeometryNodeInputNamedAttribute", data_type="FLOAT_VECTOR")
+    named.inputs["Name"].default_value = attribute
+    separate = maths.node("ShaderNodeSeparateXYZ")
+    maths.link(socket(named.outputs, "Attribute"), separate.inputs[0])
+    return separate.outputs
+
+
+def _pose_index(maths, speed, variation, phase, poses, variations):
+    """variation * (poses + 1) + the walk's pose at the gait's phase, or the idle pose of those who stand."""
+    step = maths.math("MINIMUM", maths.math("FLOOR", maths.math("MULTIPLY", maths.math("FRACT", phase), poses)), poses - 1)
+    walking = maths.math("GREATER_THAN", speed, STANDING_SPEED)
+    pose = maths.math("ADD", maths.math("MULTIPLY", step, walking), maths.math("MULTIPLY", maths.math("SUBTRACT", 1.0, walking), poses))
+    variation = maths.math("MODULO", variation, variations)
+    return maths.math("MULTIPLY_ADD", variation, poses + 1, pose)
+
+
+def _instancer_tree(collection, poses, variations, walk_stride):
+    tree, inputs, outputs = new_tree("Throng instancer", GEOMETRY, GEOMETRY)
+    maths = Maths(tree)
+    cosine, sine, _ = _components(maths, "throng_dir")
+    alive, variation, phase = _components(maths, "throng_state")
+    speed = _components(maths, "throng_dir")[2]
+    heading = maths.math("ARCTAN2", sine, cosine)
+    rotation = maths.node("ShaderNodeCombineXYZ")
+    maths.link(heading, rotation.inputs[2])
+
+    # Ids first, so that instances keep theirs (and their colours) when others come and go.
+    set_id = maths.node("GeometryNodeSetID")
+    maths.link(inputs.outputs[0], set_id.inputs["Geometry"])
+    maths.link(maths.node("GeometryNodeInputIndex").outputs[0], set_id.inputs["ID"])
+
+    people = maths.node("GeometryNodeCollectionInfo", transform_space="ORIGINAL")
+    people.inputs["Collection"].default_value = collection
+    people.inputs["Separate Children"].default_value = True
+    people.inputs["Reset Children"].default_value = True
+    place = maths.node("GeometryNodeInstanceOnPoints")
+    place.inputs["Pick Instance"].default_value = True
+    maths.link(set_id.outputs[0], place.inputs["Points"])
+    maths.link(maths.greater(alive, 0.5), place.inputs["Selection"])
+    maths.link(people.outputs[0], place.inputs["Instance"])
+    maths.link(_pose_index(maths, speed, variation, phase, poses, variations), place.inputs["Instance Index"])
+    maths.link(rotation.outputs[0], place.inputs["Rotation"])
+
+    tint = maths.node("FunctionNodeRandomValue", data_type="FLOAT_VECTOR")
+    maths.link(maths.node("GeometryNodeInputID").outputs[0], socket(tint.inputs, "ID"))
+    store = maths.node("GeometryNodeStoreNamedAttribute", data_type="FLOAT_VECTOR", domain="INSTANCE")
+    store.inputs["Name"].default_value = "tint"
+    maths.link(place.outputs[0], store.inputs["Geometry"])
+    maths.link(socket(tint.outputs), socket(store.inputs, "Value"))
+    maths.link(store.outputs[0], outputs.inputs[0])
+    return tree
+
+
+def _add_cache(target, name, path, interpolation, frame_start):
+    cache = target.modifiers.new(name, "MESH_CACHE")
+    cache.cache_format = "PC2"
+    cache.filepath = path
+    cache.interpolation = interpolation
+    cache.time_mode, cache.play_mode = "FRAME", "SCENE"
+    cache.frame_start, cache.frame_scale = frame_start, 1.0
+    cache.forward_axis, cache.up_axis = "POS_Y", "POS_Z"
+    cache.deform_mode = "OVERWRITE"
+    return cache
+
+
+def build_crowd(bake, name, cast, poses, variations, frame_start, paths):
+    """The crowd's object. `paths` are the streams' files as Blender shall store them, by stream."""
+    mesh = bpy.data.meshes.new(name)
+    mesh.vertices.add(bake.agents)
+    crowd = bpy.data.objects.new(name, mesh)
+    for stream in ("state", "dir"):
+        _add_cache(crowd, f"throng {stream}", paths[stream], "NONE" if stream == "state" else "LINEAR", frame_start)
+        modifier = crowd.modifiers.new(f"throng {stream} to attribute", "NODES")
+        modifier.node_group = _store_tree(f"throng_{stream}")
+    _add_cache(crowd, "throng pos", paths["pos"], "LINEAR", frame_start)
+    crowd.modifiers.new("throng people", "NODES").node_group = _instancer_tree(cast, poses, variations, bake.stride_length)
+    return crowd
+
+
+assert set(STREAMS) == {"pos", "dir", "state"}
