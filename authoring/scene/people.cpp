@@ -6,8 +6,7 @@
 namespace throng::authoring {
 namespace {
 
-constexpr double kStride = 1.4;  // m per gait cycle of somebody of average height
-constexpr double kLeastHeight = 0.92, kMostHeight = 1.08;  // of the average: strides are as long as legs
+constexpr double kStride = 1.4;  // m per gait cycle: what the cast's walk is made for, so that its feet do not slide
 constexpr double kBriskest = 1.0e7;  // more people than this from one rate is a mistake
 
 }  // namespace
@@ -18,8 +17,7 @@ gpu::Person drawPerson(const PersonSettings& settings, const GroupRandom& random
     person.radius = static_cast<float>(random.draw(settings.radius, index, Purpose::radius));
     person.preferred_speed = static_cast<float>(speed);
     person.maximum_speed = static_cast<float>(speed * settings.maximum_speed_factor);
-    const double height = kLeastHeight + (kMostHeight - kLeastHeight) * random.unit(index, Purpose::height);
-    person.stride_length = static_cast<float>(kStride * height);
+    person.stride_length = static_cast<float>(kStride);
     person.phase = static_cast<float>(random.unit(index, Purpose::phase));
     person.variation = static_cast<std::uint32_t>(random.word(index, Purpose::variation) % kVariations);
     person.entry = gpu::NO_INDEX;

@@ -28,7 +28,7 @@ inline std::uint64_t hashText(std::string_view text) {
     return hash;
 }
 
-enum class Purpose : std::uint64_t { speed, radius, time, phase, variation, height, jitter_x, jitter_y };
+enum class Purpose : std::uint64_t { speed, radius, time, phase, variation, jitter_x, jitter_y };
 
 class GroupRandom {
   public:

@@ -10,7 +10,7 @@ def pose_name(variation, pose):
 
 
 def poses_of(person, poses, stride_length):
-    """The walk's poses in order, then the idle one. Strides are as long as the person is tall; bakes do the same."""
+    """The walk's poses in order, then the idle one. Tall or small, everybody takes the bake's stride: feet must not slide."""
     build = people.build_of(person)
     walk = [gait.walk_pose(index / poses, build, stride_length) for index in range(poses)]
     return walk + [gait.idle_pose(build)]

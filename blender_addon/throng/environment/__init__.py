@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the crowd walks among: walls, roads, ground, light and a camera, all from the bake's manifest."""
+from . import camera as camera_module
+from . import lights, streets, walls as walls_module
+
+
+def build_environment(context, manifest, collection, *, walls=True, roads=True, ground=True, light=True, camera=True):
+    """Everything in the bake's own frame (metres from its origin)."""
+    geometry = manifest.get("geometry") or {}
+    if walls:
+        for wall in geometry.get("walls", []):
+            collection.objects.link(walls_module.build_wall(wall))
+    if roads:
+        for thing in streets.build_streets(geometry):
+            collection.objects.link(thing)
+    if ground:
+        collection.objects.link(streets.build_ground(manifest))
+    if light:
+        lights.build_light(context.scene, collection)
+    if camera:
+        camera_module.build_camera(context.scene, manifest, collection)

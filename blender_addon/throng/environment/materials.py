@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Procedural surfaces. Coordinates are the object's own, in metres, so patterns keep their size."""
+import bpy
+
+
+def _base(name, colour, roughness):
+    material = bpy.data.materials.new(f"throng {name}")
+    material.use_nodes = True
+    material.diffuse_color = (*colour, 1.0)
+    nodes, links = material.node_tree.nodes, material.node_tree.links
+    shader = next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
+    shader.inputs["Base Color"].default_value = (*colour, 1.0)
+    shader.inputs["Roughness"].default_value = roughness
+    return material, nodes, links, shader
+
+
+def plain(name, colour, roughness=0.7):
+    """One colour."""
+    found = bpy.data.materials.get(f"throng {name}")
+    return found or _base(name, colour, roughness)[0]
+
+
+def mottled(name, dark, light, scale, roughness=0.85, fine=40.0, bump=0.0):
+    """Two colours mixed by coarse and fine noise: asphalt, plaster, stone."""
+    found = bpy.data.materials.get(f"throng {name}")
+    if found:
+        return found
+    material, nodes, links, shader = _base(name, light, roughness)
+    position = nodes.new("ShaderNodeTexCoord").outputs["Object"]
+    factors = []
+    for size, detail in ((scale, 6.0), (fine, 2.0)):
+        noise = nodes.new("ShaderNodeTexNoise")
+        noise.inputs["Scale"].default_value = size
+        noise.inputs["Detail"].default_value = detail
+        links.new(position, noise.inputs["Vector"])
+        factors.append(noise.outputs[0])
+    mean = nodes.new("ShaderNodeMath")
+    mean.operation = "ADD"
+    links.new(factors[0], mean.inputs[0])
+    links.new(factors[1], mean.inputs[1])
+    ramp = nodes.new("ShaderNodeValToRGB")
+    ramp.color_ramp.elements[0].position, ramp.color_ramp.elements[0].color = 0.36, (*dark, 1.0)
+    ramp.color_ramp.elements[1].position, ramp.color_ramp.elements[1].color = 0.64, (*light, 1.0)
+    half = nodes.new("ShaderNodeMath")
+    half.operation = "MULTIPLY"
+    half.inputs[1].default_value = 0.5
+    links.new(mean.outputs[0], half.inputs[0])
+    links.new(half.outputs[0], ramp.inputs[0])
+    links.new(ramp.outputs[0], shader.inputs["Base Color"])
+    if bump:
+        node = nodes.new("ShaderNodeBump")
+        node.inputs["Strength"].default_value = bump
+        node.inputs["Distance"].default_value = 0.02
+        links.new(factors[1], node.inputs["Height"])
+        links.new(node.outputs[0], shader.inputs["Normal"])
+    return material
+
+
+def slabs(name, colour, joint, size):
+    """Paving: slabs of `size` metres with joints, each a little different."""
+    found = bpy.data.materials.get(f"throng {name}")
+    if found:
+        return found
+    material, nodes, links, shader = _base(name, colour, 0.8)
+    brick = nodes.new("ShaderNodeTexBrick")
+    brick.inputs["Scale"].default_value = 1.0
+    brick.inputs["Brick Width"].default_value = size
+    brick.inputs["Row Height"].default_value = size * 0.6
+    brick.inputs["Mortar Size"].default_value = 0.012
+    brick.inputs["Color1"].default_value = (*colour, 1.0)
+    brick.inputs["Color2"].default_value = (*(0.82 * c for c in colour), 1.0)
+    brick.inputs["Mortar"].default_value = (*joint, 1.0)
+    links.new(nodes.new("ShaderNodeTexCoord").outputs["Object"], brick.inputs["Vector"])
+    links.new(brick.outputs["Color"], shader.inputs["Base Color"])
+    return material
+
+
+def glass():
+    """Panes as seen from the street: dark rooms behind a reflecting surface."""
+    found = bpy.data.materials.get("throng glass")
+    if found:
+        return found
+    material, _, _, shader = _base("glass", (0.018, 0.024, 0.030), 0.06)
+    for specular in ("Specular", "Specular IOR Level"):
+        if specular in shader.inputs:
+            shader.inputs[specular].default_value = 0.9
+    return material

@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Flat polygons and boxes, gathered into one mesh. Pure Python except for to_object()."""
+import math
+
+
+def signed_area(polygon):
+    return 0.5 * sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(polygon, polygon[1:] + polygon[:1]))
+
+
+def counter_clockwise(polygon):
+    polygon = [tuple(point[:2]) for point in polygon]
+    return polygon if signed_area(polygon) > 0.0 else polygon[::-1]
+
+
+def direction(a, b):
+    """Unit vector and length from a to b."""
+    dx, dy = b[0] - a[0], b[1] - a[1]
+    size = math.hypot(dx, dy)
+    return ((dx / size, dy / size) if size > 1e-9 else (1.0, 0.0)), size
+
+
+def inside(polygon, point):
+    hit = False
+    for a, b in zip(polygon, polygon[1:] + polygon[:1]):
+        if (a[1] > point[1]) != (b[1] > point[1]) and point[0] < (b[0] - a[0]) * (point[1] - a[1]) / (b[1] - a[1]) + a[0]:
+            hit = not hit
+    return hit
+
+
+def offset_polygon(polygon, distance):
+    """A counter-clockwise polygon moved outwards, corners mitred (limited, for sharp ones)."""
+    result, count = [], len(polygon)
+    for i, point in enumerate(polygon):
+        before, _ = direction(polygon[i - 1], point)
+        after, _ = direction(point, polygon[(i + 1) % count])
+        n1, n2 = (before[1], -before[0]), (after[1], -after[0])
+        nx, ny = n1[0] + n2[0], n1[1] + n2[1]
+        size = max(0.25, 0.5 * (nx * nx + ny * ny))
+        result.append((point[0] + nx / size * distance, point[1] + ny / size * distance))
+    return result
+
+
+class Shape:
+    """A mesh in the making, with named material slots."""
+
+    def __init__(self, name):
+        self.name, self.vertices, self.faces, self.slots, self.materials = name, [], [], [], []
+
+    def slot(self, material):
+        if material not in self.materials:
+            self.materials.append(material)
+        return self.materials.index(material)
+
+    def face(self, corners, material):
+        base = len(self.vertices)
+        self.vertices.extend(corners)
+        self.faces.append(tuple(range(base, base + len(corners))))
+        self.slots.append(self.slot(material))
+
+    def flat(self, polygon, z, material):
+        self.face([(x, y, z) for x, y in counter_clockwise(polygon)], material)
+
+    def prism(self, polygon, low, high, material, top=None):
+        """Sides and lid of an extruded polygon."""
+        polygon = counter_clockwise(polygon)
+        for a, b in zip(polygon, polygon[1:] + polygon[:1]):
+            self.face([(*a, low), (*b, low), (*b, high), (*a, high)], material)
+        self.face([(x, y, high) for x, y in polygon], top or material)
+
+    def band(self, polygon, low, high, out, material):
+        """A ledge that runs round a building."""
+        self.prism(offset_polygon(counter_clockwise(polygon), out), low, high, material)
+
+    def panel(self, a, along, outward, start, width, low, high, out, material):
+        """A rectangle on a facade, `out` metres in front of it."""
+        def at(distance, z):
+            return (a[0] + along[0] * distance + outward[0] * out, a[1] + along[1] * distance + outward[1] * out, z)
+
+        self.face([at(start, low), at(start + width, low), at(start + width, high), at(start, high)], material)
+
+    def strip(self, a, b, half_width, low, high, material):
+        """A box along a line, ends flat."""
+        along, _ = direction(a, b)
+        side = (-along[1] * half_width, along[0] * half_width)
+        self.prism([(a[0] - side[0], a[1] - side[1]), (b[0] - side[0], b[1] - side[1]), (b[0] + side[0], b[1] + side[1]), (a[0] + side[0], a[1] + side[1])],
+                   low, high, material)
+
+    def to_object(self):
+        import bpy
+
+        mesh = bpy.data.meshes.new(self.name)
+        mesh.from_pydata(self.vertices, [], self.faces)
+        for material in self.materials:
+            mesh.materials.append(material)
+        mesh.polygons.foreach_set("material_index", self.slots)
+        mesh.update()
+        return bpy.data.objects.new(self.name, mesh)

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Imports a bake with the add-on of this checkout and renders a still, without a display.
+
+blender -b --factory-startup --python-exit-code 1 -P scripts/render_bake.py -- BAKE OUT.png [--frame N] [--samples N]
+        [--width W] [--height H] [--engine cycles|eevee|workbench] [--save FILE.blend]
+"""
+import argparse
+import os
+import sys
+
+import bpy
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "blender_addon"))
+import throng  # noqa: E402
+
+
+def arguments():
+    parser = argparse.ArgumentParser(prog="render_bake.py")
+    parser.add_argument("bake")
+    parser.add_argument("picture")
+    parser.add_argument("--frame", type=int, help="the scene's frame; by default the one the camera was set up for")
+    parser.add_argument("--samples", type=int, default=96)
+    parser.add_argument("--width", type=int, default=960)
+    parser.add_argument("--height", type=int, default=540)
+    parser.add_argument("--engine", choices=("cycles", "eevee", "workbench"), default="cycles")
+    parser.add_argument("--save", help="also save the scene; paths in it are relative")
+    return parser.parse_args(sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else [])
+
+
+def set_up_render(scene, options):
+    engines = {"cycles": ("CYCLES",), "eevee": ("BLENDER_EEVEE_NEXT", "BLENDER_EEVEE"), "workbench": ("BLENDER_WORKBENCH",)}[options.engine]
+    known = bpy.types.RenderSettings.bl_rna.properties["engine"].enum_items.keys()
+    scene.render.engine = next((name for name in engines if name in known), engines[-1])
+    scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = options.width, options.height, 100
+    scene.render.image_settings.file_format = "PNG"
+    scene.render.use_persistent_data = False
+    if options.engine == "cycles":
+        cycles = scene.cycles
+        cycles.samples, cycles.use_adaptive_sampling, cycles.adaptive_threshold = options.samples, True, 0.02
+        cycles.use_denoising = False  # not every build has a denoiser
+        cycles.max_bounces, cycles.diffuse_bounces, cycles.glossy_bounces, cycles.transmission_bounces = 4, 3, 2, 2
+        cycles.caustics_reflective = cycles.caustics_refractive = False
+        cycles.sample_clamp_indirect = 4.0
+
+
+def main():
+    options = arguments()
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    throng.register()
+    scene = bpy.context.scene
+    if options.save:  # first, so that the import can store relative paths
+        bpy.ops.wm.save_as_mainfile(filepath=os.path.abspath(options.save))
+    bpy.ops.import_scene.throng(filepath=os.path.abspath(options.bake if options.bake.endswith(".json") else os.path.join(options.bake, "bake.json")))
+    set_up_render(scene, options)
+    crowd = next(c for c in bpy.data.collections if "throng_bake" in c)
+    frame = options.frame if options.frame is not None else crowd["throng_camera_frame"]
+    scene.frame_set(frame)
+    scene.render.filepath = os.path.abspath(options.picture)
+    if options.save:
+        bpy.ops.wm.save_mainfile()
+    bpy.ops.render.render(write_still=True)
+    print(f"rendered frame {frame}: {options.picture}")
+
+
+main()
