@@ -159,6 +159,7 @@ TEST(StreamReader, RejectsOtherArraysAndVersions) {
     EXPECT_NE(with("(1, 2, 3)", "(9223372036854775807, 2, 3)"), "");
     EXPECT_NE(with("NUMPY\x01", "NUMPY\x03"), "");
 
+    std::filesystem::remove(folder / "good");
     writeCounting(folder / "good", StreamFormat::pc2, 2, 1, 1);
     EXPECT_NE(with(bytes({2, 0, 0, 0}), bytes({2, 0, 0, 0x80})), "");  // a negative number of points
     EXPECT_NE(with(bytes({1, 0, 0, 0}), bytes({2, 0, 0, 0})), "");     // another version

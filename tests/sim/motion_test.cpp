@@ -1,1 +1,188 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cstring>
+#include <numbers>
+
+#include "sim/simulation.h"
+#include "tests/sim/gpu_test.h"
+#include "tests/sim/observe.h"
+#include "tests/sim/scenes.h"
+
+namespace throng::test {
+namespace {
+
+class MotionTest : public GpuTest {
+  protected:
+    Observation run(const authoring::Scene& scene, float seconds, int stride = 1) {
+        sim::Simulation simulation(scene, library);
+        return observe(simulation, scene, seconds, stride);
+    }
+    std::vector<gpu::AgentState> statesAfter(const authoring::Scene& scene, int steps) {
+        sim::Simulation simulation(scene, library);
+        for (int step = 0; step < steps; ++step) simulation.step();
+        return simulation.parts().buffers.states.download<gpu::AgentState>(scene.people.size());
+    }
+};
+
+TEST_F(MotionTest, OnePersonWalksStraightToItsGoalAtItsSpeed) {
+    authoring::Scene scene = emptyScene({-5, -5}, {25, 5});
+    addPerson(scene, {0, 0}, {20, 0}, 1.33f);
+    const Observation seen = run(scene, 30.0f);
+    EXPECT_EQ(seen.arrived, 1u);
+    EXPECT_NEAR(seen.seconds, 20.0f / 1.33f, 1.0f);
+}
+
+TEST_F(MotionTest, GaitPhaseAdvancesWithDistanceOverStrideLength) {
+    authoring::Scene scene = emptyScene({-5, -5}, {45, 5});
+    addPerson(scene, {0, 0}, {40, 0}).phase = 0.25f;
+    const gpu::AgentState state = statesAfter(scene, 480)[0];
+    EXPECT_GT(state.walked, 11.0f);
+    EXPECT_NEAR(state.phase, 0.25f + state.walked / 1.4f, 1.0e-3f);
+}
+
+TEST_F(MotionTest, HeadingFollowsTheVelocitySmoothly) {
+    authoring::Scene scene = emptyScene({-10, -10}, {10, 10});
+    addPerson(scene, {0, 0}, {8, 0}).heading = std::numbers::pi_v<float>;  // looks away from where it goes
+    sim::Simulation simulation(scene, library);
+    float before = std::numbers::pi_v<float>;
+    float fastest = 0.0f;
+    for (int step = 0; step < 240; ++step) {
+        simulation.step();
+        const float heading = simulation.parts().buffers.states.download<gpu::AgentState>(1)[0].heading;
+        const float turn = std::abs(std::remainder(heading - before, 2.0f * std::numbers::pi_v<float>));
+        fastest = std::max(fastest, turn * 48.0f);
+        before = heading;
+    }
+    EXPECT_LT(fastest, std::numbers::pi_v<float>) << "rad/s";
+    EXPECT_NEAR(std::remainder(before, 2.0f * std::numbers::pi_v<float>), 0.0f, 0.1f);
+}
+
+TEST_F(MotionTest, AccelerationStaysWithinTheLimit) {
+    authoring::Scene scene = emptyScene({-5, -5}, {15, 5});
+    scene.settings.maximum_acceleration = 2.0;
+    addPerson(scene, {0, 0}, {10, 0});
+    sim::Simulation simulation(scene, library);
+    glm::vec2 before(0.0f);
+    for (int step = 0; step < 96; ++step) {
+        simulation.step();
+        const glm::vec2 velocity = simulation.parts().buffers.states.download<gpu::AgentState>(1)[0].velocity;
+        EXPECT_LE(glm::length(velocity - before) * 48.0f, 2.05f);
+        before = velocity;
+    }
+}
+
+TEST_F(MotionTest, TwoPeopleHeadOnPassEachOther) {
+    authoring::Scene scene = emptyScene({-10, -5}, {10, 5});
+    addPerson(scene, {-6, 0}, {6, 0});
+    addPerson(scene, {6, 0}, {-6, 0});
+    const Observation seen = run(scene, 20.0f);
+    EXPECT_EQ(seen.arrived, 2u);
+    EXPECT_LT(seen.deepest_percent, 1.0f);
+}
+
+TEST_F(MotionTest, FourPeopleMeetingAtACrossingAllArrive) {
+    authoring::Scene scene = emptyScene({-10, -10}, {10, 10});
+    addPerson(scene, {-6, 0}, {6, 0});
+    addPerson(scene, {6, 0}, {-6, 0});
+    addPerson(scene, {0, -6}, {0, 6});
+    addPerson(scene, {0, 6}, {0, -6});
+    const Observation seen = run(scene, 30.0f);
+    EXPECT_EQ(seen.arrived, 4u);
+    EXPECT_LT(seen.deepest_percent, 1.0f);
+}
+
+TEST_F(MotionTest, ACircleOfPeopleReachesTheOppositeSide) {
+    authoring::Scene scene = emptyScene({-14, -14}, {14, 14});
+    for (int i = 0; i < 63; ++i) {
+        const float angle = 2.0f * std::numbers::pi_v<float> * static_cast<float>(i) / 63.0f;
+        const glm::vec2 place(10.08f * std::cos(angle), 10.08f * std::sin(angle));
+        addPerson(scene, place, -place, 1.3f, 0.3f);
+    }
+    const Observation seen = run(scene, 60.0f);
+    EXPECT_EQ(seen.arrived, 63u);
+    EXPECT_LT(seen.deepest_percent, 5.0f);
+}
+
+TEST_F(MotionTest, BodiesThatStartInsideEachOtherPartWithoutFlying) {
+    authoring::Scene scene = emptyScene({-5, -5}, {5, 5});
+    for (int i = 0; i < 9; ++i) addPerson(scene, {0.0f, 0.0f}, {0.0f, 0.0f});  // all in the very same place
+    sim::Simulation simulation(scene, library);
+    for (int step = 0; step < 240; ++step) simulation.step();
+    const auto states = simulation.parts().buffers.states.download<gpu::AgentState>(9);
+    EXPECT_LT(overlapsOf(states, scene.people).deepest_percent, 5.0f);
+    for (const gpu::AgentState& state : states) EXPECT_LT(glm::length(state.position), 2.0f);
+}
+
+TEST_F(MotionTest, ACrushBeyondTheTouchListsStillKeepsBodiesApart) {
+    authoring::Scene scene = emptyScene({-6, -6}, {6, 6});
+    // 400 children on four square metres: far more within touch than a touch list holds.
+    for (int i = 0; i < 400; ++i)
+        addPerson(scene, {static_cast<float>(i % 20) * 0.1f - 1.0f, static_cast<float>(i / 20) * 0.1f - 1.0f}, {0.0f, 0.0f}, 1.0f, 0.1f);
+    scene.settings.contact_iterations = 8;
+    sim::Simulation simulation(scene, library);
+    simulation.step();
+    const auto words = simulation.parts().buffers.touch_words.download<std::uint32_t>(400);
+    std::uint32_t longest = 0;
+    for (const std::uint32_t word : words) longest = std::max(longest, word & gpu::TOUCH_COUNT_MASK);
+    EXPECT_GT(longest, gpu::TOUCH_CAPACITY);
+    for (int step = 0; step < 480; ++step) simulation.step();
+    const auto states = simulation.parts().buffers.states.download<gpu::AgentState>(400);
+    EXPECT_LT(overlapsOf(states, scene.people).deepest_percent, 12.0f);
+}
+
+TEST_F(MotionTest, NobodyPassesThroughAWallHoweverFast) {
+    for (const float speed : {1.3f, 3.0f, 10.0f})
+        for (const float half_thickness : {0.0f, 0.1f}) {
+            authoring::Scene scene = emptyScene({-12, -6}, {12, 6});
+            scene.settings.substeps = 1;
+            addWall(scene, {0, -5}, {0, 5}, half_thickness);
+            for (int i = 0; i < 9; ++i)
+                addPerson(scene, {-6.0f - 0.6f * static_cast<float>(i % 3), -2.0f + static_cast<float>(i) * 0.5f}, {6, 0}, speed);
+            const Observation seen = run(scene, 10.0f);
+            EXPECT_EQ(seen.wall_crossings, 0u) << speed << " m/s";
+            EXPECT_LT(seen.deepest_wall_percent, 1.0f) << speed << " m/s";
+        }
+}
+
+TEST_F(MotionTest, ACrowdPressedIntoACornerStaysOnItsSideOfTheWalls) {
+    authoring::Scene scene = emptyScene({-6, -6}, {6, 6});
+    addWall(scene, {-4, 3}, {3, 3});
+    addWall(scene, {3, 3}, {3, -4});
+    for (int i = 0; i < 49; ++i)
+        addPerson(scene, {-3.0f + 0.7f * static_cast<float>(i % 7), -3.0f + 0.7f * static_cast<float>(i / 7)}, {5, 5});
+    const Observation seen = run(scene, 15.0f);
+    EXPECT_EQ(seen.wall_crossings, 0u);
+    EXPECT_LT(seen.deepest_wall_percent, 2.0f);
+}
+
+TEST_F(MotionTest, RepeatsToTheLastBit) {
+    authoring::Scene scene = uniformScene(1234, 1.2f, 3);
+    addWall(scene, {5, 5}, {30, 22});
+    const auto bits = [](const std::vector<gpu::AgentState>& states) {
+        std::string bytes(states.size() * sizeof(gpu::AgentState), '\0');
+        std::memcpy(bytes.data(), states.data(), bytes.size());
+        return bytes;
+    };
+    const std::string first = bits(statesAfter(scene, 120));
+    for (int again = 0; again < 3; ++again) EXPECT_TRUE(bits(statesAfter(scene, 120)) == first) << "run " << again;
+}
+
+TEST_F(MotionTest, ASceneWithoutPeopleOrWallsRuns) {
+    const authoring::Scene scene = emptyScene({0, 0}, {5, 5});
+    sim::Simulation simulation(scene, library);
+    for (int step = 0; step < 4; ++step) simulation.step();
+    EXPECT_TRUE(simulation.account().agents.empty());
+}
+
+TEST_F(MotionTest, ALayoutTooLargeForOneDiagramSaysWhatWouldFit) {
+    authoring::Scene scene = emptyScene({0, 0}, {20000, 20000});
+    addPerson(scene, {5, 5}, {9, 9});
+    try {
+        sim::Simulation simulation(scene, library);
+        FAIL() << "accepted";
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find("pixels_per_metre"), std::string::npos) << error.what();
+    }
+}
+
+}  // namespace
+}  // namespace throng::test
