@@ -9,7 +9,8 @@
 #include <vector>
 
 /// What a layout file says, checked but not yet interpreted. World coordinates: metres, double precision,
-/// X east, Y north, Z up. Angles in degrees, counter-clockwise from +X. Times in seconds from the first frame.
+/// X east, Y north, Z up. Angles in degrees, counter-clockwise from +X. Times in seconds from the first
+/// frame.
 namespace throng::authoring {
 
 /// Where a value stands in its file, so that errors found long after parsing still point at it.
@@ -31,7 +32,8 @@ struct Distribution {
 
 /// How a person differs from the next. Speeds in m/s, lengths in metres.
 struct PersonSettings {
-    /// Preferred walking speed, 0.05 to 10 m/s. Free walking of adults: mean 1.34, deviation 0.26 (Weidmann 1993).
+    /// Preferred walking speed, 0.05 to 10 m/s. Free walking of adults: mean 1.34, deviation 0.26 (Weidmann
+    /// 1993).
     Distribution speed{Distribution::Kind::normal, 1.34, 0.26, 0.6, 2.2};
     /// Body radius, 0.1 to 1 m: half the shoulder breadth.
     Distribution radius{Distribution::Kind::uniform, 0.25, 0.0, 0.22, 0.28};
@@ -42,21 +44,23 @@ struct PersonSettings {
 enum class DiagramMethod { automatic, gradient1, per_site };
 
 struct SimulationSettings {
-    double duration = 10.0;         ///< s, (0, 86400]: the length of the shot
-    double warmup = 0.0;            ///< s, [0, 3600]: simulated before the first frame and not recorded
-    double fps = 24.0;              ///< frames/s, [1, 240]: the shot's frame rate
-    int substeps = 2;               ///< simulation steps per frame, [1, 64]
-    std::uint64_t seed = 1;         ///< [0, 2^53]: same layout, seed and driver give the same bytes
-    double tile_radius = 0.6;       ///< m, [0.05, 10]: a site's tile in the diagram; at least the largest body radius
-    double field_of_view = 200.0;   ///< degrees, (0, 360]: what a person sees ahead
-    int samples_per_ray = 6;        ///< [1, 64]: reach R = a + (samples - 1) * tile radius
-    double pixels_per_metre = 0.0;  ///< px/m, 0 = one pixel per smallest body radius; (0, 100]: diagram resolution
+    double duration = 10.0;  ///< s, (0, 86400]: the length of the shot
+    double warmup = 0.0;     ///< s, [0, 3600]: simulated before the first frame and not recorded
+    double fps = 24.0;       ///< frames/s, [1, 240]: the shot's frame rate
+    int substeps = 2;        ///< simulation steps per frame, [1, 64]
+    std::uint64_t seed = 1;  ///< [0, 2^53]: same layout, seed and driver give the same bytes
+    double tile_radius =
+        0.6;  ///< m, [0.05, 10]: a site's tile in the diagram; at least the largest body radius
+    double field_of_view = 200.0;  ///< degrees, (0, 360]: what a person sees ahead
+    int samples_per_ray = 6;       ///< [1, 64]: reach R = a + (samples - 1) * tile radius
+    double pixels_per_metre =
+        0.0;  ///< px/m, 0 = one pixel per smallest body radius; (0, 100]: diagram resolution
     DiagramMethod method = DiagramMethod::automatic;
-    int neighbours = 10;              ///< [1, 32]: nearest sites kept by each person
-    double time_horizon = 2.0;        ///< s, [0.1, 20]: how far ahead people avoid each other
-    double wall_time_horizon = 0.6;   ///< s, [0.05, 20]: how far ahead people avoid walls
-    double contact_range = 1.0;       ///< m, [0.5, 3]: those nearer than this are felt whatever the field of view
-    int contact_iterations = 4;       ///< [1, 32]: rounds per step that keep bodies apart
+    int neighbours = 10;             ///< [1, 32]: nearest sites kept by each person
+    double time_horizon = 2.0;       ///< s, [0.1, 20]: how far ahead people avoid each other
+    double wall_time_horizon = 0.6;  ///< s, [0.05, 20]: how far ahead people avoid walls
+    double contact_range = 1.0;  ///< m, [0.5, 3]: those nearer than this are felt whatever the field of view
+    int contact_iterations = 4;  ///< [1, 32]: rounds per step that keep bodies apart
     double maximum_acceleration = 4.0;  ///< m/s^2, [0.1, 100]
 };
 
@@ -99,9 +103,9 @@ struct Flow {
     std::vector<Place> via;
     Place to;
     std::optional<std::uint64_t> count;  ///< people in all, spread evenly over [start, end]
-    std::optional<double> rate;          ///< people per second (Poisson arrivals, seeded); exactly one of count, rate
-    double start = 0.0;                  ///< s
-    double end = 0.0;                    ///< s; the reader fills in the duration where the file says nothing
+    std::optional<double> rate;  ///< people per second (Poisson arrivals, seeded); exactly one of count, rate
+    double start = 0.0;          ///< s
+    double end = 0.0;            ///< s; the reader fills in the duration where the file says nothing
     PersonSettings people;
     Arrival arrival = Arrival::leave;
     SourcePosition where;
@@ -114,12 +118,12 @@ struct CircleFormation {
 };
 
 struct GridFormation {
-    glm::dvec2 origin{0.0};     ///< centre of the first row's first person
-    std::uint64_t rows = 1;     ///< along the grid's own +Y
-    std::uint64_t columns = 1;  ///< along the grid's own +X
-    double spacing = 1.0;       ///< m
-    double jitter = 0.0;        ///< m: each coordinate moves by up to this much, uniformly
-    double rotation = 0.0;      ///< degrees about the origin point
+    glm::dvec2 origin{0.0};                ///< centre of the first row's first person
+    std::uint64_t rows = 1;                ///< along the grid's own +Y
+    std::uint64_t columns = 1;             ///< along the grid's own +X
+    double spacing = 1.0;                  ///< m
+    double jitter = 0.0;                   ///< m: each coordinate moves by up to this much, uniformly
+    double rotation = 0.0;                 ///< degrees about the origin point
     std::variant<glm::dvec2, Place> goal;  ///< an offset added to each person's position, or a place
 };
 

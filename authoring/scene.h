@@ -31,9 +31,10 @@ struct Group {
 /// 2^-16 m, so a layout moved by whole metres (a UTM offset, say) gives the very same scene.
 struct Scene {
     SimulationSettings settings;
-    glm::dvec2 origin{0.0};         ///< world = origin + scene
-    glm::dvec2 output_origin{0.0};  ///< streams hold world - output_origin; zero for layouts near the world's origin
-    glm::vec2 minimum{0.0f};        ///< bounds of all that people can reach, with a margin
+    glm::dvec2 origin{0.0};  ///< world = origin + scene
+    glm::dvec2 output_origin{
+        0.0};  ///< streams hold world - output_origin; zero for layouts near the world's origin
+    glm::vec2 minimum{0.0f};  ///< bounds of all that people can reach, with a margin
     glm::vec2 maximum{0.0f};
 
     std::vector<gpu::Person> people;
@@ -50,7 +51,8 @@ struct Scene {
     FieldGrid grid;
     std::vector<gpu::FieldCell> fields;  ///< field f holds cells [f * cells, (f + 1) * cells)
     std::uint32_t field_count = 0;
-    std::vector<float> road_distance;  ///< m, per grid cell: positive on roads and areas, negative off them; empty without roads
+    std::vector<float> road_distance;  ///< m, per grid cell: positive on roads and areas, negative off them;
+                                       ///< empty without roads
 
     float smallest_radius = 0.0f;  ///< of all people, m
     float largest_radius = 0.0f;

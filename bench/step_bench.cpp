@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long a whole simulation step takes, beside the yardstick that every machine has: one gradient1 diagram (point
-// sprites, fragment depth, 32-bit float depth) of 1,024 x 1,024 pixels and 16,384 sites of radius 8 pixels.
+// How long a whole simulation step takes, beside the yardstick that every machine has: one gradient1 diagram
+// (point sprites, fragment depth, 32-bit float depth) of 1,024 x 1,024 pixels and 16,384 sites of radius 8
+// pixels.
 #include <benchmark/benchmark.h>
 #include <epoxy/gl.h>
 
@@ -36,7 +37,8 @@ authoring::Scene benchScene(std::uint32_t count) {
     scene.settings.field_of_view = 200.0;
     scene.settings.samples_per_ray = 6;
     scene.settings.neighbours = 10;
-    for (gpu::Person& person : scene.people) person.radius = 0.3f;
+    for (gpu::Person& person : scene.people)
+        person.radius = 0.3f;
     scene.smallest_radius = scene.largest_radius = 0.3f;
     return scene;
 }
@@ -82,23 +84,29 @@ void gradient1Diagram(benchmark::State& state) {
     context();
     Gradient1 yardstick(static_cast<std::uint32_t>(state.range(0)), static_cast<float>(state.range(1)));
     milliseconds([&] { yardstick.draw(); });
-    for (auto _ : state) milliseconds([&] { yardstick.draw(); });
+    for (auto _ : state)
+        milliseconds([&] { yardstick.draw(); });
 }
 
 void wholeStep(benchmark::State& state) {
     context();
     sim::Simulation simulation(benchScene(static_cast<std::uint32_t>(state.range(0))), shaders());
-    for (int i = 0; i < 5; ++i) milliseconds([&] { simulation.step(); });
-    for (auto _ : state) milliseconds([&] { simulation.step(); });
-    for (const auto& [pass, time] : simulation.profile(20)) state.counters[pass] = time;
+    for (int i = 0; i < 5; ++i)
+        milliseconds([&] { simulation.step(); });
+    for (auto _ : state)
+        milliseconds([&] { simulation.step(); });
+    for (const auto& [pass, time] : simulation.profile(20))
+        state.counters[pass] = time;
 }
 
-/// Steps and yardsticks in turn, so that both meet the same noise. `ratio` is the median of the pairs' ratios.
+/// Steps and yardsticks in turn, so that both meet the same noise. `ratio` is the median of the pairs'
+/// ratios.
 void stepOverGradient1(benchmark::State& state) {
     context();
     Gradient1 yardstick(16384, 8.0f);
     sim::Simulation simulation(benchScene(16384), shaders());
-    for (int i = 0; i < 5; ++i) milliseconds([&] { simulation.step(), yardstick.draw(); });
+    for (int i = 0; i < 5; ++i)
+        milliseconds([&] { simulation.step(), yardstick.draw(); });
     std::vector<double> steps, yardsticks, ratios;
     for (auto _ : state) {
         steps.push_back(milliseconds([&] { simulation.step(); }));
@@ -108,7 +116,8 @@ void stepOverGradient1(benchmark::State& state) {
     state.counters["step_ms"] = median(steps);
     state.counters["gradient1_ms"] = median(yardsticks);
     state.counters["ratio"] = median(ratios);
-    for (const auto& [pass, time] : simulation.profile(20)) state.counters[pass] = time;
+    for (const auto& [pass, time] : simulation.profile(20))
+        state.counters[pass] = time;
 }
 
 BENCHMARK(stepOverGradient1)->Iterations(100)->Unit(benchmark::kMillisecond)->UseRealTime();

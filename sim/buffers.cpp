@@ -23,7 +23,8 @@ constexpr float kPushAllowance = 0.05f;
 
 float fastest(const authoring::Scene& scene) {
     float speed = 0.0f;
-    for (const gpu::Person& person : scene.people) speed = std::max(speed, person.maximum_speed);
+    for (const gpu::Person& person : scene.people)
+        speed = std::max(speed, person.maximum_speed);
     return speed;
 }
 
@@ -34,7 +35,8 @@ std::vector<gpu::AgentState> initialStates(const authoring::Scene& scene) {
         gpu::AgentState state{};
         const bool fixed = person.flags & gpu::PERSON_FIXED_SPAWN;
         const bool present = person.flags & gpu::PERSON_PRESENT_AT_START;
-        state.position = fixed ? person.spawn_position : scene.entry_points.at(scene.entries.at(person.entry).first_point);
+        state.position =
+            fixed ? person.spawn_position : scene.entry_points.at(scene.entries.at(person.entry).first_point);
         state.heading = person.heading;
         state.phase = person.phase;
         state.status = present ? gpu::STATUS_WALKING : gpu::STATUS_WAITING;
@@ -53,7 +55,9 @@ std::vector<std::uint32_t> initialRowSlots(const authoring::Scene& scene) {
     return slots;
 }
 
-std::uint32_t pixels(float extent, float per_metre) { return static_cast<std::uint32_t>(std::ceil(extent * per_metre)); }
+std::uint32_t pixels(float extent, float per_metre) {
+    return static_cast<std::uint32_t>(std::ceil(extent * per_metre));
+}
 
 void checkWindow(const gpu::Parameters& parameters, glm::vec2 extent) {
     const double width = parameters.diagram_width;
@@ -61,11 +65,13 @@ void checkWindow(const gpu::Parameters& parameters, glm::vec2 extent) {
     if (width <= kMostPixelsPerSide && height <= kMostPixelsPerSide && width * height <= kMostPixels) return;
     const double by_area = std::sqrt(kMostPixels / (double{extent.x} * double{extent.y}));
     const double by_side = kMostPixelsPerSide / std::max(extent.x, extent.y);
-    throw std::runtime_error(fmt::format(
-        "the layout covers {:.0f} x {:.0f} m, which at {:.2f} pixels per metre is a diagram of {:.0f} x {:.0f} pixels; the limit is "
-        "{:.0f} a side and {:.0f} million in all. Set simulation.pixels_per_metre to at most {:.2f}, or split the layout.",
-        extent.x, extent.y, parameters.pixels_per_metre, width, height, kMostPixelsPerSide, kMostPixels / 1e6,
-        std::floor(std::min(by_area, by_side) * 100.0) / 100.0));
+    throw std::runtime_error(
+        fmt::format("the layout covers {:.0f} x {:.0f} m, which at {:.2f} pixels per metre is a diagram of "
+                    "{:.0f} x {:.0f} pixels; the limit is "
+                    "{:.0f} a side and {:.0f} million in all. Set simulation.pixels_per_metre to at most "
+                    "{:.2f}, or split the layout.",
+                    extent.x, extent.y, parameters.pixels_per_metre, width, height, kMostPixelsPerSide,
+                    kMostPixels / 1e6, std::floor(std::min(by_area, by_side) * 100.0) / 100.0));
 }
 
 }  // namespace
@@ -78,16 +84,17 @@ gpu::Parameters makeParameters(const authoring::Scene& scene) {
     parameters.largest_radius = scene.largest_radius;
     // Both may walk, and both may be pushed.
     parameters.contact_slack = 2.0f * fastest(scene) * parameters.step_seconds + 2.0f * kPushAllowance;
-    parameters.contact_range =
-        std::max(static_cast<float>(settings.contact_range), 2.0f * scene.largest_radius + parameters.contact_slack);
+    parameters.contact_range = std::max(static_cast<float>(settings.contact_range),
+                                        2.0f * scene.largest_radius + parameters.contact_slack);
     parameters.cells_minimum = scene.minimum;
     parameters.cell_size = parameters.contact_range;
     parameters.cells_width = std::max(1u, pixels(extent.x, 1.0f / parameters.cell_size));
     parameters.cells_height = std::max(1u, pixels(extent.y, 1.0f / parameters.cell_size));
     parameters.row_count = static_cast<std::uint32_t>(scene.people.size());
     parameters.diagram_minimum = scene.minimum;
-    parameters.pixels_per_metre = settings.pixels_per_metre > 0.0 ? static_cast<float>(settings.pixels_per_metre)
-                                                                  : 1.0f / std::max(scene.smallest_radius, 0.05f);
+    parameters.pixels_per_metre = settings.pixels_per_metre > 0.0
+                                      ? static_cast<float>(settings.pixels_per_metre)
+                                      : 1.0f / std::max(scene.smallest_radius, 0.05f);
     parameters.diagram_width = pixels(extent.x, parameters.pixels_per_metre);
     parameters.diagram_height = pixels(extent.y, parameters.pixels_per_metre);
     parameters.tile_radius = static_cast<float>(settings.tile_radius);
@@ -134,8 +141,8 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
       wall_tiles(gl::makeBuffer("wall tiles", scene.wall_tiles)) {
     const std::size_t rows = scene.people.size();
     const std::size_t cells = std::size_t{parameter_values.cells_width} * parameter_values.cells_height;
-    const WallIndex walls =
-        indexWalls(scene.wall_segments, parameter_values, parameter_values.contact_range + scene.largest_radius);
+    const WallIndex walls = indexWalls(scene.wall_segments, parameter_values,
+                                       parameter_values.contact_range + scene.largest_radius);
     wall_starts = gl::makeBuffer("wall starts", walls.starts);
     wall_items = gl::makeBuffer("wall items", walls.items);
 
@@ -167,16 +174,40 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
 }
 
 std::vector<std::pair<std::string, const gl::Buffer*>> Buffers::named() const {
-    return {{"ParametersBlock", &parameters}, {"People", &people}, {"States", &states}, {"Stages", &stages},
-            {"Fields", &fields}, {"RoadDistances", &road_distances}, {"Queues", &queues}, {"QueueHeads", &queue_heads},
-            {"Entries", &entries}, {"EntryPoints", &entry_points}, {"Proposals", &proposals},
-            {"WallSegments", &wall_segments}, {"WallTiles", &wall_tiles}, {"WallStarts", &wall_starts},
-            {"WallItems", &wall_items}, {"CellCounts", &cell_counts}, {"GroupSums", &group_sums},
-            {"CellStarts", &cell_starts}, {"CellCursors", &cell_cursors}, {"RowCells", &row_cells},
-            {"LooseRows", &loose_rows}, {"LiveDispatch", &live_dispatch}, {"RowSlots", &row_slots}, {"Bodies", &bodies},
-            {"Sites", &sites}, {"Neighbours", &neighbours},
-            {"NeighbourCounts", &neighbour_counts}, {"TouchWords", &touch_words}, {"TouchLists", &touch_lists}, {"TouchSlots", &touch_slots},
-            {"TouchDispatch", &touch_dispatch}, {"PreferredVelocities", &preferred_velocities}, {"Targets", &targets}, {"TargetsAfter", &targets_after}};
+    return {{"ParametersBlock", &parameters},
+            {"People", &people},
+            {"States", &states},
+            {"Stages", &stages},
+            {"Fields", &fields},
+            {"RoadDistances", &road_distances},
+            {"Queues", &queues},
+            {"QueueHeads", &queue_heads},
+            {"Entries", &entries},
+            {"EntryPoints", &entry_points},
+            {"Proposals", &proposals},
+            {"WallSegments", &wall_segments},
+            {"WallTiles", &wall_tiles},
+            {"WallStarts", &wall_starts},
+            {"WallItems", &wall_items},
+            {"CellCounts", &cell_counts},
+            {"GroupSums", &group_sums},
+            {"CellStarts", &cell_starts},
+            {"CellCursors", &cell_cursors},
+            {"RowCells", &row_cells},
+            {"LooseRows", &loose_rows},
+            {"LiveDispatch", &live_dispatch},
+            {"RowSlots", &row_slots},
+            {"Bodies", &bodies},
+            {"Sites", &sites},
+            {"Neighbours", &neighbours},
+            {"NeighbourCounts", &neighbour_counts},
+            {"TouchWords", &touch_words},
+            {"TouchLists", &touch_lists},
+            {"TouchSlots", &touch_slots},
+            {"TouchDispatch", &touch_dispatch},
+            {"PreferredVelocities", &preferred_velocities},
+            {"Targets", &targets},
+            {"TargetsAfter", &targets_after}};
 }
 
 }  // namespace throng::sim

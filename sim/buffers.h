@@ -11,15 +11,16 @@
 
 namespace throng::sim {
 
-/// Everything of a simulation that lives on the device. A buffer serves the storage block named beside it in named().
+/// Everything of a simulation that lives on the device. A buffer serves the storage block named beside it in
+/// named().
 struct Buffers {
     /// @throws GraphicsError when the device has no room
     Buffers(const authoring::Scene& scene, const gpu::Parameters& parameters);
 
     gl::Buffer parameters;
 
-    gl::Buffer people, states;                        // per row
-    gl::Buffer stages, fields, road_distances;        // routes
+    gl::Buffer people, states;                                         // per row
+    gl::Buffer stages, fields, road_distances;                         // routes
     gl::Buffer queues, queue_heads, entries, entry_points, proposals;  // entering
     gl::Buffer wall_segments, wall_tiles, wall_starts, wall_items;
 
@@ -31,7 +32,9 @@ struct Buffers {
 
     std::vector<std::pair<std::string, const gl::Buffer*>> named() const;
     /// Slots that per-slot lists are laid out for.
-    std::uint32_t slotCapacity() const { return static_cast<std::uint32_t>(bodies.bytes() / sizeof(gpu::Body)); }
+    std::uint32_t slotCapacity() const {
+        return static_cast<std::uint32_t>(bodies.bytes() / sizeof(gpu::Body));
+    }
 };
 
 /// Cells, windows and limits that follow from a scene.

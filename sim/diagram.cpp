@@ -21,15 +21,33 @@ Diagram::~Diagram() = default;
 Diagram::Diagram(Diagram&&) noexcept = default;
 Diagram& Diagram::operator=(Diagram&&) noexcept = default;
 
-void Diagram::connect(const Input& input) { implementation_->connect(input); }
-void Diagram::build() { implementation_->build(false); }
-void Diagram::buildWithDistances() { implementation_->build(true); }
-const gl::Buffer& Diagram::owners() const { return implementation_->owners; }
-const gl::Buffer& Diagram::distances() const { return implementation_->distances; }
-float Diagram::distanceScale() const { return implementation_->distance_scale; }
-std::uint32_t Diagram::width() const { return implementation_->window.width; }
-std::uint32_t Diagram::height() const { return implementation_->window.height; }
-Diagram::Method Diagram::method() const { return implementation_->method(); }
+void Diagram::connect(const Input& input) {
+    implementation_->connect(input);
+}
+void Diagram::build() {
+    implementation_->build(false);
+}
+void Diagram::buildWithDistances() {
+    implementation_->build(true);
+}
+const gl::Buffer& Diagram::owners() const {
+    return implementation_->owners;
+}
+const gl::Buffer& Diagram::distances() const {
+    return implementation_->distances;
+}
+float Diagram::distanceScale() const {
+    return implementation_->distance_scale;
+}
+std::uint32_t Diagram::width() const {
+    return implementation_->window.width;
+}
+std::uint32_t Diagram::height() const {
+    return implementation_->window.height;
+}
+Diagram::Method Diagram::method() const {
+    return implementation_->method();
+}
 
 Diagram::Implementation::Implementation(const DiagramWindow& the_window)
     : window(the_window),

@@ -20,22 +20,28 @@ GradientDiagram::GradientDiagram(const gl::ShaderLibrary& library, const Diagram
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &texture_limit);
     glGetFloatv(GL_POINT_SIZE_RANGE, sprite_limits);
     if (2.0f * window.largest_radius + 1.0f > sprite_limits[1])
-        throw gl::GraphicsError(fmt::format("method gradient1: this device draws point sprites of at most {} px, and a tile of "
-                                            "radius {} px needs {}. Use the method per-site or fewer pixels per metre.",
-                                            sprite_limits[1], window.largest_radius, 2.0f * window.largest_radius + 1.0f));
+        throw gl::GraphicsError(
+            fmt::format("method gradient1: this device draws point sprites of at most {} px, and a tile of "
+                        "radius {} px needs {}. Use the method per-site or fewer pixels per metre.",
+                        sprite_limits[1], window.largest_radius, 2.0f * window.largest_radius + 1.0f));
     if (std::max(width, height) > static_cast<std::uint32_t>(texture_limit))
-        throw gl::GraphicsError(fmt::format("method gradient1: the diagram needs a texture of {} x {} px and this device stops "
-                                            "at {}. Use fewer pixels per metre.", width, height, texture_limit));
+        throw gl::GraphicsError(
+            fmt::format("method gradient1: the diagram needs a texture of {} x {} px and this device stops "
+                        "at {}. Use fewer pixels per metre.",
+                        width, height, texture_limit));
 
     glCreateTextures(GL_TEXTURE_2D, 1, &owner_texture_);
-    glTextureStorage2D(owner_texture_, 1, GL_R32UI, static_cast<GLsizei>(width), static_cast<GLsizei>(height));
+    glTextureStorage2D(owner_texture_, 1, GL_R32UI, static_cast<GLsizei>(width),
+                       static_cast<GLsizei>(height));
     glCreateTextures(GL_TEXTURE_2D, 1, &depth_texture_);
-    glTextureStorage2D(depth_texture_, 1, GL_DEPTH_COMPONENT32F, static_cast<GLsizei>(width), static_cast<GLsizei>(height));
+    glTextureStorage2D(depth_texture_, 1, GL_DEPTH_COMPONENT32F, static_cast<GLsizei>(width),
+                       static_cast<GLsizei>(height));
     glCreateFramebuffers(1, &framebuffer_);
     glNamedFramebufferTexture(framebuffer_, GL_COLOR_ATTACHMENT0, owner_texture_, 0);
     glNamedFramebufferTexture(framebuffer_, GL_DEPTH_ATTACHMENT, depth_texture_, 0);
     if (glCheckNamedFramebufferStatus(framebuffer_, GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-        throw gl::GraphicsError("method gradient1: this device cannot draw unsigned integers with a 32-bit float depth");
+        throw gl::GraphicsError(
+            "method gradient1: this device cannot draw unsigned integers with a 32-bit float depth");
     glCreateVertexArrays(1, &vertex_array_);
 
     // A power of two above every squared distance keeps depth within [0, 1] without rounding it.
@@ -62,7 +68,8 @@ void GradientDiagram::draw() {
     const GLuint none = gpu::NO_INDEX;
     const GLfloat far_depth = 1.0f;
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
-    glViewport(0, 0, static_cast<GLsizei>(window.width + 2 * margin_), static_cast<GLsizei>(window.height + 2 * margin_));
+    glViewport(0, 0, static_cast<GLsizei>(window.width + 2 * margin_),
+               static_cast<GLsizei>(window.height + 2 * margin_));
     glClearNamedFramebufferuiv(framebuffer_, GL_COLOR, 0, &none);
     glClearNamedFramebufferfv(framebuffer_, GL_DEPTH, 0, &far_depth);
     glEnable(GL_DEPTH_TEST);

@@ -51,7 +51,8 @@ class GradientDiagram final : public Diagram::Implementation {
     void build(bool with_distances) override;
     Diagram::Method method() const override { return Diagram::Method::gradient1; }
 
-    /// Draws into the textures and leaves the result there: what the benchmarks time as "one gradient1 diagram".
+    /// Draws into the textures and leaves the result there: what the benchmarks time as "one gradient1
+    /// diagram".
     void draw();
 
   private:

@@ -30,7 +30,8 @@ PerSiteDiagram::PerSiteDiagram(const gl::ShaderLibrary& library, const DiagramWi
     fixed_distances_.fill(gpu::NO_INDEX);  // above the bits of every float
     const std::vector<gpu::DiagramSite> sites(fixed_sites.begin(), fixed_sites.end());
     const gl::Buffer site_buffer = gl::makeBuffer("fixed sites", sites);
-    const gl::Buffer dispatch = gl::makeBuffer("fixed dispatch", dispatchFor(sites.size(), distance_pass_.groupSize()));
+    const gl::Buffer dispatch =
+        gl::makeBuffer("fixed dispatch", dispatchFor(sites.size(), distance_pass_.groupSize()));
     connect({&site_buffer, &dispatch});
     build(true);
     fixed_owners_.copyFrom(owners);
@@ -52,7 +53,8 @@ void PerSiteDiagram::build(bool) {
     splat(*live_dispatch_);
 }
 
-// A pixel's owner may start as a wall tile and be taken over by an agent: its id is smaller, so the minimum does it.
+// A pixel's owner may start as a wall tile and be taken over by an agent: its id is smaller, so the minimum
+// does it.
 void PerSiteDiagram::splat(const gl::Buffer& live_dispatch) {
     distance_pass_.dispatchIndirect(live_dispatch);
     site_pass_.dispatchIndirect(live_dispatch);

@@ -43,7 +43,7 @@ struct FramePump::State {
     std::array<Slot, kSlots> slots;
     std::size_t next = 0;
     std::size_t rows = 0;
-    DiagramImage image;             // all but the pixels
+    DiagramImage image;  // all but the pixels
     std::vector<float> metres;
 
     std::deque<Slot*> in_flight;  // GL thread only: submitted, fence not yet seen
@@ -98,7 +98,8 @@ void FramePump::submit(std::uint32_t index, bool with_diagram) {
     State& state = *state_;
     Slot& slot = state.slots[state.next];
     state.next = (state.next + 1) % kSlots;
-    while (!state.in_flight.empty() && state.in_flight.front() == &slot) state.handOver(true);
+    while (!state.in_flight.empty() && state.in_flight.front() == &slot)
+        state.handOver(true);
     {
         std::unique_lock lock(state.mutex);
         state.changed.wait(lock, [&] { return !slot.busy || state.failure; });
@@ -126,7 +127,8 @@ void FramePump::submit(std::uint32_t index, bool with_diagram) {
 
 void FramePump::finish() {
     State& state = *state_;
-    while (!state.in_flight.empty()) state.handOver(true);
+    while (!state.in_flight.empty())
+        state.handOver(true);
     {
         std::unique_lock lock(state.mutex);
         state.changed.wait(lock, [&] {
@@ -206,7 +208,8 @@ void FramePump::State::deliver(const Slot& slot) {
         diagram.site = view<std::uint32_t>(slot.owners, 0, pixels);
         const std::span<const float> squared = view<float>(slot.distances, 0, pixels);
         metres.resize(pixels);
-        for (std::size_t i = 0; i < pixels; ++i) metres[i] = std::sqrt(squared[i]) * slot.distance_to_metres;
+        for (std::size_t i = 0; i < pixels; ++i)
+            metres[i] = std::sqrt(squared[i]) * slot.distance_to_metres;
         diagram.distance = metres;
         frame.diagram = &diagram;
     }

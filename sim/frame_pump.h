@@ -9,11 +9,12 @@
 
 namespace throng::sim {
 
-/// Carries frames from the device to a receiver on another thread, without stopping the simulation: the device packs a
-/// frame into one of a few persistently mapped buffers, a fence says when it is there, and the receiver reads it in place.
+/// Carries frames from the device to a receiver on another thread, without stopping the simulation: the
+/// device packs a frame into one of a few persistently mapped buffers, a fence says when it is there, and the
+/// receiver reads it in place.
 ///
-/// submit() and finish() belong to the GL thread. Frames arrive in order. An exception of the receiver comes out of the next
-/// submit() or of finish().
+/// submit() and finish() belong to the GL thread. Frames arrive in order. An exception of the receiver comes
+/// out of the next submit() or of finish().
 class FramePump {
   public:
     using Receiver = std::function<void(const Frame&)>;

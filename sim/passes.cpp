@@ -6,14 +6,16 @@
 namespace throng::sim {
 namespace {
 
-gl::ComputeProgram connected(const gl::ShaderLibrary& library, const std::string& path, const Buffers& buffers,
-                             const gl::Definitions& definitions = {}) {
+gl::ComputeProgram connected(const gl::ShaderLibrary& library, const std::string& path,
+                             const Buffers& buffers, const gl::Definitions& definitions = {}) {
     gl::ComputeProgram program(library, path, definitions);
     program.bindAll(buffers.named());
     return program;
 }
 
-gl::Definitions listLength(int neighbours) { return {{"NEIGHBOURS", std::to_string(neighbours)}}; }
+gl::Definitions listLength(int neighbours) {
+    return {{"NEIGHBOURS", std::to_string(neighbours)}};
+}
 
 }  // namespace
 
@@ -63,7 +65,9 @@ Sensing::Sensing(const gl::ShaderLibrary& library, Buffers& buffers, const Diagr
     program_.set("slot_capacity", buffers.slotCapacity());
 }
 
-void Sensing::run() { program_.dispatchIndirect(buffers_.live_dispatch); }
+void Sensing::run() {
+    program_.dispatchIndirect(buffers_.live_dispatch);
+}
 
 Avoidance::Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, int neighbours)
     : buffers_(buffers),

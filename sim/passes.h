@@ -38,7 +38,8 @@ class Spawner {
 /// Finds each person's nearest neighbours by marching rays through the diagram.
 class Sensing {
   public:
-    /// @param pattern where a person looks, m, in its own frame; @param neighbours the length of each person's list
+    /// @param pattern where a person looks, m, in its own frame; @param neighbours the length of each
+    /// person's list
     Sensing(const gl::ShaderLibrary& library, Buffers& buffers, const Diagram& diagram,
             const std::vector<glm::vec2>& pattern, int neighbours);
     void run();

@@ -18,7 +18,8 @@ bool isAllRound(const SensingGeometry& geometry) {
 
 void appendRing(const SensingGeometry& geometry, int sample, int rays, std::vector<glm::vec2>& out) {
     const float radius = ringRadius(geometry, sample);
-    // The outermost rays lie on the edges of the field of view; all round, the last gap is the one back to the first ray.
+    // The outermost rays lie on the edges of the field of view; all round, the last gap is the one back to
+    // the first ray.
     const int gaps = isAllRound(geometry) ? rays : rays - 1;
     for (int ray = 0; ray < rays; ++ray) {
         const float share = gaps > 0 ? static_cast<float>(ray) / static_cast<float>(gaps) - 0.5f : 0.0f;
@@ -29,7 +30,9 @@ void appendRing(const SensingGeometry& geometry, int sample, int rays, std::vect
 
 }  // namespace
 
-float sensingReach(const SensingGeometry& geometry) { return ringRadius(geometry, geometry.samples_per_ray - 1); }
+float sensingReach(const SensingGeometry& geometry) {
+    return ringRadius(geometry, geometry.samples_per_ray - 1);
+}
 
 int raysAtRadius(const SensingGeometry& geometry, float radius) {
     const float gap = geometry.tile_radius;
@@ -42,7 +45,8 @@ int raysAtRadius(const SensingGeometry& geometry, float radius) {
 std::vector<glm::vec2> fullPattern(const SensingGeometry& geometry) {
     const int rays = raysAtRadius(geometry, sensingReach(geometry));
     std::vector<glm::vec2> samples;
-    for (int sample = 0; sample < geometry.samples_per_ray; ++sample) appendRing(geometry, sample, rays, samples);
+    for (int sample = 0; sample < geometry.samples_per_ray; ++sample)
+        appendRing(geometry, sample, rays, samples);
     return samples;
 }
 
@@ -51,7 +55,8 @@ std::vector<glm::vec2> thinnedPattern(const SensingGeometry& geometry, float fel
     for (int sample = 0; sample < geometry.samples_per_ray; ++sample) {
         const float radius = ringRadius(geometry, sample);
         const bool outermost = sample + 1 == geometry.samples_per_ray;
-        if (radius > felt_range || outermost) appendRing(geometry, sample, raysAtRadius(geometry, radius), samples);
+        if (radius > felt_range || outermost)
+            appendRing(geometry, sample, raysAtRadius(geometry, radius), samples);
     }
     std::stable_sort(samples.begin(), samples.end(),
                      [](glm::vec2 a, glm::vec2 b) { return std::atan2(a.y, a.x) < std::atan2(b.y, b.x); });

@@ -23,11 +23,14 @@ std::vector<glm::vec2> patternFor(const authoring::Scene& scene, const gpu::Para
     return thinnedPattern(geometry, parameters.contact_range);
 }
 
-Diagram diagramFor(const authoring::Scene& scene, const gpu::Parameters& parameters, const gl::ShaderLibrary& library) {
+Diagram diagramFor(const authoring::Scene& scene, const gpu::Parameters& parameters,
+                   const gl::ShaderLibrary& library) {
     // Without a calibration of the device, per-site is the safe choice: it needs no raster hardware.
-    const auto method = scene.settings.method == authoring::DiagramMethod::gradient1 ? Diagram::Method::gradient1
-                                                                                      : Diagram::Method::per_site;
-    const float largest = std::max(parameters.tile_radius, scene.largest_radius) * parameters.pixels_per_metre;
+    const auto method = scene.settings.method == authoring::DiagramMethod::gradient1
+                            ? Diagram::Method::gradient1
+                            : Diagram::Method::per_site;
+    const float largest =
+        std::max(parameters.tile_radius, scene.largest_radius) * parameters.pixels_per_metre;
     return Diagram(library, method, parameters.diagram_width, parameters.diagram_height, largest,
                    wallSites(scene, parameters));
 }
@@ -39,8 +42,8 @@ std::uint32_t frameOfStep(std::uint32_t steps, std::uint32_t warmup_steps, std::
     return (steps - warmup_steps + substeps - 1) / substeps;
 }
 
-AgentOutcome outcomeOf(const gpu::AgentState& state, const gpu::Person& person, float end, std::uint32_t warmup_steps,
-                       std::uint32_t substeps) {
+AgentOutcome outcomeOf(const gpu::AgentState& state, const gpu::Person& person, float end,
+                       std::uint32_t warmup_steps, std::uint32_t substeps) {
     AgentOutcome outcome;
     outcome.spawn_frame = frameOfStep(state.spawn_step, warmup_steps, substeps);
     outcome.arrival_frame = frameOfStep(state.arrival_step, warmup_steps, substeps);
@@ -78,14 +81,15 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
     diagram.connect({&buffers.sites, &buffers.live_dispatch, &buffers.row_slots,
                      rows + static_cast<std::uint32_t>(scene.wall_tiles.size())});
     pack.bindAll(buffers.named());
-    anybody_enters_later = std::any_of(scene.people.begin(), scene.people.end(), [](const gpu::Person& person) {
-        return (person.flags & gpu::PERSON_PRESENT_AT_START) == 0;
-    });
+    anybody_enters_later = std::any_of(
+        scene.people.begin(), scene.people.end(),
+        [](const gpu::Person& person) { return (person.flags & gpu::PERSON_PRESENT_AT_START) == 0; });
 }
 
 float Simulation::Parts::now() const {
     const auto warmup = static_cast<double>(warmupSteps(settings));
-    return static_cast<float>((static_cast<double>(steps_done) - warmup) / (settings.fps * settings.substeps));
+    return static_cast<float>((static_cast<double>(steps_done) - warmup) /
+                              (settings.fps * settings.substeps));
 }
 
 Simulation::Simulation(const authoring::Scene& scene, const gl::ShaderLibrary& library)
@@ -114,7 +118,9 @@ std::vector<std::pair<std::string, double>> Simulation::profile(int steps) {
         const auto start = std::chrono::steady_clock::now();
         pass();
         glFinish();
-        times[index].second += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count() / steps;
+        times[index].second +=
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count() /
+            steps;
     };
     for (int i = 0; i < steps; ++i) {
         const float now = p.now();
@@ -132,11 +138,17 @@ std::vector<std::pair<std::string, double>> Simulation::profile(int steps) {
     return times;
 }
 
-std::uint32_t Simulation::stepsDone() const { return parts_->steps_done; }
+std::uint32_t Simulation::stepsDone() const {
+    return parts_->steps_done;
+}
 
-void Simulation::wait() const { glFinish(); }
+void Simulation::wait() const {
+    glFinish();
+}
 
-std::size_t Simulation::frameBytes() const { return std::size_t{parts_->rows} * 9 * sizeof(float); }
+std::size_t Simulation::frameBytes() const {
+    return std::size_t{parts_->rows} * 9 * sizeof(float);
+}
 
 void Simulation::packFrame(const gl::Buffer& buffer) {
     parts_->pack.bind("FrameBlock", buffer);
@@ -167,7 +179,11 @@ Account Simulation::account() const {
     return account;
 }
 
-const gpu::Parameters& Simulation::parameters() const { return parts_->parameters; }
-Simulation::Parts& Simulation::parts() { return *parts_; }
+const gpu::Parameters& Simulation::parameters() const {
+    return parts_->parameters;
+}
+Simulation::Parts& Simulation::parts() {
+    return *parts_;
+}
 
 }  // namespace throng::sim

@@ -17,7 +17,8 @@ namespace throng::sim {
 /// Steps of the warm-up, before the first frame.
 std::uint32_t warmupSteps(const authoring::SimulationSettings& settings);
 
-/// A crowd on the GPU. Needs a current gl::Context and stays on its thread. Nothing is read back inside a step.
+/// A crowd on the GPU. Needs a current gl::Context and stays on its thread. Nothing is read back inside a
+/// step.
 class Simulation {
   public:
     /// @throws GraphicsError (shaders, memory), std::runtime_error (a scene too large for one diagram)

@@ -12,7 +12,8 @@ namespace {
 float distanceToSegment(glm::vec2 point, const gpu::WallSegment& segment) {
     const glm::vec2 axis = segment.b - segment.a;
     const float squared = glm::dot(axis, axis);
-    const float along = squared > 0.0f ? std::clamp(glm::dot(point - segment.a, axis) / squared, 0.0f, 1.0f) : 0.0f;
+    const float along =
+        squared > 0.0f ? std::clamp(glm::dot(point - segment.a, axis) / squared, 0.0f, 1.0f) : 0.0f;
     return glm::length(point - (segment.a + along * axis));
 }
 
@@ -27,8 +28,10 @@ void visitCells(const gpu::WallSegment& segment, const gpu::Parameters& cells, f
     const float half_diagonal = 0.70711f * cells.cell_size;
     const int x1 = cellCoordinate(upper.x, cells.cells_minimum.x, cells.cell_size, cells.cells_width);
     const int y1 = cellCoordinate(upper.y, cells.cells_minimum.y, cells.cell_size, cells.cells_height);
-    for (int y = cellCoordinate(lower.y, cells.cells_minimum.y, cells.cell_size, cells.cells_height); y <= y1; ++y)
-        for (int x = cellCoordinate(lower.x, cells.cells_minimum.x, cells.cell_size, cells.cells_width); x <= x1; ++x) {
+    for (int y = cellCoordinate(lower.y, cells.cells_minimum.y, cells.cell_size, cells.cells_height); y <= y1;
+         ++y)
+        for (int x = cellCoordinate(lower.x, cells.cells_minimum.x, cells.cell_size, cells.cells_width);
+             x <= x1; ++x) {
             const glm::vec2 centre = cells.cells_minimum + (glm::vec2(x, y) + 0.5f) * cells.cell_size;
             if (distanceToSegment(centre, segment) - segment.half_thickness <= reach + half_diagonal)
                 visit(static_cast<std::size_t>(y) * cells.cells_width + static_cast<std::size_t>(x));
@@ -42,7 +45,8 @@ WallIndex indexWalls(std::span<const gpu::WallSegment> segments, const gpu::Para
     index.starts.assign(static_cast<std::size_t>(cells.cells_width) * cells.cells_height + 1, 0);
     for (const gpu::WallSegment& segment : segments)
         visitCells(segment, cells, reach, [&](std::size_t cell) { ++index.starts[cell + 1]; });
-    for (std::size_t cell = 1; cell < index.starts.size(); ++cell) index.starts[cell] += index.starts[cell - 1];
+    for (std::size_t cell = 1; cell < index.starts.size(); ++cell)
+        index.starts[cell] += index.starts[cell - 1];
     index.items.resize(index.starts.back());
     std::vector<std::uint32_t> cursors(index.starts.begin(), index.starts.end() - 1);
     for (std::uint32_t i = 0; i < segments.size(); ++i)

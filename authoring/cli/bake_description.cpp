@@ -20,7 +20,8 @@ std::vector<io::BakeAgent> describeAgents(const authoring::Scene& scene) {
 
 }  // namespace
 
-io::BakeDescription describeBake(const LoadedLayout& loaded, const BakeOptions& options, const gl::Device& device) {
+io::BakeDescription describeBake(const LoadedLayout& loaded, const BakeOptions& options,
+                                 const gl::Device& device) {
     const authoring::Scene& scene = loaded.scene;
     io::BakeDescription bake;
     bake.output = options.output.empty() ? loaded.layout.name : options.output;
@@ -29,16 +30,19 @@ io::BakeDescription describeBake(const LoadedLayout& loaded, const BakeOptions& 
     bake.layout_text = loaded.text;
     bake.seed = scene.settings.seed;
     bake.fps = scene.settings.fps;
-    bake.frames = static_cast<std::uint32_t>(std::max(1l, std::lround(scene.settings.duration * scene.settings.fps)));
+    bake.frames =
+        static_cast<std::uint32_t>(std::max(1l, std::lround(scene.settings.duration * scene.settings.fps)));
     bake.substeps = static_cast<std::uint32_t>(scene.settings.substeps);
     bake.duration = scene.settings.duration;
     bake.warmup = scene.settings.warmup;
-    for (const gpu::Person& person : scene.people) bake.variations = std::max(bake.variations, person.variation + 1);
+    for (const gpu::Person& person : scene.people)
+        bake.variations = std::max(bake.variations, person.variation + 1);
     bake.scene_origin = scene.origin;
     bake.output_origin = scene.output_origin;
     bake.minimum = scene.origin + glm::dvec2(scene.minimum);
     bake.maximum = scene.origin + glm::dvec2(scene.maximum);
-    for (const authoring::Group& group : scene.groups) bake.groups.push_back({group.id, group.is_flow});
+    for (const authoring::Group& group : scene.groups)
+        bake.groups.push_back({group.id, group.is_flow});
     bake.agents = describeAgents(scene);
     bake.roads = loaded.layout.roads;
     bake.areas = loaded.layout.areas;

@@ -20,7 +20,8 @@ struct BakeOptions {
 };
 
 /// All that the writers have to know of a layout and its scene.
-io::BakeDescription describeBake(const LoadedLayout& loaded, const BakeOptions& options, const gl::Device& device);
+io::BakeDescription describeBake(const LoadedLayout& loaded, const BakeOptions& options,
+                                 const gl::Device& device);
 
 /// How many people were refused for each reason.
 std::map<std::string, std::uint32_t> refusals(const Account& account);

@@ -40,17 +40,19 @@ std::uint32_t diagramInterval(const std::string& text) {
     std::uint32_t every = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), every);
     if (error == std::errc() && end == text.data() + text.size() && every > 0) return every;
-    throw CLI::ValidationError("--diagrams", fmt::format("expects all, none or a number of frames, not `{}`", text));
+    throw CLI::ValidationError("--diagrams",
+                               fmt::format("expects all, none or a number of frames, not `{}`", text));
 }
 
 /// The simulation proper. @returns the signal that stopped it early, or 0
-int runFrames(sim::Simulation& simulation, const authoring::SimulationSettings& settings, io::BakeWriter& writer,
-              std::uint32_t frames, std::uint32_t diagram_every, Progress& progress) {
+int runFrames(sim::Simulation& simulation, const authoring::SimulationSettings& settings,
+              io::BakeWriter& writer, std::uint32_t frames, std::uint32_t diagram_every, Progress& progress) {
     InterruptGuard interrupt;
     std::atomic<std::uint32_t> present{0};
     sim::FramePump pump(simulation, diagram_every > 0, [&](const Frame& frame) {
         std::uint32_t alive = 0;
-        for (std::size_t row = 0; row < frame.states.size(); row += 3) alive += frame.states[row] > 0.5f;
+        for (std::size_t row = 0; row < frame.states.size(); row += 3)
+            alive += frame.states[row] > 0.5f;
         present = alive;
         writer.write(frame);
     });
@@ -65,7 +67,8 @@ int runFrames(sim::Simulation& simulation, const authoring::SimulationSettings& 
     }
     for (std::uint32_t frame = 0; frame < frames && !interrupt.signal(); ++frame) {
         if (frame > 0)
-            for (std::uint32_t step = 0; step < substeps; ++step) simulation.step();
+            for (std::uint32_t step = 0; step < substeps; ++step)
+                simulation.step();
         pump.submit(frame, diagram_every > 0 && frame % diagram_every == 0);
         progress.update(frame + 1, present, simulation.stepsDone());
     }
@@ -74,19 +77,23 @@ int runFrames(sim::Simulation& simulation, const authoring::SimulationSettings& 
     return writer.framesWritten() < frames ? interrupt.signal() : 0;
 }
 
-void printResult(const io::BakeResult& result, const Account& account, const io::BakeTiming& timing, bool as_json) {
+void printResult(const io::BakeResult& result, const Account& account, const io::BakeTiming& timing,
+                 bool as_json) {
     if (as_json) {
         fmt::print("{}\n", io::infoJson(io::loadBake(result.path)).dump(2));
         return;
     }
-    fmt::print("{}: {} frames, {} people: {} arrived, {} still walking, {} refused\n", result.path.string(), result.frames,
-               account.agents.size(), account.arrived, account.walking, account.refused);
+    fmt::print("{}: {} frames, {} people: {} arrived, {} still walking, {} refused\n", result.path.string(),
+               result.frames, account.agents.size(), account.arrived, account.walking, account.refused);
     fmt::print("{} steps in {:.1f} s, {:.0f} steps/s\n", timing.steps, timing.wall_seconds,
                static_cast<double>(timing.steps) / std::max(timing.wall_seconds, 1.0e-9));
-    for (const auto& [reason, count] : refusals(account)) fmt::print("refused: {} people: {}\n", count, reason);
+    for (const auto& [reason, count] : refusals(account))
+        fmt::print("refused: {} people: {}\n", count, reason);
     if (result.gltf && result.gltf->agents < result.gltf->of)
-        fmt::print("crowd.glb holds {} of {} people, evenly chosen (--gltf-agents raises the limit; the streams hold all)\n",
-                   result.gltf->agents, result.gltf->of);
+        fmt::print(
+            "crowd.glb holds {} of {} people, evenly chosen (--gltf-agents raises the limit; the streams "
+            "hold all)\n",
+            result.gltf->agents, result.gltf->of);
     if (result.diagrams) fmt::print("{} diagram images\n", result.diagrams);
 }
 
@@ -100,15 +107,19 @@ void run(const Options& options) {
     description.diagram_every = diagram_every;
     const std::uint32_t frames = description.frames;
     io::BakeWriter writer(std::move(description));
-    const gl::ShaderLibrary shaders = options.shader_dir.empty() ? gl::ShaderLibrary() : gl::ShaderLibrary(options.shader_dir);
+    const gl::ShaderLibrary shaders =
+        options.shader_dir.empty() ? gl::ShaderLibrary() : gl::ShaderLibrary(options.shader_dir);
     sim::Simulation simulation(loaded.scene, shaders);
     context.check("setting up the simulation");
 
-    const auto style = options.quiet ? Progress::Style::quiet : options.json ? Progress::Style::json : Progress::detectStyle();
+    const auto style = options.quiet  ? Progress::Style::quiet
+                       : options.json ? Progress::Style::json
+                                      : Progress::detectStyle();
     const auto start = std::chrono::steady_clock::now();
     int signal = 0;
     {
-        Progress progress(style, frames, sim::warmupSteps(settings), static_cast<std::uint32_t>(settings.substeps));
+        Progress progress(style, frames, sim::warmupSteps(settings),
+                          static_cast<std::uint32_t>(settings.substeps));
         signal = runFrames(simulation, settings, writer, frames, diagram_every, progress);
     }
     context.check("simulating");
@@ -123,8 +134,8 @@ void run(const Options& options) {
             throw Exit(128 + signal);
         }
         const io::BakeResult result = writer.finishPartial(account, timing);
-        fmt::print(stderr, "throng: stopped after frame {} of {}; what there is is in {}\n", result.frames, frames,
-                   result.path.string());
+        fmt::print(stderr, "throng: stopped after frame {} of {}; what there is is in {}\n", result.frames,
+                   frames, result.path.string());
         throw Exit(128 + signal);
     }
     printResult(writer.finish(account, timing), account, timing, options.json);
@@ -133,21 +144,37 @@ void run(const Options& options) {
 }  // namespace
 
 void addBake(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("bake", "Simulate a layout and write the crowd: streams, glTF, diagrams");
+    CLI::App* command =
+        app.add_subcommand("bake", "Simulate a layout and write the crowd: streams, glTF, diagrams");
     auto options = std::make_shared<Options>();
     command->add_option("layout", options->layout, "The layout file (- for standard input)")->required();
-    command->add_option("-o,--output", options->bake.output, "The folder to make; by default the layout's name");
+    command->add_option("-o,--output", options->bake.output,
+                        "The folder to make; by default the layout's name");
     command->add_flag("--force", options->bake.force, "Replace an existing bake");
-    command->add_option("--set", options->overrides, "Override a value, e.g. --set simulation.seed=7 (repeatable)")->take_all()->expected(1);
-    command->add_option("--diagrams", options->diagrams, "Diagram images as OpenEXR: all, none, or every N-th frame")->capture_default_str();
+    command
+        ->add_option("--set", options->overrides,
+                     "Override a value, e.g. --set simulation.seed=7 (repeatable)")
+        ->take_all()
+        ->expected(1);
+    command
+        ->add_option("--diagrams", options->diagrams,
+                     "Diagram images as OpenEXR: all, none, or every N-th frame")
+        ->capture_default_str();
     command->add_flag("!--no-gltf", options->bake.gltf, "Write no crowd.glb");
-    command->add_option("--gltf-agents", options->bake.gltf_agents, "At most this many people in crowd.glb")->capture_default_str();
+    command->add_option("--gltf-agents", options->bake.gltf_agents, "At most this many people in crowd.glb")
+        ->capture_default_str();
     command->add_option("--device", options->device, "Run on this device (`throng devices` lists them)");
-    command->add_option("--shader-dir", options->shader_dir, "Take shaders from this copy of shaders/ (for editing them live)")->check(CLI::ExistingDirectory);
-    command->add_flag("--json", options->json, "Progress as JSON lines on stderr, the result as a JSON document on stdout");
+    command
+        ->add_option("--shader-dir", options->shader_dir,
+                     "Take shaders from this copy of shaders/ (for editing them live)")
+        ->check(CLI::ExistingDirectory);
+    command->add_flag("--json", options->json,
+                      "Progress as JSON lines on stderr, the result as a JSON document on stdout");
     command->add_flag("-q,--quiet", options->quiet, "No progress");
-    command->footer("Ctrl-C stops after the frame under way and keeps what there is as OUTPUT.partial.\n\n"
-                    "Example:\n  throng bake examples/intersection.json -o bakes/intersection --diagrams 24 --set simulation.seed=7");
+    command->footer(
+        "Ctrl-C stops after the frame under way and keeps what there is as OUTPUT.partial.\n\n"
+        "Example:\n  throng bake examples/intersection.json -o bakes/intersection --diagrams 24 --set "
+        "simulation.seed=7");
     command->callback([options] { run(*options); });
 }
 

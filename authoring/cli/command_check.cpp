@@ -20,12 +20,13 @@ struct Options {
 nlohmann::ordered_json toJson(const LoadAttempt& attempt) {
     nlohmann::ordered_json diagnostics = nlohmann::ordered_json::array();
     for (const authoring::Diagnostic& entry : attempt.loaded.diagnostics.entries)
-        diagnostics.push_back({{"severity", entry.severity == authoring::Severity::error ? "error" : "warning"},
-                               {"line", entry.where.line},
-                               {"column", entry.where.column},
-                               {"pointer", entry.where.pointer},
-                               {"message", entry.message},
-                               {"hint", entry.hint}});
+        diagnostics.push_back(
+            {{"severity", entry.severity == authoring::Severity::error ? "error" : "warning"},
+             {"line", entry.where.line},
+             {"column", entry.where.column},
+             {"pointer", entry.where.pointer},
+             {"message", entry.message},
+             {"hint", entry.hint}});
     nlohmann::ordered_json result = {{"file", attempt.loaded.diagnostics.file}, {"valid", attempt.valid}};
     if (attempt.valid) result["agents"] = attempt.loaded.scene.people.size();
     result["diagnostics"] = diagnostics;
@@ -34,10 +35,11 @@ nlohmann::ordered_json toJson(const LoadAttempt& attempt) {
 
 void printSummary(const LoadedLayout& loaded) {
     const authoring::Scene& scene = loaded.scene;
-    fmt::print("{}: ok: {} people in {} groups, {} wall segments, {:.0f} x {:.0f} m, {:.4g} s at {:.4g} frames/s\n",
-               loaded.diagnostics.file, scene.people.size(), scene.groups.size(), scene.wall_segments.size(),
-               scene.maximum.x - scene.minimum.x, scene.maximum.y - scene.minimum.y, scene.settings.duration,
-               scene.settings.fps);
+    fmt::print(
+        "{}: ok: {} people in {} groups, {} wall segments, {:.0f} x {:.0f} m, {:.4g} s at {:.4g} frames/s\n",
+        loaded.diagnostics.file, scene.people.size(), scene.groups.size(), scene.wall_segments.size(),
+        scene.maximum.x - scene.minimum.x, scene.maximum.y - scene.minimum.y, scene.settings.duration,
+        scene.settings.fps);
 }
 
 void run(const Options& options) {
@@ -60,10 +62,15 @@ void run(const Options& options) {
 }  // namespace
 
 void addCheck(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("check", "Say everything that is wrong with layouts, without baking them");
+    CLI::App* command =
+        app.add_subcommand("check", "Say everything that is wrong with layouts, without baking them");
     auto options = std::make_shared<Options>();
     command->add_option("layout", options->layouts, "Layout files (- for standard input)")->required();
-    command->add_option("--set", options->overrides, "Override a value, e.g. --set simulation.seed=7 (repeatable)")->take_all()->expected(1);
+    command
+        ->add_option("--set", options->overrides,
+                     "Override a value, e.g. --set simulation.seed=7 (repeatable)")
+        ->take_all()
+        ->expected(1);
     command->add_flag("--json", options->json, "Print a JSON document");
     command->footer("Example:\n  throng check examples/*.json");
     command->callback([options] { run(*options); });

@@ -12,9 +12,9 @@ namespace throng::cli {
 namespace {
 
 nlohmann::ordered_json toJson(const gl::Device& device) {
-    return {{"index", device.index},       {"name", device.name},         {"vendor", device.vendor},
-            {"version", device.version},   {"platform", device.platform}, {"software", device.software},
-            {"usable", device.usable},     {"problem", device.problem}};
+    return {{"index", device.index},     {"name", device.name},         {"vendor", device.vendor},
+            {"version", device.version}, {"platform", device.platform}, {"software", device.software},
+            {"usable", device.usable},   {"problem", device.problem}};
 }
 
 void run(bool as_json) {
@@ -33,8 +33,9 @@ void run(bool as_json) {
     }
     if (as_json) fmt::print("{}\n", list.dump(2));
     if (any_usable) return;
-    fmt::print(stderr, "throng: none of these devices can be used. On Debian, install the Mesa drivers: "
-                       "apt-get install libegl1 libgl1-mesa-dri (or the GPU vendor's driver with EGL).\n");
+    fmt::print(stderr,
+               "throng: none of these devices can be used. On Debian, install the Mesa drivers: "
+               "apt-get install libegl1 libgl1-mesa-dri (or the GPU vendor's driver with EGL).\n");
     throw Exit(kNoGraphics);
 }
 

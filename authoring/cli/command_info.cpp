@@ -30,8 +30,10 @@ void run(const Options& options) {
         fmt::print("{}\n", document.dump(2));
     } else {
         fmt::print("{}", io::infoText(bake));
-        for (const io::BakeProblem& problem : problems) fmt::print(stderr, "{}: {}\n", problem.path, problem.message);
-        if (options.verify && problems.empty()) fmt::print("verified: all {} files are as they were written\n", bake.files.size());
+        for (const io::BakeProblem& problem : problems)
+            fmt::print(stderr, "{}: {}\n", problem.path, problem.message);
+        if (options.verify && problems.empty())
+            fmt::print("verified: all {} files are as they were written\n", bake.files.size());
     }
     if (!problems.empty()) throw Exit(kInvalidInput);
 }

@@ -7,7 +7,8 @@
 namespace throng::cli {
 
 void addSchema(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("schema", "Print the JSON Schema of layouts, for editors that complete and check");
+    CLI::App* command =
+        app.add_subcommand("schema", "Print the JSON Schema of layouts, for editors that complete and check");
     command->footer("Example:\n  throng schema > throng-layout.schema.json");
     command->callback([] { fmt::print("{}", authoring::layoutSchema()); });
 }

@@ -3,7 +3,8 @@
 
 #include <CLI/CLI.hpp>
 
-/// Each command adds itself to the application and runs as CLI11's callback. A new one is a file and a line here and in main.
+/// Each command adds itself to the application and runs as CLI11's callback. A new one is a file and a line
+/// here and in main.
 namespace throng::cli {
 
 void addBake(CLI::App& app);

@@ -30,6 +30,8 @@ InterruptGuard::~InterruptGuard() {
     std::signal(SIGTERM, SIG_DFL);
 }
 
-int InterruptGuard::signal() const { return noted_signal; }
+int InterruptGuard::signal() const {
+    return noted_signal;
+}
 
 }  // namespace throng::cli

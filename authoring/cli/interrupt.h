@@ -3,7 +3,8 @@
 
 namespace throng::cli {
 
-/// While it lives, Ctrl-C and SIGTERM are noted instead of ending the process; a second Ctrl-C ends it at once.
+/// While it lives, Ctrl-C and SIGTERM are noted instead of ending the process; a second Ctrl-C ends it at
+/// once.
 class InterruptGuard {
   public:
     InterruptGuard();

@@ -24,7 +24,8 @@ std::string readText(const std::string& path) {
         text << std::cin.rdbuf();
         return text.str();
     }
-    if (std::filesystem::is_directory(path)) throw io::InputError(path, "is a folder; a layout file was expected");
+    if (std::filesystem::is_directory(path))
+        throw io::InputError(path, "is a folder; a layout file was expected");
     std::ifstream stream(path, std::ios::binary);
     if (!stream) throw io::InputError(path, fmt::format("cannot be read: {}", std::strerror(errno)));
     text << stream.rdbuf();
@@ -38,13 +39,15 @@ LoadAttempt tryLoadLayout(const std::string& path, const std::vector<std::string
     LoadedLayout& loaded = attempt.loaded;
     loaded.text = readText(path);
     loaded.diagnostics.file = path == "-" ? "standard input" : path;
-    std::optional<authoring::Layout> layout = authoring::readLayout(loaded.text, overrides, loaded.diagnostics);
+    std::optional<authoring::Layout> layout =
+        authoring::readLayout(loaded.text, overrides, loaded.diagnostics);
     if (!layout) return attempt;
     loaded.layout = std::move(*layout);
     std::optional<authoring::Scene> scene = authoring::buildScene(loaded.layout, loaded.diagnostics);
     if (!scene) return attempt;
     loaded.scene = std::move(*scene);
-    if (loaded.layout.name.empty()) loaded.layout.name = std::filesystem::path(loaded.diagnostics.file).stem().string();
+    if (loaded.layout.name.empty())
+        loaded.layout.name = std::filesystem::path(loaded.diagnostics.file).stem().string();
     attempt.valid = true;
     return attempt;
 }

@@ -31,7 +31,8 @@ int parseAndRun(CLI::App& app, int argc, char** argv) {
         fmt::print(stderr, "throng: {}\n", error.what());
         const std::string hint = cli::suggestFor(app, argc, argv);
         if (!hint.empty()) fmt::print(stderr, "  hint: {}\n", hint);
-        fmt::print(stderr, "  `throng --help` lists the commands, `throng COMMAND --help` a command's options.\n");
+        fmt::print(stderr,
+                   "  `throng --help` lists the commands, `throng COMMAND --help` a command's options.\n");
         return cli::kUsage;
     }
 }
@@ -44,7 +45,9 @@ int fail(int code, const std::exception& error) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Bakes crowds: layouts of roads, walls and flows of people in; animation caches and diagrams out.", "throng");
+    CLI::App app(
+        "Bakes crowds: layouts of roads, walls and flows of people in; animation caches and diagrams out.",
+        "throng");
     app.set_version_flag("--version", "throng " THRONG_VERSION);
     app.require_subcommand(1);
     app.footer(kFooter);

@@ -27,7 +27,9 @@ Progress::Style Progress::detectStyle() {
 }
 
 Progress::Progress(Style style, std::uint32_t frames, std::uint32_t warmup_steps, std::uint32_t substeps)
-    : style_(style), frames_(frames), steps_(static_cast<double>(warmup_steps) + static_cast<double>(frames) * substeps) {}
+    : style_(style),
+      frames_(frames),
+      steps_(static_cast<double>(warmup_steps) + static_cast<double>(frames) * substeps) {}
 
 Progress::~Progress() {
     if (line_open_) fmt::print(stderr, "\n");
@@ -37,7 +39,7 @@ bool Progress::isDue(double percent) {
     if (style_ == Style::quiet) return false;
     const Clock::time_point now = Clock::now();
     const double since = std::chrono::duration<double>(now - last_).count();
-    const bool due = percent >= 100.0 ? last_percent_ < 100.0
+    const bool due = percent >= 100.0         ? last_percent_ < 100.0
                      : style_ == Style::plain ? percent - last_percent_ >= 10.0
                                               : since >= (style_ == Style::json ? 0.5 : 0.1);
     if (due) {
@@ -54,12 +56,15 @@ void Progress::update(std::uint32_t frames_done, std::uint32_t agents, std::uint
     const double speed = steps_done / elapsed;
     const double left = speed > 0.0 ? (steps_ - steps_done) / speed : 0.0;
     if (style_ == Style::json) {
-        fmt::print(stderr, "{{\"progress\": {:.1f}, \"frame\": {}, \"frames\": {}, \"agents\": {}, \"steps_per_second\": {:.1f}, "
-                           "\"eta_seconds\": {:.1f}}}\n", percent, frames_done, frames_, agents, speed, left);
+        fmt::print(stderr,
+                   "{{\"progress\": {:.1f}, \"frame\": {}, \"frames\": {}, \"agents\": {}, "
+                   "\"steps_per_second\": {:.1f}, "
+                   "\"eta_seconds\": {:.1f}}}\n",
+                   percent, frames_done, frames_, agents, speed, left);
         return;
     }
-    const std::string text = fmt::format("{:3.0f} %  frame {} of {}  {} people  {:.0f} steps/s  {} left", percent, frames_done,
-                                         frames_, agents, speed, timeText(left));
+    const std::string text = fmt::format("{:3.0f} %  frame {} of {}  {} people  {:.0f} steps/s  {} left",
+                                         percent, frames_done, frames_, agents, speed, timeText(left));
     if (style_ == Style::plain) {
         fmt::print(stderr, "{}\n", text);
         return;

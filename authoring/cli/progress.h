@@ -7,8 +7,8 @@
 
 namespace throng::cli {
 
-/// Tells how far a bake is: one line that rewrites itself on a terminal, a line every ten percent elsewhere, JSON lines for
-/// machines. Everything goes to stderr, so that stdout holds results only.
+/// Tells how far a bake is: one line that rewrites itself on a terminal, a line every ten percent elsewhere,
+/// JSON lines for machines. Everything goes to stderr, so that stdout holds results only.
 class Progress {
   public:
     enum class Style { terminal, plain, json, quiet };

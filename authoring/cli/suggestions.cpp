@@ -12,7 +12,8 @@ namespace {
 /// Insertions, deletions and replacements between two words (Levenshtein 1966).
 std::size_t editDistance(const std::string& a, const std::string& b) {
     std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (std::size_t j = 0; j <= b.size(); ++j)
+        row[j] = j;
     for (std::size_t i = 1; i <= a.size(); ++i) {
         std::size_t diagonal = row[0];
         row[0] = i;
@@ -41,7 +42,8 @@ std::string nearest(const std::string& word, const std::vector<std::string>& kno
 std::vector<std::string> optionsOf(const CLI::App& command) {
     std::vector<std::string> names;
     for (const CLI::Option* option : command.get_options())
-        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+        for (const std::string& name : option->get_lnames())
+            names.push_back("--" + name);
     return names;
 }
 
@@ -49,7 +51,8 @@ std::vector<std::string> optionsOf(const CLI::App& command) {
 
 std::string suggestFor(const CLI::App& app, int argc, const char* const* argv) {
     std::vector<std::string> commands;
-    for (const CLI::App* command : app.get_subcommands({})) commands.push_back(command->get_name());
+    for (const CLI::App* command : app.get_subcommands({}))
+        commands.push_back(command->get_name());
     const CLI::App* command = nullptr;
     for (int i = 1; i < argc; ++i) {
         const std::string word = argv[i];

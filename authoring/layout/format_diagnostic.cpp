@@ -16,7 +16,8 @@ std::string_view lineOf(std::string_view text, int line) {
         ++from;
     }
     std::string_view found = text.substr(from, text.find('\n', from) - from);
-    while (!found.empty() && found.back() == '\r') found.remove_suffix(1);
+    while (!found.empty() && found.back() == '\r')
+        found.remove_suffix(1);
     return found;
 }
 
@@ -25,8 +26,9 @@ std::string_view lineOf(std::string_view text, int line) {
 std::string formatDiagnostic(const Diagnostic& diagnostic, std::string_view file, std::string_view text) {
     const SourcePosition& where = diagnostic.where;
     const char* severity = diagnostic.severity == Severity::error ? "error" : "warning";
-    std::string result = where.line > 0 ? fmt::format("{}:{}:{}: {}: ", file, where.line, where.column, severity)
-                                        : fmt::format("{}: {}: ", file, severity);
+    std::string result = where.line > 0
+                             ? fmt::format("{}:{}:{}: {}: ", file, where.line, where.column, severity)
+                             : fmt::format("{}: {}: ", file, severity);
     if (!where.pointer.empty()) result += where.pointer + ": ";
     result += diagnostic.message;
     if (where.line > 0) {

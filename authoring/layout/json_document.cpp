@@ -56,8 +56,9 @@ class TrackingIterator {
     Cursor* cursor_;
 };
 
-/// Where every value and key begins, in the order in which the parser reports them. nlohmann's events come after the token was
-/// read, so its beginning is found by a second, trivial scan over the text that only knows tokens.
+/// Where every value and key begins, in the order in which the parser reports them. nlohmann's events come
+/// after the token was read, so its beginning is found by a second, trivial scan over the text that only
+/// knows tokens.
 class TokenScanner {
   public:
     explicit TokenScanner(std::string_view text) : text_(text) {}
@@ -88,14 +89,17 @@ class TokenScanner {
     }
     void skipSeparators() {
         if (at_ == 0 && text_.starts_with("\xef\xbb\xbf")) at_ = 3;
-        while (at_ < text_.size() && std::string_view(" \t\r\n,:").find(text_[at_]) != std::string_view::npos) advance();
+        while (at_ < text_.size() && std::string_view(" \t\r\n,:").find(text_[at_]) != std::string_view::npos)
+            advance();
     }
     void skipToken() {
         if (at_ >= text_.size()) return;
         const char first = text_[at_];
         if (first == '{' || first == '[') return advance();
         if (first != '"') {
-            while (at_ < text_.size() && std::string_view(" \t\r\n,:]}").find(text_[at_]) == std::string_view::npos) advance();
+            while (at_ < text_.size() &&
+                   std::string_view(" \t\r\n,:]}").find(text_[at_]) == std::string_view::npos)
+                advance();
             return;
         }
         advance();
@@ -124,8 +128,12 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
         value(JsonNode::Kind::boolean)->boolean = flag;
         return true;
     }
-    bool number_integer(number_integer_t number) override { return numeric(static_cast<double>(number), true); }
-    bool number_unsigned(number_unsigned_t number) override { return numeric(static_cast<double>(number), true); }
+    bool number_integer(number_integer_t number) override {
+        return numeric(static_cast<double>(number), true);
+    }
+    bool number_unsigned(number_unsigned_t number) override {
+        return numeric(static_cast<double>(number), true);
+    }
     bool number_float(number_float_t number, const string_t&) override { return numeric(number, false); }
     bool string(string_t& text) override {
         value(JsonNode::Kind::text)->text = text;
@@ -140,21 +148,27 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
         SourcePosition where = scanner_.next();
         JsonNode& parent = *open_.back();
         where.pointer = appendPointer(parent.where.pointer, name);
-        if (parent.find(name)) diagnostics_.error(where, fmt::format("the key `{}` is here for the second time", name), "keep one of them");
+        if (parent.find(name))
+            diagnostics_.error(where, fmt::format("the key `{}` is here for the second time", name),
+                               "keep one of them");
         key_ = name;
         key_where_ = where;
         return true;
     }
-    bool parse_error(std::size_t, const std::string& token, const nlohmann::detail::exception& error) override {
+    bool parse_error(std::size_t, const std::string& token,
+                     const nlohmann::detail::exception& error) override {
         if (std::string_view(error.what()).find("out_of_range.406") != std::string_view::npos) {
             SourcePosition where = scanner_.next();
-            diagnostics_.error(where, fmt::format("the number {} is too large to be finite", token), "numbers are at most about 1.8e308");
+            diagnostics_.error(where, fmt::format("the number {} is too large to be finite", token),
+                               "numbers are at most about 1.8e308");
             return false;
         }
-        // "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error while ...": the end is what helps.
+        // "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error while ...": the end
+        // is what helps.
         std::string what = error.what();
         if (const std::size_t at = what.find("syntax error"); at != std::string::npos) what = what.substr(at);
-        diagnostics_.error({cursor_.line, std::max(1, cursor_.column), {}}, what, "check the commas, quotes and brackets just before this place");
+        diagnostics_.error({cursor_.line, std::max(1, cursor_.column), {}}, what,
+                           "check the commas, quotes and brackets just before this place");
         return false;
     }
 
@@ -186,7 +200,8 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
     }
     bool open(JsonNode::Kind kind) {
         if (open_.size() >= kMostDepth) {
-            diagnostics_.error(scanner_.next(), fmt::format("values are nested more than {} deep", kMostDepth));
+            diagnostics_.error(scanner_.next(),
+                               fmt::format("values are nested more than {} deep", kMostDepth));
             return false;
         }
         open_.push_back(value(kind));
@@ -215,16 +230,24 @@ const JsonNode* JsonNode::find(std::string_view key) const {
     return nullptr;
 }
 
-JsonNode* JsonNode::find(std::string_view key) { return const_cast<JsonNode*>(std::as_const(*this).find(key)); }
+JsonNode* JsonNode::find(std::string_view key) {
+    return const_cast<JsonNode*>(std::as_const(*this).find(key));
+}
 
 const char* JsonNode::kindName() const {
     switch (kind) {
-        case Kind::null: return "null";
-        case Kind::boolean: return "true or false";
-        case Kind::number: return "a number";
-        case Kind::text: return "a string";
-        case Kind::array: return "an array";
-        case Kind::object: return "an object";
+        case Kind::null:
+            return "null";
+        case Kind::boolean:
+            return "true or false";
+        case Kind::number:
+            return "a number";
+        case Kind::text:
+            return "a string";
+        case Kind::array:
+            return "an array";
+        case Kind::object:
+            return "an object";
     }
     return "a value";
 }
@@ -232,9 +255,12 @@ const char* JsonNode::kindName() const {
 std::string appendPointer(const std::string& pointer, std::string_view key) {
     std::string result = pointer + "/";
     for (const char letter : key) {
-        if (letter == '~') result += "~0";
-        else if (letter == '/') result += "~1";
-        else result += letter;
+        if (letter == '~')
+            result += "~0";
+        else if (letter == '/')
+            result += "~1";
+        else
+            result += letter;
     }
     return result;
 }
@@ -242,7 +268,8 @@ std::string appendPointer(const std::string& pointer, std::string_view key) {
 JsonNode parseJson(std::string_view text, Diagnostics& diagnostics) {
     Cursor cursor;
     Handler handler(text, cursor, diagnostics);
-    nlohmann::json::sax_parse(TrackingIterator(text.data(), &cursor), TrackingIterator(text.data() + text.size(), &cursor), &handler);
+    nlohmann::json::sax_parse(TrackingIterator(text.data(), &cursor),
+                              TrackingIterator(text.data() + text.size(), &cursor), &handler);
     return std::move(handler.root);
 }
 
@@ -250,7 +277,8 @@ void applyOverride(JsonNode& root, const std::string& text, Diagnostics& diagnos
     const std::size_t equals = text.find('=');
     const SourcePosition where{0, 0, fmt::format("--set {}", text)};
     if (equals == std::string::npos || equals == 0) {
-        diagnostics.error(where, "an override has the form path=value", "for example --set simulation.seed=7");
+        diagnostics.error(where, "an override has the form path=value",
+                          "for example --set simulation.seed=7");
         return;
     }
     std::string path = text.substr(0, equals);
@@ -269,7 +297,8 @@ void applyOverride(JsonNode& root, const std::string& text, Diagnostics& diagnos
             std::size_t index = 0;
             const auto [stop, error] = std::from_chars(key.data(), key.data() + key.size(), index);
             if (error != std::errc() || stop != key.data() + key.size() || index >= node->items.size()) {
-                diagnostics.error(where, fmt::format("`{}` is not one of the {} items at {}", key, node->items.size(), node->where.pointer));
+                diagnostics.error(where, fmt::format("`{}` is not one of the {} items at {}", key,
+                                                     node->items.size(), node->where.pointer));
                 return;
             }
             node = &node->items[index];
@@ -283,7 +312,8 @@ void applyOverride(JsonNode& root, const std::string& text, Diagnostics& diagnos
             }
             node = member;
         } else {
-            diagnostics.error(where, fmt::format("{} is {}: there is nothing inside it", node->where.pointer, node->kindName()));
+            diagnostics.error(where, fmt::format("{} is {}: there is nothing inside it", node->where.pointer,
+                                                 node->kindName()));
             return;
         }
     }
@@ -298,7 +328,8 @@ void applyOverride(JsonNode& root, const std::string& text, Diagnostics& diagnos
     // Positions inside the value would be those of the command line: only the pointer tells.
     const auto relocate = [](auto&& self, JsonNode& at, const std::string& to) -> void {
         at.where = {0, 0, to};
-        for (std::size_t i = 0; i < at.items.size(); ++i) self(self, at.items[i], fmt::format("{}/{}", to, i));
+        for (std::size_t i = 0; i < at.items.size(); ++i)
+            self(self, at.items[i], fmt::format("{}/{}", to, i));
         for (JsonNode::Member& member : at.members) {
             member.key_where = {0, 0, appendPointer(to, member.key)};
             self(self, member.value, member.key_where.pointer);

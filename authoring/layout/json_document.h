@@ -38,14 +38,15 @@ struct JsonNode::Member {
     JsonNode value;
 };
 
-/// Parses JSON. Syntax errors, keys that occur twice, numbers that are not finite and nesting deeper than 64 levels are
-/// errors. @returns nothing usable when there are errors
+/// Parses JSON. Syntax errors, keys that occur twice, numbers that are not finite and nesting deeper than 64
+/// levels are errors. @returns nothing usable when there are errors
 JsonNode parseJson(std::string_view text, Diagnostics& diagnostics);
 
 /// Puts `pointer/key` together, escaped as RFC 6901 has it.
 std::string appendPointer(const std::string& pointer, std::string_view key);
 
-/// Changes one value: "simulation.seed=7" or "/simulation/seed=7". Missing keys are added; the reader will judge them.
+/// Changes one value: "simulation.seed=7" or "/simulation/seed=7". Missing keys are added; the reader will
+/// judge them.
 void applyOverride(JsonNode& root, const std::string& text, Diagnostics& diagnostics);
 
 }  // namespace throng::authoring

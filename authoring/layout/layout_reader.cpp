@@ -50,10 +50,12 @@ class Reader {
         const JsonNode* list = reader.get(key);
         if (!list) return;
         if (list->kind != JsonNode::Kind::array) {
-            diagnostics_.error(list->where, fmt::format("expected an array of {}, found {}", key, list->kindName()));
+            diagnostics_.error(list->where,
+                               fmt::format("expected an array of {}, found {}", key, list->kindName()));
             return;
         }
-        for (const JsonNode& item : list->items) read(item);
+        for (const JsonNode& item : list->items)
+            read(item);
     }
 
     void readSimulation(const JsonNode& node) {
@@ -68,7 +70,8 @@ class Reader {
         reader.number("field_of_view", {0.0, 360.0, true}, s.field_of_view);
         reader.integer("samples_per_ray", {1, 64}, s.samples_per_ray);
         reader.number("pixels_per_metre", {0.0, 100.0}, s.pixels_per_metre);
-        if (const auto method = reader.choice("method", {"auto", "gradient1", "per-site"})) s.method = static_cast<DiagramMethod>(*method);
+        if (const auto method = reader.choice("method", {"auto", "gradient1", "per-site"}))
+            s.method = static_cast<DiagramMethod>(*method);
         reader.integer("neighbours", {1, 32}, s.neighbours);
         reader.number("time_horizon", {0.1, 20.0}, s.time_horizon);
         reader.number("wall_time_horizon", {0.05, 20.0}, s.wall_time_horizon);
@@ -79,11 +82,13 @@ class Reader {
         simulation_where_ = node.where;
     }
 
-    void claimId(const JsonNode& node, const std::string& id, std::map<std::string, std::size_t>& ids, std::size_t index, const char* kind) {
+    void claimId(const JsonNode& node, const std::string& id, std::map<std::string, std::size_t>& ids,
+                 std::size_t index, const char* kind) {
         if (id.empty()) return;
         const JsonNode* where = node.find("id");
         if (!ids.emplace(id, index).second && where)
-            diagnostics_.error(where->where, fmt::format("there already is {} `{}`", kind, id), "ids have to differ");
+            diagnostics_.error(where->where, fmt::format("there already is {} `{}`", kind, id),
+                               "ids have to differ");
     }
 
     void readRoad(const JsonNode& node) {
@@ -137,8 +142,10 @@ class Reader {
         if (!node || polygon.size() < 3) return;
         if (polygon.front() == polygon.back()) polygon.pop_back();  // closed by hand, as many tools write it
         if (const auto crossing = selfCrossing(polygon))
-            diagnostics_.error(node->where, fmt::format("the polygon crosses itself at [{:.6g}, {:.6g}] (edges {} and {})", crossing->point.x,
-                                                        crossing->point.y, crossing->first_edge, crossing->second_edge),
+            diagnostics_.error(node->where,
+                               fmt::format("the polygon crosses itself at [{:.6g}, {:.6g}] (edges {} and {})",
+                                           crossing->point.x, crossing->point.y, crossing->first_edge,
+                                           crossing->second_edge),
                                "reorder its points so that they run once round the outline");
         else if (std::abs(signedArea(polygon)) < 1.0e-6)
             diagnostics_.error(node->where, "the polygon has no area");
@@ -146,29 +153,35 @@ class Reader {
 
     std::optional<Place> placeOf(const JsonNode& node) {
         if (node.kind != JsonNode::Kind::text) {
-            diagnostics_.error(node.where, fmt::format("expected a place, found {}", node.kindName()), "\"road:start\", \"road:end\" or an area's id");
+            diagnostics_.error(node.where, fmt::format("expected a place, found {}", node.kindName()),
+                               "\"road:start\", \"road:end\" or an area's id");
             return std::nullopt;
         }
-        if (const auto area = areas_.find(node.text); area != areas_.end()) return Place{Place::Kind::area, area->second, node.where};
+        if (const auto area = areas_.find(node.text); area != areas_.end())
+            return Place{Place::Kind::area, area->second, node.where};
         const std::size_t colon = node.text.rfind(':');
         const std::string id = node.text.substr(0, colon);
         const std::string end = colon == std::string::npos ? "" : node.text.substr(colon + 1);
         const auto road = roads_.find(id);
         if (road != roads_.end() && (end == "start" || end == "end"))
-            return Place{end == "start" ? Place::Kind::road_start : Place::Kind::road_end, road->second, node.where};
+            return Place{end == "start" ? Place::Kind::road_start : Place::Kind::road_end, road->second,
+                         node.where};
         std::vector<std::string> known;
-        for (const auto& [name, index] : areas_) known.push_back(name);
+        for (const auto& [name, index] : areas_)
+            known.push_back(name);
         for (const auto& [name, index] : roads_) {
             known.push_back(name + ":start");
             known.push_back(name + ":end");
         }
-        const std::string what = road != roads_.end() ? fmt::format("`{}` names a road, not one of its ends", node.text)
-                                                      : fmt::format("there is no place `{}`", node.text);
+        const std::string what = road != roads_.end()
+                                     ? fmt::format("`{}` names a road, not one of its ends", node.text)
+                                     : fmt::format("there is no place `{}`", node.text);
         diagnostics_.error(node.where, what, hintFor(node.text, known));
         return std::nullopt;
     }
 
-    Distribution distributionOf(ObjectReader& people, const std::string& key, Limits limits, Distribution standard) {
+    Distribution distributionOf(ObjectReader& people, const std::string& key, Limits limits,
+                                Distribution standard) {
         const JsonNode* node = people.get(key);
         if (!node) return standard;
         if (node->kind == JsonNode::Kind::number) {
@@ -176,7 +189,8 @@ class Reader {
             return {Distribution::Kind::constant, value, 0.0, value, value};
         }
         if (node->kind != JsonNode::Kind::object) {
-            diagnostics_.error(node->where, fmt::format("expected a number or a distribution, found {}", node->kindName()),
+            diagnostics_.error(node->where,
+                               fmt::format("expected a number or a distribution, found {}", node->kindName()),
                                "for example 1.3, {\"uniform\": [1.0, 1.6]} or {\"normal\": [1.34, 0.26]}");
             return standard;
         }
@@ -189,16 +203,20 @@ class Reader {
         } else {
             const JsonNode& pair = uniform ? *uniform : *normal;
             if (pair.kind != JsonNode::Kind::array || pair.items.size() != 2) {
-                diagnostics_.error(pair.where, uniform ? "expected [minimum, maximum]" : "expected [mean, standard deviation]");
+                diagnostics_.error(pair.where, uniform ? "expected [minimum, maximum]"
+                                                       : "expected [mean, standard deviation]");
             } else if (uniform) {
                 const auto least = reader.numberOf(pair.items[0], limits);
                 const auto most = reader.numberOf(pair.items[1], limits);
-                if (least && most && *least > *most) diagnostics_.error(pair.where, "the minimum is above the maximum", "swap the two");
-                if (least && most) result = {Distribution::Kind::uniform, 0.5 * (*least + *most), 0.0, *least, *most};
+                if (least && most && *least > *most)
+                    diagnostics_.error(pair.where, "the minimum is above the maximum", "swap the two");
+                if (least && most)
+                    result = {Distribution::Kind::uniform, 0.5 * (*least + *most), 0.0, *least, *most};
             } else {
                 const auto mean = reader.numberOf(pair.items[0], limits);
                 const auto deviation = reader.numberOf(pair.items[1], {0.0, 100.0});
-                result = {Distribution::Kind::normal, mean.value_or(standard.mean), deviation.value_or(0.0), limits.least, limits.most};
+                result = {Distribution::Kind::normal, mean.value_or(standard.mean), deviation.value_or(0.0),
+                          limits.least, limits.most};
                 if (mean && deviation) {
                     result.minimum = std::max(limits.least, *mean - 3.0 * *deviation);
                     result.maximum = std::min(limits.most, *mean + 3.0 * *deviation);
@@ -227,7 +245,8 @@ class Reader {
     }
 
     void readArrival(ObjectReader& reader, Arrival& arrival) {
-        if (const auto choice = reader.choice("arrival", {"leave", "stay"})) arrival = *choice == 0 ? Arrival::leave : Arrival::stay;
+        if (const auto choice = reader.choice("arrival", {"leave", "stay"}))
+            arrival = *choice == 0 ? Arrival::leave : Arrival::stay;
     }
 
     void readFlow(const JsonNode& node) {
@@ -248,8 +267,9 @@ class Reader {
         reader.number("start", {0.0, 86400.0}, flow.start);
         reader.number("end", {0.0, 86400.0}, flow.end);
         if (flow.end <= flow.start)
-            diagnostics_.error(node.find("end") ? node.find("end")->where : node.where,
-                               fmt::format("the flow ends ({:.6g} s) before it starts ({:.6g} s)", flow.end, flow.start));
+            diagnostics_.error(
+                node.find("end") ? node.find("end")->where : node.where,
+                fmt::format("the flow ends ({:.6g} s) before it starts ({:.6g} s)", flow.end, flow.start));
         flow.people = peopleOf(reader);
         readArrival(reader, flow.arrival);
         reader.finish();
@@ -265,7 +285,8 @@ class Reader {
         const JsonNode* count = reader.get("count");
         const JsonNode* rate = reader.get("rate");
         if ((count != nullptr) == (rate != nullptr))
-            diagnostics_.error(node.where, fmt::format("a flow needs exactly one of `count` (people in all) and `rate` (people per second), this one has {}",
+            diagnostics_.error(node.where, fmt::format("a flow needs exactly one of `count` (people in all) "
+                                                       "and `rate` (people per second), this one has {}",
                                                        count ? "both" : "neither"));
         std::uint64_t people = 0;
         double per_second = 0.0;
@@ -280,9 +301,12 @@ class Reader {
             diagnostics_.error(flow.to.where, fmt::format("flow `{}` goes to where it comes from", flow.id));
             return;
         }
-        const bool same_road = flow.from.kind == Place::Kind::road_end && flow.to.kind == Place::Kind::road_start && flow.from.index == flow.to.index;
+        const bool same_road = flow.from.kind == Place::Kind::road_end &&
+                               flow.to.kind == Place::Kind::road_start && flow.from.index == flow.to.index;
         if (same_road && flow.via.empty() && layout_.roads[flow.from.index].one_way)
-            diagnostics_.error(flow.from.where, fmt::format("flow `{}` walks against the one-way road `{}`", flow.id, layout_.roads[flow.from.index].id),
+            diagnostics_.error(flow.from.where,
+                               fmt::format("flow `{}` walks against the one-way road `{}`", flow.id,
+                                           layout_.roads[flow.from.index].id),
                                "swap `from` and `to`, or drop the road's `one_way`");
     }
 
@@ -352,9 +376,12 @@ class Reader {
             if (!inner.isObject()) return;
             inner.point("position", "[x, y] in metres", agent.position);
             inner.point("goal", "[x, y] in metres", agent.goal);
-            if (const JsonNode* speed = inner.get("speed")) agent.speed = inner.numberOf(*speed, {0.05, 10.0});
-            if (const JsonNode* radius = inner.get("radius")) agent.radius = inner.numberOf(*radius, {0.1, 1.0});
-            if (const JsonNode* heading = inner.get("heading")) agent.heading = inner.numberOf(*heading, {-3600.0, 3600.0});
+            if (const JsonNode* speed = inner.get("speed"))
+                agent.speed = inner.numberOf(*speed, {0.05, 10.0});
+            if (const JsonNode* radius = inner.get("radius"))
+                agent.radius = inner.numberOf(*radius, {0.1, 1.0});
+            if (const JsonNode* heading = inner.get("heading"))
+                agent.heading = inner.numberOf(*heading, {-3600.0, 3600.0});
             inner.finish();
             list.agents.push_back(agent);
         });
@@ -365,7 +392,8 @@ class Reader {
         double people = 0.0;
         double largest = 0.0;
         for (const Flow& flow : layout_.flows) {
-            people += flow.count ? static_cast<double>(*flow.count) : flow.rate.value_or(0.0) * (flow.end - flow.start);
+            people += flow.count ? static_cast<double>(*flow.count)
+                                 : flow.rate.value_or(0.0) * (flow.end - flow.start);
             largest = std::max(largest, flow.people.radius.maximum);
         }
         for (const Formation& formation : layout_.formations) {
@@ -373,16 +401,24 @@ class Reader {
             largest = std::max(largest, formation.people.radius.maximum);
         }
         if (people > kMostPeople)
-            diagnostics_.error(root_.where, fmt::format("about {:.0f} people are more than the {:.0f} that one bake can hold", people, kMostPeople));
-        if (people == 0.0 && !diagnostics_.hasErrors()) diagnostics_.warning(root_.where, "there is nobody in this layout", "add a flow or a formation");
+            diagnostics_.error(
+                root_.where,
+                fmt::format("about {:.0f} people are more than the {:.0f} that one bake can hold", people,
+                            kMostPeople));
+        if (people == 0.0 && !diagnostics_.hasErrors())
+            diagnostics_.warning(root_.where, "there is nobody in this layout", "add a flow or a formation");
         const double tile = layout_.simulation.tile_radius;
         if (tile < largest)
-            diagnostics_.error(simulation_where_, fmt::format("simulation.tile_radius is {:.6g} m, smaller than the largest body ({:.6g} m)", tile, largest),
-                               "a tile has to cover the body");
+            diagnostics_.error(
+                simulation_where_,
+                fmt::format("simulation.tile_radius is {:.6g} m, smaller than the largest body ({:.6g} m)",
+                            tile, largest),
+                "a tile has to cover the body");
     }
 
     static double countOf(const Formation& formation) {
-        if (const auto* circle = std::get_if<CircleFormation>(&formation.shape)) return static_cast<double>(circle->count);
+        if (const auto* circle = std::get_if<CircleFormation>(&formation.shape))
+            return static_cast<double>(circle->count);
         if (const auto* grid = std::get_if<GridFormation>(&formation.shape))
             return static_cast<double>(grid->rows) * static_cast<double>(grid->columns);
         return static_cast<double>(std::get<ListFormation>(formation.shape).agents.size());
@@ -397,14 +433,17 @@ class Reader {
 
 }  // namespace
 
-std::optional<Layout> readLayout(std::string_view text, std::span<const std::string> overrides, Diagnostics& diagnostics) {
+std::optional<Layout> readLayout(std::string_view text, std::span<const std::string> overrides,
+                                 Diagnostics& diagnostics) {
     JsonNode root = parseJson(text, diagnostics);
     if (diagnostics.hasErrors()) return std::nullopt;
-    for (const std::string& change : overrides) applyOverride(root, change, diagnostics);
+    for (const std::string& change : overrides)
+        applyOverride(root, change, diagnostics);
     Layout layout = Reader(root, diagnostics).read();
-    std::stable_sort(diagnostics.entries.begin(), diagnostics.entries.end(), [](const Diagnostic& a, const Diagnostic& b) {
-        return std::pair(a.where.line, a.where.column) < std::pair(b.where.line, b.where.column);
-    });
+    std::stable_sort(
+        diagnostics.entries.begin(), diagnostics.entries.end(), [](const Diagnostic& a, const Diagnostic& b) {
+            return std::pair(a.where.line, a.where.column) < std::pair(b.where.line, b.where.column);
+        });
     if (diagnostics.hasErrors()) return std::nullopt;
     return layout;
 }

@@ -17,12 +17,15 @@ std::string_view layoutSchema();
 
 /// Reads a layout and tells everything that is wrong with it, in the order of the file.
 /// @param text the file's bytes (UTF-8)
-/// @param overrides "simulation.seed=7" each: a path of keys and indices, separated by dots or as a JSON pointer, and a value in
+/// @param overrides "simulation.seed=7" each: a path of keys and indices, separated by dots or as a JSON
+/// pointer, and a value in
 ///        JSON (anything that is not JSON is taken as a string)
 /// @returns nothing when `diagnostics` has errors
-std::optional<Layout> readLayout(std::string_view text, std::span<const std::string> overrides, Diagnostics& diagnostics);
+std::optional<Layout> readLayout(std::string_view text, std::span<const std::string> overrides,
+                                 Diagnostics& diagnostics);
 
-/// One diagnostic as compilers print theirs: file:line:column, the pointer, what is wrong, the line with a caret, the hint.
+/// One diagnostic as compilers print theirs: file:line:column, the pointer, what is wrong, the line with a
+/// caret, the hint.
 std::string formatDiagnostic(const Diagnostic& diagnostic, std::string_view file, std::string_view text);
 
 }  // namespace throng::authoring

@@ -11,7 +11,8 @@ namespace {
 
 std::size_t editDistance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (std::size_t j = 0; j <= b.size(); ++j)
+        row[j] = j;
     for (std::size_t i = 1; i <= a.size(); ++i) {
         std::size_t diagonal = row[0];
         row[0] = i;
@@ -25,8 +26,10 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
 }
 
 std::string rangeText(Limits limits) {
-    if (limits.most >= 1.0e15) return fmt::format("{} {:.15g}", limits.above_least ? "more than" : "at least", limits.least);
-    return fmt::format("{} {:.15g} and at most {:.15g}", limits.above_least ? "more than" : "at least", limits.least, limits.most);
+    if (limits.most >= 1.0e15)
+        return fmt::format("{} {:.15g}", limits.above_least ? "more than" : "at least", limits.least);
+    return fmt::format("{} {:.15g} and at most {:.15g}", limits.above_least ? "more than" : "at least",
+                       limits.least, limits.most);
 }
 
 bool within(double value, Limits limits) {
@@ -49,14 +52,20 @@ std::string nearestWord(std::string_view word, const std::vector<std::string>& k
 }
 
 std::string hintFor(std::string_view word, const std::vector<std::string>& known) {
-    if (const std::string meant = nearestWord(word, known); !meant.empty()) return fmt::format("did you mean `{}`?", meant);
+    if (const std::string meant = nearestWord(word, known); !meant.empty())
+        return fmt::format("did you mean `{}`?", meant);
     if (known.empty()) return "there are none";
     return fmt::format("known here: {}", fmt::join(known, ", "));
 }
 
 ObjectReader::ObjectReader(const JsonNode& node, std::string what, Diagnostics& diagnostics)
-    : node_(node), what_(std::move(what)), diagnostics_(diagnostics), is_object_(node.kind == JsonNode::Kind::object) {
-    if (!is_object_) diagnostics_.error(node.where, fmt::format("expected {} (an object), found {}", what_, node.kindName()));
+    : node_(node),
+      what_(std::move(what)),
+      diagnostics_(diagnostics),
+      is_object_(node.kind == JsonNode::Kind::object) {
+    if (!is_object_)
+        diagnostics_.error(node.where,
+                           fmt::format("expected {} (an object), found {}", what_, node.kindName()));
 }
 
 const JsonNode* ObjectReader::get(const std::string& key) {
@@ -66,7 +75,8 @@ const JsonNode* ObjectReader::get(const std::string& key) {
 
 const JsonNode* ObjectReader::require(const std::string& key, const char* meaning) {
     const JsonNode* found = get(key);
-    if (!found && is_object_) diagnostics_.error(node_.where, fmt::format("{} needs `{}` ({})", what_, key, meaning));
+    if (!found && is_object_)
+        diagnostics_.error(node_.where, fmt::format("{} needs `{}` ({})", what_, key, meaning));
     return found;
 }
 
@@ -78,7 +88,8 @@ std::optional<double> ObjectReader::numberOf(const JsonNode& node, Limits limits
     }
     if (!std::isfinite(node.number)) return std::nullopt;  // already told
     if (!within(node.number, limits)) {
-        diagnostics_.error(node.where, fmt::format("{:.15g} is out of range: expected {}", node.number, rangeText(limits)));
+        diagnostics_.error(
+            node.where, fmt::format("{:.15g} is out of range: expected {}", node.number, rangeText(limits)));
         return std::nullopt;
     }
     return node.number;
@@ -127,14 +138,16 @@ void ObjectReader::text(const std::string& key, std::string& value) {
 void ObjectReader::requiredText(const std::string& key, const char* meaning, std::string& value) {
     const JsonNode* node = require(key, meaning);
     text(key, value);
-    if (node && node->kind == JsonNode::Kind::text && value.empty()) diagnostics_.error(node->where, fmt::format("`{}` is empty", key));
+    if (node && node->kind == JsonNode::Kind::text && value.empty())
+        diagnostics_.error(node->where, fmt::format("`{}` is empty", key));
 }
 
 std::optional<glm::dvec2> ObjectReader::pointOf(const JsonNode& node) {
     if (node.kind != JsonNode::Kind::array || node.items.size() != 2) {
         diagnostics_.error(node.where, fmt::format("expected a point [x, y] in metres, found {}",
-                                                   node.kind == JsonNode::Kind::array ? fmt::format("an array of {}", node.items.size())
-                                                                                      : std::string(node.kindName())));
+                                                   node.kind == JsonNode::Kind::array
+                                                       ? fmt::format("an array of {}", node.items.size())
+                                                       : std::string(node.kindName())));
         return std::nullopt;
     }
     const std::optional<double> x = numberOf(node.items[0], {-1.0e8, 1.0e8});
@@ -152,38 +165,45 @@ std::vector<glm::dvec2> ObjectReader::points(const std::string& key, std::size_t
     const JsonNode* node = require(key, "points [x, y] in metres");
     if (!node) return result;
     if (node->kind != JsonNode::Kind::array) {
-        diagnostics_.error(node->where, fmt::format("expected an array of points, found {}", node->kindName()));
+        diagnostics_.error(node->where,
+                           fmt::format("expected an array of points, found {}", node->kindName()));
         return result;
     }
     if (node->items.size() < least)
-        diagnostics_.error(node->where, fmt::format("expected at least {} points, found {}", least, node->items.size()));
+        diagnostics_.error(node->where,
+                           fmt::format("expected at least {} points, found {}", least, node->items.size()));
     for (const JsonNode& item : node->items) {
         const std::optional<glm::dvec2> point = pointOf(item);
         if (!point) continue;
         if (!result.empty() && result.back() == *point)
-            diagnostics_.error(item.where, fmt::format("the point [{:.15g}, {:.15g}] is repeated", point->x, point->y), "remove one of them");
+            diagnostics_.error(item.where,
+                               fmt::format("the point [{:.15g}, {:.15g}] is repeated", point->x, point->y),
+                               "remove one of them");
         result.push_back(*point);
     }
     return result;
 }
 
-std::optional<std::size_t> ObjectReader::choice(const std::string& key, const std::vector<std::string>& choices) {
+std::optional<std::size_t> ObjectReader::choice(const std::string& key,
+                                                const std::vector<std::string>& choices) {
     const JsonNode* node = get(key);
     if (!node) return std::nullopt;
     if (node->kind == JsonNode::Kind::text)
         for (std::size_t i = 0; i < choices.size(); ++i)
             if (choices[i] == node->text) return i;
-    diagnostics_.error(node->where,
-                       fmt::format("expected one of {}, found {}", fmt::join(choices, ", "),
-                                   node->kind == JsonNode::Kind::text ? "`" + node->text + "`" : node->kindName()),
-                       node->kind == JsonNode::Kind::text ? hintFor(node->text, choices) : "");
+    diagnostics_.error(
+        node->where,
+        fmt::format("expected one of {}, found {}", fmt::join(choices, ", "),
+                    node->kind == JsonNode::Kind::text ? "`" + node->text + "`" : node->kindName()),
+        node->kind == JsonNode::Kind::text ? hintFor(node->text, choices) : "");
     return std::nullopt;
 }
 
 void ObjectReader::finish() {
     for (const JsonNode::Member& member : node_.members)
         if (std::find(known_.begin(), known_.end(), member.key) == known_.end())
-            diagnostics_.error(member.key_where, fmt::format("{} has no key `{}`", what_, member.key), hintFor(member.key, known_));
+            diagnostics_.error(member.key_where, fmt::format("{} has no key `{}`", what_, member.key),
+                               hintFor(member.key, known_));
 }
 
 }  // namespace throng::authoring

@@ -8,7 +8,9 @@
 namespace throng::authoring {
 namespace {
 
-double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
+double cross(glm::dvec2 a, glm::dvec2 b) {
+    return a.x * b.y - a.y * b.x;
+}
 
 /// Where two segments meet, ends included; for overlapping ones, an end that lies on the other.
 std::optional<glm::dvec2> meeting(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm::dvec2 d) {
@@ -23,7 +25,8 @@ std::optional<glm::dvec2> meeting(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm:
     }
     if (cross(c - a, first) != 0.0) return std::nullopt;  // parallel, apart
     const auto within = [](glm::dvec2 p, glm::dvec2 q, glm::dvec2 r) {
-        return std::min(q.x, r.x) <= p.x && p.x <= std::max(q.x, r.x) && std::min(q.y, r.y) <= p.y && p.y <= std::max(q.y, r.y);
+        return std::min(q.x, r.x) <= p.x && p.x <= std::max(q.x, r.x) && std::min(q.y, r.y) <= p.y &&
+               p.y <= std::max(q.y, r.y);
     };
     for (const glm::dvec2 end : {c, d})
         if (within(end, a, b)) return end;
@@ -62,7 +65,9 @@ std::optional<Crossing> selfCrossing(const std::vector<glm::dvec2>& polygon) {
                 const std::size_t first = (edge + 1) % count == other ? edge : other;
                 const glm::dvec2 incoming = end(first) - polygon[first];
                 const glm::dvec2 outgoing = end((first + 1) % count) - end(first);
-                if (cross(incoming, outgoing) != 0.0 || incoming.x * outgoing.x + incoming.y * outgoing.y > 0.0) continue;
+                if (cross(incoming, outgoing) != 0.0 ||
+                    incoming.x * outgoing.x + incoming.y * outgoing.y > 0.0)
+                    continue;
                 return Crossing{end(first), std::min(edge, other), std::max(edge, other)};
             }
             if (adjacent) continue;

@@ -6,16 +6,19 @@
 
 // How far is it to the target, everywhere at once?
 //
-// The walking distance T obeys the Eikonal equation |grad T| = cost: one metre further away costs one more metre, or several
-// where the ground is bad. Fast marching (Sethian 1996) solves it like Dijkstra's algorithm solves graphs, outward from the target
-// in the order of T, but each cell takes its value from a plane fitted through its settled neighbours on two axes, so distances are
-// those of free walking and not of steps along the axes. People walk downhill on T: the shortest way round all walls.
+// The walking distance T obeys the Eikonal equation |grad T| = cost: one metre further away costs one more
+// metre, or several where the ground is bad. Fast marching (Sethian 1996) solves it like Dijkstra's algorithm
+// solves graphs, outward from the target in the order of T, but each cell takes its value from a plane fitted
+// through its settled neighbours on two axes, so distances are those of free walking and not of steps along
+// the axes. People walk downhill on T: the shortest way round all walls.
 namespace throng::authoring {
 namespace {
 
-constexpr float kFillCost = 10.0f;      // per metre into what is blocked, so that "downhill" points out of it
-constexpr float kAgainstOneWay = -0.1f;  // cosine: walking more than this against a one-way road is not allowed
-constexpr int kExactCells = 6;           // around small targets, where fitted planes are poor, distances are taken exactly
+constexpr float kFillCost = 10.0f;  // per metre into what is blocked, so that "downhill" points out of it
+constexpr float kAgainstOneWay =
+    -0.1f;  // cosine: walking more than this against a one-way road is not allowed
+constexpr int kExactCells =
+    12;  // around small targets, where fitted planes are poor, distances are taken exactly
 
 struct Front {
     float distance;
@@ -29,13 +32,17 @@ using Heap = std::priority_queue<Front, std::vector<Front>, std::greater<>>;
 class Marcher {
   public:
     explicit Marcher(const WalkMap& map)
-        : map_(map), grid_(map.grid), distance_(map.cost.size(), kUnreachable), settled_(map.cost.size(), false) {}
+        : map_(map),
+          grid_(map.grid),
+          distance_(map.cost.size(), kUnreachable),
+          settled_(map.cost.size(), false) {}
 
     void start(std::span<const std::uint32_t> targets) {
         for (const std::uint32_t cell : targets)
             if (map_.cost[cell] < kUnreachable) push(cell, 0.0f);
         if (targets.size() <= 4)
-            for (const std::uint32_t cell : targets) startAround(cell);
+            for (const std::uint32_t cell : targets)
+                startAround(cell);
     }
 
     void march() {
@@ -78,7 +85,9 @@ class Marcher {
                 for (int dx = -kExactCells; dx <= kExactCells; ++dx) {
                     const int x = x0 + dx;
                     const int y = y0 + dy;
-                    if (x < 0 || y < 0 || x >= static_cast<int>(grid_.width) || y >= static_cast<int>(grid_.height)) continue;
+                    if (x < 0 || y < 0 || x >= static_cast<int>(grid_.width) ||
+                        y >= static_cast<int>(grid_.height))
+                        continue;
                     visit(static_cast<std::uint32_t>(y) * grid_.width + static_cast<std::uint32_t>(x),
                           std::hypot(static_cast<float>(dx), static_cast<float>(dy)));
                 }
@@ -103,8 +112,11 @@ class Marcher {
         const std::uint32_t x = cell % grid_.width;
         const float left = x > 0 ? ahead(cell, cell - 1, {-1.0f, 0.0f}) : kUnreachable;
         const float right = x + 1 < grid_.width ? ahead(cell, cell + 1, {1.0f, 0.0f}) : kUnreachable;
-        const float below = cell >= grid_.width ? ahead(cell, cell - grid_.width, {0.0f, -1.0f}) : kUnreachable;
-        const float above = cell + grid_.width < distance_.size() ? ahead(cell, cell + grid_.width, {0.0f, 1.0f}) : kUnreachable;
+        const float below =
+            cell >= grid_.width ? ahead(cell, cell - grid_.width, {0.0f, -1.0f}) : kUnreachable;
+        const float above = cell + grid_.width < distance_.size()
+                                ? ahead(cell, cell + grid_.width, {0.0f, 1.0f})
+                                : kUnreachable;
         const float across = std::min(left, right);
         const float along = std::min(below, above);
         const float step = map_.cost[cell] * grid_.cell_size;
@@ -140,13 +152,15 @@ glm::vec2 downhill(const FieldGrid& grid, const std::vector<float>& distance, st
     return size > 1.0e-6f ? -gradient / size : glm::vec2(0.0f);
 }
 
-/// Gives every cell that no path leads from a finite distance and a direction towards the nearest cell that has one.
+/// Gives every cell that no path leads from a finite distance and a direction towards the nearest cell that
+/// has one.
 void fillBlocked(const FieldGrid& grid, std::vector<float>& distance, std::vector<glm::vec2>& direction) {
     Heap heap;
     for (std::uint32_t cell = 0; cell < distance.size(); ++cell)
         if (distance[cell] < kUnreachable) heap.push({distance[cell], cell});
     std::vector<bool> original(distance.size());
-    for (std::size_t cell = 0; cell < distance.size(); ++cell) original[cell] = distance[cell] < kUnreachable;
+    for (std::size_t cell = 0; cell < distance.size(); ++cell)
+        original[cell] = distance[cell] < kUnreachable;
     while (!heap.empty()) {
         const Front front = heap.top();
         heap.pop();
@@ -178,19 +192,22 @@ Field solveField(const WalkMap& map, std::span<const std::uint32_t> targets) {
     // Inside a wide target all is zero: point at its middle.
     glm::vec2 middle(0.0f);
     for (const std::uint32_t cell : targets)
-        middle += cellCentre(map.grid, cell % map.grid.width, cell / map.grid.width) / static_cast<float>(targets.size());
+        middle += cellCentre(map.grid, cell % map.grid.width, cell / map.grid.width) /
+                  static_cast<float>(targets.size());
     std::vector<glm::vec2> direction(field.reachable.size(), glm::vec2(0.0f));
     for (std::uint32_t cell = 0; cell < direction.size(); ++cell) {
         if (field.reachable[cell] == kUnreachable) continue;
         direction[cell] = downhill(map.grid, field.reachable, cell);
         const glm::vec2 inward = middle - cellCentre(map.grid, cell % map.grid.width, cell / map.grid.width);
-        if (direction[cell] == glm::vec2(0.0f) && glm::length(inward) > 1.0e-4f) direction[cell] = glm::normalize(inward);
+        if (direction[cell] == glm::vec2(0.0f) && glm::length(inward) > 1.0e-4f)
+            direction[cell] = glm::normalize(inward);
     }
     std::vector<float> distance = field.reachable;
     fillBlocked(map.grid, distance, direction);
     field.cells.resize(distance.size());
     for (std::size_t cell = 0; cell < distance.size(); ++cell)
-        field.cells[cell] = {distance[cell] < kUnreachable ? distance[cell] : 1.0e9f, glm::packSnorm2x16(direction[cell])};
+        field.cells[cell] = {distance[cell] < kUnreachable ? distance[cell] : 1.0e9f,
+                             glm::packSnorm2x16(direction[cell])};
     return field;
 }
 

@@ -34,17 +34,20 @@ struct WalkGeometry {
 /// How hard it is to walk, cell by cell.
 struct WalkMap {
     FieldGrid grid;
-    std::vector<float> cost;        ///< >= 1 per metre walked; infinity where nobody can stand
-    std::vector<glm::vec2> one_way;  ///< unit direction that may not be walked against, or zero; empty when there is none
+    std::vector<float> cost;  ///< >= 1 per metre walked; infinity where nobody can stand
+    std::vector<glm::vec2>
+        one_way;  ///< unit direction that may not be walked against, or zero; empty when there is none
 };
 
 /// The grid for a scene: cells of 0.1 to 1 m, at most about 1.5 million of them.
 FieldGrid makeGrid(const WalkGeometry& geometry);
 
-/// @param keep_to_roads whether ground outside roads and areas costs several times more, and one-way roads bind
+/// @param keep_to_roads whether ground outside roads and areas costs several times more, and one-way roads
+/// bind
 WalkMap makeWalkMap(const WalkGeometry& geometry, const FieldGrid& grid, bool keep_to_roads);
 
-/// Signed distance to the edge of the union of roads and areas, m, positive inside, at every cell's centre. Empty without roads.
+/// Signed distance to the edge of the union of roads and areas, m, positive inside, at every cell's centre.
+/// Empty without roads.
 std::vector<float> roadDistance(const WalkGeometry& geometry, const FieldGrid& grid);
 
 /// Marks a distance that no path leads to, before blocked cells are filled in.
@@ -53,10 +56,11 @@ inline constexpr float kUnreachable = std::numeric_limits<float>::infinity();
 /// One solved distance field.
 struct Field {
     std::vector<gpu::FieldCell> cells;  ///< finite everywhere, as the GPU wants them
-    std::vector<float> reachable;       ///< the same distances, kUnreachable where no path leads to the target
+    std::vector<float> reachable;  ///< the same distances, kUnreachable where no path leads to the target
 };
 
-/// Walking distance to the nearest target cell (Eikonal equation, fast marching: Sethian 1996) and the way downhill.
+/// Walking distance to the nearest target cell (Eikonal equation, fast marching: Sethian 1996) and the way
+/// downhill.
 /// @param targets cell indices; blocked ones among them are ignored
 Field solveField(const WalkMap& map, std::span<const std::uint32_t> targets);
 

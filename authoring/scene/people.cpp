@@ -6,12 +6,14 @@
 namespace throng::authoring {
 namespace {
 
-constexpr double kStride = 1.4;  // m per gait cycle: what the cast's walk is made for, so that its feet do not slide
+constexpr double kStride =
+    1.4;  // m per gait cycle: what the cast's walk is made for, so that its feet do not slide
 constexpr double kBriskest = 1.0e7;  // more people than this from one rate is a mistake
 
 }  // namespace
 
-gpu::Person drawPerson(const PersonSettings& settings, const GroupRandom& random, std::uint64_t index, std::uint32_t group) {
+gpu::Person drawPerson(const PersonSettings& settings, const GroupRandom& random, std::uint64_t index,
+                       std::uint32_t group) {
     gpu::Person person{};
     const double speed = random.draw(settings.speed, index, Purpose::speed);
     person.radius = static_cast<float>(random.draw(settings.radius, index, Purpose::radius));

@@ -9,8 +9,9 @@
 
 #include "authoring/layout.h"
 
-/// Randomness by counting: a number depends on the seed, its group's id, the person and the purpose, and on nothing drawn before,
-/// so adding a flow changes nobody in the others. The standard library's distributions differ between implementations: not used.
+/// Randomness by counting: a number depends on the seed, its group's id, the person and the purpose, and on
+/// nothing drawn before, so adding a flow changes nobody in the others. The standard library's distributions
+/// differ between implementations: not used.
 namespace throng::authoring {
 
 /// SplitMix64's finaliser (Steele, Lea and Flood 2014).
@@ -24,7 +25,8 @@ inline std::uint64_t scramble(std::uint64_t x) {
 /// FNV-1a.
 inline std::uint64_t hashText(std::string_view text) {
     std::uint64_t hash = 0xcbf29ce484222325ull;
-    for (const char letter : text) hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3ull;
+    for (const char letter : text)
+        hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3ull;
     return hash;
 }
 
@@ -43,15 +45,19 @@ class GroupRandom {
     }
     double draw(const Distribution& distribution, std::uint64_t person, Purpose purpose) const {
         switch (distribution.kind) {
-            case Distribution::Kind::constant: return distribution.mean;
+            case Distribution::Kind::constant:
+                return distribution.mean;
             case Distribution::Kind::uniform:
-                return distribution.minimum + (distribution.maximum - distribution.minimum) * unit(person, purpose);
-            case Distribution::Kind::normal: break;
+                return distribution.minimum +
+                       (distribution.maximum - distribution.minimum) * unit(person, purpose);
+            case Distribution::Kind::normal:
+                break;
         }
         // Box and Muller 1958.
         const double radius = std::sqrt(-2.0 * std::log(1.0 - unit(person, purpose, 0)));
         const double normal = radius * std::cos(2.0 * std::numbers::pi * unit(person, purpose, 1));
-        return std::clamp(distribution.mean + distribution.standard_deviation * normal, distribution.minimum, distribution.maximum);
+        return std::clamp(distribution.mean + distribution.standard_deviation * normal, distribution.minimum,
+                          distribution.maximum);
     }
 
   private:

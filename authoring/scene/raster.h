@@ -12,7 +12,9 @@
 /// Small geometry that the rasters share.
 namespace throng::authoring {
 
-inline std::size_t cellCount(const FieldGrid& grid) { return std::size_t{grid.width} * grid.height; }
+inline std::size_t cellCount(const FieldGrid& grid) {
+    return std::size_t{grid.width} * grid.height;
+}
 
 inline glm::vec2 cellCentre(const FieldGrid& grid, std::uint32_t x, std::uint32_t y) {
     return grid.minimum + (glm::vec2(x, y) + 0.5f) * grid.cell_size;
@@ -56,7 +58,8 @@ inline bool insidePolygon(std::span<const glm::vec2> polygon, glm::vec2 point) {
     return inside;
 }
 
-/// On a road: beside one of its pieces (flat ends), or within half its width of an inner corner (round joins).
+/// On a road: beside one of its pieces (flat ends), or within half its width of an inner corner (round
+/// joins).
 inline bool onRoad(const LocalRoad& road, glm::vec2 point, float margin = 0.0f) {
     const float half = 0.5f * road.width + margin;
     for (std::size_t i = 0; i + 1 < road.centreline.size(); ++i) {

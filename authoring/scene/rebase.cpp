@@ -10,8 +10,8 @@
 namespace throng::authoring {
 namespace {
 
-constexpr double kMargin = 3.0;           // m around everything: room to be pushed into
-constexpr double kQuantum = 65536.0;      // local coordinates are multiples of 1 / this, m
+constexpr double kMargin = 3.0;            // m around everything: room to be pushed into
+constexpr double kQuantum = 65536.0;       // local coordinates are multiples of 1 / this, m
 constexpr double kNearTheOrigin = 2048.0;  // m: up to here float32 keeps a quarter of a millimetre
 
 class Bounds {
@@ -27,15 +27,20 @@ class Bounds {
 Bounds boundsOf(const Layout& layout) {
     Bounds bounds;
     for (const Road& road : layout.roads)
-        for (const glm::dvec2 point : road.centreline) bounds.add(point, 0.5 * road.width);
+        for (const glm::dvec2 point : road.centreline)
+            bounds.add(point, 0.5 * road.width);
     for (const Area& area : layout.areas)
-        for (const glm::dvec2 point : area.polygon) bounds.add(point);
+        for (const glm::dvec2 point : area.polygon)
+            bounds.add(point);
     for (const Wall& wall : layout.walls)
-        for (const glm::dvec2 point : wall.points) bounds.add(point, wall.closed ? 0.0 : 0.5 * wall.thickness);
+        for (const glm::dvec2 point : wall.points)
+            bounds.add(point, wall.closed ? 0.0 : 0.5 * wall.thickness);
     for (const Formation& formation : layout.formations) {
         const FormationPlaces places = formationPlaces(formation, layout.simulation.seed);
-        for (const glm::dvec2 point : places.positions) bounds.add(point, 1.0);
-        for (const glm::dvec2 point : places.goals) bounds.add(point, 1.0);
+        for (const glm::dvec2 point : places.positions)
+            bounds.add(point, 1.0);
+        for (const glm::dvec2 point : places.goals)
+            bounds.add(point, 1.0);
     }
     if (bounds.lower.x > bounds.upper.x) bounds.add({0.0, 0.0}, 1.0);
     return bounds;
@@ -43,7 +48,8 @@ Bounds boundsOf(const Layout& layout) {
 
 void placeCircle(const CircleFormation& circle, FormationPlaces& places) {
     for (std::uint64_t i = 0; i < circle.count; ++i) {
-        const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(circle.count);
+        const double angle =
+            2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(circle.count);
         const glm::dvec2 arm = circle.radius * glm::dvec2(std::cos(angle), std::sin(angle));
         places.positions.push_back(circle.centre + arm);
         places.goals.push_back(circle.centre - arm);
@@ -57,10 +63,12 @@ void placeGrid(const GridFormation& grid, const GroupRandom& random, FormationPl
     for (std::uint64_t row = 0; row < grid.rows; ++row)
         for (std::uint64_t column = 0; column < grid.columns; ++column) {
             const std::uint64_t person = row * grid.columns + column;
-            const glm::dvec2 jitter(random.unit(person, Purpose::jitter_x) * 2.0 - 1.0, random.unit(person, Purpose::jitter_y) * 2.0 - 1.0);
+            const glm::dvec2 jitter(random.unit(person, Purpose::jitter_x) * 2.0 - 1.0,
+                                    random.unit(person, Purpose::jitter_y) * 2.0 - 1.0);
             places.positions.push_back(grid.origin + across * (static_cast<double>(column) * grid.spacing) +
                                        up * (static_cast<double>(row) * grid.spacing) + jitter * grid.jitter);
-            if (const auto* offset = std::get_if<glm::dvec2>(&grid.goal)) places.goals.push_back(places.positions.back() + *offset);
+            if (const auto* offset = std::get_if<glm::dvec2>(&grid.goal))
+                places.goals.push_back(places.positions.back() + *offset);
         }
 }
 
@@ -69,7 +77,8 @@ void placeGrid(const GridFormation& grid, const GroupRandom& random, FormationPl
 FormationPlaces formationPlaces(const Formation& formation, std::uint64_t seed) {
     FormationPlaces places;
     if (const auto* circle = std::get_if<CircleFormation>(&formation.shape)) placeCircle(*circle, places);
-    if (const auto* grid = std::get_if<GridFormation>(&formation.shape)) placeGrid(*grid, GroupRandom(seed, formation.id), places);
+    if (const auto* grid = std::get_if<GridFormation>(&formation.shape))
+        placeGrid(*grid, GroupRandom(seed, formation.id), places);
     if (const auto* list = std::get_if<ListFormation>(&formation.shape))
         for (const ListedAgent& agent : list->agents) {
             places.positions.push_back(agent.position);
@@ -78,13 +87,15 @@ FormationPlaces formationPlaces(const Formation& formation, std::uint64_t seed) 
     return places;
 }
 
-// A layout moved by whole metres has bounds moved by whole metres (up to double rounding, far below the quantum), the same
-// fraction in its middle, and so the same local coordinates.
+// A layout moved by whole metres has bounds moved by whole metres (up to double rounding, far below the
+// quantum), the same fraction in its middle, and so the same local coordinates.
 Rebase::Rebase(const Layout& layout) {
     const Bounds bounds = boundsOf(layout);
     const glm::dvec2 middle = 0.5 * (bounds.lower + bounds.upper);
-    origin_ = {std::floor(middle.x + 0.25), std::floor(middle.y + 0.25)};  // a quarter: halves are common and must not flicker
-    const double furthest = std::max({std::abs(bounds.lower.x), std::abs(bounds.lower.y), std::abs(bounds.upper.x), std::abs(bounds.upper.y)});
+    origin_ = {std::floor(middle.x + 0.25),
+               std::floor(middle.y + 0.25)};  // a quarter: halves are common and must not flicker
+    const double furthest = std::max({std::abs(bounds.lower.x), std::abs(bounds.lower.y),
+                                      std::abs(bounds.upper.x), std::abs(bounds.upper.y)});
     output_origin_ = furthest < kNearTheOrigin ? glm::dvec2(0.0) : origin_;
     minimum_ = local(bounds.lower - kMargin);
     maximum_ = local(bounds.upper + kMargin);
@@ -92,13 +103,15 @@ Rebase::Rebase(const Layout& layout) {
 
 glm::vec2 Rebase::local(glm::dvec2 world) const {
     const glm::dvec2 offset = (world - origin_) * kQuantum;
-    return {static_cast<float>(std::round(offset.x) / kQuantum), static_cast<float>(std::round(offset.y) / kQuantum)};
+    return {static_cast<float>(std::round(offset.x) / kQuantum),
+            static_cast<float>(std::round(offset.y) / kQuantum)};
 }
 
 std::vector<glm::vec2> Rebase::local(const std::vector<glm::dvec2>& world) const {
     std::vector<glm::vec2> points;
     points.reserve(world.size());
-    for (const glm::dvec2 point : world) points.push_back(local(point));
+    for (const glm::dvec2 point : world)
+        points.push_back(local(point));
     return points;
 }
 

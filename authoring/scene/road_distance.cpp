@@ -11,21 +11,24 @@ class EnvelopePass {
     explicit EnvelopePass(std::size_t length) : sites_(length), bounds_(length + 1), values_(length) {}
 
     void run(float* data, std::size_t length, std::size_t stride) {
-        for (std::size_t i = 0; i < length; ++i) values_[i] = data[i * stride];
+        for (std::size_t i = 0; i < length; ++i)
+            values_[i] = data[i * stride];
         std::size_t last = 0;
         sites_[0] = 0;
         bounds_[0] = -kFar;
         bounds_[1] = kFar;
         for (std::size_t i = 1; i < length; ++i) {
             double meet = meeting(i, sites_[last]);
-            while (meet <= bounds_[last]) meet = meeting(i, sites_[--last]);
+            while (meet <= bounds_[last])
+                meet = meeting(i, sites_[--last]);
             sites_[++last] = i;
             bounds_[last] = meet;
             bounds_[last + 1] = kFar;
         }
         std::size_t site = 0;
         for (std::size_t i = 0; i < length; ++i) {
-            while (bounds_[site + 1] < static_cast<double>(i)) ++site;
+            while (bounds_[site + 1] < static_cast<double>(i))
+                ++site;
             const double offset = static_cast<double>(i) - static_cast<double>(sites_[site]);
             data[i * stride] = static_cast<float>(offset * offset + values_[sites_[site]]);
         }
@@ -50,18 +53,22 @@ class EnvelopePass {
 /// Distance in cells from every centre to the nearest centre where `mask` equals `wanted`.
 std::vector<float> distanceTo(const std::vector<bool>& mask, bool wanted, const FieldGrid& grid) {
     std::vector<float> squared(mask.size());
-    for (std::size_t cell = 0; cell < mask.size(); ++cell) squared[cell] = mask[cell] == wanted ? 0.0f : EnvelopePass::kNothing;
+    for (std::size_t cell = 0; cell < mask.size(); ++cell)
+        squared[cell] = mask[cell] == wanted ? 0.0f : EnvelopePass::kNothing;
     EnvelopePass pass(std::max(grid.width, grid.height));
-    for (std::uint32_t x = 0; x < grid.width; ++x) pass.run(&squared[x], grid.height, grid.width);
-    for (std::uint32_t y = 0; y < grid.height; ++y) pass.run(&squared[std::size_t{y} * grid.width], grid.width, 1);
-    for (float& value : squared) value = std::sqrt(value);
+    for (std::uint32_t x = 0; x < grid.width; ++x)
+        pass.run(&squared[x], grid.height, grid.width);
+    for (std::uint32_t y = 0; y < grid.height; ++y)
+        pass.run(&squared[std::size_t{y} * grid.width], grid.width, 1);
+    for (float& value : squared)
+        value = std::sqrt(value);
     return squared;
 }
 
 }  // namespace
 
-// The union is rasterised first and measured afterwards: pieces that only share an edge (a road that ends at a plaza) then
-// have no edge between them, which the distances to each piece would show.
+// The union is rasterised first and measured afterwards: pieces that only share an edge (a road that ends at
+// a plaza) then have no edge between them, which the distances to each piece would show.
 std::vector<float> roadDistance(const WalkGeometry& geometry, const FieldGrid& grid) {
     if (geometry.roads.empty()) return {};
     const float seam = 0.25f * grid.cell_size;
@@ -73,7 +80,8 @@ std::vector<float> roadDistance(const WalkGeometry& geometry, const FieldGrid& g
         });
     }
     for (const LocalPolygon& area : geometry.areas)
-        for (const std::uint32_t cell : cellsInPolygon(grid, area)) inside[cell] = true;
+        for (const std::uint32_t cell : cellsInPolygon(grid, area))
+            inside[cell] = true;
 
     const std::vector<float> to_outside = distanceTo(inside, false, grid);
     const std::vector<float> to_inside = distanceTo(inside, true, grid);

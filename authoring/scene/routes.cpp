@@ -13,7 +13,8 @@ constexpr std::size_t kMostFieldBytes = std::size_t{128} << 20;
 
 }  // namespace
 
-Routes::Routes(const Layout& layout, const Rebase& rebase, const WalkGeometry& geometry, const FieldGrid& grid)
+Routes::Routes(const Layout& layout, const Rebase& rebase, const WalkGeometry& geometry,
+               const FieldGrid& grid)
     : layout_(layout), rebase_(rebase), geometry_(geometry), grid_(grid) {}
 
 LocalPolygon Routes::outline(const Place& place, float depth) const {
@@ -50,7 +51,8 @@ std::uint32_t Routes::solve(const std::vector<std::uint32_t>& targets, bool keep
 }
 
 std::uint32_t Routes::fieldTo(const Place& place, bool keep_to_roads) {
-    const auto [entry, is_new] = known_.try_emplace(fmt::format("{}{}", keep_to_roads ? "on roads to " : "to ", name(place)), 0);
+    const auto [entry, is_new] =
+        known_.try_emplace(fmt::format("{}{}", keep_to_roads ? "on roads to " : "to ", name(place)), 0);
     if (is_new) entry->second = solve(cellsInPolygon(grid_, outline(place, kTargetDepth)), keep_to_roads);
     return entry->second;
 }
@@ -69,14 +71,16 @@ float Routes::reachable(std::uint32_t field, glm::vec2 from) const {
 float Routes::reachable(std::uint32_t field, const LocalPolygon& from) const {
     if (fields_.empty()) return 0.0f;
     float least = kUnreachable;
-    for (const std::uint32_t cell : cellsInPolygon(grid_, from)) least = std::min(least, fields_[field].reachable[cell]);
+    for (const std::uint32_t cell : cellsInPolygon(grid_, from))
+        least = std::min(least, fields_[field].reachable[cell]);
     return least;
 }
 
 std::vector<gpu::FieldCell> Routes::takeCells() {
     std::vector<gpu::FieldCell> cells;
     cells.reserve(fields_.size() * cellCount(grid_));
-    for (const Field& field : fields_) cells.insert(cells.end(), field.cells.begin(), field.cells.end());
+    for (const Field& field : fields_)
+        cells.insert(cells.end(), field.cells.begin(), field.cells.end());
     fields_.clear();
     return cells;
 }

@@ -12,7 +12,8 @@
 
 namespace throng::authoring {
 
-/// Places as polygons, and the distance fields that lead to them. Every field is solved once, when first asked for.
+/// Places as polygons, and the distance fields that lead to them. Every field is solved once, when first
+/// asked for.
 class Routes {
   public:
     Routes(const Layout& layout, const Rebase& rebase, const WalkGeometry& geometry, const FieldGrid& grid);

@@ -16,7 +16,7 @@ namespace throng::authoring {
 namespace {
 
 constexpr std::uint32_t kEntryPoints = 1024;
-constexpr float kStageTolerance = 0.3f;  // m
+constexpr float kStageTolerance = 0.3f;   // m
 constexpr float kEntryClearance = 0.02f;  // m beyond the body
 
 /// Bodies already placed, so that nobody starts inside another.
@@ -39,14 +39,16 @@ class PlacedBodies {
     static std::uint64_t key(glm::vec2 position, int dx, int dy) {
         const auto x = static_cast<std::int32_t>(std::floor(position.x / kCell)) + dx;
         const auto y = static_cast<std::int32_t>(std::floor(position.y / kCell)) + dy;
-        return static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) << 32 | static_cast<std::uint32_t>(y);
+        return static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) << 32 |
+               static_cast<std::uint32_t>(y);
     }
     std::unordered_map<std::uint64_t, std::vector<std::pair<glm::vec2, float>>> cells_;
 };
 
 glm::vec2 middleOf(const LocalPolygon& polygon) {
     glm::vec2 middle(0.0f);
-    for (const glm::vec2 point : polygon) middle += point / static_cast<float>(polygon.size());
+    for (const glm::vec2 point : polygon)
+        middle += point / static_cast<float>(polygon.size());
     return middle;
 }
 
@@ -66,10 +68,14 @@ class Builder {
         buildGeometry();
         scene_.grid = makeGrid(geometry_);
         Routes routes(layout_, rebase_, geometry_, scene_.grid);
-        for (std::size_t i = 0; i < layout_.flows.size(); ++i) routeFlow(layout_.flows[i], i, routes);
-        for (std::size_t i = 0; i < layout_.formations.size(); ++i) placeFormation(layout_.formations[i], i, routes);
+        for (std::size_t i = 0; i < layout_.flows.size(); ++i)
+            routeFlow(layout_.flows[i], i, routes);
+        for (std::size_t i = 0; i < layout_.formations.size(); ++i)
+            placeFormation(layout_.formations[i], i, routes);
         if (routes.tooManyFields())
-            diagnostics_.error({}, "there are too many different goals behind walls: their distance fields need more than 128 MiB",
+            diagnostics_.error({},
+                               "there are too many different goals behind walls: their distance fields need "
+                               "more than 128 MiB",
                                "give people areas as goals instead of single points");
         if (diagnostics_.hasErrors()) return std::nullopt;
         finish(routes);
@@ -77,7 +83,8 @@ class Builder {
     }
 
   private:
-    /// Bodies and times of everybody, because the walls' clearance depends on the smallest and the largest body.
+    /// Bodies and times of everybody, because the walls' clearance depends on the smallest and the largest
+    /// body.
     void drawPeople() {
         for (const Flow& flow : layout_.flows) {
             const GroupRandom random(layout_.simulation.seed, flow.id);
@@ -100,14 +107,17 @@ class Builder {
                 gpu::Person person = drawPerson(formation.people, random, i, group());
                 if (list) overrideListed(list->agents[i], formation.people, person);
                 person.spawn_position = rebase_.local(places.positions[i]);
-                person.spawn_time = static_cast<float>(formation.start == 0.0 ? -layout_.simulation.warmup : formation.start);
-                person.flags |= gpu::PERSON_FIXED_SPAWN | (formation.arrival == Arrival::stay ? gpu::PERSON_STAYS : 0);
+                person.spawn_time =
+                    static_cast<float>(formation.start == 0.0 ? -layout_.simulation.warmup : formation.start);
+                person.flags |=
+                    gpu::PERSON_FIXED_SPAWN | (formation.arrival == Arrival::stay ? gpu::PERSON_STAYS : 0);
                 addPerson(person);
             }
         }
     }
 
-    static void overrideListed(const ListedAgent& agent, const PersonSettings& settings, gpu::Person& person) {
+    static void overrideListed(const ListedAgent& agent, const PersonSettings& settings,
+                               gpu::Person& person) {
         if (agent.radius) person.radius = static_cast<float>(*agent.radius);
         if (!agent.speed) return;
         person.preferred_speed = static_cast<float>(*agent.speed);
@@ -135,10 +145,13 @@ class Builder {
         geometry_.largest_radius = scene_.largest_radius;
         buildWalls(layout_, rebase_, geometry_);
         for (const Road& road : layout_.roads)
-            geometry_.roads.push_back({rebase_.local(road.centreline), static_cast<float>(road.width), road.one_way});
-        for (const Area& area : layout_.areas) geometry_.areas.push_back(rebase_.local(area.polygon));
+            geometry_.roads.push_back(
+                {rebase_.local(road.centreline), static_cast<float>(road.width), road.one_way});
+        for (const Area& area : layout_.areas)
+            geometry_.areas.push_back(rebase_.local(area.polygon));
         scene_.wall_segments = geometry_.walls;
-        scene_.wall_tiles = wallTiles(geometry_.walls, scene_.smallest_radius, static_cast<float>(layout_.simulation.tile_radius));
+        scene_.wall_tiles = wallTiles(geometry_.walls, scene_.smallest_radius,
+                                      static_cast<float>(layout_.simulation.tile_radius));
     }
 
     void routeFlow(const Flow& flow, std::size_t index, Routes& routes) {
@@ -155,8 +168,10 @@ class Builder {
             scene_.stages.push_back({middleOf(target), kStageTolerance, field});
             if (routes.reachable(field, from) == kUnreachable)
                 diagnostics_.error(place.where.line ? place.where : flow.where,
-                                   fmt::format("flow `{}`: nobody can walk from `{}` to `{}`", flow.id, routes.name(before), routes.name(place)),
-                                   "look for walls across the way, doors narrower than a body, and one-way roads that point the other way");
+                                   fmt::format("flow `{}`: nobody can walk from `{}` to `{}`", flow.id,
+                                               routes.name(before), routes.name(place)),
+                                   "look for walls across the way, doors narrower than a body, and one-way "
+                                   "roads that point the other way");
             from = target;
             before = place;
         }
@@ -173,26 +188,33 @@ class Builder {
         });
     }
 
-    /// Points spread evenly over the entry (the R2 sequence, Roberts 2018), clear of walls and with a way to the goal.
-    gpu::Entry findEntryPoints(const Flow& flow, std::size_t index, const Routes& routes, std::uint32_t field) {
+    /// Points spread evenly over the entry (the R2 sequence, Roberts 2018), clear of walls and with a way to
+    /// the goal.
+    gpu::Entry findEntryPoints(const Flow& flow, std::size_t index, const Routes& routes,
+                               std::uint32_t field) {
         float largest = 0.0f;
         forEachRow(index, [&](const gpu::Person& person) { largest = std::max(largest, person.radius); });
         const LocalPolygon outline = routes.outline(flow.from, Routes::kEntryDepth);
         const Box box = boundsOf(outline, 0.0f);
         const auto first = static_cast<std::uint32_t>(scene_.entry_points.size());
         double x = 0.5, y = 0.5;
-        for (std::uint32_t i = 0; i < 16 * kEntryPoints && scene_.entry_points.size() - first < kEntryPoints; ++i) {
+        for (std::uint32_t i = 0; i < 16 * kEntryPoints && scene_.entry_points.size() - first < kEntryPoints;
+             ++i) {
             x = std::fmod(x + 0.7548776662466927, 1.0);
             y = std::fmod(y + 0.5698402909980532, 1.0);
-            const glm::vec2 point = box.lower + (box.upper - box.lower) * glm::vec2(static_cast<float>(x), static_cast<float>(y));
-            if (!insidePolygon(outline, point) || wallDepth(geometry_, point, largest + kEntryClearance) > 0.0f) continue;
+            const glm::vec2 point =
+                box.lower + (box.upper - box.lower) * glm::vec2(static_cast<float>(x), static_cast<float>(y));
+            if (!insidePolygon(outline, point) ||
+                wallDepth(geometry_, point, largest + kEntryClearance) > 0.0f)
+                continue;
             if (routes.reachable(field, point) < kUnreachable) scene_.entry_points.push_back(point);
         }
         const auto found = static_cast<std::uint32_t>(scene_.entry_points.size()) - first;
         if (found == 0) {
-            diagnostics_.error(flow.from.where.line ? flow.from.where : flow.where,
-                               fmt::format("flow `{}`: there is no room to enter in `{}`", flow.id, routes.name(flow.from)),
-                               "its area is inside a wall, too small for a body, or cut off from the goal");
+            diagnostics_.error(
+                flow.from.where.line ? flow.from.where : flow.where,
+                fmt::format("flow `{}`: there is no room to enter in `{}`", flow.id, routes.name(flow.from)),
+                "its area is inside a wall, too small for a body, or cut off from the goal");
             scene_.entry_points.push_back(middleOf(outline));
         }
         return {first, std::max(found, 1u)};
@@ -201,7 +223,8 @@ class Builder {
     template <class Visit>
     void forEachRow(std::size_t group_index, Visit visit) {
         const gpu::SpawnQueue& queue = scene_.queues[group_index];
-        for (std::uint32_t row = queue.first_row; row < queue.first_row + queue.row_count; ++row) visit(scene_.people[row]);
+        for (std::uint32_t row = queue.first_row; row < queue.first_row + queue.row_count; ++row)
+            visit(scene_.people[row]);
     }
 
     void placeFormation(const Formation& formation, std::size_t formation_index, Routes& routes) {
@@ -210,7 +233,8 @@ class Builder {
         const auto* grid = std::get_if<GridFormation>(&formation.shape);
         const Place* place = grid ? std::get_if<Place>(&grid->goal) : nullptr;
         const std::uint32_t place_field = place ? routes.fieldTo(*place, false) : gpu::NO_INDEX;
-        const glm::vec2 place_goal = place ? middleOf(routes.outline(*place, Routes::kTargetDepth)) : glm::vec2(0.0f);
+        const glm::vec2 place_goal =
+            place ? middleOf(routes.outline(*place, Routes::kTargetDepth)) : glm::vec2(0.0f);
         std::size_t i = 0;
         forEachRow(index, [&](gpu::Person& person) {
             const glm::vec2 goal = place ? place_goal : rebase_.local(places.goals[i]);
@@ -234,11 +258,12 @@ class Builder {
             person.heading = static_cast<float>(*list->agents[i].heading * 3.14159265358979 / 180.0);
     }
 
-    gpu::Stage stageOf(const Formation& formation, std::size_t i, const gpu::Person& person, glm::vec2 goal, std::uint32_t place_field,
-                       Routes& routes) {
+    gpu::Stage stageOf(const Formation& formation, std::size_t i, const gpu::Person& person, glm::vec2 goal,
+                       std::uint32_t place_field, Routes& routes) {
         const auto tolerance = static_cast<float>(formation.goal_tolerance);
         if (const float depth = wallDepth(geometry_, person.spawn_position, person.radius); depth > 0.0f)
-            complain(formation, i, fmt::format("stands in a wall ({:.2f} m deep)", depth), "move it, or the wall");
+            complain(formation, i, fmt::format("stands in a wall ({:.2f} m deep)", depth),
+                     "move it, or the wall");
         if (place_field != gpu::NO_INDEX) {
             if (routes.reachable(place_field, person.spawn_position) == kUnreachable)
                 complain(formation, i, "cannot reach its goal", "look for walls all round it");
@@ -248,14 +273,16 @@ class Builder {
             complain(formation, i, "has its goal in a wall", "move the goal, or the wall");
             return {goal, tolerance, gpu::NO_INDEX};
         }
-        if (straightIsClear(geometry_, person.spawn_position, goal, person.radius)) return {goal, tolerance, gpu::NO_INDEX};
+        if (straightIsClear(geometry_, person.spawn_position, goal, person.radius))
+            return {goal, tolerance, gpu::NO_INDEX};
         const std::uint32_t field = routes.fieldTo(goal);
         if (!routes.tooManyFields() && routes.reachable(field, person.spawn_position) == kUnreachable)
             complain(formation, i, "cannot reach its goal", "there is a wall all round one of the two");
         return {goal, std::max(tolerance, scene_.grid.cell_size), field};
     }
 
-    void complain(const Formation& formation, std::size_t i, const std::string& what, const std::string& hint) {
+    void complain(const Formation& formation, std::size_t i, const std::string& what,
+                  const std::string& hint) {
         SourcePosition where = formation.where;
         if (const auto* list = std::get_if<ListFormation>(&formation.shape)) where = list->agents[i].where;
         diagnostics_.error(where, fmt::format("formation `{}`: person {} {}", formation.id, i, what), hint);
@@ -277,6 +304,8 @@ class Builder {
 
 }  // namespace
 
-std::optional<Scene> buildScene(const Layout& layout, Diagnostics& diagnostics) { return Builder(layout, diagnostics).build(); }
+std::optional<Scene> buildScene(const Layout& layout, Diagnostics& diagnostics) {
+    return Builder(layout, diagnostics).build();
+}
 
 }  // namespace throng::authoring

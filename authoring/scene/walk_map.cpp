@@ -5,10 +5,10 @@ namespace throng::authoring {
 namespace {
 
 constexpr double kMostCells = 400'000.0;
-constexpr float kSmallestCell = 0.1f;   // m
-constexpr float kWallComfort = 0.2f;    // m beyond the largest radius: nearer to a wall, walking costs more
-constexpr float kWallCost = 4.0f;       // added at the wall itself
-constexpr float kOffRoadCost = 6.0f;    // per metre off the roads, for those who keep to them
+constexpr float kSmallestCell = 0.1f;  // m
+constexpr float kWallComfort = 0.2f;   // m beyond the largest radius: nearer to a wall, walking costs more
+constexpr float kWallCost = 4.0f;      // added at the wall itself
+constexpr float kOffRoadCost = 6.0f;   // per metre off the roads, for those who keep to them
 
 /// Distance from every cell's centre to the nearest wall surface, as far as `reach`; infinity beyond.
 std::vector<float> wallDistance(const WalkGeometry& geometry, const FieldGrid& grid, float reach) {
@@ -24,8 +24,9 @@ std::vector<float> wallDistance(const WalkGeometry& geometry, const FieldGrid& g
     return distance;
 }
 
-/// How near to a wall a cell's centre may be. At least so that walls without thickness leave no gap between cells, and less
-/// than the smallest body needs by half a cell, so that rasterising never closes a door that a body fits through.
+/// How near to a wall a cell's centre may be. At least so that walls without thickness leave no gap between
+/// cells, and less than the smallest body needs by half a cell, so that rasterising never closes a door that
+/// a body fits through.
 float wallClearance(const WalkGeometry& geometry, const FieldGrid& grid) {
     return std::max(0.6f * grid.cell_size, 0.9f * geometry.smallest_radius - 0.5f * grid.cell_size);
 }
@@ -51,7 +52,9 @@ void blockWalls(const WalkGeometry& geometry, WalkMap& map) {
 }
 
 void markOneWays(const WalkGeometry& geometry, WalkMap& map) {
-    if (std::none_of(geometry.roads.begin(), geometry.roads.end(), [](const LocalRoad& road) { return road.one_way; })) return;
+    if (std::none_of(geometry.roads.begin(), geometry.roads.end(),
+                     [](const LocalRoad& road) { return road.one_way; }))
+        return;
     map.one_way.assign(cellCount(map.grid), glm::vec2(0.0f));
     for (const LocalRoad& road : geometry.roads) {
         if (!road.one_way) continue;
@@ -72,7 +75,8 @@ void markOneWays(const WalkGeometry& geometry, WalkMap& map) {
     };
     for (const LocalRoad& road : geometry.roads)
         if (!road.one_way)
-            release(boundsOf(road.centreline, 0.5f * road.width), [&](glm::vec2 centre) { return onRoad(road, centre); });
+            release(boundsOf(road.centreline, 0.5f * road.width),
+                    [&](glm::vec2 centre) { return onRoad(road, centre); });
     for (const LocalPolygon& area : geometry.areas)
         release(boundsOf(area, 0.0f), [&](glm::vec2 centre) { return insidePolygon(area, centre); });
 }
@@ -112,12 +116,15 @@ std::vector<std::uint32_t> cellsInPolygon(const FieldGrid& grid, const LocalPoly
     });
     if (cells.empty()) {
         glm::vec2 middle(0.0f);
-        for (const glm::vec2 point : polygon) middle += point / static_cast<float>(polygon.size());
+        for (const glm::vec2 point : polygon)
+            middle += point / static_cast<float>(polygon.size());
         cells.push_back(cellAt(grid, middle));
     }
     return cells;
 }
 
-std::uint32_t cellAt(const FieldGrid& grid, glm::vec2 point) { return row(grid, point.y) * grid.width + column(grid, point.x); }
+std::uint32_t cellAt(const FieldGrid& grid, glm::vec2 point) {
+    return row(grid, point.y) * grid.width + column(grid, point.x);
+}
 
 }  // namespace throng::authoring

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "authoring/scene/walls.h"
 
+#include <unordered_map>
+
 #include "authoring/scene/raster.h"
 
 namespace throng::authoring {
 namespace {
 
-/// Walls up to this half thickness (m) have one row of tiles on their axis; thicker ones have a row on each side.
+/// Walls up to this half thickness (m) have one row of tiles on their axis; thicker ones have a row on each
+/// side.
 constexpr float kThin = 0.15f;
 
-void tilesAlong(glm::vec2 a, glm::vec2 b, float spacing, float tile_radius, std::uint32_t segment, std::vector<gpu::WallTile>& tiles) {
+void tilesAlong(glm::vec2 a, glm::vec2 b, float spacing, float tile_radius, std::uint32_t segment,
+                std::vector<gpu::WallTile>& tiles) {
     const int count = std::max(1, static_cast<int>(std::ceil(glm::distance(a, b) / spacing)));
     for (int i = 0; i < count; ++i) {
         const float along = (static_cast<float>(i) + 0.5f) / static_cast<float>(count);
@@ -17,7 +21,29 @@ void tilesAlong(glm::vec2 a, glm::vec2 b, float spacing, float tile_radius, std:
     }
 }
 
-float cross(glm::vec2 a, glm::vec2 b) { return a.x * b.y - a.y * b.x; }
+/// Pieces of one wall meet in the same points: keep one tile of each.
+void removeRepeated(std::vector<gpu::WallTile>& tiles) {
+    constexpr float kSame = 0.005f;  // m
+    std::unordered_map<std::int64_t, std::vector<glm::vec2>> kept;
+    const auto key = [](int x, int y) {
+        return (static_cast<std::int64_t>(x) << 32) ^ static_cast<std::uint32_t>(y);
+    };
+    std::erase_if(tiles, [&](const gpu::WallTile& tile) {
+        const int x = static_cast<int>(std::floor(tile.position.x / kSame));
+        const int y = static_cast<int>(std::floor(tile.position.y / kSame));
+        for (int dy = -1; dy <= 1; ++dy)
+            for (int dx = -1; dx <= 1; ++dx)
+                if (const auto cell = kept.find(key(x + dx, y + dy)); cell != kept.end())
+                    for (const glm::vec2 other : cell->second)
+                        if (glm::distance(other, tile.position) < kSame) return true;
+        kept[key(x, y)].push_back(tile.position);
+        return false;
+    });
+}
+
+float cross(glm::vec2 a, glm::vec2 b) {
+    return a.x * b.y - a.y * b.x;
+}
 
 /// Distance between two segments; zero when they cross.
 float segmentsApart(glm::vec2 a, glm::vec2 b, glm::vec2 c, glm::vec2 d) {
@@ -26,7 +52,8 @@ float segmentsApart(glm::vec2 a, glm::vec2 b, glm::vec2 c, glm::vec2 d) {
     const float side_a = cross(d - c, a - c);
     const float side_b = cross(d - c, b - c);
     if (side_c * side_d < 0.0f && side_a * side_b < 0.0f) return 0.0f;
-    return std::min({segmentDistance(a, c, d), segmentDistance(b, c, d), segmentDistance(c, a, b), segmentDistance(d, a, b)});
+    return std::min({segmentDistance(a, c, d), segmentDistance(b, c, d), segmentDistance(c, a, b),
+                     segmentDistance(d, a, b)});
 }
 
 }  // namespace
@@ -44,7 +71,8 @@ void buildWalls(const Layout& layout, const Rebase& rebase, WalkGeometry& geomet
     }
 }
 
-std::vector<gpu::WallTile> wallTiles(const std::vector<gpu::WallSegment>& segments, float spacing, float tile_radius) {
+std::vector<gpu::WallTile> wallTiles(const std::vector<gpu::WallSegment>& segments, float spacing,
+                                     float tile_radius) {
     std::vector<gpu::WallTile> tiles;
     for (std::uint32_t index = 0; index < segments.size(); ++index) {
         const gpu::WallSegment& segment = segments[index];
@@ -58,7 +86,8 @@ std::vector<gpu::WallTile> wallTiles(const std::vector<gpu::WallSegment>& segmen
         tilesAlong(segment.a + aside, segment.b + aside, spacing, tile_radius, index, tiles);
         tilesAlong(segment.a - aside, segment.b - aside, spacing, tile_radius, index, tiles);
         // The rounded ends, half a circle each.
-        const int steps = std::max(1, static_cast<int>(std::ceil(3.14159265f * segment.half_thickness / spacing)));
+        const int steps =
+            std::max(1, static_cast<int>(std::ceil(3.14159265f * segment.half_thickness / spacing)));
         for (int i = 1; i < steps; ++i) {
             const float angle = 3.14159265f * static_cast<float>(i) / static_cast<float>(steps);
             const glm::vec2 outward = along * (std::sin(angle) * segment.half_thickness);
@@ -67,6 +96,7 @@ std::vector<gpu::WallTile> wallTiles(const std::vector<gpu::WallSegment>& segmen
             tiles.push_back({segment.a - outward + round, tile_radius, index});
         }
     }
+    removeRepeated(tiles);
     return tiles;
 }
 
@@ -84,8 +114,12 @@ bool straightIsClear(const WalkGeometry& geometry, glm::vec2 a, glm::vec2 b, flo
     const Box path = boundsOf(ends, radius);
     for (const gpu::WallSegment& wall : geometry.walls) {
         const float reach = wall.half_thickness;
-        if (std::max(wall.a.x, wall.b.x) + reach < path.lower.x || std::min(wall.a.x, wall.b.x) - reach > path.upper.x) continue;
-        if (std::max(wall.a.y, wall.b.y) + reach < path.lower.y || std::min(wall.a.y, wall.b.y) - reach > path.upper.y) continue;
+        if (std::max(wall.a.x, wall.b.x) + reach < path.lower.x ||
+            std::min(wall.a.x, wall.b.x) - reach > path.upper.x)
+            continue;
+        if (std::max(wall.a.y, wall.b.y) + reach < path.lower.y ||
+            std::min(wall.a.y, wall.b.y) - reach > path.upper.y)
+            continue;
         if (segmentsApart(a, b, wall.a, wall.b) < radius + reach) return false;
     }
     return true;

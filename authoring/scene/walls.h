@@ -12,11 +12,13 @@ namespace throng::authoring {
 /// The segments of all walls, and the outlines of the solid ones, in the scene frame.
 void buildWalls(const Layout& layout, const Rebase& rebase, WalkGeometry& geometry);
 
-/// Sites of the diagram along the walls' perimeter, `spacing` apart or less (m): at most a body's radius, so that no body fits
-/// between two of them.
-std::vector<gpu::WallTile> wallTiles(const std::vector<gpu::WallSegment>& segments, float spacing, float tile_radius);
+/// Sites of the diagram along the walls' perimeter, `spacing` apart or less (m): at most a body's radius, so
+/// that no body fits between two of them.
+std::vector<gpu::WallTile> wallTiles(const std::vector<gpu::WallSegment>& segments, float spacing,
+                                     float tile_radius);
 
-/// How deep a body of this radius at this place is in a wall or a solid polygon, m; negative when it is clear.
+/// How deep a body of this radius at this place is in a wall or a solid polygon, m; negative when it is
+/// clear.
 float wallDepth(const WalkGeometry& geometry, glm::vec2 position, float radius);
 
 /// Whether a body can walk straight from a to b without touching a wall.

@@ -10,13 +10,14 @@
 namespace throng::io {
 namespace {
 
-constexpr double kMargin = 28.0;   // px
-constexpr double kHeader = 64.0;   // px, above the drawing
-constexpr double kFooter = 58.0;   // px, below it
+constexpr double kMargin = 28.0;      // px
+constexpr double kHeader = 64.0;      // px, above the drawing
+constexpr double kFooter = 58.0;      // px, below it
 constexpr double kDensityCell = 1.0;  // m
 constexpr double kMostDensity = 3.0;  // persons per m^2 at the warm end of the scale
-constexpr Colour kPaper = colourFromHex(0xf6f4ef), kInk = colourFromHex(0x22252b), kRoad = colourFromHex(0xe2dfd6),
-                 kArea = colourFromHex(0xece6d3), kWall = colourFromHex(0x3d424c), kSolid = colourFromHex(0xc9c6be);
+constexpr Colour kPaper = colourFromHex(0xf6f4ef), kInk = colourFromHex(0x22252b),
+                 kRoad = colourFromHex(0xe2dfd6), kArea = colourFromHex(0xece6d3),
+                 kWall = colourFromHex(0x3d424c), kSolid = colourFromHex(0xc9c6be);
 
 void setColour(cairo_t* context, Colour colour, double alpha = 1.0) {
     cairo_set_source_rgba(context, colour.red, colour.green, colour.blue, alpha);
@@ -25,7 +26,8 @@ void setColour(cairo_t* context, Colour colour, double alpha = 1.0) {
 /// From paper through yellow to red, transparent where nobody is.
 void setHeat(cairo_t* context, double share) {
     const double t = std::clamp(share, 0.0, 1.0);
-    cairo_set_source_rgba(context, 0.98 - 0.12 * t, 0.80 - 0.66 * t, 0.36 - 0.24 * t, std::min(0.85, 1.3 * t));
+    cairo_set_source_rgba(context, 0.98 - 0.12 * t, 0.80 - 0.66 * t, 0.36 - 0.24 * t,
+                          std::min(0.85, 1.3 * t));
 }
 
 struct Context {
@@ -49,11 +51,14 @@ Plate::Plate(const std::filesystem::path& bake, const PreviewOptions& options)
     width_ = options.width / 2 * 2;  // video encoders want even sizes
     scale_ = (width_ - 2.0 * kMargin) / std::max(extent.x, 1.0);
     height_ = static_cast<int>(std::ceil(extent.y * scale_ + kHeader + kFooter)) / 2 * 2;
-    for (std::vector<float>* values : {&position_, &direction_, &state_, &trail_, &trail_state_}) values->resize(std::size_t{3} * bake_.agents);
+    for (std::vector<float>* values : {&position_, &direction_, &state_, &trail_, &trail_state_})
+        values->resize(std::size_t{3} * bake_.agents);
     layout_.reset(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_, height_));
     canvas_.reset(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_, height_));
     if (cairo_surface_status(canvas_.get()) != CAIRO_STATUS_SUCCESS)
-        throw InputError(bake, fmt::format("a picture of {} x {} px is more than can be drawn: ask for a smaller --width", width_, height_));
+        throw InputError(
+            bake, fmt::format("a picture of {} x {} px is more than can be drawn: ask for a smaller --width",
+                              width_, height_));
     drawLayout();
 }
 
@@ -70,8 +75,10 @@ void Plate::path(cairo_t* context, const std::vector<glm::dvec2>& points, bool c
     if (close) cairo_close_path(context);
 }
 
-void Plate::text(cairo_t* context, double x, double y, double size, const std::string& what, bool bold) const {
-    cairo_select_font_face(context, "sans-serif", CAIRO_FONT_SLANT_NORMAL, bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+void Plate::text(cairo_t* context, double x, double y, double size, const std::string& what,
+                 bool bold) const {
+    cairo_select_font_face(context, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
+                           bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
     cairo_set_font_size(context, size);
     cairo_move_to(context, x, y);
     cairo_show_text(context, what.c_str());
@@ -113,7 +120,9 @@ void Plate::drawLayout() {
 void Plate::drawScaleBar(cairo_t* context) const {
     const double wanted = 0.16 * width_ / scale_;
     const double decade = std::pow(10.0, std::floor(std::log10(wanted)));
-    const double metres = wanted >= 5.0 * decade ? 5.0 * decade : wanted >= 2.0 * decade ? 2.0 * decade : decade;
+    const double metres = wanted >= 5.0 * decade   ? 5.0 * decade
+                          : wanted >= 2.0 * decade ? 2.0 * decade
+                                                   : decade;
     const double right = width_ - kMargin, y = height_ - 24.0;
     setColour(context, kInk);
     cairo_set_line_width(context, 2.0);
@@ -140,24 +149,30 @@ void Plate::drawDensity(cairo_t* context) const {
     const glm::dvec2 extent = bake_.maximum - bake_.minimum;
     const auto columns = static_cast<std::size_t>(std::ceil(extent.x / kDensityCell)) + 1;
     const auto rows = static_cast<std::size_t>(std::ceil(extent.y / kDensityCell)) + 1;
-    // Everybody's mark is spread over the four nearest cells, and the cells over their neighbours: a smooth layer.
+    // Everybody's mark is spread over the four nearest cells, and the cells over their neighbours: a smooth
+    // layer.
     std::vector<double> density(columns * rows, 0.0), smooth(columns * rows, 0.0);
     for (std::size_t row = 0; row < bake_.agents; ++row) {
         if (state_[3 * row] < 0.5f) continue;
-        const auto x = static_cast<std::size_t>(std::max(0.0, (position_[3 * row] - bake_.minimum.x) / kDensityCell));
-        const auto y = static_cast<std::size_t>(std::max(0.0, (position_[3 * row + 1] - bake_.minimum.y) / kDensityCell));
+        const auto x =
+            static_cast<std::size_t>(std::max(0.0, (position_[3 * row] - bake_.minimum.x) / kDensityCell));
+        const auto y = static_cast<std::size_t>(
+            std::max(0.0, (position_[3 * row + 1] - bake_.minimum.y) / kDensityCell));
         if (x < columns && y < rows) density[y * columns + x] += 1.0 / (kDensityCell * kDensityCell);
     }
     constexpr double kKernel[3] = {0.25, 0.5, 0.25};
     for (std::size_t y = 1; y + 1 < rows; ++y)
         for (std::size_t x = 1; x + 1 < columns; ++x)
             for (std::size_t j = 0; j < 3; ++j)
-                for (std::size_t i = 0; i < 3; ++i) smooth[y * columns + x] += kKernel[j] * kKernel[i] * density[(y + j - 1) * columns + x + i - 1];
+                for (std::size_t i = 0; i < 3; ++i)
+                    smooth[y * columns + x] +=
+                        kKernel[j] * kKernel[i] * density[(y + j - 1) * columns + x + i - 1];
     for (std::size_t y = 0; y < rows; ++y)
         for (std::size_t x = 0; x < columns; ++x) {
             const double here = smooth[y * columns + x];
             if (here < 0.15) continue;
-            const glm::dvec2 at = toPixel(bake_.minimum.x + static_cast<double>(x) * kDensityCell, bake_.minimum.y + static_cast<double>(y + 1) * kDensityCell);
+            const glm::dvec2 at = toPixel(bake_.minimum.x + static_cast<double>(x) * kDensityCell,
+                                          bake_.minimum.y + static_cast<double>(y + 1) * kDensityCell);
             setHeat(context, here / kMostDensity);
             cairo_rectangle(context, at.x, at.y, kDensityCell * scale_ + 0.5, kDensityCell * scale_ + 0.5);
             cairo_fill(context);
@@ -210,12 +225,16 @@ void Plate::drawPeople(cairo_t* context) const {
 
 void Plate::drawCaption(cairo_t* context, std::uint32_t frame) const {
     std::uint32_t alive = 0;
-    for (std::size_t row = 0; row < bake_.agents; ++row) alive += state_[3 * row] > 0.5f;
+    for (std::size_t row = 0; row < bake_.agents; ++row)
+        alive += state_[3 * row] > 0.5f;
     setColour(context, kInk, 0.75);
-    text(context, kMargin, 56.0, 13.0, fmt::format("{:.2f} s, frame {} of {} at {:.4g} frames/s, {} people in the scene", frame / bake_.fps, frame + 1,
-                                                   bake_.frames, bake_.fps, alive));
-    text(context, kMargin, height_ - 34.0, 13.0, fmt::format("whole bake: {} people, {} arrived, {} walking at the end, {} refused", bake_.account.agents,
-                                                             bake_.account.arrived, bake_.account.walking, bake_.account.refused));
+    text(context, kMargin, 56.0, 13.0,
+         fmt::format("{:.2f} s, frame {} of {} at {:.4g} frames/s, {} people in the scene", frame / bake_.fps,
+                     frame + 1, bake_.frames, bake_.fps, alive));
+    text(context, kMargin, height_ - 34.0, 13.0,
+         fmt::format("whole bake: {} people, {} arrived, {} walking at the end, {} refused",
+                     bake_.account.agents, bake_.account.arrived, bake_.account.walking,
+                     bake_.account.refused));
     double x = kMargin;
     for (std::size_t group = 0; group < groups_.names.size() && x < 0.55 * width_; ++group) {
         setColour(context, groupColour(group));
@@ -236,7 +255,8 @@ std::uint32_t Plate::busiestFrame() const {
     for (std::uint32_t frame = 0; frame < bake_.frames; frame += stride) {
         states_.readFrame(frame, values);
         std::uint32_t alive = 0;
-        for (std::size_t row = 0; row < bake_.agents; ++row) alive += values[3 * row] > 0.5f;
+        for (std::size_t row = 0; row < bake_.agents; ++row)
+            alive += values[3 * row] > 0.5f;
         if (alive > most) {
             most = alive;
             best = frame;

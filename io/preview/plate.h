@@ -45,7 +45,8 @@ class Plate {
     void drawCaption(cairo_t* context, std::uint32_t frame) const;
     void drawScaleBar(cairo_t* context) const;
     void path(cairo_t* context, const std::vector<glm::dvec2>& points, bool close) const;
-    void text(cairo_t* context, double x, double y, double size, const std::string& what, bool bold = false) const;
+    void text(cairo_t* context, double x, double y, double size, const std::string& what,
+              bool bold = false) const;
 
     Bake bake_;
     GroupTable groups_;

@@ -7,12 +7,12 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
-#define THRONG_SHARED_BEGIN  \
-    namespace throng::gpu {  \
+#define THRONG_SHARED_BEGIN     \
+    namespace throng::gpu {     \
     using uint = std::uint32_t; \
-    using vec2 = glm::vec2;  \
-    using vec4 = glm::vec4;  \
-    using ivec2 = glm::ivec2; \
+    using vec2 = glm::vec2;     \
+    using vec4 = glm::vec4;     \
+    using ivec2 = glm::ivec2;   \
     using uvec2 = glm::uvec2;
 #define THRONG_SHARED_END }
 #else

@@ -19,7 +19,8 @@ const uint STATUS_ARRIVED = 2u;
 /// A neighbour key is a row, or a wall segment with this bit.
 const uint NEIGHBOUR_IS_WALL = 0x80000000u;
 
-/// A touch word counts those who may touch somebody within this step (its low bits) and says whether walls matter to it.
+/// A touch word counts those who may touch somebody within this step (its low bits) and says whether walls
+/// matter to it.
 const uint TOUCH_COUNT_MASK = 0xffffu;
 const uint TOUCH_WALL_NEAR = 0x80000000u;    // the cell's list of walls is not empty
 const uint TOUCH_WALL_SENSED = 0x40000000u;  // there is a wall among its neighbours
@@ -68,7 +69,8 @@ struct SpawnProposal {
     uint row;  // NO_INDEX = does not ask, or there is no room
 };
 
-/// Everything that stays the same during a bake. Vectors first: GLSL aligns them to eight bytes and C++ to four.
+/// Everything that stays the same during a bake. Vectors first: GLSL aligns them to eight bytes and C++ to
+/// four.
 struct Parameters {
     vec2 cells_minimum;    // m
     vec2 diagram_minimum;  // m, corner of pixel (0, 0)
@@ -85,14 +87,15 @@ struct Parameters {
     uint row_count;
     uint queue_count;
     uint seed;
-    uint has_roads;              // 0 or 1
-    float tile_radius;           // m, of agents
-    float largest_radius;        // m, of all people
+    uint has_roads;        // 0 or 1
+    float tile_radius;     // m, of agents
+    float largest_radius;  // m, of all people
     float step_seconds;
-    float time_horizon;          // s
-    float wall_time_horizon;     // s
-    float contact_range;         // m
-    float contact_slack;         // m: two people further apart than their radii and this cannot touch within one step
+    float time_horizon;       // s
+    float wall_time_horizon;  // s
+    float contact_range;      // m
+    float
+        contact_slack;  // m: two people further apart than their radii and this cannot touch within one step
     float maximum_acceleration;  // m/s^2
 };
 

@@ -12,21 +12,24 @@
 
 namespace throng::gl {
 
-Buffer::Buffer(const std::string& name, std::size_t bytes, Use use) : bytes_(std::max<std::size_t>(bytes, 4)) {
+Buffer::Buffer(const std::string& name, std::size_t bytes, Use use)
+    : bytes_(std::max<std::size_t>(bytes, 4)) {
     GLint64 block_limit = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &block_limit);
     if (bytes_ > static_cast<std::size_t>(block_limit))
-        throw GraphicsError(fmt::format("`{}` needs {:.0f} MiB, more than the {:.0f} MiB that this device gives to one buffer",
-                                        name, static_cast<double>(bytes_) / 1048576.0,
-                                        static_cast<double>(block_limit) / 1048576.0));
+        throw GraphicsError(fmt::format(
+            "`{}` needs {:.0f} MiB, more than the {:.0f} MiB that this device gives to one buffer", name,
+            static_cast<double>(bytes_) / 1048576.0, static_cast<double>(block_limit) / 1048576.0));
     glCreateBuffers(1, &handle_);
     const GLbitfield mapping = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
-    const GLbitfield flags = use == Use::read_back ? (mapping | GL_CLIENT_STORAGE_BIT) : GL_DYNAMIC_STORAGE_BIT;
+    const GLbitfield flags =
+        use == Use::read_back ? (mapping | GL_CLIENT_STORAGE_BIT) : GL_DYNAMIC_STORAGE_BIT;
     while (glGetError() != GL_NO_ERROR) {
     }
     glNamedBufferStorage(handle_, static_cast<GLsizeiptr>(bytes_), nullptr, flags);
     if (use == Use::read_back)
-        mapped_ = static_cast<const std::byte*>(glMapNamedBufferRange(handle_, 0, static_cast<GLsizeiptr>(bytes_), mapping));
+        mapped_ = static_cast<const std::byte*>(
+            glMapNamedBufferRange(handle_, 0, static_cast<GLsizeiptr>(bytes_), mapping));
     if (glGetError() != GL_NO_ERROR || (use == Use::read_back && !mapped_)) {
         release();
         throw GraphicsError(fmt::format("the device has no room for `{}` ({} bytes)", name, bytes));
@@ -34,7 +37,9 @@ Buffer::Buffer(const std::string& name, std::size_t bytes, Use use) : bytes_(std
     glObjectLabel(GL_BUFFER, handle_, static_cast<GLsizei>(name.size()), name.c_str());
 }
 
-Buffer::~Buffer() { release(); }
+Buffer::~Buffer() {
+    release();
+}
 
 Buffer::Buffer(Buffer&& other) noexcept
     : handle_(std::exchange(other.handle_, 0)),
@@ -56,18 +61,21 @@ void Buffer::fill(std::uint32_t word) {
 }
 
 void Buffer::copyFrom(const Buffer& source) {
-    glCopyNamedBufferSubData(source.handle_, handle_, 0, 0, static_cast<GLsizeiptr>(std::min(bytes_, source.bytes_)));
+    glCopyNamedBufferSubData(source.handle_, handle_, 0, 0,
+                             static_cast<GLsizeiptr>(std::min(bytes_, source.bytes_)));
 }
 
 void Buffer::uploadBytes(std::span<const std::byte> bytes, std::size_t offset) {
     if (offset + bytes.size() > bytes_) throw std::out_of_range("upload past the end of a buffer");
-    glNamedBufferSubData(handle_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes.size()), bytes.data());
+    glNamedBufferSubData(handle_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes.size()),
+                         bytes.data());
 }
 
 void Buffer::downloadBytes(std::span<std::byte> bytes, std::size_t offset) const {
     if (offset + bytes.size() > bytes_) throw std::out_of_range("download past the end of a buffer");
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    glGetNamedBufferSubData(handle_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes.size()), bytes.data());
+    glGetNamedBufferSubData(handle_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes.size()),
+                            bytes.data());
 }
 
 void Buffer::release() {
@@ -80,8 +88,9 @@ WordTexture::WordTexture(const Buffer& buffer) {
     GLint limit = 0;
     glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
     if (buffer.bytes() / 4 > static_cast<std::size_t>(limit))
-        throw GraphicsError(fmt::format("a diagram of {} pixels is more than the {} that this device can sample",
-                                        buffer.bytes() / 4, limit));
+        throw GraphicsError(
+            fmt::format("a diagram of {} pixels is more than the {} that this device can sample",
+                        buffer.bytes() / 4, limit));
     glCreateTextures(GL_TEXTURE_BUFFER, 1, &handle_);
     glTextureBuffer(handle_, GL_R32UI, buffer.handle());
 }

@@ -19,7 +19,8 @@ class Buffer {
 
     Buffer() = default;
     /// @param bytes at least 4 are allocated, so that an empty scene still has something to bind
-    /// @throws GraphicsError when the device has no memory left; `name` goes in the message and into debuggers
+    /// @throws GraphicsError when the device has no memory left; `name` goes in the message and into
+    /// debuggers
     Buffer(const std::string& name, std::size_t bytes, Use use = Use::device);
     ~Buffer();
     Buffer(Buffer&& other) noexcept;
@@ -60,8 +61,8 @@ class Buffer {
     const std::byte* mapped_ = nullptr;
 };
 
-/// A view of a buffer as unsigned words that shaders fetch through a sampler: for random reads, which some devices serve
-/// faster that way. The buffer must stay in place.
+/// A view of a buffer as unsigned words that shaders fetch through a sampler: for random reads, which some
+/// devices serve faster that way. The buffer must stay in place.
 class WordTexture {
   public:
     WordTexture() = default;

@@ -12,7 +12,8 @@ namespace throng::gl {
 namespace {
 
 constexpr const char* kInstallHint =
-    "On Debian, install the Mesa drivers: apt-get install libegl1 libgl1-mesa-dri (or the GPU vendor's driver with EGL).";
+    "On Debian, install the Mesa drivers: apt-get install libegl1 libgl1-mesa-dri (or the GPU vendor's "
+    "driver with EGL).";
 
 bool hasExtension(const char* extensions, const char* name) {
     if (!extensions) return false;
@@ -35,14 +36,16 @@ struct Candidate {
 
 const char* clientExtensions() {
     // libepoxy aborts the process when libEGL.so.1 is absent, so ask it politely first.
-    if (!epoxy_has_egl()) throw GraphicsError(fmt::format("there is no EGL library (libEGL.so.1) here. {}", kInstallHint));
+    if (!epoxy_has_egl())
+        throw GraphicsError(fmt::format("there is no EGL library (libEGL.so.1) here. {}", kInstallHint));
     return eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
 }
 
 std::vector<Candidate> candidatesFromDevices(const char* extensions) {
     std::vector<Candidate> candidates;
     if (!hasExtension(extensions, "EGL_EXT_platform_device")) return candidates;
-    if (!hasExtension(extensions, "EGL_EXT_device_base") && !hasExtension(extensions, "EGL_EXT_device_enumeration"))
+    if (!hasExtension(extensions, "EGL_EXT_device_base") &&
+        !hasExtension(extensions, "EGL_EXT_device_enumeration"))
         return candidates;
     EGLint count = 0;
     if (!eglQueryDevicesEXT(0, nullptr, &count) || count == 0) return candidates;
@@ -51,7 +54,8 @@ std::vector<Candidate> candidatesFromDevices(const char* extensions) {
     for (EGLDeviceEXT device : devices) {
         Candidate candidate;
         candidate.platform = "device";
-        candidate.software = hasExtension(eglQueryDeviceStringEXT(device, EGL_EXTENSIONS), "EGL_MESA_device_software");
+        candidate.software =
+            hasExtension(eglQueryDeviceStringEXT(device, EGL_EXTENSIONS), "EGL_MESA_device_software");
         candidate.display = eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr);
         candidates.push_back(candidate);
     }
@@ -64,7 +68,8 @@ std::vector<Candidate> allCandidates() {
     if (candidates.empty() && hasExtension(extensions, "EGL_MESA_platform_surfaceless")) {
         Candidate candidate;
         candidate.platform = "surfaceless";
-        candidate.display = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+        candidate.display =
+            eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
         candidates.push_back(candidate);
     }
     // Real devices first; EGL's own order is arbitrary but stable.
@@ -76,23 +81,28 @@ std::vector<Candidate> allCandidates() {
 /// @returns EGL_NO_CONTEXT and a filled-in problem when this display cannot do what we need.
 EGLContext makeContext(Candidate& candidate, bool debug) {
     if (candidate.display == EGL_NO_DISPLAY || !eglInitialize(candidate.display, nullptr, nullptr)) {
-        candidate.problem = "EGL cannot open this device (no driver for it, or no permission for its device file)";
+        candidate.problem =
+            "EGL cannot open this device (no driver for it, or no permission for its device file)";
         return EGL_NO_CONTEXT;
     }
     const char* extensions = eglQueryString(candidate.display, EGL_EXTENSIONS);
-    if (!hasExtension(extensions, "EGL_KHR_no_config_context") || !hasExtension(extensions, "EGL_KHR_surfaceless_context")) {
+    if (!hasExtension(extensions, "EGL_KHR_no_config_context") ||
+        !hasExtension(extensions, "EGL_KHR_surfaceless_context")) {
         candidate.problem = "its EGL lacks contexts without a surface";
         return EGL_NO_CONTEXT;
     }
     eglBindAPI(EGL_OPENGL_API);
-    std::vector<EGLint> attributes = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
+    std::vector<EGLint> attributes = {EGL_CONTEXT_MAJOR_VERSION,       4,
+                                      EGL_CONTEXT_MINOR_VERSION,       5,
                                       EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
     if (debug) attributes.insert(attributes.end(), {EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE});
     if (hasExtension(extensions, "EGL_EXT_create_context_robustness"))
-        attributes.insert(attributes.end(), {EGL_CONTEXT_OPENGL_ROBUST_ACCESS, EGL_TRUE,
-                                             EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL_LOSE_CONTEXT_ON_RESET});
+        attributes.insert(attributes.end(),
+                          {EGL_CONTEXT_OPENGL_ROBUST_ACCESS, EGL_TRUE,
+                           EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL_LOSE_CONTEXT_ON_RESET});
     attributes.push_back(EGL_NONE);
-    EGLContext context = eglCreateContext(candidate.display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
+    EGLContext context =
+        eglCreateContext(candidate.display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
     if (context == EGL_NO_CONTEXT) {
         candidate.problem = "it does not offer OpenGL 4.5 core";
         return EGL_NO_CONTEXT;
@@ -151,8 +161,8 @@ struct Context::State {
     Device device;
     std::vector<std::string> messages;
 
-    static void GLAPIENTRY onMessage(GLenum, GLenum type, GLuint, GLenum severity, GLsizei, const GLchar* text,
-                                     const void* user) {
+    static void GLAPIENTRY onMessage(GLenum, GLenum type, GLuint, GLenum severity, GLsizei,
+                                     const GLchar* text, const void* user) {
         // Performance notes and group markers are talk; the rest would be somebody's bug.
         if (type == GL_DEBUG_TYPE_PERFORMANCE || severity == GL_DEBUG_SEVERITY_NOTIFICATION) return;
         if (type == GL_DEBUG_TYPE_OTHER && severity == GL_DEBUG_SEVERITY_LOW) return;
@@ -162,10 +172,11 @@ struct Context::State {
 
 Context::Context(const Options& options) : state_(std::make_unique<State>()) {
     std::vector<Candidate> candidates = allCandidates();
-    if (candidates.empty()) throw GraphicsError(fmt::format("EGL offers no device to draw with. {}", kInstallHint));
+    if (candidates.empty())
+        throw GraphicsError(fmt::format("EGL offers no device to draw with. {}", kInstallHint));
     if (options.device >= static_cast<int>(candidates.size()))
-        throw GraphicsError(fmt::format("there is no device {}: `throng devices` lists {} (0 to {})", options.device,
-                                        candidates.size(), candidates.size() - 1));
+        throw GraphicsError(fmt::format("there is no device {}: `throng devices` lists {} (0 to {})",
+                                        options.device, candidates.size(), candidates.size() - 1));
     std::string problems;
     for (int index = 0; index < static_cast<int>(candidates.size()); ++index) {
         if (options.device >= 0 && index != options.device) continue;
@@ -193,13 +204,18 @@ Context::~Context() {
     if (state_ && state_->context != EGL_NO_CONTEXT) destroyContext(state_->display, state_->context);
 }
 
-const Device& Context::device() const { return state_->device; }
+const Device& Context::device() const {
+    return state_->device;
+}
 
-const std::vector<std::string>& Context::debugMessages() const { return state_->messages; }
+const std::vector<std::string>& Context::debugMessages() const {
+    return state_->messages;
+}
 
 void Context::check(const char* where) const {
     if (const GLenum reset = glGetGraphicsResetStatus(); reset != GL_NO_ERROR)
-        throw GraphicsError(fmt::format("{}: the GPU was reset and the work on it is lost (status {:#x})", where, reset));
+        throw GraphicsError(
+            fmt::format("{}: the GPU was reset and the work on it is lost (status {:#x})", where, reset));
     if (const GLenum error = glGetError(); error != GL_NO_ERROR) {
         const char* name = error == GL_OUT_OF_MEMORY ? "the device is out of memory" : "OpenGL error";
         throw GraphicsError(fmt::format("{}: {} ({:#x})", where, name, error));

@@ -13,16 +13,17 @@ struct GraphicsError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// A device that EGL offers. Devices are told apart by what they say of themselves; EGL's order means nothing.
+/// A device that EGL offers. Devices are told apart by what they say of themselves; EGL's order means
+/// nothing.
 struct Device {
-    int index = 0;         ///< what `--device` takes; counted after sorting, real devices first
-    std::string name;      ///< GL_RENDERER
-    std::string vendor;    ///< GL_VENDOR
-    std::string version;   ///< GL_VERSION, the driver's name and number in it
-    std::string platform;  ///< "device" or "surfaceless"
-    bool software = false; ///< a CPU renderer (EGL_MESA_device_software)
-    bool usable = false;   ///< an OpenGL 4.5 core context could be made
-    std::string problem;   ///< why not
+    int index = 0;          ///< what `--device` takes; counted after sorting, real devices first
+    std::string name;       ///< GL_RENDERER
+    std::string vendor;     ///< GL_VENDOR
+    std::string version;    ///< GL_VERSION, the driver's name and number in it
+    std::string platform;   ///< "device" or "surfaceless"
+    bool software = false;  ///< a CPU renderer (EGL_MESA_device_software)
+    bool usable = false;    ///< an OpenGL 4.5 core context could be made
+    std::string problem;    ///< why not
 };
 
 /// All devices, usable or not.
@@ -33,7 +34,8 @@ std::vector<Device> listDevices();
 class Context {
   public:
     struct Options {
-        int device = -1;     ///< index from listDevices(), -1 = the first usable one, real devices before software
+        int device =
+            -1;  ///< index from listDevices(), -1 = the first usable one, real devices before software
         bool debug = false;  ///< KHR_debug output, synchronous
     };
 
@@ -45,10 +47,12 @@ class Context {
 
     const Device& device() const;
 
-    /// Messages of KHR_debug (errors, undefined behaviour, portability) since the context was made. Needs Options::debug.
+    /// Messages of KHR_debug (errors, undefined behaviour, portability) since the context was made. Needs
+    /// Options::debug.
     const std::vector<std::string>& debugMessages() const;
 
-    /// @throws GraphicsError when the driver reports a lost device or any GL error is pending; `where` goes in the message.
+    /// @throws GraphicsError when the driver reports a lost device or any GL error is pending; `where` goes
+    /// in the message.
     void check(const char* where) const;
 
   private:

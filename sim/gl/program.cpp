@@ -26,7 +26,8 @@ GLenum stageOf(const std::string& path) {
 
 std::string infoLog(GLuint object, bool is_program) {
     GLint length = 0;
-    is_program ? glGetProgramiv(object, GL_INFO_LOG_LENGTH, &length) : glGetShaderiv(object, GL_INFO_LOG_LENGTH, &length);
+    is_program ? glGetProgramiv(object, GL_INFO_LOG_LENGTH, &length)
+               : glGetShaderiv(object, GL_INFO_LOG_LENGTH, &length);
     std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
     is_program ? glGetProgramInfoLog(object, length, nullptr, log.data())
                : glGetShaderInfoLog(object, length, nullptr, log.data());
@@ -44,7 +45,8 @@ GLuint compile(const ShaderLibrary& library, const std::string& path, const Defi
     glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
     if (compiled) return shader;
     std::string message = fmt::format("the driver cannot compile {}:\n{}", path, infoLog(shader, false));
-    for (std::size_t i = 0; i < files.size(); ++i) message += fmt::format("  (file {} is {})\n", i, files[i]);
+    for (std::size_t i = 0; i < files.size(); ++i)
+        message += fmt::format("  (file {} is {})\n", i, files[i]);
     glDeleteShader(shader);
     throw GraphicsError(message);
 }
@@ -57,8 +59,10 @@ std::string resourceName(GLuint program, GLenum interface, GLuint index) {
 
 }  // namespace
 
-Program::Program(const ShaderLibrary& library, const std::vector<std::string>& paths, const Definitions& definitions) {
-    for (const std::string& path : paths) name_ += (name_.empty() ? "" : " + ") + path;
+Program::Program(const ShaderLibrary& library, const std::vector<std::string>& paths,
+                 const Definitions& definitions) {
+    for (const std::string& path : paths)
+        name_ += (name_.empty() ? "" : " + ") + path;
     handle_ = glCreateProgram();
     std::vector<GLuint> shaders;
     for (const std::string& path : paths) {
@@ -72,7 +76,8 @@ Program::Program(const ShaderLibrary& library, const std::vector<std::string>& p
     }
     GLint linked = 0;
     glGetProgramiv(handle_, GL_LINK_STATUS, &linked);
-    if (!linked) throw GraphicsError(fmt::format("the driver cannot link {}:\n{}", name_, infoLog(handle_, true)));
+    if (!linked)
+        throw GraphicsError(fmt::format("the driver cannot link {}:\n{}", name_, infoLog(handle_, true)));
     glObjectLabel(GL_PROGRAM, handle_, static_cast<GLsizei>(name_.size()), name_.c_str());
     reflect();
 }
@@ -84,7 +89,8 @@ void Program::reflect() {
         return static_cast<GLuint>(count);
     };
     for (GLuint index = 0; index < active(GL_SHADER_STORAGE_BLOCK); ++index) {
-        blocks_.push_back({resourceName(handle_, GL_SHADER_STORAGE_BLOCK, index), GL_SHADER_STORAGE_BUFFER, index, 0});
+        blocks_.push_back(
+            {resourceName(handle_, GL_SHADER_STORAGE_BLOCK, index), GL_SHADER_STORAGE_BUFFER, index, 0});
         glShaderStorageBlockBinding(handle_, index, index);
     }
     for (GLuint index = 0; index < active(GL_UNIFORM_BLOCK); ++index) {
@@ -94,7 +100,8 @@ void Program::reflect() {
     for (GLuint index = 0; index < active(GL_UNIFORM); ++index) {
         const std::string uniform_name = resourceName(handle_, GL_UNIFORM, index);
         const GLint location = glGetUniformLocation(handle_, uniform_name.c_str());
-        if (location >= 0) uniforms_.push_back({uniform_name, location, false});  // members of blocks have none
+        if (location >= 0)
+            uniforms_.push_back({uniform_name, location, false});  // members of blocks have none
     }
 }
 
@@ -102,7 +109,9 @@ Program::~Program() {
     if (handle_) glDeleteProgram(handle_);
 }
 
-Program::Program(Program&& other) noexcept { *this = std::move(other); }
+Program::Program(Program&& other) noexcept {
+    *this = std::move(other);
+}
 
 Program& Program::operator=(Program&& other) noexcept {
     std::swap(handle_, other.handle_);
@@ -150,39 +159,50 @@ Program::Uniform& Program::uniform(const std::string& name) {
     throw std::logic_error(fmt::format("{} has no uniform `{}`", name_, name));
 }
 
-void Program::set(const std::string& name, std::uint32_t value) { glProgramUniform1ui(handle_, uniform(name).location, value); }
-void Program::set(const std::string& name, float value) { glProgramUniform1f(handle_, uniform(name).location, value); }
+void Program::set(const std::string& name, std::uint32_t value) {
+    glProgramUniform1ui(handle_, uniform(name).location, value);
+}
+void Program::set(const std::string& name, float value) {
+    glProgramUniform1f(handle_, uniform(name).location, value);
+}
 void Program::set(const std::string& name, glm::vec2 value) {
     glProgramUniform2f(handle_, uniform(name).location, value.x, value.y);
 }
 void Program::set(const std::string& name, const std::vector<glm::vec2>& values) {
     if (values.empty()) return;
-    glProgramUniform2fv(handle_, uniform(name + "[0]").location, static_cast<GLsizei>(values.size()), &values.front().x);
+    glProgramUniform2fv(handle_, uniform(name + "[0]").location, static_cast<GLsizei>(values.size()),
+                        &values.front().x);
 }
 
 void Program::use() const {
     for (const Block& block : blocks_) {
-        if (!block.buffer) throw std::logic_error(fmt::format("{}: no buffer is bound to `{}`", name_, block.name));
+        if (!block.buffer)
+            throw std::logic_error(fmt::format("{}: no buffer is bound to `{}`", name_, block.name));
         glBindBufferBase(block.target, block.binding, block.buffer);
     }
     for (const Uniform& candidate : uniforms_)
-        if (!candidate.set) throw std::logic_error(fmt::format("{}: uniform `{}` was never set", name_, candidate.name));
-    for (const Sampler& sampler : samplers_) glBindTextureUnit(sampler.unit, sampler.texture);
+        if (!candidate.set)
+            throw std::logic_error(fmt::format("{}: uniform `{}` was never set", name_, candidate.name));
+    for (const Sampler& sampler : samplers_)
+        glBindTextureUnit(sampler.unit, sampler.texture);
     glUseProgram(handle_);
 }
 
-ComputeProgram::ComputeProgram(const ShaderLibrary& library, const std::string& path, const Definitions& definitions)
+ComputeProgram::ComputeProgram(const ShaderLibrary& library, const std::string& path,
+                               const Definitions& definitions)
     : Program(library, {path}, definitions) {
     GLint size[3] = {1, 1, 1};
     glGetProgramiv(handle(), GL_COMPUTE_WORK_GROUP_SIZE, size);
-    if (size[1] != 1 || size[2] != 1) throw std::logic_error(name() + ": groups are expected to be one-dimensional");
+    if (size[1] != 1 || size[2] != 1)
+        throw std::logic_error(name() + ": groups are expected to be one-dimensional");
     group_size_ = static_cast<std::uint32_t>(size[0]);
 }
 
 void ComputeProgram::dispatch(std::uint64_t invocations) const {
     if (invocations == 0) return;
     const std::uint64_t groups = (invocations + group_size_ - 1) / group_size_;
-    if (groups > 65535) throw std::logic_error(fmt::format("{}: {} groups are more than every device takes", name(), groups));
+    if (groups > 65535)
+        throw std::logic_error(fmt::format("{}: {} groups are more than every device takes", name(), groups));
     use();
     glDispatchCompute(static_cast<GLuint>(groups), 1, 1);
     glMemoryBarrier(kWritesVisible);

@@ -11,12 +11,13 @@
 
 namespace throng::gl {
 
-/// A linked program and what reflection says it needs. Buffers are bound to block names, uniforms set by name: there
-/// are no binding numbers to keep in step, and use() refuses to run with anything missing.
+/// A linked program and what reflection says it needs. Buffers are bound to block names, uniforms set by
+/// name: there are no binding numbers to keep in step, and use() refuses to run with anything missing.
 class Program {
   public:
     Program() = default;
-    Program(const ShaderLibrary& library, const std::vector<std::string>& paths, const Definitions& definitions);
+    Program(const ShaderLibrary& library, const std::vector<std::string>& paths,
+            const Definitions& definitions);
     ~Program();
     Program(Program&& other) noexcept;
     Program& operator=(Program&& other) noexcept;
@@ -73,11 +74,13 @@ class Program {
 class ComputeProgram : public Program {
   public:
     ComputeProgram() = default;
-    ComputeProgram(const ShaderLibrary& library, const std::string& path, const Definitions& definitions = {});
+    ComputeProgram(const ShaderLibrary& library, const std::string& path,
+                   const Definitions& definitions = {});
 
     std::uint32_t groupSize() const { return group_size_; }
 
-    /// Runs at least `invocations` invocations in one dimension, then makes its writes visible to later commands.
+    /// Runs at least `invocations` invocations in one dimension, then makes its writes visible to later
+    /// commands.
     void dispatch(std::uint64_t invocations) const;
     /// The same with the number of groups read on the device: three words at `offset` of `arguments`.
     void dispatchIndirect(const Buffer& arguments, std::size_t offset = 0) const;

@@ -14,7 +14,8 @@ namespace throng::gl {
 
 std::string ShaderLibrary::readFile(const std::string& path) const {
     if (!folder_.empty()) {
-        const std::filesystem::path on_disk = folder_ / std::filesystem::path(path).lexically_relative("shaders");
+        const std::filesystem::path on_disk =
+            folder_ / std::filesystem::path(path).lexically_relative("shaders");
         if (std::ifstream stream(on_disk, std::ios::binary); stream) {
             std::ostringstream text;
             text << stream.rdbuf();
@@ -38,7 +39,8 @@ void ShaderLibrary::append(const std::string& path, std::vector<std::string>& fi
             const std::size_t open = line.find('"');
             const std::size_t close = line.rfind('"');
             // Angle brackets name C++ headers: they are not for this compiler.
-            if (open != std::string::npos && close > open) append(line.substr(open + 1, close - open - 1), files, out);
+            if (open != std::string::npos && close > open)
+                append(line.substr(open + 1, close - open - 1), files, out);
             out += fmt::format("#line {} {}\n", line_number + 1, number);
             continue;
         }
@@ -50,7 +52,8 @@ void ShaderLibrary::append(const std::string& path, std::vector<std::string>& fi
 std::string ShaderLibrary::load(const std::string& path, const Definitions& definitions,
                                 std::vector<std::string>& files) const {
     std::string out = "#version 450 core\n";
-    for (const auto& [name, value] : definitions) out += fmt::format("#define {} {}\n", name, value);
+    for (const auto& [name, value] : definitions)
+        out += fmt::format("#define {} {}\n", name, value);
     files.clear();
     append(path, files, out);
     return out;

@@ -21,7 +21,8 @@ class ShaderLibrary {
     /// @param path e.g. "shaders/sense.comp"
     /// @param files receives the names behind the #line numbers of compiler messages
     /// @throws GraphicsError for a missing file
-    std::string load(const std::string& path, const Definitions& definitions, std::vector<std::string>& files) const;
+    std::string load(const std::string& path, const Definitions& definitions,
+                     std::vector<std::string>& files) const;
 
   private:
     std::string readFile(const std::string& path) const;

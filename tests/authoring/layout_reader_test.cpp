@@ -27,7 +27,8 @@ Layout read(std::string_view text, const std::vector<std::string>& overrides = {
 }
 
 /// The one error of a text, at a line and column, with words in the message and the hint.
-void expectError(std::string_view text, int line, int column, std::string_view pointer, std::string_view message, std::string_view hint = "") {
+void expectError(std::string_view text, int line, int column, std::string_view pointer,
+                 std::string_view message, std::string_view hint = "") {
     const Diagnostics found = diagnose(text);
     ASSERT_GE(found.entries.size(), 1u) << text;
     for (const Diagnostic& entry : found.entries) {
@@ -47,7 +48,8 @@ const std::string kTwoAreas = R"({"throng": 1,
 )";
 
 TEST(LayoutReader, FillsInTheDocumentedDefaults) {
-    const Layout layout = read(R"({"throng": 1, "formations": [{"id": "c", "type": "circle", "centre": [0, 0], "radius": 5, "count": 6}]})");
+    const Layout layout = read(
+        R"({"throng": 1, "formations": [{"id": "c", "type": "circle", "centre": [0, 0], "radius": 5, "count": 6}]})");
     const SimulationSettings standard;
     EXPECT_EQ(layout.simulation.fps, standard.fps);
     EXPECT_EQ(layout.simulation.tile_radius, standard.tile_radius);
@@ -57,7 +59,8 @@ TEST(LayoutReader, FillsInTheDocumentedDefaults) {
 }
 
 TEST(LayoutReader, ReadsWhatIsWritten) {
-    const Layout layout = read(kTwoAreas + R"("simulation": {"duration": 12.5, "method": "gradient1", "seed": 9007199254740992},
+    const Layout layout =
+        read(kTwoAreas + R"("simulation": {"duration": 12.5, "method": "gradient1", "seed": 9007199254740992},
  "walls": [{"points": [[10,-5],[10,5]], "thickness": 0.4, "height": 2}],
  "flows": [{"id": "f", "from": "a", "to": "b", "rate": 2.5, "start": 1, "people": {"speed": {"normal": [1.3, 0.2], "min": 1}, "radius": 0.2}}]})");
     EXPECT_EQ(layout.simulation.duration, 12.5);
@@ -73,25 +76,31 @@ TEST(LayoutReader, ReadsWhatIsWritten) {
 }
 
 TEST(LayoutReader, PointsAtUnknownKeysAndGuessesWhatWasMeant) {
-    expectError("{\"throng\": 1,\n \"roads\": [\n  {\"id\": \"r\", \"centreline\": [[0,0],[9,0]], \"widht\": 3}]}", 3, 46, "/roads/0/widht", "`widht`",
-                "did you mean `width`?");
+    expectError(
+        "{\"throng\": 1,\n \"roads\": [\n  {\"id\": \"r\", \"centreline\": [[0,0],[9,0]], \"widht\": 3}]}", 3,
+        44, "/roads/0/widht", "`widht`", "did you mean `width`?");
     expectError("{\"throng\": 1, \"flow\": []}", 1, 15, "/flow", "`flow`", "did you mean `flows`?");
 }
 
 TEST(LayoutReader, CountsColumnsInCharactersAndLinesWithEitherEnding) {
-    expectError("{\"throng\": 1,\r\n \"name\": \"Grüße 日本\", \"simulatoin\": {}}", 2, 21, "/simulatoin", "`simulatoin`", "`simulation`");
+    expectError("{\"throng\": 1,\r\n \"name\": \"Grüße 日本\", \"simulatoin\": {}}", 2, 22, "/simulatoin",
+                "`simulatoin`", "`simulation`");
 }
 
 TEST(LayoutReader, NamesWrongTypesRangesAndMissingKeys) {
-    expectError(R"({"throng": 1, "simulation": {"fps": "24"}})", 1, 37, "/simulation/fps", "expected a number, found a string");
+    expectError(R"({"throng": 1, "simulation": {"fps": "24"}})", 1, 37, "/simulation/fps",
+                "expected a number, found a string");
     expectError(R"({"throng": 1, "simulation": {"fps": 0}})", 1, 37, "/simulation/fps", "out of range");
-    expectError(R"({"throng": 1, "simulation": {"substeps": 1.5}})", 1, 42, "/simulation/substeps", "whole number");
+    expectError(R"({"throng": 1, "simulation": {"substeps": 1.5}})", 1, 42, "/simulation/substeps",
+                "whole number");
     expectError(R"({"throng": 1, "roads": [{"id": "r"}]})", 1, 25, "/roads/0", "needs `centreline`");
     expectError(R"({"throng": 1, "roads": {}})", 1, 24, "/roads", "expected an array");
     expectError(R"({"simulation": {}})", 1, 1, "", "needs `throng`");
     expectError(R"({"throng": 2})", 1, 12, "/throng", "version 1");
-    expectError(R"({"throng": 1, "simulation": {"method": "gradiant1"}})", 1, 40, "/simulation/method", "expected one of", "`gradient1`");
-    expectError(R"({"throng": 1, "areas": [{"id": "a", "polygon": [[0,0],[1]]}]})", 1, 55, "/areas/0/polygon/1", "expected a point");
+    expectError(R"({"throng": 1, "simulation": {"method": "gradiant1"}})", 1, 40, "/simulation/method",
+                "expected one of", "`gradient1`");
+    expectError(R"({"throng": 1, "areas": [{"id": "a", "polygon": [[0,0],[1]]}]})", 1, 55,
+                "/areas/0/polygon/1", "expected a point");
 }
 
 TEST(LayoutReader, RefusesNumbersThatAreNotFinite) {
@@ -101,31 +110,39 @@ TEST(LayoutReader, RefusesNumbersThatAreNotFinite) {
 }
 
 TEST(LayoutReader, NamesThePlaceWhereAPolygonCrossesItself) {
-    expectError("{\"throng\": 1,\n \"areas\": [{\"id\": \"bow tie\", \"polygon\": [[0,0],[4,4],[4,0],[0,4]]}]}", 2, 41, "/areas/0/polygon",
-                "crosses itself at [2, 2]");
-    expectError("{\"throng\": 1,\n \"walls\": [{\"closed\": true, \"points\": [[0,0],[4,4],[4,0],[0,4]]}]}", 2, 39, "/walls/0/points", "crosses itself");
-    expectError("{\"throng\": 1,\n \"areas\": [{\"id\": \"flat\", \"polygon\": [[0,0],[4,0],[8,0]]}]}", 2, 38, "/areas/0/polygon", "no area");
+    expectError(
+        "{\"throng\": 1,\n \"areas\": [{\"id\": \"bow tie\", \"polygon\": [[0,0],[4,4],[4,0],[0,4]]}]}", 2,
+        41, "/areas/0/polygon", "crosses itself at [2, 2]");
+    expectError("{\"throng\": 1,\n \"walls\": [{\"closed\": true, \"points\": [[0,0],[4,4],[4,0],[0,4]]}]}",
+                2, 39, "/walls/0/points", "crosses itself");
+    expectError("{\"throng\": 1,\n \"areas\": [{\"id\": \"flat\", \"polygon\": [[0,0],[4,0],[8,0]]}]}", 2, 38,
+                "/areas/0/polygon", "no area");
 }
 
 TEST(LayoutReader, AcceptsEitherWindingAndPolygonsClosedByHand) {
-    read(R"({"throng": 1, "areas": [{"id": "a", "polygon": [[0,0],[0,4],[4,4],[4,0]]}, {"id": "b", "polygon": [[0,0],[4,0],[4,4],[0,4],[0,0]]}],
+    read(
+        R"({"throng": 1, "areas": [{"id": "a", "polygon": [[0,0],[0,4],[4,4],[4,0]]}, {"id": "b", "polygon": [[0,0],[4,0],[4,4],[0,4],[0,0]]}],
             "formations": [{"id": "c", "type": "circle", "centre": [0, 0], "radius": 5, "count": 6}]})");
 }
 
 TEST(LayoutReader, KnowsPlacesAndGuessesThoseMeant) {
     const std::string flow = R"( "flows": [{"id": "f", "from": "a", "to": ")";
-    expectError(kTwoAreas + flow + "c\", \"count\": 1}]}", 4, 42, "/flows/0/to", "there is no place `c`", "did you mean");
+    expectError(kTwoAreas + flow + "c\", \"count\": 1}]}", 4, 43, "/flows/0/to", "there is no place `c`",
+                "did you mean");
     expectError(R"({"throng": 1, "roads": [{"id": "main", "centreline": [[0,0],[9,0]]}],
- "flows": [{"id": "f", "from": "main", "to": "main:end", "count": 1}]})", 2, 32, "/flows/0/from", "names a road, not one of its ends");
+ "flows": [{"id": "f", "from": "main", "to": "main:end", "count": 1}]})",
+                2, 32, "/flows/0/from", "names a road, not one of its ends");
     expectError(R"({"throng": 1, "roads": [{"id": "main", "centreline": [[0,0],[9,0]], "one_way": true}],
- "flows": [{"id": "f", "from": "main:end", "to": "main:start", "count": 1}]})", 2, 32, "/flows/0/from", "against the one-way road");
+ "flows": [{"id": "f", "from": "main:end", "to": "main:start", "count": 1}]})",
+                2, 32, "/flows/0/from", "against the one-way road");
 }
 
 TEST(LayoutReader, WantsExactlyOneOfCountAndRate) {
     const std::string flow = R"( "flows": [{"id": "f", "from": "a", "to": "b")";
     expectError(kTwoAreas + flow + "}]}", 4, 12, "/flows/0", "has neither");
     expectError(kTwoAreas + flow + R"(, "count": 1, "rate": 1}]})", 4, 12, "/flows/0", "has both");
-    expectError(kTwoAreas + flow + R"(, "count": 1, "start": 5, "end": 3}]})", 4, 79, "/flows/0/end", "ends (3 s) before it starts (5 s)");
+    expectError(kTwoAreas + flow + R"(, "count": 1, "start": 5, "end": 3}]})", 4, 79, "/flows/0/end",
+                "ends (3 s) before it starts (5 s)");
 }
 
 TEST(LayoutReader, TellsAllMistakesOfAFileInOneGoAndInOrder) {
@@ -135,13 +152,16 @@ TEST(LayoutReader, TellsAllMistakesOfAFileInOneGoAndInOrder) {
  "walls": [{"points": "here"}],
  "flows": [{"id": "f", "from": "nowhere", "to": "r:end", "count": -2}]})");
     EXPECT_GE(found.entries.size(), 6u);
-    for (std::size_t i = 1; i < found.entries.size(); ++i) EXPECT_LE(found.entries[i - 1].where.line, found.entries[i].where.line);
+    for (std::size_t i = 1; i < found.entries.size(); ++i)
+        EXPECT_LE(found.entries[i - 1].where.line, found.entries[i].where.line);
 }
 
 TEST(LayoutReader, RefusesDuplicateKeysAndIdsAndDeepNesting) {
     expectError("{\"throng\": 1,\n \"name\": \"a\",\n \"name\": \"b\"}", 3, 2, "/name", "second time");
-    expectError("{\"throng\": 1, \"areas\": [{\"id\": \"a\", \"polygon\": [[0,0],[1,0],[1,1]]},\n {\"id\": \"a\", \"polygon\": [[5,0],[6,0],[6,1]]}]}", 2, 9,
-                "/areas/1/id", "there already is an area `a`");
+    expectError(
+        "{\"throng\": 1, \"areas\": [{\"id\": \"a\", \"polygon\": [[0,0],[1,0],[1,1]]},\n {\"id\": \"a\", "
+        "\"polygon\": [[5,0],[6,0],[6,1]]}]}",
+        2, 9, "/areas/1/id", "there already is an area `a`");
     EXPECT_TRUE(diagnose(std::string(100000, '[')).hasErrors());
 }
 
@@ -154,17 +174,21 @@ TEST(LayoutReader, TellsWhereTheSyntaxBreaks) {
 }
 
 TEST(LayoutReader, TilesHaveToCoverBodies) {
-    expectError(R"({"throng": 1, "simulation": {"tile_radius": 0.2}, "formations": [{"id": "c", "type": "circle", "centre": [0, 0], "radius": 5, "count": 6}]})", 1, 29,
-                "/simulation", "smaller than the largest body");
+    expectError(
+        R"({"throng": 1, "simulation": {"tile_radius": 0.2}, "formations": [{"id": "c", "type": "circle", "centre": [0, 0], "radius": 5, "count": 6}]})",
+        1, 29, "/simulation", "smaller than the largest body");
 }
 
 TEST(LayoutReader, OverridesValuesAndNamesTheOverrideThatIsWrong) {
-    const std::string text = R"({"throng": 1, "formations": [{"id": "c", "type": "circle", "centre": [0, 0], "radius": 5, "count": 6}]})";
+    const std::string text =
+        R"({"throng": 1, "formations": [{"id": "c", "type": "circle", "centre": [0, 0], "radius": 5, "count": 6}]})";
     EXPECT_EQ(read(text, {"simulation.seed=7"}).simulation.seed, 7u);
     EXPECT_EQ(read(text, {"/simulation/fps=30"}).simulation.fps, 30.0);
     EXPECT_EQ(read(text, {"simulation.method=per-site"}).simulation.method, DiagramMethod::per_site);
-    EXPECT_EQ(std::get<CircleFormation>(read(text, {"formations.0.count=12"}).formations[0].shape).count, 12u);
-    for (const std::string wrong : {"simulation.sed=7", "simulation.seed", "formations.3.count=1", "simulation.fps=fast"})
+    EXPECT_EQ(std::get<CircleFormation>(read(text, {"formations.0.count=12"}).formations[0].shape).count,
+              12u);
+    for (const std::string wrong :
+         {"simulation.sed=7", "simulation.seed", "formations.3.count=1", "simulation.fps=fast"})
         EXPECT_TRUE(diagnose(text, {wrong}).hasErrors()) << wrong;
     EXPECT_NE(diagnose(text, {"simulation.sed=7"}).entries[0].hint.find("`seed`"), std::string::npos);
 }
@@ -173,7 +197,8 @@ TEST(LayoutReader, FormatsDiagnosticsLikeACompiler) {
     const std::string text = "{\"throng\": 1,\n \"flow\": []}";
     const Diagnostics found = diagnose(text);
     EXPECT_EQ(formatDiagnostic(found.entries[0], "lay.json", text),
-              "lay.json:2:2: error: /flow: the layout has no key `flow`\n   \"flow\": []}\n   ^\n  hint: did you mean `flows`?");
+              "lay.json:2:2: error: /flow: the layout has no key `flow`\n   \"flow\": []}\n   ^\n  hint: did "
+              "you mean `flows`?");
 }
 
 std::vector<std::string> exampleTexts() {
@@ -190,7 +215,8 @@ std::vector<std::string> exampleTexts() {
 TEST(LayoutReader, ReadsTheExamplesWithoutAWord) {
     const std::vector<std::string> texts = exampleTexts();
     ASSERT_GE(texts.size(), 3u);
-    for (const std::string& text : texts) EXPECT_TRUE(diagnose(text).entries.empty());
+    for (const std::string& text : texts)
+        EXPECT_TRUE(diagnose(text).entries.empty());
 }
 
 TEST(LayoutReader, SurvivesTwoThousandMutations) {
@@ -200,12 +226,15 @@ TEST(LayoutReader, SurvivesTwoThousandMutations) {
         std::string text = texts[static_cast<std::size_t>(i) % texts.size()];
         for (int change = 0; change < 1 + i % 4; ++change) {
             const std::size_t at = random() % text.size();
-            if (i % 3 == 0) text.erase(at, random() % 9);
-            else text[at] = static_cast<char>(random() % 256);
+            if (i % 3 == 0)
+                text.erase(at, random() % 9);
+            else
+                text[at] = static_cast<char>(random() % 256);
             if (text.empty()) text = "{";
         }
         const Diagnostics found = diagnose(text);
-        for (const Diagnostic& entry : found.entries) EXPECT_FALSE(formatDiagnostic(entry, "x", text).empty());
+        for (const Diagnostic& entry : found.entries)
+            EXPECT_FALSE(formatDiagnostic(entry, "x", text).empty());
     }
 }
 

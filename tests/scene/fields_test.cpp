@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "authoring/scene/fields.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/packing.hpp>
-
-#include "authoring/scene/fields.h"
 
 namespace throng::authoring {
 namespace {
@@ -46,10 +46,12 @@ TEST(Fields, MeasureStraightDistancesOnOpenGround) {
         const glm::vec2 offset = target - centreOf(grid, cell);
         const float exact = glm::length(offset);
         if (exact < 2.0f) continue;
-        worst_distance = std::max(worst_distance, std::abs(field.reachable[cell] / static_cast<double>(exact) - 1.0));
+        worst_distance =
+            std::max(worst_distance, std::abs(field.reachable[cell] / static_cast<double>(exact) - 1.0));
         const glm::vec2 direction = glm::unpackSnorm2x16(field.cells[cell].direction);
         const float cosine = glm::dot(direction, offset / exact);
-        worst_angle = std::max(worst_angle, static_cast<double>(std::acos(std::min(1.0f, cosine))) * 57.29578);
+        worst_angle =
+            std::max(worst_angle, static_cast<double>(std::acos(std::min(1.0f, cosine))) * 57.29578);
     }
     EXPECT_LT(worst_distance, 0.015);
     EXPECT_LT(worst_angle, 3.0) << "degrees";
@@ -60,7 +62,8 @@ TEST(Fields, LeadRoundTheEndOfAWallByTheShortestWay) {
     addWall(geometry, {15.0f, 0.0f}, {15.0f, 20.0f});
     const Field field = fieldTo(geometry, {25.0f, 5.0f});
     // Round the wall's end, with room for a body.
-    const float exact = glm::distance(glm::vec2(5.0f, 5.0f), glm::vec2(15.0f, 20.3f)) + glm::distance(glm::vec2(15.0f, 20.3f), glm::vec2(25.0f, 5.0f));
+    const float exact = glm::distance(glm::vec2(5.0f, 5.0f), glm::vec2(15.0f, 20.3f)) +
+                        glm::distance(glm::vec2(15.0f, 20.3f), glm::vec2(25.0f, 5.0f));
     EXPECT_NEAR(distanceAt(geometry, field, {5.0f, 5.0f}) / exact, 1.0f, 0.03f);
 }
 
@@ -71,7 +74,8 @@ TEST(Fields, DoNotLeakThroughThinWallsInAnyDirection) {
         const Field field = fieldTo(geometry, {2.0f, 28.0f});
         EXPECT_EQ(distanceAt(geometry, field, {28.0f, 2.0f}), kUnreachable) << end.x;
         // The GPU gets finite numbers all the same.
-        for (const gpu::FieldCell& cell : field.cells) ASSERT_TRUE(std::isfinite(cell.distance));
+        for (const gpu::FieldCell& cell : field.cells)
+            ASSERT_TRUE(std::isfinite(cell.distance));
     }
 }
 
@@ -81,7 +85,9 @@ TEST(Fields, ADoorALittleWiderThanABodyStaysOpen) {
         const float middle = 0.5f * extent + 0.037f;
         addWall(geometry, {middle, -1.0f}, {middle, middle - 0.3f});
         addWall(geometry, {middle, middle + 0.3f}, {middle, extent + 1.0f});
-        EXPECT_LT(distanceAt(geometry, fieldTo(geometry, {1.0f, middle}), {extent - 1.0f, middle}), 1.5f * extent) << extent;
+        EXPECT_LT(distanceAt(geometry, fieldTo(geometry, {1.0f, middle}), {extent - 1.0f, middle}),
+                  1.5f * extent)
+            << extent;
     }
 }
 
@@ -91,7 +97,8 @@ TEST(Fields, NobodyStandsInsideASolidPolygonOfEitherWinding) {
         LocalPolygon solid = {{5, 5}, {15, 5}, {15, 15}, {5, 15}};
         if (reversed) std::reverse(solid.begin(), solid.end());
         geometry.solids.push_back(solid);
-        for (std::size_t i = 0; i < 4; ++i) addWall(geometry, solid[i], solid[(i + 1) % 4]);
+        for (std::size_t i = 0; i < 4; ++i)
+            addWall(geometry, solid[i], solid[(i + 1) % 4]);
         const Field field = fieldTo(geometry, {2.0f, 10.0f});
         EXPECT_EQ(distanceAt(geometry, field, {10.0f, 10.0f}), kUnreachable);
         EXPECT_GT(distanceAt(geometry, field, {18.0f, 10.0f}), 18.0f);
@@ -109,7 +116,8 @@ TEST(Fields, LeadOutOfADeadEnd) {
     addWall(geometry, {10.0f, 20.0f}, {20.0f, 20.0f});
     const Field field = fieldTo(geometry, {25.0f, 15.0f});
     const FieldGrid grid = makeGrid(geometry);
-    EXPECT_LT(glm::unpackSnorm2x16(field.cells[cellAt(grid, {18.0f, 15.0f})].direction).x, 0.0f) << "away from the goal at first";
+    EXPECT_LT(glm::unpackSnorm2x16(field.cells[cellAt(grid, {18.0f, 15.0f})].direction).x, 0.0f)
+        << "away from the goal at first";
     EXPECT_GT(distanceAt(geometry, field, {18.0f, 15.0f}), 25.0f);
 }
 
@@ -122,7 +130,8 @@ TEST(Fields, KeepToRoadsAndObeyOneWays) {
     const Field along = fieldTo(geometry, {54.0f, 10.0f}, true);
     EXPECT_NEAR(distanceAt(geometry, along, {12.0f, 10.0f}), 42.0f, 2.0f);
     const Field against = fieldTo(geometry, {6.0f, 10.0f}, true);
-    EXPECT_GT(distanceAt(geometry, against, {48.0f, 10.0f}), 60.0f) << "the way back is round by the other road";
+    EXPECT_GT(distanceAt(geometry, against, {48.0f, 10.0f}), 60.0f)
+        << "the way back is round by the other road";
     EXPECT_LT(distanceAt(geometry, against, {48.0f, 10.0f}), 130.0f);
 }
 

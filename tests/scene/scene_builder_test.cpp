@@ -9,7 +9,9 @@
 namespace throng::authoring {
 namespace {
 
-Place area(std::size_t index) { return {Place::Kind::area, index, {}}; }
+Place area(std::size_t index) {
+    return {Place::Kind::area, index, {}};
+}
 
 /// Two areas, a wall between them that can be walked round, and a flow from one to the other.
 Layout simpleLayout() {
@@ -29,11 +31,14 @@ Layout simpleLayout() {
 
 Layout moved(Layout layout, glm::dvec2 by) {
     for (Area& item : layout.areas)
-        for (glm::dvec2& point : item.polygon) point += by;
+        for (glm::dvec2& point : item.polygon)
+            point += by;
     for (Wall& item : layout.walls)
-        for (glm::dvec2& point : item.points) point += by;
+        for (glm::dvec2& point : item.points)
+            point += by;
     for (Road& item : layout.roads)
-        for (glm::dvec2& point : item.centreline) point += by;
+        for (glm::dvec2& point : item.centreline)
+            point += by;
     for (Formation& item : layout.formations) {
         if (auto* circle = std::get_if<CircleFormation>(&item.shape)) circle->centre += by;
         if (auto* grid = std::get_if<GridFormation>(&item.shape)) grid->origin += by;
@@ -44,7 +49,8 @@ Layout moved(Layout layout, glm::dvec2 by) {
 Scene built(const Layout& layout) {
     Diagnostics diagnostics;
     std::optional<Scene> scene = buildScene(layout, diagnostics);
-    for (const Diagnostic& entry : diagnostics.entries) ADD_FAILURE() << entry.message;
+    for (const Diagnostic& entry : diagnostics.entries)
+        ADD_FAILURE() << entry.message;
     return scene.value_or(Scene{});
 }
 
@@ -52,7 +58,8 @@ std::string errorOf(const Layout& layout) {
     Diagnostics diagnostics;
     EXPECT_FALSE(buildScene(layout, diagnostics).has_value());
     std::string all;
-    for (const Diagnostic& entry : diagnostics.entries) all += entry.message + "\n";
+    for (const Diagnostic& entry : diagnostics.entries)
+        all += entry.message + "\n";
     return all;
 }
 
@@ -86,7 +93,8 @@ TEST(SceneBuilder, SpreadsACountEvenlyOverItsTimeInOrder) {
     const Scene scene = built(simpleLayout());
     ASSERT_EQ(scene.people.size(), 63u);
     ASSERT_EQ(scene.queues.size(), 1u);
-    for (std::size_t row = 1; row < 63; ++row) EXPECT_LE(scene.people[row - 1].spawn_time, scene.people[row].spawn_time);
+    for (std::size_t row = 1; row < 63; ++row)
+        EXPECT_LE(scene.people[row - 1].spawn_time, scene.people[row].spawn_time);
     EXPECT_GE(scene.people.front().spawn_time, 0.0f);
     EXPECT_LT(scene.people.back().spawn_time, 10.0f);
     EXPECT_GT(scene.people.back().spawn_time, 9.5f);
@@ -114,7 +122,8 @@ TEST(SceneBuilder, AddingAFlowChangesNobodyInTheOthers) {
     layout.flows.push_back(other);
     const Scene after = built(layout);
     ASSERT_EQ(after.people.size(), 126u);
-    for (std::size_t row = 0; row < 63; ++row) EXPECT_EQ(std::memcmp(&before.people[row], &after.people[row], sizeof(gpu::Person)), 0) << row;
+    for (std::size_t row = 0; row < 63; ++row)
+        EXPECT_EQ(std::memcmp(&before.people[row], &after.people[row], sizeof(gpu::Person)), 0) << row;
     EXPECT_NE(after.people[0].radius, after.people[63].radius);
 }
 
@@ -136,7 +145,8 @@ TEST(SceneBuilder, PutsWallTilesSoThatNoBodyFitsBetweenThem) {
         for (float along = 0.0f; along <= length; along += 0.05f) {
             const glm::vec2 point = segment.a + (segment.b - segment.a) * (along / length);
             float nearest = 1.0e9f;
-            for (const gpu::WallTile& tile : scene.wall_tiles) nearest = std::min(nearest, glm::distance(tile.position, point) - segment.half_thickness);
+            for (const gpu::WallTile& tile : scene.wall_tiles)
+                nearest = std::min(nearest, glm::distance(tile.position, point) - segment.half_thickness);
             EXPECT_LE(nearest, scene.smallest_radius);
         }
     }
@@ -152,16 +162,21 @@ TEST(SceneBuilder, EntryPointsAreClearOfWalls) {
     ASSERT_GT(scene.entry_points.size(), 100u);
     for (const glm::vec2 point : scene.entry_points)
         for (const gpu::WallSegment& wall : scene.wall_segments) {
-            const float along = std::clamp(glm::dot(point - wall.a, wall.b - wall.a) / glm::dot(wall.b - wall.a, wall.b - wall.a), 0.0f, 1.0f);
-            EXPECT_GT(glm::distance(point, wall.a + along * (wall.b - wall.a)) - wall.half_thickness, scene.largest_radius);
+            const float along = std::clamp(
+                glm::dot(point - wall.a, wall.b - wall.a) / glm::dot(wall.b - wall.a, wall.b - wall.a), 0.0f,
+                1.0f);
+            EXPECT_GT(glm::distance(point, wall.a + along * (wall.b - wall.a)) - wall.half_thickness,
+                      scene.largest_radius);
         }
 }
 
 TEST(SceneBuilder, ComplainsAboutGoalsThatCannotBeReached) {
     Layout layout = simpleLayout();
     layout.walls[0].points = {{15, -40}, {15, 50}};
-    layout.walls.push_back({"seal", {{-10, -40}, {40, -40}, {40, 50}, {-10, 50}, {-10, -40}}, false, 0.2, 3.0, {}});
-    EXPECT_NE(errorOf(layout).find("nobody can walk from `left` to `right`"), std::string::npos) << errorOf(layout);
+    layout.walls.push_back(
+        {"seal", {{-10, -40}, {40, -40}, {40, 50}, {-10, 50}, {-10, -40}}, false, 0.2, 3.0, {}});
+    EXPECT_NE(errorOf(layout).find("nobody can walk from `left` to `right`"), std::string::npos)
+        << errorOf(layout);
 }
 
 TEST(SceneBuilder, ComplainsAboutEntriesWithoutRoom) {
@@ -174,7 +189,8 @@ TEST(SceneBuilder, ComplainsAboutPeopleAndGoalsInWalls) {
     Layout layout = simpleLayout();
     Formation list;
     list.id = "extras";
-    list.shape = ListFormation{{{{15.1, 5.0}, {20, 5}, {}, {}, {}, {7, 3, "/formations/0/agents/0"}}, {{10, 5}, {15, 5}, {}, {}, {}, {8, 3, ""}}}};
+    list.shape = ListFormation{{{{15.1, 5.0}, {20, 5}, {}, {}, {}, {7, 3, "/formations/0/agents/0"}},
+                                {{10, 5}, {15, 5}, {}, {}, {}, {8, 3, ""}}}};
     layout.formations.push_back(list);
     const std::string errors = errorOf(layout);
     EXPECT_NE(errors.find("person 0 stands in a wall"), std::string::npos) << errors;

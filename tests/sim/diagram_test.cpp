@@ -51,10 +51,12 @@ Reference bruteForce(Window window, const std::vector<gpu::DiagramSite>& sites) 
 /// `walls` of the sites, the last ones, are given as fixed sites.
 class DiagramTest : public GpuTest, public ::testing::WithParamInterface<Diagram::Method> {
   protected:
-    void expectExact(Window window, const std::vector<gpu::DiagramSite>& sites, std::size_t walls, const std::string& what) {
+    void expectExact(Window window, const std::vector<gpu::DiagramSite>& sites, std::size_t walls,
+                     const std::string& what) {
         const std::size_t moving = sites.size() - walls;
         float largest = 1.0f;
-        for (const gpu::DiagramSite& site : sites) largest = std::max(largest, site.radius);
+        for (const gpu::DiagramSite& site : sites)
+            largest = std::max(largest, site.radius);
         Diagram diagram(library, GetParam(), window.width, window.height, largest,
                         std::span(sites).subspan(moving));
         // Sites stand in memory in another order than that of their ids, as they do in a simulation.
@@ -65,7 +67,8 @@ class DiagramTest : public GpuTest, public ::testing::WithParamInterface<Diagram
             order[i] = i < moving ? static_cast<std::uint32_t>(moving) - 1 - i : i;
         const auto live = static_cast<std::uint32_t>(moving);
         const gl::Buffer site_buffer = gl::makeBuffer("sites", stored);
-        const gl::Buffer dispatch = gl::makeBuffer("dispatch", std::vector<std::uint32_t>{(live + 63) / 64, 1, 1, live});
+        const gl::Buffer dispatch =
+            gl::makeBuffer("dispatch", std::vector<std::uint32_t>{(live + 63) / 64, 1, 1, live});
         const gl::Buffer draw_order = gl::makeBuffer("order", order);
         diagram.connect({&site_buffer, &dispatch, &draw_order, static_cast<std::uint32_t>(order.size())});
         // Twice: nothing of the first build may leak into the second.
@@ -87,7 +90,8 @@ class DiagramTest : public GpuTest, public ::testing::WithParamInterface<Diagram
     }
 };
 
-std::vector<gpu::DiagramSite> randomSites(std::mt19937& random, Window window, std::size_t count, float least, float most) {
+std::vector<gpu::DiagramSite> randomSites(std::mt19937& random, Window window, std::size_t count, float least,
+                                          float most) {
     std::uniform_real_distribution<float> x(-most, static_cast<float>(window.width) + most);
     std::uniform_real_distribution<float> y(-most, static_cast<float>(window.height) + most);
     std::uniform_real_distribution<float> radius(least, most);
@@ -96,7 +100,8 @@ std::vector<gpu::DiagramSite> randomSites(std::mt19937& random, Window window, s
         gpu::DiagramSite site{};
         site.position = {x(random), y(random)};
         // Every third site stands exactly on a pixel's centre, every fifth on a corner: ties.
-        if (id % 3 == 0) site.position = {std::floor(site.position.x) + 0.5f, std::floor(site.position.y) + 0.5f};
+        if (id % 3 == 0)
+            site.position = {std::floor(site.position.x) + 0.5f, std::floor(site.position.y) + 0.5f};
         if (id % 5 == 0) site.position = {std::floor(site.position.x), std::floor(site.position.y)};
         // And every seventh exactly where an earlier one stands.
         if (id % 7 == 6) site.position = sites[id / 2].position;
@@ -119,13 +124,15 @@ TEST_P(DiagramTest, EqualsBruteForceForRadiiFromOneToSixtyPixels) {
     std::mt19937 random(2);
     const Window window{300, 200};
     for (const float radius : {1.0f, 1.5f, 2.4f, 7.0f, 16.0f, 33.3f, 60.0f})
-        expectExact(window, randomSites(random, window, 400, radius, radius), 0, fmt::format("radius {}", radius));
+        expectExact(window, randomSites(random, window, 400, radius, radius), 0,
+                    fmt::format("radius {}", radius));
     expectExact(window, randomSites(random, window, 1234, 1.0f, 60.0f), 0, "radii 1 to 60 mixed");
 }
 
 TEST_P(DiagramTest, GivesTiesToTheSmallestId) {
     std::vector<gpu::DiagramSite> sites(63);
-    for (std::uint32_t id = 0; id < sites.size(); ++id) sites[id] = {{20.5f, 20.5f}, 9.0f, id};
+    for (std::uint32_t id = 0; id < sites.size(); ++id)
+        sites[id] = {{20.5f, 20.5f}, 9.0f, id};
     expectExact({41, 41}, sites, 0, "63 coincident sites");
     // Two sites at equal distance from a whole column of pixel centres.
     expectExact({41, 41}, {{{10.5f, 20.5f}, 12.0f, 0}, {{20.5f, 20.5f}, 12.0f, 1}}, 0, "a column of ties");
@@ -133,8 +140,8 @@ TEST_P(DiagramTest, GivesTiesToTheSmallestId) {
 
 TEST_P(DiagramTest, SeesTilesOfSitesOutsideTheWindow) {
     const std::vector<gpu::DiagramSite> sites = {
-        {{-5.0f, 30.0f}, 8.0f, 0},   {{66.0f, 30.0f}, 8.0f, 1},      {{30.0f, -59.0f}, 60.0f, 2},
-        {{30.0f, 123.0f}, 60.0f, 3}, {{-1.0e6f, 1.0e6f}, 20.0f, 4},  {{1.0e9f, -1.0e9f}, 60.0f, 5},
+        {{-5.0f, 30.0f}, 8.0f, 0},   {{66.0f, 30.0f}, 8.0f, 1},     {{30.0f, -59.0f}, 60.0f, 2},
+        {{30.0f, 123.0f}, 60.0f, 3}, {{-1.0e6f, 1.0e6f}, 20.0f, 4}, {{1.0e9f, -1.0e9f}, 60.0f, 5},
     };
     expectExact({64, 64}, sites, 0, "outside on every side");
 }
@@ -143,7 +150,8 @@ TEST_P(DiagramTest, LetsFixedSitesTakePartLikeOthers) {
     std::mt19937 random(3);
     const Window window{200, 200};
     for (const std::size_t walls : {std::size_t{1}, std::size_t{63}, std::size_t{900}})
-        expectExact(window, randomSites(random, window, 1234, 2.0f, 14.0f), walls, fmt::format("{} fixed sites", walls));
+        expectExact(window, randomSites(random, window, 1234, 2.0f, 14.0f), walls,
+                    fmt::format("{} fixed sites", walls));
     expectExact(window, randomSites(random, window, 63, 2.0f, 14.0f), 63, "nothing but fixed sites");
 }
 
@@ -152,7 +160,8 @@ TEST_P(DiagramTest, LeavesPixelsWithoutAnyTileEmpty) {
     expectExact({64, 64}, {{{200.0f, 200.0f}, 10.0f, 0}}, 0, "a tile that does not reach the window");
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, DiagramTest, ::testing::Values(Diagram::Method::per_site, Diagram::Method::gradient1),
+INSTANTIATE_TEST_SUITE_P(Methods, DiagramTest,
+                         ::testing::Values(Diagram::Method::per_site, Diagram::Method::gradient1),
                          [](const auto& test) {
                              return test.param == Diagram::Method::per_site ? "PerSite" : "Gradient1";
                          });

@@ -28,7 +28,8 @@ TEST_F(FramePumpTest, DeliversEveryFrameInOrderWithWhatTheSimulationHolds) {
                 simulation.step();
                 pump.submit(frame, false);
                 std::vector<float> positions;
-                for (const gpu::AgentState& state : simulation.parts().buffers.states.download<gpu::AgentState>(count))
+                for (const gpu::AgentState& state :
+                     simulation.parts().buffers.states.download<gpu::AgentState>(count))
                     positions.insert(positions.end(), {state.position.x, state.position.y, 0.0f});
                 expected.push_back(positions);
             }

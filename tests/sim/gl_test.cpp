@@ -15,7 +15,8 @@ TEST(Devices, ListsAtLeastOneUsableDeviceWithItsName) {
     ASSERT_FALSE(devices.empty());
     EXPECT_TRUE(devices.front().usable);
     EXPECT_FALSE(devices.front().name.empty());
-    for (std::size_t i = 1; i < devices.size(); ++i) EXPECT_LE(devices[i - 1].software, devices[i].software);
+    for (std::size_t i = 1; i < devices.size(); ++i)
+        EXPECT_LE(devices[i - 1].software, devices[i].software);
 }
 
 TEST(Devices, RefusesADeviceThatDoesNotExist) {
@@ -32,7 +33,8 @@ TEST(Devices, RefusesADeviceThatDoesNotExist) {
 TEST_F(GlTest, UploadsAndDownloadsWhatWasPutIn) {
     for (const std::size_t count : {std::size_t{1}, std::size_t{63}, std::size_t{1234}}) {
         std::vector<std::uint32_t> words(count);
-        for (std::size_t i = 0; i < count; ++i) words[i] = static_cast<std::uint32_t>(i * 2654435761u);
+        for (std::size_t i = 0; i < count; ++i)
+            words[i] = static_cast<std::uint32_t>(i * 2654435761u);
         EXPECT_EQ(gl::makeBuffer("words", words).download<std::uint32_t>(count), words);
     }
 }
@@ -72,7 +74,8 @@ TEST(Shaders, AreReadFromAFolderBeforeTheBinary) {
         gl::ComputeProgram program(edited, "shaders/cells_sum.comp");
         FAIL() << "compiled nonsense";
     } catch (const gl::GraphicsError& error) {
-        EXPECT_NE(std::string(error.what()).find("shaders/cells_sum.comp"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("shaders/cells_sum.comp"), std::string::npos)
+            << error.what();
     }
     EXPECT_NO_THROW(gl::ComputeProgram(edited, "shaders/cells_scan.comp"));
     EXPECT_THROW(gl::ComputeProgram(edited, "shaders/none.comp"), gl::GraphicsError);

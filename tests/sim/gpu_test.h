@@ -19,7 +19,8 @@ class GpuTest : public ::testing::Test {
         context = std::make_unique<gl::Context>(options);
     }
     void TearDown() override {
-        for (const std::string& message : context->debugMessages()) ADD_FAILURE() << "OpenGL says: " << message;
+        for (const std::string& message : context->debugMessages())
+            ADD_FAILURE() << "OpenGL says: " << message;
         context->check("after the test");
     }
 

@@ -18,7 +18,8 @@ class MotionTest : public GpuTest {
     }
     std::vector<gpu::AgentState> statesAfter(const authoring::Scene& scene, int steps) {
         sim::Simulation simulation(scene, library);
-        for (int step = 0; step < steps; ++step) simulation.step();
+        for (int step = 0; step < steps; ++step)
+            simulation.step();
         return simulation.parts().buffers.states.download<gpu::AgentState>(scene.people.size());
     }
 };
@@ -104,27 +105,33 @@ TEST_F(MotionTest, ACircleOfPeopleReachesTheOppositeSide) {
 
 TEST_F(MotionTest, BodiesThatStartInsideEachOtherPartWithoutFlying) {
     authoring::Scene scene = emptyScene({-5, -5}, {5, 5});
-    for (int i = 0; i < 9; ++i) addPerson(scene, {0.0f, 0.0f}, {0.0f, 0.0f});  // all in the very same place
+    for (int i = 0; i < 9; ++i)
+        addPerson(scene, {0.0f, 0.0f}, {0.0f, 0.0f});  // all in the very same place
     sim::Simulation simulation(scene, library);
-    for (int step = 0; step < 240; ++step) simulation.step();
+    for (int step = 0; step < 240; ++step)
+        simulation.step();
     const auto states = simulation.parts().buffers.states.download<gpu::AgentState>(9);
     EXPECT_LT(overlapsOf(states, scene.people).deepest_percent, 5.0f);
-    for (const gpu::AgentState& state : states) EXPECT_LT(glm::length(state.position), 2.0f);
+    for (const gpu::AgentState& state : states)
+        EXPECT_LT(glm::length(state.position), 2.0f);
 }
 
 TEST_F(MotionTest, ACrushBeyondTheTouchListsStillKeepsBodiesApart) {
     authoring::Scene scene = emptyScene({-6, -6}, {6, 6});
     // 400 children on four square metres: far more within touch than a touch list holds.
     for (int i = 0; i < 400; ++i)
-        addPerson(scene, {static_cast<float>(i % 20) * 0.1f - 1.0f, static_cast<float>(i / 20) * 0.1f - 1.0f}, {0.0f, 0.0f}, 1.0f, 0.1f);
+        addPerson(scene, {static_cast<float>(i % 20) * 0.1f - 1.0f, static_cast<float>(i / 20) * 0.1f - 1.0f},
+                  {0.0f, 0.0f}, 1.0f, 0.1f);
     scene.settings.contact_iterations = 8;
     sim::Simulation simulation(scene, library);
     simulation.step();
     const auto words = simulation.parts().buffers.touch_words.download<std::uint32_t>(400);
     std::uint32_t longest = 0;
-    for (const std::uint32_t word : words) longest = std::max(longest, word & gpu::TOUCH_COUNT_MASK);
+    for (const std::uint32_t word : words)
+        longest = std::max(longest, word & gpu::TOUCH_COUNT_MASK);
     EXPECT_GT(longest, gpu::TOUCH_CAPACITY);
-    for (int step = 0; step < 480; ++step) simulation.step();
+    for (int step = 0; step < 480; ++step)
+        simulation.step();
     const auto states = simulation.parts().buffers.states.download<gpu::AgentState>(400);
     EXPECT_LT(overlapsOf(states, scene.people).deepest_percent, 12.0f);
 }
@@ -136,7 +143,9 @@ TEST_F(MotionTest, NobodyPassesThroughAWallHoweverFast) {
             scene.settings.substeps = 1;
             addWall(scene, {0, -5}, {0, 5}, half_thickness);
             for (int i = 0; i < 9; ++i)
-                addPerson(scene, {-6.0f - 0.6f * static_cast<float>(i % 3), -2.0f + static_cast<float>(i) * 0.5f}, {6, 0}, speed);
+                addPerson(scene,
+                          {-6.0f - 0.6f * static_cast<float>(i % 3), -2.0f + static_cast<float>(i) * 0.5f},
+                          {6, 0}, speed);
             const Observation seen = run(scene, 10.0f);
             EXPECT_EQ(seen.wall_crossings, 0u) << speed << " m/s";
             EXPECT_LT(seen.deepest_wall_percent, 1.0f) << speed << " m/s";
@@ -148,7 +157,8 @@ TEST_F(MotionTest, ACrowdPressedIntoACornerStaysOnItsSideOfTheWalls) {
     addWall(scene, {-4, 3}, {3, 3});
     addWall(scene, {3, 3}, {3, -4});
     for (int i = 0; i < 49; ++i)
-        addPerson(scene, {-3.0f + 0.7f * static_cast<float>(i % 7), -3.0f + 0.7f * static_cast<float>(i / 7)}, {5, 5});
+        addPerson(scene, {-3.0f + 0.7f * static_cast<float>(i % 7), -3.0f + 0.7f * static_cast<float>(i / 7)},
+                  {5, 5});
     const Observation seen = run(scene, 15.0f);
     EXPECT_EQ(seen.wall_crossings, 0u);
     EXPECT_LT(seen.deepest_wall_percent, 2.0f);
@@ -163,13 +173,15 @@ TEST_F(MotionTest, RepeatsToTheLastBit) {
         return bytes;
     };
     const std::string first = bits(statesAfter(scene, 120));
-    for (int again = 0; again < 3; ++again) EXPECT_TRUE(bits(statesAfter(scene, 120)) == first) << "run " << again;
+    for (int again = 0; again < 3; ++again)
+        EXPECT_TRUE(bits(statesAfter(scene, 120)) == first) << "run " << again;
 }
 
 TEST_F(MotionTest, ASceneWithoutPeopleOrWallsRuns) {
     const authoring::Scene scene = emptyScene({0, 0}, {5, 5});
     sim::Simulation simulation(scene, library);
-    for (int step = 0; step < 4; ++step) simulation.step();
+    for (int step = 0; step < 4; ++step)
+        simulation.step();
     EXPECT_TRUE(simulation.account().agents.empty());
 }
 

@@ -14,7 +14,7 @@
 namespace throng::test {
 
 struct Overlaps {
-    std::size_t pairs = 0;        ///< deeper than 1 % of the sum of radii
+    std::size_t pairs = 0;         ///< deeper than 1 % of the sum of radii
     float deepest_percent = 0.0f;  ///< of the sum of radii
 };
 
@@ -24,12 +24,16 @@ inline bool isPresent(const gpu::AgentState& state, const gpu::Person& person) {
 }
 
 /// All pairs that overlap, found through a hash of 1 m cells.
-inline Overlaps overlapsOf(const std::vector<gpu::AgentState>& states, const std::vector<gpu::Person>& people) {
+inline Overlaps overlapsOf(const std::vector<gpu::AgentState>& states,
+                           const std::vector<gpu::Person>& people) {
     std::unordered_map<std::int64_t, std::vector<std::uint32_t>> cells;
-    const auto key = [](int x, int y) { return (static_cast<std::int64_t>(x) << 32) ^ static_cast<std::uint32_t>(y); };
+    const auto key = [](int x, int y) {
+        return (static_cast<std::int64_t>(x) << 32) ^ static_cast<std::uint32_t>(y);
+    };
     for (std::uint32_t row = 0; row < states.size(); ++row)
         if (isPresent(states[row], people[row]))
-            cells[key(static_cast<int>(std::floor(states[row].position.x)), static_cast<int>(std::floor(states[row].position.y)))]
+            cells[key(static_cast<int>(std::floor(states[row].position.x)),
+                      static_cast<int>(std::floor(states[row].position.y)))]
                 .push_back(row);
     Overlaps result;
     for (std::uint32_t row = 0; row < states.size(); ++row) {
@@ -43,7 +47,8 @@ inline Overlaps overlapsOf(const std::vector<gpu::AgentState>& states, const std
                 for (const std::uint32_t other : cell->second) {
                     if (other <= row) continue;
                     const float reach = people[row].radius + people[other].radius;
-                    const float depth = 100.0f * (1.0f - glm::distance(states[row].position, states[other].position) / reach);
+                    const float depth =
+                        100.0f * (1.0f - glm::distance(states[row].position, states[other].position) / reach);
                     if (depth > 1.0f) ++result.pairs;
                     result.deepest_percent = std::max(result.deepest_percent, depth);
                 }
@@ -61,7 +66,9 @@ struct Observation {
     float seconds = 0.0f;  ///< until all had arrived, or all that was given
 };
 
-inline float crossProduct(glm::vec2 a, glm::vec2 b) { return a.x * b.y - a.y * b.x; }
+inline float crossProduct(glm::vec2 a, glm::vec2 b) {
+    return a.x * b.y - a.y * b.x;
+}
 
 inline bool crosses(glm::vec2 p, glm::vec2 q, const gpu::WallSegment& wall) {
     const glm::vec2 axis = wall.b - wall.a;
@@ -76,12 +83,14 @@ inline bool crosses(glm::vec2 p, glm::vec2 q, const gpu::WallSegment& wall) {
 inline float wallDistance(glm::vec2 point, const gpu::WallSegment& wall) {
     const glm::vec2 axis = wall.b - wall.a;
     const float squared = glm::dot(axis, axis);
-    const float along = squared > 0.0f ? std::clamp(glm::dot(point - wall.a, axis) / squared, 0.0f, 1.0f) : 0.0f;
+    const float along =
+        squared > 0.0f ? std::clamp(glm::dot(point - wall.a, axis) / squared, 0.0f, 1.0f) : 0.0f;
     return glm::distance(point, wall.a + along * axis) - wall.half_thickness;
 }
 
 /// Runs until everybody has arrived or `seconds` have passed, looking after every `stride` steps.
-inline Observation observe(sim::Simulation& simulation, const authoring::Scene& scene, float seconds, int stride = 2) {
+inline Observation observe(sim::Simulation& simulation, const authoring::Scene& scene, float seconds,
+                           int stride = 2) {
     Observation result;
     const float dt = simulation.parameters().step_seconds;
     const auto steps = static_cast<int>(seconds / dt);
@@ -99,7 +108,8 @@ inline Observation observe(sim::Simulation& simulation, const authoring::Scene& 
         for (std::size_t row = 0; row < states.size(); ++row) {
             result.arrived += states[row].status == gpu::STATUS_ARRIVED;
             for (const gpu::WallSegment& wall : scene.wall_segments) {
-                const float depth = 1.0f - wallDistance(states[row].position, wall) / scene.people[row].radius;
+                const float depth =
+                    1.0f - wallDistance(states[row].position, wall) / scene.people[row].radius;
                 if (isPresent(states[row], scene.people[row]))
                     result.deepest_wall_percent = std::max(result.deepest_wall_percent, 100.0f * depth);
                 if (!before.empty() && isPresent(before[row], scene.people[row]))

@@ -56,7 +56,8 @@ inline void addWall(authoring::Scene& scene, glm::vec2 a, glm::vec2 b, float hal
     const int tiles = std::max(1, static_cast<int>(std::ceil(length / 0.2f)));
     for (int i = 0; i < tiles; ++i) {
         const float along = (static_cast<float>(i) + 0.5f) / static_cast<float>(tiles);
-        scene.wall_tiles.push_back({glm::mix(a, b, along), static_cast<float>(scene.settings.tile_radius), segment});
+        scene.wall_tiles.push_back(
+            {glm::mix(a, b, along), static_cast<float>(scene.settings.tile_radius), segment});
     }
 }
 
@@ -67,7 +68,8 @@ inline authoring::Scene uniformScene(std::uint32_t count, float spacing, std::ui
     authoring::Scene scene = emptyScene({-2.0f, -2.0f}, {extent + 2.0f, extent + 2.0f});
     std::mt19937 random(seed);
     std::vector<std::uint32_t> places(side * side);
-    for (std::uint32_t i = 0; i < places.size(); ++i) places[i] = i;
+    for (std::uint32_t i = 0; i < places.size(); ++i)
+        places[i] = i;
     std::shuffle(places.begin(), places.end(), random);
     std::uniform_real_distribution<float> jitter(-0.2f * spacing, 0.2f * spacing);
     std::uniform_real_distribution<float> anywhere(0.0f, extent);

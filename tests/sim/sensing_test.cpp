@@ -14,8 +14,8 @@ namespace {
 constexpr float kPi = std::numbers::pi_v<float>;
 
 TEST(SensingPattern, FollowsThePapersEquations) {
-    // a = 0.3, r_s = 0.6, s = 6: R = 3.3; theta = arccos(1 - 0.36 / 21.78) = 0.18207 rad; 200 degrees / theta = 19.2
-    // gaps between rays, so 20 gaps and 21 rays; all round, 34.5 and so 35.
+    // a = 0.3, r_s = 0.6, s = 6: R = 3.3; theta = arccos(1 - 0.36 / 21.78) = 0.18207 rad; 200 degrees / theta
+    // = 19.2 gaps between rays, so 20 gaps and 21 rays; all round, 34.5 and so 35.
     const sim::SensingGeometry geometry{0.3f, 0.6f, 6, 200.0f * kPi / 180.0f};
     EXPECT_FLOAT_EQ(sim::sensingReach(geometry), 3.3f);
     EXPECT_EQ(sim::raysAtRadius(geometry, 3.3f), 21);
@@ -67,11 +67,13 @@ std::vector<std::vector<std::uint32_t>> sensed(sim::Simulation& simulation) {
         std::size_t{capacity} * static_cast<std::size_t>(parts.settings.neighbours));
     std::vector<std::vector<std::uint32_t>> lists(parts.rows);
     for (std::uint32_t row = 0; row < parts.rows; ++row)
-        for (std::uint32_t i = 0; i < counts[slots[row]]; ++i) lists[row].push_back(keys[i * capacity + slots[row]]);
+        for (std::uint32_t i = 0; i < counts[slots[row]]; ++i)
+            lists[row].push_back(keys[i * capacity + slots[row]]);
     return lists;
 }
 
-/// The k nearest within the reach and the field of view, plus everybody within the contact range, by comparing all.
+/// The k nearest within the reach and the field of view, plus everybody within the contact range, by
+/// comparing all.
 std::vector<std::uint32_t> nearestByBruteForce(const authoring::Scene& scene, std::uint32_t row, float reach,
                                                float contact_range) {
     const gpu::Person& self = scene.people[row];
@@ -83,12 +85,14 @@ std::vector<std::uint32_t> nearestByBruteForce(const authoring::Scene& scene, st
         const float distance = std::hypot(offset.x, offset.y);
         float turn = std::atan2(offset.y, offset.x) - self.heading;
         turn -= 2.0f * kPi * std::round(turn / (2.0f * kPi));
-        if (distance <= contact_range || (distance <= reach && std::abs(turn) <= half_view)) found.emplace_back(distance, other);
+        if (distance <= contact_range || (distance <= reach && std::abs(turn) <= half_view))
+            found.emplace_back(distance, other);
     }
     std::sort(found.begin(), found.end());
     const auto most = std::min(found.size(), static_cast<std::size_t>(scene.settings.neighbours));
     std::vector<std::uint32_t> rows;
-    for (std::size_t i = 0; i < most; ++i) rows.push_back(found[i].second);
+    for (std::size_t i = 0; i < most; ++i)
+        rows.push_back(found[i].second);
     return rows;
 }
 
@@ -98,14 +102,15 @@ float distanceBetween(const authoring::Scene& scene, std::uint32_t row, std::uin
 
 class SensingTest : public GpuTest {
   protected:
-    /// The share of true nearest neighbours that sensing found. Samples also meet some whose tile, but not whose centre, is
-    /// in view; where such a one is nearer and the list is full, the true neighbour it displaces is not a miss.
+    /// The share of true nearest neighbours that sensing found. Samples also meet some whose tile, but not
+    /// whose centre, is in view; where such a one is nearer and the list is full, the true neighbour it
+    /// displaces is not a miss.
     double recall(authoring::Scene scene) {
         sim::Simulation simulation(scene, library);
         const auto lists = sensed(simulation);
-        const sim::SensingGeometry geometry{scene.smallest_radius, static_cast<float>(scene.settings.tile_radius),
-                                            scene.settings.samples_per_ray,
-                                            static_cast<float>(scene.settings.field_of_view) * kPi / 180.0f};
+        const sim::SensingGeometry geometry{
+            scene.smallest_radius, static_cast<float>(scene.settings.tile_radius),
+            scene.settings.samples_per_ray, static_cast<float>(scene.settings.field_of_view) * kPi / 180.0f};
         std::size_t expected = 0, found = 0;
         for (std::uint32_t row = 0; row < scene.people.size(); ++row) {
             const std::set<std::uint32_t> list(lists[row].begin(), lists[row].end());
@@ -126,11 +131,12 @@ class SensingTest : public GpuTest {
 };
 
 TEST_F(SensingTest, FindsNearlyAllNeighboursInOpenCrowds) {
-    for (const std::uint32_t count : {2u, 63u, 1234u, 4096u}) EXPECT_GE(recall(uniformScene(count, 2.0f, count)), 0.995) << count;
+    for (const std::uint32_t count : {2u, 63u, 1234u, 4096u})
+        EXPECT_GE(recall(uniformScene(count, 2.0f, count)), 0.995) << count;
 }
 
-/// Crowding cuts the tiles until some are narrower than the gap between samples: the bars are what was measured, less a little.
-/// Whoever is within the contact range is never among the missed.
+/// Crowding cuts the tiles until some are narrower than the gap between samples: the bars are what was
+/// measured, less a little. Whoever is within the contact range is never among the missed.
 TEST_F(SensingTest, LosesFewNeighboursWhenCrowdingCutsTheTiles) {
     struct Bar {
         float spacing, tile_radius;
@@ -141,15 +147,16 @@ TEST_F(SensingTest, LosesFewNeighboursWhenCrowdingCutsTheTiles) {
         authoring::Scene scene = uniformScene(1234, bar.spacing, 5);
         scene.settings.tile_radius = bar.tile_radius;
         scene.settings.samples_per_ray = bar.tile_radius < 0.5f ? 11 : 6;
-        EXPECT_GE(recall(scene), bar.least) << "tile radius " << bar.tile_radius << ", one person per " << bar.spacing << " m squared";
+        EXPECT_GE(recall(scene), bar.least)
+            << "tile radius " << bar.tile_radius << ", one person per " << bar.spacing << " m squared";
     }
 }
 
 TEST_F(SensingTest, DoesNotSeeBehindItselfBeyondTheContactRange) {
     authoring::Scene scene = emptyScene({-10, -10}, {10, 10});
     addPerson(scene, {0, 0}, {5, 0});
-    addPerson(scene, {2, 0}, {9, 0});    // ahead
-    addPerson(scene, {-2, 0}, {-9, 0});  // behind, out of touch
+    addPerson(scene, {2, 0}, {9, 0});       // ahead
+    addPerson(scene, {-2, 0}, {-9, 0});     // behind, out of touch
     addPerson(scene, {-0.8f, 0}, {-9, 0});  // behind, within the contact range
     sim::Simulation simulation(scene, library);
     const auto lists = sensed(simulation);

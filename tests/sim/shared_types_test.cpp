@@ -25,11 +25,13 @@ class SharedTypesTest : public GpuTest {
             const GLenum stride_property = GL_TOP_LEVEL_ARRAY_STRIDE;
             GLint offset = -1;
             GLint stride = 0;
-            glGetProgramResourceName(program.handle(), interface, static_cast<GLuint>(i), sizeof name, nullptr, name);
-            glGetProgramResourceiv(program.handle(), interface, static_cast<GLuint>(i), 1, &property, 1, nullptr, &offset);
+            glGetProgramResourceName(program.handle(), interface, static_cast<GLuint>(i), sizeof name,
+                                     nullptr, name);
+            glGetProgramResourceiv(program.handle(), interface, static_cast<GLuint>(i), 1, &property, 1,
+                                   nullptr, &offset);
             if (interface == GL_BUFFER_VARIABLE) {
-                glGetProgramResourceiv(program.handle(), interface, static_cast<GLuint>(i), 1, &stride_property, 1, nullptr,
-                                       &stride);
+                glGetProgramResourceiv(program.handle(), interface, static_cast<GLuint>(i), 1,
+                                       &stride_property, 1, nullptr, &stride);
                 strides_[name] = stride;
             }
             result[name] = offset;
