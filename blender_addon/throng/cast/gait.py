@@ -67,7 +67,7 @@ def foot_at(phase, build, stride):
     """One foot at a phase of its own cycle (0 = its heel's strike)."""
     phase %= 1.0
     # Where the ankle's ground point is when flat: symmetric about the pelvis over the flat phase, a little ahead at strike.
-    middle = 0.5 * (FLAT_FROM + FLAT_UNTIL) + 0.06
+    middle = 0.5 * (FLAT_FROM + FLAT_UNTIL) + 0.03
 
     def ground(t):
         return (middle - t) * stride
@@ -100,6 +100,8 @@ def walk_pose(phase, build, stride):
     # Highest over the standing leg, lowest in double support: the vault of an inverted pendulum.
     bob = -0.018 * math.cos(2.0 * tau * (phase - 0.02))
     height = 0.958 * leg + build.ankle + bob
+    for foot in (right, left):  # and never higher than the legs reach: small people dip more for the same stride
+        height = min(height, foot.ankle[1] + math.sqrt((0.995 * leg) ** 2 - foot.ankle[0] ** 2))
     sway = -0.022 * math.sin(tau * phase + 0.3)  # towards the standing leg (right leg stands in the first half)
     yaw = 0.075 * math.cos(tau * phase)          # the right hip is ahead when the right heel strikes
     swing = 0.36 * math.cos(tau * phase)

@@ -1,0 +1,264 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Bakes of the examples, judged from the written files alone."""
+import csv
+import hashlib
+import json
+import os
+import signal
+import struct
+import subprocess
+import time
+
+import numpy
+import pytest
+
+from conftest import EXAMPLES
+
+SMALL = {"throng": 1, "simulation": {"duration": 2},
+         "roads": [{"id": "road", "centreline": [[0, 0], [20, 0]], "width": 6}],
+         "walls": [{"points": [[8, -1], [12, 1]], "thickness": 0.2}],
+         "flows": [{"id": "f", "from": "road:start", "to": "road:end", "count": 30}],
+         "formations": [{"id": "ring", "type": "circle", "centre": [10, 12], "radius": 4, "count": 7}]}
+
+
+def streams(bake):
+    return {name: numpy.load(bake / "streams" / f"{name}.npy", mmap_mode="r") for name in ("pos", "dir", "state")}
+
+
+def table(bake):
+    with open(bake / "agents.csv", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def write(path, layout):
+    path.write_text(json.dumps(layout))
+    return path
+
+
+def deepest_overlap(bake, stride=3):
+    """Percent of the sum of radii, over all frames looked at; and the mean number of pairs deeper than 1 %."""
+    data = streams(bake)
+    radius = numpy.array([float(row["radius"]) for row in table(bake)])
+    worst, pairs, looked = 0.0, 0, 0
+    for frame in range(0, len(data["pos"]), stride):
+        alive = numpy.nonzero(data["state"][frame, :, 0] > 0.5)[0]
+        order = alive[numpy.argsort(data["pos"][frame, alive, 0])]
+        position, size = numpy.array(data["pos"][frame, order, :2]), radius[order]
+        looked += 1
+        for step in range(1, len(order)):
+            offset = position[step:] - position[:-step]
+            if offset[:, 0].min() > 2.0 * radius.max():
+                break
+            depth = 1.0 - numpy.hypot(offset[:, 0], offset[:, 1]) / (size[step:] + size[:-step])
+            worst = max(worst, float(depth.max(initial=0.0)))
+            pairs += int((depth > 0.01).sum())
+    return 100.0 * worst, pairs / max(looked, 1)
+
+
+def crossings(bake, manifest):
+    """How often a straight line between two frames of one person crosses a wall's axis or outline; and the deepest body in one (m)."""
+    data = streams(bake)
+    radius = numpy.array([float(row["radius"]) for row in table(bake)])
+    count, deepest = 0, -1.0
+    for wall in manifest["geometry"]["walls"]:
+        points = wall["points"] + (wall["points"][:1] if wall["closed"] else [])
+        half = 0.0 if wall["closed"] else 0.5 * wall["thickness"]
+        for a, b in zip(numpy.array(points[:-1]), numpy.array(points[1:])):
+            axis = b - a
+            for frame in range(1, len(data["pos"])):
+                alive = (data["state"][frame, :, 0] > 0.5) & (data["state"][frame - 1, :, 0] > 0.5)
+                p, q = data["pos"][frame - 1, alive, :2], data["pos"][frame, alive, :2]
+                side = lambda x: axis[0] * (x[:, 1] - a[1]) - axis[1] * (x[:, 0] - a[0])
+                before, after = side(p), side(q)
+                changed = before * after < 0.0
+                if changed.any():
+                    at = p[changed] + (q - p)[changed] * (before / (before - after))[changed, None]
+                    along = (at - a) @ axis / (axis @ axis)
+                    count += int(((along >= 0.0) & (along <= 1.0)).sum())
+                if frame % 4 == 0 and len(q):
+                    along = numpy.clip((q - a) @ axis / (axis @ axis), 0.0, 1.0)
+                    distance = numpy.hypot(*(q - (a + along[:, None] * axis)).T)
+                    deepest = max(deepest, float((radius[alive] + half - distance).max()))
+    return count, deepest
+
+
+@pytest.mark.parametrize("name, arrived, people", [("circle", 0.99, 256), ("bidirectional", 0.95, 2048), ("intersection", 0.95, 1024)])
+def test_the_examples_arrive_and_nobody_sinks_into_anybody(bakes, manifest_of, name, arrived, people):
+    bake = bakes(name)
+    account = manifest_of(bake)["account"]
+    rows = table(bake)
+    assert account["agents"] == len(rows) == people
+    assert sum(row["outcome"] == "arrived" for row in rows) == account["arrived"] >= arrived * people
+    assert account["walking"] + account["arrived"] + account["refused"] == people
+    deepest, pairs = deepest_overlap(bake)
+    print(f"{name}: {account['arrived']} of {people} arrived, deepest overlap {deepest:.2f} %, {pairs:.3f} pairs a frame")
+    assert deepest < 5.0
+
+
+def test_the_accounts_arrivals_are_where_the_goal_is(bakes, manifest_of):
+    bake = bakes("circle")
+    last = streams(bake)["pos"][-1]
+    for row, end in zip(table(bake), last):
+        if row["outcome"] == "arrived":
+            assert numpy.hypot(end[0] - float(row["goal_x"]), end[1] - float(row["goal_y"])) < 1.0
+
+
+def test_nobody_passes_through_a_wall(bakes, manifest_of):
+    count, deepest = crossings(bakes("intersection"), manifest_of(bakes("intersection")))
+    assert count == 0
+    assert deepest < 0.01, "metres"
+
+
+def test_people_turn_smoothly_and_keep_to_their_speed(bakes):
+    data = streams(bakes("intersection"))
+    alive = data["state"][:, :, 0] > 0.5
+    both = alive[1:] & alive[:-1]
+    heading = numpy.arctan2(data["dir"][:, :, 1], data["dir"][:, :, 0])
+    turn = numpy.abs((numpy.diff(heading, axis=0) + numpy.pi) % (2 * numpy.pi) - numpy.pi)[both] * 24.0
+    assert numpy.degrees(numpy.percentile(turn, 99)) < 180.0
+    step = numpy.hypot(*numpy.moveaxis(numpy.diff(data["pos"][:, :, :2], axis=0), 2, 0))[both] * 24.0
+    assert numpy.percentile(step, 99) < 1.9 * 1.4 * 1.05
+    phase = numpy.diff(data["state"][:, :, 2], axis=0)[both]
+    assert phase.min() >= 0.0
+
+
+def test_the_streams_have_the_promised_shape_in_both_formats(bakes, manifest_of):
+    bake = bakes("intersection")
+    manifest = manifest_of(bake)
+    for name in ("pos", "dir", "state"):
+        array = numpy.load(bake / "streams" / f"{name}.npy", mmap_mode="r")
+        assert array.dtype == numpy.float32 and array.shape == (manifest["frames"], manifest["agents"], 3)
+        assert numpy.isfinite(array).all()
+        with open(bake / "streams" / f"{name}.pc2", "rb") as file:
+            magic, version, points, start, rate, samples = struct.unpack("<12siiffi", file.read(32))
+            assert (magic, version, points, start, rate, samples) == (b"POINTCACHE2\0", 1, manifest["agents"], 1.0, 1.0, manifest["frames"])
+            assert numpy.array_equal(numpy.fromfile(file, "<f4").reshape(array.shape), array)
+
+
+def test_rows_hold_still_before_they_enter_and_after_they_leave(bakes):
+    data = streams(bakes("intersection"))
+    alive = data["state"][:, :, 0] > 0.5
+    for row in range(0, alive.shape[1], 37):
+        frames = numpy.nonzero(alive[:, row])[0]
+        first, last = frames[0], frames[-1]
+        assert (data["pos"][:first, row] == data["pos"][first, row]).all()
+        assert numpy.abs(data["pos"][last + 1:, row] - data["pos"][min(last + 1, len(alive) - 1), row]).max(initial=0.0) == 0.0
+
+
+def digest(bake):
+    return {name: hashlib.sha256((bake / "streams" / name).read_bytes()).hexdigest() for name in ("pos.npy", "dir.pc2", "state.npy")}
+
+
+def test_the_same_layout_and_seed_give_the_same_bytes(throng, tmp_path):
+    layout = write(tmp_path / "small.json", SMALL)
+    for name, seed in (("a", 1), ("b", 1), ("c", 2)):
+        throng("bake", layout, "-o", tmp_path / name, "-q", "--no-gltf", "--set", f"simulation.seed={seed}")
+    assert digest(tmp_path / "a") == digest(tmp_path / "b") != digest(tmp_path / "c")
+
+
+def test_both_diagram_methods_give_the_same_bytes(throng, tmp_path):
+    layout = write(tmp_path / "small.json", SMALL)
+    for method in ("per-site", "gradient1"):
+        throng("bake", layout, "-o", tmp_path / method, "-q", "--no-gltf", "--set", f"simulation.method={method}")
+    assert digest(tmp_path / "per-site") == digest(tmp_path / "gradient1")
+
+
+def test_coordinates_of_utm_size_bake_as_exactly_as_small_ones(throng, tmp_path, manifest_of):
+    moved = json.loads(json.dumps(SMALL))
+    dx, dy = 395131, 5268347
+    for item in moved["roads"]:
+        item["centreline"] = [[x + dx, y + dy] for x, y in item["centreline"]]
+    for item in moved["walls"]:
+        item["points"] = [[x + dx, y + dy] for x, y in item["points"]]
+    moved["formations"][0]["centre"] = [10 + dx, 12 + dy]
+    for name, layout in (("near", SMALL), ("far", moved)):
+        throng("bake", write(tmp_path / f"{name}.json", layout), "-o", tmp_path / name, "-q", "--no-gltf")
+    near, far = streams(tmp_path / "near"), streams(tmp_path / "far")
+    for name in ("dir", "state"):
+        assert numpy.array_equal(near[name], far[name])
+    origin = numpy.array(manifest_of(tmp_path / "far")["origin"])
+    world = far["pos"].astype(float) + origin - (dx, dy, 0)
+    assert numpy.abs(world - near["pos"]).max() < 1e-5
+    assert abs(float(table(tmp_path / "far")[0]["goal_x"]) - float(table(tmp_path / "near")[0]["goal_x"]) - dx) < 1e-6
+
+
+def test_a_bake_is_never_overwritten_without_force(throng, tmp_path):
+    layout = write(tmp_path / "small.json", SMALL)
+    throng("bake", layout, "-o", tmp_path / "out", "-q", "--no-gltf")
+    refused = throng("bake", layout, "-o", tmp_path / "out", "-q", expect=5)
+    assert "force" in refused.stderr
+    throng("bake", layout, "-o", tmp_path / "out", "-q", "--no-gltf", "--force")
+    assert [path.name for path in tmp_path.iterdir() if "tmp" in path.name] == []
+
+
+def test_a_full_disk_is_a_clear_error_and_leaves_nothing(throng, tmp_path):
+    mount = tmp_path / "disk"
+    mount.mkdir()
+    if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=300k", "none", str(mount)], capture_output=True).returncode != 0:
+        pytest.skip("no right to mount a small disk here")
+    try:
+        failed = throng("bake", write(tmp_path / "small.json", SMALL), "-o", mount / "out", "-q", expect=5)
+        assert "No space left" in failed.stderr
+        assert list(mount.iterdir()) == []
+    finally:
+        subprocess.run(["umount", str(mount)], check=True)
+
+
+def test_ctrl_c_keeps_what_there_is(throng, tmp_path, manifest_of):
+    process = subprocess.Popen([throng.binary, "bake", str(EXAMPLES / "circle.json"), "-o", str(tmp_path / "out"), "--no-gltf", "--json"],
+                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    while '"frame": ' not in process.stderr.readline():
+        assert process.poll() is None
+    time.sleep(0.5)
+    process.send_signal(signal.SIGINT)
+    process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert not (tmp_path / "out").exists()
+    manifest = manifest_of(tmp_path / "out.partial")
+    assert manifest["complete"] is False and 0 < manifest["frames"] < 2400
+    assert len(numpy.load(tmp_path / "out.partial" / "streams" / "pos.npy", mmap_mode="r")) == manifest["frames"]
+    throng("info", tmp_path / "out.partial", "--verify")
+
+
+def test_info_says_what_is_wrong_with_a_damaged_bake(throng, tmp_path):
+    throng("bake", write(tmp_path / "small.json", SMALL), "-o", tmp_path / "out", "-q", "--no-gltf")
+    assert "verified" in throng("info", tmp_path / "out", "--verify").stdout
+    stream = tmp_path / "out" / "streams" / "pos.pc2"
+    os.truncate(stream, stream.stat().st_size - 5)
+    assert "pos.pc2" in throng("info", tmp_path / "out", "--verify", expect=3).stderr
+
+
+def test_the_command_line_speaks_clearly(throng, tmp_path):
+    assert "did you mean `bake`?" in throng("bkae", expect=2).stderr
+    assert "did you mean `--force`?" in throng("bake", "x.json", "--fource", expect=2).stderr
+    wrong = write(tmp_path / "wrong.json", {"throng": 1, "roads": [{"id": "r", "centreline": [[0, 0], [5, 0]], "widht": 3}]})
+    told = throng("check", wrong, expect=3)
+    assert "wrong.json:1:" in told.stderr and "did you mean `width`?" in told.stderr
+    assert json.loads(throng("check", wrong, "--json", expect=3).stdout)[0]["diagnostics"][0]["pointer"] == "/roads/0/widht"
+    assert "No such file" in throng("check", tmp_path / "absent.json", expect=3).stderr
+    assert throng("bake", wrong, "-o", tmp_path / "nothing", expect=3).returncode == 3
+    assert not (tmp_path / "nothing").exists()
+    for command in ("bake", "check", "info", "preview", "schema", "devices"):
+        assert command in throng("--help").stdout
+        assert "Example" in throng(command, "--help").stdout or command == "schema"
+
+
+def test_a_machine_without_drivers_gets_one_clear_message(throng, tmp_path):
+    empty = tmp_path / "no-drivers"
+    empty.mkdir()
+    environment = {**os.environ, "__EGL_VENDOR_LIBRARY_DIRS": str(empty), "__EGL_VENDOR_LIBRARY_FILENAMES": ""}
+    failed = throng("devices", expect=4, env=environment)
+    assert "apt-get install" in failed.stderr and "libgl1-mesa-dri" in failed.stderr
+    assert throng("bake", EXAMPLES / "circle.json", "-o", tmp_path / "out", expect=4, env=environment).returncode == 4
+    assert not (tmp_path / "out").exists()
+
+
+def test_previews_are_drawn(throng, bakes, tmp_path):
+    throng("preview", bakes("intersection"), "-o", tmp_path / "p.png", "--frame", "900", "--width", "700")
+    content = (tmp_path / "p.png").read_bytes()
+    assert content[:8] == b"\x89PNG\r\n\x1a\n" and struct.unpack(">I", content[16:20])[0] == 700
+    assert "there is no frame" in throng("preview", bakes("intersection"), "-o", tmp_path / "q.png", "--frame", "99999", expect=3).stderr
+    small = write(tmp_path / "small.json", SMALL)
+    throng("bake", small, "-o", tmp_path / "small", "-q", "--no-gltf")
+    throng("preview", tmp_path / "small", "-o", tmp_path / "film.mp4", "--width", "320")
+    assert (tmp_path / "film.mp4").read_bytes()[4:8] == b"ftyp"

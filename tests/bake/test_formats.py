@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The written files through other people's readers: Khronos' validator, Blender, OpenImageIO, OpenEXR."""
+import json
+import os
+import shutil
+import subprocess
+
+import numpy
+import pytest
+
+from conftest import ROOT
+
+VALIDATE = """
+const fs = require('fs'), path = require('path');
+const validator = require(path.join(process.env.THRONG_NODE_MODULES, 'gltf-validator'));
+validator.validateBytes(new Uint8Array(fs.readFileSync(process.argv[1]))).then(report => console.log(JSON.stringify(report.issues)));
+"""
+
+
+def test_crowd_glb_has_no_errors_in_the_khronos_validator(bakes):
+    modules = os.environ.get("THRONG_NODE_MODULES", str(ROOT / "build" / "node" / "node_modules"))
+    if not os.path.isdir(os.path.join(modules, "gltf-validator")):
+        pytest.skip("the npm package gltf-validator is not installed")
+    glb = bakes("intersection") / "crowd.glb"
+    result = subprocess.run(["node", "-e", VALIDATE, str(glb)], capture_output=True, text=True, env={**os.environ, "THRONG_NODE_MODULES": modules})
+    issues = json.loads(result.stdout)
+    assert issues["numErrors"] == 0, issues["messages"][:5]
+    assert issues["numWarnings"] == 0, issues["messages"][:5]
+
+
+def test_crowd_glb_imports_in_blender_where_the_people_are(bakes, blender, tmp_path):
+    script = tmp_path / "gltf.py"
+    script.write_text("""
+import bpy, json, sys
+import numpy
+numpy.bool = bool  # Blender 3.4's importer still uses the name
+bpy.ops.wm.read_factory_settings(use_empty=True)
+bpy.context.scene.render.fps = 24
+bpy.ops.import_scene.gltf(filepath=sys.argv[-1])
+scene = bpy.context.scene
+scene.frame_set(720)  # glTF time 0 is Blender frame 0
+depsgraph = bpy.context.evaluated_depsgraph_get()
+objects = [o.evaluated_get(depsgraph) for o in bpy.data.objects if o.animation_data]
+print('RESULT', json.dumps([[o.name, *o.matrix_world.translation, o.matrix_world.to_scale()[0]] for o in objects]))
+""")
+    bake = bakes("intersection")
+    output = blender(script, bake / "crowd.glb")
+    objects = json.loads(next(line for line in output.splitlines() if line.startswith("RESULT"))[7:])
+    position = numpy.load(bake / "streams" / "pos.npy", mmap_mode="r")[720]
+    alive = numpy.load(bake / "streams" / "state.npy", mmap_mode="r")[720, :, 0] > 0.5
+    found = numpy.array([[x, y] for _, x, y, _, scale in objects if scale > 0.5])
+    expected = position[alive][:, :2]
+    assert abs(len(found) - len(expected)) <= 0.02 * len(expected)
+    nearest = numpy.array([numpy.hypot(*(expected - point).T).min() for point in found])
+    assert numpy.percentile(nearest, 99) < 0.02, "metres"
+
+
+def test_diagram_ids_agree_with_the_positions(bakes):
+    if not shutil.which("oiiotool"):
+        pytest.skip("oiiotool is not installed")
+    bake = bakes("intersection")
+    images = sorted((bake / "diagrams").glob("diagram.*.exr"))
+    assert [path.name for path in images][:2] == ["diagram.0001.exr", "diagram.0481.exr"]
+    for path in images:
+        stats = subprocess.run(["oiiotool", "--stats", str(path)], capture_output=True, text=True)
+        assert stats.returncode == 0, stats.stderr
+    text = subprocess.run(["oiiotool", "--info", "-v", str(images[1])], capture_output=True, text=True).stdout
+    for word in ("id", "kind", "distance", "framesPerSecond", "throng"):
+        assert word in text
+
+
+def test_diagrams_read_by_the_openexr_library_show_who_stands_where(bakes, manifest_of):
+    OpenEXR = pytest.importorskip("OpenEXR")
+    bake = bakes("intersection")
+    manifest = manifest_of(bake)
+    position = numpy.load(bake / "streams" / "pos.npy", mmap_mode="r")
+    state = numpy.load(bake / "streams" / "state.npy", mmap_mode="r")
+    seen = 0
+    for frame in (480, 960):
+        with OpenEXR.File(str(bake / "diagrams" / f"diagram.{frame + 1:04d}.exr"), separate_channels=True) as file:
+            channels = {name: channel.pixels for name, channel in file.channels().items()}
+        ids, kind, distance = channels["id"], channels["kind"], channels["distance"]
+        assert ids.dtype == numpy.uint32 and kind.dtype == numpy.uint32 and distance.dtype == numpy.float32
+        assert set(numpy.unique(kind)) <= {0, 1, 2} and (ids[kind == 0] == 0xFFFFFFFF).all() and (distance[kind == 0] == -1).all()
+        height = ids.shape[0]
+        low, scale = numpy.array(manifest["diagrams"]["min"]), manifest["diagrams"]["pixels_per_metre"]
+        # Every owned pixel: its distance is that of its centre from its owner, who is the nearest person alive.
+        rows, columns = numpy.nonzero(kind == 1)
+        centres = low + (numpy.stack([columns, height - 1 - rows], axis=1) + 0.5) / scale
+        owners = ids[rows, columns]
+        assert (state[frame, owners, 0] > 0.5).all()
+        measured = numpy.hypot(*(centres - position[frame, owners, :2]).T)
+        assert numpy.abs(measured - distance[rows, columns]).max() < 1e-3
+        alive = position[frame, state[frame, :, 0] > 0.5, :2]
+        for index in range(0, len(rows), 97):
+            assert measured[index] <= numpy.hypot(*(alive - centres[index]).T).min() + 1e-3
+            seen += 1
+        assert (kind == 2).any()
+    assert seen > 100

@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The add-on in a real Blender: playback against the arrays, farms without the add-on, errors, installation."""
+import json
+import math
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+import numpy
+import pytest
+
+from conftest import ROOT
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+sys.path.insert(0, str(ROOT / "blender_addon"))
+from sample_bake import write_bake  # noqa: E402
+from throng import formats  # noqa: E402
+
+ADDON = ROOT / "blender_addon"
+POSES = 24
+
+
+def result_of(output):
+    return json.loads(next(line for line in output.splitlines() if line.startswith("RESULT "))[7:])
+
+
+def wrapped(angle):
+    return abs((angle + math.pi) % (2.0 * math.pi) - math.pi)
+
+
+def expected_pose(state, direction, row):
+    pose = POSES if direction[row, 2] <= 0.1 else min(POSES - 1, int(math.floor((state[row, 2] % 1.0) * POSES)))
+    return f"throng_v{int(state[row, 1]):02d}_p{pose:02d}"
+
+
+def test_instances_are_where_the_arrays_say_at_frames_and_between(blender, tmp_path):
+    pos, direction, state = write_bake(tmp_path / "bake")
+    times = [(1, 0.0), (30, 0.0), (11, 0.5), (2, 0.25), (40, 0.0), (26, 0.6), (5, 0.0), (500, 0.0), (18, 0.75)]
+    result = result_of(blender(pathlib.Path(__file__).parent / "check_playback.py", ADDON, tmp_path / "bake", json.dumps(times)))
+    assert result["fps"] == 24.0 and result["range"] == [1, 40]
+    for shot in result["shots"]:
+        t = min(max(shot["frame"] + shot["sub"] - 1.0, 0.0), 39.0)
+        low, high = int(math.floor(t)), min(int(math.floor(t)) + 1, 39)
+        blend = t - low
+        # `state` is read without interpolation, at the nearest frame; a half may go either way
+        nearest = [k for k in {int(math.floor(t + 0.5)), int(math.ceil(t - 0.5))} if 0 <= k < 40]
+        people = {int(row): values for row, values in shot["people"].items()}
+        assert set(people) in [set(numpy.nonzero(state[k, :, 0] > 0.5)[0]) for k in nearest]
+        for row, (name, x, y, heading) in people.items():
+            at = pos[low, row] * (1.0 - blend) + pos[high, row] * blend
+            assert math.hypot(at[0] - x, at[1] - y) < 1e-5
+            facing = direction[low, row] * (1.0 - blend) + direction[high, row] * blend
+            assert wrapped(math.atan2(facing[1], facing[0]) - heading) < 1e-4
+            assert name in [expected_pose(state[k], direction[low], row) for k in nearest]
+
+
+def test_the_pose_does_not_change_while_the_shutter_is_open(blender, tmp_path):
+    write_bake(tmp_path / "bake")
+    times = [(frame, sub) for frame in (8, 19, 33) for sub in (0.0,)] + [(frame - 1, 0.76) for frame in (8, 19, 33)] + [(frame, 0.24) for frame in (8, 19, 33)]
+    shots = {(s["frame"], s["sub"]): s["people"] for s in result_of(blender(pathlib.Path(__file__).parent / "check_playback.py", ADDON, tmp_path / "bake",
+                                                                          json.dumps(times)))["shots"]}
+    for frame in (8, 19, 33):
+        middle = {row: values[0] for row, values in shots[(frame, 0.0)].items()}
+        for other in ((frame - 1, 0.76), (frame, 0.24)):
+            assert {row: values[0] for row, values in shots[other].items()} == middle
+
+
+def test_a_saved_scene_renders_without_the_add_on_and_after_moving(blender, tmp_path):
+    write_bake(tmp_path / "shot" / "bake")
+    blender(ROOT / "scripts" / "render_bake.py", tmp_path / "shot" / "bake", tmp_path / "with.png", "--engine", "workbench", "--width", 320, "--height", 180,
+            "--samples", 1, "--frame", 20, "--save", tmp_path / "shot" / "scene.blend")
+    shutil.move(str(tmp_path / "shot"), str(tmp_path / "farm"))
+    script = tmp_path / "farm.py"
+    script.write_text("""
+import bpy, sys
+assert not hasattr(bpy.types, 'IMPORT_SCENE_OT_throng') and 'throng' not in sys.modules
+caches = [m.filepath for o in bpy.data.objects for m in o.modifiers if m.type == 'MESH_CACHE']
+assert len(caches) == 3 and all(path.startswith('//') for path in caches), caches
+bpy.context.scene.render.filepath = sys.argv[-1]
+bpy.ops.render.render(write_still=True)
+""")
+    blender(script, tmp_path / "without.png", blend=tmp_path / "farm" / "scene.blend")
+    compare = subprocess.run([blender.program, "-b", "--factory-startup", "--python-exit-code", "1", "--python-expr", f"""
+import bpy
+a, b = (bpy.data.images.load(path) for path in ({str(tmp_path / 'with.png')!r}, {str(tmp_path / 'without.png')!r}))
+pixels, others = list(a.pixels), list(b.pixels)
+assert len(pixels) == len(others) == 320 * 180 * 4
+assert max(abs(x - y) for x, y in zip(pixels, others)) < 0.02
+assert len(set(round(x, 2) for x in pixels)) > 20, 'nothing to see'
+"""], capture_output=True, text=True)
+    assert compare.returncode == 0, compare.stdout[-2000:] + compare.stderr[-2000:]
+
+
+@pytest.mark.parametrize("damage, words", [
+    (lambda bake: (bake / "streams" / "pos.pc2").unlink(), "cannot be read"),
+    (lambda bake: os.truncate(bake / "streams" / "dir.pc2", 5000), "truncated"),
+    (lambda bake: (bake / "bake.json").write_text("{"), "not JSON"),
+    (lambda bake: (bake / "bake.json").write_text("{}"), "not the manifest"),
+    (lambda bake: (bake / "bake.json").write_text((bake / "bake.json").read_text().replace('"version": 1', '"version": 9')), "update the add-on"),
+    (lambda bake: (bake / "bake.json").write_text((bake / "bake.json").read_text().replace('"agents": 63', '"agents": 64')), "different bakes")])
+def test_broken_bakes_are_refused_with_one_clear_sentence(tmp_path, damage, words):
+    write_bake(tmp_path / "bake")
+    formats.load_bake(str(tmp_path / "bake"))
+    damage(tmp_path / "bake")
+    with pytest.raises(formats.BakeError, match=words):
+        formats.load_bake(str(tmp_path / "bake"))
+
+
+def test_the_operator_reports_errors_and_changes_nothing(blender, tmp_path):
+    script = tmp_path / "broken.py"
+    script.write_text("""
+import bpy, sys
+sys.path.insert(0, sys.argv[-2])
+import throng
+bpy.ops.wm.read_factory_settings(use_empty=True)
+throng.register()
+before = len(bpy.data.objects), len(bpy.data.collections), len(bpy.data.meshes)
+try:
+    bpy.ops.import_scene.throng(filepath=sys.argv[-1])
+    raise SystemExit('no error was reported')
+except RuntimeError as error:
+    assert 'cannot be read' in str(error) and 'Traceback' not in str(error), error
+assert before == (len(bpy.data.objects), len(bpy.data.collections), len(bpy.data.meshes))
+throng.unregister()
+assert not hasattr(bpy.types, 'IMPORT_SCENE_OT_throng')
+""")
+    blender(script, ADDON, tmp_path / "absent" / "bake.json")
+
+
+def test_the_zip_installs(blender, tmp_path):
+    archive = tmp_path / "throng.zip"
+    subprocess.run([sys.executable, str(ROOT / "scripts" / "build_addon.py"), str(archive)], check=True)
+    script = tmp_path / "install.py"
+    script.write_text("""
+import bpy, sys
+bpy.ops.preferences.addon_install(filepath=sys.argv[-1])
+bpy.ops.preferences.addon_enable(module='throng')
+assert hasattr(bpy.types, 'IMPORT_SCENE_OT_throng')
+""")
+    blender(script, archive, environment={"BLENDER_USER_SCRIPTS": str(tmp_path / "scripts"), "BLENDER_USER_CONFIG": str(tmp_path / "config")})
+
+
+def test_a_real_bake_imports_and_its_caches_equal_the_arrays(blender, bakes, tmp_path):
+    bake = bakes("intersection")
+    script = tmp_path / "real.py"
+    script.write_text("""
+import bpy, json, os, sys
+sys.path.insert(0, sys.argv[-2])
+import throng
+bpy.ops.wm.read_factory_settings(use_empty=True)
+throng.register()
+bpy.ops.import_scene.throng(filepath=os.path.join(sys.argv[-1], 'bake.json'))
+scene = bpy.context.scene
+assert scene.camera and scene.world and any(o.type == 'LIGHT' for o in bpy.data.objects)
+crowd = bpy.data.objects['Throng intersection crowd']
+crowd.modifiers['throng people'].show_viewport = False
+result = []
+for frame in (1, 700, 1400):
+    scene.frame_set(frame)
+    mesh = crowd.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+    result.append([list(v.co) for v in mesh.vertices])
+print('RESULT ' + json.dumps(result))
+""")
+    frames = result_of(blender(script, ADDON, bake))
+    stored = numpy.load(bake / "streams" / "pos.npy", mmap_mode="r")
+    for frame, found in zip((0, 699, 1399), frames):
+        assert numpy.abs(numpy.array(found) - stored[frame]).max() < 1e-5

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What all Python tests share: the binary, bakes of the examples (each made once), and where other tools are."""
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+EXAMPLES = ROOT / "examples"
+
+
+@pytest.fixture(scope="session")
+def throng():
+    """Runs the command line: throng("bake", ...) returns the finished process."""
+    binary = os.environ.get("THRONG_BINARY", str(ROOT / "build" / "release" / "throng"))
+    if not os.path.exists(binary):
+        pytest.skip(f"{binary} is not built")
+
+    def run(*arguments, expect=0, **options):
+        process = subprocess.run([binary, *map(str, arguments)], capture_output=True, text=True, **options)
+        if expect is not None:
+            assert process.returncode == expect, process.stderr + process.stdout
+        return process
+
+    run.binary = binary
+    return run
+
+
+@pytest.fixture(scope="session")
+def bakes(throng, tmp_path_factory):
+    """bakes("intersection") is the folder of that example's bake."""
+    folder = tmp_path_factory.mktemp("bakes")
+    made = {}
+
+    def bake(name):
+        if name not in made:
+            extra = ["--diagrams", "480"] if name == "intersection" else ["--no-gltf"]
+            throng("bake", EXAMPLES / f"{name}.json", "-o", folder / name, "-q", *extra)
+            made[name] = folder / name
+        return made[name]
+
+    return bake
+
+
+@pytest.fixture(scope="session")
+def blender():
+    """Runs a Python script in Debian's Blender, in an empty scene, with the add-on's folder on the path."""
+    program = shutil.which("blender")
+    if not program:
+        pytest.skip("Blender is not installed")
+
+    def run(script, *arguments, blend=None, factory=True, environment=None):
+        command = [program, "-b"] + (["--factory-startup"] if factory else []) + ([str(blend)] if blend else [])
+        command += ["--python-exit-code", "1", "-P", str(script), "--", *map(str, arguments)]
+        process = subprocess.run(command, capture_output=True, text=True, env={**os.environ, **(environment or {})})
+        assert process.returncode == 0, process.stdout[-4000:] + process.stderr[-4000:]
+        return process.stdout
+
+    run.program = program
+    return run
+
+
+@pytest.fixture(scope="session")
+def manifest_of():
+    return lambda bake: json.loads((pathlib.Path(bake) / "bake.json").read_text())
