@@ -72,7 +72,8 @@ def crossings(bake, manifest):
                 before, after = side(p), side(q)
                 changed = before * after < 0.0
                 if changed.any():
-                    at = p[changed] + (q - p)[changed] * (before / (before - after))[changed, None]
+                    share = before[changed] / (before[changed] - after[changed])
+                    at = p[changed] + (q - p)[changed] * share[:, None]
                     along = (at - a) @ axis / (axis @ axis)
                     count += int(((along >= 0.0) & (along <= 1.0)).sum())
                 if frame % 4 == 0 and len(q):
@@ -194,7 +195,7 @@ def test_a_bake_is_never_overwritten_without_force(throng, tmp_path):
 def test_a_full_disk_is_a_clear_error_and_leaves_nothing(throng, tmp_path):
     mount = tmp_path / "disk"
     mount.mkdir()
-    if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=300k", "none", str(mount)], capture_output=True).returncode != 0:
+    if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64k", "none", str(mount)], capture_output=True).returncode != 0:
         pytest.skip("no right to mount a small disk here")
     try:
         failed = throng("bake", write(tmp_path / "small.json", SMALL), "-o", mount / "out", "-q", expect=5)

@@ -85,3 +85,12 @@ def test_both_refuse_what_is_wrong(schema, throng, tmp_path, change):
     path = tmp_path / "layout.json"
     path.write_text(json.dumps(layout))
     throng("check", path, expect=3)
+
+
+def test_the_reference_page_is_the_schemas():
+    import subprocess
+    import sys
+
+    from conftest import ROOT
+
+    subprocess.run([sys.executable, str(ROOT / "scripts" / "layout_reference.py"), "--check"], check=True)

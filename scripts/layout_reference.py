@@ -1,0 +1,77 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Writes docs/layout.md from the schema. Usage: layout_reference.py [--check]"""
+import json
+import pathlib
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+INTRO = """# Layouts
+
+A layout is a JSON file for `throng bake`: metres, seconds, degrees counter-clockwise from +x. World coordinates may be as large as UTM's.
+Point your editor at the schema (`"$schema"`, or `throng schema`) and it completes and checks while you type; `throng check` says everything
+that is wrong in one go. This page is made from the schema by `scripts/layout_reference.py`.
+
+    {
+      "throng": 1,
+      "simulation": {"duration": 20, "seed": 7},
+      "roads": [{"id": "street", "centreline": [[-30, 0], [30, 0]], "width": 8}],
+      "walls": [{"points": [[-5, 1], [5, 1]], "thickness": 0.3}],
+      "flows": [{"id": "commuters", "from": "street:start", "to": "street:end", "count": 120}]
+    }
+
+A **place** is an area's id, or a road's id with `:start` or `:end`. A **distribution** is a number, `{"uniform": [least, most]}` or
+`{"normal": [mean, deviation], "min": ..., "max": ...}`. With a warm-up, flows that start at 0 start at its beginning.
+"""
+SECTIONS = [("simulation", "Simulation"), ("road", "Roads"), ("area", "Areas"), ("wall", "Walls"), ("flow", "Flows"), ("formation", "Formations"),
+            ("people", "People (in flows and formations)")]
+
+
+def kind_of(rule):
+    if "$ref" in rule:
+        return rule["$ref"].rsplit("/", 1)[1]
+    if "enum" in rule:
+        return ", ".join(f"`{value}`" for value in rule["enum"])
+    if "oneOf" in rule:
+        return "number or distribution" if rule["oneOf"][0].get("type") == "number" else "place or object"
+    if rule.get("type") == "array":
+        return f"array of {kind_of(rule['items'])}" if isinstance(rule.get("items"), dict) else "array"
+    return rule.get("type", "")
+
+
+def range_of(rule):
+    if "oneOf" in rule and rule["oneOf"][0].get("type") == "number":
+        rule = rule["oneOf"][0]
+    least, above, most = rule.get("minimum"), rule.get("exclusiveMinimum"), rule.get("maximum")
+    parts = [f"> {above:g}"] if above is not None else [f">= {least:g}"] if least is not None else []
+    return " and ".join(parts + ([f"<= {most:.16g}"] if most is not None else []))
+
+
+def table(definition):
+    lines = ["| key | type | range | default | meaning |", "| --- | --- | --- | --- | --- |"]
+    for name, rule in definition["properties"].items():
+        default = f"`{json.dumps(rule['default'])}`" if "default" in rule else "required" if name in definition.get("required", []) else ""
+        meaning = rule.get("description", "See People." if rule.get("$ref", "").endswith("people") else "[x, y], m.")
+        lines.append(f"| `{name}` | {kind_of(rule)} | {range_of(rule)} | {default} | {meaning} |")
+    return "\n".join(lines)
+
+
+def page():
+    schema = json.loads((ROOT / "authoring/layout/throng-layout.schema.json").read_text())
+    parts = [INTRO]
+    for key, title in SECTIONS:
+        definition = schema["properties"]["simulation"] if key == "simulation" else schema["definitions"][key]
+        parts.append(f"## {title}\n\n{definition['description']}\n\n{table(definition)}\n")
+    return "\n".join(parts)
+
+
+def main():
+    target = ROOT / "docs/layout.md"
+    if "--check" in sys.argv:
+        if target.read_text() != page():
+            sys.exit("docs/layout.md is not what the schema says: run scripts/layout_reference.py")
+        return
+    target.write_text(page())
+
+
+main()
