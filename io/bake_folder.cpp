@@ -29,7 +29,7 @@ std::string randomSuffix() {
 /// Creates `BASE.tmp-XXXXXX` with the permissions that the user's umask gives to new folders.
 fs::path createTemporary(const fs::path& base) {
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
-        const fs::path path = base.string() + ".tmp-" + randomSuffix();
+        fs::path path = base.string() + ".tmp-" + randomSuffix();
         if (::mkdir(path.c_str(), 0777) == 0) return path;
         if (errno != EEXIST) throw OutputError(path, "create", errno);
     }
@@ -66,7 +66,7 @@ bool renameNoReplace(const fs::path& from, const fs::path& to) {
 fs::path exchange(const fs::path& fresh, const fs::path& old) {
     if (::renameat2(AT_FDCWD, fresh.c_str(), AT_FDCWD, old.c_str(), RENAME_EXCHANGE) == 0) return fresh;
     if (errno != EINVAL && errno != ENOSYS) throw OutputError(old, "replace", errno);
-    const fs::path aside = old.string() + ".old-" + randomSuffix();
+    fs::path aside = old.string() + ".old-" + randomSuffix();
     if (::rename(old.c_str(), aside.c_str()) != 0) throw OutputError(old, "move aside", errno);
     if (::rename(fresh.c_str(), old.c_str()) != 0) {
         const int reason = errno;
@@ -109,7 +109,7 @@ BakeFolder::~BakeFolder() {
 }
 
 fs::path BakeFolder::addFolder(const fs::path& name) {
-    const fs::path path = temporary_ / name;
+    fs::path path = temporary_ / name;
     if (::mkdir(path.c_str(), 0777) != 0) throw OutputError(path, "create", errno);
     return path;
 }
@@ -142,7 +142,7 @@ fs::path BakeFolder::commit() {
 fs::path BakeFolder::commitPartial() {
     syncAll();
     for (int attempt = 1; attempt <= kAttempts; ++attempt) {
-        const fs::path partial =
+        fs::path partial =
             final_.string() + ".partial" + (attempt > 1 ? fmt::format("-{}", attempt) : "");
         if (!renameNoReplace(temporary_, partial)) continue;
         forget();
