@@ -142,8 +142,7 @@ fs::path BakeFolder::commit() {
 fs::path BakeFolder::commitPartial() {
     syncAll();
     for (int attempt = 1; attempt <= kAttempts; ++attempt) {
-        fs::path partial =
-            final_.string() + ".partial" + (attempt > 1 ? fmt::format("-{}", attempt) : "");
+        fs::path partial = final_.string() + ".partial" + (attempt > 1 ? fmt::format("-{}", attempt) : "");
         if (!renameNoReplace(temporary_, partial)) continue;
         forget();
         syncFolder(parentOf(final_));
