@@ -6,38 +6,10 @@
 #include <algorithm>
 #include <vector>
 
+#include "authoring/layout/words.h"
+
 namespace throng::cli {
 namespace {
-
-/// Insertions, deletions and replacements between two words (Levenshtein 1966).
-std::size_t editDistance(const std::string& a, const std::string& b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j)
-        row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
-        }
-    }
-    return row[b.size()];
-}
-
-std::string nearest(const std::string& word, const std::vector<std::string>& known) {
-    std::string best;
-    std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
-    for (const std::string& candidate : known) {
-        const std::size_t distance = editDistance(word, candidate);
-        if (distance < least) {
-            least = distance;
-            best = candidate;
-        }
-    }
-    return best;
-}
 
 std::vector<std::string> optionsOf(const CLI::App& command) {
     std::vector<std::string> names;
@@ -59,7 +31,7 @@ std::string suggestFor(const CLI::App& app, int argc, const char* const* argv) {
         if (!command && !word.starts_with("-")) {
             const auto found = std::find(commands.begin(), commands.end(), word);
             if (found == commands.end()) {
-                const std::string meant = nearest(word, commands);
+                const std::string meant = authoring::nearestWord(word, commands);
                 return meant.empty() ? "" : fmt::format("did you mean `{}`?", meant);
             }
             command = app.get_subcommand(word);
@@ -67,7 +39,7 @@ std::string suggestFor(const CLI::App& app, int argc, const char* const* argv) {
             const std::string name = word.substr(0, word.find('='));
             const std::vector<std::string> known = optionsOf(command ? *command : app);
             if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-            const std::string meant = nearest(name, known);
+            const std::string meant = authoring::nearestWord(name, known);
             if (!meant.empty()) return fmt::format("did you mean `{}`?", meant);
         }
     }

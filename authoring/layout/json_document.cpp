@@ -13,16 +13,13 @@ namespace {
 
 constexpr std::size_t kMostDepth = 64;
 
-/// Counts lines and columns while the parser reads. The parser looks one byte ahead of what it has accepted.
+/// Where the parser has read to: where a syntax error is.
 struct Cursor {
     int line = 1;
-    int column = 0;  // of the byte read last
-    int token_line = 1;
-    int token_column = 1;
-    bool in_token = false;
+    int column = 0;  // of the character read last
 };
 
-/// Feeds bytes to nlohmann's parser and notes where each token began.
+/// Feeds bytes to nlohmann's parser and moves the cursor along.
 class TrackingIterator {
   public:
     using iterator_category = std::input_iterator_tag;

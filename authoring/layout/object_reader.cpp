@@ -9,22 +9,6 @@
 namespace throng::authoring {
 namespace {
 
-std::size_t editDistance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j)
-        row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
-        }
-    }
-    return row[b.size()];
-}
-
 std::string rangeText(Limits limits) {
     if (limits.most >= 1.0e15)
         return fmt::format("{} {:.15g}", limits.above_least ? "more than" : "at least", limits.least);
@@ -37,26 +21,6 @@ bool within(double value, Limits limits) {
 }
 
 }  // namespace
-
-std::string nearestWord(std::string_view word, const std::vector<std::string>& known) {
-    std::string best;
-    std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
-    for (const std::string& candidate : known) {
-        const std::size_t distance = editDistance(word, candidate);
-        if (distance < least) {
-            least = distance;
-            best = candidate;
-        }
-    }
-    return best;
-}
-
-std::string hintFor(std::string_view word, const std::vector<std::string>& known) {
-    if (const std::string meant = nearestWord(word, known); !meant.empty())
-        return fmt::format("did you mean `{}`?", meant);
-    if (known.empty()) return "there are none";
-    return fmt::format("known here: {}", fmt::join(known, ", "));
-}
 
 ObjectReader::ObjectReader(const JsonNode& node, std::string what, Diagnostics& diagnostics)
     : node_(node),

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "authoring/layout/json_document.h"
+#include "authoring/layout/words.h"
 
 namespace throng::authoring {
 
@@ -17,11 +18,6 @@ struct Limits {
     double most;
     bool above_least = false;  ///< the least itself is not allowed
 };
-
-/// The word among `known` that `word` was probably meant to be, or nothing.
-std::string nearestWord(std::string_view word, const std::vector<std::string>& known);
-/// "did you mean `width`?", or "one of: a, b, c" where nothing is near.
-std::string hintFor(std::string_view word, const std::vector<std::string>& known);
 
 /// Reads the members of one object, telling every mistake and going on.
 /// Call the getters for all known keys, then finish(), which complains about the rest.
