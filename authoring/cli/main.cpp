@@ -28,7 +28,10 @@ int parseAndRun(CLI::App& app, int argc, char** argv) {
     } catch (const CLI::Success& success) {  // --help and --version
         return app.exit(success);
     } catch (const CLI::ParseError& error) {
-        fmt::print(stderr, "throng: {}\n", error.what());
+        if (argc > 1 && argv[1][0] != '-' && !cli::isCommand(app, argv[1]))
+            fmt::print(stderr, "throng: there is no command `{}`\n", argv[1]);
+        else
+            fmt::print(stderr, "throng: {}\n", error.what());
         const std::string hint = cli::suggestFor(app, argc, argv);
         if (!hint.empty()) fmt::print(stderr, "  hint: {}\n", hint);
         fmt::print(stderr,

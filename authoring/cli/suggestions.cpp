@@ -21,6 +21,12 @@ std::vector<std::string> optionsOf(const CLI::App& command) {
 
 }  // namespace
 
+bool isCommand(const CLI::App& app, const std::string& word) {
+    const std::vector<const CLI::App*> commands = app.get_subcommands({});
+    return std::any_of(commands.begin(), commands.end(),
+                       [&](const CLI::App* command) { return command->get_name() == word; });
+}
+
 std::string suggestFor(const CLI::App& app, int argc, const char* const* argv) {
     std::vector<std::string> commands;
     for (const CLI::App* command : app.get_subcommands({}))
