@@ -34,6 +34,8 @@ def set_up_render(scene, options):
     scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = options.width, options.height, 100
     scene.render.image_settings.file_format = "PNG"
     scene.render.use_persistent_data = False
+    for flag in [name for name in dir(scene.render) if name.startswith("use_stamp_")]:
+        setattr(scene.render, flag, False)  # pictures carry no paths of the machine that rendered them
     if options.engine == "cycles":
         cycles = scene.cycles
         cycles.samples, cycles.use_adaptive_sampling, cycles.adaptive_threshold = options.samples, True, 0.02
