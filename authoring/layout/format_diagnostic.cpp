@@ -29,6 +29,8 @@ std::string formatDiagnostic(const Diagnostic& diagnostic, std::string_view file
     std::string result = where.line > 0
                              ? fmt::format("{}:{}:{}: {}: ", file, where.line, where.column, severity)
                              : fmt::format("{}: {}: ", file, severity);
+    // Only values that came from the command line have a pointer and no line.
+    if (where.line == 0 && where.pointer.starts_with('/')) result += "--set ";
     if (!where.pointer.empty()) result += where.pointer + ": ";
     result += diagnostic.message;
     if (where.line > 0) {

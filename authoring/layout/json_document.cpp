@@ -129,7 +129,11 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
         return numeric(static_cast<double>(number), true);
     }
     bool number_unsigned(number_unsigned_t number) override {
-        return numeric(static_cast<double>(number), true);
+        // A double would round an integer just above 2^53 down to 2^53, which is within the limits of a seed.
+        constexpr number_unsigned_t kExact = number_unsigned_t{1} << 53;
+        const double rounded = static_cast<double>(number);
+        const bool hidden = number > kExact && rounded <= static_cast<double>(kExact);
+        return numeric(hidden ? std::nextafter(rounded, HUGE_VAL) : rounded, true);
     }
     bool number_float(number_float_t number, const string_t&) override { return numeric(number, false); }
     bool string(string_t& text) override {

@@ -31,6 +31,7 @@ class Reader {
         eachOf(reader, "roads", [this](const JsonNode& node) { readRoad(node); });
         eachOf(reader, "areas", [this](const JsonNode& node) { readArea(node); });
         eachOf(reader, "walls", [this](const JsonNode& node) { readWall(node); });
+        nameWalls();
         eachOf(reader, "flows", [this](const JsonNode& node) { readFlow(node); });
         eachOf(reader, "formations", [this](const JsonNode& node) { readFormation(node); });
         reader.finish();
@@ -124,6 +125,8 @@ class Reader {
         ObjectReader reader(node, "a wall", diagnostics_);
         if (!reader.isObject()) return;
         reader.text("id", wall.id);
+        if (const JsonNode* id = node.find("id"); id && id->kind == JsonNode::Kind::text && wall.id.empty())
+            diagnostics_.error(id->where, "`id` is empty", "name the wall, or leave `id` out");
         reader.boolean("closed", wall.closed);
         wall.points = reader.points("points", wall.closed ? 3 : 2);
         const JsonNode* thickness = reader.get("thickness");
@@ -132,10 +135,20 @@ class Reader {
             diagnostics_.warning(thickness->where, "a closed wall is solid: its thickness has no effect");
         reader.number("height", {0.01, 1000.0}, wall.height);
         reader.finish();
-        if (wall.id.empty()) wall.id = fmt::format("wall{}", layout_.walls.size());
         if (wall.closed) checkPolygon(wall.points, node.find("points"));
         claimId(node, wall.id, walls_, layout_.walls.size(), "a wall");
         layout_.walls.push_back(std::move(wall));
+    }
+
+    /// Only once all written names are known, so that a name of ours never takes one of the author's.
+    void nameWalls() {
+        for (std::size_t i = 0; i < layout_.walls.size(); ++i) {
+            std::string& id = layout_.walls[i].id;
+            if (!id.empty()) continue;
+            id = fmt::format("wall{}", i);
+            while (!walls_.emplace(id, i).second)
+                id += "_";
+        }
     }
 
     void checkPolygon(std::vector<glm::dvec2>& polygon, const JsonNode* node) {
@@ -226,7 +239,11 @@ class Reader {
         if (normal) {
             reader.number("min", limits, result.minimum);
             reader.number("max", limits, result.maximum);
-            if (result.minimum > result.maximum) diagnostics_.error(node->where, "`min` is above `max`");
+            if (result.minimum > result.maximum)
+                diagnostics_.error(
+                    node->where,
+                    fmt::format("`min` ({:.6g}) is above `max` ({:.6g})", result.minimum, result.maximum),
+                    "what is not written is three deviations from the mean");
         }
         reader.finish();
         return result;
@@ -267,9 +284,9 @@ class Reader {
         reader.number("start", {0.0, 86400.0}, flow.start);
         reader.number("end", {0.0, 86400.0}, flow.end);
         if (flow.end <= flow.start)
-            diagnostics_.error(
-                node.find("end") ? node.find("end")->where : node.where,
-                fmt::format("the flow ends ({:.6g} s) before it starts ({:.6g} s)", flow.end, flow.start));
+            diagnostics_.error(node.find("end") ? node.find("end")->where : node.where,
+                               fmt::format("the flow ends ({:.6g} s) {} it starts ({:.6g} s)", flow.end,
+                                           flow.end < flow.start ? "before" : "when", flow.start));
         flow.people = peopleOf(reader);
         readArrival(reader, flow.arrival);
         reader.finish();
@@ -399,6 +416,9 @@ class Reader {
         for (const Formation& formation : layout_.formations) {
             people += countOf(formation);
             largest = std::max(largest, formation.people.radius.maximum);
+            if (const auto* list = std::get_if<ListFormation>(&formation.shape))
+                for (const ListedAgent& agent : list->agents)
+                    largest = std::max(largest, agent.radius.value_or(0.0));
         }
         if (people > kMostPeople)
             diagnostics_.error(
@@ -410,7 +430,7 @@ class Reader {
         const double tile = layout_.simulation.tile_radius;
         if (tile < largest)
             diagnostics_.error(
-                simulation_where_,
+                simulation_where_.value_or(root_.where),
                 fmt::format("simulation.tile_radius is {:.6g} m, smaller than the largest body ({:.6g} m)",
                             tile, largest),
                 "a tile has to cover the body");
@@ -427,7 +447,7 @@ class Reader {
     const JsonNode& root_;
     Diagnostics& diagnostics_;
     Layout layout_;
-    SourcePosition simulation_where_;
+    std::optional<SourcePosition> simulation_where_;
     std::map<std::string, std::size_t> roads_, areas_, walls_, groups_;
 };
 

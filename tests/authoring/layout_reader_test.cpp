@@ -143,6 +143,8 @@ TEST(LayoutReader, WantsExactlyOneOfCountAndRate) {
     expectError(kTwoAreas + flow + R"(, "count": 1, "rate": 1}]})", 4, 12, "/flows/0", "has both");
     expectError(kTwoAreas + flow + R"(, "count": 1, "start": 5, "end": 3}]})", 4, 79, "/flows/0/end",
                 "ends (3 s) before it starts (5 s)");
+    expectError(kTwoAreas + flow + R"(, "count": 1, "start": 5, "end": 5}]})", 4, 79, "/flows/0/end",
+                "ends (5 s) when it starts (5 s)");
 }
 
 TEST(LayoutReader, TellsAllMistakesOfAFileInOneGoAndInOrder) {
@@ -179,6 +181,31 @@ TEST(LayoutReader, TilesHaveToCoverBodies) {
         1, 29, "/simulation", "smaller than the largest body");
 }
 
+TEST(LayoutReader, TilesHaveToCoverTheBodiesOfListedPeople) {
+    const std::string before = R"({"throng": 1, "formations": [{"id": "c", "type": "agents", "agents": [)";
+    expectError(before + R"({"position": [0, 0], "goal": [5, 0], "radius": 0.9}]}]})", 1, 1, "",
+                "smaller than the largest body (0.9 m)");
+    read(before + R"({"position": [0, 0], "goal": [5, 0], "radius": 0.5}]}]})");
+}
+
+TEST(LayoutReader, NamesWallsWithoutTakingAWrittenName) {
+    const Layout layout = read(
+        R"({"throng": 1, "walls": [{"points": [[9,0],[9,5]]}, {"id": "wall0", "points": [[12,0],[12,5]]}],
+            "formations": [{"id": "c", "type": "circle", "centre": [0, 0], "radius": 5, "count": 6}]})");
+    ASSERT_EQ(layout.walls.size(), 2u);
+    EXPECT_EQ(layout.walls[1].id, "wall0");
+    EXPECT_FALSE(layout.walls[0].id.empty());
+    EXPECT_NE(layout.walls[0].id, "wall0");
+    expectError(R"({"throng": 1, "walls": [{"id": "", "points": [[9,0],[9,5]]}]})", 1, 32, "/walls/0/id",
+                "`id` is empty");
+}
+
+TEST(LayoutReader, RefusesSeedsThatADoubleWouldRound) {
+    const std::string before = R"({"throng": 1, "simulation": {"seed": )";
+    expectError(before + "9007199254740993}}", 1, 38, "/simulation/seed", "out of range");
+    expectError(before + "18446744073709551615}}", 1, 38, "/simulation/seed", "out of range");
+}
+
 TEST(LayoutReader, OverridesValuesAndNamesTheOverrideThatIsWrong) {
     const std::string text =
         R"({"throng": 1, "formations": [{"id": "c", "type": "circle", "centre": [0, 0], "radius": 5, "count": 6}]})";
@@ -190,7 +217,10 @@ TEST(LayoutReader, OverridesValuesAndNamesTheOverrideThatIsWrong) {
     for (const std::string wrong :
          {"simulation.sed=7", "simulation.seed", "formations.3.count=1", "simulation.fps=fast"})
         EXPECT_TRUE(diagnose(text, {wrong}).hasErrors()) << wrong;
-    EXPECT_NE(diagnose(text, {"simulation.sed=7"}).entries[0].hint.find("`seed`"), std::string::npos);
+    const Diagnostics found = diagnose(text, {"simulation.sed=7"});
+    EXPECT_EQ(formatDiagnostic(found.entries[0], "lay.json", text),
+              "lay.json: error: --set /simulation/sed: `simulation` has no key `sed`\n  hint: did you mean "
+              "`seed`?");
 }
 
 TEST(LayoutReader, FormatsDiagnosticsLikeACompiler) {
