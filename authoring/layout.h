@@ -8,6 +8,8 @@
 #include <variant>
 #include <vector>
 
+#include "authoring/diagram_method.h"
+
 /// What a layout file says, checked but not yet interpreted. World coordinates: metres, double precision,
 /// X east, Y north, Z up. Angles in degrees, counter-clockwise from +X. Times in seconds from the first
 /// frame.
@@ -41,7 +43,12 @@ struct PersonSettings {
     double maximum_speed_factor = 1.4;
 };
 
-enum class DiagramMethod { automatic, gradient1, per_site };
+/// What finds a person's neighbours.
+enum class Proximity {
+    voronoi,  ///< rays through the truncated Voronoi diagram
+    grid,     ///< the cells around the person (a spatial hash without collisions)
+    brute,    ///< everybody
+};
 
 struct SimulationSettings {
     double duration = 10.0;  ///< s, (0, 86400]: the length of the shot
@@ -56,9 +63,11 @@ struct SimulationSettings {
     double pixels_per_metre =
         0.0;  ///< px/m, 0 = one pixel per smallest body radius; (0, 100]: diagram resolution
     DiagramMethod method = DiagramMethod::automatic;
-    int neighbours = 10;             ///< [1, 32]: nearest sites kept by each person
-    double time_horizon = 2.0;       ///< s, [0.1, 20]: how far ahead people avoid each other
-    double wall_time_horizon = 0.6;  ///< s, [0.05, 20]: how far ahead people avoid walls
+    int cone_sides = 16;                       ///< [3, 256]: sides of a cone, method cones only
+    Proximity proximity = Proximity::voronoi;  ///< what neighbours are found with
+    int neighbours = 10;                       ///< [1, 32]: nearest sites kept by each person
+    double time_horizon = 2.0;                 ///< s, [0.1, 20]: how far ahead people avoid each other
+    double wall_time_horizon = 0.6;            ///< s, [0.05, 20]: how far ahead people avoid walls
     double contact_range = 1.0;  ///< m, [0.5, 3]: those nearer than this are felt whatever the field of view
     int contact_iterations = 4;  ///< [1, 32]: rounds per step that keep bodies apart
     double maximum_acceleration = 4.0;  ///< m/s^2, [0.1, 100]

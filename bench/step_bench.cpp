@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "sim/diagram_methods.h"
+#include "sim/diagram/methods.h"
 #include "sim/gl/context.h"
 #include "sim/simulation.h"
 #include "tests/sim/scenes.h"
@@ -60,7 +60,10 @@ double milliseconds(Work&& work) {
 /// The yardstick: `count` sites of `radius` px drawn into 1,024 x 1,024 px.
 class Gradient1 {
   public:
-    Gradient1(std::uint32_t count, float radius) : diagram_(gl::ShaderLibrary(), {1024, 1024, radius}) {
+    Gradient1(std::uint32_t count, float radius)
+        : options_{sim::DiagramMethod::gradient1, 1024, 1024, radius, count, 0, false},
+          owners_("owners", 4 * 1024 * 1024),
+          diagram_({gl::ShaderLibrary(), options_, {}, owners_}) {
         std::mt19937 random(11);
         std::uniform_real_distribution<float> anywhere(0.0f, 1024.0f);
         std::vector<gpu::DiagramSite> sites(count);
@@ -71,11 +74,13 @@ class Gradient1 {
         }
         sites_ = gl::makeBuffer("sites", sites);
         order_ = gl::makeBuffer("order", order);
-        diagram_.connect({&sites_, nullptr, &order_, count});
+        diagram_.connect({&sites_, nullptr, &order_});
     }
     void draw() { diagram_.draw(); }
 
   private:
+    sim::DiagramOptions options_;
+    gl::Buffer owners_;
     sim::GradientDiagram diagram_;
     gl::Buffer sites_, order_;
 };

@@ -79,7 +79,7 @@ int gatherWalls(Body self, uint slot) {
         kept[at] = segment;
         distances[at] = gap;
     }
-    for (int i = 0; i < count; ++i) constraints[i] = wallConstraint(self, wall_segments[kept[i]]);
+    for (int i = 0; i < count; ++i) setConstraint(i, wallConstraint(self, wall_segments[kept[i]]));
     return count;
 }
 
@@ -121,13 +121,13 @@ void main() {
         uint key = neighbours[i * slot_capacity + slot];
         if ((key & NEIGHBOUR_IS_WALL) != 0u) continue;
         Body other = bodies[row_slots[key]];
-        constraints[count++] = avoidanceConstraint(self.velocity, other.position - self.position,
+        setConstraint(count++, avoidanceConstraint(self.velocity, other.position - self.position,
                                                    self.velocity - other.velocity, self.radius + other.radius,
-                                                   parameters.time_horizon, OVERLAP_HORIZON, 0.5);
+                                                   parameters.time_horizon, OVERLAP_HORIZON, 0.5));
     }
     vec3 kerb;
     if (parameters.has_roads != 0u && (people[self.row].flags & PERSON_KEEPS_TO_ROADS) != 0u && kerbConstraint(self, kerb))
-        constraints[count++] = kerb;
+        setConstraint(count++, kerb);
 
     vec2 velocity;
     int obeyed = solveInDisc(0, count, self.maximum_speed, preferred_velocities[slot], false, velocity);

@@ -11,28 +11,12 @@ layout(std430) writeonly buffer LiveDispatch { uint live_groups[3]; uint live_co
 layout(std430) writeonly buffer TouchDispatch { uint touch_groups[3]; uint touch_count; };
 uniform uint cell_count;
 
-shared uint thread_sums[SCAN_GROUP_SIZE];
+#include "shaders/prefix_sum.glsl"
 
 void main() {
-    uint thread = gl_LocalInvocationID.x;
     uint first = gl_GlobalInvocationID.x * CELLS_PER_THREAD;
     uint last = min(first + CELLS_PER_THREAD, cell_count);
-
-    // What stands before this group, added up by all its threads together.
-    uint before = 0u;
-    for (uint group = thread; group < gl_WorkGroupID.x; group += SCAN_GROUP_SIZE) before += group_sums[group];
-    thread_sums[thread] = before;
-    barrier();
-    uint start = 0u;
-    for (uint i = 0u; i < SCAN_GROUP_SIZE; ++i) start += thread_sums[i];
-    barrier();
-
-    uint sum = 0u;
-    for (uint cell = first; cell < last; ++cell) sum += cell_counts[cell];
-    thread_sums[thread] = sum;
-    barrier();
-    for (uint i = 0u; i < thread; ++i) start += thread_sums[i];
-
+    uint start = sumBefore(first, last);
     for (uint cell = first; cell < last; ++cell) {
         cell_starts[cell] = start;
         cell_cursors[cell] = start;

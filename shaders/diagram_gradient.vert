@@ -4,7 +4,7 @@
 #include "shaders/shared/simulation_types.h"
 
 layout(std430) readonly buffer Sites { DiagramSite sites[]; };
-layout(std430) readonly buffer DrawOrder { uint draw_order[]; };
+layout(std430) readonly buffer SiteSlots { uint site_slots[]; };
 uniform vec2 target_size;  // px, the window and its margin on all sides
 uniform float margin;      // px: a sprite is clipped by its centre, so centres outside the window must still be inside the target
 
@@ -13,7 +13,7 @@ flat out float site_radius;
 flat out uint site_id;
 
 void main() {
-    uint index = draw_order[gl_VertexID];
+    uint index = site_slots[gl_VertexID];
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
     gl_PointSize = 1.0;
     site_position = vec2(0.0);

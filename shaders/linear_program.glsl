@@ -16,6 +16,9 @@
 const float PARALLEL = 1.0e-5;
 vec3 constraints[2 * CONSTRAINT_CAPACITY];
 
+/// Written through here, so that compilers see a write before the first read and do not warn.
+void setConstraint(int index, vec3 constraint) { constraints[index] = constraint; }
+
 /// The optimum on the line of constraint `base + index`, given the constraints base .. base + index - 1.
 /// @param furthest go as far along `wish` as allowed instead of as near to it
 bool solveOnLine(int base, int index, float limit, vec2 wish, bool furthest, inout vec2 velocity) {
@@ -67,13 +70,13 @@ void relax(int hard, int first_violated, int count, float limit, inout vec2 velo
         vec3 line = constraints[i];
         if (line.z - dot(line.xy, velocity) <= worst) continue;
         int projected = 0;
-        for (int j = 0; j < hard; ++j) constraints[CONSTRAINT_CAPACITY + projected++] = constraints[j];
+        for (int j = 0; j < hard; ++j) setConstraint(CONSTRAINT_CAPACITY + projected++, constraints[j]);
         for (int j = hard; j < i; ++j) {
             vec2 normal = constraints[j].xy - line.xy;
             float size = length(normal);
             // The same direction: one of the two always is the worse, and the worse one is i.
             if (size <= PARALLEL) continue;
-            constraints[CONSTRAINT_CAPACITY + projected++] = vec3(normal, constraints[j].z - line.z) / size;
+            setConstraint(CONSTRAINT_CAPACITY + projected++, vec3(normal, constraints[j].z - line.z) / size);
         }
         vec2 relaxed;
         if (solveInDisc(CONSTRAINT_CAPACITY, projected, limit, line.xy, true, relaxed) == projected) velocity = relaxed;

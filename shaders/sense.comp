@@ -29,13 +29,13 @@ layout(std430) writeonly buffer TouchWords { uint touch_words[]; };
 layout(std430) writeonly buffer TouchLists { uint touch_lists[]; };  // TOUCH_CAPACITY slots each
 layout(std430) buffer TouchDispatch { uint touch_groups[3]; uint touch_count; };
 layout(std430) writeonly buffer TouchSlots { uint touch_slots[]; };  // those whom the contact pass has to look at
-uniform usamplerBuffer owners;
 uniform uint slot_capacity;
 uniform vec2 pattern[SENSING_SAMPLES];  // m, in the person's own frame: where it looks
 
 #include "shaders/cells.glsl"
 #include "shaders/cell_runs.glsl"
 #include "shaders/walls.glsl"
+#include "shaders/owners.glsl"
 
 const float FAR = 1.0e30;
 float nearest_distance[NEIGHBOURS];
@@ -102,7 +102,7 @@ int marchRays(Body self) {
         vec2 local = pattern[i];
         vec2 pixel = centre + vec2(forward.x * local.x - forward.y * local.y, forward.y * local.x + forward.x * local.y);
         uvec2 at = uvec2(clamp(pixel, vec2(0.0), upper));
-        uint owner = texelFetch(owners, int(at.y * parameters.diagram_width + at.x)).r;
+        uint owner = ownerAt(at);
         bool fresh = owner != NO_INDEX && owner != self.row && owner != recent.x && owner != recent.y && owner != recent.z;
         candidates[count] = owner;
         count += fresh ? 1 : 0;

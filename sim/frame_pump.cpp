@@ -25,7 +25,6 @@ struct Slot {
     gl::Buffer distances;
     GLsync fence = nullptr;
     std::uint32_t index = 0;
-    float distance_to_metres = 0.0f;  // metres per square root of a stored distance
     bool has_diagram = false;
     bool busy = false;  // between submit() and the receiver's return
 };
@@ -110,10 +109,9 @@ void FramePump::submit(std::uint32_t index, bool with_diagram) {
     slot.has_diagram = with_diagram;
     state.simulation.packFrame(slot.frame);
     if (with_diagram) {
-        const Diagram& diagram = state.simulation.buildDiagramNow();
-        slot.owners.copyFrom(diagram.owners());
-        slot.distances.copyFrom(diagram.distances());
-        slot.distance_to_metres = std::sqrt(diagram.distanceScale()) / state.image.pixels_per_metre;
+        Diagram& diagram = state.simulation.buildDiagramNow();
+        slot.owners.copyFrom(diagram.wholeOwners());
+        slot.distances.copyFrom(diagram.measureDistances());
     }
     glMemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT);
     slot.fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
@@ -209,7 +207,7 @@ void FramePump::State::deliver(const Slot& slot) {
         const std::span<const float> squared = view<float>(slot.distances, 0, pixels);
         metres.resize(pixels);
         for (std::size_t i = 0; i < pixels; ++i)
-            metres[i] = std::sqrt(squared[i]) * slot.distance_to_metres;
+            metres[i] = std::sqrt(squared[i]) / image.pixels_per_metre;
         diagram.distance = metres;
         frame.diagram = &diagram;
     }

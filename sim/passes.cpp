@@ -56,11 +56,13 @@ void Spawner::run(float now, std::uint32_t steps_done) {
 
 Sensing::Sensing(const gl::ShaderLibrary& library, Buffers& buffers, const Diagram& diagram,
                  const std::vector<glm::vec2>& pattern, int neighbours)
-    : buffers_(buffers), owners_(diagram.owners()) {
+    : buffers_(buffers) {
     gl::Definitions definitions = listLength(neighbours);
     definitions.emplace_back("SENSING_SAMPLES", std::to_string(pattern.size()));
+    for (const auto& definition : diagram.lookupDefinitions())
+        definitions.push_back(definition);
     program_ = connected(library, "shaders/sense.comp", buffers, definitions);
-    program_.bind("owners", owners_);
+    diagram.describeTo(program_);
     program_.set("pattern", pattern);
     program_.set("slot_capacity", buffers.slotCapacity());
 }

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "sim/buffers.h"
-#include "sim/diagram.h"
+#include "sim/diagram/diagram.h"
 #include "sim/gl/program.h"
 
 /// The passes of a step. Each owns its programs, binds them to the buffers once, and has one verb.
@@ -46,7 +46,6 @@ class Sensing {
 
   private:
     Buffers& buffers_;
-    gl::WordTexture owners_;
     gl::ComputeProgram program_;
 };
 

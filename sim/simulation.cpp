@@ -25,14 +25,15 @@ std::vector<glm::vec2> patternFor(const authoring::Scene& scene, const gpu::Para
 
 Diagram diagramFor(const authoring::Scene& scene, const gpu::Parameters& parameters,
                    const gl::ShaderLibrary& library) {
-    // Without a calibration of the device, per-site is the safe choice: it needs no raster hardware.
-    const auto method = scene.settings.method == authoring::DiagramMethod::gradient1
-                            ? Diagram::Method::gradient1
-                            : Diagram::Method::per_site;
-    const float largest =
+    DiagramOptions options;
+    options.method =
+        scene.settings.method == DiagramMethod::automatic ? DiagramMethod::binned : scene.settings.method;
+    options.width = parameters.diagram_width;
+    options.height = parameters.diagram_height;
+    options.live_capacity = parameters.row_count;
+    options.largest_radius =
         std::max(parameters.tile_radius, scene.largest_radius) * parameters.pixels_per_metre;
-    return Diagram(library, method, parameters.diagram_width, parameters.diagram_height, largest,
-                   wallSites(scene, parameters));
+    return Diagram(library, options, wallSites(scene, parameters));
 }
 
 /// The first frame that shows what was so after `steps` steps.
@@ -78,8 +79,7 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
       motion(library, buffers, contacts.result()),
       pack(library, "shaders/pack_frame.comp"),
       rows(parameters.row_count) {
-    diagram.connect({&buffers.sites, &buffers.live_dispatch, &buffers.row_slots,
-                     rows + static_cast<std::uint32_t>(scene.wall_tiles.size())});
+    diagram.connect({&buffers.sites, &buffers.live_dispatch, &buffers.row_slots});
     pack.bindAll(buffers.named());
     anybody_enters_later = std::any_of(
         scene.people.begin(), scene.people.end(),
@@ -155,9 +155,9 @@ void Simulation::packFrame(const gl::Buffer& buffer) {
     parts_->pack.dispatch(parts_->rows);
 }
 
-const Diagram& Simulation::buildDiagramNow() {
+Diagram& Simulation::buildDiagramNow() {
     parts_->cells.run();
-    parts_->diagram.buildWithDistances();
+    parts_->diagram.build();
     return parts_->diagram;
 }
 

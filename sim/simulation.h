@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "authoring/scene.h"
-#include "sim/diagram.h"
+#include "sim/diagram/diagram.h"
 #include "sim/frame.h"
 #include "sim/gl/shader_source.h"
 
@@ -36,8 +36,8 @@ class Simulation {
     void packFrame(const gl::Buffer& buffer);
     std::size_t frameBytes() const;
 
-    /// Brings the diagram, with its distances, up to the present positions; the next step builds its own.
-    const Diagram& buildDiagramNow();
+    /// Brings the diagram up to the present positions; the next step builds its own.
+    Diagram& buildDiagramNow();
 
     /// What became of everybody; waits for the device. Steps are turned into frames by the scene's settings.
     Account account() const;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sim/buffers.h"
-#include "sim/diagram.h"
+#include "sim/diagram/diagram.h"
 #include "sim/passes.h"
 #include "sim/simulation.h"
 

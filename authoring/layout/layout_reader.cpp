@@ -71,8 +71,14 @@ class Reader {
         reader.number("field_of_view", {0.0, 360.0, true}, s.field_of_view);
         reader.integer("samples_per_ray", {1, 64}, s.samples_per_ray);
         reader.number("pixels_per_metre", {0.0, 100.0}, s.pixels_per_metre);
-        if (const auto method = reader.choice("method", {"auto", "gradient1", "per-site"}))
-            s.method = static_cast<DiagramMethod>(*method);
+        std::vector<std::string> methods = {"auto"};
+        for (const DiagramMethodEntry& entry : kDiagramMethods)
+            methods.emplace_back(entry.word);
+        if (const auto method = reader.choice("method", methods))
+            s.method = *diagramMethodNamed(methods[*method]);
+        reader.integer("cone_sides", {3, 256}, s.cone_sides);
+        if (const auto proximity = reader.choice("proximity", {"voronoi", "grid", "brute"}))
+            s.proximity = static_cast<Proximity>(*proximity);
         reader.integer("neighbours", {1, 32}, s.neighbours);
         reader.number("time_horizon", {0.1, 20.0}, s.time_horizon);
         reader.number("wall_time_horizon", {0.05, 20.0}, s.wall_time_horizon);

@@ -11,6 +11,11 @@ const uint AGENT_GROUP_SIZE = 64u;  // invocations per group of every pass over 
 const uint SCAN_GROUP_SIZE = 64u;   // invocations per group of the cell scan
 const uint CELLS_PER_THREAD = 16u;  // cells that one invocation of the scan adds up
 const uint SPAWN_GROUP_SIZE = 64u;  // people of one queue that may try to enter in one step
+const uint PIXEL_GROUP_SIZE = 64u;  // invocations per group of passes over pixels or blocks of pixels
+
+const uint SMALLEST_NORMAL = 0x00800000u;  // bits of the smallest float that no device flushes to zero
+
+const uint PAGE_SIDE = 16u;  // px, of a page of a diagram that is not kept whole
 
 const uint STATUS_WAITING = 0u;  // the numbers of throng::AgentStatus
 const uint STATUS_WALKING = 1u;

@@ -84,15 +84,16 @@ void Buffer::release() {
     mapped_ = nullptr;
 }
 
-WordTexture::WordTexture(const Buffer& buffer) {
+WordTexture::WordTexture(const Buffer& buffer, Texel texel) {
+    const std::size_t bytes = texel == Texel::one_word ? 4 : 16;
     GLint limit = 0;
     glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
-    if (buffer.bytes() / 4 > static_cast<std::size_t>(limit))
+    if (buffer.bytes() / bytes > static_cast<std::size_t>(limit))
         throw GraphicsError(
-            fmt::format("a diagram of {} pixels is more than the {} that this device can sample",
-                        buffer.bytes() / 4, limit));
+            fmt::format("a buffer of {} texels is more than the {} that this device can sample",
+                        buffer.bytes() / bytes, limit));
     glCreateTextures(GL_TEXTURE_BUFFER, 1, &handle_);
-    glTextureBuffer(handle_, GL_R32UI, buffer.handle());
+    glTextureBuffer(handle_, texel == Texel::one_word ? GL_R32UI : GL_RGBA32UI, buffer.handle());
 }
 
 WordTexture::~WordTexture() {

@@ -65,9 +65,11 @@ class Buffer {
 /// devices serve faster that way. The buffer must stay in place.
 class WordTexture {
   public:
+    enum class Texel { one_word, four_words };
+
     WordTexture() = default;
-    /// @throws GraphicsError when the buffer has more words than the device can address
-    explicit WordTexture(const Buffer& buffer);
+    /// @throws GraphicsError when the buffer has more texels than the device can address
+    explicit WordTexture(const Buffer& buffer, Texel texel = Texel::one_word);
     ~WordTexture();
     WordTexture(WordTexture&& other) noexcept;
     WordTexture& operator=(WordTexture&& other) noexcept;

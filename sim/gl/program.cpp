@@ -89,12 +89,13 @@ void Program::reflect() {
         return static_cast<GLuint>(count);
     };
     for (GLuint index = 0; index < active(GL_SHADER_STORAGE_BLOCK); ++index) {
-        blocks_.push_back(
-            {resourceName(handle_, GL_SHADER_STORAGE_BLOCK, index), GL_SHADER_STORAGE_BUFFER, index, 0});
+        blocks_.push_back({resourceName(handle_, GL_SHADER_STORAGE_BLOCK, index), GL_SHADER_STORAGE_BUFFER,
+                           index, 0, 0, 0});
         glShaderStorageBlockBinding(handle_, index, index);
     }
     for (GLuint index = 0; index < active(GL_UNIFORM_BLOCK); ++index) {
-        blocks_.push_back({resourceName(handle_, GL_UNIFORM_BLOCK, index), GL_UNIFORM_BUFFER, index, 0});
+        blocks_.push_back(
+            {resourceName(handle_, GL_UNIFORM_BLOCK, index), GL_UNIFORM_BUFFER, index, 0, 0, 0});
         glUniformBlockBinding(handle_, index, index);
     }
     for (GLuint index = 0; index < active(GL_UNIFORM); ++index) {
@@ -126,16 +127,26 @@ bool Program::hasBlock(const std::string& block) const {
     return std::any_of(blocks_.begin(), blocks_.end(), [&](const Block& b) { return b.name == block; });
 }
 
-void Program::bind(const std::string& block, const Buffer& buffer) {
+Program::Block& Program::block(const std::string& name) {
     std::string known;
     for (Block& candidate : blocks_) {
-        if (candidate.name == block) {
-            candidate.buffer = buffer.handle();
-            return;
-        }
+        if (candidate.name == name) return candidate;
         known += " " + candidate.name;
     }
-    throw std::logic_error(fmt::format("{} has no block `{}`; it has:{}", name_, block, known));
+    throw std::logic_error(fmt::format("{} has no block `{}`; it has:{}", name_, name, known));
+}
+
+void Program::bind(const std::string& name, const Buffer& buffer) {
+    Block& found = block(name);
+    found.buffer = buffer.handle();
+    found.bytes = 0;
+}
+
+void Program::bindRange(const std::string& name, const Buffer& buffer, std::size_t first, std::size_t bytes) {
+    Block& found = block(name);
+    found.buffer = buffer.handle();
+    found.first = first;
+    found.bytes = bytes;
 }
 
 void Program::bindAll(const std::vector<std::pair<std::string, const Buffer*>>& buffers) {
@@ -144,9 +155,22 @@ void Program::bindAll(const std::vector<std::pair<std::string, const Buffer*>>& 
 }
 
 void Program::bind(const std::string& sampler, const WordTexture& texture) {
+    bindTexture(sampler, texture.handle());
+}
+
+void Program::bindTexture(const std::string& sampler, std::uint32_t texture) {
+    for (Sampler& known : samplers_) {
+        if (known.name != sampler) continue;
+        known.texture = texture;
+        return;
+    }
     const auto unit = static_cast<std::uint32_t>(samplers_.size());
     glProgramUniform1i(handle_, uniform(sampler).location, static_cast<GLint>(unit));
-    samplers_.push_back({unit, texture.handle()});
+    samplers_.push_back({sampler, unit, texture});
+}
+
+bool Program::hasUniform(const std::string& name) const {
+    return std::any_of(uniforms_.begin(), uniforms_.end(), [&](const Uniform& u) { return u.name == name; });
 }
 
 Program::Uniform& Program::uniform(const std::string& name) {
@@ -168,6 +192,9 @@ void Program::set(const std::string& name, float value) {
 void Program::set(const std::string& name, glm::vec2 value) {
     glProgramUniform2f(handle_, uniform(name).location, value.x, value.y);
 }
+void Program::set(const std::string& name, glm::uvec2 value) {
+    glProgramUniform2ui(handle_, uniform(name).location, value.x, value.y);
+}
 void Program::set(const std::string& name, const std::vector<glm::vec2>& values) {
     if (values.empty()) return;
     glProgramUniform2fv(handle_, uniform(name + "[0]").location, static_cast<GLsizei>(values.size()),
@@ -175,10 +202,14 @@ void Program::set(const std::string& name, const std::vector<glm::vec2>& values)
 }
 
 void Program::use() const {
-    for (const Block& block : blocks_) {
-        if (!block.buffer)
-            throw std::logic_error(fmt::format("{}: no buffer is bound to `{}`", name_, block.name));
-        glBindBufferBase(block.target, block.binding, block.buffer);
+    for (const Block& each : blocks_) {
+        if (!each.buffer)
+            throw std::logic_error(fmt::format("{}: no buffer is bound to `{}`", name_, each.name));
+        if (each.bytes)
+            glBindBufferRange(each.target, each.binding, each.buffer, static_cast<GLintptr>(each.first),
+                              static_cast<GLsizeiptr>(each.bytes));
+        else
+            glBindBufferBase(each.target, each.binding, each.buffer);
     }
     for (const Uniform& candidate : uniforms_)
         if (!candidate.set)
@@ -200,11 +231,11 @@ ComputeProgram::ComputeProgram(const ShaderLibrary& library, const std::string& 
 
 void ComputeProgram::dispatch(std::uint64_t invocations) const {
     if (invocations == 0) return;
+    constexpr std::uint64_t kMostPerAxis = 65535;  // what every device takes
     const std::uint64_t groups = (invocations + group_size_ - 1) / group_size_;
-    if (groups > 65535)
-        throw std::logic_error(fmt::format("{}: {} groups are more than every device takes", name(), groups));
+    const std::uint64_t lines = (groups + kMostPerAxis - 1) / kMostPerAxis;
     use();
-    glDispatchCompute(static_cast<GLuint>(groups), 1, 1);
+    glDispatchCompute(static_cast<GLuint>((groups + lines - 1) / lines), static_cast<GLuint>(lines), 1);
     glMemoryBarrier(kWritesVisible);
 }
 

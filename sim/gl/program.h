@@ -25,16 +25,22 @@ class Program {
     /// Remembers which buffer serves a storage or uniform block. Buffers must outlive the program's last use.
     /// @throws std::logic_error for a block that the program does not have, naming those it has
     void bind(const std::string& block, const Buffer& buffer);
+    /// The same for a part of a buffer, in bytes; `first` has to suit the device's alignment (256 always
+    /// does).
+    void bindRange(const std::string& block, const Buffer& buffer, std::size_t first, std::size_t bytes);
     /// The same for several blocks; blocks that the compiler removed as unused are passed over.
     void bindAll(const std::vector<std::pair<std::string, const Buffer*>>& buffers);
     /// Remembers which texture serves a sampler.
     void bind(const std::string& sampler, const WordTexture& texture);
+    void bindTexture(const std::string& sampler, std::uint32_t texture);
     bool hasBlock(const std::string& block) const;
+    bool hasUniform(const std::string& uniform) const;
 
     /// @throws std::logic_error for a uniform that the program does not have
     void set(const std::string& uniform, std::uint32_t value);
     void set(const std::string& uniform, float value);
     void set(const std::string& uniform, glm::vec2 value);
+    void set(const std::string& uniform, glm::uvec2 value);
     void set(const std::string& uniform, const std::vector<glm::vec2>& values);
 
     /// Makes the program and its buffers current.
@@ -50,6 +56,8 @@ class Program {
         std::uint32_t target = 0;  // storage or uniform buffer
         std::uint32_t binding = 0;
         std::uint32_t buffer = 0;
+        std::size_t first = 0;  // bytes; of a part of the buffer
+        std::size_t bytes = 0;  // 0 = the whole buffer
     };
     struct Uniform {
         std::string name;
@@ -57,10 +65,12 @@ class Program {
         bool set = false;
     };
     struct Sampler {
+        std::string name;
         std::uint32_t unit = 0;
         std::uint32_t texture = 0;
     };
     Uniform& uniform(const std::string& name);
+    Block& block(const std::string& name);
     void reflect();
 
     std::uint32_t handle_ = 0;
@@ -79,8 +89,8 @@ class ComputeProgram : public Program {
 
     std::uint32_t groupSize() const { return group_size_; }
 
-    /// Runs at least `invocations` invocations in one dimension, then makes its writes visible to later
-    /// commands.
+    /// Runs at least `invocations` invocations, then makes its writes visible to later commands. Groups that
+    /// do not fit one axis go on along the next: such shaders count with shaders/flat_index.glsl.
     void dispatch(std::uint64_t invocations) const;
     /// The same with the number of groups read on the device: three words at `offset` of `arguments`.
     void dispatchIndirect(const Buffer& arguments, std::size_t offset = 0) const;

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "sim/diagram/methods.h"
+
+namespace throng::sim {
+namespace {
+
+constexpr std::size_t kPageBytes = std::size_t{4} * gpu::PAGE_SIDE * gpu::PAGE_SIDE;
+
+gl::Definitions definitionsFor(const DiagramSetup& setup, const GatherShape& shape, const Pages* pages) {
+    gl::Definitions definitions = {{"BLOCK_WIDTH", fmt::format("{}u", shape.block_width)},
+                                   {"BLOCK_HEIGHT", fmt::format("{}u", shape.block_height)}};
+    if (!setup.fixed_sites.empty()) definitions.emplace_back("FIXED_SITES", "1");
+    if (pages) definitions.emplace_back("PAGED", "1");
+    return definitions;
+}
+
+std::uint64_t blocksAcross(std::uint32_t pixels, std::uint32_t block) {
+    return (pixels + block - 1) / block;
+}
+
+/// Pages that one binding of a storage block can show.
+std::uint32_t pagesPerRange(std::uint32_t blocks_per_page) {
+    GLint64 bytes = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
+    const auto by_memory = static_cast<std::uint64_t>(bytes) / kPageBytes;
+    const std::uint64_t by_groups = std::uint64_t{65535} * gpu::PIXEL_GROUP_SIZE / blocks_per_page;
+    return static_cast<std::uint32_t>(std::min(by_memory, by_groups));
+}
+
+}  // namespace
+
+BinnedDiagram::BinnedDiagram(const DiagramSetup& setup, const GatherShape& shape, Pages* pages)
+    : grid_(setup.options.width, setup.options.height,
+            std::max(1.0f, shape.bin_radii * setup.options.largest_radius)),
+      bins_(setup.library, grid_, setup.options.live_capacity),
+      blocks_(blocksAcross(setup.options.width, shape.block_width) *
+              blocksAcross(setup.options.height, shape.block_height)),
+      gather_(setup.library, "shaders/diagram_binned.comp", definitionsFor(setup, shape, pages)),
+      pages_(pages),
+      owners_(setup.owners) {
+    grid_.describeTo(gather_);
+    gather_.bind("BinStarts", bins_.starts());
+    gather_.bind("binned_sites", bins_.sites());
+    gather_.set("largest_radius", setup.options.largest_radius);
+    gather_.bind("Owners", owners_);
+    if (!setup.fixed_sites.empty()) {
+        fixed_bins_.emplace(setup.library, grid_, setup.fixed_sites);
+        gather_.bind("FixedBinStarts", fixed_bins_->starts());
+        gather_.bind("fixed_binned_sites", fixed_bins_->sites());
+    }
+    if (!pages_) {
+        gather_.set("diagram_size", glm::vec2(setup.options.width, setup.options.height));
+        return;
+    }
+    const std::uint32_t blocks_per_page =
+        (gpu::PAGE_SIDE / shape.block_width) * (gpu::PAGE_SIDE / shape.block_height);
+    pages_per_range_ = pagesPerRange(blocks_per_page);
+    ranges_ = (pages_->capacity() + pages_per_range_ - 1) / pages_per_range_;
+    page_dispatch_ = gl::Buffer("diagram page dispatch", std::size_t{12} * ranges_);
+    count_groups_ = gl::ComputeProgram(setup.library, "shaders/diagram_page_dispatch.comp");
+    count_groups_.bind("PageCount", pages_->count());
+    count_groups_.bind("PageDispatch", page_dispatch_);
+    count_groups_.set("ranges", ranges_);
+    count_groups_.set("pages_per_range", pages_per_range_);
+    count_groups_.set("blocks_per_page", blocks_per_page);
+    gather_.bind("PageList", pages_->list());
+    gather_.bind("PageCount", pages_->count());
+    gather_.set("pages_per_line", pages_->perLine());
+}
+
+void BinnedDiagram::connect(const DiagramInput& input) {
+    bins_.connect(*input.sites, *input.live_dispatch);
+    if (pages_) pages_->connect(*input.sites, *input.live_dispatch);
+}
+
+void BinnedDiagram::build() {
+    bins_.sort();
+    if (pages_)
+        buildPages();
+    else
+        gather_.dispatch(blocks_);
+}
+
+void BinnedDiagram::buildPages() {
+    pages_->place();
+    count_groups_.dispatch(1);
+    for (std::uint32_t range = 0; range < ranges_; ++range) {
+        const std::size_t first = std::size_t{range} * pages_per_range_ * kPageBytes;
+        const std::size_t bytes =
+            std::min(owners_.bytes() - first, std::size_t{pages_per_range_} * kPageBytes);
+        gather_.bindRange("Owners", owners_, first, bytes);
+        gather_.set("first_page", range * pages_per_range_);
+        gather_.dispatchIndirect(page_dispatch_, std::size_t{12} * range);
+    }
+}
+
+}  // namespace throng::sim

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/diagram/diagram.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+
+#include "sim/diagram/methods.h"
+#include "sim/gl/context.h"
+
+namespace throng::sim {
+namespace {
+
+std::size_t pixelBytes(const DiagramOptions& options) {
+    return std::size_t{4} * options.width * options.height;
+}
+
+glm::uvec2 sizeOf(const DiagramOptions& options) {
+    return {options.width, options.height};
+}
+
+}  // namespace
+
+/// Passes and buffers that only some users of a diagram ask for: made at the first asking.
+struct Diagram::Extras {
+    struct WholeOwners {
+        gl::Buffer owners;
+        gl::ComputeProgram flatten;
+    };
+    struct Distances {
+        gl::Buffer distances;
+        gl::ComputeProgram measure;
+    };
+    struct Seconds {
+        BinGrid grid;
+        SiteBins bins;
+        std::optional<FixedBins> fixed_bins;
+        gl::Buffer seconds;
+        gl::ComputeProgram find;
+    };
+    struct Counts {
+        gl::Buffer counts;
+        gl::ComputeProgram count;
+    };
+    std::optional<WholeOwners> whole;
+    std::optional<Distances> distances;
+    std::optional<Seconds> seconds;
+    std::optional<Counts> counts;
+};
+
+Diagram::Diagram(const gl::ShaderLibrary& library, const DiagramOptions& options,
+                 std::span<const gpu::DiagramSite> fixed_sites)
+    : library_(library),
+      options_(options),
+      fixed_sites_(fixed_sites.begin(), fixed_sites.end()),
+      extras_(std::make_unique<Extras>()) {
+    if (options_.paged) {
+        if (options_.method != DiagramMethod::binned)
+            throw gl::GraphicsError(fmt::format(
+                "the method {} needs the whole diagram of {} x {} px in one texture, which is too large. "
+                "Use the method binned, which keeps only the parts with people or walls.",
+                authoring::wordFor(options_.method), options_.width, options_.height));
+        pages_ = std::make_unique<Pages>(library, options_.width, options_.height, options_.largest_radius,
+                                         options_.live_capacity, fixed_sites_);
+        owners_ = std::make_unique<gl::Buffer>("diagram pages", pages_->storeBytes());
+        table_texture_ = gl::WordTexture(pages_->table());
+    } else {
+        owners_ = std::make_unique<gl::Buffer>("diagram owners", pixelBytes(options_));
+    }
+    owners_->fill(gpu::NO_INDEX);
+    owner_texture_ = gl::WordTexture(*owners_);
+    use(options_.method);
+}
+
+Diagram::~Diagram() = default;
+Diagram::Diagram(Diagram&&) noexcept = default;
+Diagram& Diagram::operator=(Diagram&&) noexcept = default;
+
+std::unique_ptr<Diagram::Implementation> Diagram::make(DiagramMethod method) const {
+    const DiagramSetup setup{library_, options_, fixed_sites_, *owners_};
+    switch (method) {
+        case DiagramMethod::cones:
+            return std::make_unique<ConesDiagram>(setup);
+        case DiagramMethod::gradient1:
+            return std::make_unique<GradientDiagram>(setup);
+        case DiagramMethod::gradient2:
+            return std::make_unique<BlendedDiagram>(setup, false);
+        case DiagramMethod::gradient2_packed:
+            return std::make_unique<BlendedDiagram>(setup, true);
+        case DiagramMethod::per_pixel:
+            return std::make_unique<PerPixelDiagram>(setup);
+        case DiagramMethod::per_site:
+            return std::make_unique<PerSiteDiagram>(setup);
+        case DiagramMethod::jfa:
+            return std::make_unique<FloodDiagram>(setup, FloodVariant{});
+        case DiagramMethod::jfa_one_before:
+            return std::make_unique<FloodDiagram>(setup, FloodVariant{true, false, false});
+        case DiagramMethod::jfa_one_after:
+            return std::make_unique<FloodDiagram>(setup, FloodVariant{false, true, false});
+        case DiagramMethod::jfa_from_radius:
+            return std::make_unique<FloodDiagram>(setup, FloodVariant{false, false, true});
+        case DiagramMethod::binned:
+            return std::make_unique<BinnedDiagram>(setup, GatherShape{}, pages_.get());
+        case DiagramMethod::automatic:
+            break;
+    }
+    throw std::logic_error("a diagram needs a method that has been chosen");
+}
+
+void Diagram::use(DiagramMethod method) {
+    if (options_.paged && method != DiagramMethod::binned)
+        throw std::logic_error("a paged diagram has one method");
+    auto known = std::find_if(implementations_.begin(), implementations_.end(),
+                              [&](const auto& entry) { return entry.first == method; });
+    if (known == implementations_.end()) {
+        implementations_.emplace_back(method, make(method));
+        known = std::prev(implementations_.end());
+        if (input_.sites) known->second->connect(input_);
+    }
+    current_ = known->second.get();
+    options_.method = method;
+}
+
+void Diagram::connect(const DiagramInput& input) {
+    input_ = input;
+    for (auto& [method, implementation] : implementations_)
+        implementation->connect(input);
+    extras_ = std::make_unique<Extras>();
+}
+
+void Diagram::build() {
+    current_->build();
+}
+
+gl::Definitions Diagram::lookupDefinitions() const {
+    return options_.paged ? gl::Definitions{{"PAGED", "1"}} : gl::Definitions{};
+}
+
+void Diagram::describeTo(gl::Program& program) const {
+    program.bind("owners", owner_texture_);
+    program.set("owner_line", pages_ ? pages_->perLine() : options_.width);
+    if (pages_) program.bind("page_table", table_texture_);
+}
+
+const gl::Buffer& Diagram::wholeOwners() {
+    if (!options_.paged) return *owners_;
+    if (!extras_->whole) {
+        extras_->whole.emplace();
+        extras_->whole->owners = gl::Buffer("diagram owners, whole", pixelBytes(options_));
+        gl::ComputeProgram& flatten = extras_->whole->flatten;
+        flatten = gl::ComputeProgram(library_, "shaders/diagram_flatten.comp", lookupDefinitions());
+        flatten.bind("WholeOwners", extras_->whole->owners);
+        flatten.set("diagram_size", sizeOf(options_));
+        describeTo(flatten);
+    }
+    extras_->whole->flatten.dispatch(std::uint64_t{options_.width} * options_.height);
+    return extras_->whole->owners;
+}
+
+const gl::Buffer& Diagram::measureDistances() {
+    const gl::Buffer& owners = wholeOwners();
+    if (!extras_->distances) {
+        extras_->distances.emplace();
+        extras_->distances->distances = gl::Buffer("diagram distances", pixelBytes(options_));
+        gl::ComputeProgram& measure = extras_->distances->measure;
+        measure = gl::ComputeProgram(library_, "shaders/diagram_measure.comp");
+        measure.bind("Owners", owners);
+        measure.bind("Sites", *input_.sites);
+        measure.bind("SiteSlots", *input_.site_slots);
+        measure.bind("Distances", extras_->distances->distances);
+        measure.set("diagram_size", sizeOf(options_));
+    }
+    extras_->distances->measure.dispatch(std::uint64_t{options_.width} * options_.height);
+    return extras_->distances->distances;
+}
+
+const gl::Buffer& Diagram::findSeconds() {
+    const gl::Buffer& owners = wholeOwners();
+    if (!extras_->seconds) {
+        const BinGrid grid(options_.width, options_.height, std::max(1.0f, options_.largest_radius));
+        extras_->seconds.emplace(
+            Extras::Seconds{grid, SiteBins(library_, grid, options_.live_capacity), {}, {}, {}});
+        Extras::Seconds& seconds = *extras_->seconds;
+        seconds.bins.connect(*input_.sites, *input_.live_dispatch);
+        seconds.seconds = gl::Buffer("second owners", pixelBytes(options_));
+        gl::Definitions definitions;
+        if (!fixed_sites_.empty()) {
+            seconds.fixed_bins.emplace(library_, grid, fixed_sites_);
+            definitions.emplace_back("FIXED_SITES", "1");
+        }
+        seconds.find = gl::ComputeProgram(library_, "shaders/diagram_second.comp", definitions);
+        grid.describeTo(seconds.find);
+        seconds.find.bind("Owners", owners);
+        seconds.find.bind("Seconds", seconds.seconds);
+        seconds.find.bind("BinStarts", seconds.bins.starts());
+        seconds.find.bind("binned_sites", seconds.bins.sites());
+        seconds.find.set("diagram_size", sizeOf(options_));
+        seconds.find.set("largest_radius", options_.largest_radius + 0.01f);
+        if (seconds.fixed_bins) {
+            seconds.find.bind("FixedBinStarts", seconds.fixed_bins->starts());
+            seconds.find.bind("fixed_binned_sites", seconds.fixed_bins->sites());
+        }
+    }
+    extras_->seconds->bins.sort();
+    extras_->seconds->find.dispatch(std::uint64_t{options_.width} * options_.height);
+    return extras_->seconds->seconds;
+}
+
+const gl::Buffer& Diagram::countPixels() {
+    if (!extras_->counts) {
+        extras_->counts.emplace();
+        extras_->counts->counts = gl::Buffer("pixels of each site", std::size_t{4} * options_.live_capacity);
+        gl::ComputeProgram& count = extras_->counts->count;
+        count = gl::ComputeProgram(library_, "shaders/diagram_count.comp", lookupDefinitions());
+        count.bind("Sites", *input_.sites);
+        count.bind("LiveDispatch", *input_.live_dispatch);
+        count.bind("PixelCounts", extras_->counts->counts);
+        count.set("diagram_size", glm::vec2(options_.width, options_.height));
+        describeTo(count);
+    }
+    extras_->counts->counts.fill(0);
+    extras_->counts->count.dispatchIndirect(*input_.live_dispatch);
+    return extras_->counts->counts;
+}
+
+}  // namespace throng::sim

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "authoring/diagram_method.h"
+#include "shaders/shared/simulation_types.h"
+#include "sim/diagram/pages.h"
+#include "sim/diagram/site_bins.h"
+#include "sim/gl/buffer.h"
+#include "sim/gl/program.h"
+
+namespace throng::sim {
+
+using authoring::DiagramMethod;
+
+/// Where diagrams are built and how.
+struct DiagramOptions {
+    DiagramMethod method = DiagramMethod::binned;  ///< not `automatic`: whoever makes a diagram has chosen
+    std::uint32_t width = 0;                       ///< px
+    std::uint32_t height = 0;                      ///< px
+    float largest_radius = 1.0f;                   ///< px, of any tile
+    std::uint32_t live_capacity = 0;               ///< sites that move, at most
+    std::uint32_t cone_sides = 16;                 ///< [3, 256], cones only
+    bool paged = false;                            ///< kept page by page (sim/diagram/pages.h); binned only
+};
+
+/// What every diagram reads; the buffers must stay alive and in place.
+struct DiagramInput {
+    /// Sites in pixels of the window: those that move first, in any order, the fixed ones after
+    /// `live_capacity`.
+    const gl::Buffer* sites = nullptr;
+    /// The block LiveDispatch of the shaders: how many move, and the groups for a pass over them.
+    const gl::Buffer* live_dispatch = nullptr;
+    /// By ascending id, where a site stands in `sites`; NO_INDEX: not there.
+    const gl::Buffer* site_slots = nullptr;
+};
+
+/// The truncated Voronoi diagram of De Gyves, Toledo and Rudomin 2013: every pixel's owner is the nearest
+/// site whose tile radius reaches the pixel's centre, ties going to the smallest id, and no other.
+class Diagram {
+  public:
+    /// @param fixed_sites sites that never move (walls), ids above those of all others
+    /// @throws GraphicsError when the window or the radius is more than the device can do, saying what would
+    /// fit
+    Diagram(const gl::ShaderLibrary& library, const DiagramOptions& options,
+            std::span<const gpu::DiagramSite> fixed_sites);
+    ~Diagram();
+    Diagram(Diagram&&) noexcept;
+    Diagram& operator=(Diagram&&) noexcept;
+
+    void connect(const DiagramInput& input);
+
+    /// Goes on with another way to build it; the result stays in the same buffer. Not while paged.
+    void use(DiagramMethod method);
+    DiagramMethod method() const { return options_.method; }
+
+    void build();
+
+    /// The owners' ids, NO_INDEX where there is none: per pixel, bottom row first, or a store of pages.
+    const gl::Buffer& owners() const { return *owners_; }
+    /// Makes a program with shaders/owners.glsl look up owners here.
+    void describeTo(gl::Program& program) const;
+    /// What such a program has to be compiled with.
+    gl::Definitions lookupDefinitions() const;
+    bool paged() const { return options_.paged; }
+
+    /// What may be asked of a built diagram; each call works from the owners as they are.
+    /// The owners as one picture, whether paged or not.
+    const gl::Buffer& wholeOwners();
+    /// Squared distances to the owners, float, px^2; infinite where there is no owner.
+    const gl::Buffer& measureDistances();
+    /// The second-nearest site whose tile reaches the pixel (Sud et al. 2007), ties to the smallest id,
+    /// NO_INDEX where there is none. Exact if the owners are.
+    const gl::Buffer& findSeconds();
+    /// Pixels owned by each of the first `live_capacity` ids, unsigned.
+    const gl::Buffer& countPixels();
+
+    std::uint32_t width() const { return options_.width; }
+    std::uint32_t height() const { return options_.height; }
+
+    /// One way to build a diagram.
+    struct Implementation {
+        virtual ~Implementation() = default;
+        virtual void connect(const DiagramInput& input) = 0;
+        virtual void build() = 0;
+    };
+
+  private:
+    struct Extras;
+    std::unique_ptr<Implementation> make(DiagramMethod method) const;
+
+    gl::ShaderLibrary library_;
+    DiagramOptions options_;
+    std::vector<gpu::DiagramSite> fixed_sites_;
+    std::unique_ptr<Pages> pages_;
+    std::unique_ptr<gl::Buffer> owners_;  // in one place for good: others bind it
+    gl::WordTexture owner_texture_, table_texture_;
+    std::vector<std::pair<DiagramMethod, std::unique_ptr<Implementation>>> implementations_;
+    Implementation* current_ = nullptr;
+    std::unique_ptr<Extras> extras_;
+    DiagramInput input_;
+};
+
+}  // namespace throng::sim

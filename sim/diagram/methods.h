@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "sim/diagram/diagram.h"
+#include "sim/diagram/pages.h"
+#include "sim/gl/raster_target.h"
+
+/// The ways to build a diagram. Each leaves the owners in the buffer it was given.
+namespace throng::sim {
+
+/// What each of them is made from.
+struct DiagramSetup {
+    const gl::ShaderLibrary& library;
+    const DiagramOptions& options;
+    std::span<const gpu::DiagramSite> fixed_sites;
+    gl::Buffer& owners;
+    std::uint32_t siteCount() const {
+        return options.live_capacity + static_cast<std::uint32_t>(fixed_sites.size());
+    }
+};
+
+/// Every site offers itself to the pixels under its tile, see shaders/diagram_splat.glsl.
+class PerSiteDiagram final : public Diagram::Implementation {
+  public:
+    explicit PerSiteDiagram(const DiagramSetup& setup);
+    void connect(const DiagramInput& input) override;
+    void build() override;
+
+  private:
+    void bindSites(const gl::Buffer& sites, const gl::Buffer& live_dispatch);
+
+    gl::Buffer& owners_;
+    gl::ComputeProgram distance_pass_;
+    gl::ComputeProgram site_pass_;
+    gl::Buffer distances_;
+    gl::Buffer fixed_owners_;  // the diagram of the sites that never move, which every build starts from
+    gl::Buffer fixed_distances_;
+    const gl::Buffer* live_dispatch_ = nullptr;
+};
+
+/// Every pixel compares all sites, see shaders/diagram_per_pixel.comp.
+class PerPixelDiagram final : public Diagram::Implementation {
+  public:
+    explicit PerPixelDiagram(const DiagramSetup& setup);
+    void connect(const DiagramInput& input) override;
+    void build() override;
+
+  private:
+    std::uint64_t pixels_;
+    gl::ComputeProgram program_;
+    gl::WordTexture sites_;
+};
+
+/// How the gathering method cuts its work; all give the same diagram.
+struct GatherShape {
+    std::uint32_t block_width = 4;   ///< px that an invocation keeps in registers
+    std::uint32_t block_height = 4;  ///< px
+    float bin_radii = 1.0f;          ///< side of a bin in largest radii
+};
+
+/// Sites sorted into bins, blocks of pixels look through the bins near them, see shaders/diagram_binned.comp.
+class BinnedDiagram final : public Diagram::Implementation {
+  public:
+    /// @param pages where the owners are kept page by page; they then hold a store of pages
+    BinnedDiagram(const DiagramSetup& setup, const GatherShape& shape, Pages* pages);
+    void connect(const DiagramInput& input) override;
+    void build() override;
+
+  private:
+    void buildPages();
+
+    BinGrid grid_;
+    SiteBins bins_;
+    std::optional<FixedBins> fixed_bins_;
+    std::uint64_t blocks_;
+    gl::ComputeProgram gather_;
+
+    Pages* pages_;
+    const gl::Buffer& owners_;
+    std::uint32_t ranges_ = 0;
+    std::uint32_t pages_per_range_ = 0;
+    gl::ComputeProgram count_groups_;
+    gl::Buffer page_dispatch_;
+};
+
+/// Point sprites and the depth test, see shaders/diagram_gradient.frag.
+class GradientDiagram final : public Diagram::Implementation {
+  public:
+    explicit GradientDiagram(const DiagramSetup& setup);
+    void connect(const DiagramInput& input) override;
+    void build() override;
+
+    /// Draws, and leaves the result in the textures: what benchmarks time as "one gradient1 diagram".
+    void draw();
+
+  private:
+    gl::RasterTarget target_;
+    gl::Program program_;
+    std::uint32_t draw_count_;
+    const gl::Buffer& owners_;
+};
+
+/// Point sprites and blending, see shaders/diagram_blend.frag.
+class BlendedDiagram final : public Diagram::Implementation {
+  public:
+    /// @param packed one pass over a quantised distance and the id, instead of two exact ones
+    BlendedDiagram(const DiagramSetup& setup, bool packed);
+    void connect(const DiagramInput& input) override;
+    void build() override;
+
+  private:
+    gl::RasterTarget first_target_;
+    gl::Program first_;
+    std::optional<gl::RasterTarget> second_target_;  // unless packed
+    std::optional<gl::Program> second_;
+    std::uint32_t draw_count_;
+    std::uint64_t pixels_;
+    gl::Buffer keys_;
+    gl::ComputeProgram decode_;
+};
+
+/// A cone a site and the depth test, see shaders/diagram_cones.vert.
+class ConesDiagram final : public Diagram::Implementation {
+  public:
+    explicit ConesDiagram(const DiagramSetup& setup);
+    void connect(const DiagramInput& input) override;
+    void build() override;
+
+  private:
+    gl::RasterTarget target_;
+    gl::Program program_;
+    std::uint32_t sides_;
+    std::uint32_t draw_count_;
+    const gl::Buffer& owners_;
+};
+
+/// Which jump flooding, see shaders/diagram_flood_jump.comp.
+struct FloodVariant {
+    bool one_before = false;
+    bool one_after = false;
+    bool from_radius = false;
+};
+
+class FloodDiagram final : public Diagram::Implementation {
+  public:
+    FloodDiagram(const DiagramSetup& setup, const FloodVariant& variant);
+    void connect(const DiagramInput& input) override;
+    void build() override;
+
+  private:
+    std::vector<std::uint32_t> steps_;  // px, in the order of the rounds
+    std::uint64_t pixels_;
+    std::uint32_t site_count_;
+    gl::WordTexture site_texture_;
+    gl::Buffer seeds_, other_seeds_;
+    gl::ComputeProgram seed_, forth_, back_, finish_;
+};
+
+}  // namespace throng::sim

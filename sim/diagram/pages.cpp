@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/diagram/pages.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/diagram/site_bins.h"
+#include "sim/gl/context.h"
+
+namespace throng::sim {
+namespace {
+
+constexpr std::size_t kWord = sizeof(std::uint32_t);
+constexpr std::size_t kPagePixels = std::size_t{gpu::PAGE_SIDE} * gpu::PAGE_SIDE;
+
+std::uint32_t pagesAcross(std::uint32_t pixels) {
+    return (pixels + gpu::PAGE_SIDE - 1) / gpu::PAGE_SIDE;
+}
+
+}  // namespace
+
+std::uint64_t Pages::pagesNeeded(std::uint32_t width, std::uint32_t height, float largest_radius,
+                                 std::uint64_t sites) {
+    // A span of L pixels that starts anywhere touches at most ceil((L - 1) / side) + 1 pages; a tile's box is
+    // at most 2 r + 2 pixels wide.
+    const double across = std::ceil((2.0 * largest_radius + 1.0) / gpu::PAGE_SIDE) + 1.0;
+    const double by_sites = static_cast<double>(sites) * across * across;
+    const double all = static_cast<double>(pagesAcross(width)) * pagesAcross(height);
+    return static_cast<std::uint64_t>(std::min(by_sites, all)) + 1;
+}
+
+Pages::Pages(const gl::ShaderLibrary& library, std::uint32_t width, std::uint32_t height,
+             float largest_radius, std::uint32_t live_capacity, std::span<const gpu::DiagramSite> fixed_sites)
+    : per_line_(pagesAcross(width)),
+      table_("diagram page table", kWord * per_line_ * pagesAcross(height)),
+      fixed_table_("diagram page table, fixed sites", table_.bytes()),
+      count_("diagram page count", kWord),
+      fixed_count_("diagram page count, fixed sites", kWord),
+      place_(library, "shaders/diagram_pages.comp") {
+    place_.set("diagram_size", glm::vec2(width, height));
+    place_.set("pages_per_line", per_line_);
+    place_.bind("PageTable", table_);
+    place_.bind("PageCount", count_);
+    fixed_table_.fill(0);
+    fixed_count_.fill(1);  // the empty page
+
+    // The fixed sites are placed once, in a list that is long enough for them, to learn how many pages they
+    // take.
+    const std::uint64_t fixed_bound = pagesNeeded(width, height, largest_radius, fixed_sites.size());
+    gl::Buffer fixed_list("diagram pages, fixed sites", kWord * fixed_bound);
+    const gl::Buffer sites =
+        gl::makeBuffer("fixed sites", std::vector<gpu::DiagramSite>(fixed_sites.begin(), fixed_sites.end()));
+    const gl::Buffer dispatch = gl::makeBuffer("fixed dispatch", dispatchOf(fixed_sites.size()));
+    place_.set("page_capacity", static_cast<std::uint32_t>(fixed_bound));
+    place_.bind("PageList", fixed_list);
+    connect(sites, dispatch);
+    place();
+    fixed_table_.copyFrom(table_);
+    fixed_count_.copyFrom(count_);
+    const std::uint64_t fixed_pages = count_.download<std::uint32_t>(1).front();
+
+    const std::uint64_t all = std::uint64_t{per_line_} * pagesAcross(height) + 1;
+    const std::uint64_t needed =
+        std::min(all, fixed_pages + pagesNeeded(width, height, largest_radius, live_capacity));
+    constexpr std::uint64_t kMostPages =
+        (std::uint64_t{1} << 27) / kPagePixels;  // texels of a buffer texture
+    if (needed > kMostPages)
+        throw gl::GraphicsError(fmt::format(
+            "the diagram of {} x {} pixels may need {:.0f} million of them where people or walls are, and "
+            "the "
+            "limit is {:.0f} million. Set simulation.pixels_per_metre lower, or split the layout.",
+            width, height, static_cast<double>(needed * kPagePixels) / 1e6,
+            static_cast<double>(kMostPages * kPagePixels) / 1e6));
+    capacity_ = static_cast<std::uint32_t>(needed);
+    list_ = gl::Buffer("diagram pages", kWord * capacity_);
+    list_.copyFrom(fixed_list);
+    place_.set("page_capacity", capacity_);
+    place_.bind("PageList", list_);
+    live_dispatch_ = nullptr;
+}
+
+std::size_t Pages::storeBytes() const {
+    return kWord * kPagePixels * capacity_;
+}
+
+void Pages::connect(const gl::Buffer& sites, const gl::Buffer& live_dispatch) {
+    place_.bind("Sites", sites);
+    place_.bind("LiveDispatch", live_dispatch);
+    live_dispatch_ = &live_dispatch;
+}
+
+void Pages::place() {
+    table_.copyFrom(fixed_table_);
+    count_.copyFrom(fixed_count_);
+    place_.dispatchIndirect(*live_dispatch_);
+}
+
+}  // namespace throng::sim

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "shaders/shared/simulation_types.h"
+#include "sim/gl/buffer.h"
+#include "sim/gl/program.h"
+
+namespace throng::sim {
+
+/// Room for a diagram larger than any texture: squares of PAGE_SIDE px that exist only where a tile reaches.
+///
+/// A table says for every square of the window where its page stands in the store; place 0 is a page that is
+/// always empty and stands for all squares without one, so that a look-up never branches. Pages of fixed
+/// sites keep their places; those of moving sites are placed anew in every build, on the device. There are
+/// always enough: the store is sized for the most pages that the given number of tiles can touch, or for the
+/// whole window where that is less.
+class Pages {
+  public:
+    /// @param live_capacity moving sites; @param largest_radius px
+    /// @throws GraphicsError where the store would be larger than the device can address, saying so
+    Pages(const gl::ShaderLibrary& library, std::uint32_t width, std::uint32_t height, float largest_radius,
+          std::uint32_t live_capacity, std::span<const gpu::DiagramSite> fixed_sites);
+    void connect(const gl::Buffer& sites, const gl::Buffer& live_dispatch);
+
+    /// The most pages that so many tiles touch, plus the empty one.
+    static std::uint64_t pagesNeeded(std::uint32_t width, std::uint32_t height, float largest_radius,
+                                     std::uint64_t sites);
+
+    /// Places the pages for where the sites are now.
+    void place();
+
+    std::uint32_t perLine() const { return per_line_; }
+    std::uint32_t capacity() const { return capacity_; }
+    const gl::Buffer& table() const { return table_; }
+    const gl::Buffer& list() const { return list_; }
+    const gl::Buffer& count() const { return count_; }
+    /// Bytes of a store for all pages.
+    std::size_t storeBytes() const;
+
+  private:
+    std::uint32_t per_line_;
+    std::uint32_t capacity_;
+    gl::Buffer table_;        // per square of the window: the place of its page
+    gl::Buffer fixed_table_;  // the same with the pages of fixed sites only, which every build starts from
+    gl::Buffer list_;         // per place: the number of the square
+    gl::Buffer count_;        // places taken
+    gl::Buffer fixed_count_;
+    gl::ComputeProgram place_;
+    const gl::Buffer* live_dispatch_ = nullptr;
+};
+
+}  // namespace throng::sim

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/diagram/site_bins.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace throng::sim {
+namespace {
+
+constexpr std::size_t kWord = sizeof(std::uint32_t);
+
+std::uint32_t binsAcross(std::uint32_t pixels, float side) {
+    return std::max(1u, static_cast<std::uint32_t>(std::ceil(static_cast<float>(pixels) / side)));
+}
+
+std::uint64_t scanThreads(const BinGrid& grid) {
+    return (grid.count() + gpu::CELLS_PER_THREAD - 1) / gpu::CELLS_PER_THREAD;
+}
+
+}  // namespace
+
+BinGrid::BinGrid(std::uint32_t window_width, std::uint32_t window_height, float the_side)
+    : side(the_side),
+      width(binsAcross(window_width, the_side)),
+      height(binsAcross(window_height, the_side)) {}
+
+void BinGrid::describeTo(gl::Program& program) const {
+    program.set("bin_count", glm::vec2(width, height));
+    program.set("bins_per_pixel", 1.0f / side);
+}
+
+SiteBins::SiteBins(const gl::ShaderLibrary& library, const BinGrid& grid, std::uint32_t capacity)
+    : grid_(grid),
+      counts_("bin counts", kWord * grid.count()),
+      group_sums_("bin group sums", kWord * (scanThreads(grid) / gpu::SCAN_GROUP_SIZE + 1)),
+      starts_("bin starts", kWord * (std::size_t{grid.count()} + 1)),
+      places_("places in bins", 2 * kWord * capacity),
+      sites_("binned sites", std::max<std::size_t>(1, capacity) * sizeof(gpu::DiagramSite)),
+      site_texture_(sites_, gl::WordTexture::Texel::four_words),
+      count_(library, "shaders/bins_count.comp"),
+      sum_(library, "shaders/cells_sum.comp"),
+      find_starts_(library, "shaders/bins_starts.comp"),
+      scatter_(library, "shaders/bins_scatter.comp") {
+    count_.bind("CellCounts", counts_);
+    count_.bind("SitePlaces", places_);
+    grid.describeTo(count_);
+    sum_.bind("CellCounts", counts_);
+    sum_.bind("GroupSums", group_sums_);
+    sum_.set("cell_count", grid.count());
+    find_starts_.bind("CellCounts", counts_);
+    find_starts_.bind("GroupSums", group_sums_);
+    find_starts_.bind("BinStarts", starts_);
+    find_starts_.set("cell_count", grid.count());
+    scatter_.bind("BinStarts", starts_);
+    scatter_.bind("SitePlaces", places_);
+    scatter_.bind("BinnedSites", sites_);
+}
+
+void SiteBins::connect(const gl::Buffer& sites, const gl::Buffer& live_dispatch) {
+    for (gl::ComputeProgram* program : {&count_, &scatter_}) {
+        program->bind("Sites", sites);
+        program->bind("LiveDispatch", live_dispatch);
+    }
+    live_dispatch_ = &live_dispatch;
+}
+
+void SiteBins::sort() {
+    counts_.fill(0);
+    count_.dispatchIndirect(*live_dispatch_);
+    sum_.dispatch(scanThreads(grid_));
+    find_starts_.dispatch(scanThreads(grid_));
+    scatter_.dispatchIndirect(*live_dispatch_);
+}
+
+FixedBins::FixedBins(const gl::ShaderLibrary& library, const BinGrid& grid,
+                     std::span<const gpu::DiagramSite> fixed_sites)
+    : count_(fixed_sites.size()), bins_(library, grid, static_cast<std::uint32_t>(fixed_sites.size())) {
+    const gl::Buffer sites =
+        gl::makeBuffer("fixed sites", std::vector<gpu::DiagramSite>(fixed_sites.begin(), fixed_sites.end()));
+    const gl::Buffer dispatch = gl::makeBuffer("fixed dispatch", dispatchOf(fixed_sites.size()));
+    bins_.connect(sites, dispatch);
+    bins_.sort();
+}
+
+std::vector<std::uint32_t> dispatchOf(std::size_t sites) {
+    const auto count = static_cast<std::uint32_t>(sites);
+    return {(count + gpu::AGENT_GROUP_SIZE - 1) / gpu::AGENT_GROUP_SIZE, 1, 1, count};
+}
+
+}  // namespace throng::sim
