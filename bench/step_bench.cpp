@@ -61,7 +61,7 @@ double milliseconds(Work&& work) {
 class Gradient1 {
   public:
     Gradient1(std::uint32_t count, float radius)
-        : options_{sim::DiagramMethod::gradient1, 1024, 1024, radius, count, 0, false},
+        : options_{sim::DiagramMethod::gradient1, 1024, 1024, radius, count, 0, {}, false},
           owners_("owners", 4 * 1024 * 1024),
           diagram_({gl::ShaderLibrary(), options_, {}, owners_}) {
         std::mt19937 random(11);

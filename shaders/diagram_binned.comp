@@ -15,7 +15,11 @@
 
 layout(local_size_x = PIXEL_GROUP_SIZE) in;
 layout(std430) readonly buffer BinStarts { uint bin_starts[]; };
+#ifdef STORE_BY_FOUR
+layout(std430) writeonly buffer Owners { uvec4 owners[]; };
+#else
 layout(std430) writeonly buffer Owners { uint owners[]; };
+#endif
 uniform usamplerBuffer binned_sites;  // a DiagramSite each, as bits
 uniform float largest_radius;  // px
 #ifdef PAGED
@@ -39,7 +43,7 @@ float nearest[BLOCK_PIXELS];
 uint nearest_id[BLOCK_PIXELS];
 
 /// Where this invocation's block is; false where there is none.
-bool placeBlock(out uvec2 corner, out uint first_word, out uint words_per_line) {
+bool placeBlock(out uvec2 corner, out uint first_word, out uint words_per_line, out uint words_in_line) {
     uint block = flatIndex();
 #ifdef PAGED
     const uint blocks_per_line = PAGE_SIDE / BLOCK_WIDTH;
@@ -52,6 +56,7 @@ bool placeBlock(out uvec2 corner, out uint first_word, out uint words_per_line) 
     corner = uvec2(number % pages_per_line, number / pages_per_line) * PAGE_SIDE + within;
     first_word = (page - first_page) * PAGE_SIDE * PAGE_SIDE + within.y * PAGE_SIDE + within.x;
     words_per_line = PAGE_SIDE;
+    words_in_line = 0xffffffffu;  // pages go on beyond the edge of the window
     return true;
 #else
     uint width = uint(diagram_size.x);
@@ -59,6 +64,7 @@ bool placeBlock(out uvec2 corner, out uint first_word, out uint words_per_line) 
     corner = uvec2(block % blocks_per_line, block / blocks_per_line) * uvec2(BLOCK_WIDTH, BLOCK_HEIGHT);
     first_word = corner.y * width + corner.x;
     words_per_line = width;
+    words_in_line = width;
     return corner.y < uint(diagram_size.y);
 #endif
 }
@@ -89,8 +95,8 @@ void offer(vec2 corner, uvec4 words) {
 
 void main() {
     uvec2 block_corner;
-    uint first_word, words_per_line;
-    if (!placeBlock(block_corner, first_word, words_per_line)) return;
+    uint first_word, words_per_line, words_in_line;
+    if (!placeBlock(block_corner, first_word, words_per_line, words_in_line)) return;
     vec2 corner = vec2(block_corner);
     for (uint pixel = 0u; pixel < BLOCK_PIXELS; ++pixel) {
         nearest[pixel] = 3.0e38;
@@ -101,21 +107,39 @@ void main() {
     float reach = largest_radius + 0.01;
     uvec2 lower = binOf(corner - reach);
     uvec2 upper = binOf(corner + vec2(BLOCK_WIDTH, BLOCK_HEIGHT) + reach);
+    bool touched = false;
     for (uint line = lower.y; line <= upper.y; ++line) {
         uint bins = line * uint(bin_count.x);
+        uint first = bin_starts[bins + lower.x];
         uint last = bin_starts[bins + upper.x + 1u];
-        for (uint i = bin_starts[bins + lower.x]; i < last; ++i) offer(corner, texelFetch(binned_sites, int(i)));
+        touched = touched || first < last;
+        for (uint i = first; i < last; ++i) offer(corner, texelFetch(binned_sites, int(i)));
 #ifdef FIXED_SITES
+        first = fixed_bin_starts[bins + lower.x];
         last = fixed_bin_starts[bins + upper.x + 1u];
-        for (uint i = fixed_bin_starts[bins + lower.x]; i < last; ++i) offer(corner, texelFetch(fixed_binned_sites, int(i)));
+        touched = touched || first < last;
+        for (uint i = first; i < last; ++i) offer(corner, texelFetch(fixed_binned_sites, int(i)));
 #endif
     }
 
-    for (uint y = 0u; y < BLOCK_HEIGHT; ++y)
-        for (uint x = 0u; x < BLOCK_WIDTH; ++x) {
-#ifndef PAGED
-            if (block_corner.x + x >= uint(diagram_size.x) || block_corner.y + y >= uint(diagram_size.y)) continue;
+#ifdef CLEARED_BEFORE
+    if (!touched) return;
 #endif
-            owners[first_word + y * words_per_line + x] = nearest_id[y * BLOCK_WIDTH + x];
+    for (uint y = 0u; y < BLOCK_HEIGHT; ++y) {
+#ifndef PAGED
+        if (block_corner.y + y >= uint(diagram_size.y)) break;
+#endif
+        uint word = first_word + y * words_per_line;
+        uint pixel = y * BLOCK_WIDTH;
+#ifdef STORE_BY_FOUR
+        for (uint x = 0u; x < BLOCK_WIDTH; x += 4u) {
+            if (block_corner.x + x >= words_in_line) break;
+            owners[(word + x) / 4u] = uvec4(nearest_id[pixel + x], nearest_id[pixel + x + 1u], nearest_id[pixel + x + 2u],
+                                            nearest_id[pixel + x + 3u]);
         }
+#else
+        for (uint x = 0u; x < BLOCK_WIDTH; ++x)
+            if (block_corner.x + x < words_in_line) owners[word + x] = nearest_id[pixel + x];
+#endif
+    }
 }

@@ -11,11 +11,15 @@ namespace {
 
 constexpr std::size_t kPageBytes = std::size_t{4} * gpu::PAGE_SIDE * gpu::PAGE_SIDE;
 
-gl::Definitions definitionsFor(const DiagramSetup& setup, const GatherShape& shape, const Pages* pages) {
-    gl::Definitions definitions = {{"BLOCK_WIDTH", fmt::format("{}u", shape.block_width)},
-                                   {"BLOCK_HEIGHT", fmt::format("{}u", shape.block_height)}};
+gl::Definitions definitionsFor(const DiagramSetup& setup, const Pages* pages) {
+    gl::Definitions definitions = {{"BLOCK_WIDTH", fmt::format("{}u", setup.options.gather.block_width)},
+                                   {"BLOCK_HEIGHT", fmt::format("{}u", setup.options.gather.block_height)}};
     if (!setup.fixed_sites.empty()) definitions.emplace_back("FIXED_SITES", "1");
     if (pages) definitions.emplace_back("PAGED", "1");
+    if (!pages) definitions.emplace_back("CLEARED_BEFORE", "1");
+    const bool lines_of_fours = pages || setup.options.width % 4 == 0;
+    if (lines_of_fours && setup.options.gather.block_width % 4 == 0)
+        definitions.emplace_back("STORE_BY_FOUR", "1");
     return definitions;
 }
 
@@ -34,13 +38,13 @@ std::uint32_t pagesPerRange(std::uint32_t blocks_per_page) {
 
 }  // namespace
 
-BinnedDiagram::BinnedDiagram(const DiagramSetup& setup, const GatherShape& shape, Pages* pages)
+BinnedDiagram::BinnedDiagram(const DiagramSetup& setup, Pages* pages)
     : grid_(setup.options.width, setup.options.height,
-            std::max(1.0f, shape.bin_radii * setup.options.largest_radius)),
+            std::max(1.0f, setup.options.gather.bin_radii * setup.options.largest_radius)),
       bins_(setup.library, grid_, setup.options.live_capacity),
-      blocks_(blocksAcross(setup.options.width, shape.block_width) *
-              blocksAcross(setup.options.height, shape.block_height)),
-      gather_(setup.library, "shaders/diagram_binned.comp", definitionsFor(setup, shape, pages)),
+      blocks_(blocksAcross(setup.options.width, setup.options.gather.block_width) *
+              blocksAcross(setup.options.height, setup.options.gather.block_height)),
+      gather_(setup.library, "shaders/diagram_binned.comp", definitionsFor(setup, pages)),
       pages_(pages),
       owners_(setup.owners) {
     grid_.describeTo(gather_);
@@ -58,7 +62,7 @@ BinnedDiagram::BinnedDiagram(const DiagramSetup& setup, const GatherShape& shape
         return;
     }
     const std::uint32_t blocks_per_page =
-        (gpu::PAGE_SIDE / shape.block_width) * (gpu::PAGE_SIDE / shape.block_height);
+        (gpu::PAGE_SIDE / setup.options.gather.block_width) * (gpu::PAGE_SIDE / setup.options.gather.block_height);
     pages_per_range_ = pagesPerRange(blocks_per_page);
     ranges_ = (pages_->capacity() + pages_per_range_ - 1) / pages_per_range_;
     page_dispatch_ = gl::Buffer("diagram page dispatch", std::size_t{12} * ranges_);
@@ -82,8 +86,10 @@ void BinnedDiagram::build() {
     bins_.sort();
     if (pages_)
         buildPages();
-    else
+    else {
+        owners_.fill(gpu::NO_INDEX);  // blocks out of reach are not even written
         gather_.dispatch(blocks_);
+    }
 }
 
 void BinnedDiagram::buildPages() {

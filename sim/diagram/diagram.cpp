@@ -102,7 +102,7 @@ std::unique_ptr<Diagram::Implementation> Diagram::make(DiagramMethod method) con
         case DiagramMethod::jfa_from_radius:
             return std::make_unique<FloodDiagram>(setup, FloodVariant{false, false, true});
         case DiagramMethod::binned:
-            return std::make_unique<BinnedDiagram>(setup, GatherShape{}, pages_.get());
+            return std::make_unique<BinnedDiagram>(setup, pages_.get());
         case DiagramMethod::automatic:
             break;
     }

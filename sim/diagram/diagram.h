@@ -18,6 +18,13 @@ namespace throng::sim {
 
 using authoring::DiagramMethod;
 
+/// How the gathering method cuts its work; all give the same diagram.
+struct GatherShape {
+    std::uint32_t block_width = 4;   ///< px that an invocation keeps in registers
+    std::uint32_t block_height = 4;  ///< px
+    float bin_radii = 1.0f;          ///< side of a bin in largest radii
+};
+
 /// Where diagrams are built and how.
 struct DiagramOptions {
     DiagramMethod method = DiagramMethod::binned;  ///< not `automatic`: whoever makes a diagram has chosen
@@ -26,6 +33,7 @@ struct DiagramOptions {
     float largest_radius = 1.0f;                   ///< px, of any tile
     std::uint32_t live_capacity = 0;               ///< sites that move, at most
     std::uint32_t cone_sides = 16;                 ///< [3, 256], cones only
+    GatherShape gather;  ///< binned only
     bool paged = false;                            ///< kept page by page (sim/diagram/pages.h); binned only
 };
 

@@ -55,18 +55,11 @@ class PerPixelDiagram final : public Diagram::Implementation {
     gl::WordTexture sites_;
 };
 
-/// How the gathering method cuts its work; all give the same diagram.
-struct GatherShape {
-    std::uint32_t block_width = 4;   ///< px that an invocation keeps in registers
-    std::uint32_t block_height = 4;  ///< px
-    float bin_radii = 1.0f;          ///< side of a bin in largest radii
-};
-
 /// Sites sorted into bins, blocks of pixels look through the bins near them, see shaders/diagram_binned.comp.
 class BinnedDiagram final : public Diagram::Implementation {
   public:
     /// @param pages where the owners are kept page by page; they then hold a store of pages
-    BinnedDiagram(const DiagramSetup& setup, const GatherShape& shape, Pages* pages);
+    BinnedDiagram(const DiagramSetup& setup, Pages* pages);
     void connect(const DiagramInput& input) override;
     void build() override;
 
@@ -80,7 +73,7 @@ class BinnedDiagram final : public Diagram::Implementation {
     gl::ComputeProgram gather_;
 
     Pages* pages_;
-    const gl::Buffer& owners_;
+    gl::Buffer& owners_;
     std::uint32_t ranges_ = 0;
     std::uint32_t pages_per_range_ = 0;
     gl::ComputeProgram count_groups_;
