@@ -14,10 +14,6 @@ namespace throng::sim {
 namespace {
 
 constexpr std::size_t kWord = sizeof(std::uint32_t);
-// Largest diagram: what the texture and buffer limits that every OpenGL 4.5 device has allow.
-constexpr double kMostPixels = 33'554'432.0;
-constexpr double kMostPixelsPerSide = 16'384.0;
-
 // How far contact may move somebody in one step and still be sure to meet everybody it is moved into, m.
 constexpr float kPushAllowance = 0.05f;
 
@@ -59,19 +55,23 @@ std::uint32_t pixels(float extent, float per_metre) {
     return static_cast<std::uint32_t>(std::ceil(extent * per_metre));
 }
 
-void checkWindow(const gpu::Parameters& parameters, glm::vec2 extent) {
-    const double width = parameters.diagram_width;
-    const double height = parameters.diagram_height;
-    if (width <= kMostPixelsPerSide && height <= kMostPixelsPerSide && width * height <= kMostPixels) return;
-    const double by_area = std::sqrt(kMostPixels / (double{extent.x} * double{extent.y}));
-    const double by_side = kMostPixelsPerSide / std::max(extent.x, extent.y);
-    throw std::runtime_error(
-        fmt::format("the layout covers {:.0f} x {:.0f} m, which at {:.2f} pixels per metre is a diagram of "
-                    "{:.0f} x {:.0f} pixels; the limit is "
-                    "{:.0f} a side and {:.0f} million in all. Set simulation.pixels_per_metre to at most "
-                    "{:.2f}, or split the layout.",
-                    extent.x, extent.y, parameters.pixels_per_metre, width, height, kMostPixelsPerSide,
-                    kMostPixels / 1e6, std::floor(std::min(by_area, by_side) * 100.0) / 100.0));
+/// Two pixels per radius of the smallest tile, and never less than one per radius of the smallest body: below
+/// that, bodies that stand together hide each other from the rays.
+float defaultPixelsPerMetre(const authoring::Scene& scene) {
+    const float smallest_tile = static_cast<float>(scene.settings.tile_radius);
+    return std::max(2.0f / smallest_tile, 1.0f / std::max(scene.smallest_radius, 0.05f));
+}
+
+/// Cells that one storage block of every device holds.
+constexpr double kMostCells = 33'554'432.0;
+
+void checkCells(glm::vec2 extent, float cell_size) {
+    const double cells = double{extent.x} * double{extent.y} / (double{cell_size} * double{cell_size});
+    if (cells <= kMostCells) return;
+    throw std::runtime_error(fmt::format(
+        "the layout covers {:.1f} x {:.1f} km: at most {:.0f} square kilometres fit one bake. Split the "
+        "layout.",
+        extent.x / 1000.0, extent.y / 1000.0, kMostCells * double{cell_size} * double{cell_size} / 1e6));
 }
 
 }  // namespace
@@ -88,13 +88,14 @@ gpu::Parameters makeParameters(const authoring::Scene& scene) {
                                         2.0f * scene.largest_radius + parameters.contact_slack);
     parameters.cells_minimum = scene.minimum;
     parameters.cell_size = parameters.contact_range;
+    checkCells(extent, parameters.cell_size);
     parameters.cells_width = std::max(1u, pixels(extent.x, 1.0f / parameters.cell_size));
     parameters.cells_height = std::max(1u, pixels(extent.y, 1.0f / parameters.cell_size));
     parameters.row_count = static_cast<std::uint32_t>(scene.people.size());
     parameters.diagram_minimum = scene.minimum;
     parameters.pixels_per_metre = settings.pixels_per_metre > 0.0
                                       ? static_cast<float>(settings.pixels_per_metre)
-                                      : 1.0f / std::max(scene.smallest_radius, 0.05f);
+                                      : defaultPixelsPerMetre(scene);
     parameters.diagram_width = pixels(extent.x, parameters.pixels_per_metre);
     parameters.diagram_height = pixels(extent.y, parameters.pixels_per_metre);
     parameters.tile_radius = static_cast<float>(settings.tile_radius);
@@ -108,7 +109,6 @@ gpu::Parameters makeParameters(const authoring::Scene& scene) {
     parameters.grid_width = scene.grid.width;
     parameters.grid_height = scene.grid.height;
     parameters.has_roads = scene.road_distance.empty() ? 0 : 1;
-    checkWindow(parameters, extent);
     return parameters;
 }
 

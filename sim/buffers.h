@@ -38,7 +38,7 @@ struct Buffers {
 };
 
 /// Cells, windows and limits that follow from a scene.
-/// @throws std::runtime_error for scenes too large for one diagram, saying what would fit
+/// @throws std::runtime_error for scenes too large, saying what would fit
 gpu::Parameters makeParameters(const authoring::Scene& scene);
 
 /// The wall tiles as sites of the diagram, with ids after all rows.

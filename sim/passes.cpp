@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "sim/wall_index.h"
+
 namespace throng::sim {
 namespace {
 
@@ -55,16 +57,46 @@ void Spawner::run(float now, std::uint32_t steps_done) {
 }
 
 Sensing::Sensing(const gl::ShaderLibrary& library, Buffers& buffers, const Diagram& diagram,
-                 const std::vector<glm::vec2>& pattern, int neighbours)
-    : buffers_(buffers) {
-    gl::Definitions definitions = listLength(neighbours);
+                 const SensingOptions& options, const authoring::Scene& scene,
+                 const gpu::Parameters& parameters)
+    : buffers_(buffers), proximity_(options.proximity) {
+    if (needsDiagram())
+        marchRays(library, diagram, options);
+    else
+        compareExactly(library, options, scene, parameters);
+    program_.set("slot_capacity", buffers.slotCapacity());
+}
+
+void Sensing::marchRays(const gl::ShaderLibrary& library, const Diagram& diagram,
+                        const SensingOptions& options) {
+    const std::vector<glm::vec2> pattern = thinnedPattern(options.geometry, options.felt_range);
+    gl::Definitions definitions = listLength(options.neighbours);
     definitions.emplace_back("SENSING_SAMPLES", std::to_string(pattern.size()));
     for (const auto& definition : diagram.lookupDefinitions())
         definitions.push_back(definition);
-    program_ = connected(library, "shaders/sense.comp", buffers, definitions);
+    program_ = connected(library, "shaders/sense.comp", buffers_, definitions);
     diagram.describeTo(program_);
     program_.set("pattern", pattern);
-    program_.set("slot_capacity", buffers.slotCapacity());
+}
+
+void Sensing::compareExactly(const gl::ShaderLibrary& library, const SensingOptions& options,
+                             const authoring::Scene& scene, const gpu::Parameters& parameters) {
+    const float reach = sensingReach(options.geometry);
+    const bool everybody = proximity_ == authoring::Proximity::brute;
+    gl::Definitions definitions = listLength(options.neighbours);
+    if (everybody) definitions.emplace_back("EVERYBODY", "1");
+    program_ = connected(library, "shaders/sense_exact.comp", buffers_, definitions);
+    program_.set("reach", reach);
+    program_.set("half_view", 0.5f * options.geometry.field_of_view);
+    if (everybody) {
+        program_.set("wall_count", static_cast<std::uint32_t>(scene.wall_segments.size()));
+        return;
+    }
+    const WallIndex walls = indexWalls(scene.wall_segments, parameters, reach);
+    far_wall_starts_ = gl::makeBuffer("walls within reach, starts", walls.starts);
+    far_wall_items_ = gl::makeBuffer("walls within reach", walls.items);
+    program_.bind("FarWallStarts", far_wall_starts_);
+    program_.bind("FarWallItems", far_wall_items_);
 }
 
 void Sensing::run() {

@@ -8,31 +8,58 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/sensing_pattern.h"
 #include "sim/simulation_parts.h"
 
 namespace throng::sim {
 namespace {
 
-std::vector<glm::vec2> patternFor(const authoring::Scene& scene, const gpu::Parameters& parameters) {
-    SensingGeometry geometry;
-    geometry.body_radius = scene.smallest_radius;
-    geometry.tile_radius = static_cast<float>(scene.settings.tile_radius);
-    geometry.samples_per_ray = scene.settings.samples_per_ray;
-    geometry.field_of_view = static_cast<float>(scene.settings.field_of_view * std::numbers::pi / 180.0);
-    return thinnedPattern(geometry, parameters.contact_range);
+SensingOptions sensingFor(const authoring::Scene& scene, const gpu::Parameters& parameters) {
+    SensingOptions options;
+    options.proximity = scene.settings.proximity;
+    options.geometry.body_radius = scene.smallest_radius;
+    options.geometry.tile_radius = static_cast<float>(scene.settings.tile_radius);
+    options.geometry.samples_per_ray = scene.settings.samples_per_ray;
+    options.geometry.field_of_view =
+        static_cast<float>(scene.settings.field_of_view * std::numbers::pi / 180.0);
+    options.neighbours = scene.settings.neighbours;
+    options.felt_range = parameters.contact_range;
+    return options;
+}
+
+/// Pages where one buffer or texture cannot hold the window, and where most of a large window is empty: then
+/// clearing and gathering only what exists makes up for looking up where it is.
+bool isBestPaged(const DiagramOptions& options, std::size_t wall_sites) {
+    constexpr double kMostWholePixels = 33'554'432.0;  // 128 MiB: what every device's storage blocks hold
+    constexpr std::uint32_t kMostWholeSide = 16'384;
+    constexpr double kWorthwhilePixels = 4'194'304.0;
+    const double pixels = static_cast<double>(options.width) * options.height;
+    if (pixels > kMostWholePixels || std::max(options.width, options.height) > kMostWholeSide) return true;
+    if (pixels < kWorthwhilePixels || options.method != DiagramMethod::binned) return false;
+    const double paged_pixels =
+        static_cast<double>(Pages::pagesNeeded(options.width, options.height, options.largest_radius,
+                                               options.live_capacity + wall_sites)) *
+        gpu::PAGE_SIDE * gpu::PAGE_SIDE;
+    return paged_pixels < 0.25 * pixels;
+}
+
+std::uint32_t presentAtStart(const authoring::Scene& scene) {
+    return static_cast<std::uint32_t>(std::count_if(
+        scene.people.begin(), scene.people.end(),
+        [](const gpu::Person& person) { return (person.flags & gpu::PERSON_PRESENT_AT_START) != 0; }));
 }
 
 Diagram diagramFor(const authoring::Scene& scene, const gpu::Parameters& parameters,
                    const gl::ShaderLibrary& library) {
     DiagramOptions options;
-    options.method =
-        scene.settings.method == DiagramMethod::automatic ? DiagramMethod::binned : scene.settings.method;
+    options.method = scene.settings.method;
+    if (options.method == DiagramMethod::automatic) options.method = DiagramMethod::binned;
+    options.cone_sides = static_cast<std::uint32_t>(scene.settings.cone_sides);
     options.width = parameters.diagram_width;
     options.height = parameters.diagram_height;
     options.live_capacity = parameters.row_count;
     options.largest_radius =
         std::max(parameters.tile_radius, scene.largest_radius) * parameters.pixels_per_metre;
+    options.paged = isBestPaged(options, scene.wall_tiles.size());
     return Diagram(library, options, wallSites(scene, parameters));
 }
 
@@ -66,18 +93,21 @@ std::uint32_t warmupSteps(const authoring::SimulationSettings& settings) {
            static_cast<std::uint32_t>(settings.substeps);
 }
 
-Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary& library)
+Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary& library,
+                         const CostModel& cost_model)
     : settings(scene.settings),
       parameters(makeParameters(scene)),
       buffers(scene, parameters),
       diagram(diagramFor(scene, parameters, library)),
       cells(library, buffers, parameters),
       spawner(library, buffers, parameters),
-      sensing(library, buffers, diagram, patternFor(scene, parameters), settings.neighbours),
+      sensing(library, buffers, diagram, sensingFor(scene, parameters), scene, parameters),
       avoidance(library, buffers, settings.neighbours),
       contacts(library, buffers, settings.contact_iterations),
       motion(library, buffers, contacts.result()),
       pack(library, "shaders/pack_frame.comp"),
+      costs(cost_model),
+      fixed_sites(static_cast<std::uint32_t>(scene.wall_tiles.size())),
       rows(parameters.row_count) {
     diagram.connect({&buffers.sites, &buffers.live_dispatch, &buffers.row_slots});
     pack.bindAll(buffers.named());
@@ -92,8 +122,15 @@ float Simulation::Parts::now() const {
                               (settings.fps * settings.substeps));
 }
 
-Simulation::Simulation(const authoring::Scene& scene, const gl::ShaderLibrary& library)
-    : parts_(std::make_unique<Parts>(scene, library)) {}
+Simulation::Simulation(const authoring::Scene& scene, const gl::ShaderLibrary& library,
+                       const CostModel& costs)
+    : parts_(std::make_unique<Parts>(scene, library, costs)) {
+    const gpu::Parameters& parameters = parts_->parameters;
+    parts_->load.radius =
+        double{std::max(parameters.tile_radius, parameters.largest_radius)} * parameters.pixels_per_metre;
+    parts_->load.pixels = static_cast<double>(parameters.diagram_width) * parameters.diagram_height;
+    adaptTo(presentAtStart(scene));
+}
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 
@@ -103,11 +140,28 @@ void Simulation::step() {
     ++p.steps_done;
     p.cells.run();
     if (p.anybody_enters_later) p.spawner.run(now, p.steps_done);
-    p.diagram.build();
+    if (p.sensing.needsDiagram()) p.diagram.build();
     p.sensing.run();
     p.avoidance.run();
     p.contacts.run();
     p.motion.run(p.steps_done);
+}
+
+void Simulation::adaptTo(std::uint32_t people_present) {
+    Parts& p = *parts_;
+    if (p.settings.method != DiagramMethod::automatic || p.diagram.paged()) return;
+    p.load.sites = static_cast<double>(people_present) + p.fixed_sites;
+    const MethodCost& best = p.costs.choose(p.load, p.chosen);
+    if (&best == p.chosen) return;
+    p.chosen = &best;
+    p.diagram.use(best.method, best.gather);
+}
+
+DiagramMethod Simulation::diagramMethod() const {
+    return parts_->diagram.method();
+}
+bool Simulation::diagramIsPaged() const {
+    return parts_->diagram.paged();
 }
 
 std::vector<std::pair<std::string, double>> Simulation::profile(int steps) {
@@ -129,7 +183,9 @@ std::vector<std::pair<std::string, double>> Simulation::profile(int steps) {
         timed(1, "spawn", [&] {
             if (p.anybody_enters_later) p.spawner.run(now, p.steps_done);
         });
-        timed(2, "diagram", [&] { p.diagram.build(); });
+        timed(2, "diagram", [&] {
+            if (p.sensing.needsDiagram()) p.diagram.build();
+        });
         timed(3, "sensing", [&] { p.sensing.run(); });
         timed(4, "avoidance", [&] { p.avoidance.run(); });
         timed(5, "contacts", [&] { p.contacts.run(); });

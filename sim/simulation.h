@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "authoring/scene.h"
+#include "sim/diagram/cost_model.h"
 #include "sim/diagram/diagram.h"
 #include "sim/frame.h"
 #include "sim/gl/shader_source.h"
@@ -21,14 +22,22 @@ std::uint32_t warmupSteps(const authoring::SimulationSettings& settings);
 /// step.
 class Simulation {
   public:
-    /// @throws GraphicsError (shaders, memory), std::runtime_error (a scene too large for one diagram)
-    Simulation(const authoring::Scene& scene, const gl::ShaderLibrary& library);
+    /// @param costs what `auto` chooses the diagram's method by
+    /// @throws GraphicsError (shaders, memory, a scene too large for the device)
+    Simulation(const authoring::Scene& scene, const gl::ShaderLibrary& library,
+               const CostModel& costs = CostModel::builtIn());
     ~Simulation();
     Simulation(Simulation&&) noexcept;
 
     /// Advances by 1 / (fps * substeps) seconds.
     void step();
     std::uint32_t stepsDone() const;
+    /// Where the layout leaves the diagram's method open: the best one for so many people from here on. All
+    /// that it chooses from give the same diagram, so it matters to nothing but speed.
+    void adaptTo(std::uint32_t people_present);
+    DiagramMethod diagramMethod() const;
+    bool diagramIsPaged() const;
+
     /// Waits until the device has done all that was asked.
     void wait() const;
 

@@ -9,7 +9,7 @@
 namespace throng::sim {
 
 struct Simulation::Parts {
-    Parts(const authoring::Scene& scene, const gl::ShaderLibrary& library);
+    Parts(const authoring::Scene& scene, const gl::ShaderLibrary& library, const CostModel& cost_model);
 
     authoring::SimulationSettings settings;
     gpu::Parameters parameters;
@@ -22,6 +22,11 @@ struct Simulation::Parts {
     Contacts contacts;
     Motion motion;
     gl::ComputeProgram pack;
+
+    CostModel costs;
+    DiagramLoad load;                    // of the present population
+    std::uint32_t fixed_sites = 0;       // of the diagram
+    const MethodCost* chosen = nullptr;  // among costs, where the layout leaves it open
 
     std::uint32_t rows = 0;
     std::uint32_t steps_done = 0;

@@ -6,6 +6,8 @@
 #include <memory>
 #include <random>
 
+#include "sim/diagram/methods.h"
+
 namespace throng::sim {
 namespace {
 
@@ -93,9 +95,14 @@ std::vector<std::optional<DiagramTiming>> DiagramBenchmark::run(
 
     struct Runner {
         std::unique_ptr<Diagram> diagram;
+        std::unique_ptr<gl::Buffer> owners;
+        std::unique_ptr<GradientDiagram> yardstick;  // instead of a diagram
         std::vector<double> times;
         DiagramTiming timing;
         bool once = false;
+
+        bool present() const { return diagram || yardstick; }
+        void build() { diagram ? diagram->build() : yardstick->draw(); }
     };
     std::vector<Runner> runners(contestants.size());
     for (std::size_t i = 0; i < contestants.size(); ++i) {
@@ -109,18 +116,26 @@ std::vector<std::optional<DiagramTiming>> DiagramBenchmark::run(
         options.cone_sides = contestant.cone_sides;
         options.gather = contestant.gather;
         Runner& runner = runners[i];
-        runner.diagram = std::make_unique<Diagram>(library, options, std::span<const gpu::DiagramSite>());
-        runner.diagram->connect({&buffers.sites, &buffers.dispatch, &buffers.slots});
-        const double first = timer.milliseconds([&] { runner.diagram->build(); });
+        const DiagramInput input{&buffers.sites, &buffers.dispatch, &buffers.slots};
+        if (contestant.draw_only) {
+            runner.owners = std::make_unique<gl::Buffer>("owners", std::size_t{4} * setup.side * setup.side);
+            runner.yardstick = std::make_unique<GradientDiagram>(
+                DiagramSetup{library, options, std::span<const gpu::DiagramSite>(), *runner.owners});
+            runner.yardstick->connect(input);
+        } else {
+            runner.diagram = std::make_unique<Diagram>(library, options, std::span<const gpu::DiagramSite>());
+            runner.diagram->connect(input);
+        }
+        const double first = timer.milliseconds([&] { runner.build(); });
         runner.once = first > patience_ms;
         if (runner.once) runner.times.push_back(first);
-        runner.timing.wrong_share = wrongShare(*runner.diagram, expected);
+        if (runner.diagram) runner.timing.wrong_share = wrongShare(*runner.diagram, expected);
     }
     std::vector<std::vector<double>> ratios(contestants.size());
     for (int round = 0; round < rounds; ++round) {
         for (Runner& runner : runners)
-            if (runner.diagram && !runner.once)
-                runner.times.push_back(timer.milliseconds([&] { runner.diagram->build(); }));
+            if (runner.present() && !runner.once)
+                runner.times.push_back(timer.milliseconds([&] { runner.build(); }));
         const Runner& yardstick = runners.at(reference);
         for (std::size_t i = 0; i < runners.size(); ++i)
             if (!runners[i].once && !runners[i].times.empty() && !yardstick.times.empty())

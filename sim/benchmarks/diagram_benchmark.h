@@ -25,6 +25,8 @@ struct DiagramContestant {
     DiagramMethod method = DiagramMethod::binned;
     std::uint32_t cone_sides = 16;
     GatherShape gather;
+    /// gradient1 without the copy of its texture into the buffer that every method fills: the yardstick.
+    bool draw_only = false;
 };
 
 /// Times of one contestant in one case.

@@ -61,8 +61,8 @@ BinnedDiagram::BinnedDiagram(const DiagramSetup& setup, Pages* pages)
         gather_.set("diagram_size", glm::vec2(setup.options.width, setup.options.height));
         return;
     }
-    const std::uint32_t blocks_per_page =
-        (gpu::PAGE_SIDE / setup.options.gather.block_width) * (gpu::PAGE_SIDE / setup.options.gather.block_height);
+    const std::uint32_t blocks_per_page = (gpu::PAGE_SIDE / setup.options.gather.block_width) *
+                                          (gpu::PAGE_SIDE / setup.options.gather.block_height);
     pages_per_range_ = pagesPerRange(blocks_per_page);
     ranges_ = (pages_->capacity() + pages_per_range_ - 1) / pages_per_range_;
     page_dispatch_ = gl::Buffer("diagram page dispatch", std::size_t{12} * ranges_);

@@ -71,16 +71,16 @@ Diagram::Diagram(const gl::ShaderLibrary& library, const DiagramOptions& options
     }
     owners_->fill(gpu::NO_INDEX);
     owner_texture_ = gl::WordTexture(*owners_);
-    use(options_.method);
+    use(options_.method, options_.gather);
 }
 
 Diagram::~Diagram() = default;
 Diagram::Diagram(Diagram&&) noexcept = default;
 Diagram& Diagram::operator=(Diagram&&) noexcept = default;
 
-std::unique_ptr<Diagram::Implementation> Diagram::make(DiagramMethod method) const {
+std::unique_ptr<Diagram::Implementation> Diagram::make() const {
     const DiagramSetup setup{library_, options_, fixed_sites_, *owners_};
-    switch (method) {
+    switch (options_.method) {
         case DiagramMethod::cones:
             return std::make_unique<ConesDiagram>(setup);
         case DiagramMethod::gradient1:
@@ -109,24 +109,26 @@ std::unique_ptr<Diagram::Implementation> Diagram::make(DiagramMethod method) con
     throw std::logic_error("a diagram needs a method that has been chosen");
 }
 
-void Diagram::use(DiagramMethod method) {
+void Diagram::use(DiagramMethod method, const GatherShape& gather) {
     if (options_.paged && method != DiagramMethod::binned)
         throw std::logic_error("a paged diagram has one method");
-    auto known = std::find_if(implementations_.begin(), implementations_.end(),
-                              [&](const auto& entry) { return entry.first == method; });
-    if (known == implementations_.end()) {
-        implementations_.emplace_back(method, make(method));
-        known = std::prev(implementations_.end());
-        if (input_.sites) known->second->connect(input_);
-    }
-    current_ = known->second.get();
     options_.method = method;
+    options_.gather = gather;
+    auto known = std::find_if(made_.begin(), made_.end(), [&](const Made& made) {
+        return made.method == method && (method != DiagramMethod::binned || made.gather == gather);
+    });
+    if (known == made_.end()) {
+        made_.push_back({method, gather, make()});
+        known = std::prev(made_.end());
+        if (input_.sites) known->implementation->connect(input_);
+    }
+    current_ = known->implementation.get();
 }
 
 void Diagram::connect(const DiagramInput& input) {
     input_ = input;
-    for (auto& [method, implementation] : implementations_)
-        implementation->connect(input);
+    for (Made& made : made_)
+        made.implementation->connect(input);
     extras_ = std::make_unique<Extras>();
 }
 

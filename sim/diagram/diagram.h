@@ -20,9 +20,11 @@ using authoring::DiagramMethod;
 
 /// How the gathering method cuts its work; all give the same diagram.
 struct GatherShape {
-    std::uint32_t block_width = 4;   ///< px that an invocation keeps in registers
+    std::uint32_t block_width = 8;   ///< px that an invocation keeps in registers
     std::uint32_t block_height = 4;  ///< px
-    float bin_radii = 1.0f;          ///< side of a bin in largest radii
+    float bin_radii = 1.5f;          ///< side of a bin in largest radii
+
+    bool operator==(const GatherShape&) const = default;
 };
 
 /// Where diagrams are built and how.
@@ -33,7 +35,7 @@ struct DiagramOptions {
     float largest_radius = 1.0f;                   ///< px, of any tile
     std::uint32_t live_capacity = 0;               ///< sites that move, at most
     std::uint32_t cone_sides = 16;                 ///< [3, 256], cones only
-    GatherShape gather;  ///< binned only
+    GatherShape gather;                            ///< binned only
     bool paged = false;                            ///< kept page by page (sim/diagram/pages.h); binned only
 };
 
@@ -64,7 +66,7 @@ class Diagram {
     void connect(const DiagramInput& input);
 
     /// Goes on with another way to build it; the result stays in the same buffer. Not while paged.
-    void use(DiagramMethod method);
+    void use(DiagramMethod method, const GatherShape& gather = {});
     DiagramMethod method() const { return options_.method; }
 
     void build();
@@ -100,7 +102,7 @@ class Diagram {
 
   private:
     struct Extras;
-    std::unique_ptr<Implementation> make(DiagramMethod method) const;
+    std::unique_ptr<Implementation> make() const;
 
     gl::ShaderLibrary library_;
     DiagramOptions options_;
@@ -108,7 +110,12 @@ class Diagram {
     std::unique_ptr<Pages> pages_;
     std::unique_ptr<gl::Buffer> owners_;  // in one place for good: others bind it
     gl::WordTexture owner_texture_, table_texture_;
-    std::vector<std::pair<DiagramMethod, std::unique_ptr<Implementation>>> implementations_;
+    struct Made {
+        DiagramMethod method;
+        GatherShape gather;
+        std::unique_ptr<Implementation> implementation;
+    };
+    std::vector<Made> made_;
     Implementation* current_ = nullptr;
     std::unique_ptr<Extras> extras_;
     DiagramInput input_;

@@ -19,6 +19,18 @@ std::uint32_t pagesAcross(std::uint32_t pixels) {
     return (pixels + gpu::PAGE_SIDE - 1) / gpu::PAGE_SIDE;
 }
 
+/// The table, too, has to fit a storage block.
+std::size_t checkedTableBytes(std::uint32_t width, std::uint32_t height) {
+    constexpr std::size_t kMostSquares = std::size_t{1} << 25;
+    const std::size_t squares = std::size_t{pagesAcross(width)} * pagesAcross(height);
+    if (squares > kMostSquares)
+        throw gl::GraphicsError(fmt::format(
+            "the diagram of {} x {} pixels is too large even in pages. Set "
+            "simulation.pixels_per_metre to at most {:.2g} times what it is, or split the layout.",
+            width, height, std::sqrt(static_cast<double>(kMostSquares) / static_cast<double>(squares))));
+    return kWord * squares;
+}
+
 }  // namespace
 
 std::uint64_t Pages::pagesNeeded(std::uint32_t width, std::uint32_t height, float largest_radius,
@@ -34,7 +46,7 @@ std::uint64_t Pages::pagesNeeded(std::uint32_t width, std::uint32_t height, floa
 Pages::Pages(const gl::ShaderLibrary& library, std::uint32_t width, std::uint32_t height,
              float largest_radius, std::uint32_t live_capacity, std::span<const gpu::DiagramSite> fixed_sites)
     : per_line_(pagesAcross(width)),
-      table_("diagram page table", kWord * per_line_ * pagesAcross(height)),
+      table_("diagram page table", checkedTableBytes(width, height)),
       fixed_table_("diagram page table, fixed sites", table_.bytes()),
       count_("diagram page count", kWord),
       fixed_count_("diagram page count, fixed sites", kWord),

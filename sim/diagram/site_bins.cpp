@@ -13,6 +13,12 @@ std::uint32_t binsAcross(std::uint32_t pixels, float side) {
     return std::max(1u, static_cast<std::uint32_t>(std::ceil(static_cast<float>(pixels) / side)));
 }
 
+/// In huge windows, larger bins: more of them than that would cost more to add up than they save.
+float leastSide(std::uint32_t width, std::uint32_t height) {
+    constexpr double kMostBins = 8.0e6;
+    return static_cast<float>(std::sqrt(static_cast<double>(width) * height / kMostBins));
+}
+
 std::uint64_t scanThreads(const BinGrid& grid) {
     return (grid.count() + gpu::CELLS_PER_THREAD - 1) / gpu::CELLS_PER_THREAD;
 }
@@ -20,9 +26,9 @@ std::uint64_t scanThreads(const BinGrid& grid) {
 }  // namespace
 
 BinGrid::BinGrid(std::uint32_t window_width, std::uint32_t window_height, float the_side)
-    : side(the_side),
-      width(binsAcross(window_width, the_side)),
-      height(binsAcross(window_height, the_side)) {}
+    : side(std::max(the_side, leastSide(window_width, window_height))),
+      width(binsAcross(window_width, side)),
+      height(binsAcross(window_height, side)) {}
 
 void BinGrid::describeTo(gl::Program& program) const {
     program.set("bin_count", glm::vec2(width, height));

@@ -219,6 +219,107 @@ INSTANTIATE_TEST_SUITE_P(Exact, DiagramTest,
                                            DiagramMethod::binned),
                          testName);
 
+/// The second-nearest site of every pixel, by definition.
+std::vector<std::uint32_t> secondByBruteForce(Window window, const std::vector<gpu::DiagramSite>& sites) {
+    std::vector<std::uint32_t> seconds(std::size_t{window.width} * window.height, gpu::NO_INDEX);
+    for (std::size_t pixel = 0; pixel < seconds.size(); ++pixel) {
+        const float x = static_cast<float>(pixel % window.width) + 0.5f;
+        const float y = static_cast<float>(pixel / window.width) + 0.5f;
+        std::vector<std::pair<float, std::uint32_t>> reaching;
+        for (const gpu::DiagramSite& site : sites) {
+            const float dx = site.position.x - x;
+            const float dy = site.position.y - y;
+            const float squared = dx * dx + dy * dy;
+            if (squared <= site.radius * site.radius) reaching.emplace_back(squared, site.id);
+        }
+        std::sort(reaching.begin(), reaching.end());
+        if (reaching.size() > 1) seconds[pixel] = reaching[1].second;
+    }
+    return seconds;
+}
+
+class DiagramExtrasTest : public GpuTest {};
+
+TEST_F(DiagramExtrasTest, SecondNearestOwnersEqualBruteForce) {
+    std::mt19937 random(8);
+    const Window window{131, 90};
+    for (const bool paged : {false, true})
+        for (const std::size_t count : {std::size_t{1}, std::size_t{63}, std::size_t{1234}}) {
+            const auto sites = randomSites(random, window, count, 2.0f, 11.0f);
+            sim::DiagramOptions options = optionsFor(DiagramMethod::binned, window, sites, count / 5);
+            options.paged = paged;
+            Diagram diagram(library, options, std::span(sites).subspan(options.live_capacity));
+            const DiagramInputs inputs(sites, options.live_capacity);
+            diagram.connect(inputs.input());
+            diagram.build();
+            const auto expected = secondByBruteForce(window, sites);
+            EXPECT_EQ(diagram.findSeconds().download<std::uint32_t>(expected.size()), expected)
+                << count << " sites";
+        }
+}
+
+TEST_F(DiagramExtrasTest, CountsThePixelsOfEveryMovingSite) {
+    std::mt19937 random(9);
+    const Window window{200, 131};
+    for (const bool paged : {false, true})
+        for (const std::size_t count : {std::size_t{1}, std::size_t{63}, std::size_t{1234}}) {
+            const auto sites = randomSites(random, window, count, 2.0f, 11.0f);
+            sim::DiagramOptions options = optionsFor(DiagramMethod::binned, window, sites, count / 3);
+            options.paged = paged;
+            Diagram diagram(library, options, std::span(sites).subspan(options.live_capacity));
+            const DiagramInputs inputs(sites, options.live_capacity);
+            diagram.connect(inputs.input());
+            diagram.build();
+            std::vector<std::uint32_t> expected(options.live_capacity, 0);
+            for (const std::uint32_t owner : bruteForce(window, sites).owners)
+                if (owner < expected.size()) ++expected[owner];
+            EXPECT_EQ(diagram.countPixels().download<std::uint32_t>(expected.size()), expected)
+                << count << " sites";
+        }
+}
+
+TEST_F(DiagramExtrasTest, GoesOnWithAnotherMethodInTheSamePlace) {
+    std::mt19937 random(10);
+    const Window window{97, 140};
+    const auto sites = randomSites(random, window, 400, 2.0f, 11.0f);
+    Diagram diagram(library, optionsFor(DiagramMethod::per_site, window, sites, 100),
+                    std::span(sites).subspan(300));
+    const DiagramInputs inputs(sites, 300);
+    diagram.connect(inputs.input());
+    const auto expected = bruteForce(window, sites).owners;
+    for (const DiagramMethod method :
+         {DiagramMethod::per_site, DiagramMethod::binned, DiagramMethod::gradient1, DiagramMethod::per_site,
+          DiagramMethod::binned}) {
+        diagram.use(method);
+        diagram.build();
+        EXPECT_EQ(diagram.owners().download<std::uint32_t>(expected.size()), expected)
+            << authoring::wordFor(method);
+    }
+}
+
+TEST_F(DiagramExtrasTest, PagesFollowTheSitesAndLeaveNothingBehind) {
+    // The same diagram object, with sites that wander from page to page over a window far larger than they
+    // cover.
+    std::mt19937 random(12);
+    const Window window{1000, 700};
+    auto sites = randomSites(random, window, 63, 5.0f, 5.0f);
+    sim::DiagramOptions options = optionsFor(DiagramMethod::binned, window, sites, 10);
+    options.paged = true;
+    Diagram diagram(library, options, std::span(sites).subspan(53));
+    const DiagramInputs inputs(sites, 53);
+    diagram.connect(inputs.input());
+    for (int step = 0; step < 6; ++step) {
+        for (std::size_t i = 0; i < 53; ++i)
+            sites[i].position += glm::vec2(37.3f, -21.7f);
+        std::vector<gpu::DiagramSite> stored(sites);
+        std::reverse(stored.begin(), stored.begin() + 53);
+        const_cast<gl::Buffer&>(inputs.site_buffer).upload(stored);
+        diagram.build();
+        const auto expected = bruteForce(window, sites).owners;
+        EXPECT_EQ(diagram.wholeOwners().download<std::uint32_t>(expected.size()), expected) << step;
+    }
+}
+
 /// Methods with errors: how large a share of wrong pixels each is allowed, a little above what was measured
 /// on these very sites, and why it has any.
 struct ErrorBound {
@@ -259,12 +360,13 @@ TEST_P(InexactDiagramTest, StaysWithinItsErrorAndTruncatesExactly) {
 }
 
 INSTANTIATE_TEST_SUITE_P(WithErrors, InexactDiagramTest,
-                         ::testing::Values(ErrorBound{DiagramMethod::cones, 1.0, 1.0, 1.0},
-                                           ErrorBound{DiagramMethod::gradient2_packed, 1.0, 1.0, 1.0},
-                                           ErrorBound{DiagramMethod::jfa, 1.0, 1.0, 1.0},
-                                           ErrorBound{DiagramMethod::jfa_one_before, 1.0, 1.0, 1.0},
-                                           ErrorBound{DiagramMethod::jfa_one_after, 1.0, 1.0, 1.0},
-                                           ErrorBound{DiagramMethod::jfa_from_radius, 1.0, 1.0, 1.0}),
+                         ::testing::Values(ErrorBound{DiagramMethod::cones, 0.0004, 0.008, 0.002},
+                                           ErrorBound{DiagramMethod::gradient2_packed, 1.0e-5, 6.0e-5,
+                                                      1.0e-5},
+                                           ErrorBound{DiagramMethod::jfa, 5.0e-5, 0.021, 0.0025},
+                                           ErrorBound{DiagramMethod::jfa_one_before, 2.0e-5, 0.019, 0.002},
+                                           ErrorBound{DiagramMethod::jfa_one_after, 2.0e-5, 0.019, 0.002},
+                                           ErrorBound{DiagramMethod::jfa_from_radius, 5.0e-5, 0.021, 0.0025}),
                          [](const auto& test) {
                              return testName({test.param.method, test.index});
                          });

@@ -185,9 +185,18 @@ TEST_F(MotionTest, ASceneWithoutPeopleOrWallsRuns) {
     EXPECT_TRUE(simulation.account().agents.empty());
 }
 
-TEST_F(MotionTest, ALayoutTooLargeForOneDiagramSaysWhatWouldFit) {
+TEST_F(MotionTest, ALayoutTooLargeForOneBakeSaysWhatWouldFit) {
     authoring::Scene scene = emptyScene({0, 0}, {20000, 20000});
     addPerson(scene, {5, 5}, {9, 9});
+    try {
+        sim::Simulation simulation(scene, library);
+        FAIL() << "accepted";
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find("square kilometres"), std::string::npos) << error.what();
+    }
+    scene = emptyScene({0, 0}, {2000, 2000});
+    addPerson(scene, {5, 5}, {9, 9});
+    scene.settings.pixels_per_metre = 100.0;
     try {
         sim::Simulation simulation(scene, library);
         FAIL() << "accepted";

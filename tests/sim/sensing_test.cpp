@@ -191,14 +191,81 @@ TEST_F(SensingTest, KeepsTheNearestWhenThereAreMoreThanTheListHolds) {
               nearestByBruteForce(scene, 0, 4.0f, simulation.parameters().contact_range));
 }
 
-TEST_F(SensingTest, GradientAndPerSiteDiagramsGiveTheSameNeighbours) {
+TEST_F(SensingTest, EveryExactDiagramGivesTheSameNeighbours) {
     authoring::Scene scene = uniformScene(1234, 1.2f, 21);
     addWall(scene, {5, 5}, {30, 22});
     scene.settings.method = authoring::DiagramMethod::per_site;
     sim::Simulation per_site(scene, library);
-    scene.settings.method = authoring::DiagramMethod::gradient1;
-    sim::Simulation gradient(scene, library);
-    EXPECT_EQ(sensed(per_site), sensed(gradient));
+    const auto expected = sensed(per_site);
+    for (const auto& entry : authoring::kDiagramMethods) {
+        if (!entry.exact || entry.method == authoring::DiagramMethod::per_site) continue;
+        scene.settings.method = entry.method;
+        sim::Simulation other(scene, library);
+        EXPECT_EQ(sensed(other), expected) << entry.word;
+    }
+}
+
+TEST_F(SensingTest, CrossesTheBordersOfPagesWithoutASeam) {
+    // People in two far corners of a world that is too empty to be kept whole; what they sense is what they
+    // sense when their corner is a world of its own.
+    authoring::Scene small = uniformScene(1234, 1.1f, 33);
+    addWall(small, {5, 5}, {30, 22});
+    authoring::Scene large = small;
+    large.maximum = {900, 900};
+    sim::Simulation whole(small, library);
+    sim::Simulation paged(large, library);
+    EXPECT_FALSE(whole.diagramIsPaged());
+    EXPECT_TRUE(paged.diagramIsPaged());
+    EXPECT_EQ(sensed(paged), sensed(whole));
+}
+
+TEST_F(SensingTest, TheGridAndComparingAllWithAllAgreeExactly) {
+    for (const double view : {60.0, 200.0, 360.0})
+        for (const std::uint32_t count : {1u, 63u, 1234u}) {
+            authoring::Scene scene = uniformScene(count, 0.9f, 40 + count);
+            addWall(scene, {3, 3}, {20, 12}, 0.1f);
+            addWall(scene, {10, 2}, {10, 25});
+            scene.settings.field_of_view = view;
+            scene.settings.proximity = authoring::Proximity::grid;
+            sim::Simulation grid(scene, library);
+            scene.settings.proximity = authoring::Proximity::brute;
+            sim::Simulation brute(scene, library);
+            const auto lists = sensed(grid);
+            EXPECT_EQ(lists, sensed(brute)) << count << " people, " << view << " degrees";
+            // And, as far as people go, with the definition.
+            const sim::SensingGeometry geometry{
+                scene.smallest_radius, static_cast<float>(scene.settings.tile_radius),
+                scene.settings.samples_per_ray, static_cast<float>(view) * kPi / 180.0f};
+            scene.settings.neighbours = 32;
+            scene.wall_segments.clear();
+            scene.wall_tiles.clear();
+            sim::Simulation alone(scene, library);
+            const auto people = sensed(alone);
+            for (std::uint32_t row = 0; row < count; ++row)
+                EXPECT_EQ(people[row], nearestByBruteForce(scene, row, sim::sensingReach(geometry),
+                                                           alone.parameters().contact_range));
+        }
+}
+
+TEST_F(SensingTest, TheGridSeesTheWallsThatTheRaysSee) {
+    authoring::Scene scene = uniformScene(400, 2.0f, 50);
+    addWall(scene, {5, 5}, {30, 22});
+    addWall(scene, {12, 30}, {35, 8});
+    scene.settings.neighbours = 32;
+    sim::Simulation rays(scene, library);
+    scene.settings.proximity = authoring::Proximity::grid;
+    sim::Simulation grid(scene, library);
+    const auto seen = sensed(rays);
+    const auto exact = sensed(grid);
+    std::size_t walls = 0, missed = 0;
+    for (std::size_t row = 0; row < exact.size(); ++row)
+        for (const std::uint32_t key : exact[row]) {
+            if (!(key & gpu::NEIGHBOUR_IS_WALL)) continue;
+            ++walls;
+            missed += std::count(seen[row].begin(), seen[row].end(), key) == 0;
+        }
+    EXPECT_GT(walls, 100u);
+    EXPECT_LE(missed, walls / 20) << "of " << walls;
 }
 
 }  // namespace
