@@ -109,7 +109,11 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
       costs(cost_model),
       fixed_sites(static_cast<std::uint32_t>(scene.wall_tiles.size())),
       rows(parameters.row_count) {
-    diagram.connect({&buffers.sites, &buffers.live_dispatch, &buffers.row_slots});
+    // Slots are in the order of the cells, and cells and diagram have one origin.
+    const BinGrid cell_grid(parameters.cell_size * parameters.pixels_per_metre,
+                            {parameters.cells_width, parameters.cells_height});
+    diagram.connect({&buffers.sites, &buffers.live_dispatch, &buffers.row_slots,
+                     DiagramInput::Sorted{&buffers.cell_starts, cell_grid}});
     pack.bindAll(buffers.named());
     anybody_enters_later = std::any_of(
         scene.people.begin(), scene.people.end(),

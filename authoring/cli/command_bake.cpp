@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "authoring/cli/bake_description.h"
+#include "authoring/cli/calibration_file.h"
 #include "authoring/cli/commands.h"
 #include "authoring/cli/exit_codes.h"
 #include "authoring/cli/interrupt.h"
@@ -70,6 +71,7 @@ int runFrames(sim::Simulation& simulation, const authoring::SimulationSettings& 
             for (std::uint32_t step = 0; step < substeps; ++step)
                 simulation.step();
         pump.submit(frame, diagram_every > 0 && frame % diagram_every == 0);
+        simulation.adaptTo(present);
         progress.update(frame + 1, present, simulation.stepsDone());
     }
     pump.finish();
@@ -109,7 +111,7 @@ void run(const Options& options) {
     io::BakeWriter writer(std::move(description));
     const gl::ShaderLibrary shaders =
         options.shader_dir.empty() ? gl::ShaderLibrary() : gl::ShaderLibrary(options.shader_dir);
-    sim::Simulation simulation(loaded.scene, shaders);
+    sim::Simulation simulation(loaded.scene, shaders, costsFor(context.device()));
     context.check("setting up the simulation");
 
     const auto style = options.quiet  ? Progress::Style::quiet

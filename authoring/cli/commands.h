@@ -13,5 +13,7 @@ void addInfo(CLI::App& app);
 void addPreview(CLI::App& app);
 void addSchema(CLI::App& app);
 void addDevices(CLI::App& app);
+void addCalibrate(CLI::App& app);
+void addBench(CLI::App& app);
 
 }  // namespace throng::cli

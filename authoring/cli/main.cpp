@@ -60,6 +60,8 @@ int main(int argc, char** argv) {
     cli::addPreview(app);
     cli::addSchema(app);
     cli::addDevices(app);
+    cli::addCalibrate(app);
+    cli::addBench(app);
     try {
         return parseAndRun(app, argc, argv);
     } catch (const cli::Exit& exit) {

@@ -41,6 +41,7 @@ struct DiagramTiming {
 };
 
 /// Times contestants against each other: in rounds, each once a round, so that all meet the same noise.
+/// Before each, 64 MiB are written elsewhere: in a simulation other passes have filled the caches, too.
 /// Contestants whose first run takes longer than `patience_ms` are run once, and not at all when `forecast`
 /// (by the number of sites and pixels) says more than ten times that.
 struct DiagramBenchmark {

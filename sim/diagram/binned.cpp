@@ -38,25 +38,20 @@ std::uint32_t pagesPerRange(std::uint32_t blocks_per_page) {
 
 }  // namespace
 
+/// Bins much larger than the tiles would offer every block too many that cannot reach it.
+constexpr float kMostBinRadii = 3.0f;
+
 BinnedDiagram::BinnedDiagram(const DiagramSetup& setup, Pages* pages)
-    : grid_(setup.options.width, setup.options.height,
-            std::max(1.0f, setup.options.gather.bin_radii * setup.options.largest_radius)),
-      bins_(setup.library, grid_, setup.options.live_capacity),
+    : library_(setup.library),
+      options_(setup.options),
+      fixed_sites_(setup.fixed_sites),
       blocks_(blocksAcross(setup.options.width, setup.options.gather.block_width) *
               blocksAcross(setup.options.height, setup.options.gather.block_height)),
       gather_(setup.library, "shaders/diagram_binned.comp", definitionsFor(setup, pages)),
       pages_(pages),
       owners_(setup.owners) {
-    grid_.describeTo(gather_);
-    gather_.bind("BinStarts", bins_.starts());
-    gather_.bind("binned_sites", bins_.sites());
     gather_.set("largest_radius", setup.options.largest_radius);
     gather_.bind("Owners", owners_);
-    if (!setup.fixed_sites.empty()) {
-        fixed_bins_.emplace(setup.library, grid_, setup.fixed_sites);
-        gather_.bind("FixedBinStarts", fixed_bins_->starts());
-        gather_.bind("fixed_binned_sites", fixed_bins_->sites());
-    }
     if (!pages_) {
         gather_.set("diagram_size", glm::vec2(setup.options.width, setup.options.height));
         return;
@@ -78,15 +73,35 @@ BinnedDiagram::BinnedDiagram(const DiagramSetup& setup, Pages* pages)
 }
 
 void BinnedDiagram::connect(const DiagramInput& input) {
-    bins_.connect(*input.sites, *input.live_dispatch);
     if (pages_) pages_->connect(*input.sites, *input.live_dispatch);
+    const float radius = std::max(1.0f, options_.largest_radius);
+    const bool sorted = input.sorted && input.sorted->grid.side <= kMostBinRadii * radius;
+    const BinGrid grid =
+        sorted ? input.sorted->grid
+               : BinGrid(options_.width, options_.height, std::max(1.0f, options_.gather.bin_radii * radius));
+    grid.describeTo(gather_);
+    bins_.reset();
+    if (sorted) {
+        sorted_sites_ = gl::WordTexture(*input.sites, gl::WordTexture::Texel::four_words);
+        gather_.bind("BinStarts", *input.sorted->starts);
+        gather_.bind("binned_sites", sorted_sites_);
+    } else {
+        bins_.emplace(library_, grid, options_.live_capacity);
+        bins_->connect(*input.sites, *input.live_dispatch);
+        gather_.bind("BinStarts", bins_->starts());
+        gather_.bind("binned_sites", bins_->sites());
+    }
+    if (fixed_sites_.empty()) return;
+    fixed_bins_.emplace(library_, grid, fixed_sites_);
+    gather_.bind("FixedBinStarts", fixed_bins_->starts());
+    gather_.bind("fixed_binned_sites", fixed_bins_->sites());
 }
 
 void BinnedDiagram::build() {
-    bins_.sort();
-    if (pages_)
+    if (bins_) bins_->sort();
+    if (pages_) {
         buildPages();
-    else {
+    } else {
         owners_.fill(gpu::NO_INDEX);  // blocks out of reach are not even written
         gather_.dispatch(blocks_);
     }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -48,6 +49,13 @@ struct DiagramInput {
     const gl::Buffer* live_dispatch = nullptr;
     /// By ascending id, where a site stands in `sites`; NO_INDEX: not there.
     const gl::Buffer* site_slots = nullptr;
+    /// Where the moving sites already stand in the order of some bins, those bins: it saves sorting them
+    /// again.
+    struct Sorted {
+        const gl::Buffer* starts = nullptr;  ///< per bin, and one more
+        BinGrid grid;
+    };
+    std::optional<Sorted> sorted = {};
 };
 
 /// The truncated Voronoi diagram of De Gyves, Toledo and Rudomin 2013: every pixel's owner is the nearest

@@ -66,8 +66,11 @@ class BinnedDiagram final : public Diagram::Implementation {
   private:
     void buildPages();
 
-    BinGrid grid_;
-    SiteBins bins_;
+    gl::ShaderLibrary library_;
+    DiagramOptions options_;
+    std::span<const gpu::DiagramSite> fixed_sites_;
+    std::optional<SiteBins> bins_;  // unless the sites come sorted
+    gl::WordTexture sorted_sites_;  // where they do
     std::optional<FixedBins> fixed_bins_;
     std::uint64_t blocks_;
     gl::ComputeProgram gather_;

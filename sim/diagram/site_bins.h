@@ -16,6 +16,9 @@ struct BinGrid {
     /// @param side px; the last bins of a line or column may reach beyond the window
     BinGrid(std::uint32_t window_width, std::uint32_t window_height, float side);
 
+    /// Bins that somebody else has made.
+    BinGrid(float the_side, glm::uvec2 bins) : side(the_side), width(bins.x), height(bins.y) {}
+
     float side;
     std::uint32_t width;
     std::uint32_t height;

@@ -3,6 +3,7 @@
 #include <numbers>
 #include <set>
 
+#include "sim/benchmarks/proximity_benchmark.h"
 #include "sim/sensing_pattern.h"
 #include "sim/simulation_parts.h"
 #include "tests/sim/gpu_test.h"
@@ -54,23 +55,7 @@ TEST(SensingPattern, StaysInsideTheFieldOfView) {
     }
 }
 
-/// Neighbour lists as sets of keys, after the passes up to sensing.
-std::vector<std::vector<std::uint32_t>> sensed(sim::Simulation& simulation) {
-    sim::Simulation::Parts& parts = simulation.parts();
-    parts.cells.run();
-    parts.diagram.build();
-    parts.sensing.run();
-    const std::uint32_t capacity = parts.buffers.slotCapacity();
-    const auto slots = parts.buffers.row_slots.download<std::uint32_t>(parts.rows);
-    const auto counts = parts.buffers.neighbour_counts.download<std::uint32_t>(parts.rows);
-    const auto keys = parts.buffers.neighbours.download<std::uint32_t>(
-        std::size_t{capacity} * static_cast<std::size_t>(parts.settings.neighbours));
-    std::vector<std::vector<std::uint32_t>> lists(parts.rows);
-    for (std::uint32_t row = 0; row < parts.rows; ++row)
-        for (std::uint32_t i = 0; i < counts[slots[row]]; ++i)
-            lists[row].push_back(keys[i * capacity + slots[row]]);
-    return lists;
-}
+using sim::senseNow;
 
 /// The k nearest within the reach and the field of view, plus everybody within the contact range, by
 /// comparing all.
@@ -107,7 +92,7 @@ class SensingTest : public GpuTest {
     /// displaces is not a miss.
     double recall(authoring::Scene scene) {
         sim::Simulation simulation(scene, library);
-        const auto lists = sensed(simulation);
+        const auto lists = senseNow(simulation);
         const sim::SensingGeometry geometry{
             scene.smallest_radius, static_cast<float>(scene.settings.tile_radius),
             scene.settings.samples_per_ray, static_cast<float>(scene.settings.field_of_view) * kPi / 180.0f};
@@ -159,7 +144,7 @@ TEST_F(SensingTest, DoesNotSeeBehindItselfBeyondTheContactRange) {
     addPerson(scene, {-2, 0}, {-9, 0});     // behind, out of touch
     addPerson(scene, {-0.8f, 0}, {-9, 0});  // behind, within the contact range
     sim::Simulation simulation(scene, library);
-    const auto lists = sensed(simulation);
+    const auto lists = senseNow(simulation);
     EXPECT_EQ(std::set<std::uint32_t>(lists[0].begin(), lists[0].end()), (std::set<std::uint32_t>{1, 3}));
     EXPECT_EQ(lists[0].front(), 3u) << "the nearest comes first";
 }
@@ -170,7 +155,7 @@ TEST_F(SensingTest, SeesALongWallAsOneNeighbour) {
     addPerson(scene, {2.5f, 0.5f}, {5, 0});
     addWall(scene, {-8, 1.5f}, {8, 1.5f});
     sim::Simulation simulation(scene, library);
-    const auto lists = sensed(simulation);
+    const auto lists = senseNow(simulation);
     EXPECT_EQ(std::set<std::uint32_t>(lists[0].begin(), lists[0].end()),
               (std::set<std::uint32_t>{1u, gpu::NEIGHBOUR_IS_WALL | 0u}));
 }
@@ -187,7 +172,7 @@ TEST_F(SensingTest, KeepsTheNearestWhenThereAreMoreThanTheListHolds) {
     scene.settings.tile_radius = 0.2;
     scene.settings.samples_per_ray = 20;
     sim::Simulation simulation(scene, library);
-    EXPECT_EQ(sensed(simulation)[0],
+    EXPECT_EQ(senseNow(simulation)[0],
               nearestByBruteForce(scene, 0, 4.0f, simulation.parameters().contact_range));
 }
 
@@ -196,12 +181,12 @@ TEST_F(SensingTest, EveryExactDiagramGivesTheSameNeighbours) {
     addWall(scene, {5, 5}, {30, 22});
     scene.settings.method = authoring::DiagramMethod::per_site;
     sim::Simulation per_site(scene, library);
-    const auto expected = sensed(per_site);
+    const auto expected = senseNow(per_site);
     for (const auto& entry : authoring::kDiagramMethods) {
         if (!entry.exact || entry.method == authoring::DiagramMethod::per_site) continue;
         scene.settings.method = entry.method;
         sim::Simulation other(scene, library);
-        EXPECT_EQ(sensed(other), expected) << entry.word;
+        EXPECT_EQ(senseNow(other), expected) << entry.word;
     }
 }
 
@@ -216,7 +201,7 @@ TEST_F(SensingTest, CrossesTheBordersOfPagesWithoutASeam) {
     sim::Simulation paged(large, library);
     EXPECT_FALSE(whole.diagramIsPaged());
     EXPECT_TRUE(paged.diagramIsPaged());
-    EXPECT_EQ(sensed(paged), sensed(whole));
+    EXPECT_EQ(senseNow(paged), senseNow(whole));
 }
 
 TEST_F(SensingTest, TheGridAndComparingAllWithAllAgreeExactly) {
@@ -230,8 +215,8 @@ TEST_F(SensingTest, TheGridAndComparingAllWithAllAgreeExactly) {
             sim::Simulation grid(scene, library);
             scene.settings.proximity = authoring::Proximity::brute;
             sim::Simulation brute(scene, library);
-            const auto lists = sensed(grid);
-            EXPECT_EQ(lists, sensed(brute)) << count << " people, " << view << " degrees";
+            const auto lists = senseNow(grid);
+            EXPECT_EQ(lists, senseNow(brute)) << count << " people, " << view << " degrees";
             // And, as far as people go, with the definition.
             const sim::SensingGeometry geometry{
                 scene.smallest_radius, static_cast<float>(scene.settings.tile_radius),
@@ -240,7 +225,7 @@ TEST_F(SensingTest, TheGridAndComparingAllWithAllAgreeExactly) {
             scene.wall_segments.clear();
             scene.wall_tiles.clear();
             sim::Simulation alone(scene, library);
-            const auto people = sensed(alone);
+            const auto people = senseNow(alone);
             for (std::uint32_t row = 0; row < count; ++row)
                 EXPECT_EQ(people[row], nearestByBruteForce(scene, row, sim::sensingReach(geometry),
                                                            alone.parameters().contact_range));
@@ -255,8 +240,8 @@ TEST_F(SensingTest, TheGridSeesTheWallsThatTheRaysSee) {
     sim::Simulation rays(scene, library);
     scene.settings.proximity = authoring::Proximity::grid;
     sim::Simulation grid(scene, library);
-    const auto seen = sensed(rays);
-    const auto exact = sensed(grid);
+    const auto seen = senseNow(rays);
+    const auto exact = senseNow(grid);
     std::size_t walls = 0, missed = 0;
     for (std::size_t row = 0; row < exact.size(); ++row)
         for (const std::uint32_t key : exact[row]) {
