@@ -62,6 +62,7 @@ struct SimulationSettings {
     int samples_per_ray = 6;       ///< [1, 64]: reach R = a + (samples - 1) * tile radius
     double pixels_per_metre =
         0.0;  ///< px/m, 0 = one pixel per smallest body radius; (0, 100]: diagram resolution
+    SourcePosition pixels_per_metre_where;
     DiagramMethod method = DiagramMethod::automatic;
     int cone_sides = 16;                       ///< [3, 256]: sides of a cone, method cones only
     Proximity proximity = Proximity::voronoi;  ///< what neighbours are found with

@@ -60,6 +60,7 @@ struct BakeDescription {
     bool gltf = true;
     std::uint32_t gltf_agents = 2000;  ///< at most this many people in crowd.glb; the rest is left out
     std::uint32_t diagram_every = 0;   ///< frames between diagram images; 0 = none
+    bool densities = false;            ///< the stream `density`, and a channel of that name in diagram images
 };
 
 }  // namespace throng::io

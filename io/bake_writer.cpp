@@ -16,6 +16,7 @@ namespace {
 // still, not alive, with the gait phase they will start from.
 constexpr std::array kPositionRule{BackFill::first_alive, BackFill::first_alive, BackFill::first_alive};
 constexpr std::array kDirectionRule{BackFill::first_alive, BackFill::first_alive, BackFill::zero};
+constexpr std::array kDensityRule{BackFill::keep, BackFill::keep, BackFill::keep};
 constexpr std::array kStateRule{BackFill::keep, BackFill::first_alive, BackFill::first_alive};
 
 }  // namespace
@@ -51,6 +52,7 @@ BakeWriter::BakeWriter(BakeDescription description)
       first_alive_(description_.agents.size(), kNone),
       shifted_(description_.agents.size() * kComponents) {
     if (description_.diagram_every > 0) folder_.addFolder("diagrams");
+    if (description_.densities) densities_.emplace(streams_folder_, "density", description_);
 }
 
 void BakeWriter::write(const Frame& frame) {
@@ -69,6 +71,11 @@ void BakeWriter::write(const Frame& frame) {
     positions_.append(shifted_);
     directions_.append(frame.directions);
     states_.append(frame.states);
+    if (densities_) {
+        if (frame.densities.size() != values)
+            throw std::invalid_argument("a frame of this bake has densities");
+        densities_->append(frame.densities);
+    }
     if (frame.diagram && description_.diagram_every > 0 && frame.index % description_.diagram_every == 0)
         writeDiagram(frame);
     ++frames_;
@@ -85,7 +92,8 @@ void BakeWriter::trackFirstAlive(const Frame& frame) {
 void BakeWriter::writeDiagram(const Frame& frame) {
     const DiagramImage& image = *frame.diagram;
     const std::string name = fmt::format("diagrams/diagram.{:04}.exr", frame.index + 1);
-    writeDiagramExr(folder_.path() / name, image, description_.scene_origin, frame.index, description_.fps);
+    writeDiagramExr(folder_.path() / name, image, frame.densities, description_.scene_origin, frame.index,
+                    description_.fps);
     diagram_files_.push_back(name);
     if (!diagrams_) {
         const glm::dvec2 minimum =
@@ -99,6 +107,7 @@ void BakeWriter::finishStreams() {
     positions_.finish(first_alive_, kPositionRule);
     directions_.finish(first_alive_, kDirectionRule);
     states_.finish(first_alive_, kStateRule);
+    if (densities_) densities_->finish(first_alive_, kDensityRule);
 }
 
 BakeOutcome BakeWriter::writeAll(const Account& account, const BakeTiming& timing, bool complete) {
@@ -112,9 +121,9 @@ BakeOutcome BakeWriter::writeAll(const Account& account, const BakeTiming& timin
     writeFile(folder_.path() / files[0], description_.layout_text);
     writeFile(folder_.path() / files[1], agentTable(description_, account));
     finishStreams();
-    for (const Stream* stream : {&positions_, &directions_, &states_})
+    for (const Stream* stream : {&positions_, &directions_, &states_, densities_ ? &*densities_ : nullptr})
         for (const char* extension : {".npy", ".pc2"})
-            files.push_back("streams/" + stream->name + extension);
+            if (stream) files.push_back("streams/" + stream->name + extension);
     if (description_.gltf) {
         files.push_back("crowd.glb");
         outcome.gltf =

@@ -70,6 +70,7 @@ class BakeWriter {
     Stream positions_;
     Stream directions_;
     Stream states_;
+    std::optional<Stream> densities_;
     std::uint32_t frames_ = 0;
     std::vector<std::uint32_t> first_alive_;  ///< per row, the first frame it is alive in, or kNone
     std::vector<float> shifted_;              ///< one frame of positions in the output frame of reference

@@ -109,6 +109,8 @@ Json bakeManifest(const BakeDescription& description, const BakeOutcome& outcome
     json["streams"] = {{"pos", streamToJson("pos", {"x", "y", "z"})},
                        {"dir", streamToJson("dir", {"cos_heading", "sin_heading", "speed"})},
                        {"state", streamToJson("state", {"alive", "variation", "phase"})}};
+    if (description.densities)
+        json["streams"]["density"] = streamToJson("density", {"density", "area", "share"});
     json["table"] = "agents.csv";
     json["gltf"] = gltfToJson(outcome.gltf);
     json["diagrams"] = diagramsToJson(description, outcome.diagrams);

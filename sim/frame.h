@@ -22,6 +22,9 @@ struct DiagramImage {
     std::uint32_t agent_count = 0;        ///< site ids below this are agents (rows), the others wall tiles
     std::span<const std::uint32_t> site;  ///< width * height, kNone where no site's tile reaches
     std::span<const float> distance;      ///< width * height, m to the owner; undefined where site is kNone
+    /// width * height, the second-nearest site that reaches, kNone where there is none; empty unless asked
+    /// for
+    std::span<const std::uint32_t> second;
 };
 
 /// One frame of all rows. The spans stay valid only while the receiver is being called.
@@ -30,6 +33,8 @@ struct Frame {
     std::span<const float> positions;   ///< rows x (x, y, z), scene frame, m
     std::span<const float> directions;  ///< rows x (cos heading, sin heading, speed in m/s)
     std::span<const float> states;      ///< rows x (alive 0/1, variation, unwrapped gait phase in cycles)
+    /// rows x (density 1/m^2, area of the cell m^2, share of its tile that it owns); empty unless asked for
+    std::span<const float> densities;
     const DiagramImage* diagram = nullptr;
 };
 

@@ -2,6 +2,7 @@
 #include "sim/frame_pump.h"
 
 #include <epoxy/gl.h>
+#include <fmt/format.h>
 
 #include <array>
 #include <cmath>
@@ -23,6 +24,8 @@ struct Slot {
     gl::Buffer frame;
     gl::Buffer owners;
     gl::Buffer distances;
+    gl::Buffer seconds;
+    gl::Buffer densities;
     GLsync fence = nullptr;
     std::uint32_t index = 0;
     bool has_diagram = false;
@@ -39,6 +42,7 @@ std::span<const T> view(const gl::Buffer& buffer, std::size_t first, std::size_t
 struct FramePump::State {
     Simulation& simulation;
     Receiver receiver;
+    Cargo cargo;
     std::array<Slot, kSlots> slots;
     std::size_t next = 0;
     std::size_t rows = 0;
@@ -54,8 +58,8 @@ struct FramePump::State {
     bool closing = false;
     std::thread thread;
 
-    explicit State(Simulation& the_simulation, Receiver the_receiver)
-        : simulation(the_simulation), receiver(std::move(the_receiver)) {}
+    State(Simulation& the_simulation, const Cargo& the_cargo, Receiver the_receiver)
+        : simulation(the_simulation), receiver(std::move(the_receiver)), cargo(the_cargo) {}
 
     void receiveAll();
     void deliver(const Slot& slot);
@@ -63,8 +67,24 @@ struct FramePump::State {
     void rethrow();
 };
 
-FramePump::FramePump(Simulation& simulation, bool with_diagrams, Receiver receiver)
-    : state_(std::make_unique<State>(simulation, std::move(receiver))) {
+namespace {
+
+void checkImageSize(const gpu::Parameters& parameters) {
+    constexpr double kMostPixels = 33'554'432.0;
+    const double pixels = static_cast<double>(parameters.diagram_width) * parameters.diagram_height;
+    if (pixels > kMostPixels)
+        throw gl::GraphicsError(
+            fmt::format("diagram images of {} x {} pixels are too large (at most {:.0f} million in all). Set "
+                        "simulation.pixels_per_metre to at most {:.2f}, or bake without --diagrams.",
+                        parameters.diagram_width, parameters.diagram_height, kMostPixels / 1e6,
+                        static_cast<double>(parameters.pixels_per_metre) * std::sqrt(kMostPixels / pixels)));
+}
+
+}  // namespace
+
+FramePump::FramePump(Simulation& simulation, const Cargo& cargo, Receiver receiver)
+    : state_(std::make_unique<State>(simulation, cargo, std::move(receiver))) {
+    if (cargo.diagrams) checkImageSize(simulation.parameters());
     const gpu::Parameters& parameters = simulation.parameters();
     state_->rows = parameters.row_count;
     const std::size_t pixels = std::size_t{parameters.diagram_width} * parameters.diagram_height;
@@ -75,7 +95,11 @@ FramePump::FramePump(Simulation& simulation, bool with_diagrams, Receiver receiv
     state_->image.agent_count = parameters.row_count;
     for (Slot& slot : state_->slots) {
         slot.frame = gl::Buffer("frame read-back", simulation.frameBytes(), gl::Buffer::Use::read_back);
-        if (!with_diagrams) continue;
+        if (cargo.densities)
+            slot.densities = gl::Buffer("densities read-back", state_->rows * 12, gl::Buffer::Use::read_back);
+        if (!cargo.diagrams) continue;
+        if (cargo.seconds)
+            slot.seconds = gl::Buffer("second owners read-back", pixels * 4, gl::Buffer::Use::read_back);
         slot.owners = gl::Buffer("diagram owners read-back", pixels * 4, gl::Buffer::Use::read_back);
         slot.distances = gl::Buffer("diagram distances read-back", pixels * 4, gl::Buffer::Use::read_back);
     }
@@ -108,10 +132,13 @@ void FramePump::submit(std::uint32_t index, bool with_diagram) {
     slot.index = index;
     slot.has_diagram = with_diagram;
     state.simulation.packFrame(slot.frame);
+    if (with_diagram || state.cargo.densities) state.simulation.buildDiagramNow();
+    if (state.cargo.densities) state.simulation.packDensities(slot.densities);
     if (with_diagram) {
-        Diagram& diagram = state.simulation.buildDiagramNow();
+        Diagram& diagram = state.simulation.diagram();
         slot.owners.copyFrom(diagram.wholeOwners());
         slot.distances.copyFrom(diagram.measureDistances());
+        if (state.cargo.seconds) slot.seconds.copyFrom(diagram.findSeconds());
     }
     glMemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT);
     slot.fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
@@ -200,6 +227,7 @@ void FramePump::State::deliver(const Slot& slot) {
     frame.positions = view<float>(slot.frame, 0, floats);
     frame.directions = view<float>(slot.frame, floats, floats);
     frame.states = view<float>(slot.frame, 2 * floats, floats);
+    if (cargo.densities) frame.densities = view<float>(slot.densities, 0, floats);
     DiagramImage diagram = image;
     if (slot.has_diagram) {
         const std::size_t pixels = std::size_t{image.width} * image.height;
@@ -209,6 +237,7 @@ void FramePump::State::deliver(const Slot& slot) {
         for (std::size_t i = 0; i < pixels; ++i)
             metres[i] = std::sqrt(squared[i]) / image.pixels_per_metre;
         diagram.distance = metres;
+        if (cargo.seconds) diagram.second = view<std::uint32_t>(slot.seconds, 0, pixels);
         frame.diagram = &diagram;
     }
     receiver(frame);

@@ -19,8 +19,15 @@ class FramePump {
   public:
     using Receiver = std::function<void(const Frame&)>;
 
-    /// @param with_diagrams whether submit() will ever ask for the diagram (its buffers are large)
-    FramePump(Simulation& simulation, bool with_diagrams, Receiver receiver);
+    /// What frames carry besides the state of everybody. Diagrams are large: submit() asks for them singly.
+    struct Cargo {
+        bool diagrams = false;   ///< submit() may ask for the diagram
+        bool seconds = false;    ///< diagrams with the second-nearest sites
+        bool densities = false;  ///< every frame with the densities
+    };
+
+    /// @throws GraphicsError where diagrams are too large to be read back
+    FramePump(Simulation& simulation, const Cargo& cargo, Receiver receiver);
     /// Waits for the receiver; frames not yet handed over are dropped.
     ~FramePump();
 

@@ -93,9 +93,10 @@ std::uint32_t warmupSteps(const authoring::SimulationSettings& settings) {
            static_cast<std::uint32_t>(settings.substeps);
 }
 
-Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary& library,
+Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary& shader_library,
                          const CostModel& cost_model)
-    : settings(scene.settings),
+    : library(shader_library),
+      settings(scene.settings),
       parameters(makeParameters(scene)),
       buffers(scene, parameters),
       diagram(diagramFor(scene, parameters, library)),
@@ -219,6 +220,22 @@ Diagram& Simulation::buildDiagramNow() {
     parts_->cells.run();
     parts_->diagram.build();
     return parts_->diagram;
+}
+
+Diagram& Simulation::diagram() {
+    return parts_->diagram;
+}
+
+void Simulation::packDensities(const gl::Buffer& buffer) {
+    Parts& p = *parts_;
+    const gl::Buffer& counts = p.diagram.countPixels();
+    if (!p.pack_density) {
+        p.pack_density.emplace(p.library, "shaders/pack_density.comp");
+        p.pack_density->bindAll(p.buffers.named());
+    }
+    p.pack_density->bind("PixelCounts", counts);
+    p.pack_density->bind("DensityBlock", buffer);
+    p.pack_density->dispatch(p.rows);
 }
 
 Account Simulation::account() const {

@@ -47,6 +47,9 @@ class Simulation {
 
     /// Brings the diagram up to the present positions; the next step builds its own.
     Diagram& buildDiagramNow();
+    Diagram& diagram();
+    /// Puts density, cell area and share of the tile of all rows into `buffer`, from the diagram as it is.
+    void packDensities(const gl::Buffer& buffer);
 
     /// What became of everybody; waits for the device. Steps are turned into frames by the scene's settings.
     Account account() const;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "sim/buffers.h"
 #include "sim/diagram/diagram.h"
 #include "sim/passes.h"
@@ -9,8 +11,10 @@
 namespace throng::sim {
 
 struct Simulation::Parts {
-    Parts(const authoring::Scene& scene, const gl::ShaderLibrary& library, const CostModel& cost_model);
+    Parts(const authoring::Scene& scene, const gl::ShaderLibrary& shader_library,
+          const CostModel& cost_model);
 
+    gl::ShaderLibrary library;
     authoring::SimulationSettings settings;
     gpu::Parameters parameters;
     Buffers buffers;
@@ -22,6 +26,7 @@ struct Simulation::Parts {
     Contacts contacts;
     Motion motion;
     gl::ComputeProgram pack;
+    std::optional<gl::ComputeProgram> pack_density;  // made at the first asking
 
     CostModel costs;
     DiagramLoad load;                    // of the present population

@@ -155,25 +155,36 @@ std::string diagramCsv(const DiagramReport& report) {
 io::LinePlot diagramPlot(const DiagramReport& report) {
     io::LinePlot plot;
     plot.title = "Truncated Voronoi diagram, 1,024 x 1,024 pixels";
-    plot.note = report.machine.device.name + "; median; dashed: De Gyves et al. 2013, GT 540M, where given";
+    plot.note =
+        report.machine.device.name + "; median. Dashed: the figures of De Gyves et al. 2013 (GT 540M)";
     plot.x = {"sites", true, 0.0, 0.0};
     plot.y = {"milliseconds", true, 0.0, 0.0};
     plot.height = 860;
-    for (std::size_t j = 0; j < report.contestants.size(); ++j) {
-        io::PlotSeries series;
-        series.name = report.contestants[j].name;
-        for (std::size_t i = 0; i < report.cases.size(); ++i)
-            if (report.timings[i][j])
-                series.points.emplace_back(report.cases[i].sites, report.timings[i][j]->median_ms);
-        plot.series.push_back(std::move(series));
-    }
+    // A line a method; what differs little from it, or is made of it, stands in the tables.
+    const std::array shown = {"cones",    "gradient1", "gradient2", "per-pixel",
+                              "per-site", "jfa",       "jfa-r",     "binned"};
+    for (std::size_t k = 0; k < shown.size(); ++k)
+        for (std::size_t j = 0; j < report.contestants.size(); ++j) {
+            const std::string& name = report.contestants[j].name;
+            if (name.substr(0, name.find(", 16")) != shown[k]) continue;
+            io::PlotSeries series;
+            series.name = name;
+            series.colour = static_cast<int>(k);
+            for (std::size_t i = 0; i < report.cases.size(); ++i)
+                if (report.timings[i][j])
+                    series.points.emplace_back(report.cases[i].sites, report.timings[i][j]->median_ms);
+            plot.series.push_back(std::move(series));
+        }
     for (const PaperRow& row : kPaper) {
-        if (std::string_view(row.method) != "gradient1" && std::string_view(row.method) != "cones") continue;
         io::PlotSeries series;
-        series.name = std::string(row.method) + ", paper";
+        series.name = std::string(row.method) + " (2013)";
         series.dashed = true;
+        series.markers = false;
+        for (std::size_t k = 0; k < shown.size(); ++k)
+            if (std::string_view(row.method) == shown[k]) series.colour = static_cast<int>(k);
         for (std::size_t i = 0; i < kPaperSites.size(); ++i)
-            series.points.emplace_back(kPaperSites[i], row.milliseconds[i]);
+            if (row.milliseconds[i] != kNotGiven)
+                series.points.emplace_back(kPaperSites[i], row.milliseconds[i]);
         plot.series.push_back(std::move(series));
     }
     return plot;

@@ -28,6 +28,9 @@ struct Options {
     BakeOptions bake;
     std::vector<std::string> overrides;
     std::string diagrams = "none";
+    std::string method, proximity;
+    bool densities = false;
+    bool seconds = false;
     std::string shader_dir;
     int device = -1;
     bool json = false;
@@ -45,12 +48,29 @@ std::uint32_t diagramInterval(const std::string& text) {
                                fmt::format("expects all, none or a number of frames, not `{}`", text));
 }
 
+std::string methodWords() {
+    std::string words;
+    for (const authoring::DiagramMethodEntry& entry : authoring::kDiagramMethods)
+        words += (words.empty() ? "" : ", ") + std::string(entry.word);
+    return words;
+}
+
+/// --method and --proximity are short for --set; what is set by hand wins.
+std::vector<std::string> overridesOf(const Options& options) {
+    std::vector<std::string> overrides;
+    if (!options.method.empty()) overrides.push_back("simulation.method=" + options.method);
+    if (!options.proximity.empty()) overrides.push_back("simulation.proximity=" + options.proximity);
+    overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());
+    return overrides;
+}
+
 /// The simulation proper. @returns the signal that stopped it early, or 0
 int runFrames(sim::Simulation& simulation, const authoring::SimulationSettings& settings,
-              io::BakeWriter& writer, std::uint32_t frames, std::uint32_t diagram_every, Progress& progress) {
+              io::BakeWriter& writer, std::uint32_t frames, std::uint32_t diagram_every,
+              const sim::FramePump::Cargo& cargo, Progress& progress) {
     InterruptGuard interrupt;
     std::atomic<std::uint32_t> present{0};
-    sim::FramePump pump(simulation, diagram_every > 0, [&](const Frame& frame) {
+    sim::FramePump pump(simulation, cargo, [&](const Frame& frame) {
         std::uint32_t alive = 0;
         for (std::size_t row = 0; row < frame.states.size(); row += 3)
             alive += frame.states[row] > 0.5f;
@@ -100,13 +120,14 @@ void printResult(const io::BakeResult& result, const Account& account, const io:
 }
 
 void run(const Options& options) {
-    const LoadedLayout loaded = loadLayout(options.layout, options.overrides);
+    const LoadedLayout loaded = loadLayout(options.layout, overridesOf(options));
     const authoring::SimulationSettings& settings = loaded.scene.settings;
     const std::uint32_t diagram_every = diagramInterval(options.diagrams);
 
     const gl::Context context({options.device, false});
     io::BakeDescription description = describeBake(loaded, options.bake, context.device());
     description.diagram_every = diagram_every;
+    description.densities = options.densities;
     const std::uint32_t frames = description.frames;
     io::BakeWriter writer(std::move(description));
     const gl::ShaderLibrary shaders =
@@ -122,7 +143,8 @@ void run(const Options& options) {
     {
         Progress progress(style, frames, sim::warmupSteps(settings),
                           static_cast<std::uint32_t>(settings.substeps));
-        signal = runFrames(simulation, settings, writer, frames, diagram_every, progress);
+        signal = runFrames(simulation, settings, writer, frames, diagram_every,
+                           {diagram_every > 0, options.seconds, options.densities}, progress);
     }
     context.check("simulating");
     io::BakeTiming timing;
@@ -162,6 +184,15 @@ void addBake(CLI::App& app) {
         ->add_option("--diagrams", options->diagrams,
                      "Diagram images as OpenEXR: all, none, or every N-th frame")
         ->capture_default_str();
+    command->add_flag("--second", options->seconds,
+                      "With --diagrams: also the second-nearest site of each pixel");
+    command->add_flag(
+        "--density", options->densities,
+        "Also the stream `density`: persons per square metre by the area of each person's cell");
+    command->add_option("--method", options->method,
+                        "How the diagram is built: auto, " + methodWords() + " (as simulation.method)");
+    command->add_option("--proximity", options->proximity,
+                        "What finds neighbours: voronoi, grid or brute (as simulation.proximity)");
     command->add_flag("!--no-gltf", options->bake.gltf, "Write no crowd.glb");
     command->add_option("--gltf-agents", options->bake.gltf_agents, "At most this many people in crowd.glb")
         ->capture_default_str();

@@ -71,6 +71,8 @@ class Reader {
         reader.number("field_of_view", {0.0, 360.0, true}, s.field_of_view);
         reader.integer("samples_per_ray", {1, 64}, s.samples_per_ray);
         reader.number("pixels_per_metre", {0.0, 100.0}, s.pixels_per_metre);
+        if (const JsonNode* resolution = node.find("pixels_per_metre"))
+            s.pixels_per_metre_where = resolution->where;
         std::vector<std::string> methods = {"auto"};
         for (const DiagramMethodEntry& entry : kDiagramMethods)
             methods.emplace_back(entry.word);

@@ -137,7 +137,24 @@ class Builder {
         ++scene_.queues.back().row_count;
     }
 
+    /// Below 0.7 pixels per body radius, people who stand together hide each other from the rays (91 % of the
+    /// nearest neighbours found at 0.5 in jams, 99.998 % at 0.7).
+    void checkResolution() {
+        constexpr double kFewest = 0.7;
+        const SimulationSettings& settings = layout_.simulation;
+        const double pixels = settings.pixels_per_metre * scene_.smallest_radius;
+        if (settings.pixels_per_metre <= 0.0 || pixels >= kFewest || scene_.people.empty()) return;
+        diagnostics_.warning(settings.pixels_per_metre_where,
+                             fmt::format("the smallest body ({:.2f} m) gets {:.2f} pixels a radius: in "
+                                         "crowds, people will not see all "
+                                         "of their neighbours",
+                                         scene_.smallest_radius, pixels),
+                             fmt::format("set simulation.pixels_per_metre to {:.3g} or more, or leave it out",
+                                         std::ceil(10.0 * kFewest / scene_.smallest_radius) / 10.0));
+    }
+
     void buildGeometry() {
+        checkResolution();
         if (scene_.people.empty()) scene_.smallest_radius = scene_.largest_radius = 0.25f;
         geometry_.minimum = scene_.minimum;
         geometry_.maximum = scene_.maximum;

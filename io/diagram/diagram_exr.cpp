@@ -54,13 +54,25 @@ class CheckedStream : public Imf::OStream {
     std::exception_ptr error_;
 };
 
-Imf::Header describe(const DiagramImage& image, glm::dvec2 scene_origin, std::uint32_t frame_index,
-                     double fps) {
+/// A diagram and what is known of its owners.
+struct Content {
+    const DiagramImage& image;
+    std::span<const float> densities;
+    bool hasSecond() const { return !image.second.empty(); }
+    bool hasDensity() const { return !densities.empty(); }
+};
+
+Imf::Header describe(const Content& content, glm::dvec2 scene_origin, std::uint32_t frame_index, double fps) {
+    const DiagramImage& image = content.image;
     Imf::Header header(static_cast<int>(image.width), static_cast<int>(image.height));
     header.compression() = Imf::ZIP_COMPRESSION;
     header.channels().insert("id", Imf::Channel(Imf::UINT));
     header.channels().insert("kind", Imf::Channel(Imf::UINT));
     header.channels().insert("distance", Imf::Channel(Imf::FLOAT));
+    if (content.hasSecond())
+        for (const char* name : {"second", "secondKind"})
+            header.channels().insert(name, Imf::Channel(Imf::UINT));
+    if (content.hasDensity()) header.channels().insert("density", Imf::Channel(Imf::FLOAT));
 
     const double scale = image.pixels_per_metre;
     const glm::dvec2 minimum = scene_origin + glm::dvec2(image.minimum);
@@ -79,25 +91,40 @@ Imf::Header describe(const DiagramImage& image, glm::dvec2 scene_origin, std::ui
 
 /// The pixels of up to kLines lines, top row first.
 struct Lines {
-    explicit Lines(std::size_t width) : id(width * kLines), kind(width * kLines), distance(width * kLines) {}
+    Lines(std::size_t width, const Content& content)
+        : id(width * kLines),
+          kind(width * kLines),
+          second(content.hasSecond() ? width * kLines : 0),
+          second_kind(second.size()),
+          distance(width * kLines),
+          density(content.hasDensity() ? width * kLines : 0) {}
 
-    void fill(const DiagramImage& image, std::uint32_t top, std::uint32_t count) {
+    static void put(std::uint32_t site, std::uint32_t agents, std::uint32_t& number, std::uint32_t& what) {
+        const bool is_wall = site != kNone && site >= agents;
+        number = is_wall ? site - agents : site;
+        what = site == kNone ? 0 : is_wall ? 2 : 1;
+    }
+
+    void fill(const Content& content, std::uint32_t top, std::uint32_t count) {
+        const DiagramImage& image = content.image;
         for (std::uint32_t line = 0; line < count; ++line) {
             const std::size_t from = std::size_t{image.height - 1 - (top + line)} * image.width;
             const std::size_t to = std::size_t{line} * image.width;
             for (std::uint32_t x = 0; x < image.width; ++x) {
                 const std::uint32_t site = image.site[from + x];
-                const bool is_wall = site != kNone && site >= image.agent_count;
-                id[to + x] = is_wall ? site - image.agent_count : site;
-                kind[to + x] = site == kNone ? 0 : is_wall ? 2 : 1;
+                put(site, image.agent_count, id[to + x], kind[to + x]);
                 distance[to + x] = site == kNone ? -1.0f : image.distance[from + x];
+                if (content.hasSecond())
+                    put(image.second[from + x], image.agent_count, second[to + x], second_kind[to + x]);
+                if (content.hasDensity())
+                    density[to + x] =
+                        site < image.agent_count ? content.densities[std::size_t{3} * site] : 0.0f;
             }
         }
     }
 
-    std::vector<std::uint32_t> id;
-    std::vector<std::uint32_t> kind;
-    std::vector<float> distance;
+    std::vector<std::uint32_t> id, kind, second, second_kind;
+    std::vector<float> distance, density;
 };
 
 template <typename T>
@@ -106,15 +133,22 @@ Imf::Slice sliceOf(Imf::PixelType type, std::vector<T>& pixels, std::uint32_t to
                             static_cast<int64_t>(width), static_cast<int64_t>(kLines));
 }
 
-void writePixels(Imf::OutputFile& output, const DiagramImage& image) {
-    Lines lines(image.width);
+void writePixels(Imf::OutputFile& output, const Content& content) {
+    const DiagramImage& image = content.image;
+    Lines lines(image.width, content);
     for (std::uint32_t top = 0; top < image.height; top += kLines) {
         const std::uint32_t count = std::min(kLines, image.height - top);
-        lines.fill(image, top, count);
+        lines.fill(content, top, count);
         Imf::FrameBuffer buffer;
         buffer.insert("id", sliceOf(Imf::UINT, lines.id, top, image.width));
         buffer.insert("kind", sliceOf(Imf::UINT, lines.kind, top, image.width));
         buffer.insert("distance", sliceOf(Imf::FLOAT, lines.distance, top, image.width));
+        if (content.hasSecond()) {
+            buffer.insert("second", sliceOf(Imf::UINT, lines.second, top, image.width));
+            buffer.insert("secondKind", sliceOf(Imf::UINT, lines.second_kind, top, image.width));
+        }
+        if (content.hasDensity())
+            buffer.insert("density", sliceOf(Imf::FLOAT, lines.density, top, image.width));
         output.setFrameBuffer(buffer);
         output.writePixels(static_cast<int>(count));
     }
@@ -122,16 +156,22 @@ void writePixels(Imf::OutputFile& output, const DiagramImage& image) {
 
 }  // namespace
 
-void writeDiagramExr(const std::filesystem::path& path, const DiagramImage& image, glm::dvec2 scene_origin,
-                     std::uint32_t frame_index, double fps) {
+void writeDiagramExr(const std::filesystem::path& path, const DiagramImage& image,
+                     std::span<const float> densities, glm::dvec2 scene_origin, std::uint32_t frame_index,
+                     double fps) {
     const std::size_t pixels = std::size_t{image.width} * image.height;
     if (pixels == 0 || image.site.size() != pixels || image.distance.size() != pixels)
         throw std::invalid_argument("a diagram has one owner and one distance for each pixel");
+    if (!image.second.empty() && image.second.size() != pixels)
+        throw std::invalid_argument("a diagram with second owners has one for each pixel");
+    if (!densities.empty() && densities.size() < std::size_t{3} * image.agent_count)
+        throw std::invalid_argument("densities have three values for each person");
+    const Content content{image, densities};
     OutputFile file(path);
     CheckedStream stream(file);
     try {
-        Imf::OutputFile output(stream, describe(image, scene_origin, frame_index, fps), 0);
-        writePixels(output, image);
+        Imf::OutputFile output(stream, describe(content, scene_origin, frame_index, fps), 0);
+        writePixels(output, content);
     } catch (const std::exception& error) {
         stream.check();
         throw OutputError(path, std::string("cannot be encoded: ") + error.what());

@@ -127,12 +127,12 @@ class Canvas {
 };
 
 std::string tickText(double value) {
-    if (value >= 1.0e6 || (value != 0.0 && std::abs(value) < 1.0e-3)) return fmt::format("{:.3g}", value);
-    if (value >= 10'000 && value == std::floor(value)) {
-        const auto whole = static_cast<long long>(value);
-        return fmt::format("{},{:03}", whole / 1000, whole % 1000);
-    }
-    return fmt::format("{:.6g}", value);
+    if (value >= 1.0e9 || (value != 0.0 && std::abs(value) < 1.0e-3)) return fmt::format("{:.3g}", value);
+    if (value < 1000 || value != std::floor(value)) return fmt::format("{:.6g}", value);
+    std::string digits = fmt::format("{:.0f}", value);
+    for (int at = static_cast<int>(digits.size()) - 3; at > 0; at -= 3)
+        digits.insert(static_cast<std::size_t>(at), ",");
+    return digits;
 }
 
 std::vector<double> shownValues(const LinePlot& plot, bool of_x) {
@@ -191,8 +191,9 @@ class Drawing {
         return {kLeft + x_.at(point.x) * (plot_.width - kLeft - kRight),
                 plot_.height - kBottom - y_.at(point.y) * (plot_.height - kTop - kBottom)};
     }
-    void colour(std::size_t series) const {
-        const Colour& c = kColours[series % kColours.size()];
+    void colour(std::size_t index) const {
+        const int chosen = plot_.series[index].colour;
+        const Colour& c = kColours[(chosen < 0 ? index : static_cast<std::size_t>(chosen)) % kColours.size()];
         cairo_set_source_rgb(canvas_.get(), c.r, c.g, c.b);
     }
     void rule(double x0, double y0, double x1, double y1) const {

@@ -13,6 +13,7 @@ struct PlotSeries {
     std::vector<glm::dvec2> points;  ///< in the order in which they are joined
     bool dashed = false;
     bool markers = true;  ///< a dot at each point
+    int colour = -1;      ///< series of one number share a colour; -1: its place among the series
 };
 
 struct PlotAxis {

@@ -21,7 +21,14 @@ const MethodCost& CostModel::choose(const DiagramLoad& load, const MethodCost* p
 }
 
 CostModel CostModel::builtIn() {
-    return {"built in", {{DiagramMethod::binned, {8, 4, 1.5f}, 1.0, 1.0, 40.0, 1.0}}};
+    CostModel model;
+    model.device = "built in";
+    model.costs = {{DiagramMethod::gradient1, {}, 0.372, 2.217, 323.0, 8.194},
+                   {DiagramMethod::gradient2, {}, 1.301, 4.917, 582.7, 17.61},
+                   {DiagramMethod::per_site, {}, 0.265, 1.501, 58.02, 31.73},
+                   {DiagramMethod::binned, {8, 4, 1.5f}, 1.018, 1.547, 54.08, 2.575},
+                   {DiagramMethod::binned, {4, 4, 2.0f}, 0.977, 1.678, 39.14, 3.853}};
+    return model;
 }
 
 }  // namespace throng::sim

@@ -64,7 +64,8 @@ Diagram::Diagram(const gl::ShaderLibrary& library, const DiagramOptions& options
                 authoring::wordFor(options_.method), options_.width, options_.height));
         pages_ = std::make_unique<Pages>(library, options_.width, options_.height, options_.largest_radius,
                                          options_.live_capacity, fixed_sites_);
-        owners_ = std::make_unique<gl::Buffer>("diagram pages", pages_->storeBytes());
+        owners_ =
+            std::make_unique<gl::Buffer>("diagram pages", pages_->storeBytes(), gl::Buffer::Use::in_ranges);
         table_texture_ = gl::WordTexture(pages_->table());
     } else {
         owners_ = std::make_unique<gl::Buffer>("diagram owners", pixelBytes(options_));

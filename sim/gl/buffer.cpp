@@ -16,7 +16,7 @@ Buffer::Buffer(const std::string& name, std::size_t bytes, Use use)
     : bytes_(std::max<std::size_t>(bytes, 4)) {
     GLint64 block_limit = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &block_limit);
-    if (bytes_ > static_cast<std::size_t>(block_limit))
+    if (use != Use::in_ranges && bytes_ > static_cast<std::size_t>(block_limit))
         throw GraphicsError(fmt::format(
             "`{}` needs {:.0f} MiB, more than the {:.0f} MiB that this device gives to one buffer", name,
             static_cast<double>(bytes_) / 1048576.0, static_cast<double>(block_limit) / 1048576.0));

@@ -14,6 +14,7 @@ class Buffer {
   public:
     enum class Use {
         device,     ///< written by shaders; the CPU reaches it through upload() and download() only
+        in_ranges,  ///< as device, but shaders write it range by range: may be larger than a storage block
         read_back,  ///< persistently mapped for reading: see mapped()
     };
 

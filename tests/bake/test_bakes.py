@@ -157,13 +157,6 @@ def test_the_same_layout_and_seed_give_the_same_bytes(throng, tmp_path):
     assert digest(tmp_path / "a") == digest(tmp_path / "b") != digest(tmp_path / "c")
 
 
-def test_both_diagram_methods_give_the_same_bytes(throng, tmp_path):
-    layout = write(tmp_path / "small.json", SMALL)
-    for method in ("per-site", "gradient1"):
-        throng("bake", layout, "-o", tmp_path / method, "-q", "--no-gltf", "--set", f"simulation.method={method}")
-    assert digest(tmp_path / "per-site") == digest(tmp_path / "gradient1")
-
-
 def test_coordinates_of_utm_size_bake_as_exactly_as_small_ones(throng, tmp_path, manifest_of):
     moved = json.loads(json.dumps(SMALL))
     dx, dy = 395131, 5268347
@@ -239,7 +232,7 @@ def test_the_command_line_speaks_clearly(throng, tmp_path):
     assert "No such file" in throng("check", tmp_path / "absent.json", expect=3).stderr
     assert throng("bake", wrong, "-o", tmp_path / "nothing", expect=3).returncode == 3
     assert not (tmp_path / "nothing").exists()
-    for command in ("bake", "check", "info", "preview", "schema", "devices"):
+    for command in ("bake", "check", "info", "preview", "schema", "devices", "calibrate", "bench"):
         assert command in throng("--help").stdout
         assert "Example" in throng(command, "--help").stdout or command == "schema"
 

@@ -156,7 +156,7 @@ void SampleCrowd::writeTo(io::BakeWriter& writer, std::uint32_t count) const {
         }
         for (int i = 0; i < 10; ++i)
             sites.push_back(glm::vec2(glm::dvec2(-5.2, 5.2 + i) + to_scene));
-        Frame out{frame, positions, directions, states, nullptr};
+        Frame out{frame, positions, directions, states, {}, nullptr};
         const SampleDiagram diagram(options_.diagram_every > 0 ? sites : std::vector<glm::vec2>{},
                                     options_.rows, glm::vec2(glm::dvec2(-16.0, -16.0) + to_scene), 128, 96,
                                     4.0f, 0.6f);
@@ -188,7 +188,7 @@ SampleDiagram::SampleDiagram(const std::vector<glm::vec2>& sites, std::uint32_t 
                 distance[std::size_t{y} * width + x] = d;
             }
         }
-    image = {width, height, minimum, pixels_per_metre, agent_count, site, distance};
+    image = {width, height, minimum, pixels_per_metre, agent_count, site, distance, {}};
 }
 
 TemporaryFolder::TemporaryFolder() {

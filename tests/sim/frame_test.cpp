@@ -18,7 +18,7 @@ TEST_F(FramePumpTest, DeliversEveryFrameInOrderWithWhatTheSimulationHolds) {
         std::vector<std::vector<float>> received;
         std::vector<std::vector<float>> expected;
         {
-            sim::FramePump pump(simulation, false, [&](const Frame& frame) {
+            sim::FramePump pump(simulation, {}, [&](const Frame& frame) {
                 EXPECT_EQ(frame.index, received.size());
                 EXPECT_EQ(frame.states.size(), count * 3u);
                 EXPECT_EQ(frame.states[0], 1.0f);
@@ -46,7 +46,7 @@ TEST_F(FramePumpTest, DiagramsAgreeWithTheFramesPositions) {
         addWall(scene, {1, 1}, {12, 9});
         sim::Simulation simulation(scene, library);
         int looked = 0;
-        sim::FramePump pump(simulation, true, [&](const Frame& frame) {
+        sim::FramePump pump(simulation, {true, false, false}, [&](const Frame& frame) {
             ASSERT_EQ(frame.diagram != nullptr, frame.index % 2 == 0);
             if (!frame.diagram) return;
             const DiagramImage& image = *frame.diagram;
@@ -72,7 +72,7 @@ TEST_F(FramePumpTest, DiagramsAgreeWithTheFramesPositions) {
 
 TEST_F(FramePumpTest, AFailingReceiverStopsTheBake) {
     sim::Simulation simulation(uniformScene(5, 2.0f, 1), library);
-    sim::FramePump pump(simulation, false, [](const Frame& frame) {
+    sim::FramePump pump(simulation, {}, [](const Frame& frame) {
         if (frame.index == 3) throw std::runtime_error("disk full");
     });
     EXPECT_THROW(

@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Diagrams as users meet them: methods, images, densities, calibration, benchmarks, worlds larger than a texture."""
+import csv
+import json
+import os
+import struct
+
+import numpy
+import pytest
+
+from test_bakes import SMALL, digest, write
+
+EXACT = ("per-site", "gradient1", "gradient2", "per-pixel", "binned")
+
+
+def test_all_exact_methods_give_the_same_bytes(throng, tmp_path):
+    layout = write(tmp_path / "small.json", SMALL)
+    digests = {}
+    for method in EXACT + ("auto",):
+        throng("bake", layout, "-o", tmp_path / method, "-q", "--no-gltf", "--method", method)
+        digests[method] = digest(tmp_path / method)
+    assert len({json.dumps(d) for d in digests.values()}) == 1, digests
+
+
+def test_methods_with_errors_bake_too(throng, tmp_path):
+    layout = write(tmp_path / "small.json", SMALL)
+    for method in ("cones", "gradient2-packed", "jfa", "1+jfa", "jfa+1", "jfa-r"):
+        throng("bake", layout, "-o", tmp_path / method, "-q", "--no-gltf", "--method", method)
+    wrong = throng("bake", layout, "-o", tmp_path / "no", "--method", "conse", expect=3).stderr
+    assert "--set /simulation/method" in wrong and "did you mean `cones`?" in wrong
+
+
+def test_the_grid_and_everybody_compared_give_the_same_bytes(throng, tmp_path):
+    layout = write(tmp_path / "small.json", SMALL)
+    for way in ("grid", "brute"):
+        throng("bake", layout, "-o", tmp_path / way, "-q", "--no-gltf", "--proximity", way)
+    assert digest(tmp_path / "grid") == digest(tmp_path / "brute")
+
+
+def test_images_and_stream_agree_on_areas_densities_and_second_owners(throng, tmp_path, manifest_of):
+    OpenEXR = pytest.importorskip("OpenEXR")
+    layout = write(tmp_path / "small.json", SMALL)
+    bake = tmp_path / "bake"
+    throng("bake", layout, "-o", bake, "-q", "--no-gltf", "--diagrams", "24", "--second", "--density")
+    manifest = manifest_of(bake)
+    assert manifest["streams"]["density"]["components"] == ["density", "area", "share"]
+    assert throng("info", bake, "--verify").returncode == 0
+    density = numpy.load(bake / "streams" / "density.npy")
+    state = numpy.load(bake / "streams" / "state.npy")
+    position = numpy.load(bake / "streams" / "pos.npy")
+    tile = 0.6
+    scale = manifest["diagrams"]["pixels_per_metre"]
+    low = numpy.array(manifest["diagrams"]["min"])
+    checked = 0
+    for frame in (0, 24):
+        with OpenEXR.File(str(bake / "diagrams" / f"diagram.{frame + 1:04d}.exr"), separate_channels=True) as file:
+            channels = {name: channel.pixels for name, channel in file.channels().items()}
+        ids, kind, second, second_kind = (channels[n] for n in ("id", "kind", "second", "secondKind"))
+        alive = state[frame, :, 0] > 0.5
+        pixels = numpy.bincount(ids[kind == 1], minlength=len(alive))[:len(alive)]
+        area = numpy.maximum(pixels, 0.5) / scale**2
+        assert numpy.allclose(density[frame, alive, 1], area[alive], rtol=1e-5)
+        assert numpy.allclose(density[frame, alive, 0], 1.0 / area[alive], rtol=1e-5)
+        assert (density[frame, ~alive] == 0).all()
+        assert numpy.allclose(density[frame, alive, 2], numpy.minimum(area[alive] / (numpy.pi * tile**2), 1), rtol=1e-4)
+        owner = numpy.where(kind == 1, ids, 0)
+        assert numpy.allclose(channels["density"], numpy.where(kind == 1, density[frame, owner, 0], 0.0))
+        # Second owners that are people: the nearest of all but the owner, and within the tile.
+        height = ids.shape[0]
+        rows, columns = numpy.nonzero((second_kind == 1) & (kind == 1))
+        for row, column in zip(rows, columns):
+            centre = low + (numpy.array([column, height - 1 - row]) + 0.5) / scale
+            distance = numpy.hypot(*(position[frame, :, :2] - centre).T)
+            distance[~alive] = numpy.inf
+            order = numpy.sort(distance)
+            assert abs(distance[second[row, column]] - order[1]) < 1e-3 and order[1] < tile + 1e-3
+            checked += 1
+        assert (second[kind == 0] == 0xFFFFFFFF).all() and (second_kind[kind == 0] == 0).all()
+    assert checked > 30
+
+
+def test_calibration_is_kept_and_changes_no_byte(throng, tmp_path):
+    environment = {**os.environ, "XDG_CACHE_HOME": str(tmp_path / "cache")}
+    layout = write(tmp_path / "small.json", SMALL)
+    throng("bake", layout, "-o", tmp_path / "before", "-q", "--no-gltf", env=environment)
+    told = throng("calibrate", env=environment).stdout
+    kept = list((tmp_path / "cache" / "throng").glob("calibration-*.json"))
+    assert len(kept) == 1 and str(kept[0]) in told and "`auto` will take" in told
+    costs = json.loads(kept[0].read_text())["costs"]
+    assert {cost["method"] for cost in costs} == {"gradient1", "gradient2", "per-site", "binned"}
+    assert all(min(cost[term] for term in ("base_ms", "pixel_ns", "site_ns", "covered_ns")) >= 0 for cost in costs)
+    throng("bake", layout, "-o", tmp_path / "after", "-q", "--no-gltf", env=environment)
+    assert digest(tmp_path / "before") == digest(tmp_path / "after")
+    kept[0].write_text("{ not json")
+    assert "passed over" in throng("bake", layout, "-o", tmp_path / "broken", "-q", "--no-gltf", env=environment).stderr
+
+
+def test_benchmarks_write_their_three_files(throng, tmp_path):
+    for kind in ("diagrams", "proximity"):
+        throng("bench", kind, "-o", tmp_path, "--most", "256", "--rounds", "1")
+        assert (tmp_path / f"{kind}.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
+        assert struct.unpack(">I", (tmp_path / f"{kind}.png").read_bytes()[16:20])[0] == 1200
+        assert f"`throng bench {kind}`" in (tmp_path / f"{kind}.md").read_text()
+        with open(tmp_path / f"{kind}.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        if kind == "diagrams":
+            measured = {row["method"]: row for row in rows if row["source"] == "measured"}
+            assert set(EXACT) < set(measured) and len(measured) == 13
+            assert all(float(measured[m]["wrong_share"]) == 0 and float(measured[m]["median_ms"]) > 0 for m in EXACT)
+            assert sum(row["source"] == "paper" for row in rows) == 27
+        else:
+            assert {row["way"] for row in rows} == {"voronoi", "grid", "brute"}
+            assert all(float(row["recall"]) > 0.99 for row in rows)
+
+
+def far_apart(shift):
+    """Two small crowds, the second `shift` metres away."""
+    people = [{"id": f"ring{i}", "type": "circle", "centre": [x, x], "radius": 5, "count": 31} for i, x in enumerate((0.0, shift))]
+    return {"throng": 1, "simulation": {"duration": 3, "pixels_per_metre": 8}, "formations": people,
+            "walls": [{"points": [[-3, 5.8], [3, 6]]}, {"points": [[shift - 3, shift + 5.8], [shift + 3, shift + 6]]}]}
+
+
+def test_a_world_larger_than_any_texture_bakes_like_a_small_one(throng, tmp_path, manifest_of):
+    # 2.5 km at 8 px/m are 20,000 px a side: 400 million pixels, of which a few thousand pages exist.
+    for name, shift in (("near", 40.0), ("far", 2500.0)):
+        layout = write(tmp_path / f"{name}.json", far_apart(shift))
+        throng("bake", layout, "-o", tmp_path / name, "-q", "--no-gltf")
+    near, far = (numpy.load(tmp_path / name / "streams" / "pos.npy") + numpy.array(manifest_of(tmp_path / name)["origin"])
+                 for name in ("near", "far"))
+    # The first ring sees the same, so it sets out the same; a ring is symmetric, and roundings at 1,250 m from the
+    # origin soon decide who passes on which side.
+    assert numpy.abs(near[:5, :31] - far[:5, :31]).max() < 5e-3
+    assert numpy.hypot(*(far[-1, :31, :2] - far[0, :31, :2]).T).min() > 1.0
+    refused = throng("bake", tmp_path / "far.json", "-o", tmp_path / "no", "-q", "--diagrams", "all", expect=4)
+    assert "too large" in refused.stderr and "pixels_per_metre" in refused.stderr and not (tmp_path / "no").exists()
+    whole = throng("bake", tmp_path / "far.json", "-o", tmp_path / "no", "-q", "--method", "gradient1", expect=4)
+    assert "Use the method binned" in whole.stderr
+
+
+def test_too_few_pixels_for_a_body_are_warned_of(throng, tmp_path):
+    layout = write(tmp_path / "small.json", SMALL)
+    assert "pixels_per_metre" not in throng("check", layout).stderr
+    told = throng("check", layout, "--set", "simulation.pixels_per_metre=2").stderr
+    assert "warning" in told and "0.44 pixels" in told and "pixels_per_metre" in told
