@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "authoring/diagram_method.h"
+#include "authoring/expectation.h"
 
 /// What a layout file says, checked but not yet interpreted. World coordinates: metres, double precision,
 /// X east, Y north, Z up. Angles in degrees, counter-clockwise from +X. Times in seconds from the first
@@ -168,6 +169,7 @@ struct Layout {
     std::vector<Wall> walls;
     std::vector<Flow> flows;
     std::vector<Formation> formations;
+    std::vector<Expectation> expectations;
 };
 
 }  // namespace throng::authoring

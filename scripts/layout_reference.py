@@ -24,7 +24,7 @@ A **place** is an area's id, or a road's id with `:start` or `:end`. A **distrib
 `{"normal": [mean, deviation], "min": ..., "max": ...}`. With a warm-up, flows that start at 0 start at its beginning.
 """
 SECTIONS = [("simulation", "Simulation"), ("road", "Roads"), ("area", "Areas"), ("wall", "Walls"), ("flow", "Flows"), ("formation", "Formations"),
-            ("people", "People (in flows and formations)")]
+            ("people", "People (in flows and formations)"), ("expect", "Expectations")]
 
 
 def kind_of(rule):

@@ -27,6 +27,9 @@ uniform uint slot_capacity;
 #include "shaders/orca.glsl"
 #include "shaders/linear_program.glsl"
 
+vec2 facing(uint slot) { return preferred_velocities[slot]; }
+#include "shaders/oncoming.glsl"
+
 /// Overlapping bodies are to part within this time (s); the contact pass separates them in any case.
 const float OVERLAP_HORIZON = 0.15;
 const float KERB_HORIZON = 0.8;
@@ -103,6 +106,21 @@ bool kerbConstraint(Body self, out vec3 constraint) {
     return true;
 }
 
+/// Looking far ahead is courteous, and in a dense counterflow everybody's courtesy adds up to a standstill: no velocity
+/// avoids all that might happen in the next seconds. Who is held up by oncoming people looks ahead this far only (s), as
+/// people do who squeeze through; what then comes too near, contact keeps apart.
+const float SQUEEZING_HORIZON = 0.2;
+
+/// s: how far ahead somebody avoids other people.
+float horizonOf(Body self, uint slot) {
+    vec2 wish = preferred_velocities[slot];
+    float speed = length(wish);
+    if (speed < 1.0e-3) return parameters.time_horizon;
+    float progress = clamp(dot(self.velocity, wish) / (speed * speed), 0.0, 1.0);
+    float held_up = 1.0 - progress * progress * progress;
+    return mix(parameters.time_horizon, SQUEEZING_HORIZON, held_up * oncomingTraffic(slot, wish / speed));
+}
+
 vec2 limitChange(vec2 from, vec2 to, float most) {
     vec2 change = to - from;
     float size = length(change);
@@ -116,6 +134,7 @@ void main() {
     bool walls = (touch_words[slot] & (TOUCH_WALL_NEAR | TOUCH_WALL_SENSED)) != 0u;
     int hard = walls ? gatherWalls(self, slot) : 0;
     int count = hard;
+    float horizon = horizonOf(self, slot);
     uint sensed = neighbour_counts[slot];
     for (uint i = 0u; i < sensed; ++i) {
         uint key = neighbours[i * slot_capacity + slot];
@@ -123,7 +142,7 @@ void main() {
         Body other = bodies[row_slots[key]];
         setConstraint(count++, avoidanceConstraint(self.velocity, other.position - self.position,
                                                    self.velocity - other.velocity, self.radius + other.radius,
-                                                   parameters.time_horizon, OVERLAP_HORIZON, 0.5));
+                                                   horizon, OVERLAP_HORIZON, 0.5));
     }
     vec3 kerb;
     if (parameters.has_roads != 0u && (people[self.row].flags & PERSON_KEEPS_TO_ROADS) != 0u && kerbConstraint(self, kerb))

@@ -36,8 +36,14 @@ RouteAhead sampleField(uint field, vec2 position) {
 }
 
 RouteAhead routeAhead(Stage stage, vec2 position) {
-    if (stage.field != NO_INDEX) return sampleField(stage.field, position);
     vec2 offset = stage.point - position;
     float remaining = length(offset);
-    return RouteAhead(remaining > 1.0e-6 ? offset / remaining : vec2(0.0), remaining);
+    RouteAhead straight = RouteAhead(remaining > 1.0e-6 ? offset / remaining : vec2(0.0), remaining);
+    if (stage.field == NO_INDEX) return straight;
+    RouteAhead ahead = sampleField(stage.field & ~FIELD_THEN_POINT, position);
+    if ((stage.field & FIELD_THEN_POINT) == 0u) return ahead;
+    if (ahead.remaining <= 0.0) return straight;
+    // Still on the way to the surroundings: at least as far as in a straight line.
+    ahead.remaining = max(ahead.remaining, remaining);
+    return ahead;
 }

@@ -108,6 +108,7 @@ Avoidance::Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, int nei
       steer_(connected(library, "shaders/steer.comp", buffers)),
       avoid_(connected(library, "shaders/avoid.comp", buffers, listLength(neighbours))) {
     avoid_.set("slot_capacity", buffers.slotCapacity());
+    steer_.set("slot_capacity", buffers.slotCapacity());
 }
 
 void Avoidance::run() {

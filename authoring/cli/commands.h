@@ -15,5 +15,6 @@ void addSchema(CLI::App& app);
 void addDevices(CLI::App& app);
 void addCalibrate(CLI::App& app);
 void addBench(CLI::App& app);
+void addMeasure(CLI::App& app);
 
 }  // namespace throng::cli

@@ -19,7 +19,8 @@ constexpr const char* kFooter =
     "  throng check examples/intersection.json\n"
     "  throng bake examples/intersection.json -o bakes/intersection\n"
     "  throng preview bakes/intersection -o intersection.png\n"
-    "\nExit codes: 0 ok, 2 usage, 3 invalid input, 4 no usable OpenGL, 5 output failed, 130 interrupted.";
+    "\nExit codes: 0 ok, 1 a bar was missed, 2 usage, 3 invalid input, 4 no usable OpenGL, 5 output failed, "
+    "130 interrupted.";
 
 int parseAndRun(CLI::App& app, int argc, char** argv) {
     try {
@@ -62,6 +63,7 @@ int main(int argc, char** argv) {
     cli::addDevices(app);
     cli::addCalibrate(app);
     cli::addBench(app);
+    cli::addMeasure(app);
     try {
         return parseAndRun(app, argc, argv);
     } catch (const cli::Exit& exit) {

@@ -34,6 +34,7 @@ class Reader {
         nameWalls();
         eachOf(reader, "flows", [this](const JsonNode& node) { readFlow(node); });
         eachOf(reader, "formations", [this](const JsonNode& node) { readFormation(node); });
+        if (const JsonNode* node = reader.get("expect")) readExpectations(*node);
         reader.finish();
         checkWhole();
         return std::move(layout_);
@@ -89,6 +90,29 @@ class Reader {
         reader.number("maximum_acceleration", {0.1, 100.0}, s.maximum_acceleration);
         reader.finish();
         simulation_where_ = node.where;
+    }
+
+    void readExpectations(const JsonNode& node) {
+        ObjectReader reader(node, "`expect`", diagnostics_);
+        if (!reader.isObject()) return;
+        for (const std::string_view figure : kExpectableFigures) {
+            const JsonNode* bar = reader.get(std::string(figure));
+            if (!bar) continue;
+            ObjectReader limits(*bar, fmt::format("the bar on `{}`", figure), diagnostics_);
+            if (!limits.isObject()) continue;
+            Expectation expectation{std::string(figure), {}, {}};
+            for (const auto& [key, value] :
+                 {std::pair{"min", &expectation.minimum}, std::pair{"max", &expectation.maximum}})
+                if (const JsonNode* limit = limits.get(key))
+                    *value = limits.numberOf(*limit, {-1.0e9, 1.0e9});
+            limits.finish();
+            if (!expectation.minimum && !expectation.maximum)
+                diagnostics_.error(bar->where,
+                                   fmt::format("the bar on `{}` says neither `min` nor `max`", figure),
+                                   R"(write for example {"min": 0.99})");
+            layout_.expectations.push_back(std::move(expectation));
+        }
+        reader.finish();
     }
 
     void claimId(const JsonNode& node, const std::string& id, std::map<std::string, std::size_t>& ids,

@@ -41,8 +41,12 @@ const WalkMap& Routes::mapFor(bool keep_to_roads) {
     return *map;
 }
 
+bool Routes::hasRoom() const {
+    return (fields_.size() + 1) * cellCount(grid_) * sizeof(gpu::FieldCell) <= kMostFieldBytes;
+}
+
 std::uint32_t Routes::solve(const std::vector<std::uint32_t>& targets, bool keep_to_roads) {
-    if ((fields_.size() + 1) * cellCount(grid_) * sizeof(gpu::FieldCell) > kMostFieldBytes) {
+    if (!hasRoom()) {
         too_many_ = true;
         return 0;
     }
@@ -57,11 +61,35 @@ std::uint32_t Routes::fieldTo(const Place& place, bool keep_to_roads) {
     return entry->second;
 }
 
-std::uint32_t Routes::fieldTo(glm::vec2 point) {
+/// The largest square around the point's cell, of those that halving kSurroundings gives, that nothing
+/// blocks.
+std::vector<std::uint32_t> Routes::clearSquare(glm::vec2 point) {
+    const WalkMap& map = mapFor(false);
     const std::uint32_t cell = cellAt(grid_, point);
-    const auto [entry, is_new] = known_.try_emplace(fmt::format("to cell {}", cell), 0);
-    if (is_new) entry->second = solve({cell}, false);
-    return entry->second;
+    const std::uint32_t x = cell % grid_.width;
+    const std::uint32_t y = cell / grid_.width;
+    auto side = static_cast<std::uint32_t>(kSurroundings / grid_.cell_size);
+    for (; side > 1; side /= 2) {
+        const std::uint32_t x0 = x / side * side;
+        const std::uint32_t y0 = y / side * side;
+        std::vector<std::uint32_t> cells;
+        bool clear = true;
+        for (std::uint32_t j = y0; clear && j < std::min(y0 + side, grid_.height); ++j)
+            for (std::uint32_t i = x0; clear && i < std::min(x0 + side, grid_.width); ++i) {
+                cells.push_back(j * grid_.width + i);
+                clear = map.cost[cells.back()] < kUnreachable;
+            }
+        if (clear) return cells;
+    }
+    return {cell};
+}
+
+std::uint32_t Routes::fieldTo(glm::vec2 point) {
+    const std::vector<std::uint32_t> targets = clearSquare(point);
+    const std::string name = fmt::format("to {} cells from {}", targets.size(), targets.front());
+    if (const auto known = known_.find(name); known != known_.end()) return known->second;
+    if (!hasRoom()) return gpu::NO_INDEX;
+    return known_[name] = solve(targets, false);
 }
 
 float Routes::reachable(std::uint32_t field, glm::vec2 from) const {

@@ -25,14 +25,19 @@ class Routes {
 
     /// The field that leads to a place, for people who keep to the roads or do not.
     std::uint32_t fieldTo(const Place& place, bool keep_to_roads);
-    /// The field that leads to a point; points in the same cell share it.
+    /// The field that leads to the surroundings of a point: a square of up to kSurroundings metres without a
+    /// wall in it, so that the rest of the way is straight. Points near each other share it.
+    /// @returns NO_INDEX where it would be one field too many
     std::uint32_t fieldTo(glm::vec2 point);
+    static constexpr float kSurroundings = 16.0f;  // m
 
     /// Metres of walking, kUnreachable where no path leads.
     float reachable(std::uint32_t field, glm::vec2 from) const;
     float reachable(std::uint32_t field, const LocalPolygon& from) const;
 
     bool tooManyFields() const { return too_many_; }
+    /// Somebody needs a field for which there is no room.
+    void lackField() { too_many_ = true; }
     std::uint32_t fieldCount() const { return static_cast<std::uint32_t>(fields_.size()); }
     /// Moves all cells out, field after field.
     std::vector<gpu::FieldCell> takeCells();
@@ -41,6 +46,8 @@ class Routes {
     std::string name(const Place& place) const;
 
   private:
+    std::vector<std::uint32_t> clearSquare(glm::vec2 point);
+    bool hasRoom() const;
     std::uint32_t solve(const std::vector<std::uint32_t>& targets, bool keep_to_roads);
     const WalkMap& mapFor(bool keep_to_roads);
 

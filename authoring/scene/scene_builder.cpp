@@ -290,12 +290,16 @@ class Builder {
             complain(formation, i, "has its goal in a wall", "move the goal, or the wall");
             return {goal, tolerance, gpu::NO_INDEX};
         }
-        if (straightIsClear(geometry_, person.spawn_position, goal, person.radius))
-            return {goal, tolerance, gpu::NO_INDEX};
+        // Even where the straight way is clear, others may push somebody round a corner on the way.
+        if (geometry_.walls.empty()) return {goal, tolerance, gpu::NO_INDEX};
         const std::uint32_t field = routes.fieldTo(goal);
-        if (!routes.tooManyFields() && routes.reachable(field, person.spawn_position) == kUnreachable)
+        if (field == gpu::NO_INDEX) {
+            if (!straightIsClear(geometry_, person.spawn_position, goal, person.radius)) routes.lackField();
+            return {goal, tolerance, gpu::NO_INDEX};
+        }
+        if (routes.reachable(field, person.spawn_position) == kUnreachable)
             complain(formation, i, "cannot reach its goal", "there is a wall all round one of the two");
-        return {goal, std::max(tolerance, scene_.grid.cell_size), field};
+        return {goal, tolerance, field | gpu::FIELD_THEN_POINT};
     }
 
     void complain(const Formation& formation, std::size_t i, const std::string& what,

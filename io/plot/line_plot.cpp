@@ -55,8 +55,9 @@ class Scale {
                                 std::abs(std::remainder(std::log2(high_), 1.0)) < 1e-9;
             const double factor = binary ? 4.0 : 10.0;
             const double first = binary ? low_ : std::pow(10.0, std::ceil(std::log10(low_) - 1e-9));
-            for (double tick = first; tick <= high_ * 1.0001; tick *= factor)
-                result.push_back(tick);
+            const auto count = static_cast<int>(std::log(high_ * 1.0001 / first) / std::log(factor));
+            for (int i = 0; i <= count; ++i)
+                result.push_back(first * std::pow(factor, i));
             return result;
         }
         const double raw = (high_ - low_) / 6.0;
@@ -64,8 +65,10 @@ class Scale {
         double step = power;
         for (const double factor : {1.0, 2.0, 5.0, 10.0})
             if (power * factor <= raw * 1.5) step = power * factor;
-        for (double tick = std::ceil(low_ / step) * step; tick <= high_ + 1e-9 * step; tick += step)
-            result.push_back(std::abs(tick) < 1e-9 * step ? 0.0 : tick);
+        const auto first = static_cast<int>(std::ceil(low_ / step - 1e-9));
+        const auto last = static_cast<int>(std::floor(high_ / step + 1e-9));
+        for (int i = first; i <= last; ++i)
+            result.push_back(i * step);
         return result;
     }
 

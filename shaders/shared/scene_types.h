@@ -38,8 +38,11 @@ struct Person {
 struct Stage {
     vec2 point;       // m; the target where field is NO_INDEX (walked to in a straight line)
     float tolerance;  // m
-    uint field;       // index into the distance fields, or NO_INDEX
+    uint field;       // index into the distance fields, or NO_INDEX; perhaps with FIELD_THEN_POINT
 };
+
+/// The field leads to the surroundings of the point, all clear; from there the way to the point is straight.
+const uint FIELD_THEN_POINT = 0x80000000u;
 
 /// Points where people of a flow may appear, all clear of walls.
 struct Entry {

@@ -43,7 +43,7 @@ double wrongShare(Diagram& diagram, const std::vector<std::uint32_t>& expected) 
 
 double percentile(std::vector<double> values, double share) {
     if (values.empty()) return 0.0;
-    const auto index = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+    const auto index = std::lround(share * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), values.begin() + index, values.end());
     return values[static_cast<std::size_t>(index)];
 }

@@ -52,7 +52,8 @@ authoring::Scene openCrowd(std::uint32_t count, float spacing, std::uint32_t see
     std::uniform_real_distribution<float> jitter(-0.2f * spacing, 0.2f * spacing);
     std::uniform_real_distribution<float> anywhere(0.0f, extent);
     for (std::uint32_t i = 0; i < count; ++i) {
-        const glm::vec2 cell(static_cast<float>(places[i] % side), static_cast<float>(places[i] / side));
+        const std::uint32_t line = places[i] / side;
+        const glm::vec2 cell(static_cast<float>(places[i] % side), static_cast<float>(line));
         const glm::vec2 position = (cell + 0.5f) * spacing + glm::vec2(jitter(random), jitter(random));
         addPerson(scene, position, {anywhere(random), anywhere(random)});
     }

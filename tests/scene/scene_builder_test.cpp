@@ -197,16 +197,24 @@ TEST(SceneBuilder, ComplainsAboutPeopleAndGoalsInWalls) {
     EXPECT_NE(errors.find("person 1 has its goal in a wall"), std::string::npos) << errors;
 }
 
-TEST(SceneBuilder, SendsFormationsRoundWallsOnlyWhereOneIsInTheWay) {
+TEST(SceneBuilder, LeadsFormationsRoundWallsAndThenStraightToTheirOwnGoals) {
     Layout layout = simpleLayout();
     layout.flows.clear();
     Formation list;
     list.id = "extras";
-    list.shape = ListFormation{{{{10, 5}, {20, 5}, {}, {}, {}, {}}, {{10, 9.5}, {20, 9.5}, {}, {}, {}, {}}}};
+    list.shape =
+        ListFormation{{{{10, 5}, {20, 5}, {}, {}, {}, {}}, {{10, 9.5}, {20.5, 5.5}, {}, {}, {}, {}}}};
     layout.formations.push_back(list);
     const Scene scene = built(layout);
-    EXPECT_NE(scene.stages[scene.people[0].first_stage].field, gpu::NO_INDEX);
-    EXPECT_EQ(scene.stages[scene.people[1].first_stage].field, gpu::NO_INDEX);
+    const gpu::Stage& first = scene.stages[scene.people[0].first_stage];
+    const gpu::Stage& second = scene.stages[scene.people[1].first_stage];
+    EXPECT_NE(first.field, gpu::NO_INDEX);
+    EXPECT_NE(first.field & gpu::FIELD_THEN_POINT, 0u);
+    EXPECT_EQ(first.field, second.field) << "goals near each other share a field";
+    EXPECT_NE(first.point, second.point);
+    // Without walls there is nothing to be led round.
+    layout.walls.clear();
+    EXPECT_EQ(built(layout).stages.back().field, gpu::NO_INDEX);
 }
 
 TEST(SceneBuilder, PeopleDrawnOnTopOfEachOtherWaitForRoom) {

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <string>
+#include <vector>
+
+#include "io/bake_reader.h"
+
+namespace throng::io {
+
+/// One line of agents.csv.
+struct AgentRow {
+    std::string group;
+    float radius = 0.0f;                        ///< m
+    float preferred_speed = 0.0f;               ///< m/s
+    std::uint32_t spawn_frame = 0xffffffffu;    ///< from 0; all bits set: never
+    std::uint32_t arrival_frame = 0xffffffffu;  ///< likewise
+    std::string outcome;                        ///< walking, arrived or refused
+    glm::dvec2 goal{0.0};                       ///< m, in the frame of the streams
+};
+
+/// Reads agents.csv. Throws InputError, with the line, when a field is missing or not what it should be.
+std::vector<AgentRow> loadAgentRows(const Bake& bake);
+
+}  // namespace throng::io

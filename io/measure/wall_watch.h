@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <vector>
+
+#include "io/bake_reader.h"
+#include "io/measure/plane_grid.h"
+
+namespace throng::io {
+
+/// The walls of a bake as segments, and what bodies do to them.
+class WallWatch {
+  public:
+    explicit WallWatch(const Bake& bake);
+    bool empty() const { return segments_.empty(); }
+
+    /// Whether the straight line between two frames goes through a wall's axis or outline.
+    bool crosses(glm::dvec2 before, glm::dvec2 after) const;
+    /// How far a body is inside a wall, m; 0 where it is clear.
+    double penetration(glm::dvec2 place, double radius) const;
+
+  private:
+    struct Segment {
+        glm::dvec2 a, b;
+        double half_thickness;
+    };
+    template <class Visit>
+    void near(glm::dvec2 place, double reach, Visit&& visit) const;
+
+    std::vector<Segment> segments_;
+    std::vector<glm::dvec2> samples_;  // along the segments, at most kSpacing apart
+    std::vector<std::uint32_t> sample_segment_;
+    PlaneGrid grid_;
+};
+
+}  // namespace throng::io
