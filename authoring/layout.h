@@ -122,20 +122,30 @@ struct Flow {
     SourcePosition where;
 };
 
+/// A line to mirror at.
+struct MirrorLine {
+    glm::dvec2 a{0.0};
+    glm::dvec2 b{0.0};
+};
+
 struct CircleFormation {
     glm::dvec2 centre{0.0};
     double radius = 10.0;
-    std::uint64_t count = 0;  ///< evenly spaced; everybody's goal is the diametrically opposite point
+    std::uint64_t count = 0;    ///< evenly spaced; everybody's goal is the diametrically opposite point
+    double ring_spacing = 0.0;  ///< m: further rings outside, this far apart; 0 = one ring for all
+    double along = 0.0;         ///< m: between neighbours on a ring, where there are several
 };
 
 struct GridFormation {
-    glm::dvec2 origin{0.0};                ///< centre of the first row's first person
-    std::uint64_t rows = 1;                ///< along the grid's own +Y
-    std::uint64_t columns = 1;             ///< along the grid's own +X
-    double spacing = 1.0;                  ///< m
-    double jitter = 0.0;                   ///< m: each coordinate moves by up to this much, uniformly
-    double rotation = 0.0;                 ///< degrees about the origin point
-    std::variant<glm::dvec2, Place> goal;  ///< an offset added to each person's position, or a place
+    glm::dvec2 origin{0.0};     ///< centre of the first row's first person
+    std::uint64_t rows = 1;     ///< along the grid's own +Y
+    std::uint64_t columns = 1;  ///< along the grid's own +X
+    double spacing = 1.0;       ///< m
+    double jitter = 0.0;        ///< m: each coordinate moves by up to this much, uniformly
+    double rotation = 0.0;      ///< degrees about the origin point
+    std::uint64_t count = 0;    ///< people, column by column from the first; 0 = all rows and columns
+    /// An offset added to each person's position, a place, or a line at which each position is mirrored.
+    std::variant<glm::dvec2, Place, MirrorLine> goal;
 };
 
 struct ListedAgent {

@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "authoring/cli/bake_description.h"
+#include "authoring/cli/bake_run.h"
 #include "authoring/cli/calibration_file.h"
 #include "authoring/cli/commands.h"
 #include "authoring/cli/exit_codes.h"
@@ -22,20 +23,6 @@
 
 namespace throng::cli {
 namespace {
-
-struct Options {
-    std::string layout;
-    BakeOptions bake;
-    std::vector<std::string> overrides;
-    std::string diagrams = "none";
-    std::string method, proximity;
-    bool densities = false;
-    bool seconds = false;
-    std::string shader_dir;
-    int device = -1;
-    bool json = false;
-    bool quiet = false;
-};
 
 /// @returns frames between diagram images, 0 for none
 std::uint32_t diagramInterval(const std::string& text) {
@@ -56,7 +43,7 @@ std::string methodWords() {
 }
 
 /// --method and --proximity are short for --set; what is set by hand wins.
-std::vector<std::string> overridesOf(const Options& options) {
+std::vector<std::string> overridesOf(const BakeRequest& options) {
     std::vector<std::string> overrides;
     if (!options.method.empty()) overrides.push_back("simulation.method=" + options.method);
     if (!options.proximity.empty()) overrides.push_back("simulation.proximity=" + options.proximity);
@@ -119,7 +106,9 @@ void printResult(const io::BakeResult& result, const Account& account, const io:
     if (result.diagrams) fmt::print("{} diagram images\n", result.diagrams);
 }
 
-void run(const Options& options) {
+}  // namespace
+
+void bakeLayout(const BakeRequest& options) {
     const LoadedLayout loaded = loadLayout(options.layout, overridesOf(options));
     const authoring::SimulationSettings& settings = loaded.scene.settings;
     const std::uint32_t diagram_every = diagramInterval(options.diagrams);
@@ -162,15 +151,14 @@ void run(const Options& options) {
                    frames, result.path.string());
         throw Exit(128 + signal);
     }
-    printResult(writer.finish(account, timing), account, timing, options.json);
+    const io::BakeResult result = writer.finish(account, timing);
+    if (options.announce) printResult(result, account, timing, options.json);
 }
-
-}  // namespace
 
 void addBake(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("bake", "Simulate a layout and write the crowd: streams, glTF, diagrams");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<BakeRequest>();
     command->add_option("layout", options->layout, "The layout file (- for standard input)")->required();
     command->add_option("-o,--output", options->bake.output,
                         "The folder to make; by default the layout's name");
@@ -208,7 +196,7 @@ void addBake(CLI::App& app) {
         "Ctrl-C stops after the frame under way and keeps what there is as OUTPUT.partial.\n\n"
         "Example:\n  throng bake examples/intersection.json -o bakes/intersection --diagrams 24 --set "
         "simulation.seed=7");
-    command->callback([options] { run(*options); });
+    command->callback([options] { bakeLayout(*options); });
 }
 
 }  // namespace throng::cli

@@ -16,5 +16,6 @@ void addDevices(CLI::App& app);
 void addCalibrate(CLI::App& app);
 void addBench(CLI::App& app);
 void addMeasure(CLI::App& app);
+void addScenarios(CLI::App& app);
 
 }  // namespace throng::cli

@@ -64,6 +64,7 @@ int main(int argc, char** argv) {
     cli::addCalibrate(app);
     cli::addBench(app);
     cli::addMeasure(app);
+    cli::addScenarios(app);
     try {
         return parseAndRun(app, argc, argv);
     } catch (const cli::Exit& exit) {

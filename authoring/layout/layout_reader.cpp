@@ -388,6 +388,12 @@ class Reader {
         reader.number("radius", kAnyLength, circle.radius);
         reader.require("count", "people");
         reader.integer("count", {1, kMostPeople}, circle.count);
+        reader.number("ring_spacing", kAnyLength, circle.ring_spacing);
+        reader.number("along", kAnyLength, circle.along);
+        if ((circle.ring_spacing > 0.0) != (circle.along > 0.0))
+            diagnostics_.error(
+                reader.where(), "`ring_spacing` and `along` go together",
+                "the first is the distance between rings, the second between neighbours on a ring");
         return circle;
     }
 
@@ -399,6 +405,10 @@ class Reader {
         reader.require("columns", "people along the grid's +X");
         reader.integer("columns", {1, kMostPeople}, grid.columns);
         reader.number("spacing", kAnyLength, grid.spacing);
+        reader.integer("count", {1, kMostPeople}, grid.count);
+        if (grid.count > grid.rows * grid.columns)
+            diagnostics_.error(reader.where(), fmt::format("`count` ({}) is more than {} rows of {} hold",
+                                                           grid.count, grid.rows, grid.columns));
         reader.number("jitter", {0.0, 1000.0}, grid.jitter);
         reader.number("rotation", {-3600.0, 3600.0}, grid.rotation);
         const JsonNode* goal = reader.require("goal", "{\"offset\": [dx, dy]} or a place");
@@ -407,11 +417,19 @@ class Reader {
             if (const auto place = placeOf(*goal)) grid.goal = *place;
             return grid;
         }
-        glm::dvec2 offset(0.0);
         ObjectReader inner(*goal, "`goal`", diagnostics_);
-        inner.point("offset", "added to everybody's position, [dx, dy] in metres", offset);
+        if (goal->find("mirror")) {
+            const std::vector<glm::dvec2> line = inner.points("mirror", 2);
+            if (line.size() == 2)
+                grid.goal = MirrorLine{line[0], line[1]};
+            else if (line.size() > 2)
+                diagnostics_.error(goal->where, "`mirror` is a line of two points");
+        } else {
+            glm::dvec2 offset(0.0);
+            inner.point("offset", "added to everybody's position, [dx, dy] in metres", offset);
+            grid.goal = offset;
+        }
         inner.finish();
-        grid.goal = offset;
         return grid;
     }
 
@@ -472,7 +490,8 @@ class Reader {
         if (const auto* circle = std::get_if<CircleFormation>(&formation.shape))
             return static_cast<double>(circle->count);
         if (const auto* grid = std::get_if<GridFormation>(&formation.shape))
-            return static_cast<double>(grid->rows) * static_cast<double>(grid->columns);
+            return grid->count ? static_cast<double>(grid->count)
+                               : static_cast<double>(grid->rows) * static_cast<double>(grid->columns);
         return static_cast<double>(std::get<ListFormation>(formation.shape).agents.size());
     }
 

@@ -33,7 +33,7 @@ ObjectReader::ObjectReader(const JsonNode& node, std::string what, Diagnostics& 
 }
 
 const JsonNode* ObjectReader::get(const std::string& key) {
-    known_.push_back(key);
+    if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
     return node_.find(key);
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <numbers>
 
 #include "authoring/scene/random.h"
@@ -47,29 +48,46 @@ Bounds boundsOf(const Layout& layout) {
 }
 
 void placeCircle(const CircleFormation& circle, FormationPlaces& places) {
-    for (std::uint64_t i = 0; i < circle.count; ++i) {
-        const double angle =
-            2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(circle.count);
-        const glm::dvec2 arm = circle.radius * glm::dvec2(std::cos(angle), std::sin(angle));
-        places.positions.push_back(circle.centre + arm);
-        places.goals.push_back(circle.centre - arm);
+    double radius = circle.radius;
+    for (std::uint64_t placed = 0; placed < circle.count; radius += circle.ring_spacing) {
+        std::uint64_t on_ring = circle.count;
+        if (circle.ring_spacing > 0.0)
+            on_ring = std::max<std::uint64_t>(
+                1, static_cast<std::uint64_t>(2.0 * std::numbers::pi * radius / circle.along));
+        for (std::uint64_t i = 0; i < on_ring && placed < circle.count; ++i, ++placed) {
+            const double angle =
+                2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(on_ring);
+            const glm::dvec2 arm = radius * glm::dvec2(std::cos(angle), std::sin(angle));
+            places.positions.push_back(circle.centre + arm);
+            places.goals.push_back(circle.centre - arm);
+        }
     }
+}
+
+glm::dvec2 mirrored(glm::dvec2 point, const MirrorLine& line) {
+    const glm::dvec2 axis = line.b - line.a;
+    const glm::dvec2 foot = line.a + axis * (glm::dot(point - line.a, axis) / glm::dot(axis, axis));
+    return 2.0 * foot - point;
 }
 
 void placeGrid(const GridFormation& grid, const GroupRandom& random, FormationPlaces& places) {
     const double angle = grid.rotation * std::numbers::pi / 180.0;
     const glm::dvec2 across(std::cos(angle), std::sin(angle));
     const glm::dvec2 up(-across.y, across.x);
-    for (std::uint64_t row = 0; row < grid.rows; ++row)
-        for (std::uint64_t column = 0; column < grid.columns; ++column) {
-            const std::uint64_t person = row * grid.columns + column;
-            const glm::dvec2 jitter(random.unit(person, Purpose::jitter_x) * 2.0 - 1.0,
-                                    random.unit(person, Purpose::jitter_y) * 2.0 - 1.0);
-            places.positions.push_back(grid.origin + across * (static_cast<double>(column) * grid.spacing) +
-                                       up * (static_cast<double>(row) * grid.spacing) + jitter * grid.jitter);
-            if (const auto* offset = std::get_if<glm::dvec2>(&grid.goal))
-                places.goals.push_back(places.positions.back() + *offset);
-        }
+    const std::uint64_t count = grid.count ? grid.count : grid.rows * grid.columns;
+    for (std::uint64_t person = 0; person < count; ++person) {
+        // A count fills column by column, so that the last column is the one that is not full.
+        const std::uint64_t column = grid.count ? person / grid.rows : person % grid.columns;
+        const std::uint64_t row = grid.count ? person % grid.rows : person / grid.columns;
+        const glm::dvec2 jitter(random.unit(person, Purpose::jitter_x) * 2.0 - 1.0,
+                                random.unit(person, Purpose::jitter_y) * 2.0 - 1.0);
+        places.positions.push_back(grid.origin + across * (static_cast<double>(column) * grid.spacing) +
+                                   up * (static_cast<double>(row) * grid.spacing) + jitter * grid.jitter);
+        if (const auto* offset = std::get_if<glm::dvec2>(&grid.goal))
+            places.goals.push_back(places.positions.back() + *offset);
+        if (const auto* line = std::get_if<MirrorLine>(&grid.goal))
+            places.goals.push_back(mirrored(places.positions.back(), *line));
+    }
 }
 
 }  // namespace

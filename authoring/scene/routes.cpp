@@ -3,6 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+
 #include "authoring/scene/raster.h"
 
 namespace throng::authoring {
@@ -61,35 +65,54 @@ std::uint32_t Routes::fieldTo(const Place& place, bool keep_to_roads) {
     return entry->second;
 }
 
-/// The largest square around the point's cell, of those that halving kSurroundings gives, that nothing
-/// blocks.
-std::vector<std::uint32_t> Routes::clearSquare(glm::vec2 point) {
+/// A rectangle without a blocked cell that holds the point's cell: a square of kSurroundings, cut at the
+/// nearest blocked cell until none is left. A straight wall takes one cut, and the rest is the same rectangle
+/// for all points near it.
+std::vector<std::uint32_t> Routes::clearRectangle(glm::vec2 point) {
     const WalkMap& map = mapFor(false);
-    const std::uint32_t cell = cellAt(grid_, point);
-    const std::uint32_t x = cell % grid_.width;
-    const std::uint32_t y = cell / grid_.width;
-    auto side = static_cast<std::uint32_t>(kSurroundings / grid_.cell_size);
-    for (; side > 1; side /= 2) {
-        const std::uint32_t x0 = x / side * side;
-        const std::uint32_t y0 = y / side * side;
-        std::vector<std::uint32_t> cells;
-        bool clear = true;
-        for (std::uint32_t j = y0; clear && j < std::min(y0 + side, grid_.height); ++j)
-            for (std::uint32_t i = x0; clear && i < std::min(x0 + side, grid_.width); ++i) {
-                cells.push_back(j * grid_.width + i);
-                clear = map.cost[cells.back()] < kUnreachable;
+    const auto width = static_cast<int>(grid_.width);
+    const auto cell = static_cast<int>(cellAt(grid_, point));
+    const int x = cell % width, y = cell / width;
+    const int side = std::max(1, static_cast<int>(kSurroundings / grid_.cell_size));
+    int x0 = x / side * side, x1 = std::min(x0 + side, width);
+    int y0 = y / side * side, y1 = std::min(y0 + side, static_cast<int>(grid_.height));
+    for (;;) {
+        int nearest = std::numeric_limits<int>::max(), blocked_x = x, blocked_y = y;
+        for (int line = y0; line < y1; ++line)
+            for (int column = x0; column < x1; ++column) {
+                const int away = std::max(std::abs(column - x), std::abs(line - y));
+                if (away == 0 || away >= nearest ||
+                    map.cost[static_cast<std::size_t>(line * width + column)] < kUnreachable)
+                    continue;
+                nearest = away;
+                blocked_x = column;
+                blocked_y = line;
             }
-        if (clear) return cells;
+        if (blocked_x == x && blocked_y == y) break;
+        if (std::abs(blocked_x - x) >= std::abs(blocked_y - y))
+            (blocked_x < x ? x0 : x1) = blocked_x < x ? blocked_x + 1 : blocked_x;
+        else
+            (blocked_y < y ? y0 : y1) = blocked_y < y ? blocked_y + 1 : blocked_y;
     }
-    return {cell};
+    std::vector<std::uint32_t> cells;
+    for (int line = y0; line < y1; ++line)
+        for (int column = x0; column < x1; ++column)
+            cells.push_back(static_cast<std::uint32_t>(line * width + column));
+    return cells;
 }
 
 std::uint32_t Routes::fieldTo(glm::vec2 point) {
-    const std::vector<std::uint32_t> targets = clearSquare(point);
+    // Those whose goals lie in a rectangle that is known already need no search for their own.
+    const std::uint32_t cell = cellAt(grid_, point);
+    if (const auto known = field_of_cell_.find(cell); known != field_of_cell_.end()) return known->second;
+    const std::vector<std::uint32_t> targets = clearRectangle(point);
     const std::string name = fmt::format("to {} cells from {}", targets.size(), targets.front());
     if (const auto known = known_.find(name); known != known_.end()) return known->second;
     if (!hasRoom()) return gpu::NO_INDEX;
-    return known_[name] = solve(targets, false);
+    const std::uint32_t field = known_[name] = solve(targets, false);
+    for (const std::uint32_t target : targets)
+        field_of_cell_.try_emplace(target, field);
+    return field;
 }
 
 float Routes::reachable(std::uint32_t field, glm::vec2 from) const {

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "authoring/diagnostics.h"
@@ -29,7 +30,7 @@ class Routes {
     /// wall in it, so that the rest of the way is straight. Points near each other share it.
     /// @returns NO_INDEX where it would be one field too many
     std::uint32_t fieldTo(glm::vec2 point);
-    static constexpr float kSurroundings = 16.0f;  // m
+    static constexpr float kSurroundings = 32.0f;  // m
 
     /// Metres of walking, kUnreachable where no path leads.
     float reachable(std::uint32_t field, glm::vec2 from) const;
@@ -46,7 +47,7 @@ class Routes {
     std::string name(const Place& place) const;
 
   private:
-    std::vector<std::uint32_t> clearSquare(glm::vec2 point);
+    std::vector<std::uint32_t> clearRectangle(glm::vec2 point);
     bool hasRoom() const;
     std::uint32_t solve(const std::vector<std::uint32_t>& targets, bool keep_to_roads);
     const WalkMap& mapFor(bool keep_to_roads);
@@ -57,6 +58,7 @@ class Routes {
     FieldGrid grid_;
     std::optional<WalkMap> maps_[2];
     std::map<std::string, std::uint32_t> known_;
+    std::unordered_map<std::uint32_t, std::uint32_t> field_of_cell_;  // for points
     std::vector<Field> fields_;
     bool too_many_ = false;
 };

@@ -290,12 +290,19 @@ class Builder {
             complain(formation, i, "has its goal in a wall", "move the goal, or the wall");
             return {goal, tolerance, gpu::NO_INDEX};
         }
-        // Even where the straight way is clear, others may push somebody round a corner on the way.
-        if (geometry_.walls.empty()) return {goal, tolerance, gpu::NO_INDEX};
+        // Even where the straight way is clear, others may push somebody round a corner on the way. But cells
+        // coarser than a body close gaps that are open: then the straight way is what can be trusted.
+        const gpu::Stage straight{goal, tolerance, gpu::NO_INDEX};
+        if (geometry_.walls.empty()) return straight;
+        const bool clear = straightIsClear(geometry_, person.spawn_position, goal, person.radius);
+        if (clear && scene_.grid.cell_size > 0.5f) return straight;
         const std::uint32_t field = routes.fieldTo(goal);
+        if (clear &&
+            (field == gpu::NO_INDEX || routes.reachable(field, person.spawn_position) == kUnreachable))
+            return straight;
         if (field == gpu::NO_INDEX) {
-            if (!straightIsClear(geometry_, person.spawn_position, goal, person.radius)) routes.lackField();
-            return {goal, tolerance, gpu::NO_INDEX};
+            routes.lackField();
+            return straight;
         }
         if (routes.reachable(field, person.spawn_position) == kUnreachable)
             complain(formation, i, "cannot reach its goal", "there is a wall all round one of the two");

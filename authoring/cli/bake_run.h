@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "authoring/cli/bake_description.h"
+
+namespace throng::cli {
+
+/// Everything that `throng bake` can be told.
+struct BakeRequest {
+    std::string layout;
+    BakeOptions bake;
+    std::vector<std::string> overrides;
+    std::string diagrams = "none";
+    std::string method, proximity;
+    bool densities = false;
+    bool seconds = false;
+    std::string shader_dir;
+    int device = -1;
+    bool json = false;
+    bool quiet = false;
+    bool announce = true;  ///< print what came of it
+};
+
+/// Simulates a layout file and writes the bake.
+/// @throws Exit, and whatever reading, simulating and writing throw
+void bakeLayout(const BakeRequest& request);
+
+}  // namespace throng::cli
