@@ -232,7 +232,7 @@ def test_the_command_line_speaks_clearly(throng, tmp_path):
     assert "No such file" in throng("check", tmp_path / "absent.json", expect=3).stderr
     assert throng("bake", wrong, "-o", tmp_path / "nothing", expect=3).returncode == 3
     assert not (tmp_path / "nothing").exists()
-    for command in ("bake", "check", "info", "preview", "schema", "devices", "calibrate", "bench"):
+    for command in ("bake", "check", "info", "preview", "schema", "devices", "calibrate", "bench", "measure", "scenarios"):
         assert command in throng("--help").stdout
         assert "Example" in throng(command, "--help").stdout or command == "schema"
 

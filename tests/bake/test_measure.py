@@ -112,3 +112,31 @@ def test_plots_are_drawn_and_damage_is_told(throng, tmp_path):
     stream = tmp_path / "bake" / "streams" / "dir.npy"
     stream.write_bytes(stream.read_bytes()[:-40])
     assert "dir.npy" in throng("measure", tmp_path / "bake", expect=3).stderr
+
+
+def test_scenarios_bake_and_measure_themselves(throng, tmp_path):
+    names = throng("scenarios", "--list").stdout.split()
+    assert {"ring", "annulus", "corridor", "crossing"} <= set(names)
+    told = json.loads(throng("scenarios", "--run", "ring", "--json", "-o", tmp_path).stdout)
+    assert told["agents"] == told["arrived"] == 256 and told["seconds"] < 101 and told["wall_crossings"] == 0
+    assert told["overlapping_percent"] < 0.1 and told["deepest_overlap_percent"] < 2 and told["missed"] == []
+    assert throng("check", tmp_path / "ring.json").returncode == 0
+    cut = throng("scenarios", "--run", "ring", "--json", "-o", tmp_path, "--set", "simulation.duration=5", expect=1)
+    assert json.loads(cut.stdout)["missed"] == ["arrived is 0, expected at least 1"]
+    assert "there are: annulus" in throng("scenarios", "--run", "rong", expect=2).stderr
+
+
+def test_formations_of_rings_and_counted_grids_stand_where_they_should(throng, tmp_path, manifest_of):
+    layout = {"throng": 1, "simulation": {"duration": 0.2},
+              "formations": [{"id": "r", "type": "circle", "centre": [0, 0], "radius": 10, "count": 100, "ring_spacing": 2, "along": 2},
+                             {"id": "g", "type": "grid", "origin": [40, 0], "rows": 4, "columns": 3, "count": 10, "goal": {"mirror": [[50, 0], [50, 1]]}}]}
+    throng("bake", write(tmp_path / "f.json", layout), "-o", tmp_path / "bake", "-q", "--no-gltf")
+    start = streams(tmp_path / "bake")["pos"][0, :, :2] + numpy.array(manifest_of(tmp_path / "bake")["origin"][:2])
+    radii = numpy.hypot(*start[:100].T)
+    # 2 pi 10 / 2 = 31.4, then 37.7 and 43.98: rings of 31, 37 and, of the last 43, the 32 that are left.
+    assert [int((abs(radii - r) < 0.01).sum()) for r in (10, 12, 14)] == [31, 37, 32]
+    assert numpy.allclose(start[100:], [[40 + i // 4, i % 4] for i in range(10)], atol=1e-3)
+    goals = [(float(row["goal_x"]), float(row["goal_y"])) for row in rows(tmp_path / "bake")][100:]
+    assert numpy.allclose(goals, [[60 - i // 4, i % 4] for i in range(10)], atol=1e-3)
+    wrong = {**layout, "formations": [{**layout["formations"][1], "count": 13}]}
+    assert "`count` (13) is more than 4 rows of 3 hold" in throng("check", write(tmp_path / "w.json", wrong), expect=3).stderr
