@@ -64,7 +64,7 @@ std::vector<std::string> runOne(const Scenario& scenario, const Options& options
     const io::Measurement measured = io::measureBake(bake, {});
     authoring::Diagnostics diagnostics;
     const auto read = authoring::readLayout(scenario.layout, {}, diagnostics);
-    const std::vector<std::string> missed =
+    std::vector<std::string> missed =
         io::missedExpectations(measured, read ? read->expectations : std::vector<authoring::Expectation>{});
     nlohmann::ordered_json json = io::measurementJson(measured);
     json["missed"] = missed;

@@ -82,7 +82,8 @@ std::vector<std::uint32_t> Routes::clearRectangle(glm::vec2 point) {
             for (int column = x0; column < x1; ++column) {
                 const int away = std::max(std::abs(column - x), std::abs(line - y));
                 if (away == 0 || away >= nearest ||
-                    map.cost[static_cast<std::size_t>(line * width + column)] < kUnreachable)
+                    map.cost[static_cast<std::size_t>(line) * grid_.width +
+                             static_cast<std::size_t>(column)] < kUnreachable)
                     continue;
                 nearest = away;
                 blocked_x = column;
