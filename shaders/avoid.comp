@@ -116,7 +116,8 @@ float horizonOf(Body self, uint slot) {
     vec2 wish = preferred_velocities[slot];
     float speed = length(wish);
     if (speed < 1.0e-3) return parameters.time_horizon;
-    float progress = clamp(dot(self.velocity, wish) / (speed * speed), 0.0, 1.0);
+    float progress = min(max(dot(self.velocity, wish) / (speed * speed), 0.0) / GETTING_ON, 1.0);
+    if (progress == 1.0) return parameters.time_horizon;
     float held_up = 1.0 - progress * progress * progress;
     return mix(parameters.time_horizon, SQUEEZING_HORIZON, held_up * oncomingTraffic(slot, wish / speed));
 }

@@ -4,6 +4,7 @@
 
 const float ONCOMING_NEAR = 1.0;  // m: nearer than this counts fully
 const float ONCOMING_FAR = 3.0;   // m: further than this not at all
+const float GETTING_ON = 0.75;    // of the wished speed: from here on nobody counts as held up, and need not look
 
 /// How much `direction` goes against `way`, of unit length: 0 up to 107 degrees, 1 from 143.
 float against(vec2 way, vec2 direction) {

@@ -46,7 +46,7 @@ void main() {
 
     float angle = (randomUnit(parameters.seed, row, PURPOSE_SYMMETRY) * 2.0 - 1.0) * SYMMETRY_BREAKING;
     float progress = clamp(dot(bodies[slot].velocity, ahead.direction) / person.preferred_speed, 0.0, 1.0);
-    float oncoming = progress < 1.0 ? oncomingTraffic(slot, ahead.direction) : 0.0;
+    float oncoming = progress < GETTING_ON ? oncomingTraffic(slot, ahead.direction) : 0.0;
     angle -= max(SIDE_PREFERENCE * oncoming, SIDE_TENDENCY) * (1.0 - progress) * min(1.0, ahead.remaining / SIDE_PREFERENCE_FADES);
     vec2 direction = mat2(cos(angle), sin(angle), -sin(angle), cos(angle)) * ahead.direction;
     float speed = person.preferred_speed;
