@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <random>
 
+#include "sim/benchmarks/diagram_benchmark.h"
 #include "sim/diagram/methods.h"
 #include "sim/gl/context.h"
 #include "sim/simulation.h"
@@ -43,11 +44,7 @@ authoring::Scene benchScene(std::uint32_t count) {
     return scene;
 }
 
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
+using sim::median;
 
 template <class Work>
 double milliseconds(Work&& work) {

@@ -103,14 +103,12 @@ std::vector<std::uint32_t> Routes::clearRectangle(glm::vec2 point) {
 }
 
 std::uint32_t Routes::fieldTo(glm::vec2 point) {
-    // Those whose goals lie in a rectangle that is known already need no search for their own.
+    // A rectangle holds the cell that it was made for, so one that is known is found by any of its cells.
     const std::uint32_t cell = cellAt(grid_, point);
     if (const auto known = field_of_cell_.find(cell); known != field_of_cell_.end()) return known->second;
-    const std::vector<std::uint32_t> targets = clearRectangle(point);
-    const std::string name = fmt::format("to {} cells from {}", targets.size(), targets.front());
-    if (const auto known = known_.find(name); known != known_.end()) return known->second;
     if (!hasRoom()) return gpu::NO_INDEX;
-    const std::uint32_t field = known_[name] = solve(targets, false);
+    const std::vector<std::uint32_t> targets = clearRectangle(point);
+    const std::uint32_t field = solve(targets, false);
     for (const std::uint32_t target : targets)
         field_of_cell_.try_emplace(target, field);
     return field;

@@ -26,8 +26,8 @@ class Routes {
 
     /// The field that leads to a place, for people who keep to the roads or do not.
     std::uint32_t fieldTo(const Place& place, bool keep_to_roads);
-    /// The field that leads to the surroundings of a point: a square of up to kSurroundings metres without a
-    /// wall in it, so that the rest of the way is straight. Points near each other share it.
+    /// The field that leads to the surroundings of a point: a rectangle of up to kSurroundings metres without
+    /// a wall in it, so that the rest of the way is straight. Points near each other share it.
     /// @returns NO_INDEX where it would be one field too many
     std::uint32_t fieldTo(glm::vec2 point);
     static constexpr float kSurroundings = 32.0f;  // m
