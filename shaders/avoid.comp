@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The velocity nearest to the wished one that avoids everybody sensed, within what legs can do.
+// The next velocity: towards the wished one, making room for everybody sensed, along walls, within what legs can do.
 #include "shaders/shared/simulation_types.h"
 
 layout(local_size_x = AGENT_GROUP_SIZE) in;
 layout(std140) uniform ParametersBlock { Parameters parameters; };
 layout(std430) readonly buffer LiveDispatch { uint live_groups[3]; uint live_count; };
 layout(std430) readonly buffer People { Person people[]; };
+layout(std430) readonly buffer States { AgentState states[]; };
 layout(std430) readonly buffer Bodies { Body bodies[]; };
 layout(std430) readonly buffer PreferredVelocities { vec2 preferred_velocities[]; };
 layout(std430) readonly buffer Neighbours { uint neighbours[]; };
@@ -20,31 +21,25 @@ layout(std430) writeonly buffer Targets { vec2 targets[]; };  // where each pers
 layout(std430) writeonly buffer TargetsAfter { vec2 targets_after[]; };  // the same, for those whom contact passes over
 uniform uint slot_capacity;
 
-// Room for the sensed people, the nearest walls, and the kerb.
-#define CONSTRAINT_CAPACITY (NEIGHBOURS + int(WALL_CONSTRAINTS) + 1)
+// Room for the nearest walls and the kerb.
+#define CONSTRAINT_CAPACITY (int(WALL_CONSTRAINTS) + 1)
+
+const float STANDING_WISH = 0.1;  // m/s: who wants to walk slower than this wants to stand
 #include "shaders/cells.glsl"
 #include "shaders/walls.glsl"
-#include "shaders/orca.glsl"
+#include "shaders/anticipation.glsl"
 #include "shaders/linear_program.glsl"
 
-vec2 facing(uint slot) { return preferred_velocities[slot]; }
-#include "shaders/oncoming.glsl"
-
-/// Overlapping bodies are to part within this time (s); the contact pass separates them in any case.
+/// Bodies inside walls are to leave them within this time (s); the contact pass takes them out in any case.
 const float OVERLAP_HORIZON = 0.15;
 const float KERB_HORIZON = 0.8;
 
-/// A wall's face allows no more speed towards it than reaches it at the horizon; its ends are avoided like a post.
+/// A wall allows no more speed towards its nearest point than reaches it at the horizon.
 vec3 wallConstraint(Body self, WallSegment wall) {
-    float along = alongSegment(self.position, wall.a, wall.b);
-    vec2 offset = mix(wall.a, wall.b, along) - self.position;
-    float reach = self.radius + wall.half_thickness;
-    if (along <= 0.0 || along >= 1.0)
-        return avoidanceConstraint(self.velocity, offset, self.velocity, reach, parameters.wall_time_horizon,
-                                   OVERLAP_HORIZON, 1.0);
+    vec2 offset = nearestOnSegment(self.position, wall.a, wall.b) - self.position;
     float size = length(offset);
     vec2 normal = size > 1.0e-6 ? -offset / size : normalize(vec2(wall.a.y - wall.b.y, wall.b.x - wall.a.x));
-    float gap = size - reach;
+    float gap = size - self.radius - wall.half_thickness;
     return vec3(normal, -gap / (gap > 0.0 ? parameters.wall_time_horizon : OVERLAP_HORIZON));
 }
 
@@ -106,20 +101,34 @@ bool kerbConstraint(Body self, out vec3 constraint) {
     return true;
 }
 
-/// Looking far ahead is courteous, and in a dense counterflow everybody's courtesy adds up to a standstill: no velocity
-/// avoids all that might happen in the next seconds. Who is held up by oncoming people looks ahead this far only (s), as
-/// people do who squeeze through; what then comes too near, contact keeps apart.
-const float SQUEEZING_HORIZON = 0.2;
+/// s: legs bring the velocity towards the wished one with this time constant (0.5 s: Helbing and Molnar 1995).
+const float RELAXATION = 0.5;
+/// m/s^2: and speed up no faster than this. Walkers set off at about 1 m/s^2; it also bounds how hard a crowd presses.
+const float MOST_DRIVE = 1.0;
 
-/// s: how far ahead somebody avoids other people.
-float horizonOf(Body self, uint slot) {
-    vec2 wish = preferred_velocities[slot];
+vec2 drive(vec2 wish, vec2 velocity) {
+    vec2 acceleration = (wish - velocity) / RELAXATION;
+    float size = length(acceleration);
+    return size > MOST_DRIVE ? acceleration * (MOST_DRIVE / size) : acceleration;
+}
+
+/// m/s^2: the room made for all people sensed together.
+vec2 roomForAll(Body self, uint slot, vec2 wish) {
     float speed = length(wish);
-    if (speed < 1.0e-3) return parameters.time_horizon;
-    float progress = min(max(dot(self.velocity, wish) / (speed * speed), 0.0) / GETTING_ON, 1.0);
-    if (progress == 1.0) return parameters.time_horizon;
-    float held_up = 1.0 - progress * progress * progress;
-    return mix(parameters.time_horizon, SQUEEZING_HORIZON, held_up * oncomingTraffic(slot, wish / speed));
+    vec2 way = speed > STANDING_WISH ? wish / speed : vec2(cos(self.heading), sin(self.heading));
+    float impatience = clamp((states[self.row].nervousness - PATIENT) / (IMPATIENT - PATIENT), 0.0, 1.0);
+    uint sensed = neighbour_counts[slot];
+    float crowding = clamp((float(sensed) - SWERVE_FREELY) / (SWERVE_NO_MORE - SWERVE_FREELY), 0.0, 1.0);
+    vec2 room = vec2(0.0);
+    for (uint i = 0u; i < sensed; ++i) {
+        uint key = neighbours[i * slot_capacity + slot];
+        if ((key & NEIGHBOUR_IS_WALL) != 0u) continue;
+        uint other_slot = row_slots[key];
+        Body other = bodies[other_slot];
+        room += roomFor(way, impatience, crowding, self.position - other.position, self.velocity - other.velocity,
+                        self.radius + other.radius, preferred_velocities[other_slot]);
+    }
+    return room;
 }
 
 vec2 limitChange(vec2 from, vec2 to, float most) {
@@ -135,22 +144,15 @@ void main() {
     bool walls = (touch_words[slot] & (TOUCH_WALL_NEAR | TOUCH_WALL_SENSED)) != 0u;
     int hard = walls ? gatherWalls(self, slot) : 0;
     int count = hard;
-    float horizon = horizonOf(self, slot);
-    uint sensed = neighbour_counts[slot];
-    for (uint i = 0u; i < sensed; ++i) {
-        uint key = neighbours[i * slot_capacity + slot];
-        if ((key & NEIGHBOUR_IS_WALL) != 0u) continue;
-        Body other = bodies[row_slots[key]];
-        setConstraint(count++, avoidanceConstraint(self.velocity, other.position - self.position,
-                                                   self.velocity - other.velocity, self.radius + other.radius,
-                                                   horizon, OVERLAP_HORIZON, 0.5));
-    }
     vec3 kerb;
     if (parameters.has_roads != 0u && (people[self.row].flags & PERSON_KEEPS_TO_ROADS) != 0u && kerbConstraint(self, kerb))
         setConstraint(count++, kerb);
 
+    vec2 wish = preferred_velocities[slot];
+    vec2 acceleration = drive(wish, self.velocity) + roomForAll(self, slot, wish);
+    vec2 wanted = self.velocity + acceleration * parameters.step_seconds;
     vec2 velocity;
-    int obeyed = solveInDisc(0, count, self.maximum_speed, preferred_velocities[slot], false, velocity);
+    int obeyed = solveInDisc(0, count, self.maximum_speed, wanted, false, velocity);
     if (obeyed < count) relax(hard, obeyed, count, self.maximum_speed, velocity);
 
     velocity = limitChange(self.velocity, velocity, parameters.maximum_acceleration * parameters.step_seconds);

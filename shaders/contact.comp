@@ -4,6 +4,10 @@
 //
 // All people move at once from the same positions (a Jacobi round), so the result does not depend on the order. Walls come
 // last and do not give: whatever neighbours push, a body ends up on the side of the wall on which it began the step.
+//
+// In a crush a push has to travel through many bodies, and a round carries it one body further. Each round therefore goes on
+// in the direction of the last two by Chebyshev's weights (Wang 2015, A Chebyshev semi-iterative approach for accelerating
+// projective and position-based dynamics): sixteen rounds then do the work of about fifty plain ones.
 #include "shaders/shared/simulation_types.h"
 
 layout(local_size_x = AGENT_GROUP_SIZE) in;
@@ -18,7 +22,8 @@ layout(std430) readonly buffer WallSegments { WallSegment wall_segments[]; };
 layout(std430) readonly buffer WallStarts { uint wall_starts[]; };
 layout(std430) readonly buffer WallItems { uint wall_items[]; };
 layout(std430) readonly buffer TargetsBefore { vec2 targets_before[]; };
-layout(std430) writeonly buffer TargetsAfter { vec2 targets_after[]; };
+layout(std430) buffer TargetsAfter { vec2 targets_after[]; };  // those of the round before the last; then the new ones
+uniform float momentum;  // 1 = none
 
 #include "shaders/cells.glsl"
 #include "shaders/cell_runs.glsl"
@@ -106,5 +111,6 @@ void main() {
     float size = length(push);
     float most = MOST_PUSH * self.radius;
     position += size > most ? push * (most / size) : push;
+    position = mix(targets_after[slot], position, momentum);
     targets_after[slot] = (touch_word & TOUCH_WALL_NEAR) != 0u ? keepOutOfWalls(self, position) : position;
 }

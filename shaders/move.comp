@@ -7,6 +7,7 @@ layout(std140) uniform ParametersBlock { Parameters parameters; };
 layout(std430) readonly buffer LiveDispatch { uint live_groups[3]; uint live_count; };
 layout(std430) readonly buffer People { Person people[]; };
 layout(std430) readonly buffer Bodies { Body bodies[]; };
+layout(std430) readonly buffer PreferredVelocities { vec2 preferred_velocities[]; };
 layout(std430) readonly buffer Targets { vec2 targets[]; };
 layout(std430) readonly buffer Stages { Stage stages[]; };
 layout(std430) readonly buffer Fields { FieldCell fields[]; };
@@ -19,6 +20,15 @@ const float PI = 3.14159265358979;
 const float STANDING_SPEED = 0.1;      // m/s: below this the heading stays as it is
 const float TURN_TIME = 0.22;          // s: the heading closes in on the velocity's direction with this time constant
 const float TURN_LIMIT = 2.6;          // rad/s, about 150 degrees per second
+
+const float PATIENCE_TIME = 2.0;       // s: nervousness follows what happens with this time constant
+
+/// 1 where somebody does not get on at all, 0 where it walks as it wishes or wants to stand
+/// (Helbing, Farkas and Vicsek 2000).
+float heldUp(vec2 wish, vec2 velocity) {
+    float speed = length(wish);
+    return speed > STANDING_SPEED ? clamp(1.0 - dot(velocity, wish) / (speed * speed), 0.0, 1.0) : 0.0;
+}
 
 float wrapAngle(float angle) { return angle - 2.0 * PI * floor((angle + PI) / (2.0 * PI)); }
 
@@ -43,6 +53,8 @@ void main() {
     float speed = length(state.velocity);
     // A push may be faster than legs are; the next step does not build on it.
     if (speed > person.maximum_speed) state.velocity *= person.maximum_speed / speed;
+    state.nervousness += (heldUp(preferred_velocities[slot], state.velocity) - state.nervousness) *
+                         min(parameters.step_seconds / PATIENCE_TIME, 1.0);
     state.heading = turnTowards(self.heading, state.velocity, speed);
     state.phase += distance_moved / person.stride_length;
     state.walked += distance_moved;

@@ -108,7 +108,6 @@ Avoidance::Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, int nei
       steer_(connected(library, "shaders/steer.comp", buffers)),
       avoid_(connected(library, "shaders/avoid.comp", buffers, listLength(neighbours))) {
     avoid_.set("slot_capacity", buffers.slotCapacity());
-    steer_.set("slot_capacity", buffers.slotCapacity());
 }
 
 void Avoidance::run() {
@@ -128,8 +127,18 @@ Contacts::Contacts(const gl::ShaderLibrary& library, Buffers& buffers, int itera
 }
 
 void Contacts::run() {
-    for (int iteration = 0; iteration < iterations_; ++iteration)
-        (iteration % 2 ? back_ : forth_).dispatchIndirect(buffers_.touch_dispatch);
+    // An estimate of how much of an error survives a plain round; too high and bodies begin to ring.
+    constexpr float kSpectralRadius = 0.985f;
+    constexpr float kSquared = kSpectralRadius * kSpectralRadius;
+    float momentum = 1.0f;
+    for (int iteration = 0; iteration < iterations_; ++iteration) {
+        // Two plain rounds first: momentum needs something to go on.
+        if (iteration == 2) momentum = 2.0f / (2.0f - kSquared);
+        if (iteration > 2) momentum = 4.0f / (4.0f - kSquared * momentum);
+        gl::ComputeProgram& round = iteration % 2 ? back_ : forth_;
+        round.set("momentum", momentum);
+        round.dispatchIndirect(buffers_.touch_dispatch);
+    }
 }
 
 Motion::Motion(const gl::ShaderLibrary& library, Buffers& buffers, const gl::Buffer& targets)

@@ -48,6 +48,8 @@ struct AgentState {
     uint spawn_step;    // how many steps were done when it first was there; NO_INDEX = never
     uint arrival_step;  // likewise
     uint attempts;      // how often it asked for room at its entry
+    float nervousness;  // 0 to 1: how much it has been held up lately
+    uint reserved;
 };
 
 /// A person in the scene, in the order of the cells ("slot") so that neighbours lie together in memory.

@@ -74,6 +74,7 @@ TEST_F(SharedTypesTest, PersonAndStateAgree) {
     EXPECT_MEMBER(found, "states", AgentState, status);
     EXPECT_MEMBER(found, "states", AgentState, spawn_step);
     EXPECT_MEMBER(found, "states", AgentState, attempts);
+    EXPECT_MEMBER(found, "states", AgentState, nervousness);
     EXPECT_MEMBER(found, "bodies", Body, position);
     EXPECT_MEMBER(found, "bodies", Body, radius);
     EXPECT_MEMBER(found, "bodies", Body, row);
