@@ -80,6 +80,53 @@ TEST_F(MotionTest, TwoPeopleHeadOnPassEachOther) {
     EXPECT_LT(seen.deepest_percent, 1.0f);
 }
 
+TEST_F(MotionTest, TwoPeopleHeadOnSwerveWithoutSlowingDown) {
+    authoring::Scene scene = emptyScene({-10, -5}, {10, 5});
+    addPerson(scene, {-8, 0}, {8, 0}, 1.3f);
+    addPerson(scene, {8, 0}, {-8, 0}, 1.3f);
+    sim::Simulation simulation(scene, library);
+    float slowest = 10.0f, furthest_aside = 0.0f;
+    for (int step = 0; step < 360; ++step) {
+        simulation.step();
+        const auto states = simulation.parts().buffers.states.download<gpu::AgentState>(2);
+        if (std::abs(states[0].position.x) > 4.0f) continue;  // setting off, or about to stop
+        slowest = std::min(slowest, states[0].velocity.x);
+        furthest_aside = std::max(furthest_aside, std::abs(states[0].position.y));
+    }
+    EXPECT_GT(slowest, 0.95f) << "m/s; 0.88 where people brake for oncoming people";
+    EXPECT_GT(furthest_aside, 0.15f) << "they pass, so somebody has to give way";
+}
+
+TEST_F(MotionTest, OpposingStreamsInACorridorFormLanesAndAllGetThrough) {
+    authoring::Scene scene = emptyScene({-30, -4}, {30, 4});
+    addWall(scene, {-30, -3.35f}, {30, -3.35f});
+    addWall(scene, {-30, 3.35f}, {30, 3.35f});
+    for (int column = 0; column < 8; ++column) {
+        for (int rank = 0; rank < 7; ++rank) {
+            const glm::vec2 place(4.0f + static_cast<float>(column), static_cast<float>(rank) - 3.0f);
+            const glm::vec2 jitter(0.05f * static_cast<float>((column * 7 + rank * 3) % 5 - 2), 0.0f);
+            for (const float side : {-1.0f, 1.0f}) {
+                const glm::vec2 start = (place + jitter) * glm::vec2(side, 1.0f);
+                addPerson(scene, start, {-25.0f * side, start.y}, 1.3f).flags &= ~gpu::PERSON_STAYS;
+            }
+        }
+    }
+    const Observation seen = run(scene, 90.0f, 4);
+    EXPECT_EQ(seen.arrived, 112u);
+    EXPECT_LT(seen.deepest_percent, 2.0f);
+}
+
+TEST_F(MotionTest, NervousnessGrowsWhileSomebodyIsHeldUpAndFadesOnAFreeWay) {
+    authoring::Scene scene = emptyScene({-10, -10}, {10, 10});
+    addWall(scene, {2, -8}, {2, 8});
+    addPerson(scene, {1, 0}, {8, 0});    // the wall is in its way: hand-made people walk straight on
+    addPerson(scene, {-9, 5}, {-2, 5});  // its way is free
+    EXPECT_LT(statesAfter(scene, 10)[0].nervousness, 0.25f);
+    const std::vector<gpu::AgentState> states = statesAfter(scene, 200);
+    EXPECT_GT(states[0].nervousness, 0.6f);
+    EXPECT_LT(states[1].nervousness, 0.1f) << "what is left of setting off";
+}
+
 TEST_F(MotionTest, FourPeopleMeetingAtACrossingAllArrive) {
     authoring::Scene scene = emptyScene({-10, -10}, {10, 10});
     addPerson(scene, {-6, 0}, {6, 0});
