@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How one person makes room for another. Needs the block PreferredVelocities.
+// How one person makes room for another. Needs the block ParametersBlock and shaders/at_most.glsl.
 //
 // People do not react to how near somebody is but to how soon they would collide: from trajectories of real pedestrians,
 // the energy of a pair that would touch in t seconds is k / t^2 exp(-t / t0) (Karamouzas, Skinner and Guy 2014, equations
@@ -53,9 +53,7 @@ vec2 repulsion(vec2 offset, vec2 relative, float reach) {
     vec2 across = relative - (speed_squared * offset - dot(offset, relative) * relative) / root;
     float strength = REPULSION * exp(-time / REPULSION_HORIZON) / (speed_squared * time * time) *
                      (2.0 / time + 1.0 / REPULSION_HORIZON);
-    vec2 acceleration = -strength * across;
-    float size = length(acceleration);
-    return size > MOST_REPULSION ? acceleration * (MOST_REPULSION / size) : acceleration;
+    return atMost(-strength * across, MOST_REPULSION);
 }
 
 /// Nobody walks into anybody: closing speeds that would use up the gap within CUSHION are taken back, half by each of the
@@ -74,7 +72,7 @@ vec2 cushion(vec2 offset, vec2 relative, float reach) {
 /// @param impatience, crowding 0 to 1
 vec2 roomFor(vec2 way, float impatience, float crowding, vec2 offset, vec2 relative, float reach, vec2 wish) {
     float size = length(wish);
-    float alike = size > STANDING_WISH ? dot(way, wish) / size : -1.0;  // whoever stands is walked around
+    float alike = size > STANDING_SPEED ? dot(way, wish) / size : -1.0;  // whoever stands is walked around
     float oncoming = smoothstep(0.2, 0.8, -alike);
     vec2 touch = cushion(offset, relative, reach) * (1.0 - impatience);
     reach += FOLLOWING_GAP * smoothstep(0.3, 0.8, alike) * (1.0 - impatience);

@@ -24,7 +24,7 @@ uniform uint slot_capacity;
 // Room for the nearest walls and the kerb.
 #define CONSTRAINT_CAPACITY (int(WALL_CONSTRAINTS) + 1)
 
-const float STANDING_WISH = 0.1;  // m/s: who wants to walk slower than this wants to stand
+#include "shaders/at_most.glsl"
 #include "shaders/cells.glsl"
 #include "shaders/walls.glsl"
 #include "shaders/anticipation.glsl"
@@ -107,15 +107,13 @@ const float RELAXATION = 0.5;
 const float MOST_DRIVE = 1.0;
 
 vec2 drive(vec2 wish, vec2 velocity) {
-    vec2 acceleration = (wish - velocity) / RELAXATION;
-    float size = length(acceleration);
-    return size > MOST_DRIVE ? acceleration * (MOST_DRIVE / size) : acceleration;
+    return atMost((wish - velocity) / RELAXATION, MOST_DRIVE);
 }
 
 /// m/s^2: the room made for all people sensed together.
 vec2 roomForAll(Body self, uint slot, vec2 wish) {
     float speed = length(wish);
-    vec2 way = speed > STANDING_WISH ? wish / speed : vec2(cos(self.heading), sin(self.heading));
+    vec2 way = speed > STANDING_SPEED ? wish / speed : vec2(cos(self.heading), sin(self.heading));
     float impatience = clamp((states[self.row].nervousness - PATIENT) / (IMPATIENT - PATIENT), 0.0, 1.0);
     uint sensed = neighbour_counts[slot];
     float crowding = clamp((float(sensed) - SWERVE_FREELY) / (SWERVE_NO_MORE - SWERVE_FREELY), 0.0, 1.0);

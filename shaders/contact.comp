@@ -25,6 +25,7 @@ layout(std430) readonly buffer TargetsBefore { vec2 targets_before[]; };
 layout(std430) buffer TargetsAfter { vec2 targets_after[]; };  // those of the round before the last; then the new ones
 uniform float momentum;  // 1 = none
 
+#include "shaders/at_most.glsl"
 #include "shaders/cells.glsl"
 #include "shaders/cell_runs.glsl"
 #include "shaders/walls.glsl"
@@ -108,9 +109,7 @@ void main() {
     Body self = bodies[slot];
     vec2 position = targets_before[slot];
     vec2 push = pushFromNeighbours(self, slot, touching, position);
-    float size = length(push);
-    float most = MOST_PUSH * self.radius;
-    position += size > most ? push * (most / size) : push;
+    position += atMost(push, MOST_PUSH * self.radius);
     position = mix(targets_after[slot], position, momentum);
     targets_after[slot] = (touch_word & TOUCH_WALL_NEAR) != 0u ? keepOutOfWalls(self, position) : position;
 }

@@ -12,6 +12,7 @@
 // and j no more than i" is again a half-plane, (n_j - n_i) . v >= c_j - c_i, so the same solver does it.
 //
 // constraints[0 .. CONSTRAINT_CAPACITY) are the real ones; the second half of the array is the relaxation's scratch.
+// Needs shaders/at_most.glsl.
 
 const float PARALLEL = 1.0e-5;
 vec3 constraints[2 * CONSTRAINT_CAPACITY];
@@ -49,8 +50,7 @@ bool solveOnLine(int base, int index, float limit, vec2 wish, bool furthest, ino
 
 /// @returns how many constraints could be obeyed, in order; `count` when all
 int solveInDisc(int base, int count, float limit, vec2 wish, bool furthest, out vec2 velocity) {
-    float size = length(wish);
-    velocity = furthest ? wish * limit : (size > limit ? wish * (limit / size) : wish);
+    velocity = furthest ? wish * limit : atMost(wish, limit);
     for (int i = 0; i < count; ++i) {
         vec3 line = constraints[base + i];
         if (dot(line.xy, velocity) >= line.z) continue;

@@ -17,7 +17,6 @@ uniform uint steps_done;  // counted with this one
 #include "shaders/route.glsl"
 
 const float PI = 3.14159265358979;
-const float STANDING_SPEED = 0.1;      // m/s: below this the heading stays as it is
 const float TURN_TIME = 0.22;          // s: the heading closes in on the velocity's direction with this time constant
 const float TURN_LIMIT = 2.6;          // rad/s, about 150 degrees per second
 

@@ -37,7 +37,7 @@ void main() {
     vec2 direction = mat2(cos(angle), sin(angle), -sin(angle), cos(angle)) * ahead.direction;
     float speed = person.preferred_speed;
     bool last = states[row].stage + 1u >= person.stage_count;
-    if (last && (person.flags & PERSON_STAYS) != 0u) 
+    if (last && (person.flags & PERSON_STAYS) != 0u)
         speed = min(speed, min(sqrt(2.0 * STOPPING * ahead.remaining), ahead.remaining / SETTLING_TIME));
     preferred_velocities[slot] = direction * speed;
 }

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <memory>
 #include <thread>
 
 #include "authoring/cli/bench_report.h"
 #include "authoring/cli/calibration_file.h"
 #include "authoring/cli/commands.h"
-#include "io/files/errors.h"
+#include "io/files/output_file.h"
 #include "sim/gl/context.h"
 #include "sim/gl/timer.h"
 
@@ -26,12 +25,6 @@ BenchMachine machineOf(const gl::Device& device, const gl::Timer& timer) {
     return {device, std::thread::hardware_concurrency(), timer.name()};
 }
 
-void makeFolder(const std::string& path) {
-    std::error_code error;
-    std::filesystem::create_directories(path, error);
-    if (error) throw io::OutputError(path, "cannot be made: " + error.message());
-}
-
 std::vector<sim::DiagramContestant> allContestants(std::size_t& yardstick) {
     std::vector<sim::DiagramContestant> contestants;
     for (const authoring::DiagramMethodEntry& entry : authoring::kDiagramMethods) {
@@ -46,7 +39,7 @@ std::vector<sim::DiagramContestant> allContestants(std::size_t& yardstick) {
 }
 
 void runDiagrams(const Options& options) {
-    makeFolder(options.output);
+    io::makeFolder(options.output);
     const gl::Context context({options.device, false});
     const gl::Timer timer(context.device().software);
     const gl::ShaderLibrary shaders;
@@ -85,7 +78,7 @@ void runDiagrams(const Options& options) {
 }
 
 void runProximity(const Options& options) {
-    makeFolder(options.output);
+    io::makeFolder(options.output);
     const gl::Context context({options.device, false});
     const gl::Timer timer(true);  // passes are timed one by one, around waits
     ProximityReport report;

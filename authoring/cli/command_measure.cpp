@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <memory>
 
 #include "authoring/cli/commands.h"
 #include "authoring/cli/exit_codes.h"
 #include "authoring/layout/layout_reader.h"
-#include "io/files/errors.h"
 #include "io/files/input_file.h"
+#include "io/files/output_file.h"
 #include "io/measure/measure.h"
 
 namespace throng::cli {
@@ -43,9 +42,7 @@ void run(const Options& options) {
         fmt::print("{}", io::measurementText(measured));
     }
     if (!options.plots.empty()) {
-        std::error_code error;
-        std::filesystem::create_directories(options.plots, error);
-        if (error) throw io::OutputError(options.plots, "cannot be made: " + error.message());
+        io::makeFolder(options.plots);
         io::writeMeasurementPlots(options.plots, measured, bake.name);
     }
     for (const std::string& bar : missed)

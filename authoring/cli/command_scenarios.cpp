@@ -13,6 +13,7 @@
 #include "authoring/cli/scenarios.h"
 #include "authoring/layout/layout_reader.h"
 #include "io/files/errors.h"
+#include "io/files/output_file.h"
 #include "io/measure/measure.h"
 
 namespace throng::cli {
@@ -89,9 +90,7 @@ void run(const Options& options) {
     if (chosen.empty())
         for (const Scenario& scenario : scenarios())
             chosen.push_back(&scenario);
-    std::error_code error;
-    std::filesystem::create_directories(options.output, error);
-    if (error) throw io::OutputError(options.output, "cannot be made: " + error.message());
+    io::makeFolder(options.output);
 
     nlohmann::ordered_json report = nlohmann::ordered_json::object();
     bool all_held = true;

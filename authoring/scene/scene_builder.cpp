@@ -137,8 +137,7 @@ class Builder {
         ++scene_.queues.back().row_count;
     }
 
-    /// Below 0.7 pixels per body radius, people who stand together hide each other from the rays (91 % of the
-    /// nearest neighbours found at 0.5 in jams, 99.998 % at 0.7).
+    /// Below 0.7 pixels per body radius, people who stand together hide each other from the rays.
     void checkResolution() {
         constexpr double kFewest = 0.7;
         const SimulationSettings& settings = layout_.simulation;

@@ -87,4 +87,10 @@ void syncFolder(const std::filesystem::path& folder) {
     if (result != 0 && reason != EINVAL) throw OutputError(folder, "flush", reason);
 }
 
+void makeFolder(const std::filesystem::path& path) {
+    std::error_code error;
+    std::filesystem::create_directories(path, error);
+    if (error) throw OutputError(path, "cannot be made: " + error.message());
+}
+
 }  // namespace throng::io

@@ -47,4 +47,7 @@ void writeFile(const std::filesystem::path& path, std::string_view content);
 /// Makes the names inside a folder durable. Throws OutputError.
 void syncFolder(const std::filesystem::path& folder);
 
+/// Makes a folder and its parents, unless they are there. @throws OutputError
+void makeFolder(const std::filesystem::path& path);
+
 }  // namespace throng::io

@@ -21,6 +21,8 @@ const uint STATUS_WAITING = 0u;  // the numbers of throng::AgentStatus
 const uint STATUS_WALKING = 1u;
 const uint STATUS_ARRIVED = 2u;
 
+const float STANDING_SPEED = 0.1f;  // m/s: slower people stand; slower wishes are to stand
+
 /// A neighbour key is a row, or a wall segment with this bit.
 const uint NEIGHBOUR_IS_WALL = 0x80000000u;
 
