@@ -25,6 +25,15 @@ struct Group {
     bool is_flow = false;
 };
 
+/// What routes round jams are worked out on: a coarse map, and walking distances on it without any crowd.
+/// Without cells where the layout does not ask for it.
+struct Detours {
+    FieldGrid grid;
+    std::vector<gpu::GroundCell> ground;          ///< one map after the other
+    std::vector<std::uint32_t> ground_of_field;   ///< which of the maps, per distance field
+    std::vector<float> distances;                 ///< m, field after field; gpu::BLOCKED_COST where no path leads
+};
+
 /// Everything the simulation needs, in the scene frame: single precision, metres from `origin`.
 ///
 /// `origin` is a whole number of metres near the middle of the layout, and local coordinates are multiples of
@@ -51,6 +60,7 @@ struct Scene {
     FieldGrid grid;
     std::vector<gpu::FieldCell> fields;  ///< field f holds cells [f * cells, (f + 1) * cells)
     std::uint32_t field_count = 0;
+    Detours detours;
     std::vector<float> road_distance;  ///< m, per grid cell: positive on roads and areas, negative off them;
                                        ///< empty without roads
 

@@ -11,6 +11,7 @@ layout(std430) readonly buffer PreferredVelocities { vec2 preferred_velocities[]
 layout(std430) readonly buffer Targets { vec2 targets[]; };
 layout(std430) readonly buffer Stages { Stage stages[]; };
 layout(std430) readonly buffer Fields { FieldCell fields[]; };
+layout(std430) readonly buffer DetourSlopes { vec2 detour_slopes[]; };
 layout(std430) buffer States { AgentState states[]; };
 uniform uint steps_done;  // counted with this one
 

@@ -15,6 +15,18 @@ void gridPosition(vec2 position, out uvec2 cell, out vec2 fraction) {
     fraction = at - vec2(cell);
 }
 
+/// How fast jams make the way longer, towards each axis: what the coarse map knows, between its cells' middles.
+vec2 detourSlope(uint field, vec2 position) {
+    vec2 size = vec2(parameters.detour_width, parameters.detour_height);
+    vec2 at = clamp((position - parameters.grid_minimum) / parameters.detour_cell - 0.5, vec2(0.0), size - 1.001);
+    uvec2 cell = uvec2(at);
+    vec2 fraction = at - vec2(cell);
+    uint first = (field * parameters.detour_height + cell.y) * parameters.detour_width + cell.x;
+    uint above = first + parameters.detour_width;
+    return mix(mix(detour_slopes[first], detour_slopes[first + 1u], fraction.x),
+               mix(detour_slopes[above], detour_slopes[above + 1u], fraction.x), fraction.y);
+}
+
 RouteAhead sampleField(uint field, vec2 position) {
     uvec2 cell;
     vec2 fraction;
@@ -32,6 +44,11 @@ RouteAhead sampleField(uint field, vec2 position) {
     float size = length(ahead.direction);
     // Where routes part (behind an obstacle) the corners cancel out: take one side, always the same.
     ahead.direction = size > 0.05 ? ahead.direction / size : unpackSnorm2x16(corner[0].direction);
+    if (parameters.detour_width == 0u) return ahead;
+    // Without jams the distance falls by one per metre; jams add their slope.
+    vec2 downhill = ahead.direction - detourSlope(field, position);
+    size = length(downhill);
+    if (size > 0.05) ahead.direction = downhill / size;
     return ahead;
 }
 

@@ -7,6 +7,7 @@ layout(std140) uniform ParametersBlock { Parameters parameters; };
 layout(std430) readonly buffer People { Person people[]; };
 layout(std430) readonly buffer Stages { Stage stages[]; };
 layout(std430) readonly buffer Fields { FieldCell fields[]; };
+layout(std430) readonly buffer DetourSlopes { vec2 detour_slopes[]; };
 layout(std430) readonly buffer Proposals { SpawnProposal proposals[]; };
 layout(std430) buffer States { AgentState states[]; };
 uniform uint steps_done;  // counted with this one

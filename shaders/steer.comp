@@ -10,6 +10,7 @@ layout(std430) readonly buffer States { AgentState states[]; };
 layout(std430) readonly buffer Bodies { Body bodies[]; };
 layout(std430) readonly buffer Stages { Stage stages[]; };
 layout(std430) readonly buffer Fields { FieldCell fields[]; };
+layout(std430) readonly buffer DetourSlopes { vec2 detour_slopes[]; };
 layout(std430) writeonly buffer PreferredVelocities { vec2 preferred_velocities[]; };
 
 #include "shaders/random.glsl"

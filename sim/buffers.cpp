@@ -108,6 +108,9 @@ gpu::Parameters makeParameters(const authoring::Scene& scene) {
     parameters.grid_cell = scene.grid.cell_size;
     parameters.grid_width = scene.grid.width;
     parameters.grid_height = scene.grid.height;
+    parameters.detour_cell = scene.detours.grid.cell_size;
+    parameters.detour_width = scene.detours.grid.width;
+    parameters.detour_height = scene.detours.grid.height;
     parameters.has_roads = scene.road_distance.empty() ? 0 : 1;
     return parameters;
 }
@@ -132,6 +135,7 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
       stages(gl::makeBuffer("stages", scene.stages)),
       fields(gl::makeBuffer("distance fields", scene.fields)),
       road_distances(gl::makeBuffer("road distances", scene.road_distance)),
+      detour_slopes("detour slopes", sizeof(glm::vec2) * scene.detours.distances.size()),
       queues(gl::makeBuffer("queues", scene.queues)),
       queue_heads("queue heads", kWord * scene.queues.size()),
       entries(gl::makeBuffer("entries", scene.entries)),
@@ -171,6 +175,7 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
     targets = gl::Buffer("targets", sizeof(glm::vec2) * rows);
     targets_after = gl::Buffer("targets after contact", sizeof(glm::vec2) * rows);
     queue_heads.fill(0);
+    detour_slopes.fill(0);
 }
 
 std::vector<std::pair<std::string, const gl::Buffer*>> Buffers::named() const {
@@ -180,6 +185,7 @@ std::vector<std::pair<std::string, const gl::Buffer*>> Buffers::named() const {
             {"Stages", &stages},
             {"Fields", &fields},
             {"RoadDistances", &road_distances},
+            {"DetourSlopes", &detour_slopes},
             {"Queues", &queues},
             {"QueueHeads", &queue_heads},
             {"Entries", &entries},

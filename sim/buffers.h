@@ -21,6 +21,7 @@ struct Buffers {
 
     gl::Buffer people, states;                                         // per row
     gl::Buffer stages, fields, road_distances;                         // routes
+    gl::Buffer detour_slopes;                                          // what jams add to them
     gl::Buffer queues, queue_heads, entries, entry_points, proposals;  // entering
     gl::Buffer wall_segments, wall_tiles, wall_starts, wall_items;
 

@@ -101,6 +101,7 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
       buffers(scene, parameters),
       diagram(diagramFor(scene, parameters, library)),
       cells(library, buffers, parameters),
+      congestion(library, buffers, scene, parameters),
       spawner(library, buffers, parameters),
       sensing(library, buffers, diagram, sensingFor(scene, parameters), scene, parameters),
       avoidance(library, buffers, settings.neighbours),
@@ -144,6 +145,7 @@ void Simulation::step() {
     const float now = p.now();
     ++p.steps_done;
     p.cells.run();
+    p.congestion.run();
     if (p.anybody_enters_later) p.spawner.run(now, p.steps_done);
     if (p.sensing.needsDiagram()) p.diagram.build();
     p.sensing.run();

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "sim/buffers.h"
+#include "sim/congestion.h"
 #include "sim/diagram/diagram.h"
 #include "sim/passes.h"
 #include "sim/simulation.h"
@@ -20,6 +21,7 @@ struct Simulation::Parts {
     Buffers buffers;
     Diagram diagram;
     CellSort cells;
+    Congestion congestion;
     Spawner spawner;
     Sensing sensing;
     Avoidance avoidance;

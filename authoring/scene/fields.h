@@ -41,6 +41,8 @@ struct WalkMap {
 
 /// The grid for a scene: cells of 0.1 to 1 m, at most about 1.5 million of them.
 FieldGrid makeGrid(const WalkGeometry& geometry);
+/// The same with cells of at least `smallest_cell` (m), at most `most_cells` of them.
+FieldGrid makeGrid(const WalkGeometry& geometry, float smallest_cell, double most_cells);
 
 /// @param keep_to_roads whether ground outside roads and areas costs several times more, and one-way roads
 /// bind

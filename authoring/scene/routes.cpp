@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <glm/packing.hpp>
 #include <limits>
+#include <set>
 
 #include "authoring/scene/raster.h"
 
@@ -14,6 +16,16 @@ namespace {
 
 /// All fields together stay below this, on the device and here.
 constexpr std::size_t kMostFieldBytes = std::size_t{128} << 20;
+
+/// Jams are larger than this, m, and their news should travel fast.
+constexpr float kDetourCell = 0.75f;
+constexpr double kMostDetourCells = 30'000.0;
+
+void appendGround(const WalkMap& map, std::vector<gpu::GroundCell>& ground) {
+    for (std::size_t cell = 0; cell < map.cost.size(); ++cell)
+        ground.push_back({std::min(map.cost[cell], gpu::BLOCKED_COST),
+                          glm::packSnorm2x16(map.one_way.empty() ? glm::vec2(0.0f) : map.one_way[cell])});
+}
 
 }  // namespace
 
@@ -55,6 +67,8 @@ std::uint32_t Routes::solve(const std::vector<std::uint32_t>& targets, bool keep
         return 0;
     }
     fields_.push_back(solveField(mapFor(keep_to_roads), targets));
+    targets_.push_back(targets);
+    on_roads_.push_back(keep_to_roads);
     return static_cast<std::uint32_t>(fields_.size() - 1);
 }
 
@@ -133,6 +147,29 @@ std::vector<gpu::FieldCell> Routes::takeCells() {
         cells.insert(cells.end(), field.cells.begin(), field.cells.end());
     fields_.clear();
     return cells;
+}
+
+Detours Routes::detours() {
+    Detours detours;
+    detours.grid = makeGrid(geometry_, kDetourCell, kMostDetourCells);
+    std::optional<WalkMap> maps[2];
+    std::uint32_t map_index[2] = {};
+    for (std::size_t field = 0; field < fields_.size(); ++field) {
+        const std::size_t kind = on_roads_[field] ? 1 : 0;
+        if (!maps[kind]) {
+            maps[kind] = makeWalkMap(geometry_, detours.grid, on_roads_[field]);
+            map_index[kind] = static_cast<std::uint32_t>(detours.ground.size() / cellCount(detours.grid));
+            appendGround(*maps[kind], detours.ground);
+        }
+        detours.ground_of_field.push_back(map_index[kind]);
+        std::set<std::uint32_t> coarse;
+        for (const std::uint32_t cell : targets_[field])
+            coarse.insert(cellAt(detours.grid, cellCentre(grid_, cell % grid_.width, cell / grid_.width)));
+        const std::vector<std::uint32_t> targets(coarse.begin(), coarse.end());
+        for (const float distance : solveField(*maps[kind], targets).reachable)
+            detours.distances.push_back(std::min(distance, gpu::BLOCKED_COST));
+    }
+    return detours;
 }
 
 }  // namespace throng::authoring

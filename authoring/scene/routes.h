@@ -43,6 +43,9 @@ class Routes {
     /// Moves all cells out, field after field.
     std::vector<gpu::FieldCell> takeCells();
 
+    /// The coarse map and every field's distances on it, for routes that heed jams.
+    Detours detours();
+
     /// What a layout calls the place, for messages.
     std::string name(const Place& place) const;
 
@@ -60,6 +63,8 @@ class Routes {
     std::map<std::string, std::uint32_t> known_;
     std::unordered_map<std::uint32_t, std::uint32_t> field_of_cell_;  // for points
     std::vector<Field> fields_;
+    std::vector<std::vector<std::uint32_t>> targets_;  // of each field: cells
+    std::vector<bool> on_roads_;                       // of each field: for those who keep to the roads
     bool too_many_ = false;
 };
 

@@ -317,6 +317,7 @@ class Builder {
 
     void finish(Routes& routes) {
         scene_.field_count = routes.fieldCount();
+        if (layout_.simulation.avoid_congestion) scene_.detours = routes.detours();
         scene_.fields = routes.takeCells();
         scene_.road_distance = roadDistance(geometry_, scene_.grid);
     }

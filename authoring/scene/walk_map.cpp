@@ -84,11 +84,15 @@ void markOneWays(const WalkGeometry& geometry, WalkMap& map) {
 }  // namespace
 
 FieldGrid makeGrid(const WalkGeometry& geometry) {
+    return makeGrid(geometry, kSmallestCell, kMostCells);
+}
+
+FieldGrid makeGrid(const WalkGeometry& geometry, float smallest_cell, double most_cells) {
     const glm::vec2 extent = geometry.maximum - geometry.minimum;
     FieldGrid grid;
     grid.minimum = geometry.minimum;
     const double area = static_cast<double>(extent.x) * static_cast<double>(extent.y);
-    grid.cell_size = std::max(kSmallestCell, static_cast<float>(std::sqrt(area / kMostCells)));
+    grid.cell_size = std::max(smallest_cell, static_cast<float>(std::sqrt(area / most_cells)));
     grid.width = std::max(2u, static_cast<std::uint32_t>(std::ceil(extent.x / grid.cell_size)));
     grid.height = std::max(2u, static_cast<std::uint32_t>(std::ceil(extent.y / grid.cell_size)));
     return grid;

@@ -77,6 +77,13 @@ struct FieldCell {
     uint direction;  // unit vector, packSnorm2x16 / glm::packSnorm2x16
 };
 
+/// One cell of the coarse map on which detours round jams are worked out.
+struct GroundCell {
+    float cost;    // >= 1 per metre walked; BLOCKED_COST where nobody can stand
+    uint one_way;  // unit direction that may not be walked against, or zero; packSnorm2x16
+};
+const float BLOCKED_COST = 1.0e9f;
+
 THRONG_SHARED_END
 
 #endif

@@ -78,6 +78,13 @@ struct SpawnProposal {
     uint row;  // NO_INDEX = does not ask, or there is no room
 };
 
+/// How the crowd moves in one cell of the coarse map, smoothed over space and time.
+struct CrowdFlow {
+    vec2 velocity;  // m/s, mean
+    float density;  // persons per square metre
+    float reserved;
+};
+
 /// Everything that stays the same during a bake. Vectors first: GLSL aligns them to eight bytes and C++ to
 /// four.
 struct Parameters {
@@ -93,6 +100,9 @@ struct Parameters {
     float grid_cell;  // m
     uint grid_width;
     uint grid_height;
+    float detour_cell;  // m, of the coarse map, which begins where the fields' grid does
+    uint detour_width;  // cells; 0 = routes do not heed jams
+    uint detour_height;
     uint row_count;
     uint queue_count;
     uint seed;

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// How dense the crowd is in each cell of the coarse map, and where it goes on the whole.
+#include "shaders/shared/simulation_types.h"
+
+layout(local_size_x = PIXEL_GROUP_SIZE) in;
+layout(std140) uniform ParametersBlock { Parameters parameters; };
+layout(std430) readonly buffer CellStarts { uint cell_starts[]; };
+layout(std430) readonly buffer Bodies { Body bodies[]; };
+layout(std430) buffer CrowdFlows { CrowdFlow crowd_flows[]; };
+uniform float fading;  // 0 to 1: how much of what was known is replaced
+
+#include "shaders/cells.glsl"
+#include "shaders/flat_index.glsl"
+
+/// Everybody within one coarse cell of the middle counts, the nearer the more (a tent, whose integral is the area of
+/// one coarse cell).
+CrowdFlow flowAround(vec2 middle) {
+    ivec2 low = cellOf(middle - parameters.detour_cell);
+    ivec2 high = cellOf(middle + parameters.detour_cell);
+    vec3 sum = vec3(0.0);
+    for (int y = low.y; y <= high.y; ++y) {
+        uint end = cell_starts[cellIndex(ivec2(high.x, y)) + 1u];
+        for (uint slot = cell_starts[cellIndex(ivec2(low.x, y))]; slot < end; ++slot) {
+            vec2 near = max(1.0 - abs(bodies[slot].position - middle) / parameters.detour_cell, vec2(0.0));
+            sum += near.x * near.y * vec3(bodies[slot].velocity, 1.0);
+        }
+    }
+    float area = parameters.detour_cell * parameters.detour_cell;
+    return CrowdFlow(sum.z > 1.0e-3 ? sum.xy / sum.z : vec2(0.0), sum.z / area, 0.0);
+}
+
+void main() {
+    uint cell = flatIndex();
+    if (cell >= parameters.detour_width * parameters.detour_height) return;
+    vec2 at = vec2(cell % parameters.detour_width, cell / parameters.detour_width) + 0.5;
+    CrowdFlow now = flowAround(parameters.grid_minimum + at * parameters.detour_cell);
+    CrowdFlow known = crowd_flows[cell];
+    crowd_flows[cell] = CrowdFlow(mix(known.velocity, now.velocity, fading), mix(known.density, now.density, fading), 0.0);
+}

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// One round of bringing one field's walking distances up to date with the crowd.
+//
+// Who can see that the crowd ahead stands, or comes the other way, walks round it. The way costs as many metres as one
+// could have walked in the same time without a crowd: where it is dense, one gets on as fast as the crowd moves in one's
+// own direction, and next to not at all against it (Treuille, Cooper and Popovic 2006, equations 4, 7 and 8). Walking with a
+// stream is therefore cheap, and lanes attract those who go the same way.
+//
+// The distances obey the Eikonal equation with these costs. Every round recomputes each cell from its neighbours' last
+// values (Jacobi), so news of a jam spreads by one cell a round, and no order of invocations shows in the result.
+#include "shaders/shared/simulation_types.h"
+
+layout(local_size_x = PIXEL_GROUP_SIZE) in;
+layout(std140) uniform ParametersBlock { Parameters parameters; };
+layout(std430) readonly buffer CrowdFlows { CrowdFlow crowd_flows[]; };
+layout(std430) readonly buffer Ground { GroundCell ground[]; };
+layout(std430) readonly buffer DetourDistances { float detour_distances[]; };
+layout(std430) readonly buffer FreeDistances { float free_distances[]; };  // without any crowd
+layout(std430) writeonly buffer NextDistances { float next_distances[]; };  // of this field alone
+uniform uint field;
+uniform uint ground_map;
+
+#include "shaders/flat_index.glsl"
+
+const float THIN = 1.3;          // persons/m^2: up to here everybody walks as fast as they like
+const float THICK = 3.0;         // persons/m^2: from here on nobody walks faster than the crowd
+const float FREE_SPEED = 1.34;   // m/s (Weidmann 1993)
+const float SLOWEST = 0.2;       // of the free speed: even through a jam that stands, one gets some time
+const float AGAINST_ONE_WAY = -0.1;
+
+/// Metres of free walking that leaving a cell in this direction is worth.
+float costTowards(uint cell, GroundCell here, vec2 direction) {
+    if (dot(unpackSnorm2x16(here.one_way), direction) < AGAINST_ONE_WAY) return BLOCKED_COST;
+    CrowdFlow crowd = crowd_flows[cell];
+    float with_crowd = clamp(dot(crowd.velocity, direction) / FREE_SPEED, SLOWEST, 1.0);
+    float speed = mix(1.0, with_crowd, smoothstep(THIN, THICK, crowd.density));
+    return here.cost * parameters.detour_cell / speed;
+}
+
+/// The better neighbour on one axis: its distance, and the cost of going there.
+vec2 betterSide(uint cell, GroundCell here, uint first, bool has_low, bool has_high, uint stride, vec2 axis) {
+    vec2 best = vec2(BLOCKED_COST);
+    if (has_low) best = vec2(detour_distances[first + cell - stride], costTowards(cell, here, -axis));
+    if (has_high) {
+        vec2 high = vec2(detour_distances[first + cell + stride], costTowards(cell, here, axis));
+        if (high.x + high.y < best.x + best.y) best = high;
+    }
+    return best;
+}
+
+/// (T - Tx)^2 / Cx^2 + (T - Ty)^2 / Cy^2 = 1, or along one axis where that is shorter.
+float eikonal(vec2 x, vec2 y) {
+    float one_axis = min(x.x + x.y, y.x + y.y);
+    if (max(x.x, y.x) >= one_axis) return one_axis;
+    float a = 1.0 / (x.y * x.y), b = 1.0 / (y.y * y.y);
+    float difference = x.x - y.x;
+    float inside = a + b - a * b * difference * difference;
+    return inside <= 0.0 ? one_axis : min(one_axis, (a * x.x + b * y.x + sqrt(inside)) / (a + b));
+}
+
+void main() {
+    uint cell = flatIndex();
+    uint cells = parameters.detour_width * parameters.detour_height;
+    if (cell >= cells) return;
+    uint first = field * cells;
+    float free = free_distances[first + cell];
+    GroundCell here = ground[ground_map * cells + cell];
+    // Targets and what nobody reaches stay as they are.
+    if (free <= 0.0 || free >= BLOCKED_COST || here.cost >= BLOCKED_COST) {
+        next_distances[cell] = free;
+        return;
+    }
+    uvec2 at = uvec2(cell % parameters.detour_width, cell / parameters.detour_width);
+    vec2 x = betterSide(cell, here, first, at.x > 0u, at.x + 1u < parameters.detour_width, 1u, vec2(1.0, 0.0));
+    vec2 y = betterSide(cell, here, first, at.y > 0u, at.y + 1u < parameters.detour_height, parameters.detour_width, vec2(0.0, 1.0));
+    next_distances[cell] = min(eikonal(x, y), BLOCKED_COST);
+}
