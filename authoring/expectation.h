@@ -16,7 +16,7 @@ struct Expectation {
 };
 
 /// What bars may be set on. `arrived`, `stuck` and `refused` are shares of all people.
-inline constexpr std::array<std::string_view, 17> kExpectableFigures = {"arrived",
+inline constexpr std::array<std::string_view, 18> kExpectableFigures = {"arrived",
                                                                         "stuck",
                                                                         "refused",
                                                                         "seconds",
@@ -32,6 +32,7 @@ inline constexpr std::array<std::string_view, 17> kExpectableFigures = {"arrived
                                                                         "effort",
                                                                         "lane_order",
                                                                         "mean_speed",
-                                                                        "high_density"};
+                                                                        "high_density",
+                                                                        "flow"};
 
 }  // namespace throng::authoring

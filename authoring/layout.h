@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <optional>
@@ -42,6 +43,25 @@ struct PersonSettings {
     Distribution radius{Distribution::Kind::uniform, 0.25, 0.0, 0.22, 0.28};
     /// Highest speed as a multiple of the preferred one, 1 to 3.
     double maximum_speed_factor = 1.4;
+    /// s, 0 to 5: the free way kept to those walked behind. 0: people press on.
+    double headway = 0.0;
+};
+
+/// A kind of people and how large its share is.
+struct PeopleShare {
+    double weight = 1.0;
+    PersonSettings settings;
+};
+
+/// Who walks: at least one kind.
+struct People {
+    std::vector<PeopleShare> kinds{PeopleShare{}};
+    double largestRadius() const {
+        double largest = 0.0;
+        for (const PeopleShare& share : kinds)
+            largest = std::max(largest, share.settings.radius.maximum);
+        return largest;
+    }
 };
 
 /// What finds a person's neighbours.
@@ -72,7 +92,7 @@ struct SimulationSettings {
     double wall_time_horizon = 0.6;            ///< s, [0.05, 20]: how far ahead people avoid walls
     double contact_range = 1.0;  ///< m, [0.5, 3]: those nearer than this are felt whatever the field of view
     int contact_iterations = 8;  ///< [1, 32]: rounds per step that keep bodies apart
-    bool avoid_congestion = true;  ///< routes lead round jams, as far as people could see them coming
+    bool avoid_congestion = true;       ///< routes lead round jams, as far as people could see them coming
     double maximum_acceleration = 4.0;  ///< m/s^2, [0.1, 100]
 };
 
@@ -118,13 +138,19 @@ struct Flow {
     std::optional<double> rate;  ///< people per second (Poisson arrivals, seeded); exactly one of count, rate
     double start = 0.0;          ///< s
     double end = 0.0;            ///< s; the reader fills in the duration where the file says nothing
-    PersonSettings people;
+    People people;
     Arrival arrival = Arrival::leave;
     SourcePosition where;
 };
 
-/// A line to mirror at.
-struct MirrorLine {
+/// A straight line between two points: to mirror at, or to count people across.
+struct Line {
+    glm::dvec2 a{0.0};
+    glm::dvec2 b{0.0};
+};
+
+/// Two opposite corners.
+struct Extent {
     glm::dvec2 a{0.0};
     glm::dvec2 b{0.0};
 };
@@ -145,8 +171,9 @@ struct GridFormation {
     double jitter = 0.0;        ///< m: each coordinate moves by up to this much, uniformly
     double rotation = 0.0;      ///< degrees about the origin point
     std::uint64_t count = 0;    ///< people, column by column from the first; 0 = all rows and columns
-    /// An offset added to each person's position, a place, or a line at which each position is mirrored.
-    std::variant<glm::dvec2, Place, MirrorLine> goal;
+    /// An offset added to each person's position, a place, a line at which each position is mirrored, or
+    /// anywhere in a box.
+    std::variant<glm::dvec2, Place, Line, Extent> goal;
 };
 
 struct ListedAgent {
@@ -166,7 +193,7 @@ struct Formation {
     std::string id;
     std::variant<CircleFormation, GridFormation, ListFormation> shape;
     double start = 0.0;  ///< s: when they appear
-    PersonSettings people;
+    People people;
     Arrival arrival = Arrival::stay;
     double goal_tolerance = 0.3;  ///< m: this near a point goal is arrived
     SourcePosition where;
@@ -181,6 +208,7 @@ struct Layout {
     std::vector<Flow> flows;
     std::vector<Formation> formations;
     std::vector<Expectation> expectations;
+    std::optional<Line> flow_line;  ///< across which people are counted for the bar on `flow`
 };
 
 }  // namespace throng::authoring

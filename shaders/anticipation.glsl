@@ -67,18 +67,64 @@ vec2 cushion(vec2 offset, vec2 relative, float reach) {
     return excess > 0.0 ? offset * (excess * CUSHION_RATE / distance) : vec2(0.0);
 }
 
-/// What one's own way and patience leave of the room made for somebody who wants to go `wish` (m/s).
-/// @param way where oneself wants to go, of unit length
-/// @param impatience, crowding 0 to 1
-vec2 roomFor(vec2 way, float impatience, float crowding, vec2 offset, vec2 relative, float reach, vec2 wish) {
+/// Walking behind somebody takes room to step: the free way ahead is to last for one's headway, whatever is left of it,
+/// one creeps (Tordeux, Chraibi and Seyfried 2016, equation 2, with the free way between discs). Crowds that walk one way then slow
+/// down with their density as people's do (Weidmann 1993).
+const float SLOWEST_PACE = 0.1;       // m/s
+const float STRAIGHT_AHEAD = 0.7;     // of the sum of the radii: further aside, one could pass
+
+/// How much two who want to go this way and that walk behind each other, 0 to 1.
+float followed(float alike) { return smoothstep(0.3, 0.8, alike); }
+
+float likeness(vec2 way, vec2 wish) {
     float size = length(wish);
-    float alike = size > STANDING_SPEED ? dot(way, wish) / size : -1.0;  // whoever stands is walked around
+    return size > STANDING_SPEED ? dot(way, wish) / size : -1.0;  // whoever stands is walked around
+}
+
+/// m/s: how fast one walks behind one other person, at most `speed`.
+/// @param offset from oneself to the other, m
+float paceBehind(vec2 way, float speed, float headway, vec2 offset, float reach, vec2 wish) {
+    // Of two who make for the same door, one is ahead: the other follows, and they do not wait for each other.
+    float size = length(wish);
+    if (size <= STANDING_SPEED || dot(offset, way + wish / size) <= 0.0) return speed;
+    float ahead = dot(offset, way);
+    float aside_squared = max(dot(offset, offset) - ahead * ahead, 0.0);
+    if (ahead <= 0.0 || aside_squared >= STRAIGHT_AHEAD * STRAIGHT_AHEAD * reach * reach) return speed;
+    float free = ahead - sqrt(reach * reach - aside_squared);
+    return mix(speed, clamp(free / headway, min(SLOWEST_PACE, speed), speed), followed(likeness(way, wish)));
+}
+
+/// What somebody's wish, patience and surroundings make of the room that others would like.
+struct Manners {
+    vec2 way;          // where it wants to go, of unit length
+    float impatience;  // 0 to 1
+    float crowding;    // 0 to 1
+    float follows;     // 1 where it keeps a headway, 0 where it pushes on
+    float freedom;     // 0 to 1: how little those ahead hold it up
+};
+
+Manners mannersOf(vec2 way, float nervousness, uint sensed, float headway, float pace_share) {
+    float impatience = clamp((nervousness - PATIENT) / (IMPATIENT - PATIENT), 0.0, 1.0);
+    float crowding = clamp((float(sensed) - SWERVE_FREELY) / (SWERVE_NO_MORE - SWERVE_FREELY), 0.0, 1.0);
+    return Manners(way, impatience, crowding, headway > 0.0 ? 1.0 : 0.0, smoothstep(0.7, 1.0, pace_share));
+}
+
+/// The acceleration, m/s^2, that makes room for somebody who wants to go `wish` (m/s).
+/// @param relative one's own velocity less the other's; `overtaking` the same for one's own wished velocity
+vec2 roomFor(Manners manners, vec2 offset, vec2 relative, vec2 overtaking, float reach, vec2 wish) {
+    float alike = likeness(manners.way, wish);
     float oncoming = smoothstep(0.2, 0.8, -alike);
-    vec2 touch = cushion(offset, relative, reach) * (1.0 - impatience);
-    reach += FOLLOWING_GAP * smoothstep(0.3, 0.8, alike) * (1.0 - impatience);
-    vec2 room = repulsion(offset, relative, reach);
-    float along = dot(room, way);
-    vec2 aside = (room - way * along) * mix((1.0 - impatience) * (1.0 - crowding), 1.0, oncoming);
-    if (along < 0.0) along *= 1.0 - max(oncoming, impatience);
-    return way * along + aside + touch;
+    float behind = followed(alike) * manners.follows;
+    float patience = 1.0 - manners.impatience;
+    vec2 touch = cushion(offset, relative, reach) * patience;
+    reach += FOLLOWING_GAP * followed(alike) * patience;
+    // Who follows looks for a way past at the speed it would like; its pace does the braking, and it does not hurry for
+    // those behind.
+    vec2 room = repulsion(offset, mix(relative, overtaking, behind), reach);
+    float along = dot(room, manners.way);
+    float swerve = patience * mix(1.0 - manners.crowding, manners.freedom, behind);
+    vec2 aside = (room - manners.way * along) * mix(swerve, 1.0, oncoming);
+    along *= 1.0 - behind;
+    if (along < 0.0) along *= 1.0 - max(oncoming, manners.impatience);
+    return manners.way * along + aside + touch;
 }

@@ -19,6 +19,7 @@ layout(std430) readonly buffer WallItems { uint wall_items[]; };
 layout(std430) readonly buffer RoadDistances { float road_distances[]; };
 layout(std430) writeonly buffer Targets { vec2 targets[]; };  // where each person will be unless bodies touch
 layout(std430) writeonly buffer TargetsAfter { vec2 targets_after[]; };  // the same, for those whom contact passes over
+layout(std430) writeonly buffer Paces { float paces[]; };  // m/s: how fast each person wants to walk behind others
 uniform uint slot_capacity;
 
 // Room for the nearest walls and the kerb.
@@ -34,12 +35,16 @@ uniform uint slot_capacity;
 const float OVERLAP_HORIZON = 0.15;
 const float KERB_HORIZON = 0.8;
 
+/// m: a door exactly as wide as a body touches it on both sides; without this nobody would get over its middle. The contact
+/// pass keeps bodies out of walls exactly.
+const float WALL_SLACK = 0.001;
+
 /// A wall allows no more speed towards its nearest point than reaches it at the horizon.
 vec3 wallConstraint(Body self, WallSegment wall) {
     vec2 offset = nearestOnSegment(self.position, wall.a, wall.b) - self.position;
     float size = length(offset);
     vec2 normal = size > 1.0e-6 ? -offset / size : normalize(vec2(wall.a.y - wall.b.y, wall.b.x - wall.a.x));
-    float gap = size - self.radius - wall.half_thickness;
+    float gap = size - self.radius - wall.half_thickness + WALL_SLACK;
     return vec3(normal, -gap / (gap > 0.0 ? parameters.wall_time_horizon : OVERLAP_HORIZON));
 }
 
@@ -110,20 +115,30 @@ vec2 drive(vec2 wish, vec2 velocity) {
     return atMost((wish - velocity) / RELAXATION, MOST_DRIVE);
 }
 
-/// m/s^2: the room made for all people sensed together.
-vec2 roomForAll(Body self, uint slot, vec2 wish) {
-    float speed = length(wish);
-    vec2 way = speed > STANDING_SPEED ? wish / speed : vec2(cos(self.heading), sin(self.heading));
-    float impatience = clamp((states[self.row].nervousness - PATIENT) / (IMPATIENT - PATIENT), 0.0, 1.0);
-    uint sensed = neighbour_counts[slot];
-    float crowding = clamp((float(sensed) - SWERVE_FREELY) / (SWERVE_NO_MORE - SWERVE_FREELY), 0.0, 1.0);
-    vec2 room = vec2(0.0);
-    for (uint i = 0u; i < sensed; ++i) {
+/// m/s: how fast one wants to walk behind those ahead.
+float paceAmongAll(Body self, uint slot, vec2 way, float speed, float headway) {
+    if (headway <= 0.0) return speed;
+    float pace = speed;
+    for (uint i = 0u; i < neighbour_counts[slot]; ++i) {
         uint key = neighbours[i * slot_capacity + slot];
         if ((key & NEIGHBOUR_IS_WALL) != 0u) continue;
         uint other_slot = row_slots[key];
         Body other = bodies[other_slot];
-        room += roomFor(way, impatience, crowding, self.position - other.position, self.velocity - other.velocity,
+        pace = min(pace, paceBehind(way, speed, headway, other.position - self.position, self.radius + other.radius,
+                                    preferred_velocities[other_slot]));
+    }
+    return pace;
+}
+
+/// m/s^2: the room made for all people sensed together.
+vec2 roomForAll(Body self, uint slot, vec2 wish, Manners manners) {
+    vec2 room = vec2(0.0);
+    for (uint i = 0u; i < neighbour_counts[slot]; ++i) {
+        uint key = neighbours[i * slot_capacity + slot];
+        if ((key & NEIGHBOUR_IS_WALL) != 0u) continue;
+        uint other_slot = row_slots[key];
+        Body other = bodies[other_slot];
+        room += roomFor(manners, self.position - other.position, self.velocity - other.velocity, wish - other.velocity,
                         self.radius + other.radius, preferred_velocities[other_slot]);
     }
     return room;
@@ -147,7 +162,13 @@ void main() {
         setConstraint(count++, kerb);
 
     vec2 wish = preferred_velocities[slot];
-    vec2 acceleration = drive(wish, self.velocity) + roomForAll(self, slot, wish);
+    float speed = length(wish);
+    vec2 way = speed > STANDING_SPEED ? wish / speed : vec2(cos(self.heading), sin(self.heading));
+    float headway = people[self.row].headway;
+    float pace = paceAmongAll(self, slot, way, speed, headway);
+    paces[slot] = pace;
+    Manners manners = mannersOf(way, states[self.row].nervousness, neighbour_counts[slot], headway, pace / max(speed, STANDING_SPEED));
+    vec2 acceleration = drive(way * pace, self.velocity) + roomForAll(self, slot, wish, manners);
     vec2 wanted = self.velocity + acceleration * parameters.step_seconds;
     vec2 velocity;
     int obeyed = solveInDisc(0, count, self.maximum_speed, wanted, false, velocity);

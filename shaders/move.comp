@@ -8,6 +8,7 @@ layout(std430) readonly buffer LiveDispatch { uint live_groups[3]; uint live_cou
 layout(std430) readonly buffer People { Person people[]; };
 layout(std430) readonly buffer Bodies { Body bodies[]; };
 layout(std430) readonly buffer PreferredVelocities { vec2 preferred_velocities[]; };
+layout(std430) readonly buffer Paces { float paces[]; };
 layout(std430) readonly buffer Targets { vec2 targets[]; };
 layout(std430) readonly buffer Stages { Stage stages[]; };
 layout(std430) readonly buffer Fields { FieldCell fields[]; };
@@ -25,9 +26,10 @@ const float PATIENCE_TIME = 2.0;       // s: nervousness follows what happens wi
 
 /// 1 where somebody does not get on at all, 0 where it walks as it wishes or wants to stand
 /// (Helbing, Farkas and Vicsek 2000).
-float heldUp(vec2 wish, vec2 velocity) {
+/// Walking behind others at their pace is not being held up.
+float heldUp(vec2 wish, float pace, vec2 velocity) {
     float speed = length(wish);
-    return speed > STANDING_SPEED ? clamp(1.0 - dot(velocity, wish) / (speed * speed), 0.0, 1.0) : 0.0;
+    return speed > STANDING_SPEED ? clamp(1.0 - dot(velocity, wish) / (speed * pace), 0.0, 1.0) : 0.0;
 }
 
 float wrapAngle(float angle) { return angle - 2.0 * PI * floor((angle + PI) / (2.0 * PI)); }
@@ -53,7 +55,7 @@ void main() {
     float speed = length(state.velocity);
     // A push may be faster than legs are; the next step does not build on it.
     if (speed > person.maximum_speed) state.velocity *= person.maximum_speed / speed;
-    state.nervousness += (heldUp(preferred_velocities[slot], state.velocity) - state.nervousness) *
+    state.nervousness += (heldUp(preferred_velocities[slot], paces[slot], state.velocity) - state.nervousness) *
                          min(parameters.step_seconds / PATIENCE_TIME, 1.0);
     state.heading = turnTowards(self.heading, state.velocity, speed);
     state.phase += distance_moved / person.stride_length;

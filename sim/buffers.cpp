@@ -172,6 +172,7 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
     touch_slots = gl::Buffer("touch slots", kWord * rows);
     touch_dispatch = gl::Buffer("touch dispatch", kWord * 4);
     preferred_velocities = gl::Buffer("preferred velocities", sizeof(glm::vec2) * rows);
+    paces = gl::Buffer("paces", sizeof(float) * rows);
     targets = gl::Buffer("targets", sizeof(glm::vec2) * rows);
     targets_after = gl::Buffer("targets after contact", sizeof(glm::vec2) * rows);
     queue_heads.fill(0);
@@ -212,6 +213,7 @@ std::vector<std::pair<std::string, const gl::Buffer*>> Buffers::named() const {
             {"TouchSlots", &touch_slots},
             {"TouchDispatch", &touch_dispatch},
             {"PreferredVelocities", &preferred_velocities},
+            {"Paces", &paces},
             {"Targets", &targets},
             {"TargetsAfter", &targets_after}};
 }

@@ -29,7 +29,7 @@ struct Buffers {
     gl::Buffer row_slots;  // rows, then wall tiles: also the order in which gradient1 draws
     gl::Buffer bodies, sites;
     gl::Buffer neighbours, neighbour_counts, touch_words, touch_lists, touch_slots, touch_dispatch;
-    gl::Buffer preferred_velocities, targets, targets_after;
+    gl::Buffer preferred_velocities, paces, targets, targets_after;
 
     std::vector<std::pair<std::string, const gl::Buffer*>> named() const;
     /// Slots that per-slot lists are laid out for.

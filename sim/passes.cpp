@@ -110,7 +110,8 @@ Avoidance::Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, int nei
     avoid_.set("slot_capacity", buffers.slotCapacity());
 }
 
-void Avoidance::run() {
+void Avoidance::run(std::uint32_t steps_done) {
+    steer_.set("steps_done", steps_done);
     steer_.dispatchIndirect(buffers_.live_dispatch);
     avoid_.dispatchIndirect(buffers_.live_dispatch);
 }

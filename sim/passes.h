@@ -68,7 +68,7 @@ class Sensing {
 class Avoidance {
   public:
     Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, int neighbours);
-    void run();
+    void run(std::uint32_t steps_done);
 
   private:
     Buffers& buffers_;

@@ -149,7 +149,7 @@ void Simulation::step() {
     if (p.anybody_enters_later) p.spawner.run(now, p.steps_done);
     if (p.sensing.needsDiagram()) p.diagram.build();
     p.sensing.run();
-    p.avoidance.run();
+    p.avoidance.run(p.steps_done);
     p.contacts.run();
     p.motion.run(p.steps_done);
 }
@@ -187,16 +187,17 @@ std::vector<std::pair<std::string, double>> Simulation::profile(int steps) {
         const float now = p.now();
         ++p.steps_done;
         timed(0, "cells", [&] { p.cells.run(); });
-        timed(1, "spawn", [&] {
+        timed(1, "routes", [&] { p.congestion.run(); });
+        timed(2, "spawn", [&] {
             if (p.anybody_enters_later) p.spawner.run(now, p.steps_done);
         });
-        timed(2, "diagram", [&] {
+        timed(3, "diagram", [&] {
             if (p.sensing.needsDiagram()) p.diagram.build();
         });
-        timed(3, "sensing", [&] { p.sensing.run(); });
-        timed(4, "avoidance", [&] { p.avoidance.run(); });
-        timed(5, "contacts", [&] { p.contacts.run(); });
-        timed(6, "motion", [&] { p.motion.run(p.steps_done); });
+        timed(4, "sensing", [&] { p.sensing.run(); });
+        timed(5, "avoidance", [&] { p.avoidance.run(p.steps_done); });
+        timed(6, "contacts", [&] { p.contacts.run(); });
+        timed(7, "motion", [&] { p.motion.run(p.steps_done); });
     }
     return times;
 }

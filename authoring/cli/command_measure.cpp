@@ -5,7 +5,7 @@
 
 #include "authoring/cli/commands.h"
 #include "authoring/cli/exit_codes.h"
-#include "authoring/layout/layout_reader.h"
+#include "authoring/cli/judge.h"
 #include "io/files/input_file.h"
 #include "io/files/output_file.h"
 #include "io/measure/measure.h"
@@ -20,20 +20,12 @@ struct Options {
     bool json = false;
 };
 
-/// The bars that the bake's own copy of its layout sets.
-std::vector<authoring::Expectation> expectationsOf(const io::Bake& bake) {
-    authoring::Diagnostics diagnostics;
-    const auto layout = authoring::readLayout(io::readFile(bake.folder / "layout.json"), {}, diagnostics);
-    return layout ? layout->expectations : std::vector<authoring::Expectation>{};
-}
-
 void run(const Options& options) {
     const io::Bake bake = io::loadBake(options.bake);
     io::MeasureOptions measure;
     if (!options.line.empty())
         measure.line = {{options.line[0], options.line[1]}, {options.line[2], options.line[3]}};
-    const io::Measurement measured = io::measureBake(bake, measure);
-    const std::vector<std::string> missed = io::missedExpectations(measured, expectationsOf(bake));
+    const auto [measured, missed] = judgeBake(bake, measure);
     if (options.json) {
         nlohmann::ordered_json json = io::measurementJson(measured);
         json["missed"] = missed;

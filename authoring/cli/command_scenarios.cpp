@@ -10,8 +10,8 @@
 #include "authoring/cli/bake_run.h"
 #include "authoring/cli/commands.h"
 #include "authoring/cli/exit_codes.h"
+#include "authoring/cli/judge.h"
 #include "authoring/cli/scenarios.h"
-#include "authoring/layout/layout_reader.h"
 #include "io/files/errors.h"
 #include "io/files/output_file.h"
 #include "io/measure/measure.h"
@@ -62,11 +62,7 @@ std::vector<std::string> runOne(const Scenario& scenario, const Options& options
     bakeLayout(request);
 
     const io::Bake bake = io::loadBake(request.bake.output);
-    const io::Measurement measured = io::measureBake(bake, {});
-    authoring::Diagnostics diagnostics;
-    const auto read = authoring::readLayout(scenario.layout, {}, diagnostics);
-    std::vector<std::string> missed =
-        io::missedExpectations(measured, read ? read->expectations : std::vector<authoring::Expectation>{});
+    const auto [measured, missed] = judgeBake(bake, {});
     nlohmann::ordered_json json = io::measurementJson(measured);
     json["missed"] = missed;
     report[std::string(scenario.name)] = json;

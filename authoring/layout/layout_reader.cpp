@@ -10,6 +10,7 @@
 
 #include "authoring/layout/object_reader.h"
 #include "authoring/layout/polygon_check.h"
+#include "authoring/layout/profiles.h"
 
 namespace throng::authoring {
 namespace {
@@ -96,6 +97,13 @@ class Reader {
     void readExpectations(const JsonNode& node) {
         ObjectReader reader(node, "`expect`", diagnostics_);
         if (!reader.isObject()) return;
+        if (const JsonNode* where = node.find("line")) {
+            const std::vector<glm::dvec2> line = reader.points("line", 2);
+            if (line.size() == 2)
+                layout_.flow_line = Line{line[0], line[1]};
+            else if (line.size() > 2)
+                diagnostics_.error(where->where, "`line` is a line of two points");
+        }
         for (const std::string_view figure : kExpectableFigures) {
             const JsonNode* bar = reader.get(std::string(figure));
             if (!bar) continue;
@@ -113,6 +121,9 @@ class Reader {
                                    R"(write for example {"min": 0.99})");
             layout_.expectations.push_back(std::move(expectation));
         }
+        if (const JsonNode* flow = node.find("flow"); flow && !node.find("line"))
+            diagnostics_.error(flow->where, "a bar on `flow` needs the `line` that people are counted at",
+                               R"(write beside it for example "line": [[0, -1], [0, 1]])");
         reader.finish();
     }
 
@@ -282,16 +293,50 @@ class Reader {
         return result;
     }
 
-    PersonSettings peopleOf(ObjectReader& owner) {
-        PersonSettings people;
+    People peopleOf(ObjectReader& owner) {
+        People people;
         const JsonNode* node = owner.get("people");
         if (!node) return people;
         ObjectReader reader(*node, "`people`", diagnostics_);
-        people.speed = distributionOf(reader, "speed", {0.05, 10.0}, people.speed);
-        people.radius = distributionOf(reader, "radius", {0.1, 1.0}, people.radius);
-        reader.number("maximum_speed_factor", {1.0, 3.0}, people.maximum_speed_factor);
+        if (const JsonNode* profile = reader.get("profile")) readProfile(reader, *profile, people);
+        PersonSettings common;
+        const bool has_speed = node->find("speed") != nullptr;
+        const bool has_radius = node->find("radius") != nullptr;
+        common.speed = distributionOf(reader, "speed", {0.05, 10.0}, common.speed);
+        common.radius = distributionOf(reader, "radius", {0.1, 1.0}, common.radius);
+        reader.number("maximum_speed_factor", {1.0, 3.0}, common.maximum_speed_factor);
+        reader.number("headway", {0.0, 5.0}, common.headway);
         reader.finish();
+        for (PeopleShare& share : people.kinds) {
+            if (has_speed) share.settings.speed = common.speed;
+            if (has_radius) share.settings.radius = common.radius;
+            share.settings.maximum_speed_factor = common.maximum_speed_factor;
+            share.settings.headway = common.headway;
+        }
         return people;
+    }
+
+    void readProfile(ObjectReader& people_reader, const JsonNode& node, People& people) {
+        std::vector<std::string> names;
+        for (const Profile& profile : kProfiles)
+            names.emplace_back(profile.name);
+        people.kinds.clear();
+        if (node.kind == JsonNode::Kind::object) {
+            ObjectReader reader(node, "`profile`", diagnostics_);
+            for (const Profile& profile : kProfiles) {
+                if (!node.find(std::string(profile.name))) continue;
+                double weight = 0.0;
+                reader.number(std::string(profile.name), {0.0, 1.0e6, true}, weight);
+                people.kinds.push_back({weight, profile.settings});
+            }
+            reader.finish();
+            if (people.kinds.empty())
+                diagnostics_.error(node.where, "`profile` names nobody",
+                                   R"(for example {"adult": 0.8, "child": 0.2})");
+        } else if (const auto chosen = people_reader.choice("profile", names)) {
+            people.kinds.push_back({1.0, kProfiles[*chosen].settings});
+        }
+        if (people.kinds.empty()) people.kinds.emplace_back();
     }
 
     void readArrival(ObjectReader& reader, Arrival& arrival) {
@@ -422,9 +467,15 @@ class Reader {
         if (goal->find("mirror")) {
             const std::vector<glm::dvec2> line = inner.points("mirror", 2);
             if (line.size() == 2)
-                grid.goal = MirrorLine{line[0], line[1]};
+                grid.goal = Line{line[0], line[1]};
             else if (line.size() > 2)
                 diagnostics_.error(goal->where, "`mirror` is a line of two points");
+        } else if (const JsonNode* box = goal->find("anywhere")) {
+            const std::vector<glm::dvec2> corners = inner.points("anywhere", 2);
+            if (corners.size() == 2)
+                grid.goal = Extent{corners[0], corners[1]};
+            else if (corners.size() > 2)
+                diagnostics_.error(box->where, "`anywhere` is a box: two opposite corners");
         } else {
             glm::dvec2 offset(0.0);
             inner.point("offset", "added to everybody's position, [dx, dy] in metres", offset);
@@ -462,11 +513,11 @@ class Reader {
         for (const Flow& flow : layout_.flows) {
             people += flow.count ? static_cast<double>(*flow.count)
                                  : flow.rate.value_or(0.0) * (flow.end - flow.start);
-            largest = std::max(largest, flow.people.radius.maximum);
+            largest = std::max(largest, flow.people.largestRadius());
         }
         for (const Formation& formation : layout_.formations) {
             people += countOf(formation);
-            largest = std::max(largest, formation.people.radius.maximum);
+            largest = std::max(largest, formation.people.largestRadius());
             if (const auto* list = std::get_if<ListFormation>(&formation.shape))
                 for (const ListedAgent& agent : list->agents)
                     largest = std::max(largest, agent.radius.value_or(0.0));

@@ -12,13 +12,27 @@ constexpr double kBriskest = 1.0e7;  // more people than this from one rate is a
 
 }  // namespace
 
-gpu::Person drawPerson(const PersonSettings& settings, const GroupRandom& random, std::uint64_t index,
+const PersonSettings& kindOf(const People& people, const GroupRandom& random, std::uint64_t index) {
+    double left = 0.0;
+    for (const PeopleShare& share : people.kinds)
+        left += share.weight;
+    left *= random.unit(index, Purpose::kind);
+    for (const PeopleShare& share : people.kinds) {
+        if (left < share.weight) return share.settings;
+        left -= share.weight;
+    }
+    return people.kinds.back().settings;
+}
+
+gpu::Person drawPerson(const People& people, const GroupRandom& random, std::uint64_t index,
                        std::uint32_t group) {
+    const PersonSettings& settings = kindOf(people, random, index);
     gpu::Person person{};
     const double speed = random.draw(settings.speed, index, Purpose::speed);
     person.radius = static_cast<float>(random.draw(settings.radius, index, Purpose::radius));
     person.preferred_speed = static_cast<float>(speed);
     person.maximum_speed = static_cast<float>(speed * settings.maximum_speed_factor);
+    person.headway = static_cast<float>(settings.headway);
     person.stride_length = static_cast<float>(kStride);
     person.phase = static_cast<float>(random.unit(index, Purpose::phase));
     person.variation = static_cast<std::uint32_t>(random.word(index, Purpose::variation) % kVariations);

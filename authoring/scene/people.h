@@ -14,7 +14,7 @@ inline constexpr std::uint32_t kVariations = 8;
 
 /// Draws what makes one person of a group differ from the next: body, speed, gait, looks. Place and route are
 /// left open.
-gpu::Person drawPerson(const PersonSettings& settings, const GroupRandom& random, std::uint64_t index,
+gpu::Person drawPerson(const People& people, const GroupRandom& random, std::uint64_t index,
                        std::uint32_t group);
 
 /// When the people of a flow want to enter, s, in order: evenly spread with some jitter (count) or as a

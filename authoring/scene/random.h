@@ -30,7 +30,18 @@ inline std::uint64_t hashText(std::string_view text) {
     return hash;
 }
 
-enum class Purpose : std::uint64_t { speed, radius, time, phase, variation, jitter_x, jitter_y };
+enum class Purpose : std::uint64_t {
+    speed,
+    radius,
+    time,
+    phase,
+    variation,
+    jitter_x,
+    jitter_y,
+    kind,
+    goal_x,
+    goal_y
+};
 
 class GroupRandom {
   public:

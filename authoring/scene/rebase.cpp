@@ -64,7 +64,7 @@ void placeCircle(const CircleFormation& circle, FormationPlaces& places) {
     }
 }
 
-glm::dvec2 mirrored(glm::dvec2 point, const MirrorLine& line) {
+glm::dvec2 mirrored(glm::dvec2 point, const Line& line) {
     const glm::dvec2 axis = line.b - line.a;
     const glm::dvec2 foot = line.a + axis * (glm::dot(point - line.a, axis) / glm::dot(axis, axis));
     return 2.0 * foot - point;
@@ -85,8 +85,12 @@ void placeGrid(const GridFormation& grid, const GroupRandom& random, FormationPl
                                    up * (static_cast<double>(row) * grid.spacing) + jitter * grid.jitter);
         if (const auto* offset = std::get_if<glm::dvec2>(&grid.goal))
             places.goals.push_back(places.positions.back() + *offset);
-        if (const auto* line = std::get_if<MirrorLine>(&grid.goal))
+        if (const auto* line = std::get_if<Line>(&grid.goal))
             places.goals.push_back(mirrored(places.positions.back(), *line));
+        if (const auto* box = std::get_if<Extent>(&grid.goal))
+            places.goals.push_back(box->a +
+                                   (box->b - box->a) * glm::dvec2(random.unit(person, Purpose::goal_x),
+                                                                  random.unit(person, Purpose::goal_y)));
     }
 }
 

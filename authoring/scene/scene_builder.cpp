@@ -105,7 +105,7 @@ class Builder {
             beginGroup(formation.id, false);
             for (std::size_t i = 0; i < places.positions.size(); ++i) {
                 gpu::Person person = drawPerson(formation.people, random, i, group());
-                if (list) overrideListed(list->agents[i], formation.people, person);
+                if (list) overrideListed(list->agents[i], person);
                 person.spawn_position = rebase_.local(places.positions[i]);
                 person.spawn_time =
                     static_cast<float>(formation.start == 0.0 ? -layout_.simulation.warmup : formation.start);
@@ -116,12 +116,11 @@ class Builder {
         }
     }
 
-    static void overrideListed(const ListedAgent& agent, const PersonSettings& settings,
-                               gpu::Person& person) {
+    static void overrideListed(const ListedAgent& agent, gpu::Person& person) {
         if (agent.radius) person.radius = static_cast<float>(*agent.radius);
         if (!agent.speed) return;
+        person.maximum_speed *= static_cast<float>(*agent.speed) / person.preferred_speed;
         person.preferred_speed = static_cast<float>(*agent.speed);
-        person.maximum_speed = static_cast<float>(*agent.speed * settings.maximum_speed_factor);
     }
 
     void beginGroup(const std::string& id, bool is_flow) {

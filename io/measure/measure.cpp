@@ -341,11 +341,12 @@ class Measurer {
                 result_.speed_by_density.emplace_back((bin + 0.5) * 0.25,
                                                       entry.first / static_cast<double>(entry.second));
         if (options_.line && crossed_ > 1 && last_across_ > first_across_)
-            result_.specific_flow = static_cast<double>(crossed_ - 1) /
-                                    ((last_across_ - first_across_) * dt_ *
-                                     glm::distance(options_.line->first, options_.line->second));
+            result_.flow = static_cast<double>(crossed_ - 1) / ((last_across_ - first_across_) * dt_);
         else if (options_.line)
-            result_.specific_flow = 0.0;
+            result_.flow = 0.0;
+        if (result_.flow)
+            result_.specific_flow =
+                *result_.flow / glm::distance(options_.line->first, options_.line->second);
     }
 
     const Bake& bake_;

@@ -46,6 +46,7 @@ struct Measurement {
 
     double mean_density = 0.0, high_density = 0.0;  ///< persons/m^2, Voronoi; mean and 99th percentile
     double mean_speed = 0.0;                        ///< m/s, of those present
+    std::optional<double> flow;                     ///< persons/s across the line, while anybody crosses
     std::optional<double> specific_flow;            ///< persons/(s m) across the line, while anybody crosses
 
     std::vector<glm::dvec2> speed_by_density;  ///< (persons/m^2, mean m/s)

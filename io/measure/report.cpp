@@ -49,6 +49,7 @@ std::optional<double> figureNamed(const Measurement& m, const std::string& name)
         {"lane_order", m.lane_order},
         {"mean_speed", m.mean_speed},
         {"high_density", m.high_density},
+        {"flow", m.flow.value_or(0.0)},
     };
     for (const auto& [known, value] : figures)
         if (name == known) return value;
@@ -92,6 +93,7 @@ Json measurementJson(const Measurement& m) {
                  {"mean_density", rounded(m.mean_density)},
                  {"high_density", rounded(m.high_density)},
                  {"mean_speed", rounded(m.mean_speed)}};
+    if (m.flow) json["flow"] = rounded(*m.flow);
     if (m.specific_flow) json["specific_flow"] = rounded(*m.specific_flow);
     json["speed_by_density"] = Json::array();
     for (const glm::dvec2 point : m.speed_by_density)

@@ -31,7 +31,7 @@ struct Person {
     uint first_stage;       // index into stages
     uint stage_count;       // at least 1
     uint group;             // flow or formation, index into the scene's groups
-    uint reserved;
+    float headway;          // s of free way kept to those walked behind; 0 = pushes on
 };
 
 /// A step of somebody's route: walk until at most `tolerance` metres are left.

@@ -70,8 +70,8 @@ TEST(LayoutReader, ReadsWhatIsWritten) {
     ASSERT_EQ(layout.flows.size(), 1u);
     EXPECT_EQ(layout.flows[0].rate, 2.5);
     EXPECT_EQ(layout.flows[0].end, 12.5);
-    EXPECT_EQ(layout.flows[0].people.speed.kind, Distribution::Kind::normal);
-    EXPECT_EQ(layout.flows[0].people.speed.minimum, 1.0);
+    EXPECT_EQ(layout.flows[0].people.kinds[0].settings.speed.kind, Distribution::Kind::normal);
+    EXPECT_EQ(layout.flows[0].people.kinds[0].settings.speed.minimum, 1.0);
     EXPECT_EQ(layout.flows[0].to.index, 1u);
 }
 

@@ -66,7 +66,7 @@ TEST_F(SharedTypesTest, PersonAndStateAgree) {
     EXPECT_MEMBER(found, "people", Person, flags);
     EXPECT_MEMBER(found, "people", Person, first_stage);
     EXPECT_MEMBER(found, "people", Person, stage_count);
-    EXPECT_MEMBER(found, "people", Person, reserved);
+    EXPECT_MEMBER(found, "people", Person, headway);
     EXPECT_MEMBER(found, "states", AgentState, position);
     EXPECT_MEMBER(found, "states", AgentState, velocity);
     EXPECT_MEMBER(found, "states", AgentState, heading);
