@@ -168,7 +168,7 @@ void main() {
     float pace = paceAmongAll(self, slot, way, speed, headway);
     paces[slot] = pace;
     Manners manners = mannersOf(way, states[self.row].nervousness, neighbour_counts[slot], headway, pace / max(speed, STANDING_SPEED));
-    vec2 acceleration = drive(way * pace, self.velocity) + roomForAll(self, slot, wish, manners);
+    vec2 acceleration = drive(pace < speed ? wish * (pace / speed) : wish, self.velocity) + roomForAll(self, slot, wish, manners);
     vec2 wanted = self.velocity + acceleration * parameters.step_seconds;
     vec2 velocity;
     int obeyed = solveInDisc(0, count, self.maximum_speed, wanted, false, velocity);

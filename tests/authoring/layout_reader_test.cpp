@@ -75,6 +75,35 @@ TEST(LayoutReader, ReadsWhatIsWritten) {
     EXPECT_EQ(layout.flows[0].to.index, 1u);
 }
 
+TEST(LayoutReader, ReadsProfilesAndWhatIsWrittenBesideThem) {
+    const Layout layout = read(kTwoAreas + R"("flows": [
+ {"id": "f", "from": "a", "to": "b", "rate": 1, "people": {"profile": {"adult": 3, "child": 1}, "headway": 0.2}},
+ {"id": "g", "from": "a", "to": "b", "rate": 1, "people": {"profile": "runner", "radius": 0.3}}]})");
+    ASSERT_EQ(layout.flows[0].people.kinds.size(), 2u);
+    EXPECT_EQ(layout.flows[0].people.kinds[0].weight, 3.0);
+    EXPECT_EQ(layout.flows[0].people.kinds[1].settings.radius.maximum, 0.2);
+    EXPECT_EQ(layout.flows[0].people.kinds[1].settings.headway, 0.2);
+    ASSERT_EQ(layout.flows[1].people.kinds.size(), 1u);
+    EXPECT_EQ(layout.flows[1].people.kinds[0].settings.speed.mean, 3.2);
+    EXPECT_EQ(layout.flows[1].people.largestRadius(), 0.3);
+}
+
+TEST(LayoutReader, SaysWhatProfilesThereAre) {
+    expectError(
+        "{\"throng\": 1, \"formations\": [{\"id\": \"c\", \"type\": \"circle\", \"centre\": [0, 0],\n"
+        " \"radius\": 5, \"count\": 6, \"people\": {\"profile\": \"adlut\"}}]}",
+        2, 49, "/formations/0/people/profile", "expected one of", "`adult`");
+}
+
+TEST(LayoutReader, ABarOnFlowNeedsALine) {
+    expectError("{\"throng\": 1,\n \"expect\": {\"flow\": {\"min\": 1}}}", 2, 21, "/expect/flow",
+                "needs the `line`");
+    const Layout layout = read(R"({"throng": 1, "expect": {"line": [[0, -1], [0, 1]], "flow": {"min": 1}},
+ "formations": [{"id": "c", "type": "circle", "centre": [0, 0], "radius": 5, "count": 6}]})");
+    ASSERT_TRUE(layout.flow_line.has_value());
+    EXPECT_EQ(layout.flow_line->b.y, 1.0);
+}
+
 TEST(LayoutReader, PointsAtUnknownKeysAndGuessesWhatWasMeant) {
     expectError(
         "{\"throng\": 1,\n \"roads\": [\n  {\"id\": \"r\", \"centreline\": [[0,0],[9,0]], \"widht\": 3}]}", 3,

@@ -228,5 +228,44 @@ TEST(SceneBuilder, PeopleDrawnOnTopOfEachOtherWaitForRoom) {
     EXPECT_FALSE(scene.people[1].flags & gpu::PERSON_PRESENT_AT_START);
 }
 
+TEST(SceneBuilder, DrawsPeopleOfSeveralProfilesByTheirWeights) {
+    Layout layout = simpleLayout();
+    layout.flows[0].count = 1234;
+    PeopleShare child, runner;
+    child.weight = 3.0;
+    child.settings.radius = {Distribution::Kind::constant, 0.18, 0.0, 0.18, 0.18};
+    runner.weight = 1.0;
+    runner.settings.speed = {Distribution::Kind::constant, 3.0, 0.0, 3.0, 3.0};
+    runner.settings.headway = 0.2;
+    layout.flows[0].people.kinds = {child, runner};
+    const Scene scene = built(layout);
+    std::size_t children = 0, runners = 0;
+    for (const gpu::Person& person : scene.people) {
+        children += person.radius == 0.18f ? 1 : 0;
+        runners += person.preferred_speed == 3.0f && person.headway == 0.2f ? 1 : 0;
+    }
+    EXPECT_EQ(children + runners, 1234u);
+    EXPECT_NEAR(static_cast<double>(children), 1234.0 * 0.75, 45.0);  // three deviations
+}
+
+TEST(SceneBuilder, ScattersGoalsOverABox) {
+    Layout layout;
+    GridFormation grid;
+    grid.rows = 40;
+    grid.columns = 40;
+    grid.spacing = 1.0;
+    grid.goal = Extent{{10, 50}, {-10, 20}};
+    layout.formations.push_back({"scattered", grid, 0.0, {}, Arrival::stay, 0.3, {}});
+    const Scene scene = built(layout);
+    glm::dvec2 mean(0.0);
+    for (const glm::vec2 goal : scene.goals) {
+        const glm::dvec2 world = scene.origin + glm::dvec2(goal);
+        ASSERT_TRUE(world.x >= -10 && world.x <= 10 && world.y >= 20 && world.y <= 50);
+        mean += world / 1600.0;
+    }
+    EXPECT_NEAR(mean.x, 0.0, 0.5);
+    EXPECT_NEAR(mean.y, 35.0, 0.7);
+}
+
 }  // namespace
 }  // namespace throng::authoring
