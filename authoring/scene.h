@@ -29,9 +29,9 @@ struct Group {
 /// Without cells where the layout does not ask for it.
 struct Detours {
     FieldGrid grid;
-    std::vector<gpu::GroundCell> ground;          ///< one map after the other
-    std::vector<std::uint32_t> ground_of_field;   ///< which of the maps, per distance field
-    std::vector<float> distances;                 ///< m, field after field; gpu::BLOCKED_COST where no path leads
+    std::vector<gpu::GroundCell> ground;         ///< one map after the other
+    std::vector<std::uint32_t> ground_of_field;  ///< which of the maps, per distance field
+    std::vector<float> distances;  ///< m, field after field; gpu::BLOCKED_COST where no path leads
 };
 
 /// Everything the simulation needs, in the scene frame: single precision, metres from `origin`.

@@ -39,7 +39,8 @@ Congestion::Congestion(const gl::ShaderLibrary& library, Buffers& buffers, const
     slope_ = gl::ComputeProgram(library, "shaders/detour_slope.comp");
     for (gl::ComputeProgram* program : {&flow_, &relax_, &slope_})
         program->bindAll(named);
-    flow_.set("fading", 1.0f - std::exp(-static_cast<float>(kStepsPerLook) * parameters.step_seconds / kMemory));
+    flow_.set("fading",
+              1.0f - std::exp(-static_cast<float>(kStepsPerLook) * parameters.step_seconds / kMemory));
 }
 
 void Congestion::run() {
