@@ -318,6 +318,7 @@ class Reader {
 
     void readProfile(ObjectReader& people_reader, const JsonNode& node, People& people) {
         std::vector<std::string> names;
+        names.reserve(kProfiles.size());
         for (const Profile& profile : kProfiles)
             names.emplace_back(profile.name);
         people.kinds.clear();
