@@ -2,6 +2,7 @@
 """The scenarios that motion is judged by, as users run them. Those of thousands of people are left to `throng scenarios`,
 but for the two that crowds are known to jam in."""
 import json
+import shutil
 
 import pytest
 
@@ -17,7 +18,9 @@ def scenario(throng, tmp_path_factory):
     folder = tmp_path_factory.mktemp("scenarios")
 
     def run(name, expect=0):
-        return json.loads(throng("scenarios", "--run", name, "--json", "-o", folder, expect=expect).stdout)
+        figures = json.loads(throng("scenarios", "--run", name, "--json", "-o", folder, expect=expect).stdout)
+        shutil.rmtree(folder / name)  # thousands of people for minutes are gigabytes
+        return figures
 
     return run
 
