@@ -53,3 +53,10 @@ def test_wider_doors_let_more_people_through(scenario):
     flows = [scenario(f"bottleneck-{width}", expect=None)["flow"] for width in ("080", "100", "120")]
     assert flows == sorted(flows)
     assert flows[-1] > 1.5 * flows[0]
+
+
+def test_twice_the_exits_take_about_half_the_time(scenario):
+    """RiMEA test 9."""
+    two, four = scenario("rimea-9-two-exits", expect=None), scenario("rimea-9-four-exits", expect=None)
+    assert two["arrived"] == four["arrived"] == 1000
+    assert 1.6 <= two["seconds"] / four["seconds"] <= 2.4
