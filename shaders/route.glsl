@@ -7,20 +7,18 @@ struct RouteAhead {
     float remaining;  // m
 };
 
-/// The bilinear weights' cell and fraction on the distance fields' grid.
-void gridPosition(vec2 position, out uvec2 cell, out vec2 fraction) {
-    vec2 size = vec2(parameters.grid_width, parameters.grid_height);
-    vec2 at = clamp((position - parameters.grid_minimum) / parameters.grid_cell - 0.5, vec2(0.0), size - 1.001);
+/// The bilinear weights' cell and fraction on a grid of `size` cells that begins where the distance fields' does.
+void gridPosition(vec2 position, float cell_size, uvec2 size, out uvec2 cell, out vec2 fraction) {
+    vec2 at = clamp((position - parameters.grid_minimum) / cell_size - 0.5, vec2(0.0), vec2(size) - 1.001);
     cell = uvec2(at);
     fraction = at - vec2(cell);
 }
 
 /// How fast jams make the way longer, towards each axis: what the coarse map knows, between its cells' middles.
 vec2 detourSlope(uint field, vec2 position) {
-    vec2 size = vec2(parameters.detour_width, parameters.detour_height);
-    vec2 at = clamp((position - parameters.grid_minimum) / parameters.detour_cell - 0.5, vec2(0.0), size - 1.001);
-    uvec2 cell = uvec2(at);
-    vec2 fraction = at - vec2(cell);
+    uvec2 cell;
+    vec2 fraction;
+    gridPosition(position, parameters.detour_cell, uvec2(parameters.detour_width, parameters.detour_height), cell, fraction);
     uint first = (field * parameters.detour_height + cell.y) * parameters.detour_width + cell.x;
     uint above = first + parameters.detour_width;
     return mix(mix(detour_slopes[first], detour_slopes[first + 1u], fraction.x),
@@ -30,7 +28,7 @@ vec2 detourSlope(uint field, vec2 position) {
 RouteAhead sampleField(uint field, vec2 position) {
     uvec2 cell;
     vec2 fraction;
-    gridPosition(position, cell, fraction);
+    gridPosition(position, parameters.grid_cell, uvec2(parameters.grid_width, parameters.grid_height), cell, fraction);
     uint base = field * parameters.grid_width * parameters.grid_height + cell.y * parameters.grid_width + cell.x;
     FieldCell corner[4] = FieldCell[4](fields[base], fields[base + 1u], fields[base + parameters.grid_width],
                                        fields[base + parameters.grid_width + 1u]);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/congestion.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace throng::sim {

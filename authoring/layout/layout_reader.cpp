@@ -97,13 +97,7 @@ class Reader {
     void readExpectations(const JsonNode& node) {
         ObjectReader reader(node, "`expect`", diagnostics_);
         if (!reader.isObject()) return;
-        if (const JsonNode* where = node.find("line")) {
-            const std::vector<glm::dvec2> line = reader.points("line", 2);
-            if (line.size() == 2)
-                layout_.flow_line = Line{line[0], line[1]};
-            else if (line.size() > 2)
-                diagnostics_.error(where->where, "`line` is a line of two points");
-        }
+        if (const JsonNode* line = node.find("line")) layout_.flow_line = lineOf(reader, "line", *line);
         for (const std::string_view figure : kExpectableFigures) {
             const JsonNode* bar = reader.get(std::string(figure));
             if (!bar) continue;
@@ -125,6 +119,15 @@ class Reader {
             diagnostics_.error(flow->where, "a bar on `flow` needs the `line` that people are counted at",
                                R"(write beside it for example "line": [[0, -1], [0, 1]])");
         reader.finish();
+    }
+
+    /// A line of exactly two points; more are an error at `blamed`.
+    std::optional<Line> lineOf(ObjectReader& reader, const std::string& key, const JsonNode& blamed) {
+        const std::vector<glm::dvec2> points = reader.points(key, 2);
+        if (points.size() == 2) return Line{points[0], points[1]};
+        if (points.size() > 2)
+            diagnostics_.error(blamed.where, fmt::format("`{}` is a line of two points", key));
+        return std::nullopt;
     }
 
     void claimId(const JsonNode& node, const std::string& id, std::map<std::string, std::size_t>& ids,
@@ -466,11 +469,7 @@ class Reader {
         }
         ObjectReader inner(*goal, "`goal`", diagnostics_);
         if (goal->find("mirror")) {
-            const std::vector<glm::dvec2> line = inner.points("mirror", 2);
-            if (line.size() == 2)
-                grid.goal = Line{line[0], line[1]};
-            else if (line.size() > 2)
-                diagnostics_.error(goal->where, "`mirror` is a line of two points");
+            if (const auto line = lineOf(inner, "mirror", *goal)) grid.goal = *line;
         } else if (const JsonNode* box = goal->find("anywhere")) {
             const std::vector<glm::dvec2> corners = inner.points("anywhere", 2);
             if (corners.size() == 2)

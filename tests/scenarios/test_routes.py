@@ -22,6 +22,5 @@ def test_a_door_full_of_people_is_avoided(throng, tmp_path, heeds, door):
     (tmp_path / "hall.json").write_text(json.dumps(layout))
     throng("bake", tmp_path / "hall.json", "-o", tmp_path / "bake", "-q", "--no-gltf")
     way = numpy.load(tmp_path / "bake" / "streams" / "pos.npy")[:, 0, :2]
-    furthest_aside = numpy.abs(way[:, 1] - door).min() if heeds else numpy.abs(way[:, 1]).max()
     through = way[numpy.argmin(numpy.abs(way[:, 0]))]
-    assert through[1] == pytest.approx(door, abs=1.1), furthest_aside
+    assert through[1] == pytest.approx(door, abs=1.1)
