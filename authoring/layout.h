@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <optional>
@@ -26,10 +27,11 @@ struct SourcePosition {
 
 /// A per-person quantity. Every draw is clamped to [minimum, maximum].
 struct Distribution {
-    enum class Kind { constant, uniform, normal };
+    enum class Kind { constant, uniform, normal, log_normal };
     Kind kind = Kind::constant;
-    double mean = 0.0;                ///< the value (constant) or the mean (normal); unused by uniform
-    double standard_deviation = 0.0;  ///< normal only
+    double mean =
+        0.0;  ///< the value (constant), the mean (normal) or that of its logarithm; unused by uniform
+    double standard_deviation = 0.0;  ///< normal; of the logarithm for log_normal
     double minimum = 0.0;
     double maximum = 0.0;
 };
@@ -45,6 +47,8 @@ struct PersonSettings {
     double maximum_speed_factor = 1.4;
     /// s, 0 to 5: the free way kept to those walked behind. 0: people press on.
     double headway = 0.0;
+    /// s, 0 to 3600: how long it takes to set off when an event sends people somewhere else.
+    Distribution reaction;
 };
 
 /// A kind of people and how large its share is.
@@ -53,9 +57,14 @@ struct PeopleShare {
     PersonSettings settings;
 };
 
+/// Larger groups of friends split up into twos and threes (Moussaid et al. 2010).
+inline constexpr std::size_t kLargestParty = 4;
+
 /// Who walks: at least one kind.
 struct People {
     std::vector<PeopleShare> kinds{PeopleShare{}};
+    /// Weights of social groups of one, two, three and four people who walk together.
+    std::array<double, kLargestParty> party_sizes{1.0, 0.0, 0.0, 0.0};
     double largestRadius() const {
         double largest = 0.0;
         for (const PeopleShare& share : kinds)
@@ -117,6 +126,13 @@ struct Wall {
     double thickness = 0.2;  ///< m, open walls only
     double height = 3.0;     ///< m, for the exported meshes; the simulation is flat
     SourcePosition where;
+    bool open_at_start = false;     ///< a gate that is closed later
+    std::vector<double> toggles{};  ///< s, increasing: when events open or close it, in turn
+    bool isOpen(double time) const {
+        const auto passed =
+            std::count_if(toggles.begin(), toggles.end(), [&](double at) { return at <= time; });
+        return open_at_start != (passed % 2 == 1);
+    }
 };
 
 /// A place that people come from or go to: an area, or one end of a road.
@@ -129,11 +145,36 @@ struct Place {
 
 enum class Arrival { leave, stay };
 
+/// Where somebody goes: one place, whichever of several is nearest by the present routes, or one drawn by
+/// weight.
+struct Destination {
+    enum class Kind { one, nearest, choose };
+    Kind kind = Kind::one;
+    std::vector<Place> places;
+    std::vector<double> weights;  ///< choose: one per place
+    SourcePosition where;
+};
+
+/// What people do where they stop.
+enum class Activity { gather, look, queue };
+
+/// A place on the way, and what happens there.
+struct Stop {
+    Destination at;
+    Distribution wait;  ///< s; people pass through where it is constant zero
+    Activity activity = Activity::gather;
+    std::optional<glm::dvec2> facing;  ///< what they look at; otherwise each other
+    std::vector<glm::dvec2> line;      ///< queue: where people line up, from the front
+    double spacing = 0.8;              ///< m between people in line, [0.4, 10]
+    SourcePosition where;
+    bool stops() const { return wait.kind != Distribution::Kind::constant || wait.mean > 0.0; }
+};
+
 struct Flow {
     std::string id;
     Place from;
-    std::vector<Place> via;
-    Place to;
+    std::vector<Stop> via;
+    Destination to;
     std::optional<std::uint64_t> count;  ///< people in all, spread evenly over [start, end]
     std::optional<double> rate;  ///< people per second (Poisson arrivals, seeded); exactly one of count, rate
     double start = 0.0;          ///< s
@@ -173,7 +214,7 @@ struct GridFormation {
     std::uint64_t count = 0;    ///< people, column by column from the first; 0 = all rows and columns
     /// An offset added to each person's position, a place, a line at which each position is mirrored, or
     /// anywhere in a box.
-    std::variant<glm::dvec2, Place, Line, Extent> goal;
+    std::variant<glm::dvec2, Destination, Line, Extent> goal;
 };
 
 struct ListedAgent {
@@ -193,9 +234,28 @@ struct Formation {
     std::string id;
     std::variant<CircleFormation, GridFormation, ListFormation> shape;
     double start = 0.0;  ///< s: when they appear
+    Distribution wait;   ///< s: how long they stand before they set off
     People people;
     Arrival arrival = Arrival::stay;
     double goal_tolerance = 0.3;  ///< m: this near a point goal is arrived
+    SourcePosition where;
+};
+
+/// Something that happens at a time.
+struct Event {
+    enum class Kind {
+        open,   ///< a wall is gone from now on
+        close,  ///< a wall is there from now on
+        go_to,  ///< people set off to somewhere else
+        rate,   ///< a flow brings more or fewer people from now on
+    };
+    Kind kind = Kind::go_to;
+    double at = 0.0;          ///< s
+    std::size_t subject = 0;  ///< open, close: index into walls; rate: into flows
+    double rate = 0.0;        ///< persons/s
+    Destination to;           ///< go_to
+    Arrival arrival = Arrival::leave;
+    std::vector<std::string> who;  ///< go_to: ids of flows and formations; empty = everybody
     SourcePosition where;
 };
 
@@ -207,6 +267,7 @@ struct Layout {
     std::vector<Wall> walls;
     std::vector<Flow> flows;
     std::vector<Formation> formations;
+    std::vector<Event> events;  ///< in the order of their times
     std::vector<Expectation> expectations;
     std::optional<Line> flow_line;  ///< across which people are counted for the bar on `flow`
 };

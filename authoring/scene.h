@@ -19,6 +19,13 @@ struct FieldGrid {
     std::uint32_t height = 0;
 };
 
+/// A wall opens or closes.
+struct GateMove {
+    double time = 0.0;  ///< s
+    std::uint32_t wall = 0;
+    bool opens = false;
+};
+
 /// Where a group of rows came from, for the account and the table of agents.
 struct Group {
     std::string id;  ///< the flow's or formation's id
@@ -31,6 +38,7 @@ struct Detours {
     FieldGrid grid;
     std::vector<gpu::GroundCell> ground;         ///< one map after the other
     std::vector<std::uint32_t> ground_of_field;  ///< which of the maps, per distance field
+    std::vector<bool> has_choice;  ///< per field: whether it leads to the nearest of several places
     std::vector<float> distances;  ///< m, field after field; gpu::BLOCKED_COST where no path leads
 };
 
@@ -49,6 +57,10 @@ struct Scene {
     std::vector<gpu::Person> people;
     std::vector<glm::vec2> goals;  ///< per row, the middle of the last target, for the table of agents
     std::vector<gpu::Stage> stages;
+    std::vector<gpu::PlanChange> plan_changes;
+    std::vector<gpu::WaitingLine> lines;
+    std::vector<glm::vec2> line_points;
+    std::uint32_t ticket_count = 0;  ///< of all lines
     std::vector<gpu::Entry> entries;
     std::vector<glm::vec2> entry_points;
     std::vector<gpu::SpawnQueue> queues;
@@ -56,6 +68,8 @@ struct Scene {
 
     std::vector<gpu::WallSegment> wall_segments;
     std::vector<gpu::WallTile> wall_tiles;
+    std::vector<GateMove> gate_moves;          ///< in the order of their times
+    std::vector<std::uint32_t> open_at_start;  ///< walls
 
     FieldGrid grid;
     std::vector<gpu::FieldCell> fields;  ///< field f holds cells [f * cells, (f + 1) * cells)

@@ -56,16 +56,17 @@ std::string agentTable(const BakeDescription& description, const Account& accoun
     if (account.agents.size() != description.agents.size())
         throw std::invalid_argument("the account and the description differ in their number of people");
     std::string table =
-        "id,group,kind,radius,preferred_speed,variation,spawn_frame,arrival_frame,outcome,reason,goal_x,goal_"
+        "id,group,kind,radius,preferred_speed,variation,party,spawn_frame,arrival_frame,outcome,reason,goal_"
+        "x,goal_"
         "y,"
         "distance_walked\n";
     for (std::size_t row = 0; row < description.agents.size(); ++row) {
         const BakeAgent& agent = description.agents[row];
         const BakeGroup& group = description.groups.at(agent.group);
         const AgentOutcome& outcome = account.agents[row];
-        fmt::format_to(std::back_inserter(table), "{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row,
+        fmt::format_to(std::back_inserter(table), "{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row,
                        quoted(group.id), group.is_flow ? "flow" : "formation", agent.radius,
-                       agent.preferred_speed, agent.variation, frameNumber(outcome.spawn_frame),
+                       agent.preferred_speed, agent.variation, agent.party, frameNumber(outcome.spawn_frame),
                        frameNumber(outcome.arrival_frame), outcomeName(outcome.status),
                        quoted(reasonOf(outcome)), agent.goal.x, agent.goal.y, outcome.distance_walked);
     }

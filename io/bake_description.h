@@ -23,7 +23,8 @@ struct BakeAgent {
     float radius = 0.0f;           ///< m
     float preferred_speed = 0.0f;  ///< m/s
     std::uint32_t variation = 0;
-    glm::dvec2 goal{0.0};  ///< m, world
+    std::uint32_t party = 0;  ///< row of the first of those it walks with; its own where it walks alone
+    glm::dvec2 goal{0.0};     ///< m, world
 };
 
 /// All that a bake's files say besides the frames. World coordinates unless told otherwise; metres and

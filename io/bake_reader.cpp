@@ -24,6 +24,7 @@ class ManifestReader {
         throw InputError(path_, fmt::format("`{}` is missing or not {}", pointer, expected));
     }
 
+    bool has(const std::string& pointer) const { return json_.contains(Json::json_pointer(pointer)); }
     const Json& at(const std::string& pointer) const {
         const Json::json_pointer where(pointer);
         if (!json_.contains(where)) fail(pointer, "what it should be");
@@ -95,12 +96,18 @@ void readGeometry(const ManifestReader& reader, Bake& bake) {
     }
     for (std::size_t i = 0; i < reader.list("/geometry/walls").size(); ++i) {
         const std::string at = fmt::format("/geometry/walls/{}", i);
-        bake.walls.push_back({reader.text(at + "/id"),
-                              reader.points(at + "/points"),
-                              reader.flag(at + "/closed"),
-                              reader.number(at + "/thickness"),
-                              reader.number(at + "/height"),
-                              {}});
+        authoring::Wall wall;
+        wall.id = reader.text(at + "/id");
+        wall.points = reader.points(at + "/points");
+        wall.closed = reader.flag(at + "/closed");
+        wall.thickness = reader.number(at + "/thickness");
+        wall.height = reader.number(at + "/height");
+        if (reader.has(at + "/gate")) {
+            wall.open_at_start = reader.flag(at + "/gate/open_at_start");
+            for (std::size_t k = 0; k < reader.list(at + "/gate/toggles").size(); ++k)
+                wall.toggles.push_back(reader.number(fmt::format("{}/gate/toggles/{}", at, k)));
+        }
+        bake.walls.push_back(std::move(wall));
     }
 }
 

@@ -20,12 +20,16 @@ Json pointsToJson(const std::vector<glm::dvec2>& points, glm::dvec2 origin) {
 Json geometryToJson(const BakeDescription& description) {
     const glm::dvec2 origin = description.output_origin;
     Json geometry{{"walls", Json::array()}, {"roads", Json::array()}, {"areas", Json::array()}};
-    for (const authoring::Wall& wall : description.walls)
+    for (const authoring::Wall& wall : description.walls) {
         geometry["walls"].push_back({{"id", wall.id},
                                      {"points", pointsToJson(wall.points, origin)},
                                      {"closed", wall.closed},
                                      {"thickness", wall.thickness},
                                      {"height", wall.height}});
+        if (!wall.toggles.empty())
+            geometry["walls"].back()["gate"] = {{"open_at_start", wall.open_at_start},
+                                                {"toggles", wall.toggles}};
+    }
     for (const authoring::Road& road : description.roads)
         geometry["roads"].push_back({{"id", road.id},
                                      {"centreline", pointsToJson(road.centreline, origin)},
@@ -108,7 +112,7 @@ Json bakeManifest(const BakeDescription& description, const BakeOutcome& outcome
                       {"max", pointToJson(description.maximum - origin)}};
     json["streams"] = {{"pos", streamToJson("pos", {"x", "y", "z"})},
                        {"dir", streamToJson("dir", {"cos_heading", "sin_heading", "speed"})},
-                       {"state", streamToJson("state", {"alive", "variation", "phase"})}};
+                       {"state", streamToJson("state", {"activity", "variation", "phase"})}};
     if (description.densities)
         json["streams"]["density"] = streamToJson("density", {"density", "area", "share"});
     json["table"] = "agents.csv";

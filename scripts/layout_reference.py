@@ -21,10 +21,10 @@ that is wrong in one go. This page is made from the schema by `scripts/layout_re
     }
 
 A **place** is an area's id, or a road's id with `:start` or `:end`. A **distribution** is a number, `{"uniform": [least, most]}` or
-`{"normal": [mean, deviation], "min": ..., "max": ...}`. With a warm-up, flows that start at 0 start at its beginning.
+`{"normal": [mean, deviation], "min": ..., "max": ...}`, or `log_normal` with the mean and deviation of the logarithm. With a warm-up, flows that start at 0 start at its beginning.
 """
 SECTIONS = [("simulation", "Simulation"), ("road", "Roads"), ("area", "Areas"), ("wall", "Walls"), ("flow", "Flows"), ("formation", "Formations"),
-            ("people", "People (in flows and formations)"), ("expect", "Expectations")]
+            ("destination", "Destinations"), ("stop", "Stops (in a flow's `via`)"), ("event", "Events"), ("people", "People (in flows and formations)"), ("expect", "Expectations")]
 
 
 def kind_of(rule):
@@ -32,6 +32,8 @@ def kind_of(rule):
         return rule["$ref"].rsplit("/", 1)[1]
     if "enum" in rule:
         return ", ".join(f"`{value}`" for value in rule["enum"])
+    if rule.get("description", "").startswith("Who walks together"):
+        return "word or array of numbers"
     if "oneOf" in rule:
         return "number or distribution" if rule["oneOf"][0].get("type") == "number" else "place or object"
     if rule.get("type") == "array":
@@ -48,6 +50,8 @@ def range_of(rule):
 
 
 def table(definition):
+    if "properties" not in definition:  # one of several: those that are objects
+        return "\n\n".join(f"{rule['description']}\n\n{table(rule)}" for rule in definition["oneOf"] if "properties" in rule)
     lines = ["| key | type | range | default | meaning |", "| --- | --- | --- | --- | --- |"]
     for name, rule in definition["properties"].items():
         default = f"`{json.dumps(rule['default'])}`" if "default" in rule else "required" if name in definition.get("required", []) else ""

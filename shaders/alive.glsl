@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// Whether a row takes part: others see it, the diagram has its tile, the frame shows it.
-bool isAlive(uint status, uint flags) {
-    return status == STATUS_WALKING || (status == STATUS_ARRIVED && (flags & PERSON_STAYS) != 0u);
-}
+bool isAlive(uint status) { return status == STATUS_WALKING || status == STATUS_ARRIVED; }

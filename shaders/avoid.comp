@@ -144,6 +144,8 @@ vec2 roomForAll(Body self, uint slot, vec2 wish, Manners manners) {
     return room;
 }
 
+#include "shaders/company.glsl"
+
 vec2 limitChange(vec2 from, vec2 to, float most) {
     vec2 change = to - from;
     float size = length(change);
@@ -169,6 +171,7 @@ void main() {
     paces[slot] = pace;
     Manners manners = mannersOf(way, states[self.row].nervousness, neighbour_counts[slot], headway, pace / max(speed, STANDING_SPEED));
     vec2 acceleration = drive(pace < speed ? wish * (pace / speed) : wish, self.velocity) + roomForAll(self, slot, wish, manners);
+    if (people[self.row].party_size > 1u && speed > STANDING_SPEED) acceleration += company(self, way);
     vec2 wanted = self.velocity + acceleration * parameters.step_seconds;
     vec2 velocity;
     int obeyed = solveInDisc(0, count, self.maximum_speed, wanted, false, velocity);

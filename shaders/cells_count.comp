@@ -4,7 +4,6 @@
 
 layout(local_size_x = AGENT_GROUP_SIZE) in;
 layout(std140) uniform ParametersBlock { Parameters parameters; };
-layout(std430) readonly buffer People { Person people[]; };
 layout(std430) readonly buffer States { AgentState states[]; };
 layout(std430) buffer CellCounts { uint cell_counts[]; };
 layout(std430) writeonly buffer RowCells { uint row_cells[]; };
@@ -16,7 +15,7 @@ void main() {
     uint row = gl_GlobalInvocationID.x;
     if (row >= parameters.row_count) return;
     uint cell = NO_INDEX;
-    if (isAlive(states[row].status, people[row].flags)) {
+    if (isAlive(states[row].status)) {
         cell = cellIndex(cellOf(states[row].position));
         atomicAdd(cell_counts[cell], 1u);
     }

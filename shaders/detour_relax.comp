@@ -19,20 +19,44 @@ layout(std430) readonly buffer FreeDistances { float free_distances[]; };  // wi
 layout(std430) writeonly buffer NextDistances { float next_distances[]; };  // of this field alone
 uniform uint field;
 uniform uint ground_map;
+uniform uint has_choice;  // 1 = the field leads to whichever of several places is nearest
 
 #include "shaders/flat_index.glsl"
 
 const float THIN = 1.3;          // persons/m^2: up to here everybody walks as fast as they like
 const float THICK = 3.0;         // persons/m^2: from here on nobody walks faster than the crowd
 const float FREE_SPEED = 1.34;   // m/s (Weidmann 1993)
-const float SLOWEST = 0.2;       // of the free speed: even through a jam that stands, one gets some time
+/// Of the free speed: even through a jam that stands, one gets some time. Who may choose between several places takes a jam
+/// for what it is: a door that hundreds wait for is worth a walk to the next one. What counts then is how fast the crowd gets
+/// nearer to any of the places; or people would circle with those who circle.
+const float SLOWEST = 0.2;
+const float SLOWEST_WITH_CHOICE = 0.05;
 const float AGAINST_ONE_WAY = -0.1;
+
+uint cellsOfMap() { return parameters.detour_width * parameters.detour_height; }
+
+float detourOr(uint cell, bool exists, float otherwise) {
+    float distance = exists ? detour_distances[field * cellsOfMap() + cell] : otherwise;
+    return distance < BLOCKED_COST ? distance : otherwise;
+}
+
+/// Which way the nearest of the places is, by the last distances; a unit vector or zero.
+vec2 downhill(uint cell) {
+    uint x = cell % parameters.detour_width;
+    float here = detour_distances[field * cellsOfMap() + cell];
+    vec2 slope = vec2(detourOr(cell - 1u, x > 0u, here) - detourOr(cell + 1u, x + 1u < parameters.detour_width, here),
+                      detourOr(cell - parameters.detour_width, cell >= parameters.detour_width, here) -
+                      detourOr(cell + parameters.detour_width, cell + parameters.detour_width < cellsOfMap(), here));
+    float size = length(slope);
+    return size > 1.0e-6 ? slope / size : vec2(0.0);
+}
 
 /// Metres of free walking that leaving a cell in this direction is worth.
 float costTowards(uint cell, GroundCell here, vec2 direction) {
     if (dot(unpackSnorm2x16(here.one_way), direction) < AGAINST_ONE_WAY) return BLOCKED_COST;
     CrowdFlow crowd = crowd_flows[cell];
-    float with_crowd = clamp(dot(crowd.velocity, direction) / FREE_SPEED, SLOWEST, 1.0);
+    float with_crowd = has_choice != 0u ? clamp(dot(crowd.velocity, downhill(cell)) / FREE_SPEED, SLOWEST_WITH_CHOICE, 1.0)
+                                        : clamp(dot(crowd.velocity, direction) / FREE_SPEED, SLOWEST, 1.0);
     float speed = mix(1.0, with_crowd, smoothstep(THIN, THICK, crowd.density));
     return here.cost * parameters.detour_cell / speed;
 }
@@ -40,8 +64,10 @@ float costTowards(uint cell, GroundCell here, vec2 direction) {
 /// The better neighbour on one axis: its distance, and the cost of going there.
 vec2 betterSide(uint cell, GroundCell here, uint first, bool has_low, bool has_high, uint stride, vec2 axis) {
     vec2 best = vec2(BLOCKED_COST);
-    if (has_low) best = vec2(detour_distances[first + cell - stride], costTowards(cell, here, -axis));
-    if (has_high) {
+    uint side = axis.x > 0.0 ? OPEN_TO_X : OPEN_TO_Y;
+    if (has_low && (ground[ground_map * cellsOfMap() + cell - stride].open_sides & side) != 0u)
+        best = vec2(detour_distances[first + cell - stride], costTowards(cell, here, -axis));
+    if (has_high && (here.open_sides & side) != 0u) {
         vec2 high = vec2(detour_distances[first + cell + stride], costTowards(cell, here, axis));
         if (high.x + high.y < best.x + best.y) best = high;
     }
@@ -60,7 +86,7 @@ float eikonal(vec2 x, vec2 y) {
 
 void main() {
     uint cell = flatIndex();
-    uint cells = parameters.detour_width * parameters.detour_height;
+    uint cells = cellsOfMap();
     if (cell >= cells) return;
     uint first = field * cells;
     float free = free_distances[first + cell];

@@ -6,9 +6,11 @@ layout(local_size_x = PIXEL_GROUP_SIZE) in;
 layout(std140) uniform ParametersBlock { Parameters parameters; };
 layout(std430) readonly buffer NextDistances { float next_distances[]; };
 layout(std430) readonly buffer FreeDistances { float free_distances[]; };
+layout(std430) readonly buffer Ground { GroundCell ground[]; };
 layout(std430) writeonly buffer DetourDistances { float detour_distances[]; };
 layout(std430) writeonly buffer DetourSlopes { vec2 detour_slopes[]; };
 uniform uint field;
+uniform uint ground_map;
 
 #include "shaders/flat_index.glsl"
 #include "shaders/at_most.glsl"
@@ -18,6 +20,10 @@ const float MOST_SLOPE = 4.0;  // enough to turn anybody round; more would only 
 float delay(uint cell) {
     float free = free_distances[field * parameters.detour_width * parameters.detour_height + cell];
     return free >= BLOCKED_COST ? -1.0 : max(next_distances[cell] - free, 0.0);
+}
+
+bool isOpen(uint cell, uint side) {
+    return (ground[ground_map * parameters.detour_width * parameters.detour_height + cell].open_sides & side) != 0u;
 }
 
 float slope(float low, float here, float high) {
@@ -35,8 +41,10 @@ void main() {
     vec2 result = vec2(0.0);
     if (here >= 0.0) {
         uint x = cell % width;
-        result.x = slope(x > 0u ? delay(cell - 1u) : -1.0, here, x + 1u < width ? delay(cell + 1u) : -1.0);
-        result.y = slope(cell >= width ? delay(cell - width) : -1.0, here, cell + width < cells ? delay(cell + width) : -1.0);
+        result.x = slope(x > 0u && isOpen(cell - 1u, OPEN_TO_X) ? delay(cell - 1u) : -1.0, here,
+                         x + 1u < width && isOpen(cell, OPEN_TO_X) ? delay(cell + 1u) : -1.0);
+        result.y = slope(cell >= width && isOpen(cell - width, OPEN_TO_Y) ? delay(cell - width) : -1.0, here,
+                         cell + width < cells && isOpen(cell, OPEN_TO_Y) ? delay(cell + width) : -1.0);
     }
     detour_slopes[field * cells + cell] = atMost(result / parameters.detour_cell, MOST_SLOPE);
 }

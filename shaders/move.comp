@@ -13,14 +13,22 @@ layout(std430) readonly buffer Targets { vec2 targets[]; };
 layout(std430) readonly buffer Stages { Stage stages[]; };
 layout(std430) readonly buffer Fields { FieldCell fields[]; };
 layout(std430) readonly buffer DetourSlopes { vec2 detour_slopes[]; };
+layout(std430) readonly buffer PlanChanges { PlanChange plan_changes[]; };
+layout(std430) buffer WaitingLines { WaitingLine waiting_lines[]; };
+layout(std430) readonly buffer LinePoints { vec2 line_points[]; };
 layout(std430) buffer States { AgentState states[]; };
 uniform uint steps_done;  // counted with this one
 
 #include "shaders/route.glsl"
+#include "shaders/waiting_line.glsl"
 
 const float PI = 3.14159265358979;
 const float TURN_TIME = 0.22;          // s: the heading closes in on the velocity's direction with this time constant
 const float TURN_LIMIT = 2.6;          // rad/s, about 150 degrees per second
+
+const float SIGHT = 0.15;              // m: nothing nearer is looked at
+const float JOINING = 0.8;             // m: this near its end, one joins a line
+const float GIVE_UP = 0.6;             // nervousness: where there are too many, one stops where one is
 
 const float PATIENCE_TIME = 2.0;       // s: nervousness follows what happens with this time constant
 
@@ -34,11 +42,83 @@ float heldUp(vec2 wish, float pace, vec2 velocity) {
 
 float wrapAngle(float angle) { return angle - 2.0 * PI * floor((angle + PI) / (2.0 * PI)); }
 
-float turnTowards(float heading, vec2 velocity, float speed) {
-    if (speed < STANDING_SPEED) return heading;
-    float turn = wrapAngle(atan(velocity.y, velocity.x) - heading);
+float turnTowards(float heading, vec2 direction) {
+    float turn = wrapAngle(atan(direction.y, direction.x) - heading);
     float most = TURN_LIMIT * parameters.step_seconds;
     return wrapAngle(heading + clamp(turn * (1.0 - exp(-parameters.step_seconds / TURN_TIME)), -most, most));
+}
+
+/// What somebody in a line looks at: the place before its own, and in front what the stop is about.
+vec2 nextInLine(AgentState state, Stage stage) {
+    WaitingLine line = waiting_lines[stage.line];
+    if (state.ticket == NO_INDEX || state.ticket == line.served) return stage.facing;
+    return placeInLine(line, state.ticket - line.served - 1u);
+}
+
+/// Who walks looks where it goes; who has stopped, at what there is to see.
+float turned(AgentState state, Stage stage, float speed) {
+    if (speed >= STANDING_SPEED) return turnTowards(state.heading, state.velocity);
+    bool stops = state.status == STATUS_ARRIVED || state.leave_step != 0u || state.ticket != NO_INDEX;
+    vec2 sight = (stage.line != NO_INDEX ? nextInLine(state, stage) : stage.facing) - state.position;
+    return stops && length(sight) > SIGHT ? turnTowards(state.heading, sight) : state.heading;
+}
+
+/// Whether somebody is where its stage leads.
+bool isThere(AgentState state, Stage stage) {
+    RouteAhead ahead = routeAhead(stage, state.position);
+    if (stage.line != NO_INDEX && (state.ticket == NO_INDEX || state.ticket != waiting_lines[stage.line].served)) return false;
+    if (ahead.remaining <= stage.tolerance) return true;
+    return (stage.flags & STAGE_ANYWHERE) != 0u && ahead.straight && state.nervousness > GIVE_UP;
+}
+
+/// Who comes to the end of a line joins it at the end of the step; of several, the smallest row.
+void askToJoin(AgentState state, Stage stage, uint row) {
+    if (stage.line == NO_INDEX || state.ticket != NO_INDEX || state.leave_step != 0u) return;
+    if (distance(stage.point, state.position) < JOINING) atomicMin(waiting_lines[stage.line].candidate, row);
+}
+
+void goOn(inout AgentState state) {
+    state.stage += 1u;
+    state.leave_step = 0u;
+    state.ticket = NO_INDEX;
+    if (state.stage < state.stage_end) return;
+    state.stage = state.stage_end - 1u;
+    state.status = STATUS_GONE;
+    state.arrival_step = steps_done;
+}
+
+/// Stops, waits, goes on, arrives.
+void followRoute(inout AgentState state, Stage stage, uint row) {
+    if (state.status != STATUS_WALKING) return;
+    askToJoin(state, stage, row);
+    if (state.leave_step != 0u) {
+        if (steps_done >= state.leave_step) goOn(state);
+        return;
+    }
+    if (!isThere(state, stage)) return;
+    if (stage.dwell <= 0.0) {
+        goOn(state);
+    } else if (stage.dwell >= DWELL_FOR_GOOD) {
+        state.status = STATUS_ARRIVED;
+        state.arrival_step = steps_done;
+    } else {
+        state.leave_step = steps_done + max(uint(stage.dwell / parameters.step_seconds), 1u);
+    }
+}
+
+/// @returns whether plans have changed
+bool changePlans(inout AgentState state, Person person) {
+    if (state.changes >= person.change_count) return false;
+    PlanChange change = plan_changes[person.first_change + state.changes];
+    if (change.start_step > steps_done) return false;
+    state.changes += 1u;
+    state.stage = change.first_stage;
+    state.stage_end = change.first_stage + change.stage_count;
+    state.status = STATUS_WALKING;
+    state.arrival_step = NO_INDEX;
+    state.leave_step = 0u;
+    state.ticket = NO_INDEX;
+    return true;
 }
 
 void main() {
@@ -47,6 +127,7 @@ void main() {
     Body self = bodies[slot];
     Person person = people[self.row];
     AgentState state = states[self.row];
+    Stage stage = stageOf(state);
 
     vec2 moved = targets[slot] - self.position;
     float distance_moved = length(moved);
@@ -57,18 +138,9 @@ void main() {
     if (speed > person.maximum_speed) state.velocity *= person.maximum_speed / speed;
     state.nervousness += (heldUp(preferred_velocities[slot], paces[slot], state.velocity) - state.nervousness) *
                          min(parameters.step_seconds / PATIENCE_TIME, 1.0);
-    state.heading = turnTowards(self.heading, state.velocity, speed);
+    state.heading = turned(state, stage, speed);
     state.phase += distance_moved / person.stride_length;
     state.walked += distance_moved;
-
-    uint stage = min(state.stage, person.stage_count - 1u);
-    if (state.status == STATUS_WALKING &&
-        routeAhead(stages[person.first_stage + stage], state.position).remaining <= stages[person.first_stage + stage].tolerance) {
-        state.stage = stage + 1u;
-        if (state.stage == person.stage_count) {
-            state.status = STATUS_ARRIVED;
-            state.arrival_step = steps_done;
-        }
-    }
+    if (!changePlans(state, person)) followRoute(state, stage, self.row);
     states[self.row] = state;
 }

@@ -15,7 +15,7 @@ layout(std430) writeonly buffer DensityBlock { float densities[]; };
 void main() {
     uint row = gl_GlobalInvocationID.x;
     if (row >= parameters.row_count) return;
-    bool alive = isAlive(states[row].status, people[row].flags);
+    bool alive = isAlive(states[row].status);
     float pixel_area = 1.0 / (parameters.pixels_per_metre * parameters.pixels_per_metre);
     // Somebody who shares a pixel with a nearer one may own none; half a pixel keeps the density finite.
     float area = alive ? max(float(pixel_counts[row]), 0.5) * pixel_area : 0.0;

@@ -5,6 +5,7 @@
 struct RouteAhead {
     vec2 direction;   // unit vector, or zero at the target itself
     float remaining;  // m
+    bool straight;    // nothing is in the way any more
 };
 
 /// The bilinear weights' cell and fraction on a grid of `size` cells that begins where the distance fields' does.
@@ -34,7 +35,7 @@ RouteAhead sampleField(uint field, vec2 position) {
                                        fields[base + parameters.grid_width + 1u]);
     vec4 weight = vec4((1.0 - fraction.x) * (1.0 - fraction.y), fraction.x * (1.0 - fraction.y),
                        (1.0 - fraction.x) * fraction.y, fraction.x * fraction.y);
-    RouteAhead ahead = RouteAhead(vec2(0.0), 0.0);
+    RouteAhead ahead = RouteAhead(vec2(0.0), 0.0, false);
     for (int i = 0; i < 4; ++i) {
         ahead.direction += weight[i] * unpackSnorm2x16(corner[i].direction);
         ahead.remaining += weight[i] * corner[i].distance;
@@ -53,7 +54,7 @@ RouteAhead sampleField(uint field, vec2 position) {
 RouteAhead routeAhead(Stage stage, vec2 position) {
     vec2 offset = stage.point - position;
     float remaining = length(offset);
-    RouteAhead straight = RouteAhead(remaining > 1.0e-6 ? offset / remaining : vec2(0.0), remaining);
+    RouteAhead straight = RouteAhead(remaining > 1.0e-6 ? offset / remaining : vec2(0.0), remaining, true);
     if (stage.field == NO_INDEX) return straight;
     RouteAhead ahead = sampleField(stage.field & ~FIELD_THEN_POINT, position);
     if ((stage.field & FIELD_THEN_POINT) == 0u) return ahead;

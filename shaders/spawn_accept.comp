@@ -12,7 +12,11 @@ layout(std430) readonly buffer Proposals { SpawnProposal proposals[]; };
 layout(std430) buffer States { AgentState states[]; };
 uniform uint steps_done;  // counted with this one
 
+layout(std430) readonly buffer WaitingLines { WaitingLine waiting_lines[]; };
+layout(std430) readonly buffer LinePoints { vec2 line_points[]; };
+
 #include "shaders/route.glsl"
+#include "shaders/waiting_line.glsl"
 
 const float NEWCOMER_MARGIN = 0.05;  // m
 
@@ -26,7 +30,7 @@ void main() {
             return;
     }
     Person person = people[mine.row];
-    RouteAhead ahead = routeAhead(stages[person.first_stage], mine.position);
+    RouteAhead ahead = routeAhead(stageOf(states[mine.row]), mine.position);
     AgentState state = states[mine.row];
     bool turned = (person.flags & PERSON_FIXED_SPAWN) == 0u && ahead.direction != vec2(0.0);
     state.heading = turned ? atan(ahead.direction.y, ahead.direction.x) : person.heading;

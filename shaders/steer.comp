@@ -11,6 +11,8 @@ layout(std430) readonly buffer Bodies { Body bodies[]; };
 layout(std430) readonly buffer Stages { Stage stages[]; };
 layout(std430) readonly buffer Fields { FieldCell fields[]; };
 layout(std430) readonly buffer DetourSlopes { vec2 detour_slopes[]; };
+layout(std430) readonly buffer WaitingLines { WaitingLine waiting_lines[]; };
+layout(std430) readonly buffer LinePoints { vec2 line_points[]; };
 layout(std430) readonly buffer TouchWords { uint touch_words[]; };
 layout(std430) writeonly buffer PreferredVelocities { vec2 preferred_velocities[]; };
 
@@ -18,6 +20,7 @@ uniform uint steps_done;  // counted with this one
 
 #include "shaders/random.glsl"
 #include "shaders/route.glsl"
+#include "shaders/waiting_line.glsl"
 
 /// Two people who walk straight at each other, and rings of people who all aim at the centre, are in an unstable
 /// balance that half-planes never leave. Everybody therefore aims a little beside the mark, by up to this angle (rad).
@@ -37,7 +40,49 @@ float searchAngle(uint row, float nervousness) {
     return despair * MOST_SEARCH * (randomUnit(parameters.seed ^ PURPOSE_SEARCH, row, turn) * 2.0 - 1.0);
 }
 
-/// Those who stay come to rest at their goal: they slow down by this much (m/s^2), and close in on the last decimetres
+/// Nobody leaves their company behind: who is ahead of somebody by this much (m) slows down, and who is behind hurries.
+const float LEAD_BEGINS = 1.0;
+const float LEAD_ENDS = 4.0;
+const float WAITING_PACE = 0.15;   // of the usual speed: nobody who waits in a stream of people stands quite still
+const float HURRYING_PACE = 1.2;
+
+/// Who has lost its company walks towards it as much as to its goal; not for long where something is in between.
+const float LOST = 2.0;       // m to the nearest of the party
+const float QUITE_LOST = 5.0;
+
+vec2 towardsParty(uint row, Person person, vec2 position, vec2 direction) {
+    vec2 nearest = vec2(1.0e6);
+    for (uint other = person.party_first; other < person.party_first + person.party_size; ++other) {
+        if (other == row || states[other].status != STATUS_WALKING || states[other].leave_step != 0u) continue;
+        vec2 offset = states[other].position - position;
+        if (dot(offset, offset) < dot(nearest, nearest)) nearest = offset;
+    }
+    float distance = length(nearest);
+    if (distance <= LOST || distance > 1.0e5) return direction;
+    float pull = smoothstep(LOST, QUITE_LOST, distance) * (1.0 - smoothstep(0.3, 0.6, states[row].nervousness));
+    vec2 result = direction + pull * nearest / distance;
+    float size = length(result);
+    return size > 0.3 ? result / size : direction;
+}
+
+float paceInParty(uint row, Person person, Stage stage, float remaining) {
+    uint stages_left = states[row].stage_end - states[row].stage;
+    float lead = -LEAD_ENDS;  // over whoever is furthest behind
+    float lag = -LEAD_ENDS;   // behind whoever is furthest ahead
+    for (uint other = person.party_first; other < person.party_first + person.party_size; ++other) {
+        if (other == row || states[other].status != STATUS_WALKING) continue;
+        uint its_stages_left = states[other].stage_end - states[other].stage;
+        float its_remaining = routeAhead(stage, states[other].position).remaining;
+        float difference = its_stages_left == stages_left ? its_remaining - remaining
+                         : its_stages_left > stages_left ? LEAD_ENDS : -LEAD_ENDS;
+        lead = max(lead, difference);
+        lag = max(lag, -difference);
+    }
+    float waiting = mix(1.0, WAITING_PACE, smoothstep(LEAD_BEGINS, LEAD_ENDS, lead));
+    return waiting < 1.0 ? waiting : mix(1.0, HURRYING_PACE, smoothstep(LEAD_BEGINS, LEAD_ENDS, lag));
+}
+
+/// Those who stop come to rest at their place: they slow down by this much (m/s^2), and close in on the last decimetres
 /// with this time constant (s), instead of overshooting.
 const float STOPPING = 0.7;
 const float SETTLING_TIME = 0.8;
@@ -47,15 +92,16 @@ void main() {
     if (slot >= live_count) return;
     uint row = bodies[slot].row;
     Person person = people[row];
-    uint stage = person.first_stage + min(states[row].stage, person.stage_count - 1u);
-    RouteAhead ahead = routeAhead(stages[stage], bodies[slot].position);
+    Stage stage = stageOf(states[row]);
+    RouteAhead ahead = routeAhead(stage, bodies[slot].position);
 
+    if (person.party_size > 1u) ahead.direction = towardsParty(row, person, bodies[slot].position, ahead.direction);
     float angle = (randomUnit(parameters.seed, row, PURPOSE_SYMMETRY) * 2.0 - 1.0) * SYMMETRY_BREAKING +
                   ((touch_words[slot] & TOUCH_WALL_NEAR) != 0u ? searchAngle(row, states[row].nervousness) : 0.0);
     vec2 direction = mat2(cos(angle), sin(angle), -sin(angle), cos(angle)) * ahead.direction;
     float speed = person.preferred_speed;
-    bool last = states[row].stage + 1u >= person.stage_count;
-    if (last && (person.flags & PERSON_STAYS) != 0u)
+    if (person.party_size > 1u) speed *= paceInParty(row, person, stage, ahead.remaining);
+    if (stage.dwell > 0.0)
         speed = min(speed, min(sqrt(2.0 * STOPPING * ahead.remaining), ahead.remaining / SETTLING_TIME));
     preferred_velocities[slot] = direction * speed;
 }

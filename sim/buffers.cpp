@@ -38,6 +38,9 @@ std::vector<gpu::AgentState> initialStates(const authoring::Scene& scene) {
         state.status = present ? gpu::STATUS_WALKING : gpu::STATUS_WAITING;
         state.spawn_step = present ? 0 : gpu::NO_INDEX;
         state.arrival_step = gpu::NO_INDEX;
+        state.stage = person.first_stage;
+        state.stage_end = person.first_stage + person.stage_count;
+        state.ticket = gpu::NO_INDEX;
         states.push_back(state);
     }
     return states;
@@ -133,8 +136,12 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
       people(gl::makeBuffer("people", scene.people)),
       states(gl::makeBuffer("states", initialStates(scene))),
       stages(gl::makeBuffer("stages", scene.stages)),
+      plan_changes(gl::makeBuffer("plan changes", scene.plan_changes)),
       fields(gl::makeBuffer("distance fields", scene.fields)),
       road_distances(gl::makeBuffer("road distances", scene.road_distance)),
+      lines(gl::makeBuffer("waiting lines", scene.lines)),
+      line_points(gl::makeBuffer("line points", scene.line_points)),
+      tickets("tickets", kWord * scene.ticket_count),
       detour_slopes("detour slopes", sizeof(glm::vec2) * scene.detours.distances.size()),
       queues(gl::makeBuffer("queues", scene.queues)),
       queue_heads("queue heads", kWord * scene.queues.size()),
@@ -185,6 +192,10 @@ std::vector<std::pair<std::string, const gl::Buffer*>> Buffers::named() const {
             {"States", &states},
             {"Stages", &stages},
             {"Fields", &fields},
+            {"PlanChanges", &plan_changes},
+            {"WaitingLines", &lines},
+            {"LinePoints", &line_points},
+            {"Tickets", &tickets},
             {"RoadDistances", &road_distances},
             {"DetourSlopes", &detour_slopes},
             {"Queues", &queues},

@@ -20,7 +20,8 @@ struct Buffers {
     gl::Buffer parameters;
 
     gl::Buffer people, states;                                         // per row
-    gl::Buffer stages, fields, road_distances;                         // routes
+    gl::Buffer stages, plan_changes, fields, road_distances;           // routes
+    gl::Buffer lines, line_points, tickets;                            // people who wait in line
     gl::Buffer detour_slopes;                                          // what jams add to them
     gl::Buffer queues, queue_heads, entries, entry_points, proposals;  // entering
     gl::Buffer wall_segments, wall_tiles, wall_starts, wall_items;

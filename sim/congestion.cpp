@@ -20,6 +20,8 @@ Congestion::Congestion(const gl::ShaderLibrary& library, Buffers& buffers, const
     fields_ = static_cast<std::uint32_t>(detours.ground_of_field.size());
     fields_per_step_ = (fields_ + kStepsPerRound - 1) / kStepsPerRound;
     ground_of_field_ = detours.ground_of_field;
+    has_choice_ = detours.has_choice;
+    has_choice_.resize(fields_);
     ground_ = gl::makeBuffer("ground", detours.ground);
     free_distances_ = gl::makeBuffer("free distances", detours.distances);
     distances_ = gl::makeBuffer("detour distances", detours.distances);
@@ -54,8 +56,10 @@ void Congestion::run() {
 void Congestion::relax(std::uint32_t field) {
     relax_.set("field", field);
     relax_.set("ground_map", ground_of_field_[field]);
+    relax_.set("has_choice", has_choice_[field] ? 1u : 0u);
     relax_.dispatch(cells_);
     slope_.set("field", field);
+    slope_.set("ground_map", ground_of_field_[field]);
     slope_.dispatch(cells_);
 }
 

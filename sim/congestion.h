@@ -26,6 +26,7 @@ class Congestion {
     std::uint32_t next_field_ = 0;
     std::uint32_t steps_ = 0;
     std::vector<std::uint32_t> ground_of_field_;
+    std::vector<bool> has_choice_;  // by field
     gl::Buffer ground_, free_distances_, distances_, next_distances_, flows_;
     gl::ComputeProgram flow_, relax_, slope_;
 };

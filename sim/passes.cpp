@@ -51,9 +51,19 @@ Spawner::Spawner(const gl::ShaderLibrary& library, Buffers& buffers, const gpu::
 
 void Spawner::run(float now, std::uint32_t steps_done) {
     propose_.set("now", now);
+    propose_.set("steps_done", steps_done);
     accept_.set("steps_done", steps_done);
     propose_.dispatch(invocations_);
     accept_.dispatch(invocations_);
+}
+
+WaitingLines::WaitingLines(const gl::ShaderLibrary& library, Buffers& buffers, std::uint32_t count)
+    : count_(count), program_(connected(library, "shaders/lines.comp", buffers)) {
+    program_.set("line_count", count);
+}
+
+void WaitingLines::run() {
+    if (count_ > 0) program_.dispatch(count_);
 }
 
 Sensing::Sensing(const gl::ShaderLibrary& library, Buffers& buffers, const Diagram& diagram,

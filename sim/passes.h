@@ -36,6 +36,17 @@ class Spawner {
     gl::ComputeProgram propose_, accept_;
 };
 
+/// Hands out places in the lines that people wait in.
+class WaitingLines {
+  public:
+    WaitingLines(const gl::ShaderLibrary& library, Buffers& buffers, std::uint32_t count);
+    void run();
+
+  private:
+    std::uint32_t count_;
+    gl::ComputeProgram program_;
+};
+
 /// What sensing needs to know besides the diagram.
 struct SensingOptions {
     authoring::Proximity proximity = authoring::Proximity::voronoi;

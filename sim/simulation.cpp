@@ -78,10 +78,12 @@ AgentOutcome outcomeOf(const gpu::AgentState& state, const gpu::Person& person, 
     outcome.distance_walked = state.walked;
     if (state.status == gpu::STATUS_WAITING) {
         outcome.status = AgentStatus::refused;
+        const bool called_off = person.change_count > 0 && end > person.spawn_time;
         outcome.reason = person.spawn_time > end ? "the bake ended before its time to enter"
-                                                 : "no free room at its entry before the bake ended";
+                         : called_off ? "no free room at its entry before it was told to go elsewhere"
+                                      : "no free room at its entry before the bake ended";
     } else {
-        outcome.status = static_cast<AgentStatus>(state.status);
+        outcome.status = state.status == gpu::STATUS_WALKING ? AgentStatus::walking : AgentStatus::arrived;
     }
     return outcome;
 }
@@ -107,6 +109,8 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
       avoidance(library, buffers, settings.neighbours),
       contacts(library, buffers, settings.contact_iterations),
       motion(library, buffers, contacts.result()),
+      lines(library, buffers, static_cast<std::uint32_t>(scene.lines.size())),
+      gates(scene, buffers, diagram, parameters),
       pack(library, "shaders/pack_frame.comp"),
       costs(cost_model),
       fixed_sites(static_cast<std::uint32_t>(scene.wall_tiles.size())),
@@ -144,6 +148,7 @@ void Simulation::step() {
     Parts& p = *parts_;
     const float now = p.now();
     ++p.steps_done;
+    p.gates.move(now);
     p.cells.run();
     p.congestion.run();
     if (p.anybody_enters_later) p.spawner.run(now, p.steps_done);
@@ -152,6 +157,7 @@ void Simulation::step() {
     p.avoidance.run(p.steps_done);
     p.contacts.run();
     p.motion.run(p.steps_done);
+    p.lines.run();
 }
 
 void Simulation::adaptTo(std::uint32_t people_present) {
@@ -186,6 +192,7 @@ std::vector<std::pair<std::string, double>> Simulation::profile(int steps) {
     for (int i = 0; i < steps; ++i) {
         const float now = p.now();
         ++p.steps_done;
+        p.gates.move(now);
         timed(0, "cells", [&] { p.cells.run(); });
         timed(1, "routes", [&] { p.congestion.run(); });
         timed(2, "spawn", [&] {
@@ -197,7 +204,10 @@ std::vector<std::pair<std::string, double>> Simulation::profile(int steps) {
         timed(4, "sensing", [&] { p.sensing.run(); });
         timed(5, "avoidance", [&] { p.avoidance.run(p.steps_done); });
         timed(6, "contacts", [&] { p.contacts.run(); });
-        timed(7, "motion", [&] { p.motion.run(p.steps_done); });
+        timed(7, "motion", [&] {
+            p.motion.run(p.steps_done);
+            p.lines.run();
+        });
     }
     return times;
 }

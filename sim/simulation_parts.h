@@ -6,6 +6,7 @@
 #include "sim/buffers.h"
 #include "sim/congestion.h"
 #include "sim/diagram/diagram.h"
+#include "sim/gates.h"
 #include "sim/passes.h"
 #include "sim/simulation.h"
 
@@ -27,6 +28,8 @@ struct Simulation::Parts {
     Avoidance avoidance;
     Contacts contacts;
     Motion motion;
+    WaitingLines lines;
+    Gates gates;
     gl::ComputeProgram pack;
     std::optional<gl::ComputeProgram> pack_density;  // made at the first asking
 

@@ -13,7 +13,7 @@ std::vector<io::BakeAgent> describeAgents(const authoring::Scene& scene) {
     for (std::size_t row = 0; row < scene.people.size(); ++row) {
         const gpu::Person& person = scene.people[row];
         agents.push_back({person.group, person.radius, person.preferred_speed, person.variation,
-                          scene.origin + glm::dvec2(scene.goals[row])});
+                          person.party_first, scene.origin + glm::dvec2(scene.goals[row])});
     }
     return agents;
 }

@@ -9,8 +9,9 @@
 #include <set>
 
 #include "authoring/layout/object_reader.h"
+#include "authoring/layout/people_reader.h"
+#include "authoring/layout/place_reader.h"
 #include "authoring/layout/polygon_check.h"
-#include "authoring/layout/profiles.h"
 
 namespace throng::authoring {
 namespace {
@@ -35,6 +36,8 @@ class Reader {
         nameWalls();
         eachOf(reader, "flows", [this](const JsonNode& node) { readFlow(node); });
         eachOf(reader, "formations", [this](const JsonNode& node) { readFormation(node); });
+        eachOf(reader, "events", [this](const JsonNode& node) { readEvent(node); });
+        sortEvents();
         if (const JsonNode* node = reader.get("expect")) readExpectations(*node);
         reader.finish();
         checkWhole();
@@ -211,138 +214,6 @@ class Reader {
             diagnostics_.error(node->where, "the polygon has no area");
     }
 
-    std::optional<Place> placeOf(const JsonNode& node) {
-        if (node.kind != JsonNode::Kind::text) {
-            diagnostics_.error(node.where, fmt::format("expected a place, found {}", node.kindName()),
-                               "\"road:start\", \"road:end\" or an area's id");
-            return std::nullopt;
-        }
-        if (const auto area = areas_.find(node.text); area != areas_.end())
-            return Place{Place::Kind::area, area->second, node.where};
-        const std::size_t colon = node.text.rfind(':');
-        const std::string id = node.text.substr(0, colon);
-        const std::string end = colon == std::string::npos ? "" : node.text.substr(colon + 1);
-        const auto road = roads_.find(id);
-        if (road != roads_.end() && (end == "start" || end == "end"))
-            return Place{end == "start" ? Place::Kind::road_start : Place::Kind::road_end, road->second,
-                         node.where};
-        std::vector<std::string> known;
-        for (const auto& [name, index] : areas_)
-            known.push_back(name);
-        for (const auto& [name, index] : roads_) {
-            known.push_back(name + ":start");
-            known.push_back(name + ":end");
-        }
-        const std::string what = road != roads_.end()
-                                     ? fmt::format("`{}` names a road, not one of its ends", node.text)
-                                     : fmt::format("there is no place `{}`", node.text);
-        diagnostics_.error(node.where, what, hintFor(node.text, known));
-        return std::nullopt;
-    }
-
-    Distribution distributionOf(ObjectReader& people, const std::string& key, Limits limits,
-                                Distribution standard) {
-        const JsonNode* node = people.get(key);
-        if (!node) return standard;
-        if (node->kind == JsonNode::Kind::number) {
-            const double value = people.numberOf(*node, limits).value_or(standard.mean);
-            return {Distribution::Kind::constant, value, 0.0, value, value};
-        }
-        if (node->kind != JsonNode::Kind::object) {
-            diagnostics_.error(node->where,
-                               fmt::format("expected a number or a distribution, found {}", node->kindName()),
-                               "for example 1.3, {\"uniform\": [1.0, 1.6]} or {\"normal\": [1.34, 0.26]}");
-            return standard;
-        }
-        ObjectReader reader(*node, "a distribution", diagnostics_);
-        const JsonNode* uniform = reader.get("uniform");
-        const JsonNode* normal = reader.get("normal");
-        Distribution result = standard;
-        if ((uniform != nullptr) == (normal != nullptr)) {
-            diagnostics_.error(node->where, "a distribution needs exactly one of `uniform` and `normal`");
-        } else {
-            const JsonNode& pair = uniform ? *uniform : *normal;
-            if (pair.kind != JsonNode::Kind::array || pair.items.size() != 2) {
-                diagnostics_.error(pair.where, uniform ? "expected [minimum, maximum]"
-                                                       : "expected [mean, standard deviation]");
-            } else if (uniform) {
-                const auto least = reader.numberOf(pair.items[0], limits);
-                const auto most = reader.numberOf(pair.items[1], limits);
-                if (least && most && *least > *most)
-                    diagnostics_.error(pair.where, "the minimum is above the maximum", "swap the two");
-                if (least && most)
-                    result = {Distribution::Kind::uniform, 0.5 * (*least + *most), 0.0, *least, *most};
-            } else {
-                const auto mean = reader.numberOf(pair.items[0], limits);
-                const auto deviation = reader.numberOf(pair.items[1], {0.0, 100.0});
-                result = {Distribution::Kind::normal, mean.value_or(standard.mean), deviation.value_or(0.0),
-                          limits.least, limits.most};
-                if (mean && deviation) {
-                    result.minimum = std::max(limits.least, *mean - 3.0 * *deviation);
-                    result.maximum = std::min(limits.most, *mean + 3.0 * *deviation);
-                }
-            }
-        }
-        if (normal) {
-            reader.number("min", limits, result.minimum);
-            reader.number("max", limits, result.maximum);
-            if (result.minimum > result.maximum)
-                diagnostics_.error(
-                    node->where,
-                    fmt::format("`min` ({:.6g}) is above `max` ({:.6g})", result.minimum, result.maximum),
-                    "what is not written is three deviations from the mean");
-        }
-        reader.finish();
-        return result;
-    }
-
-    People peopleOf(ObjectReader& owner) {
-        People people;
-        const JsonNode* node = owner.get("people");
-        if (!node) return people;
-        ObjectReader reader(*node, "`people`", diagnostics_);
-        if (const JsonNode* profile = reader.get("profile")) readProfile(reader, *profile, people);
-        PersonSettings common;
-        const bool has_speed = node->find("speed") != nullptr;
-        const bool has_radius = node->find("radius") != nullptr;
-        common.speed = distributionOf(reader, "speed", {0.05, 10.0}, common.speed);
-        common.radius = distributionOf(reader, "radius", {0.1, 1.0}, common.radius);
-        reader.number("maximum_speed_factor", {1.0, 3.0}, common.maximum_speed_factor);
-        reader.number("headway", {0.0, 5.0}, common.headway);
-        reader.finish();
-        for (PeopleShare& share : people.kinds) {
-            if (has_speed) share.settings.speed = common.speed;
-            if (has_radius) share.settings.radius = common.radius;
-            share.settings.maximum_speed_factor = common.maximum_speed_factor;
-            share.settings.headway = common.headway;
-        }
-        return people;
-    }
-
-    void readProfile(ObjectReader& people_reader, const JsonNode& node, People& people) {
-        std::vector<std::string> names;
-        names.reserve(kProfiles.size());
-        for (const Profile& profile : kProfiles)
-            names.emplace_back(profile.name);
-        people.kinds.clear();
-        if (node.kind == JsonNode::Kind::object) {
-            ObjectReader reader(node, "`profile`", diagnostics_);
-            for (const Profile& profile : kProfiles) {
-                if (!node.find(std::string(profile.name))) continue;
-                double weight = 0.0;
-                reader.number(std::string(profile.name), {0.0, 1.0e6, true}, weight);
-                people.kinds.push_back({weight, profile.settings});
-            }
-            reader.finish();
-            if (people.kinds.empty())
-                diagnostics_.error(node.where, "`profile` names nobody",
-                                   R"(for example {"adult": 0.8, "child": 0.2})");
-        } else if (const auto chosen = people_reader.choice("profile", names)) {
-            people.kinds.push_back({1.0, kProfiles[*chosen].settings});
-        }
-        if (people.kinds.empty()) people.kinds.emplace_back();
-    }
-
     void readArrival(ObjectReader& reader, Arrival& arrival) {
         if (const auto choice = reader.choice("arrival", {"leave", "stay"}))
             arrival = *choice == 0 ? Arrival::leave : Arrival::stay;
@@ -357,10 +228,10 @@ class Reader {
         reader.requiredText("id", "its name in the account", flow.id);
         const JsonNode* from = reader.require("from", "where people come from");
         const JsonNode* to = reader.require("to", "where people go");
-        const std::optional<Place> from_place = from ? placeOf(*from) : std::nullopt;
-        const std::optional<Place> to_place = to ? placeOf(*to) : std::nullopt;
+        const std::optional<Place> from_place = from ? places_.place(*from) : std::nullopt;
+        const std::optional<Destination> destination = to ? places_.destination(*to) : std::nullopt;
         eachOf(reader, "via", [&](const JsonNode& item) {
-            if (const auto place = placeOf(item)) flow.via.push_back(*place);
+            if (auto stop = places_.stop(item)) flow.via.push_back(std::move(*stop));
         });
         readAmount(reader, node, flow);
         reader.number("start", {0.0, 86400.0}, flow.start);
@@ -369,13 +240,13 @@ class Reader {
             diagnostics_.error(node.find("end") ? node.find("end")->where : node.where,
                                fmt::format("the flow ends ({:.6g} s) {} it starts ({:.6g} s)", flow.end,
                                            flow.end < flow.start ? "before" : "when", flow.start));
-        flow.people = peopleOf(reader);
+        flow.people = readPeople(reader, diagnostics_);
         readArrival(reader, flow.arrival);
         reader.finish();
-        claimId(node, flow.id, groups_, 0, "a flow or formation");
-        if (!from_place || !to_place) return;
+        claimId(node, flow.id, groups_, layout_.flows.size(), "a flow or formation");
+        if (!from_place || !destination) return;
         flow.from = *from_place;
-        flow.to = *to_place;
+        flow.to = *destination;
         checkEnds(flow);
         layout_.flows.push_back(std::move(flow));
     }
@@ -390,23 +261,115 @@ class Reader {
         std::uint64_t people = 0;
         double per_second = 0.0;
         reader.integer("count", {0, kMostPeople}, people);
-        reader.number("rate", {0.0, 1.0e5, true}, per_second);
+        reader.number("rate", {0.0, 1.0e5}, per_second);
         if (count) flow.count = people;
         if (rate) flow.rate = per_second;
     }
 
     void checkEnds(const Flow& flow) {
-        if (flow.from.kind == flow.to.kind && flow.from.index == flow.to.index && flow.via.empty()) {
-            diagnostics_.error(flow.to.where, fmt::format("flow `{}` goes to where it comes from", flow.id));
+        if (!flow.via.empty()) return;
+        for (const Place& to : flow.to.places) {
+            if (flow.from.kind == to.kind && flow.from.index == to.index)
+                diagnostics_.error(to.where, fmt::format("flow `{}` goes to where it comes from", flow.id));
+            else if (flow.from.kind == Place::Kind::road_end && to.kind == Place::Kind::road_start &&
+                     flow.from.index == to.index && layout_.roads[flow.from.index].one_way)
+                diagnostics_.error(flow.from.where,
+                                   fmt::format("flow `{}` walks against the one-way road `{}`", flow.id,
+                                               layout_.roads[flow.from.index].id),
+                                   "swap `from` and `to`, or drop the road's `one_way`");
+        }
+    }
+
+    /// What happens is one key; what else belongs to it depends on which.
+    void readEvent(const JsonNode& node) {
+        Event event;
+        event.where = node.where;
+        ObjectReader reader(node, "an event", diagnostics_);
+        if (!reader.isObject()) return;
+        reader.require("at", "when, in seconds");
+        reader.number("at", {0.0, 86400.0}, event.at);
+        const std::vector<std::string> kinds = {"open", "close", "go_to", "flow"};
+        const JsonNode* what = nullptr;
+        int found = 0;
+        for (std::size_t i = 0; i < kinds.size(); ++i) {
+            const JsonNode* key = reader.get(kinds[i]);
+            if (!key) continue;
+            ++found;
+            what = key;
+            event.kind = static_cast<Event::Kind>(i);
+        }
+        if (found != 1) {
+            diagnostics_.error(node.where,
+                               "an event needs exactly one of `open`, `close`, `go_to` and `flow`");
             return;
         }
-        const bool same_road = flow.from.kind == Place::Kind::road_end &&
-                               flow.to.kind == Place::Kind::road_start && flow.from.index == flow.to.index;
-        if (same_road && flow.via.empty() && layout_.roads[flow.from.index].one_way)
-            diagnostics_.error(flow.from.where,
-                               fmt::format("flow `{}` walks against the one-way road `{}`", flow.id,
-                                           layout_.roads[flow.from.index].id),
-                               "swap `from` and `to`, or drop the road's `one_way`");
+        if (event.kind == Event::Kind::go_to) readSending(reader, *what, event);
+        if (event.kind == Event::Kind::rate) {
+            reader.require("rate", "people per second from now on");
+            reader.number("rate", {0.0, 1.0e5}, event.rate);
+        }
+        reader.finish();
+        if (event.kind != Event::Kind::go_to && !findSubject(*what, event)) return;
+        if (event.kind != Event::Kind::go_to || !event.to.places.empty())
+            layout_.events.push_back(std::move(event));
+    }
+
+    void readSending(ObjectReader& reader, const JsonNode& to, Event& event) {
+        if (auto destination = places_.destination(to)) event.to = std::move(*destination);
+        readArrival(reader, event.arrival);
+        eachOf(reader, "who", [&](const JsonNode& item) {
+            std::vector<std::string> known;
+            for (const auto& [id, index] : groups_)
+                known.push_back(id);
+            if (item.kind == JsonNode::Kind::text && groups_.count(item.text))
+                event.who.push_back(item.text);
+            else
+                diagnostics_.error(item.where, fmt::format("there is no flow or formation `{}`", item.text),
+                                   hintFor(item.text, known));
+        });
+    }
+
+    bool findSubject(const JsonNode& node, Event& event) {
+        const bool is_flow = event.kind == Event::Kind::rate;
+        const auto& ids = is_flow ? groups_ : walls_;
+        const auto found = ids.find(node.text);
+        if (node.kind != JsonNode::Kind::text || found == ids.end()) {
+            std::vector<std::string> known;
+            for (const auto& [id, index] : ids)
+                known.push_back(id);
+            diagnostics_.error(node.where,
+                               fmt::format("there is no {} `{}`", is_flow ? "flow" : "wall", node.text),
+                               hintFor(node.text, known));
+            return false;
+        }
+        event.subject = found->second;
+        if (is_flow && (event.subject >= layout_.flows.size() ||
+                        layout_.flows[event.subject].id != node.text || !layout_.flows[event.subject].rate)) {
+            diagnostics_.error(node.where, fmt::format("`{}` is no flow with a `rate`", node.text),
+                               "only these can change");
+            return false;
+        }
+        return true;
+    }
+
+    /// Gates are open or closed at first, as their first event would have it.
+    void sortEvents() {
+        std::stable_sort(layout_.events.begin(), layout_.events.end(),
+                         [](const Event& a, const Event& b) { return a.at < b.at; });
+        for (const Event& event : layout_.events) {
+            if (event.kind != Event::Kind::open && event.kind != Event::Kind::close) continue;
+            Wall& wall = layout_.walls[event.subject];
+            if (wall.closed)
+                diagnostics_.error(event.where, fmt::format("wall `{}` is a solid, not a gate", wall.id),
+                                   "only walls without `closed` can open");
+            const bool opens = event.kind == Event::Kind::open;
+            if (wall.toggles.empty())
+                wall.open_at_start = !opens;
+            else if (wall.isOpen(wall.toggles.back()) == opens)
+                diagnostics_.error(
+                    event.where, fmt::format("wall `{}` already is {}", wall.id, opens ? "open" : "closed"));
+            wall.toggles.push_back(event.at);
+        }
     }
 
     void readFormation(const JsonNode& node) {
@@ -423,11 +386,12 @@ class Reader {
             if (*type == 2) formation.shape = readList(reader);
         }
         reader.number("start", {0.0, 86400.0}, formation.start);
-        formation.people = peopleOf(reader);
+        formation.wait = readDistribution(reader, "wait", {0.0, 86400.0}, formation.wait, diagnostics_);
+        formation.people = readPeople(reader, diagnostics_);
         readArrival(reader, formation.arrival);
         reader.number("goal_tolerance", {0.01, 100.0}, formation.goal_tolerance);
         if (type) reader.finish();
-        claimId(node, formation.id, groups_, 0, "a flow or formation");
+        claimId(node, formation.id, groups_, std::string::npos, "a flow or formation");
         layout_.formations.push_back(std::move(formation));
     }
 
@@ -463,8 +427,8 @@ class Reader {
         reader.number("rotation", {-3600.0, 3600.0}, grid.rotation);
         const JsonNode* goal = reader.require("goal", "{\"offset\": [dx, dy]} or a place");
         if (!goal) return grid;
-        if (goal->kind != JsonNode::Kind::object) {
-            if (const auto place = placeOf(*goal)) grid.goal = *place;
+        if (goal->kind != JsonNode::Kind::object || goal->find("nearest") || goal->find("choose")) {
+            if (auto destination = places_.destination(*goal)) grid.goal = std::move(*destination);
             return grid;
         }
         ObjectReader inner(*goal, "`goal`", diagnostics_);
@@ -551,7 +515,8 @@ class Reader {
     Diagnostics& diagnostics_;
     Layout layout_;
     std::optional<SourcePosition> simulation_where_;
-    std::map<std::string, std::size_t> roads_, areas_, walls_, groups_;
+    std::map<std::string, std::size_t> roads_, areas_, walls_, groups_;  // groups: flows by index, formations
+    PlaceReader places_{roads_, areas_, diagnostics_};
 };
 
 }  // namespace

@@ -92,7 +92,7 @@ class Marcher {
                           std::hypot(static_cast<float>(dx), static_cast<float>(dy)));
                 }
         };
-        bool open = map_.one_way.empty();
+        bool open = map_.one_way.empty() && map_.open_sides.empty();
         each([&](std::uint32_t cell, float) { open = open && map_.cost[cell] == 1.0f; });
         if (!open) return;
         each([&](std::uint32_t cell, float cells) {
@@ -104,6 +104,10 @@ class Marcher {
     /// The settled distance beyond one side of a cell, if one may walk that way.
     float ahead(std::uint32_t cell, std::uint32_t neighbour, glm::vec2 step) const {
         if (!settled_[neighbour]) return kUnreachable;
+        if (!map_.open_sides.empty()) {
+            const std::uint8_t side = step.x != 0.0f ? gpu::OPEN_TO_X : gpu::OPEN_TO_Y;
+            if (!(map_.open_sides[std::min(cell, neighbour)] & side)) return kUnreachable;
+        }
         if (!map_.one_way.empty() && glm::dot(map_.one_way[cell], step) < kAgainstOneWay) return kUnreachable;
         return distance_[neighbour];
     }

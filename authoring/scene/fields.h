@@ -37,6 +37,8 @@ struct WalkMap {
     std::vector<float> cost;  ///< >= 1 per metre walked; infinity where nobody can stand
     std::vector<glm::vec2>
         one_way;  ///< unit direction that may not be walked against, or zero; empty when there is none
+    std::vector<std::uint8_t>
+        open_sides;  ///< gpu::OPEN_TO_X, OPEN_TO_Y: where one may go to the next cell; empty = all
 };
 
 /// The grid for a scene: cells of 0.1 to 1 m, at most about 1.5 million of them.
@@ -47,6 +49,9 @@ FieldGrid makeGrid(const WalkGeometry& geometry, float smallest_cell, double mos
 /// @param keep_to_roads whether ground outside roads and areas costs several times more, and one-way roads
 /// bind
 WalkMap makeWalkMap(const WalkGeometry& geometry, const FieldGrid& grid, bool keep_to_roads);
+
+/// The same ground in larger cells: doors stay open and walls closed, however thin.
+WalkMap coarsen(const WalkMap& fine, const FieldGrid& coarse);
 
 /// Signed distance to the edge of the union of roads and areas, m, positive inside, at every cell's centre.
 /// Empty without roads.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "authoring/scene/people.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace throng::authoring {
@@ -8,6 +9,8 @@ namespace {
 
 constexpr double kStride =
     1.4;  // m per gait cycle: what the cast's walk is made for, so that its feet do not slide
+/// m/s that a group is slower for each further member (Moussaid et al. 2010, figure 2, the quieter crowd).
+constexpr float kSlowerPerMember = 0.04f;
 constexpr double kBriskest = 1.0e7;  // more people than this from one rate is a mistake
 
 }  // namespace
@@ -37,11 +40,40 @@ gpu::Person drawPerson(const People& people, const GroupRandom& random, std::uin
     person.phase = static_cast<float>(random.unit(index, Purpose::phase));
     person.variation = static_cast<std::uint32_t>(random.word(index, Purpose::variation) % kVariations);
     person.entry = gpu::NO_INDEX;
+    person.party_size = 1;
     person.group = group;
     return person;
 }
 
-std::vector<double> entryTimes(const Flow& flow, const GroupRandom& random, double warmup) {
+std::vector<Party> drawParties(const People& people, const GroupRandom& random, std::uint64_t count) {
+    double all = 0.0;
+    for (const double weight : people.party_sizes)
+        all += weight;
+    std::vector<Party> parties;
+    for (std::uint64_t i = 0; i < count; i += parties.back().size) {
+        double left = all * random.unit(i, Purpose::party);
+        std::uint32_t size = 1;
+        while (size < people.party_sizes.size() && left >= people.party_sizes[size - 1])
+            left -= people.party_sizes[size++ - 1];
+        parties.push_back({i, static_cast<std::uint32_t>(std::min<std::uint64_t>(size, count - i))});
+    }
+    return parties;
+}
+
+void walkTogether(std::span<gpu::Person> party) {
+    if (party.size() < 2) return;
+    float mean = 0.0f;
+    for (const gpu::Person& person : party)
+        mean += person.preferred_speed / static_cast<float>(party.size());
+    const float speed = std::max(mean - kSlowerPerMember * static_cast<float>(party.size() - 1), 0.3f * mean);
+    for (gpu::Person& person : party) {
+        person.maximum_speed = std::max(person.maximum_speed, 1.2f * speed);
+        person.preferred_speed = speed;
+    }
+}
+
+std::vector<double> entryTimes(const Flow& flow, const std::vector<RateChange>& changes,
+                               const GroupRandom& random, double warmup, double end) {
     // Those of the first moment have the warm-up to come in.
     const double start = flow.start == 0.0 ? -warmup : flow.start;
     std::vector<double> times;
@@ -49,11 +81,20 @@ std::vector<double> entryTimes(const Flow& flow, const GroupRandom& random, doub
         const double slot = (flow.end - start) / static_cast<double>(*flow.count);
         for (std::uint64_t i = 0; i < *flow.count; ++i)
             times.push_back(start + (static_cast<double>(i) + random.unit(i, Purpose::time)) * slot);
+        std::erase_if(times, [&](double time) { return time >= end; });
     } else if (flow.rate) {
-        double time = start;
+        // Whatever is left of a waiting time at a change passes at the new rate.
+        double time = start, rate = *flow.rate;
+        auto change = changes.begin();
         for (std::uint64_t i = 0; static_cast<double>(i) < kBriskest; ++i) {
-            time -= std::log(1.0 - random.unit(i, Purpose::time)) / *flow.rate;
-            if (time >= flow.end) break;
+            double waiting = -std::log(1.0 - random.unit(i, Purpose::time));
+            for (; change != changes.end() && time + waiting / rate >= change->time; ++change) {
+                waiting -= std::max(change->time - time, 0.0) * rate;
+                time = std::max(time, change->time);
+                rate = change->rate;
+            }
+            time += waiting / rate;
+            if (!(time < std::min(flow.end, end))) break;
             times.push_back(time);
         }
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "authoring/layout.h"
@@ -12,13 +13,33 @@ namespace throng::authoring {
 /// How many characters the cast has: Person::variation is below this.
 inline constexpr std::uint32_t kVariations = 8;
 
+/// Which kind of people somebody is.
+const PersonSettings& kindOf(const People& people, const GroupRandom& random, std::uint64_t index);
 /// Draws what makes one person of a group differ from the next: body, speed, gait, looks. Place and route are
 /// left open.
 gpu::Person drawPerson(const People& people, const GroupRandom& random, std::uint64_t index,
                        std::uint32_t group);
 
+/// People of one group, next to each other in its order, who walk together.
+struct Party {
+    std::uint64_t first = 0;
+    std::uint32_t size = 1;
+};
+/// Splits the people of a group into parties.
+std::vector<Party> drawParties(const People& people, const GroupRandom& random, std::uint64_t count);
+/// Walks together: everybody as fast as the party, which is slower the larger it is.
+void walkTogether(std::span<gpu::Person> party);
+
+/// Changes of a flow's rate.
+struct RateChange {
+    double time = 0.0;  ///< s
+    double rate = 0.0;  ///< persons/s
+};
+
 /// When the people of a flow want to enter, s, in order: evenly spread with some jitter (count) or as a
 /// Poisson process (rate).
-std::vector<double> entryTimes(const Flow& flow, const GroupRandom& random, double warmup);
+/// @param end s: nobody enters from here on, whatever the flow says
+std::vector<double> entryTimes(const Flow& flow, const std::vector<RateChange>& changes,
+                               const GroupRandom& random, double warmup, double end);
 
 }  // namespace throng::authoring

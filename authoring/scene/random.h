@@ -40,7 +40,11 @@ enum class Purpose : std::uint64_t {
     jitter_y,
     kind,
     goal_x,
-    goal_y
+    goal_y,
+    party,
+    reaction,
+    choice,
+    wait
 };
 
 class GroupRandom {
@@ -54,21 +58,25 @@ class GroupRandom {
     double unit(std::uint64_t person, Purpose purpose, std::uint64_t draw = 0) const {
         return static_cast<double>(word(person, purpose, draw) >> 11) * 0x1.0p-53;
     }
-    double draw(const Distribution& distribution, std::uint64_t person, Purpose purpose) const {
+    /// @param nth tells apart draws for one purpose
+    double draw(const Distribution& distribution, std::uint64_t person, Purpose purpose,
+                std::uint64_t nth = 0) const {
         switch (distribution.kind) {
             case Distribution::Kind::constant:
                 return distribution.mean;
             case Distribution::Kind::uniform:
                 return distribution.minimum +
-                       (distribution.maximum - distribution.minimum) * unit(person, purpose);
+                       (distribution.maximum - distribution.minimum) * unit(person, purpose, 2 * nth);
             case Distribution::Kind::normal:
+            case Distribution::Kind::log_normal:
                 break;
         }
         // Box and Muller 1958.
-        const double radius = std::sqrt(-2.0 * std::log(1.0 - unit(person, purpose, 0)));
-        const double normal = radius * std::cos(2.0 * std::numbers::pi * unit(person, purpose, 1));
-        return std::clamp(distribution.mean + distribution.standard_deviation * normal, distribution.minimum,
-                          distribution.maximum);
+        const double radius = std::sqrt(-2.0 * std::log(1.0 - unit(person, purpose, 2 * nth)));
+        const double normal = radius * std::cos(2.0 * std::numbers::pi * unit(person, purpose, 2 * nth + 1));
+        const double value = distribution.mean + distribution.standard_deviation * normal;
+        return std::clamp(distribution.kind == Distribution::Kind::log_normal ? std::exp(value) : value,
+                          distribution.minimum, distribution.maximum);
     }
 
   private:

@@ -36,6 +36,10 @@ Bounds boundsOf(const Layout& layout) {
     for (const Wall& wall : layout.walls)
         for (const glm::dvec2 point : wall.points)
             bounds.add(point, wall.closed ? 0.0 : 0.5 * wall.thickness);
+    for (const Flow& flow : layout.flows)
+        for (const Stop& stop : flow.via)
+            for (const glm::dvec2 point : stop.line)
+                bounds.add(point);
     for (const Formation& formation : layout.formations) {
         const FormationPlaces places = formationPlaces(formation, layout.simulation.seed);
         for (const glm::dvec2 point : places.positions)

@@ -24,7 +24,8 @@ constexpr double kMostDetourCells = 30'000.0;
 void appendGround(const WalkMap& map, std::vector<gpu::GroundCell>& ground) {
     for (std::size_t cell = 0; cell < map.cost.size(); ++cell)
         ground.push_back({std::min(map.cost[cell], gpu::BLOCKED_COST),
-                          glm::packSnorm2x16(map.one_way.empty() ? glm::vec2(0.0f) : map.one_way[cell])});
+                          glm::packSnorm2x16(map.one_way.empty() ? glm::vec2(0.0f) : map.one_way[cell]),
+                          map.open_sides[cell]});
 }
 
 }  // namespace
@@ -69,13 +70,27 @@ std::uint32_t Routes::solve(const std::vector<std::uint32_t>& targets, bool keep
     fields_.push_back(solveField(mapFor(keep_to_roads), targets));
     targets_.push_back(targets);
     on_roads_.push_back(keep_to_roads);
+    has_choice_.push_back(false);
     return static_cast<std::uint32_t>(fields_.size() - 1);
 }
 
 std::uint32_t Routes::fieldTo(const Place& place, bool keep_to_roads) {
-    const auto [entry, is_new] =
-        known_.try_emplace(fmt::format("{}{}", keep_to_roads ? "on roads to " : "to ", name(place)), 0);
-    if (is_new) entry->second = solve(cellsInPolygon(grid_, outline(place, kTargetDepth)), keep_to_roads);
+    return fieldTo(std::vector{place}, keep_to_roads);
+}
+
+std::uint32_t Routes::fieldTo(const std::vector<Place>& places, bool keep_to_roads) {
+    std::string key = keep_to_roads ? "on roads" : "anywhere";
+    for (const Place& place : places)
+        key += "\n" + name(place);
+    const auto [entry, is_new] = known_.try_emplace(key, 0);
+    if (!is_new) return entry->second;
+    std::vector<std::uint32_t> targets;
+    for (const Place& place : places) {
+        const std::vector<std::uint32_t> cells = cellsInPolygon(grid_, outline(place, kTargetDepth));
+        targets.insert(targets.end(), cells.begin(), cells.end());
+    }
+    entry->second = solve(targets, keep_to_roads);
+    if (places.size() > 1 && !too_many_) has_choice_[entry->second] = true;
     return entry->second;
 }
 
@@ -152,12 +167,13 @@ std::vector<gpu::FieldCell> Routes::takeCells() {
 Detours Routes::detours() {
     Detours detours;
     detours.grid = makeGrid(geometry_, kDetourCell, kMostDetourCells);
+    detours.has_choice = has_choice_;
     std::optional<WalkMap> maps[2];
     std::uint32_t map_index[2] = {};
     for (std::size_t field = 0; field < fields_.size(); ++field) {
         const std::size_t kind = on_roads_[field] ? 1 : 0;
         if (!maps[kind]) {
-            maps[kind] = makeWalkMap(geometry_, detours.grid, on_roads_[field]);
+            maps[kind] = coarsen(mapFor(on_roads_[field]), detours.grid);
             map_index[kind] = static_cast<std::uint32_t>(detours.ground.size() / cellCount(detours.grid));
             appendGround(*maps[kind], detours.ground);
         }

@@ -26,6 +26,8 @@ class Routes {
 
     /// The field that leads to a place, for people who keep to the roads or do not.
     std::uint32_t fieldTo(const Place& place, bool keep_to_roads);
+    /// The field that leads to whichever of the places is nearest.
+    std::uint32_t fieldTo(const std::vector<Place>& places, bool keep_to_roads);
     /// The field that leads to the surroundings of a point: a rectangle of up to kSurroundings metres without
     /// a wall in it, so that the rest of the way is straight. Points near each other share it.
     /// @returns NO_INDEX where it would be one field too many
@@ -64,6 +66,7 @@ class Routes {
     std::unordered_map<std::uint32_t, std::uint32_t> field_of_cell_;  // for points
     std::vector<Field> fields_;
     std::vector<std::vector<std::uint32_t>> targets_;  // of each field: cells
+    std::vector<bool> has_choice_;                     // of each field: leads to one of several places
     std::vector<bool> on_roads_;                       // of each field: for those who keep to the roads
     bool too_many_ = false;
 };

@@ -3,9 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 #include <unordered_map>
 
+#include "authoring/scene/itineraries.h"
 #include "authoring/scene/people.h"
 #include "authoring/scene/raster.h"
 #include "authoring/scene/rebase.h"
@@ -16,8 +20,9 @@ namespace throng::authoring {
 namespace {
 
 constexpr std::uint32_t kEntryPoints = 1024;
-constexpr float kStageTolerance = 0.3f;   // m
 constexpr float kEntryClearance = 0.02f;  // m beyond the body
+constexpr float kPauseTolerance = 1.0f;   // m: who is pushed about before setting off does not mind
+constexpr std::uint64_t kPauseDraw = 900;
 
 /// Bodies already placed, so that nobody starts inside another.
 class PlacedBodies {
@@ -45,13 +50,6 @@ class PlacedBodies {
     std::unordered_map<std::uint64_t, std::vector<std::pair<glm::vec2, float>>> cells_;
 };
 
-glm::vec2 middleOf(const LocalPolygon& polygon) {
-    glm::vec2 middle(0.0f);
-    for (const glm::vec2 point : polygon)
-        middle += point / static_cast<float>(polygon.size());
-    return middle;
-}
-
 class Builder {
   public:
     Builder(const Layout& layout, Diagnostics& diagnostics)
@@ -68,10 +66,12 @@ class Builder {
         buildGeometry();
         scene_.grid = makeGrid(geometry_);
         Routes routes(layout_, rebase_, geometry_, scene_.grid);
+        Itineraries itineraries(layout_, rebase_, geometry_, routes, diagnostics_, scene_);
         for (std::size_t i = 0; i < layout_.flows.size(); ++i)
-            routeFlow(layout_.flows[i], i, routes);
+            routeFlow(layout_.flows[i], i, routes, itineraries);
         for (std::size_t i = 0; i < layout_.formations.size(); ++i)
-            placeFormation(layout_.formations[i], i, routes);
+            placeFormation(layout_.formations[i], i, routes, itineraries);
+        numberTickets();
         if (routes.tooManyFields())
             diagnostics_.error({},
                                "there are too many different goals behind walls: their distance fields need "
@@ -86,34 +86,69 @@ class Builder {
     /// Bodies and times of everybody, because the walls' clearance depends on the smallest and the largest
     /// body.
     void drawPeople() {
-        for (const Flow& flow : layout_.flows) {
-            const GroupRandom random(layout_.simulation.seed, flow.id);
-            const std::vector<double> times = entryTimes(flow, random, layout_.simulation.warmup);
-            beginGroup(flow.id, true);
-            for (std::size_t i = 0; i < times.size(); ++i) {
+        for (std::size_t i = 0; i < layout_.flows.size(); ++i)
+            drawFlow(layout_.flows[i], i);
+        for (const Formation& formation : layout_.formations)
+            drawFormation(formation);
+    }
+
+    void drawFlow(const Flow& flow, std::size_t index) {
+        const GroupRandom random(layout_.simulation.seed, flow.id);
+        std::vector<RateChange> changes;
+        double end = std::numeric_limits<double>::infinity();
+        for (const Event& event : layout_.events) {
+            if (event.kind == Event::Kind::rate && event.subject == index)
+                changes.push_back({event.at, event.rate});
+            // Who is told to go elsewhere does not come in any more.
+            if (concerns(event, flow.id) && event.at > flow.start) end = std::min(end, event.at);
+        }
+        const std::vector<double> times = entryTimes(flow, changes, random, layout_.simulation.warmup, end);
+        beginGroup(flow.id, true);
+        for (const Party& party : drawParties(flow.people, random, times.size())) {
+            for (std::uint64_t i = party.first; i < party.first + party.size; ++i) {
                 gpu::Person person = drawPerson(flow.people, random, i, group());
-                person.spawn_time = static_cast<float>(times[i]);
-                if (flow.arrival == Arrival::stay) person.flags |= gpu::PERSON_STAYS;
+                person.spawn_time = static_cast<float>(times[party.first]);
                 if (!layout_.roads.empty()) person.flags |= gpu::PERSON_KEEPS_TO_ROADS;
                 addPerson(person);
             }
+            bringTogether(party);
         }
-        for (const Formation& formation : layout_.formations) {
-            const GroupRandom random(layout_.simulation.seed, formation.id);
-            const FormationPlaces places = formationPlaces(formation, layout_.simulation.seed);
-            const auto* list = std::get_if<ListFormation>(&formation.shape);
-            beginGroup(formation.id, false);
-            for (std::size_t i = 0; i < places.positions.size(); ++i) {
+    }
+
+    void drawFormation(const Formation& formation) {
+        const GroupRandom random(layout_.simulation.seed, formation.id);
+        const FormationPlaces places = formationPlaces(formation, layout_.simulation.seed);
+        const auto* list = std::get_if<ListFormation>(&formation.shape);
+        beginGroup(formation.id, false);
+        for (const Party& party : drawParties(formation.people, random, places.positions.size())) {
+            for (std::uint64_t i = party.first; i < party.first + party.size; ++i) {
                 gpu::Person person = drawPerson(formation.people, random, i, group());
                 if (list) overrideListed(list->agents[i], person);
                 person.spawn_position = rebase_.local(places.positions[i]);
                 person.spawn_time =
                     static_cast<float>(formation.start == 0.0 ? -layout_.simulation.warmup : formation.start);
-                person.flags |=
-                    gpu::PERSON_FIXED_SPAWN | (formation.arrival == Arrival::stay ? gpu::PERSON_STAYS : 0);
+                person.flags |= gpu::PERSON_FIXED_SPAWN;
                 addPerson(person);
             }
+            bringTogether(party);
         }
+    }
+
+    /// The last ones added are a party.
+    void bringTogether(const Party& party) {
+        const std::span<gpu::Person> members(scene_.people.end() - party.size, scene_.people.end());
+        const auto first = static_cast<std::uint32_t>(scene_.people.size() - party.size);
+        for (gpu::Person& person : members) {
+            person.party_first = first;
+            person.party_size = party.size;
+        }
+        walkTogether(members);
+    }
+
+    static bool concerns(const Event& event, const std::string& group_id) {
+        return event.kind == Event::Kind::go_to &&
+               (event.who.empty() ||
+                std::find(event.who.begin(), event.who.end(), group_id) != event.who.end());
     }
 
     static void overrideListed(const ListedAgent& agent, gpu::Person& person) {
@@ -165,64 +200,115 @@ class Builder {
         for (const Area& area : layout_.areas)
             geometry_.areas.push_back(rebase_.local(area.polygon));
         scene_.wall_segments = geometry_.walls;
+        openGates();
         scene_.wall_tiles = wallTiles(geometry_.walls, scene_.smallest_radius,
                                       static_cast<float>(layout_.simulation.tile_radius));
     }
 
-    void routeFlow(const Flow& flow, std::size_t index, Routes& routes) {
-        const bool keep_to_roads = !layout_.roads.empty();
-        std::vector<Place> places = flow.via;
-        places.push_back(flow.to);
-        const auto first_stage = static_cast<std::uint32_t>(scene_.stages.size());
-        LocalPolygon from = routes.outline(flow.from, Routes::kEntryDepth);
-        const std::uint32_t first_field = routes.fieldTo(places.front(), keep_to_roads);
-        Place before = flow.from;
-        for (const Place& place : places) {
-            const std::uint32_t field = routes.fieldTo(place, keep_to_roads);
-            const LocalPolygon target = routes.outline(place, Routes::kTargetDepth);
-            scene_.stages.push_back({middleOf(target), kStageTolerance, field});
-            if (routes.reachable(field, from) == kUnreachable)
-                diagnostics_.error(place.where.line ? place.where : flow.where,
-                                   fmt::format("flow `{}`: nobody can walk from `{}` to `{}`", flow.id,
-                                               routes.name(before), routes.name(place)),
-                                   "look for walls across the way, doors narrower than a body, and one-way "
-                                   "roads that point the other way");
-            from = target;
-            before = place;
+    /// Routes lead through gates whether these are open or not: people wait before a closed one.
+    void openGates() {
+        const auto is_gate = [this](const gpu::WallSegment& segment) {
+            return !layout_.walls[segment.wall].toggles.empty();
+        };
+        std::erase_if(geometry_.walls, is_gate);
+        for (std::uint32_t i = 0; i < layout_.walls.size(); ++i)
+            if (layout_.walls[i].open_at_start) scene_.open_at_start.push_back(i);
+        for (const Event& event : layout_.events)
+            if (event.kind == Event::Kind::open || event.kind == Event::Kind::close)
+                scene_.gate_moves.push_back(
+                    {event.at, static_cast<std::uint32_t>(event.subject), event.kind == Event::Kind::open});
+    }
+
+    /// Each line's tickets come after those of the lines before.
+    void numberTickets() {
+        std::uint32_t first = 0;
+        for (gpu::WaitingLine& line : scene_.lines) {
+            line.first_ticket = first;
+            first += line.ticket_count;
         }
+    }
+
+    void routeFlow(const Flow& flow, std::size_t index, Routes& routes, Itineraries& itineraries) {
+        Journey journey{fmt::format("flow `{}`", flow.id), flow.where, !layout_.roads.empty(), flow.via};
+        journey.stops.push_back(Journey::goalStop(flow.to, flow.arrival));
+        const LocalPolygon start = routes.outline(flow.from, Routes::kEntryDepth);
+        itineraries.check(journey, fmt::format("`{}`", routes.name(flow.from)), {start});
         const auto entry = static_cast<std::uint32_t>(scene_.entries.size());
-        scene_.entries.push_back(findEntryPoints(flow, index, routes, first_field));
-        const glm::vec2 goal = scene_.stages.back().point;
+        scene_.entries.push_back(findEntryPoints(
+            flow, index, routes, itineraries.fieldTo(journey.stops.front().at, journey.keep_to_roads)));
+        const GroupRandom random(layout_.simulation.seed, flow.id);
+        std::uint64_t i = 0;
+        gpu::Person before{};
         forEachRow(index, [&](gpu::Person& person) {
             person.entry = entry;
-            person.first_stage = first_stage;
-            person.stage_count = static_cast<std::uint32_t>(places.size());
-            const glm::vec2 ahead = goal - middleOf(routes.outline(flow.from, Routes::kEntryDepth));
+            if (i > 0 && Itineraries::isShared(journey)) {
+                person.first_stage = before.first_stage;
+                person.stage_count = before.stage_count;
+            } else {
+                person.first_stage = static_cast<std::uint32_t>(scene_.stages.size());
+                person.stage_count = itineraries.appendStages(journey, random, travellerOf(person, index, i));
+            }
+            const glm::vec2 goal = scene_.stages[person.first_stage + person.stage_count - 1].point;
+            const glm::vec2 ahead = goal - scene_.entry_points[scene_.entries[entry].first_point];
             person.heading = std::atan2(ahead.y, ahead.x);
             scene_.goals.push_back(goal);
+            addChanges(flow.id, flow.people, flow.where, {start}, random, i, index, person, itineraries);
+            before = person;
+            ++i;
         });
     }
 
-    /// Points spread evenly over the entry (the R2 sequence, Roberts 2018), clear of walls and with a way to
-    /// the goal.
+    Traveller travellerOf(const gpu::Person& person, std::size_t group_index, std::uint64_t i) const {
+        const std::uint32_t first_row = scene_.queues[group_index].first_row;
+        const std::uint64_t leader = person.party_first - first_row;
+        return {leader, static_cast<std::uint32_t>(i - leader), person.party_size, person.radius};
+    }
+
+    /// What events make of somebody's plans.
+    void addChanges(const std::string& id, const People& people, const SourcePosition& where,
+                    const std::vector<LocalPolygon>& from, const GroupRandom& random, std::uint64_t i,
+                    std::size_t group_index, gpu::Person& person, Itineraries& itineraries) {
+        person.first_change = static_cast<std::uint32_t>(scene_.plan_changes.size());
+        std::uint64_t nth = 0;
+        for (const Event& event : layout_.events) {
+            if (!concerns(event, id)) continue;
+            Journey journey{fmt::format("`{}`", id),
+                            event.where.line ? event.where : where,
+                            (person.flags & gpu::PERSON_KEEPS_TO_ROADS) != 0,
+                            {Journey::goalStop(event.to, event.arrival)}};
+            journey.first_draw = 1000 + nth;
+            if (i == 0) itineraries.check(journey, "where they start", from);
+            const Traveller traveller = travellerOf(person, group_index, i);
+            const double reaction = random.draw(kindOf(people, random, traveller.leader).reaction,
+                                                traveller.leader, Purpose::reaction, nth++);
+            gpu::PlanChange change{};
+            change.start_step = stepAt(event.at + reaction);
+            change.first_stage = static_cast<std::uint32_t>(scene_.stages.size());
+            change.stage_count = itineraries.appendStages(journey, random, traveller);
+            scene_.plan_changes.push_back(change);
+            ++person.change_count;
+        }
+    }
+
+    /// How many steps are done at a time of the shot.
+    std::uint32_t stepAt(double time) const {
+        const SimulationSettings& s = layout_.simulation;
+        return static_cast<std::uint32_t>(std::ceil((time + s.warmup) * s.fps * s.substeps));
+    }
+
+    /// Points clear of walls and with a way to the goal.
     gpu::Entry findEntryPoints(const Flow& flow, std::size_t index, const Routes& routes,
                                std::uint32_t field) {
         float largest = 0.0f;
         forEachRow(index, [&](const gpu::Person& person) { largest = std::max(largest, person.radius); });
         const LocalPolygon outline = routes.outline(flow.from, Routes::kEntryDepth);
-        const Box box = boundsOf(outline, 0.0f);
         const auto first = static_cast<std::uint32_t>(scene_.entry_points.size());
-        double x = 0.5, y = 0.5;
+        Itineraries::Spread spread(outline, geometry_, largest + kEntryClearance);
         for (std::uint32_t i = 0; i < 16 * kEntryPoints && scene_.entry_points.size() - first < kEntryPoints;
              ++i) {
-            x = std::fmod(x + 0.7548776662466927, 1.0);
-            y = std::fmod(y + 0.5698402909980532, 1.0);
-            const glm::vec2 point =
-                box.lower + (box.upper - box.lower) * glm::vec2(static_cast<float>(x), static_cast<float>(y));
-            if (!insidePolygon(outline, point) ||
-                wallDepth(geometry_, point, largest + kEntryClearance) > 0.0f)
-                continue;
-            if (routes.reachable(field, point) < kUnreachable) scene_.entry_points.push_back(point);
+            const std::optional<glm::vec2> point = spread.next();
+            if (!point) break;
+            if (routes.reachable(field, *point) < kUnreachable) scene_.entry_points.push_back(*point);
         }
         const auto found = static_cast<std::uint32_t>(scene_.entry_points.size()) - first;
         if (found == 0) {
@@ -230,7 +316,7 @@ class Builder {
                 flow.from.where.line ? flow.from.where : flow.where,
                 fmt::format("flow `{}`: there is no room to enter in `{}`", flow.id, routes.name(flow.from)),
                 "its area is inside a wall, too small for a body, or cut off from the goal");
-            scene_.entry_points.push_back(middleOf(outline));
+            scene_.entry_points.push_back(outline.front());
         }
         return {first, std::max(found, 1u)};
     }
@@ -242,28 +328,73 @@ class Builder {
             visit(scene_.people[row]);
     }
 
-    void placeFormation(const Formation& formation, std::size_t formation_index, Routes& routes) {
+    void placeFormation(const Formation& formation, std::size_t formation_index, Routes& routes,
+                        Itineraries& itineraries) {
         const std::size_t index = layout_.flows.size() + formation_index;
         const FormationPlaces places = formationPlaces(formation, layout_.simulation.seed);
+        const GroupRandom random(layout_.simulation.seed, formation.id);
         const auto* grid = std::get_if<GridFormation>(&formation.shape);
-        const Place* place = grid ? std::get_if<Place>(&grid->goal) : nullptr;
-        const std::uint32_t place_field = place ? routes.fieldTo(*place, false) : gpu::NO_INDEX;
-        const glm::vec2 place_goal =
-            place ? middleOf(routes.outline(*place, Routes::kTargetDepth)) : glm::vec2(0.0f);
-        std::size_t i = 0;
+        const auto* destination = grid ? std::get_if<Destination>(&grid->goal) : nullptr;
+        Journey journey{fmt::format("formation `{}`", formation.id), formation.where};
+        if (destination) journey.stops.push_back(Journey::goalStop(*destination, formation.arrival));
+        std::uint64_t i = 0;
         forEachRow(index, [&](gpu::Person& person) {
-            const glm::vec2 goal = place ? place_goal : rebase_.local(places.goals[i]);
+            const Traveller traveller = travellerOf(person, index, i);
             person.first_stage = static_cast<std::uint32_t>(scene_.stages.size());
-            person.stage_count = 1;
-            scene_.stages.push_back(stageOf(formation, i, person, goal, place_field, routes));
+            addPause(formation, random, traveller, person);
+            if (destination) {
+                person.stage_count += itineraries.appendStages(journey, random, traveller);
+                const std::uint32_t field = scene_.stages.back().field & ~gpu::FIELD_THEN_POINT;
+                if (routes.reachable(field, person.spawn_position) == kUnreachable)
+                    complain(formation, i, "cannot reach its goal", "look for walls all round it");
+            } else {
+                ++person.stage_count;
+                const glm::vec2 goal = rebase_.local(goalOf(formation, places, i, traveller.leader));
+                scene_.stages.push_back(stageOf(formation, i, person, goal, routes));
+            }
+            if (const float depth = wallDepth(geometry_, person.spawn_position, person.radius); depth > 0.0f)
+                complain(formation, i, fmt::format("stands in a wall ({:.2f} m deep)", depth),
+                         "move it, or the wall");
+            const glm::vec2 goal = scene_.stages.back().point;
             scene_.goals.push_back(goal);
             turn(formation, i, goal, person);
+            addChanges(formation.id, formation.people, formation.where,
+                       {{person.spawn_position, person.spawn_position, person.spawn_position}}, random, i,
+                       index, person, itineraries);
             if (formation.start == 0.0 && bodies_.hasRoom(person.spawn_position, person.radius)) {
                 person.flags |= gpu::PERSON_PRESENT_AT_START;
                 bodies_.add(person.spawn_position, person.radius);
             }
             ++i;
         });
+    }
+
+    /// Parties go to one place, even where everybody else draws their own.
+    static glm::dvec2 goalOf(const Formation& formation, const FormationPlaces& places, std::uint64_t i,
+                             std::uint64_t leader) {
+        const auto* grid = std::get_if<GridFormation>(&formation.shape);
+        if (!grid || !std::holds_alternative<Extent>(grid->goal)) return places.goals[i];
+        return places.goals[leader] + places.positions[i] - places.positions[leader];
+    }
+
+    /// Those who do not set off at once first stop where they stand.
+    void addPause(const Formation& formation, const GroupRandom& random, const Traveller& traveller,
+                  gpu::Person& person) {
+        const double wait = random.draw(formation.wait, traveller.leader, Purpose::wait, kPauseDraw);
+        if (wait <= 0.0) return;
+        gpu::Stage pause = pointStage(person.spawn_position, kPauseTolerance);
+        pause.dwell = static_cast<float>(wait);
+        scene_.stages.push_back(pause);
+        ++person.stage_count;
+    }
+
+    static gpu::Stage pointStage(glm::vec2 point, float tolerance) {
+        gpu::Stage stage{};
+        stage.point = stage.facing = point;
+        stage.tolerance = tolerance;
+        stage.field = stage.line = gpu::NO_INDEX;
+        stage.activity = gpu::ACTIVITY_STAND;
+        return stage;
     }
 
     void turn(const Formation& formation, std::size_t i, glm::vec2 goal, gpu::Person& person) const {
@@ -274,23 +405,15 @@ class Builder {
     }
 
     gpu::Stage stageOf(const Formation& formation, std::size_t i, const gpu::Person& person, glm::vec2 goal,
-                       std::uint32_t place_field, Routes& routes) {
-        const auto tolerance = static_cast<float>(formation.goal_tolerance);
-        if (const float depth = wallDepth(geometry_, person.spawn_position, person.radius); depth > 0.0f)
-            complain(formation, i, fmt::format("stands in a wall ({:.2f} m deep)", depth),
-                     "move it, or the wall");
-        if (place_field != gpu::NO_INDEX) {
-            if (routes.reachable(place_field, person.spawn_position) == kUnreachable)
-                complain(formation, i, "cannot reach its goal", "look for walls all round it");
-            return {goal, kStageTolerance, place_field};
-        }
+                       Routes& routes) {
+        gpu::Stage straight = pointStage(goal, static_cast<float>(formation.goal_tolerance));
+        if (formation.arrival == Arrival::stay) straight.dwell = gpu::DWELL_FOR_GOOD;
         if (wallDepth(geometry_, goal, person.radius) > 0.0f) {
             complain(formation, i, "has its goal in a wall", "move the goal, or the wall");
-            return {goal, tolerance, gpu::NO_INDEX};
+            return straight;
         }
         // Even where the straight way is clear, others may push somebody round a corner on the way. But cells
         // coarser than a body close gaps that are open: then the straight way is what can be trusted.
-        const gpu::Stage straight{goal, tolerance, gpu::NO_INDEX};
         if (geometry_.walls.empty()) return straight;
         const bool clear = straightIsClear(geometry_, person.spawn_position, goal, person.radius);
         if (clear && scene_.grid.cell_size > 0.5f) return straight;
@@ -304,7 +427,9 @@ class Builder {
         }
         if (routes.reachable(field, person.spawn_position) == kUnreachable)
             complain(formation, i, "cannot reach its goal", "there is a wall all round one of the two");
-        return {goal, tolerance, field | gpu::FIELD_THEN_POINT};
+        gpu::Stage routed = straight;
+        routed.field = field | gpu::FIELD_THEN_POINT;
+        return routed;
     }
 
     void complain(const Formation& formation, std::size_t i, const std::string& what,

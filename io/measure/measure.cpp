@@ -24,6 +24,7 @@ struct Body {
     glm::dvec2 position{0.0};
     glm::dvec2 facing{1.0, 0.0};
     bool alive = false;
+    bool under_way = false;  ///< neither at a stop nor in a line
 };
 
 /// Everybody in one frame.
@@ -46,7 +47,10 @@ class FrameReader {
         directions_.readFrame(frame, values_);
         each(bodies, [](Body& body, const float* v) { body.facing = {v[0], v[1]}; });
         states_.readFrame(frame, values_);
-        each(bodies, [](Body& body, const float* v) { body.alive = v[0] > 0.5f; });
+        each(bodies, [](Body& body, const float* v) {
+            body.alive = v[0] > 0.5f;
+            body.under_way = body.alive && v[0] < 1.5f;
+        });
     }
 
   private:
@@ -163,6 +167,7 @@ class Measurer {
 
     void observeSteps(std::uint32_t frame) {
         std::uint64_t across = 0;
+        walls_.look((frame - 1.0) * dt_, frame * dt_);
         for (const std::uint32_t row : present_) {
             result_.deepest_wall_penetration =
                 std::max(result_.deepest_wall_penetration,
@@ -302,7 +307,8 @@ class Measurer {
             result_.walking += agent.outcome == "walking" ? 1 : 0;
             result_.refused += agent.outcome == "refused" ? 1 : 0;
             if (way_[row] > 1.0) efforts.push_back(effort_[row] / way_[row]);
-            if (agent.outcome == "walking" && !long_before_.empty() && long_before_[row].alive &&
+            if (agent.outcome == "walking" && now()[row].under_way && !long_before_.empty() &&
+                long_before_[row].alive &&
                 glm::distance(long_before_[row].position, now()[row].position) < kStuckDistance)
                 ++result_.stuck;
             if (agent.outcome != "arrived") continue;

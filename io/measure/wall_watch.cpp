@@ -16,12 +16,14 @@ double cross(glm::dvec2 a, glm::dvec2 b) {
 
 }  // namespace
 
-WallWatch::WallWatch(const Bake& bake) : grid_(bake.minimum, bake.maximum, 2.0) {
-    for (const authoring::Wall& wall : bake.walls) {
+WallWatch::WallWatch(const Bake& bake)
+    : walls_(bake.walls), open_(bake.walls.size()), grid_(bake.minimum, bake.maximum, 2.0) {
+    for (std::size_t index = 0; index < walls_.size(); ++index) {
+        const authoring::Wall& wall = walls_[index];
         const std::size_t count = wall.points.size() - (wall.closed ? 0 : 1);
         for (std::size_t i = 0; i < count; ++i)
             segments_.push_back({wall.points[i], wall.points[(i + 1) % wall.points.size()],
-                                 wall.closed ? 0.0 : 0.5 * wall.thickness});
+                                 wall.closed ? 0.0 : 0.5 * wall.thickness, index});
     }
     for (std::uint32_t i = 0; i < segments_.size(); ++i) {
         const int pieces = 1 + static_cast<int>(glm::distance(segments_[i].a, segments_[i].b) / kSpacing);
@@ -38,9 +40,14 @@ void WallWatch::near(glm::dvec2 place, double reach, Visit&& visit) const {
     std::uint32_t last = ~0u;
     grid_.near(place, reach + kSpacing + kThickest, [&](std::uint32_t sample) {
         const std::uint32_t segment = sample_segment_[sample];
-        if (segment != last) visit(segments_[segment]);
+        if (segment != last && !open_[segments_[segment].wall]) visit(segments_[segment]);
         last = segment;
     });
+}
+
+void WallWatch::look(double before, double now) {
+    for (std::size_t i = 0; i < walls_.size(); ++i)
+        open_[i] = walls_[i].isOpen(before) || walls_[i].isOpen(now);
 }
 
 bool WallWatch::crosses(glm::dvec2 before, glm::dvec2 after) const {

@@ -15,6 +15,8 @@ class WallWatch {
     explicit WallWatch(const Bake& bake);
     bool empty() const { return segments_.empty(); }
 
+    /// Looks at a frame and the one before: gates that are open in either are not there.
+    void look(double before, double now);
     /// Whether the straight line between two frames goes through a wall's axis or outline.
     bool crosses(glm::dvec2 before, glm::dvec2 after) const;
     /// How far a body is inside a wall, m; 0 where it is clear.
@@ -24,10 +26,13 @@ class WallWatch {
     struct Segment {
         glm::dvec2 a, b;
         double half_thickness;
+        std::size_t wall;
     };
     template <class Visit>
     void near(glm::dvec2 place, double reach, Visit&& visit) const;
 
+    const std::vector<authoring::Wall>& walls_;
+    std::vector<bool> open_;  // by wall
     std::vector<Segment> segments_;
     std::vector<glm::dvec2> samples_;  // along the segments, at most kSpacing apart
     std::vector<std::uint32_t> sample_segment_;

@@ -101,17 +101,8 @@ void Plate::drawLayout() {
         setColour(context, kArea);
         cairo_fill(context);
     }
-    for (const authoring::Wall& wall : bake_.walls) {
-        path(context, wall.points, wall.closed);
-        if (wall.closed) {
-            setColour(context, kSolid);
-            cairo_fill_preserve(context);
-        }
-        cairo_set_line_cap(context, CAIRO_LINE_CAP_ROUND);
-        cairo_set_line_width(context, wall.closed ? 2.0 : std::max(2.0, wall.thickness * scale_));
-        setColour(context, kWall);
-        cairo_stroke(context);
-    }
+    for (const authoring::Wall& wall : bake_.walls)
+        if (wall.toggles.empty()) drawWall(context, wall);
     setColour(context, kInk);
     text(context, kMargin, 38.0, 22.0, bake_.name, true);
     drawScaleBar(context);
@@ -205,6 +196,36 @@ void Plate::drawTrails(cairo_t* context, std::uint32_t frame) {
     }
 }
 
+void Plate::drawWall(cairo_t* context, const authoring::Wall& wall) const {
+    path(context, wall.points, wall.closed);
+    if (wall.closed) {
+        setColour(context, kSolid);
+        cairo_fill_preserve(context);
+    }
+    cairo_set_line_cap(context, CAIRO_LINE_CAP_ROUND);
+    cairo_set_line_width(context, wall.closed ? 2.0 : std::max(2.0, wall.thickness * scale_));
+    setColour(context, kWall);
+    cairo_stroke(context);
+}
+
+/// Gates that are closed; of open ones, the posts.
+void Plate::drawGates(cairo_t* context, std::uint32_t frame) const {
+    for (const authoring::Wall& wall : bake_.walls) {
+        if (wall.toggles.empty()) continue;
+        if (!wall.isOpen(frame / bake_.fps)) {
+            drawWall(context, wall);
+            continue;
+        }
+        setColour(context, kWall);
+        for (const glm::dvec2 end : {wall.points.front(), wall.points.back()}) {
+            const glm::dvec2 at = toPixel(end.x, end.y);
+            cairo_arc(context, at.x, at.y, std::max(2.5, 0.75 * wall.thickness * scale_), 0.0,
+                      2.0 * std::numbers::pi);
+            cairo_fill(context);
+        }
+    }
+}
+
 void Plate::drawPeople(cairo_t* context) const {
     const double radius = std::max(1.6, 0.25 * scale_);
     for (std::size_t row = 0; row < bake_.agents; ++row) {
@@ -275,6 +296,7 @@ cairo_surface_t* Plate::draw(std::uint32_t frame) {
     cairo_paint(context);
     if (options_.density) drawDensity(context);
     drawTrails(context, frame);
+    drawGates(context, frame);
     drawPeople(context);
     drawCaption(context, frame);
     cairo_surface_flush(canvas_.get());

@@ -39,6 +39,8 @@ class Plate {
 
     glm::dvec2 toPixel(double x, double y) const;
     void drawLayout();
+    void drawWall(cairo_t* context, const authoring::Wall& wall) const;
+    void drawGates(cairo_t* context, std::uint32_t frame) const;
     void drawDensity(cairo_t* context) const;
     void drawTrails(cairo_t* context, std::uint32_t frame);
     void drawPeople(cairo_t* context) const;

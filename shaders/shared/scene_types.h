@@ -11,7 +11,6 @@ THRONG_SHARED_BEGIN
 const uint NO_INDEX = 0xffffffffu;
 
 const uint PERSON_KEEPS_TO_ROADS = 1u;    // steers back when pushed off the roads
-const uint PERSON_STAYS = 2u;             // stands at the goal instead of leaving the scene
 const uint PERSON_PRESENT_AT_START = 4u;  // stands at spawn_position when the simulation begins
 const uint PERSON_FIXED_SPAWN = 8u;       // appears at spawn_position; otherwise at a point of its entry
 
@@ -30,15 +29,53 @@ struct Person {
     uint flags;             // PERSON_*
     uint first_stage;       // index into stages
     uint stage_count;       // at least 1
-    uint group;             // flow or formation, index into the scene's groups
-    float headway;          // s of free way kept to those walked behind; 0 = pushes on
+    uint first_change;      // index into the changes of plan, which take the place of the stages in turn
+    uint change_count;
+    uint party_first;  // row of the first of those who walk together
+    uint party_size;   // 1 = walks alone
+    uint group;        // flow or formation, index into the scene's groups
+    float headway;     // s of free way kept to those walked behind; 0 = pushes on
 };
 
-/// A step of somebody's route: walk until at most `tolerance` metres are left.
+/// A step of somebody's route: walk until at most `tolerance` metres are left, and perhaps stop there.
 struct Stage {
     vec2 point;       // m; the target where field is NO_INDEX (walked to in a straight line)
+    vec2 facing;      // m; what those who stop there look at; the point itself: nothing
     float tolerance;  // m
     uint field;       // index into the distance fields, or NO_INDEX; perhaps with FIELD_THEN_POINT
+    float dwell;      // s of standing there; 0 = walks on, DWELL_FOR_GOOD = the journey ends there
+    uint line;        // index into the waiting lines: the point is the place in line; or NO_INDEX
+    uint activity;    // ACTIVITY_* of those who stop
+    uint flags;       // STAGE_*
+};
+const float DWELL_FOR_GOOD = 1.0e9f;
+
+/// Anywhere where the field has led will do for those who cannot get nearer to the point.
+const uint STAGE_ANYWHERE = 1u;
+
+const uint ACTIVITY_WALK = 1u;  // what the stream of states says of people who are there
+const uint ACTIVITY_STAND = 2u;
+const uint ACTIVITY_LOOK = 3u;
+const uint ACTIVITY_QUEUE = 4u;
+
+/// From a time on, a row has other stages.
+struct PlanChange {
+    uint start_step;  // how many steps are done by then
+    uint first_stage;
+    uint stage_count;
+    uint reserved;
+};
+
+/// People who wait in line, one behind the other from the first point on; whoever is in front is served.
+struct WaitingLine {
+    uint first_point;
+    uint point_count;   // at least 2
+    uint first_ticket;  // index into the tickets, which say who has which number
+    uint ticket_count;
+    float spacing;   // m
+    uint given;      // tickets handed out
+    uint served;     // of these, the ones whose turn is over
+    uint candidate;  // row that joins at the end of the step, or NO_INDEX
 };
 
 /// The field leads to the surroundings of the point, all clear; from there the way to the point is straight.
@@ -79,9 +116,12 @@ struct FieldCell {
 
 /// One cell of the coarse map on which detours round jams are worked out.
 struct GroundCell {
-    float cost;    // >= 1 per metre walked; BLOCKED_COST where nobody can stand
-    uint one_way;  // unit direction that may not be walked against, or zero; packSnorm2x16
+    float cost;       // >= 1 per metre walked; BLOCKED_COST where nobody can stand
+    uint one_way;     // unit direction that may not be walked against, or zero; packSnorm2x16
+    uint open_sides;  // OPEN_*: whether one may go to the next cell on that axis, and back
 };
+const uint OPEN_TO_X = 1u;
+const uint OPEN_TO_Y = 2u;
 const float BLOCKED_COST = 1.0e9f;
 
 THRONG_SHARED_END

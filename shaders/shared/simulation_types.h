@@ -17,9 +17,10 @@ const uint SMALLEST_NORMAL = 0x00800000u;  // bits of the smallest float that no
 
 const uint PAGE_SIDE = 16u;  // px, of a page of a diagram that is not kept whole
 
-const uint STATUS_WAITING = 0u;  // the numbers of throng::AgentStatus
-const uint STATUS_WALKING = 1u;
-const uint STATUS_ARRIVED = 2u;
+const uint STATUS_WAITING = 0u;  // to enter
+const uint STATUS_WALKING = 1u;  // under way, or at a stop
+const uint STATUS_ARRIVED = 2u;  // and stays there
+const uint STATUS_GONE = 3u;     // arrived, and has left the scene
 
 const float STANDING_SPEED = 0.1f;  // m/s: slower people stand; slower wishes are to stand
 
@@ -46,7 +47,11 @@ struct AgentState {
     float phase;        // gait cycles, unwrapped
     float walked;       // m
     uint status;        // STATUS_*
-    uint stage;         // stages of the route already passed
+    uint stage;         // index into stages: where it is going
+    uint stage_end;     // one past the last of its stages
+    uint changes;       // changes of plan already made
+    uint leave_step;    // at a stop: how many steps are done when it goes on; otherwise 0
+    uint ticket;        // its number in the line that it stands in, or NO_INDEX
     uint spawn_step;    // how many steps were done when it first was there; NO_INDEX = never
     uint arrival_step;  // likewise
     uint attempts;      // how often it asked for room at its entry

@@ -133,6 +133,15 @@ void Diagram::connect(const DiagramInput& input) {
     extras_ = std::make_unique<Extras>();
 }
 
+void Diagram::changeFixedSites(std::span<const gpu::DiagramSite> fixed_sites) {
+    if (fixed_sites.size() != fixed_sites_.size())
+        throw std::logic_error("the number of fixed sites cannot change");
+    fixed_sites_.assign(fixed_sites.begin(), fixed_sites.end());
+    made_.clear();
+    use(options_.method, options_.gather);
+    extras_ = std::make_unique<Extras>();
+}
+
 void Diagram::build() {
     current_->build();
 }

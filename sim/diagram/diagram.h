@@ -73,6 +73,10 @@ class Diagram {
 
     void connect(const DiagramInput& input);
 
+    /// As many fixed sites as before, elsewhere or of other sizes. Those in the sites' buffer are the
+    /// caller's business.
+    void changeFixedSites(std::span<const gpu::DiagramSite> fixed_sites);
+
     /// Goes on with another way to build it; the result stays in the same buffer. Not while paged.
     void use(DiagramMethod method, const GatherShape& gather = {});
     DiagramMethod method() const { return options_.method; }

@@ -72,7 +72,7 @@ TEST(LayoutReader, ReadsWhatIsWritten) {
     EXPECT_EQ(layout.flows[0].end, 12.5);
     EXPECT_EQ(layout.flows[0].people.kinds[0].settings.speed.kind, Distribution::Kind::normal);
     EXPECT_EQ(layout.flows[0].people.kinds[0].settings.speed.minimum, 1.0);
-    EXPECT_EQ(layout.flows[0].to.index, 1u);
+    EXPECT_EQ(layout.flows[0].to.places.at(0).index, 1u);
 }
 
 TEST(LayoutReader, ReadsProfilesAndWhatIsWrittenBesideThem) {
@@ -164,6 +164,60 @@ TEST(LayoutReader, KnowsPlacesAndGuessesThoseMeant) {
     expectError(R"({"throng": 1, "roads": [{"id": "main", "centreline": [[0,0],[9,0]], "one_way": true}],
  "flows": [{"id": "f", "from": "main:end", "to": "main:start", "count": 1}]})",
                 2, 32, "/flows/0/from", "against the one-way road");
+}
+
+TEST(LayoutReader, ReadsStopsDestinationsAndEvents) {
+    const Layout layout = read(kTwoAreas + R"("walls": [{"id": "gate", "points": [[10,0],[10,4]]}],
+ "flows": [{"id": "f", "from": "a", "to": {"choose": {"a": 1, "b": 3}}, "rate": 1,
+   "via": ["b", {"at": {"nearest": ["a", "b"]}}, {"at": "b", "wait": {"log_normal": [1, 0.5], "max": 9}, "activity": "look", "facing": [1, 2]}]}],
+ "events": [{"at": 9, "flow": "f", "rate": 0}, {"at": 4, "close": "gate"}, {"at": 8, "open": "gate"}, {"at": 20, "go_to": "a", "who": ["f"], "arrival": "stay"}]})");
+    const Flow& flow = layout.flows.at(0);
+    EXPECT_EQ(flow.to.kind, Destination::Kind::choose);
+    EXPECT_EQ(flow.to.weights, (std::vector{1.0, 3.0}));
+    ASSERT_EQ(flow.via.size(), 3u);
+    EXPECT_FALSE(flow.via[0].stops());
+    EXPECT_EQ(flow.via[1].at.kind, Destination::Kind::nearest);
+    EXPECT_TRUE(flow.via[2].stops());
+    EXPECT_EQ(flow.via[2].wait.maximum, 9.0);
+    EXPECT_EQ(flow.via[2].activity, Activity::look);
+    ASSERT_EQ(layout.events.size(), 4u);
+    EXPECT_EQ(layout.events[0].at, 4.0) << "in the order of their times";
+    EXPECT_TRUE(layout.walls[0].open_at_start);
+    EXPECT_TRUE(layout.walls[0].isOpen(3.9));
+    EXPECT_FALSE(layout.walls[0].isOpen(5.0));
+    EXPECT_TRUE(layout.walls[0].isOpen(8.5));
+    EXPECT_EQ(layout.events[3].arrival, Arrival::stay);
+}
+
+TEST(LayoutReader, ExplainsWhatIsWrongWithStopsAndEvents) {
+    const std::string via = R"("flows": [{"id": "f", "from": "a", "to": "b", "count": 1, "via": [)";
+    expectError(kTwoAreas + via + R"({"at": "b", "activity": "queue", "wait": 3}]}]})", 4, 67,
+                "/flows/0/via/0", "a queue needs the `line`");
+    expectError(kTwoAreas + via + R"({"at": "b", "activity": "look", "wait": 3}]}]})", 4, 67,
+                "/flows/0/via/0", "where do people look?", "facing");
+    expectError(kTwoAreas + via + R"({"at": "b", "activity": "look", "facing": [0, 0]}]}]})", 4, 67,
+                "/flows/0/via/0", "has no `wait`");
+    expectError(kTwoAreas + via + R"({"at": {"nearest": ["a", "b"]}, "wait": 3}]}]})", 4, 74,
+                "/flows/0/via/0/at", "cannot stop at the nearest");
+    expectError(kTwoAreas + via + R"({"at": "c", "wait": 3}]}]})", 4, 74, "/flows/0/via/0/at",
+                "there is no place `c`");
+    const std::string events = R"("walls": [{"id": "gate", "points": [[10,0],[10,4]]}],
+ "flows": [{"id": "f", "from": "a", "to": "b", "count": 1}], "events": [)";
+    expectError(kTwoAreas + events + R"({"at": 1}]})", 5, 73, "/events/0", "exactly one of `open`");
+    expectError(kTwoAreas + events + R"({"at": 1, "open": "gat"}]})", 5, 91, "/events/0/open",
+                "there is no wall `gat`", "did you mean `gate`?");
+    expectError(kTwoAreas + events + R"({"at": 1, "flow": "f", "rate": 2}]})", 5, 91, "/events/0/flow",
+                "is no flow with a `rate`");
+    expectError(kTwoAreas + events + R"({"at": 1, "go_to": "a", "who": ["g"]}]})", 5, 105, "/events/0/who/0",
+                "there is no flow or formation `g`");
+    expectError(kTwoAreas + events + R"({"at": 1, "open": "gate"}, {"at": 2, "open": "gate"}]})", 5, 100,
+                "/events/1", "already is open");
+    const std::string people =
+        R"("flows": [{"id": "f", "from": "a", "to": "b", "count": 1, "people": {"groups": )";
+    expectError(kTwoAreas + people + R"([1, 2, 3, 4, 5]}}]})", 4, 80, "/flows/0/people/groups",
+                "one to 4 weights");
+    expectError(kTwoAreas + people + R"([0, 0]}}]})", 4, 80, "/flows/0/people/groups",
+                "all weights are zero");
 }
 
 TEST(LayoutReader, WantsExactlyOneOfCountAndRate) {

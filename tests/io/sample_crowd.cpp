@@ -83,7 +83,7 @@ io::BakeDescription SampleCrowd::description(const std::filesystem::path& output
     description.groups = {{"eastbound", true}, {"north, \"bound\"", false}};
     for (std::uint32_t row = 0; row < options_.rows; ++row)
         description.agents.push_back({row % 2, 0.22f + 0.01f * static_cast<float>(row % 7),
-                                      static_cast<float>(speed(row)), row % kVariations,
+                                      static_cast<float>(speed(row)), row % kVariations, row,
                                       options_.origin + position(row, arrivalFrame(row))});
 
     const auto at = [&](double x, double y) { return options_.origin + glm::dvec2(x, y); };

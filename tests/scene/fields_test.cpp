@@ -135,6 +135,30 @@ TEST(Fields, KeepToRoadsAndObeyOneWays) {
     EXPECT_LT(distanceAt(geometry, against, {48.0f, 10.0f}), 130.0f);
 }
 
+TEST(CoarseMap, KeepsNarrowDoorsOpenAndThinWallsClosedInAnyDirection) {
+    for (const double turn : {0.0, 0.13, 0.4, 0.785, 1.2}) {
+        const auto place = [&](double along, double across) {
+            return glm::vec2(20.3 + along * std::cos(turn) - across * std::sin(turn),
+                             20.1 + along * std::sin(turn) + across * std::cos(turn));
+        };
+        for (const bool door : {true, false}) {
+            WalkGeometry geometry = openGround(40.0f);
+            addWall(geometry, place(-40.0, 0.0), place(door ? -0.45 : 0.0, 0.0));
+            addWall(geometry, place(door ? 0.45 : 0.0, 0.0), place(40.0, 0.0));
+            const FieldGrid coarse = makeGrid(geometry, 0.75f, 30'000.0);
+            const WalkMap map = coarsen(makeWalkMap(geometry, makeGrid(geometry), false), coarse);
+            const std::vector<std::uint32_t> target = {cellAt(coarse, place(0.0, 10.0))};
+            const Field field = solveField(map, target);
+            const float found = field.reachable[cellAt(coarse, place(0.0, -10.0))];
+            if (door) {
+                EXPECT_NEAR(found, 20.0f, 2.5f) << turn;
+            } else {
+                EXPECT_EQ(found, kUnreachable) << turn;
+            }
+        }
+    }
+}
+
 TEST(RoadDistance, HasNoEdgeWhereARoadMeetsAnArea) {
     WalkGeometry geometry = openGround(40.0f);
     geometry.roads.push_back({{{2, 20}, {20, 20}}, 6.0f, false});

@@ -22,7 +22,7 @@ Layout simpleLayout() {
     Flow flow;
     flow.id = "across";
     flow.from = area(0);
-    flow.to = area(1);
+    flow.to = {Destination::Kind::one, {area(1)}, {}, {}};
     flow.count = 63;
     flow.end = 10.0;
     layout.flows.push_back(flow);
@@ -118,7 +118,7 @@ TEST(SceneBuilder, AddingAFlowChangesNobodyInTheOthers) {
     const Scene before = built(layout);
     Flow other = layout.flows[0];
     other.id = "back";
-    std::swap(other.from, other.to);
+    std::swap(other.from, other.to.places[0]);
     layout.flows.push_back(other);
     const Scene after = built(layout);
     ASSERT_EQ(after.people.size(), 126u);
@@ -255,7 +255,7 @@ TEST(SceneBuilder, ScattersGoalsOverABox) {
     grid.columns = 40;
     grid.spacing = 1.0;
     grid.goal = Extent{{10, 50}, {-10, 20}};
-    layout.formations.push_back({"scattered", grid, 0.0, {}, Arrival::stay, 0.3, {}});
+    layout.formations.push_back({"scattered", grid, 0.0, {}, {}, Arrival::stay, 0.3, {}});
     const Scene scene = built(layout);
     glm::dvec2 mean(0.0);
     for (const glm::vec2 goal : scene.goals) {

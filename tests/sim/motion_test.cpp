@@ -107,7 +107,8 @@ TEST_F(MotionTest, OpposingStreamsInACorridorFormLanesAndAllGetThrough) {
             const glm::vec2 jitter(0.05f * static_cast<float>((column * 7 + rank * 3) % 5 - 2), 0.0f);
             for (const float side : {-1.0f, 1.0f}) {
                 const glm::vec2 start = (place + jitter) * glm::vec2(side, 1.0f);
-                addPerson(scene, start, {-25.0f * side, start.y}, 1.3f).flags &= ~gpu::PERSON_STAYS;
+                addPerson(scene, start, {-25.0f * side, start.y}, 1.3f);
+                scene.stages.back().dwell = 0.0f;
             }
         }
     }

@@ -18,9 +18,8 @@ struct Overlaps {
     float deepest_percent = 0.0f;  ///< of the sum of radii
 };
 
-inline bool isPresent(const gpu::AgentState& state, const gpu::Person& person) {
-    return state.status == gpu::STATUS_WALKING ||
-           (state.status == gpu::STATUS_ARRIVED && (person.flags & gpu::PERSON_STAYS));
+inline bool isPresent(const gpu::AgentState& state) {
+    return state.status == gpu::STATUS_WALKING || state.status == gpu::STATUS_ARRIVED;
 }
 
 /// All pairs that overlap, found through a hash of 1 m cells.
@@ -31,13 +30,13 @@ inline Overlaps overlapsOf(const std::vector<gpu::AgentState>& states,
         return (static_cast<std::int64_t>(x) << 32) ^ static_cast<std::uint32_t>(y);
     };
     for (std::uint32_t row = 0; row < states.size(); ++row)
-        if (isPresent(states[row], people[row]))
+        if (isPresent(states[row]))
             cells[key(static_cast<int>(std::floor(states[row].position.x)),
                       static_cast<int>(std::floor(states[row].position.y)))]
                 .push_back(row);
     Overlaps result;
     for (std::uint32_t row = 0; row < states.size(); ++row) {
-        if (!isPresent(states[row], people[row])) continue;
+        if (!isPresent(states[row])) continue;
         const int x = static_cast<int>(std::floor(states[row].position.x));
         const int y = static_cast<int>(std::floor(states[row].position.y));
         for (int dy = -1; dy <= 1; ++dy)
@@ -106,13 +105,13 @@ inline Observation observe(sim::Simulation& simulation, const authoring::Scene& 
         ++looks;
         result.arrived = 0;
         for (std::size_t row = 0; row < states.size(); ++row) {
-            result.arrived += states[row].status == gpu::STATUS_ARRIVED;
+            result.arrived += states[row].status >= gpu::STATUS_ARRIVED;
             for (const gpu::WallSegment& wall : scene.wall_segments) {
                 const float depth =
                     1.0f - wallDistance(states[row].position, wall) / scene.people[row].radius;
-                if (isPresent(states[row], scene.people[row]))
+                if (isPresent(states[row]))
                     result.deepest_wall_percent = std::max(result.deepest_wall_percent, 100.0f * depth);
-                if (!before.empty() && isPresent(before[row], scene.people[row]))
+                if (!before.empty() && isPresent(before[row]))
                     result.wall_crossings += crosses(before[row].position, states[row].position, wall);
             }
         }

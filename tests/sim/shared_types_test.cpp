@@ -82,6 +82,16 @@ TEST_F(SharedTypesTest, PersonAndStateAgree) {
     EXPECT_MEMBER(found, "stages", Stage, point);
     EXPECT_MEMBER(found, "stages", Stage, tolerance);
     EXPECT_MEMBER(found, "stages", Stage, field);
+    EXPECT_MEMBER(found, "stages", Stage, dwell);
+    EXPECT_MEMBER(found, "stages", Stage, facing);
+    EXPECT_MEMBER(found, "stages", Stage, line);
+    EXPECT_MEMBER(found, "stages", Stage, flags);
+    EXPECT_MEMBER(found, "states", AgentState, stage_end);
+    EXPECT_MEMBER(found, "states", AgentState, ticket);
+    EXPECT_MEMBER(found, "plan_changes", PlanChange, start_step);
+    EXPECT_MEMBER(found, "plan_changes", PlanChange, stage_count);
+    EXPECT_MEMBER(found, "waiting_lines", WaitingLine, spacing);
+    EXPECT_MEMBER(found, "waiting_lines", WaitingLine, candidate);
     EXPECT_MEMBER(found, "fields", FieldCell, distance);
     EXPECT_MEMBER(found, "fields", FieldCell, direction);
 }

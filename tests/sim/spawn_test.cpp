@@ -15,6 +15,7 @@ authoring::Scene entryScene(std::uint32_t count, const std::vector<glm::vec2>& p
             addPerson(scene, {0, 0},
                       {30, -8.0f + 16.0f * static_cast<float>(i * 37 % count) / static_cast<float>(count)});
         person.flags = 0;
+        scene.stages.back().dwell = 0.0f;  // leaves at its goal
         person.entry = 0;
         person.spawn_time = time;
     }

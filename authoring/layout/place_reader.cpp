@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "authoring/layout/place_reader.h"
+
+#include <fmt/format.h>
+
+#include "authoring/layout/people_reader.h"
+
+namespace throng::authoring {
+namespace {
+
+constexpr const char* kDestinationHint =
+    R"(a place such as "road:end" or an area's id, {"nearest": [places]} or {"choose": {place: weight}})";
+
+}  // namespace
+
+std::optional<Place> PlaceReader::place(const JsonNode& node) const {
+    if (node.kind == JsonNode::Kind::text) return placeNamed(node.text, node.where);
+    diagnostics_.error(node.where, fmt::format("expected a place, found {}", node.kindName()),
+                       "\"road:start\", \"road:end\" or an area's id");
+    return std::nullopt;
+}
+
+std::optional<Place> PlaceReader::placeNamed(const std::string& name, const SourcePosition& where) const {
+    if (const auto area = areas_.find(name); area != areas_.end())
+        return Place{Place::Kind::area, area->second, where};
+    const std::size_t colon = name.rfind(':');
+    const std::string id = name.substr(0, colon);
+    const std::string end = colon == std::string::npos ? "" : name.substr(colon + 1);
+    const auto road = roads_.find(id);
+    if (road != roads_.end() && (end == "start" || end == "end"))
+        return Place{end == "start" ? Place::Kind::road_start : Place::Kind::road_end, road->second, where};
+    std::vector<std::string> known;
+    for (const auto& [area_name, index] : areas_)
+        known.push_back(area_name);
+    for (const auto& [road_name, index] : roads_) {
+        known.push_back(road_name + ":start");
+        known.push_back(road_name + ":end");
+    }
+    const std::string what = road != roads_.end()
+                                 ? fmt::format("`{}` names a road, not one of its ends", name)
+                                 : fmt::format("there is no place `{}`", name);
+    diagnostics_.error(where, what, hintFor(name, known));
+    return std::nullopt;
+}
+
+Destination PlaceReader::nearestOf(const JsonNode& list) const {
+    Destination result{Destination::Kind::nearest, {}, {}, list.where};
+    if (list.kind != JsonNode::Kind::array || list.items.empty())
+        diagnostics_.error(list.where, "expected a list of places", R"(for example ["gate-a", "gate-b"])");
+    for (const JsonNode& item : list.items)
+        if (const auto found = place(item)) result.places.push_back(*found);
+    return result;
+}
+
+Destination PlaceReader::choiceOf(const JsonNode& shares) const {
+    Destination result{Destination::Kind::choose, {}, {}, shares.where};
+    if (shares.kind != JsonNode::Kind::object || shares.members.empty()) {
+        diagnostics_.error(shares.where, "expected places and their weights",
+                           R"(for example {"gate-a": 2, "gate-b": 1})");
+        return result;
+    }
+    ObjectReader reader(shares, "`choose`", diagnostics_);
+    for (const JsonNode::Member& member : shares.members) {
+        const auto found = placeNamed(member.key, member.key_where);
+        const auto weight = reader.numberOf(*reader.get(member.key), {0.0, 1.0e6, true});
+        if (!found || !weight) continue;
+        result.places.push_back(*found);
+        result.weights.push_back(*weight);
+    }
+    return result;
+}
+
+std::optional<Destination> PlaceReader::destination(const JsonNode& node) const {
+    if (node.kind == JsonNode::Kind::text) {
+        const auto found = place(node);
+        return found ? std::optional(Destination{Destination::Kind::one, {*found}, {}, node.where})
+                     : std::nullopt;
+    }
+    if (node.kind != JsonNode::Kind::object ||
+        (node.find("nearest") == nullptr) == (node.find("choose") == nullptr)) {
+        diagnostics_.error(node.where, fmt::format("expected a destination, found {}", node.kindName()),
+                           kDestinationHint);
+        return std::nullopt;
+    }
+    ObjectReader reader(node, "a destination", diagnostics_);
+    const JsonNode* nearest = reader.get("nearest");
+    const JsonNode* choose = reader.get("choose");
+    Destination result = nearest ? nearestOf(*nearest) : choiceOf(*choose);
+    result.where = node.where;
+    reader.finish();
+    return result.places.empty() ? std::nullopt : std::optional(result);
+}
+
+std::optional<Stop> PlaceReader::stop(const JsonNode& node) const {
+    Stop stop;
+    stop.where = node.where;
+    if (!node.find("at")) {
+        const auto at = destination(node);
+        if (!at) return std::nullopt;
+        stop.at = *at;
+        return stop;
+    }
+    ObjectReader reader(node, "a stop", diagnostics_);
+    const auto at = destination(*reader.get("at"));
+    readWhatHappens(reader, node, stop);
+    reader.finish();
+    if (!at) return std::nullopt;
+    stop.at = *at;
+    if (stop.stops() && at->kind == Destination::Kind::nearest)
+        diagnostics_.error(at->where, "people cannot stop at the nearest of several places",
+                           "name one place, or let them `choose`");
+    if (stop.activity == Activity::queue && at->places.size() > 1)
+        diagnostics_.error(at->where, "a line stands at one place", "write one stop for each");
+    return stop;
+}
+
+void PlaceReader::readWhatHappens(ObjectReader& reader, const JsonNode& node, Stop& stop) const {
+    stop.wait = readDistribution(reader, "wait", {0.0, 86400.0}, stop.wait, diagnostics_);
+    if (const auto activity = reader.choice("activity", {"gather", "look", "queue"}))
+        stop.activity = static_cast<Activity>(*activity);
+    if (const JsonNode* facing = reader.get("facing")) stop.facing = reader.pointOf(*facing);
+    const bool queues = stop.activity == Activity::queue;
+    if (const JsonNode* line = reader.get("line")) {
+        stop.line = reader.points("line", 2);
+        if (!queues)
+            diagnostics_.error(line->where, "only a queue has a `line`", R"(write "activity": "queue")");
+    }
+    const JsonNode* spacing = reader.get("spacing");
+    reader.number("spacing", {0.4, 10.0}, stop.spacing);
+    if (spacing && !queues)
+        diagnostics_.error(spacing->where, "only a queue has a `spacing`", R"(write "activity": "queue")");
+    if (queues && !node.find("line"))
+        diagnostics_.error(node.where, "a queue needs the `line` along which people stand, from its front",
+                           R"(for example "line": [[0, 0], [6, 0]])");
+    if (stop.activity != Activity::gather && !stop.stops())
+        diagnostics_.error(node.where, "this stop has no `wait`: people would pass through",
+                           R"(write for example "wait": {"uniform": [5, 20]})");
+    if (stop.activity == Activity::look && !stop.facing)
+        diagnostics_.error(node.where, "where do people look?", R"(write "facing": [x, y])");
+}
+
+}  // namespace throng::authoring

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "authoring/layout.h"
+#include "authoring/layout/object_reader.h"
+
+namespace throng::authoring {
+
+/// Reads what names roads and areas: places, destinations and stops.
+class PlaceReader {
+  public:
+    using Indices = std::map<std::string, std::size_t>;  // by id
+    PlaceReader(const Indices& roads, const Indices& areas, Diagnostics& diagnostics)
+        : roads_(roads), areas_(areas), diagnostics_(diagnostics) {}
+
+    std::optional<Place> place(const JsonNode& node) const;
+    /// A place, {"nearest": [places]} or {"choose": {place: weight}}.
+    std::optional<Destination> destination(const JsonNode& node) const;
+    /// A destination, or an object with one under `at` and what happens there.
+    std::optional<Stop> stop(const JsonNode& node) const;
+
+  private:
+    std::optional<Place> placeNamed(const std::string& name, const SourcePosition& where) const;
+    Destination nearestOf(const JsonNode& list) const;
+    Destination choiceOf(const JsonNode& shares) const;
+    void readWhatHappens(ObjectReader& reader, const JsonNode& node, Stop& stop) const;
+
+    const Indices& roads_;
+    const Indices& areas_;
+    Diagnostics& diagnostics_;
+};
+
+}  // namespace throng::authoring

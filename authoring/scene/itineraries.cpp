@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "authoring/scene/itineraries.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "authoring/scene/raster.h"
+#include "authoring/scene/walls.h"
+
+namespace throng::authoring {
+namespace {
+
+constexpr float kPassTolerance = 0.3f;  // m
+constexpr float kStandTolerance = 0.3f;
+constexpr float kStandClearance = 0.3f;  // m to walls beyond a body, where there is room
+constexpr float kCircle = 0.45f;         // m: radius of the ring in which a party stands and talks
+
+glm::vec2 middleOf(const LocalPolygon& polygon) {
+    glm::vec2 middle(0.0f);
+    for (const glm::vec2 point : polygon)
+        middle += point / static_cast<float>(polygon.size());
+    return middle;
+}
+
+std::uint32_t activityOf(Activity activity) {
+    if (activity == Activity::look) return gpu::ACTIVITY_LOOK;
+    return activity == Activity::queue ? gpu::ACTIVITY_QUEUE : gpu::ACTIVITY_STAND;
+}
+
+}  // namespace
+
+Stop Journey::goalStop(const Destination& to, Arrival arrival) {
+    Stop stop;
+    stop.at = to;
+    stop.where = to.where;
+    if (arrival == Arrival::stay)
+        stop.wait = {Distribution::Kind::constant, double{gpu::DWELL_FOR_GOOD}, 0.0, 0.0, 0.0};
+    return stop;
+}
+
+Itineraries::Spread::Spread(LocalPolygon outline, const WalkGeometry& geometry, float clearance)
+    : outline_(std::move(outline)), geometry_(&geometry), clearance_(clearance) {}
+
+std::optional<glm::vec2> Itineraries::Spread::next() {
+    constexpr int kTries = 16'384;
+    const Box box = boundsOf(outline_, 0.0f);
+    for (int i = 0; i < kTries; ++i) {
+        x_ = std::fmod(x_ + 0.7548776662466927, 1.0);
+        y_ = std::fmod(y_ + 0.5698402909980532, 1.0);
+        const glm::vec2 point =
+            box.lower + (box.upper - box.lower) * glm::vec2(static_cast<float>(x_), static_cast<float>(y_));
+        if (insidePolygon(outline_, point) && wallDepth(*geometry_, point, clearance_) <= 0.0f) return point;
+    }
+    return std::nullopt;
+}
+
+Itineraries::Itineraries(const Layout& layout, const Rebase& rebase, const WalkGeometry& geometry,
+                         Routes& routes, Diagnostics& diagnostics, Scene& scene)
+    : layout_(layout),
+      rebase_(rebase),
+      geometry_(geometry),
+      routes_(routes),
+      diagnostics_(diagnostics),
+      scene_(scene) {}
+
+bool Itineraries::isShared(const Journey& journey) {
+    for (const Stop& stop : journey.stops)
+        if (stop.stops() || stop.at.kind == Destination::Kind::choose) return false;
+    return true;
+}
+
+std::uint32_t Itineraries::fieldTo(const Destination& to, bool keep_to_roads, std::size_t choice) {
+    return to.kind == Destination::Kind::nearest ? routes_.fieldTo(to.places, keep_to_roads)
+                                                 : routes_.fieldTo(to.places[choice], keep_to_roads);
+}
+
+void Itineraries::check(const Journey& journey, const std::string& start, std::vector<LocalPolygon> from) {
+    std::string before = start;
+    for (const Stop& stop : journey.stops) {
+        std::vector<LocalPolygon> reached;
+        for (std::size_t i = 0; i < stop.at.places.size(); ++i) {
+            const Place& place = stop.at.places[i];
+            const std::uint32_t field = fieldTo(stop.at, journey.keep_to_roads, i);
+            reached.push_back(routes_.outline(place, Routes::kTargetDepth));
+            for (const LocalPolygon& outline : from) {
+                if (routes_.reachable(field, outline) != kUnreachable) continue;
+                diagnostics_.error(place.where.line ? place.where : journey.where,
+                                   fmt::format("{}: nobody can walk from {} to `{}`", journey.traveller,
+                                               before, routes_.name(place)),
+                                   "look for walls across the way, doors narrower than a body, and one-way "
+                                   "roads that point the other way");
+                break;
+            }
+            if (stop.at.kind == Destination::Kind::nearest) break;  // one field for all of them
+        }
+        before = fmt::format("`{}`", routes_.name(stop.at.places.front()));
+        from = std::move(reached);
+        const LocalPolygon area = routes_.outline(stop.at.places.front(), Routes::kTargetDepth);
+        for (const glm::dvec2 point : stop.line)
+            if (!insidePolygon(area, rebase_.local(point)))
+                diagnostics_.error(
+                    stop.where,
+                    fmt::format("{}: the line at `{}` leaves its area at [{:.6g}, {:.6g}]", journey.traveller,
+                                routes_.name(stop.at.places.front()), point.x, point.y),
+                    "the whole line has to lie in the area of its stop");
+    }
+}
+
+std::size_t Itineraries::chosen(const Destination& to, const GroupRandom& random, std::uint64_t leader,
+                                std::uint64_t draw) const {
+    if (to.kind != Destination::Kind::choose) return 0;
+    double left = 0.0;
+    for (const double weight : to.weights)
+        left += weight;
+    left *= random.unit(leader, Purpose::choice, draw);
+    for (std::size_t i = 0; i < to.weights.size(); ++i) {
+        if (left < to.weights[i]) return i;
+        left -= to.weights[i];
+    }
+    return to.weights.size() - 1;
+}
+
+std::uint32_t Itineraries::appendStages(const Journey& journey, const GroupRandom& random,
+                                        const Traveller& traveller) {
+    std::uint64_t draw = journey.first_draw;
+    for (const Stop& stop : journey.stops) {
+        const std::size_t choice = chosen(stop.at, random, traveller.leader, draw);
+        const Place& place = stop.at.places[choice];
+        const std::uint32_t field = fieldTo(stop.at, journey.keep_to_roads, choice);
+        const double wait = random.draw(stop.wait, traveller.leader, Purpose::wait, draw);
+        ++draw;
+        if (wait > 0.0 && stop.at.kind != Destination::Kind::nearest) {
+            scene_.stages.push_back(stopStage(stop, place, field, wait, traveller));
+            continue;
+        }
+        gpu::Stage stage{};
+        stage.point = stage.facing = middleOf(routes_.outline(place, Routes::kTargetDepth));
+        stage.tolerance = kPassTolerance;
+        stage.field = field;
+        stage.dwell = static_cast<float>(wait);
+        stage.line = gpu::NO_INDEX;
+        stage.activity = gpu::ACTIVITY_STAND;
+        scene_.stages.push_back(stage);
+    }
+    return static_cast<std::uint32_t>(journey.stops.size());
+}
+
+gpu::Stage Itineraries::stopStage(const Stop& stop, const Place& place, std::uint32_t field, double wait,
+                                  const Traveller& traveller) {
+    gpu::Stage stage{};
+    glm::vec2 middle(0.0f);
+    stage.point = spotFor(place, traveller, middle);
+    stage.facing = stop.facing ? rebase_.local(*stop.facing) : middle;
+    stage.tolerance = kStandTolerance;
+    stage.field = field | gpu::FIELD_THEN_POINT;
+    stage.dwell = static_cast<float>(wait);
+    stage.line = gpu::NO_INDEX;
+    stage.activity = activityOf(stop.activity);
+    stage.flags = gpu::STAGE_ANYWHERE;
+    if (stop.activity == Activity::queue) {
+        stage.line = lineFor(stop);
+        stage.point = rebase_.local(stop.line.front());
+        stage.facing = stop.facing ? stage.facing : stage.point;
+        stage.flags = 0;
+        ++scene_.lines[stage.line].ticket_count;
+        ++scene_.ticket_count;
+    }
+    return stage;
+}
+
+/// A party stands in a ring round one spot and looks at its middle; who is alone looks to the middle of the
+/// place.
+glm::vec2 Itineraries::spotFor(const Place& place, const Traveller& traveller, glm::vec2& middle) {
+    const std::string name = routes_.name(place);
+    const LocalPolygon outline = routes_.outline(place, Routes::kTargetDepth);
+    auto spread = spreads_.find(name);
+    if (spread == spreads_.end())
+        spread = spreads_.emplace(name, Spread(outline, geometry_, traveller.radius + kStandClearance)).first;
+    middle = middleOf(outline);
+    if (traveller.member == 0) party_spots_[name] = spread->second.next().value_or(middle);
+    const glm::vec2 spot = party_spots_[name];
+    if (traveller.party_size < 2) return spot;
+    middle = spot;
+    const float angle = 2.0f * std::numbers::pi_v<float> *
+                        (static_cast<float>(traveller.member) / static_cast<float>(traveller.party_size) +
+                         0.618034f * static_cast<float>(traveller.leader % 89));
+    const glm::vec2 place_in_ring = spot + kCircle * glm::vec2(std::cos(angle), std::sin(angle));
+    return wallDepth(geometry_, place_in_ring, traveller.radius) > 0.0f ? spot : place_in_ring;
+}
+
+/// Stops of several flows with the same line are one line.
+std::uint32_t Itineraries::lineFor(const Stop& stop) {
+    std::string key = fmt::format("{}", stop.spacing);
+    for (const glm::dvec2 point : stop.line)
+        key += fmt::format(" {} {}", point.x, point.y);
+    const auto [entry, is_new] = lines_.try_emplace(key, static_cast<std::uint32_t>(scene_.lines.size()));
+    if (is_new) {
+        gpu::WaitingLine line{};
+        line.first_point = static_cast<std::uint32_t>(scene_.line_points.size());
+        line.point_count = static_cast<std::uint32_t>(stop.line.size());
+        line.spacing = static_cast<float>(stop.spacing);
+        line.candidate = gpu::NO_INDEX;
+        scene_.lines.push_back(line);
+        for (const glm::vec2 point : rebase_.local(stop.line))
+            scene_.line_points.push_back(point);
+    }
+    return entry->second;
+}
+
+}  // namespace throng::authoring

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "authoring/diagnostics.h"
+#include "authoring/layout.h"
+#include "authoring/scene.h"
+#include "authoring/scene/random.h"
+#include "authoring/scene/rebase.h"
+#include "authoring/scene/routes.h"
+
+namespace throng::authoring {
+
+/// The way of one group of people: stops, the last of which is the goal.
+struct Journey {
+    std::string traveller{};  ///< "flow `id`", for messages
+    SourcePosition where{};
+    bool keep_to_roads = false;
+    std::vector<Stop> stops{};
+    std::uint64_t first_draw = 0;  ///< tells the draws of several journeys of one group apart
+
+    /// The goal as a stop: those who stay never go on.
+    static Stop goalStop(const Destination& to, Arrival arrival);
+};
+
+/// Who walks: draws are the party's, so that its members stay together.
+struct Traveller {
+    std::uint64_t leader = 0;  ///< index within its group of the party's first
+    std::uint32_t member = 0;  ///< which of the party
+    std::uint32_t party_size = 1;
+    float radius = 0.25f;
+};
+
+/// Turns journeys into the stages that people walk.
+class Itineraries {
+  public:
+    Itineraries(const Layout& layout, const Rebase& rebase, const WalkGeometry& geometry, Routes& routes,
+                Diagnostics& diagnostics, Scene& scene);
+
+    /// Whether everybody walks the same stages.
+    static bool isShared(const Journey& journey);
+    /// Complains about stops that nobody can reach from one of these outlines on.
+    /// @param start what these are called, for messages
+    void check(const Journey& journey, const std::string& start, std::vector<LocalPolygon> from);
+    /// Appends a traveller's stages to the scene's.
+    /// @returns how many; the scene's last stage has the goal
+    std::uint32_t appendStages(const Journey& journey, const GroupRandom& random, const Traveller& traveller);
+
+    /// The field of a destination. @param choice which of its places, where one is chosen
+    std::uint32_t fieldTo(const Destination& to, bool keep_to_roads, std::size_t choice = 0);
+
+    /// Points spread evenly over a polygon (the R2 sequence, Roberts 2018), clear of walls by `clearance`.
+    class Spread {
+      public:
+        Spread(LocalPolygon outline, const WalkGeometry& geometry, float clearance);
+        /// @returns nothing where many tries found no room
+        std::optional<glm::vec2> next();
+
+      private:
+        LocalPolygon outline_;
+        const WalkGeometry* geometry_;
+        float clearance_;
+        double x_ = 0.5, y_ = 0.5;
+    };
+
+  private:
+    gpu::Stage stopStage(const Stop& stop, const Place& place, std::uint32_t field, double wait,
+                         const Traveller& traveller);
+    glm::vec2 spotFor(const Place& place, const Traveller& traveller, glm::vec2& middle);
+    std::uint32_t lineFor(const Stop& stop);
+    std::size_t chosen(const Destination& to, const GroupRandom& random, std::uint64_t leader,
+                       std::uint64_t draw) const;
+
+    const Layout& layout_;
+    const Rebase& rebase_;
+    const WalkGeometry& geometry_;
+    Routes& routes_;
+    Diagnostics& diagnostics_;
+    Scene& scene_;
+    std::map<std::string, Spread> spreads_;         // by place
+    std::map<std::string, glm::vec2> party_spots_;  // the last party's, by place
+    std::map<std::string, std::uint32_t> lines_;    // by their points
+};
+
+}  // namespace throng::authoring

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keeps the lines that people wait in: one invocation per line, so that the order does not depend on anything else.
+#include "shaders/shared/simulation_types.h"
+
+layout(local_size_x = AGENT_GROUP_SIZE) in;
+layout(std430) buffer WaitingLines { WaitingLine waiting_lines[]; };
+layout(std430) buffer Tickets { uint tickets[]; };  // rows, by line and number
+layout(std430) buffer States { AgentState states[]; };
+layout(std430) readonly buffer Stages { Stage stages[]; };
+uniform uint line_count;
+
+void main() {
+    uint index = gl_GlobalInvocationID.x;
+    if (index >= line_count) return;
+    WaitingLine line = waiting_lines[index];
+    // Whoever was served, or was called away, has given its ticket back.
+    while (line.served < line.given && states[tickets[line.first_ticket + line.served]].ticket != line.served) ++line.served;
+    // One joins per step. Who was called away in this very step does not.
+    uint row = line.candidate;
+    line.candidate = NO_INDEX;
+    if (row != NO_INDEX && line.given < line.ticket_count && stages[states[row].stage].line == index) {
+        tickets[line.first_ticket + line.given] = row;
+        states[row].ticket = line.given++;
+    }
+    waiting_lines[index] = line;
+}
