@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+#include <iterator>
 #include <memory>
 #include <thread>
 
@@ -100,6 +104,62 @@ void runProximity(const Options& options) {
     fmt::print("{}/proximity.md, .csv, .png\n", options.output);
 }
 
+struct StepOptions {
+    std::uint32_t people = 4096;
+    std::string proximity = "voronoi";
+    std::string crowd;
+    int device = -1;
+};
+
+/// One row per person: where it is, where it goes, how fast and how large it is.
+void writeCrowd(const std::string& path, const authoring::Scene& scene) {
+    std::string table = "x,y,goal_x,goal_y,speed,radius\n";
+    for (std::size_t row = 0; row < scene.people.size(); ++row) {
+        const gpu::Person& person = scene.people[row];
+        fmt::format_to(std::back_inserter(table), "{},{},{},{},{},{}\n", person.spawn_position.x,
+                       person.spawn_position.y, scene.goals[row].x, scene.goals[row].y,
+                       person.preferred_speed, person.radius);
+    }
+    io::writeFile(path, table);
+}
+
+/// Steps when told to, so that another program can be timed in turn: one step per line of the standard input.
+void runStep(const StepOptions& options) {
+    const gl::Context context({options.device, false});
+    authoring::Scene scene = sim::ProximityBenchmark{}.crowd(options.people);
+    scene.settings.proximity =
+        options.proximity == "grid" ? authoring::Proximity::grid : authoring::Proximity::voronoi;
+    if (!options.crowd.empty()) writeCrowd(options.crowd, scene);
+    sim::Simulation simulation(scene, gl::ShaderLibrary(), costsFor(context.device()));
+    simulation.step();
+    simulation.wait();
+    fmt::print("{}\n", context.device().name);
+    std::fflush(stdout);
+    for (std::string line; std::getline(std::cin, line);) {
+        const auto start = std::chrono::steady_clock::now();
+        simulation.step();
+        simulation.wait();
+        const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+        fmt::print("{:.4f}\n", time.count());
+        std::fflush(stdout);
+    }
+}
+
+void addStep(CLI::App& bench) {
+    CLI::App* command = bench.add_subcommand(
+        "step", "Whole steps, one for each line of the standard input: their times in ms, a line each");
+    auto options = std::make_shared<StepOptions>();
+    command->add_option("--people", options->people, "One per 4 m^2, on their way to random goals")
+        ->check(CLI::Range(1, 4'000'000))
+        ->capture_default_str();
+    command->add_option("--proximity", options->proximity, "What finds neighbours")
+        ->check(CLI::IsMember({"voronoi", "grid"}))
+        ->capture_default_str();
+    command->add_option("--crowd", options->crowd, "Write where everybody is and goes into this file (CSV)");
+    command->add_option("--device", options->device, "Run on this device (`throng devices` lists them)");
+    command->callback([options] { runStep(*options); });
+}
+
 CLI::App* addKind(CLI::App& bench, const char* name, const char* what, void (*run)(const Options&)) {
     CLI::App* command = bench.add_subcommand(name, what);
     auto options = std::make_shared<Options>();
@@ -122,6 +182,7 @@ void addBench(CLI::App& app) {
     addKind(*bench, "diagrams", "Every way to build the diagram, beside the paper's Table 1", runDiagrams);
     addKind(*bench, "proximity", "Finding neighbours by the diagram, by a grid, and by comparing everybody",
             runProximity);
+    addStep(*bench);
     bench->footer("Example:\n  throng bench diagrams -o bench");
 }
 

@@ -48,5 +48,6 @@ def import_bake(context, path, *, frame_start=1, walls=True, roads=True, scenery
     crowd = playback.build_crowd(bake, f"Throng {bake.name} crowd", people, POSES, variations, frame_start, paths)
     collection.objects.link(crowd)
     set_up_scene(scene, bake, frame_start)
-    environment.build_environment(context, bake.manifest, collection, walls=walls, roads=roads, ground=scenery, light=scenery, camera=camera)
+    environment.build_environment(context, bake.manifest, collection, walls=walls, roads=roads, ground=scenery, light=scenery, camera=camera,
+                                  frame_start=frame_start)
     return crowd

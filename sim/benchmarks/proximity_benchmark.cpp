@@ -72,7 +72,7 @@ Lists senseNow(Simulation& simulation) {
     return lists;
 }
 
-ProximityRow ProximityBenchmark::run(const gl::ShaderLibrary& library, std::uint32_t people) const {
+authoring::Scene ProximityBenchmark::crowd(std::uint32_t people) const {
     authoring::Scene scene = openCrowd(people, spacing, 7);
     scene.settings.tile_radius = tile_radius;
     scene.settings.field_of_view = field_of_view;
@@ -81,7 +81,11 @@ ProximityRow ProximityBenchmark::run(const gl::ShaderLibrary& library, std::uint
     for (gpu::Person& person : scene.people)
         person.radius = body_radius;
     scene.smallest_radius = scene.largest_radius = body_radius;
+    return scene;
+}
 
+ProximityRow ProximityBenchmark::run(const gl::ShaderLibrary& library, std::uint32_t people) const {
+    authoring::Scene scene = crowd(people);
     ProximityRow row;
     row.people = people;
     const std::array ways = {std::pair{authoring::Proximity::grid, &row.grid},

@@ -35,6 +35,8 @@ struct ProximityBenchmark {
     int neighbours = 10;
     int rounds = 15;
 
+    /// The crowd that is timed.
+    authoring::Scene crowd(std::uint32_t people) const;
     /// All ways in turn, round by round, over the same crowd.
     ProximityRow run(const gl::ShaderLibrary& library, std::uint32_t people) const;
 };

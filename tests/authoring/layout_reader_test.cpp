@@ -212,6 +212,9 @@ TEST(LayoutReader, ExplainsWhatIsWrongWithStopsAndEvents) {
                 "there is no flow or formation `g`");
     expectError(kTwoAreas + events + R"({"at": 1, "open": "gate"}, {"at": 2, "open": "gate"}]})", 5, 100,
                 "/events/1", "already is open");
+    expectError(kTwoAreas + R"("walls": [{"id": "block", "closed": true, "points": [[10,0],[12,0],[11,2]]}],
+ "events": [{"at": 1, "open": "block"}]})",
+                5, 13, "/events/0", "is a solid, not a gate");
     const std::string people =
         R"("flows": [{"id": "f", "from": "a", "to": "b", "count": 1, "people": {"groups": )";
     expectError(kTwoAreas + people + R"([1, 2, 3, 4, 5]}}]})", 4, 80, "/flows/0/people/groups",

@@ -16,9 +16,10 @@ throng.register()
 assert bpy.ops.import_scene.throng(filepath=os.path.join(bake, "bake.json"), scenery=False, camera=False) == {"FINISHED"}
 scene = bpy.context.scene
 crowd = bpy.data.objects["Throng sample crowd"]
-result = {"fps": scene.render.fps / scene.render.fps_base, "range": [scene.frame_start, scene.frame_end], "shots": []}
+result = {"fps": scene.render.fps / scene.render.fps_base, "range": [scene.frame_start, scene.frame_end], "shots": [], "gate": []}
 for frame, sub in json.loads(times):
     scene.frame_set(frame, subframe=sub)
+    result["gate"].append([frame, bpy.data.objects["Throng wall gate"].hide_render])
     depsgraph = bpy.context.evaluated_depsgraph_get()
     people = {}
     for instance in depsgraph.object_instances:

@@ -19,6 +19,7 @@ def write_bake(folder, agents=63, frames=40, fps=24.0, seed=7):
     pos[..., 1] = start[1] + numpy.cumsum(numpy.sin(heading) * step, axis=0)
     direction = numpy.stack([numpy.cos(heading), numpy.sin(heading), numpy.broadcast_to(speed, heading.shape)], axis=2).astype("<f4")
     state = numpy.ones((frames, agents, 3), "<f4")
+    state[:, speed == 0.0, 0] = 2.0  # stands
     state[..., 1] = numpy.arange(agents) % 8
     state[..., 2] = random.uniform(0.0, 1.0, agents) + numpy.arange(frames)[:, None] * step / 1.4
     for row in range(agents):
@@ -39,7 +40,9 @@ def write_bake(folder, agents=63, frames=40, fps=24.0, seed=7):
         "variations": 8, "stride_length": 1.4, "origin": [0.0, 0.0, 0.0], "bounds": {"min": [-20.0, -20.0], "max": [20.0, 20.0]},
         "streams": {name: {"npy": f"streams/{name}.npy", "pc2": f"streams/{name}.pc2"} for name in ("pos", "dir", "state")},
         "geometry": {"walls": [{"id": "house", "points": [[10, 10], [18, 10], [18, 18], [10, 18]], "closed": True, "thickness": 0.2, "height": 9.0},
-                               {"id": "rail", "points": [[-9, 9], [-4, 9]], "closed": False, "thickness": 0.2, "height": 1.0}],
+                               {"id": "rail", "points": [[-9, 9], [-4, 9]], "closed": False, "thickness": 0.2, "height": 1.0},
+                               {"id": "gate", "points": [[-4, 9], [-2, 9]], "closed": False, "thickness": 0.1, "height": 1.0,
+                                "gate": {"open_at_start": False, "toggles": [0.5, 1.2]}}],
                      "roads": [{"id": "a", "centreline": [[-20, 0], [20, 0]], "width": 8.0, "one_way": False},
                                {"id": "b", "centreline": [[0, -20], [0, 20]], "width": 8.0, "one_way": False}],
                      "areas": [{"id": "plaza", "polygon": [[-18, -18], [-8, -18], [-8, -8], [-18, -8]]}]}}

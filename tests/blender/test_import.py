@@ -40,6 +40,8 @@ def test_instances_are_where_the_arrays_say_at_frames_and_between(blender, tmp_p
     times = [(1, 0.0), (30, 0.0), (11, 0.5), (2, 0.25), (40, 0.0), (26, 0.6), (5, 0.0), (500, 0.0), (18, 0.75)]
     result = result_of(blender(pathlib.Path(__file__).parent / "check_playback.py", ADDON, tmp_path / "bake", json.dumps(times)))
     assert result["fps"] == 24.0 and result["range"] == [1, 40]
+    for frame, hidden in result["gate"]:  # open from 0.5 to 1.2 s
+        assert hidden == (13 <= frame < 30), frame
     for shot in result["shots"]:
         t = min(max(shot["frame"] + shot["sub"] - 1.0, 0.0), 39.0)
         low, high = int(math.floor(t)), min(int(math.floor(t)) + 1, 39)

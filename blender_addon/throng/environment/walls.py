@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Walls: closed tall ones become buildings, the others walls and barriers with a coping."""
+import math
 import zlib
 
 from . import materials
@@ -34,6 +35,19 @@ def build_wall(wall):
     else:
         _open_wall(shape, points, float(wall.get("thickness", 0.2)), height)
     return shape.to_object()
+
+
+def key_gate(thing, wall, fps, frame_start):
+    """A gate is there while it is closed: its visibility is keyed where events open or close it."""
+    gate = wall.get("gate")
+    if not gate:
+        return
+    is_open = bool(gate["open_at_start"])
+    for frame in [frame_start] + [frame_start + math.ceil(time * fps) for time in gate["toggles"]]:
+        for path in ("hide_viewport", "hide_render"):
+            setattr(thing, path, is_open)
+            thing.keyframe_insert(path, frame=frame)
+        is_open = not is_open
 
 
 def _open_wall(shape, points, thickness, height):

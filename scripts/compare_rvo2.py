@@ -1,0 +1,155 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Times whole steps of Throng and of RVO2 (pyrvo) in turn, over the same crowd, and writes a table.
+
+Usage: compare_rvo2.py THRONG -o FOLDER [--people 4096 16384 ...] [--rounds 15]   (needs numpy and pyrvo)
+"""
+import argparse
+import csv
+import os
+import pathlib
+import statistics
+import subprocess
+import tempfile
+import time
+
+import pyrvo
+
+STEP = 1.0 / 30.0     # s
+SIGHT = 3.3           # m: what Throng's rays reach (body radius 0.3 m, six samples 0.6 m apart)
+NEIGHBOURS = 10
+HORIZON = 2.0         # s
+
+
+def memory_kib(process="self", key="VmRSS"):
+    with open(f"/proc/{process}/status") as file:
+        return int(next(line for line in file if line.startswith(key)).split()[1])
+
+
+class Throng:
+    """`throng bench step`, told when to step."""
+
+    def __init__(self, program, people, proximity, crowd=None):
+        command = [program, "bench", "step", "--people", str(people), "--proximity", proximity]
+        self.process = subprocess.Popen(command + (["--crowd", crowd] if crowd else []), stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        self.device = self.process.stdout.readline().strip()
+
+    def step(self):
+        self.process.stdin.write("\n")
+        self.process.stdin.flush()
+        return float(self.process.stdout.readline())
+
+    def memory_kib(self):
+        return memory_kib(self.process.pid)
+
+    def close(self):
+        self.process.stdin.close()
+        self.process.wait()
+
+
+class Rvo2:
+    """The reference library; everybody keeps the velocity it prefers at first, so that setting it is not timed."""
+
+    def __init__(self, crowd):
+        before = memory_kib()
+        self.simulator = pyrvo.RVOSimulator(STEP, SIGHT, NEIGHBOURS, HORIZON, HORIZON, 0.3, 2.0)
+        with open(crowd, newline="") as file:
+            for row, person in enumerate(csv.DictReader(file)):
+                x, y = float(person["x"]), float(person["y"])
+                away = (float(person["goal_x"]) - x, float(person["goal_y"]) - y)
+                size = max((away[0] ** 2 + away[1] ** 2) ** 0.5, 1e-6)
+                speed = float(person["speed"])
+                self.simulator.add_agent((x, y))
+                self.simulator.set_agent_max_speed(row, 1.5 * speed)
+                self.simulator.set_agent_pref_velocity(row, (away[0] / size * speed, away[1] / size * speed))
+        self.simulator.do_step()
+        self.kib = memory_kib() - before
+
+    def step(self):
+        start = time.perf_counter()
+        self.simulator.do_step()
+        return 1000.0 * (time.perf_counter() - start)
+
+
+def threads_while(simulator):
+    """How many threads this process has once the library has stepped."""
+    simulator.do_step()
+    with open("/proc/self/status") as file:
+        return int(next(line for line in file if line.startswith("Threads")).split()[1])
+
+
+def compare(program, people, rounds, folder):
+    crowd = os.path.join(folder, f"crowd-{people}.csv")
+    contestants = {"diagram": Throng(program, people, "voronoi", crowd), "grid": Throng(program, people, "grid")}
+    memory = {name: 0 for name in contestants}
+    contestants["RVO2"] = Rvo2(crowd)
+    for _ in range(2):
+        for contestant in contestants.values():
+            contestant.step()
+    times = {name: [] for name in contestants}
+    for _ in range(rounds):
+        for name, contestant in contestants.items():
+            times[name].append(contestant.step())
+    for name in memory:
+        memory[name] = contestants[name].memory_kib()
+    memory["RVO2"] = contestants["RVO2"].kib
+    device, threads = contestants["diagram"].device, threads_while(contestants["RVO2"].simulator)
+    for name in ("diagram", "grid"):
+        contestants[name].close()
+    return {"people": people, "device": device, "threads": threads, "memory": memory,
+            "ms": {name: statistics.median(values) for name, values in times.items()},
+            "spread": {name: (min(values), max(values)) for name, values in times.items()}}
+
+
+def table(results, base_memory):
+    lines = ["| people | Throng, diagram | Throng, grid | RVO2 | diagram / RVO2 | grid / RVO2 | us a person: diagram | grid | RVO2 | KiB a person: diagram | grid | RVO2 |",
+             "| --- |" + " --- |" * 11]
+    for r in results:
+        ms, n = r["ms"], r["people"]
+        each = [f"{1000 * ms[k] / n:.3f}" for k in ("diagram", "grid", "RVO2")]
+        kib = [f"{(r['memory'][k] - base_memory[k]) / n:.2f}" for k in ("diagram", "grid")] + [f"{r['memory']['RVO2'] / n:.2f}"]
+        lines.append(f"| {n:,} | {ms['diagram']:.2f} | {ms['grid']:.2f} | {ms['RVO2']:.2f} | {ms['diagram'] / ms['RVO2']:.2f} | {ms['grid'] / ms['RVO2']:.2f} | "
+                     + " | ".join(each) + " | " + " | ".join(kib) + " |")
+    return "\n".join(lines)
+
+
+def base_memory_of(program):
+    """What the program needs for one person: driver and shaders, kept out of the memory a person."""
+    base = {}
+    for name, proximity in (("diagram", "voronoi"), ("grid", "grid")):
+        throng = Throng(program, 1, proximity)
+        throng.step()
+        base[name] = throng.memory_kib()
+        throng.close()
+    return base
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("program")
+    parser.add_argument("-o", "--output", type=pathlib.Path, required=True)
+    parser.add_argument("--people", type=int, nargs="+", default=[4096, 16384, 65536, 262144, 1048576])
+    parser.add_argument("--rounds", type=int, default=15)
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        results = [compare(options.program, people, options.rounds, folder) for people in options.people]
+    text = f"""# Whole steps beside RVO2
+
+{results[0]["device"]}, {os.cpu_count()} processor cores; RVO2 through pyrvo {pyrvo_version()}, {results[0]["threads"]} threads in its process. Made by `scripts/compare_rvo2.py`.
+The same crowd for all: one person per 4 m^2 on its way to a random goal, body radius 0.3 m, {NEIGHBOURS} neighbours within {SIGHT} m, horizon {HORIZON:g} s. Medians of
+{options.rounds} rounds, all three in turn, ms a step. Throng's step is everything from sorting to contact; RVO2's is `do_step` alone, without setting preferred velocities.
+Memory is the resident set of the process less that of the same program with one person (RVO2: what its agents added).
+
+{table(results, base_memory_of(options.program))}
+"""
+    options.output.mkdir(parents=True, exist_ok=True)
+    (options.output / "rvo2.md").write_text(text)
+    print(text)
+
+
+def pyrvo_version():
+    from importlib.metadata import version
+    return version("pyrvo")
+
+
+main()
