@@ -11,7 +11,7 @@ layout(std430) readonly buffer PreferredVelocities { vec2 preferred_velocities[]
 layout(std430) readonly buffer Paces { float paces[]; };
 layout(std430) readonly buffer Targets { vec2 targets[]; };
 layout(std430) readonly buffer Stages { Stage stages[]; };
-layout(std430) readonly buffer Fields { FieldCell fields[]; };
+uniform usamplerBuffer field_cells;  // FieldCell
 layout(std430) readonly buffer DetourSlopes { vec2 detour_slopes[]; };
 layout(std430) readonly buffer PlanChanges { PlanChange plan_changes[]; };
 layout(std430) buffer WaitingLines { WaitingLine waiting_lines[]; };

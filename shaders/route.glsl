@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where a route leads from a position: a straight line to a point, or downhill on a distance field.
-// Needs the blocks Stages and Fields.
+// Needs the block Stages and the sampler field_cells.
 
 struct RouteAhead {
     vec2 direction;   // unit vector, or zero at the target itself
@@ -26,13 +26,18 @@ vec2 detourSlope(uint field, vec2 position) {
                mix(detour_slopes[above], detour_slopes[above + 1u], fraction.x), fraction.y);
 }
 
+FieldCell fieldCell(uint index) {
+    uvec2 words = texelFetch(field_cells, int(index)).xy;
+    return FieldCell(uintBitsToFloat(words.x), words.y);
+}
+
 RouteAhead sampleField(uint field, vec2 position) {
     uvec2 cell;
     vec2 fraction;
     gridPosition(position, parameters.grid_cell, uvec2(parameters.grid_width, parameters.grid_height), cell, fraction);
     uint base = field * parameters.grid_width * parameters.grid_height + cell.y * parameters.grid_width + cell.x;
-    FieldCell corner[4] = FieldCell[4](fields[base], fields[base + 1u], fields[base + parameters.grid_width],
-                                       fields[base + parameters.grid_width + 1u]);
+    FieldCell corner[4] = FieldCell[4](fieldCell(base), fieldCell(base + 1u), fieldCell(base + parameters.grid_width),
+                                       fieldCell(base + parameters.grid_width + 1u));
     vec4 weight = vec4((1.0 - fraction.x) * (1.0 - fraction.y), fraction.x * (1.0 - fraction.y),
                        (1.0 - fraction.x) * fraction.y, fraction.x * fraction.y);
     RouteAhead ahead = RouteAhead(vec2(0.0), 0.0, false);

@@ -6,7 +6,7 @@ layout(local_size_x = SPAWN_GROUP_SIZE) in;
 layout(std140) uniform ParametersBlock { Parameters parameters; };
 layout(std430) readonly buffer People { Person people[]; };
 layout(std430) readonly buffer Stages { Stage stages[]; };
-layout(std430) readonly buffer Fields { FieldCell fields[]; };
+uniform usamplerBuffer field_cells;  // FieldCell
 layout(std430) readonly buffer DetourSlopes { vec2 detour_slopes[]; };
 layout(std430) readonly buffer Proposals { SpawnProposal proposals[]; };
 layout(std430) buffer States { AgentState states[]; };

@@ -9,7 +9,7 @@ layout(std430) readonly buffer People { Person people[]; };
 layout(std430) readonly buffer States { AgentState states[]; };
 layout(std430) readonly buffer Bodies { Body bodies[]; };
 layout(std430) readonly buffer Stages { Stage stages[]; };
-layout(std430) readonly buffer Fields { FieldCell fields[]; };
+uniform usamplerBuffer field_cells;  // FieldCell
 layout(std430) readonly buffer DetourSlopes { vec2 detour_slopes[]; };
 layout(std430) readonly buffer WaitingLines { WaitingLine waiting_lines[]; };
 layout(std430) readonly buffer LinePoints { vec2 line_points[]; };

@@ -19,8 +19,11 @@ struct Buffers {
 
     gl::Buffer parameters;
 
-    gl::Buffer people, states;                                         // per row
-    gl::Buffer stages, plan_changes, fields, road_distances;           // routes
+    gl::Buffer people, states;        // per row
+    gl::Buffer stages, plan_changes;  // routes
+    gl::Buffer fields;                // may be larger than a storage block: read through field_cells
+    gl::WordTexture field_cells;
+    gl::Buffer road_distances;
     gl::Buffer lines, line_points, tickets;                            // people who wait in line
     gl::Buffer detour_slopes;                                          // what jams add to them
     gl::Buffer queues, queue_heads, entries, entry_points, proposals;  // entering

@@ -12,6 +12,7 @@ gl::ComputeProgram connected(const gl::ShaderLibrary& library, const std::string
                              const Buffers& buffers, const gl::Definitions& definitions = {}) {
     gl::ComputeProgram program(library, path, definitions);
     program.bindAll(buffers.named());
+    if (program.hasUniform("field_cells")) program.bind("field_cells", buffers.field_cells);
     return program;
 }
 

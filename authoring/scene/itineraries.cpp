@@ -65,6 +65,27 @@ Itineraries::Itineraries(const Layout& layout, const Rebase& rebase, const WalkG
       diagnostics_(diagnostics),
       scene_(scene) {}
 
+void Itineraries::prepare() {
+    std::vector<std::vector<Place>> wanted[2];
+    const auto want = [&](const Destination& to, bool keep_to_roads) {
+        std::vector<std::vector<Place>>& list = wanted[keep_to_roads ? 1 : 0];
+        if (to.kind == Destination::Kind::nearest) list.push_back(to.places);
+        if (to.kind != Destination::Kind::nearest)
+            for (const Place& place : to.places)
+                list.push_back({place});
+    };
+    for (const Flow& flow : layout_.flows) {
+        for (const Stop& stop : flow.via)
+            want(stop.at, !layout_.roads.empty());
+        want(flow.to, !layout_.roads.empty());
+    }
+    for (const Formation& formation : layout_.formations)
+        if (const auto* grid = std::get_if<GridFormation>(&formation.shape))
+            if (const auto* to = std::get_if<Destination>(&grid->goal)) want(*to, false);
+    for (const bool keep_to_roads : {false, true})
+        routes_.solveAll(wanted[keep_to_roads ? 1 : 0], keep_to_roads);
+}
+
 bool Itineraries::isShared(const Journey& journey) {
     for (const Stop& stop : journey.stops)
         if (stop.stops() || stop.at.kind == Destination::Kind::choose) return false;

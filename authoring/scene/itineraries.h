@@ -49,6 +49,8 @@ class Itineraries {
     /// @returns how many; the scene's last stage has the goal
     std::uint32_t appendStages(const Journey& journey, const GroupRandom& random, const Traveller& traveller);
 
+    /// Solves what journeys of flows and formations will ask for, at once.
+    void prepare();
     /// The field of a destination. @param choice which of its places, where one is chosen
     std::uint32_t fieldTo(const Destination& to, bool keep_to_roads, std::size_t choice = 0);
 

@@ -4,18 +4,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
 #include <glm/packing.hpp>
 #include <limits>
 #include <set>
+#include <thread>
 
 #include "authoring/scene/raster.h"
 
 namespace throng::authoring {
 namespace {
 
-/// All fields together stay below this, on the device and here.
-constexpr std::size_t kMostFieldBytes = std::size_t{128} << 20;
+/// All fields together stay below this, on the device and here: what every device samples as one buffer.
+constexpr std::size_t kMostFieldBytes = std::size_t{1} << 30;
 
 /// Jams are larger than this, m, and their news should travel fast.
 constexpr float kDetourCell = 0.75f;
@@ -62,16 +64,48 @@ bool Routes::hasRoom() const {
     return (fields_.size() + 1) * cellCount(grid_) * sizeof(gpu::FieldCell) <= kMostFieldBytes;
 }
 
-std::uint32_t Routes::solve(const std::vector<std::uint32_t>& targets, bool keep_to_roads) {
+void Routes::solveAll(const std::vector<std::vector<Place>>& destinations, bool keep_to_roads) {
+    struct Task {
+        std::vector<std::uint32_t> targets;
+        std::uint32_t field;
+    };
+    std::vector<Task> tasks;
+    for (const std::vector<Place>& places : destinations) {
+        const auto [entry, is_new] = known_.try_emplace(keyOf(places, keep_to_roads), 0);
+        if (!is_new) continue;
+        if (!hasRoom()) {
+            too_many_ = true;
+            return;
+        }
+        std::vector<std::uint32_t> targets = cellsOf(places);
+        entry->second = addField({}, targets, keep_to_roads, places.size() > 1);
+        tasks.push_back({std::move(targets), entry->second});
+    }
+    const WalkMap& map = mapFor(keep_to_roads);
+    std::atomic<std::size_t> next = 0;
+    std::vector<std::jthread> workers;
+    for (std::size_t i = 0; i < std::min<std::size_t>(std::thread::hardware_concurrency(), tasks.size()); ++i)
+        workers.emplace_back([&] {
+            for (std::size_t task = next++; task < tasks.size(); task = next++)
+                fields_[tasks[task].field] = solveField(map, tasks[task].targets);
+        });
+}
+
+std::uint32_t Routes::addField(Field field, std::vector<std::uint32_t> targets, bool keep_to_roads,
+                               bool has_choice) {
+    fields_.push_back(std::move(field));
+    targets_.push_back(std::move(targets));
+    on_roads_.push_back(keep_to_roads);
+    has_choice_.push_back(has_choice);
+    return static_cast<std::uint32_t>(fields_.size() - 1);
+}
+
+std::uint32_t Routes::solve(const std::vector<std::uint32_t>& targets, bool keep_to_roads, bool has_choice) {
     if (!hasRoom()) {
         too_many_ = true;
         return 0;
     }
-    fields_.push_back(solveField(mapFor(keep_to_roads), targets));
-    targets_.push_back(targets);
-    on_roads_.push_back(keep_to_roads);
-    has_choice_.push_back(false);
-    return static_cast<std::uint32_t>(fields_.size() - 1);
+    return addField(solveField(mapFor(keep_to_roads), targets), targets, keep_to_roads, has_choice);
 }
 
 std::uint32_t Routes::fieldTo(const Place& place, bool keep_to_roads) {
@@ -79,19 +113,25 @@ std::uint32_t Routes::fieldTo(const Place& place, bool keep_to_roads) {
 }
 
 std::uint32_t Routes::fieldTo(const std::vector<Place>& places, bool keep_to_roads) {
+    const auto [entry, is_new] = known_.try_emplace(keyOf(places, keep_to_roads), 0);
+    if (is_new) entry->second = solve(cellsOf(places), keep_to_roads, places.size() > 1);
+    return entry->second;
+}
+
+std::string Routes::keyOf(const std::vector<Place>& places, bool keep_to_roads) const {
     std::string key = keep_to_roads ? "on roads" : "anywhere";
     for (const Place& place : places)
         key += "\n" + name(place);
-    const auto [entry, is_new] = known_.try_emplace(key, 0);
-    if (!is_new) return entry->second;
+    return key;
+}
+
+std::vector<std::uint32_t> Routes::cellsOf(const std::vector<Place>& places) const {
     std::vector<std::uint32_t> targets;
     for (const Place& place : places) {
         const std::vector<std::uint32_t> cells = cellsInPolygon(grid_, outline(place, kTargetDepth));
         targets.insert(targets.end(), cells.begin(), cells.end());
     }
-    entry->second = solve(targets, keep_to_roads);
-    if (places.size() > 1 && !too_many_) has_choice_[entry->second] = true;
-    return entry->second;
+    return targets;
 }
 
 /// A rectangle without a blocked cell that holds the point's cell: a square of kSurroundings, cut at the
@@ -137,7 +177,7 @@ std::uint32_t Routes::fieldTo(glm::vec2 point) {
     if (const auto known = field_of_cell_.find(cell); known != field_of_cell_.end()) return known->second;
     if (!hasRoom()) return gpu::NO_INDEX;
     const std::vector<std::uint32_t> targets = clearRectangle(point);
-    const std::uint32_t field = solve(targets, false);
+    const std::uint32_t field = solve(targets, false, false);
     for (const std::uint32_t target : targets)
         field_of_cell_.try_emplace(target, field);
     return field;
@@ -158,8 +198,10 @@ float Routes::reachable(std::uint32_t field, const LocalPolygon& from) const {
 std::vector<gpu::FieldCell> Routes::takeCells() {
     std::vector<gpu::FieldCell> cells;
     cells.reserve(fields_.size() * cellCount(grid_));
-    for (const Field& field : fields_)
+    for (Field& field : fields_) {
         cells.insert(cells.end(), field.cells.begin(), field.cells.end());
+        field = {};
+    }
     fields_.clear();
     return cells;
 }

@@ -24,6 +24,8 @@ class Routes {
     static constexpr float kTargetDepth = 1.0f;  // m
     static constexpr float kEntryDepth = 4.0f;   // m
 
+    /// Solves the fields of many destinations at once, on all processors.
+    void solveAll(const std::vector<std::vector<Place>>& destinations, bool keep_to_roads);
     /// The field that leads to a place, for people who keep to the roads or do not.
     std::uint32_t fieldTo(const Place& place, bool keep_to_roads);
     /// The field that leads to whichever of the places is nearest.
@@ -54,7 +56,11 @@ class Routes {
   private:
     std::vector<std::uint32_t> clearRectangle(glm::vec2 point);
     bool hasRoom() const;
-    std::uint32_t solve(const std::vector<std::uint32_t>& targets, bool keep_to_roads);
+    std::uint32_t solve(const std::vector<std::uint32_t>& targets, bool keep_to_roads, bool has_choice);
+    std::uint32_t addField(Field field, std::vector<std::uint32_t> targets, bool keep_to_roads,
+                           bool has_choice);
+    std::string keyOf(const std::vector<Place>& places, bool keep_to_roads) const;
+    std::vector<std::uint32_t> cellsOf(const std::vector<Place>& places) const;
     const WalkMap& mapFor(bool keep_to_roads);
 
     const Layout& layout_;

@@ -67,6 +67,7 @@ class Builder {
         scene_.grid = makeGrid(geometry_);
         Routes routes(layout_, rebase_, geometry_, scene_.grid);
         Itineraries itineraries(layout_, rebase_, geometry_, routes, diagnostics_, scene_);
+        itineraries.prepare();
         for (std::size_t i = 0; i < layout_.flows.size(); ++i)
             routeFlow(layout_.flows[i], i, routes, itineraries);
         for (std::size_t i = 0; i < layout_.formations.size(); ++i)
@@ -75,7 +76,7 @@ class Builder {
         if (routes.tooManyFields())
             diagnostics_.error({},
                                "there are too many different goals behind walls: their distance fields need "
-                               "more than 128 MiB",
+                               "more than 1 GiB",
                                "give people areas as goals instead of single points");
         if (diagnostics_.hasErrors()) return std::nullopt;
         finish(routes);

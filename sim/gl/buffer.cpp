@@ -85,7 +85,7 @@ void Buffer::release() {
 }
 
 WordTexture::WordTexture(const Buffer& buffer, Texel texel) {
-    const std::size_t bytes = texel == Texel::one_word ? 4 : 16;
+    const std::size_t bytes = texel == Texel::one_word ? 4 : texel == Texel::two_words ? 8 : 16;
     GLint limit = 0;
     glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
     if (buffer.bytes() / bytes > static_cast<std::size_t>(limit))
@@ -93,7 +93,10 @@ WordTexture::WordTexture(const Buffer& buffer, Texel texel) {
             fmt::format("a buffer of {} texels is more than the {} that this device can sample",
                         buffer.bytes() / bytes, limit));
     glCreateTextures(GL_TEXTURE_BUFFER, 1, &handle_);
-    glTextureBuffer(handle_, texel == Texel::one_word ? GL_R32UI : GL_RGBA32UI, buffer.handle());
+    const GLenum format = texel == Texel::one_word    ? GL_R32UI
+                          : texel == Texel::two_words ? GL_RG32UI
+                                                      : GL_RGBA32UI;
+    glTextureBuffer(handle_, format, buffer.handle());
 }
 
 WordTexture::~WordTexture() {

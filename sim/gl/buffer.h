@@ -66,7 +66,7 @@ class Buffer {
 /// devices serve faster that way. The buffer must stay in place.
 class WordTexture {
   public:
-    enum class Texel { one_word, four_words };
+    enum class Texel { one_word, two_words, four_words };
 
     WordTexture() = default;
     /// @throws GraphicsError when the buffer has more texels than the device can address
@@ -82,8 +82,9 @@ class WordTexture {
 
 /// A buffer that holds `items` from the start.
 template <class T>
-Buffer makeBuffer(const std::string& name, const std::vector<T>& items) {
-    Buffer buffer(name, items.size() * sizeof(T));
+Buffer makeBuffer(const std::string& name, const std::vector<T>& items,
+                  Buffer::Use use = Buffer::Use::device) {
+    Buffer buffer(name, items.size() * sizeof(T), use);
     if (!items.empty()) buffer.upload(items);
     return buffer;
 }
