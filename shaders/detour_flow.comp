@@ -7,6 +7,7 @@ layout(std140) uniform ParametersBlock { Parameters parameters; };
 layout(std430) readonly buffer CellStarts { uint cell_starts[]; };
 layout(std430) readonly buffer Bodies { Body bodies[]; };
 layout(std430) buffer CrowdFlows { CrowdFlow crowd_flows[]; };
+layout(std430) writeonly buffer DenseBlocks { uint dense_blocks[]; };  // 1 where the crowd matters to routes
 uniform float fading;  // 0 to 1: how much of what was known is replaced
 
 #include "shaders/cells.glsl"
@@ -29,11 +30,19 @@ CrowdFlow flowAround(vec2 middle) {
     return CrowdFlow(sum.z > 1.0e-3 ? sum.xy / sum.z : vec2(0.0), sum.z / area, 0.0);
 }
 
-void main() {
-    uint cell = flatIndex();
-    if (cell >= parameters.detour_width * parameters.detour_height) return;
+/// Brings one cell up to date. @returns its density
+float look(uint cell) {
     vec2 at = vec2(cell % parameters.detour_width, cell / parameters.detour_width) + 0.5;
     CrowdFlow now = flowAround(parameters.grid_minimum + at * parameters.detour_cell);
     CrowdFlow known = crowd_flows[cell];
-    crowd_flows[cell] = CrowdFlow(mix(known.velocity, now.velocity, fading), mix(known.density, now.density, fading), 0.0);
+    CrowdFlow mixed = CrowdFlow(mix(known.velocity, now.velocity, fading), mix(known.density, now.density, fading), 0.0);
+    crowd_flows[cell] = mixed;
+    return mixed.density;
+}
+
+void main() {
+    uint cell = flatIndex();
+    if (cell >= parameters.detour_width * parameters.detour_height) return;
+    // A little below what matters, so that routes learn that it does not any more. Several may write, all the same.
+    if (look(cell) > 0.9 * CROWD_THIN) dense_blocks[cell / PIXEL_GROUP_SIZE] = 1u;
 }

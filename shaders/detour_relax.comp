@@ -16,14 +16,14 @@ layout(std430) readonly buffer CrowdFlows { CrowdFlow crowd_flows[]; };
 layout(std430) readonly buffer Ground { GroundCell ground[]; };
 layout(std430) readonly buffer DetourDistances { float detour_distances[]; };
 layout(std430) readonly buffer FreeDistances { float free_distances[]; };  // without any crowd
-layout(std430) writeonly buffer NextDistances { float next_distances[]; };  // of this field alone
-uniform uint field;
-uniform uint ground_map;
-uniform uint has_choice;  // 1 = the field leads to whichever of several places is nearest
+layout(std430) readonly buffer ListedBlocks { uint listed_blocks[]; };
+layout(std430) readonly buffer FieldMaps { FieldMap field_maps[]; };
+layout(std430) writeonly buffer ChangedBlocks { uint changed_blocks[]; };
+layout(std430) writeonly buffer NextDistances { float next_distances[]; };  // of the fields of this round
+uniform uint first_field;     // of this round
 
-#include "shaders/flat_index.glsl"
+#include "shaders/detour_blocks.glsl"
 
-const float THIN = 1.3;          // persons/m^2: up to here everybody walks as fast as they like
 const float THICK = 3.0;         // persons/m^2: from here on nobody walks faster than the crowd
 const float FREE_SPEED = 1.34;   // m/s (Weidmann 1993)
 /// Of the free speed: even through a jam that stands, one gets some time. Who may choose between several places takes a jam
@@ -33,42 +33,42 @@ const float SLOWEST = 0.2;
 const float SLOWEST_WITH_CHOICE = 0.05;
 const float AGAINST_ONE_WAY = -0.1;
 
-uint cellsOfMap() { return parameters.detour_width * parameters.detour_height; }
-
-float detourOr(uint cell, bool exists, float otherwise) {
+float detourOr(uint field, uint cell, bool exists, float otherwise) {
     float distance = exists ? detour_distances[field * cellsOfMap() + cell] : otherwise;
     return distance < BLOCKED_COST ? distance : otherwise;
 }
 
 /// Which way the nearest of the places is, by the last distances; a unit vector or zero.
-vec2 downhill(uint cell) {
+vec2 downhill(uint field, uint cell) {
     uint x = cell % parameters.detour_width;
     float here = detour_distances[field * cellsOfMap() + cell];
-    vec2 slope = vec2(detourOr(cell - 1u, x > 0u, here) - detourOr(cell + 1u, x + 1u < parameters.detour_width, here),
-                      detourOr(cell - parameters.detour_width, cell >= parameters.detour_width, here) -
-                      detourOr(cell + parameters.detour_width, cell + parameters.detour_width < cellsOfMap(), here));
+    vec2 slope = vec2(detourOr(field, cell - 1u, x > 0u, here) - detourOr(field, cell + 1u, x + 1u < parameters.detour_width, here),
+                      detourOr(field, cell - parameters.detour_width, cell >= parameters.detour_width, here) -
+                      detourOr(field, cell + parameters.detour_width, cell + parameters.detour_width < cellsOfMap(), here));
     float size = length(slope);
     return size > 1.0e-6 ? slope / size : vec2(0.0);
 }
 
 /// Metres of free walking that leaving a cell in this direction is worth.
-float costTowards(uint cell, GroundCell here, vec2 direction) {
+float costTowards(uint field, uint cell, GroundCell here, vec2 direction) {
     if (dot(unpackSnorm2x16(here.one_way), direction) < AGAINST_ONE_WAY) return BLOCKED_COST;
     CrowdFlow crowd = crowd_flows[cell];
-    float with_crowd = has_choice != 0u ? clamp(dot(crowd.velocity, downhill(cell)) / FREE_SPEED, SLOWEST_WITH_CHOICE, 1.0)
-                                        : clamp(dot(crowd.velocity, direction) / FREE_SPEED, SLOWEST, 1.0);
-    float speed = mix(1.0, with_crowd, smoothstep(THIN, THICK, crowd.density));
+    float with_crowd = field_maps[field].has_choice != 0u
+                           ? clamp(dot(crowd.velocity, downhill(field, cell)) / FREE_SPEED, SLOWEST_WITH_CHOICE, 1.0)
+                           : clamp(dot(crowd.velocity, direction) / FREE_SPEED, SLOWEST, 1.0);
+    float speed = mix(1.0, with_crowd, smoothstep(CROWD_THIN, THICK, crowd.density));
     return here.cost * parameters.detour_cell / speed;
 }
 
 /// The better neighbour on one axis: its distance, and the cost of going there.
-vec2 betterSide(uint cell, GroundCell here, uint first, bool has_low, bool has_high, uint stride, vec2 axis) {
+vec2 betterSide(uint field, uint cell, GroundCell here, bool has_low, bool has_high, uint stride, vec2 axis) {
     vec2 best = vec2(BLOCKED_COST);
     uint side = axis.x > 0.0 ? OPEN_TO_X : OPEN_TO_Y;
-    if (has_low && (ground[ground_map * cellsOfMap() + cell - stride].open_sides & side) != 0u)
-        best = vec2(detour_distances[first + cell - stride], costTowards(cell, here, -axis));
+    uint first = field * cellsOfMap();
+    if (has_low && (ground[field_maps[field].ground_map * cellsOfMap() + cell - stride].open_sides & side) != 0u)
+        best = vec2(detour_distances[first + cell - stride], costTowards(field, cell, here, -axis));
     if (has_high && (here.open_sides & side) != 0u) {
-        vec2 high = vec2(detour_distances[first + cell + stride], costTowards(cell, here, axis));
+        vec2 high = vec2(detour_distances[first + cell + stride], costTowards(field, cell, here, axis));
         if (high.x + high.y < best.x + best.y) best = high;
     }
     return best;
@@ -84,20 +84,27 @@ float eikonal(vec2 x, vec2 y) {
     return inside <= 0.0 ? one_axis : min(one_axis, (a * x.x + b * y.x + sqrt(inside)) / (a + b));
 }
 
-void main() {
-    uint cell = flatIndex();
-    uint cells = cellsOfMap();
-    if (cell >= cells) return;
-    uint first = field * cells;
-    float free = free_distances[first + cell];
-    GroundCell here = ground[ground_map * cells + cell];
+float relaxed(uint field, uint cell) {
+    float free = free_distances[field * cellsOfMap() + cell];
+    GroundCell here = ground[field_maps[field].ground_map * cellsOfMap() + cell];
     // Targets and what nobody reaches stay as they are.
-    if (free <= 0.0 || free >= BLOCKED_COST || here.cost >= BLOCKED_COST) {
-        next_distances[cell] = free;
-        return;
-    }
+    if (free <= 0.0 || free >= BLOCKED_COST || here.cost >= BLOCKED_COST) return free;
     uvec2 at = uvec2(cell % parameters.detour_width, cell / parameters.detour_width);
-    vec2 x = betterSide(cell, here, first, at.x > 0u, at.x + 1u < parameters.detour_width, 1u, vec2(1.0, 0.0));
-    vec2 y = betterSide(cell, here, first, at.y > 0u, at.y + 1u < parameters.detour_height, parameters.detour_width, vec2(0.0, 1.0));
-    next_distances[cell] = min(eikonal(x, y), BLOCKED_COST);
+    vec2 x = betterSide(field, cell, here, at.x > 0u, at.x + 1u < parameters.detour_width, 1u, vec2(1.0, 0.0));
+    vec2 y = betterSide(field, cell, here, at.y > 0u, at.y + 1u < parameters.detour_height, parameters.detour_width, vec2(0.0, 1.0));
+    return min(eikonal(x, y), BLOCKED_COST);
+}
+
+/// m: smaller changes are none. Rounding and the first solution's own small errors would keep whole maps busy otherwise.
+const float SETTLED = 1.0e-3;
+
+void main() {
+    uint listed = listed_blocks[gl_WorkGroupID.x], field = listed / blocksOfMap();
+    uint cell = listed % blocksOfMap() * PIXEL_GROUP_SIZE + gl_LocalInvocationID.x;
+    if (cell >= cellsOfMap()) return;
+    float before = detour_distances[field * cellsOfMap() + cell];
+    float after = relaxed(field, cell);
+    next_distances[(field - first_field) * cellsOfMap() + cell] = after;
+    // Several may write, all the same; a barrier would cost more.
+    if (abs(after - before) > SETTLED) changed_blocks[listed] = 1u;
 }

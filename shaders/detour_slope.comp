@@ -1,29 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps a round's distances, and how fast jams make the way longer: the slope of the difference to an empty place.
+// How fast jams make the way longer: the slope of the difference to an empty place.
 #include "shaders/shared/simulation_types.h"
 
 layout(local_size_x = PIXEL_GROUP_SIZE) in;
 layout(std140) uniform ParametersBlock { Parameters parameters; };
-layout(std430) readonly buffer NextDistances { float next_distances[]; };
 layout(std430) readonly buffer FreeDistances { float free_distances[]; };
 layout(std430) readonly buffer Ground { GroundCell ground[]; };
-layout(std430) writeonly buffer DetourDistances { float detour_distances[]; };
+layout(std430) readonly buffer DetourDistances { float detour_distances[]; };
 layout(std430) writeonly buffer DetourSlopes { vec2 detour_slopes[]; };
-uniform uint field;
-uniform uint ground_map;
+layout(std430) readonly buffer FieldMaps { FieldMap field_maps[]; };
+layout(std430) readonly buffer ListedBlocks { uint listed_blocks[]; };
 
-#include "shaders/flat_index.glsl"
+#include "shaders/detour_blocks.glsl"
 #include "shaders/at_most.glsl"
 
 const float MOST_SLOPE = 4.0;  // enough to turn anybody round; more would only make them flicker
 
-float delay(uint cell) {
-    float free = free_distances[field * parameters.detour_width * parameters.detour_height + cell];
-    return free >= BLOCKED_COST ? -1.0 : max(next_distances[cell] - free, 0.0);
+float delay(uint field, uint cell) {
+    float free = free_distances[field * cellsOfMap() + cell];
+    return free >= BLOCKED_COST ? -1.0 : max(detour_distances[field * cellsOfMap() + cell] - free, 0.0);
 }
 
-bool isOpen(uint cell, uint side) {
-    return (ground[ground_map * parameters.detour_width * parameters.detour_height + cell].open_sides & side) != 0u;
+/// The delay beyond one side of a cell, or -1 where there is a wall.
+float delayBeyond(uint field, uint cell, uint neighbour, bool exists, uint side) {
+    if (!exists) return -1.0;
+    bool open = (ground[field_maps[field].ground_map * cellsOfMap() + min(cell, neighbour)].open_sides & side) != 0u;
+    return open ? delay(field, neighbour) : -1.0;
 }
 
 float slope(float low, float here, float high) {
@@ -33,18 +35,17 @@ float slope(float low, float here, float high) {
 }
 
 void main() {
-    uint cell = flatIndex();
-    uint width = parameters.detour_width, cells = width * parameters.detour_height;
-    if (cell >= cells) return;
-    detour_distances[field * cells + cell] = next_distances[cell];
-    float here = delay(cell);
+    uint listed = listed_blocks[gl_WorkGroupID.x], field = listed / blocksOfMap(), width = parameters.detour_width;
+    uint cell = listed % blocksOfMap() * PIXEL_GROUP_SIZE + gl_LocalInvocationID.x;
+    if (cell >= cellsOfMap()) return;
+    float here = delay(field, cell);
     vec2 result = vec2(0.0);
     if (here >= 0.0) {
         uint x = cell % width;
-        result.x = slope(x > 0u && isOpen(cell - 1u, OPEN_TO_X) ? delay(cell - 1u) : -1.0, here,
-                         x + 1u < width && isOpen(cell, OPEN_TO_X) ? delay(cell + 1u) : -1.0);
-        result.y = slope(cell >= width && isOpen(cell - width, OPEN_TO_Y) ? delay(cell - width) : -1.0, here,
-                         cell + width < cells && isOpen(cell, OPEN_TO_Y) ? delay(cell + width) : -1.0);
+        result.x = slope(delayBeyond(field, cell, cell - 1u, x > 0u, OPEN_TO_X), here,
+                         delayBeyond(field, cell, cell + 1u, x + 1u < width, OPEN_TO_X));
+        result.y = slope(delayBeyond(field, cell, cell - width, cell >= width, OPEN_TO_Y), here,
+                         delayBeyond(field, cell, cell + width, cell + width < cellsOfMap(), OPEN_TO_Y));
     }
-    detour_slopes[field * cells + cell] = atMost(result / parameters.detour_cell, MOST_SLOPE);
+    detour_slopes[field * cellsOfMap() + cell] = atMost(result / parameters.detour_cell, MOST_SLOPE);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/congestion.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace throng::sim {
@@ -19,48 +20,77 @@ Congestion::Congestion(const gl::ShaderLibrary& library, Buffers& buffers, const
     cells_ = parameters.detour_width * parameters.detour_height;
     fields_ = static_cast<std::uint32_t>(detours.ground_of_field.size());
     fields_per_step_ = (fields_ + kStepsPerRound - 1) / kStepsPerRound;
-    ground_of_field_ = detours.ground_of_field;
-    has_choice_ = detours.has_choice;
-    has_choice_.resize(fields_);
+    blocks_ = (cells_ + gpu::PIXEL_GROUP_SIZE - 1) / gpu::PIXEL_GROUP_SIZE;
+    std::vector<gpu::FieldMap> maps;
+    for (std::uint32_t field = 0; field < fields_; ++field)
+        maps.push_back({detours.ground_of_field[field],
+                        field < detours.has_choice.size() && detours.has_choice[field] ? 1u : 0u});
+    field_maps_ = gl::makeBuffer("field maps", maps);
     ground_ = gl::makeBuffer("ground", detours.ground);
     free_distances_ = gl::makeBuffer("free distances", detours.distances);
     distances_ = gl::makeBuffer("detour distances", detours.distances);
-    next_distances_ = gl::Buffer("next distances", sizeof(float) * cells_);
+    next_distances_ = gl::Buffer("next distances", sizeof(float) * cells_ * fields_per_step_);
     flows_ = gl::Buffer("crowd flows", sizeof(gpu::CrowdFlow) * cells_);
     flows_.fill(0);
+    dense_blocks_ = gl::Buffer("dense blocks", sizeof(std::uint32_t) * blocks_);
+    dense_blocks_.fill(0);
+    for (gl::Buffer* marks : {&changed_before_, &changed_now_})
+        *marks = gl::Buffer("changed blocks", sizeof(std::uint32_t) * fields_ * blocks_);
+    changed_before_.fill(1);  // nothing is known to have settled
+    changed_now_.fill(0);
+    listed_ = gl::Buffer("listed blocks", sizeof(std::uint32_t) * fields_per_step_ * blocks_);
+    no_blocks_ = gl::makeBuffer("no blocks", std::vector<std::uint32_t>{0, 1, 1});
+    block_dispatch_ = gl::Buffer("block dispatch", no_blocks_.bytes());
 
     std::vector<std::pair<std::string, const gl::Buffer*>> named = buffers.named();
     named.insert(named.end(), {{"Ground", &ground_},
                                {"FreeDistances", &free_distances_},
                                {"DetourDistances", &distances_},
                                {"NextDistances", &next_distances_},
-                               {"CrowdFlows", &flows_}});
-    flow_ = gl::ComputeProgram(library, "shaders/detour_flow.comp");
-    relax_ = gl::ComputeProgram(library, "shaders/detour_relax.comp");
-    slope_ = gl::ComputeProgram(library, "shaders/detour_slope.comp");
-    for (gl::ComputeProgram* program : {&flow_, &relax_, &slope_})
+                               {"CrowdFlows", &flows_},
+                               {"FieldMaps", &field_maps_},
+                               {"DenseBlocks", &dense_blocks_},
+                               {"ListedBlocks", &listed_},
+                               {"BlockDispatch", &block_dispatch_}});
+    for (const auto& [program, path] :
+         {std::pair{&flow_, "shaders/detour_flow.comp"}, std::pair{&list_, "shaders/detour_list.comp"},
+          std::pair{&relax_, "shaders/detour_relax.comp"}, std::pair{&keep_, "shaders/detour_keep.comp"},
+          std::pair{&slope_, "shaders/detour_slope.comp"}}) {
+        *program = gl::ComputeProgram(library, path);
         program->bindAll(named);
+    }
+    relax_.bind("ChangedBlocks", changed_now_);
     flow_.set("fading",
               1.0f - std::exp(-static_cast<float>(kStepsPerLook) * parameters.step_seconds / kMemory));
 }
 
 void Congestion::run() {
     if (fields_ == 0) return;
-    if (steps_++ % kStepsPerLook == 0) flow_.dispatch(cells_);
-    for (std::uint32_t i = 0; i < fields_per_step_; ++i) {
-        relax(next_field_);
-        next_field_ = (next_field_ + 1) % fields_;
+    if (steps_++ % kStepsPerLook == 0) {
+        dense_blocks_.fill(0);
+        flow_.dispatch(cells_);
     }
+    const std::uint32_t count = std::min(fields_per_step_, fields_ - next_field_);
+    list_.set("field_count", count);
+    for (gl::ComputeProgram* program : {&list_, &relax_, &keep_})
+        program->set("first_field", next_field_);
+    listBlocks(changed_before_, true);
+    relax_.dispatchIndirect(block_dispatch_);
+    keep_.dispatchIndirect(block_dispatch_);
+    listBlocks(changed_now_, false);
+    slope_.dispatchIndirect(block_dispatch_);
+    next_field_ += count;
+    if (next_field_ < fields_) return;
+    next_field_ = 0;
+    changed_before_.copyFrom(changed_now_);
+    changed_now_.fill(0);
 }
 
-void Congestion::relax(std::uint32_t field) {
-    relax_.set("field", field);
-    relax_.set("ground_map", ground_of_field_[field]);
-    relax_.set("has_choice", has_choice_[field] ? 1u : 0u);
-    relax_.dispatch(cells_);
-    slope_.set("field", field);
-    slope_.set("ground_map", ground_of_field_[field]);
-    slope_.dispatch(cells_);
+void Congestion::listBlocks(const gl::Buffer& changed, bool dense_too) {
+    block_dispatch_.copyFrom(no_blocks_);
+    list_.bind("ChangedBlocks", changed);
+    list_.set("dense_too", dense_too ? 1u : 0u);
+    list_.dispatch(std::uint64_t{std::min(fields_per_step_, fields_ - next_field_)} * blocks_);
 }
 
 }  // namespace throng::sim

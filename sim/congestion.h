@@ -18,17 +18,18 @@ class Congestion {
     void run();
 
   private:
-    void relax(std::uint32_t field);
+    void listBlocks(const gl::Buffer& changed, bool dense_too);
 
-    std::uint32_t cells_ = 0;
+    std::uint32_t cells_ = 0, blocks_ = 0;  // of one map
     std::uint32_t fields_ = 0;
     std::uint32_t fields_per_step_ = 0;
     std::uint32_t next_field_ = 0;
     std::uint32_t steps_ = 0;
-    std::vector<std::uint32_t> ground_of_field_;
-    std::vector<bool> has_choice_;  // by field
     gl::Buffer ground_, free_distances_, distances_, next_distances_, flows_;
-    gl::ComputeProgram flow_, relax_, slope_;
+    gl::Buffer field_maps_, dense_blocks_;
+    gl::Buffer changed_before_, changed_now_;  // blocks of each field, the last time round and this time
+    gl::Buffer listed_, block_dispatch_, no_blocks_;
+    gl::ComputeProgram flow_, list_, relax_, keep_, slope_;
 };
 
 }  // namespace throng::sim

@@ -83,11 +83,20 @@ struct SpawnProposal {
     uint row;  // NO_INDEX = does not ask, or there is no room
 };
 
+/// persons/m^2: up to here everybody walks as fast as they like, and routes need not heed the crowd.
+const float CROWD_THIN = 1.3f;
+
 /// How the crowd moves in one cell of the coarse map, smoothed over space and time.
 struct CrowdFlow {
     vec2 velocity;  // m/s, mean
     float density;  // persons per square metre
     float reserved;
+};
+
+/// One distance field on the coarse map.
+struct FieldMap {
+    uint ground_map;  // which ground
+    uint has_choice;  // 1 = it leads to whichever of several places is nearest
 };
 
 /// Everything that stays the same during a bake. Vectors first: GLSL aligns them to eight bytes and C++ to

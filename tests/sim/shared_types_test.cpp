@@ -92,8 +92,6 @@ TEST_F(SharedTypesTest, PersonAndStateAgree) {
     EXPECT_MEMBER(found, "plan_changes", PlanChange, stage_count);
     EXPECT_MEMBER(found, "waiting_lines", WaitingLine, spacing);
     EXPECT_MEMBER(found, "waiting_lines", WaitingLine, candidate);
-    EXPECT_MEMBER(found, "fields", FieldCell, distance);
-    EXPECT_MEMBER(found, "fields", FieldCell, direction);
 }
 
 TEST_F(SharedTypesTest, WallsSitesAndQueuesAgree) {
