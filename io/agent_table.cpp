@@ -59,16 +59,17 @@ std::string agentTable(const BakeDescription& description, const Account& accoun
         "id,group,kind,radius,preferred_speed,variation,party,spawn_frame,arrival_frame,outcome,reason,goal_"
         "x,goal_"
         "y,"
-        "distance_walked\n";
+        "distance_walked,shortest_way\n";
     for (std::size_t row = 0; row < description.agents.size(); ++row) {
         const BakeAgent& agent = description.agents[row];
         const BakeGroup& group = description.groups.at(agent.group);
         const AgentOutcome& outcome = account.agents[row];
-        fmt::format_to(std::back_inserter(table), "{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row,
+        fmt::format_to(std::back_inserter(table), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row,
                        quoted(group.id), group.is_flow ? "flow" : "formation", agent.radius,
                        agent.preferred_speed, agent.variation, agent.party, frameNumber(outcome.spawn_frame),
                        frameNumber(outcome.arrival_frame), outcomeName(outcome.status),
-                       quoted(reasonOf(outcome)), agent.goal.x, agent.goal.y, outcome.distance_walked);
+                       quoted(reasonOf(outcome)), agent.goal.x, agent.goal.y, outcome.distance_walked,
+                       outcome.shortest_way);
     }
     return table;
 }

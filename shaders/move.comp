@@ -141,6 +141,12 @@ void main() {
     state.heading = turned(state, stage, speed);
     state.phase += distance_moved / person.stride_length;
     state.walked += distance_moved;
-    if (!changePlans(state, person)) followRoute(state, stage, self.row);
+    if (state.shortest_way <= 0.0) state.shortest_way = routeAhead(stage, self.position).remaining + stage.beyond;
+    if (changePlans(state, person)) {
+        stage = stageOf(state);
+        state.shortest_way = state.walked + routeAhead(stage, state.position).remaining + stage.beyond;
+    } else {
+        followRoute(state, stage, self.row);
+    }
     states[self.row] = state;
 }

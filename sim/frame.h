@@ -51,6 +51,7 @@ struct AgentOutcome {
     std::uint32_t spawn_frame = kNone;    ///< first frame it is alive in; kNone = never
     std::uint32_t arrival_frame = kNone;  ///< first frame at which it has arrived; kNone = never
     float distance_walked = 0.0f;         ///< m
+    float shortest_way = 0.0f;            ///< m from where it began to its goal, round walls
     std::string reason;                   ///< why it was refused; empty otherwise
 };
 

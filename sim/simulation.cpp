@@ -76,6 +76,7 @@ AgentOutcome outcomeOf(const gpu::AgentState& state, const gpu::Person& person, 
     outcome.spawn_frame = frameOfStep(state.spawn_step, warmup_steps, substeps);
     outcome.arrival_frame = frameOfStep(state.arrival_step, warmup_steps, substeps);
     outcome.distance_walked = state.walked;
+    outcome.shortest_way = state.shortest_way;
     if (state.status == gpu::STATUS_WAITING) {
         outcome.status = AgentStatus::refused;
         const bool called_off = person.change_count > 0 && end > person.spawn_time;

@@ -165,6 +165,12 @@ std::uint32_t Itineraries::appendStages(const Journey& journey, const GroupRando
         stage.activity = gpu::ACTIVITY_STAND;
         scene_.stages.push_back(stage);
     }
+    for (std::size_t i = 1; i < journey.stops.size(); ++i) {
+        const gpu::Stage& next = scene_.stages[scene_.stages.size() - i];
+        gpu::Stage& stage = scene_.stages[scene_.stages.size() - i - 1];
+        const float leg = routes_.reachable(next.field & ~gpu::FIELD_THEN_POINT, stage.point);
+        stage.beyond = next.beyond + (leg < kUnreachable ? leg : 0.0f);
+    }
     return static_cast<std::uint32_t>(journey.stops.size());
 }
 

@@ -22,7 +22,7 @@ class Columns {
             at_[i] = static_cast<std::size_t>(found - names.begin());
         }
     }
-    enum Name { group, radius, preferred_speed, spawn_frame, arrival_frame, outcome, goal_x, goal_y };
+    enum Name { group, radius, preferred_speed, spawn_frame, arrival_frame, outcome, goal_x, goal_y, shortest_way };
 
     AgentRow row(const std::vector<std::string>& fields, std::size_t line, glm::dvec2 origin) const {
         AgentRow result;
@@ -30,6 +30,7 @@ class Columns {
         result.radius = static_cast<float>(number(fields, radius, line));
         result.preferred_speed = static_cast<float>(number(fields, preferred_speed, line));
         result.outcome = text(fields, outcome, line);
+        result.shortest_way = number(fields, shortest_way, line);
         for (const auto& [name, frame] :
              {std::pair{spawn_frame, &result.spawn_frame}, std::pair{arrival_frame, &result.arrival_frame}})
             if (!text(fields, name, line).empty())
@@ -40,7 +41,7 @@ class Columns {
 
   private:
     static constexpr std::array kNames = {"group",         "radius",  "preferred_speed", "spawn_frame",
-                                          "arrival_frame", "outcome", "goal_x",          "goal_y"};
+                                          "arrival_frame", "outcome", "goal_x",          "goal_y", "shortest_way"};
 
     const std::string& text(const std::vector<std::string>& fields, Name name, std::size_t line) const {
         if (at_[name] >= fields.size())

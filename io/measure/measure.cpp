@@ -314,11 +314,12 @@ class Measurer {
             if (agent.outcome != "arrived") continue;
             arrival_frames.push_back(agent.arrival_frame);
             last = std::max(last, agent.arrival_frame);
-            const double straight = straight_[row];
-            if (straight < 1.0) continue;
+            // The bake's own shortest way is one to the goal; who was content with less went straight at best.
+            const double shortest = std::max(straight_[row], agent.shortest_way);
+            if (shortest < 1.0) continue;
             time_ratios.push_back((agent.arrival_frame - agent.spawn_frame) * dt_ /
-                                  (straight / agent.preferred_speed));
-            detours.push_back(way_[row] / straight);
+                                  (shortest / agent.preferred_speed));
+            detours.push_back(way_[row] / shortest);
         }
         result_.seconds = result_.arrived == result_.agents ? last * dt_ : result_.duration;
         result_.time_ratio = median(time_ratios);

@@ -35,8 +35,8 @@ struct Measurement {
     std::uint64_t wall_crossings = 0;
     double deepest_wall_penetration = 0.0;  ///< m that a body is inside a wall
 
-    double time_ratio = 0.0;        ///< time to the goal over the straight way at the preferred speed, median
-    double detour_ratio = 0.0;      ///< way walked over the straight way, median of those who arrived
+    double time_ratio = 0.0;        ///< time to the goal over the shortest way at the preferred speed, median
+    double detour_ratio = 0.0;      ///< way walked over the shortest way, median of those who arrived
     Spread heading_rate;            ///< deg/s, while walking
     Spread acceleration;            ///< m/s^2
     Spread jerk;                    ///< m/s^3

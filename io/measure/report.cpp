@@ -115,7 +115,7 @@ std::string measurementText(const Measurement& m) {
                      m.overlapping_percent, m.worst_overlapping_percent, m.deepest_overlap_percent));
     line("walls", fmt::format("{} crossings, deepest body in a wall {:.3f} m", m.wall_crossings,
                               m.deepest_wall_penetration));
-    line("to the goal", fmt::format("{:.2f} times the free time, {:.2f} times the straight way (medians)",
+    line("to the goal", fmt::format("{:.2f} times the free time, {:.2f} times the shortest way (medians)",
                                     m.time_ratio, m.detour_ratio));
     line("heading rate, deg/s", spreadText(m.heading_rate));
     line("acceleration, m/s^2", spreadText(m.acceleration));

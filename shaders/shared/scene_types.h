@@ -47,6 +47,8 @@ struct Stage {
     uint line;        // index into the waiting lines: the point is the place in line; or NO_INDEX
     uint activity;    // ACTIVITY_* of those who stop
     uint flags;       // STAGE_*
+    float beyond;     // m of the shortest way from here to the end of the route
+    uint reserved;
 };
 const float DWELL_FOR_GOOD = 1.0e9f;
 

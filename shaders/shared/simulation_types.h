@@ -56,7 +56,7 @@ struct AgentState {
     uint arrival_step;  // likewise
     uint attempts;      // how often it asked for room at its entry
     float nervousness;  // 0 to 1: how much it has been held up lately
-    uint reserved;
+    float shortest_way;  // m from where it began to its goal, round walls; 0 = not known yet
 };
 
 /// A person in the scene, in the order of the cells ("slot") so that neighbours lie together in memory.

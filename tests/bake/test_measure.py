@@ -66,8 +66,23 @@ def test_motion_agrees_with_numpy(throng, bakes, manifest_of):
     way = (numpy.hypot(*numpy.moveaxis(numpy.diff(position, axis=0), 2, 0)) * (frames[1:] < arrival)).sum(axis=0)
     straight = numpy.linalg.norm(position[numpy.minimum(arrival, len(position) - 1), numpy.arange(len(arrival))] - position[0], axis=1)
     arrived = arrival < len(position)
-    assert figures["detour_ratio"] == pytest.approx(numpy.median((way / straight)[arrived]), rel=1e-3)
+    shortest = numpy.maximum(straight, [float(row["shortest_way"]) for row in rows(bake)])
+    assert figures["detour_ratio"] == pytest.approx(numpy.median((way / shortest)[arrived]), rel=1e-3)
     assert 3.35 < figures["effort"] < 6.0
+
+
+def test_the_shortest_way_leads_round_walls(throng, tmp_path):
+    layout = {"throng": 1, "simulation": {"duration": 30}, "walls": [{"points": [[10, -5], [10, 5]], "thickness": 0.2}],
+              "areas": [{"id": "goal", "polygon": [[20, -1], [22, -1], [22, 1], [20, 1]]}],
+              "formations": [{"id": "one", "type": "grid", "origin": [0, 0], "rows": 1, "columns": 1, "goal": "goal", "arrival": "leave",
+                              "people": {"speed": 1.3, "radius": 0.25}}]}
+    throng("bake", write(tmp_path / "detour.json", layout), "-o", tmp_path / "bake", "-q", "--no-gltf")
+    corner = 5.0 + 0.1 + 0.25  # the end of the wall, and half a body
+    shortest = numpy.hypot(10.0, corner) + numpy.hypot(10.0, corner - 1.0)
+    assert float(rows(tmp_path / "bake")[0]["shortest_way"]) == pytest.approx(shortest, rel=0.04)
+    figures = measured(throng, tmp_path / "bake")
+    assert figures["detour_ratio"] == pytest.approx(1.0, abs=0.06)
+    assert figures["time_ratio"] == pytest.approx(1.05, abs=0.08)
 
 
 def test_a_line_counts_those_who_cross_it(throng, tmp_path, manifest_of):

@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """The scenarios that motion is judged by, as users run them. Those of thousands of people are left to `throng scenarios`,
 but for the two that crowds are known to jam in."""
+import csv
 import json
 import shutil
 
+import numpy
 import pytest
 
 HOLD_ALL_BARS = [
-    "ring", "rimea-1", "rimea-4-050", "rimea-4-100", "rimea-4-200", "rimea-4-300", "rimea-6", "bottleneck-100", "imo-4",
+    "ring", "rimea-1", "rimea-4-050", "rimea-4-100", "rimea-4-200", "rimea-4-300", "rimea-6", "rimea-10", "bottleneck-100", "imo-4",
     "trap-head-on", "trap-four-way", "trap-pocket", "trap-dense-start", "trap-reversed-winding", "trap-narrow-door", "trap-fast-thin-wall",
 ]
 
@@ -39,6 +41,74 @@ def test_streams_of_thousands_get_through_each_other(scenario, name):
     assert figures["deepest_overlap_percent"] < 2
     assert figures["overlapping_percent"] < 0.1
     assert figures["wall_crossings"] == 0
+
+
+def ends_of(bake):
+    """Each person's row of the table, and where it was last."""
+    with open(bake / "agents.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    return rows, numpy.load(bake / "streams" / "pos.npy", mmap_mode="r")[-1]
+
+
+def test_everybody_takes_the_exit_they_were_given(throng, tmp_path):
+    """RiMEA test 10."""
+    throng("scenarios", "--run", "rimea-10", "--json", "-o", tmp_path)
+    rows, ends = ends_of(tmp_path / "rimea-10")
+    for row, end in zip(rows, ends):
+        assert (end[0] < -3) == (int(row["group"][-2:]) <= 8), row["group"]
+
+
+def test_most_take_the_nearer_exit_and_some_the_other(throng, tmp_path):
+    """RiMEA test 11."""
+    figures = json.loads(throng("scenarios", "--run", "rimea-11", "--json", "-o", tmp_path).stdout)
+    rows, ends = ends_of(tmp_path / "rimea-11")
+    further = int((ends[:, 0] > 15).sum())
+    print(f"{further} of {len(rows)} took the further exit, {figures['seconds']:.0f} s")
+    assert 0.1 * len(rows) < further < 0.55 * len(rows)
+    shutil.rmtree(tmp_path / "rimea-11")
+
+
+def test_groups_stay_together_through_a_counterflow(throng, tmp_path):
+    throng("scenarios", "--run", "company", "--json", "-o", tmp_path)
+    bake = tmp_path / "company"
+    rows, _ = ends_of(bake)
+    position = numpy.load(bake / "streams" / "pos.npy", mmap_mode="r")
+    there = numpy.load(bake / "streams" / "state.npy", mmap_mode="r")[:, :, 0] > 0.5
+    arrival = numpy.array([int(row["arrival_frame"]) for row in rows])
+    party = numpy.array([int(row["party"]) for row in rows])
+    furthest, late = [], []
+    for first in numpy.unique(party):
+        members = numpy.nonzero(party == first)[0]
+        if len(members) > 1:
+            places = position[there[:, members].all(axis=1)][:, members, :2]
+            furthest.append(numpy.linalg.norm(places - places.mean(axis=1, keepdims=True), axis=2).max(axis=1))
+            late.append((arrival[members].max() - arrival[members].min()) / 24)
+    furthest = numpy.concatenate(furthest)
+    print(f"{len(late)} groups; from their middle {numpy.median(furthest):.2f} m (median), {furthest.max():.2f} m (worst); "
+          f"at most {max(late):.1f} s from the first to the last of a group")
+    assert len(late) > 40
+    assert numpy.percentile(furthest, 99) < 2.0 and furthest.max() < 4.0
+    assert max(late) < 4.0
+
+
+def test_a_hundred_destinations_and_a_hundred_thousand_people(throng, tmp_path):
+    """A district of 100 blocks; 1,000 people walk from each to another one."""
+    blocks = [(40 * column, 40 * line) for line in range(10) for column in range(10)]
+    layout = {"throng": 1, "simulation": {"duration": 1, "fps": 24},
+              "walls": [{"closed": True, "points": [[x + 6, y + 6], [x + 34, y + 6], [x + 34, y + 30], [x + 6, y + 30]]} for x, y in blocks],
+              "areas": [{"id": f"d{i}", "polygon": [[x + 6, y + 31], [x + 34, y + 31], [x + 34, y + 39], [x + 6, y + 39]]} for i, (x, y) in enumerate(blocks)],
+              "flows": [{"id": f"f{i}", "from": f"d{i}", "to": f"d{(37 * i + 50) % 100}", "count": 1000, "end": 100} for i in range(100)]}
+    (tmp_path / "district.json").write_text(json.dumps(layout))
+    told = throng("bake", tmp_path / "district.json", "-o", tmp_path / "bake", "--no-gltf", "--json").stdout
+    assert json.loads((tmp_path / "bake" / "bake.json").read_text())["account"]["agents"] == 100_000, told
+    # Ways as long as between the blocks on foot: never shorter than straight, never much more than along the streets.
+    rows, _ = ends_of(tmp_path / "bake")
+    for row in rows:
+        if float(row["shortest_way"]) > 0.0:  # has begun to walk
+            start, end = blocks[int(row["group"][1:])], blocks[(37 * int(row["group"][1:]) + 50) % 100]
+            along_streets = abs(start[0] - end[0]) + abs(start[1] - end[1])
+            straight = float(numpy.hypot(start[0] - end[0], start[1] - end[1]))
+            assert straight - 45 < float(row["shortest_way"]) < along_streets + 75
 
 
 def test_a_counterflow_slows_a_corridor_down(scenario):
