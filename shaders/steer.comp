@@ -65,6 +65,17 @@ vec2 towardsParty(uint row, Person person, vec2 position, vec2 direction) {
     return size > 0.3 ? result / size : direction;
 }
 
+/// Where two ways are as good, a party takes the one of its first: whoever is near it and would turn off does not.
+vec2 wayOfParty(uint row, Person person, Stage stage, vec2 position, vec2 direction) {
+    for (uint first = person.party_first; first < row; ++first) {
+        if (states[first].status != STATUS_WALKING || states[first].leave_step != 0u) continue;
+        if (distance(states[first].position, position) > 2.0 * QUITE_LOST) return direction;
+        vec2 its_direction = routeAhead(stage, states[first].position).direction;
+        return dot(its_direction, direction) < 0.3 ? its_direction : direction;
+    }
+    return direction;
+}
+
 float paceInParty(uint row, Person person, Stage stage, float remaining) {
     uint stages_left = states[row].stage_end - states[row].stage;
     float lead = -LEAD_ENDS;  // over whoever is furthest behind
@@ -95,7 +106,10 @@ void main() {
     Stage stage = stageOf(states[row]);
     RouteAhead ahead = routeAhead(stage, bodies[slot].position);
 
-    if (person.party_size > 1u) ahead.direction = towardsParty(row, person, bodies[slot].position, ahead.direction);
+    if (person.party_size > 1u) {
+        ahead.direction = wayOfParty(row, person, stage, bodies[slot].position, ahead.direction);
+        ahead.direction = towardsParty(row, person, bodies[slot].position, ahead.direction);
+    }
     float angle = (randomUnit(parameters.seed, row, PURPOSE_SYMMETRY) * 2.0 - 1.0) * SYMMETRY_BREAKING +
                   ((touch_words[slot] & TOUCH_WALL_NEAR) != 0u ? searchAngle(row, states[row].nervousness) : 0.0);
     vec2 direction = mat2(cos(angle), sin(angle), -sin(angle), cos(angle)) * ahead.direction;

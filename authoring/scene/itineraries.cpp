@@ -24,6 +24,13 @@ glm::vec2 middleOf(const LocalPolygon& polygon) {
     return middle;
 }
 
+float edgeDistance(const LocalPolygon& polygon, glm::vec2 point) {
+    float least = kUnreachable;
+    for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++)
+        least = std::min(least, segmentDistance(point, polygon[j], polygon[i]));
+    return least;
+}
+
 std::uint32_t activityOf(Activity activity) {
     if (activity == Activity::look) return gpu::ACTIVITY_LOOK;
     return activity == Activity::queue ? gpu::ACTIVITY_QUEUE : gpu::ACTIVITY_STAND;
@@ -40,18 +47,21 @@ Stop Journey::goalStop(const Destination& to, Arrival arrival) {
     return stop;
 }
 
-Itineraries::Spread::Spread(LocalPolygon outline, const WalkGeometry& geometry, float clearance)
-    : outline_(std::move(outline)), geometry_(&geometry), clearance_(clearance) {}
+Itineraries::Spread::Spread(LocalPolygon outline, const WalkGeometry& geometry, float clearance, float inset)
+    : outline_(std::move(outline)), geometry_(&geometry), clearance_(clearance), inset_(inset) {}
 
 std::optional<glm::vec2> Itineraries::Spread::next() {
     constexpr int kTries = 16'384;
     const Box box = boundsOf(outline_, 0.0f);
-    for (int i = 0; i < kTries; ++i) {
+    for (int i = 1; i <= kTries; ++i) {
+        if (i % 512 == 0) inset_ *= 0.5f;
         x_ = std::fmod(x_ + 0.7548776662466927, 1.0);
         y_ = std::fmod(y_ + 0.5698402909980532, 1.0);
         const glm::vec2 point =
             box.lower + (box.upper - box.lower) * glm::vec2(static_cast<float>(x_), static_cast<float>(y_));
-        if (insidePolygon(outline_, point) && wallDepth(*geometry_, point, clearance_) <= 0.0f) return point;
+        if (insidePolygon(outline_, point) && edgeDistance(outline_, point) >= inset_ &&
+            wallDepth(*geometry_, point, clearance_) <= 0.0f)
+            return point;
     }
     return std::nullopt;
 }
@@ -204,7 +214,10 @@ glm::vec2 Itineraries::spotFor(const Place& place, const Traveller& traveller, g
     const LocalPolygon outline = routes_.outline(place, Routes::kTargetDepth);
     auto spread = spreads_.find(name);
     if (spread == spreads_.end())
-        spread = spreads_.emplace(name, Spread(outline, geometry_, traveller.radius + kStandClearance)).first;
+        spread =
+            spreads_
+                .emplace(name, Spread(outline, geometry_, traveller.radius + kStandClearance, kCircle + 0.1f))
+                .first;
     middle = middleOf(outline);
     if (traveller.member == 0) party_spots_[name] = spread->second.next().value_or(middle);
     const glm::vec2 spot = party_spots_[name];
@@ -214,7 +227,9 @@ glm::vec2 Itineraries::spotFor(const Place& place, const Traveller& traveller, g
                         (static_cast<float>(traveller.member) / static_cast<float>(traveller.party_size) +
                          0.618034f * static_cast<float>(traveller.leader % 89));
     const glm::vec2 place_in_ring = spot + kCircle * glm::vec2(std::cos(angle), std::sin(angle));
-    return wallDepth(geometry_, place_in_ring, traveller.radius) > 0.0f ? spot : place_in_ring;
+    const bool fits = wallDepth(geometry_, place_in_ring, traveller.radius) <= 0.0f &&
+                      insidePolygon(outline, place_in_ring);
+    return fits ? place_in_ring : spot;
 }
 
 /// Stops of several flows with the same line are one line.

@@ -54,10 +54,11 @@ class Itineraries {
     /// The field of a destination. @param choice which of its places, where one is chosen
     std::uint32_t fieldTo(const Destination& to, bool keep_to_roads, std::size_t choice = 0);
 
-    /// Points spread evenly over a polygon (the R2 sequence, Roberts 2018), clear of walls by `clearance`.
+    /// Points spread evenly over a polygon (the R2 sequence, Roberts 2018), clear of walls by `clearance`,
+    /// and at least `inset` from the polygon's edges, or as much as there is room for.
     class Spread {
       public:
-        Spread(LocalPolygon outline, const WalkGeometry& geometry, float clearance);
+        Spread(LocalPolygon outline, const WalkGeometry& geometry, float clearance, float inset = 0.0f);
         /// @returns nothing where many tries found no room
         std::optional<glm::vec2> next();
 
@@ -65,6 +66,7 @@ class Itineraries {
         LocalPolygon outline_;
         const WalkGeometry* geometry_;
         float clearance_;
+        float inset_;
         double x_ = 0.5, y_ = 0.5;
     };
 

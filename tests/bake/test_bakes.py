@@ -83,7 +83,7 @@ def crossings(bake, manifest):
     return count, deepest
 
 
-@pytest.mark.parametrize("name, arrived, people", [("circle", 0.99, 256), ("bidirectional", 0.95, 2048), ("intersection", 0.95, 1024)])
+@pytest.mark.parametrize("name, arrived, people", [("circle", 0.99, 256), ("bidirectional", 0.95, 2048), ("intersection", 0.95, 1024), ("station", 0.95, 88)])
 def test_the_examples_arrive_and_nobody_sinks_into_anybody(bakes, manifest_of, name, arrived, people):
     bake = bakes(name)
     account = manifest_of(bake)["account"]

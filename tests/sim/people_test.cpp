@@ -308,6 +308,25 @@ TEST_F(PeopleTest, DoNotLoseTheirCompanyInACounterflow) {
     EXPECT_LT(worst_at_end, 6.0);
 }
 
+TEST_F(PeopleTest, APartyBetweenTwoExitsTakesOneOfThem) {
+    const authoring::Scene scene = sceneOf(R"({"throng": 1, "simulation": {"duration": 60},
+ "areas": [{"id": "south", "polygon": [[-1,-16],[1,-16],[1,-14],[-1,-14]]}, {"id": "north", "polygon": [[-1,14],[1,14],[1,16],[-1,16]]}],
+ "formations": [{"id": "pair", "type": "grid", "origin": [0, -0.4], "rows": 2, "columns": 1, "spacing": 0.8,
+  "goal": {"nearest": ["south", "north"]}, "arrival": "leave", "people": {"groups": [0, 1], "speed": 1.3}}]})");
+    ASSERT_EQ(scene.people[1].party_first, 0u);
+    std::vector<double> ends(2);
+    std::size_t gone = 0;
+    watch(scene, 25.0f, [&](float, const States& states) {
+        gone = 0;
+        for (std::size_t row = 0; row < 2; ++row) {
+            gone += states[row].status == gpu::STATUS_GONE;
+            ends[row] = world(scene, states[row]).y;
+        }
+    });
+    EXPECT_EQ(gone, 2u);
+    EXPECT_GT(ends[0] * ends[1], 0.0) << "they parted";
+}
+
 TEST_F(PeopleTest, WhoStandsIsWalkedAround) {
     const authoring::Scene scene = sceneOf(R"({"throng": 1, "simulation": {"duration": 60},
  "areas": [{"id": "a", "polygon": [[0,-2],[4,-2],[4,2],[0,2]]}, {"id": "b", "polygon": [[36,-2],[40,-2],[40,2],[36,2]]}],
