@@ -76,7 +76,11 @@ def test_the_readers_limits_are_the_schemas(schema, throng, tmp_path):
     lambda layout: layout.update(thronk=1), lambda layout: layout.pop("throng"), lambda layout: layout["roads"][0].update(widht=2),
     lambda layout: layout["flows"][0].update(rate=1.0), lambda layout: layout["formations"][0].pop("radius"),
     lambda layout: layout["walls"][0].update(points=[[0, 0]]), lambda layout: layout["flows"][0].update(arrival="vanish"),
-    lambda layout: layout["simulation"].update(seed=1.5), lambda layout: layout["flows"][0]["people"].update(speed={"uniform": [1]})])
+    lambda layout: layout["simulation"].update(seed=1.5), lambda layout: layout["flows"][0]["people"].update(speed={"uniform": [1]}),
+    lambda layout: layout.update(events=[{"at": 1}]), lambda layout: layout.update(events=[{"at": 1, "open": "a", "close": "a"}]),
+    lambda layout: layout["flows"][0]["people"].update(groups=[1, 1, 1, 1, 1]), lambda layout: layout["flows"][0].update(to={"choose": {}}),
+    lambda layout: layout["flows"][0].update(to={"nearest": []}), lambda layout: layout["flows"][0].update(via=[{"at": layout["flows"][0]["to"], "activity": "dance"}]),
+    lambda layout: layout["flows"][0].update(via=[{"wait": 3}]), lambda layout: layout["flows"][0]["people"].update(reaction={"log_normal": [1]})])
 def test_both_refuse_what_is_wrong(schema, throng, tmp_path, change):
     layout = copy.deepcopy(BASE)
     jsonschema.validate(layout, schema)
