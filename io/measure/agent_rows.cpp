@@ -22,7 +22,17 @@ class Columns {
             at_[i] = static_cast<std::size_t>(found - names.begin());
         }
     }
-    enum Name { group, radius, preferred_speed, spawn_frame, arrival_frame, outcome, goal_x, goal_y, shortest_way };
+    enum Name {
+        group,
+        radius,
+        preferred_speed,
+        spawn_frame,
+        arrival_frame,
+        outcome,
+        goal_x,
+        goal_y,
+        shortest_way
+    };
 
     AgentRow row(const std::vector<std::string>& fields, std::size_t line, glm::dvec2 origin) const {
         AgentRow result;
@@ -40,8 +50,9 @@ class Columns {
     }
 
   private:
-    static constexpr std::array kNames = {"group",         "radius",  "preferred_speed", "spawn_frame",
-                                          "arrival_frame", "outcome", "goal_x",          "goal_y", "shortest_way"};
+    static constexpr std::array kNames = {"group",       "radius",        "preferred_speed",
+                                          "spawn_frame", "arrival_frame", "outcome",
+                                          "goal_x",      "goal_y",        "shortest_way"};
 
     const std::string& text(const std::vector<std::string>& fields, Name name, std::size_t line) const {
         if (at_[name] >= fields.size())

@@ -314,7 +314,8 @@ class Measurer {
             if (agent.outcome != "arrived") continue;
             arrival_frames.push_back(agent.arrival_frame);
             last = std::max(last, agent.arrival_frame);
-            // The bake's own shortest way is one to the goal; who was content with less went straight at best.
+            // The bake's own shortest way is one to the goal; who was content with less went straight at
+            // best.
             const double shortest = std::max(straight_[row], agent.shortest_way);
             if (shortest < 1.0) continue;
             time_ratios.push_back((agent.arrival_frame - agent.spawn_frame) * dt_ /

@@ -41,21 +41,21 @@ const uint WALL_CONSTRAINTS = 8u;
 
 /// What changes about one row.
 struct AgentState {
-    vec2 position;      // m, scene frame
-    vec2 velocity;      // m/s, of the last step, contact included
-    float heading;      // rad
-    float phase;        // gait cycles, unwrapped
-    float walked;       // m
-    uint status;        // STATUS_*
-    uint stage;         // index into stages: where it is going
-    uint stage_end;     // one past the last of its stages
-    uint changes;       // changes of plan already made
-    uint leave_step;    // at a stop: how many steps are done when it goes on; otherwise 0
-    uint ticket;        // its number in the line that it stands in, or NO_INDEX
-    uint spawn_step;    // how many steps were done when it first was there; NO_INDEX = never
-    uint arrival_step;  // likewise
-    uint attempts;      // how often it asked for room at its entry
-    float nervousness;  // 0 to 1: how much it has been held up lately
+    vec2 position;       // m, scene frame
+    vec2 velocity;       // m/s, of the last step, contact included
+    float heading;       // rad
+    float phase;         // gait cycles, unwrapped
+    float walked;        // m
+    uint status;         // STATUS_*
+    uint stage;          // index into stages: where it is going
+    uint stage_end;      // one past the last of its stages
+    uint changes;        // changes of plan already made
+    uint leave_step;     // at a stop: how many steps are done when it goes on; otherwise 0
+    uint ticket;         // its number in the line that it stands in, or NO_INDEX
+    uint spawn_step;     // how many steps were done when it first was there; NO_INDEX = never
+    uint arrival_step;   // likewise
+    uint attempts;       // how often it asked for room at its entry
+    float nervousness;   // 0 to 1: how much it has been held up lately
     float shortest_way;  // m from where it began to its goal, round walls; 0 = not known yet
 };
 

@@ -30,8 +30,8 @@ gpu::Person& addPerson(authoring::Scene& scene, glm::vec2 position, glm::vec2 go
     person.flags = gpu::PERSON_PRESENT_AT_START | gpu::PERSON_FIXED_SPAWN;
     person.first_stage = static_cast<std::uint32_t>(scene.stages.size());
     person.stage_count = 1;
-    scene.stages.push_back(
-        {goal, goal, 0.3f, gpu::NO_INDEX, gpu::DWELL_FOR_GOOD, gpu::NO_INDEX, gpu::ACTIVITY_STAND, 0, 0.0f, 0});
+    scene.stages.push_back({goal, goal, 0.3f, gpu::NO_INDEX, gpu::DWELL_FOR_GOOD, gpu::NO_INDEX,
+                            gpu::ACTIVITY_STAND, 0, 0.0f, 0});
     scene.goals.push_back(goal);
     person.party_first = static_cast<std::uint32_t>(scene.people.size());
     person.party_size = 1;
