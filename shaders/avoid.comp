@@ -111,6 +111,9 @@ const float RELAXATION = 0.5;
 /// m/s^2: and speed up no faster than this. Walkers set off at about 1 m/s^2; it also bounds how hard a crowd presses.
 const float MOST_DRIVE = 1.0;
 
+/// Who stands somewhere is walked around, and makes this share of the room that somebody under way would make.
+const float ROOM_OF_THE_STANDING = 0.4;
+
 vec2 drive(vec2 wish, vec2 velocity) {
     return atMost((wish - velocity) / RELAXATION, MOST_DRIVE);
 }
@@ -170,8 +173,10 @@ void main() {
     float pace = paceAmongAll(self, slot, way, speed, headway);
     paces[slot] = pace;
     Manners manners = mannersOf(way, states[self.row].nervousness, neighbour_counts[slot], headway, pace / max(speed, STANDING_SPEED));
-    vec2 acceleration = drive(pace < speed ? wish * (pace / speed) : wish, self.velocity) + roomForAll(self, slot, wish, manners);
-    if (people[self.row].party_size > 1u && speed > STANDING_SPEED) acceleration += company(self, way);
+    vec2 acceleration = drive(pace < speed ? wish * (pace / speed) : wish, self.velocity) +
+                        roomForAll(self, slot, wish, manners) * (speed > STANDING_SPEED ? 1.0 : ROOM_OF_THE_STANDING);
+    if (people[self.row].party_size > 1u && speed > STANDING_SPEED)
+        acceleration += company(self, way) * smoothstep(0.0, 0.7, speed / people[self.row].preferred_speed);
     vec2 wanted = self.velocity + acceleration * parameters.step_seconds;
     vec2 velocity;
     int obeyed = solveInDisc(0, count, self.maximum_speed, wanted, false, velocity);

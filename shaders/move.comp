@@ -27,8 +27,10 @@ const float TURN_TIME = 0.22;          // s: the heading closes in on the veloci
 const float TURN_LIMIT = 2.6;          // rad/s, about 150 degrees per second
 
 const float SIGHT = 0.15;              // m: nothing nearer is looked at
+const float STEPPING_ASIDE = 0.4;      // m/s: who stands somewhere does not look away for less
 const float JOINING = 0.8;             // m: this near its end, one joins a line
 const float GIVE_UP = 0.6;             // nervousness: where there are too many, one stops where one is
+const float NEAR_BY = 5.0;             // m: even before the place itself
 
 const float PATIENCE_TIME = 2.0;       // s: nervousness follows what happens with this time constant
 
@@ -57,8 +59,8 @@ vec2 nextInLine(AgentState state, Stage stage) {
 
 /// Who walks looks where it goes; who has stopped, at what there is to see.
 float turned(AgentState state, Stage stage, float speed) {
-    if (speed >= STANDING_SPEED) return turnTowards(state.heading, state.velocity);
     bool stops = state.status == STATUS_ARRIVED || state.leave_step != 0u || state.ticket != NO_INDEX;
+    if (speed >= (stops ? STEPPING_ASIDE : STANDING_SPEED)) return turnTowards(state.heading, state.velocity);
     vec2 sight = (stage.line != NO_INDEX ? nextInLine(state, stage) : stage.facing) - state.position;
     return stops && length(sight) > SIGHT ? turnTowards(state.heading, sight) : state.heading;
 }
@@ -68,7 +70,8 @@ bool isThere(AgentState state, Stage stage) {
     RouteAhead ahead = routeAhead(stage, state.position);
     if (stage.line != NO_INDEX && (state.ticket == NO_INDEX || state.ticket != waiting_lines[stage.line].served)) return false;
     if (ahead.remaining <= stage.tolerance) return true;
-    return (stage.flags & STAGE_ANYWHERE) != 0u && ahead.straight && state.nervousness > GIVE_UP;
+    bool in_area = (stage.flags & STAGE_IN_AREA) != 0u && ahead.straight;
+    return (stage.flags & STAGE_ANYWHERE) != 0u && (in_area || ahead.remaining < NEAR_BY) && state.nervousness > GIVE_UP;
 }
 
 /// Who comes to the end of a line joins it at the end of the step; of several, the smallest row.

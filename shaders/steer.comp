@@ -97,6 +97,8 @@ float paceInParty(uint row, Person person, Stage stage, float remaining) {
 /// with this time constant (s), instead of overshooting.
 const float STOPPING = 0.7;
 const float SETTLING_TIME = 0.8;
+/// Who has stopped further away than this (m), because its place was full, stays where it is.
+const float CONTENT = 1.0;
 
 void main() {
     uint slot = gl_GlobalInvocationID.x;
@@ -108,14 +110,19 @@ void main() {
 
     if (person.party_size > 1u) {
         ahead.direction = wayOfParty(row, person, stage, bodies[slot].position, ahead.direction);
-        ahead.direction = towardsParty(row, person, bodies[slot].position, ahead.direction);
+        // Near one's own place, one goes there, wherever the others' are.
+        bool arrives = stage.dwell > 0.0 && ahead.remaining < QUITE_LOST;
+        if (!arrives) ahead.direction = towardsParty(row, person, bodies[slot].position, ahead.direction);
     }
     float angle = (randomUnit(parameters.seed, row, PURPOSE_SYMMETRY) * 2.0 - 1.0) * SYMMETRY_BREAKING +
                   ((touch_words[slot] & TOUCH_WALL_NEAR) != 0u ? searchAngle(row, states[row].nervousness) : 0.0);
     vec2 direction = mat2(cos(angle), sin(angle), -sin(angle), cos(angle)) * ahead.direction;
     float speed = person.preferred_speed;
     if (person.party_size > 1u) speed *= paceInParty(row, person, stage, ahead.remaining);
-    if (stage.dwell > 0.0)
+    bool stopped = states[row].status == STATUS_ARRIVED || states[row].leave_step != 0u;
+    if (stopped && (stage.flags & STAGE_ANYWHERE) != 0u && ahead.remaining > CONTENT)
+        speed = 0.0;
+    else if (stage.dwell > 0.0)
         speed = min(speed, min(sqrt(2.0 * STOPPING * ahead.remaining), ahead.remaining / SETTLING_TIME));
     preferred_velocities[slot] = direction * speed;
 }

@@ -319,6 +319,7 @@ class Reader {
         readArrival(reader, event.arrival);
         eachOf(reader, "who", [&](const JsonNode& item) {
             std::vector<std::string> known;
+            known.reserve(groups_.size());
             for (const auto& [id, index] : groups_)
                 known.push_back(id);
             if (item.kind == JsonNode::Kind::text && groups_.count(item.text))
@@ -335,6 +336,7 @@ class Reader {
         const auto found = ids.find(node.text);
         if (node.kind != JsonNode::Kind::text || found == ids.end()) {
             std::vector<std::string> known;
+            known.reserve(ids.size());
             for (const auto& [id, index] : ids)
                 known.push_back(id);
             diagnostics_.error(node.where,

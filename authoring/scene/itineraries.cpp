@@ -195,7 +195,7 @@ gpu::Stage Itineraries::stopStage(const Stop& stop, const Place& place, std::uin
     stage.dwell = static_cast<float>(wait);
     stage.line = gpu::NO_INDEX;
     stage.activity = activityOf(stop.activity);
-    stage.flags = gpu::STAGE_ANYWHERE;
+    stage.flags = gpu::STAGE_ANYWHERE | gpu::STAGE_IN_AREA;
     if (stop.activity == Activity::queue) {
         stage.line = lineFor(stop);
         stage.point = rebase_.local(stop.line.front());

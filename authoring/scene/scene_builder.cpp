@@ -121,7 +121,8 @@ class Builder {
         const FormationPlaces places = formationPlaces(formation, layout_.simulation.seed);
         const auto* list = std::get_if<ListFormation>(&formation.shape);
         beginGroup(formation.id, false);
-        for (const Party& party : drawParties(formation.people, random, places.positions.size())) {
+        for (const Party& party : neighboursOnly(
+                 drawParties(formation.people, random, places.positions.size()), places.positions)) {
             for (std::uint64_t i = party.first; i < party.first + party.size; ++i) {
                 gpu::Person person = drawPerson(formation.people, random, i, group());
                 if (list) overrideListed(list->agents[i], person);
@@ -133,6 +134,20 @@ class Builder {
             }
             bringTogether(party);
         }
+    }
+
+    /// Parties begin side by side: where the next person stands somewhere else, a new one begins.
+    static std::vector<Party> neighboursOnly(const std::vector<Party>& parties,
+                                             const std::vector<glm::dvec2>& positions) {
+        std::vector<Party> result;
+        const double apart = positions.size() > 1 ? 1.8 * glm::distance(positions[0], positions[1]) : 0.0;
+        for (const Party& party : parties)
+            for (std::uint64_t i = party.first; i < party.first + party.size; ++i)
+                if (i == party.first || glm::distance(positions[i], positions[i - 1]) > apart)
+                    result.push_back({i, 1});
+                else
+                    ++result.back().size;
+        return result;
     }
 
     /// The last ones added are a party.
@@ -370,12 +385,17 @@ class Builder {
         });
     }
 
-    /// Parties go to one place, even where everybody else draws their own.
+    /// Who walks together ends together: no further from the first one's goal than standing side by side
+    /// takes.
     static glm::dvec2 goalOf(const Formation& formation, const FormationPlaces& places, std::uint64_t i,
                              std::uint64_t leader) {
+        if (i == leader) return places.goals[i];
         const auto* grid = std::get_if<GridFormation>(&formation.shape);
-        if (!grid || !std::holds_alternative<Extent>(grid->goal)) return places.goals[i];
-        return places.goals[leader] + places.positions[i] - places.positions[leader];
+        const bool by_chance = grid && std::holds_alternative<Extent>(grid->goal);
+        const std::vector<glm::dvec2>& pattern = by_chance ? places.positions : places.goals;
+        const glm::dvec2 offset = pattern[i] - pattern[leader];
+        const double most = 0.8 * static_cast<double>(i - leader);
+        return places.goals[leader] + offset * std::min(1.0, most / std::max(glm::length(offset), 1.0e-9));
     }
 
     /// Those who do not set off at once first stop where they stand.
@@ -409,6 +429,8 @@ class Builder {
                        Routes& routes) {
         gpu::Stage straight = pointStage(goal, static_cast<float>(formation.goal_tolerance));
         if (formation.arrival == Arrival::stay) straight.dwell = gpu::DWELL_FOR_GOOD;
+        const auto* grid = std::get_if<GridFormation>(&formation.shape);
+        if (grid && std::holds_alternative<Extent>(grid->goal)) straight.flags |= gpu::STAGE_ANYWHERE;
         if (wallDepth(geometry_, goal, person.radius) > 0.0f) {
             complain(formation, i, "has its goal in a wall", "move the goal, or the wall");
             return straight;

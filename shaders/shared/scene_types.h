@@ -52,8 +52,10 @@ struct Stage {
 };
 const float DWELL_FOR_GOOD = 1.0e9f;
 
-/// Anywhere where the field has led will do for those who cannot get nearer to the point.
+/// Near by will do for those who cannot get nearer to the point.
 const uint STAGE_ANYWHERE = 1u;
+/// The field leads to an area, and anywhere in it will do for them.
+const uint STAGE_IN_AREA = 2u;
 
 const uint ACTIVITY_WALK = 1u;  // what the stream of states says of people who are there
 const uint ACTIVITY_STAND = 2u;

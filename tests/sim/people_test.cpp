@@ -327,6 +327,42 @@ TEST_F(PeopleTest, APartyBetweenTwoExitsTakesOneOfThem) {
     EXPECT_GT(ends[0] * ends[1], 0.0) << "they parted";
 }
 
+TEST_F(PeopleTest, PartiesReachTheirPlacesHoweverFarApartTheseAre) {
+    for (
+        const std::string shape :
+        {R"("type": "circle", "centre": [0, 0], "radius": 12, "count": 32)",
+         R"("type": "grid", "origin": [-12, -5], "rows": 5, "columns": 6, "goal": {"anywhere": [[0, -12], [15, 12]]})"}) {
+        const authoring::Scene scene = sceneOf(
+            R"({"throng": 1, "simulation": {"duration": 60}, "formations": [{"id": "c", "people": {"groups": "leisure"}, )" +
+            shape + "}]}");
+        std::size_t arrived = 0;
+        watch(scene, 50.0f, [&](float, const States& states) {
+            arrived = 0;
+            for (const gpu::AgentState& state : states)
+                arrived += state.status == gpu::STATUS_ARRIVED;
+        });
+        EXPECT_EQ(arrived, scene.people.size()) << shape;
+    }
+}
+
+TEST_F(PeopleTest, WhoFindsItsPlaceFullStopsNearBy) {
+    const authoring::Scene scene = sceneOf(R"({"throng": 1, "simulation": {"duration": 60},
+ "areas": [{"id": "a", "polygon": [[0,-3],[4,-3],[4,3],[0,3]]}, {"id": "stall", "polygon": [[20,-0.4],[20.8,-0.4],[20.8,0.4],[20,0.4]]}],
+ "flows": [{"id": "f", "from": "a", "to": "stall", "arrival": "stay", "count": 24, "end": 10}]})");
+    std::size_t arrived = 0;
+    double furthest = 0.0;
+    watch(scene, 55.0f, [&](float, const States& states) {
+        arrived = 0;
+        furthest = 0.0;
+        for (const gpu::AgentState& state : states) {
+            arrived += state.status == gpu::STATUS_ARRIVED;
+            furthest = std::max(furthest, glm::distance(world(scene, state), glm::dvec2(20.4, 0.0)));
+        }
+    });
+    EXPECT_EQ(arrived, 24u);
+    EXPECT_LT(furthest, 5.0);
+}
+
 TEST_F(PeopleTest, WhoStandsIsWalkedAround) {
     const authoring::Scene scene = sceneOf(R"({"throng": 1, "simulation": {"duration": 60},
  "areas": [{"id": "a", "polygon": [[0,-2],[4,-2],[4,2],[0,2]]}, {"id": "b", "polygon": [[36,-2],[40,-2],[40,2],[36,2]]}],
