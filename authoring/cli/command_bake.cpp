@@ -168,12 +168,14 @@ void addBake(CLI::App& app) {
                      "Override a value, e.g. --set simulation.seed=7 (repeatable)")
         ->take_all()
         ->expected(1);
+    CLI::Option* diagrams = command
+                                ->add_option("--diagrams", options->diagrams,
+                                             "Diagram images as OpenEXR: all, none, or every N-th frame")
+                                ->capture_default_str();
     command
-        ->add_option("--diagrams", options->diagrams,
-                     "Diagram images as OpenEXR: all, none, or every N-th frame")
-        ->capture_default_str();
-    command->add_flag("--second", options->seconds,
-                      "With --diagrams: also the second-nearest site of each pixel");
+        ->add_flag("--second", options->seconds,
+                   "With --diagrams: also the second-nearest site of each pixel")
+        ->needs(diagrams);
     command->add_flag(
         "--density", options->densities,
         "Also the stream `density`: persons per square metre by the area of each person's cell");

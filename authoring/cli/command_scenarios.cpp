@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -12,7 +10,6 @@
 #include "authoring/cli/exit_codes.h"
 #include "authoring/cli/judge.h"
 #include "authoring/cli/scenarios.h"
-#include "io/files/errors.h"
 #include "io/files/output_file.h"
 #include "io/measure/measure.h"
 
@@ -37,19 +34,13 @@ const Scenario& scenarioNamed(const std::string& name) {
     throw CLI::ValidationError("--run", fmt::format("there is no scenario `{}`; there are: {}", name, known));
 }
 
-void writeLayout(const std::filesystem::path& path, std::string_view text) {
-    std::ofstream file(path);
-    file << text;
-    file.close();
-    if (!file) throw io::OutputError(path, "cannot be written");
-}
-
 /// @returns the bars that were missed
 std::vector<std::string> runOne(const Scenario& scenario, const Options& options,
                                 nlohmann::ordered_json& report) {
     const std::filesystem::path folder(options.output);
     const std::filesystem::path layout = folder / fmt::format("{}.json", scenario.name);
-    writeLayout(layout, scenario.layout);
+    std::filesystem::remove(layout);  // of an earlier run
+    io::writeFile(layout, scenario.layout);
     BakeRequest request;
     request.layout = layout.string();
     request.overrides = options.overrides;

@@ -274,6 +274,21 @@ JsonNode parseJson(std::string_view text, Diagnostics& diagnostics) {
     return std::move(handler.root);
 }
 
+namespace {
+
+/// A word of a JSON pointer as the key that it stands for.
+std::string unescaped(const std::string& word) {
+    std::string key;
+    for (std::size_t i = 0; i < word.size(); ++i) {
+        const bool escape =
+            word[i] == '~' && i + 1 < word.size() && (word[i + 1] == '0' || word[i + 1] == '1');
+        key += !escape ? word[i] : word[++i] == '1' ? '/' : '~';
+    }
+    return key;
+}
+
+}  // namespace
+
 void applyOverride(JsonNode& root, const std::string& text, Diagnostics& diagnostics) {
     const std::size_t equals = text.find('=');
     const SourcePosition where{0, 0, fmt::format("--set {}", text)};
@@ -291,7 +306,8 @@ void applyOverride(JsonNode& root, const std::string& text, Diagnostics& diagnos
     std::size_t from = 0;
     while (from <= path.size()) {
         const std::size_t end = std::min(path.find(separator, from), path.size());
-        const std::string key = path.substr(from, end - from);
+        const std::string word = path.substr(from, end - from);
+        const std::string key = separator == '/' ? unescaped(word) : word;
         from = end + 1;
         pointer = appendPointer(pointer, key);
         if (node->kind == JsonNode::Kind::array) {

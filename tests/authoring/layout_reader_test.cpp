@@ -300,6 +300,10 @@ TEST(LayoutReader, OverridesValuesAndNamesTheOverrideThatIsWrong) {
     EXPECT_EQ(read(text, {"simulation.method=per-site"}).simulation.method, DiagramMethod::per_site);
     EXPECT_EQ(std::get<CircleFormation>(read(text, {"formations.0.count=12"}).formations[0].shape).count,
               12u);
+    const std::string choice =
+        R"({"throng": 1, "areas": [{"id": "x/y~", "polygon": [[0,0],[4,0],[4,4]]}, {"id": "b", "polygon": [[9,0],[12,0],[12,4]]}],
+ "flows": [{"id": "f", "from": "b", "to": {"choose": {"x/y~": 1}}, "count": 1}]})";
+    EXPECT_EQ(read(choice, {"/flows/0/to/choose/x~1y~0=5"}).flows.at(0).to.weights.at(0), 5.0);
     for (const std::string wrong :
          {"simulation.sed=7", "simulation.seed", "formations.3.count=1", "simulation.fps=fast"})
         EXPECT_TRUE(diagnose(text, {wrong}).hasErrors()) << wrong;

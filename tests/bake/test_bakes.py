@@ -224,6 +224,7 @@ def test_info_says_what_is_wrong_with_a_damaged_bake(throng, tmp_path):
 
 def test_the_command_line_speaks_clearly(throng, tmp_path):
     assert "did you mean `bake`?" in throng("bkae", expect=2).stderr
+    assert "--second requires --diagrams" in throng("bake", "x.json", "--second", expect=2).stderr
     assert "did you mean `--force`?" in throng("bake", "x.json", "--fource", expect=2).stderr
     wrong = write(tmp_path / "wrong.json", {"throng": 1, "roads": [{"id": "r", "centreline": [[0, 0], [5, 0]], "widht": 3}]})
     told = throng("check", wrong, expect=3)
