@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 namespace throng::authoring {
 namespace {
@@ -58,6 +59,19 @@ std::vector<Party> drawParties(const People& people, const GroupRandom& random, 
         parties.push_back({i, static_cast<std::uint32_t>(std::min<std::uint64_t>(size, count - i))});
     }
     return parties;
+}
+
+std::vector<Party> drawParties(const People& people, const GroupRandom& random,
+                               const std::vector<glm::dvec2>& positions) {
+    std::vector<Party> result;
+    const double apart = positions.size() > 1 ? 1.8 * glm::distance(positions[0], positions[1]) : 0.0;
+    for (const Party& party : drawParties(people, random, positions.size()))
+        for (std::uint64_t i = party.first; i < party.first + party.size; ++i)
+            if (i == party.first || glm::distance(positions[i], positions[i - 1]) > apart)
+                result.push_back({i, 1});
+            else
+                ++result.back().size;
+    return result;
 }
 
 void walkTogether(std::span<gpu::Person> party) {

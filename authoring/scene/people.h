@@ -27,6 +27,9 @@ struct Party {
 };
 /// Splits the people of a group into parties.
 std::vector<Party> drawParties(const People& people, const GroupRandom& random, std::uint64_t count);
+/// The same for people who stand somewhere: only neighbours walk together.
+std::vector<Party> drawParties(const People& people, const GroupRandom& random,
+                               const std::vector<glm::dvec2>& positions);
 /// Walks together: everybody as fast as the party, which is slower the larger it is.
 void walkTogether(std::span<gpu::Person> party);
 

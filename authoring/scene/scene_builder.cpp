@@ -121,8 +121,7 @@ class Builder {
         const FormationPlaces places = formationPlaces(formation, layout_.simulation.seed);
         const auto* list = std::get_if<ListFormation>(&formation.shape);
         beginGroup(formation.id, false);
-        for (const Party& party : neighboursOnly(
-                 drawParties(formation.people, random, places.positions.size()), places.positions)) {
+        for (const Party& party : drawParties(formation.people, random, places.positions)) {
             for (std::uint64_t i = party.first; i < party.first + party.size; ++i) {
                 gpu::Person person = drawPerson(formation.people, random, i, group());
                 if (list) overrideListed(list->agents[i], person);
@@ -134,20 +133,6 @@ class Builder {
             }
             bringTogether(party);
         }
-    }
-
-    /// Parties begin side by side: where the next person stands somewhere else, a new one begins.
-    static std::vector<Party> neighboursOnly(const std::vector<Party>& parties,
-                                             const std::vector<glm::dvec2>& positions) {
-        std::vector<Party> result;
-        const double apart = positions.size() > 1 ? 1.8 * glm::distance(positions[0], positions[1]) : 0.0;
-        for (const Party& party : parties)
-            for (std::uint64_t i = party.first; i < party.first + party.size; ++i)
-                if (i == party.first || glm::distance(positions[i], positions[i - 1]) > apart)
-                    result.push_back({i, 1});
-                else
-                    ++result.back().size;
-        return result;
     }
 
     /// The last ones added are a party.
