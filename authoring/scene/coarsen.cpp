@@ -23,11 +23,13 @@ class Coarsener {
                 cellAt(coarse, cellCentre(fine.grid, cell % fine.grid.width, cell / fine.grid.width));
     }
 
-    WalkMap run() {
+    CoarseMap run() {
         findPieces();
         describePieces();
         openSides();
-        return std::move(result_);
+        for (std::uint32_t cell = 0; cell < owner_.size(); ++cell)
+            if (!isChosen(cell)) owner_[cell] = gpu::NO_INDEX;
+        return {std::move(result_), std::move(owner_), std::move(share_)};
     }
 
   private:
@@ -77,6 +79,7 @@ class Coarsener {
             if (chosen == kNoPiece || pieces_[piece].cells > pieces_[chosen].cells) chosen = piece;
         }
         std::vector<double> cost(cellCount(coarse_));
+        share_.assign(cellCount(coarse_), 0.0f);
         for (std::uint32_t cell = 0; cell < owner_.size(); ++cell) {
             if (!isChosen(cell)) continue;
             cost[owner_[cell]] += fine_.cost[cell];
@@ -85,6 +88,8 @@ class Coarsener {
         for (std::size_t cell = 0; cell < cost.size(); ++cell) {
             if (chosen_[cell] == kNoPiece) continue;
             const auto count = static_cast<float>(pieces_[chosen_[cell]].cells);
+            const float ratio = fine_.grid.cell_size / coarse_.cell_size;
+            share_[cell] = std::min(1.0f, count * ratio * ratio);
             result_.cost[cell] = static_cast<float>(cost[cell]) / count;
             if (result_.one_way.empty()) continue;
             // One-way only where most of it is.
@@ -112,6 +117,7 @@ class Coarsener {
     const WalkMap& fine_;
     const FieldGrid& coarse_;
     WalkMap result_;
+    std::vector<float> share_;
     std::vector<std::uint32_t> owner_;  // coarse cell of each fine one
     std::vector<std::uint32_t> piece_;  // of each fine cell
     std::vector<Piece> pieces_;
@@ -120,7 +126,7 @@ class Coarsener {
 
 }  // namespace
 
-WalkMap coarsen(const WalkMap& fine, const FieldGrid& coarse) {
+CoarseMap coarsen(const WalkMap& fine, const FieldGrid& coarse) {
     return Coarsener(fine, coarse).run();
 }
 

@@ -50,8 +50,17 @@ FieldGrid makeGrid(const WalkGeometry& geometry, float smallest_cell, double mos
 /// bind
 WalkMap makeWalkMap(const WalkGeometry& geometry, const FieldGrid& grid, bool keep_to_roads);
 
-/// The same ground in larger cells: doors stay open and walls closed, however thin.
-WalkMap coarsen(const WalkMap& fine, const FieldGrid& coarse);
+/// The same ground in larger cells.
+struct CoarseMap {
+    WalkMap map;
+    /// Per fine cell, the coarse cell that stands for it; gpu::NO_INDEX where none does: in walls, and in
+    /// lesser pieces of free ground that share a coarse cell with a larger one.
+    std::vector<std::uint32_t> cell_of;
+    std::vector<float> free_share;  ///< of each coarse cell, by area
+};
+
+/// Doors stay open and walls closed, however thin.
+CoarseMap coarsen(const WalkMap& fine, const FieldGrid& coarse);
 
 /// Signed distance to the edge of the union of roads and areas, m, positive inside, at every cell's centre.
 /// Empty without roads.

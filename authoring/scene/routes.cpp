@@ -23,11 +23,12 @@ constexpr std::size_t kMostFieldBytes = std::size_t{1} << 30;
 constexpr float kDetourCell = 0.75f;
 constexpr double kMostDetourCells = 30'000.0;
 
-void appendGround(const WalkMap& map, std::vector<gpu::GroundCell>& ground) {
+void appendGround(const CoarseMap& coarse, std::vector<gpu::GroundCell>& ground) {
+    const WalkMap& map = coarse.map;
     for (std::size_t cell = 0; cell < map.cost.size(); ++cell)
         ground.push_back({std::min(map.cost[cell], gpu::BLOCKED_COST),
                           glm::packSnorm2x16(map.one_way.empty() ? glm::vec2(0.0f) : map.one_way[cell]),
-                          map.open_sides[cell]});
+                          map.open_sides[cell], coarse.free_share[cell]});
 }
 
 }  // namespace
@@ -210,7 +211,7 @@ Detours Routes::detours() {
     Detours detours;
     detours.grid = makeGrid(geometry_, kDetourCell, kMostDetourCells);
     detours.has_choice = has_choice_;
-    std::optional<WalkMap> maps[2];
+    std::optional<CoarseMap> maps[2];
     std::uint32_t map_index[2] = {};
     for (std::size_t field = 0; field < fields_.size(); ++field) {
         const std::size_t kind = on_roads_[field] ? 1 : 0;
@@ -222,9 +223,9 @@ Detours Routes::detours() {
         detours.ground_of_field.push_back(map_index[kind]);
         std::set<std::uint32_t> coarse;
         for (const std::uint32_t cell : targets_[field])
-            coarse.insert(cellAt(detours.grid, cellCentre(grid_, cell % grid_.width, cell / grid_.width)));
+            if (maps[kind]->cell_of[cell] != gpu::NO_INDEX) coarse.insert(maps[kind]->cell_of[cell]);
         const std::vector<std::uint32_t> targets(coarse.begin(), coarse.end());
-        for (const float distance : solveField(*maps[kind], targets).reachable)
+        for (const float distance : solveField(maps[kind]->map, targets).reachable)
             detours.distances.push_back(std::min(distance, gpu::BLOCKED_COST));
     }
     return detours;

@@ -120,9 +120,10 @@ struct FieldCell {
 
 /// One cell of the coarse map on which detours round jams are worked out.
 struct GroundCell {
-    float cost;       // >= 1 per metre walked; BLOCKED_COST where nobody can stand
-    uint one_way;     // unit direction that may not be walked against, or zero; packSnorm2x16
-    uint open_sides;  // OPEN_*: whether one may go to the next cell on that axis, and back
+    float cost;        // >= 1 per metre walked; BLOCKED_COST where nobody can stand
+    uint one_way;      // unit direction that may not be walked against, or zero; packSnorm2x16
+    uint open_sides;   // OPEN_*: whether one may go to the next cell on that axis, and back
+    float free_share;  // of its area, 0 to 1
 };
 const uint OPEN_TO_X = 1u;
 const uint OPEN_TO_Y = 2u;

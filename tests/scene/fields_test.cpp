@@ -146,7 +146,7 @@ TEST(CoarseMap, KeepsNarrowDoorsOpenAndThinWallsClosedInAnyDirection) {
             addWall(geometry, place(-40.0, 0.0), place(door ? -0.45 : 0.0, 0.0));
             addWall(geometry, place(door ? 0.45 : 0.0, 0.0), place(40.0, 0.0));
             const FieldGrid coarse = makeGrid(geometry, 0.75f, 30'000.0);
-            const WalkMap map = coarsen(makeWalkMap(geometry, makeGrid(geometry), false), coarse);
+            const WalkMap map = coarsen(makeWalkMap(geometry, makeGrid(geometry), false), coarse).map;
             const std::vector<std::uint32_t> target = {cellAt(coarse, place(0.0, 10.0))};
             const Field field = solveField(map, target);
             const float found = field.reachable[cellAt(coarse, place(0.0, -10.0))];
@@ -156,6 +156,21 @@ TEST(CoarseMap, KeepsNarrowDoorsOpenAndThinWallsClosedInAnyDirection) {
                 EXPECT_EQ(found, kUnreachable) << turn;
             }
         }
+    }
+}
+
+TEST(CoarseMap, GroundBehindAThinWallBelongsToNoCellOnThisSide) {
+    WalkGeometry geometry = openGround(12.0f);
+    addWall(geometry, {6.2f, -1.0f},
+            {6.2f, 13.0f});  // off the middle of its cells, which reach from 6.0 to 6.75
+    const FieldGrid grid = makeGrid(geometry), coarse = makeGrid(geometry, 0.75f, 30'000.0);
+    const CoarseMap map = coarsen(makeWalkMap(geometry, grid, false), coarse);
+    for (std::uint32_t cell = 0; cell < map.cell_of.size(); ++cell) {
+        if (map.cell_of[cell] == gpu::NO_INDEX) continue;
+        const Field field = solveField(map.map, std::vector{map.cell_of[cell]});
+        const bool east = centreOf(grid, cell).x > 6.2f;
+        ASSERT_EQ(field.reachable[cellAt(coarse, {1.0f, 6.0f})] == kUnreachable, east);
+        cell += 97;  // some of them
     }
 }
 

@@ -49,7 +49,7 @@ class CongestionTest : public GpuTest {
         target_ = 5 * kWidth + 34;
         scene_.detours.grid = {scene_.minimum, kCell, kWidth, kHeight};
         for (const float cost : cost_)
-            scene_.detours.ground.push_back({cost, 0, gpu::OPEN_TO_X | gpu::OPEN_TO_Y});
+            scene_.detours.ground.push_back({cost, 0, gpu::OPEN_TO_X | gpu::OPEN_TO_Y, 1.0f});
         scene_.detours.ground_of_field = {0};
         scene_.detours.distances = plainDistances(cost_, target_);
     }
