@@ -97,8 +97,7 @@ def compare(program, people, rounds, folder):
     for name in ("diagram", "grid"):
         contestants[name].close()
     return {"people": people, "device": device, "threads": threads, "memory": memory,
-            "ms": {name: statistics.median(values) for name, values in times.items()},
-            "spread": {name: (min(values), max(values)) for name, values in times.items()}}
+            "ms": {name: statistics.median(values) for name, values in times.items()}}
 
 
 def table(results, base_memory):

@@ -32,8 +32,8 @@ def kind_of(rule):
         return rule["$ref"].rsplit("/", 1)[1]
     if "enum" in rule:
         return ", ".join(f"`{value}`" for value in rule["enum"])
-    if rule.get("description", "").startswith("Who walks together"):
-        return "word or array of numbers"
+    if "oneOf" in rule and "enum" in rule["oneOf"][0]:
+        return f"word or {rule['oneOf'][1]['type']}"
     if "oneOf" in rule:
         return "number or distribution" if rule["oneOf"][0].get("type") == "number" else "place or object"
     if rule.get("type") == "array":

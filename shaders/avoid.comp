@@ -29,6 +29,7 @@ uniform uint slot_capacity;
 #include "shaders/cells.glsl"
 #include "shaders/walls.glsl"
 #include "shaders/anticipation.glsl"
+#include "shaders/company.glsl"
 #include "shaders/linear_program.glsl"
 
 /// Bodies inside walls are to leave them within this time (s); the contact pass takes them out in any case.
@@ -111,9 +112,6 @@ const float RELAXATION = 0.5;
 /// m/s^2: and speed up no faster than this. Walkers set off at about 1 m/s^2; it also bounds how hard a crowd presses.
 const float MOST_DRIVE = 1.0;
 
-/// Who stands somewhere is walked around, and makes this share of the room that somebody under way would make.
-const float ROOM_OF_THE_STANDING = 0.4;
-
 vec2 drive(vec2 wish, vec2 velocity) {
     return atMost((wish - velocity) / RELAXATION, MOST_DRIVE);
 }
@@ -147,7 +145,8 @@ vec2 roomForAll(Body self, uint slot, vec2 wish, Manners manners) {
     return room;
 }
 
-#include "shaders/company.glsl"
+/// Who stands somewhere is walked around, and makes this share of the room that somebody under way would make.
+const float ROOM_OF_THE_STANDING = 0.4;
 
 vec2 limitChange(vec2 from, vec2 to, float most) {
     vec2 change = to - from;

@@ -14,11 +14,11 @@ uniform float fading;  // 0 to 1: how much of what was known is replaced
 #include "shaders/cells.glsl"
 #include "shaders/flat_index.glsl"
 
-/// Everybody within one coarse cell of the middle counts, the nearer the more (a tent, whose integral is the area of
-/// one coarse cell).
-/// Walls take part of some cells: people crowd in the rest.
+/// Walls take part of some cells, and people crowd in the rest: at least this share of it.
 const float LEAST_SHARE = 0.2;
 
+/// Everybody within one coarse cell of the middle counts, the nearer the more (a tent, whose integral is the area of
+/// one coarse cell).
 CrowdFlow flowAround(vec2 middle, float free_share) {
     ivec2 low = cellOf(middle - parameters.detour_cell);
     ivec2 high = cellOf(middle + parameters.detour_cell);

@@ -6,14 +6,13 @@ layout(local_size_x = SPAWN_GROUP_SIZE) in;
 layout(std140) uniform ParametersBlock { Parameters parameters; };
 layout(std430) readonly buffer People { Person people[]; };
 layout(std430) readonly buffer Stages { Stage stages[]; };
-uniform usamplerBuffer field_cells;  // FieldCell
 layout(std430) readonly buffer DetourSlopes { vec2 detour_slopes[]; };
-layout(std430) readonly buffer Proposals { SpawnProposal proposals[]; };
-layout(std430) buffer States { AgentState states[]; };
-uniform uint steps_done;  // counted with this one
-
 layout(std430) readonly buffer WaitingLines { WaitingLine waiting_lines[]; };
 layout(std430) readonly buffer LinePoints { vec2 line_points[]; };
+layout(std430) readonly buffer Proposals { SpawnProposal proposals[]; };
+layout(std430) buffer States { AgentState states[]; };
+uniform usamplerBuffer field_cells;  // FieldCell
+uniform uint steps_done;  // counted with this one
 
 #include "shaders/route.glsl"
 #include "shaders/waiting_line.glsl"

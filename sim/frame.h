@@ -32,7 +32,8 @@ struct Frame {
     std::uint32_t index = 0;            ///< from 0
     std::span<const float> positions;   ///< rows x (x, y, z), scene frame, m
     std::span<const float> directions;  ///< rows x (cos heading, sin heading, speed in m/s)
-    std::span<const float> states;      ///< rows x (alive 0/1, variation, unwrapped gait phase in cycles)
+    std::span<const float>
+        states;  ///< rows x (activity: 0 = not there, variation, unwrapped gait phase in cycles)
     /// rows x (density 1/m^2, area of the cell m^2, share of its tile that it owns); empty unless asked for
     std::span<const float> densities;
     const DiagramImage* diagram = nullptr;

@@ -39,15 +39,6 @@ class Coarsener {
         std::uint32_t cells = 0;
     };
 
-    template <class Visit>
-    void visitNeighbours(std::uint32_t cell, Visit visit) const {
-        const std::uint32_t width = fine_.grid.width;
-        if (cell % width > 0) visit(cell - 1);
-        if (cell % width + 1 < width) visit(cell + 1);
-        if (cell >= width) visit(cell - width);
-        if (cell + width < owner_.size()) visit(cell + width);
-    }
-
     /// Floods each piece of free ground within one coarse cell.
     void findPieces() {
         std::vector<std::uint32_t> open;
@@ -61,7 +52,7 @@ class Coarsener {
                 const std::uint32_t cell = open.back();
                 open.pop_back();
                 ++pieces_[piece].cells;
-                visitNeighbours(cell, [&](std::uint32_t next) {
+                visitNeighbours(fine_.grid, cell, [&](std::uint32_t next) {
                     if (piece_[next] != kNoPiece || owner_[next] != owner_[start] ||
                         fine_.cost[next] >= kUnreachable)
                         return;

@@ -51,7 +51,7 @@ class Marcher {
             heap_.pop();
             if (settled_[front.cell]) continue;
             settled_[front.cell] = true;
-            visitNeighbours(front.cell, [&](std::uint32_t cell) {
+            visitNeighbours(grid_, front.cell, [&](std::uint32_t cell) {
                 if (settled_[cell] || map_.cost[cell] == kUnreachable) return;
                 const float found = solve(cell);
                 if (found < distance_[cell]) push(cell, found);
@@ -65,15 +65,6 @@ class Marcher {
     void push(std::uint32_t cell, float distance) {
         distance_[cell] = distance;
         heap_.push({distance, cell});
-    }
-
-    template <class Visit>
-    void visitNeighbours(std::uint32_t cell, Visit visit) {
-        const std::uint32_t x = cell % grid_.width;
-        if (x > 0) visit(cell - 1);
-        if (x + 1 < grid_.width) visit(cell + 1);
-        if (cell >= grid_.width) visit(cell - grid_.width);
-        if (cell + grid_.width < distance_.size()) visit(cell + grid_.width);
     }
 
     /// Exact distances around a point target, where no obstacle or bad ground is near.

@@ -31,6 +31,16 @@ inline std::uint32_t row(const FieldGrid& grid, float y) {
     return static_cast<std::uint32_t>(std::clamp(at, 0.0f, static_cast<float>(grid.height - 1)));
 }
 
+/// Calls visit(index) for the up to four cells beside one.
+template <class Visit>
+void visitNeighbours(const FieldGrid& grid, std::uint32_t cell, Visit visit) {
+    const std::uint32_t x = cell % grid.width;
+    if (x > 0) visit(cell - 1);
+    if (x + 1 < grid.width) visit(cell + 1);
+    if (cell >= grid.width) visit(cell - grid.width);
+    if (cell + grid.width < cellCount(grid)) visit(cell + grid.width);
+}
+
 /// Calls visit(index, centre) for the cells whose centre may lie in the box.
 template <class Visit>
 void visitBox(const FieldGrid& grid, glm::vec2 lower, glm::vec2 upper, Visit visit) {

@@ -139,11 +139,15 @@ TEST_F(PeopleTest, QueueInTheOrderTheyComeAndAreServedOneAfterTheOther) {
         EXPECT_GT(served[ticket] - served[ticket - 1], 3.9f);
 }
 
+/// With a wall across it, and a gate in the wall.
+const std::string kGatedStreet =
+    kStreet +
+    R"("walls": [{"points": [[30,-20],[30,-1]]}, {"id": "gate", "points": [[30,-1],[30,1]]}, {"points": [[30,1],[30,20]]}],
+)";
+
 TEST_F(PeopleTest, WaitBeforeAClosedGateAndGoThroughOnceItOpens) {
-    const authoring::Scene scene = sceneOf(
-        kStreet +
-        R"("walls": [{"points": [[30,-20],[30,-1]]}, {"id": "gate", "points": [[30,-1],[30,1]]}, {"points": [[30,1],[30,20]]}],
- "flows": [{"id": "f", "from": "a", "to": "b", "count": 12, "end": 5}],
+    const authoring::Scene scene =
+        sceneOf(kGatedStreet + R"("flows": [{"id": "f", "from": "a", "to": "b", "count": 12, "end": 5}],
  "events": [{"at": 40, "open": "gate"}]})");
     std::size_t gone = 0;
     watch(scene, 75.0f, [&](float now, const States& states) {
@@ -159,10 +163,8 @@ TEST_F(PeopleTest, WaitBeforeAClosedGateAndGoThroughOnceItOpens) {
 }
 
 TEST_F(PeopleTest, DoNotPassAGateThatHasClosed) {
-    const authoring::Scene scene = sceneOf(
-        kStreet +
-        R"("walls": [{"points": [[30,-20],[30,-1]]}, {"id": "gate", "points": [[30,-1],[30,1]]}, {"points": [[30,1],[30,20]]}],
- "flows": [{"id": "f", "from": "a", "to": "b", "count": 30, "end": 30}],
+    const authoring::Scene scene =
+        sceneOf(kGatedStreet + R"("flows": [{"id": "f", "from": "a", "to": "b", "count": 30, "end": 30}],
  "events": [{"at": 33, "close": "gate"}]})");
     std::vector<double> before;
     std::size_t passed = 0, kept_back = 0;
