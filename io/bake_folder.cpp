@@ -4,11 +4,14 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <stdio.h>
+#include <sys/file.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <random>
 #include <system_error>
+#include <utility>
 
 #include "io/files/output_file.h"
 
@@ -87,25 +90,60 @@ fs::path parentOf(const fs::path& path) {
 
 }  // namespace
 
-BakeFolder::BakeFolder(const fs::path& final_path, bool force)
-    : final_(withoutTrailingSlash(final_path)), force_(force) {
+void BakeFolder::prepare(const fs::path& final_path) {
     if (!final_.has_filename() || final_.filename() == "." || final_.filename() == "..")
         throw OutputError(final_path, "is no name for a bake");
     try {
         if (isTaken(final_)) {
-            if (!force) throw OutputError(final_, "exists; give another name, or --force to replace it");
+            if (!force_) throw OutputError(final_, "exists; give another name, or --force to replace it");
             requireReplaceable(final_);
         }
         fs::create_directories(parentOf(final_));
     } catch (const fs::filesystem_error& error) {
         throw OutputError(final_, "create", error.code().value());
     }
+}
+
+BakeFolder::BakeFolder(const fs::path& final_path, bool force)
+    : final_(withoutTrailingSlash(final_path)), force_(force) {
+    prepare(final_path);
     temporary_ = createTemporary(final_);
+}
+
+BakeFolder::BakeFolder(const fs::path& final_path, bool force, Begun begun)
+    : final_(withoutTrailingSlash(final_path)), force_(force) {
+    prepare(final_path);
+    temporary_ = unfinishedPath(final_path);
+    if (::mkdir(temporary_.c_str(), 0777) != 0 && errno != EEXIST)
+        throw OutputError(temporary_, "create", errno);
+    lock();
+    if (begun == Begun::go_on) {
+        committed_ = true;  // there is a checkpoint: nothing may be lost
+        return;
+    }
+    std::error_code error;
+    for (fs::directory_iterator it(temporary_, error), end; !error && it != end; it.increment(error))
+        fs::remove_all(it->path(), error);
+    if (error) throw OutputError(temporary_, "empty", error.value());
+}
+
+fs::path BakeFolder::unfinishedPath(const fs::path& final_path) {
+    return withoutTrailingSlash(final_path).string() + ".unfinished";
+}
+
+void BakeFolder::lock() {
+    lock_ = ::open(temporary_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (lock_ < 0) throw OutputError(temporary_, "open", errno);
+    // Where a file system knows no locks, people have to look out for themselves.
+    if (::flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+    ::close(std::exchange(lock_, -1));
+    throw OutputError(temporary_, "another process is at work in it");
 }
 
 BakeFolder::~BakeFolder() {
     std::error_code ignored;
     if (!committed_) fs::remove_all(temporary_, ignored);
+    if (lock_ >= 0) ::close(lock_);
 }
 
 fs::path BakeFolder::addFolder(const fs::path& name) {

@@ -17,6 +17,11 @@ class BakeFolder {
     /// `final_path` exists, unless `force`; and even then when what exists is neither a bake nor an empty
     /// folder.
     BakeFolder(const std::filesystem::path& final_path, bool force);
+    /// The same for bakes that may be stopped and go on later: everything goes into `NAME.unfinished`, which
+    /// is locked while somebody works in it, and kept when there is a checkpoint in it.
+    enum class Begun { begin, go_on };
+    BakeFolder(const std::filesystem::path& final_path, bool force, Begun begun);
+    static std::filesystem::path unfinishedPath(const std::filesystem::path& final_path);
     BakeFolder(const BakeFolder&) = delete;
     BakeFolder& operator=(const BakeFolder&) = delete;
     ~BakeFolder();
@@ -32,12 +37,18 @@ class BakeFolder {
     /// The same under the name `NAME.partial`, or `NAME.partial-2` and so on: nothing is ever replaced.
     std::filesystem::path commitPartial();
 
+    /// From here on, the folder stays whatever happens: somebody will go on with it.
+    void keep() { committed_ = true; }
+
   private:
+    void prepare(const std::filesystem::path& final_path);
+    void lock();
     void syncAll() const;
     void forget() { committed_ = true; }
 
     std::filesystem::path final_;
     std::filesystem::path temporary_;
+    int lock_ = -1;  // a file descriptor
     bool force_ = false;
     bool committed_ = false;
 };

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -21,13 +24,22 @@ constexpr std::array kStateRule{BackFill::keep, BackFill::first_alive, BackFill:
 
 }  // namespace
 
+namespace {
+
+StreamWriter openStream(const std::filesystem::path& path, StreamFormat format,
+                        const BakeDescription& description, std::uint32_t frames_there) {
+    const auto rows = static_cast<std::uint32_t>(description.agents.size());
+    return frames_there > 0 ? StreamWriter(path, format, rows, description.frames, frames_there)
+                            : StreamWriter(path, format, rows, description.frames);
+}
+
+}  // namespace
+
 BakeWriter::Stream::Stream(const std::filesystem::path& folder, const std::string& stream_name,
-                           const BakeDescription& description)
+                           const BakeDescription& description, std::uint32_t frames_there)
     : name(stream_name),
-      npy(folder / (stream_name + ".npy"), StreamFormat::npy,
-          static_cast<std::uint32_t>(description.agents.size()), description.frames),
-      pc2(folder / (stream_name + ".pc2"), StreamFormat::pc2,
-          static_cast<std::uint32_t>(description.agents.size()), description.frames) {}
+      npy(openStream(folder / (stream_name + ".npy"), StreamFormat::npy, description, frames_there)),
+      pc2(openStream(folder / (stream_name + ".pc2"), StreamFormat::pc2, description, frames_there)) {}
 
 void BakeWriter::Stream::append(std::span<const float> frame) {
     npy.append(frame);
@@ -43,16 +55,92 @@ void BakeWriter::Stream::finish(std::span<const std::uint32_t> first_alive,
 }
 
 BakeWriter::BakeWriter(BakeDescription description)
+    : BakeWriter(description, std::make_unique<BakeFolder>(description.output, description.force), nullptr) {}
+
+BakeWriter::BakeWriter(BakeDescription description, const Checkpoint* go_on_from)
+    : BakeWriter(
+          description,
+          std::make_unique<BakeFolder>(description.output, description.force,
+                                       go_on_from ? BakeFolder::Begun::go_on : BakeFolder::Begun::begin),
+          go_on_from) {}
+
+BakeWriter::BakeWriter(BakeDescription description, std::unique_ptr<BakeFolder> folder,
+                       const Checkpoint* go_on_from)
     : description_(std::move(description)),
-      folder_(description_.output, description_.force),
-      streams_folder_(folder_.addFolder("streams")),
-      positions_(streams_folder_, "pos", description_),
-      directions_(streams_folder_, "dir", description_),
-      states_(streams_folder_, "state", description_),
+      folder_(std::move(folder)),
+      streams_folder_(streamsFolder(go_on_from)),
+      positions_(streams_folder_, "pos", description_, go_on_from ? go_on_from->frames : 0),
+      directions_(streams_folder_, "dir", description_, go_on_from ? go_on_from->frames : 0),
+      states_(streams_folder_, "state", description_, go_on_from ? go_on_from->frames : 0),
       first_alive_(description_.agents.size(), kNone),
       shifted_(description_.agents.size() * kComponents) {
-    if (description_.diagram_every > 0) folder_.addFolder("diagrams");
-    if (description_.densities) densities_.emplace(streams_folder_, "density", description_);
+    if (description_.densities)
+        densities_.emplace(streams_folder_, "density", description_, go_on_from ? go_on_from->frames : 0);
+    if (go_on_from)
+        goOnFrom(*go_on_from);
+    else if (description_.diagram_every > 0)
+        folder_->addFolder("diagrams");
+}
+
+std::filesystem::path BakeWriter::streamsFolder(const Checkpoint* go_on_from) {
+    if (!go_on_from) return folder_->addFolder("streams");
+    removeLeftovers(*go_on_from);
+    return folder_->path() / "streams";
+}
+
+namespace {
+
+constexpr const char* kFirstAlive = "first alive";
+constexpr const char* kDiagrams = "diagrams";
+
+std::string diagramName(std::uint32_t frame) {
+    return fmt::format("diagrams/diagram.{:04}.exr", frame + 1);
+}
+
+template <class T>
+void readSection(const Checkpoint& checkpoint, const char* name, std::span<T> items) {
+    const std::vector<std::byte>* bytes = checkpoint.find(name);
+    if (!bytes || bytes->size() != items.size_bytes())
+        throw std::runtime_error(fmt::format("the checkpoint's part `{}` does not fit this bake", name));
+    std::copy(bytes->begin(), bytes->end(), std::as_writable_bytes(items).begin());
+}
+
+}  // namespace
+
+/// What an earlier run wrote after its last checkpoint, or while it was finishing the bake.
+void BakeWriter::removeLeftovers(const Checkpoint& checkpoint) const {
+    namespace fs = std::filesystem;
+    std::vector<fs::path> leftovers;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder_->path()))
+        if (!entry.is_directory() && !isCheckpoint(entry.path())) leftovers.push_back(entry.path());
+    for (std::uint32_t frame = checkpoint.frames;
+         description_.diagram_every > 0 && frame < description_.frames; ++frame)
+        leftovers.push_back(folder_->path() / diagramName(frame));
+    for (const fs::path& path : leftovers)
+        fs::remove(path);
+}
+
+void BakeWriter::goOnFrom(const Checkpoint& checkpoint) {
+    frames_ = checkpoint.frames;
+    readSection(checkpoint, kFirstAlive, std::span(first_alive_));
+    if (description_.diagram_every == 0) return;
+    diagrams_.emplace();
+    readSection(checkpoint, kDiagrams, std::span(&*diagrams_, 1));
+    for (std::uint32_t frame = 0; frame < frames_; frame += description_.diagram_every)
+        diagram_files_.push_back(diagramName(frame));
+}
+
+void BakeWriter::save(Checkpoint checkpoint) {
+    for (Stream* stream : {&positions_, &directions_, &states_, densities_ ? &*densities_ : nullptr}) {
+        if (!stream) continue;
+        stream->npy.flush();
+        stream->pc2.flush();
+    }
+    checkpoint.frames = frames_;
+    checkpoint.add(kFirstAlive, std::as_bytes(std::span(first_alive_)));
+    if (diagrams_) checkpoint.add(kDiagrams, std::as_bytes(std::span(&*diagrams_, 1)));
+    saveCheckpoint(folder_->path(), checkpoint);
+    folder_->keep();
 }
 
 void BakeWriter::write(const Frame& frame) {
@@ -91,8 +179,8 @@ void BakeWriter::trackFirstAlive(const Frame& frame) {
 
 void BakeWriter::writeDiagram(const Frame& frame) {
     const DiagramImage& image = *frame.diagram;
-    const std::string name = fmt::format("diagrams/diagram.{:04}.exr", frame.index + 1);
-    writeDiagramExr(folder_.path() / name, image, frame.densities, description_.scene_origin, frame.index,
+    const std::string name = diagramName(frame.index);
+    writeDiagramExr(folder_->path() / name, image, frame.densities, description_.scene_origin, frame.index,
                     description_.fps);
     diagram_files_.push_back(name);
     if (!diagrams_) {
@@ -118,8 +206,8 @@ BakeOutcome BakeWriter::writeAll(const Account& account, const BakeTiming& timin
     outcome.timing = timing;
     outcome.diagrams = diagrams_;
     std::vector<std::string> files{"layout.json", "agents.csv"};
-    writeFile(folder_.path() / files[0], description_.layout_text);
-    writeFile(folder_.path() / files[1], agentTable(description_, account));
+    writeFile(folder_->path() / files[0], description_.layout_text);
+    writeFile(folder_->path() / files[1], agentTable(description_, account));
     finishStreams();
     for (const Stream* stream : {&positions_, &directions_, &states_, densities_ ? &*densities_ : nullptr})
         for (const char* extension : {".npy", ".pc2"})
@@ -127,15 +215,15 @@ BakeOutcome BakeWriter::writeAll(const Account& account, const BakeTiming& timin
     if (description_.gltf) {
         files.push_back("crowd.glb");
         outcome.gltf =
-            writeCrowdGlb(folder_.path() / files.back(), description_,
+            writeCrowdGlb(folder_->path() / files.back(), description_,
                           {StreamReader(positions_.npy.path()), StreamReader(directions_.npy.path()),
                            StreamReader(states_.npy.path())});
     }
     files.insert(files.end(), diagram_files_.begin(), diagram_files_.end());
     for (const std::string& file : files)
-        outcome.files.push_back({file, hashFile(folder_.path() / file)});
+        outcome.files.push_back({file, hashFile(folder_->path() / file)});
     writeFile(
-        folder_.path() / "bake.json",
+        folder_->path() / "bake.json",
         bakeManifest(description_, outcome).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) +
             "\n");
     return outcome;
@@ -145,16 +233,33 @@ BakeResult BakeWriter::resultAt(std::filesystem::path path, const BakeOutcome& o
     return {std::move(path), outcome.frames, outcome.account, outcome.gltf, diagrams_ ? diagrams_->count : 0};
 }
 
+namespace {
+
+/// Only once the bake has its name: who is stopped before that goes on from them.
+void removeCheckpoints(const std::filesystem::path& bake) {
+    std::vector<std::filesystem::path> found;
+    for (const auto& entry : std::filesystem::directory_iterator(bake))
+        if (isCheckpoint(entry.path())) found.push_back(entry.path());
+    for (const std::filesystem::path& path : found)
+        std::filesystem::remove(path);
+}
+
+}  // namespace
+
 BakeResult BakeWriter::finish(const Account& account, const BakeTiming& timing) {
     if (frames_ != description_.frames)
         throw std::logic_error("frames are missing: only finishPartial() can be used");
     const BakeOutcome outcome = writeAll(account, timing, true);
-    return resultAt(folder_.commit(), outcome);
+    BakeResult result = resultAt(folder_->commit(), outcome);
+    removeCheckpoints(result.path);
+    return result;
 }
 
 BakeResult BakeWriter::finishPartial(const Account& account, const BakeTiming& timing) {
     const BakeOutcome outcome = writeAll(account, timing, false);
-    return resultAt(folder_.commitPartial(), outcome);
+    BakeResult result = resultAt(folder_->commitPartial(), outcome);
+    removeCheckpoints(result.path);
+    return result;
 }
 
 }  // namespace throng::io

@@ -4,12 +4,14 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "io/bake_description.h"
 #include "io/bake_folder.h"
+#include "io/checkpoint.h"
 #include "io/manifest.h"
 #include "io/streams/stream_writer.h"
 #include "sim/frame.h"
@@ -32,6 +34,9 @@ class BakeWriter {
   public:
     /// An error before any work when the bake exists (see BakeFolder).
     explicit BakeWriter(BakeDescription description);
+    /// The same for a bake that leaves checkpoints in `NAME.unfinished`.
+    /// @param go_on_from where it goes on, or null where it begins
+    BakeWriter(BakeDescription description, const Checkpoint* go_on_from);
 
     /// Takes the frames in order, index 0 first. The spans need to live during the call only. A diagram is
     /// written when the frame has one and its index is a multiple of `diagram_every`. Throws
@@ -43,12 +48,18 @@ class BakeWriter {
     /// Completes what there is as `NAME.partial`, with "complete": false: for bakes that were interrupted.
     BakeResult finishPartial(const Account& account, const BakeTiming& timing);
 
+    /// Puts what has been written on the disk, and with it all that a later run needs to go on from here.
+    /// @param checkpoint with the simulation's part in it
+    void save(Checkpoint checkpoint);
+    /// Leaves what there is for a later run, which goes on from the last checkpoint.
+    void leave() { folder_->keep(); }
+
     std::uint32_t framesWritten() const { return frames_; }
 
   private:
     struct Stream {
         Stream(const std::filesystem::path& folder, const std::string& name,
-               const BakeDescription& description);
+               const BakeDescription& description, std::uint32_t frames_there);
         void append(std::span<const float> frame);
         void finish(std::span<const std::uint32_t> first_alive,
                     const std::array<BackFill, kComponents>& rule);
@@ -58,6 +69,10 @@ class BakeWriter {
         StreamWriter pc2;
     };
 
+    BakeWriter(BakeDescription description, std::unique_ptr<BakeFolder> folder, const Checkpoint* go_on_from);
+    std::filesystem::path streamsFolder(const Checkpoint* go_on_from);
+    void goOnFrom(const Checkpoint& checkpoint);
+    void removeLeftovers(const Checkpoint& checkpoint) const;
     void trackFirstAlive(const Frame& frame);
     void writeDiagram(const Frame& frame);
     void finishStreams();
@@ -65,7 +80,7 @@ class BakeWriter {
     BakeResult resultAt(std::filesystem::path path, const BakeOutcome& outcome) const;
 
     BakeDescription description_;
-    BakeFolder folder_;
+    std::unique_ptr<BakeFolder> folder_;
     std::filesystem::path streams_folder_;
     Stream positions_;
     Stream directions_;

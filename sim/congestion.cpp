@@ -66,31 +66,40 @@ Congestion::Congestion(const gl::ShaderLibrary& library, Buffers& buffers, const
 
 void Congestion::run() {
     if (fields_ == 0) return;
-    if (steps_++ % kStepsPerLook == 0) {
+    if (clock_.steps++ % kStepsPerLook == 0) {
         dense_blocks_.fill(0);
         flow_.dispatch(cells_);
     }
-    const std::uint32_t count = std::min(fields_per_step_, fields_ - next_field_);
+    const std::uint32_t count = std::min(fields_per_step_, fields_ - clock_.next_field);
     list_.set("field_count", count);
     for (gl::ComputeProgram* program : {&list_, &relax_, &keep_})
-        program->set("first_field", next_field_);
+        program->set("first_field", clock_.next_field);
     listBlocks(changed_before_, true);
     relax_.dispatchIndirect(block_dispatch_);
     keep_.dispatchIndirect(block_dispatch_);
     listBlocks(changed_now_, false);
     slope_.dispatchIndirect(block_dispatch_);
-    next_field_ += count;
-    if (next_field_ < fields_) return;
-    next_field_ = 0;
+    clock_.next_field += count;
+    if (clock_.next_field < fields_) return;
+    clock_.next_field = 0;
     changed_before_.copyFrom(changed_now_);
     changed_now_.fill(0);
+}
+
+std::vector<std::pair<std::string, gl::Buffer*>> Congestion::remembered() {
+    if (fields_ == 0) return {};
+    return {{"detour distances", &distances_},
+            {"crowd flows", &flows_},
+            {"dense blocks", &dense_blocks_},
+            {"blocks changed before", &changed_before_},
+            {"blocks changed now", &changed_now_}};
 }
 
 void Congestion::listBlocks(const gl::Buffer& changed, bool dense_too) {
     block_dispatch_.copyFrom(no_blocks_);
     list_.bind("ChangedBlocks", changed);
     list_.set("dense_too", dense_too ? 1u : 0u);
-    list_.dispatch(std::uint64_t{std::min(fields_per_step_, fields_ - next_field_)} * blocks_);
+    list_.dispatch(std::uint64_t{std::min(fields_per_step_, fields_ - clock_.next_field)} * blocks_);
 }
 
 }  // namespace throng::sim

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "sim/buffers.h"
@@ -17,14 +19,22 @@ class Congestion {
                const gpu::Parameters& parameters);
     void run();
 
+    /// Where it stands in its rounds: with the buffers, all that it remembers.
+    struct Clock {
+        std::uint32_t next_field = 0;
+        std::uint32_t steps = 0;
+    };
+    Clock clock() const { return clock_; }
+    void setClock(const Clock& clock) { clock_ = clock; }
+    std::vector<std::pair<std::string, gl::Buffer*>> remembered();
+
   private:
     void listBlocks(const gl::Buffer& changed, bool dense_too);
 
     std::uint32_t cells_ = 0, blocks_ = 0;  // of one map
     std::uint32_t fields_ = 0;
     std::uint32_t fields_per_step_ = 0;
-    std::uint32_t next_field_ = 0;
-    std::uint32_t steps_ = 0;
+    Clock clock_;
     gl::Buffer ground_, free_distances_, distances_, next_distances_, flows_;
     gl::Buffer field_maps_, dense_blocks_;
     gl::Buffer changed_before_, changed_now_;  // blocks of each field, the last time round and this time

@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstring>
 #include <numbers>
+#include <span>
+#include <stdexcept>
 
 #include "sim/simulation_parts.h"
 
@@ -133,6 +136,17 @@ float Simulation::Parts::now() const {
                               (settings.fps * settings.substeps));
 }
 
+std::vector<std::pair<std::string, gl::Buffer*>> Simulation::Parts::remembered() {
+    std::vector<std::pair<std::string, gl::Buffer*>> found = {{"states", &buffers.states},
+                                                              {"waiting lines", &buffers.lines},
+                                                              {"tickets", &buffers.tickets},
+                                                              {"queue heads", &buffers.queue_heads},
+                                                              {"detour slopes", &buffers.detour_slopes}};
+    for (const auto& each : congestion.remembered())
+        found.push_back(each);
+    return found;
+}
+
 Simulation::Simulation(const authoring::Scene& scene, const gl::ShaderLibrary& library,
                        const CostModel& costs)
     : parts_(std::make_unique<Parts>(scene, library, costs)) {
@@ -159,6 +173,41 @@ void Simulation::step() {
     p.contacts.run();
     p.motion.run(p.steps_done);
     p.lines.run();
+}
+
+namespace {
+constexpr const char* kRoutesClock = "routes clock";
+}  // namespace
+
+Simulation::State Simulation::save() const {
+    State state;
+    state.steps_done = parts_->steps_done;
+    for (const auto& [name, buffer] : parts_->remembered())
+        state.parts.emplace_back(name, buffer->download<std::byte>(buffer->bytes()));
+    const Congestion::Clock clock = parts_->congestion.clock();
+    const auto bytes = std::as_bytes(std::span(&clock, 1));
+    state.parts.emplace_back(kRoutesClock, std::vector(bytes.begin(), bytes.end()));
+    return state;
+}
+
+void Simulation::restore(const State& state) {
+    Parts& p = *parts_;
+    const auto part = [&](const std::string& name, std::size_t bytes) -> const std::vector<std::byte>& {
+        for (const auto& [known, content] : state.parts)
+            if (known == name && content.size() == bytes) return content;
+        throw std::runtime_error("this is the state of another scene: its `" + name + "` does not fit");
+    };
+    for (const auto& [name, buffer] : p.remembered())
+        buffer->upload(part(name, buffer->bytes()));
+    Congestion::Clock clock;
+    std::memcpy(&clock, part(kRoutesClock, sizeof clock).data(), sizeof clock);
+    p.congestion.setClock(clock);
+    // Gates stand as the last step left them.
+    if (state.steps_done > 0) {
+        p.steps_done = state.steps_done - 1;
+        p.gates.move(p.now());
+    }
+    p.steps_done = state.steps_done;
 }
 
 void Simulation::adaptTo(std::uint32_t people_present) {

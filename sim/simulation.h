@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -22,6 +23,12 @@ std::uint32_t warmupSteps(const authoring::SimulationSettings& settings);
 /// step.
 class Simulation {
   public:
+    /// All that a step hands to the next one.
+    struct State {
+        std::uint32_t steps_done = 0;
+        std::vector<std::pair<std::string, std::vector<std::byte>>> parts;  ///< by name
+    };
+
     /// @param costs what `auto` chooses the diagram's method by
     /// @throws GraphicsError (shaders, memory, a scene too large for the device)
     Simulation(const authoring::Scene& scene, const gl::ShaderLibrary& library,
@@ -37,6 +44,12 @@ class Simulation {
     void adaptTo(std::uint32_t people_present);
     DiagramMethod diagramMethod() const;
     bool diagramIsPaged() const;
+
+    /// Waits for the device. Another simulation of the same scene on the same driver that is given this state
+    /// goes on to the very same bytes.
+    State save() const;
+    /// @throws std::runtime_error for the state of another scene
+    void restore(const State& state);
 
     /// Waits until the device has done all that was asked.
     void wait() const;

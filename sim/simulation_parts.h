@@ -2,6 +2,9 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "sim/buffers.h"
 #include "sim/congestion.h"
@@ -41,6 +44,9 @@ struct Simulation::Parts {
     std::uint32_t rows = 0;
     std::uint32_t steps_done = 0;
     bool anybody_enters_later = false;
+
+    /// What lives from one step to the next; everything else is worked out anew in each.
+    std::vector<std::pair<std::string, gl::Buffer*>> remembered();
 
     /// Simulation time at the start of the coming step, s; negative during the warm-up.
     float now() const;

@@ -17,6 +17,8 @@ struct BakeRequest {
     std::string method, proximity;
     bool densities = false;
     bool seconds = false;
+    double checkpoint_minutes = 10.0;
+    bool resume = false;
     std::string shader_dir;
     int device = -1;
     bool json = false;

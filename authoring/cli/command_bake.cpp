@@ -2,24 +2,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <charconv>
-#include <chrono>
-#include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <memory>
 
-#include "authoring/cli/bake_description.h"
 #include "authoring/cli/bake_run.h"
-#include "authoring/cli/calibration_file.h"
+#include "authoring/cli/baker.h"
 #include "authoring/cli/commands.h"
 #include "authoring/cli/exit_codes.h"
 #include "authoring/cli/interrupt.h"
-#include "authoring/cli/progress.h"
 #include "io/bake_info.h"
-#include "io/bake_writer.h"
-#include "sim/frame_pump.h"
-#include "sim/gl/context.h"
 
 namespace throng::cli {
 namespace {
@@ -51,41 +44,6 @@ std::vector<std::string> overridesOf(const BakeRequest& options) {
     return overrides;
 }
 
-/// The simulation proper. @returns the signal that stopped it early, or 0
-int runFrames(sim::Simulation& simulation, const authoring::SimulationSettings& settings,
-              io::BakeWriter& writer, std::uint32_t frames, std::uint32_t diagram_every,
-              const sim::FramePump::Cargo& cargo, Progress& progress) {
-    InterruptGuard interrupt;
-    std::atomic<std::uint32_t> present{0};
-    sim::FramePump pump(simulation, cargo, [&](const Frame& frame) {
-        std::uint32_t alive = 0;
-        for (std::size_t row = 0; row < frame.states.size(); row += 3)
-            alive += frame.states[row] > 0.5f;
-        present = alive;
-        writer.write(frame);
-    });
-    const auto substeps = static_cast<std::uint32_t>(settings.substeps);
-    const std::uint32_t warmup = sim::warmupSteps(settings);
-    for (std::uint32_t step = 0; step < warmup && !interrupt.signal(); ++step) {
-        simulation.step();
-        if (step % substeps == 0) {
-            simulation.wait();
-            progress.update(0, 0, simulation.stepsDone());
-        }
-    }
-    for (std::uint32_t frame = 0; frame < frames && !interrupt.signal(); ++frame) {
-        if (frame > 0)
-            for (std::uint32_t step = 0; step < substeps; ++step)
-                simulation.step();
-        pump.submit(frame, diagram_every > 0 && frame % diagram_every == 0);
-        simulation.adaptTo(present);
-        progress.update(frame + 1, present, simulation.stepsDone());
-    }
-    pump.finish();
-    progress.update(writer.framesWritten(), present, warmup + frames * substeps);
-    return writer.framesWritten() < frames ? interrupt.signal() : 0;
-}
-
 void printResult(const io::BakeResult& result, const Account& account, const io::BakeTiming& timing,
                  bool as_json) {
     if (as_json) {
@@ -109,50 +67,41 @@ void printResult(const io::BakeResult& result, const Account& account, const io:
 }  // namespace
 
 void bakeLayout(const BakeRequest& options) {
+    BakeJob job;
+    job.options = options.bake;
+    job.diagram_every = diagramInterval(options.diagrams);
+    job.seconds = options.seconds;
+    job.densities = options.densities;
+    job.checkpoint_seconds = 60.0 * options.checkpoint_minutes;
+    job.resume = options.resume;
+    job.progress = options.quiet  ? Progress::Style::quiet
+                   : options.json ? Progress::Style::json
+                                  : Progress::detectStyle();
+    // Farms say SIGTERM and come back; people at a terminal want to see what there is.
+    job.when_stopped = [&](int signal, double) {
+        return signal == SIGTERM && options.checkpoint_minutes > 0.0 ? WhenStopped::checkpoint
+                                                                     : WhenStopped::keep_partial;
+    };
     const LoadedLayout loaded = loadLayout(options.layout, overridesOf(options));
-    const authoring::SimulationSettings& settings = loaded.scene.settings;
-    const std::uint32_t diagram_every = diagramInterval(options.diagrams);
-
-    const gl::Context context({options.device, false});
-    io::BakeDescription description = describeBake(loaded, options.bake, context.device());
-    description.diagram_every = diagram_every;
-    description.densities = options.densities;
-    const std::uint32_t frames = description.frames;
-    io::BakeWriter writer(std::move(description));
-    const gl::ShaderLibrary shaders =
-        options.shader_dir.empty() ? gl::ShaderLibrary() : gl::ShaderLibrary(options.shader_dir);
-    sim::Simulation simulation(loaded.scene, shaders, costsFor(context.device()));
-    context.check("setting up the simulation");
-
-    const auto style = options.quiet  ? Progress::Style::quiet
-                       : options.json ? Progress::Style::json
-                                      : Progress::detectStyle();
-    const auto start = std::chrono::steady_clock::now();
-    int signal = 0;
-    {
-        Progress progress(style, frames, sim::warmupSteps(settings),
-                          static_cast<std::uint32_t>(settings.substeps));
-        signal = runFrames(simulation, settings, writer, frames, diagram_every,
-                           {diagram_every > 0, options.seconds, options.densities}, progress);
-    }
-    context.check("simulating");
-    io::BakeTiming timing;
-    timing.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    timing.steps = simulation.stepsDone();
-
-    const Account account = simulation.account();
-    if (signal) {
-        if (writer.framesWritten() == 0) {
+    Baker baker(options.device, options.shader_dir, loaded.scene.people.size());
+    const InterruptGuard interrupt;
+    const BakeRun run = baker.bake(loaded, job, interrupt);
+    switch (run.end) {
+        case BakeRun::End::complete:
+            if (options.announce) printResult(run.result, run.account, run.timing, options.json);
+            return;
+        case BakeRun::End::checkpointed:
+            fmt::print(stderr, "throng: stopped after frame {}; the same command with --resume goes on\n",
+                       run.frames);
+            throw Exit(kCheckpointed);
+        case BakeRun::End::partial:
+            fmt::print(stderr, "throng: stopped after frame {}; what there is is in {}\n", run.frames,
+                       run.result.path.string());
+            throw Exit(128 + run.signal);
+        case BakeRun::End::discarded:
             fmt::print(stderr, "throng: stopped before the first frame; nothing was written\n");
-            throw Exit(128 + signal);
-        }
-        const io::BakeResult result = writer.finishPartial(account, timing);
-        fmt::print(stderr, "throng: stopped after frame {} of {}; what there is is in {}\n", result.frames,
-                   frames, result.path.string());
-        throw Exit(128 + signal);
+            throw Exit(128 + run.signal);
     }
-    const io::BakeResult result = writer.finish(account, timing);
-    if (options.announce) printResult(result, account, timing, options.json);
 }
 
 void addBake(CLI::App& app) {
@@ -186,6 +135,13 @@ void addBake(CLI::App& app) {
     command->add_flag("!--no-gltf", options->bake.gltf, "Write no crowd.glb");
     command->add_option("--gltf-agents", options->bake.gltf_agents, "At most this many people in crowd.glb")
         ->capture_default_str();
+    command
+        ->add_option("--checkpoint", options->checkpoint_minutes,
+                     "Minutes between checkpoints, from which --resume goes on; 0: none")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    command->add_flag("--resume", options->resume,
+                      "Go on from the last checkpoint of a run that was stopped or killed, if there is one");
     command->add_option("--device", options->device, "Run on this device (`throng devices` lists them)");
     command
         ->add_option("--shader-dir", options->shader_dir,
@@ -195,7 +151,9 @@ void addBake(CLI::App& app) {
                       "Progress as JSON lines on stderr, the result as a JSON document on stdout");
     command->add_flag("-q,--quiet", options->quiet, "No progress");
     command->footer(
-        "Ctrl-C stops after the frame under way and keeps what there is as OUTPUT.partial.\n\n"
+        "Ctrl-C stops after the frame under way and keeps what there is as OUTPUT.partial. SIGTERM leaves a\n"
+        "checkpoint in OUTPUT.unfinished and exits with 85: --resume goes on from there to the same "
+        "bytes.\n\n"
         "Example:\n  throng bake examples/intersection.json -o bakes/intersection --diagrams 24 --set "
         "simulation.seed=7");
     command->callback([options] { bakeLayout(*options); });

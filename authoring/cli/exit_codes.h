@@ -13,6 +13,7 @@ enum ExitCode : int {
     kInvalidInput = 3,       ///< a layout or a bake is wrong
     kNoGraphics = 4,         ///< no usable OpenGL, or the device was lost
     kOutputFailed = 5,       ///< something could not be written
+    kCheckpointed = 85,      ///< stopped with a checkpoint: run it again with --resume
     kInterrupted = 130,      ///< Ctrl-C (128 + SIGINT)
     kTerminated = 143,       ///< 128 + SIGTERM
 };

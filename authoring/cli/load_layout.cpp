@@ -34,22 +34,26 @@ std::string readText(const std::string& path) {
 
 }  // namespace
 
-LoadAttempt tryLoadLayout(const std::string& path, const std::vector<std::string>& overrides) {
+LoadAttempt tryReadLayout(std::string text, const std::string& name, std::vector<std::string> overrides) {
     LoadAttempt attempt;
     LoadedLayout& loaded = attempt.loaded;
-    loaded.text = readText(path);
-    loaded.diagnostics.file = path == "-" ? "standard input" : path;
+    loaded.text = std::move(text);
+    loaded.overrides = std::move(overrides);
+    loaded.diagnostics.file = name;
     std::optional<authoring::Layout> layout =
-        authoring::readLayout(loaded.text, overrides, loaded.diagnostics);
+        authoring::readLayout(loaded.text, loaded.overrides, loaded.diagnostics);
     if (!layout) return attempt;
     loaded.layout = std::move(*layout);
     std::optional<authoring::Scene> scene = authoring::buildScene(loaded.layout, loaded.diagnostics);
     if (!scene) return attempt;
     loaded.scene = std::move(*scene);
-    if (loaded.layout.name.empty())
-        loaded.layout.name = std::filesystem::path(loaded.diagnostics.file).stem().string();
+    if (loaded.layout.name.empty()) loaded.layout.name = std::filesystem::path(name).stem().string();
     attempt.valid = true;
     return attempt;
+}
+
+LoadAttempt tryLoadLayout(const std::string& path, const std::vector<std::string>& overrides) {
+    return tryReadLayout(readText(path), path == "-" ? "standard input" : path, overrides);
 }
 
 void printDiagnostics(const LoadedLayout& loaded) {

@@ -13,6 +13,7 @@ namespace throng::cli {
 /// A layout file, read, checked and made into a scene.
 struct LoadedLayout {
     std::string text;  ///< the file, byte for byte
+    std::vector<std::string> overrides;
     authoring::Layout layout;
     authoring::Scene scene;
     authoring::Diagnostics diagnostics;  ///< warnings
@@ -23,6 +24,10 @@ struct LoadAttempt {
     LoadedLayout loaded;
     bool valid = false;
 };
+
+/// Makes the scene of a layout's text.
+/// @param name of the file, for messages, and for the layout if it has none of its own
+LoadAttempt tryReadLayout(std::string text, const std::string& name, std::vector<std::string> overrides);
 
 /// Reads a layout ("-" is standard input) and builds its scene.
 /// @throws io::InputError when the file cannot be read at all

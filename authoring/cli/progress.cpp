@@ -26,10 +26,12 @@ Progress::Style Progress::detectStyle() {
     return isatty(STDERR_FILENO) && !dumb ? Style::terminal : Style::plain;
 }
 
-Progress::Progress(Style style, std::uint32_t frames, std::uint32_t warmup_steps, std::uint32_t substeps)
+Progress::Progress(Style style, std::uint32_t frames, std::uint32_t warmup_steps, std::uint32_t substeps,
+                   std::uint32_t steps_before)
     : style_(style),
       frames_(frames),
-      steps_(static_cast<double>(warmup_steps) + static_cast<double>(frames) * substeps) {}
+      steps_(static_cast<double>(warmup_steps) + static_cast<double>(frames) * substeps),
+      steps_before_(steps_before) {}
 
 Progress::~Progress() {
     if (line_open_) fmt::print(stderr, "\n");
@@ -53,7 +55,7 @@ void Progress::update(std::uint32_t frames_done, std::uint32_t agents, std::uint
     const double percent = steps_ > 0.0 ? std::min(100.0, 100.0 * steps_done / steps_) : 100.0;
     if (!isDue(percent)) return;
     const double elapsed = std::max(1.0e-6, std::chrono::duration<double>(Clock::now() - start_).count());
-    const double speed = steps_done / elapsed;
+    const double speed = (steps_done - steps_before_) / elapsed;
     const double left = speed > 0.0 ? (steps_ - steps_done) / speed : 0.0;
     if (style_ == Style::json) {
         fmt::print(stderr,

@@ -16,7 +16,9 @@ class Progress {
     /// The style that suits stderr.
     static Style detectStyle();
 
-    Progress(Style style, std::uint32_t frames, std::uint32_t warmup_steps, std::uint32_t substeps);
+    /// @param steps_before done by an earlier run
+    Progress(Style style, std::uint32_t frames, std::uint32_t warmup_steps, std::uint32_t substeps,
+             std::uint32_t steps_before = 0);
     /// Ends a line that is being rewritten.
     ~Progress();
 
@@ -30,6 +32,7 @@ class Progress {
     Style style_;
     std::uint32_t frames_;
     double steps_;
+    std::uint32_t steps_before_;
     Clock::time_point start_ = Clock::now();
     Clock::time_point last_ = {};
     double last_percent_ = -100.0;

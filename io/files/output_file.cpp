@@ -2,10 +2,12 @@
 #include "io/files/output_file.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <bit>
 #include <cerrno>
+#include <cstdio>
 #include <system_error>
 #include <utility>
 
@@ -26,6 +28,20 @@ OutputError::OutputError(const std::filesystem::path& path, const std::string& m
 OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)) {
     descriptor_ = ::open(path_.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0666);
     if (descriptor_ < 0) throw OutputError(path_, "create", errno);
+}
+
+OutputFile OutputFile::goOn(std::filesystem::path path, std::uint64_t position) {
+    OutputFile file;
+    file.path_ = std::move(path);
+    file.position_ = position;
+    file.descriptor_ = ::open(file.path_.c_str(), O_RDWR | O_CLOEXEC);
+    if (file.descriptor_ < 0) throw OutputError(file.path_, "go on with", errno);
+    const off_t size = ::lseek(file.descriptor_, 0, SEEK_END);
+    if (size < static_cast<off_t>(position))
+        throw OutputError(file.path_, "is shorter than the checkpoint says; start over with --force");
+    if (::ftruncate(file.descriptor_, static_cast<off_t>(position)) != 0)
+        throw OutputError(file.path_, "cut", errno);
+    return file;
 }
 
 OutputFile::OutputFile(OutputFile&& other) noexcept
@@ -64,6 +80,10 @@ void OutputFile::readAt(std::uint64_t offset, std::span<std::byte> bytes) const 
     }
 }
 
+void OutputFile::flush() {
+    if (::fdatasync(descriptor_) != 0) throw OutputError(path_, "flush", errno);
+}
+
 void OutputFile::finish() {
     if (::fsync(descriptor_) != 0) throw OutputError(path_, "flush", errno);
     const int descriptor = std::exchange(descriptor_, -1);
@@ -74,6 +94,14 @@ void writeFile(const std::filesystem::path& path, std::string_view content) {
     OutputFile file(path);
     file.write(content);
     file.finish();
+}
+
+void replaceFile(const std::filesystem::path& path, std::string_view content) {
+    const std::filesystem::path fresh = path.string() + fmt::format(".new-{}", ::getpid());
+    std::error_code ignored;
+    std::filesystem::remove(fresh, ignored);  // of a process that was killed
+    writeFile(fresh, content);
+    if (::rename(fresh.c_str(), path.c_str()) != 0) throw OutputError(path, "replace", errno);
 }
 
 void syncFolder(const std::filesystem::path& folder) {

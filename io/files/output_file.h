@@ -17,6 +17,8 @@ class OutputFile {
   public:
     /// Creates `path`; an error if it exists.
     explicit OutputFile(std::filesystem::path path);
+    /// Goes on with a file that is there: cuts off what it has beyond `position`; an error if it is shorter.
+    static OutputFile goOn(std::filesystem::path path, std::uint64_t position);
     OutputFile(OutputFile&& other) noexcept;
     OutputFile& operator=(OutputFile&&) = delete;
     ~OutputFile();
@@ -28,6 +30,8 @@ class OutputFile {
     void writeAt(std::uint64_t offset, std::span<const std::byte> bytes);
     /// Fills all of `bytes`; an error if the file is shorter.
     void readAt(std::uint64_t offset, std::span<std::byte> bytes) const;
+    /// Waits until what was written is on the disk.
+    void flush();
     std::uint64_t position() const { return position_; }
     /// Waits until the data is on the disk, then closes. Without it the destructor closes and nobody hears of
     /// errors.
@@ -36,6 +40,8 @@ class OutputFile {
     const std::filesystem::path& path() const { return path_; }
 
   private:
+    OutputFile() = default;
+
     std::filesystem::path path_;
     int descriptor_ = -1;
     std::uint64_t position_ = 0;
@@ -43,6 +49,9 @@ class OutputFile {
 
 /// Writes a whole small file: create, write, sync, close. Throws OutputError.
 void writeFile(const std::filesystem::path& path, std::string_view content);
+
+/// The same for a file that may exist: it has its old content or the new one, never something in between.
+void replaceFile(const std::filesystem::path& path, std::string_view content);
 
 /// Makes the names inside a folder durable. Throws OutputError.
 void syncFolder(const std::filesystem::path& folder);

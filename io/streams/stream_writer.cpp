@@ -60,6 +60,15 @@ StreamWriter::StreamWriter(const std::filesystem::path& path, StreamFormat forma
     file_.write(streamHeader(format, expected_frames, rows));
 }
 
+StreamWriter::StreamWriter(const std::filesystem::path& path, StreamFormat format, std::uint32_t rows,
+                           std::uint32_t expected_frames, std::uint32_t frames)
+    : file_(OutputFile::goOn(
+          path, headerSize(format) + std::uint64_t{rows} * kComponents * sizeof(float) * frames)),
+      format_(format),
+      rows_(rows),
+      expected_frames_(expected_frames),
+      frames_(frames) {}
+
 void StreamWriter::append(std::span<const float> frame) {
     if (frame.size_bytes() != frameBytes())
         throw std::invalid_argument("a frame has three values for each row");

@@ -25,6 +25,10 @@ class StreamWriter {
     StreamWriter(const std::filesystem::path& path, StreamFormat format, std::uint32_t rows,
                  std::uint32_t expected_frames);
 
+    /// Goes on with a file of which the first `frames` frames are to be kept.
+    StreamWriter(const std::filesystem::path& path, StreamFormat format, std::uint32_t rows,
+                 std::uint32_t expected_frames, std::uint32_t frames);
+
     /// Appends one frame: exactly rows x 3 values (std::invalid_argument otherwise).
     void append(std::span<const float> frame);
 
@@ -32,6 +36,9 @@ class StreamWriter {
     /// number a row; 0 or a number that was never reached leaves the row as it is.
     void backFill(std::span<const std::uint32_t> first_alive_frame,
                   const std::array<BackFill, kComponents>& rule);
+
+    /// Waits until all frames so far are on the disk.
+    void flush() { file_.flush(); }
 
     /// Mends the header, waits for the disk and closes.
     void finish();

@@ -59,10 +59,44 @@ std::string resourceName(GLuint program, GLenum interface, GLuint index) {
 
 }  // namespace
 
+ProgramPool::~ProgramPool() {
+    for (const auto& [key, handles] : idle_)
+        for (const std::uint32_t handle : handles)
+            glDeleteProgram(handle);
+}
+
+std::uint32_t ProgramPool::take(const std::string& key) {
+    const auto found = idle_.find(key);
+    if (found == idle_.end() || found->second.empty()) return 0;
+    const std::uint32_t handle = found->second.back();
+    found->second.pop_back();
+    return handle;
+}
+
+void ProgramPool::giveBack(const std::string& key, std::uint32_t handle) {
+    idle_[key].push_back(handle);
+}
+
+void ShaderLibrary::keepPrograms() {
+    pool_ = std::make_shared<ProgramPool>();
+}
+
 Program::Program(const ShaderLibrary& library, const std::vector<std::string>& paths,
-                 const Definitions& definitions) {
+                 const Definitions& definitions)
+    : pool_(library.pool()) {
     for (const std::string& path : paths)
         name_ += (name_.empty() ? "" : " + ") + path;
+    key_ = name_;
+    for (const auto& [word, value] : definitions)
+        key_ += fmt::format("\n{}={}", word, value);
+    if (pool_) handle_ = pool_->take(key_);
+    if (!handle_) link(library, paths, definitions);
+    // Bindings and uniforms of an earlier life do not count: reflection forgets them.
+    reflect();
+}
+
+void Program::link(const ShaderLibrary& library, const std::vector<std::string>& paths,
+                   const Definitions& definitions) {
     handle_ = glCreateProgram();
     std::vector<GLuint> shaders;
     for (const std::string& path : paths) {
@@ -79,7 +113,6 @@ Program::Program(const ShaderLibrary& library, const std::vector<std::string>& p
     if (!linked)
         throw GraphicsError(fmt::format("the driver cannot link {}:\n{}", name_, infoLog(handle_, true)));
     glObjectLabel(GL_PROGRAM, handle_, static_cast<GLsizei>(name_.size()), name_.c_str());
-    reflect();
 }
 
 void Program::reflect() {
@@ -107,7 +140,11 @@ void Program::reflect() {
 }
 
 Program::~Program() {
-    if (handle_) glDeleteProgram(handle_);
+    if (!handle_) return;
+    if (pool_)
+        pool_->giveBack(key_, handle_);
+    else
+        glDeleteProgram(handle_);
 }
 
 Program::Program(Program&& other) noexcept {
@@ -117,6 +154,8 @@ Program::Program(Program&& other) noexcept {
 Program& Program::operator=(Program&& other) noexcept {
     std::swap(handle_, other.handle_);
     std::swap(name_, other.name_);
+    std::swap(pool_, other.pool_);
+    std::swap(key_, other.key_);
     std::swap(blocks_, other.blocks_);
     std::swap(uniforms_, other.uniforms_);
     std::swap(samplers_, other.samplers_);

@@ -3,13 +3,32 @@
 
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <memory>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "sim/gl/buffer.h"
 #include "sim/gl/shader_source.h"
 
 namespace throng::gl {
+
+/// Linked programs that nobody uses at the moment, by what they were made from. Compiling takes tens of
+/// milliseconds for a simulation's programs: whoever makes one simulation after the other does it once.
+class ProgramPool {
+  public:
+    ProgramPool() = default;
+    ~ProgramPool();
+    ProgramPool(const ProgramPool&) = delete;
+    ProgramPool& operator=(const ProgramPool&) = delete;
+
+    /// @returns 0 where there is none
+    std::uint32_t take(const std::string& key);
+    void giveBack(const std::string& key, std::uint32_t handle);
+
+  private:
+    std::unordered_map<std::string, std::vector<std::uint32_t>> idle_;
+};
 
 /// A linked program and what reflection says it needs. Buffers are bound to block names, uniforms set by
 /// name: there are no binding numbers to keep in step, and use() refuses to run with anything missing.
@@ -71,10 +90,14 @@ class Program {
     };
     Uniform& uniform(const std::string& name);
     Block& block(const std::string& name);
+    void link(const ShaderLibrary& library, const std::vector<std::string>& paths,
+              const Definitions& definitions);
     void reflect();
 
     std::uint32_t handle_ = 0;
     std::string name_;
+    std::shared_ptr<ProgramPool> pool_;  // where it goes in the end
+    std::string key_;                    // in the pool
     std::vector<Block> blocks_;
     std::vector<Uniform> uniforms_;
     std::vector<Sampler> samplers_;

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace throng::gl {
+
+class ProgramPool;
 
 using Definitions = std::vector<std::pair<std::string, std::string>>;
 
@@ -24,11 +27,17 @@ class ShaderLibrary {
     std::string load(const std::string& path, const Definitions& definitions,
                      std::vector<std::string>& files) const;
 
+    /// From here on, programs made from this library and its copies are kept when nobody needs them any more,
+    /// and handed to whoever asks for the same. Needs a context that outlives them all.
+    void keepPrograms();
+    const std::shared_ptr<ProgramPool>& pool() const { return pool_; }
+
   private:
     std::string readFile(const std::string& path) const;
     void append(const std::string& path, std::vector<std::string>& files, std::string& out) const;
 
     std::filesystem::path folder_;
+    std::shared_ptr<ProgramPool> pool_;  // none: programs are compiled each time
 };
 
 }  // namespace throng::gl

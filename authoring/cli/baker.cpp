@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "authoring/cli/baker.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <span>
+
+#include "authoring/cli/calibration_file.h"
+#include "io/checkpoint.h"
+#include "io/files/hash.h"
+
+namespace throng::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* kSeconds = "seconds";
+
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Everything that the bytes of a bake depend on.
+std::string identityOf(const LoadedLayout& loaded, const BakeJob& job, const gl::Device& device) {
+    std::string text = fmt::format("{}\n{}\n{}\n{} {} {} {}\n", THRONG_VERSION, device.name, device.version,
+                                   job.diagram_every, job.seconds, job.densities, job.options.gltf_agents);
+    for (const std::string& override_text : loaded.overrides)
+        text += override_text + "\n";
+    return io::hashText(text + loaded.text);
+}
+
+/// From where an earlier run is to be gone on with, if it is.
+std::optional<io::Checkpoint> findCheckpoint(const io::BakeDescription& description, const BakeJob& job,
+                                             const std::string& identity) {
+    if (job.checkpoint_seconds <= 0.0 && !job.resume) return std::nullopt;
+    const std::filesystem::path folder = io::BakeFolder::unfinishedPath(description.output);
+    std::optional<io::Checkpoint> checkpoint = io::loadCheckpoint(folder);
+    if (!checkpoint) return std::nullopt;
+    if (job.resume && checkpoint->identity == identity) return checkpoint;
+    if (job.options.force) return std::nullopt;
+    if (job.resume)
+        throw io::OutputError(folder,
+                              "was begun with another layout, other options or another driver; --force "
+                              "starts over");
+    throw io::OutputError(folder, fmt::format("holds the first {} of {} frames of an earlier run; --resume "
+                                              "goes on with it, --force starts over",
+                                              checkpoint->frames, description.frames));
+}
+
+/// One bake under way.
+class Run {
+  public:
+    Run(sim::Simulation& simulation, const authoring::SimulationSettings& settings, const BakeJob& job,
+        io::BakeWriter& writer, std::uint32_t frames, std::string identity)
+        : simulation_(simulation),
+          job_(job),
+          writer_(writer),
+          identity_(std::move(identity)),
+          frames_(frames),
+          substeps_(static_cast<std::uint32_t>(settings.substeps)),
+          warmup_(sim::warmupSteps(settings)),
+          pump_(simulation, {job.diagram_every > 0, job.seconds, job.densities},
+                [this](const Frame& frame) { receive(frame); }) {}
+
+    void goOnFrom(const io::Checkpoint& checkpoint) {
+        simulation_.restore({checkpoint.steps, checkpoint.sections});
+        if (const std::vector<std::byte>* bytes = checkpoint.find(kSeconds);
+            bytes && bytes->size() == sizeof seconds_before_)
+            std::memcpy(&seconds_before_, bytes->data(), sizeof seconds_before_);
+    }
+
+    /// @returns the signal that stopped it early, or 0
+    int simulate(const InterruptGuard& interrupt, Progress& progress) {
+        start_ = last_checkpoint_ = Clock::now();
+        for (std::uint32_t step = simulation_.stepsDone(); step < warmup_ && !interrupt.signal(); ++step) {
+            simulation_.step();
+            if (step % substeps_ != 0) continue;
+            simulation_.wait();
+            progress.update(0, 0, simulation_.stepsDone());
+        }
+        for (std::uint32_t frame = writer_.framesWritten(); frame < frames_ && !interrupt.signal(); ++frame) {
+            if (frame > 0)
+                for (std::uint32_t step = 0; step < substeps_; ++step)
+                    simulation_.step();
+            pump_.submit(frame, job_.diagram_every > 0 && frame % job_.diagram_every == 0);
+            simulation_.adaptTo(present_);
+            progress.update(frame + 1, present_, simulation_.stepsDone());
+            if (job_.checkpoint_seconds > 0.0 && frame + 1 < frames_ &&
+                secondsSince(last_checkpoint_) >= job_.checkpoint_seconds)
+                save();
+        }
+        pump_.finish();
+        progress.update(writer_.framesWritten(), present_, warmup_ + writer_.framesWritten() * substeps_);
+        return writer_.framesWritten() < frames_ ? interrupt.signal() : 0;
+    }
+
+    void save() {
+        pump_.finish();
+        io::Checkpoint checkpoint;
+        checkpoint.identity = identity_;
+        sim::Simulation::State state = simulation_.save();
+        checkpoint.steps = state.steps_done;
+        checkpoint.sections = std::move(state.parts);
+        const double so_far = seconds();
+        checkpoint.add(kSeconds, std::as_bytes(std::span(&so_far, 1)));
+        writer_.save(std::move(checkpoint));
+        last_checkpoint_ = Clock::now();
+    }
+
+    /// Of simulating, with what earlier runs took.
+    double seconds() const { return seconds_before_ + secondsSince(start_); }
+
+  private:
+    void receive(const Frame& frame) {
+        std::uint32_t alive = 0;
+        for (std::size_t row = 0; row < frame.states.size(); row += 3)
+            alive += frame.states[row] > 0.5f;
+        present_ = alive;
+        writer_.write(frame);
+    }
+
+    sim::Simulation& simulation_;
+    const BakeJob& job_;
+    io::BakeWriter& writer_;
+    std::string identity_;
+    std::uint32_t frames_, substeps_, warmup_;
+    std::atomic<std::uint32_t> present_{0};
+    Clock::time_point start_ = Clock::now(), last_checkpoint_;
+    double seconds_before_ = 0.0;
+    sim::FramePump pump_;  // last: its thread uses the others
+};
+
+void stop(BakeRun& run, Run& running, io::BakeWriter& writer, WhenStopped what) {
+    if (run.frames == 0) what = WhenStopped::discard;
+    switch (what) {
+        case WhenStopped::discard:
+            run.end = BakeRun::End::discarded;
+            return;
+        case WhenStopped::checkpoint:
+            running.save();
+            run.end = BakeRun::End::checkpointed;
+            return;
+        case WhenStopped::keep_partial:
+            run.end = BakeRun::End::partial;
+            run.result = writer.finishPartial(run.account, run.timing);
+            return;
+    }
+}
+
+}  // namespace
+
+namespace {
+
+/// Mesa's software renderer wakes its threads for every pass: for small crowds that takes several times
+/// longer than the work. It asks the environment, once.
+gl::Context::Options contextFor(int device, std::size_t people) {
+    constexpr std::size_t kWorthThreads = 1000;
+    constexpr int kKeepWhatIsSet = 0;
+    if (people < kWorthThreads) ::setenv("LP_NUM_THREADS", "0", kKeepWhatIsSet);
+    return {device, false};
+}
+
+}  // namespace
+
+Baker::Baker(int device, const std::string& shader_dir, std::size_t people)
+    : context_(contextFor(device, people)),
+      shaders_(shader_dir.empty() ? gl::ShaderLibrary() : gl::ShaderLibrary(shader_dir)),
+      costs_(costsFor(context_.device())) {
+    shaders_.keepPrograms();
+}
+
+BakeRun Baker::bake(const LoadedLayout& loaded, const BakeJob& job, const InterruptGuard& interrupt) {
+    const Clock::time_point begin = Clock::now();
+    const authoring::SimulationSettings& settings = loaded.scene.settings;
+    io::BakeDescription description = describeBake(loaded, job.options, device());
+    description.diagram_every = job.diagram_every;
+    description.densities = job.densities;
+    const std::uint32_t frames = description.frames;
+    const std::string identity = identityOf(loaded, job, device());
+    const std::optional<io::Checkpoint> checkpoint = findCheckpoint(description, job, identity);
+    std::optional<io::BakeWriter> writer;
+    if (job.checkpoint_seconds > 0.0 || checkpoint)
+        writer.emplace(std::move(description), checkpoint ? &*checkpoint : nullptr);
+    else
+        writer.emplace(std::move(description));
+    sim::Simulation simulation(loaded.scene, shaders_, costs_);
+    context_.check("setting up the simulation");
+
+    BakeRun run;
+    Run running(simulation, settings, job, *writer, frames, identity);
+    if (checkpoint) running.goOnFrom(*checkpoint);
+    const std::uint32_t steps_before = simulation.stepsDone();
+    run.setup_seconds = secondsSince(begin);
+    {
+        Progress progress(job.progress, frames, sim::warmupSteps(settings),
+                          static_cast<std::uint32_t>(settings.substeps), steps_before);
+        run.signal = running.simulate(interrupt, progress);
+    }
+    context_.check("simulating");
+    run.timing.wall_seconds = running.seconds();
+    run.timing.steps = simulation.stepsDone();
+    run.frames = writer->framesWritten();
+    run.account = simulation.account();
+    if (run.signal)
+        stop(run, running, *writer, job.when_stopped(run.signal, run.timing.wall_seconds));
+    else
+        run.result = writer->finish(run.account, run.timing);
+    return run;
+}
+
+}  // namespace throng::cli

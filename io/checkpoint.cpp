@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/checkpoint.h"
+
+#include <cstdio>
+#include <cstring>
+#include <system_error>
+
+#include "io/files/hash.h"
+#include "io/files/input_file.h"
+#include "io/files/output_file.h"
+
+// The file: the magic word, how many bytes there are in all and their XXH3, then the content: counts and
+// texts and sections one after the other, numbers as they lie in memory.
+namespace throng::io {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr char kMagic[8] = {'T', 'H', 'R', 'O', 'N', 'G', 'C', '1'};
+constexpr const char* kNames[] = {"checkpoint.a", "checkpoint.b"};
+
+struct Head {
+    char magic[8];
+    std::uint64_t bytes;  // of the content
+    std::uint64_t xxh3;   // of the content
+};
+
+std::span<const std::byte> bytesOf(const std::string& text) {
+    return std::as_bytes(std::span(text));
+}
+
+/// Hands the content to `take`, piece by piece: sections may be large.
+template <class Take>
+void serialise(const Checkpoint& checkpoint, Take take) {
+    const auto number = [&](std::uint64_t value) { take(std::as_bytes(std::span(&value, 1))); };
+    const auto piece = [&](std::span<const std::byte> bytes) {
+        number(bytes.size());
+        take(bytes);
+    };
+    piece(bytesOf(checkpoint.identity));
+    number(checkpoint.frames);
+    number(checkpoint.steps);
+    number(checkpoint.sections.size());
+    for (const auto& [name, bytes] : checkpoint.sections) {
+        piece(bytesOf(name));
+        piece(bytes);
+    }
+}
+
+/// Reads what serialise() made; everything has been checked by its hash before.
+class Content {
+  public:
+    explicit Content(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {}
+
+    std::uint64_t number() {
+        std::uint64_t value = 0;
+        std::memcpy(&value, take(sizeof value).data(), sizeof value);
+        return value;
+    }
+    std::span<const std::byte> piece() { return take(number()); }
+    std::string text() {
+        const std::span<const std::byte> bytes = piece();
+        return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+    }
+
+  private:
+    std::span<const std::byte> take(std::uint64_t count) {
+        if (count > bytes_.size() - at_) throw std::out_of_range("a checkpoint ends early");
+        at_ += count;
+        return std::span(bytes_).subspan(at_ - count, count);
+    }
+
+    std::vector<std::byte> bytes_;
+    std::size_t at_ = 0;
+};
+
+std::optional<Checkpoint> loadOne(const fs::path& path) try {
+    const InputFile file(path);
+    Head head{};
+    if (file.size() < sizeof head) return std::nullopt;
+    file.readAt(0, std::as_writable_bytes(std::span(&head, 1)));
+    if (std::memcmp(head.magic, kMagic, sizeof kMagic) != 0 || head.bytes != file.size() - sizeof head)
+        return std::nullopt;
+    std::vector<std::byte> bytes(head.bytes);
+    file.readAt(sizeof head, bytes);
+    Hasher hasher;
+    hasher.add(bytes);
+    if (hasher.digest() != head.xxh3) return std::nullopt;
+    Content content(std::move(bytes));
+    Checkpoint checkpoint;
+    checkpoint.identity = content.text();
+    checkpoint.frames = static_cast<std::uint32_t>(content.number());
+    checkpoint.steps = static_cast<std::uint32_t>(content.number());
+    for (std::uint64_t left = content.number(); left > 0; --left) {
+        const std::string name = content.text();
+        checkpoint.add(name, content.piece());
+    }
+    return checkpoint;
+} catch (const std::exception&) {
+    return std::nullopt;  // not there, or not readable: as good as torn
+}
+
+}  // namespace
+
+const std::vector<std::byte>* Checkpoint::find(const std::string& name) const {
+    for (const auto& [known, bytes] : sections)
+        if (known == name) return &bytes;
+    return nullptr;
+}
+
+void saveCheckpoint(const fs::path& folder, const Checkpoint& checkpoint) {
+    const std::optional<Checkpoint> a = loadOne(folder / kNames[0]);
+    const std::optional<Checkpoint> b = loadOne(folder / kNames[1]);
+    const bool replace_a = !a || (b && b->frames > a->frames);
+    const fs::path path = folder / kNames[replace_a ? 0 : 1];
+
+    Head head{{}, 0, 0};
+    std::memcpy(head.magic, kMagic, sizeof kMagic);
+    Hasher hasher;
+    serialise(checkpoint, [&](std::span<const std::byte> bytes) {
+        hasher.add(bytes);
+        head.bytes += bytes.size();
+    });
+    head.xxh3 = hasher.digest();
+
+    const fs::path fresh = path.string() + ".new";
+    std::error_code ignored;
+    fs::remove(fresh, ignored);  // of a process that was killed
+    OutputFile file(fresh);
+    file.write(std::as_bytes(std::span(&head, 1)));
+    serialise(checkpoint, [&](std::span<const std::byte> bytes) { file.write(bytes); });
+    file.finish();
+    if (std::rename(fresh.c_str(), path.c_str()) != 0) throw OutputError(path, "replace", errno);
+    syncFolder(folder);
+}
+
+std::optional<Checkpoint> loadCheckpoint(const fs::path& folder) {
+    std::optional<Checkpoint> a = loadOne(folder / kNames[0]);
+    std::optional<Checkpoint> b = loadOne(folder / kNames[1]);
+    return a && (!b || a->frames > b->frames) ? a : b;
+}
+
+bool isCheckpoint(const fs::path& path) {
+    return path.filename().string().starts_with("checkpoint.");
+}
+
+}  // namespace throng::io
