@@ -188,7 +188,7 @@ BakeRun Baker::bake(const LoadedLayout& loaded, const BakeJob& job, const Interr
         writer.emplace(std::move(description), checkpoint ? &*checkpoint : nullptr);
     else
         writer.emplace(std::move(description));
-    sim::Simulation simulation(loaded.scene, shaders_, costs_);
+    sim::Simulation simulation = simulate(loaded.scene);
     context_.check("setting up the simulation");
 
     BakeRun run;

@@ -62,6 +62,9 @@ class Baker {
     const gl::Device& device() const { return context_.device(); }
     const gl::Context& context() const { return context_; }
 
+    /// A simulation on this device, with its programs.
+    sim::Simulation simulate(const authoring::Scene& scene) const { return {scene, shaders_, costs_}; }
+
     /// @throws whatever simulating and writing throw; nothing is left behind then but checkpoints
     BakeRun bake(const LoadedLayout& loaded, const BakeJob& job, const InterruptGuard& interrupt);
 

@@ -17,5 +17,8 @@ void addCalibrate(CLI::App& app);
 void addBench(CLI::App& app);
 void addMeasure(CLI::App& app);
 void addScenarios(CLI::App& app);
+void addGenerate(CLI::App& app);
+void addBatch(CLI::App& app);
+void addBatchQuery(CLI::App& batch);
 
 }  // namespace throng::cli

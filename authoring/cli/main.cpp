@@ -65,6 +65,8 @@ int main(int argc, char** argv) {
     cli::addBench(app);
     cli::addMeasure(app);
     cli::addScenarios(app);
+    cli::addGenerate(app);
+    cli::addBatch(app);
     try {
         return parseAndRun(app, argc, argv);
     } catch (const cli::Exit& exit) {

@@ -10,15 +10,11 @@
 #include <cstdlib>
 
 namespace throng::cli {
-namespace {
-
 std::string timeText(double seconds) {
     const auto whole = static_cast<long>(std::lround(seconds));
     return whole >= 3600 ? fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60)
                          : fmt::format("{}:{:02}", whole / 60, whole % 60);
 }
-
-}  // namespace
 
 Progress::Style Progress::detectStyle() {
     const char* terminal = std::getenv("TERM");

@@ -7,6 +7,9 @@
 
 namespace throng::cli {
 
+/// "1:02" or "1:02:03".
+std::string timeText(double seconds);
+
 /// Tells how far a bake is: one line that rewrites itself on a terminal, a line every ten percent elsewhere,
 /// JSON lines for machines. Everything goes to stderr, so that stdout holds results only.
 class Progress {

@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "authoring/family/family_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "authoring/layout/json_document.h"
+#include "authoring/layout/layout_reader.h"
+#include "authoring/layout/object_reader.h"
+
+namespace throng::authoring {
+namespace {
+
+constexpr double kMostScenarios = 1'000'000.0;
+constexpr Limits kAnyNumber{-1.0e15, 1.0e15};
+constexpr const char* kAxisHint =
+    R"(for example {"set": "/flows/0/rate", "values": [0.5, 1, 2]} or {"set": "/simulation/seed", "range": [1, 10]})";
+
+Json valueOf(const JsonNode& node) {
+    switch (node.kind) {
+        case JsonNode::Kind::null:
+            return nullptr;
+        case JsonNode::Kind::boolean:
+            return node.boolean;
+        case JsonNode::Kind::number:
+            if (node.integral && std::abs(node.number) <= 0x1.0p53)
+                return static_cast<std::int64_t>(node.number);
+            return node.number;
+        case JsonNode::Kind::text:
+            return node.text;
+        case JsonNode::Kind::array: {
+            Json list = Json::array();
+            for (const JsonNode& item : node.items)
+                list.push_back(valueOf(item));
+            return list;
+        }
+        case JsonNode::Kind::object: {
+            Json object = Json::object();
+            for (const JsonNode::Member& member : node.members)
+                object[member.key] = valueOf(member.value);
+            return object;
+        }
+    }
+    return nullptr;
+}
+
+class Reader {
+  public:
+    Reader(const JsonNode& root, std::filesystem::path folder, Diagnostics& diagnostics)
+        : root_(root), folder_(std::move(folder)), diagnostics_(diagnostics) {}
+
+    Family read() {
+        ObjectReader reader(root_, "the family", diagnostics_);
+        if (!reader.isObject()) return {};
+        family_.where = root_.where;
+        reader.get("$schema");
+        const JsonNode* version = reader.require("throng_family", "the format's version, 1");
+        if (version && (version->kind != JsonNode::Kind::number || version->number != 1.0))
+            diagnostics_.error(version->where, "this program reads families of version 1",
+                               "write \"throng_family\": 1");
+        reader.text("name", family_.name);
+        readBase(reader);
+        readSampling(reader);
+        if (const JsonNode* axes = reader.require("axes", "what varies"); axes && isList(*axes, "axes"))
+            for (const JsonNode& axis : axes->items)
+                readAxis(axis);
+        if (const JsonNode* bake = reader.get("bake")) readBake(*bake);
+        reader.finish();
+        checkWhole();
+        return std::move(family_);
+    }
+
+  private:
+    bool isList(const JsonNode& node, const char* what) {
+        if (node.kind == JsonNode::Kind::array && !node.items.empty()) return true;
+        diagnostics_.error(node.where,
+                           fmt::format("expected an array of {} with something in it, found {}", what,
+                                       node.kind == JsonNode::Kind::array ? "nothing" : node.kindName()));
+        return false;
+    }
+
+    void readBase(ObjectReader& reader) {
+        const JsonNode* base = reader.get("base");
+        const JsonNode* generate = reader.get("generate");
+        if (!base == !generate) {
+            diagnostics_.error(
+                root_.where, "a family has either a `base` layout or a `generate` block",
+                R"(for example "base": "street.json", or "generate": {"kind": "crossing", "arms": 5})");
+            return;
+        }
+        if (generate) return readGenerator(*generate);
+        if (base->kind == JsonNode::Kind::object) {
+            family_.base = valueOf(*base);
+            family_.base_name = "the base layout";
+        } else if (base->kind == JsonNode::Kind::text) {
+            readBaseFile(*base);
+        } else {
+            diagnostics_.error(
+                base->where, fmt::format("expected a layout or the path of one, found {}", base->kindName()));
+        }
+    }
+
+    void readBaseFile(const JsonNode& base) {
+        const std::filesystem::path path = folder_ / base.text;
+        std::ifstream stream(path, std::ios::binary);
+        std::ostringstream text;
+        if (!stream || std::filesystem::is_directory(path) || !(text << stream.rdbuf())) {
+            diagnostics_.error(base.where, fmt::format("the base layout {} cannot be read", path.string()),
+                               "the path starts from the family's folder");
+            return;
+        }
+        family_.base_name = base.text;
+        Diagnostics of_layout;
+        const auto layout = readLayout(text.str(), {}, of_layout);
+        for (const Diagnostic& entry : of_layout.entries)
+            if (entry.severity == Severity::error)
+                diagnostics_.error(base.where, "the base layout is wrong:\n  " +
+                                                   formatDiagnostic(entry, path.string(), text.str()));
+        if (layout) family_.base = Json::parse(text.str());
+        if (family_.base.is_object()) family_.base.erase("$schema");  // its path would lead nowhere
+    }
+
+    void readGenerator(const JsonNode& node) {
+        ObjectReader reader(node, "`generate`", diagnostics_);
+        if (!reader.isObject()) return;
+        family_.generator_where = node.where;
+        std::vector<std::string> names;
+        for (const Generator& generator : generators())
+            names.emplace_back(generator.name);
+        reader.require("kind", "which generator: crossing, corridor, streets, plaza or stadium");
+        const auto chosen = reader.choice("kind", names);
+        if (!chosen) return;
+        family_.generator = &generators()[*chosen];
+        family_.base_name = names[*chosen];
+        for (const GeneratorParameter& parameter : family_.generator->parameters) {
+            const std::string name(parameter.name);
+            const JsonNode* value = reader.get(name);
+            if (!value) continue;
+            const auto number = reader.numberOf(*value, {parameter.least, parameter.most});
+            if (!number) continue;
+            if (parameter.whole && *number != std::floor(*number))
+                diagnostics_.error(value->where, fmt::format("`{}` is a whole number", name));
+            else
+                family_.generator_values.emplace_back(name, *number);
+        }
+        reader.finish();
+    }
+
+    void readSampling(ObjectReader& reader) {
+        if (const auto sampling = reader.choice("sampling", {"grid", "random", "latin"}))
+            family_.sampling = static_cast<Sampling>(*sampling);
+        reader.integer("count", {1, kMostScenarios}, family_.count);
+        reader.integer("seed", {0, 9007199254740992.0}, family_.seed);
+    }
+
+    void readTargets(ObjectReader& reader, const JsonNode& node, Axis& axis) {
+        const JsonNode* set = reader.get("set");
+        const JsonNode* parameter = reader.get("parameter");
+        if (!set == !parameter) {
+            diagnostics_.error(
+                node.where,
+                "an axis has either `set` (JSON pointers into the layout) or `parameter` (of the generator)",
+                kAxisHint);
+            return;
+        }
+        if (parameter) {
+            reader.text("parameter", axis.parameter);
+            axis.name = axis.parameter;
+            return;
+        }
+        if (set->kind == JsonNode::Kind::array)
+            for (const JsonNode& each : set->items)
+                readPointer(each, axis);
+        else
+            readPointer(*set, axis);
+        if (axis.pointers.empty()) return;
+        axis.name = axis.pointers.front().substr(1);
+        std::replace(axis.name.begin(), axis.name.end(), '/', '.');
+    }
+
+    void readPointer(const JsonNode& node, Axis& axis) {
+        if (node.kind != JsonNode::Kind::text || !node.text.starts_with('/') || node.text.size() < 2) {
+            diagnostics_.error(node.where, "expected a JSON pointer into the layout",
+                               "for example \"/flows/0/rate\"");
+            return;
+        }
+        axis.pointers.push_back(node.text);
+    }
+
+    void readAxis(const JsonNode& node) {
+        ObjectReader reader(node, "an axis", diagnostics_);
+        if (!reader.isObject()) return;
+        Axis axis;
+        axis.where = node.where;
+        readTargets(reader, node, axis);
+        reader.text("name", axis.name);
+        axis.minimum = -HUGE_VAL;
+        axis.maximum = HUGE_VAL;
+        std::vector<std::string> found;
+        for (const char* kind : {"values", "range", "uniform", "normal", "log_normal"})
+            if (reader.get(kind)) found.emplace_back(kind);
+        if (found.size() != 1)
+            diagnostics_.error(
+                node.where,
+                fmt::format("an axis has one of `values`, `range`, `uniform`, `normal`, `log_normal`; this "
+                            "one has {}",
+                            found.empty() ? "none" : "several"),
+                kAxisHint);
+        else if (found[0] == "values")
+            readValues(reader, axis);
+        else if (found[0] == "range")
+            readRange(reader, *reader.get("range"), axis);
+        else
+            readDistribution(reader, found[0], axis);
+        reader.finish();
+        family_.axes.push_back(std::move(axis));
+    }
+
+    void readValues(ObjectReader& reader, Axis& axis) {
+        const JsonNode& values = *reader.get("values");
+        if (!isList(values, "values")) return;
+        for (const JsonNode& value : values.items)
+            axis.values.push_back(valueOf(value));
+        const JsonNode* weights = reader.get("weights");
+        if (!weights || !isList(*weights, "weights")) return;
+        for (const JsonNode& weight : weights->items)
+            axis.weights.push_back(reader.numberOf(weight, {0.0, 1.0e9, true}).value_or(1.0));
+        if (axis.weights.size() != axis.values.size())
+            diagnostics_.error(weights->where, fmt::format("there are {} weights for {} values",
+                                                           axis.weights.size(), axis.values.size()));
+        if (family_.sampling == Sampling::grid)
+            diagnostics_.error(weights->where, "a grid takes every value: weights mean nothing there",
+                               R"(add "sampling": "random", "count": 100)");
+    }
+
+    std::vector<double> numbersOf(ObjectReader& reader, const JsonNode& node, std::size_t least,
+                                  std::size_t most, const char* meaning) {
+        std::vector<double> numbers;
+        if (node.kind == JsonNode::Kind::array && node.items.size() >= least && node.items.size() <= most)
+            for (const JsonNode& item : node.items)
+                if (const auto number = reader.numberOf(item, kAnyNumber)) numbers.push_back(*number);
+        if (numbers.size() < least) diagnostics_.error(node.where, fmt::format("expected {}", meaning));
+        return numbers;
+    }
+
+    void readRange(ObjectReader& reader, const JsonNode& node, Axis& axis) {
+        const std::vector<double> range = numbersOf(reader, node, 2, 3, "[from, to] or [from, to, step]");
+        if (range.size() < 2) return;
+        const double step = range.size() == 3 ? range[2] : 1.0;
+        const double steps = std::floor((range[1] - range[0]) / step + 1.0e-9);
+        if (step <= 0.0 || steps < 0.0 || steps >= kMostScenarios) {
+            diagnostics_.error(node.where,
+                               "a range goes from the smaller number to the larger one, in steps above zero");
+            return;
+        }
+        const bool whole =
+            std::all_of(range.begin(), range.end(), [](double n) { return n == std::floor(n); });
+        for (double i = 0.0; i <= steps; ++i) {
+            const double value = range[0] + i * step;
+            axis.values.push_back(whole ? Json(static_cast<std::int64_t>(value))
+                                        : Json(std::stod(fmt::format("{:.12g}", value))));
+        }
+    }
+
+    void readDistribution(ObjectReader& reader, const std::string& kind, Axis& axis) {
+        const JsonNode& node = *reader.get(kind);
+        axis.kind = kind == "uniform"  ? Axis::Kind::uniform
+                    : kind == "normal" ? Axis::Kind::normal
+                                       : Axis::Kind::log_normal;
+        const std::vector<double> numbers =
+            numbersOf(reader, node, 2, 2, kind == "uniform" ? "[least, most]" : "[mean, deviation]");
+        if (numbers.size() < 2) return;
+        axis.a = numbers[0];
+        axis.b = numbers[1];
+        reader.boolean("whole", axis.whole);
+        if (axis.kind == Axis::Kind::uniform) {
+            if (axis.b < axis.a)
+                diagnostics_.error(node.where, "the least is above the most", "swap the two");
+        } else {
+            if (axis.b <= 0.0) diagnostics_.error(node.where, "a deviation is more than zero");
+            reader.number("min", kAnyNumber, axis.minimum);
+            reader.number("max", kAnyNumber, axis.maximum);
+            if (axis.minimum >= axis.maximum) diagnostics_.error(node.where, "`min` is not below `max`");
+        }
+        if (family_.sampling == Sampling::grid)
+            diagnostics_.error(node.where,
+                               "a grid takes every value of its axes: a distribution has no end of them",
+                               R"(add "sampling": "latin", "count": 100, or write a `range`)");
+    }
+
+    void readBake(const JsonNode& node) {
+        ObjectReader reader(node, "`bake`", diagnostics_);
+        if (!reader.isObject()) return;
+        reader.boolean("gltf", family_.bake.gltf);
+        reader.boolean("keep", family_.bake.keep);
+        reader.boolean("density", family_.bake.density);
+        reader.integer("diagrams", {0, 1.0e9}, family_.bake.diagrams);
+        reader.finish();
+    }
+
+    void checkWhole() {
+        if (diagnostics_.hasErrors()) return;
+        std::set<std::string> names;
+        for (const Axis& axis : family_.axes) {
+            if (!names.insert(axis.name).second)
+                diagnostics_.error(axis.where, fmt::format("there are two axes of the name `{}`", axis.name),
+                                   "give one of them another `name`");
+            if (axis.parameter.empty()) continue;
+            if (!family_.generator)
+                diagnostics_.error(axis.where,
+                                   "`parameter` is for generators, and this family has a base layout",
+                                   "use `set` with a JSON pointer");
+            else
+                checkParameter(axis);
+        }
+        if (family_.sampling != Sampling::grid && family_.count == 0)
+            diagnostics_.error(family_.where, "how many scenarios are to be drawn?", R"(add "count": 100)");
+        if (family_.sampling == Sampling::grid && family_.count > 0)
+            diagnostics_.error(
+                family_.where,
+                "a grid has as many scenarios as its axes have combinations: `count` means nothing",
+                R"(leave it out, or add "sampling": "random")");
+        if (countOf(family_) > kMostScenarios)
+            diagnostics_.error(family_.where,
+                               fmt::format("{:.3g} scenarios are too many (at most {:.0f})", countOf(family_),
+                                           kMostScenarios),
+                               R"(draw from it: "sampling": "latin", "count": 1000)");
+    }
+
+    void checkParameter(const Axis& axis) {
+        try {
+            GeneratorValues(family_.generator->parameters)[axis.parameter];
+        } catch (const std::invalid_argument& error) {
+            diagnostics_.error(axis.where,
+                               fmt::format("generator `{}`: {}", family_.generator->name, error.what()));
+        }
+    }
+
+    const JsonNode& root_;
+    std::filesystem::path folder_;
+    Diagnostics& diagnostics_;
+    Family family_;
+};
+
+}  // namespace
+
+std::optional<Family> readFamily(std::string_view text, const std::filesystem::path& folder,
+                                 Diagnostics& diagnostics) {
+    const JsonNode root = parseJson(text, diagnostics);
+    if (diagnostics.hasErrors()) return std::nullopt;
+    Family family = Reader(root, folder, diagnostics).read();
+    if (diagnostics.hasErrors()) return std::nullopt;
+    return family;
+}
+
+}  // namespace throng::authoring

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <glm/vec2.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "authoring/family/generators.h"
+
+/// What the generators share.
+namespace throng::authoring::generate {
+
+using Json = nlohmann::ordered_json;
+
+/// m, rounded to millimetres, so that layouts stay readable and the same everywhere.
+inline double rounded(double metres) {
+    return std::round(metres * 1000.0) / 1000.0 + 0.0;
+}
+inline Json point(glm::dvec2 p) {
+    return Json::array({rounded(p.x), rounded(p.y)});
+}
+inline Json points(const std::vector<glm::dvec2>& line) {
+    Json list = Json::array();
+    for (const glm::dvec2 p : line)
+        list.push_back(point(p));
+    return list;
+}
+inline Json rectangle(double x0, double y0, double x1, double y1) {
+    return points({{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}});
+}
+
+/// What every layout begins with.
+Json frameOf(const std::string& name, const GeneratorValues& values);
+
+/// Discs that keep people's ways open: each at least `gap` from the others and from whatever `fits` refuses.
+std::vector<glm::dvec2> scatter(std::size_t count, glm::dvec2 minimum, glm::dvec2 maximum, double gap,
+                                std::uint64_t seed, bool (*fits)(glm::dvec2, const void*),
+                                const void* context);
+/// Round pillars as closed walls.
+void addPillars(Json& layout, const std::vector<glm::dvec2>& centres, double radius);
+
+Json crossing(const GeneratorValues& values);
+Json corridor(const GeneratorValues& values);
+Json streets(const GeneratorValues& values);
+Json plaza(const GeneratorValues& values);
+Json stadium(const GeneratorValues& values);
+
+}  // namespace throng::authoring::generate
