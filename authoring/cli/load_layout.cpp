@@ -34,7 +34,8 @@ std::string readText(const std::string& path) {
 
 }  // namespace
 
-LoadAttempt tryReadLayout(std::string text, const std::string& name, std::vector<std::string> overrides) {
+LoadAttempt tryReadLayout(std::string text, const std::string& name, std::vector<std::string> overrides,
+                          authoring::GroundCache* cache) {
     LoadAttempt attempt;
     LoadedLayout& loaded = attempt.loaded;
     loaded.text = std::move(text);
@@ -44,7 +45,7 @@ LoadAttempt tryReadLayout(std::string text, const std::string& name, std::vector
         authoring::readLayout(loaded.text, loaded.overrides, loaded.diagnostics);
     if (!layout) return attempt;
     loaded.layout = std::move(*layout);
-    std::optional<authoring::Scene> scene = authoring::buildScene(loaded.layout, loaded.diagnostics);
+    std::optional<authoring::Scene> scene = authoring::buildScene(loaded.layout, loaded.diagnostics, cache);
     if (!scene) return attempt;
     loaded.scene = std::move(*scene);
     if (loaded.layout.name.empty()) loaded.layout.name = std::filesystem::path(name).stem().string();

@@ -7,6 +7,7 @@
 #include "authoring/diagnostics.h"
 #include "authoring/layout.h"
 #include "authoring/scene.h"
+#include "authoring/scene/ground.h"
 
 namespace throng::cli {
 
@@ -27,7 +28,9 @@ struct LoadAttempt {
 
 /// Makes the scene of a layout's text.
 /// @param name of the file, for messages, and for the layout if it has none of its own
-LoadAttempt tryReadLayout(std::string text, const std::string& name, std::vector<std::string> overrides);
+/// @param cache as buildScene
+LoadAttempt tryReadLayout(std::string text, const std::string& name, std::vector<std::string> overrides,
+                          authoring::GroundCache* cache = nullptr);
 
 /// Reads a layout ("-" is standard input) and builds its scene.
 /// @throws io::InputError when the file cannot be read at all

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <glm/packing.hpp>
-#include <queue>
+#include <algorithm>
+#include <functional>
+#include <utility>
+#include <vector>
 
 #include "authoring/scene/raster.h"
 
@@ -15,56 +17,129 @@ namespace throng::authoring {
 namespace {
 
 constexpr float kFillCost = 10.0f;  // per metre into what is blocked, so that "downhill" points out of it
+constexpr float kFillDepth = 4.0f;  // m
 constexpr float kAgainstOneWay =
     -0.1f;  // cosine: walking more than this against a one-way road is not allowed
 constexpr int kExactCells =
     12;  // around small targets, where fitted planes are poor, distances are taken exactly
 
+constexpr float kBucketCells = 0.06f;  // width of the queue's buckets
+
 struct Front {
     float distance;
     std::uint32_t cell;
+    std::uint32_t depth = 0;  // cells into what is blocked
     bool operator>(const Front& other) const {
         return distance > other.distance || (distance == other.distance && cell > other.cell);
     }
 };
-using Heap = std::priority_queue<Front, std::vector<Front>, std::greater<>>;
 
+/// A priority queue for fronts, the nearest first and equal ones by their cells: as one heap would have them,
+/// but in buckets of nearly equal distances, each a heap of its own when its turn comes. Small heaps stay in
+/// the processor's cache: three times as fast as one for all.
+class FrontQueue {
+  public:
+    /// @param width of a bucket, m
+    explicit FrontQueue(float width) : per_metre_(1.0f / width) {}
+
+    /// Nothing may be nearer than what was popped last.
+    void push(const Front& front) {
+        const auto bucket = static_cast<std::size_t>(front.distance * per_metre_);
+        if (bucket >= buckets_.size()) buckets_.resize(bucket + 1 + bucket / 2);
+        buckets_[bucket].push_back(front);
+        if (bucket == current_)
+            std::push_heap(buckets_[bucket].begin(), buckets_[bucket].end(), std::greater<>());
+        ++count_;
+    }
+    bool empty() const { return count_ == 0; }
+    Front pop() {
+        if (buckets_[current_].empty()) advance();
+        std::vector<Front>& bucket = buckets_[current_];
+        std::pop_heap(bucket.begin(), bucket.end(), std::greater<>());
+        const Front front = bucket.back();
+        bucket.pop_back();
+        --count_;
+        return front;
+    }
+
+  private:
+    void advance() {
+        std::vector<Front> spare = std::move(buckets_[current_]);
+        while (buckets_[current_].empty())
+            ++current_;
+        std::make_heap(buckets_[current_].begin(), buckets_[current_].end(), std::greater<>());
+        // The memory of a bucket that is done serves one that is just beginning.
+        const std::size_t ahead = current_ + 2;
+        if (ahead < buckets_.size() && buckets_[ahead].empty()) buckets_[ahead] = std::move(spare);
+    }
+
+    float per_metre_;
+    std::vector<std::vector<Front>> buckets_;
+    std::size_t current_ = 0;
+    std::size_t count_ = 0;
+};
+
+/// Works on a grid with a blocked margin of one cell all round, so that no cell has to ask whether it has a
+/// neighbour.
+/// @tparam kBound whether sides of cells are closed or roads one-way
+template <bool kBound>
 class Marcher {
   public:
     explicit Marcher(const WalkMap& map)
         : map_(map),
           grid_(map.grid),
-          distance_(map.cost.size(), kUnreachable),
-          settled_(map.cost.size(), false) {}
+          width_(grid_.width + 2),
+          steps_(std::size_t{width_} * (grid_.height + 2), kUnreachable),
+          settled_(steps_.size(), kUnreachable),
+          tentative_(steps_.size(), kUnreachable),
+          fronts_(kBucketCells * map.grid.cell_size) {
+        for (std::uint32_t y = 0; y < grid_.height; ++y)
+            for (std::uint32_t x = 0; x < grid_.width; ++x)
+                steps_[padded(x, y)] = map.cost[std::size_t{y} * grid_.width + x] * grid_.cell_size;
+    }
 
     void start(std::span<const std::uint32_t> targets) {
         for (const std::uint32_t cell : targets)
-            if (map_.cost[cell] < kUnreachable) push(cell, 0.0f);
+            if (map_.cost[cell] < kUnreachable) push(padded(cell % grid_.width, cell / grid_.width), 0.0f);
         if (targets.size() <= 4)
             for (const std::uint32_t cell : targets)
                 startAround(cell);
     }
 
     void march() {
-        while (!heap_.empty()) {
-            const Front front = heap_.top();
-            heap_.pop();
-            if (settled_[front.cell]) continue;
-            settled_[front.cell] = true;
-            visitNeighbours(grid_, front.cell, [&](std::uint32_t cell) {
-                if (settled_[cell] || map_.cost[cell] == kUnreachable) return;
+        while (!fronts_.empty()) {
+            const Front front = fronts_.pop();
+            if (settled_[front.cell] < kUnreachable) continue;
+            settled_[front.cell] = front.distance;
+            for (const std::uint32_t cell :
+                 {front.cell - 1, front.cell + 1, front.cell - width_, front.cell + width_}) {
+                if (settled_[cell] < kUnreachable || steps_[cell] == kUnreachable) continue;
                 const float found = solve(cell);
-                if (found < distance_[cell]) push(cell, found);
-            });
+                if (found < tentative_[cell]) push(cell, found);
+            }
         }
     }
 
-    std::vector<float> take() { return std::move(distance_); }
+    /// Distances of the cells of the map.
+    std::vector<float> take() const {
+        std::vector<float> distances;
+        distances.reserve(map_.cost.size());
+        for (std::uint32_t y = 0; y < grid_.height; ++y) {
+            const auto line = settled_.begin() + padded(0, y);
+            distances.insert(distances.end(), line, line + grid_.width);
+        }
+        return distances;
+    }
 
   private:
+    std::uint32_t padded(std::uint32_t x, std::uint32_t y) const { return (y + 1) * width_ + x + 1; }
+    std::uint32_t unpadded(std::uint32_t cell) const {
+        return (cell / width_ - 1) * grid_.width + cell % width_ - 1;
+    }
+
     void push(std::uint32_t cell, float distance) {
-        distance_[cell] = distance;
-        heap_.push({distance, cell});
+        tentative_[cell] = distance;
+        fronts_.push({distance, cell});
     }
 
     /// Exact distances around a point target, where no obstacle or bad ground is near.
@@ -79,42 +154,40 @@ class Marcher {
                     if (x < 0 || y < 0 || x >= static_cast<int>(grid_.width) ||
                         y >= static_cast<int>(grid_.height))
                         continue;
-                    visit(static_cast<std::uint32_t>(y) * grid_.width + static_cast<std::uint32_t>(x),
+                    visit(padded(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)),
                           std::hypot(static_cast<float>(dx), static_cast<float>(dy)));
                 }
         };
-        bool open = map_.one_way.empty() && map_.open_sides.empty();
-        each([&](std::uint32_t cell, float) { open = open && map_.cost[cell] == 1.0f; });
+        bool open = !kBound;
+        each([&](std::uint32_t cell, float) { open = open && steps_[cell] == grid_.cell_size; });
         if (!open) return;
         each([&](std::uint32_t cell, float cells) {
             const float exact = cells * grid_.cell_size;
-            if (cells <= static_cast<float>(kExactCells) && exact < distance_[cell]) push(cell, exact);
+            if (cells <= static_cast<float>(kExactCells) && exact < tentative_[cell]) push(cell, exact);
         });
     }
 
     /// The settled distance beyond one side of a cell, if one may walk that way.
     float ahead(std::uint32_t cell, std::uint32_t neighbour, glm::vec2 step) const {
-        if (!settled_[neighbour]) return kUnreachable;
-        if (!map_.open_sides.empty()) {
-            const std::uint8_t side = step.x != 0.0f ? gpu::OPEN_TO_X : gpu::OPEN_TO_Y;
-            if (!(map_.open_sides[std::min(cell, neighbour)] & side)) return kUnreachable;
+        if constexpr (kBound) {
+            if (settled_[neighbour] == kUnreachable) return kUnreachable;
+            const std::uint32_t here = unpadded(cell);
+            if (!map_.open_sides.empty()) {
+                const std::uint8_t side = step.x != 0.0f ? gpu::OPEN_TO_X : gpu::OPEN_TO_Y;
+                if (!(map_.open_sides[std::min(here, unpadded(neighbour))] & side)) return kUnreachable;
+            }
+            if (!map_.one_way.empty() && glm::dot(map_.one_way[here], step) < kAgainstOneWay)
+                return kUnreachable;
         }
-        if (!map_.one_way.empty() && glm::dot(map_.one_way[cell], step) < kAgainstOneWay) return kUnreachable;
-        return distance_[neighbour];
+        return settled_[neighbour];
     }
 
     float solve(std::uint32_t cell) const {
-        const std::uint32_t x = cell % grid_.width;
-        const float left = x > 0 ? ahead(cell, cell - 1, {-1.0f, 0.0f}) : kUnreachable;
-        const float right = x + 1 < grid_.width ? ahead(cell, cell + 1, {1.0f, 0.0f}) : kUnreachable;
-        const float below =
-            cell >= grid_.width ? ahead(cell, cell - grid_.width, {0.0f, -1.0f}) : kUnreachable;
-        const float above = cell + grid_.width < distance_.size()
-                                ? ahead(cell, cell + grid_.width, {0.0f, 1.0f})
-                                : kUnreachable;
-        const float across = std::min(left, right);
-        const float along = std::min(below, above);
-        const float step = map_.cost[cell] * grid_.cell_size;
+        const float across =
+            std::min(ahead(cell, cell - 1, {-1.0f, 0.0f}), ahead(cell, cell + 1, {1.0f, 0.0f}));
+        const float along =
+            std::min(ahead(cell, cell - width_, {0.0f, -1.0f}), ahead(cell, cell + width_, {0.0f, 1.0f}));
+        const float step = steps_[cell];
         const float near = std::min(across, along);
         const float far = std::max(across, along);
         if (far - near >= step) return near + step;
@@ -124,10 +197,30 @@ class Marcher {
 
     const WalkMap& map_;
     const FieldGrid& grid_;
-    std::vector<float> distance_;
-    std::vector<bool> settled_;
-    Heap heap_;
+    std::uint32_t width_;           // with the margin
+    std::vector<float> steps_;      // m that crossing a cell costs
+    std::vector<float> settled_;    // distances that are final
+    std::vector<float> tentative_;  // the best so far
+    FrontQueue fronts_;
 };
+
+template <bool kBound>
+std::vector<float> marchFrom(const WalkMap& map, std::span<const std::uint32_t> targets) {
+    Marcher<kBound> marcher(map);
+    marcher.start(targets);
+    marcher.march();
+    return marcher.take();
+}
+
+/// As glm::packSnorm2x16, without its calls of a library for each number.
+std::uint32_t packDirection(glm::vec2 direction) {
+    const auto word = [](float value) {
+        const float scaled = value * 32767.0f;
+        return static_cast<std::uint32_t>(
+            static_cast<std::uint16_t>(static_cast<std::int16_t>(scaled + std::copysign(0.5f, scaled))));
+    };
+    return word(direction.x) | word(direction.y) << 16;
+}
 
 /// Downhill at a reachable cell: central differences, one-sided beside what is blocked.
 glm::vec2 downhill(const FieldGrid& grid, const std::vector<float>& distance, std::uint32_t cell) {
@@ -147,26 +240,31 @@ glm::vec2 downhill(const FieldGrid& grid, const std::vector<float>& distance, st
     return size > 1.0e-6f ? -gradient / size : glm::vec2(0.0f);
 }
 
-/// Gives every cell that no path leads from a finite distance and a direction towards the nearest cell that
-/// has one.
+/// Gives the cells that no path leads from, as far inside as anybody could ever be pushed, a distance and a
+/// direction towards the nearest cell that has one.
 void fillBlocked(const FieldGrid& grid, std::vector<float>& distance, std::vector<glm::vec2>& direction) {
-    Heap heap;
-    for (std::uint32_t cell = 0; cell < distance.size(); ++cell)
-        if (distance[cell] < kUnreachable) heap.push({distance[cell], cell});
-    std::vector<bool> original(distance.size());
+    std::vector<std::uint8_t> original(distance.size());
     for (std::size_t cell = 0; cell < distance.size(); ++cell)
         original[cell] = distance[cell] < kUnreachable;
-    while (!heap.empty()) {
-        const Front front = heap.top();
-        heap.pop();
+    const auto deepest = static_cast<std::uint32_t>(std::ceil(kFillDepth / grid.cell_size));
+    FrontQueue fronts(kBucketCells * grid.cell_size);
+    for (std::uint32_t cell = 0; cell < distance.size(); ++cell) {
+        if (!original[cell]) continue;
+        bool at_the_edge = false;
+        visitNeighbours(grid, cell,
+                        [&](std::uint32_t next) { at_the_edge = at_the_edge || !original[next]; });
+        if (at_the_edge) fronts.push({distance[cell], cell});
+    }
+    while (!fronts.empty()) {
+        const Front front = fronts.pop();
         if (front.distance > distance[front.cell]) continue;
         const std::uint32_t x = front.cell % grid.width;
         const auto spread = [&](std::uint32_t cell, glm::vec2 towards) {
             const float found = front.distance + kFillCost * grid.cell_size;
-            if (original[cell] || found >= distance[cell]) return;
+            if (original[cell] || found >= distance[cell] || front.depth >= deepest) return;
             distance[cell] = found;
             direction[cell] = towards;
-            heap.push({found, cell});
+            fronts.push({found, cell, front.depth + 1});
         };
         if (x > 0) spread(front.cell - 1, {1.0f, 0.0f});
         if (x + 1 < grid.width) spread(front.cell + 1, {-1.0f, 0.0f});
@@ -178,11 +276,9 @@ void fillBlocked(const FieldGrid& grid, std::vector<float>& distance, std::vecto
 }  // namespace
 
 Field solveField(const WalkMap& map, std::span<const std::uint32_t> targets) {
-    Marcher marcher(map);
-    marcher.start(targets);
-    marcher.march();
     Field field;
-    field.reachable = marcher.take();
+    const bool bound = !map.open_sides.empty() || !map.one_way.empty();
+    field.reachable = bound ? marchFrom<true>(map, targets) : marchFrom<false>(map, targets);
 
     // Inside a wide target all is zero: point at its middle.
     glm::vec2 middle(0.0f);
@@ -193,16 +289,16 @@ Field solveField(const WalkMap& map, std::span<const std::uint32_t> targets) {
     for (std::uint32_t cell = 0; cell < direction.size(); ++cell) {
         if (field.reachable[cell] == kUnreachable) continue;
         direction[cell] = downhill(map.grid, field.reachable, cell);
+        if (direction[cell] != glm::vec2(0.0f)) continue;
         const glm::vec2 inward = middle - cellCentre(map.grid, cell % map.grid.width, cell / map.grid.width);
-        if (direction[cell] == glm::vec2(0.0f) && glm::length(inward) > 1.0e-4f)
-            direction[cell] = glm::normalize(inward);
+        if (glm::length(inward) > 1.0e-4f) direction[cell] = glm::normalize(inward);
     }
     std::vector<float> distance = field.reachable;
     fillBlocked(map.grid, distance, direction);
     field.cells.resize(distance.size());
     for (std::size_t cell = 0; cell < distance.size(); ++cell)
         field.cells[cell] = {distance[cell] < kUnreachable ? distance[cell] : 1.0e9f,
-                             glm::packSnorm2x16(direction[cell])};
+                             packDirection(direction[cell])};
     return field;
 }
 

@@ -19,10 +19,6 @@ namespace {
 /// All fields together stay below this, on the device and here: what every device samples as one buffer.
 constexpr std::size_t kMostFieldBytes = std::size_t{1} << 30;
 
-/// Jams are larger than this, m, and their news should travel fast.
-constexpr float kDetourCell = 0.75f;
-constexpr double kMostDetourCells = 30'000.0;
-
 void appendGround(const CoarseMap& coarse, std::vector<gpu::GroundCell>& ground) {
     const WalkMap& map = coarse.map;
     for (std::size_t cell = 0; cell < map.cost.size(); ++cell)
@@ -33,9 +29,8 @@ void appendGround(const CoarseMap& coarse, std::vector<gpu::GroundCell>& ground)
 
 }  // namespace
 
-Routes::Routes(const Layout& layout, const Rebase& rebase, const WalkGeometry& geometry,
-               const FieldGrid& grid)
-    : layout_(layout), rebase_(rebase), geometry_(geometry), grid_(grid) {}
+Routes::Routes(const Layout& layout, const Rebase& rebase, Ground& ground)
+    : layout_(layout), rebase_(rebase), ground_(ground), grid_(ground.grid()) {}
 
 LocalPolygon Routes::outline(const Place& place, float depth) const {
     if (place.kind == Place::Kind::area) return rebase_.local(layout_.areas[place.index].polygon);
@@ -53,12 +48,6 @@ LocalPolygon Routes::outline(const Place& place, float depth) const {
 std::string Routes::name(const Place& place) const {
     if (place.kind == Place::Kind::area) return layout_.areas[place.index].id;
     return layout_.roads[place.index].id + (place.kind == Place::Kind::road_start ? ":start" : ":end");
-}
-
-const WalkMap& Routes::mapFor(bool keep_to_roads) {
-    std::optional<WalkMap>& map = maps_[keep_to_roads ? 1 : 0];
-    if (!map) map = makeWalkMap(geometry_, grid_, keep_to_roads);
-    return *map;
 }
 
 bool Routes::hasRoom() const {
@@ -82,18 +71,17 @@ void Routes::solveAll(const std::vector<std::vector<Place>>& destinations, bool 
         entry->second = addField({}, targets, keep_to_roads, places.size() > 1);
         tasks.push_back({std::move(targets), entry->second});
     }
-    const WalkMap& map = mapFor(keep_to_roads);
     std::atomic<std::size_t> next = 0;
     std::vector<std::jthread> workers;
     for (std::size_t i = 0; i < std::min<std::size_t>(std::thread::hardware_concurrency(), tasks.size()); ++i)
         workers.emplace_back([&] {
             for (std::size_t task = next++; task < tasks.size(); task = next++)
-                fields_[tasks[task].field] = solveField(map, tasks[task].targets);
+                fields_[tasks[task].field] = ground_.solve(keep_to_roads, tasks[task].targets);
         });
 }
 
-std::uint32_t Routes::addField(Field field, std::vector<std::uint32_t> targets, bool keep_to_roads,
-                               bool has_choice) {
+std::uint32_t Routes::addField(std::shared_ptr<const Field> field, std::vector<std::uint32_t> targets,
+                               bool keep_to_roads, bool has_choice) {
     fields_.push_back(std::move(field));
     targets_.push_back(std::move(targets));
     on_roads_.push_back(keep_to_roads);
@@ -106,7 +94,7 @@ std::uint32_t Routes::solve(const std::vector<std::uint32_t>& targets, bool keep
         too_many_ = true;
         return 0;
     }
-    return addField(solveField(mapFor(keep_to_roads), targets), targets, keep_to_roads, has_choice);
+    return addField(ground_.solve(keep_to_roads, targets), targets, keep_to_roads, has_choice);
 }
 
 std::uint32_t Routes::fieldTo(const Place& place, bool keep_to_roads) {
@@ -139,7 +127,7 @@ std::vector<std::uint32_t> Routes::cellsOf(const std::vector<Place>& places) con
 /// nearest blocked cell until none is left. A straight wall takes one cut, and the rest is the same rectangle
 /// for all points near it.
 std::vector<std::uint32_t> Routes::clearRectangle(glm::vec2 point) {
-    const WalkMap& map = mapFor(false);
+    const WalkMap& map = ground_.map(false);
     const auto width = static_cast<int>(grid_.width);
     const auto cell = static_cast<int>(cellAt(grid_, point));
     const int x = cell % width, y = cell / width;
@@ -185,47 +173,43 @@ std::uint32_t Routes::fieldTo(glm::vec2 point) {
 }
 
 float Routes::reachable(std::uint32_t field, glm::vec2 from) const {
-    return fields_.empty() ? 0.0f : fields_[field].reachable[cellAt(grid_, from)];
+    return fields_.empty() ? 0.0f : fields_[field]->reachable[cellAt(grid_, from)];
 }
 
 float Routes::reachable(std::uint32_t field, const LocalPolygon& from) const {
     if (fields_.empty()) return 0.0f;
     float least = kUnreachable;
     for (const std::uint32_t cell : cellsInPolygon(grid_, from))
-        least = std::min(least, fields_[field].reachable[cell]);
+        least = std::min(least, fields_[field]->reachable[cell]);
     return least;
 }
 
-std::vector<gpu::FieldCell> Routes::takeCells() {
+std::vector<gpu::FieldCell> Routes::cells() const {
     std::vector<gpu::FieldCell> cells;
     cells.reserve(fields_.size() * cellCount(grid_));
-    for (Field& field : fields_) {
-        cells.insert(cells.end(), field.cells.begin(), field.cells.end());
-        field = {};
-    }
-    fields_.clear();
+    for (const std::shared_ptr<const Field>& field : fields_)
+        cells.insert(cells.end(), field->cells.begin(), field->cells.end());
     return cells;
 }
 
 Detours Routes::detours() {
     Detours detours;
-    detours.grid = makeGrid(geometry_, kDetourCell, kMostDetourCells);
+    detours.grid = ground_.coarseGrid();
     detours.has_choice = has_choice_;
-    std::optional<CoarseMap> maps[2];
-    std::uint32_t map_index[2] = {};
+    std::optional<std::uint32_t> map_index[2];
     for (std::size_t field = 0; field < fields_.size(); ++field) {
-        const std::size_t kind = on_roads_[field] ? 1 : 0;
-        if (!maps[kind]) {
-            maps[kind] = coarsen(mapFor(on_roads_[field]), detours.grid);
-            map_index[kind] = static_cast<std::uint32_t>(detours.ground.size() / cellCount(detours.grid));
-            appendGround(*maps[kind], detours.ground);
+        const CoarseMap& coarse = ground_.coarse(on_roads_[field]);
+        std::optional<std::uint32_t>& index = map_index[on_roads_[field] ? 1 : 0];
+        if (!index) {
+            index = static_cast<std::uint32_t>(detours.ground.size() / cellCount(detours.grid));
+            appendGround(coarse, detours.ground);
         }
-        detours.ground_of_field.push_back(map_index[kind]);
-        std::set<std::uint32_t> coarse;
+        detours.ground_of_field.push_back(*index);
+        std::set<std::uint32_t> cells;
         for (const std::uint32_t cell : targets_[field])
-            if (maps[kind]->cell_of[cell] != gpu::NO_INDEX) coarse.insert(maps[kind]->cell_of[cell]);
-        const std::vector<std::uint32_t> targets(coarse.begin(), coarse.end());
-        for (const float distance : solveField(maps[kind]->map, targets).reachable)
+            if (coarse.cell_of[cell] != gpu::NO_INDEX) cells.insert(coarse.cell_of[cell]);
+        const auto solved = ground_.solveCoarse(on_roads_[field], {cells.begin(), cells.end()});
+        for (const float distance : solved->reachable)
             detours.distances.push_back(std::min(distance, gpu::BLOCKED_COST));
     }
     return detours;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -9,6 +10,7 @@
 
 #include "authoring/diagnostics.h"
 #include "authoring/scene/fields.h"
+#include "authoring/scene/ground.h"
 #include "authoring/scene/rebase.h"
 
 namespace throng::authoring {
@@ -17,7 +19,7 @@ namespace throng::authoring {
 /// asked for.
 class Routes {
   public:
-    Routes(const Layout& layout, const Rebase& rebase, const WalkGeometry& geometry, const FieldGrid& grid);
+    Routes(const Layout& layout, const Rebase& rebase, Ground& ground);
 
     /// A place's outline in the scene frame: the area, or a strip of the road of this depth (m) at its end.
     LocalPolygon outline(const Place& place, float depth) const;
@@ -44,8 +46,8 @@ class Routes {
     /// Somebody needs a field for which there is no room.
     void lackField() { too_many_ = true; }
     std::uint32_t fieldCount() const { return static_cast<std::uint32_t>(fields_.size()); }
-    /// Moves all cells out, field after field.
-    std::vector<gpu::FieldCell> takeCells();
+    /// All cells, field after field.
+    std::vector<gpu::FieldCell> cells() const;
 
     /// The coarse map and every field's distances on it, for routes that heed jams.
     Detours detours();
@@ -57,20 +59,18 @@ class Routes {
     std::vector<std::uint32_t> clearRectangle(glm::vec2 point);
     bool hasRoom() const;
     std::uint32_t solve(const std::vector<std::uint32_t>& targets, bool keep_to_roads, bool has_choice);
-    std::uint32_t addField(Field field, std::vector<std::uint32_t> targets, bool keep_to_roads,
-                           bool has_choice);
+    std::uint32_t addField(std::shared_ptr<const Field> field, std::vector<std::uint32_t> targets,
+                           bool keep_to_roads, bool has_choice);
     std::string keyOf(const std::vector<Place>& places, bool keep_to_roads) const;
     std::vector<std::uint32_t> cellsOf(const std::vector<Place>& places) const;
-    const WalkMap& mapFor(bool keep_to_roads);
 
     const Layout& layout_;
     const Rebase& rebase_;
-    const WalkGeometry& geometry_;
+    Ground& ground_;
     FieldGrid grid_;
-    std::optional<WalkMap> maps_[2];
     std::map<std::string, std::uint32_t> known_;
     std::unordered_map<std::uint32_t, std::uint32_t> field_of_cell_;  // for points
-    std::vector<Field> fields_;
+    std::vector<std::shared_ptr<const Field>> fields_;
     std::vector<std::vector<std::uint32_t>> targets_;  // of each field: cells
     std::vector<bool> has_choice_;                     // of each field: leads to one of several places
     std::vector<bool> on_roads_;                       // of each field: for those who keep to the roads

@@ -52,8 +52,8 @@ class PlacedBodies {
 
 class Builder {
   public:
-    Builder(const Layout& layout, Diagnostics& diagnostics)
-        : layout_(layout), diagnostics_(diagnostics), rebase_(layout) {
+    Builder(const Layout& layout, Diagnostics& diagnostics, GroundCache& cache)
+        : layout_(layout), diagnostics_(diagnostics), cache_(cache), rebase_(layout) {
         scene_.settings = layout.simulation;
         scene_.origin = rebase_.origin();
         scene_.output_origin = rebase_.outputOrigin();
@@ -65,7 +65,8 @@ class Builder {
         drawPeople();
         buildGeometry();
         scene_.grid = makeGrid(geometry_);
-        Routes routes(layout_, rebase_, geometry_, scene_.grid);
+        ground_ = cache_.groundFor(geometry_, scene_.grid);
+        Routes routes(layout_, rebase_, *ground_);
         Itineraries itineraries(layout_, rebase_, geometry_, routes, diagnostics_, scene_);
         itineraries.prepare();
         for (std::size_t i = 0; i < layout_.flows.size(); ++i)
@@ -192,8 +193,10 @@ class Builder {
         if (scene_.people.empty()) scene_.smallest_radius = scene_.largest_radius = 0.25f;
         geometry_.minimum = scene_.minimum;
         geometry_.maximum = scene_.maximum;
-        geometry_.smallest_radius = scene_.smallest_radius;
-        geometry_.largest_radius = scene_.largest_radius;
+        // In whole centimetres, so that the ground is the same whoever is drawn to walk on it.
+        constexpr float kHair = 0.01f;  // cm: sizes that are whole centimetres stay what they are
+        geometry_.smallest_radius = std::floor(100.0f * scene_.smallest_radius + kHair) / 100.0f;
+        geometry_.largest_radius = std::ceil(100.0f * scene_.largest_radius - kHair) / 100.0f;
         buildWalls(layout_, rebase_, geometry_);
         for (const Road& road : layout_.roads)
             geometry_.roads.push_back(
@@ -450,22 +453,25 @@ class Builder {
     void finish(Routes& routes) {
         scene_.field_count = routes.fieldCount();
         if (layout_.simulation.avoid_congestion) scene_.detours = routes.detours();
-        scene_.fields = routes.takeCells();
-        scene_.road_distance = roadDistance(geometry_, scene_.grid);
+        scene_.fields = routes.cells();
+        scene_.road_distance = ground_->roadDistances();
     }
 
     const Layout& layout_;
     Diagnostics& diagnostics_;
+    GroundCache& cache_;
     Rebase rebase_;
     WalkGeometry geometry_;
+    std::shared_ptr<Ground> ground_;
     PlacedBodies bodies_;
     Scene scene_;
 };
 
 }  // namespace
 
-std::optional<Scene> buildScene(const Layout& layout, Diagnostics& diagnostics) {
-    return Builder(layout, diagnostics).build();
+std::optional<Scene> buildScene(const Layout& layout, Diagnostics& diagnostics, GroundCache* cache) {
+    GroundCache own;
+    return Builder(layout, diagnostics, cache ? *cache : own).build();
 }
 
 }  // namespace throng::authoring

@@ -6,6 +6,7 @@
 #include "authoring/diagnostics.h"
 #include "authoring/layout.h"
 #include "authoring/scene.h"
+#include "authoring/scene/ground.h"
 
 namespace throng::authoring {
 
@@ -13,6 +14,7 @@ namespace throng::authoring {
 /// for bit.
 /// @returns nothing when `diagnostics` has errors: people inside walls, goals that cannot be reached, entries
 /// without room
-std::optional<Scene> buildScene(const Layout& layout, Diagnostics& diagnostics);
+/// @param cache of ground, for whoever makes several scenes; null: for this one only
+std::optional<Scene> buildScene(const Layout& layout, Diagnostics& diagnostics, GroundCache* cache = nullptr);
 
 }  // namespace throng::authoring

@@ -114,79 +114,86 @@ void recordDeath(const BatchPlan& plan, std::size_t index, const BatchFolder& fo
     recordFailure(plan, index, folder, reason, reason);
 }
 
-ScenarioEnd bakeScenario(const BatchPlan& plan, std::size_t index, const BatchFolder& folder, Baker& baker,
-                         double checkpoint_seconds, const InterruptGuard& interrupt) {
-    const std::string& id = plan.scenarios().at(index).id;
-    const auto fail = [&](const std::string& reason, const std::string& details) {
-        recordFailure(plan, index, folder, reason, details);
-        return ScenarioEnd::failed;
-    };
-    try {
-        Laps laps;
-        const std::string text = plan.layoutText(index);
-        LoadAttempt attempt = tryReadLayout(text, id + ".json", {});
-        laps.end("load");
-        if (!attempt.valid) {
-            const auto [first, all] = problemsOf(attempt.loaded);
-            return fail(first, all);
-        }
-        BakeJob job;
-        job.options.output = folder.bake(id).string();
-        job.options.force = true;
-        job.options.gltf = plan.family().bake.gltf;
-        job.densities = plan.family().bake.density;
-        job.diagram_every = static_cast<std::uint32_t>(plan.family().bake.diagrams);
-        job.checkpoint_seconds = checkpoint_seconds;
-        job.resume = true;
-        job.when_stopped = [&](int, double seconds) {
-            constexpr double kWorthKeeping = 20.0;
-            return seconds > kWorthKeeping && checkpoint_seconds > 0.0 ? WhenStopped::checkpoint
-                                                                       : WhenStopped::discard;
-        };
-        const BakeRun run = baker.bake(attempt.loaded, job, interrupt);
-        laps.end("bake");
-        laps.set("setup", run.setup_seconds);
-        laps.set("simulate", run.timing.wall_seconds);
-        if (run.end != BakeRun::End::complete) return ScenarioEnd::stopped;
-        const io::Bake bake = io::loadBake(folder.bake(id));
-        const auto [measured, missed] = judgeBake(bake, {});
-        laps.end("measure");
+ScenarioBaker::ScenarioBaker(const BatchPlan& plan, const BatchFolder& folder, const Options& options)
+    : plan_(plan),
+      folder_(folder),
+      options_(options),
+      baker_(options.device, "", static_cast<std::size_t>(plan.load().largest_people)) {}
 
-        ordered_json result = headOf(plan, index, plan.inputHash(text));
-        result["status"] = "ok";
-        result["missed"] = missed;
-        result["metrics"] = io::measurementJson(measured);
-        result["frames"] = run.frames;
-        result["steps"] = run.timing.steps;
-        result["device"] = baker.device().name;
-        result["driver"] = baker.device().version;
-        if (plan.family().bake.keep)
-            result["bake"] = "bakes/" + id;
-        else
-            std::filesystem::remove_all(folder.bake(id));
-        std::error_code ignored;
-        std::filesystem::remove(folder.log(id), ignored);  // of an earlier failure
-        laps.end("tidy");
-        result["seconds"] = laps.json();
-        result["peak_memory_mib"] = std::round(peakMemoryMebibytes());
-        folder.writeResult(id, result);
-        return ScenarioEnd::done;
+ScenarioEnd ScenarioBaker::bake(std::size_t index, const InterruptGuard& interrupt) {
+    try {
+        return tryBake(index, interrupt);
     } catch (const gl::GraphicsError& error) {
-        fail(error.what(), error.what());
+        recordFailure(plan_, index, folder_, error.what(), error.what());
         throw;
     } catch (const std::exception& error) {
-        return fail(error.what(), error.what());
+        recordFailure(plan_, index, folder_, error.what(), error.what());
+        return ScenarioEnd::failed;
     }
 }
 
-void runWorker(const BatchPlan& plan, const BatchFolder& folder, const WorkerOptions& options) {
+ScenarioEnd ScenarioBaker::tryBake(std::size_t index, const InterruptGuard& interrupt) {
+    const std::string& id = plan_.scenarios().at(index).id;
+    Laps laps;
+    const std::string text = plan_.layoutText(index);
+    LoadAttempt attempt = tryReadLayout(text, id + ".json", {}, &grounds_);
+    laps.end("load");
+    if (!attempt.valid) {
+        const auto [first, all] = problemsOf(attempt.loaded);
+        recordFailure(plan_, index, folder_, first, all);
+        return ScenarioEnd::failed;
+    }
+    BakeJob job;
+    job.options.output = folder_.bake(id).string();
+    job.options.force = true;
+    job.options.gltf = plan_.family().bake.gltf;
+    job.densities = plan_.family().bake.density;
+    job.diagram_every = static_cast<std::uint32_t>(plan_.family().bake.diagrams);
+    job.checkpoint_seconds = options_.checkpoint_seconds;
+    job.resume = true;
+    job.when_stopped = [&](int, double seconds) {
+        constexpr double kWorthKeeping = 20.0;
+        return seconds > kWorthKeeping && options_.checkpoint_seconds > 0.0 ? WhenStopped::checkpoint
+                                                                            : WhenStopped::discard;
+    };
+    const BakeRun run = baker_.bake(attempt.loaded, job, interrupt);
+    laps.end("bake");
+    laps.set("setup", run.setup_seconds);
+    laps.set("simulate", run.timing.wall_seconds);
+    if (run.end != BakeRun::End::complete) return ScenarioEnd::stopped;
+    const io::Bake bake = io::loadBake(folder_.bake(id));
+    const auto [measured, missed] = judgeBake(bake, {});
+    laps.end("measure");
+
+    ordered_json result = headOf(plan_, index, plan_.inputHash(text));
+    result["status"] = "ok";
+    result["missed"] = missed;
+    result["metrics"] = io::measurementJson(measured);
+    result["frames"] = run.frames;
+    result["steps"] = run.timing.steps;
+    result["device"] = baker_.device().name;
+    result["driver"] = baker_.device().version;
+    if (plan_.family().bake.keep)
+        result["bake"] = "bakes/" + id;
+    else
+        std::filesystem::remove_all(folder_.bake(id));
+    std::error_code ignored;
+    std::filesystem::remove(folder_.log(id), ignored);  // of an earlier failure
+    laps.end("tidy");
+    result["seconds"] = laps.json();
+    result["peak_memory_mib"] = std::round(peakMemoryMebibytes());
+    folder_.writeResult(id, result);
+    return ScenarioEnd::done;
+}
+
+void runWorker(const BatchPlan& plan, const BatchFolder& folder, const ScenarioBaker::Options& options) {
     const InterruptGuard interrupt;
-    Baker baker(options.device, "", static_cast<std::size_t>(plan.load().largest_people));
+    ScenarioBaker baker(plan, folder, options);
     std::size_t index = 0;
     while (!interrupt.signal() && std::cin >> index) {
         ScenarioEnd end = ScenarioEnd::failed;
         try {
-            end = bakeScenario(plan, index, folder, baker, options.checkpoint_seconds, interrupt);
+            end = baker.bake(index, interrupt);
         } catch (const gl::GraphicsError&) {
             fmt::print("failed\n");  // a new process may have more luck with the device
             std::fflush(stdout);
