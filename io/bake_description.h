@@ -35,6 +35,7 @@ struct BakeDescription {
 
     std::string name;         ///< the layout's
     std::string layout_text;  ///< the layout file, byte for byte
+    std::string inputs;       ///< hash of all that the bytes depend on; empty: not told
     std::uint64_t seed = 1;
     double fps = 24.0;
     std::uint32_t frames = 0;  ///< expected

@@ -233,10 +233,8 @@ BakeResult BakeWriter::resultAt(std::filesystem::path path, const BakeOutcome& o
     return {std::move(path), outcome.frames, outcome.account, outcome.gltf, diagrams_ ? diagrams_->count : 0};
 }
 
-namespace {
-
 /// Only once the bake has its name: who is stopped before that goes on from them.
-void removeCheckpoints(const std::filesystem::path& bake) {
+void BakeWriter::tidy(const std::filesystem::path& bake) {
     std::vector<std::filesystem::path> found;
     for (const auto& entry : std::filesystem::directory_iterator(bake))
         if (isCheckpoint(entry.path())) found.push_back(entry.path());
@@ -244,21 +242,19 @@ void removeCheckpoints(const std::filesystem::path& bake) {
         std::filesystem::remove(path);
 }
 
-}  // namespace
-
 BakeResult BakeWriter::finish(const Account& account, const BakeTiming& timing) {
     if (frames_ != description_.frames)
         throw std::logic_error("frames are missing: only finishPartial() can be used");
     const BakeOutcome outcome = writeAll(account, timing, true);
     BakeResult result = resultAt(folder_->commit(), outcome);
-    removeCheckpoints(result.path);
+    tidy(result.path);
     return result;
 }
 
 BakeResult BakeWriter::finishPartial(const Account& account, const BakeTiming& timing) {
     const BakeOutcome outcome = writeAll(account, timing, false);
     BakeResult result = resultAt(folder_->commitPartial(), outcome);
-    removeCheckpoints(result.path);
+    tidy(result.path);
     return result;
 }
 

@@ -54,6 +54,9 @@ class BakeWriter {
     /// Leaves what there is for a later run, which goes on from the last checkpoint.
     void leave() { folder_->keep(); }
 
+    /// Ends what finish() was killed in: removes the checkpoints of a bake that has its name already.
+    static void tidy(const std::filesystem::path& bake);
+
     std::uint32_t framesWritten() const { return frames_; }
 
   private:

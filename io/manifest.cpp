@@ -95,6 +95,7 @@ Json bakeManifest(const BakeDescription& description, const BakeOutcome& outcome
     json["name"] = description.name;
     json["complete"] = outcome.complete;
     json["layout"] = {{"file", "layout.json"}, {"hash", "xxh3:" + hashText(description.layout_text)}};
+    if (!description.inputs.empty()) json["inputs"] = "xxh3:" + description.inputs;
     json["seed"] = description.seed;
     json["fps"] = description.fps;
     json["frames"] = outcome.frames;

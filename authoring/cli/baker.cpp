@@ -11,6 +11,7 @@
 #include <span>
 
 #include "authoring/cli/calibration_file.h"
+#include "io/bake_reader.h"
 #include "io/checkpoint.h"
 #include "io/files/hash.h"
 
@@ -32,6 +33,20 @@ std::string identityOf(const LoadedLayout& loaded, const BakeJob& job, const gl:
     for (const std::string& override_text : loaded.overrides)
         text += override_text + "\n";
     return io::hashText(text + loaded.text);
+}
+
+/// Whether an earlier run has come to its end, so that there is nothing left to go on with.
+bool isComplete(const io::BakeDescription& description, const std::string& identity) {
+    const std::filesystem::path bake(description.output);
+    if (!std::filesystem::exists(bake / "bake.json")) return false;
+    try {
+        const io::Bake found = io::loadBake(bake);
+        if (!found.complete || found.manifest.value("inputs", "") != "xxh3:" + identity) return false;
+    } catch (const io::InputError&) {
+        return false;
+    }
+    io::BakeWriter::tidy(bake);
+    return true;
 }
 
 /// From where an earlier run is to be gone on with, if it is.
@@ -159,9 +174,8 @@ namespace {
 /// Mesa's software renderer wakes its threads for every pass: for small crowds that takes several times
 /// longer than the work. It asks the environment, once.
 gl::Context::Options contextFor(int device, std::size_t people) {
-    constexpr std::size_t kWorthThreads = 1000;
     constexpr int kKeepWhatIsSet = 0;
-    if (people < kWorthThreads) ::setenv("LP_NUM_THREADS", "0", kKeepWhatIsSet);
+    if (static_cast<double>(people) < kWorthThreads) ::setenv("LP_NUM_THREADS", "0", kKeepWhatIsSet);
     return {device, false};
 }
 
@@ -182,6 +196,13 @@ BakeRun Baker::bake(const LoadedLayout& loaded, const BakeJob& job, const Interr
     description.densities = job.densities;
     const std::uint32_t frames = description.frames;
     const std::string identity = identityOf(loaded, job, device());
+    description.inputs = identity;
+    BakeRun run;
+    if (job.resume && isComplete(description, identity)) {
+        run.end = BakeRun::End::was_complete;
+        run.frames = frames;
+        return run;
+    }
     const std::optional<io::Checkpoint> checkpoint = findCheckpoint(description, job, identity);
     std::optional<io::BakeWriter> writer;
     if (job.checkpoint_seconds > 0.0 || checkpoint)
@@ -191,7 +212,6 @@ BakeRun Baker::bake(const LoadedLayout& loaded, const BakeJob& job, const Interr
     sim::Simulation simulation = simulate(loaded.scene);
     context_.check("setting up the simulation");
 
-    BakeRun run;
     Run running(simulation, settings, job, *writer, frames, identity);
     if (checkpoint) running.goOnFrom(*checkpoint);
     const std::uint32_t steps_before = simulation.stepsDone();

@@ -43,7 +43,7 @@ struct BakeJob {
 
 /// What came of it.
 struct BakeRun {
-    enum class End { complete, partial, checkpointed, discarded } end = End::complete;
+    enum class End { complete, partial, checkpointed, discarded, was_complete } end = End::complete;
     int signal = 0;            ///< that stopped it, or 0
     std::uint32_t frames = 0;  ///< written
     io::BakeResult result;     ///< complete and partial ones
@@ -51,6 +51,9 @@ struct BakeRun {
     io::BakeTiming timing;
     double setup_seconds = 0.0;  ///< until the simulation could begin
 };
+
+/// Crowds smaller than this are drawn faster by Mesa's software renderer without threads.
+inline constexpr double kWorthThreads = 1000.0;
 
 /// Bakes one layout after the other on one device, with programs compiled once.
 class Baker {

@@ -66,6 +66,12 @@ void printResult(const io::BakeResult& result, const Account& account, const io:
 
 }  // namespace
 
+namespace {
+std::string outputOf(const LoadedLayout& loaded, const BakeRequest& options) {
+    return options.bake.output.empty() ? loaded.layout.name : options.bake.output;
+}
+}  // namespace
+
 void bakeLayout(const BakeRequest& options) {
     BakeJob job;
     job.options = options.bake;
@@ -89,6 +95,12 @@ void bakeLayout(const BakeRequest& options) {
     switch (run.end) {
         case BakeRun::End::complete:
             if (options.announce) printResult(run.result, run.account, run.timing, options.json);
+            return;
+        case BakeRun::End::was_complete:
+            if (options.json)
+                fmt::print("{}\n", io::infoJson(io::loadBake(outputOf(loaded, options))).dump(2));
+            else if (options.announce)
+                fmt::print("{}: is complete already\n", outputOf(loaded, options));
             return;
         case BakeRun::End::checkpointed:
             fmt::print(stderr, "throng: stopped after frame {}; the same command with --resume goes on\n",

@@ -3,11 +3,13 @@
 
 #include <chrono>
 #include <memory>
+#include <sstream>
 
 #include "authoring/cli/batch/batch_estimate.h"
 #include "authoring/cli/batch/batch_folder.h"
 #include "authoring/cli/batch/batch_local.h"
 #include "authoring/cli/batch/batch_progress.h"
+#include "authoring/cli/batch/batch_slurm.h"
 #include "authoring/cli/batch/batch_worker.h"
 #include "authoring/cli/batch/results_database.h"
 #include "authoring/cli/commands.h"
@@ -21,6 +23,10 @@ struct Options {
     std::string family;
     std::string output;
     LocalOptions local;
+    SlurmOptions slurm;
+    std::string executor = "local";
+    std::string emit;
+    std::string sbatch_options;
     double checkpoint_minutes = 10.0;
     double time_limit_minutes = 0.0;
     std::string shard;
@@ -98,6 +104,16 @@ nlohmann::ordered_json summaryOf(const BatchPlan& plan, const BatchFolder& folde
             {"seconds", seconds},         {"database", folder.database().string()}};
 }
 
+SlurmOptions slurmOptions(const Options& options) {
+    SlurmOptions slurm = options.slurm;
+    slurm.time_limit_minutes = options.time_limit_minutes;
+    slurm.checkpoint_minutes = options.checkpoint_minutes;
+    std::istringstream words(options.sbatch_options);
+    for (std::string word; words >> word;)
+        slurm.extra.push_back(word);
+    return slurm;
+}
+
 void bakeAll(const Options& options, const BatchPlan& plan, const BatchFolder& folder) {
     const InterruptGuard interrupt;
     folder.begin(plan);
@@ -119,8 +135,10 @@ void bakeAll(const Options& options, const BatchPlan& plan, const BatchFolder& f
                                           : Progress::detectStyle();
         const std::size_t mine = shard.of == 1 ? standing.done : 0;
         BatchProgress progress(style, standing.open.size() + mine, mine);
-        outcome = runLocally(plan, folder, standing.open, local, interrupt,
-                             [&](std::size_t done, std::size_t failed) { progress.update(done, failed); });
+        const auto advance = [&](std::size_t done, std::size_t failed) { progress.update(done, failed); };
+        outcome = options.executor == "slurm"
+                      ? runOnSlurm(plan, folder, standing, slurmOptions(options), interrupt, advance)
+                      : runLocally(plan, folder, standing.open, local, interrupt, advance);
     }
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     // Parts of a batch leave gathering to whoever runs the whole.
@@ -144,6 +162,12 @@ void run(const Options& options) {
     const BatchFolder folder(options.output.empty() ? plan.family().name : options.output);
     if (options.worker)
         return runWorker(plan, folder, {options.local.device, 60.0 * options.checkpoint_minutes});
+    if (!options.emit.empty()) {
+        const std::size_t parts =
+            options.slurm.tasks ? options.slurm.tasks : partsFor(plan.scenarios().size());
+        fmt::print("{}", farmJob(options.emit, plan, options.family, folder, parts));
+        return;
+    }
     if (!options.dry_run) return bakeAll(options, plan, folder);
     const BatchStanding standing = standingOf(plan, folder, options.again);
     printStanding(plan, standing);
@@ -179,6 +203,20 @@ void addBatch(CLI::App& app) {
                      "Minutes between checkpoints of long bakes; 0: none")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
+    command->add_option("--executor", options->executor, "Where to bake: local, or slurm (a job array)")
+        ->check(CLI::IsMember({"local", "slurm"}))
+        ->capture_default_str();
+    command->add_option("--tasks", options->slurm.tasks,
+                        "slurm, --emit: tasks to cut the batch into; by default one for 50 scenarios");
+    command->add_option("--retries", options->slurm.retries, "slurm: submit what is left so many times more")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    command->add_option("--sbatch", options->sbatch_options,
+                        "slurm: more options for sbatch, e.g. \"--partition=gpu --gpus=1\"");
+    command->add_flag("!--no-wait", options->slurm.wait,
+                      "slurm: submit and return; the same command later waits, mends and gathers");
+    command->add_option("--emit", options->emit, "Print a job for another farm manager: openjd or flamenco")
+        ->check(CLI::IsMember({"openjd", "flamenco"}));
     command->add_flag("--worker", options->worker)->group("");
     command->add_flag("--json", options->json,
                       "Progress as JSON lines on stderr, a summary as JSON on stdout");

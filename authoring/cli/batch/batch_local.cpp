@@ -51,7 +51,8 @@ std::vector<int> realGpus() {
 /// A child process that bakes, and two pipes to talk to it.
 class Worker {
   public:
-    Worker(const BatchFolder& folder, int device, std::size_t render_threads, double checkpoint_seconds) {
+    Worker(const BatchFolder& folder, int device, std::size_t render_threads, double people,
+           double checkpoint_seconds) {
         int to_child[2], from_child[2];
         if (::pipe2(to_child, O_CLOEXEC) != 0 || ::pipe2(from_child, O_CLOEXEC) != 0)
             throw std::system_error(errno, std::generic_category(), "cannot make a pipe");
@@ -70,7 +71,8 @@ class Worker {
             ::setpgid(0, 0);  // Ctrl-C is the parent's, which tells its children in time
             ::dup2(to_child[0], STDIN_FILENO);
             ::dup2(from_child[1], STDOUT_FILENO);
-            ::setenv("LP_NUM_THREADS", threads.c_str(), 0);
+            // Small crowds do better without, as Baker has it.
+            if (people >= kWorthThreads) ::setenv("LP_NUM_THREADS", threads.c_str(), 0);
             ::execl("/proc/self/exe", "throng", "batch", family.c_str(), "-o", root.c_str(), "--worker",
                     "--device", device_text.c_str(), "--checkpoint", checkpoint.c_str(),
                     static_cast<char*>(nullptr));
@@ -203,10 +205,10 @@ class Dispatcher {
 
     std::unique_ptr<Worker> start(std::size_t place) const {
         const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
-        // Small crowds are drawn faster without threads; where cores would be idle, they help.
         const std::size_t threads = cores / workers_.size() > 1 ? cores / workers_.size() : 0;
         const int device = gpus_.empty() ? -1 : gpus_[place % gpus_.size()];
-        return std::make_unique<Worker>(folder_, device, threads, options_.checkpoint_seconds);
+        return std::make_unique<Worker>(folder_, device, threads, plan_.load().largest_people,
+                                        options_.checkpoint_seconds);
     }
 
     void stopAll(int signal) {

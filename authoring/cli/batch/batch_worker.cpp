@@ -160,7 +160,9 @@ ScenarioEnd ScenarioBaker::tryBake(std::size_t index, const InterruptGuard& inte
     laps.end("bake");
     laps.set("setup", run.setup_seconds);
     laps.set("simulate", run.timing.wall_seconds);
-    if (run.end != BakeRun::End::complete) return ScenarioEnd::stopped;
+    // Complete already where an earlier process was killed between its bake and its result.
+    if (run.end != BakeRun::End::complete && run.end != BakeRun::End::was_complete)
+        return ScenarioEnd::stopped;
     const io::Bake bake = io::loadBake(folder_.bake(id));
     const auto [measured, missed] = judgeBake(bake, {});
     laps.end("measure");

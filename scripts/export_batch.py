@@ -1,0 +1,32 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Writes a batch's results as Parquet or Arrow. Usage: export_batch.py BATCH FILE.parquet|FILE.arrow   (needs pyarrow)"""
+import pathlib
+import sqlite3
+import sys
+
+import pyarrow
+import pyarrow.feather
+import pyarrow.parquet
+
+
+def main(batch, target):
+    path = pathlib.Path(batch)
+    database = path / "results.sqlite" if path.is_dir() else path
+    connection = sqlite3.connect(f"file:{database}?mode=ro", uri=True)
+    cursor = connection.execute("SELECT * FROM results ORDER BY number")
+    names = [column[0] for column in cursor.description]
+    columns = list(zip(*cursor.fetchall())) or [()] * len(names)
+    table = pyarrow.table({name: list(values) for name, values in zip(names, columns)})
+    if target.endswith(".parquet"):
+        pyarrow.parquet.write_table(table, target)
+    elif target.endswith((".arrow", ".feather")):
+        pyarrow.feather.write_feather(table, target)
+    else:
+        sys.exit(f"{target}: the name has to end in .parquet or .arrow")
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    main(*sys.argv[1:])

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Bakes that are stopped, killed and gone on with end as the same bytes."""
+import json
+import os
+import pathlib
+import random
+import signal
+import subprocess
+import time
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+
+# A bit of everything that a checkpoint has to remember: gates, queues, routes round jams, late arrivals, groups.
+LAYOUT = json.loads((ROOT / "examples" / "station.json").read_text())
+LAYOUT["simulation"].update(duration=30, seed=11)
+OPTIONS = ["-q", "--density", "--diagrams", "120", "--gltf-agents", "20"]
+
+
+def files_of(bake):
+    """All files but what the manifest says of time."""
+    found = {}
+    for path in sorted(bake.rglob("*")):
+        if path.is_file():
+            found[str(path.relative_to(bake))] = path.read_bytes()
+    manifest = json.loads(found.pop("bake.json"))
+    del manifest["timing"]
+    return found, manifest
+
+
+@pytest.fixture(scope="module")
+def whole(throng, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("whole")
+    layout = folder / "layout.json"
+    layout.write_text(json.dumps(LAYOUT))
+    throng("bake", layout, "-o", folder / "bake", *OPTIONS)
+    return layout, files_of(folder / "bake")
+
+
+def start(throng, layout, output, *more):
+    return subprocess.Popen([throng.binary, "bake", str(layout), "-o", str(output), *OPTIONS, "--checkpoint", "0.002", *more],
+                            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+
+
+def test_killed_a_hundred_times_at_random_moments_a_bake_ends_as_the_same_bytes(throng, whole, tmp_path):
+    layout, expected = whole
+    chance = random.Random(5)
+    kills = 0
+    bakes = 0
+    while kills < 100:
+        output = tmp_path / f"bake{bakes}"
+        bakes += 1
+        while True:
+            process = start(throng, layout, output, "--resume")
+            try:
+                process.wait(timeout=chance.uniform(0.05, 0.9))
+                assert process.returncode == 0, process.stderr.read()
+                break
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.wait()
+                kills += 1
+        assert files_of(output) == expected
+        assert not output.with_name(output.name + ".unfinished").exists()
+    assert bakes < kills, "most runs were killed"
+
+
+def test_sigterm_leaves_a_checkpoint_and_85(throng, whole, tmp_path):
+    layout, expected = whole
+    process = start(throng, layout, tmp_path / "bake")
+    while not (tmp_path / "bake.unfinished" / "checkpoint.a").exists():
+        assert process.poll() is None
+        time.sleep(0.01)
+    process.send_signal(signal.SIGTERM)
+    assert process.wait(timeout=20) == 85
+    assert "--resume" in process.stderr.read()
+    assert not (tmp_path / "bake").exists()
+    again = throng("bake", layout, "-o", tmp_path / "bake", *OPTIONS, expect=5)
+    assert "--resume" in again.stderr
+    other = throng("bake", layout, "-o", tmp_path / "bake", *OPTIONS, "--set", "simulation.seed=12", "--resume", expect=5)
+    assert "another layout" in other.stderr
+    throng("bake", layout, "-o", tmp_path / "bake", *OPTIONS, "--resume")
+    assert files_of(tmp_path / "bake") == expected
+
+
+@pytest.mark.parametrize("damage", ["cut", "flipped", "empty"])
+def test_a_torn_checkpoint_is_passed_over_for_the_one_before(throng, whole, tmp_path, damage):
+    layout, expected = whole
+    process = start(throng, layout, tmp_path / "bake")
+    unfinished = tmp_path / "bake.unfinished"
+    while not (unfinished / "checkpoint.b").exists():
+        assert process.poll() is None
+        time.sleep(0.01)
+    process.kill()
+    process.wait()
+    newest = max((unfinished / name for name in ("checkpoint.a", "checkpoint.b")), key=os.path.getmtime)
+    content = newest.read_bytes()
+    newest.write_bytes({"cut": content[: len(content) // 2], "empty": b"",
+                        "flipped": content[:-100] + bytes([content[-100] ^ 1]) + content[-99:]}[damage])
+    throng("bake", layout, "-o", tmp_path / "bake", *OPTIONS, "--resume")
+    assert files_of(tmp_path / "bake") == expected
+
+
+def test_both_checkpoints_torn_is_a_bake_from_the_start(throng, whole, tmp_path):
+    layout, expected = whole
+    unfinished = tmp_path / "bake.unfinished"
+    unfinished.mkdir()
+    (unfinished / "checkpoint.a").write_bytes(b"THRONGC1 and then nothing")
+    (unfinished / "checkpoint.b").write_bytes(b"")
+    throng("bake", layout, "-o", tmp_path / "bake", *OPTIONS, "--resume")
+    assert files_of(tmp_path / "bake") == expected
+
+
+def test_two_processes_do_not_bake_into_one_folder(throng, whole, tmp_path):
+    layout, _ = whole
+    first = start(throng, layout, tmp_path / "bake")
+    while not (tmp_path / "bake.unfinished" / "streams").exists():
+        assert first.poll() is None
+        time.sleep(0.005)
+    second = throng("bake", layout, "-o", tmp_path / "bake", *OPTIONS, "--force", expect=5)
+    assert "another process" in second.stderr
+    assert first.wait(timeout=60) == 0
