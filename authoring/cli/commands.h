@@ -19,6 +19,7 @@ void addMeasure(CLI::App& app);
 void addScenarios(CLI::App& app);
 void addGenerate(CLI::App& app);
 void addBatch(CLI::App& app);
+void addReport(CLI::App& app);
 void addBatchQuery(CLI::App& batch);
 
 }  // namespace throng::cli

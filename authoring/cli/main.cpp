@@ -67,6 +67,7 @@ int main(int argc, char** argv) {
     cli::addScenarios(app);
     cli::addGenerate(app);
     cli::addBatch(app);
+    cli::addReport(app);
     try {
         return parseAndRun(app, argc, argv);
     } catch (const cli::Exit& exit) {

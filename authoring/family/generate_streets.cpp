@@ -38,7 +38,7 @@ std::vector<glm::dvec2> wedge(double from, double to, double half_width, double 
     const glm::dvec2 corner = middle * (setback / std::sin(0.5 * angle));
     const glm::dvec2 left(-std::sin(from), std::cos(from));
     const glm::dvec2 right(std::sin(to), -std::cos(to));
-    const double far = length / std::max(0.4, std::cos(std::min(0.5 * angle, 1.4)));
+    const double far = length + setback;
     return {corner, direction(from) * length + left * setback, middle * far,
             direction(to) * length + right * setback};
 }
