@@ -105,19 +105,19 @@ std::vector<Scenario> drawn(const Family& family) {
     return scenarios;
 }
 
+/// Members that are missing are added, as `--set` does; the layout's reader judges them.
 void setAt(Json& layout, const std::string& pointer, const Json& value) {
     const Json::json_pointer where(pointer);
-    const Json::json_pointer parent = where.parent_pointer();
-    if (!layout.contains(parent))
+    Json::json_pointer holder = where.parent_pointer();
+    while (!layout.contains(holder))
+        holder = holder.parent_pointer();
+    const Json& found = layout.at(holder);
+    if (found.is_array() && !layout.contains(where))
         throw std::invalid_argument(
-            fmt::format("`{}`: the layout has nothing at `{}`", pointer, parent.to_string()));
-    const Json& holder = layout.at(parent);
-    if (holder.is_array() && !layout.contains(where))
-        throw std::invalid_argument(
-            fmt::format("`{}`: `{}` has {} items", pointer, parent.to_string(), holder.size()));
-    if (!holder.is_array() && !holder.is_object())
+            fmt::format("`{}`: `{}` has {} items", pointer, holder.to_string(), found.size()));
+    if (!found.is_array() && !found.is_object())
         throw std::invalid_argument(fmt::format("`{}`: `{}` is {}: there is nothing inside", pointer,
-                                                parent.to_string(), holder.type_name()));
+                                                holder.to_string(), found.type_name()));
     layout[where] = value;
 }
 

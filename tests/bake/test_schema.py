@@ -35,7 +35,7 @@ def test_the_schema_is_a_schema_and_documents_everything(schema):
         walk(definition, name)
 
 
-@pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.json")), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", sorted(path for path in EXAMPLES.glob("*.json") if not path.name.startswith("family-")), ids=lambda path: path.stem)
 def test_the_examples_are_valid(schema, path):
     jsonschema.validate(json.loads(path.read_text()), schema)
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <numbers>
+#include <stdexcept>
 
 #include "authoring/layout/layout_reader.h"
 #include "authoring/scene/scene_builder.h"
@@ -387,6 +388,60 @@ TEST_F(PeopleTest, WhoStandsIsWalkedAround) {
     EXPECT_EQ(gone, 40u);
     EXPECT_LT(furthest, 0.5f) << "m";  // they make a little room
     EXPECT_LT(deepest, 1.0f) << "%";
+}
+
+// What a step hands to the next is all in Simulation::State: groups, gates, lines, routes round jams,
+// entries.
+TEST_F(PeopleTest, GoOnFromASavedStateToTheVerySameBytes) {
+    const authoring::Scene scene = sceneOf(kStreet + R"("walls": [{"id": "gate", "points": [[30,-4],[30,4]]}],
+ "flows": [{"id": "f", "from": "a", "to": "b", "rate": 3, "people": {"groups": "leisure"},
+ "via": [{"at": "shop", "wait": 2, "activity": "queue", "line": [[19, 2], [23, 2]]}]}],
+ "events": [{"at": 6, "open": "gate"}, {"at": 9, "close": "gate"}]})");
+    constexpr int kSteps = 48 * 12;
+    sim::Simulation whole(scene, library);
+    for (int step = 0; step < kSteps; ++step)
+        whole.step();
+    const sim::Simulation::State end = whole.save();
+    for (const int stop : {1, 48 * 5 + 3, 48 * 7, 48 * 10 + 1}) {
+        sim::Simulation first(scene, library);
+        for (int step = 0; step < stop; ++step)
+            first.step();
+        sim::Simulation second(scene, library);
+        for (int step = 0; step < 17; ++step)
+            second.step();  // whatever it did before is forgotten
+        second.restore(first.save());
+        for (int step = stop; step < kSteps; ++step)
+            second.step();
+        const sim::Simulation::State reached = second.save();
+        EXPECT_EQ(reached.steps_done, end.steps_done);
+        for (std::size_t part = 0; part < end.parts.size(); ++part)
+            EXPECT_EQ(reached.parts[part], end.parts[part]) << end.parts[part].first << " after " << stop;
+    }
+}
+
+TEST_F(PeopleTest, TheStateOfAnotherSceneIsRefused) {
+    const authoring::Scene one =
+        sceneOf(kStreet + R"("flows": [{"id": "f", "from": "a", "to": "b", "count": 3}]})");
+    const authoring::Scene other =
+        sceneOf(kStreet + R"("flows": [{"id": "f", "from": "a", "to": "b", "count": 4}]})");
+    sim::Simulation simulation(other, library);
+    EXPECT_THROW(simulation.restore(sim::Simulation(one, library).save()), std::runtime_error);
+}
+
+TEST_F(PeopleTest, ProgramsThatAreKeptGiveTheSameBytes) {
+    const authoring::Scene scene =
+        sceneOf(kStreet + R"("flows": [{"id": "f", "from": "a", "to": "b", "rate": 4}]})");
+    gl::ShaderLibrary kept = library;
+    kept.keepPrograms();
+    std::vector<sim::Simulation::State> ends;
+    for (const gl::ShaderLibrary* each : {&library, &kept, &kept, &kept}) {
+        sim::Simulation simulation(scene, *each);
+        for (int step = 0; step < 200; ++step)
+            simulation.step();
+        ends.push_back(simulation.save());
+    }
+    for (std::size_t i = 1; i < ends.size(); ++i)
+        EXPECT_EQ(ends[i].parts, ends[0].parts) << i;
 }
 
 }  // namespace
