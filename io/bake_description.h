@@ -43,7 +43,7 @@ struct BakeDescription {
     double duration = 0.0;
     double warmup = 0.0;
     std::uint32_t variations = 1;
-    double stride_length = 1.4;  ///< m per gait cycle, of the cast's walk
+    std::vector<double> strides{1.446};  ///< m per cycle of each gait
 
     glm::dvec2 scene_origin{0.0};   ///< world = scene_origin + what the frames hold
     glm::dvec2 output_origin{0.0};  ///< world = output_origin + what the streams hold

@@ -54,10 +54,10 @@ void BakeWriter::Stream::finish(std::span<const std::uint32_t> first_alive,
     }
 }
 
-BakeWriter::BakeWriter(BakeDescription description)
+BakeWriter::BakeWriter(const BakeDescription& description)
     : BakeWriter(description, std::make_unique<BakeFolder>(description.output, description.force), nullptr) {}
 
-BakeWriter::BakeWriter(BakeDescription description, const Checkpoint* go_on_from)
+BakeWriter::BakeWriter(const BakeDescription& description, const Checkpoint* go_on_from)
     : BakeWriter(
           description,
           std::make_unique<BakeFolder>(description.output, description.force,

@@ -33,10 +33,10 @@ struct BakeResult {
 class BakeWriter {
   public:
     /// An error before any work when the bake exists (see BakeFolder).
-    explicit BakeWriter(BakeDescription description);
+    explicit BakeWriter(const BakeDescription& description);
     /// The same for a bake that leaves checkpoints in `NAME.unfinished`.
     /// @param go_on_from where it goes on, or null where it begins
-    BakeWriter(BakeDescription description, const Checkpoint* go_on_from);
+    BakeWriter(const BakeDescription& description, const Checkpoint* go_on_from);
 
     /// Takes the frames in order, index 0 first. The spans need to live during the call only. A diagram is
     /// written when the frame has one and its index is a multiple of `diagram_every`. Throws

@@ -105,7 +105,7 @@ Json bakeManifest(const BakeDescription& description, const BakeOutcome& outcome
     json["warmup"] = description.warmup;
     json["agents"] = description.agents.size();
     json["variations"] = description.variations;
-    json["stride_length"] = description.stride_length;
+    json["strides"] = description.strides;
     json["units"] = "metres";
     json["up_axis"] = "Z";
     json["origin"] = {origin.x, origin.y, 0.0};

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "authoring/scene/gaits.h"
+
 namespace throng::cli {
 namespace {
 
@@ -37,6 +39,7 @@ io::BakeDescription describeBake(const LoadedLayout& loaded, const BakeOptions& 
     bake.warmup = scene.settings.warmup;
     for (const gpu::Person& person : scene.people)
         bake.variations = std::max(bake.variations, person.variation + 1);
+    bake.strides = authoring::allStrides();
     bake.scene_origin = scene.origin;
     bake.output_origin = scene.output_origin;
     bake.minimum = scene.origin + glm::dvec2(scene.minimum);

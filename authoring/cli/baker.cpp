@@ -206,9 +206,9 @@ BakeRun Baker::bake(const LoadedLayout& loaded, const BakeJob& job, const Interr
     const std::optional<io::Checkpoint> checkpoint = findCheckpoint(description, job, identity);
     std::optional<io::BakeWriter> writer;
     if (job.checkpoint_seconds > 0.0 || checkpoint)
-        writer.emplace(std::move(description), checkpoint ? &*checkpoint : nullptr);
+        writer.emplace(description, checkpoint ? &*checkpoint : nullptr);
     else
-        writer.emplace(std::move(description));
+        writer.emplace(description);
     sim::Simulation simulation = simulate(loaded.scene);
     context_.check("setting up the simulation");
 

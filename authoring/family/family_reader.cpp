@@ -260,8 +260,8 @@ class Reader {
         }
         const bool whole =
             std::all_of(range.begin(), range.end(), [](double n) { return n == std::floor(n); });
-        for (double i = 0.0; i <= steps; ++i) {
-            const double value = range[0] + i * step;
+        for (std::size_t i = 0; i <= static_cast<std::size_t>(steps); ++i) {
+            const double value = range[0] + static_cast<double>(i) * step;
             axis.values.push_back(whole ? Json(static_cast<std::int64_t>(value))
                                         : Json(std::stod(fmt::format("{:.12g}", value))));
         }

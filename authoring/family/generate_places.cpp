@@ -86,11 +86,11 @@ Json plaza(const GeneratorValues& values) {
         double pillar, inner;
     } room{&walls, values["pillar_radius"], 0.5 * values["size"]};
     const auto fits = [](glm::dvec2 at, const void* context) {
-        const auto& [sides_of, pillar, inner] = *static_cast<const Room*>(context);
-        return std::all_of(sides_of->begin(), sides_of->end(), [&](const Side& side) {
+        const Room& around = *static_cast<const Room*>(context);
+        return std::all_of(around.walls->begin(), around.walls->end(), [&](const Side& side) {
             const glm::dvec2 to = at - side.middle();
             const double away = -(to.x * side.outward().x + to.y * side.outward().y);
-            return away >= pillar + 0.5 * kWall + kPass;
+            return away >= around.pillar + 0.5 * kWall + kPass;
         });
     };
     const double reach = room.inner;

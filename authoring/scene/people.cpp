@@ -5,11 +5,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "authoring/scene/gaits.h"
+
 namespace throng::authoring {
 namespace {
 
-constexpr double kStride =
-    1.4;  // m per gait cycle: what the cast's walk is made for, so that its feet do not slide
 /// m/s that a group is slower for each further member (Moussaid et al. 2010, figure 2, the quieter crowd).
 constexpr float kSlowerPerMember = 0.04f;
 constexpr double kBriskest = 1.0e7;  // more people than this from one rate is a mistake
@@ -37,7 +37,7 @@ gpu::Person drawPerson(const People& people, const GroupRandom& random, std::uin
     person.preferred_speed = static_cast<float>(speed);
     person.maximum_speed = static_cast<float>(speed * settings.maximum_speed_factor);
     person.headway = static_cast<float>(settings.headway);
-    person.stride_length = static_cast<float>(kStride);
+    person.gait = gaitFor(speed);
     person.phase = static_cast<float>(random.unit(index, Purpose::phase));
     person.variation = static_cast<std::uint32_t>(random.word(index, Purpose::variation) % kVariations);
     person.entry = gpu::NO_INDEX;

@@ -23,7 +23,7 @@ class Bake:
         self.agents = _whole(manifest, "agents")
         self.frames = _whole(manifest, "frames")
         self.fps = float(manifest.get("fps", 24.0))
-        self.stride_length = float(manifest.get("stride_length", 1.4))
+        self.strides = _strides(manifest)
         self.variations = max(1, int(manifest.get("variations", 1)))
         self.complete = bool(manifest.get("complete", False))
         self.origin = tuple(float(value) for value in manifest.get("origin", (0.0, 0.0, 0.0)))
@@ -34,6 +34,13 @@ class Bake:
         except (KeyError, TypeError):
             raise BakeError(f"bake.json names no PC2 file for the stream `{stream}`: bake again") from None
         return os.path.join(self.folder, *relative.split("/"))
+
+
+def _strides(manifest):
+    strides = manifest.get("strides")
+    if not isinstance(strides, list) or not 1 <= len(strides) <= 16 or not all(isinstance(s, (int, float)) and 0.1 < s < 10.0 for s in strides):
+        raise BakeError(f"bake.json: `strides` should be the gaits' stride lengths in metres, found {strides!r}: bake again")
+    return tuple(float(stride) for stride in strides)
 
 
 def _whole(manifest, key):

@@ -7,8 +7,6 @@ import bpy
 from . import cast, environment, playback
 from .formats import STREAMS, load_bake
 
-POSES = 24
-
 
 def _stored_path(path, relative):
     if not relative or not bpy.data.filepath:
@@ -43,9 +41,10 @@ def import_bake(context, path, *, frame_start=1, walls=True, roads=True, scenery
     collection["throng_origin"] = bake.origin
 
     variations = min(bake.variations, cast.VARIATIONS)
-    people = cast.build_cast(variations, POSES, bake.stride_length, f"Throng {bake.name} cast")
+    repertoire = cast.Repertoire(bake.strides)
+    people = cast.build_cast(variations, repertoire, f"Throng {bake.name} cast")
     paths = {stream: _stored_path(bake.stream_path(stream), relative) for stream in STREAMS}
-    crowd = playback.build_crowd(bake, f"Throng {bake.name} crowd", people, POSES, variations, frame_start, paths)
+    crowd = playback.build_crowd(bake, f"Throng {bake.name} crowd", people, repertoire, variations, frame_start, paths)
     collection.objects.link(crowd)
     set_up_scene(scene, bake, frame_start)
     environment.build_environment(context, bake.manifest, collection, walls=walls, roads=roads, ground=scenery, light=scenery, camera=camera,

@@ -7,10 +7,12 @@ because a pose index between two others would be a third one, and must not chang
 """
 import bpy
 
+from .cast import BEATS, POSES
 from .formats import STREAMS
 from .nodes import Maths, new_tree, socket
 
-STANDING_SPEED = 0.1  # m/s: slower people take the idle pose
+STANDING_SPEED = 0.1    # m/s: slower people stand
+FRAMES_A_ROUND = 80.0   # of a standing clip
 GEOMETRY = [("Geometry", "NodeSocketGeometry")]
 
 
@@ -33,16 +35,39 @@ def _components(maths, attribute):
     return separate.outputs
 
 
-def _pose_index(maths, speed, variation, phase, poses, variations):
-    """variation * (poses + 1) + the walk's pose at the gait's phase, or the idle pose of those who stand."""
-    step = maths.math("MINIMUM", maths.math("FLOOR", maths.math("MULTIPLY", maths.math("FRACT", phase), poses)), poses - 1)
+def _walking_pose(maths, state, phase):
+    """The gait is what `state` adds to the activity, in sixteenths; the pose is the phase's."""
+    gait = maths.math("ROUND", maths.math("MULTIPLY", maths.math("FRACT", state), 16.0))
+    step = maths.math("MINIMUM", maths.math("FLOOR", maths.math("MULTIPLY", maths.math("FRACT", phase), POSES)), POSES - 1)
+    return maths.math("MULTIPLY_ADD", gait, POSES, step)
+
+
+def _standing_pose(maths, state, repertoire):
+    """Those who gather talk, shift their weight or look at their phones, one in four each; others who stand only shift.
+
+    The beat follows the frame, rounded, so that it does not change while the shutter is open; everybody has their own.
+    """
+    index = maths.node("GeometryNodeInputIndex").outputs[0]
+    activity = maths.math("FLOOR", state)
+    gathers = maths.math("COMPARE", activity, 2.0, 0.1)
+    pick = maths.math("MODULO", index, 4.0)
+    clip = maths.math("ADD", maths.math("MULTIPLY", pick, gathers),
+                      maths.math("MULTIPLY", maths.math("MODULO", index, 2.0), maths.math("SUBTRACT", 1.0, gathers)))
+    frame = maths.math("ROUND", socket(maths.node("GeometryNodeInputSceneTime").outputs, "Frame"))
+    rounds = maths.math("MULTIPLY_ADD", index, 0.618034, maths.math("DIVIDE", frame, FRAMES_A_ROUND))
+    beat = maths.math("FLOOR", maths.math("MULTIPLY", maths.math("FRACT", rounds), BEATS))
+    return maths.math("ADD", maths.math("MULTIPLY_ADD", clip, BEATS, repertoire.walking), beat)
+
+
+def _pose_index(maths, speed, state, variation, phase, repertoire, variations):
     walking = maths.math("GREATER_THAN", speed, STANDING_SPEED)
-    pose = maths.math("ADD", maths.math("MULTIPLY", step, walking), maths.math("MULTIPLY", maths.math("SUBTRACT", 1.0, walking), poses))
+    pose = maths.math("ADD", maths.math("MULTIPLY", _walking_pose(maths, state, phase), walking),
+                      maths.math("MULTIPLY", maths.math("SUBTRACT", 1.0, walking), _standing_pose(maths, state, repertoire)))
     variation = maths.math("MODULO", variation, variations)
-    return maths.math("MULTIPLY_ADD", variation, poses + 1, pose)
+    return maths.math("MULTIPLY_ADD", variation, repertoire.count, pose)
 
 
-def _instancer_tree(collection, poses, variations, walk_stride):
+def _instancer_tree(collection, repertoire, variations):
     tree, inputs, outputs = new_tree("Throng instancer", GEOMETRY, GEOMETRY)
     maths = Maths(tree)
     cosine, sine, _ = _components(maths, "throng_dir")
@@ -66,7 +91,7 @@ def _instancer_tree(collection, poses, variations, walk_stride):
     maths.link(set_id.outputs[0], place.inputs["Points"])
     maths.link(maths.greater(alive, 0.5), place.inputs["Selection"])
     maths.link(people.outputs[0], place.inputs["Instance"])
-    maths.link(_pose_index(maths, speed, variation, phase, poses, variations), place.inputs["Instance Index"])
+    maths.link(_pose_index(maths, speed, alive, variation, phase, repertoire, variations), place.inputs["Instance Index"])
     maths.link(rotation.outputs[0], place.inputs["Rotation"])
 
     tint = maths.node("FunctionNodeRandomValue", data_type="FLOAT_VECTOR")
@@ -91,7 +116,7 @@ def _add_cache(target, name, path, interpolation, frame_start):
     return cache
 
 
-def build_crowd(bake, name, cast, poses, variations, frame_start, paths):
+def build_crowd(bake, name, cast, repertoire, variations, frame_start, paths):
     """The crowd's object. `paths` are the streams' files as Blender shall store them, by stream."""
     mesh = bpy.data.meshes.new(name)
     mesh.vertices.add(bake.agents)
@@ -101,7 +126,7 @@ def build_crowd(bake, name, cast, poses, variations, frame_start, paths):
         modifier = crowd.modifiers.new(f"throng {stream} to attribute", "NODES")
         modifier.node_group = _store_tree(f"throng_{stream}")
     _add_cache(crowd, "throng pos", paths["pos"], "LINEAR", frame_start)
-    crowd.modifiers.new("throng people", "NODES").node_group = _instancer_tree(cast, poses, variations, bake.stride_length)
+    crowd.modifiers.new("throng people", "NODES").node_group = _instancer_tree(cast, repertoire, variations)
     return crowd
 
 

@@ -57,6 +57,8 @@ struct AgentState {
     uint attempts;       // how often it asked for room at its entry
     float nervousness;   // 0 to 1: how much it has been held up lately
     float shortest_way;  // m from where it began to its goal, round walls; 0 = not known yet
+    uint gait;           // how long its strides are
+    uint reserved;
 };
 
 /// A person in the scene, in the order of the cells ("slot") so that neighbours lie together in memory.

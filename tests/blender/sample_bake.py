@@ -5,6 +5,8 @@ import struct
 
 import numpy
 
+STRIDES = [0.7, 1.0, 1.4, 1.8]
+
 
 def write_bake(folder, agents=63, frames=40, fps=24.0, seed=7):
     """People on arcs; some enter late, some leave early, some stand. Returns (pos, dir, state)."""
@@ -19,9 +21,11 @@ def write_bake(folder, agents=63, frames=40, fps=24.0, seed=7):
     pos[..., 1] = start[1] + numpy.cumsum(numpy.sin(heading) * step, axis=0)
     direction = numpy.stack([numpy.cos(heading), numpy.sin(heading), numpy.broadcast_to(speed, heading.shape)], axis=2).astype("<f4")
     state = numpy.ones((frames, agents, 3), "<f4")
-    state[:, speed == 0.0, 0] = 2.0  # stands
+    gait = numpy.arange(agents) % len(STRIDES)
+    state[..., 0] += gait / 16.0
+    state[:, speed == 0.0, 0] += 1.0  # stands
     state[..., 1] = numpy.arange(agents) % 8
-    state[..., 2] = random.uniform(0.0, 1.0, agents) + numpy.arange(frames)[:, None] * step / 1.4
+    state[..., 2] = random.uniform(0.0, 1.0, agents) + numpy.arange(frames)[:, None] * step / numpy.array(STRIDES)[gait]
     for row in range(agents):
         first = 10 if row % 9 == 4 else 0
         last = 25 if row % 9 == 6 else frames - 1
@@ -37,7 +41,7 @@ def write_bake(folder, agents=63, frames=40, fps=24.0, seed=7):
             file.write(struct.pack("<12siiffi", b"POINTCACHE2\0", 1, agents, 1.0, 1.0, frames) + stream.tobytes())
     manifest = {
         "format": "throng bake", "version": 1, "name": "sample", "complete": True, "fps": fps, "frames": frames, "frame_start": 1, "agents": agents,
-        "variations": 8, "stride_length": 1.4, "origin": [0.0, 0.0, 0.0], "bounds": {"min": [-20.0, -20.0], "max": [20.0, 20.0]},
+        "variations": 8, "strides": STRIDES, "origin": [0.0, 0.0, 0.0], "bounds": {"min": [-20.0, -20.0], "max": [20.0, 20.0]},
         "streams": {name: {"npy": f"streams/{name}.npy", "pc2": f"streams/{name}.pc2"} for name in ("pos", "dir", "state")},
         "geometry": {"walls": [{"id": "house", "points": [[10, 10], [18, 10], [18, 18], [10, 18]], "closed": True, "thickness": 0.2, "height": 9.0},
                                {"id": "rail", "points": [[-9, 9], [-4, 9]], "closed": False, "thickness": 0.2, "height": 1.0},

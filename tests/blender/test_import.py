@@ -16,10 +16,10 @@ from conftest import ROOT
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 sys.path.insert(0, str(ROOT / "blender_addon"))
 from sample_bake import write_bake  # noqa: E402
-from throng import formats  # noqa: E402
+from throng import cast, formats  # noqa: E402
 
 ADDON = ROOT / "blender_addon"
-POSES = 24
+REPERTOIRE = cast.Repertoire((0.7, 1.0, 1.4, 1.8))
 
 
 def result_of(output):
@@ -30,9 +30,17 @@ def wrapped(angle):
     return abs((angle + math.pi) % (2.0 * math.pi) - math.pi)
 
 
-def expected_pose(state, direction, row):
-    pose = POSES if direction[row, 2] <= 0.1 else min(POSES - 1, int(math.floor((state[row, 2] % 1.0) * POSES)))
-    return f"throng_v{int(state[row, 1]):02d}_p{pose:02d}"
+def expected_poses(state, direction, row, frame):
+    """Names of the poses that somebody may have: those who stand have a beat of their own."""
+    activity, variation, phase = state[row]
+    if direction[row, 2] > 0.1:
+        poses = [REPERTOIRE.walking_pose(round((activity % 1.0) * 16), phase)]
+    else:
+        pick = row % 4 if int(activity) == 2 else row % 2
+        beat = (row * 0.618034 + frame / 80.0) % 1.0 * cast.BEATS
+        beats = {int(beat), int(beat + 1e-3) % cast.BEATS, int(beat - 1e-3) % cast.BEATS}
+        poses = [REPERTOIRE.standing_pose(cast.gait.STANDING_CLIPS[pick], b) for b in beats]
+    return [cast.pose_name(int(variation), pose) for pose in poses]
 
 
 def test_instances_are_where_the_arrays_say_at_frames_and_between(blender, tmp_path):
@@ -55,7 +63,8 @@ def test_instances_are_where_the_arrays_say_at_frames_and_between(blender, tmp_p
             assert math.hypot(at[0] - x, at[1] - y) < 1e-5
             facing = direction[low, row] * (1.0 - blend) + direction[high, row] * blend
             assert wrapped(math.atan2(facing[1], facing[0]) - heading) < 1e-4
-            assert name in [expected_pose(state[k], direction[low], row) for k in nearest]
+            scene_frames = {math.floor(shot["frame"] + shot["sub"] + 0.5), math.ceil(shot["frame"] + shot["sub"] - 0.5)}
+            assert name in [pose for k in nearest for frame in scene_frames for pose in expected_poses(state[k], direction[low], row, frame)]
 
 
 def test_the_pose_does_not_change_while_the_shutter_is_open(blender, tmp_path):

@@ -75,7 +75,7 @@ io::BakeDescription SampleCrowd::description(const std::filesystem::path& output
     description.substeps = 2;
     description.duration = options_.frames / kFps;
     description.variations = kVariations;
-    description.stride_length = kStride;
+    description.strides = {kStride};
     description.scene_origin = options_.origin + glm::dvec2(3.0, -2.0);
     description.output_origin = options_.origin;
     description.minimum = options_.origin - (kHalfLength + 1.0);

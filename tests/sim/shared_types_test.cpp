@@ -61,7 +61,7 @@ TEST_F(SharedTypesTest, PersonAndStateAgree) {
     EXPECT_MEMBER(found, "people", Person, radius);
     EXPECT_MEMBER(found, "people", Person, preferred_speed);
     EXPECT_MEMBER(found, "people", Person, maximum_speed);
-    EXPECT_MEMBER(found, "people", Person, stride_length);
+    EXPECT_MEMBER(found, "people", Person, gait);
     EXPECT_MEMBER(found, "people", Person, entry);
     EXPECT_MEMBER(found, "people", Person, flags);
     EXPECT_MEMBER(found, "people", Person, first_stage);

@@ -54,6 +54,7 @@ void readBoth(const Pipe& a, std::string& text_a, const Pipe& b, std::string& te
 
 ProgramOutput runProgram(const std::vector<std::string>& words) {
     std::vector<char*> arguments;
+    arguments.reserve(words.size() + 1);
     for (const std::string& word : words)
         arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);

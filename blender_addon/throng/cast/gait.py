@@ -1,23 +1,54 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A walking person's joints, from where its feet are planted. Pure Python: no Blender here.
+"""A person's joints, walking, running or standing, from where the feet are planted. Pure Python: no Blender here.
 
 Feet must not slide, so the feet are the input and the joints follow: during stance the planted point (the heel, then the whole
 foot, then the ball) stays where it is on the ground, which in the walker's own frame is a straight line backwards at one stride
 length per cycle. Hip and knee come from the ankle by two-bone inverse kinematics. Timing and amplitudes are those of healthy
-adults at comfortable speed: stance 62 % of the cycle, foot flat from 10 % to 40 %, pelvis rotation about 4 degrees to each side,
-arm swing about 20 degrees (Winter, Biomechanics and Motor Control of Human Movement; Murray, Drought and Kory 1964).
+adults: at comfortable speed stance is 62 % of the cycle, the foot flat from 10 % to 40 %, pelvis rotation about 4 degrees to each
+side, arm swing about 20 degrees (Winter, Biomechanics and Motor Control of Human Movement; Murray, Drought and Kory 1964).
+With longer strides the stance gets shorter and all amplitudes larger (Murray 1967); runners have a phase of flight (Novacheck 1998).
 
-Frame: x forward, y left, z up, metres; phase 0 is the right heel's strike, the left foot is half a cycle later.
+Frame: x forward, y left, z up, metres; phase 0 is the right heel's strike, the left foot is half a cycle later. Whatever the stride,
+the planted foot is under the body at phase UNDER_BODY of its own cycle: the simulation changes strides there, and nowhere else.
 """
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
-STANCE = 0.62      # share of the cycle that a foot is on the ground
-FLAT_FROM = 0.10   # heel strike ends
-FLAT_UNTIL = 0.40  # heel rise begins
-STRIKE_PITCH = math.radians(18.0)   # toes up
-TOE_OFF_PITCH = math.radians(-52.0)  # toes down
-LIFT = 0.055       # m, how high the ankle rises above a straight swing
+UNDER_BODY = 0.28     # as GAIT_UNDER_BODY of the simulation
+NORMAL_STRIDE = 1.446  # m, of an adult at 1.34 m/s
+RUNNING_STRIDE = 2.1   # m: from here on people run
+
+
+@dataclass(frozen=True)
+class Gait:
+    """How one stride length is walked. Shares are of the cycle, from the moment that a foot comes down."""
+    stride: float
+    down: float          # phase at which the foot comes down
+    flat_from: float     # heel strike ends
+    flat_until: float    # heel rise begins
+    stance: float        # the foot leaves the ground
+    strike_pitch: float  # rad, toes up
+    toe_off_pitch: float  # rad, toes down
+    lift: float          # m, how high the ankle rises above a straight swing
+    bob: float           # m, of the pelvis, up and down
+    yaw: float           # rad, of the pelvis
+    swing: float         # rad, of the arms
+    elbow: float         # rad
+    lean: float          # rad
+
+    @property
+    def runs(self):
+        return self.stride >= RUNNING_STRIDE
+
+
+def gait_of(stride):
+    """The gait of a stride length (m)."""
+    if stride >= RUNNING_STRIDE:
+        return Gait(stride, 0.10, 0.04, 0.20, 0.36, math.radians(6.0), math.radians(-58.0), 0.20, 0.035, 0.11, 0.62, 1.35, 0.13)
+    a = stride / NORMAL_STRIDE
+    return Gait(stride, 0.0, 0.10, 0.40, 0.62 - 0.09 * (a - 1.0), math.radians(18.0) * min(a, 1.2), math.radians(-52.0) * min(a ** 0.8, 1.15),
+                0.055 * (0.6 + 0.4 * a), 0.018 * a ** 1.5, 0.075 * a, min(0.36 * a ** 1.3, 0.55), 0.30 * (0.7 + 0.3 * a), 0.045 + 0.03 * (a - 1.0))
 
 
 @dataclass(frozen=True)
@@ -63,59 +94,97 @@ def _ankle_over(point_x, offset, pitch, build):
     return (point_x - (offset * c + build.ankle * s), -(offset * s - build.ankle * c))
 
 
-def foot_at(phase, build, stride):
-    """One foot at a phase of its own cycle (0 = its heel's strike)."""
-    phase %= 1.0
-    # Where the ankle's ground point is when flat: symmetric about the pelvis over the flat phase, a little ahead at strike.
-    middle = 0.5 * (FLAT_FROM + FLAT_UNTIL) + 0.03
+def foot_at(phase, build, gait):
+    """One foot at a phase of its own cycle."""
+    phase = (phase - gait.down) % 1.0 + gait.down
 
     def ground(t):
-        return (middle - t) * stride
+        """Where the ankle's ground point is when flat."""
+        return (UNDER_BODY - t) * gait.stride
 
-    if phase < STANCE:
-        if phase < FLAT_FROM:
-            pitch = STRIKE_PITCH * (1.0 - _smooth(phase / FLAT_FROM))
+    since = phase - gait.down
+    if since < gait.stance:
+        if since < gait.flat_from:
+            pitch = gait.strike_pitch * (1.0 - _smooth(since / gait.flat_from))
             return Foot(_ankle_over(ground(phase) - build.heel, -build.heel, pitch, build), pitch, "heel")
-        if phase < FLAT_UNTIL:
+        if since < gait.flat_until:
             return Foot((ground(phase), build.ankle), 0.0, "flat")
-        t = (phase - FLAT_UNTIL) / (STANCE - FLAT_UNTIL)
-        pitch = TOE_OFF_PITCH * t ** 1.6
+        t = (since - gait.flat_until) / (gait.stance - gait.flat_until)
+        pitch = gait.toe_off_pitch * t ** 1.6
         return Foot(_ankle_over(ground(phase) + build.ball, build.ball, pitch, build), pitch, "ball")
 
-    t = (phase - STANCE) / (1.0 - STANCE)
-    start = foot_at(STANCE - 1e-6, build, stride)
-    end = foot_at(0.0, build, stride)
+    t = (since - gait.stance) / (1.0 - gait.stance)
+    start = foot_at(gait.down + gait.stance - 1e-6, build, gait)
+    end = foot_at(gait.down, build, gait)
     s = _smooth(t)
     x = start.ankle[0] + (end.ankle[0] - start.ankle[0]) * s
-    z = start.ankle[1] + (end.ankle[1] - start.ankle[1]) * min(1.0, 1.35 * t) + LIFT * math.sin(math.pi * t) * (1.0 - 0.4 * t)
+    rise = math.sin(math.pi * min(1.0, 1.15 * t)) if gait.runs else math.sin(math.pi * t) * (1.0 - 0.4 * t)
+    z = start.ankle[1] + (end.ankle[1] - start.ankle[1]) * min(1.0, 1.35 * t) + gait.lift * rise
     pitch = start.pitch + (end.pitch - start.pitch) * _smooth(min(1.0, 1.15 * t))
     return Foot((x, max(z, build.ankle * 0.9)), pitch, "")
 
 
-def walk_pose(phase, build, stride):
+def _reach(feet, leg):
+    """How high the pelvis may be so that the legs still reach the feet that are planted."""
+    return min((foot.ankle[1] + math.sqrt(max(0.2, (0.995 * leg) ** 2 - foot.ankle[0] ** 2)) for foot in feet if foot.planted), default=math.inf)
+
+
+@lru_cache(maxsize=None)
+def _lowest_reach(build, gait):
+    return min(_reach((foot_at(i / 48.0, build, gait), foot_at(i / 48.0 + 0.5, build, gait)), build.thigh + build.shank) for i in range(48))
+
+
+@lru_cache(maxsize=None)
+def _running_height(build, gait):
+    """Of the pelvis on average: as high as the legs reach the ground in all of the stance."""
+    leg, highest = build.thigh + build.shank, 0.94 * (build.thigh + build.shank) + build.ankle
+    for i in range(96):
+        phase = i / 96.0
+        reach = _reach((foot_at(phase, build, gait), foot_at(phase + 0.5, build, gait)), leg)
+        highest = min(highest, reach + gait.bob * math.cos(4.0 * math.pi * (phase - UNDER_BODY)))
+    return highest
+
+
+def walk_pose(phase, build, gait):
     """The pose at a phase of the cycle in [0, 1)."""
     tau = 2.0 * math.pi
-    right, left = foot_at(phase, build, stride), foot_at(phase + 0.5, build, stride)
+    right, left = foot_at(phase, build, gait), foot_at(phase + 0.5, build, gait)
     leg = build.thigh + build.shank
-    # Highest over the standing leg, lowest in double support: the vault of an inverted pendulum.
-    bob = -0.018 * math.cos(2.0 * tau * (phase - 0.02))
-    height = 0.958 * leg + build.ankle + bob
-    for foot in (right, left):  # and never higher than the legs reach: small people dip more for the same stride
-        height = min(height, foot.ankle[1] + math.sqrt((0.995 * leg) ** 2 - foot.ankle[0] ** 2))
+    if gait.runs:  # lowest over the standing leg, highest in flight
+        height = _running_height(build, gait) - gait.bob * math.cos(2.0 * tau * (phase - UNDER_BODY))
+    else:  # highest over the standing leg, lowest in double support: the vault of an inverted pendulum
+        top = min(0.958 * leg + build.ankle + gait.bob, _lowest_reach(build, gait) + 2.5 * gait.bob)  # long strides bend the knees
+        height = min(top - gait.bob - gait.bob * math.cos(2.0 * tau * (phase - 0.02)), _reach((right, left), leg))
     sway = -0.022 * math.sin(tau * phase + 0.3)  # towards the standing leg (right leg stands in the first half)
-    yaw = 0.075 * math.cos(tau * phase)          # the right hip is ahead when the right heel strikes
-    swing = 0.36 * math.cos(tau * phase)
-    arms = ((-swing + 0.03, 0.30 + 0.22 * max(0.0, -math.cos(tau * phase))),
-            (swing + 0.03, 0.30 + 0.22 * max(0.0, math.cos(tau * phase))))
-    return Pose((0.0, sway, height), yaw, -1.15 * yaw, 0.045, (right, left), arms)
+    turn = math.cos(tau * (phase - gait.down))   # the right hip is ahead when the right foot comes down
+    arms = ((-gait.swing * turn + 0.03, gait.elbow + 0.22 * max(0.0, -turn)), (gait.swing * turn + 0.03, gait.elbow + 0.22 * max(0.0, turn)))
+    return Pose((0.0, sway, height), gait.yaw * turn, -1.15 * gait.yaw * turn, gait.lean, (right, left), arms)
 
 
-def idle_pose(build):
-    """Standing at ease: weight on the right leg, feet apart, arms hanging."""
-    right = Foot((0.01, build.ankle), 0.0, "flat")
-    left = Foot((0.05, build.ankle), 0.0, "flat")
+STANDING_CLIPS = ("idle", "shift", "talk", "phone")
+
+
+def standing_pose(clip, beat, build):
+    """A pose of those who stand; `beat` goes through one slow round in [0, 1)."""
+    wave = math.sin(2.0 * math.pi * beat)
+    if clip == "shift":  # weight on the left leg, thumbs in the pockets
+        pose = idle_pose(build, -1.0, 0.010 * wave)
+        return Pose(pose.pelvis, pose.pelvis_yaw, -0.10 + 0.05 * wave, 0.02, pose.feet, ((-0.14, 0.62 + 0.04 * wave), (-0.16, 0.66)))
+    if clip == "talk":  # one hand speaks
+        pose = idle_pose(build, 1.0, 0.008 * wave)
+        return Pose(pose.pelvis, pose.pelvis_yaw, 0.08 * wave, 0.03 + 0.02 * wave, pose.feet, ((0.42 + 0.16 * wave, 1.35 - 0.30 * wave), (0.05, 0.28)))
+    if clip == "phone":  # looks at what it holds
+        pose = idle_pose(build, -1.0, 0.004 * wave)
+        return Pose(pose.pelvis, pose.pelvis_yaw, 0.0, 0.07, pose.feet, ((0.40, 1.95 + 0.03 * wave), (0.04, 0.25)))
+    return idle_pose(build, 1.0, 0.010 * wave)
+
+
+def idle_pose(build, side=1.0, sway=0.0):
+    """Standing at ease: weight on the right leg (side 1) or the left one, feet apart, arms hanging."""
+    right = Foot((0.01 if side > 0.0 else 0.05, build.ankle), 0.0, "flat")
+    left = Foot((0.05 if side > 0.0 else 0.01, build.ankle), 0.0, "flat")
     height = 0.985 * (build.thigh + build.shank) + build.ankle
-    return Pose((0.0, -0.02, height), 0.06, 0.0, 0.01, (right, left), ((0.04, 0.22), (0.06, 0.30)))
+    return Pose((0.0, -0.02 * side + sway, height), 0.06 * side, 0.0, 0.01, (right, left), ((0.04 + sway, 0.22), (0.06 - sway, 0.30)))
 
 
 def knee_of(hip, ankle, build):
