@@ -45,21 +45,42 @@ def bakes(throng, tmp_path_factory):
     return bake
 
 
-@pytest.fixture(scope="session")
-def blender():
-    """Runs a Python script in Debian's Blender, in an empty scene, with the add-on's folder on the path."""
+def blender_program():
+    """Debian's Blender."""
     program = shutil.which("blender")
     if not program:
         pytest.skip("Blender is not installed")
 
+    def command(script, arguments, blend, factory):
+        return [program, "-b"] + (["--factory-startup"] if factory else []) + ([str(blend)] if blend else []) + \
+            ["--python-exit-code", "1", "-P", str(script), "--", *arguments]
+
+    return command
+
+
+def blender_module():
+    """A current Blender as a Python module, in a Python of its own."""
+    python = os.environ.get("THRONG_BPY_PYTHON", str(ROOT / "build" / "bpy" / "bin" / "python"))
+    if not os.path.exists(python):
+        pytest.skip("the Python module bpy is not installed (scripts/test does)")
+
+    def command(script, arguments, blend, factory):
+        return [python, str(ROOT / "tests" / "blender" / "run_in_bpy.py"), str(blend or ""), str(script), *arguments]
+
+    return command
+
+
+@pytest.fixture(scope="session", params=[blender_program, blender_module], ids=["blender", "bpy"])
+def blender(request):
+    """Runs a Python script in a Blender, in an empty scene: in Debian's, and in a current one."""
+    command = request.param()
+
     def run(script, *arguments, blend=None, factory=True, environment=None):
-        command = [program, "-b"] + (["--factory-startup"] if factory else []) + ([str(blend)] if blend else [])
-        command += ["--python-exit-code", "1", "-P", str(script), "--", *map(str, arguments)]
-        process = subprocess.run(command, capture_output=True, text=True, env={**os.environ, **(environment or {})})
+        process = subprocess.run(command(script, [str(argument) for argument in arguments], blend, factory), capture_output=True, text=True,
+                                 env={**os.environ, **(environment or {})})
         assert process.returncode == 0, process.stdout[-4000:] + process.stderr[-4000:]
         return process.stdout
 
-    run.program = program
     return run
 
 

@@ -72,8 +72,8 @@ def check_pc2(path, points, samples):
         raise BakeError(f"{name} is truncated: {size} of {expected} bytes. Copy or bake it again")
 
 
-def load_bake(path):
-    """Reads bake.json (or the folder that holds it) and checks its streams. Raises BakeError."""
+def read_manifest(path):
+    """The content of a bake.json (or of the folder that holds it). Raises BakeError."""
     if os.path.isdir(path):
         path = os.path.join(path, "bake.json")
     try:
@@ -87,7 +87,14 @@ def load_bake(path):
         raise BakeError(f"{os.path.basename(path)} is not the manifest of a Throng bake: choose the file bake.json in the bake's folder")
     if manifest.get("version") != 1:
         raise BakeError(f"this bake has format version {manifest.get('version')}, the add-on reads version 1: update the add-on")
-    bake = Bake(manifest, os.path.dirname(os.path.abspath(path)))
+    return manifest
+
+
+def load_bake(path):
+    """Reads bake.json (or the folder that holds it) and checks its streams. Raises BakeError."""
+    manifest = read_manifest(path)
+    folder = path if os.path.isdir(path) else os.path.dirname(path)
+    bake = Bake(manifest, os.path.abspath(folder))
     if bake.agents == 0 or bake.frames == 0:
         raise BakeError("there is nobody in this bake")
     for stream in STREAMS:

@@ -8,7 +8,7 @@ from . import cast, environment, playback
 from .formats import STREAMS, load_bake
 
 
-def _stored_path(path, relative):
+def stored_path(path, relative):
     if not relative or not bpy.data.filepath:
         return path
     try:
@@ -17,10 +17,14 @@ def _stored_path(path, relative):
         return path
 
 
+def set_frame_rate(scene, fps):
+    whole = round(fps)
+    scene.render.fps, scene.render.fps_base = whole, whole / fps
+
+
 def set_up_scene(scene, bake, frame_start):
     """The bake's frame rate and range, and a shutter that is centred on the frame: poses change between shutters."""
-    whole = round(bake.fps)
-    scene.render.fps, scene.render.fps_base = whole, whole / bake.fps
+    set_frame_rate(scene, bake.fps)
     scene.frame_start, scene.frame_end = frame_start, frame_start + bake.frames - 1
     scene.frame_set(frame_start)
     scene.render.use_motion_blur = True
@@ -43,7 +47,7 @@ def import_bake(context, path, *, frame_start=1, walls=True, roads=True, scenery
     variations = min(bake.variations, cast.VARIATIONS)
     repertoire = cast.Repertoire(bake.strides)
     people = cast.build_cast(variations, repertoire, f"Throng {bake.name} cast")
-    paths = {stream: _stored_path(bake.stream_path(stream), relative) for stream in STREAMS}
+    paths = {stream: stored_path(bake.stream_path(stream), relative) for stream in STREAMS}
     crowd = playback.build_crowd(bake, f"Throng {bake.name} crowd", people, repertoire, variations, frame_start, paths)
     collection.objects.link(crowd)
     set_up_scene(scene, bake, frame_start)

@@ -15,6 +15,14 @@ def new_tree(name, inputs=(), outputs=()):
     return tree, tree.nodes.new("NodeGroupInput"), tree.nodes.new("NodeGroupOutput")
 
 
+def set_input(modifier, name, value):
+    """Sets an input of a node modifier by its socket's name."""
+    tree = modifier.node_group
+    sockets = tree.interface.items_tree if hasattr(tree, "interface") else tree.inputs
+    found = next(s for s in sockets if s.name == name and getattr(s, "in_out", "INPUT") == "INPUT")
+    modifier[found.identifier] = value
+
+
 def socket(sockets, name=None):
     """The enabled socket of a name: nodes keep hidden twins for other data types."""
     return next(s for s in sockets if s.enabled and (name is None or s.name == name))

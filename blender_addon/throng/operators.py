@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 import bpy
-from bpy.props import BoolProperty, IntProperty, StringProperty
+from bpy.props import BoolProperty, FloatProperty, IntProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
 from .formats import BakeError
@@ -35,15 +35,138 @@ class IMPORT_SCENE_OT_throng(bpy.types.Operator, ImportHelper):
         return {"FINISHED"}
 
 
+def _chosen_crowds(context):
+    """The crowds that are selected, or all of the scene."""
+    from .crowds import crowd_objects
+
+    crowds = crowd_objects(context.scene)
+    return [crowd for crowd in crowds if crowd.select_get()] or crowds
+
+
+class _OnCrowds:
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        from .crowds import crowd_objects
+
+        return bool(crowd_objects(context.scene))
+
+
+class THRONG_OT_verify(_OnCrowds, bpy.types.Operator):
+    """Say what is wrong with the bakes of the selected crowds, or of all"""
+
+    bl_idname = "throng.verify"
+    bl_label = "Verify Bakes"
+    bl_options = {"REGISTER"}
+
+    def execute(self, context):
+        from .crowds import verify
+
+        found = [f"{crowd.name}: {problem}" for crowd in _chosen_crowds(context) for problem in verify(crowd, context.scene)]
+        if found:
+            self.report({"WARNING"}, "\n".join(found))
+        else:
+            self.report({"INFO"}, "All bakes are whole")
+        return {"FINISHED"}
+
+
+class THRONG_OT_reload(_OnCrowds, bpy.types.Operator):
+    """Play the selected crowds' bakes as they are now: after baking again, or after files have moved. Looks and settings stay"""
+
+    bl_idname = "throng.reload"
+    bl_label = "Re-load Bakes"
+
+    def execute(self, context):
+        from .crowds import reload
+
+        try:
+            for crowd in _chosen_crowds(context):
+                reload(crowd, context.scene)
+        except BakeError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        return {"FINISHED"}
+
+
+class THRONG_OT_relink(_OnCrowds, bpy.types.Operator, ImportHelper):
+    """Let the selected crowd play another bake. Looks and settings stay"""
+
+    bl_idname = "throng.relink"
+    bl_label = "Choose Another Bake"
+    filename_ext = ".json"
+    filter_glob: StringProperty(default="*.json", options={"HIDDEN"})
+
+    def execute(self, context):
+        from .crowds import reload
+
+        crowds = _chosen_crowds(context)
+        if len(crowds) != 1:
+            self.report({"ERROR"}, "Select one crowd: each plays a bake of its own")
+            return {"CANCELLED"}
+        try:
+            reload(crowds[0], context.scene, self.filepath)
+        except BakeError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        return {"FINISHED"}
+
+
+class THRONG_OT_show(_OnCrowds, bpy.types.Operator):
+    """How the selected crowds are shown: how many people in the viewport, and when they begin"""
+
+    bl_idname = "throng.show"
+    bl_label = "Show Crowds"
+
+    percent: FloatProperty(name="In the Viewport", default=100.0, min=0.0, max=100.0, subtype="PERCENTAGE", description="Renders show everybody")
+    offset: IntProperty(name="Later by", default=0, description="Frames that the crowd plays later")
+
+    def invoke(self, context, _event):
+        crowd = _chosen_crowds(context)[0]
+        self.percent, self.offset = crowd.get("throng_percent", 100.0), crowd.get("throng_offset", 0)
+        return context.window_manager.invoke_props_dialog(self)
+
+    def execute(self, context):
+        from .crowds import set_offset, set_viewport_percent
+
+        for crowd in _chosen_crowds(context):
+            set_viewport_percent(crowd, self.percent)
+            set_offset(crowd, self.offset)
+        return {"FINISHED"}
+
+
+class VIEW3D_PT_throng(bpy.types.Panel):
+    bl_label = "Throng"
+    bl_space_type, bl_region_type, bl_category = "VIEW_3D", "UI", "Throng"
+
+    def draw(self, context):
+        from .crowds import crowd_objects
+
+        layout = self.layout
+        layout.operator(IMPORT_SCENE_OT_throng.bl_idname, icon="IMPORT")
+        for crowd in crowd_objects(context.scene):
+            row = layout.row()
+            row.label(text=crowd.name, icon="COMMUNITY")
+            row.label(text=f"{len(crowd.data.vertices):,} people")
+        column = layout.column(align=True)
+        for operator in (THRONG_OT_show, THRONG_OT_verify, THRONG_OT_reload, THRONG_OT_relink):
+            column.operator(operator.bl_idname)
+
+
+CLASSES = (IMPORT_SCENE_OT_throng, THRONG_OT_verify, THRONG_OT_reload, THRONG_OT_relink, THRONG_OT_show, VIEW3D_PT_throng)
+
+
 def _menu(self, _context):
     self.layout.operator(IMPORT_SCENE_OT_throng.bl_idname, text="Throng bake (bake.json)")
 
 
 def register():
-    bpy.utils.register_class(IMPORT_SCENE_OT_throng)
+    for each in CLASSES:
+        bpy.utils.register_class(each)
     bpy.types.TOPBAR_MT_file_import.append(_menu)
 
 
 def unregister():
     bpy.types.TOPBAR_MT_file_import.remove(_menu)
-    bpy.utils.unregister_class(IMPORT_SCENE_OT_throng)
+    for each in reversed(CLASSES):
+        bpy.utils.unregister_class(each)

@@ -9,7 +9,7 @@ import bpy
 
 from .cast import BEATS, POSES
 from .formats import STREAMS
-from .nodes import Maths, new_tree, socket
+from .nodes import Maths, new_tree, set_input, socket
 
 STANDING_SPEED = 0.1    # m/s: slower people stand
 FRAMES_A_ROUND = 80.0   # of a standing clip
@@ -68,7 +68,7 @@ def _pose_index(maths, speed, state, variation, phase, repertoire, variations):
 
 
 def _instancer_tree(collection, repertoire, variations):
-    tree, inputs, outputs = new_tree("Throng instancer", GEOMETRY, GEOMETRY)
+    tree, inputs, outputs = new_tree("Throng instancer", GEOMETRY + [("Share", "NodeSocketFloat")], GEOMETRY)
     maths = Maths(tree)
     cosine, sine, _ = _components(maths, "throng_dir")
     alive, variation, phase = _components(maths, "throng_state")
@@ -89,7 +89,13 @@ def _instancer_tree(collection, repertoire, variations):
     place = maths.node("GeometryNodeInstanceOnPoints")
     place.inputs["Pick Instance"].default_value = True
     maths.link(set_id.outputs[0], place.inputs["Points"])
-    maths.link(maths.greater(alive, 0.5), place.inputs["Selection"])
+    # One draw a person, the same in every frame: the same people are shown whatever the frame.
+    draw = maths.node("FunctionNodeRandomValue", data_type="FLOAT")
+    socket(draw.inputs, "Seed").default_value = 7
+    maths.link(maths.node("GeometryNodeInputIndex").outputs[0], socket(draw.inputs, "ID"))
+    shown = maths.math("LESS_THAN", socket(draw.outputs), inputs.outputs["Share"])
+    present = maths.math("MULTIPLY", maths.math("GREATER_THAN", alive, 0.5), shown)
+    maths.link(maths.greater(present, 0.5), place.inputs["Selection"])
     maths.link(people.outputs[0], place.inputs["Instance"])
     maths.link(_pose_index(maths, speed, alive, variation, phase, repertoire, variations), place.inputs["Instance Index"])
     maths.link(rotation.outputs[0], place.inputs["Rotation"])
@@ -126,7 +132,14 @@ def build_crowd(bake, name, cast, repertoire, variations, frame_start, paths):
         modifier = crowd.modifiers.new(f"throng {stream} to attribute", "NODES")
         modifier.node_group = _store_tree(f"throng_{stream}")
     _add_cache(crowd, "throng pos", paths["pos"], "LINEAR", frame_start)
-    crowd.modifiers.new("throng people", "NODES").node_group = _instancer_tree(cast, repertoire, variations)
+    instancer = _instancer_tree(cast, repertoire, variations)
+    for name, hidden in (("throng people", "show_viewport"), ("throng people (viewport)", "show_render")):
+        modifier = crowd.modifiers.new(name, "NODES")
+        modifier.node_group = instancer
+        set_input(modifier, "Share", 2.0)  # everybody
+        setattr(modifier, hidden, False)
+    crowd["throng_strides"] = list(bake.strides)
+    crowd["throng_frame_start"], crowd["throng_offset"], crowd["throng_percent"] = frame_start, 0, 100.0
     return crowd
 
 

@@ -93,15 +93,16 @@ bpy.context.scene.render.filepath = sys.argv[-1]
 bpy.ops.render.render(write_still=True)
 """)
     blender(script, tmp_path / "without.png", blend=tmp_path / "farm" / "scene.blend")
-    compare = subprocess.run([blender.program, "-b", "--factory-startup", "--python-exit-code", "1", "--python-expr", f"""
-import bpy
-a, b = (bpy.data.images.load(path) for path in ({str(tmp_path / 'with.png')!r}, {str(tmp_path / 'without.png')!r}))
+    compare = tmp_path / "compare.py"
+    compare.write_text("""
+import bpy, sys
+a, b = (bpy.data.images.load(path) for path in sys.argv[-2:])
 pixels, others = list(a.pixels), list(b.pixels)
 assert len(pixels) == len(others) == 320 * 180 * 4
 assert max(abs(x - y) for x, y in zip(pixels, others)) < 0.02
 assert len(set(round(x, 2) for x in pixels)) > 20, 'nothing to see'
-"""], capture_output=True, text=True)
-    assert compare.returncode == 0, compare.stdout[-2000:] + compare.stderr[-2000:]
+""")
+    blender(compare, tmp_path / "with.png", tmp_path / "without.png")
 
 
 @pytest.mark.parametrize("damage, words", [
@@ -140,6 +141,25 @@ assert not hasattr(bpy.types, 'IMPORT_SCENE_OT_throng')
     blender(script, ADDON, tmp_path / "absent" / "bake.json")
 
 
+def test_crowds_are_verified_mended_moved_and_shown_in_part(blender, tmp_path):
+    write_bake(tmp_path / "one")
+    write_bake(tmp_path / "two", agents=120, frames=60, seed=3)
+    manifest = tmp_path / "two" / "bake.json"
+    manifest.write_text(manifest.read_text().replace('"sample"', '"other"'))
+    found = result_of(blender(pathlib.Path(__file__).parent / "check_crowds.py", ADDON, tmp_path / "one", tmp_path / "two", tmp_path))
+    assert found["counts"] == [63, 120] and found["sound"] == [[], []]
+    assert found["later"]
+    shown, of, subset = found["part"]
+    assert 0.1 * of < shown < 0.55 * of and subset and found["same"] <= 2
+    assert len(found["missing"]) == 1 and "dir.pc2" in found["missing"][0] and "cannot be read" in found["missing"][0]
+    assert len(found["fps"]) == 1 and "30 frames a second" in found["fps"][0]
+    assert any("123 people, the bake 120" in problem for problem in found["rows"])
+    assert found["mended"] == [[], []] and found["look"][:3] == [1.0, 0.0, 0.0]
+    assert found["relinked"] == [120, "//two/streams/pos.pc2"] and found["after"] == "//two/streams/pos.pc2"
+    assert "cannot be read" in found["broken"]
+    assert found["reopened"] == [[], []] and min(found["people"]) > 50
+
+
 def test_the_zip_installs(blender, tmp_path):
     archive = tmp_path / "throng.zip"
     subprocess.run([sys.executable, str(ROOT / "scripts" / "build_addon.py"), str(archive)], check=True)
@@ -151,6 +171,20 @@ bpy.ops.preferences.addon_enable(module='throng')
 assert hasattr(bpy.types, 'IMPORT_SCENE_OT_throng')
 """)
     blender(script, archive, environment={"BLENDER_USER_SCRIPTS": str(tmp_path / "scripts"), "BLENDER_USER_CONFIG": str(tmp_path / "config")})
+
+
+def test_the_extension_builds_and_is_valid(tmp_path):
+    """With the tool of the current Blender's own distribution."""
+    python = pathlib.Path(os.environ.get("THRONG_BPY_PYTHON", str(ROOT / "build" / "bpy" / "bin" / "python")))
+    tools = sorted(python.parent.parent.glob("lib/python*/site-packages/bpy/*/scripts/addons_core/bl_pkg/cli/blender_ext.py"))
+    if not tools:
+        pytest.skip("the Python module bpy is not installed (scripts/test does)")
+    run = lambda *words: subprocess.run([python, tools[-1], *words], capture_output=True, text=True)
+    built = run("build", "--source-dir", ADDON / "throng", "--output-dir", tmp_path)
+    assert built.returncode == 0, built.stdout + built.stderr
+    packed = next(tmp_path.glob("throng-*.zip"))
+    checked = run("validate", packed)
+    assert checked.returncode == 0 and "Success" in checked.stdout, checked.stdout + checked.stderr
 
 
 def test_a_real_bake_imports_and_its_caches_equal_the_arrays(blender, bakes, tmp_path):

@@ -92,12 +92,17 @@ TEST_F(PeopleTest, StandApartAtAStopTheyShare) {
         R"("flows": [{"id": "f", "from": "a", "to": "shop", "arrival": "stay", "count": 16, "end": 8}]})");
     States last;
     watch(scene, 50.0f, [&](float, const States& states) { last = states; });
+    std::size_t close = 0;
     for (std::size_t i = 0; i < last.size(); ++i) {
         EXPECT_EQ(last[i].status, gpu::STATUS_ARRIVED);
         EXPECT_LT(glm::length(last[i].velocity), 0.1f);
-        for (std::size_t j = 0; j < i; ++j)
-            EXPECT_GT(glm::distance(last[i].position, last[j].position), 0.7f);
+        for (std::size_t j = 0; j < i; ++j) {
+            const float apart = glm::distance(last[i].position, last[j].position);
+            EXPECT_GT(apart, scene.people[i].radius + scene.people[j].radius);
+            close += apart < 0.7f;
+        }
     }
+    EXPECT_LE(close, 2u) << "pairs: whoever has given up on its own place stands where it is";
 }
 
 TEST_F(PeopleTest, QueueInTheOrderTheyComeAndAreServedOneAfterTheOther) {
