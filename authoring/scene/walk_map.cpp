@@ -5,7 +5,7 @@ namespace throng::authoring {
 namespace {
 
 constexpr double kMostCells = 400'000.0;
-constexpr float kSmallestCell = 0.2f;  // m
+constexpr float kSmallestCell = 0.1f;  // m
 constexpr float kWallComfort = 0.2f;   // m beyond the largest radius: nearer to a wall, walking costs more
 constexpr float kWallCost = 4.0f;      // added at the wall itself
 constexpr float kOffRoadCost = 6.0f;   // per metre off the roads, for those who keep to them
