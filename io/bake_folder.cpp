@@ -10,9 +10,11 @@
 
 #include <cerrno>
 #include <random>
+#include <set>
 #include <system_error>
 #include <utility>
 
+#include "io/checkpoint.h"
 #include "io/files/output_file.h"
 
 namespace throng::io {
@@ -46,6 +48,18 @@ void requireReplaceable(const fs::path& path) {
         throw OutputError(path, "exists and is not a folder; it will not be replaced");
     if (!fs::is_empty(path) && !fs::exists(path / "bake.json"))
         throw OutputError(path, "exists and is not a bake (no bake.json inside); it will not be replaced");
+}
+
+/// A folder that happens to have the name of an unfinished bake must not be emptied.
+void requireOurs(const fs::path& folder) {
+    const std::set<std::string> ours = {"streams",    "diagrams",  "layout.json",
+                                        "agents.csv", "crowd.glb", "bake.json"};
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+        const std::string name = entry.path().filename().string();
+        if (!ours.contains(name) && !isCheckpoint(entry.path()))
+            throw OutputError(folder, "is there and has something else than a bake in it (" + name +
+                                          "); it will not be touched");
+    }
 }
 
 bool isTaken(const fs::path& path) {
@@ -121,6 +135,7 @@ BakeFolder::BakeFolder(const fs::path& final_path, bool force, Begun begun)
         committed_ = true;  // there is a checkpoint: nothing may be lost
         return;
     }
+    requireOurs(temporary_);
     std::error_code error;
     for (fs::directory_iterator it(temporary_, error), end; !error && it != end; it.increment(error))
         fs::remove_all(it->path(), error);

@@ -112,6 +112,15 @@ def test_both_checkpoints_torn_is_a_bake_from_the_start(throng, whole, tmp_path)
     assert files_of(tmp_path / "bake") == expected
 
 
+def test_a_folder_of_that_name_with_other_things_in_it_is_left_alone(throng, whole, tmp_path):
+    layout, _ = whole
+    (tmp_path / "bake.unfinished").mkdir()
+    (tmp_path / "bake.unfinished" / "thesis.txt").write_text("chapter 1")
+    told = throng("bake", layout, "-o", tmp_path / "bake", *OPTIONS, expect=5)
+    assert "thesis.txt" in told.stderr
+    assert (tmp_path / "bake.unfinished" / "thesis.txt").read_text() == "chapter 1"
+
+
 def test_two_processes_do_not_bake_into_one_folder(throng, whole, tmp_path):
     layout, _ = whole
     first = start(throng, layout, tmp_path / "bake")
