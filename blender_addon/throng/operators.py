@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 import bpy
-from bpy.props import BoolProperty, FloatProperty, IntProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
 from .formats import BakeError
@@ -135,6 +135,25 @@ class THRONG_OT_show(_OnCrowds, bpy.types.Operator):
         return {"FINISHED"}
 
 
+class THRONG_OT_film_look(bpy.types.Operator):
+    """Set up rendering as for film: noise, motion blur, depth of field, a crane move, haze, and layers to composite with"""
+
+    bl_idname = "throng.film_look"
+    bl_label = "Film Look"
+    bl_options = {"REGISTER", "UNDO"}
+
+    preset: EnumProperty(name="For", items=[("preview", "Preview", "Small and quick, PNG"), ("plate", "Plate", "HD, multilayer EXR with Cryptomatte"),
+                                            ("final", "Final", "As a plate, with four times the samples")])
+    crane: BoolProperty(name="Crane Move", default=True, description="The camera rises and drifts over the shot")
+    haze: FloatProperty(name="Haze", default=0.3, min=0.0, max=1.0, description="How much of what is far is lost in the air")
+
+    def execute(self, context):
+        from . import film_look
+
+        film_look.apply(context.scene, self.preset, crane=self.crane, haze=self.haze)
+        return {"FINISHED"}
+
+
 class VIEW3D_PT_throng(bpy.types.Panel):
     bl_label = "Throng"
     bl_space_type, bl_region_type, bl_category = "VIEW_3D", "UI", "Throng"
@@ -151,9 +170,12 @@ class VIEW3D_PT_throng(bpy.types.Panel):
         column = layout.column(align=True)
         for operator in (THRONG_OT_show, THRONG_OT_verify, THRONG_OT_reload, THRONG_OT_relink):
             column.operator(operator.bl_idname)
+        row = layout.row(align=True)
+        for preset in ("preview", "plate", "final"):
+            row.operator(THRONG_OT_film_look.bl_idname, text=preset.capitalize()).preset = preset
 
 
-CLASSES = (IMPORT_SCENE_OT_throng, THRONG_OT_verify, THRONG_OT_reload, THRONG_OT_relink, THRONG_OT_show, VIEW3D_PT_throng)
+CLASSES = (IMPORT_SCENE_OT_throng, THRONG_OT_verify, THRONG_OT_reload, THRONG_OT_relink, THRONG_OT_show, THRONG_OT_film_look, VIEW3D_PT_throng)
 
 
 def _menu(self, _context):

@@ -160,6 +160,44 @@ def test_crowds_are_verified_mended_moved_and_shown_in_part(blender, tmp_path):
     assert found["reopened"] == [[], []] and min(found["people"]) > 50
 
 
+def test_the_film_look_and_its_layers(blender, tmp_path):
+    import OpenEXR
+
+    write_bake(tmp_path / "bake")
+    found = result_of(blender(pathlib.Path(__file__).parent / "check_film_look.py", ADDON, tmp_path / "bake", tmp_path))
+    for preset, size in (("preview", [960, 540]), ("plate", [1920, 1080]), ("final", [1920, 1080])):
+        look = found[preset]
+        assert look["engine"] == "CYCLES" and look["size"] == size and look["blur"] == [True, 0.5]
+        assert look["transform"] == ("AgX" if found["version"] >= [4, 0, 0] else "Filmic")
+        assert look["format"] == ("PNG" if preset == "preview" else "OPEN_EXR_MULTILAYER") and look["focus"] == (preset != "preview")
+        assert math.dist(look["start"], look["end"]) > 0.5 and look["end"][2] > look["start"][2], "the crane rises"
+        assert look["start"] == pytest.approx(found["preview"]["start"], abs=1e-4), "applied again, it is where it was"
+    assert found["preview"]["samples"] < found["plate"]["samples"] < found["final"]["samples"]
+    mattes = []
+    for frame in (20, 21):
+        with OpenEXR.File(str(tmp_path / f"plate.{frame:04d}.exr"), separate_channels=True) as file:
+            channels = {name: channel for part in file.parts for name, channel in part.channels.items()}
+            header = {key: value for part in file.parts for key, value in part.header.items()}
+        names = " ".join(channels)
+        assert "CryptoAsset00" in names and "Mist" in names and ("Depth" in names or ".Z" in names)
+        manifest = next(json.loads(value) for key, value in header.items() if key.startswith("cryptomatte/") and key.endswith("/manifest"))
+        people = {name for name in manifest if name.startswith("Throng person")}
+        assert people and not any(name.startswith("throng_v") for name in manifest), "mattes go by person, not by pose"
+        mattes.append({name: manifest[name] for name in people})
+        combined = next(channel for name, channel in channels.items() if name.endswith("Combined.R"))
+        assert numpy.isfinite(combined.pixels).all() and combined.pixels.std() > 0.01
+    shared = set(mattes[0]) & set(mattes[1])
+    assert shared and all(mattes[0][name] == mattes[1][name] for name in shared), "a person's matte is the same in the next frame"
+
+
+@pytest.mark.parametrize("people, seconds, milliseconds", [(16384, 10.0, 10.0), (65536, 40.0, 40.0)])
+def test_large_crowds_import_and_scrub_quickly(blender, tmp_path, people, seconds, milliseconds):
+    write_bake(tmp_path / "bake", agents=people, frames=5)
+    found = result_of(blender(pathlib.Path(__file__).parent / "check_speed.py", ADDON, tmp_path / "bake"))
+    assert found["people"] > 0.7 * people
+    assert found["import"] < seconds and 1000.0 * found["frame"] < milliseconds, found
+
+
 def test_the_zip_installs(blender, tmp_path):
     archive = tmp_path / "throng.zip"
     subprocess.run([sys.executable, str(ROOT / "scripts" / "build_addon.py"), str(archive)], check=True)

@@ -67,6 +67,8 @@ def build_cast(variations, repertoire, library_name="Throng cast"):
     for variation in range(variations):
         person = people.CAST[variation % VARIATIONS]
         figures = [people.build_figure(person, pose) for pose in poses_of(person, repertoire)]
+        # Cryptomatte by asset goes by the parent: a person keeps its matte whatever the pose.
+        holder = bpy.data.objects.new(f"Throng person {variation:02d}", None)
         meshes = []
         for index, figure in enumerate(figures):
             mesh = bpy.data.meshes.new(pose_name(variation, index))
@@ -77,7 +79,9 @@ def build_cast(variations, repertoire, library_name="Throng cast"):
             mesh.polygons.foreach_set("use_smooth", [True] * len(figure.faces))
             mesh.update()
             meshes.append(mesh)
-            collection.objects.link(bpy.data.objects.new(mesh.name, mesh))
+            thing = bpy.data.objects.new(mesh.name, mesh)
+            thing.parent = holder
+            collection.objects.link(thing)
         for index, velocities in _velocities(figures, repertoire):
             meshes[index].attributes.new("velocity", "FLOAT_VECTOR", "POINT").data.foreach_set("vector", velocities)
     return collection

@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Runs inside Blender: how long importing a bake takes, and a change of frame."""
+import json
+import os
+import sys
+import time
+
+import bpy
+
+addon, bake = sys.argv[-2:]
+sys.path.insert(0, addon)
+import throng  # noqa: E402
+
+bpy.ops.wm.read_factory_settings(use_empty=True)
+throng.register()
+start = time.perf_counter()
+bpy.ops.import_scene.throng(filepath=os.path.join(bake, "bake.json"))
+imported = time.perf_counter() - start
+scene = bpy.context.scene
+times = []
+for frame in (2, 4, 3, 5, 1, 4, 2, 5, 3, 1, 5, 2):
+    start = time.perf_counter()
+    scene.frame_set(frame)
+    times.append(time.perf_counter() - start)
+people = sum(1 for i in bpy.context.evaluated_depsgraph_get().object_instances if i.is_instance)
+print("RESULT " + json.dumps({"import": imported, "frame": sorted(times)[len(times) // 2], "people": people}))
