@@ -192,7 +192,8 @@ def test_the_film_look_and_its_layers(blender, tmp_path):
 
 @pytest.mark.parametrize("people, seconds, milliseconds", [(16384, 10.0, 10.0), (65536, 40.0, 40.0)])
 def test_large_crowds_import_and_scrub_quickly(blender, tmp_path, people, seconds, milliseconds):
-    write_bake(tmp_path / "bake", agents=people, frames=5)
+    """The fastest of twelve changes of frame: other things may be going on."""
+    write_bake(tmp_path / "bake", agents=people, frames=28)
     found = result_of(blender(pathlib.Path(__file__).parent / "check_speed.py", ADDON, tmp_path / "bake"))
     assert found["people"] > 0.7 * people
     assert found["import"] < seconds and 1000.0 * found["frame"] < milliseconds, found
