@@ -135,6 +135,35 @@ class THRONG_OT_show(_OnCrowds, bpy.types.Operator):
         return {"FINISHED"}
 
 
+class THRONG_OT_cull(_OnCrowds, bpy.types.Operator):
+    """Leave out people whom nobody sees: outside the active box (a cube empty) or outside the scene's camera"""
+
+    bl_idname = "throng.cull"
+    bl_label = "Cull Crowds"
+
+    by: EnumProperty(name="By", items=[("none", "Nothing", "Everybody is there"), ("box", "Box", "The active empty, or a new one round the crowd"),
+                                       ("camera", "Camera", "What the scene's camera sees")])
+    margin: FloatProperty(name="Margin", default=3.0, min=0.0, subtype="DISTANCE", description="Whoever is out by less stays, for shadows and reflections")
+
+    def execute(self, context):
+        from . import culling
+
+        camera = context.scene.camera
+        if self.by == "camera" and (not camera or camera.type != "CAMERA"):
+            self.report({"ERROR"}, "The scene has no camera")
+            return {"CANCELLED"}
+        active = context.view_layer.objects.active
+        for crowd in _chosen_crowds(context):
+            if self.by == "none":
+                culling.remove(crowd)
+                continue
+            target = camera
+            if self.by == "box":
+                target = active if active and active.type == "EMPTY" else culling.box(context.scene, crowd)
+            culling.apply(crowd, context.scene, self.by, target, self.margin)
+        return {"FINISHED"}
+
+
 class THRONG_OT_film_look(bpy.types.Operator):
     """Set up rendering as for film: noise, motion blur, depth of field, a crane move, haze, and layers to composite with"""
 
@@ -168,14 +197,14 @@ class VIEW3D_PT_throng(bpy.types.Panel):
             row.label(text=crowd.name, icon="COMMUNITY")
             row.label(text=f"{len(crowd.data.vertices):,} people")
         column = layout.column(align=True)
-        for operator in (THRONG_OT_show, THRONG_OT_verify, THRONG_OT_reload, THRONG_OT_relink):
+        for operator in (THRONG_OT_show, THRONG_OT_cull, THRONG_OT_verify, THRONG_OT_reload, THRONG_OT_relink):
             column.operator(operator.bl_idname)
         row = layout.row(align=True)
         for preset in ("preview", "plate", "final"):
             row.operator(THRONG_OT_film_look.bl_idname, text=preset.capitalize()).preset = preset
 
 
-CLASSES = (IMPORT_SCENE_OT_throng, THRONG_OT_verify, THRONG_OT_reload, THRONG_OT_relink, THRONG_OT_show, THRONG_OT_film_look, VIEW3D_PT_throng)
+CLASSES = (IMPORT_SCENE_OT_throng, THRONG_OT_verify, THRONG_OT_reload, THRONG_OT_relink, THRONG_OT_show, THRONG_OT_cull, THRONG_OT_film_look, VIEW3D_PT_throng)
 
 
 def _menu(self, _context):

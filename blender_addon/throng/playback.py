@@ -8,6 +8,7 @@ because a pose index between two others would be a third one, and must not chang
 import bpy
 
 from .cast import BEATS, POSES
+from .culling import HIDDEN
 from .formats import STREAMS
 from .nodes import Maths, new_tree, set_input, socket
 
@@ -94,7 +95,10 @@ def _instancer_tree(collection, repertoire, variations):
     socket(draw.inputs, "Seed").default_value = 7
     maths.link(maths.node("GeometryNodeInputIndex").outputs[0], socket(draw.inputs, "ID"))
     shown = maths.math("LESS_THAN", socket(draw.outputs), inputs.outputs["Share"])
-    present = maths.math("MULTIPLY", maths.math("GREATER_THAN", alive, 0.5), shown)
+    hidden = maths.node("GeometryNodeInputNamedAttribute", data_type="FLOAT")  # zero where nothing is culled
+    hidden.inputs["Name"].default_value = HIDDEN
+    seen = maths.math("SUBTRACT", shown, socket(hidden.outputs, "Attribute"))
+    present = maths.math("MULTIPLY", maths.math("GREATER_THAN", alive, 0.5), seen)
     maths.link(maths.greater(present, 0.5), place.inputs["Selection"])
     maths.link(people.outputs[0], place.inputs["Instance"])
     maths.link(_pose_index(maths, speed, alive, variation, phase, repertoire, variations), place.inputs["Instance Index"])

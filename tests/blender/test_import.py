@@ -199,6 +199,16 @@ def test_large_crowds_import_and_scrub_quickly(blender, tmp_path, people, second
     assert found["import"] < seconds and 1000.0 * found["frame"] < milliseconds, found
 
 
+def test_only_those_outside_a_box_or_the_cameras_view_are_left_out(blender, tmp_path):
+    write_bake(tmp_path / "bake", agents=400)
+    found = result_of(blender(pathlib.Path(__file__).parent / "check_culling.py", ADDON, tmp_path / "bake"))
+    left, exact, unmoved = found["box"]
+    assert 10 < left < 0.5 * found["all"] and exact and unmoved
+    for left, of, wrong in found["camera"]:
+        assert 0 < left < of and wrong == []
+    assert found["again"]
+
+
 def test_the_zip_installs(blender, tmp_path):
     archive = tmp_path / "throng.zip"
     subprocess.run([sys.executable, str(ROOT / "scripts" / "build_addon.py"), str(archive)], check=True)
