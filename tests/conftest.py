@@ -87,3 +87,10 @@ def blender(request):
 @pytest.fixture(scope="session")
 def manifest_of():
     return lambda bake: json.loads((pathlib.Path(bake) / "bake.json").read_text())
+
+
+def pytest_collection_modifyitems(items):
+    """The longest first, so that no processor is idle at the end."""
+    first = ("scenarios", "slurm", "batch", "blender")
+    place = {name: i for i, name in enumerate(first)}
+    items.sort(key=lambda item: place.get(pathlib.Path(item.fspath).parent.name, len(first)))
