@@ -4,7 +4,7 @@ import os
 
 import bpy
 
-from . import nodes
+from . import nodes, playback
 from .formats import STREAMS, Bake, BakeError, check_pc2, load_bake, read_manifest
 
 CACHES = tuple(f"throng {stream}" for stream in STREAMS)
@@ -78,6 +78,7 @@ def reload(crowd, scene, path=None):
     if len(mesh.vertices) != bake.agents:
         mesh.clear_geometry()
         mesh.vertices.add(bake.agents)
+        playback.give_natures(mesh)
     relative = crowd.modifiers["throng pos"].filepath.startswith("//")
     for stream in STREAMS:
         crowd.modifiers[f"throng {stream}"].filepath = stored_path(bake.stream_path(stream), relative)

@@ -5,6 +5,8 @@ Each Mesh Cache modifier overwrites the vertices with one stream, and a node gro
 last one leaves the positions. The instancer then puts a pose on every vertex that is alive. `state` is read without interpolation,
 because a pose index between two others would be a third one, and must not change while the shutter is open.
 """
+import random
+
 import bpy
 
 from .cast import BEATS, POSES
@@ -14,6 +16,7 @@ from .nodes import Maths, new_tree, set_input, socket
 
 STANDING_SPEED = 0.1    # m/s: slower people stand
 FRAMES_A_ROUND = 80.0   # of a standing clip
+NATURE = "throng_nature"
 GEOMETRY = [("Geometry", "NodeSocketGeometry")]
 
 
@@ -43,27 +46,23 @@ def _walking_pose(maths, state, phase):
     return maths.math("MULTIPLY_ADD", gait, POSES, step)
 
 
-def _standing_pose(maths, state, repertoire):
+def _standing_pose(maths, state, nature, repertoire):
     """Those who gather talk, shift their weight or look at their phones, one in four each; others who stand only shift.
 
     The beat follows the frame, rounded, so that it does not change while the shutter is open; everybody has their own.
     """
-    index = maths.node("GeometryNodeInputIndex").outputs[0]
-    activity = maths.math("FLOOR", state)
-    gathers = maths.math("COMPARE", activity, 2.0, 0.1)
-    pick = maths.math("MODULO", index, 4.0)
-    clip = maths.math("ADD", maths.math("MULTIPLY", pick, gathers),
-                      maths.math("MULTIPLY", maths.math("MODULO", index, 2.0), maths.math("SUBTRACT", 1.0, gathers)))
+    gathers = maths.math("COMPARE", maths.math("FLOOR", state), 2.0, 0.1)
+    clip = maths.math("MODULO", nature[0], maths.math("MULTIPLY_ADD", gathers, 2.0, 2.0))
     frame = maths.math("ROUND", socket(maths.node("GeometryNodeInputSceneTime").outputs, "Frame"))
-    rounds = maths.math("MULTIPLY_ADD", index, 0.618034, maths.math("DIVIDE", frame, FRAMES_A_ROUND))
+    rounds = maths.math("ADD", nature[1], maths.math("DIVIDE", frame, FRAMES_A_ROUND))
     beat = maths.math("FLOOR", maths.math("MULTIPLY", maths.math("FRACT", rounds), BEATS))
     return maths.math("ADD", maths.math("MULTIPLY_ADD", clip, BEATS, repertoire.walking), beat)
 
 
-def _pose_index(maths, speed, state, variation, phase, repertoire, variations):
+def _pose_index(maths, speed, state, variation, phase, nature, repertoire, variations):
     walking = maths.math("GREATER_THAN", speed, STANDING_SPEED)
     pose = maths.math("ADD", maths.math("MULTIPLY", _walking_pose(maths, state, phase), walking),
-                      maths.math("MULTIPLY", maths.math("SUBTRACT", 1.0, walking), _standing_pose(maths, state, repertoire)))
+                      maths.math("MULTIPLY", maths.math("SUBTRACT", 1.0, walking), _standing_pose(maths, state, nature, repertoire)))
     variation = maths.math("MODULO", variation, variations)
     return maths.math("MULTIPLY_ADD", variation, repertoire.count, pose)
 
@@ -78,10 +77,7 @@ def _instancer_tree(collection, repertoire, variations):
     rotation = maths.node("ShaderNodeCombineXYZ")
     maths.link(heading, rotation.inputs[2])
 
-    # Ids first, so that instances keep theirs (and their colours) when others come and go.
-    set_id = maths.node("GeometryNodeSetID")
-    maths.link(inputs.outputs[0], set_id.inputs["Geometry"])
-    maths.link(maths.node("GeometryNodeInputIndex").outputs[0], set_id.inputs["ID"])
+    nature = _components(maths, NATURE)
 
     people = maths.node("GeometryNodeCollectionInfo", transform_space="ORIGINAL")
     people.inputs["Collection"].default_value = collection
@@ -89,28 +85,18 @@ def _instancer_tree(collection, repertoire, variations):
     people.inputs["Reset Children"].default_value = True
     place = maths.node("GeometryNodeInstanceOnPoints")
     place.inputs["Pick Instance"].default_value = True
-    maths.link(set_id.outputs[0], place.inputs["Points"])
-    # One draw a person, the same in every frame: the same people are shown whatever the frame.
-    draw = maths.node("FunctionNodeRandomValue", data_type="FLOAT")
-    socket(draw.inputs, "Seed").default_value = 7
-    maths.link(maths.node("GeometryNodeInputIndex").outputs[0], socket(draw.inputs, "ID"))
-    shown = maths.math("LESS_THAN", socket(draw.outputs), inputs.outputs["Share"])
+    maths.link(inputs.outputs[0], place.inputs["Points"])
+    shown = maths.math("LESS_THAN", nature[2], inputs.outputs["Share"])
     hidden = maths.node("GeometryNodeInputNamedAttribute", data_type="FLOAT")  # zero where nothing is culled
     hidden.inputs["Name"].default_value = HIDDEN
     seen = maths.math("SUBTRACT", shown, socket(hidden.outputs, "Attribute"))
     present = maths.math("MULTIPLY", maths.math("GREATER_THAN", alive, 0.5), seen)
     maths.link(maths.greater(present, 0.5), place.inputs["Selection"])
     maths.link(people.outputs[0], place.inputs["Instance"])
-    maths.link(_pose_index(maths, speed, alive, variation, phase, repertoire, variations), place.inputs["Instance Index"])
+    maths.link(_pose_index(maths, speed, alive, variation, phase, nature, repertoire, variations), place.inputs["Instance Index"])
     maths.link(rotation.outputs[0], place.inputs["Rotation"])
 
-    tint = maths.node("FunctionNodeRandomValue", data_type="FLOAT_VECTOR")
-    maths.link(maths.node("GeometryNodeInputID").outputs[0], socket(tint.inputs, "ID"))
-    store = maths.node("GeometryNodeStoreNamedAttribute", data_type="FLOAT_VECTOR", domain="INSTANCE")
-    store.inputs["Name"].default_value = "tint"
-    maths.link(place.outputs[0], store.inputs["Geometry"])
-    maths.link(socket(tint.outputs), socket(store.inputs, "Value"))
-    maths.link(store.outputs[0], outputs.inputs[0])
+    maths.link(place.outputs[0], outputs.inputs[0])  # the points' attributes go along: id, tint
     return tree
 
 
@@ -126,10 +112,28 @@ def _add_cache(target, name, path, interpolation, frame_start):
     return cache
 
 
+def give_natures(mesh):
+    """What never changes about people, as attributes of their points: it need not be worked out in every frame.
+
+    `id`, so that instances keep theirs when others come and go; `tint`, three random numbers for colours; NATURE: which standing clip
+    they take (0 to 3), when its beats fall (0 to 1), and a draw that decides who is shown when not all are.
+    """
+    count = len(mesh.vertices)
+    draw = random.Random(7)
+    for name, kind in (("id", "INT"), ("tint", "FLOAT_VECTOR"), (NATURE, "FLOAT_VECTOR")):
+        if name in mesh.attributes:
+            mesh.attributes.remove(mesh.attributes[name])
+        mesh.attributes.new(name, kind, "POINT")
+    mesh.attributes["id"].data.foreach_set("value", range(count))
+    mesh.attributes["tint"].data.foreach_set("vector", [draw.random() for _ in range(3 * count)])
+    mesh.attributes[NATURE].data.foreach_set("vector", [value for row in range(count) for value in (row % 4, row * 0.618034 % 1.0, draw.random())])
+
+
 def build_crowd(bake, name, cast, repertoire, variations, frame_start, paths):
     """The crowd's object. `paths` are the streams' files as Blender shall store them, by stream."""
     mesh = bpy.data.meshes.new(name)
     mesh.vertices.add(bake.agents)
+    give_natures(mesh)
     crowd = bpy.data.objects.new(name, mesh)
     for stream in ("state", "dir"):
         _add_cache(crowd, f"throng {stream}", paths[stream], "NONE" if stream == "state" else "LINEAR", frame_start)
