@@ -20,7 +20,7 @@ constexpr const char* kFooter =
     "  throng bake examples/intersection.json -o bakes/intersection\n"
     "  throng preview bakes/intersection -o intersection.png\n"
     "\nExit codes: 0 ok, 1 a bar was missed, 2 usage, 3 invalid input, 4 no usable OpenGL, 5 output failed, "
-    "130 interrupted.";
+    "85 stopped with a checkpoint, 130 interrupted.";
 
 int parseAndRun(CLI::App& app, int argc, char** argv) {
     try {
