@@ -257,7 +257,8 @@ def test_killed_workers_are_replaced_and_the_batch_ends_complete(throng, tmp_pat
     assert process.wait(timeout=120) in (0, 1)
     found = rows(tmp_path / "out", "SELECT * FROM scenarios")
     assert all(row["status"] == "ok" or "killed by signal 9" in row["reason"] for row in found)
-    assert sum(row["status"] == "ok" for row in found) >= 23
+    # Four kills: whoever was killed twice has failed.
+    assert sum(row["status"] == "ok" for row in found) >= 22
     assert {path.name for path in (tmp_path / "out" / "bakes").iterdir() if not path.name.endswith(".unfinished")} == \
         {row["id"] for row in found if row["status"] == "ok"}
 
