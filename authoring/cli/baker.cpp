@@ -28,25 +28,26 @@ double secondsSince(Clock::time_point start) {
 
 /// Everything that the bytes of a bake depend on.
 std::string identityOf(const LoadedLayout& loaded, const BakeJob& job, const gl::Device& device) {
-    std::string text = fmt::format("{}\n{}\n{}\n{} {} {} {}\n", THRONG_VERSION, device.name, device.version,
-                                   job.diagram_every, job.seconds, job.densities, job.options.gltf_agents);
+    std::string text =
+        fmt::format("{}\n{}\n{}\n{} {} {} {} {}\n", THRONG_VERSION, device.name, device.version,
+                    job.diagram_every, job.seconds, job.densities, job.options.gltf, job.options.gltf_agents);
     for (const std::string& override_text : loaded.overrides)
         text += override_text + "\n";
     return io::hashText(text + loaded.text);
 }
 
-/// Whether an earlier run has come to its end, so that there is nothing left to go on with.
-bool isComplete(const io::BakeDescription& description, const std::string& identity) {
+/// The bake of an earlier run that has come to its end, so that there is nothing left to go on with.
+std::optional<io::Bake> findComplete(const io::BakeDescription& description, const std::string& identity) {
     const std::filesystem::path bake(description.output);
-    if (!std::filesystem::exists(bake / "bake.json")) return false;
+    if (!std::filesystem::exists(bake / "bake.json")) return std::nullopt;
     try {
-        const io::Bake found = io::loadBake(bake);
-        if (!found.complete || found.manifest.value("inputs", "") != "xxh3:" + identity) return false;
+        io::Bake found = io::loadBake(bake);
+        if (!found.complete || found.manifest.value("inputs", "") != "xxh3:" + identity) return std::nullopt;
+        io::BakeWriter::tidy(bake);
+        return found;
     } catch (const io::InputError&) {
-        return false;
+        return std::nullopt;
     }
-    io::BakeWriter::tidy(bake);
-    return true;
 }
 
 /// From where an earlier run is to be gone on with, if it is.
@@ -198,9 +199,11 @@ BakeRun Baker::bake(const LoadedLayout& loaded, const BakeJob& job, const Interr
     const std::string identity = identityOf(loaded, job, device());
     description.inputs = identity;
     BakeRun run;
-    if (job.resume && isComplete(description, identity)) {
+    if (const auto complete = job.resume ? findComplete(description, identity) : std::nullopt) {
         run.end = BakeRun::End::was_complete;
-        run.frames = frames;
+        run.frames = complete->frames;
+        run.timing = {complete->manifest.value("/timing/wall_seconds"_json_pointer, 0.0),
+                      complete->manifest.value("/timing/steps"_json_pointer, std::uint64_t{0})};
         return run;
     }
     const std::optional<io::Checkpoint> checkpoint = findCheckpoint(description, job, identity);

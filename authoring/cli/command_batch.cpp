@@ -114,6 +114,15 @@ SlurmOptions slurmOptions(const Options& options) {
     return slurm;
 }
 
+/// Workers take a complete bake for theirs: what is to be made anew has to go first.
+void forget(const BatchPlan& plan, const BatchFolder& folder, const std::vector<std::size_t>& scenarios) {
+    for (const std::size_t index : scenarios) {
+        const std::string& id = plan.scenarios()[index].id;
+        std::filesystem::remove(folder.result(id));
+        std::filesystem::remove_all(folder.bake(id));
+    }
+}
+
 void bakeAll(const Options& options, const BatchPlan& plan, const BatchFolder& folder) {
     const InterruptGuard interrupt;
     folder.begin(plan);
@@ -123,6 +132,7 @@ void bakeAll(const Options& options, const BatchPlan& plan, const BatchFolder& f
     if (options.prune) prune(folder, standing);
     const std::size_t all_open = standing.open.size();
     keepShard(standing.open, shard);
+    if (options.again && !options.collect_only) forget(plan, folder, standing.open);
 
     LocalOptions local = options.local;
     local.checkpoint_seconds = 60.0 * options.checkpoint_minutes;

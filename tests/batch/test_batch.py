@@ -187,6 +187,36 @@ def test_run_again_and_nothing_is_done_twice(throng, tmp_path):
     assert before == after
 
 
+def test_again_bakes_everything_anew(throng, tmp_path):
+    plan = family(tmp_path)
+    throng("batch", plan, "-o", tmp_path / "out", "-q")
+    bakes = sorted((tmp_path / "out" / "bakes").glob("*/bake.json"))
+    before = {path: path.stat().st_mtime_ns for path in bakes}
+    assert "6 baked" in throng("batch", plan, "-o", tmp_path / "out", "--again").stdout
+    assert len(bakes) == 6 and all(path.stat().st_mtime_ns > before[path] for path in bakes)
+    assert all(row["steps"] > 0 and row["simulate_seconds"] > 0 for row in rows(tmp_path / "out"))
+
+
+def test_what_a_changed_family_wants_written_is_written(throng, tmp_path):
+    throng("batch", family(tmp_path), "-o", tmp_path / "out", "-q")
+    assert list((tmp_path / "out" / "bakes").glob("*/crowd.glb")) == []
+    throng("batch", family(tmp_path, bake={"gltf": True}), "-o", tmp_path / "out", "-q")
+    assert len(list((tmp_path / "out" / "bakes").glob("*/crowd.glb"))) == 6
+
+
+def test_a_bake_that_is_there_without_its_result_is_measured_not_baked(throng, tmp_path):
+    plan = family(tmp_path)
+    throng("batch", plan, "-o", tmp_path / "out", "-q")
+    row = rows(tmp_path / "out")[2]
+    bake = tmp_path / "out" / row["bake"] / "bake.json"
+    made = bake.stat().st_mtime_ns
+    (tmp_path / "out" / "results" / f"{row['id']}.json").unlink()
+    throng("batch", plan, "-o", tmp_path / "out", "-q")
+    again = rows(tmp_path / "out")[2]
+    assert bake.stat().st_mtime_ns == made
+    assert again["steps"] == row["steps"] and again["simulate_seconds"] > 0 and again["arrived"] == row["arrived"]
+
+
 def test_a_changed_family_says_what_it_invalidates(throng, tmp_path):
     throng("batch", family(tmp_path), "-o", tmp_path / "out", "-q")
     changed = family(tmp_path, base={**BASE, "simulation": {"duration": 3, "seed": 1}},
