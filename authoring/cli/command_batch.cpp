@@ -35,6 +35,7 @@ struct Options {
     bool prune = false;
     bool collect_only = false;
     bool worker = false;
+    std::size_t worker_people = 0;
     bool json = false;
     bool quiet = false;
 };
@@ -168,10 +169,12 @@ void bakeAll(const Options& options, const BatchPlan& plan, const BatchFolder& f
 
 void run(const Options& options) {
     if (options.family.empty()) throw CLI::RequiredError("family");
-    const BatchPlan plan(options.family);
+    BatchPlan plan(options.family);
     const BatchFolder folder(options.output.empty() ? plan.family().name : options.output);
     if (options.worker)
-        return runWorker(plan, folder, {options.local.device, 60.0 * options.checkpoint_minutes});
+        return runWorker(plan, folder,
+                         {options.local.device, 60.0 * options.checkpoint_minutes, options.worker_people});
+    plan.tryLayouts();
     if (!options.emit.empty()) {
         const std::size_t parts =
             options.slurm.tasks ? options.slurm.tasks : partsFor(plan.scenarios().size());
@@ -228,6 +231,7 @@ void addBatch(CLI::App& app) {
     command->add_option("--emit", options->emit, "Print a job for another farm manager: openjd or flamenco")
         ->check(CLI::IsMember({"openjd", "flamenco"}));
     command->add_flag("--worker", options->worker)->group("");
+    command->add_option("--people", options->worker_people)->group("");
     command->add_flag("--json", options->json,
                       "Progress as JSON lines on stderr, a summary as JSON on stdout");
     command->add_flag("-q,--quiet", options->quiet, "No progress");

@@ -62,6 +62,7 @@ class Worker {
         const std::string device_text = std::to_string(device);
         const std::string checkpoint = std::to_string(checkpoint_seconds / 60.0);
         const std::string threads = std::to_string(render_threads);
+        const std::string people_text = fmt::format("{:.0f}", people);
         const pid_t parent = ::getpid();
         pid_ = ::fork();
         if (pid_ < 0) throw std::system_error(errno, std::generic_category(), "cannot start a worker");
@@ -74,8 +75,8 @@ class Worker {
             // Small crowds do better without, as Baker has it.
             if (people >= kWorthThreads) ::setenv("LP_NUM_THREADS", threads.c_str(), 0);
             ::execl("/proc/self/exe", "throng", "batch", family.c_str(), "-o", root.c_str(), "--worker",
-                    "--device", device_text.c_str(), "--checkpoint", checkpoint.c_str(),
-                    static_cast<char*>(nullptr));
+                    "--device", device_text.c_str(), "--checkpoint", checkpoint.c_str(), "--people",
+                    people_text.c_str(), static_cast<char*>(nullptr));
             ::_exit(127);
         }
         ::close(to_child[0]);

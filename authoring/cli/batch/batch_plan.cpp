@@ -48,7 +48,7 @@ double peopleOf(const authoring::Layout& layout) {
 
 }  // namespace
 
-BatchPlan::BatchPlan(const std::string& path) {
+BatchPlan::BatchPlan(const std::string& path) : path_(path) {
     const std::string text = io::readFile(path);
     authoring::Diagnostics diagnostics;
     diagnostics.file = path;
@@ -67,7 +67,6 @@ BatchPlan::BatchPlan(const std::string& path) {
     if (whole.contains("base")) whole["base"] = family_.base;
     whole.erase("$schema");
     self_contained_ = whole.dump(1) + "\n";
-    tryLayouts(path);
 }
 
 std::string BatchPlan::layoutText(std::size_t index) const {
@@ -82,7 +81,7 @@ std::string BatchPlan::inputHash(const std::string& layout_text) const {
         fmt::format("{}\n{} {} {} {}", layout_text, bake.keep, bake.gltf, bake.density, bake.diagrams));
 }
 
-void BatchPlan::tryLayouts(const std::string& path) {
+void BatchPlan::tryLayouts() {
     constexpr std::size_t kMost = 4000;
     constexpr std::size_t kMostPrinted = 3;
     const std::size_t tried = std::min(kMost, scenarios_.size());
@@ -103,11 +102,11 @@ void BatchPlan::tryLayouts(const std::string& path) {
             problem = std::string("\n  ") + error.what();
         }
         if (!problem.empty() && ++wrong <= kMostPrinted)
-            fmt::print(stderr, "{}: error: scenario {} ({}) is no valid layout:{}\n", path, index + 1,
+            fmt::print(stderr, "{}: error: scenario {} ({}) is no valid layout:{}\n", path_, index + 1,
                        authoring::describe(scenarios_[index].scenario), problem);
     }
     if (wrong > kMostPrinted)
-        fmt::print(stderr, "{}: {} scenarios more are no valid layouts\n", path, wrong - kMostPrinted);
+        fmt::print(stderr, "{}: {} scenarios more are no valid layouts\n", path_, wrong - kMostPrinted);
     if (wrong > 0) throw Exit(kInvalidInput);
 }
 
@@ -118,7 +117,6 @@ void BatchPlan::addLoad(const authoring::Layout& layout, double share) {
     const double people = peopleOf(layout);
     constexpr double kBytesPerValue = 4.0 * 3.0 * 2.0;  // three floats, as NPY and as PC2
     const double streams = family_.bake.density ? 4.0 : 3.0;
-    load_.scenarios = scenarios_.size();
     load_.steps += share * steps;
     load_.people_steps += share * steps * people;
     load_.bytes += share * (family_.bake.keep ? frames * people * kBytesPerValue * streams + 20'000.0 : 0.0);

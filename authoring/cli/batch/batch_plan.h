@@ -18,7 +18,6 @@ struct PlannedScenario {
 
 /// What a batch costs, as far as can be known before.
 struct BatchLoad {
-    std::uint64_t scenarios = 0;
     double steps = 0.0;         ///< of all together
     double people_steps = 0.0;  ///< sum over scenarios of steps x people, all counted from the first step
     double bytes = 0.0;         ///< of the bakes
@@ -28,13 +27,18 @@ struct BatchLoad {
 /// A family and its scenarios.
 class BatchPlan {
   public:
-    /// Reads a family and its base layout, and tries every scenario's layout (up to some thousands, evenly
-    /// chosen: the others' mistakes become failures of their own).
+    /// Reads a family and its base layout.
     /// @throws Exit with kInvalidInput when something is wrong, which has been printed then
     explicit BatchPlan(const std::string& path);
+    /// Tries every scenario's layout (up to some thousands, evenly chosen: the others' mistakes become
+    /// failures of their own) and adds up the load. Takes seconds for large layouts: not for every worker to
+    /// do.
+    /// @throws Exit as above
+    void tryLayouts();
 
     const authoring::Family& family() const { return family_; }
     const std::vector<PlannedScenario>& scenarios() const { return scenarios_; }
+    /// As far as tryLayouts() has found it.
     const BatchLoad& load() const { return load_; }
     /// The family as a file that needs no other.
     const std::string& selfContained() const { return self_contained_; }
@@ -45,9 +49,9 @@ class BatchPlan {
     std::string inputHash(const std::string& layout_text) const;
 
   private:
-    void tryLayouts(const std::string& path);
     void addLoad(const authoring::Layout& layout, double share);
 
+    std::string path_;
     authoring::Family family_;
     std::vector<PlannedScenario> scenarios_;
     BatchLoad load_;

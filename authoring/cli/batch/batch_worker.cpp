@@ -115,10 +115,7 @@ void recordDeath(const BatchPlan& plan, std::size_t index, const BatchFolder& fo
 }
 
 ScenarioBaker::ScenarioBaker(const BatchPlan& plan, const BatchFolder& folder, const Options& options)
-    : plan_(plan),
-      folder_(folder),
-      options_(options),
-      baker_(options.device, "", static_cast<std::size_t>(plan.load().largest_people)) {}
+    : plan_(plan), folder_(folder), options_(options), baker_(options.device, "", options.people) {}
 
 ScenarioEnd ScenarioBaker::bake(std::size_t index, const InterruptGuard& interrupt) {
     try {

@@ -18,6 +18,7 @@ class ScenarioBaker {
     struct Options {
         int device = -1;
         double checkpoint_seconds = 600.0;  ///< of long bakes; 0: none
+        std::size_t people = 0;             ///< about as many as there are in the largest scenario
     };
     ScenarioBaker(const BatchPlan& plan, const BatchFolder& folder, const Options& options);
 
