@@ -12,13 +12,18 @@ bl_info = {
 }
 
 
-def register():
+def _parts():
+    """The modules that register classes of their own, in order."""
     from . import operators
 
-    operators.register()
+    return (operators,)
+
+
+def register():
+    for part in _parts():
+        part.register()
 
 
 def unregister():
-    from . import operators
-
-    operators.unregister()
+    for part in reversed(_parts()):
+        part.unregister()
