@@ -6,6 +6,8 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "io/files/csv.h"
+
 namespace throng::io {
 namespace {
 
@@ -20,16 +22,6 @@ std::string reasonOf(const AgentOutcome& outcome) {
     if (outcome.status == AgentStatus::refused && outcome.reason.empty())
         return "the bake ended before it could enter";
     return outcome.reason;
-}
-
-std::string quoted(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string result = "\"";
-    for (const char c : text) {
-        if (c == '"') result += '"';
-        result += c;
-    }
-    return result + '"';
 }
 
 std::string frameNumber(std::uint32_t frame) {
@@ -65,10 +57,10 @@ std::string agentTable(const BakeDescription& description, const Account& accoun
         const BakeGroup& group = description.groups.at(agent.group);
         const AgentOutcome& outcome = account.agents[row];
         fmt::format_to(std::back_inserter(table), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row,
-                       quoted(group.id), group.is_flow ? "flow" : "formation", agent.radius,
+                       csvField(group.id), group.is_flow ? "flow" : "formation", agent.radius,
                        agent.preferred_speed, agent.variation, agent.party, frameNumber(outcome.spawn_frame),
                        frameNumber(outcome.arrival_frame), outcomeName(outcome.status),
-                       quoted(reasonOf(outcome)), agent.goal.x, agent.goal.y, outcome.distance_walked,
+                       csvField(reasonOf(outcome)), agent.goal.x, agent.goal.y, outcome.distance_walked,
                        outcome.shortest_way);
     }
     return table;

@@ -42,6 +42,7 @@ struct BakeDescription {
     std::uint32_t substeps = 1;
     double duration = 0.0;
     double warmup = 0.0;
+    double smoothing = 0.0;  ///< s, SimulationSettings::smoothing
     std::uint32_t variations = 1;
     std::vector<double> strides{1.446};  ///< m per cycle of each gait
 

@@ -105,6 +105,14 @@ void readSection(const Checkpoint& checkpoint, const char* name, std::span<T> it
     std::copy(bytes->begin(), bytes->end(), std::as_writable_bytes(items).begin());
 }
 
+/// How many diagrams had been written: perhaps of later frames than the streams have.
+std::uint32_t diagramsIn(const Checkpoint& checkpoint) {
+    if (!checkpoint.find(kDiagrams)) return 0;
+    DiagramSummary summary;
+    readSection(checkpoint, kDiagrams, std::span(&summary, 1));
+    return summary.count;
+}
+
 }  // namespace
 
 /// What an earlier run wrote after its last checkpoint, or while it was finishing the bake.
@@ -113,9 +121,10 @@ void BakeWriter::removeLeftovers(const Checkpoint& checkpoint) const {
     std::vector<fs::path> leftovers;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder_->path()))
         if (!entry.is_directory() && !isCheckpoint(entry.path())) leftovers.push_back(entry.path());
-    for (std::uint32_t frame = checkpoint.frames;
-         description_.diagram_every > 0 && frame < description_.frames; ++frame)
-        leftovers.push_back(folder_->path() / diagramName(frame));
+    for (std::uint32_t frame = 0, kept = diagramsIn(checkpoint);
+         description_.diagram_every > 0 && frame < description_.frames; frame += description_.diagram_every)
+        if (frame >= kept * description_.diagram_every)
+            leftovers.push_back(folder_->path() / diagramName(frame));
     for (const fs::path& path : leftovers)
         fs::remove(path);
 }
@@ -123,11 +132,11 @@ void BakeWriter::removeLeftovers(const Checkpoint& checkpoint) const {
 void BakeWriter::goOnFrom(const Checkpoint& checkpoint) {
     frames_ = checkpoint.frames;
     readSection(checkpoint, kFirstAlive, std::span(first_alive_));
-    if (description_.diagram_every == 0) return;
+    if (diagramsIn(checkpoint) == 0) return;
     diagrams_.emplace();
     readSection(checkpoint, kDiagrams, std::span(&*diagrams_, 1));
-    for (std::uint32_t frame = 0; frame < frames_; frame += description_.diagram_every)
-        diagram_files_.push_back(diagramName(frame));
+    for (std::uint32_t i = 0; i < diagrams_->count; ++i)
+        diagram_files_.push_back(diagramName(i * description_.diagram_every));
 }
 
 void BakeWriter::save(Checkpoint checkpoint) {
@@ -164,8 +173,6 @@ void BakeWriter::write(const Frame& frame) {
             throw std::invalid_argument("a frame of this bake has densities");
         densities_->append(frame.densities);
     }
-    if (frame.diagram && description_.diagram_every > 0 && frame.index % description_.diagram_every == 0)
-        writeDiagram(frame);
     ++frames_;
 }
 
@@ -178,6 +185,8 @@ void BakeWriter::trackFirstAlive(const Frame& frame) {
 }
 
 void BakeWriter::writeDiagram(const Frame& frame) {
+    if (!frame.diagram || description_.diagram_every == 0 || frame.index % description_.diagram_every != 0)
+        return;
     const DiagramImage& image = *frame.diagram;
     const std::string name = diagramName(frame.index);
     writeDiagramExr(folder_->path() / name, image, frame.densities, description_.scene_origin, frame.index,

@@ -38,10 +38,12 @@ class BakeWriter {
     /// @param go_on_from where it goes on, or null where it begins
     BakeWriter(const BakeDescription& description, const Checkpoint* go_on_from);
 
-    /// Takes the frames in order, index 0 first. The spans need to live during the call only. A diagram is
-    /// written when the frame has one and its index is a multiple of `diagram_every`. Throws
+    /// Takes the frames in order, index 0 first. The spans need to live during the call only. Throws
     /// std::invalid_argument when the frame does not fit the description.
     void write(const Frame& frame);
+    /// Writes the frame's diagram when it has one and its index is a multiple of `diagram_every`: in order,
+    /// too, but as long before write() as one likes.
+    void writeDiagram(const Frame& frame);
 
     /// Completes the bake; std::logic_error unless all expected frames were written.
     BakeResult finish(const Account& account, const BakeTiming& timing);
@@ -77,7 +79,6 @@ class BakeWriter {
     void goOnFrom(const Checkpoint& checkpoint);
     void removeLeftovers(const Checkpoint& checkpoint) const;
     void trackFirstAlive(const Frame& frame);
-    void writeDiagram(const Frame& frame);
     void finishStreams();
     BakeOutcome writeAll(const Account& account, const BakeTiming& timing, bool complete);
     BakeResult resultAt(std::filesystem::path path, const BakeOutcome& outcome) const;

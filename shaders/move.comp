@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ends a step: positions become real, the heading follows, the gait advances, routes advance, people arrive.
+// Ends a step: positions become real, the heading follows, routes advance, people arrive.
 #include "shaders/shared/simulation_types.h"
 
 layout(local_size_x = AGENT_GROUP_SIZE) in;
@@ -21,7 +21,6 @@ uniform uint steps_done;  // counted with this one
 
 #include "shaders/route.glsl"
 #include "shaders/waiting_line.glsl"
-#include "shaders/gait.glsl"
 
 const float PI = 3.14159265358979;
 const float TURN_TIME = 0.22;          // s: the heading closes in on the velocity's direction with this time constant
@@ -143,9 +142,6 @@ void main() {
     state.nervousness += (heldUp(preferred_velocities[slot], paces[slot], state.velocity) - state.nervousness) *
                          min(parameters.step_seconds / PATIENCE_TIME, 1.0);
     state.heading = turned(state, stage, speed);
-    float phase_before = state.phase;
-    state.phase += distance_moved / strideOf(state.gait);
-    state.gait = nextGait(state.gait, speed, phase_before, state.phase);
     state.walked += distance_moved;
     if (state.shortest_way <= 0.0) state.shortest_way = routeAhead(stage, self.position).remaining + stage.beyond;
     if (changePlans(state, person)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lays out one frame as the streams hold it: all rows, dead or alive.
+// Lays out one frame as the streams hold it: all rows, dead or alive. Strides are added when it is written (io/motion/gaits.h).
 #include "shaders/shared/simulation_types.h"
 
 layout(local_size_x = AGENT_GROUP_SIZE) in;
@@ -32,5 +32,5 @@ void main() {
     bool alive = isAlive(state.status);
     put(0u, row, vec3(state.position, 0.0));
     put(1u, row, vec3(cos(state.heading), sin(state.heading), alive ? length(state.velocity) : 0.0));
-    put(2u, row, vec3(alive ? float(activityOf(state)) + GAIT_IN_STATE * float(state.gait) : 0.0, float(people[row].variation), state.phase));
+    put(2u, row, vec3(alive ? float(activityOf(state)) : 0.0, float(people[row].variation), people[row].phase));
 }

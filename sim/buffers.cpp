@@ -34,8 +34,6 @@ std::vector<gpu::AgentState> initialStates(const authoring::Scene& scene) {
         state.position =
             fixed ? person.spawn_position : scene.entry_points.at(scene.entries.at(person.entry).first_point);
         state.heading = person.heading;
-        state.phase = person.phase;
-        state.gait = person.gait;
         state.status = present ? gpu::STATUS_WALKING : gpu::STATUS_WAITING;
         state.spawn_step = present ? 0 : gpu::NO_INDEX;
         state.arrival_step = gpu::NO_INDEX;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "authoring/scene/gaits.h"
+#include "io/motion/gaits.h"
 
 namespace throng::cli {
 namespace {
@@ -37,9 +37,10 @@ io::BakeDescription describeBake(const LoadedLayout& loaded, const BakeOptions& 
     bake.substeps = static_cast<std::uint32_t>(scene.settings.substeps);
     bake.duration = scene.settings.duration;
     bake.warmup = scene.settings.warmup;
+    bake.smoothing = scene.settings.smoothing;
     for (const gpu::Person& person : scene.people)
         bake.variations = std::max(bake.variations, person.variation + 1);
-    bake.strides = authoring::allStrides();
+    bake.strides = io::allStrides();
     bake.scene_origin = scene.origin;
     bake.output_origin = scene.output_origin;
     bake.minimum = scene.origin + glm::dvec2(scene.minimum);

@@ -5,26 +5,22 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <span>
 
 #include "authoring/cli/calibration_file.h"
+#include "authoring/cli/stopwatch.h"
 #include "io/bake_reader.h"
 #include "io/checkpoint.h"
 #include "io/files/hash.h"
+#include "io/motion/motion_recorder.h"
 
 namespace throng::cli {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr const char* kSeconds = "seconds";
-
-double secondsSince(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
+constexpr const char* kMotion = "motion";
 
 /// Everything that the bytes of a bake depend on.
 std::string identityOf(const LoadedLayout& loaded, const BakeJob& job, const gl::Device& device) {
@@ -72,12 +68,13 @@ std::optional<io::Checkpoint> findCheckpoint(const io::BakeDescription& descript
 class Run {
   public:
     Run(sim::Simulation& simulation, const authoring::SimulationSettings& settings, const BakeJob& job,
-        io::BakeWriter& writer, std::uint32_t frames, std::string identity)
+        io::BakeWriter& writer, const io::BakeDescription& description, std::string identity)
         : simulation_(simulation),
           job_(job),
           writer_(writer),
+          recorder_(description, [&writer](const Frame& frame) { writer.write(frame); }),
           identity_(std::move(identity)),
-          frames_(frames),
+          frames_(description.frames),
           substeps_(static_cast<std::uint32_t>(settings.substeps)),
           warmup_(sim::warmupSteps(settings)),
           pump_(simulation, {job.diagram_every > 0, job.seconds, job.densities},
@@ -85,6 +82,9 @@ class Run {
 
     void goOnFrom(const io::Checkpoint& checkpoint) {
         simulation_.restore({checkpoint.steps, checkpoint.sections});
+        const std::vector<std::byte>* motion = checkpoint.find(kMotion);
+        if (!motion) throw std::runtime_error("the checkpoint says nothing of the motion so far");
+        recorder_.restore(*motion);
         if (const std::vector<std::byte>* bytes = checkpoint.find(kSeconds);
             bytes && bytes->size() == sizeof seconds_before_)
             std::memcpy(&seconds_before_, bytes->data(), sizeof seconds_before_);
@@ -99,7 +99,7 @@ class Run {
             simulation_.wait();
             progress.update(0, 0, simulation_.stepsDone());
         }
-        for (std::uint32_t frame = writer_.framesWritten(); frame < frames_ && !interrupt.signal(); ++frame) {
+        for (std::uint32_t frame = recorder_.framesTaken(); frame < frames_ && !interrupt.signal(); ++frame) {
             if (frame > 0)
                 for (std::uint32_t step = 0; step < substeps_; ++step)
                     simulation_.step();
@@ -111,9 +111,14 @@ class Run {
                 save();
         }
         pump_.finish();
-        progress.update(writer_.framesWritten(), present_, warmup_ + writer_.framesWritten() * substeps_);
-        return writer_.framesWritten() < frames_ ? interrupt.signal() : 0;
+        const std::uint32_t taken = recorder_.framesTaken();
+        progress.update(taken, present_, warmup_ + taken * substeps_);
+        return taken < frames_ ? interrupt.signal() : 0;
     }
+
+    /// Writes the frames that wait for later ones.
+    void finish() { recorder_.finish(); }
+    std::uint32_t frames() const { return recorder_.framesTaken(); }
 
     void save() {
         pump_.finish();
@@ -124,6 +129,7 @@ class Run {
         checkpoint.sections = std::move(state.parts);
         const double so_far = seconds();
         checkpoint.add(kSeconds, std::as_bytes(std::span(&so_far, 1)));
+        checkpoint.add(kMotion, recorder_.save());
         writer_.save(std::move(checkpoint));
         last_checkpoint_ = Clock::now();
     }
@@ -137,12 +143,14 @@ class Run {
         for (std::size_t row = 0; row < frame.states.size(); row += 3)
             alive += frame.states[row] > 0.5f;
         present_ = alive;
-        writer_.write(frame);
+        writer_.writeDiagram(frame);
+        recorder_.take(frame);
     }
 
     sim::Simulation& simulation_;
     const BakeJob& job_;
     io::BakeWriter& writer_;
+    io::MotionRecorder recorder_;
     std::string identity_;
     std::uint32_t frames_, substeps_, warmup_;
     std::atomic<std::uint32_t> present_{0};
@@ -163,14 +171,11 @@ void stop(BakeRun& run, Run& running, io::BakeWriter& writer, WhenStopped what) 
             return;
         case WhenStopped::keep_partial:
             run.end = BakeRun::End::partial;
+            running.finish();
             run.result = writer.finishPartial(run.account, run.timing);
             return;
     }
 }
-
-}  // namespace
-
-namespace {
 
 /// Mesa's software renderer wakes its threads for every pass: for small crowds that takes several times
 /// longer than the work. It asks the environment, once.
@@ -215,7 +220,7 @@ BakeRun Baker::bake(const LoadedLayout& loaded, const BakeJob& job, const Interr
     sim::Simulation simulation = simulate(loaded.scene);
     context_.check("setting up the simulation");
 
-    Run running(simulation, settings, job, *writer, frames, identity);
+    Run running(simulation, settings, job, *writer, description, identity);
     if (checkpoint) running.goOnFrom(*checkpoint);
     const std::uint32_t steps_before = simulation.stepsDone();
     run.setup_seconds = secondsSince(begin);
@@ -227,12 +232,14 @@ BakeRun Baker::bake(const LoadedLayout& loaded, const BakeJob& job, const Interr
     context_.check("simulating");
     run.timing.wall_seconds = running.seconds();
     run.timing.steps = simulation.stepsDone();
-    run.frames = writer->framesWritten();
+    run.frames = running.frames();
     run.account = simulation.account();
     if (run.signal)
         stop(run, running, *writer, job.when_stopped(run.signal, run.timing.wall_seconds));
-    else
+    else {
+        running.finish();
         run.result = writer->finish(run.account, run.timing);
+    }
     return run;
 }
 

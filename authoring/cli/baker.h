@@ -38,7 +38,7 @@ struct BakeJob {
     std::function<WhenStopped(int signal, double seconds)> when_stopped = [](int, double) {
         return WhenStopped::keep_partial;
     };
-    Progress::Style progress = Progress::Style::quiet;
+    ProgressStyle progress = ProgressStyle::quiet;
 };
 
 /// What came of it.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <chrono>
 #include <memory>
 #include <sstream>
 
@@ -11,9 +10,11 @@
 #include "authoring/cli/batch/batch_progress.h"
 #include "authoring/cli/batch/batch_slurm.h"
 #include "authoring/cli/batch/batch_worker.h"
+#include "authoring/cli/batch/farm_job.h"
 #include "authoring/cli/batch/results_database.h"
 #include "authoring/cli/commands.h"
 #include "authoring/cli/exit_codes.h"
+#include "authoring/cli/stopwatch.h"
 #include "io/files/output_file.h"
 
 namespace throng::cli {
@@ -138,12 +139,12 @@ void bakeAll(const Options& options, const BatchPlan& plan, const BatchFolder& f
     LocalOptions local = options.local;
     local.checkpoint_seconds = 60.0 * options.checkpoint_minutes;
     local.seconds_left = 60.0 * options.time_limit_minutes;
-    const auto start = std::chrono::steady_clock::now();
+    const Clock::time_point start = Clock::now();
     LocalOutcome outcome;
     if (!options.collect_only && !standing.open.empty()) {
-        const auto style = options.quiet  ? Progress::Style::quiet
-                           : options.json ? Progress::Style::json
-                                          : Progress::detectStyle();
+        const auto style = options.quiet  ? ProgressStyle::quiet
+                           : options.json ? ProgressStyle::json
+                                          : detectProgressStyle();
         const std::size_t mine = shard.of == 1 ? standing.done : 0;
         BatchProgress progress(style, standing.open.size() + mine, mine);
         const auto advance = [&](std::size_t done, std::size_t failed) { progress.update(done, failed); };
@@ -151,7 +152,7 @@ void bakeAll(const Options& options, const BatchPlan& plan, const BatchFolder& f
                       ? runOnSlurm(plan, folder, standing, slurmOptions(options), interrupt, advance)
                       : runLocally(plan, folder, standing.open, local, interrupt, advance);
     }
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds = secondsSince(start);
     // Parts of a batch leave gathering to whoever runs the whole.
     if (shard.of == 1) collectResults(plan, folder);
     if (options.json)

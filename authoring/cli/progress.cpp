@@ -16,60 +16,61 @@ std::string timeText(double seconds) {
                          : fmt::format("{}:{:02}", whole / 60, whole % 60);
 }
 
-Progress::Style Progress::detectStyle() {
+ProgressStyle detectProgressStyle() {
     const char* terminal = std::getenv("TERM");
     const bool dumb = !terminal || std::string(terminal) == "dumb";
-    return isatty(STDERR_FILENO) && !dumb ? Style::terminal : Style::plain;
+    return isatty(STDERR_FILENO) && !dumb ? ProgressStyle::terminal : ProgressStyle::plain;
 }
 
-Progress::Progress(Style style, std::uint32_t frames, std::uint32_t warmup_steps, std::uint32_t substeps,
-                   std::uint32_t steps_before)
-    : style_(style),
-      frames_(frames),
-      steps_(static_cast<double>(warmup_steps) + static_cast<double>(frames) * substeps),
-      steps_before_(steps_before) {}
-
-Progress::~Progress() {
+StatusLine::~StatusLine() {
     if (line_open_) fmt::print(stderr, "\n");
 }
 
-bool Progress::isDue(double percent) {
-    if (style_ == Style::quiet) return false;
-    const Clock::time_point now = Clock::now();
-    const double since = std::chrono::duration<double>(now - last_).count();
-    const bool due = percent >= 100.0         ? last_percent_ < 100.0
-                     : style_ == Style::plain ? percent - last_percent_ >= 10.0
-                                              : since >= (style_ == Style::json ? 0.5 : 0.1);
+bool StatusLine::isDue(double percent) {
+    constexpr double kTerminalSeconds = 0.1, kJsonSeconds = 0.5, kPlainPercent = 10.0, kPlainSeconds = 60.0;
+    if (style_ == ProgressStyle::quiet) return false;
+    const double since = last_percent_ < 0.0 ? kPlainSeconds : secondsSince(last_);
+    const bool due = percent >= 100.0 ? last_percent_ < 100.0
+                     : style_ == ProgressStyle::plain
+                         ? percent - last_percent_ >= kPlainPercent || since >= kPlainSeconds
+                         : since >= (style_ == ProgressStyle::json ? kJsonSeconds : kTerminalSeconds);
     if (due) {
-        last_ = now;
+        last_ = Clock::now();
         last_percent_ = percent;
     }
     return due;
 }
 
+void StatusLine::write(const std::string& json, const std::string& text) {
+    if (style_ == ProgressStyle::quiet) return;
+    if (style_ == ProgressStyle::json) {
+        fmt::print(stderr, "{{{}}}\n", json);
+    } else if (style_ == ProgressStyle::plain) {
+        fmt::print(stderr, "{}\n", text);
+    } else {
+        fmt::print(stderr, "\r{}\x1b[K", text);
+        std::fflush(stderr);
+        line_open_ = true;
+    }
+}
+
+Progress::Progress(ProgressStyle style, std::uint32_t frames, std::uint32_t warmup_steps,
+                   std::uint32_t substeps, std::uint32_t steps_before)
+    : line_(style),
+      frames_(frames),
+      steps_(static_cast<double>(warmup_steps) + static_cast<double>(frames) * substeps),
+      steps_before_(steps_before) {}
+
 void Progress::update(std::uint32_t frames_done, std::uint32_t agents, std::uint32_t steps_done) {
     const double percent = steps_ > 0.0 ? std::min(100.0, 100.0 * steps_done / steps_) : 100.0;
-    if (!isDue(percent)) return;
-    const double elapsed = std::max(1.0e-6, std::chrono::duration<double>(Clock::now() - start_).count());
-    const double speed = (steps_done - steps_before_) / elapsed;
+    if (!line_.isDue(percent)) return;
+    const double speed = (steps_done - steps_before_) / std::max(1.0e-6, line_.elapsed());
     const double left = speed > 0.0 ? (steps_ - steps_done) / speed : 0.0;
-    if (style_ == Style::json) {
-        fmt::print(stderr,
-                   "{{\"progress\": {:.1f}, \"frame\": {}, \"frames\": {}, \"agents\": {}, "
-                   "\"steps_per_second\": {:.1f}, "
-                   "\"eta_seconds\": {:.1f}}}\n",
-                   percent, frames_done, frames_, agents, speed, left);
-        return;
-    }
-    const std::string text = fmt::format("{:3.0f} %  frame {} of {}  {} people  {:.0f} steps/s  {} left",
-                                         percent, frames_done, frames_, agents, speed, timeText(left));
-    if (style_ == Style::plain) {
-        fmt::print(stderr, "{}\n", text);
-        return;
-    }
-    fmt::print(stderr, "\r{}\x1b[K", text);
-    std::fflush(stderr);
-    line_open_ = true;
+    line_.write(fmt::format("\"progress\": {:.1f}, \"frame\": {}, \"frames\": {}, \"agents\": {}, "
+                            "\"steps_per_second\": {:.1f}, \"eta_seconds\": {:.1f}",
+                            percent, frames_done, frames_, agents, speed, left),
+                fmt::format("{:3.0f} %  frame {} of {}  {} people  {:.0f} steps/s  {} left", percent,
+                            frames_done, frames_, agents, speed, timeText(left)));
 }
 
 }  // namespace throng::cli

@@ -91,6 +91,7 @@ class Reader {
         reader.number("wall_time_horizon", {0.05, 20.0}, s.wall_time_horizon);
         reader.number("contact_range", {0.5, 3.0}, s.contact_range);
         reader.integer("contact_iterations", {1, 32}, s.contact_iterations);
+        reader.number("smoothing", {0.0, 1.0}, s.smoothing);
         reader.boolean("avoid_congestion", s.avoid_congestion);
         reader.number("maximum_acceleration", {0.1, 100.0}, s.maximum_acceleration);
         reader.finish();

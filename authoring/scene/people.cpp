@@ -5,8 +5,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "authoring/scene/gaits.h"
-
 namespace throng::authoring {
 namespace {
 
@@ -37,7 +35,6 @@ gpu::Person drawPerson(const People& people, const GroupRandom& random, std::uin
     person.preferred_speed = static_cast<float>(speed);
     person.maximum_speed = static_cast<float>(speed * settings.maximum_speed_factor);
     person.headway = static_cast<float>(settings.headway);
-    person.gait = gaitFor(speed);
     person.phase = static_cast<float>(random.unit(index, Purpose::phase));
     person.variation = static_cast<std::uint32_t>(random.word(index, Purpose::variation) % kVariations);
     person.entry = gpu::NO_INDEX;

@@ -7,6 +7,21 @@
 
 namespace throng::io {
 
+/// In quotes, with the quotes in it doubled: as CSV and SQL want it.
+inline std::string inQuotes(const std::string& text) {
+    std::string result = "\"";
+    for (const char letter : text) {
+        if (letter == '"') result += '"';
+        result += letter;
+    }
+    return result + '"';
+}
+
+/// A field of comma-separated text, in quotes where it needs them.
+inline std::string csvField(const std::string& text) {
+    return text.find_first_of(",\"\r\n") == std::string::npos ? text : inQuotes(text);
+}
+
 /// Splits comma-separated text with quoted fields (RFC 4180) into records.
 class CsvReader {
   public:

@@ -82,7 +82,7 @@ class Measurer {
           options_(options),
           rows_(loadAgentRows(bake)),
           reader_(bake),
-          walls_(bake),
+          walls_(bake.walls, bake.minimum, bake.maximum),
           grid_(bake.minimum, bake.maximum, 1.0),
           dt_(1.0 / bake.fps),
           way_(rows_.size(), 0.0),

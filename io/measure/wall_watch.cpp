@@ -3,6 +3,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <utility>
 
 namespace throng::io {
 namespace {
@@ -16,8 +17,8 @@ double cross(glm::dvec2 a, glm::dvec2 b) {
 
 }  // namespace
 
-WallWatch::WallWatch(const Bake& bake)
-    : walls_(bake.walls), open_(bake.walls.size()), grid_(bake.minimum, bake.maximum, 2.0) {
+WallWatch::WallWatch(std::vector<authoring::Wall> walls, glm::dvec2 minimum, glm::dvec2 maximum)
+    : walls_(std::move(walls)), open_(walls_.size()), grid_(minimum, maximum, 2.0) {
     for (std::size_t index = 0; index < walls_.size(); ++index) {
         const authoring::Wall& wall = walls_[index];
         const std::size_t count = wall.points.size() - (wall.closed ? 0 : 1);

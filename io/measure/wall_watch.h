@@ -4,15 +4,15 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-#include "io/bake_reader.h"
+#include "authoring/layout.h"
 #include "io/measure/plane_grid.h"
 
 namespace throng::io {
 
-/// The walls of a bake as segments, and what bodies do to them.
+/// Walls as segments, and what bodies do to them.
 class WallWatch {
   public:
-    explicit WallWatch(const Bake& bake);
+    WallWatch(std::vector<authoring::Wall> walls, glm::dvec2 minimum, glm::dvec2 maximum);
     bool empty() const { return segments_.empty(); }
 
     /// Looks at a frame and the one before: gates that are open in either are not there.
@@ -31,7 +31,7 @@ class WallWatch {
     template <class Visit>
     void near(glm::dvec2 place, double reach, Visit&& visit) const;
 
-    const std::vector<authoring::Wall>& walls_;
+    std::vector<authoring::Wall> walls_;
     std::vector<bool> open_;  // by wall
     std::vector<Segment> segments_;
     std::vector<glm::dvec2> samples_;  // along the segments, at most kSpacing apart

@@ -14,18 +14,6 @@ const uint PERSON_KEEPS_TO_ROADS = 1u;    // steers back when pushed off the roa
 const uint PERSON_PRESENT_AT_START = 4u;  // stands at spawn_position when the simulation begins
 const uint PERSON_FIXED_SPAWN = 8u;       // appears at spawn_position; otherwise at a point of its entry
 
-/// Gaits: clips of a walk (the last one: a run), each with a stride GAIT_RATIO times the one before.
-const uint GAIT_COUNT = 6u;
-const uint GAIT_NORMAL = 3u;              // of adults: 1.34 m/s
-const uint GAIT_SETTING_OFF = 1u;         // of those who begin to walk
-const float GAIT_NORMAL_STRIDE = 1.446f;  // m per cycle of two steps
-const float GAIT_RATIO = 1.28f;
-const float GAIT_STRIDE_AT_ONE =
-    1.249f;  // m that people stride at 1 m/s; it grows with the root of the speed
-const float GAIT_UNDER_BODY =
-    0.28f;  // phase, of a foot's own cycle, in which the planted foot is under the body
-const float GAIT_IN_STATE = 0.0625f;  // the stream of states adds gait * this to the activity
-
 /// One row per lifetime; the row index is the agent's stable id.
 struct Person {
     vec2 spawn_position;    // m, scene frame; only with PERSON_FIXED_SPAWN
@@ -34,7 +22,6 @@ struct Person {
     float maximum_speed;    // m/s
     float spawn_time;       // s; rows of one queue are sorted by it
     float heading;          // rad at the start; NaN-free; entries turn people towards their goal anyway
-    uint gait;              // at the start: how long its strides are (shaders/gait.glsl)
     float phase;            // gait cycles at the start, [0, 1)
     uint variation;         // which character of the cast
     uint entry;             // index into entries, NO_INDEX with PERSON_FIXED_SPAWN
@@ -47,6 +34,7 @@ struct Person {
     uint party_size;   // 1 = walks alone
     uint group;        // flow or formation, index into the scene's groups
     float headway;     // s of free way kept to those walked behind; 0 = pushes on
+    uint reserved;
 };
 
 /// A step of somebody's route: walk until at most `tolerance` metres are left, and perhaps stop there.

@@ -44,7 +44,6 @@ struct AgentState {
     vec2 position;       // m, scene frame
     vec2 velocity;       // m/s, of the last step, contact included
     float heading;       // rad
-    float phase;         // gait cycles, unwrapped
     float walked;        // m
     uint status;         // STATUS_*
     uint stage;          // index into stages: where it is going
@@ -57,7 +56,6 @@ struct AgentState {
     uint attempts;       // how often it asked for room at its entry
     float nervousness;   // 0 to 1: how much it has been held up lately
     float shortest_way;  // m from where it began to its goal, round walls; 0 = not known yet
-    uint gait;           // how long its strides are
     uint reserved;
 };
 

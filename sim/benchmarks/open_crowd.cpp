@@ -5,8 +5,6 @@
 #include <cmath>
 #include <random>
 
-#include "authoring/scene/gaits.h"
-
 namespace throng::sim {
 
 authoring::Scene emptyScene(glm::vec2 minimum, glm::vec2 maximum) {
@@ -27,7 +25,6 @@ gpu::Person& addPerson(authoring::Scene& scene, glm::vec2 position, glm::vec2 go
     person.preferred_speed = speed;
     person.maximum_speed = 1.5f * speed;
     person.heading = std::atan2(goal.y - position.y, goal.x - position.x);
-    person.gait = authoring::gaitFor(speed);
     person.entry = gpu::NO_INDEX;
     person.flags = gpu::PERSON_PRESENT_AT_START | gpu::PERSON_FIXED_SPAWN;
     person.first_stage = static_cast<std::uint32_t>(scene.stages.size());

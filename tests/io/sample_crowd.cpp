@@ -161,6 +161,7 @@ void SampleCrowd::writeTo(io::BakeWriter& writer, std::uint32_t count) const {
                                     options_.rows, glm::vec2(glm::dvec2(-16.0, -16.0) + to_scene), 128, 96,
                                     4.0f, 0.6f);
         if (options_.diagram_every > 0) out.diagram = &diagram.image;
+        writer.writeDiagram(out);
         writer.write(out);
     }
 }

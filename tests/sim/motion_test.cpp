@@ -3,7 +3,6 @@
 #include <cstring>
 #include <numbers>
 
-#include "authoring/scene/gaits.h"
 #include "sim/simulation.h"
 #include "tests/sim/gpu_test.h"
 #include "tests/sim/observe.h"
@@ -32,40 +31,6 @@ TEST_F(MotionTest, OnePersonWalksStraightToItsGoalAtItsSpeed) {
     const Observation seen = run(scene, 30.0f);
     EXPECT_EQ(seen.arrived, 1u);
     EXPECT_NEAR(seen.seconds, 20.0f / 1.33f, 1.0f);
-}
-
-TEST_F(MotionTest, StridesFollowTheSpeedAndThePhaseTheWay) {
-    for (const float speed : {0.3f, 0.6f, 1.0f, 1.34f, 1.7f, 2.2f, 3.5f}) {
-        authoring::Scene scene = emptyScene({-5, -5}, {100, 5});
-        addPerson(scene, {0, 0}, {90, 0}, speed).phase = 0.25f;
-        sim::Simulation simulation(scene, library);
-        std::vector<gpu::AgentState> states;
-        for (int step = 0; step < 720; ++step) {
-            simulation.step();
-            states.push_back(simulation.parts().buffers.states.download<gpu::AgentState>(1)[0]);
-        }
-        const gpu::AgentState& before = states[480];
-        const gpu::AgentState& after = states.back();
-        EXPECT_EQ(after.gait, authoring::gaitFor(speed)) << speed;
-        EXPECT_NEAR((after.walked - before.walked) / (after.phase - before.phase),
-                    authoring::strideOf(authoring::gaitFor(speed)), 0.005)
-            << speed;
-        // Sekiya et al. 1996: within what lies between two gaits.
-        EXPECT_NEAR(authoring::strideOf(after.gait) / (1.249 * std::sqrt(speed)), 1.0, 0.14) << speed;
-        for (std::size_t i = 1; i < states.size(); ++i) {
-            EXPECT_NEAR(states[i].phase - states[i - 1].phase,
-                        (states[i].walked - states[i - 1].walked) / authoring::strideOf(states[i - 1].gait),
-                        1.0e-4);
-            if (states[i].gait == states[i - 1].gait || glm::length(states[i].velocity) < gpu::STANDING_SPEED)
-                continue;
-            // The planted foot is under the body: whatever the stride, it stays where it is.
-            const double half = 2.0 * (states[i].phase - gpu::GAIT_UNDER_BODY);
-            const double since = 0.5 * (half - std::floor(half));
-            const double slide = since * std::abs(authoring::strideOf(states[i].gait) -
-                                                  authoring::strideOf(states[i - 1].gait));
-            EXPECT_LT(slide, 0.02) << "m, at " << speed;
-        }
-    }
 }
 
 TEST_F(MotionTest, HeadingFollowsTheVelocitySmoothly) {

@@ -61,7 +61,6 @@ TEST_F(SharedTypesTest, PersonAndStateAgree) {
     EXPECT_MEMBER(found, "people", Person, radius);
     EXPECT_MEMBER(found, "people", Person, preferred_speed);
     EXPECT_MEMBER(found, "people", Person, maximum_speed);
-    EXPECT_MEMBER(found, "people", Person, gait);
     EXPECT_MEMBER(found, "people", Person, entry);
     EXPECT_MEMBER(found, "people", Person, flags);
     EXPECT_MEMBER(found, "people", Person, first_stage);
@@ -70,7 +69,6 @@ TEST_F(SharedTypesTest, PersonAndStateAgree) {
     EXPECT_MEMBER(found, "states", AgentState, position);
     EXPECT_MEMBER(found, "states", AgentState, velocity);
     EXPECT_MEMBER(found, "states", AgentState, heading);
-    EXPECT_MEMBER(found, "states", AgentState, phase);
     EXPECT_MEMBER(found, "states", AgentState, status);
     EXPECT_MEMBER(found, "states", AgentState, spawn_step);
     EXPECT_MEMBER(found, "states", AgentState, attempts);

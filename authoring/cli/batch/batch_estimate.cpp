@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 
 #include "authoring/cli/baker.h"
+#include "authoring/cli/stopwatch.h"
 #include "sim/benchmarks/open_crowd.h"
 #include "sim/simulation.h"
 
@@ -21,11 +21,11 @@ double secondsPerStep(Baker& baker, std::uint32_t people) {
     for (int i = 0; i < 5; ++i)
         simulation.step();
     simulation.wait();
-    const auto start = std::chrono::steady_clock::now();
+    const Clock::time_point start = Clock::now();
     for (int i = 0; i < kSteps; ++i)
         simulation.step();
     simulation.wait();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / kSteps;
+    return secondsSince(start) / kSteps;
 }
 
 /// Mean s of the scenarios that are done, or nothing.

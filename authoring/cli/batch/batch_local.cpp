@@ -10,7 +10,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 #include <deque>
 #include <fstream>
@@ -20,16 +19,11 @@
 #include <thread>
 
 #include "authoring/cli/batch/batch_worker.h"
+#include "authoring/cli/stopwatch.h"
 #include "sim/gl/context.h"
 
 namespace throng::cli {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// KiB that the system could still give, from /proc/meminfo; nothing where it does not tell.
 std::optional<double> availableMemory() {

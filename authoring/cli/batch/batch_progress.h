@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 
 #include "authoring/cli/progress.h"
@@ -12,17 +11,12 @@ namespace throng::cli {
 class BatchProgress {
   public:
     /// @param of all scenarios; @param before done by earlier runs
-    BatchProgress(Progress::Style style, std::size_t of, std::size_t before);
-    ~BatchProgress();
+    BatchProgress(ProgressStyle style, std::size_t of, std::size_t before);
     void update(std::size_t done, std::size_t failed);
 
   private:
-    using Clock = std::chrono::steady_clock;
-    Progress::Style style_;
+    StatusLine line_;
     std::size_t of_, before_;
-    Clock::time_point start_ = Clock::now(), last_ = {};
-    double last_percent_ = -100.0;
-    bool line_open_ = false;
 };
 
 }  // namespace throng::cli

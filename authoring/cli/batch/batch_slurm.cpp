@@ -2,12 +2,12 @@
 #include "authoring/cli/batch/batch_slurm.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <cmath>
 #include <thread>
 
+#include "authoring/cli/batch/farm_job.h"
 #include "authoring/cli/batch/subprocess.h"
 #include "io/files/errors.h"
 #include "io/files/input_file.h"
@@ -106,27 +106,17 @@ class Array {
     std::string job_;
 };
 
-/// What has become of the scenarios that were open.
-struct Count {
-    std::size_t done = 0, failed = 0;
-};
-
-Count countResults(const BatchPlan& plan, const BatchFolder& folder, const std::vector<std::size_t>& open) {
-    Count count;
-    for (const std::size_t index : open) {
+/// Counts the scenarios that have got a result since, and takes them out of those that are waited for.
+void countResults(const BatchPlan& plan, const BatchFolder& folder, std::vector<std::size_t>& waiting,
+                  LocalOutcome& outcome) {
+    std::erase_if(waiting, [&](std::size_t index) {
         const auto result = folder.readResult(plan.scenarios()[index].id);
-        if (!result) continue;
-        ++(result->at("status") == "ok" ? count.done : count.failed);
-    }
-    return count;
+        if (result) ++(result->at("status") == "ok" ? outcome.done : outcome.failed);
+        return result.has_value();
+    });
 }
 
 }  // namespace
-
-std::size_t partsFor(std::size_t scenarios) {
-    constexpr std::size_t kEach = 50;  // starting a task takes a second or more
-    return std::clamp<std::size_t>((scenarios + kEach - 1) / kEach, 1, 1000);
-}
 
 LocalOutcome runOnSlurm(const BatchPlan& plan, const BatchFolder& folder, const BatchStanding& standing,
                         const SlurmOptions& options, const InterruptGuard& interrupt,
@@ -137,22 +127,20 @@ LocalOutcome runOnSlurm(const BatchPlan& plan, const BatchFolder& folder, const 
         for (const std::size_t index : standing.open)
             fs::remove(folder.result(plan.scenarios()[index].id));
     LocalOutcome outcome;
-    const std::size_t all = standing.open.size();
+    std::vector<std::size_t> waiting = standing.open;
     for (int attempt = 0; attempt <= options.retries; ++attempt) {
-        const std::size_t left = all - outcome.done - outcome.failed;
-        if (left == 0) break;
-        if (attempt > 0 || !joins) array.submit(left);
+        if (waiting.empty()) break;
+        if (attempt > 0 || !joins) array.submit(waiting.size());
         fmt::print(stderr, "slurm: job {} {}\n", array.job(),
-                   attempt == 0 && joins ? "is under way" : fmt::format("submitted for {} scenarios", left));
+                   attempt == 0 && joins ? "is under way"
+                                         : fmt::format("submitted for {} scenarios", waiting.size()));
         if (!options.wait) break;
         bool in_queue = true;
         while (in_queue && !interrupt.signal()) {
             for (int i = 0; i < 20 && !interrupt.signal(); ++i)
                 std::this_thread::sleep_for(std::chrono::milliseconds(100));
             in_queue = array.isInQueue();
-            const Count count = countResults(plan, folder, standing.open);
-            outcome.done = count.done;
-            outcome.failed = count.failed;
+            countResults(plan, folder, waiting, outcome);
             advance(outcome.done, outcome.failed);
         }
         if (!interrupt.signal()) continue;
@@ -160,7 +148,7 @@ LocalOutcome runOnSlurm(const BatchPlan& plan, const BatchFolder& folder, const 
         outcome.signal = interrupt.signal();
         break;
     }
-    outcome.out_of_time = !outcome.signal && outcome.done + outcome.failed < all;
+    outcome.out_of_time = !outcome.signal && !waiting.empty();
     return outcome;
 }
 

@@ -6,13 +6,13 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <iostream>
 
 #include "authoring/cli/judge.h"
+#include "authoring/cli/stopwatch.h"
 #include "authoring/layout/layout_reader.h"
 #include "io/measure/measure.h"
 #include "sim/gl/context.h"
@@ -20,7 +20,6 @@
 namespace throng::cli {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using nlohmann::ordered_json;
 
 /// Tells how long each part took, one after the other.

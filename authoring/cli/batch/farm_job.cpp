@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "authoring/cli/batch/farm_job.h"
+
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
-
-#include "authoring/cli/batch/batch_slurm.h"
 
 namespace throng::cli {
 namespace {
@@ -89,6 +89,11 @@ function compileJob(job) {{
 }
 
 }  // namespace
+
+std::size_t partsFor(std::size_t scenarios) {
+    constexpr std::size_t kEach = 50;  // starting a task takes a second or more
+    return std::clamp<std::size_t>((scenarios + kEach - 1) / kEach, 1, 1000);
+}
 
 std::string farmJob(const std::string& manager, const BatchPlan& plan, const std::string& family_path,
                     const BatchFolder& folder, std::size_t parts) {

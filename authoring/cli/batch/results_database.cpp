@@ -10,6 +10,7 @@
 #include <memory>
 #include <set>
 
+#include "io/files/csv.h"
 #include "io/files/errors.h"
 #include "io/files/output_file.h"
 
@@ -160,7 +161,7 @@ std::string createView(const authoring::Family& family) {
     return sql + " FROM scenarios JOIN parameters USING (id)";
 }
 
-std::string placeholders(std::size_t count) {
+std::string questionMarks(std::size_t count) {
     std::string text;
     for (std::size_t i = 0; i < count; ++i)
         text += i ? ", ?" : "?";
@@ -186,9 +187,9 @@ void fill(Connection& database, const BatchPlan& plan, const BatchFolder& folder
         about.reset();
     }
     Statement row(database,
-                  fmt::format("INSERT INTO scenarios VALUES ({})", placeholders(2 + std::size(kColumns))));
+                  fmt::format("INSERT INTO scenarios VALUES ({})", questionMarks(2 + std::size(kColumns))));
     Statement values(database,
-                     fmt::format("INSERT INTO parameters VALUES ({})", placeholders(1 + axes.size())));
+                     fmt::format("INSERT INTO parameters VALUES ({})", questionMarks(1 + axes.size())));
     for (std::size_t i = 0; i < plan.scenarios().size(); ++i) {
         const PlannedScenario& planned = plan.scenarios()[i];
         const ordered_json result =
@@ -232,22 +233,14 @@ std::string plainText(const ordered_json& value) {
     return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-std::string csvField(const ordered_json& value) {
-    std::string text = value.is_null() ? "" : value.is_string() ? value.get<std::string>() : value.dump();
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string quoted = "\"";
-    for (const char letter : text)
-        quoted += letter == '"' ? std::string("\"\"") : std::string(1, letter);
-    return quoted + "\"";
+std::string textOf(const ordered_json& value) {
+    return value.is_null() ? "" : value.is_string() ? value.get<std::string>() : value.dump();
 }
 
 }  // namespace
 
 std::string quotedName(const std::string& name) {
-    std::string quoted = "\"";
-    for (const char letter : name)
-        quoted += letter == '"' ? std::string("\"\"") : std::string(1, letter);
-    return quoted + "\"";
+    return io::inQuotes(name);
 }
 
 void collectResults(const BatchPlan& plan, const BatchFolder& folder) {
@@ -285,11 +278,11 @@ QueryResult queryResults(const fs::path& database_path, const std::string& sql) 
 std::string csvOf(const QueryResult& result) {
     std::string text;
     for (std::size_t column = 0; column < result.columns.size(); ++column)
-        text += (column ? "," : "") + csvField(result.columns[column]);
+        text += (column ? "," : "") + io::csvField(result.columns[column]);
     text += "\n";
     for (const auto& row : result.rows) {
         for (std::size_t column = 0; column < row.size(); ++column)
-            text += (column ? "," : "") + csvField(row[column]);
+            text += (column ? "," : "") + io::csvField(textOf(row[column]));
         text += "\n";
     }
     return text;
