@@ -3,9 +3,9 @@
 
 
 def _parts():
-    from . import operators, properties
+    from . import bake_operator, operators, overlay, panels, properties
 
-    return (properties, operators)
+    return (properties, operators, bake_operator, overlay, panels)
 
 
 def register():

@@ -25,6 +25,12 @@ def _refresh(group, _context):
     display.refresh(group.id_data)
 
 
+def _show_solid(layout, _context):
+    for thing in layout.id_data.objects:
+        if thing.type == "CURVE" and thing.throng_layout.kind in ("ROAD", "AREA", "WALL"):
+            thing.display_type = "TEXTURED" if layout.show_solid else "WIRE"
+
+
 def _is_place(_group, thing):
     return thing.throng_layout.kind in ("ROAD", "AREA")
 
@@ -223,6 +229,8 @@ class ThrongScene(bpy.types.PropertyGroup):
     expect_line: PointerProperty(type=bpy.types.Object, name="Line", poll=_is_kind("LINE"), description="Where people are counted for the bar on flow")
     tolerance: FloatProperty(name="Curve Tolerance", default=0.02, min=0.001, max=10.0, subtype="DISTANCE", description="How far points on a Bezier curve may be off")
     show_flows: BoolProperty(name="Show Flows", default=True, description="Draw flows in the viewport, from place to place")
+    show_solid: BoolProperty(name="Show Drawing Solid", default=True, update=_show_solid,
+                             description="Otherwise as wires: where streets and buildings were built, they show what was drawn")
     folder: StringProperty(name="Folder", default="//throng", subtype="DIR_PATH", description="Where bakes are written")
     crowd: PointerProperty(type=bpy.types.Object, description="The crowd that was baked from this layout")
     built: PointerProperty(type=bpy.types.Collection, description="Streets and buildings that were built from this layout")
