@@ -10,7 +10,7 @@ from bpy.props import IntProperty
 
 from ..formats import BakeError
 from ..preferences import program
-from .bake_job import BakeJob, check_layout
+from .bake_job import BakeJob, Diagnostic, check_layout
 from .executable import ExecutableError, check_version, find_executable
 from .exporter import default_name, export_layout, layout_text, write_text
 from .geometry import AuthoringError
@@ -67,21 +67,46 @@ def _complain(context, message, target=None, pointer=""):
     problem.message, problem.target, problem.pointer = message, target, pointer
 
 
+_UNCHOSEN = (("from", "choose where people come from"), ("to", "choose where people go"))
+
+
+def _unchosen(document):
+    """Flows without a place: what an artist forgets, said in the panel's words."""
+    return [Diagnostic("error", f"/flows/{index}/{key}", f"{flow['id']}: {message}", "a road's end or an area", 0, 0)
+            for index, flow in enumerate(document.get("flows", [])) for key, message in _UNCHOSEN if flow.get(key) == ""]
+
+
 class LayoutFile:
-    """The scene's layout in a folder of its own, which is gone afterwards. Raises AuthoringError."""
+    """The scene's layout in a folder of its own, which is gone afterwards. Raises AuthoringError.
+
+    diagnostics: what is wrong with it already.
+    """
 
     def __init__(self, context):
         document, sources = export_layout(context)
         document.setdefault("name", default_name(context.scene))
         self.sources = _remembered(sources)
+        self.diagnostics = _unchosen(document)
         self.own_meshes = [int(pointer.split("/")[2]) for pointer, (thing, _, _) in sources.items()
                            if pointer.startswith("/walls/") and thing.type == "MESH"]
         self.folder = tempfile.mkdtemp(prefix="throng-")
         self.path = os.path.join(self.folder, "layout.json")
-        write_text(self.path, layout_text(document))
+        try:
+            write_text(self.path, layout_text(document))
+        except AuthoringError:
+            self.remove()
+            raise
 
     def remove(self):
         shutil.rmtree(self.folder, ignore_errors=True)
+
+
+def _point_out(operator, context, file):
+    """What is wrong with a layout before `throng` has seen it."""
+    file.remove()
+    show_problems(context, file.diagnostics, file.sources)
+    operator.report({"ERROR"}, file.diagnostics[0].message)
+    return {"CANCELLED"}
 
 
 def _output(scene):
@@ -98,13 +123,16 @@ def _executable(context):
 
 
 class Bake:
-    """One bake of a scene: from its layout to its crowd. Raises AuthoringError or ExecutableError when it cannot begin."""
+    """One bake of a scene: from its layout's file to its crowd. Raises AuthoringError or ExecutableError when it cannot begin."""
 
-    def __init__(self, context):
+    def __init__(self, context, file):
         scene = context.scene
-        self.scene_name = scene.name
-        executable, output = _executable(context), _output(scene)
-        self.file = LayoutFile(context)
+        self.scene_name, self.file = scene.name, file
+        try:
+            executable, output = _executable(context), _output(scene)
+        except (AuthoringError, ExecutableError):
+            file.remove()
+            raise
         self.made_folder = not os.path.isdir(os.path.dirname(output))
         self.job = BakeJob(executable, self.file.path, output)
         self.start = time.monotonic()
@@ -188,7 +216,10 @@ class THRONG_OT_bake(bpy.types.Operator):
     def _begin(self, context):
         context.scene.throng_layout.problems.clear()
         try:
-            self.bake = Bake(context)
+            file = LayoutFile(context)
+            if file.diagnostics:
+                return _point_out(self, context, file)
+            self.bake = Bake(context, file)
         except (AuthoringError, ExecutableError) as error:
             _complain(context, str(error), getattr(error, "target", None))
             return refused(self, error)
@@ -275,6 +306,8 @@ class THRONG_OT_check(bpy.types.Operator):
         except (AuthoringError, ExecutableError) as error:
             _complain(context, str(error), getattr(error, "target", None))
             return refused(self, error)
+        if file.diagnostics:
+            return _point_out(self, context, file)
         try:
             valid, diagnostics, said = check_layout(executable, file.path)
         finally:

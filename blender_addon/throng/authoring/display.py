@@ -99,11 +99,12 @@ def _wall_tree():
     draw.link(draw.node("GeometryNodeInputSplineCyclic").outputs[0], split.inputs["Selection"])
     solid = draw.made("GeometryNodeFillCurve", [("Curve", split.outputs["Selection"])])
     bands = draw.sweep(split.outputs["Inverted"], draw.across(inputs.outputs["Thickness"]))
-    flat = draw.joined(solid.outputs[0], bands)
+    floor = draw.joined(solid.outputs[0], bands)
     up = draw.node("ShaderNodeCombineXYZ")
     draw.link(height, up.inputs[2])
-    top = draw.made("GeometryNodeExtrudeMesh", [("Mesh", flat), ("Offset", up.outputs[0]), ("Individual", False)], mode="FACES")
-    draw.link(draw.finish(top.outputs["Mesh"], "WALL"), outputs.inputs[0])
+    top = draw.made("GeometryNodeExtrudeMesh", [("Mesh", floor), ("Offset", up.outputs[0]), ("Individual", False)], mode="FACES")
+    flat = draw.made("GeometryNodeSetShadeSmooth", [("Geometry", top.outputs["Mesh"]), ("Shade Smooth", False)])
+    draw.link(draw.finish(flat.outputs[0], "WALL"), outputs.inputs[0])
     return tree
 
 

@@ -123,8 +123,10 @@ class ImportWorld:
 
 
 def _shaped(world, key, kind, entry):
+    # Named when it is made: giving it a name later would take that away from another object.
+    name = entry["id"] if isinstance(entry.get("id"), str) and entry["id"] else kind.capitalize()
     if kind == "FORMATION":
-        thing = bpy.data.objects.new(entry["type"].capitalize(), bpy.data.meshes.new("Throng formation"))
+        thing = bpy.data.objects.new(name, bpy.data.meshes.new("Throng formation"))
         if entry["type"] == "agents":
             geometry.fill_people(thing.data, [world.local([each["position"], each["goal"]]) for each in entry["agents"]])
         else:
@@ -133,7 +135,7 @@ def _shaped(world, key, kind, entry):
             thing.rotation_euler.z = math.radians(turn) if is_number(turn) else 0.0
         return thing
     closed = kind == "AREA" or (kind == "WALL" and entry.get("closed") is True)
-    return geometry.new_curve(kind.capitalize(), world.local(entry[_SHAPES[key][0]]), closed)
+    return geometry.new_curve(name, world.local(entry[_SHAPES[key][0]]), closed)
 
 
 def _put_formation(part, entry, world):
@@ -148,10 +150,8 @@ def _add_objects(world, document):
     for kind, key in LISTS.items():
         for order, entry in enumerate(document.get(key, [])):
             thing = world.add(_shaped(world, key, kind, entry), kind)
-            name = entry.get("id")
-            if isinstance(name, str) and name:
-                thing.name = name
-                world.objects[key].setdefault(name, thing)
+            if isinstance(entry.get("id"), str):
+                world.objects[key].setdefault(entry["id"], thing)
             part = thing.throng_layout
             part.imported_name, part.order = thing.name, order
             part.raw = json.dumps(entry, separators=(",", ":"))

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The layout in the sidebar: drawing, the active part, flows, events, simulation, bars, and baking."""
+import textwrap
+
 import bpy
 
 from . import fields
@@ -79,12 +81,18 @@ def _problems_of(context, layout, chosen):
         column = layout.box().column(align=True)
         column.alert = problem.is_error
         row = column.row()
-        field = problem.pointer.split("/")[3:]
-        row.label(text=(" ".join(field) + ": " if field else "") + problem.message, icon="ERROR" if problem.is_error else "INFO")
+        owner = problem.target.name if problem.target else ""
+        row.label(text=" ".join([owner] + problem.pointer.split("/")[3:]) or "Layout", icon="ERROR" if problem.is_error else "INFO")
         if problem.target or problem.where:
             row.operator("throng.show_problem", text="", icon="RESTRICT_SELECT_OFF").index = index
-        if problem.hint:
-            column.label(text=problem.hint)
+        for text in (problem.message, problem.hint):
+            for line in textwrap.wrap(text, _letters(context)):
+                column.label(text=line)
+
+
+def _letters(context):
+    """How many letters fit into a line of the panel."""
+    return max(20, int(context.region.width / (7.5 * context.preferences.system.ui_scale)) - 8)
 
 
 class _InSidebar:
@@ -104,8 +112,8 @@ class VIEW3D_PT_throng_layout(_InSidebar, bpy.types.Panel):
         if context.object:
             self._part(context, context.object)
         row = layout.row(align=True)
-        row.prop(context.scene.throng_layout, "show_flows", toggle=True)
-        row.prop(context.scene.throng_layout, "show_solid", toggle=True)
+        row.prop(context.scene.throng_layout, "show_flows", text="Flows", toggle=True)
+        row.prop(context.scene.throng_layout, "show_solid", text="Solid", toggle=True)
 
     def _part(self, context, thing):
         part = thing.throng_layout
@@ -314,8 +322,8 @@ class VIEW3D_PT_throng_bake(_InSidebar, bpy.types.Panel):
         layout.label(text=data.status)
 
 
-CLASSES = (VIEW3D_PT_throng_layout, THRONG_UL_flows, THRONG_UL_events, VIEW3D_PT_throng_flows, VIEW3D_PT_throng_events, VIEW3D_PT_throng_simulation,
-           VIEW3D_PT_throng_bars, VIEW3D_PT_throng_bake)
+CLASSES = (VIEW3D_PT_throng_layout, VIEW3D_PT_throng_bake, THRONG_UL_flows, THRONG_UL_events, VIEW3D_PT_throng_flows, VIEW3D_PT_throng_events,
+           VIEW3D_PT_throng_simulation, VIEW3D_PT_throng_bars)
 
 
 def register():
