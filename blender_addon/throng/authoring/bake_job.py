@@ -160,7 +160,7 @@ class BakeJob:
         """What an unfinished bake leaves beside its output, by name and identity."""
         folder, name = os.path.split(os.path.abspath(self.output))
         try:
-            entries = [entry for entry in os.scandir(folder) if entry.name == name + ".partial" or entry.name.startswith(name + ".tmp-")]
+            entries = [entry for entry in os.scandir(folder) if re.fullmatch(re.escape(name) + r"\.(partial(-\d+)?|tmp-\w+)", entry.name)]
         except OSError:
             return []
         return [(entry.path, entry.inode()) for entry in entries]

@@ -5,7 +5,7 @@ A codec puts a value (or MISSING) into a group, and takes it out again, given th
 what that value looks like gives the value itself, with all its digits, or its absence; so a layout that went through Blender differs
 only where somebody changed something, and what has no property of its own survives.
 """
-from .values import MISSING, is_number, short, single, whole
+from .values import MISSING, is_number, keep_digits, short, single, whole
 
 UNSET = "UNSET"
 
@@ -28,7 +28,7 @@ class Codec:
         value = self.present(group)
         if value == self.shown(raw) and not (self.required and raw is MISSING):
             return raw
-        return self.written(value)
+        return keep_digits(self.written(value), raw)
 
     def written(self, value):
         return value

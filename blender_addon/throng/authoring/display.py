@@ -103,7 +103,8 @@ def _wall_tree():
     up = draw.node("ShaderNodeCombineXYZ")
     draw.link(height, up.inputs[2])
     top = draw.made("GeometryNodeExtrudeMesh", [("Mesh", floor), ("Offset", up.outputs[0]), ("Individual", False)], mode="FACES")
-    flat = draw.made("GeometryNodeSetShadeSmooth", [("Geometry", top.outputs["Mesh"]), ("Shade Smooth", False)])
+    flat = draw.made("GeometryNodeSetShadeSmooth", [("Shade Smooth", False)])
+    draw.link(top.outputs["Mesh"], flat.inputs[0])  # `Geometry`, later `Mesh`
     draw.link(draw.finish(flat.outputs[0], "WALL"), outputs.inputs[0])
     return tree
 

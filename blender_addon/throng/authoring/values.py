@@ -36,6 +36,17 @@ def short(value):
     return int(text) if text == int(text) else text
 
 
+def keep_digits(value, raw):
+    """The value, with raw's digits wherever both have the same number in the same place."""
+    if is_number(value) and is_number(raw):
+        return raw if single(value) == single(raw) else value
+    if isinstance(value, dict) and isinstance(raw, dict):
+        return {key: keep_digits(part, raw.get(key)) for key, part in value.items()}
+    if isinstance(value, list) and isinstance(raw, list):
+        return [keep_digits(part, old) for part, old in zip(value, raw + [None] * len(value))]
+    return value
+
+
 def is_point(value):
     return isinstance(value, list) and len(value) == 2 and all(is_number(part) for part in value)
 
