@@ -34,7 +34,7 @@ def move_one_point():
 
 
 def insert_a_point():
-    spline = things["Hauptstraße"].data.splines[0] if "Hauptstraße" in things else things["a:b"].data.splines[0]
+    spline = things["a:b"].data.splines[0]
     points = [tuple(point.co) for point in spline.points]
     spline.points.add(1)
     middle = [0.5 * (a + b) for a, b in zip(points[0], points[1])]
@@ -80,7 +80,7 @@ def stop_longer():
 
 
 def move_the_queue():
-    things["Line"].location.y += 1.0
+    flow("via").via[4].line.location.y += 1.0
 
 
 def amount():

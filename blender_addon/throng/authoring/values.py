@@ -55,10 +55,10 @@ def are_points(value, least):
     return isinstance(value, list) and len(value) >= least and all(is_point(point) for point in value)
 
 
-def _near(point, raw, origin, reach):
-    """Whether a position in Blender is what a layout's point became there: a few roundings of single floats apart."""
+def _kept(point, raw, origin, reach):
+    """[x, y] of the layout's point, each where the position in Blender is what it became there: a few roundings apart. None: was moved."""
     tolerance = 2.0**-21 * reach + 1e-7
-    return abs(point[0] + origin[0] - raw[0]) <= tolerance and abs(point[1] + origin[1] - raw[1]) <= tolerance
+    return [old if abs(part + offset - old) <= tolerance else None for part, old, offset in zip(point, raw, origin)]
 
 
 def keep_points(points, raw, origin):
@@ -67,22 +67,21 @@ def keep_points(points, raw, origin):
     When points were added or taken out, those before and those behind the change are still known.
     """
     reach = max((max(abs(x), abs(y)) for x, y in points), default=0.0)
-    result = [None] * len(points)
+    result = [[None, None]] * len(points)
     if len(raw) == len(points):
-        for i, (point, old) in enumerate(zip(points, raw)):
-            if _near(point, old, origin, reach):
-                result[i] = old
+        result = [_kept(point, old, origin, reach) for point, old in zip(points, raw)]
     else:
         shorter = min(len(raw), len(points))
         first = 0
-        while first < shorter and _near(points[first], raw[first], origin, reach):
+        while first < shorter and None not in _kept(points[first], raw[first], origin, reach):
             result[first] = raw[first]
             first += 1
         last = 1
-        while last <= shorter - first and _near(points[-last], raw[-last], origin, reach):
+        while last <= shorter - first and None not in _kept(points[-last], raw[-last], origin, reach):
             result[-last] = raw[-last]
             last += 1
-    return [list(old) if old is not None else world_point(point, origin) for old, point in zip(result, points)]
+    return [[now if old is None else old for old, now in zip(kept, world_point(point, origin))] if None in kept else list(kept)
+            for kept, point in zip(result, points)]
 
 
 def world_point(point, origin):
