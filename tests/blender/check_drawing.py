@@ -193,6 +193,20 @@ text = export()
 bpy.ops.wm.save_mainfile()
 bpy.ops.wm.open_mainfile(filepath=os.path.join(folder, "shot.blend"))
 result["again"] = export() == text and data().crowd is not None
+
+# A layout in UTM coordinates: the crowd comes to what was imported.
+assert bpy.ops.import_scene.throng_layout(filepath=os.path.join(folder, "far.json"), replace=True) == {"FINISHED"}
+assert data().crowd is None
+assert ops.bake() == {"FINISHED"}
+bpy.context.view_layer.update()
+road, built = thing("far road"), next(each for each in data().built.objects if each.name.startswith("Throng road"))
+xs = [(built.matrix_world @ v.co).x for v in built.data.vertices]
+result["far"] = [road.location.x, 0.5 * (min(xs) + max(xs)), [round(value, 6) for value in json.loads(data().origin)], len(crowds.crowd_objects(bpy.context.scene))]
+bpy.context.scene.frame_set(bpy.context.scene.frame_end)
+graph = bpy.context.evaluated_depsgraph_get()
+where = [each.matrix_world.translation.copy() for each in graph.object_instances
+         if each.is_instance and each.parent and each.parent.original == data().crowd]
+result["far people"] = [len(where), max(abs(each.y) for each in where), min(each.x for each in where), max(each.x for each in where)]
 throng.unregister()
 result["types"] = [name for name in dir(bpy.types) if "throng" in name.lower()]
 assert not hasattr(bpy.types.Object, "throng_layout")

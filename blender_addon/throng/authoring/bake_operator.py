@@ -12,7 +12,7 @@ from ..formats import BakeError
 from ..preferences import program
 from .bake_job import BakeJob, Diagnostic, check_layout
 from .executable import ExecutableError, check_version, find_executable
-from .exporter import default_name, export_layout, layout_text, write_text
+from .exporter import default_name, export_layout, folder_of_files, layout_text, write_text
 from .geometry import AuthoringError
 from .load import load
 from .operators import refused, select_only
@@ -77,7 +77,7 @@ def _unchosen(document):
 
 
 class LayoutFile:
-    """The scene's layout in a folder of its own, which is gone afterwards. Raises AuthoringError.
+    """The scene's layout in a file that is gone afterwards: beside the files that it names, if it names any. Raises AuthoringError.
 
     diagnostics: what is wrong with it already.
     """
@@ -89,8 +89,9 @@ class LayoutFile:
         self.diagnostics = _unchosen(document)
         self.own_meshes = [int(pointer.split("/")[2]) for pointer, (thing, _, _) in sources.items()
                            if pointer.startswith("/walls/") and thing.type == "MESH"]
-        self.folder = tempfile.mkdtemp(prefix="throng-")
-        self.path = os.path.join(self.folder, "layout.json")
+        beside = folder_of_files(context.scene, document)
+        self.folder = None if beside else tempfile.mkdtemp(prefix="throng-")
+        self.path = os.path.join(self.folder or beside, "layout.json" if self.folder else f".throng-{os.getpid()}.json")
         try:
             write_text(self.path, layout_text(document))
         except AuthoringError:
@@ -98,7 +99,10 @@ class LayoutFile:
             raise
 
     def remove(self):
-        shutil.rmtree(self.folder, ignore_errors=True)
+        if self.folder:
+            shutil.rmtree(self.folder, ignore_errors=True)
+        elif os.path.exists(self.path):
+            os.unlink(self.path)
 
 
 def _point_out(operator, context, file):

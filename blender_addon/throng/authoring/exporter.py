@@ -236,6 +236,12 @@ def _umask():
     return mask
 
 
+def folder_of_files(scene, document):
+    """The folder where files that a layout names are looked for; None when it names none, or came from nowhere."""
+    source = bpy.path.abspath(scene.throng_layout.source)
+    return os.path.dirname(source) if source and "terrain" in document else None
+
+
 def default_name(scene):
     """What a bake of this scene is called."""
     name = scene.throng_layout.name or os.path.splitext(os.path.basename(bpy.data.filepath))[0] or "crowd"

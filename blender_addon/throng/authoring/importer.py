@@ -2,6 +2,7 @@
 """A layout as objects, flows and settings that can be edited."""
 import json
 import math
+import os
 
 import bpy
 
@@ -179,8 +180,9 @@ def clear(scene):
     layout = scene.throng_layout
     for group in (layout.flows, layout.events, layout.bars, layout.problems):
         group.clear()
-    for name in ("raw", "origin", "name"):
+    for name in ("raw", "source", "origin", "name"):
         setattr(layout, name, "")
+    layout.crowd = layout.built = None  # they stay in the scene, and are another layout's from now on
 
 
 def layout_collection(scene):
@@ -208,7 +210,7 @@ def import_layout(context, path, replace=False):
     layout, origin = scene.throng_layout, _origin(document)
     world = ImportWorld(layout_collection(scene), origin)
     layout.raw = json.dumps({key: [] if key in LISTED else value for key, value in document.items()})
-    layout.origin = json.dumps(origin)
+    layout.origin, layout.source = json.dumps(origin), os.path.abspath(path)
     layout.name = document["name"] if isinstance(document.get("name"), str) else ""
     with display.quietly():
         things = _add_objects(world, document)

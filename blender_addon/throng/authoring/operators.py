@@ -8,7 +8,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, St
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
 from . import display, geometry, importer
-from .exporter import default_name, export_layout, layout_text, write_text
+from .exporter import default_name, export_layout, folder_of_files, layout_text, write_text
 from .geometry import AuthoringError
 from .properties import KINDS
 
@@ -30,7 +30,9 @@ def select_only(context, thing):
 
 
 def _enter(context, thing, kind, **values):
-    """A new part of the layout: linked, marked, selected."""
+    """A new part of the layout: linked, marked, selected. With the first one, the shot is the scene's."""
+    if importer.is_empty(context.scene):
+        take_shot(context.scene)
     with display.quietly():
         part = thing.throng_layout
         part.kind, part.order = kind, importer.next_order(context.scene)
@@ -42,6 +44,13 @@ def _enter(context, thing, kind, **values):
     select_only(context, thing)
     context.view_layer.update()
     return thing
+
+
+def take_shot(scene):
+    """The scene's frame rate and range as the layout's."""
+    simulation = scene.throng_layout.simulation
+    simulation.fps = scene.render.fps / scene.render.fps_base
+    simulation.duration = (scene.frame_end - scene.frame_start + 1) / simulation.fps
 
 
 class _Adds:
@@ -234,9 +243,7 @@ class THRONG_OT_settings_from_scene(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     def execute(self, context):
-        scene, simulation = context.scene, context.scene.throng_layout.simulation
-        simulation.fps = scene.render.fps / scene.render.fps_base
-        simulation.duration = (scene.frame_end - scene.frame_start + 1) / simulation.fps
+        take_shot(context.scene)
         return {"FINISHED"}
 
 
@@ -259,6 +266,9 @@ class EXPORT_SCENE_OT_throng_layout(bpy.types.Operator, ExportHelper):
             write_text(self.filepath, layout_text(document))
         except AuthoringError as error:
             return refused(self, error)
+        beside = folder_of_files(context.scene, document)
+        if beside and beside != os.path.dirname(os.path.abspath(self.filepath)):
+            self.report({"WARNING"}, f"The layout names files that lie in {beside}: copy them beside it")
         self.report({"INFO"}, f"Wrote {self.filepath}")
         return {"FINISHED"}
 

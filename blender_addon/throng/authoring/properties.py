@@ -218,6 +218,7 @@ class ThrongProblem(bpy.types.PropertyGroup):
 
 class ThrongScene(bpy.types.PropertyGroup):
     raw: StringProperty(options={"HIDDEN"})
+    source: StringProperty(options={"HIDDEN"}, subtype="FILE_PATH")  # the layout file that was imported: files that it names lie beside it
     origin: StringProperty(options={"HIDDEN"})  # [x, y] in doubles: what was taken off the layout's coordinates
     name: StringProperty(name="Name", description="Of the layout and its bakes; by default the .blend's")
     simulation: PointerProperty(type=ThrongSimulation)
