@@ -173,8 +173,8 @@ def test_a_scene_is_drawn_baked_mended_and_baked_again(blender, throng, tmp_path
     assert found["first"]["streets"] and found["first"]["kiosk"] == 0, "the user's own mesh is not built a second time"
     assert found["second"] == {"people": 47, "crowds": 1, "same": True, "width": pytest.approx(6.0, abs=0.1)}
 
-    assert found["errors"]["width"] == ["Road", "/roads/0/width", "Road"] and "out of range" in found["words"]["width"]
-    assert found["errors"]["wall"][0] == "Wall" and found["errors"]["flow"][0] == 1 and "choose where people go" in found["words"]["flow"]
+    assert found["errors"]["width"] == ["Road", "/roads/0/width", "Road"] and found["words"]["width"].startswith("Road width: 0 is out of range")
+    assert found["errors"]["wall"][0] == "Wall" and found["errors"]["flow"][0] == 1 and found["words"]["flow"] == "Flow 2 to: choose where people go"
     assert found["errors"]["nurbs"][0] == "Area" and "NURBS" in found["words"]["nurbs"]
     assert found["kept"] == [47, True], "a bake that fails leaves the crowd and the bake before alone"
     assert "does not exist" in found["words"]["program"] and "--version" in found["words"]["other"]

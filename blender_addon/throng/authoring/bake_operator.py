@@ -49,6 +49,14 @@ def show_problems(context, diagnostics, sources):
         show(context, first)
 
 
+def described(layout, problem):
+    """A problem with the name of what it is about."""
+    group = getattr(layout, problem.where) if problem.where else ()
+    owner = problem.target.name if problem.target else group[problem.index].name if problem.where == "flows" and problem.index < len(group) else ""
+    about = " ".join([owner] + problem.pointer.split("/")[3:]).strip()
+    return f"{about}: {problem.message}" if about else problem.message
+
+
 def show(context, problem):
     """Selects what a problem is about."""
     layout = context.scene.throng_layout
@@ -72,7 +80,7 @@ _UNCHOSEN = (("from", "choose where people come from"), ("to", "choose where peo
 
 def _unchosen(document):
     """Flows without a place: what an artist forgets, said in the panel's words."""
-    return [Diagnostic("error", f"/flows/{index}/{key}", f"{flow['id']}: {message}", "a road's end or an area", 0, 0)
+    return [Diagnostic("error", f"/flows/{index}/{key}", message, "a road's end or an area", 0, 0)
             for index, flow in enumerate(document.get("flows", [])) for key, message in _UNCHOSEN if flow.get(key) == ""]
 
 
@@ -109,7 +117,8 @@ def _point_out(operator, context, file):
     """What is wrong with a layout before `throng` has seen it."""
     file.remove()
     show_problems(context, file.diagnostics, file.sources)
-    operator.report({"ERROR"}, file.diagnostics[0].message)
+    layout = context.scene.throng_layout
+    operator.report({"ERROR"}, described(layout, layout.problems[0]))
     return {"CANCELLED"}
 
 
@@ -187,9 +196,7 @@ class Bake:
         if job.state == "cancelled":
             return "WARNING", "The bake was cancelled; nothing was written"
         if job.state != "done":
-            if not any(problem.is_error for problem in layout.problems):
-                layout.problems.add().message = job.message
-            return "ERROR", job.message
+            return "ERROR", self._first_error(layout)
         try:
             load(context, os.path.join(job.output, "bake.json"), self.file.own_meshes)
         except BakeError as error:
@@ -198,6 +205,13 @@ class Bake:
         account = job.result["account"]
         self._note_refused(layout, account)
         return "INFO", f"{account['agents']} people, {job.result['frames']} frames in {time.monotonic() - self.start:.1f} s"
+
+    def _first_error(self, layout):
+        errors = [problem for problem in layout.problems if problem.is_error]
+        if not errors:
+            layout.problems.add().message = self.job.message
+            return self.job.message
+        return described(layout, errors[0]) + (f" (and {len(errors) - 1} more)" if len(errors) > 1 else "")
 
     @staticmethod
     def _note_refused(layout, account):
@@ -320,8 +334,9 @@ class THRONG_OT_check(bpy.types.Operator):
         if valid:
             self.report({"INFO"}, said.splitlines()[-1].partition(": ok: ")[2] or said)
             return {"FINISHED"}
-        errors = [entry for entry in diagnostics if entry.severity == "error"]
-        self.report({"ERROR"}, errors[0].message if errors else said)
+        layout = context.scene.throng_layout
+        first = next((problem for problem in layout.problems if problem.is_error), None)
+        self.report({"ERROR"}, described(layout, first) if first else said)
         return {"CANCELLED"}
 
 

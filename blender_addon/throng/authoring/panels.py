@@ -5,7 +5,7 @@ import textwrap
 import bpy
 
 from . import fields
-from .bake_operator import running
+from .bake_operator import described, running
 from .codecs import MIX, UNSET
 
 _A = {"NUMBER": ("Value",), "uniform": ("From", "To"), "normal": ("Mean", "Deviation"), "log_normal": ("Mean of log", "Deviation of log")}
@@ -81,8 +81,8 @@ def _problems_of(context, layout, chosen):
         column = layout.box().column(align=True)
         column.alert = problem.is_error
         row = column.row()
-        owner = problem.target.name if problem.target else ""
-        row.label(text=" ".join([owner] + problem.pointer.split("/")[3:]) or "Layout", icon="ERROR" if problem.is_error else "INFO")
+        row.label(text=described(context.scene.throng_layout, problem).removesuffix(problem.message).rstrip(": ") or "Layout",
+                  icon="ERROR" if problem.is_error else "INFO")
         if problem.target or problem.where:
             row.operator("throng.show_problem", text="", icon="RESTRICT_SELECT_OFF").index = index
         for text in (problem.message, problem.hint):
