@@ -12,6 +12,7 @@ SIMULATION = (
     (Whole("substeps", 2), "Substeps", 1, 64, "Simulation steps a frame. More are slower, and keep dense crowds apart more exactly"),
     (Whole("seed", 1), "Seed", 0, 2**31 - 1, "Another seed gives another crowd"),
     (Flag("avoid_congestion", True), "Avoid Congestion", None, None, "Routes lead round jams and prefer streams that go the same way"),
+    (Number("smoothing", 0.25), "Smoothing", 0.0, 1.0, "Seconds before and after a frame over which recorded motion is averaged; 0: as simulated"),
     (Number("tile_radius", 0.6), "Tile Radius", 0.05, 10.0, "Radius of a person's tile in the diagram, m: at least the largest body"),
     (Number("field_of_view", 200.0), "Field of View", 0.0, 360.0, "What people see ahead, degrees"),
     (Whole("samples_per_ray", 6), "Samples per Ray", 1, 64, "People see as far as body radius + (samples - 1) x tile radius"),
