@@ -14,9 +14,9 @@ bl_info = {
 
 def _parts():
     """The modules that register classes of their own, in order."""
-    from . import operators
+    from . import authoring, operators, preferences
 
-    return (operators,)
+    return (preferences, operators, authoring)
 
 
 def register():

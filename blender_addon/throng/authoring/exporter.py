@@ -1,0 +1,248 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A scene as a layout. What came from a layout and was not changed since is written as it was, to the last digit."""
+import json
+import math
+import os
+import tempfile
+
+import bpy
+
+from . import fields, places
+from .codecs import take_all
+from .geometry import AuthoringError, outlines_of, people_of, splines_of
+from .values import MISSING, are_points, is_number, is_point, keep_points, short, world_point
+
+LISTS = {"ROAD": "roads", "AREA": "areas", "WALL": "walls", "FORMATION": "formations"}
+LISTED = ("roads", "areas", "walls", "flows", "formations", "events")
+
+
+def origin_of(scene):
+    return tuple(json.loads(scene.throng_layout.origin or "[0, 0]"))
+
+
+def parts_of(scene, kind):
+    """A scene's objects of a kind, in the layout's order; new ones come last, by name."""
+    return sorted((thing for thing in scene.objects if thing.throng_layout.kind == kind), key=lambda thing: (thing.throng_layout.order, thing.name))
+
+
+def id_of(thing):
+    """An object's name, or what the layout called it as long as it keeps the name that it was given for that. None: the layout gave none."""
+    part = thing.throng_layout
+    if part.raw and thing.name == part.imported_name:
+        return json.loads(part.raw).get("id")
+    return thing.name
+
+
+class ExportWorld:
+    """Names and coordinates of objects."""
+
+    def __init__(self, scene):
+        self.origin = origin_of(scene)
+        self.tolerance = scene.throng_layout.tolerance
+        self._names = {}
+
+    def name(self, thing):
+        if thing not in self._names:
+            name = id_of(thing)
+            self._names[thing] = thing.name if name is None else name
+        return self._names[thing]
+
+    def place(self, thing, end):
+        return f"{self.name(thing)}:{end}" if thing.throng_layout.kind == "ROAD" else self.name(thing)
+
+    def point_of(self, thing, raw=None):
+        point = thing.matrix_world.translation[:2]
+        return keep_points([point], [raw], self.origin)[0] if is_point(raw) else world_point(point, self.origin)
+
+    def line_of(self, thing, raw=None):
+        return self.kept(splines_of(thing, self.tolerance)[0][0], raw)
+
+    def kept(self, points, raw):
+        return keep_points(points, raw if are_points(raw, 1) else [], self.origin)
+
+
+def _raw(thing):
+    part = thing.throng_layout
+    return json.loads(part.raw) if part.raw else {}
+
+
+def _named(thing, raw):
+    name = id_of(thing)
+    return {**({} if name is None else {"id": name}), **{key: value for key, value in raw.items() if key != "id"}}
+
+
+def _road(thing, world):
+    raw = _raw(thing)
+    if thing.type != "CURVE":
+        raise AuthoringError(f"{thing.name} is a {thing.type.lower()}: a road is a curve", thing)
+    splines = splines_of(thing, world.tolerance)
+    if len(splines) > 1 or splines[0][1]:
+        raise AuthoringError(f"{thing.name}: a road is one open curve; separate its splines, or mark it as an area", thing)
+    result = take_all(fields.ROAD, thing.throng_layout, _named(thing, raw))
+    result["centreline"] = world.kept(splines[0][0], raw.get("centreline"))
+    return [result]
+
+
+def _area(thing, world):
+    raw = _raw(thing)
+    outlines = [points for points, _ in splines_of(thing, world.tolerance)] if thing.type == "CURVE" else _mesh(thing)[0]
+    if len(outlines) != 1:
+        raise AuthoringError(f"{thing.name} has {len(outlines)} outlines: an area is one polygon; separate its parts", thing)
+    return [{**_named(thing, raw), "polygon": world.kept(outlines[0], raw.get("polygon"))}]
+
+
+def _mesh(thing):
+    if thing.type != "MESH":
+        raise AuthoringError(f"{thing.name} is a {thing.type.lower()}: areas and walls are curves or meshes", thing)
+    return outlines_of(thing)
+
+
+def _walls(thing, world):
+    """A wall for each spline or footprint; further ones get numbers to their name."""
+    raw, part = _raw(thing), thing.throng_layout
+    if thing.type == "CURVE":
+        shapes, height = splines_of(thing, world.tolerance), None
+    else:
+        outlines, height = _mesh(thing)
+        shapes = [(outline, True) for outline in outlines]
+    result = []
+    for number, (points, closed) in enumerate(shapes):
+        wall = take_all(fields.CLOSED_WALL if closed else fields.OPEN_WALL, part, _named(thing, raw))
+        if height:
+            wall["height"] = short(height)
+        if closed != bool(raw.get("closed", False)):
+            wall["closed"] = closed
+        wall["points"] = world.kept(points, raw.get("points") if number == 0 else None)
+        if number > 0:
+            wall["id"] = f"{wall.get('id', thing.name)}.{number + 1}"
+        result.append(wall)
+    return result
+
+
+def _turn(thing, raw):
+    """The rotation about z in degrees: the layout's own as long as it says the same."""
+    degrees = thing.matrix_world.to_euler().z * 57.29577951308232
+    old = raw if is_number(raw) else 0.0
+    difference = (degrees - old + 180.0) % 360.0 - 180.0
+    return raw if abs(difference) < 1e-3 else short(degrees)
+
+
+def _scaled(result, thing, keys):
+    """Scaling an object scales what it shows."""
+    scale = thing.matrix_world.to_scale().x
+    if abs(scale - 1.0) > 1e-5:
+        result.update({key: short(scale * result[key]) for key in keys if is_number(result.get(key))})
+
+
+def _formation(thing, world):
+    part, raw = thing.throng_layout.formation, _raw(thing)
+    old = raw if raw.get("type") == part.type else {key: raw[key] for key in ("id",) if key in raw}
+    result = take_all(fields.FORMATION[part.type], part, {**_named(thing, old), "type": part.type}, world)
+    if part.type == "circle":
+        result["centre"] = world.point_of(thing, old.get("centre"))
+        _scaled(result, thing, ("radius", "ring_spacing", "along"))
+    elif part.type == "grid":
+        result["origin"] = world.point_of(thing, old.get("origin"))
+        values = {"rotation": _turn(thing, old.get("rotation", MISSING)), "goal": places.take_goal(part, old.get("goal", MISSING), world)}
+        result.update({key: value for key, value in values.items() if value is not MISSING})
+        scale = thing.matrix_world.to_scale().x
+        if abs(scale - 1.0) > 1e-5:
+            result["spacing"] = short(scale * part.spacing)
+    else:
+        result["agents"] = _agents(thing, old.get("agents"), world)
+    return [result]
+
+
+def _agents(thing, raw, world):
+    raw = raw if isinstance(raw, list) else []
+    people = people_of(thing)
+    olds = [raw[number] if 0 <= number < len(raw) else {} for _, _, number in people]
+    result = [dict(old) for old in olds]
+    for end, key in enumerate(("position", "goal")):
+        before = [old.get(key) for old in olds]
+        known = [point if is_point(point) else [math.inf, math.inf] for point in before]
+        for entry, point in zip(result, keep_points([person[end] for person in people], known, world.origin)):
+            entry[key] = point
+    return result
+
+
+_WRITERS = {"ROAD": _road, "AREA": _area, "WALL": _walls, "FORMATION": _formation}
+
+
+def _simulation(layout, raw):
+    old = raw.get("simulation", MISSING)
+    inner = old if isinstance(old, dict) else {}
+    value = take_all([row[0] for row in fields.SIMULATION], layout.simulation, inner)
+    return old if value == inner else value
+
+
+def export_layout(context):
+    """The scene as (layout, sources). `sources` says what each part of the layout came from: a JSON pointer -> (object, list, index)."""
+    scene = context.scene
+    context.view_layer.update()
+    layout, world = scene.throng_layout, ExportWorld(scene)
+    raw = json.loads(layout.raw) if layout.raw else {}
+    result = {"throng": 1, **raw}
+    if layout.name != (raw.get("name") if isinstance(raw.get("name"), str) else ""):
+        result["name"] = layout.name
+    lists, sources = {key: [] for key in LISTED}, {}
+    for kind, key in LISTS.items():
+        for thing in parts_of(scene, kind):
+            for entry in _WRITERS[kind](thing, world):
+                sources[f"/{key}/{len(lists[key])}"] = (thing, "", -1)
+                lists[key].append(entry)
+    for key, group, take in (("flows", layout.flows, places.take_flow), ("events", layout.events, places.take_event)):
+        for index, item in enumerate(group):
+            sources[f"/{key}/{index}"] = (None, key, index)
+            lists[key].append(take(item, world))
+    values = {"simulation": _simulation(layout, raw), "expect": places.take_expect(layout, raw.get("expect", MISSING), world)}
+    values.update({key: entries for key, entries in lists.items() if entries or key in raw})
+    result.update({key: value for key, value in values.items() if value is not MISSING})
+    return result, sources
+
+
+def layout_text(document):
+    """JSON with a line for each thing, as a person would write it."""
+    lines = []
+    for key, value in document.items():
+        if isinstance(value, list) and value:
+            entries = ",\n".join("  " + json.dumps(entry, ensure_ascii=False) for entry in value)
+            lines.append(f' {json.dumps(key)}: [\n{entries}\n ]')
+        else:
+            lines.append(f" {json.dumps(key)}: {json.dumps(value, ensure_ascii=False)}")
+    return "{\n" + ",\n".join(lines) + "\n}\n"
+
+
+def write_text(path, text):
+    """All of it or nothing."""
+    folder = os.path.dirname(os.path.abspath(path))
+    try:
+        handle, temporary = tempfile.mkstemp(dir=folder, prefix=".throng-", suffix=".json")
+    except OSError as error:
+        raise AuthoringError(f"{path} cannot be written: {error.strerror}") from None
+    try:
+        with os.fdopen(handle, "w", encoding="utf-8") as file:
+            file.write(text)
+        os.chmod(temporary, 0o666 & ~_umask())
+        os.replace(temporary, path)
+    except OSError as error:
+        os.unlink(temporary)
+        raise AuthoringError(f"{path} cannot be written: {error.strerror}") from None
+
+
+def _umask():
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
+
+
+def folder_of_files(scene, document):
+    """The folder where files that a layout names are looked for; None when it names none, or came from nowhere."""
+    source = bpy.path.abspath(scene.throng_layout.source)
+    return os.path.dirname(source) if source and "terrain" in document else None
+
+
+def default_name(scene):
+    """What a bake of this scene is called."""
+    name = scene.throng_layout.name or os.path.splitext(os.path.basename(bpy.data.filepath))[0] or "crowd"
+    return "".join(character if character.isalnum() or character in "-_. " else "-" for character in name).strip(" .") or "crowd"

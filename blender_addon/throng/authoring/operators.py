@@ -1,0 +1,318 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Drawing a layout: adding and marking its parts, and its files."""
+import math
+import os
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
+from bpy_extras.io_utils import ExportHelper, ImportHelper
+
+from . import display, geometry, importer
+from .exporter import default_name, export_layout, folder_of_files, layout_text, write_text
+from .geometry import AuthoringError
+from .properties import KINDS
+
+
+def refused(operator, error):
+    """Reports why nothing was done, and shows the object that it is about."""
+    operator.report({"ERROR"}, str(error))
+    if getattr(error, "target", None) is not None:
+        select_only(bpy.context, error.target)
+    return {"CANCELLED"}
+
+
+def select_only(context, thing):
+    for other in context.selected_objects:
+        other.select_set(False)
+    if thing.name in context.view_layer.objects:
+        thing.select_set(True)
+        context.view_layer.objects.active = thing
+
+
+def _enter(context, thing, kind, **values):
+    """A new part of the layout: linked, marked, selected. With the first one, the shot is the scene's."""
+    if importer.is_empty(context.scene):
+        take_shot(context.scene)
+    with display.quietly():
+        part = thing.throng_layout
+        part.kind, part.order = kind, importer.next_order(context.scene)
+        for name, value in values.items():
+            setattr(part, name, value)
+    thing.hide_render = True
+    importer.layout_collection(context.scene).objects.link(thing)
+    display.refresh(thing)
+    select_only(context, thing)
+    context.view_layer.update()
+    return thing
+
+
+def take_shot(scene):
+    """The scene's frame rate and range as the layout's."""
+    simulation = scene.throng_layout.simulation
+    simulation.fps = scene.render.fps / scene.render.fps_base
+    simulation.duration = (scene.frame_end - scene.frame_start + 1) / simulation.fps
+
+
+class _Adds:
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        return context.mode == "OBJECT"
+
+    def add_curve(self, context, name, corners, cyclic, kind, **values):
+        """A curve round the 3D cursor, turned by the operator's angle."""
+        cursor = context.scene.cursor.location
+        cosine, sine = math.cos(self.angle), math.sin(self.angle)
+        points = [(cursor.x + cosine * x - sine * y, cursor.y + sine * x + cosine * y) for x, y in corners]
+        return _enter(context, geometry.new_curve(name, points, cyclic), kind, **values)
+
+
+def _rectangle(x, y):
+    return [(-0.5 * x, -0.5 * y), (0.5 * x, -0.5 * y), (0.5 * x, 0.5 * y), (-0.5 * x, 0.5 * y)]
+
+
+class THRONG_OT_add_road(_Adds, bpy.types.Operator):
+    """Add a road: a curve to shape in edit mode, with a width"""
+
+    bl_idname = "throng.add_road"
+    bl_label = "Add Road"
+    length: FloatProperty(name="Length", default=40.0, min=0.1, subtype="DISTANCE")
+    width: FloatProperty(name="Width", default=6.0, min=0.5, subtype="DISTANCE")
+    angle: FloatProperty(name="Angle", subtype="ANGLE")
+    one_way: BoolProperty(name="One Way")
+
+    def execute(self, context):
+        half = 0.5 * self.length
+        self.add_curve(context, "Road", [(-half, 0.0), (half, 0.0)], False, "ROAD", width=self.width, one_way=self.one_way)
+        return {"FINISHED"}
+
+
+class THRONG_OT_add_wall(_Adds, bpy.types.Operator):
+    """Add a wall: an open curve with a thickness, or a closed solid"""
+
+    bl_idname = "throng.add_wall"
+    bl_label = "Add Wall"
+    length: FloatProperty(name="Length", default=10.0, min=0.1, subtype="DISTANCE")
+    depth: FloatProperty(name="Depth", default=10.0, min=0.1, subtype="DISTANCE", description="Of a closed one")
+    closed: BoolProperty(name="Closed", description="A solid, for example a building")
+    thickness: FloatProperty(name="Thickness", default=0.2, min=0.0, subtype="DISTANCE")
+    height: FloatProperty(name="Height", default=3.0, min=0.01, subtype="DISTANCE")
+    angle: FloatProperty(name="Angle", subtype="ANGLE")
+
+    def execute(self, context):
+        corners = _rectangle(self.length, self.depth) if self.closed else [(-0.5 * self.length, 0.0), (0.5 * self.length, 0.0)]
+        self.add_curve(context, "Wall", corners, self.closed, "WALL", thickness=self.thickness, height=self.height)
+        return {"FINISHED"}
+
+
+class THRONG_OT_add_area(_Adds, bpy.types.Operator):
+    """Add an area: a plaza, an entry, an exit"""
+
+    bl_idname = "throng.add_area"
+    bl_label = "Add Area"
+    length: FloatProperty(name="Length", default=8.0, min=0.1, subtype="DISTANCE")
+    depth: FloatProperty(name="Depth", default=8.0, min=0.1, subtype="DISTANCE")
+    angle: FloatProperty(name="Angle", subtype="ANGLE")
+
+    def execute(self, context):
+        self.add_curve(context, "Area", _rectangle(self.length, self.depth), True, "AREA")
+        return {"FINISHED"}
+
+
+class THRONG_OT_add_line(_Adds, bpy.types.Operator):
+    """Add a line: where people queue, are mirrored or are counted"""
+
+    bl_idname = "throng.add_line"
+    bl_label = "Add Line"
+    length: FloatProperty(name="Length", default=6.0, min=0.1, subtype="DISTANCE")
+    angle: FloatProperty(name="Angle", subtype="ANGLE")
+
+    def execute(self, context):
+        self.add_curve(context, "Line", [(0.0, 0.0), (self.length, 0.0)], False, "LINE")
+        return {"FINISHED"}
+
+
+class THRONG_OT_add_formation(_Adds, bpy.types.Operator):
+    """Add people who stand here at a given moment"""
+
+    bl_idname = "throng.add_formation"
+    bl_label = "Add Formation"
+    type: EnumProperty(name="Type", items=[("circle", "Circle", "Everybody's goal is the opposite point"), ("grid", "Grid", "Rows and columns"),
+                                           ("agents", "List", "An edge for each person, from where they stand to their goal")])
+
+    def execute(self, context):
+        thing = bpy.data.objects.new(self.type.capitalize(), bpy.data.meshes.new("Throng formation"))
+        thing.location = context.scene.cursor.location
+        with display.quietly():
+            thing.throng_layout.formation.type = self.type
+        if self.type == "agents":
+            geometry.fill_people(thing.data, [((0.0, 0.0), (5.0, 0.0))])
+        _enter(context, thing, "FORMATION")
+        return {"FINISHED"}
+
+
+class THRONG_OT_mark(bpy.types.Operator):
+    """Make the selected objects a part of the layout, or take them out of it"""
+
+    bl_idname = "throng.mark"
+    bl_label = "Mark Selected as"
+    bl_options = {"REGISTER", "UNDO"}
+    kind: EnumProperty(name="Kind", items=KINDS)
+
+    @classmethod
+    def poll(cls, context):
+        return context.mode == "OBJECT" and bool(context.selected_objects)
+
+    def execute(self, context):
+        fitting = {"NONE": None, "ROAD": ("CURVE",), "LINE": ("CURVE",), "AREA": ("CURVE", "MESH"), "WALL": ("CURVE", "MESH"),
+                   "FORMATION": ("MESH",), "POINT": ("EMPTY",)}[self.kind]
+        unfit = [thing.name for thing in context.selected_objects if fitting and thing.type not in fitting]
+        if unfit:
+            words = " or ".join(word.lower() for word in fitting)
+            self.report({"ERROR"}, f"{', '.join(unfit)}: a {self.kind.lower()} is a {words}")
+            return {"CANCELLED"}
+        for thing in context.selected_objects:
+            part = thing.throng_layout
+            part.order = importer.next_order(context.scene)
+            part.raw = part.imported_name = ""
+            if self.kind == "FORMATION":
+                part.formation.type = "agents"
+            part.kind = self.kind
+            if thing.type == "CURVE":
+                thing.hide_render = self.kind != "NONE"
+        return {"FINISHED"}
+
+
+_PLACE_KINDS = ("ROAD", "AREA")
+
+
+class THRONG_OT_add_flow(bpy.types.Operator):
+    """Add a flow of people. Of two selected places, it goes from the other one to the active one; of one road, from its start to its end"""
+
+    bl_idname = "throng.add_flow"
+    bl_label = "Add Flow"
+    bl_options = {"REGISTER", "UNDO"}
+    count: IntProperty(name="People", default=100, min=0)
+
+    def execute(self, context):
+        layout = context.scene.throng_layout
+        names = {flow.name for flow in layout.flows}
+        flow = layout.flows.add()
+        flow.name = next(name for name in (f"Flow {number}" for number in range(len(layout.flows), 2**30)) if name not in names)
+        flow.count = self.count
+        chosen = [thing for thing in context.selected_objects if thing.throng_layout.kind in _PLACE_KINDS]
+        last = context.view_layer.objects.active
+        if last in chosen:
+            first = next((thing for thing in chosen if thing != last), last)
+            flow.source.target, flow.to.place.target, flow.to.place.end = first, last, "end"
+        layout.active_flow = len(layout.flows) - 1
+        return {"FINISHED"}
+
+
+class THRONG_OT_list(bpy.types.Operator):
+    """Add to a list, or take out of it"""
+
+    bl_idname = "throng.list"
+    bl_label = "Change List"
+    bl_options = {"REGISTER", "UNDO", "INTERNAL"}
+    where: StringProperty()   # path from the scene's layout to the collection
+    action: EnumProperty(items=[("ADD", "Add", ""), ("REMOVE", "Remove", ""), ("UP", "Up", ""), ("DOWN", "Down", "")])
+    index: IntProperty(default=-1)
+
+    def execute(self, context):
+        owner = context.scene.throng_layout if not self.where.startswith("formation.") else context.object.throng_layout
+        group = owner.path_resolve(self.where)
+        index = self.index if self.index >= 0 else len(group) - 1
+        if self.action == "ADD":
+            group.add()
+        elif not 0 <= index < len(group):
+            return {"CANCELLED"}
+        elif self.action == "REMOVE":
+            group.remove(index)
+        else:
+            group.move(index, max(0, min(len(group) - 1, index + (-1 if self.action == "UP" else 1))))
+        return {"FINISHED"}
+
+
+class THRONG_OT_settings_from_scene(bpy.types.Operator):
+    """Take the frame rate and the length from the scene"""
+
+    bl_idname = "throng.settings_from_scene"
+    bl_label = "From Scene"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context):
+        take_shot(context.scene)
+        return {"FINISHED"}
+
+
+class EXPORT_SCENE_OT_throng_layout(bpy.types.Operator, ExportHelper):
+    """Write the roads, walls, flows ... of the scene as a layout for `throng bake`"""
+
+    bl_idname = "export_scene.throng_layout"
+    bl_label = "Export Throng layout"
+    filename_ext = ".json"
+    filter_glob: StringProperty(default="*.json", options={"HIDDEN"})
+
+    def invoke(self, context, event):
+        if not self.filepath:
+            self.filepath = os.path.join(os.path.dirname(bpy.data.filepath), default_name(context.scene) + ".json")
+        return super().invoke(context, event)
+
+    def execute(self, context):
+        try:
+            document, _ = export_layout(context)
+            write_text(self.filepath, layout_text(document))
+        except AuthoringError as error:
+            return refused(self, error)
+        beside = folder_of_files(context.scene, document)
+        if beside and beside != os.path.dirname(os.path.abspath(self.filepath)):
+            self.report({"WARNING"}, f"The layout names files that lie in {beside}: copy them beside it")
+        self.report({"INFO"}, f"Wrote {self.filepath}")
+        return {"FINISHED"}
+
+
+class IMPORT_SCENE_OT_throng_layout(bpy.types.Operator, ImportHelper):
+    """Put a layout into the scene as curves, flows and settings that can be edited"""
+
+    bl_idname = "import_scene.throng_layout"
+    bl_label = "Import Throng layout"
+    bl_options = {"REGISTER", "UNDO"}
+    filename_ext = ".json"
+    filter_glob: StringProperty(default="*.json", options={"HIDDEN"})
+    replace: BoolProperty(name="Replace", description="Take out the layout that is in the scene")
+
+    def execute(self, context):
+        try:
+            things = importer.import_layout(context, self.filepath, self.replace)
+        except AuthoringError as error:
+            return refused(self, error)
+        self.report({"INFO"}, f"{len(things)} objects, {len(context.scene.throng_layout.flows)} flows")
+        return {"FINISHED"}
+
+
+CLASSES = (THRONG_OT_add_road, THRONG_OT_add_wall, THRONG_OT_add_area, THRONG_OT_add_line, THRONG_OT_add_formation, THRONG_OT_mark, THRONG_OT_add_flow,
+           THRONG_OT_list, THRONG_OT_settings_from_scene, EXPORT_SCENE_OT_throng_layout, IMPORT_SCENE_OT_throng_layout)
+
+
+def _import_menu(self, _context):
+    self.layout.operator(IMPORT_SCENE_OT_throng_layout.bl_idname, text="Throng layout (.json)")
+
+
+def _export_menu(self, _context):
+    self.layout.operator(EXPORT_SCENE_OT_throng_layout.bl_idname, text="Throng layout (.json)")
+
+
+def register():
+    for each in CLASSES:
+        bpy.utils.register_class(each)
+    bpy.types.TOPBAR_MT_file_import.append(_import_menu)
+    bpy.types.TOPBAR_MT_file_export.append(_export_menu)
+
+
+def unregister():
+    bpy.types.TOPBAR_MT_file_export.remove(_export_menu)
+    bpy.types.TOPBAR_MT_file_import.remove(_import_menu)
+    for each in reversed(CLASSES):
+        bpy.utils.unregister_class(each)
