@@ -67,12 +67,12 @@ class Figure:
             (0.43, 0.108 * g, wide * 0.99, -0.004), (0.468, 0.090, wide * 0.80, -0.010), (0.495, 0.074, wide * 0.52, -0.012), (0.52, 0.060, 0.070, -0.010)]
         rings = [self.trunk_ring(h, a * (bulk if h > 0.05 else 1.0), b * (bulk if h > 0.05 else 1.0), f) for h, a, b, f in profile]
         split = 2 if p.top in ("shirt", "tee") else 1
-        mesh.loft(rings[:split + 1], BOTTOM, 14, 0.25, caps=(True, False))
-        mesh.loft(rings[split:], TOP, 14, 0.25, caps=(False, True))
+        mesh.loft(rings[:split + 1], BOTTOM, 12, 0.25, caps=(True, False))
+        mesh.loft(rings[split:], TOP, 12, 0.25, caps=(False, True))
         if p.top in ("jacket", "hoodie", "tee"):  # the hem hangs over the hips
             mesh.loft([self.trunk_ring(-0.035, 0.122 * g * bulk, 0.176 * p.hips * bulk, -0.008), self.trunk_ring(0.10, 0.121 * g * bulk, 0.163 * bulk, 0.0)],
-                      TOP, 14, 0.25, caps=(False, False))
-        mesh.limb(self.along(0.47), self.at(0.575, 0.018), [(0.0, 0.066 * self.s), (0.4, 0.056 * self.s), (1.0, 0.053 * self.s)], SKIN, 10)
+                      TOP, 12, 0.25, caps=(False, False))
+        mesh.limb(self.along(0.47), self.at(0.575, 0.018), [(0.0, 0.066 * self.s), (0.4, 0.056 * self.s), (1.0, 0.053 * self.s)], SKIN, 8)
         outfit.add_collar(self)
 
     def _head(self):
@@ -89,7 +89,7 @@ class Figure:
         self.mesh.limb(at(0.088, 0, 0.028), at(0.118, 0, -0.022), [(0, 0.008 * s), (0.75, 0.015 * s), (1, 0.010 * s)], SKIN, 6, caps=(False, True), until=0)  # nose
         if p.hair != "headscarf":
             for side in (-1, 1):
-                self.mesh.ball(at(0.0, side * 0.074, -0.005), (0.020 * s, 0.009 * s, 0.030 * s), SKIN, 6, 4, until=0)
+                self.mesh.ball(at(0.0, side * 0.074, -0.005), (0.020 * s, 0.009 * s, 0.030 * s), SKIN, 6, 3, until=0)
         outfit.add_hair(self, at, x, y, s)
 
     def _arm(self, side, swing, elbow):
@@ -109,7 +109,7 @@ class Figure:
         elbow_at = add(shoulder, scale(upper, 0.285 * s))
         fore = unit(add(hang(swing + elbow), (0.0, -side * 0.09, 0.0)))
         wrist = add(elbow_at, scale(fore, 0.245 * s))
-        mesh.ball(shoulder, (0.050 * s * bulk, 0.049 * s * bulk, 0.056 * s * bulk), TOP, 10, 5, until=1)
+        mesh.ball(shoulder, (0.050 * s * bulk, 0.049 * s * bulk, 0.056 * s * bulk), TOP, 8, 4, until=1)
         if p.top == "tee":
             mesh.limb(shoulder, mix(shoulder, elbow_at, 0.52), [(0, 0.056 * s * bulk), (1, 0.056 * s * bulk)], TOP, caps=(True, True))
             mesh.limb(mix(shoulder, elbow_at, 0.4), elbow_at, [(0, 0.044 * s * bulk), (0.6, 0.042 * s * bulk), (1, 0.037 * s * bulk)], SKIN)
@@ -131,14 +131,14 @@ class Figure:
         knee = (knee_x, 0.5 * (hip[1] + ankle[1]), knee_z)
         w = s * self.g ** 0.7
         thigh = BOTTOM if p.bottom != "skirt" else SKIN
-        mesh.limb(add(hip, (0, 0, 0.05 * s)), knee, [(0, 0.080 * w), (0.18, 0.091 * w), (0.55, 0.074 * w), (0.9, 0.060 * w), (1.04, 0.055 * w)], thigh, 10)
+        mesh.limb(add(hip, (0, 0, 0.05 * s)), knee, [(0, 0.080 * w), (0.18, 0.091 * w), (0.55, 0.074 * w), (0.9, 0.060 * w), (1.04, 0.055 * w)], thigh, 8)
         if p.bottom in ("skirt", "shorts"):
-            mesh.limb(mix(hip, knee, 0.7), ankle, [(0, 0.058 * w), (0.25, 0.054 * w), (0.5, 0.055 * w), (0.75, 0.045 * w), (1, 0.034 * w)], SKIN, 10)
+            mesh.limb(mix(hip, knee, 0.7), ankle, [(0, 0.058 * w), (0.25, 0.054 * w), (0.5, 0.055 * w), (0.75, 0.045 * w), (1, 0.034 * w)], SKIN, 8)
             if p.bottom == "shorts":
-                mesh.limb(hip, mix(hip, knee, 0.98), [(0, 0.09 * w), (0.6, 0.086 * w), (1, 0.083 * w)], BOTTOM, 10)
+                mesh.limb(hip, mix(hip, knee, 0.98), [(0, 0.09 * w), (0.6, 0.086 * w), (1, 0.083 * w)], BOTTOM, 8)
         else:
             mesh.limb(add(knee, scale(unit(sub(knee, hip)), -0.02)), ankle,
-                      [(0, 0.057 * w), (0.25, 0.060 * w), (0.6, 0.051 * w), (0.93, 0.046 * w), (1.0, 0.048 * w)], BOTTOM, 10)
+                      [(0, 0.057 * w), (0.25, 0.060 * w), (0.6, 0.051 * w), (0.93, 0.046 * w), (1.0, 0.048 * w)], BOTTOM, 8)
         self._shoe(ankle, foot.pitch)
         return hip, knee, ankle
 

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 # How far (m) a level's skin may be from the full one where it leaves out rings, and how many points its rings have.
-TOLERANCES = (0.0, 0.013, 0.045)
-_POINTS = ({}, {14: 8, 12: 7, 10: 6, 8: 5, 6: 4}, {14: 6, 12: 5, 10: 4, 8: 3, 6: 3, 4: 3})
+TOLERANCES = (0.004, 0.013, 0.045)
+_POINTS = ({}, {12: 6, 8: 5, 6: 4}, {12: 5, 10: 4, 8: 3, 6: 3, 4: 3})
 
 
 def add(a, b):
@@ -170,7 +170,7 @@ class Plan:
             if part.until < level:
                 continue
             points = outline_at(part.count, part.square, level, part.stands)
-            kept = _kept(part, samples, TOLERANCES[level] * (0.3 if part.stands else 1.0))
+            kept = _kept(part, samples, TOLERANCES[level] * (0.4 if part.stands else 1.0))
             self._rings += [(index, points) for index in kept]
             self._join(base, len(kept), len(points), part)
             base += len(kept) * len(points)

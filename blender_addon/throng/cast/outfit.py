@@ -16,7 +16,7 @@ def add_collar(figure):
         mesh.loft([figure.trunk_ring(0.478, 0.083, 0.100, -0.012), figure.trunk_ring(0.525, 0.070, 0.076, -0.010)], TOP, 12, 0.25, _OPEN, until=1)
     if p.top == "hoodie":  # the hood lies on the back
         s = figure.s
-        mesh.ball(figure.at(0.475, -0.085), (0.06 * s, 0.115 * s, 0.06 * s), TOP, 10, 5, 0.5)
+        mesh.ball(figure.at(0.475, -0.085), (0.06 * s, 0.115 * s, 0.06 * s), TOP, 8, 4, 0.5)
     if p.extra == "scarf":
         mesh.loft([figure.trunk_ring(h, a, b) for h, a, b in ((0.465, 0.085, 0.095), (0.49, 0.098, 0.102), (0.525, 0.09, 0.092), (0.54, 0.072, 0.072))], EXTRA, 12,
                   caps=_OPEN)
@@ -60,7 +60,7 @@ def add_hair(figure, at, x, y, s):
     if p.hair == "long":
         mesh.loft([level(0.02 - 0.062 * k, 0.062 - 0.004 * k, w, -0.045 - 0.012 * k) for k, w in enumerate((0.078, 0.086, 0.088, 0.084, 0.074, 0.05))], hair, 12)
     if p.hair == "bun":
-        mesh.ball(at(-0.115, 0, 0.055), (0.046 * s, 0.05 * s, 0.046 * s), hair, 10, 5)
+        mesh.ball(at(-0.115, 0, 0.055), (0.046 * s, 0.05 * s, 0.046 * s), hair, 8, 4)
     if p.hair == "tail":
         mesh.limb(at(-0.085, 0, 0.06), at(-0.165, 0, -0.14), [(0, 0.020 * s), (0.15, 0.036 * s), (0.55, 0.034 * s), (1, 0.012 * s)], hair, 8, caps=(False, True))
 
@@ -98,7 +98,7 @@ def _skirt(figure, hips, knees, ankles, length, material, flare):
         centre = mix(points[0], points[1], 0.5)
         reach = 0.5 * abs(points[0][0] - points[1][0]) + (0.125 if t <= 1.0 else 0.10) * s * g * flare
         rings.append(ring(centre, x, y, reach, 0.178 * s * p.hips * flare * (1.0 + 0.06 * share) * (1.0 if t <= 1.0 else 0.92)))
-    figure.mesh.loft(rings, material, 14, 0.2, caps=(False, True))
+    figure.mesh.loft(rings, material, 12, 0.2, caps=(False, True))
 
 
 def add_things(figure, hands, ankles):
@@ -112,7 +112,7 @@ def _backpack(figure, _hands, _ankles):
     s = figure.s
     big = 1.0 + 1.3 * max(0.0, 1.0 - s)  # a school bag is as large whoever carries it
     turn = figure.yaw(1.0)
-    figure.mesh.box(figure.at(0.27, -0.105 * figure.g - 0.088 * big), (0.080 * s * big, 0.140 * s * big, 0.20 * s * big), turn, EXTRA, 0.84, 10, 1.0, figure.lean)
+    figure.mesh.box(figure.at(0.27, -0.105 * figure.g - 0.088 * big), (0.080 * s * big, 0.140 * s * big, 0.20 * s * big), turn, EXTRA, 0.84, 8, 1.0, figure.lean)
     for side in (-1, 1):  # straps, over the shoulders
         over, low = figure.at(0.492, -0.01, side * 0.095), figure.at(0.27, 0.112 * figure.g, side * 0.105)
         for start, end in ((over, low), (over, figure.at(0.42, -0.11 * figure.g, side * 0.08))):
