@@ -21,7 +21,7 @@ def arguments():
     parser = argparse.ArgumentParser(prog="render_cast.py")
     parser.add_argument("picture")
     parser.add_argument("--width", type=int, default=960)
-    parser.add_argument("--height", type=int, default=540)
+    parser.add_argument("--height", type=int, default=400)
     parser.add_argument("--samples", type=int, default=32)
     parser.add_argument("--gait", type=int, default=3, help="0 shuffles, 3 walks, 5 runs")
     parser.add_argument("--phase", type=float, default=0.04, help="of the first one's cycle")
@@ -54,15 +54,19 @@ def main():
     for level in range(cast.LEVELS):
         for variation in range(cast.VARIATIONS):
             pose = repertoire.walking_pose(options.gait, options.phase + 0.37 * variation, level)
-            place(scene, variation, level, 0.95 * (variation - 0.5 * (cast.VARIATIONS - 1)), 2.3 * level, pose, plain)
+            place(scene, variation, level, 0.93 * (variation - 0.5 * (cast.VARIATIONS - 1)), 2.4 * level, pose, plain)
             scene.collection.objects[-1]["tint"] = [(variation * share) % 1.0 for share in (0.618, 0.414, 0.303)]
     mesh = bpy.data.meshes.new("ground")
     mesh.from_pydata([(-90, -40, 0), (90, -40, 0), (90, 140, 0), (-90, 140, 0)], [], [(0, 1, 2, 3)])
+    stone = bpy.data.materials.new("ground")
+    stone.use_nodes = True
+    next(node for node in stone.node_tree.nodes if node.type == "BSDF_PRINCIPLED").inputs["Base Color"].default_value = (0.16, 0.155, 0.15, 1.0)
+    mesh.materials.append(stone)
     scene.collection.objects.link(bpy.data.objects.new("ground", mesh))
     lights.build_light(scene, scene.collection)
     camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
-    camera.data.lens = 60.0
-    camera.location, camera.rotation_euler = (0.0, -16.5, 5.4), (1.335, 0.0, 0.0)
+    camera.data.lens = 55.0
+    camera.location, camera.rotation_euler = (0.0, -18.5, 5.2), (1.335, 0.0, 0.0)
     scene.collection.objects.link(camera)
     scene.camera = camera
     scene.render.engine = "CYCLES"

@@ -82,7 +82,7 @@ def outline_at(count, square, level, stands=False):
     if stands:
         return outline(max(4, _POINTS[level].get(count, count)), square)
     full, fewer = outline(count, square), outline(_POINTS[level].get(count, count), square)
-    grown = math.sqrt(_area(full) / _area(fewer))
+    grown = min(1.25, math.sqrt(_area(full) / _area(fewer)))  # but triangles would stick out
     return tuple((c * grown, s * grown) for c, s in fewer)
 
 

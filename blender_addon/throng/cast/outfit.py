@@ -83,7 +83,7 @@ def add_skirts(figure, hips, knees, ankles):
     if p.top == "coat":
         _skirt(figure, hips, knees, ankles, 0.82, TOP, 1.1)
     if p.top == "dress":
-        _skirt(figure, hips, knees, ankles, 1.62, TOP, 1.04)
+        _skirt(figure, hips, knees, ankles, 1.62, TOP, 1.12)
 
 
 def _skirt(figure, hips, knees, ankles, length, material, flare):
@@ -92,7 +92,7 @@ def _skirt(figure, hips, knees, ankles, length, material, flare):
     rings = [figure.trunk_ring(0.09, 0.116 * g * flare, 0.160 * flare, 0.0), figure.trunk_ring(-0.02, 0.135 * g * flare, 0.185 * p.hips * flare, -0.01)]
     turn = 0.5 * figure.pose.pelvis_yaw
     x, y = turn_z((1, 0, 0), turn), turn_z((0, 1, 0), turn)
-    for share in (0.5, 1.0) if length <= 1.0 else (0.3, 0.6, 1.0):
+    for share in (0.5, 1.0) if length <= 1.0 else (0.28, 0.60, 1.0):
         t = share * length
         points = [mix(hip, knee, t) if t <= 1.0 else mix(knee, ankle, t - 1.0) for hip, knee, ankle in zip(hips, knees, ankles)]
         centre = mix(points[0], points[1], 0.5)

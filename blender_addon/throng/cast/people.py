@@ -25,8 +25,7 @@ class Person:
     head: float = 1.0   # size beside that of an adult as tall
 
 
-# First ten adults (the last of them rather old), then the old man, then the child: layouts' profiles name them in this order
-# (authoring/layout/profiles.h).
+# As many as `throng bake` has variations (kVariations in authoring/scene/people.h).
 CAST = (
     Person(1.78, 1.00, 0.37, 1.00, "short", "jacket", "trousers", ""),
     Person(1.66, 0.88, 0.32, 1.06, "long", "coat", "trousers", "bag"),
