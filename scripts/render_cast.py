@@ -65,8 +65,8 @@ def main():
     scene.collection.objects.link(bpy.data.objects.new("ground", mesh))
     lights.build_light(scene, scene.collection)
     camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
-    camera.data.lens = 55.0
-    camera.location, camera.rotation_euler = (0.0, -18.5, 5.2), (1.335, 0.0, 0.0)
+    camera.data.lens = 61.0
+    camera.location, camera.rotation_euler = (0.0, -18.5, 5.2), (1.36, 0.0, 0.0)
     scene.collection.objects.link(camera)
     scene.camera = camera
     scene.render.engine = "CYCLES"

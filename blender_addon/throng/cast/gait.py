@@ -52,7 +52,7 @@ class Gait:
 def gait_of(stride):
     """The gait of a stride length (m)."""
     if stride >= RUNNING_STRIDE:
-        return Gait(stride, 0.15, 0.04, 0.17, 0.33, math.radians(6.0), math.radians(-58.0), 0.20, 0.030, 0.11, 0.62, 1.35, 0.11)
+        return Gait(stride, 0.15, 0.04, 0.17, 0.33, math.radians(6.0), math.radians(-58.0), 0.20, 0.026, 0.11, 0.62, 1.35, 0.11)
     a = stride / NORMAL_STRIDE
     return Gait(stride, 0.0, 0.10, 0.40, 0.62 - 0.09 * (a - 1.0), math.radians(18.0) * min(a, 1.2), math.radians(-52.0) * min(a ** 0.8, 1.15),
                 0.055 * (0.6 + 0.4 * a), 0.018 * a ** 1.5, 0.075 * a, min(0.36 * a ** 1.3, 0.55), 0.30 * (0.7 + 0.3 * a), 0.045 + 0.03 * (a - 1.0))
