@@ -130,7 +130,7 @@ class Figure:
         knee_x, knee_z = gait.knee_of((hip[0], hip[2]), (ankle[0], ankle[2]), b)
         knee = (knee_x, 0.5 * (hip[1] + ankle[1]), knee_z)
         w = s * self.g ** 0.7
-        thigh = BOTTOM if p.bottom != "skirt" else SKIN
+        thigh = SKIN if p.bottom == "skirt" else TOP if p.top == "dress" else BOTTOM
         mesh.limb(add(hip, (0, 0, 0.05 * s)), knee, [(0, 0.080 * w), (0.18, 0.091 * w), (0.55, 0.074 * w), (0.9, 0.060 * w), (1.04, 0.055 * w)], thigh, 8)
         if p.bottom in ("skirt", "shorts"):
             mesh.limb(mix(hip, knee, 0.7), ankle, [(0, 0.058 * w), (0.25, 0.054 * w), (0.5, 0.055 * w), (0.75, 0.045 * w), (1, 0.034 * w)], SKIN, 8)
