@@ -59,7 +59,7 @@ def main():
     scene.frame_set(frame)
     scene.render.filepath = os.path.abspath(options.picture)
     if options.save:
-        bpy.ops.wm.save_mainfile()
+        bpy.ops.wm.save_mainfile(compress=True)
     bpy.ops.render.render(write_still=True)
     print(f"rendered frame {frame}: {options.picture}")
 

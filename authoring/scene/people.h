@@ -11,7 +11,7 @@
 namespace throng::authoring {
 
 /// How many characters the cast has: Person::variation is below this.
-inline constexpr std::uint32_t kVariations = 8;
+inline constexpr std::uint32_t kVariations = 12;
 
 /// Which kind of people somebody is.
 const PersonSettings& kindOf(const People& people, const GroupRandom& random, std::uint64_t index);

@@ -14,9 +14,9 @@ bl_info = {
 
 def _parts():
     """The modules that register classes of their own, in order."""
-    from . import authoring, operators, preferences
+    from . import authoring, levels, operators, preferences
 
-    return (preferences, operators, authoring)
+    return (preferences, operators, levels, authoring)
 
 
 def register():

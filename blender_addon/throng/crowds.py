@@ -15,6 +15,12 @@ def crowd_objects(scene):
     return [thing for thing in scene.objects if all(name in thing.modifiers for name in CACHES)]
 
 
+def chosen_crowds(context):
+    """The crowds that are selected, or all of the scene."""
+    crowds = crowd_objects(context.scene)
+    return [crowd for crowd in crowds if crowd.select_get()] or crowds
+
+
 def collection_of(crowd):
     return next((collection for collection in crowd.users_collection if "throng_bake" in collection), None)
 

@@ -80,6 +80,17 @@ def remove(crowd):
         crowd.modifiers.remove(modifier)
 
 
+def put_before_instancer(crowd, modifier):
+    """Where a modifier has to be that says something about people."""
+    names = [each.name for each in crowd.modifiers]
+    at, to = names.index(modifier.name), names.index("throng people")
+    if hasattr(crowd.modifiers, "move"):
+        crowd.modifiers.move(at, to)
+    else:
+        with bpy.context.temp_override(object=crowd, active_object=crowd):
+            bpy.ops.object.modifier_move_to_index(modifier=modifier.name, index=to)
+
+
 def apply(crowd, scene, mode, target, margin):
     """@param mode "box": `target` is a cube empty (its scale is half its size, m); "camera": it is a camera"""
     remove(crowd)
@@ -91,13 +102,7 @@ def apply(crowd, scene, mode, target, margin):
         wide, high = field_of_view(target, scene)
         set_input(modifier, "Wide", float(wide))
         set_input(modifier, "High", float(high))
-    names = [each.name for each in crowd.modifiers]
-    at, to = names.index(MODIFIER), names.index("throng people")
-    if hasattr(crowd.modifiers, "move"):
-        crowd.modifiers.move(at, to)
-    else:
-        with bpy.context.temp_override(object=crowd, active_object=crowd):
-            bpy.ops.object.modifier_move_to_index(modifier=MODIFIER, index=to)
+    put_before_instancer(crowd, modifier)
     crowd.update_tag()
 
 

@@ -4,6 +4,8 @@ from dataclasses import dataclass
 
 import bpy
 
+from .environment.lights import set_colours
+
 
 @dataclass(frozen=True)
 class Look:
@@ -63,17 +65,6 @@ def _set_render(scene, look):
         scene.render.motion_blur_position = "CENTER"
     else:
         cycles.motion_blur_position = "CENTER"
-
-
-def set_colours(scene):
-    """AgX where there is one, Filmic before."""
-    for transform, look in (("AgX", "AgX - Medium High Contrast"), ("Filmic", "Medium High Contrast")):
-        try:
-            scene.view_settings.view_transform = transform
-            scene.view_settings.look = look
-            return
-        except TypeError:
-            continue
 
 
 def _set_output(scene, look):

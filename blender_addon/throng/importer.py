@@ -5,6 +5,7 @@ import os
 import bpy
 
 from . import cast, environment, playback
+from .cast import library
 from .formats import STREAMS, load_bake
 
 
@@ -46,9 +47,9 @@ def import_bake(context, path, *, frame_start=1, walls=True, roads=True, scenery
 
     variations = min(bake.variations, cast.VARIATIONS)
     repertoire = cast.Repertoire(bake.strides)
-    people = cast.build_cast(variations, repertoire, f"Throng {bake.name} cast")
+    people = library.build_cast(variations, repertoire, f"Throng {bake.name} cast")
     paths = {stream: stored_path(bake.stream_path(stream), relative) for stream in STREAMS}
-    crowd = playback.build_crowd(bake, f"Throng {bake.name} crowd", people, repertoire, variations, frame_start, paths)
+    crowd = playback.build_crowd(bake, f"Throng {bake.name} crowd", people, frame_start, paths)
     collection.objects.link(crowd)
     set_up_scene(scene, bake, frame_start)
     environment.build_environment(context, bake.manifest, collection, walls=walls, roads=roads, ground=scenery, light=scenery, camera=camera,

@@ -15,12 +15,19 @@ def new_tree(name, inputs=(), outputs=()):
     return tree, tree.nodes.new("NodeGroupInput"), tree.nodes.new("NodeGroupOutput")
 
 
-def set_input(modifier, name, value):
-    """Sets an input of a node modifier by its socket's name."""
+def _identifier(modifier, name):
     tree = modifier.node_group
     sockets = tree.interface.items_tree if hasattr(tree, "interface") else tree.inputs
-    found = next(s for s in sockets if s.name == name and getattr(s, "in_out", "INPUT") == "INPUT")
-    modifier[found.identifier] = value
+    return next(s for s in sockets if s.name == name and getattr(s, "in_out", "INPUT") == "INPUT").identifier
+
+
+def set_input(modifier, name, value):
+    """Sets an input of a node modifier by its socket's name."""
+    modifier[_identifier(modifier, name)] = value
+
+
+def get_input(modifier, name):
+    return modifier[_identifier(modifier, name)]
 
 
 def socket(sockets, name=None):
@@ -57,4 +64,11 @@ class Maths:
         enabled = [s for s in node.inputs if s.enabled]
         self.link(value, enabled[0])
         enabled[1].default_value = threshold
+        return socket(node.outputs)
+
+    def equal(self, value, number):
+        node = self.node("FunctionNodeCompare", data_type="INT", operation="EQUAL")
+        enabled = [s for s in node.inputs if s.enabled]
+        self.link(value, enabled[0])
+        enabled[1].default_value = number
         return socket(node.outputs)

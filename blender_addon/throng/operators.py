@@ -35,14 +35,6 @@ class IMPORT_SCENE_OT_throng(bpy.types.Operator, ImportHelper):
         return {"FINISHED"}
 
 
-def _chosen_crowds(context):
-    """The crowds that are selected, or all of the scene."""
-    from .crowds import crowd_objects
-
-    crowds = crowd_objects(context.scene)
-    return [crowd for crowd in crowds if crowd.select_get()] or crowds
-
-
 class _OnCrowds:
     bl_options = {"REGISTER", "UNDO"}
 
@@ -61,9 +53,9 @@ class THRONG_OT_verify(_OnCrowds, bpy.types.Operator):
     bl_options = {"REGISTER"}
 
     def execute(self, context):
-        from .crowds import verify
+        from .crowds import chosen_crowds, verify
 
-        found = [f"{crowd.name}: {problem}" for crowd in _chosen_crowds(context) for problem in verify(crowd, context.scene)]
+        found = [f"{crowd.name}: {problem}" for crowd in chosen_crowds(context) for problem in verify(crowd, context.scene)]
         if found:
             self.report({"WARNING"}, "\n".join(found))
         else:
@@ -78,10 +70,10 @@ class THRONG_OT_reload(_OnCrowds, bpy.types.Operator):
     bl_label = "Re-load Bakes"
 
     def execute(self, context):
-        from .crowds import reload
+        from .crowds import chosen_crowds, reload
 
         try:
-            for crowd in _chosen_crowds(context):
+            for crowd in chosen_crowds(context):
                 reload(crowd, context.scene)
         except BakeError as error:
             self.report({"ERROR"}, str(error))
@@ -98,9 +90,9 @@ class THRONG_OT_relink(_OnCrowds, bpy.types.Operator, ImportHelper):
     filter_glob: StringProperty(default="*.json", options={"HIDDEN"})
 
     def execute(self, context):
-        from .crowds import reload
+        from .crowds import chosen_crowds, reload
 
-        crowds = _chosen_crowds(context)
+        crowds = chosen_crowds(context)
         if len(crowds) != 1:
             self.report({"ERROR"}, "Select one crowd: each plays a bake of its own")
             return {"CANCELLED"}
@@ -122,14 +114,16 @@ class THRONG_OT_show(_OnCrowds, bpy.types.Operator):
     offset: IntProperty(name="Later by", default=0, description="Frames that the crowd plays later")
 
     def invoke(self, context, _event):
-        crowd = _chosen_crowds(context)[0]
+        from .crowds import chosen_crowds
+
+        crowd = chosen_crowds(context)[0]
         self.percent, self.offset = crowd.get("throng_percent", 100.0), crowd.get("throng_offset", 0)
         return context.window_manager.invoke_props_dialog(self)
 
     def execute(self, context):
-        from .crowds import set_offset, set_viewport_percent
+        from .crowds import chosen_crowds, set_offset, set_viewport_percent
 
-        for crowd in _chosen_crowds(context):
+        for crowd in chosen_crowds(context):
             set_viewport_percent(crowd, self.percent)
             set_offset(crowd, self.offset)
         return {"FINISHED"}
@@ -147,13 +141,14 @@ class THRONG_OT_cull(_OnCrowds, bpy.types.Operator):
 
     def execute(self, context):
         from . import culling
+        from .crowds import chosen_crowds
 
         camera = context.scene.camera
         if self.by == "camera" and (not camera or camera.type != "CAMERA"):
             self.report({"ERROR"}, "The scene has no camera")
             return {"CANCELLED"}
         active = context.view_layer.objects.active
-        for crowd in _chosen_crowds(context):
+        for crowd in chosen_crowds(context):
             if self.by == "none":
                 culling.remove(crowd)
                 continue

@@ -9,14 +9,18 @@ import random
 
 import bpy
 
-from .cast import BEATS, POSES
+from .cast import LEVEL_BEATS, LEVEL_POSES, PEOPLE_A_BLOCK, Repertoire
+from .cast.library import blocks_of
 from .culling import HIDDEN
 from .formats import STREAMS
-from .nodes import Maths, new_tree, set_input, socket
+from .nodes import Maths, get_input, new_tree, set_input, socket
 
 STANDING_SPEED = 0.1    # m/s: slower people stand
 FRAMES_A_ROUND = 80.0   # of a standing clip
 NATURE = "throng_nature"
+LEVEL = "throng_level"  # of detail, of each person; see levels.py
+BLOCK = "throng_block"
+INSTANCERS = ("throng people", "throng people (viewport)")
 GEOMETRY = [("Geometry", "NodeSocketGeometry")]
 
 
@@ -39,65 +43,163 @@ def _components(maths, attribute):
     return separate.outputs
 
 
-def _walking_pose(maths, state, phase):
+def _walking_pose(maths, state, phase, poses):
     """The gait is what `state` adds to the activity, in sixteenths; the pose is the phase's."""
     gait = maths.math("ROUND", maths.math("MULTIPLY", maths.math("FRACT", state), 16.0))
-    step = maths.math("MINIMUM", maths.math("FLOOR", maths.math("MULTIPLY", maths.math("FRACT", phase), POSES)), POSES - 1)
-    return maths.math("MULTIPLY_ADD", gait, POSES, step)
+    step = maths.math("MINIMUM", maths.math("FLOOR", maths.math("MULTIPLY", maths.math("FRACT", phase), poses)), poses - 1)
+    return maths.math("MULTIPLY_ADD", gait, poses, step)
 
 
-def _standing_pose(maths, state, nature, repertoire):
+def _standing_pose(maths, state, nature, beats, walking):
     """Those who gather talk, shift their weight or look at their phones, one in four each; others who stand only shift.
 
     The beat follows the frame, rounded, so that it does not change while the shutter is open; everybody has their own.
     """
     gathers = maths.math("COMPARE", maths.math("FLOOR", state), 2.0, 0.1)
     clip = maths.math("MODULO", nature[0], maths.math("MULTIPLY_ADD", gathers, 2.0, 2.0))
+    if beats == 1:
+        return maths.math("ADD", clip, walking)
     frame = maths.math("ROUND", socket(maths.node("GeometryNodeInputSceneTime").outputs, "Frame"))
     rounds = maths.math("ADD", nature[1], maths.math("DIVIDE", frame, FRAMES_A_ROUND))
-    beat = maths.math("FLOOR", maths.math("MULTIPLY", maths.math("FRACT", rounds), BEATS))
-    return maths.math("ADD", maths.math("MULTIPLY_ADD", clip, BEATS, repertoire.walking), beat)
+    beat = maths.math("FLOOR", maths.math("MULTIPLY", maths.math("FRACT", rounds), beats))
+    return maths.math("ADD", maths.math("MULTIPLY_ADD", clip, beats, walking), beat)
 
 
-def _pose_index(maths, speed, state, variation, phase, nature, repertoire, variations):
-    walking = maths.math("GREATER_THAN", speed, STANDING_SPEED)
-    pose = maths.math("ADD", maths.math("MULTIPLY", _walking_pose(maths, state, phase), walking),
-                      maths.math("MULTIPLY", maths.math("SUBTRACT", 1.0, walking), _standing_pose(maths, state, nature, repertoire)))
-    variation = maths.math("MODULO", variation, variations)
-    return maths.math("MULTIPLY_ADD", variation, repertoire.count, pose)
+def _pose_index(maths, speed, state, phase, nature, repertoire, level):
+    walks = maths.math("GREATER_THAN", speed, STANDING_SPEED)
+    walking = _walking_pose(maths, state, phase, LEVEL_POSES[level])
+    standing = _standing_pose(maths, state, nature, LEVEL_BEATS[level], repertoire.walking(level))
+    return maths.math("ADD", maths.math("MULTIPLY", walking, walks), maths.math("MULTIPLY", standing, maths.math("SUBTRACT", 1.0, walks)))
 
 
-def _instancer_tree(collection, repertoire, variations):
+def _attribute(maths, name, kind="FLOAT"):
+    named = maths.node("GeometryNodeInputNamedAttribute", data_type=kind)
+    named.inputs["Name"].default_value = name
+    return socket(named.outputs, "Attribute")
+
+
+def _present(maths, alive, nature, share):
+    """1 for whoever is there, shown and not culled."""
+    seen = maths.math("SUBTRACT", maths.math("LESS_THAN", nature[2], share), _attribute(maths, HIDDEN))  # HIDDEN is zero where nothing is culled
+    return maths.math("GREATER_THAN", maths.math("MULTIPLY", maths.math("GREATER_THAN", alive, 0.5), seen), 0.5)
+
+
+def _chosen(maths, levels, values):
+    """Of values by level those of everybody's own level."""
+    if len(levels) == 1:
+        return values[0]
+    level, total = _attribute(maths, LEVEL), 0.0
+    for number, value in zip(levels, values):
+        total = maths.math("MULTIPLY_ADD", value, maths.math("COMPARE", level, float(number), 0.5), total)
+    return total
+
+
+def _blocks_and_poses(maths, state, phase, speed, variation, nature, repertoire, levels):
+    """Whose block of the cast everybody's pose is in (_block_number), and which object there."""
+    blocks, poses = [], []
+    for level in levels:
+        people = PEOPLE_A_BLOCK[level]
+        block = maths.math("FLOOR", maths.math("DIVIDE", maths.math("ADD", variation, 0.5), people))
+        one = maths.math("SUBTRACT", variation, maths.math("MULTIPLY", block, people))
+        poses.append(maths.math("MULTIPLY_ADD", one, repertoire.poses(level), _pose_index(maths, speed, state, phase, nature, repertoire, level)))
+        blocks.append(maths.math("ADD", block, _block_number(level, 0)))
+    return _chosen(maths, levels, blocks), _chosen(maths, levels, poses)
+
+
+def _block_number(level, first):
+    return 1 + 1000 * level + first // PEOPLE_A_BLOCK[level]
+
+
+class _Points:
+    """Points on which values are filed away: worked out for all at once, and then looked up by every block."""
+
+    def __init__(self, maths, points):
+        self.maths, self.points = maths, points
+
+    def store(self, name, value, kind):
+        store = self.maths.node("GeometryNodeStoreNamedAttribute", data_type=kind, domain="POINT")
+        store.inputs["Name"].default_value = name
+        self.maths.link(self.points, store.inputs["Geometry"])
+        self.maths.link(value, socket(store.inputs, "Value"))
+        self.points = store.outputs[0]
+
+    def remove(self, *names):
+        """What instances need not carry along."""
+        for name in names:
+            remove = self.maths.node("GeometryNodeRemoveAttribute")
+            remove.inputs["Name"].default_value = name
+            self.maths.link(self.points, remove.inputs[0])
+            self.points = remove.outputs[0]
+
+
+def _instancer_tree(cast, repertoire):
+    """One Instance on Points for each block of the cast. All poses in one would take 5.0 time that grows with their square: it looks every
+    one up among those before it. For the same reason each block is handed on as one instance."""
+    blocks = blocks_of(cast)
+    levels = sorted({level for level, _ in blocks})
     tree, inputs, outputs = new_tree("Throng instancer", GEOMETRY + [("Share", "NodeSocketFloat")], GEOMETRY)
     maths = Maths(tree)
-    cosine, sine, _ = _components(maths, "throng_dir")
-    alive, variation, phase = _components(maths, "throng_state")
-    speed = _components(maths, "throng_dir")[2]
-    heading = maths.math("ARCTAN2", sine, cosine)
-    rotation = maths.node("ShaderNodeCombineXYZ")
-    maths.link(heading, rotation.inputs[2])
-
+    cosine, sine, speed = _components(maths, "throng_dir")
+    state, variation, phase = _components(maths, "throng_state")
     nature = _components(maths, NATURE)
+    variation = maths.math("MODULO", variation, cast["throng_variations"])
+    rotation = maths.node("ShaderNodeCombineXYZ")
+    maths.link(maths.math("ARCTAN2", sine, cosine), rotation.inputs[2])
+    block, pose = _blocks_and_poses(maths, state, phase, speed, variation, nature, repertoire, levels)
+    points = _Points(maths, inputs.outputs[0])
+    points.store(BLOCK, maths.math("MULTIPLY", block, _present(maths, state, nature, inputs.outputs["Share"])), "INT")  # 0: who is not there
+    points.store("throng_pose", pose, "INT")
+    points.store("throng_turn", rotation.outputs[0], "FLOAT_VECTOR")
+    points.remove("throng_dir", "throng_state", NATURE)
 
-    people = maths.node("GeometryNodeCollectionInfo", transform_space="ORIGINAL")
-    people.inputs["Collection"].default_value = collection
-    people.inputs["Separate Children"].default_value = True
-    people.inputs["Reset Children"].default_value = True
-    place = maths.node("GeometryNodeInstanceOnPoints")
-    place.inputs["Pick Instance"].default_value = True
-    maths.link(inputs.outputs[0], place.inputs["Points"])
-    shown = maths.math("LESS_THAN", nature[2], inputs.outputs["Share"])
-    hidden = maths.node("GeometryNodeInputNamedAttribute", data_type="FLOAT")  # zero where nothing is culled
-    hidden.inputs["Name"].default_value = HIDDEN
-    seen = maths.math("SUBTRACT", shown, socket(hidden.outputs, "Attribute"))
-    present = maths.math("MULTIPLY", maths.math("GREATER_THAN", alive, 0.5), seen)
-    maths.link(maths.greater(present, 0.5), place.inputs["Selection"])
-    maths.link(people.outputs[0], place.inputs["Instance"])
-    maths.link(_pose_index(maths, speed, alive, variation, phase, nature, repertoire, variations), place.inputs["Instance Index"])
-    maths.link(rotation.outputs[0], place.inputs["Rotation"])
-
-    maths.link(place.outputs[0], outputs.inputs[0])  # the points' attributes go along: id, tint
+    # In a group of its own: 5.0 notes down what goes through all sockets outside of it, which takes longer than the work itself.
+    inside = maths.node("GeometryNodeGroup")
+    inside.node_tree = _blocks_tree(blocks)
+    maths.link(points.points, inside.inputs[0])
+    maths.link(inside.outputs[0], outputs.inputs[0])
     return tree
+
+
+def _blocks_tree(blocks):
+    tree, inputs, outputs = new_tree("Throng blocks", GEOMETRY, GEOMETRY)
+    maths = Maths(tree)
+    block, pose, turn = (_attribute(maths, name, kind) for name, kind in ((BLOCK, "INT"), ("throng_pose", "INT"), ("throng_turn", "FLOAT_VECTOR")))
+    everybody = maths.node("GeometryNodeJoinGeometry")
+    for (level, first), collection in sorted(blocks.items()):
+        people = maths.node("GeometryNodeCollectionInfo", transform_space="ORIGINAL")
+        people.inputs["Collection"].default_value = collection
+        people.inputs["Separate Children"].default_value = True
+        people.inputs["Reset Children"].default_value = True
+        place = maths.node("GeometryNodeInstanceOnPoints")
+        place.inputs["Pick Instance"].default_value = True
+        maths.link(inputs.outputs[0], place.inputs["Points"])
+        maths.link(maths.equal(block, _block_number(level, first)), place.inputs["Selection"])
+        maths.link(people.outputs[0], place.inputs["Instance"])
+        maths.link(pose, place.inputs["Instance Index"])
+        maths.link(turn, place.inputs["Rotation"])  # the points' other attributes go along: id, tint
+        one = maths.node("GeometryNodeGeometryToInstance")
+        maths.link(place.outputs[0], one.inputs[0])
+        maths.link(one.outputs[0], everybody.inputs[0])
+    maths.link(everybody.outputs[0], outputs.inputs[0])
+    return tree
+
+
+def set_cast(crowd, cast):
+    """Lets a crowd show the blocks of a cast as they are now: call it again after some have come or gone."""
+    modifiers = [crowd.modifiers[name] for name in INSTANCERS]
+    before = modifiers[0].node_group
+    shares = [get_input(modifier, "Share") if modifier.node_group else 2.0 for modifier in modifiers]  # 2: everybody
+    tree = _instancer_tree(cast, Repertoire(tuple(crowd["throng_strides"])))
+    for modifier, share in zip(modifiers, shares):
+        modifier.node_group = tree
+        set_input(modifier, "Share", share)
+    if before and before.users == 0:
+        inner = [node.node_tree for node in before.nodes if node.type == "GROUP"]
+        bpy.data.node_groups.remove(before)
+        for group in (group for group in inner if group and group.users == 0):
+            bpy.data.node_groups.remove(group)
+    crowd["throng_cast"] = cast
+    crowd.update_tag()
 
 
 def _add_cache(target, name, path, interpolation, frame_start):
@@ -129,7 +231,7 @@ def give_natures(mesh):
     mesh.attributes[NATURE].data.foreach_set("vector", [value for row in range(count) for value in (row % 4, row * 0.618034 % 1.0, draw.random())])
 
 
-def build_crowd(bake, name, cast, repertoire, variations, frame_start, paths):
+def build_crowd(bake, name, cast, frame_start, paths):
     """The crowd's object. `paths` are the streams' files as Blender shall store them, by stream."""
     mesh = bpy.data.meshes.new(name)
     mesh.vertices.add(bake.agents)
@@ -140,14 +242,11 @@ def build_crowd(bake, name, cast, repertoire, variations, frame_start, paths):
         modifier = crowd.modifiers.new(f"throng {stream} to attribute", "NODES")
         modifier.node_group = _store_tree(f"throng_{stream}")
     _add_cache(crowd, "throng pos", paths["pos"], "LINEAR", frame_start)
-    instancer = _instancer_tree(cast, repertoire, variations)
-    for name, hidden in (("throng people", "show_viewport"), ("throng people (viewport)", "show_render")):
-        modifier = crowd.modifiers.new(name, "NODES")
-        modifier.node_group = instancer
-        set_input(modifier, "Share", 2.0)  # everybody
-        setattr(modifier, hidden, False)
+    for name, hidden in zip(INSTANCERS, ("show_viewport", "show_render")):
+        setattr(crowd.modifiers.new(name, "NODES"), hidden, False)
     crowd["throng_strides"] = list(bake.strides)
     crowd["throng_frame_start"], crowd["throng_offset"], crowd["throng_percent"] = frame_start, 0, 100.0
+    set_cast(crowd, cast)
     return crowd
 
 

@@ -9,9 +9,28 @@ import pytest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "blender_addon"))
 from throng import cast  # noqa: E402
 from throng.cast import gait, people  # noqa: E402
+from throng.cast.mesh_builder import Plan  # noqa: E402
 
 STRIDES = tuple(1.446 * 1.28 ** k for k in range(-3, 3))  # shaders/gait.glsl
 GAITS = [gait.gait_of(stride) for stride in STRIDES]
+REPERTOIRE = cast.Repertoire(STRIDES)
+LEVELS = range(cast.LEVELS)
+
+
+@pytest.fixture(scope="module")
+def figures():
+    """All poses of everybody."""
+    return [[people.build_figure(person, pose) for pose in cast.poses_of(person, REPERTOIRE)] for person in people.CAST]
+
+
+@pytest.fixture(scope="module")
+def plans(figures):
+    return [[cast.plan_of(poses, REPERTOIRE, level) for level in LEVELS] for poses in figures]
+
+
+def points_of(plan, figure):
+    flat = plan.vertices(figure.rings)
+    return list(zip(flat[::3], flat[1::3], flat[2::3]))
 
 
 def contact_point(foot, build):
@@ -82,24 +101,111 @@ def test_knees_bend_forwards_and_legs_keep_their_length(person, walked):
             assert along[0] * (knee[1] - hip[1]) - along[1] * (knee[0] - hip[0]) >= -1e-6
 
 
-def test_figures_stand_on_the_ground_and_are_as_tall_as_they_should_be():
-    sizes = set()
-    for person in people.CAST:
+def test_all_poses_at_all_levels_stand_on_the_ground(figures, plans):
+    for person, poses, levels in zip(people.CAST, figures, plans):
+        for level, plan in enumerate(levels):
+            for index in REPERTOIRE.sources(level):
+                lowest = min(plan.vertices(poses[index].rings)[2::3])
+                flies = index < REPERTOIRE.walking() and GAITS[index // cast.POSES].runs
+                assert -0.006 < lowest < (0.20 if flies else 0.012), (person, level, index)
+
+
+def test_people_are_as_tall_as_they_should_be_and_look_forward(figures, plans):
+    for person, poses, levels in zip(people.CAST, figures, plans):
+        stands = points_of(levels[0], poses[REPERTOIRE.walking()])
+        assert abs(max(z for _, _, z in stands) - person.height * math.cos(person.stoop) ** 0.5) < 0.09, person
+        assert len(levels[0].faces) == len(levels[0].materials) and max(levels[0].materials) < len(people.MATERIALS)
+        toes = max(x for x, _, z in stands if z < 0.05)
+        assert 0.12 < toes < 0.30
+
+
+def outline_of(points):
+    """Where the silhouettes from the side and from the front begin and end in each tenth of the height."""
+    top = max(z for _, _, z in points)
+    found = []
+    for axis in (0, 1):
+        for tenth in range(10):
+            slice_ = [p[axis] for p in points if tenth - 1.0 <= 10.0 * p[2] / top <= tenth + 2.0]
+            found += [min(slice_), max(slice_)]
+    return [top, *found]
+
+
+def test_no_two_people_have_the_same_silhouette(figures, plans):
+    outlines = [outline_of(points_of(levels[0], poses[REPERTOIRE.walking()])) for poses, levels in zip(figures, plans)]
+    assert len(outlines) >= 10
+    for i, one in enumerate(outlines):
+        for other in outlines[:i]:
+            assert max(abs(a - b) for a, b in zip(one, other)) > 0.025, "somebody is there twice"
+
+
+def test_coarser_levels_have_a_third_and_an_eighth_of_the_triangles(plans):
+    for full, middle, far in plans:
+        assert 1300 < full.triangles < 2300
+        assert 0.25 * full.triangles < middle.triangles < 0.46 * full.triangles
+        assert 0.08 * full.triangles < far.triangles < 0.18 * full.triangles
+
+
+@pytest.mark.parametrize("level, most", [(1, 0.03), (2, 0.06)])
+def test_silhouettes_hardly_change_between_levels(figures, plans, level, most):
+    """How far the finest skin's points lie outside of the bounds of a coarser one, and the other way round, part by part of the body."""
+    for poses, levels in zip(figures, plans):
+        for index in (1, 2 * cast.POSES + 7, 3 * cast.POSES + 13, REPERTOIRE.walking()):
+            fine, coarse = points_of(levels[0], poses[index]), points_of(levels[level], poses[index])
+            for axis in range(3):
+                for end in (min, max):
+                    assert abs(end(p[axis] for p in fine) - end(p[axis] for p in coarse)) < most
+
+
+def test_a_levels_rings_keep_to_the_tolerance(figures):
+    """Known answer: a straight tube needs its ends only, a bent one its bend."""
+    from throng.cast.mesh_builder import MeshBuilder, ring
+
+    builder = MeshBuilder()
+    builder.loft([ring((0.0, 0.0, z), (1, 0, 0), (0, 1, 0), 0.1, 0.1) for z in (0.0, 0.3, 0.6, 1.0)], 0, 8, caps=(False, False))
+    builder.loft([ring((x, 0.0, z), (1, 0, 0), (0, 1, 0), 0.1, 0.1) for x, z in ((0.0, 0.0), (0.2, 0.5), (0.0, 1.0))], 0, 8, caps=(False, False))
+    plan = Plan(builder.parts, [builder.rings], 1)
+    assert plan.count == 2 * 5 + 3 * 5 and plan.triangles == 2 * 5 * 3
+
+
+@pytest.mark.parametrize("level", LEVELS)
+def test_soles_do_not_slide_within_a_gait_at_any_level(figures, plans, level):
+    """From the meshes: while a foot is flat, its sole's lowest points stay where they are on the ground while the body walks on."""
+    for person, poses, levels in zip(people.CAST, figures, plans):
         build = people.build_of(person)
-        mesh = people.build_figure(person, gait.idle_pose(build))
-        heights = [v[2] for v in mesh.vertices]
-        assert -0.02 < min(heights) < 0.03
-        assert abs(max(heights) - person.height) < 0.10
-        assert len(mesh.faces) == len(mesh.materials) < 2500
-        assert max(mesh.materials) < len(people.MATERIALS)
-        sizes.add((len(mesh.vertices), round(max(heights), 2)))
-    assert len(sizes) == len(people.CAST), "eight different people"
+        for which, walked in enumerate(GAITS):
+            places = []
+            for position, index in enumerate(REPERTOIRE.sources(level)[which * cast.LEVEL_POSES[level]:(which + 1) * cast.LEVEL_POSES[level]]):
+                phase = (index % cast.POSES) / cast.POSES
+                if gait.foot_at(phase, build, walked).planted != "flat":
+                    continue
+                assert REPERTOIRE.walking_pose(which, phase, level) == which * cast.LEVEL_POSES[level] + position
+                sole = [p for p in points_of(levels[level], poses[index]) if p[2] < 0.012 and p[1] < 0.0 and abs(p[1]) < 0.16]
+                places.append(max(x for x, _, _ in sole) + phase * walked.stride)
+            assert places or level == 2
+            assert not places or max(places) - min(places) < 0.012, (person, walked.stride)
 
 
-def test_all_poses_of_a_person_have_the_same_vertices():
-    build = people.build_of(people.CAST[1])
-    counts = {len(people.build_figure(people.CAST[1], gait.walk_pose(index / 24.0, build, GAITS[3])).vertices) for index in range(24)}
-    assert len(counts) == 1
+def test_runners_are_not_crouched():
+    """At the middle of stance a runner's knee is bent by some 40 to 55 degrees, walkers' less."""
+    build = gait.Build()
+    for walked in GAITS[2:]:
+        pose = gait.walk_pose(gait.UNDER_BODY, build, walked)
+        hip, ankle = (pose.pelvis[0], pose.pelvis[2] - gait.HIP_DROP), pose.feet[0].ankle
+        reach = math.dist(hip, ankle) / (build.thigh + build.shank)
+        bent = math.degrees(2.0 * math.acos(min(1.0, reach)))
+        assert bent < 56.0, walked.stride
+        if not walked.runs and walked.stride < 1.5:
+            assert bent < 40.0
+
+
+def test_all_poses_of_a_person_have_the_same_parts(figures):
+    for poses in figures:
+        assert all(figure.parts == poses[0].parts for figure in poses[1:])
+
+
+def test_limbs_move_as_fast_as_the_next_pose_says():
+    before, after = [0.0, 0.0, 0.0, 1.0, 1.0, 1.0], [0.1, 0.0, 0.0, 1.0, 1.2, 0.7]
+    assert cast.limb_velocities(before, after, 0.1) == pytest.approx([1.0, 0.0, 0.0, 0.0, 2.0, -3.0])
 
 
 @pytest.mark.parametrize("walked", GAITS, ids=lambda g: f"{g.stride:.2f}m")
@@ -121,8 +227,13 @@ def test_standing_clips_differ_and_come_round():
 
 
 def test_a_repertoire_numbers_gaits_first_and_standing_clips_after():
-    repertoire = cast.Repertoire(STRIDES)
-    assert repertoire.walking_pose(0, 0.0) == 0 and repertoire.walking_pose(2, 7.999) == 3 * cast.POSES - 1
-    assert repertoire.standing_pose("phone", 3) == repertoire.count - 1
-    poses = cast.poses_of(people.CAST[0], repertoire)
-    assert len(poses) == repertoire.count
+    assert REPERTOIRE.walking_pose(0, 0.0) == 0 and REPERTOIRE.walking_pose(2, 7.999) == 3 * cast.POSES - 1
+    for level in LEVELS:
+        assert REPERTOIRE.standing_pose("phone", 3, level) == REPERTOIRE.poses(level) - 1
+        sources = REPERTOIRE.sources(level)
+        assert len(sources) == REPERTOIRE.poses(level)
+        for index in range(REPERTOIRE.walking()):  # whoever is at a pose shows the coarser one that it belongs to
+            which, phase = divmod(index, cast.POSES)
+            coarse = sources[REPERTOIRE.walking_pose(which, phase / cast.POSES, level)]
+            assert abs(coarse - index) <= cast.POSES // cast.LEVEL_POSES[level] // 2 and coarse // cast.POSES == which
+    assert len(cast.poses_of(people.CAST[0], REPERTOIRE)) == REPERTOIRE.count

@@ -30,17 +30,17 @@ def wrapped(angle):
     return abs((angle + math.pi) % (2.0 * math.pi) - math.pi)
 
 
-def expected_poses(state, direction, row, frame):
+def expected_poses(state, direction, row, frame, level=0):
     """Names of the poses that somebody may have: those who stand have a beat of their own."""
     activity, variation, phase = state[row]
     if direction[row, 2] > 0.1:
-        poses = [REPERTOIRE.walking_pose(round((activity % 1.0) * 16), phase)]
+        poses = [REPERTOIRE.walking_pose(round((activity % 1.0) * 16), phase, level)]
     else:
         pick = row % 4 if int(activity) == 2 else row % 2
         beat = (row * 0.618034 + frame / 80.0) % 1.0 * cast.BEATS
         beats = {int(beat), int(beat + 1e-3) % cast.BEATS, int(beat - 1e-3) % cast.BEATS}
-        poses = [REPERTOIRE.standing_pose(cast.gait.STANDING_CLIPS[pick], b) for b in beats]
-    return [cast.pose_name(int(variation), pose) for pose in poses]
+        poses = [REPERTOIRE.standing_pose(cast.gait.STANDING_CLIPS[pick], b, level) for b in beats]
+    return [cast.pose_name(int(variation), pose, level) for pose in poses]
 
 
 def test_instances_are_where_the_arrays_say_at_frames_and_between(blender, tmp_path):
@@ -207,6 +207,41 @@ def test_only_those_outside_a_box_or_the_cameras_view_are_left_out(blender, tmp_
     for left, of, wrong in found["camera"]:
         assert 0 < left < of and wrong == []
     assert found["again"]
+
+
+def test_levels_of_detail_follow_the_camera_and_can_be_taken_out_again(blender, tmp_path):
+    pos, direction, state = write_bake(tmp_path / "bake", agents=400, variations=cast.VARIATIONS)
+    found = result_of(blender(pathlib.Path(__file__).parent / "check_levels.py", ADDON, tmp_path / "bake", tmp_path))
+    each = [cast.VARIATIONS * REPERTOIRE.poses(level) for level in range(cast.LEVELS)]
+    assert found["sizes"] == [[each[0]] * 2, [each[0]] * 2, [sum(each)] * 2] and found["after"] == [each[0]] * 2
+    # A person of 1.75 m is 120 and 40 pixels tall there: the sensor is 36 mm wide, the picture 1920 x 1080.
+    pixels = [1.75 / distance * found["lens"] / 36.0 * 1920.0 for distance in found["defaults"]]
+    assert pixels == pytest.approx([120.0, 40.0], rel=1e-3)
+    assert "perspective" in found["ortho"] and "nearer" in found["order"]
+    assert found["off"] == found["before"] and not any("_l" in name for name in found["off"].values())
+    assert len([name for name in found["trees"] if name.startswith("Throng instancer")]) == 1
+    levels = set()
+    for frame, sub, camera, people in found["shots"]:
+        assert len(people) > 300
+        t = frame + sub - 1.0
+        low, near = math.floor(t), int(math.floor(t + 0.5))
+        for row, name in people.items():
+            row = int(row)
+            at = pos[low, row] * (1.0 - (t - low)) + pos[min(low + 1, 39), row] * (t - low)
+            distance = math.dist(at, camera)
+            if min(abs(distance - 9.5), abs(distance - 18.5)) < 1e-3:
+                continue
+            level = (distance > 9.5) + (distance > 18.5)
+            levels.add(level)
+            assert name in expected_poses(state[near], direction[low], row, near + 1, level), (frame, sub, row, distance)
+    assert levels == {0, 1, 2}
+    middle, opened, closed = ({row: name for row, name in people.items()} for frame, sub, _, people in found["shots"] if (frame, sub) in ((25, 0.0), (24, 0.76), (25, 0.24)))
+    changed = [row for row in middle if {opened[row], closed[row]} != {middle[row]}]
+    for row in changed:  # the camera goes 2.5 m a frame here
+        distances = [math.dist(pos[24, int(row)], camera) for frame, sub, camera, _ in found["shots"] if frame in (24, 25)]
+        assert any(min(distances) - 0.1 < edge < max(distances) + 0.1 for edge in (9.5, 18.5)), "the level changes only for who crosses a distance"
+    assert 0 < len(changed) < 0.2 * len(middle)
+    assert found["farm"] == found["shots"][1][3]
 
 
 def test_the_zip_installs(blender, tmp_path):

@@ -101,7 +101,7 @@ TEST(SceneBuilder, SpreadsACountEvenlyOverItsTimeInOrder) {
     for (const gpu::Person& person : scene.people) {
         EXPECT_GE(person.radius, 0.22f);
         EXPECT_LE(person.radius, 0.28f);
-        EXPECT_LT(person.variation, 8u);
+        EXPECT_LT(person.variation, 12u);
     }
 }
 

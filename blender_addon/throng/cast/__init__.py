@@ -1,87 +1,80 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The people that the add-on ships: a collection of pose meshes, made when it is first needed."""
+"""The people that the add-on ships, and the order that they are kept in.
+
+A cast is a collection that is not in the scene. Its child collections are blocks: each holds the poses of some neighbouring people at one
+level of detail, and has the custom properties `throng_level` (0 is the finest) and `throng_first`, the first of its people as the bake
+numbers them (variations). A block of level L has PEOPLE_A_BLOCK[L] people, the last one may have fewer. Its objects, sorted by name, are
+
+    (variation - throng_first) * repertoire.poses(L) + pose
+
+where the poses are the gaits first, each a cycle from the right heel's strike on, then the beats of the standing clips (Repertoire numbers
+them). pose_name() makes such names. Level 0 is always there, levels 1 and 2 only where they are asked for (levels.py). An object's parent
+is the person: an empty that Cryptomatte goes by, with the property `throng_person` where the add-on's own cast made it. Whoever puts
+somebody else in a person's place exchanges all of its objects. Figures look along +x and stand on z = 0; all take the bake's strides.
+"""
 from dataclasses import dataclass
 
 from . import gait, people
+from .mesh_builder import Plan
 
 VARIATIONS = len(people.CAST)
-POSES = 24  # of each gait's cycle
+LEVELS = 3
+POSES = 24  # of each gait's cycle, at level 0
 BEATS = 4   # of each standing clip's round
+LEVEL_POSES = (POSES, POSES, 8)  # far away, fewer do
+LEVEL_BEATS = (BEATS, BEATS, 1)
+PEOPLE_A_BLOCK = (3, 3, 9)  # some 500 objects: fewer blocks cost less, but the time for each grows with the square of its objects
 
 
 @dataclass(frozen=True)
 class Repertoire:
-    """What everybody in a cast can do, and which pose is where: first the gaits, each a cycle, then the standing clips."""
+    """What everybody in a cast can do, and which pose is where, at each level of detail."""
     strides: tuple  # m, of each gait
 
-    @property
-    def walking(self):
-        return len(self.strides) * POSES
+    def walking(self, level=0):
+        """How many poses walk; the standing ones come after."""
+        return len(self.strides) * LEVEL_POSES[level]
+
+    def poses(self, level=0):
+        return self.walking(level) + len(gait.STANDING_CLIPS) * LEVEL_BEATS[level]
 
     @property
     def count(self):
-        return self.walking + len(gait.STANDING_CLIPS) * BEATS
+        return self.poses(0)
 
-    def walking_pose(self, gait_index, phase):
-        return gait_index * POSES + min(POSES - 1, int((phase % 1.0) * POSES))
+    def walking_pose(self, gait_index, phase, level=0):
+        poses = LEVEL_POSES[level]
+        return gait_index * poses + min(poses - 1, int((phase % 1.0) * poses))
 
-    def standing_pose(self, clip, beat):
-        return self.walking + gait.STANDING_CLIPS.index(clip) * BEATS + beat
+    def standing_pose(self, clip, beat, level=0):
+        """@param beat one of BEATS, whatever the level"""
+        return self.walking(level) + gait.STANDING_CLIPS.index(clip) * LEVEL_BEATS[level] + beat * LEVEL_BEATS[level] // BEATS
+
+    def sources(self, level):
+        """For each pose of a level, the one of level 0 that it is: of those that it stands for, the one in the middle."""
+        share, beats = POSES // LEVEL_POSES[level], BEATS // LEVEL_BEATS[level]
+        return (list(range(share // 2, self.walking(), share)) + list(range(self.walking(), self.poses(), beats)))
 
 
-def pose_name(variation, pose):
-    return f"throng_v{variation:02d}_p{pose:03d}"
+def pose_name(variation, pose, level=0):
+    return f"throng_v{variation:02d}_p{pose:03d}" + (f"_l{level}" if level else "")
 
 
 def poses_of(person, repertoire):
-    """All poses in order. Tall or small, everybody takes the bake's strides: feet must not slide."""
+    """All poses of level 0, in order. Tall or small, everybody takes the bake's strides: feet must not slide."""
     build = people.build_of(person)
     gaits = [gait.gait_of(stride) for stride in repertoire.strides]
     return ([gait.walk_pose(index / POSES, build, each) for each in gaits for index in range(POSES)]
             + [gait.standing_pose(clip, beat / BEATS, build) for clip in gait.STANDING_CLIPS for beat in range(BEATS)])
 
 
+def plan_of(figures, repertoire, level):
+    """The mesh of a person at a level of detail; what it leaves out is told from a stand and from quarters of every gait."""
+    samples = [figures[index].rings for index in (*range(0, repertoire.walking(), POSES // 4), repertoire.walking())]
+    return Plan(figures[0].parts, samples, level)
+
+
 def limb_velocities(before, after, seconds):
-    """m/s of every vertex in the walker's own frame, from the poses before and after; flat, for foreach_set."""
-    return [(b - a) / seconds for start, end in zip(before.vertices, after.vertices) for a, b in zip(start, end)]
-
-
-def _velocities(figures, repertoire):
-    """Limbs blur, too: each walking pose knows how fast its parts move at the gait's natural speed."""
-    for index, stride in enumerate(repertoire.strides):
-        speed = (stride / 1.249) ** 2  # shaders/gait.glsl
-        seconds = 2.0 * stride / (speed * POSES)
-        cycle = figures[index * POSES:(index + 1) * POSES]
-        for pose in range(POSES):
-            yield index * POSES + pose, limb_velocities(cycle[pose - 1], cycle[(pose + 1) % POSES], seconds)
-
-
-def build_cast(variations, repertoire, library_name="Throng cast"):
-    """A collection whose children, sorted by name, are variation * repertoire.count + pose."""
-    import bpy
-
-    from .materials import cast_materials
-
-    collection = bpy.data.collections.new(library_name)
-    materials = cast_materials(people.MATERIALS)
-    for variation in range(variations):
-        person = people.CAST[variation % VARIATIONS]
-        figures = [people.build_figure(person, pose) for pose in poses_of(person, repertoire)]
-        # Cryptomatte by asset goes by the parent: a person keeps its matte whatever the pose.
-        holder = bpy.data.objects.new(f"Throng person {variation:02d}", None)
-        meshes = []
-        for index, figure in enumerate(figures):
-            mesh = bpy.data.meshes.new(pose_name(variation, index))
-            mesh.from_pydata(figure.vertices, [], figure.faces)
-            for material in materials:
-                mesh.materials.append(material)
-            mesh.polygons.foreach_set("material_index", figure.materials)
-            mesh.polygons.foreach_set("use_smooth", [True] * len(figure.faces))
-            mesh.update()
-            meshes.append(mesh)
-            thing = bpy.data.objects.new(mesh.name, mesh)
-            thing.parent = holder
-            collection.objects.link(thing)
-        for index, velocities in _velocities(figures, repertoire):
-            meshes[index].attributes.new("velocity", "FLOAT_VECTOR", "POINT").data.foreach_set("vector", velocities)
-    return collection
+    """m/s of every vertex in the walker's own frame, from the vertices of the poses before and after, both flat."""
+    rate = 1.0 / seconds
+    return [(b - a) * rate for a, b in zip(before, after)]

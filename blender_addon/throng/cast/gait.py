@@ -17,7 +17,9 @@ from functools import lru_cache
 
 UNDER_BODY = 0.28     # as GAIT_UNDER_BODY of the simulation
 NORMAL_STRIDE = 1.446  # m, of an adult at 1.34 m/s
+STRIDE_AT_ONE = 1.249  # m, at 1 m/s: as in io/motion/gaits.cpp; strides grow with the root of the speed
 RUNNING_STRIDE = 2.1   # m: from here on people run
+HIP_DROP = 0.02        # m, of the hip joints below the middle of the pelvis
 
 
 @dataclass(frozen=True)
@@ -41,11 +43,16 @@ class Gait:
     def runs(self):
         return self.stride >= RUNNING_STRIDE
 
+    @property
+    def seconds(self):
+        """Of a cycle, at the speed that belongs to the stride."""
+        return self.stride / (self.stride / STRIDE_AT_ONE) ** 2
+
 
 def gait_of(stride):
     """The gait of a stride length (m)."""
     if stride >= RUNNING_STRIDE:
-        return Gait(stride, 0.10, 0.04, 0.20, 0.36, math.radians(6.0), math.radians(-58.0), 0.20, 0.035, 0.11, 0.62, 1.35, 0.13)
+        return Gait(stride, 0.15, 0.04, 0.17, 0.33, math.radians(6.0), math.radians(-58.0), 0.20, 0.026, 0.11, 0.62, 1.35, 0.11)
     a = stride / NORMAL_STRIDE
     return Gait(stride, 0.0, 0.10, 0.40, 0.62 - 0.09 * (a - 1.0), math.radians(18.0) * min(a, 1.2), math.radians(-52.0) * min(a ** 0.8, 1.15),
                 0.055 * (0.6 + 0.4 * a), 0.018 * a ** 1.5, 0.075 * a, min(0.36 * a ** 1.3, 0.55), 0.30 * (0.7 + 0.3 * a), 0.045 + 0.03 * (a - 1.0))
@@ -141,7 +148,7 @@ def _running_height(build, gait):
     for i in range(96):
         phase = i / 96.0
         reach = _reach((foot_at(phase, build, gait), foot_at(phase + 0.5, build, gait)), leg)
-        highest = min(highest, reach + gait.bob * math.cos(4.0 * math.pi * (phase - UNDER_BODY)))
+        highest = min(highest, reach + 0.6 * HIP_DROP + gait.bob * math.cos(4.0 * math.pi * (phase - UNDER_BODY)))
     return highest
 
 

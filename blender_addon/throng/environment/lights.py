@@ -31,13 +31,16 @@ def build_light(scene, collection):
     links.new(sky.outputs[0], background.inputs[0])
     background.inputs[1].default_value = 0.22
     scene.world = world
-    transforms = bpy.types.ColorManagedViewSettings.bl_rna.properties["view_transform"].enum_items.keys()
-    for transform, look in (("AgX", "AgX - Medium High Contrast"), ("Filmic", "Medium High Contrast")):
-        if transform in transforms or bpy.app.version >= (4, 0, 0) or transform == "Filmic":
-            try:
-                scene.view_settings.view_transform = transform
-                scene.view_settings.look = look
-                break
-            except TypeError:
-                continue
+    set_colours(scene)
     scene.view_settings.exposure = 0.6
+
+
+def set_colours(scene):
+    """AgX where there is one, Filmic before."""
+    for transform, look in (("AgX", "AgX - Medium High Contrast"), ("Filmic", "Medium High Contrast")):
+        try:
+            scene.view_settings.view_transform = transform
+            scene.view_settings.look = look
+            return
+        except TypeError:
+            continue
