@@ -59,7 +59,7 @@ def find_legs(names, parents, heads, points, main, feet=()):
             raise CharacterError(f"the feet should be the names of two bones, found {', '.join(feet)}: there are {', '.join(names[:12])} ...")
         ends = [names.index(name) for name in feet]
     else:
-        ends = _feet_of(names, parents, lowest, ground + 0.06 * height, heads)
+        ends = _feet_of(names, parents, lowest, ground + 0.06 * height, heads, height)
     chains = [_chain(end, parents) for end in ends]
     shared = sum(a == b for a, b in zip(*chains))
     legs = []
@@ -72,15 +72,16 @@ def find_legs(names, parents, heads, points, main, feet=()):
     return legs
 
 
-def _feet_of(names, parents, lowest, near, heads):
+def _feet_of(names, parents, lowest, near, heads, height):
     """The bones of the two feet: on different branches, near the ground, as high and as deep as each other."""
     branches = []
     for bone in range(len(names)):
         if lowest[bone] < near:
             chain = _chain(bone, parents)
             named = [each for each in chain if _FOOT_WORDS & set(words_of(names[each]))]
-            # without a name, it is the uppermost bone that reaches the ground
-            foot = named[0] if named else next(each for each in chain if lowest[each] < near)
+            # without a name, it is the uppermost bone that reaches the ground and begins near it: a shin reaches down, too
+            starts = [each for each in chain if lowest[each] < near and heads[each][2] < near + 0.05 * height]
+            foot = (named or starts or [bone])[0]
             if foot not in branches:
                 branches.append(foot)
     best, pair = numpy.inf, None

@@ -80,7 +80,7 @@ def _standing(reader, chosen, cycles, body, report):
             found += [motion.standing_from_walk(cycles[0], body)] * BEATS
             report.standing[clip] = f"the mean of {cycles[0].name}"
             continue
-        other = clip == "shift" and len(chosen[role]) > 1
+        other = clip == "shift" and len(chosen[role]) > 1 and (roles.is_plain(chosen[role][1].name) or roles.IDLE in (reader.options.roles or {}))
         taken = chosen[role][1 if other else 0]
         poses = list(reader.standing(taken, BEATS))
         if clip == "shift" and not other:

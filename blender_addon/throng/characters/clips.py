@@ -257,7 +257,9 @@ def choose(reader, clips):
 
 def walks(reader, chosen, strides):
     """The cycles of all clips that walk or run. Raises CharacterError when there is none."""
-    asked = chosen.get(roles.WALK, []) + chosen.get(roles.RUN, [])
+    asked = list(dict.fromkeys(clip.name for clip in chosen.get(roles.WALK, []) + chosen.get(roles.RUN, [])))
+    by_name = {clip.name: clip for clips in chosen.values() for clip in clips}
+    asked = [by_name[name] for name in asked]
     reader.turn_to(reader.find_heading(asked))
     cycles, refused = [], []
     for clip in asked:

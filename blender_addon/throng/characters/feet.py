@@ -83,10 +83,10 @@ def stance_of(points, tolerance):
 
 
 def at(samples, time):
-    """Samples at a share of the cycle, between them linearly."""
-    place = (time % 1.0) * len(samples)
-    low = int(place) % len(samples)
-    blend = place - int(place)
+    """Samples at a share of the cycle, or at many, between them linearly."""
+    place = (numpy.asarray(time) % 1.0) * len(samples)
+    low = place.astype(int) % len(samples)
+    blend = (place - numpy.floor(place)).reshape(place.shape + (1,) * (samples.ndim - 1))
     return samples[low] * (1.0 - blend) + samples[(low + 1) % len(samples)] * blend
 
 
@@ -109,11 +109,9 @@ class Path:
 
 def foot_of(ankle, points, stance, hip):
     """@param hip (N, 3), the joint above"""
-    count = len(ankle)
-    times = [stance.down + stance.length * k / 48.0 for k in range(7, 42)]
-    ahead = [abs(at(ankle, t)[0] - at(hip, t)[0]) for t in times]
-    assert count == len(points)
-    return Foot(ankle, points - ankle[:, None], stance, times[int(numpy.argmin(ahead))])
+    times = stance.down + stance.length * numpy.arange(7, 42) / 48.0
+    ahead = numpy.abs(at(ankle, times)[:, 0] - at(hip, times)[:, 0])
+    return Foot(ankle, points - ankle[:, None], stance, float(times[ahead.argmin()]))
 
 
 def _warp(foot, phase, down, share):
@@ -129,7 +127,7 @@ def fit(foot, stride, share, turned=None, lift=1.0, clearance=0.02, samples=240)
 
     While it is planted it rolls: each moment, what touches the ground stays where it is. In the air it follows the clip, from where it
     leaves the ground to where it comes down.
-    @param turned extra rotations of the foot about its ankle, a function of the clip's time, or None
+    @param turned extra rotations (T, 3, 3) of the foot about its ankle, a function of times of the clip, or None
     @param lift how much of the clip's height in the air remains
     @param clearance metres that the sole is above the ground in the air at least, but for its first and last tenth
     """
@@ -137,7 +135,7 @@ def fit(foot, stride, share, turned=None, lift=1.0, clearance=0.02, samples=240)
     down = UNDER_BODY - before
     phases = down + numpy.arange(samples) / samples
     times = numpy.array([_warp(foot, phase, down, share) for phase in phases])
-    soles = numpy.array([at(foot.sole, t) if turned is None else at(foot.sole, t) @ turned(t).T for t in times])
+    soles = at(foot.sole, times) if turned is None else at(foot.sole, times) @ turned(times).swapaxes(1, 2)
     last = int(share * samples)
 
     ankles = numpy.zeros((samples, 3))
@@ -171,9 +169,9 @@ def _swing(foot, ankles, soles, times, last, lift, clearance):
     start, end = ankles[last].copy(), ankles[0].copy()
     clip_start, clip_end = at(foot.ankle, times[last]), at(foot.ankle, foot.stance.down + 1.0)
     way = clip_end[0] - clip_start[0]
+    clips = at(foot.ankle, times)
     for index in range(last + 1, count):
-        share = (index - last) / (count - last)
-        clip = at(foot.ankle, times[index])
+        share, clip = (index - last) / (count - last), clips[index]
         progress = (clip[0] - clip_start[0]) / way if abs(way) > 1e-6 else share
         ankles[index, 0] = start[0] + progress * (end[0] - start[0])
         line, wanted = clip_start + (clip_end - clip_start) * share, start + (end - start) * share

@@ -104,14 +104,14 @@ def _turner(cycle, side, leg, amplitude):
     def turned(time):
         now, _ = legs.rotation_part(feet.at(cycle.bones[:, leg.foot], time))
         blended, _ = legs.rotation_part(amplitude * now + (1.0 - amplitude) * flat)
-        return blended @ now.T
+        return blended @ now.swapaxes(-1, -2)
 
     return turned
 
 
 
 def body_at(cycle, body, phase, amplitude):
-    """The bones at a phase of the gait, legs not yet placed."""
+    """The bones at a phase of the gait, or at many, legs not yet placed."""
     bones = legs.straightened(feet.at(cycle.bones, cycle.feet[0].under + phase - UNDER_BODY))
     if amplitude > 0.999:
         return bones
@@ -124,16 +124,15 @@ def body_at(cycle, body, phase, amplitude):
 def plan(cycle, body, stride):
     """How feet and hips go for a stride. A foot is planted as long as the clip says, or for less where the leg could not reach."""
     amplitude = amplitude_of(stride, cycle.stride)
-    poses = [body_at(cycle, body, k / 48.0, amplitude) for k in range(48)]
-    reach = [_reach(pose, leg) for pose in poses[:1] for leg in body.legs]
+    poses = body_at(cycle, body, numpy.arange(48) / 48.0, amplitude)
+    reach = [_reach(poses[0], leg) for leg in body.legs]
     turners = [_turner(cycle, side, leg, amplitude) for side, leg in enumerate(body.legs)]
     share = min(cycle.stance, 0.75)
     while True:
         paths = [feet.fit(foot, stride, share, turned, min(1.0, 0.4 + 0.6 * amplitude), 3.0 * body.tolerance, FINE) for foot, turned in zip(cycle.feet, turners)]
         needs = []
         for side, (path, leg, length) in enumerate(zip(paths, body.legs, reach)):
-            hip = numpy.array([pose[leg.hip, :3, 3] for pose in poses])
-            wide = numpy.array([feet.at(hip, k / FINE + 0.5 * side) for k in range(FINE)])
+            wide = feet.at(poses[:, leg.hip, :3, 3], numpy.arange(FINE) / FINE + 0.5 * side)
             need = feet.lowering(path, wide, 0.995 * length) if length else numpy.zeros(FINE)
             needs.append(numpy.roll(need, side * (FINE // 2)))
         need = numpy.maximum(*needs)

@@ -42,8 +42,8 @@ class Puppet:
         self.templates = [None] * len(LEVELS)
         self.inverse = numpy.linalg.inv(self.world)
         self.rest = stage.rest
-        self.above = [numpy.linalg.inv(self.rest[parent]) @ self.rest[bone] if parent >= 0 else self.rest[bone]
-                      for bone, parent in enumerate(stage.parents)]
+        self.above = numpy.array([numpy.linalg.inv(self.rest[parent]) @ self.rest[bone] if parent >= 0 else self.rest[bone]
+                                  for bone, parent in enumerate(stage.parents)])
 
     def _copy(self, thing, armature, share):
         twin = thing.copy()
@@ -93,10 +93,10 @@ class Puppet:
     def pose(self, bones):
         """Puts the bones (B, 4, 4), in the walker's frame."""
         local = self.inverse @ bones
-        for index, name in enumerate(self.stage.names):
-            parent = self.stage.parents[index]
-            start = local[parent] @ self.above[index] if parent >= 0 else self.above[index]
-            self.armature.pose.bones[name].matrix_basis = Matrix(numpy.linalg.inv(start) @ local[index])
+        parents = numpy.array(self.stage.parents)
+        starts = numpy.where((parents >= 0)[:, None, None], local[parents] @ self.above, self.above)
+        for name, basis in zip(self.stage.names, numpy.linalg.inv(starts) @ local):
+            self.armature.pose.bones[name].matrix_basis = Matrix(basis)
         self.scene.view_layers[0].update()
 
     def points(self, level):
@@ -145,6 +145,8 @@ class Puppet:
         whole.free()
         for material in materials:
             mesh.materials.append(material)
+        for left_over in [each.name for each in mesh.attributes if each.name.startswith((".select_", ".uv_select_"))]:
+            mesh.attributes.remove(mesh.attributes[left_over])
         if customs and hasattr(mesh, "use_auto_smooth"):
             mesh.use_auto_smooth = True
         return mesh

@@ -60,6 +60,11 @@ def clips_by_role(names):
     return {role: [entry[-1] for entry in sorted(entries)] for role, entries in found.items()}
 
 
+def is_plain(name):
+    """Whether nothing in a clip's name says that it is a special one."""
+    return role_of(name)[1] == 0
+
+
 def says_otherwise(name):
     """Whether the name rules out that this is an everyday clip (so that motion alone must not make it one)."""
     return any(word in _NEVER for word in words_of(name)) or role_of(name)[0] is not None
