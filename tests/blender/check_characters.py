@@ -106,7 +106,7 @@ expected = (points_of(joined[31].data) - points_of(joined[29].data)) / seconds
 result["velocity"] = float(numpy.abs(velocity.reshape(-1, 3) - expected).max())
 result["standing_height"] = float(numpy.ptp(points_of(joined[repertoire.standing_pose("idle", 0)].data)[:, 2]))
 result["stick"] = len(mesh.vertices)
-result["look"] = {"materials": [m.name.split(".")[0] for m in mesh.materials], "uv": len(mesh.uv_layers), "smooth": all(p.use_smooth for p in mesh.polygons),
+result["look"] = {"materials": [m.name.split(".")[0] for m in mesh.materials], "uv": len(mesh.uv_layers),
                   "packed": all(image.packed_file is not None for image in bpy.data.images if image.source == "FILE")}
 
 # Who is who in the crowd: the newcomer has its share, and saved scenes show it without the add-on.
@@ -138,7 +138,8 @@ assert bpy.ops.throng.add_armature(replace=2, height=1.6, keep="*stick*", charac
 assert place == (tuple(second.location), second.animation_data.use_nla) and second.animation_data.action is None
 result["scenes"] = counts()["scenes"] - before["scenes"], counts()["armatures"] - before["armatures"]
 replaced = sorted(members.poses(crowd)[2], key=lambda thing: thing.name)
-result["second"] = {"report": json.loads(replaced[0].parent["throng_report"]), "count": len(replaced), "vertices": len(replaced[0].data.vertices)}
+result["second"] = {"report": json.loads(replaced[0].parent["throng_report"]), "count": len(replaced), "vertices": len(replaced[0].data.vertices),
+                    "smooth": sum(p.use_smooth for p in replaced[0].data.polygons) > 0.9 * len(replaced[0].data.polygons)}
 result["second_feet"] = feet_of(replaced)[..., ::7, :].round(5).tolist()
 
 # Unsuitable armatures in the scene.
