@@ -105,7 +105,6 @@ seconds = 2.0 * stride / ((stride / 1.249) ** 2 * cast.POSES)
 expected = (points_of(joined[31].data) - points_of(joined[29].data)) / seconds
 result["velocity"] = float(numpy.abs(velocity.reshape(-1, 3) - expected).max())
 result["standing_height"] = float(numpy.ptp(points_of(joined[repertoire.standing_pose("idle", 0)].data)[:, 2]))
-result["stick"] = len(mesh.vertices)
 result["look"] = {"materials": [m.name.split(".")[0] for m in mesh.materials], "uv": len(mesh.uv_layers),
                   "packed": all(image.packed_file is not None for image in bpy.data.images if image.source == "FILE")}
 
