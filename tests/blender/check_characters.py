@@ -25,7 +25,8 @@ result = {"errors": {}}
 
 
 def counts():
-    return {kind: len(getattr(bpy.data, kind)) for kind in ("objects", "meshes", "materials", "images", "actions", "armatures", "scenes", "collections", "node_groups")}
+    kinds = ("objects", "meshes", "materials", "images", "actions", "armatures", "scenes", "collections", "node_groups")
+    return {kind: len(getattr(bpy.data, kind)) for kind in kinds}
 
 
 # A file: looks along -x, 1.7 m tall, a walk that begins in the middle of a step, two cycles of another with root motion.
@@ -92,7 +93,7 @@ def feet_of(things):
     standing = points_of(things[repertoire.standing_pose("idle", 0)].data)
     low = standing[:, 2] < walker.ANKLE + 0.005
     sides = [numpy.nonzero(low & (standing[:, 1] < 0.0))[0], numpy.nonzero(low & (standing[:, 1] > 0.0))[0]]
-    return numpy.array([[points_of(thing.data)[side] for side in sides] for thing in things[:repertoire.walking]])
+    return numpy.array([[points_of(thing.data)[side] for side in sides] for thing in things[:repertoire.walking()]])
 
 
 soles = feet_of(joined)
@@ -101,7 +102,7 @@ mesh = joined[30].data
 velocity = numpy.empty(3 * len(mesh.vertices), numpy.float32)
 mesh.attributes["velocity"].data.foreach_get("vector", velocity)
 stride = repertoire.strides[1]
-seconds = 2.0 * stride / ((stride / 1.249) ** 2 * cast.POSES)
+seconds = 2.0 * cast.gait.gait_of(stride).seconds / cast.POSES
 expected = (points_of(joined[31].data) - points_of(joined[29].data)) / seconds
 result["velocity"] = float(numpy.abs(velocity.reshape(-1, 3) - expected).max())
 result["standing_height"] = float(numpy.ptp(points_of(joined[repertoire.standing_pose("idle", 0)].data)[:, 2]))
@@ -125,6 +126,27 @@ def shown():
 result["shown"] = shown()
 assert bpy.ops.throng.reload() == {"FINISHED"}
 result["after_reload"] = shown()
+
+# Levels of detail, from far away: the newcomer's own coarser meshes; off again, nothing is left over.
+camera = bpy.data.objects.new("far", bpy.data.cameras.new("far"))
+scene.collection.objects.link(camera)
+scene.camera, camera.location = camera, (0.0, -300.0, 2.0)
+before = counts()
+result["levels"] = {}
+for level, (near, far) in ((1, (10.0, 1000.0)), (2, (10.0, 20.0))):
+    assert bpy.ops.throng.levels(by="camera", near=near, far=far) == {"FINISHED"}
+    meshes = [instance.object.data for instance in bpy.context.evaluated_depsgraph_get().object_instances
+              if instance.is_instance and instance.object.name.startswith(f"throng_v{shipped:02d}") and instance.object.name.endswith(f"_l{level}")]
+    result["levels"][level] = [len(meshes), sum(len(p.vertices) - 2 for p in meshes[0].polygons), len(members.poses(crowd, level)[shipped])]
+    result["levels"]["finest"] = sum(len(p.vertices) - 2 for p in joined[0].data.polygons)
+result["shown_far"] = shown()
+assert bpy.ops.throng.remove_character(member=shipped) == {"FINISHED"}  # it leaves and comes while levels are on
+assert bpy.ops.throng.add_character(filepath=glb) == {"FINISHED"}
+result["shown_again"] = shown()
+assert bpy.ops.throng.levels(by="none") == {"FINISHED"}
+after = counts()
+result["left_by_levels"] = {kind: after[kind] - before[kind] for kind in after if kind != "node_groups"}
+bpy.data.objects.remove(camera)
 
 # A second one replaces a shipped person, with clips whose names say nothing, twice as large, looking along y, a walk that does not close its loop.
 second = walker.make(heading=90.0, name="Nameless", scale=2.5)
@@ -164,7 +186,8 @@ result["restored"] = members.members(crowd)[2]
 refused("not a character", bpy.ops.throng.remove_character, member=2)
 assert bpy.ops.throng.remove_character(member=shipped) == {"FINISHED"}
 result["at_the_end"] = [len(members.members(crowd)), max(shown())]
-assert bpy.ops.throng.add_character(filepath=glb, walk="walk_cycle: 1.5", run="walk_cycle", idle="Jump_Idle", heading="-X", height=2.5, leave_out="none, *stick") == {"FINISHED"}
+assert bpy.ops.throng.add_character(filepath=glb, walk="walk_cycle: 1.5", run="walk_cycle", idle="Jump_Idle", heading="-X",
+                                       height=2.5, leave_out="none, *stick") == {"FINISHED"}
 result["said"] = json.loads(members.poses(crowd)[shipped][0].parent["throng_report"])
 bpy.ops.wm.save_mainfile()
 throng.unregister()

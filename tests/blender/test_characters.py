@@ -152,16 +152,18 @@ def check_feet(positions, strides, least_carried):
 def test_characters_join_a_cast_by_file_and_from_the_scene(blender, tmp_path):
     write_bake(tmp_path / "bake")
     found = result_of(blender(HERE / "check_characters.py", ADDON, HERE, tmp_path / "bake", tmp_path))
-    words = {"words.glb": "not a glTF", "half.glb": "truncated", "empty.gltf": "no skeleton", "absent.glb": "cannot be read", "no clip of that name": "no clip Stroll",
-             "no such member": "no 13 to replace", "walks backwards only": "no clip walks", "no clips": "has no clips", "no walk": "no clip walks",
+    words = {"words.glb": "not a glTF", "half.glb": "truncated", "empty.gltf": "no skeleton", "absent.glb": "cannot be read",
+             "no clip of that name": "no clip Stroll", "no such member": "no 13 to replace", "walks backwards only": "no clip walks", "no clips": "has no clips", "no walk": "no clip walks",
              "no size": "no height", "no meshes": "no mesh hangs", "no armature": "no armature", "not a character": "no character that was added"}
     assert set(found["errors"]) == set(words)
     for label, expected in words.items():
         assert expected in found["errors"][label] and "Traceback" not in found["errors"][label], found["errors"][label]
 
-    poses = cast.Repertoire(tuple(STRIDES)).count
+    repertoire = cast.Repertoire(tuple(STRIDES))
+    poses, coarser = repertoire.count, repertoire.poses(1) + repertoire.poses(2)
     assert found["members"] == [["walker", True]]
-    assert found["left"] == {"objects": poses + 1, "meshes": poses, "materials": 1, "images": 1, "actions": 0, "armatures": 0, "scenes": 0, "collections": 0, "node_groups": 0}
+    assert found["left"] == {"objects": poses + 1 + coarser, "meshes": poses + coarser, "materials": 1, "images": 1, "actions": 0, "armatures": 0, "scenes": 0,
+                             "collections": 1, "node_groups": 0}
     report = "\n".join(found["report"])
     assert "1.70 m (scaled by 1)" in report and ("looks -180" in report or "looks 180" in report)
     assert "stride 1.00 m: walk_cycle (its own: 1.20 m)" in report and "Walking_Fast (its own: 1.70 m)" in report
@@ -174,6 +176,13 @@ def test_characters_join_a_cast_by_file_and_from_the_scene(blender, tmp_path):
     present = sum(found["shown"].values())
     assert 2 <= found["shown"]["8"] <= present * 0.3 and len(found["shown"]) == 9
     assert found["after_reload"] == found["shown"]
+
+    for level, share in (("1", 3.0), ("2", 10.0)):
+        count, triangles, there = found["levels"][level]
+        assert count == found["shown"]["8"] and there == repertoire.poses(int(level))
+        assert triangles * share == pytest.approx(found["levels"]["finest"], rel=0.1)
+    assert found["shown_far"] == found["shown_again"] == found["shown"]
+    assert not any(found["left_by_levels"].values())
 
     second = "\n".join(found["second"]["report"])
     assert "their feet were asked" in second and "Clip.001 (its own: 1.22 m)" in second and "idle = Clip.002" in second and "looks 90" in second

@@ -6,7 +6,8 @@ import bpy
 import numpy
 
 from ..cast import BEATS, POSES
-from ..cast.gait import STANDING_CLIPS
+from ..cast.gait import STANDING_CLIPS, gait_of
+from ..cast.library import BLURS_UNTIL
 from . import CharacterError, anatomy, clips, feet, motion, posing, roles
 from .rig import Stage, rig_of
 
@@ -47,8 +48,8 @@ class Character:
     report: Report
 
 
-def make(armature, strides, name, options, levels=len(posing.LEVELS)):
-    """Poses a character for a bake's strides. Raises CharacterError; what it made until then is removed."""
+def make(armature, repertoire, name, options):
+    """Poses a character for all that a cast can do. Raises CharacterError; what it made until then is removed."""
     rig = rig_of(armature, options.leave_out, options.keep)
     with Stage(rig) as stage:
         reader = clips.Reader(stage, options)
@@ -56,12 +57,12 @@ def make(armature, strides, name, options, levels=len(posing.LEVELS)):
         cycles = clips.walks(reader, chosen, said)
         body = reader.body()
         report = Report(name, reader.height, reader.scale, reader.heading, held=rig.held, notes=reader.notes)
-        plans = [motion.plan(_nearest(cycles, stride), body, stride) for stride in strides]
+        plans = [motion.plan(_nearest(cycles, stride), body, stride) for stride in repertoire.strides]
         bones = [motion.pose_of(plan, body, index / POSES) for plan in plans for index in range(POSES)]
         bones += _standing(reader, chosen, cycles, body, report)
         puppet = posing.Puppet(rig, stage, reader.placement)
         try:
-            meshes = _meshes(puppet, reader, bones, strides, levels, report, plans)
+            meshes = _meshes(puppet, reader, bones, repertoire, report, plans)
         finally:
             puppet.remove()
     return Character(name, meshes, report)
@@ -90,28 +91,30 @@ def _standing(reader, chosen, cycles, body, report):
     return found
 
 
-def _meshes(puppet, reader, bones, strides, levels, report, plans):
+def _meshes(puppet, reader, bones, repertoire, report, plans):
     made = []
     try:
-        points = [[] for _ in range(levels)]
-        for pose in bones:
+        points = [{} for _ in posing.LEVELS]
+        for index, pose in enumerate(bones):
             puppet.pose(pose)
-            for level in range(levels):
-                points[level].append(puppet.points(level))
-        for level in range(levels):
+            for level, posed in enumerate(points):
+                if index in repertoire.sources(level):
+                    posed[index] = puppet.points(level)
+        for level, posed in enumerate(points):
             template = puppet.template(level, f"{report.name} {level}")
             made.append([template])
-            if len(template.vertices) != len(points[level][0]):
+            sources = repertoire.sources(level)
+            if len(template.vertices) != len(posed[sources[0]]):
                 raise CharacterError("the meshes lose or gain vertices when they are joined: apply their modifiers first")
-            made[level] += [template.copy() for _ in bones[1:]]
-            for mesh, placed in zip(made[level], points[level]):
-                posing.set_points(mesh, placed)
-            for index, velocities in _velocities(points[level], strides):
-                posing.set_velocities(made[level][index], velocities)
+            made[level] += [template.copy() for _ in sources[1:]]
+            for mesh, source in zip(made[level], sources):
+                posing.set_points(mesh, posed[source])
+                if level <= BLURS_UNTIL and source < repertoire.walking():
+                    posing.set_velocities(mesh, _velocity(posed, source, repertoire))
             template.calc_loop_triangles()
             report.triangles.append(len(template.loop_triangles))
         for index, plan in enumerate(plans):
-            posed = numpy.array(points[0][index * POSES:(index + 1) * POSES])
+            posed = numpy.array([points[0][index * POSES + pose] for pose in range(POSES)])
             report.gaits.append({"stride": plan.stride, "clip": plan.cycle.name, "natural": plan.cycle.stride, "planted": plan.share,
                                  "slide": max(feet.slide(posed[:, sole], plan.stride) for sole in _soles(reader, posed))})
             report.notes += [f"{plan.cycle.name}: {note}" for note in plan.cycle.notes if f"{plan.cycle.name}: {note}" not in report.notes]
@@ -131,11 +134,8 @@ def _soles(reader, posed):
     return [near & ~left, near & left]
 
 
-def _velocities(points, strides):
-    """As the shipped cast's: how fast the parts of each walking pose move at the gait's natural speed, in the walker's frame."""
-    for index, stride in enumerate(strides):
-        speed = (stride / 1.249) ** 2  # shaders/gait.glsl
-        seconds = 2.0 * stride / (speed * POSES)
-        for pose in range(POSES):
-            first = index * POSES
-            yield first + pose, (points[first + (pose + 1) % POSES] - points[first + (pose - 1) % POSES]) / seconds
+def _velocity(posed, index, repertoire):
+    """As the shipped cast's: how fast the parts of a walking pose move at the gait's natural speed, in the walker's frame."""
+    which, pose = divmod(index, POSES)
+    seconds = 2.0 * gait_of(repertoire.strides[which]).seconds / POSES
+    return (posed[which * POSES + (pose + 1) % POSES] - posed[which * POSES + (pose - 1) % POSES]) / seconds

@@ -60,8 +60,6 @@ class Reader:
             offspring.append((thigh, shin, foot))
         return motion.Body(self.stage.parents, self.legs, offspring, self.tolerance)
 
-    # ------------------------------------------------------------------ the cycle
-
     def _sample(self, clip, start, length, count):
         """count + 1 samples over a length of frames; a clip that stops one frame short of its beginning is closed."""
         first, last = clip.range
@@ -135,8 +133,6 @@ class Reader:
         scaled_rest = self.stage.rest
         return [skinned(self.skin, leg.soles, bones, scaled_rest) for leg in self.legs]
 
-    # ------------------------------------------------------------------ heading
-
     def find_heading(self, walking):
         """Degrees; by the user, by how the feet of walks push, or by where the toes are."""
         if self.options.heading != "AUTO":
@@ -172,8 +168,6 @@ class Reader:
         if rest[self.legs[0].foot, 1, 3] > rest[self.legs[1].foot, 1, 3]:
             self.legs.reverse()
             self.hips.reverse()
-
-    # ------------------------------------------------------------------ walks and standing
 
     def cycle(self, clip, stride=0.0):
         """A motion.Cycle, or a sentence that says why the clip is none."""

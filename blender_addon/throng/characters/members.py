@@ -63,8 +63,11 @@ def _discard(shown, number):
     details = [holder["throng_details"] for holder in holders if holder.get("throng_details")]
     stored = [thing for collection in details for thing in collection.objects]
     meshes = {thing.data for thing in things + stored}
+    materials = {material for mesh in meshes for material in mesh.materials if material}
+    images = {node.image for material in materials if material.node_tree for node in material.node_tree.nodes if getattr(node, "image", None)}
     bpy.data.batch_remove([*things, *stored, *details, *holders])
-    bpy.data.batch_remove([mesh for mesh in meshes if mesh.users == 0])
+    for brought in (meshes, materials, images):
+        bpy.data.batch_remove([each for each in brought if each.users == 0])
 
 
 def _changed(crowd):
@@ -86,15 +89,21 @@ def _details(character, holder):
     holder["throng_details"] = details
 
 
-def put(crowd, character, place=None):
-    """Makes a character a member: the one of that number, whom it replaces, or a new one. Returns its number."""
-    repertoire, shown = repertoire_of(crowd), cast_of(crowd)
-    count, levels = shown["throng_variations"], _levels(shown)
+def number_for(crowd, place=None):
+    """The number that a character gets: of the one whom it replaces, or a new one."""
+    count = cast_of(crowd)["throng_variations"]
     number = count if place is None else place
     if not 0 <= number <= count:
         raise CharacterError(f"the cast has members 0 to {count - 1}: there is no {number} to replace")
     if number > 99:
         raise CharacterError("a cast can have 100 members")
+    return number
+
+
+def put(crowd, character, number):
+    """Makes a character the member of that number (number_for)."""
+    repertoire, shown = repertoire_of(crowd), cast_of(crowd)
+    count, levels = shown["throng_variations"], _levels(shown)
     _discard(shown, number)
     holder = bpy.data.objects.new(f"Throng character {character.name}", None)
     holder["throng_character"] = character.name
@@ -111,7 +120,6 @@ def put(crowd, character, place=None):
             library.add_brought(shown, level, number, repertoire)
     shown["throng_variations"] = max(count, number + 1)
     _changed(crowd)
-    return number
 
 
 def remove(crowd, number):

@@ -11,10 +11,9 @@ from .roles import ROLES
 
 
 def _one_crowd(context):
-    from ..crowds import crowd_objects
+    from ..crowds import chosen_crowds
 
-    crowds = crowd_objects(context.scene)
-    chosen = [crowd for crowd in crowds if crowd.select_get()] or crowds
+    chosen = chosen_crowds(context)
     if len(chosen) != 1:
         raise CharacterError("Select one crowd: each has a cast of its own" if chosen else "There is no crowd: import a bake first")
     return chosen[0]
@@ -63,20 +62,19 @@ class _AddsCharacter:
     def _add(self, crowd, armature, name):
         from . import character, files, members
 
-        made = character.make(armature, members.repertoire_of(crowd).strides, name, self._options())
+        number = members.number_for(crowd, None if self.replace < 0 else self.replace)
+        made = character.make(armature, members.repertoire_of(crowd), name, self._options())
         try:
             files.pack_images([level[0] for level in made.meshes])
-            number = members.put(crowd, made, None if self.replace < 0 else self.replace)
         except CharacterError:
             bpy.data.batch_remove([mesh for level in made.meshes for mesh in level])
             raise
-        bpy.data.batch_remove([mesh for level in made.meshes for mesh in level if mesh.users == 0])
+        members.put(crowd, made, number)
         for line in made.report.lines():
             self.report({"INFO"}, line)
         worst = max(gait["slide"] for gait in made.report.gaits)
         if worst > 0.02:
             self.report({"WARNING"}, f"{name}: feet slide by up to {100.0 * worst:.1f} cm a step")
-        return number
 
     def execute(self, context):
         try:

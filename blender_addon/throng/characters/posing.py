@@ -13,7 +13,7 @@ from mathutils import Matrix
 from . import CharacterError
 from .rig import bone_above, is_skinned
 
-LEVELS = (1.0, 1.0 / 3.0, 1.0 / 10.0)  # shares of the triangles
+LEVELS = (1.0, 1.0 / 3.0, 1.0 / 10.0)  # shares of the triangles, of the cast's levels of detail
 
 
 class Puppet:
