@@ -15,8 +15,9 @@ bl_info = {
 def _parts():
     """The modules that register classes of their own, in order."""
     from . import authoring, levels, operators, preferences
+    from .characters import operators as characters
 
-    return (preferences, operators, levels, authoring)
+    return (preferences, operators, levels, authoring, characters)
 
 
 def register():

@@ -11,6 +11,7 @@ import bpy
 
 from .cast import LEVEL_BEATS, LEVEL_POSES, PEOPLE_A_BLOCK, Repertoire
 from .cast.library import blocks_of
+from .characters.members import pick
 from .culling import HIDDEN
 from .formats import STREAMS
 from .nodes import Maths, get_input, new_tree, set_input, socket
@@ -142,7 +143,7 @@ def _instancer_tree(cast, repertoire):
     cosine, sine, speed = _components(maths, "throng_dir")
     state, variation, phase = _components(maths, "throng_state")
     nature = _components(maths, NATURE)
-    variation = maths.math("MODULO", variation, cast["throng_variations"])
+    variation = pick(maths, variation, cast.get("throng_drawn", cast["throng_variations"]), cast["throng_variations"])
     rotation = maths.node("ShaderNodeCombineXYZ")
     maths.link(maths.math("ARCTAN2", sine, cosine), rotation.inputs[2])
     block, pose = _blocks_and_poses(maths, state, phase, speed, variation, nature, repertoire, levels)
@@ -245,6 +246,7 @@ def build_crowd(bake, name, cast, frame_start, paths):
     for name, hidden in zip(INSTANCERS, ("show_viewport", "show_render")):
         setattr(crowd.modifiers.new(name, "NODES"), hidden, False)
     crowd["throng_strides"] = list(bake.strides)
+    cast["throng_drawn"], cast["throng_shipped"] = bake.variations, cast["throng_variations"]
     crowd["throng_frame_start"], crowd["throng_offset"], crowd["throng_percent"] = frame_start, 0, 100.0
     set_cast(crowd, cast)
     return crowd

@@ -40,15 +40,22 @@ def build_cast(variations, repertoire, name="Throng cast"):
     cast["throng_variations"] = variations
     materials = cast_materials(people.MATERIALS)
     for variation in range(variations):
-        # Cryptomatte by asset goes by the parent: a person keeps its matte whatever the pose.
-        holder = bpy.data.objects.new(f"Throng person {variation:02d}", None)
-        holder["throng_person"] = variation % VARIATIONS
-        _fill(cast, 0, variation, _figures(holder, repertoire), repertoire, materials, holder)
+        add_person(cast, variation, repertoire, materials)
     return cast
 
 
+def add_person(cast, variation, repertoire, materials, levels=(0,)):
+    """The shipped person of a number."""
+    # Cryptomatte by asset goes by the parent: a person keeps its matte whatever the pose.
+    holder = bpy.data.objects.new(f"Throng person {variation:02d}", None)
+    holder["throng_person"] = variation % VARIATIONS
+    figures = _figures(holder, repertoire)
+    for level in levels:
+        _fill(cast, level, variation, figures, repertoire, materials, holder)
+
+
 def add_levels(cast, repertoire):
-    """Makes the coarser levels. People whom others brought along keep their meshes, and fewer poses far away."""
+    """Makes the coarser levels."""
     if any(level > 0 for level, _ in blocks_of(cast)):
         return
     for variation in range(cast["throng_variations"]):
@@ -60,10 +67,20 @@ def add_levels(cast, repertoire):
             if own:
                 _fill(cast, level, variation, figures, repertoire, finest[0].data.materials, holder)
                 continue
-            for index, source in enumerate(repertoire.sources(level)):
-                twin = finest[source].copy()
-                twin.name = pose_name(variation, index, level)
-                block_for(cast, level, variation).objects.link(twin)
+            add_brought(cast, level, variation, repertoire)
+
+
+def add_brought(cast, level, variation, repertoire):
+    """The coarser poses of somebody whom others brought along: with the meshes that came for that level, else with those of level 0."""
+    finest = objects_of(cast, 0, variation)
+    details = finest[0].parent.get("throng_details") if finest[0].parent else None
+    coarse = sorted((thing for thing in details.objects if thing["throng_level"] == level), key=lambda thing: thing["throng_pose"]) if details else ()
+    for index, source in enumerate(repertoire.sources(level)):
+        twin = finest[source].copy()
+        if coarse:
+            twin.data = coarse[index].data
+        twin.name = pose_name(variation, index, level)
+        block_for(cast, level, variation).objects.link(twin)
 
 
 def remove_levels(cast):

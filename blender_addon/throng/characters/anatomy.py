@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where a skeleton's legs are. Pure maths on numpy arrays: no Blender here.
+
+The feet are what reaches the ground; a leg is the chain of bones from where both feet's chains part down to a foot.
+"""
+from dataclasses import dataclass
+
+import numpy
+
+from . import CharacterError
+from .roles import words_of
+
+_FOOT_WORDS = set("foot ankle feet".split())
+
+
+@dataclass(frozen=True)
+class Leg:
+    """Indices of bones; the knee is None where there is none to bend."""
+    hip: int
+    knee: object
+    foot: int
+    soles: numpy.ndarray  # vertices that may touch the ground
+
+
+def _chain(bone, parents):
+    """From the root to a bone."""
+    chain = []
+    while bone >= 0:
+        chain.append(bone)
+        bone = parents[bone]
+    return chain[::-1]
+
+
+def below(bone, parents):
+    """A bone and all that hang on it."""
+    return [each for each in range(len(parents)) if bone in _chain(each, parents)]
+
+
+def _lowest(points, main, count):
+    """(B,) the height of each bone's lowest vertex."""
+    lowest = numpy.full(count, numpy.inf)
+    numpy.minimum.at(lowest, main, points[:, 2])
+    return lowest
+
+
+def find_legs(names, parents, heads, points, main, feet=()):
+    """Both legs.
+
+    @param heads (B, 3), the bones' joints in a pose that stands; points (V, 3), the vertices; main (V,), the bone that moves each most
+    @param feet the names of both feet's bones, where they are known
+    """
+    lowest = _lowest(points, main, len(names))
+    ground, height = points[:, 2].min(), float(numpy.ptp(points[:, 2]))
+    if height < 1e-6:
+        raise CharacterError("the character has no height: its meshes are empty or flat in the rest pose")
+    if feet:
+        missing = [name for name in feet if name not in names]
+        if missing or len(feet) != 2:
+            raise CharacterError(f"the feet should be the names of two bones, found {', '.join(feet)}: there are {', '.join(names[:12])} ...")
+        ends = [names.index(name) for name in feet]
+    else:
+        ends = _feet_of(names, parents, lowest, ground + 0.06 * height, heads, height)
+    chains = [_chain(end, parents) for end in ends]
+    shared = sum(a == b for a, b in zip(*chains))
+    legs = []
+    for end, chain in zip(ends, chains):
+        leg = chain[shared:]
+        if not leg:
+            raise CharacterError("one foot hangs on the other: name the bones of both feet")
+        hip, knee = _joints(leg, heads)
+        legs.append(Leg(hip, knee, end, _soles(points, main, below(end, parents))))
+    return legs
+
+
+def _feet_of(names, parents, lowest, near, heads, height):
+    """The bones of the two feet: on different branches, near the ground, as high and as deep as each other."""
+    branches = []
+    for bone in range(len(names)):
+        if lowest[bone] < near:
+            chain = _chain(bone, parents)
+            named = [each for each in chain if _FOOT_WORDS & set(words_of(names[each]))]
+            # without a name, it is the uppermost bone that reaches the ground and begins near it: a shin reaches down, too
+            starts = [each for each in chain if lowest[each] < near and heads[each][2] < near + 0.05 * height]
+            foot = (named or starts or [bone])[0]
+            if foot not in branches:
+                branches.append(foot)
+    best, pair = numpy.inf, None
+    for place, a in enumerate(branches):
+        for b in branches[place + 1:]:
+            chains = _chain(a, parents), _chain(b, parents)
+            if a in chains[1] or b in chains[0]:
+                continue
+            unlike = abs(heads[a][2] - heads[b][2]) + 0.05 * abs(len(chains[0]) - len(chains[1])) + abs(lowest[a] - lowest[b]) + min(lowest[a], lowest[b])
+            named = all(_FOOT_WORDS & set(words_of(names[each])) for each in (a, b))
+            if unlike - (10.0 if named else 0.0) < best:
+                best, pair = unlike - (10.0 if named else 0.0), (a, b)
+    if pair is None:
+        raise CharacterError("no two feet were found: no two bones on branches of their own move vertices near the ground. Name the bones of both feet")
+    return pair
+
+
+def _joints(leg, heads):
+    """(hip, knee) of a chain that ends in the foot."""
+    ankle = heads[leg[-1]][2]
+    while len(leg) > 3 and heads[leg[0]][2] - heads[leg[1]][2] < 0.15 * (heads[leg[0]][2] - ankle):
+        leg = leg[1:]  # a bone of the pelvis's side
+    middle = 0.5 * (heads[leg[0]][2] + ankle)
+    knee = min(leg[1:-1], key=lambda bone: abs(heads[bone][2] - middle), default=None)
+    return leg[0], knee
+
+
+def _soles(points, main, bones):
+    """The vertices of a foot that can be its lowest, however it is turned: its corners, of each bone on its own."""
+    directions = [(numpy.cos(a) * c, numpy.sin(a) * c, -s) for a in numpy.arange(16) * numpy.pi / 8 for c, s in ((0.97, 0.24), (0.7, 0.7), (0.3, 0.95))]
+    chosen = set()
+    for bone in bones:
+        mine = numpy.nonzero(main == bone)[0]
+        if len(mine):
+            chosen.update(int(mine[i]) for i in (points[mine] @ numpy.array(directions).T).argmax(axis=0))
+    if not chosen:
+        raise CharacterError("no vertex follows the feet's bones: name the bones of both feet")
+    return numpy.array(sorted(chosen))

@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A character as a member of a cast: which clip is what, which pose is which, and the meshes."""
+from dataclasses import dataclass, field
+
+import bpy
+import numpy
+
+from ..cast import BEATS, POSES
+from ..cast.gait import STANDING_CLIPS, gait_of
+from ..cast.library import BLURS_UNTIL
+from . import CharacterError, anatomy, clips, feet, motion, posing, roles
+from .rig import Stage, rig_of
+
+# What stands in where a character has no such clip.
+_STANDING = {"idle": (roles.IDLE,), "shift": (roles.IDLE,), "talk": (roles.TALK, roles.IDLE), "phone": (roles.PHONE, roles.IDLE), "look": (roles.LOOK, roles.IDLE),
+             "cheer": (roles.CHEER, roles.IDLE), "sit": (roles.SIT, roles.IDLE)}
+
+
+@dataclass
+class Report:
+    """What was found and chosen, for whoever added the character."""
+    name: str
+    height: float
+    scale: float
+    heading: float
+    gaits: list = field(default_factory=list)     # {stride, clip, natural, planted, slide: metres a step}
+    standing: dict = field(default_factory=dict)  # the cast's clip: the character's
+    held: list = field(default_factory=list)
+    notes: list = field(default_factory=list)
+    triangles: list = field(default_factory=list)  # of each level of detail
+
+    def lines(self):
+        found = [f"{self.name}: {self.height:.2f} m (scaled by {self.scale:.3g}), looks {self.heading:.0f} degrees from x, "
+                 f"{' / '.join(str(count) for count in self.triangles)} triangles"]
+        for gait in self.gaits:
+            found.append(f"stride {gait['stride']:.2f} m: {gait['clip']} (its own: {gait['natural']:.2f} m), planted {100.0 * gait['planted']:.0f} %, "
+                         f"slides {100.0 * gait['slide']:.1f} cm a step")
+        found.append("stands: " + ", ".join(f"{ours} = {theirs}" for ours, theirs in self.standing.items()))
+        if self.held:
+            found.append("left out, because hands hold it: " + ", ".join(self.held))
+        return found + self.notes
+
+
+@dataclass
+class Character:
+    name: str
+    meshes: list  # of each level, of each pose in the repertoire's order
+    report: Report
+
+
+def make(armature, repertoire, name, options):
+    """Poses a character for all that a cast can do. Raises CharacterError; what it made until then is removed."""
+    rig = rig_of(armature, options.leave_out, options.keep)
+    with Stage(rig) as stage:
+        reader = clips.Reader(stage, options)
+        chosen, said = clips.choose(reader, rig.clips)
+        cycles = clips.walks(reader, chosen, said)
+        body = reader.body()
+        report = Report(name, reader.height, reader.scale, reader.heading, held=rig.held, notes=reader.notes)
+        plans = [motion.plan(_nearest(cycles, stride), body, stride) for stride in repertoire.strides]
+        bones = [motion.pose_of(plan, body, index / POSES) for plan in plans for index in range(POSES)]
+        bones += _standing(reader, chosen, cycles, body, report)
+        puppet = posing.Puppet(rig, stage, reader.placement)
+        try:
+            meshes = _meshes(puppet, reader, bones, repertoire, report, plans)
+        finally:
+            puppet.remove()
+    return Character(name, meshes, report)
+
+
+def _nearest(cycles, stride):
+    return min(cycles, key=lambda cycle: abs(numpy.log(stride / cycle.stride)))
+
+
+def _standing(reader, chosen, cycles, body, report):
+    """The bones of all standing poses. A cast's second way to stand is a second clip, or the first half a round later."""
+    found = []
+    for clip in STANDING_CLIPS:
+        role = next((role for role in _STANDING.get(clip, (roles.IDLE,)) if chosen.get(role)), None)
+        if role is None:
+            found += [motion.standing_from_walk(cycles[0], body)] * BEATS
+            report.standing[clip] = f"the mean of {cycles[0].name}"
+            continue
+        other = clip == "shift" and len(chosen[role]) > 1 and (roles.is_plain(chosen[role][1].name) or roles.IDLE in (reader.options.roles or {}))
+        taken = chosen[role][1 if other else 0]
+        poses = list(reader.standing(taken, BEATS))
+        if clip == "shift" and not other:
+            poses = poses[BEATS // 2:] + poses[:BEATS // 2]
+        found += poses
+        report.standing[clip] = taken.name
+    return found
+
+
+def _meshes(puppet, reader, bones, repertoire, report, plans):
+    made = []
+    try:
+        points = [{} for _ in posing.LEVELS]
+        for index, pose in enumerate(bones):
+            puppet.pose(pose)
+            for level, posed in enumerate(points):
+                if index in repertoire.sources(level):
+                    posed[index] = puppet.points(level)
+        for level, posed in enumerate(points):
+            template = puppet.template(level, f"{report.name} {level}")
+            made.append([template])
+            sources = repertoire.sources(level)
+            if len(template.vertices) != len(posed[sources[0]]):
+                raise CharacterError("the meshes lose or gain vertices when they are joined: apply their modifiers first")
+            made[level] += [template.copy() for _ in sources[1:]]
+            for mesh, source in zip(made[level], sources):
+                posing.set_points(mesh, posed[source])
+                if level <= BLURS_UNTIL and source < repertoire.walking():
+                    posing.set_velocities(mesh, _velocity(posed, source, repertoire))
+            template.calc_loop_triangles()
+            report.triangles.append(len(template.loop_triangles))
+        for index, plan in enumerate(plans):
+            posed = numpy.array([points[0][index * POSES + pose] for pose in range(POSES)])
+            report.gaits.append({"stride": plan.stride, "clip": plan.cycle.name, "natural": plan.cycle.stride, "planted": plan.share,
+                                 "slide": max(feet.slide(posed[:, sole], plan.stride) for sole in _soles(reader, posed))})
+            report.notes += [f"{plan.cycle.name}: {note}" for note in plan.cycle.notes if f"{plan.cycle.name}: {note}" not in report.notes]
+    except BaseException:
+        for mesh in [mesh for level in made for mesh in level]:
+            bpy.data.meshes.remove(mesh)
+        raise
+    return made
+
+
+def _soles(reader, posed):
+    """Which vertices of the pose meshes are of each foot: what its bones move; where modifiers have made other vertices, what comes near the
+    ground on its side."""
+    if posed.shape[1] == len(reader.main):
+        return [numpy.isin(reader.main, anatomy.below(leg.foot, reader.stage.parents)) for leg in reader.legs]
+    near, left = posed[..., 2].min(axis=0) < 0.05, posed[..., 1].mean(axis=0) > 0.0
+    return [near & ~left, near & left]
+
+
+def _velocity(posed, index, repertoire):
+    """As the shipped cast's: how fast the parts of a walking pose move at the gait's natural speed, in the walker's frame."""
+    which, pose = divmod(index, POSES)
+    seconds = 2.0 * gait_of(repertoire.strides[which]).seconds / POSES
+    return (posed[which * POSES + (pose + 1) % POSES] - posed[which * POSES + (pose - 1) % POSES]) / seconds
