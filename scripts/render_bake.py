@@ -2,7 +2,7 @@
 """Imports a bake with the add-on of this checkout and renders a still, without a display.
 
 blender -b --factory-startup --python-exit-code 1 -P scripts/render_bake.py -- BAKE OUT.png [--frame N] [--samples N]
-        [--width W] [--height H] [--engine cycles|eevee|workbench] [--save FILE.blend]
+        [--width W] [--height H] [--engine cycles|eevee|workbench] [--shot crane|street|wide] [--light day|night] [--levels] [--save FILE.blend]
 """
 import argparse
 import os
@@ -23,6 +23,9 @@ def arguments():
     parser.add_argument("--width", type=int, default=960)
     parser.add_argument("--height", type=int, default=540)
     parser.add_argument("--engine", choices=("cycles", "eevee", "workbench"), default="cycles")
+    parser.add_argument("--shot", choices=("crane", "street", "wide"), default="crane")
+    parser.add_argument("--light", choices=("day", "night"), default="day")
+    parser.add_argument("--levels", action="store_true", help="with coarser people far away")
     parser.add_argument("--save", help="also save the scene; paths in it are relative")
     return parser.parse_args(sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else [])
 
@@ -54,6 +57,12 @@ def main():
         bpy.ops.wm.save_as_mainfile(filepath=os.path.abspath(options.save))
     bpy.ops.import_scene.throng(filepath=os.path.abspath(options.bake if options.bake.endswith(".json") else os.path.join(options.bake, "bake.json")))
     set_up_render(scene, options)
+    if options.shot != "crane":
+        bpy.ops.throng.shot(kind=options.shot)
+    if options.light != "day":
+        bpy.ops.throng.light(time=options.light)
+    if options.levels:
+        bpy.ops.throng.levels(by="camera")
     crowd = next(c for c in bpy.data.collections if "throng_bake" in c)
     frame = options.frame if options.frame is not None else crowd["throng_camera_frame"]
     scene.frame_set(frame)

@@ -4,7 +4,7 @@ import math
 
 from . import gait, outfit
 from .mesh_builder import MeshBuilder, add, mix, ring, scale, sub, turn_y, turn_z, unit
-from .people import BOTTOM, GREY, HAIR, SHOES, SKIN, STANDARD_HEIGHT, TOP
+from .people import EYES, BOTTOM, GREY, HAIR, SHOES, SKIN, STANDARD_HEIGHT, TOP
 
 _SHOE = (  # along the foot from the ankle, height of the sole and of the upper, half width
     (-0.072, 0.018, 0.055, 0.020), (-0.060, 0.0, 0.085, 0.032), (-0.010, 0.004, 0.105, 0.036), (0.050, 0.006, 0.082, 0.039),
@@ -87,6 +87,9 @@ class Figure:
         x, y = turn_z((1.0, 0.0, 0.0), turn), turn_z((0.0, 1.0, 0.0), turn)
         self.mesh.loft([ring(at(f, 0.0, z), x, y, rx * s, ry * s) for z, f, rx, ry in _SKULL], SKIN, 12)
         self.mesh.limb(at(0.088, 0, 0.028), at(0.118, 0, -0.022), [(0, 0.008 * s), (0.75, 0.015 * s), (1, 0.010 * s)], SKIN, 6, caps=(False, True), until=0)  # nose
+        for side in (-1, 1):  # eyes and brows
+            self.mesh.ball(at(0.0895, side * 0.031, 0.020), (0.009 * s, 0.0125 * s, 0.0075 * s), EYES, 6, 3, until=0)
+            self.mesh.limb(at(0.0945, side * 0.013, 0.041), at(0.084, side * 0.049, 0.039), [(0, 0.0055 * s), (1, 0.0045 * s)], HAIR, 4, until=0)
         if p.hair != "headscarf":
             for side in (-1, 1):
                 self.mesh.ball(at(0.0, side * 0.074, -0.005), (0.020 * s, 0.009 * s, 0.030 * s), SKIN, 6, 3, until=0)

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 from . import gait
 
-SKIN, HAIR, TOP, BOTTOM, SHOES, EXTRA, GREY = range(7)
-MATERIALS = ("skin", "hair", "top", "bottom", "shoes", "extra", "grey")
+SKIN, HAIR, TOP, BOTTOM, SHOES, EXTRA, GREY, EYES = range(8)
+MATERIALS = ("skin", "hair", "top", "bottom", "shoes", "extra", "grey", "eyes")
 STANDARD_HEIGHT = 1.74
 
 

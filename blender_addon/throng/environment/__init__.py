@@ -18,6 +18,6 @@ def build_environment(context, manifest, collection, *, walls=True, roads=True, 
     if ground:
         collection.objects.link(streets.build_ground(manifest))
     if light:
-        lights.build_light(context.scene, collection)
+        lights.build_light(context.scene, collection, manifest=manifest)
     if camera:
         camera_module.build_camera(context.scene, manifest, collection)

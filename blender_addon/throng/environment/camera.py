@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A crane shot of the crowd: above the street, looking along it at the place where most people are."""
+"""Shots of the crowd: from a crane above the street, from the street, and of everybody from afar."""
 import array
 import math
 import os
@@ -46,32 +46,90 @@ def _directions(geometry):
     return found or [(-0.6, -0.8)]
 
 
-def build_camera(scene, manifest, collection):
+SHOTS = ("crane", "street", "wide")
+_EYES = 1.95  # m above the ground: a camera on a shoulder, just over most heads
+_LENS = 36.0  # mm, on a sensor 36 mm wide
+_HIGH = math.radians(24.0)  # above the horizon, of the shot from afar
+
+
+def build_camera(scene, manifest, collection, shot="crane"):
+    """The scene's camera for a crowd; made anew where it has been made before."""
     bake = _reload(collection)
     frame = int(bake.frames * 0.4) if bake else 0
     people = positions_at(bake, frame) if bake else []
     target = _densest(people) if people else (0.0, 0.0)
-    geometry = manifest.get("geometry") or {}
-    spread = sorted(math.hypot(x - target[0], y - target[1]) for x, y in people) or [20.0]
-    reach = min(max(spread[int(0.5 * (len(spread) - 1))] * 1.7, 12.0), 27.0 if geometry.get("roads") else 70.0)
-    solids = [wall["points"] for wall in geometry.get("walls", []) if wall.get("closed")]
-    candidates = [u for u in _directions(geometry) if not any(inside([tuple(p) for p in s], (target[0] + u[0] * reach, target[1] + u[1] * reach)) for s in solids)]
-    u = (candidates or _directions(geometry))[0]
-    # A little to the side: straight down the axis looks like a diagram.
-    side = (-u[1], u[0])
-    place = (target[0] + u[0] * reach + side[0] * 2.6, target[1] + u[1] * reach + side[1] * 2.6, 4.2 + 0.14 * reach)
-    data = bpy.data.cameras.new("Throng camera")
-    data.lens, data.clip_end = 36.0, 2000.0
-    holder = bpy.data.objects.new("Throng camera", data)
-    aim = (target[0] + u[0] * 2.0, target[1] + u[1] * 2.0, 1.6)
+    way = _clear_way(manifest.get("geometry") or {}, target)
+    place, aim = {"crane": _crane, "street": _street, "wide": _wide}[shot](manifest.get("geometry") or {}, people, target, way)
+    holder = collection.objects.get(collection.get("throng_camera", "")) or _new_camera(collection)
+    holder.animation_data_clear()
+    for constraint in [*holder.constraints]:
+        holder.constraints.remove(constraint)
+    if "throng_crane" in holder:
+        del holder["throng_crane"]
     dx, dy, dz = (aim[i] - place[i] for i in range(3))
+    distance = math.sqrt(dx * dx + dy * dy + dz * dz)
     holder.location = place
     holder.rotation_euler = (math.atan2(math.hypot(dx, dy), -dz), 0.0, math.atan2(dy, dx) - math.pi / 2)
-    data.dof.use_dof, data.dof.aperture_fstop = True, 2.8
-    data.dof.focus_distance = math.sqrt(dx * dx + dy * dy + dz * dz) * 0.72
-    collection.objects.link(holder)
+    holder.data.dof.use_dof, holder.data.dof.aperture_fstop = shot != "wide", 2.8
+    holder.data.dof.focus_object, holder.data.dof.focus_distance = None, distance * (1.0 if shot == "wide" else 0.72)
     scene.camera = holder
     collection["throng_camera_frame"] = scene.frame_start + frame
+    return holder
+
+
+def _new_camera(collection):
+    data = bpy.data.cameras.new("Throng camera")
+    data.lens, data.clip_end = _LENS, 2000.0
+    holder = bpy.data.objects.new("Throng camera", data)
+    collection.objects.link(holder)
+    collection["throng_camera"] = holder.name
+    return holder
+
+
+def _clear_way(geometry, target, reach=24.0):
+    """A way to look from that does not begin in a building."""
+    solids = [[tuple(p[:2]) for p in wall["points"]] for wall in geometry.get("walls", []) if wall.get("closed")]
+    ways = _directions(geometry)
+    clear = [u for u in ways if not any(inside(s, (target[0] + u[0] * reach, target[1] + u[1] * reach)) for s in solids)]
+    return (clear or ways)[0]
+
+
+def _crane(geometry, people, target, u):
+    spread = sorted(math.hypot(x - target[0], y - target[1]) for x, y in people) or [20.0]
+    reach = min(max(spread[int(0.5 * (len(spread) - 1))] * 1.7, 12.0), 27.0 if geometry.get("roads") else 70.0)
+    # A little to the side: straight down the axis looks like a diagram.
+    place = (target[0] + u[0] * reach - u[1] * 2.6, target[1] + u[1] * reach + u[0] * 2.6, 4.2 + 0.14 * reach)
+    return place, (target[0] + u[0] * 2.0, target[1] + u[1] * 2.0, 1.6)
+
+
+def _street(_geometry, people, target, u):
+    """In the crowd, where nobody is right before the lens."""
+    def room(place):
+        ahead = [(x - place[0], y - place[1]) for x, y in people]
+        return min((math.hypot(*p) for p in ahead if p[0] * -u[0] + p[1] * -u[1] > -0.5), default=10.0)
+
+    places = [(target[0] + u[0] * along - u[1] * side, target[1] + u[1] * along + u[0] * side)
+              for along in range(8, 18) for side in (-4.0, -3.0, -2.0, -1.0, 1.0, 2.0, 3.0, 4.0)]
+    best = max(places, key=lambda place: (min(room(place), 3.4), -math.dist(place, target)))
+    return (*best, _EYES), (*target, 1.35)
+
+
+def _wide(_geometry, people, _target, u):
+    """Everybody, from as far away as it takes for a picture of 16 to 9."""
+    xs, ys = sorted(p[0] for p in people) or [0.0], sorted(p[1] for p in people) or [0.0]
+    middle = (0.5 * (xs[0] + xs[-1]), 0.5 * (ys[0] + ys[-1]))
+    distance = 20.0
+    while not all(_fits((x - middle[0]) * -u[1] + (y - middle[1]) * u[0], (x - middle[0]) * u[0] + (y - middle[1]) * u[1], distance) for x, y in people):
+        distance *= 1.03
+    place = (middle[0] + u[0] * distance * math.cos(_HIGH), middle[1] + u[1] * distance * math.cos(_HIGH), distance * math.sin(_HIGH))
+    return place, (*middle, 0.0)
+
+
+def _fits(aside, near, distance):
+    """Whether somebody is in the picture; places from the middle, `near` towards the camera."""
+    wide, high = 0.94 * 18.0 / _LENS, 0.90 * 18.0 * 9.0 / 16.0 / _LENS
+    ahead, up = distance - near * math.cos(_HIGH), -near * math.sin(_HIGH)
+    return ahead > 1.0 and abs(aside) < wide * ahead and abs(up) < high * ahead
 
 
 def _reload(collection):

@@ -1,22 +1,62 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A late-afternoon sun, the sky to go with it, and the view transform that photographs it well."""
+"""Light: a late-afternoon sun and its sky, or a night with street lamps and lit windows; and the view transform that photographs it well."""
 import math
 
 import bpy
 
+from .materials import glow, glass, plain
+from .shapes import Shape, direction
+
 ELEVATION, AZIMUTH = math.radians(31.0), math.radians(128.0)
 
 
-def build_light(scene, collection):
-    sun = bpy.data.lights.new("Throng sun", "SUN")
-    sun.energy, sun.angle, sun.color = 3.6, math.radians(0.8), (1.0, 0.90, 0.78)
-    holder = bpy.data.objects.new("Throng sun", sun)
-    holder.rotation_euler = (math.pi / 2 - ELEVATION, 0.0, AZIMUTH)
-    collection.objects.link(holder)
-    world = bpy.data.worlds.new("Throng sky")
+TIMES = ("day", "night")
+_LAMP_HEIGHT, _LAMPS_APART, _MOST_LAMPS = 5.4, 16.0, 60
+_WARM = (1.0, 0.66, 0.36)
+
+
+def build_light(scene, collection, time="day", manifest=None):
+    """Lights for a time of the day, in place of those made before."""
+    for thing in [thing for thing in collection.objects if "throng_light" in thing]:
+        bpy.data.objects.remove(thing)
+    if time == "day":
+        _add(collection, _sun("Throng sun", 3.6, (1.0, 0.90, 0.78), ELEVATION))
+        scene.world = _world("Throng sky", _day_sky, 0.22)
+        scene.view_settings.exposure = 0.6
+    else:
+        _add(collection, _sun("Throng moon", 0.035, (0.62, 0.74, 1.0), math.radians(48.0)))
+        scene.world = _world("Throng night", None, 0.018)
+        _light_streets(collection, manifest or {})
+        scene.view_settings.exposure = 1.3
+    glow(glass(), 0.0 if time == "day" else 0.55)
+    set_colours(scene)
+
+
+def _add(collection, thing):
+    thing["throng_light"] = True
+    collection.objects.link(thing)
+
+
+def _sun(name, energy, colour, elevation):
+    sun = bpy.data.lights.new(name, "SUN")
+    sun.energy, sun.angle, sun.color = energy, math.radians(0.8), colour
+    holder = bpy.data.objects.new(name, sun)
+    holder.rotation_euler = (math.pi / 2 - elevation, 0.0, AZIMUTH)
+    return holder
+
+
+def _world(name, fill, strength):
+    world = bpy.data.worlds.new(name)
     world.use_nodes = True
-    nodes, links = world.node_tree.nodes, world.node_tree.links
-    background = next(node for node in nodes if node.type == "BACKGROUND")
+    background = next(node for node in world.node_tree.nodes if node.type == "BACKGROUND")
+    background.inputs[0].default_value = (0.10, 0.16, 0.32, 1.0)
+    background.inputs[1].default_value = strength
+    if fill:
+        world.node_tree.links.new(fill(world.node_tree.nodes), background.inputs[0])
+    return world
+
+
+def _day_sky(nodes):
     sky = nodes.new("ShaderNodeTexSky")
     kinds = sky.bl_rna.properties["sky_type"].enum_items.keys()
     sky.sky_type = next(kind for kind in ("NISHITA", "MULTIPLE_SCATTERING", "SINGLE_SCATTERING", "HOSEK_WILKIE") if kind in kinds)
@@ -28,11 +68,67 @@ def build_light(scene, collection):
         for dust in ("dust_density", "aerosol_density"):
             if hasattr(sky, dust):
                 setattr(sky, dust, 1.6)
-    links.new(sky.outputs[0], background.inputs[0])
-    background.inputs[1].default_value = 0.22
-    scene.world = world
-    set_colours(scene)
-    scene.view_settings.exposure = 0.6
+    return sky.outputs[0]
+
+
+def lamp_places(manifest):
+    """[(x, y)] along both kerbs of the roads, alternately."""
+    places = []
+    for road in (manifest.get("geometry") or {}).get("roads", []):
+        half, line, next_at, side = 0.5 * float(road["width"]) + 0.5, road["centreline"], 0.5 * _LAMPS_APART, 1
+        for a, b in zip(line, line[1:]):
+            (ux, uy), size = direction(a, b)
+            while next_at < size:
+                places.append((a[0] + ux * next_at - uy * half * side, a[1] + uy * next_at + ux * half * side))
+                next_at, side = next_at + _LAMPS_APART, -side
+            next_at -= size
+    roads = (manifest.get("geometry") or {}).get("roads", [])
+    return [p for p in places if not any(_on_road(p, road) for road in roads)][:_MOST_LAMPS]
+
+
+def _on_road(place, road):
+    half = 0.5 * float(road["width"])
+    for a, b in zip(road["centreline"], road["centreline"][1:]):
+        (ux, uy), size = direction(a, b)
+        dx, dy = place[0] - a[0], place[1] - a[1]
+        if 0.0 <= dx * ux + dy * uy <= size and abs(-dx * uy + dy * ux) < half:
+            return True
+    return False
+
+
+def _light_streets(collection, manifest):
+    places = lamp_places(manifest)
+    if not places:
+        _flood(collection, manifest)
+        return
+    lamp = bpy.data.lights.new("Throng lamp", "POINT")
+    lamp.energy, lamp.color, lamp.shadow_soft_size = 520.0, _WARM, 0.16
+    shape = Shape("Throng lamp posts")
+    post, head = plain("lamp post", (0.03, 0.03, 0.035), 0.5), glow(plain("lamp head", (0.9, 0.8, 0.6), 0.4).copy(), 25.0, varied=False)
+    for x, y in places:
+        holder = bpy.data.objects.new("Throng lamp", lamp)
+        holder.location = (x, y, _LAMP_HEIGHT - 0.25)
+        _add(collection, holder)
+        shape.strip((x - 0.05, y), (x + 0.05, y), 0.05, 0.0, _LAMP_HEIGHT, post)
+        shape.strip((x - 0.16, y), (x + 0.16, y), 0.16, _LAMP_HEIGHT, _LAMP_HEIGHT + 0.12, head)
+    _add(collection, shape.to_object())
+
+
+def _flood(collection, manifest):
+    """Floodlights round what has no streets: a stadium, a square."""
+    bounds = manifest.get("bounds") or {}
+    (x0, y0), (x1, y1) = (tuple(bounds.get(key, fallback))[:2] for key, fallback in (("min", (-20.0, -20.0)), ("max", (20.0, 20.0))))
+    middle, radius = (0.5 * (x0 + x1), 0.5 * (y0 + y1)), 0.5 * math.hypot(x1 - x0, y1 - y0)
+    light = bpy.data.lights.new("Throng floodlight", "SPOT")
+    light.energy, light.color, light.spot_size, light.spot_blend = 55.0 * radius * radius, (1.0, 0.94, 0.84), math.radians(95.0), 0.6
+    light.shadow_soft_size = 1.2
+    for i in range(4):
+        angle = math.pi * (0.25 + 0.5 * i)
+        holder = bpy.data.objects.new("Throng floodlight", light)
+        high = 0.5 * radius
+        holder.location = (middle[0] + 1.05 * radius * math.cos(angle), middle[1] + 1.05 * radius * math.sin(angle), high)
+        holder.rotation_euler = (math.atan2(1.05 * radius, high), 0.0, angle + math.pi / 2)
+        _add(collection, holder)
 
 
 def set_colours(scene):

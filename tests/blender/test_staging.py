@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Shots and lights of a crowd in a real Blender."""
+import json
+import pathlib
+
+from conftest import ROOT
+
+ADDON = ROOT / "blender_addon"
+
+
+def test_shots_show_the_crowd_and_nights_have_lamps_beside_the_roads(blender, bakes, manifest_of):
+    bake = bakes("intersection")
+    output = blender(pathlib.Path(__file__).parent / "check_staging.py", ADDON, bake)
+    result = json.loads(next(line for line in output.splitlines() if line.startswith("RESULT "))[7:])
+    shots = result["shots"]
+    assert shots["wide"]["seen"] == shots["wide"]["people"] > 200, "everybody"
+    assert shots["street"]["height"] < 2.1 and shots["street"]["seen"] > 20 and shots["street"]["nearest"] > 0.5
+    assert shots["crane"]["height"] > 4.0 and shots["crane"]["seen"] > 50
+    assert {shot["cameras"] for shot in shots.values()} == {1}
+    day, = result["lights"]["day"]
+    assert day["kinds"] == ["SUN"] and day["world"] == "Throng sky"
+    roads = manifest_of(bake)["geometry"]["roads"]
+    first, again = result["lights"]["night"]
+    assert first == again and first["world"] == "Throng night" and first["kinds"].count("POINT") >= 4
+    for x, y in first["lamps"]:
+        gaps = []
+        for road in roads:
+            for (ax, ay, *_), (bx, by, *_) in zip(road["centreline"], road["centreline"][1:]):
+                length = ((bx - ax) ** 2 + (by - ay) ** 2) ** 0.5
+                along = ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / length
+                if 0.0 <= along <= length:
+                    gaps.append(abs((x - ax) * (by - ay) - (y - ay) * (bx - ax)) / length - 0.5 * road["width"])
+        assert 0.0 <= min(gaps) < 1.0, (x, y)
