@@ -1,0 +1,284 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Plays overrides without Python: attributes on the crowd's points, read by modifiers that are there only while somebody is changed.
+
+Whoever is retimed is left out of the crowd and played by a second object over point caches of its own, with the same instancer.
+"""
+import math
+import os
+
+import bpy
+
+from .. import playback
+from ..nodes import Maths, new_tree, set_input, socket
+from .override_file import Change
+from .rows import write_caches
+
+MODIFIER = "throng overrides"
+SCALE_MODIFIER = "throng override scale"
+RETIMED = "throng_retimed_of"  # names the crowd of the second object
+_ATTRIBUTES = {"throng_hide": "FLOAT", "throng_swap": "FLOAT", "throng_move": "FLOAT_VECTOR", "throng_turn": "FLOAT", "throng_pivot": "FLOAT_VECTOR",
+               "throng_bigger": "FLOAT", "throng_dyed": "FLOAT", "throng_dye": "FLOAT_VECTOR"}
+_GEOMETRY = [("Geometry", "NodeSocketGeometry")]
+
+
+def _named(maths, name, kind):
+    node = maths.node("GeometryNodeInputNamedAttribute", data_type=kind)
+    node.inputs["Name"].default_value = name
+    return socket(node.outputs, "Attribute")
+
+
+def _store(maths, geometry, name, kind, value):
+    node = maths.node("GeometryNodeStoreNamedAttribute", data_type=kind, domain="POINT")
+    node.inputs["Name"].default_value = name
+    maths.link(geometry, node.inputs["Geometry"])
+    maths.link(value, socket(node.inputs, "Value"))
+    return node.outputs[0]
+
+
+def _state_nodes(maths, geometry):
+    """Who hides is not there; who is swapped has another variation (-1: its own)."""
+    separate = maths.node("ShaderNodeSeparateXYZ")
+    maths.link(_named(maths, "throng_state", "FLOAT_VECTOR"), separate.inputs[0])
+    swap = _named(maths, "throng_swap", "FLOAT")
+    swapped = maths.math("GREATER_THAN", swap, -0.5)
+    kept = maths.math("MULTIPLY", separate.outputs[1], maths.math("SUBTRACT", 1.0, swapped))
+    combine = maths.node("ShaderNodeCombineXYZ")
+    maths.link(maths.math("MULTIPLY", separate.outputs[0], maths.math("SUBTRACT", 1.0, _named(maths, "throng_hide", "FLOAT"))), combine.inputs[0])
+    maths.link(maths.math("MULTIPLY_ADD", swap, swapped, kept), combine.inputs[1])
+    maths.link(separate.outputs[2], combine.inputs[2])
+    return _store(maths, geometry, "throng_state", "FLOAT_VECTOR", combine.outputs[0])
+
+
+def _place_nodes(maths, geometry):
+    """Turned about where it entered, then moved."""
+    turn = _named(maths, "throng_turn", "FLOAT")
+
+    def turned(vector, centre=None):
+        node = maths.node("ShaderNodeVectorRotate", rotation_type="Z_AXIS")
+        maths.link(vector, node.inputs["Vector"])
+        maths.link(turn, node.inputs["Angle"])
+        if centre:
+            maths.link(centre, node.inputs["Center"])
+        return node.outputs[0]
+
+    moved = maths.node("ShaderNodeVectorMath", operation="ADD")
+    maths.link(turned(maths.node("GeometryNodeInputPosition").outputs[0], _named(maths, "throng_pivot", "FLOAT_VECTOR")), moved.inputs[0])
+    maths.link(_named(maths, "throng_move", "FLOAT_VECTOR"), moved.inputs[1])
+    place = maths.node("GeometryNodeSetPosition")
+    maths.link(geometry, place.inputs["Geometry"])
+    maths.link(moved.outputs[0], place.inputs["Position"])
+    return _store(maths, place.outputs[0], "throng_dir", "FLOAT_VECTOR", turned(_named(maths, "throng_dir", "FLOAT_VECTOR")))
+
+
+def _tree(parts):
+    name = "Throng overrides: " + ", ".join(sorted(parts))
+    found = bpy.data.node_groups.get(name)
+    if found:
+        return found
+    tree, inputs, outputs = new_tree(name, _GEOMETRY, _GEOMETRY)
+    maths = Maths(tree)
+    geometry = inputs.outputs[0]
+    for part, build in (("state", _state_nodes), ("place", _place_nodes)):
+        if part in parts:
+            geometry = build(maths, geometry)
+    maths.link(geometry, outputs.inputs[0])
+    return tree
+
+
+def _scale_tree():
+    name = "Throng override scale"
+    found = bpy.data.node_groups.get(name)
+    if found:
+        return found
+    tree, inputs, outputs = new_tree(name, _GEOMETRY, _GEOMETRY)
+    maths = Maths(tree)
+    node = maths.node("GeometryNodeScaleInstances")
+    bigger = _named(maths, "throng_bigger", "FLOAT")
+    maths.link(inputs.outputs[0], node.inputs["Instances"])
+    maths.link(maths.math("ADD", bigger, 1.0), node.inputs["Scale"])
+    maths.link(node.outputs[0], outputs.inputs[0])
+    return tree
+
+
+def _move_modifier(thing, name, index):
+    modifiers = thing.modifiers
+    if hasattr(modifiers, "move"):
+        modifiers.move(modifiers.find(name), index)
+    else:
+        with bpy.context.temp_override(object=thing, active_object=thing):
+            bpy.ops.object.modifier_move_to_index(modifier=name, index=index)
+
+
+def _add_modifiers(thing, parts, scales):
+    if parts:
+        modifier = thing.modifiers.new(MODIFIER, "NODES")
+        modifier.node_group = _tree(parts)
+        _move_modifier(thing, MODIFIER, thing.modifiers.find("throng pos") + 1)
+    if scales:
+        thing.modifiers.new(SCALE_MODIFIER, "NODES").node_group = _scale_tree()
+
+
+def linear(colour):
+    """"#rrggbb" (sRGB) as three linear numbers."""
+    parts = (int(colour[at:at + 2], 16) / 255.0 for at in (1, 3, 5))
+    return tuple(v / 12.92 if v <= 0.04045 else ((v + 0.055) / 1.055) ** 2.4 for v in parts)
+
+
+def _write_attributes(mesh, changes, pivots):
+    count = len(mesh.vertices)
+    values = {name: [0.0] * (count * (3 if kind == "FLOAT_VECTOR" else 1)) for name, kind in _ATTRIBUTES.items()}
+    values["throng_swap"] = [-1.0] * count
+    tints = {}
+    for row, change in changes.items():
+        three = slice(3 * row, 3 * row + 3)
+        values["throng_hide"][row] = float(change.hides or change.retimes)
+        values["throng_swap"][row] = -1.0 if change.character is None else float(change.character)
+        values["throng_bigger"][row] = 0.0 if change.scale is None else change.scale - 1.0
+        if change.moves:
+            values["throng_move"][three], values["throng_pivot"][three] = change.move, pivots[row]
+            values["throng_turn"][row] = math.radians(change.turn)
+        if isinstance(change.tint, str):
+            values["throng_dyed"][row], values["throng_dye"][three] = 1.0, linear(change.tint)
+        elif change.tint is not None:
+            tints[row] = change.tint
+    for name, kind in _ATTRIBUTES.items():
+        default = -1.0 if name == "throng_swap" else 0.0
+        if all(value == default for value in values[name]) and name not in ("throng_swap", "throng_hide"):
+            continue
+        mesh.attributes.new(name, kind, "POINT").data.foreach_set("vector" if kind == "FLOAT_VECTOR" else "value", values[name])
+    for row, tint in tints.items():
+        mesh.attributes["tint"].data[row].vector = tint
+
+
+def retimed_object(crowd):
+    return next((thing for thing in bpy.data.objects if thing.get(RETIMED) == crowd.name and thing.parent == crowd), None)
+
+
+def _remove_retimed(crowd):
+    thing = retimed_object(crowd)
+    if thing:
+        mesh = thing.data
+        bpy.data.objects.remove(thing)
+        bpy.data.meshes.remove(mesh)
+
+
+def clear(crowd):
+    """As if nobody had ever been changed."""
+    _remove_retimed(crowd)
+    for name in (MODIFIER, SCALE_MODIFIER):
+        if name in crowd.modifiers:
+            crowd.modifiers.remove(crowd.modifiers[name])
+    mesh = crowd.data
+    known = [name for name in _ATTRIBUTES if name in mesh.attributes]
+    for name in known:
+        mesh.attributes.remove(mesh.attributes[name])
+    if known:
+        playback.give_natures(mesh)  # tints as they were drawn
+
+
+def _add_retimed(crowd, rows, people, changes, folder):
+    """The second object: the same points' natures and looks, over caches that have the moves and swaps in them."""
+    from ..importer import stored_path
+
+    paths = write_caches(folder, rows, people, changes)
+    relative = crowd.modifiers["throng pos"].filepath.startswith("//")
+    order = sorted(changes)
+    mesh = bpy.data.meshes.new(f"{crowd.name} retimed")
+    mesh.vertices.add(len(order))
+    for attribute in crowd.data.attributes:
+        if attribute.domain != "POINT" or attribute.name in ("position", "throng_hide") or attribute.name.startswith("."):
+            continue
+        field = "vector" if attribute.data_type == "FLOAT_VECTOR" else "value"
+        if attribute.data_type not in ("FLOAT", "INT", "FLOAT_VECTOR"):
+            continue
+        copy = mesh.attributes.new(attribute.name, attribute.data_type, "POINT")
+        for index, row in enumerate(order):
+            setattr(copy.data[index], field, getattr(attribute.data[row], field))
+    thing = bpy.data.objects.new(mesh.name, mesh)
+    thing[RETIMED] = crowd.name
+    for collection in crowd.users_collection:
+        collection.objects.link(thing)
+    thing.parent = crowd
+    start = crowd.modifiers["throng pos"].frame_start
+    for stream in ("state", "dir", "pos"):
+        playback._add_cache(thing, f"throng retimed {stream}", stored_path(paths[stream], relative), "NONE" if stream == "state" else "LINEAR", start)
+        if stream != "pos":
+            store = f"throng {stream} to attribute"
+            thing.modifiers.new(store, "NODES").node_group = crowd.modifiers[store].node_group
+    modifier = thing.modifiers.new("throng people", "NODES")
+    modifier.node_group = crowd.modifiers["throng people"].node_group
+    set_input(modifier, "Share", 2.0)
+    _add_modifiers(thing, (), any(change.scale is not None for change in changes.values()))
+    return thing
+
+
+def follow(crowd):
+    """The second object plays from the frame that the crowd does."""
+    thing = retimed_object(crowd)
+    if thing:
+        for stream in ("state", "dir", "pos"):
+            thing.modifiers[f"throng retimed {stream}"].frame_start = crowd.modifiers["throng pos"].frame_start
+
+
+def play(crowd, rows, people, changes, folder):
+    """Shows a crowd with the changes of some rows ({row: Change}); none takes all back. `folder` is for the caches of whoever is retimed.
+
+    Raises BakeError, before anything is changed.
+    """
+    pivots = {row: rows.place(row, people[row].frame) for row, change in changes.items() if change.moves}
+    retimed = {row: change for row, change in changes.items() if change.retimes and not change.hides}
+    if retimed:
+        write_caches(folder, rows, people, retimed)  # again below: what exists is not written twice
+    clear(crowd)
+    if any(isinstance(change.tint, str) for change in changes.values()):
+        allow_dyes(crowd)
+    if changes:
+        _write_attributes(crowd.data, changes, pivots)
+        every = changes.values()
+        parts = {"state"} if any(c.hides or c.retimes or c.character is not None for c in every) else set()
+        if any(c.moves and not c.retimes for c in every):
+            parts.add("place")
+        _add_modifiers(crowd, parts, any(c.scale is not None for c in every))
+    if retimed:
+        _add_retimed(crowd, rows, people, retimed, folder)
+    crowd.update_tag()
+
+
+def _cast_materials(crowd):
+    """Materials of whatever the crowd's instancer puts in the scene."""
+    node = next((n for n in crowd.modifiers["throng people"].node_group.nodes if n.type == "COLLECTION_INFO"), None)
+    collection = node.inputs["Collection"].default_value if node else None
+    things = collection.all_objects if collection else ()
+    return {slot.material for thing in things for slot in thing.material_slots if slot.material}
+
+
+def allow_dyes(crowd):
+    """Lets the materials of top garments take somebody's own colour: the instance attributes `throng_dyed` (0 or 1) and `throng_dye`."""
+    for material in _cast_materials(crowd):
+        if not material.name.startswith("throng top") or not material.use_nodes or "Throng dye" in material.node_tree.nodes:
+            continue
+        nodes, links = material.node_tree.nodes, material.node_tree.links
+        shader = next((node for node in nodes if node.type == "BSDF_PRINCIPLED"), None)
+        if not shader:
+            continue
+        base = shader.inputs["Base Color"]
+        mix = nodes.new("ShaderNodeMix")
+        mix.name, mix.data_type = "Throng dye", "RGBA"
+        own, factor, dyed = socket(mix.inputs, "A"), socket(mix.inputs, "Factor"), socket(mix.inputs, "B")
+        if base.is_linked:
+            links.new(base.links[0].from_socket, own)
+        else:
+            own.default_value = base.default_value
+        for name, output, target in (("throng_dyed", "Fac", factor), ("throng_dye", "Color", dyed)):
+            attribute = nodes.new("ShaderNodeAttribute")
+            attribute.attribute_type, attribute.attribute_name = "INSTANCER", name
+            links.new(attribute.outputs[output], target)
+        links.new(socket(mix.outputs, "Result"), base)
+
+
+def folder_for(path):
+    """Where the caches of retimed people go: beside the file of overrides."""
+    return os.path.splitext(path)[0]
+
+
+assert Change().words() == []
