@@ -5,6 +5,7 @@
 
 #include <charconv>
 #include <map>
+#include <tuple>
 
 #include "authoring/layout/json_document.h"
 #include "authoring/layout/object_reader.h"
@@ -71,17 +72,8 @@ class Reader {
     }
 
     void readPerson(ObjectReader& reader, Override& entry) {
-        if (const JsonNode* id = reader.require("id", "the person's row in the bake")) {
-            if (const auto row = wholeOf(reader, *id, kRow)) {
-                entry.id = *row;
-                const auto [first, is_new] = lines_.emplace(*row, id->where.line);
-                if (!is_new)
-                    diagnostics_.error(
-                        id->where,
-                        fmt::format("person {} has an override in line {} already", *row, first->second),
-                        "put both into one");
-            }
-        }
+        const JsonNode* id = reader.require("id", "the person's row in the bake");
+        if (id) entry.id = wholeOf(reader, *id, kRow).value_or(0);
         reader.requiredText("group", "the id of its flow or formation", entry.group);
         const JsonNode* spawn = reader.require("spawn", "frame and position of its entry");
         if (!spawn) return;
@@ -93,6 +85,18 @@ class Reader {
             if (const auto place = threeOf(inner, *position, kPlace, "[x, y, z] in metres"))
                 entry.spawn_place = {(*place)[0], (*place)[1], (*place)[2]};
         inner.finish();
+        if (id) refuseTwice(entry, *id);
+    }
+
+    /// Overrides of different takes may be of people with the same id.
+    void refuseTwice(const Override& entry, const JsonNode& id) {
+        const auto [first, is_new] =
+            lines_.emplace(std::tuple(entry.id, entry.group, entry.spawn_frame), id.where.line);
+        if (!is_new)
+            diagnostics_.error(
+                id.where,
+                fmt::format("person {} has an override in line {} already", entry.id, first->second),
+                "put both into one");
     }
 
     void readMove(const JsonNode& node, PersonChange& change) {
@@ -163,7 +167,7 @@ class Reader {
 
     Diagnostics& diagnostics_;
     std::vector<Override> overrides_;
-    std::map<std::uint32_t, int> lines_;  // by id
+    std::map<std::tuple<std::uint32_t, std::string, std::uint32_t>, int> lines_;  // by id, group and frame
 };
 
 }  // namespace

@@ -131,6 +131,11 @@ class _Checker:
             self.text(entry["note"], f"{at}/note", empty=True)
 
 
+def person_of(entry):
+    """Whom an entry was made for. Entries of different takes may be of people with the same id."""
+    return entry["id"], entry["group"], entry["spawn"]["frame"]
+
+
 def check(document, path):
     """The entries of a document; raises OverrideError."""
     checker = _Checker(path)
@@ -143,7 +148,7 @@ def check(document, path):
     seen = {}
     for index, entry in enumerate(entries):
         checker.entry(entry, f"/overrides/{index}")
-        first = seen.setdefault(entry["id"], index)
+        first = seen.setdefault(person_of(entry), index)
         if first != index:
             checker.fail(f"/overrides/{index}/id", f"person {entry['id']} has an override already, /overrides/{first}: put both into one")
     return entries
