@@ -52,6 +52,16 @@ struct Override {
 };
 
 /// "hide", "move", ...: what an override changes, in words.
-std::vector<std::string> changeWords(const PersonChange& change);
+inline std::vector<std::string> changeWords(const PersonChange& change) {
+    std::vector<std::string> words;
+    if (change.hide) words.emplace_back("hide");
+    if (change.character) words.emplace_back("character");
+    if (change.tint) words.emplace_back("tint");
+    if (change.scale) words.emplace_back("scale");
+    if (change.moves()) words.emplace_back("move");
+    if (change.retimes()) words.emplace_back("retime");
+    if (!change.hero.empty()) words.emplace_back("hero");
+    return words;
+}
 
 }  // namespace throng::authoring

@@ -172,18 +172,6 @@ class Reader {
 
 }  // namespace
 
-std::vector<std::string> changeWords(const PersonChange& change) {
-    std::vector<std::string> words;
-    if (change.hide) words.emplace_back("hide");
-    if (change.character) words.emplace_back("character");
-    if (change.tint) words.emplace_back("tint");
-    if (change.scale) words.emplace_back("scale");
-    if (change.moves()) words.emplace_back("move");
-    if (change.retimes()) words.emplace_back("retime");
-    if (!change.hero.empty()) words.emplace_back("hero");
-    return words;
-}
-
 std::optional<std::vector<Override>> readOverrides(std::string_view text, Diagnostics& diagnostics) {
     const JsonNode root = parseJson(text, diagnostics);
     if (diagnostics.hasErrors()) return std::nullopt;
