@@ -70,20 +70,20 @@ TEST(OverridesReader, SaysWhereAMistakeIsAndHowToMendIt) {
     expectError("{\"throng_overrides\": 2, \"overrides\": []}", 1, 22, "/throng_overrides", "version 1",
                 "\"throng_overrides\": 1");
     expectError("{\"throng_overrides\": 1,\n \"overrides\": {}}", 2, 15, "/overrides", "expected an array");
-    expectError(fileWith(entryWith("\"hidden\": true")), 2, 78, "/overrides/0/hidden", "no key `hidden`",
+    expectError(fileWith(entryWith("\"hidden\": true")), 2, 77, "/overrides/0/hidden", "no key `hidden`",
                 "did you mean `hide`?");
-    expectError(fileWith(entryWith("\"scale\": 11")), 2, 87, "/overrides/0/scale", "out of range");
-    expectError(fileWith(entryWith("\"tint\": \"red\"")), 2, 86, "/overrides/0/tint", "`red` is not a colour",
+    expectError(fileWith(entryWith("\"scale\": 11")), 2, 86, "/overrides/0/scale", "out of range");
+    expectError(fileWith(entryWith("\"tint\": \"red\"")), 2, 85, "/overrides/0/tint", "`red` is not a colour",
                 "#a01020");
-    expectError(fileWith(entryWith("\"tint\": \"#12 456\"")), 2, 86, "/overrides/0/tint", "is not a colour");
-    expectError(fileWith(entryWith("\"tint\": \"\"")), 2, 86, "/overrides/0/tint", "is not a colour");
-    expectError(fileWith(entryWith("\"tint\": [0, 1]")), 2, 86, "/overrides/0/tint", "found an array of 2");
-    expectError(fileWith(entryWith("\"move\": {\"by\": [0, 0]}")), 2, 93, "/overrides/0/move/by",
+    expectError(fileWith(entryWith("\"tint\": \"#12 456\"")), 2, 85, "/overrides/0/tint", "is not a colour");
+    expectError(fileWith(entryWith("\"tint\": \"\"")), 2, 85, "/overrides/0/tint", "is not a colour");
+    expectError(fileWith(entryWith("\"tint\": [0, 1]")), 2, 85, "/overrides/0/tint", "found an array of 2");
+    expectError(fileWith(entryWith("\"move\": {\"by\": [0, 0]}")), 2, 92, "/overrides/0/move/by",
                 "found an array of 2");
-    expectError(fileWith(entryWith("\"retime\": {\"speed\": 0}")), 2, 98, "/overrides/0/retime/speed",
+    expectError(fileWith(entryWith("\"retime\": {\"speed\": 0}")), 2, 97, "/overrides/0/retime/speed",
                 "out of range");
-    expectError(fileWith(entryWith("\"character\": 1.5")), 2, 91, "/overrides/0/character", "whole number");
-    expectError(fileWith(entryWith("\"hero\": \"\"")), 2, 86, "/overrides/0/hero", "empty");
+    expectError(fileWith(entryWith("\"character\": 1.5")), 2, 90, "/overrides/0/character", "whole number");
+    expectError(fileWith(entryWith("\"hero\": \"\"")), 2, 85, "/overrides/0/hero", "empty");
     expectError(fileWith(R"({"id": 1, "group": "f", "hide": true})"), 2, 1, "/overrides/0", "needs `spawn`");
     expectError(fileWith(entryWith("\"hide\": true") + ",\n" + entryWith("\"scale\": 2")), 3, 8,
                 "/overrides/1/id", "in line 2 already", "into one");

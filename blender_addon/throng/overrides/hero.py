@@ -164,7 +164,7 @@ def promote(crowd, bake, rows, people_of_bake, row, change):
     alive = [sample.state[0] > 0.5 for sample in samples]
     variation = int(samples[0].state[1]) % min(bake.variations, cast.VARIATIONS)
     person = people.CAST[variation % cast.VARIATIONS]
-    strides = list(crowd.get("throng_strides", bake.strides))
+    strides = tuple(crowd.get("throng_strides", bake.strides))
     nature = crowd.data.attributes[NATURE].data[row].vector
 
     armature = _build_armature(change.hero, person, collection)

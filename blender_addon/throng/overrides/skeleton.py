@@ -5,6 +5,7 @@ Bones are frames (head, axes) in the walker's own frame; each bone's y axis poin
 painted: a vertex hangs on the one or two bones that best explain where it goes over a set of poses.
 """
 from dataclasses import dataclass
+from functools import lru_cache
 
 from ..cast import gait, people
 from ..cast.mesh_builder import add, cross, scale, sub, turn_y, turn_z, unit
@@ -91,8 +92,9 @@ def _error(a, b):
     return sum((x - y) ** 2 for p, q in zip(a, b) for x, y in zip(p, q))
 
 
+@lru_cache(maxsize=8)
 def weights_of(person, strides):
-    """For each vertex of the person's mesh [(bone, weight)], one or two; weights add up to one."""
+    """The person's mesh at rest, and for each of its vertices [(bone, weight)], one or two; weights add up to one. `strides` is a tuple."""
     rest = bones_of(person, rest_pose(person))
     mesh = people.build_figure(person, rest_pose(person))
     poses = _training_poses(person, strides)
