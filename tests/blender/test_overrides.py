@@ -12,6 +12,7 @@ import pytest
 from conftest import ROOT
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
+from sample_bake import write_bake  # noqa: E402
 from test_import import ADDON, result_of  # noqa: E402
 
 HERE = pathlib.Path(__file__).parent
@@ -227,3 +228,13 @@ print('RESULT ' + json.dumps(result))
             assert values[0] == found["final"][frame][row][0] and values[1:] == pytest.approx(found["final"][frame][row][1:], abs=1e-5)
     assert seen["anna"] == pytest.approx(list(pos(folder / "take1")[119, 10]), abs=1e-4)
     assert (tmp_path / "frame.png").stat().st_size > 2000
+
+
+def test_overrides_of_a_large_crowd_cost_little(blender, tmp_path):
+    """The fastest of many changes of frame, with and without overrides in turn: other tests are going on."""
+    write_bake(tmp_path / "bake", agents=16384, frames=28)
+    lines = ["id,group,spawn_frame"] + [f"{row},f,{10 if row % 9 == 4 else 0}" for row in range(16384)]
+    (tmp_path / "bake" / "agents.csv").write_text("\n".join(lines) + "\n")
+    took = result_of(blender(HERE / "check_override_speed.py", ADDON, tmp_path / "bake"))
+    assert took["all"] < 2.5 * took["none"] + 2.0, took
+    assert took["operator"] < 10.0, took

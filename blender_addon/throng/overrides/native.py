@@ -16,7 +16,7 @@ from .rows import write_caches
 MODIFIER = "throng overrides"
 SCALE_MODIFIER = "throng override scale"
 RETIMED = "throng_retimed_of"  # names the crowd of the second object
-_ATTRIBUTES = {"throng_hide": "FLOAT", "throng_swap": "FLOAT", "throng_move": "FLOAT_VECTOR", "throng_turn": "FLOAT", "throng_pivot": "FLOAT_VECTOR",
+_ATTRIBUTES = {"throng_hide": "FLOAT", "throng_swap": "FLOAT", "throng_moved": "BOOLEAN", "throng_move": "FLOAT_VECTOR", "throng_turn": "FLOAT", "throng_pivot": "FLOAT_VECTOR",
                "throng_bigger": "FLOAT", "throng_dyed": "FLOAT", "throng_dye": "FLOAT_VECTOR"}
 _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
 
@@ -27,11 +27,13 @@ def _named(maths, name, kind):
     return socket(node.outputs, "Attribute")
 
 
-def _store(maths, geometry, name, kind, value):
+def _store(maths, geometry, name, kind, value, selection=None):
     node = maths.node("GeometryNodeStoreNamedAttribute", data_type=kind, domain="POINT")
     node.inputs["Name"].default_value = name
     maths.link(geometry, node.inputs["Geometry"])
     maths.link(value, socket(node.inputs, "Value"))
+    if selection and "Selection" in node.inputs:  # Blender 3.5
+        maths.link(_named(maths, selection, "BOOLEAN"), node.inputs["Selection"])
     return node.outputs[0]
 
 
@@ -50,7 +52,16 @@ def _state_nodes(maths, geometry):
 
 
 def _place_nodes(maths, geometry):
-    """Turned about where it entered, then moved."""
+    """Moved. With a selection, so that fields are worked out for those few only."""
+    place = maths.node("GeometryNodeSetPosition")
+    maths.link(geometry, place.inputs["Geometry"])
+    maths.link(_named(maths, "throng_moved", "BOOLEAN"), place.inputs["Selection"])
+    maths.link(_named(maths, "throng_move", "FLOAT_VECTOR"), place.inputs["Offset"])
+    return place.outputs[0]
+
+
+def _turn_nodes(maths, geometry):
+    """Turned about where it entered, heading and all."""
     turn = _named(maths, "throng_turn", "FLOAT")
 
     def turned(vector, centre=None):
@@ -61,13 +72,11 @@ def _place_nodes(maths, geometry):
             maths.link(centre, node.inputs["Center"])
         return node.outputs[0]
 
-    moved = maths.node("ShaderNodeVectorMath", operation="ADD")
-    maths.link(turned(maths.node("GeometryNodeInputPosition").outputs[0], _named(maths, "throng_pivot", "FLOAT_VECTOR")), moved.inputs[0])
-    maths.link(_named(maths, "throng_move", "FLOAT_VECTOR"), moved.inputs[1])
     place = maths.node("GeometryNodeSetPosition")
     maths.link(geometry, place.inputs["Geometry"])
-    maths.link(moved.outputs[0], place.inputs["Position"])
-    return _store(maths, place.outputs[0], "throng_dir", "FLOAT_VECTOR", turned(_named(maths, "throng_dir", "FLOAT_VECTOR")))
+    maths.link(_named(maths, "throng_moved", "BOOLEAN"), place.inputs["Selection"])
+    maths.link(turned(maths.node("GeometryNodeInputPosition").outputs[0], _named(maths, "throng_pivot", "FLOAT_VECTOR")), place.inputs["Position"])
+    return _store(maths, place.outputs[0], "throng_dir", "FLOAT_VECTOR", turned(_named(maths, "throng_dir", "FLOAT_VECTOR")), "throng_moved")
 
 
 def _tree(parts):
@@ -78,7 +87,7 @@ def _tree(parts):
     tree, inputs, outputs = new_tree(name, _GEOMETRY, _GEOMETRY)
     maths = Maths(tree)
     geometry = inputs.outputs[0]
-    for part, build in (("state", _state_nodes), ("place", _place_nodes)):
+    for part, build in (("state", _state_nodes), ("turn", _turn_nodes), ("move", _place_nodes)):
         if part in parts:
             geometry = build(maths, geometry)
     maths.link(geometry, outputs.inputs[0])
@@ -135,6 +144,7 @@ def _write_attributes(mesh, changes, pivots):
         values["throng_swap"][row] = -1.0 if change.character is None else float(change.character)
         values["throng_bigger"][row] = 0.0 if change.scale is None else change.scale - 1.0
         if change.moves:
+            values["throng_moved"][row] = True
             values["throng_move"][three], values["throng_pivot"][three] = change.move, pivots[row]
             values["throng_turn"][row] = math.radians(change.turn)
         if isinstance(change.tint, str):
@@ -145,7 +155,8 @@ def _write_attributes(mesh, changes, pivots):
         default = -1.0 if name == "throng_swap" else 0.0
         if all(value == default for value in values[name]) and name not in ("throng_swap", "throng_hide"):
             continue
-        mesh.attributes.new(name, kind, "POINT").data.foreach_set("vector" if kind == "FLOAT_VECTOR" else "value", values[name])
+        numbers = [bool(value) for value in values[name]] if kind == "BOOLEAN" else values[name]
+        mesh.attributes.new(name, kind, "POINT").data.foreach_set("vector" if kind == "FLOAT_VECTOR" else "value", numbers)
     for row, tint in tints.items():
         mesh.attributes["tint"].data[row].vector = tint
 
@@ -236,8 +247,8 @@ def play(crowd, rows, people, changes, folder):
         _write_attributes(crowd.data, changes, pivots)
         every = changes.values()
         parts = {"state"} if any(c.hides or c.retimes or c.character is not None for c in every) else set()
-        if any(c.moves and not c.retimes for c in every):
-            parts.add("place")
+        moved = [c for c in every if c.moves and not c.retimes]
+        parts |= {part for part, there in (("turn", any(c.turn for c in moved)), ("move", any(any(c.move) for c in moved))) if there}
         _add_modifiers(crowd, parts, any(c.scale is not None for c in every))
     if retimed:
         _add_retimed(crowd, rows, people, retimed, folder)
