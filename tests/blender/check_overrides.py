@@ -31,9 +31,8 @@ def people(of=None):
     """{row: [pose, x, y, z, heading, scale]} as the scene shows them now."""
     of = of or crowd
     graph = bpy.context.evaluated_depsgraph_get()
-    wanted = (of, native.retimed_object(of))
     return {i.persistent_id[0]: [i.object.name, *i.matrix_world.translation, math.atan2(i.matrix_world[1][0], i.matrix_world[0][0]), i.matrix_world.to_scale().x]
-            for i in graph.object_instances if i.is_instance and i.parent and i.parent.original in wanted}
+            for i in graph.object_instances if i.is_instance and i.parent and i.parent.original == of}
 
 
 def shots(of=None):
@@ -140,6 +139,7 @@ ops.hide_people(rows="3")
 
 # --- heroes ------------------------------------------------------------------------------------------------------------
 ops.promote_person(rows="10", hero="Anna")
+crowd.name = "Somebody's crowd"
 result["twice"] = refused(ops.promote_person, rows="11", hero="Anna")
 ops.promote_person(rows="16")  # enters later
 anna, late_hero = hero.heroes_of(crowd)["Anna"], hero.heroes_of(crowd)["Hero 16"]

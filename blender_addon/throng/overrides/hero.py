@@ -16,7 +16,7 @@ HERO, HERO_OF, HERO_ROW = "throng_hero", "throng_hero_of", "throng_hero_row"
 
 def heroes_of(crowd):
     """The armatures of a crowd's heroes by name."""
-    return {thing[HERO]: thing for thing in bpy.data.objects if thing.get(HERO_OF) == crowd.name and thing.type == "ARMATURE"}
+    return {thing[HERO]: thing for thing in bpy.data.objects if thing.get(HERO_OF) == crowd and thing.type == "ARMATURE"}
 
 
 def _matrix(bone):
@@ -168,9 +168,9 @@ def promote(crowd, bake, rows, people_of_bake, row, change):
     nature = crowd.data.attributes[NATURE].data[row].vector
 
     armature = _build_armature(change.hero, person, collection)
-    armature[HERO], armature[HERO_OF], armature[HERO_ROW] = change.hero, crowd.name, row
+    armature[HERO], armature[HERO_OF], armature[HERO_ROW] = change.hero, crowd, row
     body = _build_body(change.hero, person, strides, armature, collection)
-    body[HERO_OF] = crowd.name
+    body[HERO_OF] = crowd
     _dress(crowd, body, row, change)
     armature.parent = crowd
     armature.rotation_mode = "XYZ"
@@ -190,7 +190,7 @@ def demote(crowd, name):
     armature = heroes_of(crowd).get(name)
     if not armature:
         return
-    bodies = [thing for thing in bpy.data.objects if thing.parent == armature and thing.get(HERO_OF) == crowd.name]
+    bodies = [thing for thing in bpy.data.objects if thing.parent == armature and thing.get(HERO_OF) == crowd]
     for thing in (*bodies, armature):
         data, action = thing.data, thing.animation_data.action if thing.animation_data else None
         bpy.data.objects.remove(thing)

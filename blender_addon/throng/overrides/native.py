@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Plays overrides without Python: attributes on the crowd's points, read by modifiers that are there only while somebody is changed.
 
-Whoever is retimed is left out of the crowd and played by a second object over point caches of its own, with the same instancer.
+Whoever is retimed is left out of the crowd's points; instead, those of an object over point caches of its own join them before the instancer,
+so that culling and all else has them, too. That object is in no scene.
 """
 import math
 import os
@@ -15,7 +16,7 @@ from .rows import write_caches
 
 MODIFIER = "throng overrides"
 SCALE_MODIFIER = "throng override scale"
-RETIMED = "throng_retimed_of"  # names the crowd of the second object
+RETIMED = "throng_retimed_of"  # points to the crowd whose retimed people an object plays
 _ATTRIBUTES = {"throng_hide": "FLOAT", "throng_swap": "FLOAT", "throng_moved": "BOOLEAN", "throng_move": "FLOAT_VECTOR", "throng_turn": "FLOAT", "throng_pivot": "FLOAT_VECTOR",
                "throng_bigger": "FLOAT", "throng_dyed": "FLOAT", "throng_dye": "FLOAT_VECTOR"}
 _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
@@ -84,12 +85,19 @@ def _tree(parts):
     found = bpy.data.node_groups.get(name)
     if found:
         return found
-    tree, inputs, outputs = new_tree(name, _GEOMETRY, _GEOMETRY)
+    tree, inputs, outputs = new_tree(name, _GEOMETRY + ([("Retimed", "NodeSocketObject")] if "retimed" in parts else []), _GEOMETRY)
     maths = Maths(tree)
     geometry = inputs.outputs[0]
     for part, build in (("state", _state_nodes), ("turn", _turn_nodes), ("move", _place_nodes)):
         if part in parts:
             geometry = build(maths, geometry)
+    if "retimed" in parts:
+        points = maths.node("GeometryNodeObjectInfo", transform_space="ORIGINAL")
+        join = maths.node("GeometryNodeJoinGeometry")
+        maths.link(inputs.outputs["Retimed"], points.inputs["Object"])
+        maths.link(points.outputs["Geometry"], join.inputs[0])
+        maths.link(geometry, join.inputs[0])
+        geometry = join.outputs[0]
     maths.link(geometry, outputs.inputs[0])
     return tree
 
@@ -118,13 +126,15 @@ def _move_modifier(thing, name, index):
             bpy.ops.object.modifier_move_to_index(modifier=name, index=index)
 
 
-def _add_modifiers(thing, parts, scales):
+def _add_modifiers(crowd, parts, scales, retimed):
     if parts:
-        modifier = thing.modifiers.new(MODIFIER, "NODES")
+        modifier = crowd.modifiers.new(MODIFIER, "NODES")
         modifier.node_group = _tree(parts)
-        _move_modifier(thing, MODIFIER, thing.modifiers.find("throng pos") + 1)
+        if retimed:
+            set_input(modifier, "Retimed", retimed)
+        _move_modifier(crowd, MODIFIER, crowd.modifiers.find("throng pos") + 1)
     if scales:
-        thing.modifiers.new(SCALE_MODIFIER, "NODES").node_group = _scale_tree()
+        crowd.modifiers.new(SCALE_MODIFIER, "NODES").node_group = _scale_tree()
 
 
 def linear(colour):
@@ -162,7 +172,7 @@ def _write_attributes(mesh, changes, pivots):
 
 
 def retimed_object(crowd):
-    return next((thing for thing in bpy.data.objects if thing.get(RETIMED) == crowd.name and thing.parent == crowd), None)
+    return next((thing for thing in bpy.data.objects if thing.get(RETIMED) == crowd), None)
 
 
 def _remove_retimed(crowd):
@@ -187,8 +197,8 @@ def clear(crowd):
         playback.give_natures(mesh)  # tints as they were drawn
 
 
-def _add_retimed(crowd, rows, people, changes, folder):
-    """The second object: the same points' natures and looks, over caches that have the moves and swaps in them."""
+def _build_retimed(crowd, rows, people, changes, folder):
+    """Points with the natures and looks that they have in the crowd, over caches that have the moves and swaps in them."""
     from ..importer import stored_path
 
     paths = write_caches(folder, rows, people, changes)
@@ -206,25 +216,18 @@ def _add_retimed(crowd, rows, people, changes, folder):
         for index, row in enumerate(order):
             setattr(copy.data[index], field, getattr(attribute.data[row], field))
     thing = bpy.data.objects.new(mesh.name, mesh)
-    thing[RETIMED] = crowd.name
-    for collection in crowd.users_collection:
-        collection.objects.link(thing)
-    thing.parent = crowd
+    thing[RETIMED] = crowd
     start = crowd.modifiers["throng pos"].frame_start
     for stream in ("state", "dir", "pos"):
         playback._add_cache(thing, f"throng retimed {stream}", stored_path(paths[stream], relative), "NONE" if stream == "state" else "LINEAR", start)
         if stream != "pos":
             store = f"throng {stream} to attribute"
             thing.modifiers.new(store, "NODES").node_group = crowd.modifiers[store].node_group
-    modifier = thing.modifiers.new("throng people", "NODES")
-    modifier.node_group = crowd.modifiers["throng people"].node_group
-    set_input(modifier, "Share", 2.0)
-    _add_modifiers(thing, (), any(change.scale is not None for change in changes.values()))
     return thing
 
 
 def follow(crowd):
-    """The second object plays from the frame that the crowd does."""
+    """Retimed people play from the frame that the crowd does."""
     thing = retimed_object(crowd)
     if thing:
         for stream in ("state", "dir", "pos"):
@@ -249,9 +252,8 @@ def play(crowd, rows, people, changes, folder):
         parts = {"state"} if any(c.hides or c.retimes or c.character is not None for c in every) else set()
         moved = [c for c in every if c.moves and not c.retimes]
         parts |= {part for part, there in (("turn", any(c.turn for c in moved)), ("move", any(any(c.move) for c in moved))) if there}
-        _add_modifiers(crowd, parts, any(c.scale is not None for c in every))
-    if retimed:
-        _add_retimed(crowd, rows, people, retimed, folder)
+        joined = _build_retimed(crowd, rows, people, retimed, folder) if retimed else None
+        _add_modifiers(crowd, parts | ({"retimed"} if joined else set()), any(c.scale is not None for c in every), joined)
     crowd.update_tag()
 
 

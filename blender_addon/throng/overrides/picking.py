@@ -3,18 +3,15 @@
 import bpy
 from mathutils import Vector
 
-from . import native
-
 PICKED = "throng_picked"  # rows, as a text: numbers between blanks
 BODY_HEIGHT, BODY_REACH = 1.75, 0.45  # m: a click this near to somebody's middle line is on them
 NEAR = 1.5                            # m: a click beside everybody means the nearest within this
 
 
 def instances_of(crowd, depsgraph):
-    """(row, matrix) of everybody who is shown, those with another timing included."""
-    retimed = native.retimed_object(crowd)
+    """(row, matrix) of everybody who is shown."""
     for instance in depsgraph.object_instances:
-        if instance.is_instance and instance.parent and instance.parent.original in (crowd, retimed):
+        if instance.is_instance and instance.parent and instance.parent.original == crowd:
             yield instance.persistent_id[0], instance.matrix_world
 
 
