@@ -159,9 +159,9 @@ void write(const Options& options, const io::Bake& bake, const Layer& layer) {
             changes.push_back({layer.matches[i].row, layer.overrides[i].change});
 
     const InterruptGuard interrupt;
-    Progress progress(options.quiet  ? Progress::Style::quiet
-                      : options.json ? Progress::Style::json
-                                     : Progress::detectStyle(),
+    Progress progress(options.quiet  ? ProgressStyle::quiet
+                      : options.json ? ProgressStyle::json
+                                     : detectProgressStyle(),
                       bake.frames, 0, 1);
     io::ApplyOptions apply;
     apply.output = options.output;

@@ -71,7 +71,7 @@ std::string AgentTableEdit::text() const {
     std::string text;
     const auto add = [&](const std::vector<std::string>& fields) {
         for (std::size_t i = 0; i < fields.size(); ++i)
-            text += (i ? "," : "") + quotedField(fields[i]);
+            text += (i ? "," : "") + csvField(fields[i]);
         text += '\n';
     };
     add(columns_);

@@ -222,7 +222,7 @@ DOCUMENTS = [({"overrides": [GOOD]}, True), ({"overrides": []}, True), ({"overri
         ({"character": 2}, True), ({"move": {"by": [0, 1]}}, False), ({"move": {"turn": 361}}, False), ({"move": {"to": [0, 0, 0]}}, False),
         ({"move": {"by": [0, 1, 2], "turn": -45.5}}, True), ({"retime": {"offset": 3.5}}, True), ({"retime": {"speed": 0}}, False), ({"retime": 3}, False),
         ({"hero": ""}, False), ({"hero": "Anna", "note": ""}, True), ({"note": 3}, False), ({"id": 1.5}, False), ({"id": -1}, False), ({"group": ""}, False),
-        ({"spawn": {"frame": 0}}, False), ({"spawn": {"frame": 0, "position": [0, 0]}}, False), ({"spawn": {"frame": 0.5, "position": [0, 0, 0]}}, False),
+        ({"id": 3.0, "character": 2.0}, True), ({"spawn": {"frame": 0}}, False), ({"spawn": {"frame": 0, "position": [0, 0]}}, False), ({"spawn": {"frame": 0.5, "position": [0, 0, 0]}}, False),
         ({"spawn": {"frame": 0, "position": [0, 0, 1e9]}}, False), ({"colour": "#000000"}, False))]
 
 
@@ -288,4 +288,6 @@ def test_files_are_written_whole_or_not_at_all(tmp_path):
     assert override_file.read(str(path)) == [GOOD] and [p.name for p in tmp_path.iterdir()] == [path.name]
     with pytest.raises(override_file.OverrideError, match="cannot be written"):
         override_file.write(str(tmp_path / "absent" / "x.json"), [GOOD])
+    path.write_text(json.dumps({"throng_overrides": 1, "overrides": [{**GOOD, "id": 3.0, "character": 2.0}]}))
+    assert override_file.read(str(path))[0]["id"].bit_length() == 2, "whole, however it is written"
     assert override_file.path_beside("/shots/a/street/") == "/shots/a/street.overrides.json"

@@ -211,6 +211,18 @@ for name in ("Anna", "Hero 16"):
     assert bpy.ops.throng.clear_override(index=index) == {"FINISHED"}
 result["demoted"] = [sorted(hero.heroes_of(crowd)), len(bpy.data.armatures), len(bpy.data.actions), [r in people() for r in (10, 16)]]
 
+content = open(FILE, encoding="utf-8").read()
+with open(FILE, "w", encoding="utf-8") as file:
+    file.write('{"throng_overrides": 1, "overrides": []}')
+assert bpy.ops.throng.reload_overrides() == {"FINISHED"}
+result["emptied"] = [len(crowd.throng_overrides), [m.name for m in crowd.modifiers], shots() == result["before"]]
+picking.pick(crowd, [6, 7])
+graph = bpy.context.evaluated_depsgraph_get()
+result["rings"] = [len(picking._rings_of(crowd, 120, graph)), picking._rings_of(crowd, 120, graph) is picking._rings_of(crowd, 120, graph)]
+with open(FILE, "w", encoding="utf-8") as file:
+    file.write(content)
+assert bpy.ops.throng.reload_overrides() == {"FINISHED"}
+
 # --- the command line's bake of the same overrides, beside the natively changed crowd ------------------------------------------
 native_shots = shots()
 native_tints = tints()

@@ -88,6 +88,7 @@ def test_mistakes_are_reported_and_change_nothing(found):
 def test_clearing_brings_back_the_crowd_as_it_was(found):
     entries, modifiers, same, same_tints = found[0]["cleared"]
     assert entries == [] and modifiers == found[0]["modifiers"] and same and same_tints
+    assert found[0]["emptied"] == [0, modifiers, True] and found[0]["rings"] == [2 * 48, True]
     assert "throng overrides" not in modifiers, "nothing is paid for where nothing is changed"
 
 

@@ -174,8 +174,9 @@ class Arrival:
     def __init__(self, bake, crowd=None):
         beside = read_beside(bake.folder)
         self.path = path_beside(bake.folder)
-        self.entries = beside if beside is not None else entries_of(crowd) if crowd and hasattr(crowd, "throng_overrides") else []
-        needed = self.entries or "applied" in bake.manifest
+        shown = entries_of(crowd) if crowd else []
+        self.entries = shown if beside is None else beside
+        needed = self.entries or shown or "applied" in bake.manifest
         self.matched = Matched(bake, self.entries) if needed else None
         if self.entries and beside is None:  # approved work goes along with a bake in another place
             write(self.path, self.entries)
@@ -189,9 +190,6 @@ class Arrival:
     def place(self, crowd):
         if self.matched:
             show(crowd, self.matched)
-        elif hasattr(crowd, "throng_overrides") and len(crowd.throng_overrides):
-            native.clear(crowd)
-            crowd.throng_overrides.clear()
 
 
 def load(crowd):

@@ -51,9 +51,10 @@ class Change:
 
 
 def change_of(entry):
-    move, retime, tint = entry.get("move", {}), entry.get("retime", {}), entry.get("tint")
-    return Change(hide=entry.get("hide", False), character=entry.get("character"), tint=tuple(tint) if isinstance(tint, (list, tuple)) else tint,
-                  scale=entry.get("scale"), move=tuple(float(v) for v in move.get("by", (0.0, 0.0, 0.0))), turn=float(move.get("turn", 0.0)),
+    move, retime, tint, character = entry.get("move", {}), entry.get("retime", {}), entry.get("tint"), entry.get("character")
+    return Change(hide=entry.get("hide", False), character=None if character is None else int(character),
+                  tint=tuple(tint) if isinstance(tint, (list, tuple)) else tint, scale=entry.get("scale"),
+                  move=tuple(float(v) for v in move.get("by", (0.0, 0.0, 0.0))), turn=float(move.get("turn", 0.0)),
                   delay=float(retime.get("offset", 0.0)), speed=float(retime.get("speed", 1.0)), hero=entry.get("hero", ""))
 
 
@@ -148,6 +149,7 @@ def check(document, path):
     seen = {}
     for index, entry in enumerate(entries):
         checker.entry(entry, f"/overrides/{index}")
+        entry["id"], entry["spawn"]["frame"] = int(entry["id"]), int(entry["spawn"]["frame"])  # JSON knows 3.0, too
         first = seen.setdefault(person_of(entry), index)
         if first != index:
             checker.fail(f"/overrides/{index}/id", f"person {entry['id']} has an override already, /overrides/{first}: put both into one")

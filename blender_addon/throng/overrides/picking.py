@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Who is meant in the viewport: instances cannot be selected, so people are found by the ray through the mouse."""
+import math
+
 import bpy
 from mathutils import Vector
 
@@ -121,12 +123,26 @@ def pick_at(context, origin, direction, extend=False):
 
 
 _handle = None
+_rings = {}  # by crowd's name: (what they were worked out for, points)
+
+
+def _rings_of(crowd, frame, depsgraph):
+    """Lines round the feet of those who are picked; going through all instances is worth doing once a frame only."""
+    rows = set(picked(crowd))
+    wanted = (frame, frozenset(rows), tuple(item.text for item in crowd.throng_overrides))
+    known, points = _rings.get(crowd.name, (None, []))
+    if known == wanted:
+        return points
+    points = []
+    for row, matrix in instances_of(crowd, depsgraph):
+        if row in rows:
+            ring = [matrix @ Vector((0.45 * math.cos(a), 0.45 * math.sin(a), 0.05)) for a in (math.tau * i / 24 for i in range(25))]
+            points += [tuple(point) for pair in zip(ring, ring[1:]) for point in pair]
+    _rings[crowd.name] = wanted, points
+    return points
 
 
 def _draw():
-    """Rings under those who are picked."""
-    import math
-
     import gpu
     from gpu_extras.batch import batch_for_shader
 
@@ -135,18 +151,11 @@ def _draw():
     context = bpy.context
     points = []
     for crowd in crowd_objects(context.scene):
-        rows = set(picked(crowd)) if crowd.get(PICKED) else ()
-        if not rows or crowd.mode == "EDIT":
-            continue
-        for row, matrix in instances_of(crowd, context.evaluated_depsgraph_get()):
-            if row not in rows:
-                continue
-            ring = [matrix @ Vector((0.45 * math.cos(a), 0.45 * math.sin(a), 0.05)) for a in (math.tau * i / 24 for i in range(25))]
-            points += [p for pair in zip(ring, ring[1:]) for p in pair]
+        if crowd.get(PICKED) and crowd.mode != "EDIT":
+            points += _rings_of(crowd, context.scene.frame_current, context.evaluated_depsgraph_get())
     if not points:
         return
-    names = ("UNIFORM_COLOR",) if bpy.app.version >= (4, 0, 0) else ("3D_UNIFORM_COLOR",)
-    shader = gpu.shader.from_builtin(names[0])
+    shader = gpu.shader.from_builtin("UNIFORM_COLOR" if bpy.app.version >= (4, 0, 0) else "3D_UNIFORM_COLOR")
     batch = batch_for_shader(shader, "LINES", {"pos": points})
     shader.bind()
     shader.uniform_float("color", (1.0, 0.55, 0.05, 1.0))
