@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs inside Blender: how much processor time a change of frame takes for a crowd as it is, with overrides of each kind, and when they are cleared; in turn."""
+"""Runs inside Blender: how much processor time a change of frame takes for a crowd as it is and with overrides of each kind, in turn."""
 import json
 import os
 import sys
@@ -22,7 +22,8 @@ crowd = crowds.crowd_objects(scene)[0]
 loaded = layer.bake_of(crowd)
 KINDS = {"none": {}, "state": {5: Change(hide=True), 6: Change(character=1)}, "move": {7: Change(move=(1.0, 0.0, 0.0))}, "turn": {9: Change(turn=20.0)},
          "scale": {8: Change(scale=1.1)}}
-KINDS["all"] = {**KINDS["state"], **KINDS["move"], **KINDS["turn"], **KINDS["scale"], **{row: Change(delay=3.0, speed=1.1, tint=(0.1, 0.2, 0.3)) for row in range(20, 40)}}
+KINDS["all"] = {**KINDS["state"], **KINDS["move"], **KINDS["turn"], **KINDS["scale"],
+                **{row: Change(delay=3.0, speed=1.1, tint=(0.1, 0.2, 0.3)) for row in range(20, 40)}}
 times = {kind: [] for kind in KINDS}
 with layer.Rows(loaded) as rows:
     people = layer.Table(loaded, rows).people

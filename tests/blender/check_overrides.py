@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs inside Blender: people of a crowd are hidden, swapped, tinted, scaled, moved, retimed and promoted; undone, saved, cleared, and kept over a retake."""
+"""Runs inside Blender: people are hidden, swapped, tinted, scaled, moved, retimed and promoted; undone, saved, cleared, and kept over a retake."""
 import json
 import math
 import os
@@ -31,7 +31,8 @@ def people(of=None):
     """{row: [pose, x, y, z, heading, scale]} as the scene shows them now."""
     of = of or crowd
     graph = bpy.context.evaluated_depsgraph_get()
-    return {i.persistent_id[0]: [i.object.name, *i.matrix_world.translation, math.atan2(i.matrix_world[1][0], i.matrix_world[0][0]), i.matrix_world.to_scale().x]
+    return {i.persistent_id[0]: [i.object.name, *i.matrix_world.translation, math.atan2(i.matrix_world[1][0], i.matrix_world[0][0]),
+                                 i.matrix_world.to_scale().x]
             for i in graph.object_instances if i.is_instance and i.parent and i.parent.original == of}
 
 
@@ -62,9 +63,9 @@ scene.frame_set(100)
 now, graph = people(), bpy.context.evaluated_depsgraph_get()
 row = max(now, key=lambda r: now[r][1])  # the foremost: nobody is in front of it
 x, y = now[row][1:3]
-result["ray"] = {"row": row, "ahead": picking.person_at_ray(crowd, graph, (x + 20.0, y, 1.2), (-1, 0, 0)), "above": picking.person_at_ray(crowd, graph, (x + 0.05, y, 9), (0, 0, -1)),
-                 "beside": picking.person_at_ray(crowd, graph, (x + 1.2, y, 9), (0, 0, -1)), "nobody": picking.person_at_ray(crowd, graph, (x, y, 500.0), (0, 0, 1)),
-                 "far": picking.person_at_ray(crowd, graph, (x + 60.0, y, 9), (0, 0, -1))}
+at = lambda origin, direction: picking.person_at_ray(crowd, graph, origin, direction)
+result["ray"] = {"row": row, "ahead": at((x + 20.0, y, 1.2), (-1, 0, 0)), "above": at((x + 0.05, y, 9), (0, 0, -1)),
+                 "beside": at((x + 1.2, y, 9), (0, 0, -1)), "nobody": at((x, y, 500.0), (0, 0, 1)), "far": at((x + 60.0, y, 9), (0, 0, -1))}
 picking.pick_at(bpy.context, (x, y, 9), (0, 0, -1))
 other = next(r for r in now if r != row)
 picking.pick_at(bpy.context, (now[other][1], now[other][2], 9), (0, 0, -1), extend=True)
@@ -113,7 +114,8 @@ scene.cursor.location = (-3.0, 4.0, 0.5)
 ops.move_people(rows="11 13", to_cursor=True, turn=0.5)
 result["at_cursor"] = people()[11][1:4]
 result["after"], result["entries"], result["tints"] = shots(), entries(), tints()
-result["dye"] = [list(crowd.data.attributes["throng_dye"].data[15].vector), crowd.data.attributes["throng_dyed"].data[15].value, crowd.data.attributes["throng_dyed"].data[14].value]
+dyed = crowd.data.attributes["throng_dyed"].data
+result["dye"] = [list(crowd.data.attributes["throng_dye"].data[15].vector), dyed[15].value, dyed[14].value]
 result["dyed_materials"] = sorted(m.name for m in bpy.data.materials if m.use_nodes and "Throng dye" in m.node_tree.nodes)
 result["list"] = [[item.name, item.status] for item in crowd.throng_overrides]
 result["verify"] = crowds.verify(crowd, scene)

@@ -64,7 +64,8 @@ def entries_of(bake):
         return {"id": row, "group": table[row]["group"], "spawn": {"frame": frame, "position": places[frame, row].astype(float).tolist()}, **change}
 
     frame, turn = int(table[11]["spawn_frame"]), 28.64789
-    away = complex(*(places[99, 11, :2] - places[frame, 11, :2]).astype(float)) * numpy.exp(1j * math.radians(turn)) + complex(*places[frame, 11, :2].astype(float))
+    flat = lambda at: complex(*places[at, 11, :2].astype(float))
+    away = (flat(99) - flat(frame)) * numpy.exp(1j * math.radians(turn)) + flat(frame)
     to_cursor = {"move": {"by": [round(-3.0 - away.real, 6), round(4.0 - away.imag, 6), 0.5], "turn": turn}}
     return [entry(3, hide=True), entry(6, move={"by": [1.5, -2.0, 0.25], "turn": 30.0}),
             entry(7, retime={"offset": -9.5, "speed": 1.3}, move={"by": [0, 1, 0]}, character=5, tint=[0.1, 0.2, 0.3], scale=1.2),

@@ -16,8 +16,8 @@ from .rows import write_caches
 MODIFIER = "throng overrides"
 SCALE_MODIFIER = "throng override scale"
 RETIMED = "throng_retimed_of"  # points to the crowd whose retimed people an object plays
-_ATTRIBUTES = {"throng_hide": "FLOAT", "throng_swap": "FLOAT", "throng_moved": "BOOLEAN", "throng_move": "FLOAT_VECTOR", "throng_turn": "FLOAT", "throng_pivot": "FLOAT_VECTOR",
-               "throng_bigger": "FLOAT", "throng_dyed": "FLOAT", "throng_dye": "FLOAT_VECTOR"}
+_ATTRIBUTES = {"throng_hide": "FLOAT", "throng_swap": "FLOAT", "throng_moved": "BOOLEAN", "throng_move": "FLOAT_VECTOR", "throng_turn": "FLOAT",
+               "throng_pivot": "FLOAT_VECTOR", "throng_bigger": "FLOAT", "throng_dyed": "FLOAT", "throng_dye": "FLOAT_VECTOR"}
 _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
 
 

@@ -137,7 +137,8 @@ class THRONG_OT_move_people(_OnPeople, bpy.types.Operator):
 
     by: FloatVectorProperty(name="By", subtype="TRANSLATION", size=3, default=(0.0, 0.0, 0.0))
     turn: FloatProperty(name="Turn", subtype="ANGLE", min=-2.0 * math.pi, max=2.0 * math.pi, description="About the place of entry, counter-clockwise")
-    to_cursor: BoolProperty(name="To the 3D Cursor", description="The first who is picked stands at the cursor in this frame; the others keep their places by it")
+    to_cursor: BoolProperty(name="To the 3D Cursor",
+                            description="The first who is picked stands at the cursor in this frame; the others keep their places by it")
 
     def invoke(self, context, _event):
         return context.window_manager.invoke_props_dialog(self)

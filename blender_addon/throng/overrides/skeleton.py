@@ -85,7 +85,8 @@ def rest_pose(person):
 def _training_poses(person, strides):
     build = people.build_of(person)
     middle = gait.gait_of(sorted(strides)[len(strides) // 2])
-    return [gait.walk_pose(index / 8.0, build, middle) for index in range(8)] + [gait.standing_pose("phone", 0.25, build), gait.standing_pose("shift", 0.5, build)]
+    return [gait.walk_pose(index / 8.0, build, middle) for index in range(8)] + \
+        [gait.standing_pose("phone", 0.25, build), gait.standing_pose("shift", 0.5, build)]
 
 
 def _error(a, b):
