@@ -12,7 +12,7 @@ addon, folder = sys.argv[-2:]
 sys.path.insert(0, addon)
 import throng  # noqa: E402
 from throng import crowds  # noqa: E402
-from throng.overrides import hero, layer, native, picking  # noqa: E402
+from throng.overrides import hero, layer, native, picking, skeleton  # noqa: E402
 
 BAKE, FILE = os.path.join(folder, "street"), os.path.join(folder, "street.overrides.json")
 FRAMES = (1, 30, 63, 100, 120)
@@ -160,12 +160,12 @@ with layer.Rows(layer.bake_of(crowd)) as rows:
                          abs(math.remainder(math.atan2(matrix[1][0], matrix[0][0]) - math.atan2(sample.direction[1], sample.direction[0]), 2 * math.pi)))
         person = cast_people.CAST[int(sample.state[1]) % min(bake.variations, cast.VARIATIONS)]
         stride = gait.gait_of(bake.strides[round((sample.state[0] % 1.0) * 16)])
-        figure = cast_people.build_figure(person, gait.walk_pose(sample.state[2] % 1.0, cast_people.build_of(person), stride)).vertices
+        figure = skeleton.figure_of(person, gait.walk_pose(sample.state[2] % 1.0, cast_people.build_of(person), stride)).vertices
         mesh = body.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
         off = sorted(math.dist(vertex.co, place) for vertex, place in zip(mesh.vertices, figure))
         errors.append([sum(off) / len(off), off[int(0.99 * len(off))], off[-1], sample.direction[2], len(figure) == len(mesh.vertices)])
 result["hero"] = {"root": worst_root, "errors": errors, "in_crowd": [10 in people(), 16 in people()], "bones": len(anna.data.bones),
-                  "materials": all(material for material in body.data.materials) and len(body.data.materials) == 6, "tint": list(body["tint"])}
+                  "materials": all(material for material in body.data.materials) and len(body.data.materials) == len(cast_people.MATERIALS), "tint": list(body["tint"])}
 late_body = next(thing for thing in bpy.data.objects if thing.parent == late_hero)
 presence = {}
 for frame in (1, 120):

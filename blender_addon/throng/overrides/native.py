@@ -10,14 +10,14 @@ import os
 import bpy
 
 from .. import playback
+from ..playback import BIGGER
 from ..nodes import Maths, new_tree, set_input, socket
 from .rows import write_caches
 
 MODIFIER = "throng overrides"
-SCALE_MODIFIER = "throng override scale"
 RETIMED = "throng_retimed_of"  # points to the crowd whose retimed people an object plays
-_ATTRIBUTES = {"throng_hide": "FLOAT", "throng_swap": "FLOAT", "throng_moved": "BOOLEAN", "throng_move": "FLOAT_VECTOR", "throng_turn": "FLOAT",
-               "throng_pivot": "FLOAT_VECTOR", "throng_bigger": "FLOAT", "throng_dyed": "FLOAT", "throng_dye": "FLOAT_VECTOR"}
+_ATTRIBUTES = {"throng_hide": "FLOAT", "throng_swap": "FLOAT", "throng_moved": "BOOLEAN", "throng_move": "FLOAT_VECTOR", "throng_turned": "FLOAT",
+               "throng_pivot": "FLOAT_VECTOR", BIGGER: "FLOAT", "throng_dyed": "FLOAT", "throng_dye": "FLOAT_VECTOR"}
 _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
 
 
@@ -62,7 +62,7 @@ def _place_nodes(maths, geometry):
 
 def _turn_nodes(maths, geometry):
     """Turned about where it entered, heading and all."""
-    turn = _named(maths, "throng_turn", "FLOAT")
+    turn = _named(maths, "throng_turned", "FLOAT")
 
     def turned(vector, centre=None):
         node = maths.node("ShaderNodeVectorRotate", rotation_type="Z_AXIS")
@@ -101,21 +101,6 @@ def _tree(parts):
     return tree
 
 
-def _scale_tree():
-    name = "Throng override scale"
-    found = bpy.data.node_groups.get(name)
-    if found:
-        return found
-    tree, inputs, outputs = new_tree(name, _GEOMETRY, _GEOMETRY)
-    maths = Maths(tree)
-    node = maths.node("GeometryNodeScaleInstances")
-    bigger = _named(maths, "throng_bigger", "FLOAT")
-    maths.link(inputs.outputs[0], node.inputs["Instances"])
-    maths.link(maths.math("ADD", bigger, 1.0), node.inputs["Scale"])
-    maths.link(node.outputs[0], outputs.inputs[0])
-    return tree
-
-
 def _move_modifier(thing, name, index):
     modifiers = thing.modifiers
     if hasattr(modifiers, "move"):
@@ -125,15 +110,12 @@ def _move_modifier(thing, name, index):
             bpy.ops.object.modifier_move_to_index(modifier=name, index=index)
 
 
-def _add_modifiers(crowd, parts, scales, retimed):
-    if parts:
-        modifier = crowd.modifiers.new(MODIFIER, "NODES")
-        modifier.node_group = _tree(parts)
-        if retimed:
-            set_input(modifier, "Retimed", retimed)
-        _move_modifier(crowd, MODIFIER, crowd.modifiers.find("throng pos") + 1)
-    if scales:
-        crowd.modifiers.new(SCALE_MODIFIER, "NODES").node_group = _scale_tree()
+def _add_modifier(crowd, parts, retimed):
+    modifier = crowd.modifiers.new(MODIFIER, "NODES")
+    modifier.node_group = _tree(parts)
+    if retimed:
+        set_input(modifier, "Retimed", retimed)
+    _move_modifier(crowd, MODIFIER, crowd.modifiers.find("throng pos") + 1)
 
 
 def linear(colour):
@@ -151,11 +133,11 @@ def _write_attributes(mesh, changes, pivots):
         three = slice(3 * row, 3 * row + 3)
         values["throng_hide"][row] = float(change.hides or change.retimes)
         values["throng_swap"][row] = -1.0 if change.character is None else float(change.character)
-        values["throng_bigger"][row] = 0.0 if change.scale is None else change.scale - 1.0
+        values[BIGGER][row] = 0.0 if change.scale is None else change.scale - 1.0
         if change.moves:
             values["throng_moved"][row] = True
             values["throng_move"][three], values["throng_pivot"][three] = change.move, pivots[row]
-            values["throng_turn"][row] = math.radians(change.turn)
+            values["throng_turned"][row] = math.radians(change.turn)
         if isinstance(change.tint, str):
             values["throng_dyed"][row], values["throng_dye"][three] = 1.0, linear(change.tint)
         elif change.tint is not None:
@@ -185,9 +167,8 @@ def _remove_retimed(crowd):
 def clear(crowd):
     """As if nobody had ever been changed."""
     _remove_retimed(crowd)
-    for name in (MODIFIER, SCALE_MODIFIER):
-        if name in crowd.modifiers:
-            crowd.modifiers.remove(crowd.modifiers[name])
+    if MODIFIER in crowd.modifiers:
+        crowd.modifiers.remove(crowd.modifiers[MODIFIER])
     mesh = crowd.data
     known = [name for name in _ATTRIBUTES if name in mesh.attributes]
     for name in known:
@@ -252,7 +233,9 @@ def play(crowd, rows, people, changes, folder):
         moved = [c for c in every if c.moves and not c.retimes]
         parts |= {part for part, there in (("turn", any(c.turn for c in moved)), ("move", any(any(c.move) for c in moved))) if there}
         joined = _build_retimed(crowd, rows, people, retimed, folder) if retimed else None
-        _add_modifiers(crowd, parts | ({"retimed"} if joined else set()), any(c.scale is not None for c in every), joined)
+        parts |= {"retimed"} if joined else set()
+        if parts:
+            _add_modifier(crowd, parts, joined)
     crowd.update_tag()
 
 

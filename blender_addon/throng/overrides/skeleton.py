@@ -78,6 +78,11 @@ def bones_of(person, pose):
     return bones
 
 
+def figure_of(person, pose):
+    """The person's mesh in a pose: `vertices`, `faces`, and a material for each face. Whatever the pose, vertices are the same in number and order."""
+    return people.build_figure(person, pose)
+
+
 def rest_pose(person):
     return gait.idle_pose(people.build_of(person))
 
@@ -97,10 +102,10 @@ def _error(a, b):
 def weights_of(person, strides):
     """The person's mesh at rest, and for each of its vertices [(bone, weight)], one or two; weights add up to one. `strides` is a tuple."""
     rest = bones_of(person, rest_pose(person))
-    mesh = people.build_figure(person, rest_pose(person))
+    mesh = figure_of(person, rest_pose(person))
     poses = _training_poses(person, strides)
     skeletons = [bones_of(person, pose) for pose in poses]
-    figures = [people.build_figure(person, pose).vertices for pose in poses]
+    figures = [figure_of(person, pose).vertices for pose in poses]
     result = []
     for index, vertex in enumerate(mesh.vertices):
         goes = [figure[index] for figure in figures]
