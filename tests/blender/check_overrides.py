@@ -158,9 +158,9 @@ with layer.Rows(layer.bake_of(crowd)) as rows:
         matrix = anna.matrix_world
         worst_root = max(worst_root, *(abs(a - b) for a, b in zip(matrix.translation, sample.position)),
                          abs(math.remainder(math.atan2(matrix[1][0], matrix[0][0]) - math.atan2(sample.direction[1], sample.direction[0]), 2 * math.pi)))
-        person = cast_people.CAST[int(sample.state[1]) % min(bake.variations, cast.VARIATIONS)]
+        person = cast_people.CAST[int(sample.state[1]) % crowd["throng_cast"]["throng_variations"]]
         stride = gait.gait_of(bake.strides[round((sample.state[0] % 1.0) * 16)])
-        figure = skeleton.figure_of(person, gait.walk_pose(sample.state[2] % 1.0, cast_people.build_of(person), stride)).vertices
+        figure = skeleton.vertices_of(person, gait.walk_pose(sample.state[2] % 1.0, cast_people.build_of(person), stride))
         mesh = body.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
         off = sorted(math.dist(vertex.co, place) for vertex, place in zip(mesh.vertices, figure))
         errors.append([sum(off) / len(off), off[int(0.99 * len(off))], off[-1], sample.direction[2], len(figure) == len(mesh.vertices)])

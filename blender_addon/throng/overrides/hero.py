@@ -82,11 +82,10 @@ def _build_armature(name, person, collection):
 
 
 def _build_body(name, person, strides, armature, collection):
-    figure, weights = skeleton.weights_of(person, strides)
+    plan, weights = skeleton.plan_of(person), skeleton.weights_of(person, strides)
     mesh = bpy.data.meshes.new(f"{name} body")
-    mesh.from_pydata(figure.vertices, [], figure.faces)
-    mesh.polygons.foreach_set("material_index", figure.materials)
-    mesh.polygons.foreach_set("use_smooth", [True] * len(figure.faces))
+    mesh.from_pydata(skeleton.vertices_of(person, skeleton.rest_pose(person)), [], plan.faces)
+    mesh.polygons.foreach_set("use_smooth", [True] * len(plan.faces))
     mesh.update()
     body = bpy.data.objects.new(mesh.name, mesh)
     collection.objects.link(body)
@@ -99,13 +98,14 @@ def _build_body(name, person, strides, armature, collection):
     return body
 
 
-def _dress(crowd, body, row, change):
+def _dress(crowd, body, person, row, change):
     """The crowd's own materials where it has the shipped cast; they find the colours on the object when it is not an instance."""
     known = {material.name.split(".")[0]: material for material in sorted(native._cast_materials(crowd), key=lambda m: m.name, reverse=True)}
     names = [f"throng {name}" for name in people.MATERIALS]
     materials = [known[name] for name in names] if all(name in known for name in names) else cast_materials(people.MATERIALS)
     for material in materials:
         body.data.materials.append(material)
+    body.data.polygons.foreach_set("material_index", skeleton.plan_of(person).materials)
     body["tint"] = list(crowd.data.attributes["tint"].data[row].vector)
     if isinstance(change.tint, str):
         body["throng_dyed"], body["throng_dye"] = 1.0, list(native.linear(change.tint))
@@ -162,8 +162,8 @@ def promote(crowd, bake, rows, people_of_bake, row, change):
     samples = [rows.changed(row, first, change, frame, hides=False) for frame in range(rows.frames)]
     frames = [start + frame for frame in range(rows.frames)]
     alive = [sample.state[0] > 0.5 for sample in samples]
-    variation = int(samples[0].state[1]) % min(bake.variations, cast.VARIATIONS)
-    person = people.CAST[variation % cast.VARIATIONS]
+    shown_as = int(samples[0].state[1]) % crowd["throng_cast"]["throng_variations"]
+    person = people.CAST[shown_as % cast.VARIATIONS]
     strides = tuple(crowd.get("throng_strides", bake.strides))
     nature = crowd.data.attributes[NATURE].data[row].vector
 
@@ -171,7 +171,7 @@ def promote(crowd, bake, rows, people_of_bake, row, change):
     armature[HERO], armature[HERO_OF], armature[HERO_ROW] = change.hero, crowd, row
     body = _build_body(change.hero, person, strides, armature, collection)
     body[HERO_OF] = crowd
-    _dress(crowd, body, row, change)
+    _dress(crowd, body, person, row, change)
     armature.parent = crowd
     armature.rotation_mode = "XYZ"
     armature.scale = [change.scale or 1.0] * 3

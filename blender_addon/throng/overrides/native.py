@@ -239,19 +239,9 @@ def play(crowd, rows, people, changes, folder):
     crowd.update_tag()
 
 
-def _collections(tree):
-    """Those that a node tree, and the groups in it, put into the scene."""
-    for node in tree.nodes:
-        if node.type == "COLLECTION_INFO" and node.inputs["Collection"].default_value:
-            yield node.inputs["Collection"].default_value
-        elif node.type == "GROUP" and node.node_tree:
-            yield from _collections(node.node_tree)
-
-
 def _cast_materials(crowd):
-    """Materials of whatever the crowd's instancer puts in the scene."""
-    things = {thing for collection in _collections(crowd.modifiers["throng people"].node_group) for thing in collection.all_objects}
-    return {slot.material for thing in things for slot in thing.material_slots if slot.material}
+    """Materials of all whom the crowd can show."""
+    return {slot.material for thing in crowd["throng_cast"].all_objects for slot in thing.material_slots if slot.material}
 
 
 def allow_dyes(crowd):

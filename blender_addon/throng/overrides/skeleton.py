@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from ..cast import gait, people
-from ..cast.mesh_builder import add, cross, scale, sub, turn_y, turn_z, unit
+from ..cast.figure import Figure
+from ..cast.mesh_builder import Plan, add, cross, scale, sub, turn_y, turn_z, unit
 
 PARENTS = {"hips": None, "spine": "hips", "head": "spine",
            **{f"{part}.{side}": parent.format(side) for side in "RL" for part, parent in
@@ -39,48 +40,38 @@ def _bone(head, tail, beside):
     return Bone(head, tail, left, along, cross(left, along))
 
 
-def _arm(person, pose, side, index, along, shoulder_yaw, size):
-    """Shoulder, elbow and wrist, as cast/people.py hangs arms."""
-    swing, elbow = pose.arms[index]
-    out = 0.11 * side + 0.05 * side * (person.girth - 1.0)
-
-    def hang(angle):
-        down = turn_y((0.0, 0.0, -1.0), -angle)
-        return turn_z(unit((down[0], down[1] + out * (1.0 - 0.4 * abs(angle)), down[2])), shoulder_yaw)
-
-    shoulder = add(along(0.435), turn_z((-0.005 * size, side * person.shoulders * 0.465 * size, 0.0), shoulder_yaw))
-    elbow_at = add(shoulder, scale(hang(swing), 0.285 * size))
-    wrist = add(elbow_at, scale(unit(add(hang(swing + elbow), (0.0, -0.09 * side, 0.0))), 0.245 * size))
-    return shoulder, elbow_at, wrist
+def _posed(person, pose):
+    return Figure(person, pose, people.build_of(person))
 
 
 def bones_of(person, pose):
     """All bones of a person in a pose of cast/gait.py, {name: Bone}."""
-    build = people.build_of(person)
-    size = build.thigh / gait.Build().thigh
-    up = turn_y((0.0, 0.0, 1.0), pose.lean)
-    along = lambda height: add(pose.pelvis, scale(up, height * size))
-    across = lambda yaw: turn_z((0.0, 1.0, 0.0), yaw)
-    bones = {"hips": _bone(along(0.0), along(0.17), across(pose.pelvis_yaw)), "spine": _bone(along(0.17), along(0.515), across(pose.shoulder_yaw)),
-             "head": _bone(along(0.515), along(0.80), across(0.4 * pose.shoulder_yaw))}
-    for index, (side, letter) in enumerate(((-1, "R"), (1, "L"))):
-        shoulder, elbow, wrist = _arm(person, pose, side, index, along, pose.shoulder_yaw, size)
-        bones[f"upper_arm.{letter}"] = _bone(shoulder, elbow, across(pose.shoulder_yaw))
-        bones[f"forearm.{letter}"] = _bone(elbow, wrist, across(pose.shoulder_yaw))
-        foot, spread = pose.feet[index], side * 0.5 * build.hip_width
-        hip = add(pose.pelvis, turn_z((0.0, spread * person.hips, -0.02 * size), pose.pelvis_yaw))
-        ankle = (foot.ankle[0], spread * 0.72 + 0.25 * pose.pelvis[1], foot.ankle[1])
-        knee_x, knee_z = gait.knee_of((hip[0], hip[2]), (ankle[0], ankle[2]), build)
-        knee = (knee_x, 0.5 * (hip[1] + ankle[1]), knee_z)
-        bones[f"thigh.{letter}"] = _bone(hip, knee, across(0.0))
-        bones[f"shank.{letter}"] = _bone(knee, ankle, across(0.0))
-        bones[f"foot.{letter}"] = _bone(ankle, add(ankle, turn_y((0.16 * size, 0.0, 0.0), -foot.pitch)), across(0.0))
+    figure = _posed(person, pose)
+    across = lambda share: turn_z((0.0, 1.0, 0.0), figure.yaw(share))
+    spine = [figure.along(height) for height in (0.0, 0.17, 0.515, 0.80)]
+    bones = {"hips": _bone(spine[0], spine[1], across(0.0)), "spine": _bone(spine[1], spine[2], across(1.0)),
+             "head": _bone(spine[2], spine[3], turn_z((0.0, 1.0, 0.0), 0.4 * figure.yaw(1.0)))}
+    for side, (shoulder, elbow, wrist), (hip, knee, ankle), foot in zip("RL", figure.arms, figure.legs, pose.feet):
+        bones[f"upper_arm.{side}"] = _bone(shoulder, elbow, across(1.0))
+        bones[f"forearm.{side}"] = _bone(elbow, wrist, across(1.0))
+        bones[f"thigh.{side}"] = _bone(hip, knee, (0.0, 1.0, 0.0))
+        bones[f"shank.{side}"] = _bone(knee, ankle, (0.0, 1.0, 0.0))
+        bones[f"foot.{side}"] = _bone(ankle, add(ankle, turn_y((0.16 * figure.s, 0.0, 0.0), -foot.pitch)), (0.0, 1.0, 0.0))
     return bones
 
 
-def figure_of(person, pose):
-    """The person's mesh in a pose: `vertices`, `faces`, and a material for each face. Whatever the pose, vertices are the same in number and order."""
-    return people.build_figure(person, pose)
+@lru_cache(maxsize=16)
+def plan_of(person):
+    """How the person's mesh is made up, at full detail, whatever the pose."""
+    build = people.build_of(person)
+    walks = [gait.walk_pose(index / 4.0, build, gait.gait_of(gait.NORMAL_STRIDE)) for index in range(4)]
+    meshes = [_posed(person, pose).mesh for pose in (rest_pose(person), *walks)]
+    return Plan(meshes[0].parts, [mesh.rings for mesh in meshes], 0)
+
+
+def vertices_of(person, pose):
+    flat = plan_of(person).vertices(_posed(person, pose).mesh.rings)
+    return list(zip(flat[::3], flat[1::3], flat[2::3]))
 
 
 def rest_pose(person):
@@ -100,14 +91,13 @@ def _error(a, b):
 
 @lru_cache(maxsize=8)
 def weights_of(person, strides):
-    """The person's mesh at rest, and for each of its vertices [(bone, weight)], one or two; weights add up to one. `strides` is a tuple."""
+    """For each vertex of the person's mesh [(bone, weight)], one or two; weights add up to one. `strides` is a tuple."""
     rest = bones_of(person, rest_pose(person))
-    mesh = figure_of(person, rest_pose(person))
     poses = _training_poses(person, strides)
     skeletons = [bones_of(person, pose) for pose in poses]
-    figures = [figure_of(person, pose).vertices for pose in poses]
+    figures = [vertices_of(person, pose) for pose in poses]
     result = []
-    for index, vertex in enumerate(mesh.vertices):
+    for index, vertex in enumerate(vertices_of(person, rest_pose(person))):
         goes = [figure[index] for figure in figures]
         taken = {}
         for name in BONES:
@@ -126,4 +116,4 @@ def weights_of(person, strides):
             if error < 0.8 * least and share > 0.02:
                 least, blend = error, [(best, 1.0 - share), (other, share)]
         result.append(blend)
-    return mesh, result
+    return result
