@@ -144,6 +144,13 @@ ops.promote_person(rows="10", hero="Anna")
 crowd.name = "Somebody's crowd"
 result["twice"] = refused(ops.promote_person, rows="11", hero="Anna")
 ops.promote_person(rows="16")  # enters later
+from throng.cast import library  # noqa: E402
+
+holder = library.objects_of(crowd["throng_cast"], 0, layer.variation_of(crowd, 18))[0].parent
+number = holder["throng_person"]
+del holder["throng_person"]  # as if somebody had brought this member along
+result["brought"] = refused(ops.promote_person, rows="18")
+holder["throng_person"] = number
 anna, late_hero = hero.heroes_of(crowd)["Anna"], hero.heroes_of(crowd)["Hero 16"]
 body = next(thing for thing in bpy.data.objects if thing.parent == anna)
 from throng import cast  # noqa: E402

@@ -81,7 +81,7 @@ def test_people_are_found_by_the_ray_through_the_mouse(found):
 def test_mistakes_are_reported_and_change_nothing(found):
     assert "Nobody is picked" in found[0]["nobody"] and "no person 999" in found[0]["stranger"] and "found `three`" in found[0]["words"]
     assert "changed by somebody else" in found[0]["conflict"] and found[0]["theirs"], "what they have taken back is back"
-    assert "`Anna` already" in found[0]["twice"]
+    assert "`Anna` already" in found[0]["twice"] and "person 18 is a character that was brought along" in found[0]["brought"]
     imported, reloaded, more = found[0]["damaged"]
     assert "/hide: expected true or false" in imported and "/hide: expected true or false" in reloaded and more == 0
 

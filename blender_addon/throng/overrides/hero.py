@@ -6,7 +6,7 @@ import bpy
 from mathutils import Matrix
 
 from .. import cast
-from ..cast import gait, people
+from ..cast import gait, library, people
 from ..cast.materials import cast_materials
 from ..playback import FRAMES_A_ROUND, NATURE, STANDING_SPEED
 from . import native, skeleton
@@ -98,11 +98,18 @@ def _build_body(name, person, strides, armature, collection):
     return body
 
 
-def _dress(crowd, body, person, row, change):
-    """The crowd's own materials where it has the shipped cast; they find the colours on the object when it is not an instance."""
-    known = {material.name.split(".")[0]: material for material in sorted(native._cast_materials(crowd), key=lambda m: m.name, reverse=True)}
-    names = [f"throng {name}" for name in people.MATERIALS]
-    materials = [known[name] for name in names] if all(name in known for name in names) else cast_materials(people.MATERIALS)
+def shipped_person(crowd, variation):
+    """(person, materials) of the shipped cast whom a variation shows as; None where it is a character that was brought along."""
+    shown = crowd["throng_cast"]
+    poses = library.objects_of(shown, 0, variation % shown["throng_variations"])
+    holder = poses[0].parent if poses else None
+    if holder is None or "throng_person" not in holder:
+        return None
+    return people.CAST[holder["throng_person"]], list(poses[0].data.materials)
+
+
+def _dress(crowd, body, person, materials, row, change):
+    """The crowd's own materials; they find the colours on the object when it is not an instance."""
     for material in materials:
         body.data.materials.append(material)
     body.data.polygons.foreach_set("material_index", skeleton.plan_of(person).materials)
@@ -162,8 +169,8 @@ def promote(crowd, bake, rows, people_of_bake, row, change):
     samples = [rows.changed(row, first, change, frame, hides=False) for frame in range(rows.frames)]
     frames = [start + frame for frame in range(rows.frames)]
     alive = [sample.state[0] > 0.5 for sample in samples]
-    shown_as = int(samples[0].state[1]) % crowd["throng_cast"]["throng_variations"]
-    person = people.CAST[shown_as % cast.VARIATIONS]
+    variation = int(samples[0].state[1])
+    person, materials = shipped_person(crowd, variation) or (people.CAST[variation % cast.VARIATIONS], cast_materials(people.MATERIALS))
     strides = tuple(crowd.get("throng_strides", bake.strides))
     nature = crowd.data.attributes[NATURE].data[row].vector
 
@@ -171,7 +178,7 @@ def promote(crowd, bake, rows, people_of_bake, row, change):
     armature[HERO], armature[HERO_OF], armature[HERO_ROW] = change.hero, crowd, row
     body = _build_body(change.hero, person, strides, armature, collection)
     body[HERO_OF] = crowd
-    _dress(crowd, body, person, row, change)
+    _dress(crowd, body, person, materials, row, change)
     armature.parent = crowd
     armature.rotation_mode = "XYZ"
     armature.scale = [change.scale or 1.0] * 3

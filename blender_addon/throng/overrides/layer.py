@@ -159,6 +159,15 @@ def place_at(crowd, row, scene_frame, turn):
         return rows.changed(row, matched.table.people[row].frame, replace(now, move=(0.0, 0.0, 0.0), turn=turn), frame).position
 
 
+def variation_of(crowd, row):
+    """Which member of the cast somebody appears as."""
+    matched = Matched(bake_of(crowd), entries_of(crowd))
+    entry_for(matched, row)
+    change = matched.changes.get(row, Change())
+    with Rows(matched.bake) as rows:
+        return int(rows.whole(row, 0).state[1]) if change.character is None else change.character
+
+
 def remove(crowd, positions):
     """Takes away entries by their place in the list."""
     gone = set(positions)

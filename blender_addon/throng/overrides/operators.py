@@ -6,7 +6,7 @@ import bpy
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, StringProperty
 
 from ..formats import BakeError
-from . import layer, picking
+from . import hero, layer, picking
 
 
 class ThrongOverride(bpy.types.PropertyGroup):
@@ -189,6 +189,8 @@ class THRONG_OT_promote_person(_OnPeople, bpy.types.Operator):
             name = self.hero or f"Hero {row}"
             if name in taken:
                 raise BakeError(f"there is a hero `{name}` already")
+            if not hero.shipped_person(crowd, layer.variation_of(crowd, row)):
+                raise BakeError(f"person {row} is a character that was brought along: heroes are made of the shipped cast only")
             layer.set_for(crowd, [row], {"hero": name})
 
 
