@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,8 @@ struct BakeAgent {
     std::uint32_t variation = 0;
     std::uint32_t party = 0;  ///< row of the first of those it walks with; its own where it walks alone
     glm::dvec2 goal{0.0};     ///< m, world
+    double scale = 1.0;       ///< of the figure, beyond what the radius says
+    std::optional<std::uint32_t> colour = {};  ///< 0xRRGGBB, instead of the group's
 };
 
 /// All that a bake's files say besides the frames. World coordinates unless told otherwise; metres and

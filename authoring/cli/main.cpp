@@ -56,6 +56,7 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     app.footer(kFooter);
     cli::addBake(app);
+    cli::addApply(app);
     cli::addCheck(app);
     cli::addInfo(app);
     cli::addPreview(app);

@@ -6,6 +6,7 @@ import bpy
 
 from . import nodes, playback
 from .formats import STREAMS, Bake, BakeError, check_pc2, load_bake, read_manifest
+from .overrides import native
 
 CACHES = tuple(f"throng {stream}" for stream in STREAMS)
 
@@ -63,6 +64,7 @@ def set_offset(crowd, frames):
     for name in CACHES:
         crowd.modifiers[name].frame_start = base + frames
     crowd["throng_offset"] = frames
+    native.follow(crowd)
 
 
 def set_viewport_percent(crowd, percent):
@@ -73,13 +75,15 @@ def set_viewport_percent(crowd, percent):
 
 
 def reload(crowd, scene, path=None):
-    """Plays another bake, or the same after it was baked again: the cast, its materials and all settings stay. Raises BakeError before
-    anything is changed."""
+    """Plays another bake, or the same after it was baked again: the cast, its materials and all settings stay. Overrides find their people
+    again; returns those that don't, in sentences. Raises BakeError before anything is changed."""
     from .importer import set_frame_rate, stored_path
+    from .overrides.layer import Arrival
 
     bake = load_bake(path or bake_path(crowd))
     if list(bake.strides) != list(crowd.get("throng_strides", bake.strides)):
         raise BakeError("this bake walks with other strides than the cast was made for: import it anew")
+    overrides = Arrival(bake, crowd)
     mesh = crowd.data
     if len(mesh.vertices) != bake.agents:
         mesh.clear_geometry()
@@ -94,6 +98,7 @@ def reload(crowd, scene, path=None):
     collection = collection_of(crowd)
     if collection:
         collection["throng_bake"] = os.path.join(bake.folder, "bake.json")
+    overrides.place(crowd)
     crowd.update_tag()
-    return bake
+    return overrides.orphans
 

@@ -38,7 +38,10 @@ def set_up_scene(scene, bake, frame_start):
 
 def import_bake(context, path, *, frame_start=1, walls=True, roads=True, scenery=True, camera=True, relative=True):
     """Imports a bake and returns the crowd's object. Raises formats.BakeError before anything is changed."""
+    from .overrides.layer import Arrival
+
     bake = load_bake(path)
+    overrides = Arrival(bake)
     scene = context.scene
     collection = bpy.data.collections.new(f"Throng {bake.name}")
     scene.collection.children.link(collection)
@@ -54,4 +57,5 @@ def import_bake(context, path, *, frame_start=1, walls=True, roads=True, scenery
     set_up_scene(scene, bake, frame_start)
     environment.build_environment(context, bake.manifest, collection, walls=walls, roads=roads, ground=scenery, light=scenery, camera=camera,
                                   frame_start=frame_start)
+    overrides.place(crowd)
     return crowd

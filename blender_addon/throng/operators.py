@@ -4,6 +4,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, St
 from bpy_extras.io_utils import ImportHelper
 
 from .formats import BakeError
+from .overrides.operators import report_orphans
 
 
 class IMPORT_SCENE_OT_throng(bpy.types.Operator, ImportHelper):
@@ -31,6 +32,7 @@ class IMPORT_SCENE_OT_throng(bpy.types.Operator, ImportHelper):
         except BakeError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
+        report_orphans(self, [f"{item.name}: {item.detail}" for item in crowd.throng_overrides if item.status == "orphaned"])
         self.report({"INFO"}, f"Imported {len(crowd.data.vertices)} people")
         return {"FINISHED"}
 
@@ -73,11 +75,11 @@ class THRONG_OT_reload(_OnCrowds, bpy.types.Operator):
         from .crowds import chosen_crowds, reload
 
         try:
-            for crowd in chosen_crowds(context):
-                reload(crowd, context.scene)
+            orphans = [orphan for crowd in chosen_crowds(context) for orphan in reload(crowd, context.scene)]
         except BakeError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
+        report_orphans(self, orphans)
         return {"FINISHED"}
 
 
@@ -97,10 +99,11 @@ class THRONG_OT_relink(_OnCrowds, bpy.types.Operator, ImportHelper):
             self.report({"ERROR"}, "Select one crowd: each plays a bake of its own")
             return {"CANCELLED"}
         try:
-            reload(crowds[0], context.scene, self.filepath)
+            orphans = reload(crowds[0], context.scene, self.filepath)
         except BakeError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
+        report_orphans(self, orphans)
         return {"FINISHED"}
 
 

@@ -22,6 +22,7 @@ NATURE = "throng_nature"
 LEVEL = "throng_level"  # of detail, of each person; see levels.py
 BLOCK = "throng_block"
 INSTANCERS = ("throng people", "throng people (viewport)")
+BIGGER = "throng_bigger"  # how much larger than 1 somebody's scale is; nobody's where there is no such attribute
 GEOMETRY = [("Geometry", "NodeSocketGeometry")]
 
 
@@ -165,6 +166,7 @@ def _blocks_tree(blocks):
     tree, inputs, outputs = new_tree("Throng blocks", GEOMETRY, GEOMETRY)
     maths = Maths(tree)
     block, pose, turn = (_attribute(maths, name, kind) for name, kind in ((BLOCK, "INT"), ("throng_pose", "INT"), ("throng_turn", "FLOAT_VECTOR")))
+    size = maths.math("ADD", _attribute(maths, BIGGER), 1.0)
     everybody = maths.node("GeometryNodeJoinGeometry")
     for (level, first), collection in sorted(blocks.items()):
         people = maths.node("GeometryNodeCollectionInfo", transform_space="ORIGINAL")
@@ -177,6 +179,7 @@ def _blocks_tree(blocks):
         maths.link(maths.equal(block, _block_number(level, first)), place.inputs["Selection"])
         maths.link(people.outputs[0], place.inputs["Instance"])
         maths.link(pose, place.inputs["Instance Index"])
+        maths.link(size, place.inputs["Scale"])
         maths.link(turn, place.inputs["Rotation"])  # the points' other attributes go along: id, tint
         one = maths.node("GeometryNodeGeometryToInstance")
         maths.link(place.outputs[0], one.inputs[0])

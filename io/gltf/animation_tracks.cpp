@@ -75,12 +75,12 @@ void writeRotations(OutputFile& file, const Tile& directions, std::size_t i, std
 }
 
 void writeScales(OutputFile& file, const Tile& states, std::size_t i, std::uint32_t frames,
-                 float width_scale) {
+                 const TrackRow& row) {
     std::vector<float> track;
     for (std::uint32_t frame = 0; frame < frames; ++frame) {
         const bool alive = states.at(i, frame)[0] > 0.5f;
-        const float width = alive ? width_scale : 0.0f;
-        track.insert(track.end(), {width, alive ? 1.0f : 0.0f, width});
+        const float width = alive ? row.width_scale : 0.0f;
+        track.insert(track.end(), {width, alive ? row.height_scale : 0.0f, width});
     }
     file.write(std::as_bytes(std::span(track)));
 }
@@ -109,7 +109,7 @@ void writeTracks(OutputFile& file, const StreamSet& streams, const std::vector<T
         for (std::size_t i = 0; i < tile.size(); ++i) {
             writeTranslations(file, positions, i, frames);
             writeRotations(file, directions, i, frames);
-            if (tile[i].is_ever_dead) writeScales(file, states, i, frames, tile[i].width_scale);
+            if (tile[i].is_ever_dead) writeScales(file, states, i, frames, tile[i]);
         }
     }
 }

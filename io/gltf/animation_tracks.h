@@ -13,6 +13,7 @@ namespace throng::io {
 struct TrackRow {
     std::uint32_t row = 0;
     float width_scale = 1.0f;   ///< of the body mesh, horizontally
+    float height_scale = 1.0f;  ///< likewise, vertically
     bool is_ever_dead = false;  ///< then it has a scale track, 0 while it is not alive
 };
 

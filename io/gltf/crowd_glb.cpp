@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/gltf/crowd_glb.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <map>
 
 #include "io/files/output_file.h"
 #include "io/gltf/animation_tracks.h"
@@ -52,16 +55,32 @@ void addScenery(GlbDocument& document, const BakeDescription& description) {
     }
 }
 
-/// One mesh for each group, as they differ in colour; the geometry is stored once.
-std::vector<int> addBodies(GlbDocument& document, const BakeDescription& description) {
-    std::vector<int> meshes;
-    if (description.agents.empty()) return meshes;
-    const GlbDocument::Geometry body = document.addGeometry(bodyMesh());
-    for (std::size_t group = 0; group < description.groups.size(); ++group) {
-        const std::string& name = description.groups[group].id;
-        meshes.push_back(document.addMesh(name, body, document.addMaterial(name, groupColour(group), 0.7)));
+/// One mesh for each group, as they differ in colour, and for each colour of its own; the geometry is stored
+/// once.
+struct Bodies {
+    std::vector<int> of_groups;
+    std::map<std::uint32_t, int> of_colours;
+
+    int of(const BakeAgent& agent) const {
+        return agent.colour ? of_colours.at(*agent.colour) : of_groups.at(agent.group);
     }
-    return meshes;
+};
+
+Bodies addBodies(GlbDocument& document, const BakeDescription& description,
+                 const std::vector<TrackRow>& rows) {
+    Bodies bodies;
+    if (description.agents.empty()) return bodies;
+    const GlbDocument::Geometry body = document.addGeometry(bodyMesh());
+    const auto add = [&](const std::string& name, Colour colour) {
+        return document.addMesh(name, body, document.addMaterial(name, colour, 0.7));
+    };
+    for (std::size_t group = 0; group < description.groups.size(); ++group)
+        bodies.of_groups.push_back(add(description.groups[group].id, groupColour(group)));
+    for (const TrackRow& row : rows)
+        if (const auto colour = description.agents.at(row.row).colour;
+            colour && !bodies.of_colours.contains(*colour))
+            bodies.of_colours[*colour] = add(fmt::format("#{:06x}", *colour), colourFromHex(*colour));
+    return bodies;
 }
 
 std::vector<std::uint32_t> chooseRows(std::uint32_t rows, std::uint32_t frames, std::uint32_t cap) {
@@ -76,14 +95,14 @@ std::vector<std::uint32_t> chooseRows(std::uint32_t rows, std::uint32_t frames, 
 
 void addPeople(GlbDocument& document, const BakeDescription& description, const std::vector<TrackRow>& rows,
                std::uint32_t frames) {
-    const std::vector<int> bodies = addBodies(document, description);
+    const Bodies bodies = addBodies(document, description, rows);
     if (rows.empty()) return;
     const int people = document.addEmptyNode("people");
     const int times = document.addTimes(frames, description.fps);
     for (const TrackRow& row : rows) {
-        const std::uint32_t group = description.agents.at(row.row).group;
-        document.addAnimatedNode(people, "person " + std::to_string(row.row), bodies.at(group),
-                                 row.width_scale, times, frames, row.is_ever_dead);
+        document.addAnimatedNode(people, "person " + std::to_string(row.row),
+                                 bodies.of(description.agents.at(row.row)), row.width_scale, row.height_scale,
+                                 times, frames, row.is_ever_dead);
     }
 }
 
@@ -94,8 +113,11 @@ GltfSummary writeCrowdGlb(const std::filesystem::path& path, const BakeDescripti
     const std::uint32_t frames = streams.positions.frames();
     const std::uint32_t all_rows = streams.positions.rows();
     std::vector<TrackRow> rows;
-    for (const std::uint32_t row : chooseRows(all_rows, frames, description.gltf_agents))
-        rows.push_back({row, static_cast<float>(description.agents.at(row).radius / kBodyRadius), false});
+    for (const std::uint32_t row : chooseRows(all_rows, frames, description.gltf_agents)) {
+        const BakeAgent& agent = description.agents.at(row);
+        rows.push_back({row, static_cast<float>(agent.scale * agent.radius / kBodyRadius),
+                        static_cast<float>(agent.scale), false});
+    }
     findDeadRows(streams.states, rows);
 
     GlbDocument document(description.name, {description.output_origin.x, 0.0, -description.output_origin.y});

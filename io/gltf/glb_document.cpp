@@ -183,11 +183,11 @@ void GlbDocument::addChannel(int node, const char* path, int times, int output, 
 }
 
 void GlbDocument::addAnimatedNode(int parent, const std::string& name, int mesh, double width_scale,
-                                  int times, std::uint32_t frames, bool has_scales) {
+                                  double height_scale, int times, std::uint32_t frames, bool has_scales) {
     tinygltf::Node node;
     node.name = name;
     node.mesh = mesh;
-    node.scale = {width_scale, 1.0, width_scale};
+    node.scale = {width_scale, height_scale, width_scale};
     model_->nodes.push_back(std::move(node));
     const int index = static_cast<int>(model_->nodes.size()) - 1;
     model_->nodes[static_cast<std::size_t>(parent)].children.push_back(index);

@@ -46,8 +46,8 @@ class GlbDocument {
     /// Announces tracks of translations (3 floats), rotations (4 normalised shorts) and, if asked for,
     /// stepped scales (3 floats), to be written in this order after the head. All meshes come before the
     /// first of these.
-    void addAnimatedNode(int parent, const std::string& name, int mesh, double width_scale, int times,
-                         std::uint32_t frames, bool has_scales);
+    void addAnimatedNode(int parent, const std::string& name, int mesh, double width_scale,
+                         double height_scale, int times, std::uint32_t frames, bool has_scales);
 
     /// Writes all up to the first track. Throws OutputError.
     void writeHead(OutputFile& file);

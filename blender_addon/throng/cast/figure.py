@@ -29,6 +29,7 @@ class Figure:
         self.bent = turn_y((0.0, 0.0, 1.0), self.lean + person.stoop)  # the way that the upper back goes
         self.pelvis = pose.pelvis
         self.hair_material = GREY if person.grey else HAIR
+        self.arms, self.legs = [], []  # right and left: (shoulder, elbow, wrist), (hip, knee, ankle)
         self._trunk()
         self._head()
         wrists = [self._arm(side, *pose.arms[index]) for index, side in enumerate((-1, 1))]
@@ -112,6 +113,7 @@ class Figure:
         elbow_at = add(shoulder, scale(upper, 0.285 * s))
         fore = unit(add(hang(swing + elbow), (0.0, -side * 0.09, 0.0)))
         wrist = add(elbow_at, scale(fore, 0.245 * s))
+        self.arms.append((shoulder, elbow_at, wrist))
         mesh.ball(shoulder, (0.050 * s * bulk, 0.049 * s * bulk, 0.056 * s * bulk), TOP, 8, 4, until=1)
         if p.top == "tee":
             mesh.limb(shoulder, mix(shoulder, elbow_at, 0.52), [(0, 0.056 * s * bulk), (1, 0.056 * s * bulk)], TOP, caps=(True, True))
@@ -132,6 +134,7 @@ class Figure:
         ankle = (foot.ankle[0], spread * 0.72 + 0.25 * self.pelvis[1], foot.ankle[1])
         knee_x, knee_z = gait.knee_of((hip[0], hip[2]), (ankle[0], ankle[2]), b)
         knee = (knee_x, 0.5 * (hip[1] + ankle[1]), knee_z)
+        self.legs.append((hip, knee, ankle))
         w = s * self.g ** 0.7
         thigh = SKIN if p.bottom == "skirt" else TOP if p.top == "dress" else BOTTOM
         mesh.limb(add(hip, (0, 0, 0.05 * s)), knee, [(0, 0.080 * w), (0.18, 0.091 * w), (0.55, 0.074 * w), (0.9, 0.060 * w), (1.04, 0.055 * w)], thigh, 8)

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "authoring/diagnostics.h"
+#include "authoring/overrides/overrides.h"
+
+namespace throng::authoring {
+
+/// The JSON Schema of override files (draft-07), as `throng schema --overrides` prints it.
+std::string_view overridesSchema();
+
+/// Reads an override file and tells everything that is wrong with it.
+/// @returns nothing when `diagnostics` has errors
+std::optional<std::vector<Override>> readOverrides(std::string_view text, Diagnostics& diagnostics);
+
+}  // namespace throng::authoring

@@ -1,0 +1,207 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Heroes: single people outside the crowd, as armatures with keys, who walk just as they did in it, for an animator to change."""
+import math
+
+import bpy
+from mathutils import Matrix
+
+from .. import cast
+from ..cast import gait, library, people
+from ..cast.materials import cast_materials
+from ..playback import FRAMES_A_ROUND, NATURE, STANDING_SPEED
+from . import native, skeleton
+
+HERO, HERO_OF, HERO_ROW = "throng_hero", "throng_hero_of", "throng_hero_row"
+
+
+def heroes_of(crowd):
+    """The armatures of a crowd's heroes by name."""
+    return {thing[HERO]: thing for thing in bpy.data.objects if thing.get(HERO_OF) == crowd and thing.type == "ARMATURE"}
+
+
+def _matrix(bone):
+    return Matrix([(*row, place) for row, place in zip(zip(bone.left, bone.along, bone.ahead), bone.head)] + [(0.0, 0.0, 0.0, 1.0)])
+
+
+class _Curves:
+    """The keys of one object: actions have slots from Blender 4.4, and no curves of their own from 5.0."""
+
+    def __init__(self, thing, name):
+        self.action = bpy.data.actions.new(name)
+        data = thing.animation_data_create()
+        data.action = self.action
+        if hasattr(self.action, "slots"):
+            slot = self.action.slots.new(id_type="OBJECT", name=thing.name)
+            self.curves = self.action.layers.new("Layer").strips.new(type="KEYFRAME").channelbag(slot, ensure=True).fcurves
+            data.action_slot = slot
+        else:
+            self.curves = self.action.fcurves
+
+    def add(self, path, index, frames, values, stepped=False):
+        curve = self.curves.new(path, index=index)
+        curve.keyframe_points.add(len(frames))
+        curve.keyframe_points.foreach_set("co", [v for pair in zip(frames, values) for v in pair])
+        kinds = bpy.types.Keyframe.bl_rna.properties["interpolation"].enum_items
+        curve.keyframe_points.foreach_set("interpolation", [kinds["CONSTANT" if stepped else "LINEAR"].value] * len(frames))
+        curve.update()
+
+
+def _pose_at(sample, frame, person, strides, nature):
+    """As the instancer picks poses, but at the phase itself instead of the nearest of its steps."""
+    activity, _, phase = sample.state
+    build = people.build_of(person)
+    if sample.direction[2] > STANDING_SPEED:
+        index = min(len(strides) - 1, round((activity % 1.0) * 16.0))
+        return gait.walk_pose(phase % 1.0, build, gait.gait_of(strides[index]))
+    clip = int(nature[0] % (4 if int(activity) == 2 else 2))
+    return gait.standing_pose(gait.STANDING_CLIPS[clip], (nature[1] + frame / FRAMES_A_ROUND) % 1.0, build)
+
+
+def _build_armature(name, person, collection):
+    armature = bpy.data.armatures.new(name)
+    thing = bpy.data.objects.new(name, armature)
+    collection.objects.link(thing)
+    rest = skeleton.bones_of(person, skeleton.rest_pose(person))
+    layer = bpy.context.view_layer
+    active, selected = layer.objects.active, list(bpy.context.selected_objects)
+    layer.objects.active = thing
+    bpy.ops.object.mode_set(mode="EDIT")
+    for bone_name in skeleton.BONES:
+        bone, edit = rest[bone_name], armature.edit_bones.new(bone_name)
+        edit.head, edit.tail = bone.head, bone.tail
+        edit.align_roll(bone.ahead)
+        if skeleton.PARENTS[bone_name]:
+            edit.parent = armature.edit_bones[skeleton.PARENTS[bone_name]]
+    bpy.ops.object.mode_set(mode="OBJECT")
+    layer.objects.active = active
+    for each in selected:
+        each.select_set(True)
+    for bone in thing.pose.bones:
+        bone.rotation_mode = "QUATERNION"
+    return thing
+
+
+def _build_body(name, person, strides, armature, collection):
+    plan, weights = skeleton.plan_of(person), skeleton.weights_of(person, strides)
+    mesh = bpy.data.meshes.new(f"{name} body")
+    mesh.from_pydata(skeleton.vertices_of(person, skeleton.rest_pose(person)), [], plan.faces)
+    mesh.polygons.foreach_set("use_smooth", [True] * len(plan.faces))
+    mesh.update()
+    body = bpy.data.objects.new(mesh.name, mesh)
+    collection.objects.link(body)
+    groups = {bone: body.vertex_groups.new(name=bone) for bone in skeleton.BONES}
+    for index, blend in enumerate(weights):
+        for bone, weight in blend:
+            groups[bone].add([index], weight, "REPLACE")
+    body.parent = armature
+    body.modifiers.new("Armature", "ARMATURE").object = armature
+    return body
+
+
+def shipped_person(crowd, variation):
+    """(person, materials) of the shipped cast whom a variation shows as; None where it is a character that was brought along."""
+    shown = crowd["throng_cast"]
+    poses = library.objects_of(shown, 0, variation % shown["throng_variations"])
+    holder = poses[0].parent if poses else None
+    if holder is None or "throng_person" not in holder:
+        return None
+    return people.CAST[holder["throng_person"]], list(poses[0].data.materials)
+
+
+def _dress(crowd, body, person, materials, row, change):
+    """The crowd's own materials; they find the colours on the object when it is not an instance."""
+    for material in materials:
+        body.data.materials.append(material)
+    body.data.polygons.foreach_set("material_index", skeleton.plan_of(person).materials)
+    body["tint"] = list(crowd.data.attributes["tint"].data[row].vector)
+    if isinstance(change.tint, str):
+        body["throng_dyed"], body["throng_dye"] = 1.0, list(native.linear(change.tint))
+
+
+def _key_root(curves, frames, samples):
+    for axis in range(3):
+        curves.add("location", axis, frames, [sample.position[axis] for sample in samples])
+    headings, last = [], None
+    for sample in samples:
+        heading = math.atan2(sample.direction[1], sample.direction[0])
+        last = heading if last is None else last + math.remainder(heading - last, 2.0 * math.pi)
+        headings.append(last)
+    curves.add("rotation_euler", 2, frames, headings)
+
+
+def _key_bones(curves, armature, frames, skeletons):
+    rest = {bone.name: bone.matrix_local.copy() for bone in armature.data.bones}
+    for name, parent in skeleton.PARENTS.items():
+        offset = (rest[parent].inverted() @ rest[name] if parent else rest[name]).inverted()
+        places, turns, last = [], [], None
+        for bones in skeletons:
+            pose = _matrix(bones[name])
+            basis = offset @ (_matrix(bones[parent]).inverted() @ pose if parent else pose)
+            turn = basis.to_quaternion()
+            if last and last.dot(turn) < 0.0:
+                turn.negate()
+            places.append(basis.to_translation())
+            turns.append(turn)
+            last = turn
+        path = f'pose.bones["{name}"]'
+        for axis in range(4):
+            curves.add(f"{path}.rotation_quaternion", axis, frames, [turn[axis] for turn in turns])
+        if max(place.length for place in places) > 1e-3:  # hips, and what stretches a little
+            for axis in range(3):
+                curves.add(f"{path}.location", axis, frames, [place[axis] for place in places])
+
+
+def _key_presence(thing, name, frames, alive):
+    """Not there before it enters and after it has left."""
+    if all(alive):
+        return
+    curves = _Curves(thing, name)
+    changes = [i for i in range(len(frames)) if i == 0 or alive[i] != alive[i - 1]]
+    for path in ("hide_viewport", "hide_render"):
+        curves.add(path, 0, [frames[i] for i in changes], [float(not alive[i]) for i in changes], stepped=True)
+
+
+def promote(crowd, bake, rows, people_of_bake, row, change):
+    """Makes somebody a hero; `change` is its override. The crowd's instance is not hidden here. Returns the armature."""
+    collection = crowd.users_collection[0] if crowd.users_collection else bpy.context.scene.collection
+    first = people_of_bake[row].frame
+    start = crowd.modifiers["throng pos"].frame_start
+    samples = [rows.changed(row, first, change, frame, hides=False) for frame in range(rows.frames)]
+    frames = [start + frame for frame in range(rows.frames)]
+    alive = [sample.state[0] > 0.5 for sample in samples]
+    variation = int(samples[0].state[1])
+    person, materials = shipped_person(crowd, variation) or (people.CAST[variation % cast.VARIATIONS], cast_materials(people.MATERIALS))
+    strides = tuple(crowd.get("throng_strides", bake.strides))
+    nature = crowd.data.attributes[NATURE].data[row].vector
+
+    armature = _build_armature(change.hero, person, collection)
+    armature[HERO], armature[HERO_OF], armature[HERO_ROW] = change.hero, crowd, row
+    body = _build_body(change.hero, person, strides, armature, collection)
+    body[HERO_OF] = crowd
+    _dress(crowd, body, person, materials, row, change)
+    armature.parent = crowd
+    armature.rotation_mode = "XYZ"
+    armature.scale = [change.scale or 1.0] * 3
+    curves = _Curves(armature, f"{change.hero} walk")
+    _key_root(curves, frames, samples)
+    shown = [i for i in range(len(frames)) if alive[i]] or [0]
+    span = range(shown[0], shown[-1] + 1)
+    skeletons = [skeleton.bones_of(person, _pose_at(samples[i], frames[i], person, strides, nature)) for i in span]
+    _key_bones(curves, armature, [frames[i] for i in span], skeletons)
+    _key_presence(body, f"{change.hero} presence", frames, alive)
+    return armature
+
+
+def demote(crowd, name):
+    """Removes a hero and all that was made for it."""
+    armature = heroes_of(crowd).get(name)
+    if not armature:
+        return
+    bodies = [thing for thing in bpy.data.objects if thing.parent == armature and thing.get(HERO_OF) == crowd]
+    for thing in (*bodies, armature):
+        data, action = thing.data, thing.animation_data.action if thing.animation_data else None
+        bpy.data.objects.remove(thing)
+        if action and action.users == 0:
+            bpy.data.actions.remove(action)
+        if data.users == 0:
+            (bpy.data.armatures if isinstance(data, bpy.types.Armature) else bpy.data.meshes).remove(data)

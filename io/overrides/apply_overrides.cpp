@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/overrides/apply_overrides.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "io/bake_folder.h"
+#include "io/files/hash.h"
+#include "io/files/input_file.h"
+#include "io/files/output_file.h"
+#include "io/gltf/crowd_glb.h"
+#include "io/overrides/agent_table_edit.h"
+#include "io/overrides/row_sampler.h"
+#include "io/streams/stream_writer.h"
+
+namespace throng::io {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::ordered_json;
+using authoring::PersonChange;
+
+constexpr std::uint32_t kNever = std::numeric_limits<std::uint32_t>::max();
+
+/// One stream on its way from the source to the new bake.
+struct Passage {
+    Passage(const Bake& source, const fs::path& folder, const std::string& stream)
+        : name(stream),
+          reader(source.streamPath(stream)),
+          npy(folder / (stream + ".npy"), StreamFormat::npy, source.agents, source.frames),
+          pc2(folder / (stream + ".pc2"), StreamFormat::pc2, source.agents, source.frames),
+          frame(std::size_t{source.agents} * kComponents) {
+        if (reader.rows() != source.agents || reader.frames() != source.frames)
+            throw InputError(source.streamPath(stream),
+                             fmt::format("holds {} frames of {} people where bake.json says {} of {}",
+                                         reader.frames(), reader.rows(), source.frames, source.agents));
+    }
+    void write() {
+        npy.append(frame);
+        pc2.append(frame);
+    }
+    void finish() {
+        npy.finish();
+        pc2.finish();
+    }
+    std::span<float> row(std::uint32_t index) {
+        return std::span(frame).subspan(std::size_t{index} * kComponents, kComponents);
+    }
+
+    std::string name;
+    StreamReader reader;
+    StreamWriter npy;
+    StreamWriter pc2;
+    std::vector<float> frame;
+};
+
+/// A row that changes, and what came of it.
+struct ChangedRow {
+    std::uint32_t row = 0;
+    PersonChange change;
+    std::optional<std::uint32_t> first = {};  ///< frame of its entry in the source
+    std::array<float, kComponents> pivot{};   ///< its place there
+    std::uint32_t first_alive = kNever;       ///< in the new bake
+    bool is_held = false;
+};
+
+std::array<float, kComponents> threeOf(std::span<const float> values) {
+    return {values[0], values[1], values[2]};
+}
+
+/// Of a tint that is a colour.
+std::optional<std::uint32_t> colourOf(const std::string& tint) {
+    std::uint32_t colour = 0;
+    if (!tint.starts_with('#')) return std::nullopt;
+    const auto [end, error] = std::from_chars(tint.data() + 1, tint.data() + tint.size(), colour, 16);
+    if (error != std::errc() || end != tint.data() + tint.size()) return std::nullopt;
+    return colour & 0xffffffu;
+}
+
+class Application {
+  public:
+    Application(const Bake& source, std::span<const RowChange> changes, const ApplyOptions& options)
+        : source_(source),
+          options_(options),
+          folder_(options.output, options.force),
+          table_(source),
+          streams_folder_(folder_.addFolder("streams")),
+          positions_(source, streams_folder_, "pos"),
+          directions_(source, streams_folder_, "dir"),
+          states_(source, streams_folder_, "state"),
+          minimum_(source.minimum),
+          maximum_(source.maximum) {
+        if (source.manifest.contains("/streams/density"_json_pointer))
+            density_.emplace(source, streams_folder_, "density");
+        for (const RowChange& each : changes)
+            rows_.push_back(prepared(each));
+    }
+
+    /// False when it was stopped.
+    bool writeStreams() {
+        const RowSampler sampler(positions_.reader, directions_.reader, states_.reader,
+                                 density_ ? &density_->reader : nullptr);
+        for (std::uint32_t frame = 0; frame < source_.frames; ++frame) {
+            for (Passage* stream : streams())
+                stream->reader.readFrame(frame, stream->frame);
+            for (ChangedRow& each : rows_)
+                change(each, frame, sampler);
+            for (Passage* stream : streams())
+                stream->write();
+            if (!options_.go_on(frame + 1)) return false;
+        }
+        for (Passage* stream : streams())
+            stream->finish();
+        return true;
+    }
+
+    ApplyResult finish() {
+        writeTable();
+        copyTheRest();
+        const Json gltf = options_.gltf ? writeGltf() : Json(nullptr);
+        writeManifest(gltf);
+        const auto held = std::ranges::count_if(rows_, [](const ChangedRow& each) { return each.is_held; });
+        return {folder_.commit(), static_cast<std::uint32_t>(held)};
+    }
+
+  private:
+    std::vector<Passage*> streams() {
+        std::vector<Passage*> all{&positions_, &directions_, &states_};
+        if (density_) all.push_back(&*density_);
+        return all;
+    }
+
+    ChangedRow prepared(const RowChange& each) const {
+        ChangedRow row{each.row, each.change};
+        row.first = table_.frame(each.row, "spawn_frame");
+        if (row.first && *row.first >= source_.frames) row.first.reset();
+        if (row.first) positions_.reader.readRows(*row.first, each.row, row.pivot);
+        return row;
+    }
+
+    void change(ChangedRow& each, std::uint32_t frame, const RowSampler& sampler) {
+        RowSample sample{threeOf(positions_.row(each.row)), threeOf(directions_.row(each.row)),
+                         threeOf(states_.row(each.row)),
+                         density_ ? threeOf(density_->row(each.row)) : std::array<float, kComponents>{}};
+        if (each.change.retimes() && each.first) {
+            const double at = sourceFrame(frame, *each.first, each.change);
+            sample = sampler.at(each.row, at, each.change.speed);
+            const bool is_beyond = at < 0.0 || at > static_cast<double>(source_.frames - 1);
+            each.is_held = each.is_held || (is_beyond && sample.state[0] > 0.5f);
+        }
+        changeSample(sample, each.pivot, each.change);
+        std::ranges::copy(sample.position, positions_.row(each.row).begin());
+        std::ranges::copy(sample.direction, directions_.row(each.row).begin());
+        std::ranges::copy(sample.state, states_.row(each.row).begin());
+        if (density_) std::ranges::copy(sample.density, density_->row(each.row).begin());
+        if (sample.state[0] <= 0.5f) return;
+        each.first_alive = std::min(each.first_alive, frame);
+        const glm::dvec2 place(sample.position[0], sample.position[1]);
+        minimum_ = glm::dvec2(std::min(minimum_.x, place.x), std::min(minimum_.y, place.y));
+        maximum_ = glm::dvec2(std::max(maximum_.x, place.x), std::max(maximum_.y, place.y));
+    }
+
+    void writeTable() {
+        table_.addColumn("scale", "1");
+        table_.addColumn("tint", "");
+        table_.addColumn("overrides", "");
+        for (const ChangedRow& each : rows_)
+            editRow(each);
+        writeFile(folder_.path() / "agents.csv", table_.text());
+    }
+
+    void editRow(const ChangedRow& each) {
+        const PersonChange& change = each.change;
+        const std::uint32_t row = each.row;
+        table_.set(row, "overrides", fmt::format("{}", fmt::join(authoring::changeWords(change), " ")));
+        if (change.scale) table_.set(row, "scale", fmt::format("{}", *change.scale));
+        if (change.tint) table_.set(row, "tint", change.tint->text);
+        if (change.character) table_.set(row, "variation", fmt::format("{}", *change.character));
+        if (change.moves()) moveGoal(each);
+        if (change.hides())
+            refuse(row, change.hide ? "hidden by an override" : "a hero outside the crowd");
+        else if (change.retimes() && each.first)
+            retimeRow(each);
+    }
+
+    void refuse(std::uint32_t row, const std::string& reason) {
+        table_.set(row, "outcome", "refused");
+        table_.set(row, "reason", reason);
+        table_.set(row, "spawn_frame", "");
+        table_.set(row, "arrival_frame", "");
+    }
+
+    void retimeRow(const ChangedRow& each) {
+        if (each.first_alive == kNever) return refuse(each.row, "retimed out of the shot");
+        table_.set(each.row, "spawn_frame", std::to_string(each.first_alive));
+        const std::optional<std::uint32_t> arrival = table_.frame(each.row, "arrival_frame");
+        if (!arrival) return;
+        const double first = *each.first;
+        const double frame =
+            std::ceil(first + each.change.delay + (*arrival - first) / each.change.speed - 1.0e-9);
+        const bool is_in_shot = frame < static_cast<double>(source_.frames);
+        table_.set(each.row, "arrival_frame", is_in_shot ? fmt::format("{:.0f}", std::max(frame, 0.0)) : "");
+        if (!is_in_shot) table_.set(each.row, "outcome", "walking");
+    }
+
+    /// Goals are the world's, where the streams start from the bake's origin.
+    void moveGoal(const ChangedRow& each) {
+        const glm::dvec2 pivot = source_.origin + glm::dvec2(each.pivot[0], each.pivot[1]);
+        const glm::dvec2 goal(table_.number(each.row, "goal_x"), table_.number(each.row, "goal_y"));
+        const double angle = each.change.turn * std::numbers::pi / 180.0;
+        const glm::dvec2 arm = goal - pivot;
+        const double x = pivot.x + std::cos(angle) * arm.x - std::sin(angle) * arm.y + each.change.move.x;
+        const double y = pivot.y + std::sin(angle) * arm.x + std::cos(angle) * arm.y + each.change.move.y;
+        table_.set(each.row, "goal_x", fmt::format("{}", x));
+        table_.set(each.row, "goal_y", fmt::format("{}", y));
+    }
+
+    bool isWrittenAnew(const std::string& path) const {
+        if (path == "agents.csv" || path == "crowd.glb" || path.starts_with("diagrams/")) return true;
+        for (const char* stream : {"pos", "dir", "state", "density"})
+            for (const char* extension : {".npy", ".pc2"})
+                if (path == std::string("streams/") + stream + extension) return true;
+        return false;
+    }
+
+    void copyTheRest() {
+        for (const Bake::File& file : source_.files) {
+            if (isWrittenAnew(file.path)) continue;
+            const fs::path to = folder_.path() / file.path;
+            makeFolder(to.parent_path());
+            const InputFile from(source_.folder / file.path);
+            OutputFile copy(to);
+            std::vector<std::byte> piece(std::size_t{1} << 20);
+            for (std::uint64_t at = 0; at < from.size(); at += piece.size()) {
+                const std::size_t count = std::min<std::uint64_t>(piece.size(), from.size() - at);
+                from.readAt(at, std::span(piece).first(count));
+                copy.write(std::span<const std::byte>(piece).first(count));
+            }
+            copy.finish();
+            copied_.push_back(file.path);
+        }
+    }
+
+    Json writeGltf() {
+        const BakeDescription description = describe();
+        const GltfSummary summary =
+            writeCrowdGlb(folder_.path() / "crowd.glb", description,
+                          {StreamReader(positions_.npy.path()), StreamReader(directions_.npy.path()),
+                           StreamReader(states_.npy.path())});
+        return {{"file", "crowd.glb"}, {"agents", summary.agents}, {"of", summary.of}};
+    }
+
+    /// What the glTF writer has to know, from the source's files.
+    BakeDescription describe() const {
+        BakeDescription description;
+        description.name = source_.name;
+        description.fps = source_.fps;
+        description.frames = source_.frames;
+        description.output_origin = description.scene_origin = source_.origin;
+        description.minimum = source_.origin + minimum_;
+        description.maximum = source_.origin + maximum_;
+        description.roads = source_.roads;
+        description.areas = source_.areas;
+        description.walls = source_.walls;
+        const auto toWorld = [&](std::vector<glm::dvec2>& points) {
+            for (glm::dvec2& point : points)
+                point += source_.origin;
+        };
+        for (authoring::Road& road : description.roads)
+            toWorld(road.centreline);
+        for (authoring::Area& area : description.areas)
+            toWorld(area.polygon);
+        for (authoring::Wall& wall : description.walls)
+            toWorld(wall.points);
+        std::map<std::string, std::uint32_t> groups;
+        for (std::uint32_t row = 0; row < table_.rows(); ++row) {
+            const std::string& group = table_.at(row, "group");
+            const auto [known, is_new] =
+                groups.emplace(group, static_cast<std::uint32_t>(description.groups.size()));
+            if (is_new) description.groups.push_back({group, table_.at(row, "kind") == "flow"});
+            BakeAgent agent;
+            agent.group = known->second;
+            agent.radius = static_cast<float>(table_.number(row, "radius"));
+            agent.scale = table_.number(row, "scale");
+            agent.colour = colourOf(table_.at(row, "tint"));
+            description.agents.push_back(agent);
+        }
+        description.gltf_agents = options_.gltf_agents;
+        return description;
+    }
+
+    Json account() const {
+        std::map<std::string, std::uint32_t> outcomes, reasons;
+        for (std::uint32_t row = 0; row < table_.rows(); ++row) {
+            const std::string& outcome = table_.at(row, "outcome");
+            ++outcomes[outcome];
+            if (outcome == "refused") ++reasons[table_.at(row, "reason")];
+        }
+        return {{"agents", table_.rows()},
+                {"spawned", outcomes["walking"] + outcomes["arrived"]},
+                {"walking", outcomes["walking"]},
+                {"arrived", outcomes["arrived"]},
+                {"refused", outcomes["refused"]},
+                {"refused_reasons", reasons.empty() ? Json::object() : Json(reasons)}};
+    }
+
+    void writeManifest(const Json& gltf) {
+        Json manifest = source_.manifest;
+        manifest["generator"] = "throng " THRONG_VERSION;
+        manifest["inputs"] = "xxh3:" + hashText(manifest.value("inputs", "") + "\n" + options_.identity);
+        std::uint32_t variations = manifest.value("variations", 1u);
+        for (const ChangedRow& each : rows_)
+            if (each.change.character) variations = std::max(variations, *each.change.character + 1);
+        manifest["variations"] = variations;
+        manifest["bounds"] = {{"min", {minimum_.x, minimum_.y}}, {"max", {maximum_.x, maximum_.y}}};
+        manifest["gltf"] = gltf;
+        manifest["diagrams"] = nullptr;
+        manifest["account"] = account();
+        manifest["applied"] = options_.applied;
+        std::vector<std::string> files{"agents.csv"};
+        files.insert(files.end(), copied_.begin(), copied_.end());
+        for (Passage* stream : streams())
+            for (const char* extension : {".npy", ".pc2"})
+                files.push_back("streams/" + stream->name + extension);
+        if (!gltf.is_null()) files.emplace_back("crowd.glb");
+        manifest["files"] = Json::array();
+        for (const std::string& file : files) {
+            const FileHash hash = hashFile(folder_.path() / file);
+            manifest["files"].push_back({{"path", file}, {"bytes", hash.bytes}, {"xxh3", hash.xxh3}});
+        }
+        writeFile(folder_.path() / "bake.json",
+                  manifest.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+    }
+
+    const Bake& source_;
+    const ApplyOptions& options_;
+    BakeFolder folder_;
+    AgentTableEdit table_;
+    fs::path streams_folder_;
+    Passage positions_;
+    Passage directions_;
+    Passage states_;
+    std::optional<Passage> density_;
+    std::vector<ChangedRow> rows_;
+    std::vector<std::string> copied_;
+    glm::dvec2 minimum_;  ///< bounds, widened to where people have been moved
+    glm::dvec2 maximum_;
+};
+
+}  // namespace
+
+std::optional<ApplyResult> applyOverrides(const Bake& source, std::span<const RowChange> changes,
+                                          const ApplyOptions& options) {
+    Application application(source, changes, options);
+    if (!application.writeStreams()) return std::nullopt;
+    return application.finish();
+}
+
+}  // namespace throng::io
