@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <variant>
@@ -127,7 +128,7 @@ struct Wall {
     std::vector<glm::dvec2> points;
     bool closed = false;     ///< true: a solid polygon; nobody is inside it
     double thickness = 0.2;  ///< m, open walls only
-    double height = 3.0;     ///< m, for the exported meshes; the simulation is flat
+    double height = 3.0;     ///< m over the highest ground along it, for the exported meshes
     SourcePosition where;
     bool open_at_start = false;     ///< a gate that is closed later
     std::vector<double> toggles{};  ///< s, increasing: when events open or close it, in turn
@@ -136,6 +137,16 @@ struct Wall {
             std::count_if(toggles.begin(), toggles.end(), [&](double at) { return at <= time; });
         return open_at_start != (passed % 2 == 1);
     }
+};
+
+/// A mesh that people stand on, and how it lies in the layout: world = offset + scale * (x, -z, y) of the file.
+struct TerrainSettings {
+    std::string file;  ///< as the layout has it: relative to the layout's folder
+    std::string node;  ///< only nodes or meshes of this name; empty = all
+    glm::dvec3 offset{0.0};
+    double scale = 1.0;
+    bool highest = true;  ///< of several surfaces above each other; otherwise the lowest
+    SourcePosition where, file_where, node_where;
 };
 
 /// A place that people come from or go to: an area, or one end of a road.
@@ -268,6 +279,7 @@ struct Layout {
     std::vector<Road> roads;
     std::vector<Area> areas;
     std::vector<Wall> walls;
+    std::optional<TerrainSettings> terrain;  ///< none: flat ground at height 0
     std::vector<Flow> flows;
     std::vector<Formation> formations;
     std::vector<Event> events;  ///< in the order of their times

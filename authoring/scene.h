@@ -2,10 +2,12 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "authoring/layout.h"
+#include "authoring/terrain/terrain.h"
 #include "shaders/shared/scene_types.h"
 
 namespace throng::authoring {
@@ -77,6 +79,8 @@ struct Scene {
     Detours detours;
     std::vector<float> road_distance;  ///< m, per grid cell: positive on roads and areas, negative off them;
                                        ///< empty without roads
+
+    std::shared_ptr<const Terrain> terrain;  ///< null: the ground is flat
 
     float smallest_radius = 0.0f;  ///< of all people, m
     float largest_radius = 0.0f;

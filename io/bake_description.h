@@ -4,11 +4,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec2.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "authoring/layout.h"
+#include "authoring/terrain/terrain.h"
+#include "authoring/terrain/terrain_mesh.h"
 
 namespace throng::io {
 
@@ -28,6 +31,15 @@ struct BakeAgent {
     glm::dvec2 goal{0.0};     ///< m, world
     double scale = 1.0;       ///< of the figure, beyond what the radius says
     std::optional<std::uint32_t> colour = {};  ///< 0xRRGGBB, instead of the group's
+};
+
+/// Ground that is not flat.
+struct BakeTerrain {
+    std::shared_ptr<const authoring::TerrainMesh> mesh;
+    std::shared_ptr<const authoring::Terrain> surface;  ///< in the frame of reference of the frames
+    std::string source;                                 ///< the file, as the layout names it
+    std::string hash;                                   ///< of that file
+    std::vector<glm::dvec2> along_walls;  ///< per wall, the lowest and the highest ground along it, m
 };
 
 /// All that a bake's files say besides the frames. World coordinates unless told otherwise; metres and
@@ -59,6 +71,7 @@ struct BakeDescription {
     std::vector<authoring::Road> roads;
     std::vector<authoring::Area> areas;
     std::vector<authoring::Wall> walls;
+    std::optional<BakeTerrain> terrain;  ///< none: flat ground at height 0
 
     std::string renderer;  ///< GL_RENDERER
     std::string driver;    ///< GL_VERSION

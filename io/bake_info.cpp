@@ -88,9 +88,11 @@ std::vector<BakeProblem> verifyBake(const Bake& bake) {
     std::vector<BakeProblem> problems;
     for (const Bake::File& file : bake.files)
         if (const auto problem = problemOf(bake, file)) problems.push_back({file.path, *problem});
-    for (const char* stream : {"pos", "dir", "state"})
+    std::vector<std::string> streams = {"pos", "dir", "state"};
+    if (bake.manifest.contains("terrain")) streams.emplace_back("ground");
+    for (const std::string& stream : streams)
         for (const char* extension : {".npy", ".pc2"}) {
-            const std::string path = std::string("streams/") + stream + extension;
+            const std::string path = "streams/" + stream + extension;
             if (std::ranges::none_of(bake.files, [&](const Bake::File& file) { return file.path == path; }))
                 problems.push_back({path, "not listed in bake.json"});
         }
@@ -112,6 +114,10 @@ std::string infoText(const Bake& bake) {
     text += fmt::format(
         "site:         {:.1f} x {:.1f} m, {} roads, {} areas, {} walls, origin {:.3f} {:.3f}\n", size.x,
         size.y, bake.roads.size(), bake.areas.size(), bake.walls.size(), bake.origin.x, bake.origin.y);
+    if (bake.manifest.contains("terrain"))
+        text += fmt::format("terrain:      {}, from {:.1f} to {:.1f} m high\n", optionalText(bake.manifest, "/terrain/source"),
+                            bake.manifest.value("/terrain/lowest"_json_pointer, 0.0),
+                            bake.manifest.value("/terrain/highest"_json_pointer, 0.0));
     text += extras(bake);
     text += fmt::format("files:        {}, {}\n", bake.files.size(), readableBytes(totalBytes(bake)));
     text += fmt::format("made by:      {} on {}\n", optionalText(bake.manifest, "/generator"),

@@ -19,6 +19,7 @@ namespace {
 // still, not alive, with the gait phase they will start from.
 constexpr std::array kPositionRule{BackFill::first_alive, BackFill::first_alive, BackFill::first_alive};
 constexpr std::array kDirectionRule{BackFill::first_alive, BackFill::first_alive, BackFill::zero};
+constexpr std::array kGroundRule{BackFill::first_alive, BackFill::first_alive, BackFill::first_alive};
 constexpr std::array kDensityRule{BackFill::keep, BackFill::keep, BackFill::keep};
 constexpr std::array kStateRule{BackFill::keep, BackFill::first_alive, BackFill::first_alive};
 
@@ -76,6 +77,8 @@ BakeWriter::BakeWriter(BakeDescription description, std::unique_ptr<BakeFolder> 
       shifted_(description_.agents.size() * kComponents) {
     if (description_.densities)
         densities_.emplace(streams_folder_, "density", description_, go_on_from ? go_on_from->frames : 0);
+    if (description_.terrain)
+        grounds_.emplace(streams_folder_, "ground", description_, go_on_from ? go_on_from->frames : 0);
     if (go_on_from)
         goOnFrom(*go_on_from);
     else if (description_.diagram_every > 0)
@@ -139,9 +142,15 @@ void BakeWriter::goOnFrom(const Checkpoint& checkpoint) {
         diagram_files_.push_back(diagramName(i * description_.diagram_every));
 }
 
+std::vector<BakeWriter::Stream*> BakeWriter::streams() {
+    std::vector<Stream*> all = {&positions_, &directions_, &states_};
+    if (grounds_) all.push_back(&*grounds_);
+    if (densities_) all.push_back(&*densities_);
+    return all;
+}
+
 void BakeWriter::save(Checkpoint checkpoint) {
-    for (Stream* stream : {&positions_, &directions_, &states_, densities_ ? &*densities_ : nullptr}) {
-        if (!stream) continue;
+    for (Stream* stream : streams()) {
         stream->npy.flush();
         stream->pc2.flush();
     }
@@ -168,6 +177,10 @@ void BakeWriter::write(const Frame& frame) {
     positions_.append(shifted_);
     directions_.append(frame.directions);
     states_.append(frame.states);
+    if (grounds_) {
+        if (frame.grounds.size() != values) throw std::invalid_argument("a frame of this bake has grounds");
+        grounds_->append(frame.grounds);
+    }
     if (densities_) {
         if (frame.densities.size() != values)
             throw std::invalid_argument("a frame of this bake has densities");
@@ -204,6 +217,7 @@ void BakeWriter::finishStreams() {
     positions_.finish(first_alive_, kPositionRule);
     directions_.finish(first_alive_, kDirectionRule);
     states_.finish(first_alive_, kStateRule);
+    if (grounds_) grounds_->finish(first_alive_, kGroundRule);
     if (densities_) densities_->finish(first_alive_, kDensityRule);
 }
 
@@ -218,9 +232,13 @@ BakeOutcome BakeWriter::writeAll(const Account& account, const BakeTiming& timin
     writeFile(folder_->path() / files[0], description_.layout_text);
     writeFile(folder_->path() / files[1], agentTable(description_, account));
     finishStreams();
-    for (const Stream* stream : {&positions_, &directions_, &states_, densities_ ? &*densities_ : nullptr})
+    for (const Stream* stream : streams())
         for (const char* extension : {".npy", ".pc2"})
-            if (stream) files.push_back("streams/" + stream->name + extension);
+            files.push_back("streams/" + stream->name + extension);
+    if (description_.terrain) {
+        files.push_back("terrain.glb");
+        writeTerrainGlb(folder_->path() / files.back(), description_);
+    }
     if (description_.gltf) {
         files.push_back("crowd.glb");
         outcome.gltf =

@@ -80,6 +80,7 @@ class BakeWriter {
     void removeLeftovers(const Checkpoint& checkpoint) const;
     void trackFirstAlive(const Frame& frame);
     void finishStreams();
+    std::vector<Stream*> streams();
     BakeOutcome writeAll(const Account& account, const BakeTiming& timing, bool complete);
     BakeResult resultAt(std::filesystem::path path, const BakeOutcome& outcome) const;
 
@@ -90,6 +91,7 @@ class BakeWriter {
     Stream directions_;
     Stream states_;
     std::optional<Stream> densities_;
+    std::optional<Stream> grounds_;
     std::uint32_t frames_ = 0;
     std::vector<std::uint32_t> first_alive_;  ///< per row, the first frame it is alive in, or kNone
     std::vector<float> shifted_;              ///< one frame of positions in the output frame of reference

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/manifest.h"
 
+#include <algorithm>
+
 namespace throng::io {
 namespace {
 
@@ -20,12 +22,14 @@ Json pointsToJson(const std::vector<glm::dvec2>& points, glm::dvec2 origin) {
 Json geometryToJson(const BakeDescription& description) {
     const glm::dvec2 origin = description.output_origin;
     Json geometry{{"walls", Json::array()}, {"roads", Json::array()}, {"areas", Json::array()}};
-    for (const authoring::Wall& wall : description.walls) {
+    for (std::size_t i = 0; i < description.walls.size(); ++i) {
+        const authoring::Wall& wall = description.walls[i];
         geometry["walls"].push_back({{"id", wall.id},
                                      {"points", pointsToJson(wall.points, origin)},
                                      {"closed", wall.closed},
                                      {"thickness", wall.thickness},
                                      {"height", wall.height}});
+        if (description.terrain) geometry["walls"].back()["ground"] = pointToJson(description.terrain->along_walls.at(i));
         if (!wall.toggles.empty())
             geometry["walls"].back()["gate"] = {{"open_at_start", wall.open_at_start},
                                                 {"toggles", wall.toggles}};
@@ -43,6 +47,18 @@ Json geometryToJson(const BakeDescription& description) {
 Json streamToJson(const std::string& name, const Json& components) {
     return {
         {"npy", "streams/" + name + ".npy"}, {"pc2", "streams/" + name + ".pc2"}, {"components", components}};
+}
+
+Json terrainToJson(const BakeTerrain& terrain) {
+    const auto [low, high] =
+        std::minmax_element(terrain.mesh->positions.begin(), terrain.mesh->positions.end(),
+                            [](const glm::dvec3& a, const glm::dvec3& b) { return a.z < b.z; });
+    return {{"file", "terrain.glb"},
+            {"source", terrain.source},
+            {"hash", "xxh3:" + terrain.hash},
+            {"triangles", terrain.mesh->indices.size() / 3},
+            {"lowest", low->z},
+            {"highest", high->z}};
 }
 
 Json accountToJson(const AccountTotals& account) {
@@ -116,6 +132,10 @@ Json bakeManifest(const BakeDescription& description, const BakeOutcome& outcome
                        {"state", streamToJson("state", {"activity", "variation", "phase"})}};
     if (description.densities)
         json["streams"]["density"] = streamToJson("density", {"density", "area", "share"});
+    if (description.terrain) {
+        json["streams"]["ground"] = streamToJson("ground", {"slope_along", "slope_across", "height"});
+        json["terrain"] = terrainToJson(*description.terrain);
+    }
     json["table"] = "agents.csv";
     json["gltf"] = gltfToJson(outcome.gltf);
     json["diagrams"] = diagramsToJson(description, outcome.diagrams);

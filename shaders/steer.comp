@@ -21,6 +21,10 @@ uniform uint steps_done;  // counted with this one
 #include "shaders/random.glsl"
 #include "shaders/route.glsl"
 #include "shaders/waiting_line.glsl"
+#ifdef TERRAIN
+#include "shaders/terrain.glsl"
+#include "shaders/slope_pace.glsl"
+#endif
 
 /// Two people who walk straight at each other, and rings of people who all aim at the centre, are in an unstable
 /// balance that half-planes never leave. Everybody therefore aims a little beside the mark, by up to this angle (rad).
@@ -118,6 +122,9 @@ void main() {
                   ((touch_words[slot] & TOUCH_WALL_NEAR) != 0u ? searchAngle(row, states[row].nervousness) : 0.0);
     vec2 direction = mat2(cos(angle), sin(angle), -sin(angle), cos(angle)) * ahead.direction;
     float speed = person.preferred_speed;
+#ifdef TERRAIN
+    speed *= slopePace(bodies[slot].position, direction);
+#endif
     if (person.party_size > 1u) speed *= paceInParty(row, person, stage, ahead.remaining);
     bool stopped = states[row].status == STATUS_ARRIVED || states[row].leave_step != 0u;
     if (stopped && (stage.flags & STAGE_ANYWHERE) != 0u && ahead.remaining > CONTENT)

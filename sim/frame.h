@@ -37,6 +37,9 @@ struct Frame {
     /// rows x (density 1/m^2, area of the cell m^2, share of its tile that it owns); empty unless asked for
     std::span<const float> densities;
     const DiagramImage* diagram = nullptr;
+    /// rows x (slope along the heading, slope to the left of it, height of the very ground m); empty on flat
+    /// ground
+    std::span<const float> grounds{};
 };
 
 enum class AgentStatus : std::uint32_t {

@@ -114,11 +114,14 @@ void Sensing::run() {
     program_.dispatchIndirect(buffers_.live_dispatch);
 }
 
-Avoidance::Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, int neighbours)
+Avoidance::Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, int neighbours,
+                     const TerrainSlopes* ground)
     : buffers_(buffers),
-      steer_(connected(library, "shaders/steer.comp", buffers)),
+      steer_(connected(library, "shaders/steer.comp", buffers,
+                       ground ? gl::Definitions{{"TERRAIN", "1"}} : gl::Definitions{})),
       avoid_(connected(library, "shaders/avoid.comp", buffers, listLength(neighbours))) {
     avoid_.set("slot_capacity", buffers.slotCapacity());
+    if (ground) ground->describeTo(steer_);
 }
 
 void Avoidance::run(std::uint32_t steps_done) {

@@ -7,6 +7,7 @@
 #include "sim/diagram/diagram.h"
 #include "sim/gl/program.h"
 #include "sim/sensing_pattern.h"
+#include "sim/terrain_slopes.h"
 
 /// The passes of a step. Each owns its programs, binds them to the buffers once, and has one verb.
 namespace throng::sim {
@@ -78,7 +79,9 @@ class Sensing {
 /// Wished velocities along the routes, then velocities that avoid everybody sensed.
 class Avoidance {
   public:
-    Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, int neighbours);
+    /// @param ground that slows people down where it slopes, or null where it is flat
+    Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, int neighbours,
+              const TerrainSlopes* ground);
     void run(std::uint32_t steps_done);
 
   private:

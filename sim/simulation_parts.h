@@ -28,6 +28,7 @@ struct Simulation::Parts {
     Congestion congestion;
     Spawner spawner;
     Sensing sensing;
+    std::optional<TerrainSlopes> slopes;  // none on flat ground
     Avoidance avoidance;
     Contacts contacts;
     Motion motion;

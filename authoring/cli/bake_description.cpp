@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "authoring/scene/terrain_check.h"
 #include "io/motion/gaits.h"
 
 namespace throng::cli {
@@ -51,6 +52,13 @@ io::BakeDescription describeBake(const LoadedLayout& loaded, const BakeOptions& 
     bake.roads = loaded.layout.roads;
     bake.areas = loaded.layout.areas;
     bake.walls = loaded.layout.walls;
+    if (loaded.terrain) {
+        const authoring::Rebase rebase(loaded.layout);
+        bake.terrain = io::BakeTerrain{
+            loaded.terrain, scene.terrain, loaded.layout.terrain->file, loaded.terrain_hash, {}};
+        for (const authoring::Wall& wall : loaded.layout.walls)
+            bake.terrain->along_walls.push_back(authoring::groundAlong(wall, rebase, *scene.terrain));
+    }
     bake.renderer = device.name;
     bake.driver = device.version;
     bake.gltf = options.gltf;

@@ -8,15 +8,38 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <span>
 #include <sstream>
 
 #include "authoring/cli/exit_codes.h"
 #include "authoring/layout/layout_reader.h"
 #include "authoring/scene/scene_builder.h"
 #include "io/files/errors.h"
+#include "io/files/hash.h"
+#include "io/gltf/terrain_file.h"
 
 namespace throng::cli {
 namespace {
+
+/// A terrain that cannot be used is a mistake in the layout, told where the layout names it.
+void readTerrain(const std::string& name, LoadedLayout& loaded) {
+    const authoring::TerrainSettings& settings = *loaded.layout.terrain;
+    const std::filesystem::path path = std::filesystem::path(name).parent_path() / settings.file;
+    try {
+        loaded.terrain = std::make_shared<const authoring::TerrainMesh>(io::readTerrain(path, settings));
+        io::Hasher hasher;
+        hasher.add(std::as_bytes(std::span(loaded.terrain->positions)));
+        hasher.add(std::as_bytes(std::span(loaded.terrain->indices)));
+        loaded.terrain_hash = io::hashFile(path).xxh3;
+        loaded.terrain_identity = hasher.digest();
+    } catch (const io::InputError& error) {
+        const bool named = std::string_view(error.what()).find("named") != std::string_view::npos;
+        loaded.diagnostics.error(named ? settings.node_where : settings.file_where,
+                                 fmt::format("the terrain cannot be used: {}", error.what()),
+                                 named ? "`node` is the name of a node or a mesh in the file"
+                                       : "`file` is a .glb or .gltf file, relative to the layout's folder");
+    }
+}
 
 std::string readText(const std::string& path) {
     std::ostringstream text;
@@ -45,7 +68,10 @@ LoadAttempt tryReadLayout(std::string text, const std::string& name, std::vector
         authoring::readLayout(loaded.text, loaded.overrides, loaded.diagnostics);
     if (!layout) return attempt;
     loaded.layout = std::move(*layout);
-    std::optional<authoring::Scene> scene = authoring::buildScene(loaded.layout, loaded.diagnostics, cache);
+    if (loaded.layout.terrain) readTerrain(name, loaded);
+    if (loaded.diagnostics.hasErrors()) return attempt;
+    std::optional<authoring::Scene> scene =
+        authoring::buildScene(loaded.layout, loaded.diagnostics, cache, loaded.terrain.get());
     if (!scene) return attempt;
     loaded.scene = std::move(*scene);
     if (loaded.layout.name.empty()) loaded.layout.name = std::filesystem::path(name).stem().string();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,9 @@ struct LoadedLayout {
     std::string text;  ///< the file, byte for byte
     std::vector<std::string> overrides;
     authoring::Layout layout;
+    std::shared_ptr<const authoring::TerrainMesh> terrain;  ///< null: flat ground
+    std::string terrain_hash;                               ///< of the terrain's file
+    std::uint64_t terrain_identity = 0;                     ///< of all that was read of it
     authoring::Scene scene;
     authoring::Diagnostics diagnostics;  ///< warnings
 };
@@ -27,7 +32,7 @@ struct LoadAttempt {
 };
 
 /// Makes the scene of a layout's text.
-/// @param name of the file, for messages, and for the layout if it has none of its own
+/// @param name of the file, for messages, for the layout if it has none of its own, and to find its terrain beside it
 /// @param cache as buildScene
 LoadAttempt tryReadLayout(std::string text, const std::string& name, std::vector<std::string> overrides,
                           authoring::GroundCache* cache = nullptr);

@@ -96,6 +96,7 @@ class Reader {
         if (generate) return readGenerator(*generate);
         if (base->kind == JsonNode::Kind::object) {
             family_.base = valueOf(*base);
+            placeTerrain(folder_);
             family_.base_name = "the base layout";
         } else if (base->kind == JsonNode::Kind::text) {
             readBaseFile(*base);
@@ -123,6 +124,15 @@ class Reader {
                                                    formatDiagnostic(entry, path.string(), text.str()));
         if (layout) family_.base = Json::parse(text.str());
         if (family_.base.is_object()) family_.base.erase("$schema");  // its path would lead nowhere
+        placeTerrain(path.parent_path());
+    }
+
+    /// Scenarios are read without a folder of their own.
+    void placeTerrain(const std::filesystem::path& folder) {
+        const auto pointer = "/terrain/file"_json_pointer;
+        if (!family_.base.is_object() || !family_.base.contains(pointer) || !family_.base[pointer].is_string()) return;
+        const std::filesystem::path file = folder / family_.base[pointer].get<std::string>();
+        family_.base[pointer] = std::filesystem::absolute(file).lexically_normal().string();
     }
 
     void readGenerator(const JsonNode& node) {

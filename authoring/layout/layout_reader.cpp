@@ -34,6 +34,7 @@ class Reader {
         eachOf(reader, "areas", [this](const JsonNode& node) { readArea(node); });
         eachOf(reader, "walls", [this](const JsonNode& node) { readWall(node); });
         nameWalls();
+        if (const JsonNode* node = reader.get("terrain")) readTerrain(*node);
         eachOf(reader, "flows", [this](const JsonNode& node) { readFlow(node); });
         eachOf(reader, "formations", [this](const JsonNode& node) { readFormation(node); });
         eachOf(reader, "events", [this](const JsonNode& node) { readEvent(node); });
@@ -200,6 +201,39 @@ class Reader {
             while (!walls_.emplace(id, i).second)
                 id += "_";
         }
+    }
+
+    void readTerrain(const JsonNode& node) {
+        TerrainSettings terrain;
+        terrain.where = node.where;
+        ObjectReader reader(node, "`terrain`", diagnostics_);
+        if (!reader.isObject()) return;
+        reader.requiredText("file", "a .glb or .gltf file, relative to the layout", terrain.file);
+        if (const JsonNode* file = node.find("file")) terrain.file_where = file->where;
+        reader.text("node", terrain.node);
+        if (const JsonNode* name = node.find("node")) {
+            terrain.node_where = name->where;
+            if (name->kind == JsonNode::Kind::text && name->text.empty())
+                diagnostics_.error(name->where, "`node` is empty", "name a node, or leave `node` out");
+        }
+        if (const JsonNode* offset = reader.get("offset")) readOffset(reader, *offset, terrain.offset);
+        reader.number("scale", {0.0, 1.0e6, true}, terrain.scale);
+        if (const auto surface = reader.choice("surface", {"highest", "lowest"}))
+            terrain.highest = *surface == 0;
+        reader.finish();
+        layout_.terrain = std::move(terrain);
+    }
+
+    void readOffset(ObjectReader& reader, const JsonNode& node, glm::dvec3& offset) {
+        if (node.kind != JsonNode::Kind::array || node.items.size() != 3) {
+            diagnostics_.error(node.where, fmt::format("expected an offset [x, y, z] in metres, found {}",
+                                                       node.kind == JsonNode::Kind::array
+                                                           ? fmt::format("an array of {}", node.items.size())
+                                                           : std::string(node.kindName())));
+            return;
+        }
+        for (int i = 0; i < 3; ++i)
+            offset[i] = reader.numberOf(node.items[static_cast<std::size_t>(i)], {-1.0e8, 1.0e8}).value_or(0.0);
     }
 
     void checkPolygon(std::vector<glm::dvec2>& polygon, const JsonNode* node) {

@@ -14,6 +14,7 @@
 #include "authoring/scene/raster.h"
 #include "authoring/scene/rebase.h"
 #include "authoring/scene/routes.h"
+#include "authoring/scene/terrain_check.h"
 #include "authoring/scene/walls.h"
 
 namespace throng::authoring {
@@ -52,8 +53,8 @@ class PlacedBodies {
 
 class Builder {
   public:
-    Builder(const Layout& layout, Diagnostics& diagnostics, GroundCache& cache)
-        : layout_(layout), diagnostics_(diagnostics), cache_(cache), rebase_(layout) {
+    Builder(const Layout& layout, Diagnostics& diagnostics, GroundCache& cache, const TerrainMesh* terrain)
+        : layout_(layout), diagnostics_(diagnostics), cache_(cache), terrain_mesh_(terrain), rebase_(layout) {
         scene_.settings = layout.simulation;
         scene_.origin = rebase_.origin();
         scene_.output_origin = rebase_.outputOrigin();
@@ -64,6 +65,7 @@ class Builder {
     std::optional<Scene> build() {
         drawPeople();
         buildGeometry();
+        buildTerrain();
         scene_.grid = makeGrid(geometry_);
         ground_ = cache_.groundFor(geometry_, scene_.grid);
         Routes routes(layout_, rebase_, *ground_);
@@ -207,6 +209,13 @@ class Builder {
         openGates();
         scene_.wall_tiles = wallTiles(geometry_.walls, scene_.smallest_radius,
                                       static_cast<float>(layout_.simulation.tile_radius));
+    }
+
+    void buildTerrain() {
+        if (!layout_.terrain || !terrain_mesh_) return;
+        scene_.terrain = std::make_shared<const Terrain>(*terrain_mesh_, layout_.terrain->highest, scene_.origin,
+                                                         scene_.minimum, scene_.maximum);
+        checkTerrain(layout_, rebase_, geometry_, *terrain_mesh_, *scene_.terrain, diagnostics_);
     }
 
     /// Routes lead through gates whether these are open or not: people wait before a closed one.
@@ -460,6 +469,7 @@ class Builder {
     const Layout& layout_;
     Diagnostics& diagnostics_;
     GroundCache& cache_;
+    const TerrainMesh* terrain_mesh_;
     Rebase rebase_;
     WalkGeometry geometry_;
     std::shared_ptr<Ground> ground_;
@@ -469,9 +479,10 @@ class Builder {
 
 }  // namespace
 
-std::optional<Scene> buildScene(const Layout& layout, Diagnostics& diagnostics, GroundCache* cache) {
+std::optional<Scene> buildScene(const Layout& layout, Diagnostics& diagnostics, GroundCache* cache,
+                                const TerrainMesh* terrain) {
     GroundCache own;
-    return Builder(layout, diagnostics, cache ? *cache : own).build();
+    return Builder(layout, diagnostics, cache ? *cache : own, terrain).build();
 }
 
 }  // namespace throng::authoring

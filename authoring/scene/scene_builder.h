@@ -15,6 +15,7 @@ namespace throng::authoring {
 /// @returns nothing when `diagnostics` has errors: people inside walls, goals that cannot be reached, entries
 /// without room
 /// @param cache of ground, for whoever makes several scenes; null: for this one only
-std::optional<Scene> buildScene(const Layout& layout, Diagnostics& diagnostics, GroundCache* cache = nullptr);
+std::optional<Scene> buildScene(const Layout& layout, Diagnostics& diagnostics, GroundCache* cache = nullptr,
+                                const TerrainMesh* terrain = nullptr);
 
 }  // namespace throng::authoring

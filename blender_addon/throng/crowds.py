@@ -11,6 +11,11 @@ from .overrides import native
 CACHES = tuple(f"throng {stream}" for stream in STREAMS)
 
 
+def caches(crowd):
+    """The modifiers that read a crowd's streams."""
+    return [modifier for modifier in crowd.modifiers if modifier.type == "MESH_CACHE" and modifier.name.startswith("throng ")]
+
+
 def crowd_objects(scene):
     """All crowds of a scene."""
     return [thing for thing in scene.objects if all(name in thing.modifiers for name in CACHES)]
@@ -40,7 +45,10 @@ def verify(crowd, scene):
     except BakeError as error:
         return [str(error)]
     problems = []
-    for stream in STREAMS:
+    for stream in bake.streams:
+        if f"throng {stream}" not in crowd.modifiers:
+            problems.append("the bake has a terrain and the crowd in the scene has none: import it anew")
+            continue
         try:
             check_pc2(bake.stream_path(stream), bake.agents, bake.frames)
         except BakeError as error:
@@ -61,8 +69,8 @@ def verify(crowd, scene):
 def set_offset(crowd, frames):
     """Plays a crowd so many frames later (or earlier, below zero)."""
     base = crowd.get("throng_frame_start", 1)
-    for name in CACHES:
-        crowd.modifiers[name].frame_start = base + frames
+    for cache in caches(crowd):
+        cache.frame_start = base + frames
     crowd["throng_offset"] = frames
     native.follow(crowd)
 
@@ -83,6 +91,8 @@ def reload(crowd, scene, path=None):
     bake = load_bake(path or bake_path(crowd))
     if list(bake.strides) != list(crowd.get("throng_strides", bake.strides)):
         raise BakeError("this bake walks with other strides than the cast was made for: import it anew")
+    if len(caches(crowd)) != len(bake.streams):
+        raise BakeError("one of the two bakes has a terrain and the other has none: import it anew")
     overrides = Arrival(bake, crowd)
     mesh = crowd.data
     if len(mesh.vertices) != bake.agents:
@@ -90,7 +100,7 @@ def reload(crowd, scene, path=None):
         mesh.vertices.add(bake.agents)
         playback.give_natures(mesh)
     relative = crowd.modifiers["throng pos"].filepath.startswith("//")
-    for stream in STREAMS:
+    for stream in bake.streams:
         crowd.modifiers[f"throng {stream}"].filepath = stored_path(bake.stream_path(stream), relative)
     set_frame_rate(scene, bake.fps)
     start = crowd.get("throng_frame_start", 1) + crowd.get("throng_offset", 0)

@@ -28,6 +28,22 @@ class Bake:
         self.complete = bool(manifest.get("complete", False))
         self.origin = tuple(float(value) for value in manifest.get("origin", (0.0, 0.0, 0.0)))
 
+    @property
+    def streams(self):
+        """Those of every bake, and `ground` where it has a terrain."""
+        return STREAMS + (("ground",) if self.manifest.get("terrain") else ())
+
+    @property
+    def terrain_path(self):
+        """The terrain's mesh, or None where the ground is flat."""
+        terrain = self.manifest.get("terrain")
+        if not terrain:
+            return None
+        name = terrain.get("file") if isinstance(terrain, dict) else None
+        if not isinstance(name, str) or os.path.basename(name) != name or not name:
+            raise BakeError("bake.json: `terrain` names no file of the bake's folder: bake again")
+        return os.path.join(self.folder, name)
+
     def stream_path(self, stream):
         try:
             relative = self.manifest["streams"][stream]["pc2"]
@@ -97,6 +113,6 @@ def load_bake(path):
     bake = Bake(manifest, os.path.abspath(folder))
     if bake.agents == 0 or bake.frames == 0:
         raise BakeError("there is nobody in this bake")
-    for stream in STREAMS:
+    for stream in bake.streams:
         check_pc2(bake.stream_path(stream), bake.agents, bake.frames)
     return bake

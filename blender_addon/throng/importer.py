@@ -6,7 +6,7 @@ import bpy
 
 from . import cast, environment, playback
 from .cast import library
-from .formats import STREAMS, load_bake
+from .formats import load_bake
 
 
 def stored_path(path, relative):
@@ -42,6 +42,7 @@ def import_bake(context, path, *, frame_start=1, walls=True, roads=True, scenery
 
     bake = load_bake(path)
     overrides = Arrival(bake)
+    terrain = environment.read_terrain(bake) if scenery else None
     scene = context.scene
     collection = bpy.data.collections.new(f"Throng {bake.name}")
     scene.collection.children.link(collection)
@@ -51,11 +52,11 @@ def import_bake(context, path, *, frame_start=1, walls=True, roads=True, scenery
     variations = min(bake.variations, cast.VARIATIONS)
     repertoire = cast.Repertoire(bake.strides)
     people = library.build_cast(variations, repertoire, f"Throng {bake.name} cast")
-    paths = {stream: stored_path(bake.stream_path(stream), relative) for stream in STREAMS}
+    paths = {stream: stored_path(bake.stream_path(stream), relative) for stream in bake.streams}
     crowd = playback.build_crowd(bake, f"Throng {bake.name} crowd", people, frame_start, paths)
     collection.objects.link(crowd)
     set_up_scene(scene, bake, frame_start)
     environment.build_environment(context, bake.manifest, collection, walls=walls, roads=roads, ground=scenery, light=scenery, camera=camera,
-                                  frame_start=frame_start)
+                                  frame_start=frame_start, terrain=terrain)
     overrides.place(crowd)
     return crowd

@@ -9,6 +9,7 @@ import random
 
 import bpy
 
+from . import ground
 from .cast import LEVEL_BEATS, LEVEL_POSES, PEOPLE_A_BLOCK, Repertoire
 from .cast.library import blocks_of
 from .characters.members import pick
@@ -241,13 +242,15 @@ def build_crowd(bake, name, cast, frame_start, paths):
     mesh.vertices.add(bake.agents)
     give_natures(mesh)
     crowd = bpy.data.objects.new(name, mesh)
-    for stream in ("state", "dir"):
+    for stream in (each for each in ("state", "dir", "ground") if each in paths):
         _add_cache(crowd, f"throng {stream}", paths[stream], "NONE" if stream == "state" else "LINEAR", frame_start)
         modifier = crowd.modifiers.new(f"throng {stream} to attribute", "NODES")
         modifier.node_group = _store_tree(f"throng_{stream}")
     _add_cache(crowd, "throng pos", paths["pos"], "LINEAR", frame_start)
     for name, hidden in zip(INSTANCERS, ("show_viewport", "show_render")):
         setattr(crowd.modifiers.new(name, "NODES"), hidden, False)
+    if "ground" in paths:
+        ground.lean(crowd)
     crowd["throng_strides"] = list(bake.strides)
     cast["throng_drawn"], cast["throng_shipped"] = bake.variations, cast["throng_variations"]
     crowd["throng_frame_start"], crowd["throng_offset"], crowd["throng_percent"] = frame_start, 0, 100.0

@@ -30,12 +30,53 @@ std::vector<glm::dvec2> relative(const std::vector<glm::dvec2>& points, glm::dve
     return result;
 }
 
+Mesh terrainMesh(const BakeDescription& description) {
+    const authoring::TerrainMesh& terrain = *description.terrain->mesh;
+    Mesh mesh;
+    mesh.positions.reserve(terrain.positions.size());
+    for (const glm::dvec3& position : terrain.positions)
+        mesh.positions.emplace_back(position - glm::dvec3(description.output_origin, 0.0));
+    mesh.normals = terrain.normals;
+    mesh.indices = terrain.indices;
+    return mesh;
+}
+
+GlbDocument documentFor(const BakeDescription& description) {
+    return {description.name, {description.output_origin.x, 0.0, -description.output_origin.y}};
+}
+
+/// From below the lowest ground along a wall to its height over the highest.
+Mesh raised(Mesh mesh, double base) {
+    for (glm::vec3& position : mesh.positions)
+        position.z += static_cast<float>(base);
+    return mesh;
+}
+
+void addWalls(GlbDocument& document, const BakeDescription& description) {
+    const int material = document.addMaterial("wall", colourFromHex(0xcfc8bb), 0.8);
+    for (std::size_t i = 0; i < description.walls.size(); ++i) {
+        const authoring::Wall& wall = description.walls[i];
+        const std::vector<glm::dvec2> points = relative(wall.points, description.output_origin);
+        const glm::dvec2 ground = description.terrain ? description.terrain->along_walls.at(i) : glm::dvec2(0.0);
+        const double height = wall.height + ground.y - ground.x;
+        document.addMeshNode("wall " + wall.id,
+                             raised(wall.closed ? closedWallMesh(points, height)
+                                                : openWallMesh(points, wall.thickness, height),
+                                    ground.x),
+                             material);
+    }
+}
+
+/// A terrain takes the place of the ground, and of roads and areas, which are flat.
 void addScenery(GlbDocument& document, const BakeDescription& description) {
     const glm::dvec2 origin = description.output_origin;
     const int ground = document.addMaterial("ground", colourFromHex(0x9a978f), 0.95);
+    if (description.terrain) {
+        document.addMeshNode("ground", terrainMesh(description), ground);
+        return addWalls(document, description);
+    }
     const int area = document.addMaterial("area", colourFromHex(0x86837b), 0.9);
     const int road = document.addMaterial("road", colourFromHex(0x6b6a68), 0.85);
-    const int wall = document.addMaterial("wall", colourFromHex(0xcfc8bb), 0.8);
     document.addMeshNode("ground",
                          groundMesh(description.minimum - origin - kGroundMargin,
                                     description.maximum - origin + kGroundMargin, 0.0),
@@ -46,13 +87,7 @@ void addScenery(GlbDocument& document, const BakeDescription& description) {
     for (const authoring::Road& entry : description.roads)
         document.addMeshNode("road " + entry.id,
                              ribbonMesh(relative(entry.centreline, origin), entry.width, kRoadHeight), road);
-    for (const authoring::Wall& entry : description.walls) {
-        const std::vector<glm::dvec2> points = relative(entry.points, origin);
-        document.addMeshNode("wall " + entry.id,
-                             entry.closed ? closedWallMesh(points, entry.height)
-                                          : openWallMesh(points, entry.thickness, entry.height),
-                             wall);
-    }
+    addWalls(document, description);
 }
 
 /// One mesh for each group, as they differ in colour, and for each colour of its own; the geometry is stored
@@ -120,7 +155,7 @@ GltfSummary writeCrowdGlb(const std::filesystem::path& path, const BakeDescripti
     }
     findDeadRows(streams.states, rows);
 
-    GlbDocument document(description.name, {description.output_origin.x, 0.0, -description.output_origin.y});
+    GlbDocument document = documentFor(description);
     addScenery(document, description);
     addPeople(document, description, rows, frames);
 
@@ -131,6 +166,15 @@ GltfSummary writeCrowdGlb(const std::filesystem::path& path, const BakeDescripti
         throw OutputError(path, "came out with another size than its header says");
     file.finish();
     return {static_cast<std::uint32_t>(rows.size()), all_rows};
+}
+
+void writeTerrainGlb(const std::filesystem::path& path, const BakeDescription& description) {
+    GlbDocument document = documentFor(description);
+    document.addMeshNode("terrain", terrainMesh(description),
+                         document.addMaterial("ground", colourFromHex(0x9a978f), 0.95));
+    OutputFile file(path);
+    document.writeHead(file);
+    file.finish();
 }
 
 }  // namespace throng::io

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/motion/motion_recorder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <glm/common.hpp>
@@ -33,6 +34,10 @@ MotionRecorder::MotionRecorder(const BakeDescription& description, Sink sink)
       apart_(localWalls(description), description.minimum - description.scene_origin,
              description.maximum - description.scene_origin),
       walkers_(description.agents.size()) {
+    if (description.terrain) {
+        footing_.emplace(description.terrain->surface, walkers_.size(), fps_);
+        grounds_.resize(walkers_.size() * kComponents);
+    }
     for (const BakeAgent& agent : description.agents) {
         radii_.push_back(agent.radius);
         speeds_.push_back(agent.preferred_speed);
@@ -59,7 +64,7 @@ void MotionRecorder::giveOut() {
     states_ = frame.states;
     if (window_.reach() > 0) average(frame);
     record(frame);
-    sink_({frame.index, positions_, directions_, states_, frame.densities, nullptr});
+    sink_({frame.index, positions_, directions_, states_, frame.densities, nullptr, grounds_});
     window_.advance();
 }
 
@@ -97,8 +102,10 @@ void MotionRecorder::record(const KeptFrame& frame) {
             positions_[at] = walker.place.x;
             positions_[at + 1] = walker.place.y;
             states_[at + 2] = static_cast<float>(walker.gait.phase);
+            if (footing_) putStance(at, footing_->last(row));
             continue;
         }
+        const glm::vec2 moved = walker.walks ? place - walker.place : glm::vec2(0.0f);
         if (walker.walks) {
             const double way = glm::distance(glm::dvec2(walker.place), glm::dvec2(place));
             if (window_.reach() > 0) directions_[at + 2] = static_cast<float>(way * fps_);
@@ -110,7 +117,17 @@ void MotionRecorder::record(const KeptFrame& frame) {
         walker.place = place;
         states_[at] += kGaitInState * static_cast<float>(walker.gait.gait);
         states_[at + 2] = static_cast<float>(walker.gait.phase);
+        if (footing_)
+            putStance(
+                at, footing_->stand(row, place, {directions_[at], directions_[at + 1]}, moved, walker.gait));
     }
+}
+
+void MotionRecorder::putStance(std::size_t at, const Stance& stance) {
+    positions_[at + 2] = stance.height;
+    grounds_[at] = stance.along;
+    grounds_[at + 1] = stance.across;
+    grounds_[at + 2] = stance.ground;
 }
 
 std::vector<std::byte> MotionRecorder::save() const {
@@ -118,6 +135,7 @@ std::vector<std::byte> MotionRecorder::save() const {
     std::memcpy(bytes.data(), &taken_, sizeof taken_);
     if (!walkers_.empty())
         std::memcpy(bytes.data() + sizeof taken_, walkers_.data(), walkers_.size() * sizeof(Walker));
+    if (footing_) bytes.insert(bytes.end(), footing_->state().begin(), footing_->state().end());
     window_.save(bytes);
     return bytes;
 }
@@ -127,7 +145,15 @@ void MotionRecorder::restore(std::span<const std::byte> bytes) {
     if (bytes.size() < own) throw std::runtime_error("the checkpoint's motion does not fit this bake");
     std::memcpy(&taken_, bytes.data(), sizeof taken_);
     if (!walkers_.empty()) std::memcpy(walkers_.data(), bytes.data() + sizeof taken_, own - sizeof taken_);
-    window_.restore(bytes.subspan(own), walkers_.size());
+    bytes = bytes.subspan(own);
+    if (footing_) {
+        const std::span<std::byte> feet = footing_->state();
+        if (bytes.size() < feet.size())
+            throw std::runtime_error("the checkpoint's motion does not fit this bake");
+        std::copy_n(bytes.begin(), feet.size(), feet.begin());
+        bytes = bytes.subspan(feet.size());
+    }
+    window_.restore(bytes, walkers_.size());
 }
 
 }  // namespace throng::io

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "io/bake_description.h"
+#include "io/motion/footing.h"
 #include "io/motion/frame_window.h"
 #include "io/motion/gaits.h"
 #include "io/motion/keep_apart.h"
@@ -16,7 +18,8 @@ namespace throng::io {
 /// in anybody or in a wall (KeepApart), and with the strides that go with it (GaitTrack).
 ///
 /// Frames come out later than they go in, in the same order. Streams `pos` and `dir` are averages; `state`
-/// gets its gaits and phases here: what comes in has the phases at the start.
+/// gets its gaits and phases here: what comes in has the phases at the start. On a terrain, heights and
+/// slopes (Footing) follow from these.
 class MotionRecorder {
   public:
     using Sink = std::function<void(const Frame&)>;
@@ -43,6 +46,7 @@ class MotionRecorder {
     void giveOut();
     void average(const KeptFrame& frame);
     void record(const KeptFrame& frame);
+    void putStance(std::size_t at, const Stance& stance);
 
     double fps_;
     std::vector<float> radii_, speeds_;  ///< by row: m; preferred, m/s
@@ -50,9 +54,10 @@ class MotionRecorder {
     FrameWindow window_;
     KeepApart apart_;
     std::vector<Walker> walkers_;
+    std::optional<Footing> footing_;  // none on flat ground
     std::uint32_t taken_ = 0;
 
-    std::vector<float> positions_, directions_, states_;  ///< of the frame being given out
+    std::vector<float> positions_, directions_, states_, grounds_;  ///< of the frame being given out
     std::vector<std::uint32_t> present_;
     std::vector<MovedBody> bodies_;
 };

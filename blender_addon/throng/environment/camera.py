@@ -7,6 +7,7 @@ import os
 import bpy
 
 from ..formats import BakeError, load_bake
+from ..terrain_mesh import read_mesh
 from .shapes import direction, inside
 
 _HEADER = 32
@@ -46,6 +47,14 @@ def _directions(geometry):
     return found or [(-0.6, -0.8)]
 
 
+def _ground_at(terrain, x, y):
+    """The height of the terrain's nearest corner; 0 where the ground is flat."""
+    if not terrain:
+        return 0.0
+    xs, ys, zs = (terrain[0][axis::3] for axis in range(3))
+    return min(zip(xs, ys, zs), key=lambda p: (p[0] - x) ** 2 + (p[1] - y) ** 2)[2]
+
+
 SHOTS = ("crane", "street", "wide")
 _EYES = 1.95  # m above the ground: a camera on a shoulder, just over most heads
 _LENS = 36.0  # mm, on a sensor 36 mm wide
@@ -60,6 +69,10 @@ def build_camera(scene, manifest, collection, shot="crane"):
     target = _densest(people) if people else (0.0, 0.0)
     way = _clear_way(manifest.get("geometry") or {}, target)
     place, aim = {"crane": _crane, "street": _street, "wide": _wide}[shot](manifest.get("geometry") or {}, people, target, way)
+    terrain = read_mesh(bake.terrain_path) if bake and bake.terrain_path else None
+    below = _ground_at(terrain, *aim[:2])
+    place = (*place[:2], place[2] + max(below, _ground_at(terrain, *place[:2])))
+    aim = (*aim[:2], aim[2] + below)
     holder = collection.objects.get(collection.get("throng_camera", "")) or _new_camera(collection)
     holder.animation_data_clear()
     for constraint in [*holder.constraints]:

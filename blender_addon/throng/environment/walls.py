@@ -23,7 +23,8 @@ def _number(text):
 def build_wall(wall):
     """One wall of the manifest's geometry as an object."""
     points = [tuple(point[:2]) for point in wall["points"]]
-    height, name = float(wall.get("height", 3.0)), wall.get("id", "wall")
+    low, high = wall.get("ground", (0.0, 0.0))  # the lowest and the highest ground along it
+    height, name = float(wall.get("height", 3.0)) + high - low, wall.get("id", "wall")
     shape = Shape(f"Throng wall {name}")
     if wall.get("closed"):
         if height >= BUILDING:
@@ -34,7 +35,9 @@ def build_wall(wall):
             shape.band(points, height - 0.12, height + 0.03, 0.06, stone)
     else:
         _open_wall(shape, points, float(wall.get("thickness", 0.2)), height)
-    return shape.to_object()
+    thing = shape.to_object()
+    thing.location.z = low
+    return thing
 
 
 def key_gate(thing, wall, fps, frame_start):

@@ -1,0 +1,259 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Crowds on ground that is not flat. Natively, as playback is: modifiers only, no Python when frames change.
+
+Poses are made for flat ground. Where it slopes, people are sheared: whatever is at (x, y) of a person goes up by slope_x x + slope_y y,
+so that feet follow the ground and bodies stay upright. Instances can only be turned and scaled, but along the axes of the scene as
+well as their own, and every shear is a turn, a scale along the axes, and another turn (its singular value decomposition).
+
+The slopes are the attribute GROUND of everybody's point: along the heading, to the left of it, and the height of the ground. A bake
+with a terrain brings them in its stream `ground`; for others, conform() looks for the ground below.
+"""
+import bpy
+from bpy.props import PointerProperty
+
+from .nodes import Maths, new_tree, set_input, socket
+
+GROUND = "throng_ground"
+LEAN = "throng ground lean"       # the modifier that shears
+CONFORM = "throng conform"        # the modifier that looks for the ground
+REACH = 0.3                       # m before and behind the body: about where planted feet are
+HIGH = 1000.0                     # m over the point: where rays come from; they reach as far below
+STEEPEST = 1.2
+_GEOMETRY = [("Geometry", "NodeSocketGeometry")]
+
+
+def _named(maths, name):
+    node = maths.node("GeometryNodeInputNamedAttribute", data_type="FLOAT_VECTOR")
+    node.inputs["Name"].default_value = name
+    separate = maths.node("ShaderNodeSeparateXYZ")
+    maths.link(socket(node.outputs, "Attribute"), separate.inputs[0])
+    return separate.outputs
+
+
+def _vector(maths, x=0.0, y=0.0, z=0.0):
+    node = maths.node("ShaderNodeCombineXYZ")
+    for slot, value in zip(node.inputs, (x, y, z)):
+        if isinstance(value, (int, float)):
+            slot.default_value = value
+        else:
+            maths.link(value, slot)
+    return node.outputs[0]
+
+
+def _lean_tree():
+    name = "Throng ground lean"
+    found = bpy.data.node_groups.get(name)
+    if found:
+        return found
+    tree, inputs, outputs = new_tree(name, _GEOMETRY, _GEOMETRY)
+    maths = Maths(tree)
+    along, across, _ = _named(maths, GROUND)
+    cosine, sine, _ = _named(maths, "throng_dir")
+    heading = maths.math("ARCTAN2", sine, cosine)
+    uphill = maths.math("ADD", heading, maths.math("ARCTAN2", across, along))
+    slope = maths.math("SQRT", maths.math("MULTIPLY_ADD", along, along, maths.math("MULTIPLY", across, across)))
+    # In the plane of uphill and up, the shear is [1 0; k 1] = turn(out) scale(large, 1 / large) turn(-into).
+    half = maths.math("MULTIPLY", slope, 0.5)
+    root = maths.math("SQRT", maths.math("MULTIPLY_ADD", half, half, 1.0))
+    into = maths.math("MULTIPLY", maths.math("ARCTAN2", 2.0, slope), 0.5)
+    out = maths.math("MULTIPLY", maths.math("ARCTAN2", 2.0, maths.math("MULTIPLY", slope, -1.0)), 0.5)
+
+    place = maths.node("GeometryNodeInputPosition").outputs[0]
+    geometry = inputs.outputs[0]
+
+    def turn(geometry, x=0.0, y=0.0, z=0.0):
+        node = maths.node("GeometryNodeRotateInstances")
+        node.inputs["Local Space"].default_value = False
+        maths.link(geometry, node.inputs["Instances"])
+        maths.link(_vector(maths, x, y, z), node.inputs["Rotation"])
+        maths.link(place, node.inputs["Pivot Point"])
+        return node.outputs[0]
+
+    geometry = turn(geometry, z=maths.math("MULTIPLY", uphill, -1.0))
+    geometry = turn(geometry, y=into)
+    scale = maths.node("GeometryNodeScaleInstances")
+    scale.inputs["Local Space"].default_value = False
+    maths.link(geometry, scale.inputs["Instances"])
+    maths.link(_vector(maths, maths.math("ADD", root, half), 1.0, maths.math("SUBTRACT", root, half)), scale.inputs["Scale"])
+    maths.link(place, scale.inputs["Center"])
+    geometry = turn(scale.outputs[0], y=maths.math("MULTIPLY", out, -1.0), z=uphill)
+    maths.link(geometry, outputs.inputs[0])
+    return tree
+
+
+def lean(crowd):
+    """Lets a crowd's people follow the slopes in the attribute GROUND."""
+    if LEAN not in crowd.modifiers:
+        crowd.modifiers.new(LEAN, "NODES").node_group = _lean_tree()
+
+
+def _ray(maths, target, origin, offset=None):
+    """What lies below a place: (whether there is anything, its height, its normal)."""
+    if offset is not None:
+        add = maths.node("ShaderNodeVectorMath", operation="ADD")
+        maths.link(origin, add.inputs[0])
+        maths.link(offset, add.inputs[1])
+        origin = add.outputs[0]
+    ray = maths.node("GeometryNodeRaycast")
+    maths.link(target, ray.inputs["Target Geometry"])
+    maths.link(origin, ray.inputs["Source Position"])
+    maths.link(_vector(maths, z=-1.0), ray.inputs["Ray Direction"])
+    ray.inputs["Ray Length"].default_value = 2.0 * HIGH
+    height = maths.node("ShaderNodeSeparateXYZ")
+    maths.link(ray.outputs["Hit Position"], height.inputs[0])
+    return ray.outputs["Is Hit"], height.outputs[2], ray.outputs["Hit Normal"]
+
+
+def _either(maths, hit, value, otherwise):
+    """`value` where something was hit."""
+    return maths.math("ADD", maths.math("MULTIPLY", hit, value), maths.math("MULTIPLY", maths.math("SUBTRACT", 1.0, hit), otherwise))
+
+
+def _conform_tree():
+    name = "Throng conform to ground"
+    found = bpy.data.node_groups.get(name)
+    if found:
+        return found
+    tree, inputs, outputs = new_tree(name, _GEOMETRY + [("Ground", "NodeSocketObject")], _GEOMETRY)
+    maths = Maths(tree)
+    info = maths.node("GeometryNodeObjectInfo", transform_space="RELATIVE")
+    maths.link(inputs.outputs["Ground"], info.inputs["Object"])
+    target = info.outputs["Geometry"]
+    cosine, sine, _ = _named(maths, "throng_dir")
+    place = maths.node("ShaderNodeSeparateXYZ")
+    maths.link(maths.node("GeometryNodeInputPosition").outputs[0], place.inputs[0])
+    above = _vector(maths, place.outputs[0], place.outputs[1], maths.math("ADD", place.outputs[2], HIGH))
+    forward = [maths.math("MULTIPLY", part, REACH) for part in (cosine, sine)]
+    hit, height, normal = _ray(maths, target, above)
+    ahead_hit, ahead, _ = _ray(maths, target, above, _vector(maths, *forward))
+    behind_hit, behind, _ = _ray(maths, target, above, _vector(maths, *(maths.math("MULTIPLY", part, -1.0) for part in forward)))
+    ahead, behind = _either(maths, ahead_hit, ahead, height), _either(maths, behind_hit, behind, height)
+    mean = maths.math("MULTIPLY", maths.math("ADD", maths.math("MULTIPLY", height, 2.0), maths.math("ADD", ahead, behind)), 0.25)
+    parts = maths.node("ShaderNodeSeparateXYZ")
+    maths.link(normal, parts.inputs[0])
+    down = maths.math("MAXIMUM", maths.math("ABSOLUTE", parts.outputs[2]), 0.05)
+    left = maths.math("SUBTRACT", maths.math("MULTIPLY", parts.outputs[0], sine), maths.math("MULTIPLY", parts.outputs[1], cosine))
+    sign = maths.math("SIGN", parts.outputs[2])  # meshes may be inside out
+    slopes = [maths.math("DIVIDE", maths.math("SUBTRACT", ahead, behind), 2.0 * REACH), maths.math("MULTIPLY", maths.math("DIVIDE", left, down), sign)]
+    slopes = [maths.math("MULTIPLY", hit, maths.math("MAXIMUM", maths.math("MINIMUM", slope, STEEPEST), -STEEPEST)) for slope in slopes]
+    store = maths.node("GeometryNodeStoreNamedAttribute", data_type="FLOAT_VECTOR", domain="POINT")
+    store.inputs["Name"].default_value = GROUND
+    maths.link(inputs.outputs["Geometry"], store.inputs["Geometry"])
+    maths.link(_vector(maths, *slopes, height), socket(store.inputs, "Value"))
+    stand = maths.node("GeometryNodeSetPosition")
+    maths.link(store.outputs[0], stand.inputs["Geometry"])
+    maths.link(_vector(maths, place.outputs[0], place.outputs[1], _either(maths, hit, mean, place.outputs[2])), stand.inputs["Position"])
+    maths.link(stand.outputs[0], outputs.inputs[0])
+    return tree
+
+
+def _move(crowd, name, to):
+    at = [each.name for each in crowd.modifiers].index(name)
+    if hasattr(crowd.modifiers, "move"):
+        crowd.modifiers.move(at, to)
+    else:
+        with bpy.context.temp_override(object=crowd, active_object=crowd):
+            bpy.ops.object.modifier_move_to_index(modifier=name, index=to)
+
+
+def conform(crowd, ground):
+    """Lets a crowd stand on a mesh of the scene, whatever its bake says about heights."""
+    if CONFORM not in crowd.modifiers:
+        crowd.modifiers.new(CONFORM, "NODES").node_group = _conform_tree()
+        _move(crowd, CONFORM, [each.name for each in crowd.modifiers].index("throng pos") + 1)
+    set_input(crowd.modifiers[CONFORM], "Ground", ground)
+    lean(crowd)
+    crowd.update_tag()
+
+
+def release(crowd):
+    """Undoes conform(): the bake's own ground, or a flat one."""
+    names = [CONFORM] if "throng ground" in crowd.modifiers else [CONFORM, LEAN]
+    for name in names:
+        if name in crowd.modifiers:
+            crowd.modifiers.remove(crowd.modifiers[name])
+    crowd.update_tag()
+
+
+class THRONG_OT_conform(bpy.types.Operator):
+    """Let the selected crowds, or all, stand on the mesh chosen above: heights and slopes come from it in every frame, on farms too"""
+
+    bl_idname = "throng.conform"
+    bl_label = "Conform to Ground"
+    bl_options = {"REGISTER", "UNDO"}
+
+    ground: bpy.props.StringProperty(name="Ground", description="The mesh object; by default the one chosen in the sidebar, or the active one")
+
+    @classmethod
+    def poll(cls, context):
+        from .crowds import crowd_objects
+
+        return bool(crowd_objects(context.scene))
+
+    def _ground(self, context):
+        if self.ground:
+            return context.scene.objects.get(self.ground)
+        chosen = getattr(context.scene, "throng_ground", None)
+        active = context.view_layer.objects.active
+        return chosen or (active if active and "throng pos" not in active.modifiers else None)
+
+    def execute(self, context):
+        from .operators import _chosen_crowds
+
+        ground = self._ground(context)
+        crowds = _chosen_crowds(context)
+        if not ground or ground.type not in {"MESH", "CURVE", "SURFACE"} or ground in crowds:
+            self.report({"ERROR"}, f"There is no mesh `{self.ground}` to stand on" if self.ground else "Choose the mesh to stand on: in the sidebar, or make it active")
+            return {"CANCELLED"}
+        for crowd in crowds:
+            conform(crowd, ground)
+        self.report({"INFO"}, f"{len(crowds)} crowds stand on {ground.name}")
+        return {"FINISHED"}
+
+
+class THRONG_OT_release(bpy.types.Operator):
+    """Let the selected crowds, or all, stand where their bakes have them"""
+
+    bl_idname = "throng.release"
+    bl_label = "Back to the Bake's Ground"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        return any(CONFORM in thing.modifiers for thing in context.scene.objects)
+
+    def execute(self, context):
+        from .operators import _chosen_crowds
+
+        for crowd in _chosen_crowds(context):
+            release(crowd)
+        return {"FINISHED"}
+
+
+class VIEW3D_PT_throng_ground(bpy.types.Panel):
+    bl_label = "Ground"
+    bl_space_type, bl_region_type, bl_category = "VIEW_3D", "UI", "Throng"
+    bl_parent_id = "VIEW3D_PT_throng"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        column = self.layout.column(align=True)
+        column.prop(context.scene, "throng_ground", text="")
+        column.operator(THRONG_OT_conform.bl_idname)
+        column.operator(THRONG_OT_release.bl_idname)
+
+
+CLASSES = (THRONG_OT_conform, THRONG_OT_release, VIEW3D_PT_throng_ground)
+
+
+def register():
+    for each in CLASSES:
+        bpy.utils.register_class(each)
+    bpy.types.Scene.throng_ground = PointerProperty(type=bpy.types.Object, name="Ground", description="The mesh that crowds are to stand on",
+                                                    poll=lambda _, thing: thing.type == "MESH" and "throng pos" not in thing.modifiers)
+
+
+def unregister():
+    del bpy.types.Scene.throng_ground
+    for each in reversed(CLASSES):
+        bpy.utils.unregister_class(each)

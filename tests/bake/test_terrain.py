@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Bakes on ground that is not flat: heights, slopes, speeds and feet against terrains of known shape."""
+import csv
+import json
+import math
+
+import numpy
+import pytest
+
+import terrain_files
+
+TREADS, TREAD, RISE = 20, 0.3, 0.17
+
+
+def ramp(x, _):
+    """10 % up from x = 0 to 40, flat before and after."""
+    return max(0.0, min(0.1 * x, 4.0))
+
+
+@pytest.fixture(scope="module")
+def walk(throng, tmp_path_factory):
+    """walk(name, terrain file's bytes, from, to) is the bake of one person, and its streams while they are there."""
+    folder = tmp_path_factory.mktemp("terrain")
+
+    def bake(name, content, start, goal, *options, speed=1.3, **terrain):
+        (folder / f"{name}.glb").write_bytes(content)
+        person = {"position": start, "goal": goal, "speed": speed}
+        (folder / f"{name}.json").write_text(json.dumps({
+            "throng": 1, "simulation": {"duration": 60, "avoid_congestion": False}, "terrain": {"file": f"{name}.glb", **terrain},
+            "formations": [{"id": "one", "type": "agents", "agents": [person], "arrival": "leave"}]}))
+        throng("bake", folder / f"{name}.json", "-o", folder / "bakes" / name, "-q", *options)
+        streams = {stream: numpy.load(folder / "bakes" / name / "streams" / f"{stream}.npy")[:, 0] for stream in ("pos", "dir", "state", "ground")}
+        there = streams["state"][:, 0] > 0.5
+        return folder / "bakes" / name, {stream: values[there].astype(float) for stream, values in streams.items()}
+
+    return bake
+
+
+def seconds(pos, start, end):
+    """How long it takes from one x to another."""
+    times = numpy.arange(len(pos)) / 24.0
+    order = 1 if pos[-1, 0] > pos[0, 0] else -1
+    return abs(numpy.interp(order * end, order * pos[:, 0], times) - numpy.interp(order * start, order * pos[:, 0], times))
+
+
+def test_a_ramp_is_stood_on_exactly_and_climbed_slowly(walk, throng):
+    content = terrain_files.glb(*terrain_files.surface(ramp, (-20, -6), (60, 6), 4.0))
+    bake, up = walk("up", content, [-10, 1.3], [50, -2.2], "--no-gltf")
+    heights = numpy.array([ramp(x, y) for x, y, _ in up["pos"]])
+    middle = (up["pos"][:, 0] > 1.5) & (up["pos"][:, 0] < 38.5)
+    assert numpy.abs(up["pos"][:, 2] - heights)[middle].max() < 1e-3
+    assert numpy.abs(up["pos"][:, 2] - heights).max() < 0.02, "rounded where the ramp begins and ends"
+    assert numpy.abs(up["ground"][:, 2] - heights).max() < 1e-4
+    slope = 0.1 * up["dir"][:, 0], -0.1 * up["dir"][:, 1]
+    for column in (0, 1):
+        assert numpy.abs(up["ground"][:, column] - slope[column])[middle].max() < 1e-3
+    # Tobler's hiking function: exp(-3.5 x 0.1) uphill, exp(+3.5 x 0) at 10 % down, which is as far from 5 % down as flat ground is.
+    flat = 5.0 / seconds(up["pos"], -7.0, -2.0)
+    assert 30.0 / seconds(up["pos"], 5.0, 35.0) / flat == pytest.approx(math.exp(-0.35), rel=0.01)
+    _, down = walk("down", content, [50, 0], [-10, 0], "--no-gltf")
+    assert 30.0 / seconds(down["pos"], 35.0, 5.0) / flat == pytest.approx(1.0, rel=0.01)
+    throng("measure", bake)
+    with open(bake / "agents.csv", newline="") as file:
+        walked = float(next(csv.DictReader(file))["distance_walked"])
+    assert numpy.hypot(*numpy.diff(up["pos"][:, :2], axis=0).T).sum() == pytest.approx(walked, abs=0.1), "ways are measured in plan"
+
+
+@pytest.mark.parametrize("name, start, goal, pace", [("up", [-10, 0], [16, 0], 0.610), ("down", [16, 0], [-10, 0], 0.694)])
+def test_stairs_are_climbed_at_the_pace_of_stairs_with_feet_on_the_treads(walk, name, start, goal, pace):
+    content = terrain_files.glb(*terrain_files.stairs(TREADS, TREAD, RISE, 12, 4))
+    _, seen = walk(f"stairs {name}", content, start, goal, "--no-gltf")
+    x, z, slope, phase = seen["pos"][:, 0], seen["pos"][:, 2], seen["ground"][:, 0], seen["state"][:, 2]
+    order = 1 if goal > start else -1
+    assert 4.0 / seconds(seen["pos"], *((1.0, 5.0) if order > 0 else (5.0, 1.0))) == pytest.approx(1.3 * pace / 1.34, rel=0.06), "Weidmann 1993"
+    assert numpy.abs(numpy.diff(z)).max() < 0.05, "bodies go up and down without jerks"
+    half_cycles = 2.0 * (phase - 0.28)
+    errors = []
+    for foot in range(math.floor(half_cycles[0]) + 1, math.floor(half_cycles[-1])):
+        place = numpy.interp(foot, half_cycles, x)
+        planted = (numpy.abs(half_cycles - foot) < 0.55) & (seen["dir"][:, 2] > 0.15)
+        on = terrain_files.stair_height(place, TREADS, TREAD, RISE)
+        errors += list(numpy.abs(z + slope * (place - x) * order - on)[planted])
+    assert len(errors) > 400
+    assert numpy.mean(errors) < 0.005 and numpy.percentile(errors, 95) < 0.02 and max(errors) < 0.07
+
+
+def test_far_from_the_origin_it_is_the_same(walk, manifest_of):
+    hill = lambda x, y: 2.0 * math.sin(0.1 * x) + 0.02 * y * y
+    content = terrain_files.glb(*terrain_files.surface(hill, (-20, -8), (20, 8), 0.5))
+    near_bake, near = walk("near", content, [-15, 3], [15, -3])
+    far_bake, far = walk("far", content, [500_000 - 15, 4_200_003], [500_015, 4_200_000 - 3], offset=[500_000, 4_200_000, 812.5])
+    assert manifest_of(far_bake)["origin"][:2] == [500_000.0, 4_200_000.0]
+    assert numpy.abs(near["pos"][:, :2] - far["pos"][:, :2]).max() < 1e-3, "people walk the same way"
+    assert numpy.abs(near["pos"][:, 2] + 812.5 - far["pos"][:, 2]).max() < 1e-3
+    assert numpy.abs(near["ground"][:, 2] - [hill(x, y) for x, y, _ in near["pos"]]).max() < 0.01
+    assert numpy.abs(near["pos"][:, 2] - near["ground"][:, 2]).max() < 0.03
+
+
+def test_a_bake_holds_its_terrain(walk, throng, manifest_of):
+    content = terrain_files.glb(*terrain_files.surface(ramp, (-20, -6), (60, 6), 4.0))
+    bake, seen = walk("held", content, [-10, 0], [12, 0], scale=1.0)
+    manifest = manifest_of(bake)
+    assert manifest["streams"]["ground"]["components"] == ["slope_along", "slope_across", "height"]
+    assert manifest["terrain"]["source"] == "held.glb" and manifest["terrain"]["file"] == "terrain.glb"
+    assert (manifest["terrain"]["lowest"], manifest["terrain"]["highest"]) == (0.0, pytest.approx(4.0))
+    assert {"terrain.glb", "streams/ground.npy", "streams/ground.pc2"} <= {file["path"] for file in manifest["files"]}
+    throng("info", bake, "--verify")
+    pc2 = numpy.fromfile(bake / "streams" / "ground.pc2", "<f4", offset=32).reshape(-1, 3)
+    assert numpy.array_equal(pc2, numpy.load(bake / "streams" / "ground.npy")[:, 0])
+    for command in (["measure"], ["preview", "-o", bake.parent / "plate.png"], ["report", "-o", bake.parent / "report.html"]):
+        throng(command[0], bake, *command[1:])
+
+
+def test_checkpoints_and_other_terrains_do_not_mix(walk, throng, tmp_path):
+    """The terrain's content is among what a bake depends on."""
+    flat = terrain_files.glb(*terrain_files.surface(lambda x, y: 0.0, (-20, -6), (60, 6), 4.0))
+    sloped = terrain_files.glb(*terrain_files.surface(ramp, (-20, -6), (60, 6), 4.0))
+    bakes = [walk("mixed", content, [-10, 0], [12, 0], "--no-gltf", "--force")[0] / "bake.json" for content in (flat,)]
+    first = json.loads(bakes[0].read_text())["inputs"]
+    second = json.loads((walk("mixed", sloped, [-10, 0], [12, 0], "--no-gltf", "--force")[0] / "bake.json").read_text())["inputs"]
+    assert first != second
+
+
+@pytest.mark.parametrize("terrain, words", [
+    ({"file": "absent.glb"}, ["3:22: error: /terrain/file:", "cannot open", "relative to the layout"]),
+    ({"file": "hill.glb", "node": "lawn"}, ["3:42: error: /terrain/node:", "no node or mesh named `lawn`"]),
+    ({"file": "hill.glb", "offset": [900, 0, 0]}, ["/terrain/file: no face of `hill.glb`", "x from 880.00 to 920.00", "offset"]),
+    ({"file": "junk.glb"}, ["/terrain/file:", "is not glTF"]),
+    ({"file": ""}, ["/terrain/file: `file` is empty"])])
+def test_terrains_that_cannot_be_used_are_told_where_they_are_named(throng, tmp_path, terrain, words):
+    (tmp_path / "hill.glb").write_bytes(terrain_files.glb(*terrain_files.surface(ramp, (-20, -20), (20, 20), 4.0)))
+    (tmp_path / "junk.glb").write_bytes(b"junk")
+    layout = tmp_path / "layout.json"
+    layout.write_text('{"throng": 1,\n "formations": [{"id": "f", "type": "circle", "centre": [0, 0], "radius": 5, "count": 9}],\n "terrain": ' +
+                      json.dumps(terrain) + "}\n")
+    for command in (["check", layout], ["bake", layout, "-o", tmp_path / "bake"]):
+        refused = throng(*command, expect=3)
+        for word in words:
+            assert word in refused.stderr + refused.stdout, refused.stderr
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["hill.glb", "junk.glb", "layout.json"]

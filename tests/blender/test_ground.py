@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: Apache-2.0
+"""People on ground that is not flat, in a real Blender: a bake's own terrain, and a mesh that only the scene has."""
+import json
+import math
+import pathlib
+import sys
+
+import numpy
+import pytest
+
+from conftest import ROOT
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+sys.path.insert(0, str(ROOT / "blender_addon"))
+import terrain_files  # noqa: E402
+from test_import import result_of  # noqa: E402
+from throng import formats, terrain_mesh  # noqa: E402
+
+ADDON = ROOT / "blender_addon"
+FRAMES = [1, 40, 97, 150]
+
+
+def ramp(x, _):
+    """Flat, then 20 % up, then 25 % down, then flat."""
+    return max(0.0, min(0.2 * (x + 10.0), 4.0 - 0.25 * (x - 10.0)))
+
+
+@pytest.fixture(scope="module")
+def two_bakes(throng, tmp_path_factory):
+    """The same layout on a ramp and on flat ground."""
+    folder = tmp_path_factory.mktemp("ground")
+    (folder / "ramp.glb").write_bytes(terrain_files.glb(*terrain_files.surface(ramp, (-40, -20), (40, 20), 2.0)))
+    layout = {"throng": 1, "simulation": {"duration": 8, "warmup": 50}, "roads": [{"id": "way", "centreline": [[-25, 0], [25, 0]], "width": 8}],
+              "walls": [{"id": "rail", "points": [[-12, 6], [0, 6]], "height": 1.0}],
+              "flows": [{"id": "up", "from": "way:start", "to": "way:end", "rate": 1}, {"id": "down", "from": "way:end", "to": "way:start", "rate": 1}]}
+    for name, terrain in (("flat", None), ("ramp", {"file": "ramp.glb", "offset": [0, 0, 7]})):
+        (folder / f"{name}.json").write_text(json.dumps({**layout, **({"terrain": terrain} if terrain else {})}))
+        throng("bake", folder / f"{name}.json", "-o", folder / "bakes" / name, "-q", "--no-gltf")
+    return folder / "bakes"
+
+
+def test_people_stand_on_the_ground_upright_with_their_feet_along_it(blender, two_bakes, tmp_path):
+    found = result_of(blender(pathlib.Path(__file__).parent / "check_ground.py", ADDON, two_bakes / "ramp", two_bakes / "flat", json.dumps(FRAMES),
+                              tmp_path / "conformed.blend"))
+    pos, direction, state, ground = (numpy.load(two_bakes / "ramp" / "streams" / f"{name}.npy") for name in ("pos", "dir", "state", "ground"))
+    feet, slopes = 0.0, []
+    for frame, people in zip(FRAMES, found["baked"]):
+        there = {int(row): numpy.array(matrix) for row, matrix in people.items()}
+        assert set(there) == set(numpy.nonzero(state[frame - 1, :, 0] > 0.5)[0]) and len(there) > 20
+        for row, matrix in there.items():
+            assert numpy.abs(matrix[:3, 3] - pos[frame - 1, row]).max() < 1e-4
+            along, across, _ = ground[frame - 1, row]
+            cosine, sine, _ = direction[frame - 1, row]
+            expected = numpy.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [along, across, 1.0]])
+            assert numpy.abs(matrix[:3, :3] - expected).max() < 2e-4, "sheared: upright, and along the slope"
+            slopes.append(along)
+            # A foot 0.3 m ahead and one as far behind, away from the ramp's edges: on the very ground.
+            for reach in (-0.3, 0.3):
+                foot = matrix @ numpy.array([reach, 0.1, 0.0, 1.0])
+                if min(abs(foot[0] - edge) for edge in (-10.0, 10.0, 26.0)) > 1.5:
+                    feet = max(feet, abs(foot[2] - 7.0 - ramp(foot[0], 0.0)))
+    assert feet < 0.01 and max(slopes) > 0.15 and min(slopes) < -0.15
+    assert found["flat"] == [], "flat bakes have no more modifiers than they need"
+    corners = numpy.array(found["terrain"]["corners"])
+    assert found["terrain"]["faces"] == 40 * 20 * 2 and max(abs(z - 7.0 - ramp(x, y)) for x, y, z in corners) < 1e-5
+    road = numpy.array(found["terrain"]["road"])
+    assert road[(abs(corners[:, 0]) < 24) & (abs(corners[:, 1]) < 3)].min() == 1.0 and road[abs(corners[:, 1]) > 5].max() == 0.0
+    assert not found["ground"] and found["camera"] > 9.0
+    low, height = found["walls"]["Throng wall rail"]
+    assert low == pytest.approx(7.0, abs=1e-3) and height == pytest.approx(3.0, abs=0.02), "from the lowest ground to 1 m over the highest"
+    assert found["problems"] == [] and found["starts"] == [4.0] and "has a terrain" in found["relinked"]
+
+
+def test_flat_bakes_conform_to_a_mesh_also_on_a_farm(blender, two_bakes, tmp_path):
+    found = result_of(blender(pathlib.Path(__file__).parent / "check_ground.py", ADDON, two_bakes / "ramp", two_bakes / "flat", json.dumps(FRAMES),
+                              tmp_path / "conformed.blend"))
+    assert "no such thing" in found["refused"]
+    names = found["modifiers"]
+    assert names.count("throng conform") == 1 and names.index("throng pos") < names.index("throng conform") < names.index("throng people")
+    pos, direction, state = (numpy.load(two_bakes / "flat" / "streams" / f"{name}.npy") for name in ("pos", "dir", "state"))
+
+    def check(shots):
+        checked = 0
+        for frame, people in zip(FRAMES, shots):
+            for row, matrix in ((int(row), numpy.array(matrix)) for row, matrix in people.items()):
+                x, y, _ = pos[frame - 1, row]
+                assert numpy.abs(matrix[:2, 3] - (x, y)).max() < 1e-4
+                if min(abs(x - edge) for edge in (-10.0, 10.0, 26.0)) < 0.4:
+                    continue
+                slope = (ramp(x + 0.1, 0.0) - ramp(x - 0.1, 0.0)) / 0.2
+                cosine, sine, _ = direction[frame - 1, row]
+                assert abs(matrix[2, 3] - 9.0 - ramp(x, y)) < 1e-3
+                assert numpy.abs(matrix[2, :3] - (slope * cosine, -slope * sine, 1.0)).max() < 1e-3
+                assert numpy.abs(matrix[:2, 2]).max() < 1e-4, "upright"
+                checked += 1
+        assert checked > 60
+
+    check(found["conformed"])
+    for frame, people in zip(FRAMES, found["released"]):
+        for row, matrix in people.items():
+            assert abs(matrix[2][3]) < 1e-5 and max(map(abs, matrix[2][:2])) < 1e-6
+    farm = tmp_path / "farm.py"
+    farm.write_text("""
+import bpy, json, sys
+assert 'throng' not in sys.modules and not hasattr(bpy.types, 'IMPORT_SCENE_OT_throng')
+crowd = next(thing for thing in bpy.context.scene.objects if 'throng pos' in thing.modifiers)
+result = []
+for frame in json.loads(sys.argv[-1]):
+    bpy.context.scene.frame_set(frame)
+    result.append({i.persistent_id[0]: [list(row) for row in i.matrix_world] for i in bpy.context.evaluated_depsgraph_get().object_instances
+                   if i.is_instance and i.parent and i.parent.original == crowd})
+print('RESULT ' + json.dumps(result))
+""")
+    check(result_of(blender(farm, json.dumps(FRAMES), blend=tmp_path / "conformed.blend")))
+
+
+@pytest.mark.parametrize("damage, words", [
+    (lambda path: path.unlink(), "cannot be read"),
+    (lambda path: path.write_bytes(path.read_bytes()[:-8]), "truncated"),
+    (lambda path: path.write_bytes(b"glTF"), "truncated"),
+    (lambda path: path.write_bytes(path.read_bytes()[:-4] + b"\xff\xff\xff\x7f"), "truncated")])
+def test_a_damaged_terrain_is_one_clear_error(two_bakes, tmp_path, damage, words):
+    path = tmp_path / "terrain.glb"
+    path.write_bytes((two_bakes / "ramp" / "terrain.glb").read_bytes())
+    assert len(terrain_mesh.read_mesh(str(path))[1]) == 40 * 20 * 6
+    damage(path)
+    with pytest.raises(formats.BakeError, match=words):
+        terrain_mesh.read_mesh(str(path))
+
+
+def test_a_manifest_cannot_name_a_terrain_elsewhere(two_bakes):
+    manifest = json.loads((two_bakes / "ramp" / "bake.json").read_text())
+    manifest["terrain"]["file"] = "../terrain.glb"
+    with pytest.raises(formats.BakeError, match="names no file"):
+        formats.Bake(manifest, str(two_bakes / "ramp")).terrain_path
+    assert math.isclose(manifest["terrain"]["highest"] - manifest["terrain"]["lowest"], 4.0)
