@@ -139,7 +139,8 @@ struct Wall {
     }
 };
 
-/// A mesh that people stand on, and how it lies in the layout: world = offset + scale * (x, -z, y) of the file.
+/// A mesh that people stand on, and how it lies in the layout: world = offset + scale * (x, -z, y) of the
+/// file.
 struct TerrainSettings {
     std::string file;  ///< as the layout has it: relative to the layout's folder
     std::string node;  ///< only nodes or meshes of this name; empty = all

@@ -115,7 +115,8 @@ std::string infoText(const Bake& bake) {
         "site:         {:.1f} x {:.1f} m, {} roads, {} areas, {} walls, origin {:.3f} {:.3f}\n", size.x,
         size.y, bake.roads.size(), bake.areas.size(), bake.walls.size(), bake.origin.x, bake.origin.y);
     if (bake.manifest.contains("terrain"))
-        text += fmt::format("terrain:      {}, from {:.1f} to {:.1f} m high\n", optionalText(bake.manifest, "/terrain/source"),
+        text += fmt::format("terrain:      {}, from {:.1f} to {:.1f} m high\n",
+                            optionalText(bake.manifest, "/terrain/source"),
                             bake.manifest.value("/terrain/lowest"_json_pointer, 0.0),
                             bake.manifest.value("/terrain/highest"_json_pointer, 0.0));
     text += extras(bake);

@@ -32,7 +32,8 @@ struct LoadAttempt {
 };
 
 /// Makes the scene of a layout's text.
-/// @param name of the file, for messages, for the layout if it has none of its own, and to find its terrain beside it
+/// @param name of the file, for messages, for the layout if it has none of its own, and to find its terrain
+/// beside it
 /// @param cache as buildScene
 LoadAttempt tryReadLayout(std::string text, const std::string& name, std::vector<std::string> overrides,
                           authoring::GroundCache* cache = nullptr);

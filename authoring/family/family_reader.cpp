@@ -130,7 +130,9 @@ class Reader {
     /// Scenarios are read without a folder of their own.
     void placeTerrain(const std::filesystem::path& folder) {
         const auto pointer = "/terrain/file"_json_pointer;
-        if (!family_.base.is_object() || !family_.base.contains(pointer) || !family_.base[pointer].is_string()) return;
+        if (!family_.base.is_object() || !family_.base.contains(pointer) ||
+            !family_.base[pointer].is_string())
+            return;
         const std::filesystem::path file = folder / family_.base[pointer].get<std::string>();
         family_.base[pointer] = std::filesystem::absolute(file).lexically_normal().string();
     }

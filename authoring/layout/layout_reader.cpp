@@ -233,7 +233,8 @@ class Reader {
             return;
         }
         for (int i = 0; i < 3; ++i)
-            offset[i] = reader.numberOf(node.items[static_cast<std::size_t>(i)], {-1.0e8, 1.0e8}).value_or(0.0);
+            offset[i] =
+                reader.numberOf(node.items[static_cast<std::size_t>(i)], {-1.0e8, 1.0e8}).value_or(0.0);
     }
 
     void checkPolygon(std::vector<glm::dvec2>& polygon, const JsonNode* node) {

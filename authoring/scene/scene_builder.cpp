@@ -213,8 +213,8 @@ class Builder {
 
     void buildTerrain() {
         if (!layout_.terrain || !terrain_mesh_) return;
-        scene_.terrain = std::make_shared<const Terrain>(*terrain_mesh_, layout_.terrain->highest, scene_.origin,
-                                                         scene_.minimum, scene_.maximum);
+        scene_.terrain = std::make_shared<const Terrain>(*terrain_mesh_, layout_.terrain->highest,
+                                                         scene_.origin, scene_.minimum, scene_.maximum);
         checkTerrain(layout_, rebase_, geometry_, *terrain_mesh_, *scene_.terrain, diagnostics_);
     }
 

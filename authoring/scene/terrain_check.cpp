@@ -12,11 +12,12 @@
 namespace throng::authoring {
 namespace {
 
-constexpr float kOverTheEdge = 1.0f;   // m: so far off the terrain, ground is taken to go on as it does at its edge
-constexpr float kSteepest = 1.0f;      // rise over run: 45 degrees
-constexpr float kStorey = 1.0f;        // m between two faces that make two storeys
+constexpr float kOverTheEdge =
+    1.0f;  // m: so far off the terrain, ground is taken to go on as it does at its edge
+constexpr float kSteepest = 1.0f;  // rise over run: 45 degrees
+constexpr float kStorey = 1.0f;    // m between two faces that make two storeys
 constexpr double kMostSamples = 400'000.0;
-constexpr float kSample = 0.5f;        // m
+constexpr float kSample = 0.5f;          // m
 constexpr double kWorthTelling = 0.001;  // share of the ground that is walked on
 
 bool hasGround(const Terrain& terrain, glm::vec2 point) {
@@ -71,19 +72,23 @@ class Checker {
                 low[axis] = std::min(low[axis], p[axis]);
                 high[axis] = std::max(high[axis], p[axis]);
             }
-        return fmt::format("x from {:.2f} to {:.2f}, y from {:.2f} to {:.2f}, z from {:.2f} to {:.2f} m", low.x, high.x, low.y,
-                           high.y, low.z, high.z);
+        return fmt::format("x from {:.2f} to {:.2f}, y from {:.2f} to {:.2f}, z from {:.2f} to {:.2f} m",
+                           low.x, high.x, low.y, high.y, low.z, high.z);
     }
 
     void tellWhereItLies() const {
-        diagnostics_.error(settings_.file_where,
-                           fmt::format("no face of `{}` that looks up lies where this layout is", settings_.file),
-                           fmt::format("the terrain covers {}: set its `offset` or `scale`; or its faces look down", extent()));
+        diagnostics_.error(
+            settings_.file_where,
+            fmt::format("no face of `{}` that looks up lies where this layout is", settings_.file),
+            fmt::format("the terrain covers {}: set its `offset` or `scale`; or its faces look down",
+                        extent()));
     }
 
     void complain(const SourcePosition& where, const std::string& what, glm::dvec2 point) const {
-        diagnostics_.error(where, fmt::format("{}: there is no ground of the terrain at ({:.2f}, {:.2f})", what, point.x, point.y),
-                           fmt::format("the terrain covers {}: move the one or the other", extent()));
+        diagnostics_.error(
+            where,
+            fmt::format("{}: there is no ground of the terrain at ({:.2f}, {:.2f})", what, point.x, point.y),
+            fmt::format("the terrain covers {}: move the one or the other", extent()));
     }
 
     bool isOver(glm::dvec2 world) const { return hasGround(terrain_, rebase_.local(world)); }
@@ -103,11 +108,12 @@ class Checker {
     void checkArea(const Area& area) const {
         for (std::size_t i = 0; i < area.polygon.size(); ++i) {
             bool told = false;
-            walkAlong(area.polygon[i], area.polygon[(i + 1) % area.polygon.size()], 1.0, [&](glm::dvec2 point) {
-                if (told || isOver(point)) return;
-                complain(area.where, fmt::format("area `{}`", area.id), point);
-                told = true;
-            });
+            walkAlong(area.polygon[i], area.polygon[(i + 1) % area.polygon.size()], 1.0,
+                      [&](glm::dvec2 point) {
+                          if (told || isOver(point)) return;
+                          complain(area.where, fmt::format("area `{}`", area.id), point);
+                          told = true;
+                      });
             if (told) return;
         }
     }
@@ -115,11 +121,13 @@ class Checker {
     void checkFormation(const Formation& formation) const {
         const FormationPlaces places = formationPlaces(formation, layout_.simulation.seed);
         const auto* list = std::get_if<ListFormation>(&formation.shape);
-        for (const auto& [points, what] : {std::pair{&places.positions, "person {} stands"}, {&places.goals, "the goal of person {} lies"}})
+        for (const auto& [points, what] : {std::pair{&places.positions, "person {} stands"},
+                                           {&places.goals, "the goal of person {} lies"}})
             for (std::size_t i = 0; i < points->size(); ++i) {
                 if (isOver((*points)[i])) continue;
                 complain(list ? list->agents[i].where : formation.where,
-                         fmt::format("formation `{}`: {} off the terrain", formation.id, fmt::format(fmt::runtime(what), i)),
+                         fmt::format("formation `{}`: {} off the terrain", formation.id,
+                                     fmt::format(fmt::runtime(what), i)),
                          (*points)[i]);
                 return;
             }
@@ -151,21 +159,30 @@ class Checker {
                 const glm::dvec2 world = rebase_.origin() + glm::dvec2(point);
                 if (!ground && !hasGround(terrain_, point)) holes.add(world, 0.0f);
                 if (const float apart = terrain_.storeysAt(point); apart > kStorey) storeys.add(world, apart);
-                if (const float slope = glm::length(terrain_.slopeAt(point)); slope > kSteepest) steep.add(world, slope);
+                if (const float slope = glm::length(terrain_.slopeAt(point)); slope > kSteepest)
+                    steep.add(world, slope);
             }
         const auto tell = [&](const Finding& finding, const std::string& what, const std::string& hint) {
-            const double share = static_cast<double>(finding.count) / static_cast<double>(std::max<std::size_t>(samples, 1));
+            const double share =
+                static_cast<double>(finding.count) / static_cast<double>(std::max<std::size_t>(samples, 1));
             if (share < kWorthTelling) return;
-            diagnostics_.warning(settings_.where,
-                                 fmt::format("{} on {:.1f} % of the ground that people walk on, first at ({:.2f}, {:.2f})", what,
-                                             100.0 * share, finding.first.x, finding.first.y),
-                                 hint);
+            diagnostics_.warning(
+                settings_.where,
+                fmt::format("{} on {:.1f} % of the ground that people walk on, first at ({:.2f}, {:.2f})",
+                            what, 100.0 * share, finding.first.x, finding.first.y),
+                hint);
         };
-        tell(holes, "there is a hole in the terrain", "people there stand at the height of the ground beside it");
-        tell(storeys, fmt::format("two faces of the terrain lie above each other, up to {:.1f} m apart,", storeys.worst),
-             settings_.highest ? "people stand on the highest: write \"surface\": \"lowest\" for the other, or export the ground alone (`node`)"
+        tell(holes, "there is a hole in the terrain",
+             "people there stand at the height of the ground beside it");
+        tell(storeys,
+             fmt::format("two faces of the terrain lie above each other, up to {:.1f} m apart,",
+                         storeys.worst),
+             settings_.highest ? "people stand on the highest: write \"surface\": \"lowest\" for the other, "
+                                 "or export the ground alone (`node`)"
                                : "people stand on the lowest: write \"surface\": \"highest\" for the other");
-        tell(steep, fmt::format("the terrain is steeper than 45 degrees (up to {:.0f})", 57.29578f * std::atan(steep.worst)),
+        tell(steep,
+             fmt::format("the terrain is steeper than 45 degrees (up to {:.0f})",
+                         57.29578f * std::atan(steep.worst)),
              "people climb it very slowly; put a wall along its edge to keep them off");
     }
 
@@ -188,8 +205,8 @@ class Checker {
 
 }  // namespace
 
-void checkTerrain(const Layout& layout, const Rebase& rebase, const WalkGeometry& geometry, const TerrainMesh& mesh,
-                  const Terrain& terrain, Diagnostics& diagnostics) {
+void checkTerrain(const Layout& layout, const Rebase& rebase, const WalkGeometry& geometry,
+                  const TerrainMesh& mesh, const Terrain& terrain, Diagnostics& diagnostics) {
     Checker(layout, rebase, geometry, mesh, terrain, diagnostics).check();
 }
 

@@ -74,7 +74,8 @@ int openBeneath(int folder, const std::string& relative) {
 
 }  // namespace
 
-std::vector<unsigned char> readBeneath(const fs::path& folder, const std::string& relative, std::uint64_t limit) {
+std::vector<unsigned char> readBeneath(const fs::path& folder, const std::string& relative,
+                                       std::uint64_t limit) {
     const fs::path shown = folder / relative;
     const fs::path where = folder.empty() ? fs::path(".") : folder;
     const Descriptor at(::open(where.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
@@ -85,9 +86,11 @@ std::vector<unsigned char> readBeneath(const fs::path& folder, const std::string
         throw InputError(shown, errno == EXDEV ? "leads out of the folder of the file that names it"
                                                : "cannot open: " + std::generic_category().message(errno));
     struct stat facts {};
-    if (::fstat(file.get(), &facts) != 0 || !S_ISREG(facts.st_mode)) throw InputError(shown, "not a regular file");
+    if (::fstat(file.get(), &facts) != 0 || !S_ISREG(facts.st_mode))
+        throw InputError(shown, "not a regular file");
     const auto size = static_cast<std::uint64_t>(facts.st_size);
-    if (size > limit) throw InputError(shown, fmt::format("{} bytes is more than the {} that can be read", size, limit));
+    if (size > limit)
+        throw InputError(shown, fmt::format("{} bytes is more than the {} that can be read", size, limit));
     std::vector<unsigned char> bytes(static_cast<std::size_t>(size));
     for (std::size_t done = 0; done < bytes.size();) {
         const ssize_t got = ::read(file.get(), bytes.data() + done, bytes.size() - done);

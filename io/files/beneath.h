@@ -8,8 +8,8 @@
 
 namespace throng::io {
 
-/// Reads a file that an untrusted document names, if it is a regular file in `folder` or below: neither `..`, nor absolute
-/// paths, nor links lead out of it, and nothing blocks on a named pipe.
+/// Reads a file that an untrusted document names, if it is a regular file in `folder` or below: neither `..`,
+/// nor absolute paths, nor links lead out of it, and nothing blocks on a named pipe.
 /// @throws InputError, also when it is larger than `limit` bytes
 std::vector<unsigned char> readBeneath(const std::filesystem::path& folder, const std::string& relative,
                                        std::uint64_t limit);

@@ -24,8 +24,8 @@ using Json = nlohmann::json;
 constexpr std::size_t kDeepest = 64;  // brackets in brackets
 constexpr std::uint32_t kGlb = 0x46546c67, kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 
-/// Parsers that recurse run out of stack on files that are nothing but brackets, so these are counted before anything is
-/// parsed.
+/// Parsers that recurse run out of stack on files that are nothing but brackets, so these are counted before
+/// anything is parsed.
 bool isNestedDeeper(std::string_view text, std::size_t most) {
     std::size_t depth = 0;
     bool in_string = false;
@@ -85,7 +85,8 @@ class Loader {
     Parts split(std::string_view bytes) const {
         if (bytes.size() < 4 || wordAt(bytes, 0) != kGlb) return {bytes, {}, false};
         if (bytes.size() < 20) fail("is a truncated GLB file");
-        if (wordAt(bytes, 4) != 2) fail(fmt::format("is a GLB file of version {}; 2 is expected", wordAt(bytes, 4)));
+        if (wordAt(bytes, 4) != 2)
+            fail(fmt::format("is a GLB file of version {}; 2 is expected", wordAt(bytes, 4)));
         if (wordAt(bytes, 8) > bytes.size())
             fail(fmt::format("is truncated: {} of {} bytes", bytes.size(), wordAt(bytes, 8)));
         const std::string_view whole = bytes.substr(0, wordAt(bytes, 8));
@@ -109,7 +110,8 @@ class Loader {
         const auto found = document.find(key);
         if (found == document.end()) return none;
         if (!found->is_array()) fail(fmt::format("`{}` is no array", key));
-        if (found->size() > most) fail(fmt::format("has {} {}, more than the {} that can be", found->size(), key, most));
+        if (found->size() > most)
+            fail(fmt::format("has {} {}, more than the {} that can be", found->size(), key, most));
         for (const Json& item : *found)
             if (!item.is_object()) fail(fmt::format("`{}` holds something that is no object", key));
         return *found;
@@ -122,7 +124,8 @@ class Loader {
         if (found == item.end()) return std::nullopt;
         return checkedIndex(*found, key, count, whose);
     }
-    std::size_t checkedIndex(const Json& value, const char* key, std::size_t count, const std::string& whose) const {
+    std::size_t checkedIndex(const Json& value, const char* key, std::size_t count,
+                             const std::string& whose) const {
         if (!value.is_number_unsigned() || value.get<std::uint64_t>() >= count)
             fail(fmt::format("{}: `{}` is {}, there are {}", whose, key, shortly(value), count));
         return static_cast<std::size_t>(value.get<std::uint64_t>());
@@ -137,7 +140,8 @@ class Loader {
         const auto found = item.find(key);
         if (found == item.end()) return otherwise;
         if (!found->is_number_unsigned() || found->get<std::uint64_t>() > most)
-            fail(fmt::format("{}: `{}` is {}, expected a whole number up to {}", whose, key, shortly(*found), most));
+            fail(fmt::format("{}: `{}` is {}, expected a whole number up to {}", whose, key, shortly(*found),
+                             most));
         return found->get<std::uint64_t>();
     }
 
@@ -150,7 +154,8 @@ class Loader {
         result["meshes"] = meshesOf(document, result["accessors"]);
         result["nodes"] = nodesOf(document, result["meshes"].size());
         result["scenes"] = scenesOf(document, result["nodes"].size());
-        if (const auto scene = indexIn(document, "scene", result["scenes"].size(), "the file")) result["scene"] = *scene;
+        if (const auto scene = indexIn(document, "scene", result["scenes"].size(), "the file"))
+            result["scene"] = *scene;
         return result;
     }
 
@@ -163,7 +168,8 @@ class Loader {
             const std::string name = entry.is_string() ? entry.get<std::string>() : shortly(entry);
             if (!name.starts_with("KHR_materials_") && !name.starts_with("KHR_texture_") &&
                 name != "KHR_lights_punctual" && name != "EXT_texture_webp")
-                fail(fmt::format("needs the extension {}, which is not read: export it without", name.substr(0, 60)));
+                fail(fmt::format("needs the extension {}, which is not read: export it without",
+                                 name.substr(0, 60)));
         }
     }
 
@@ -191,7 +197,8 @@ class Loader {
             Json view = {{"buffer", *buffer},
                          {"byteOffset", wholeOf(item, "byteOffset", 0, limits_.buffer_bytes, whose)},
                          {"byteLength", wholeOf(item, "byteLength", 0, limits_.buffer_bytes, whose)}};
-            if (const std::uint64_t stride = wholeOf(item, "byteStride", 0, 252, whose)) view["byteStride"] = stride;
+            if (const std::uint64_t stride = wholeOf(item, "byteStride", 0, 252, whose))
+                view["byteStride"] = stride;
             views.push_back(std::move(view));
         }
         return views;
@@ -222,12 +229,14 @@ class Loader {
             addName(item, mesh);
             const std::string whose = fmt::format("mesh {}", meshes.size());
             for (const Json& source : listOf(item, "primitives", limits_.accessors)) {
-                Json primitive = {{"mode", wholeOf(source, "mode", 4, 6, whose)}, {"attributes", Json::object()}};
+                Json primitive = {{"mode", wholeOf(source, "mode", 4, 6, whose)},
+                                  {"attributes", Json::object()}};
                 if (const auto extensions = source.find("extensions");
                     extensions != source.end() && extensions->is_object() &&
                     extensions->contains("KHR_draco_mesh_compression"))
                     fail(whose + " is compressed (KHR_draco_mesh_compression): export it without");
-                if (const auto indices = storedIn(source, "indices", accessors, whose)) primitive["indices"] = *indices;
+                if (const auto indices = storedIn(source, "indices", accessors, whose))
+                    primitive["indices"] = *indices;
                 if (const auto attributes = source.find("attributes");
                     attributes != source.end() && attributes->is_object())
                     for (const char* name : {"POSITION", "NORMAL"})
@@ -244,12 +253,14 @@ class Loader {
                                         const std::string& whose) const {
         const auto index = indexIn(item, key, accessors.size(), whose);
         if (index && !accessors[*index].contains("bufferView"))
-            fail(fmt::format("{}: accessor {} has no buffer view, or is sparse: that is not read", whose, *index));
+            fail(fmt::format("{}: accessor {} has no buffer view, or is sparse: that is not read", whose,
+                             *index));
         return index;
     }
 
     static void addName(const Json& source, Json& target) {
-        if (const auto name = source.find("name"); name != source.end() && name->is_string()) target["name"] = *name;
+        if (const auto name = source.find("name"); name != source.end() && name->is_string())
+            target["name"] = *name;
     }
 
     Json nodesOf(const Json& document, std::size_t meshes) const {
@@ -261,14 +272,16 @@ class Loader {
             Json node = Json::object();
             addName(item, node);
             if (const auto mesh = indexIn(item, "mesh", meshes, whose)) node["mesh"] = *mesh;
-            for (const auto& [key, count] : {std::pair{"matrix", 16u}, {"translation", 3u}, {"rotation", 4u}, {"scale", 3u}})
+            for (const auto& [key, count] :
+                 {std::pair{"matrix", 16u}, {"translation", 3u}, {"rotation", 4u}, {"scale", 3u}})
                 if (const auto values = item.find(key); values != item.end())
                     node[key] = numbersOf(*values, count, whose, key);
             if (const auto children = item.find("children"); children != item.end()) {
                 if (!children->is_array()) fail(whose + ": `children` is no array");
                 for (const Json& child : *children) {
                     const std::size_t index = checkedIndex(child, "children", sources.size(), whose);
-                    if (!has_parent.insert(index).second) fail(fmt::format("node {} has more than one parent", index));
+                    if (!has_parent.insert(index).second)
+                        fail(fmt::format("node {} has more than one parent", index));
                     node["children"].push_back(index);
                 }
             }
@@ -310,7 +323,8 @@ class Loader {
             if (const auto roots = item.find("nodes"); roots != item.end()) {
                 if (!roots->is_array()) fail("the nodes of a scene are no array");
                 for (const Json& root : *roots)
-                    scene["nodes"].push_back(checkedIndex(root, "nodes", nodes, fmt::format("scene {}", scenes.size())));
+                    scene["nodes"].push_back(
+                        checkedIndex(root, "nodes", nodes, fmt::format("scene {}", scenes.size())));
             }
             scenes.push_back(std::move(scene));
         }
@@ -339,9 +353,8 @@ class Loader {
         files.FileExists = [](const std::string&, void*) { return true; };  // reading will tell
         files.ExpandFilePath = [](const std::string& name, void*) { return name; };
         files.ReadWholeFile = readExternal;
-        files.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
-            return false;
-        };
+        files.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&,
+                                  void*) { return false; };
         files.user_data = &folder;
         tinygltf::TinyGLTF parser;
         parser.SetFsCallbacks(files);
@@ -399,16 +412,20 @@ class Loader {
 
     void checkAccessor(const tinygltf::Model& model, std::size_t i) const {
         const tinygltf::Accessor& accessor = model.accessors[i];
-        const tinygltf::BufferView& view = model.bufferViews.at(static_cast<std::size_t>(accessor.bufferView));
-        const int component = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType));
+        const tinygltf::BufferView& view =
+            model.bufferViews.at(static_cast<std::size_t>(accessor.bufferView));
+        const int component =
+            tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType));
         const int components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
         if (component <= 0 || components <= 0) fail(fmt::format("accessor {} has an unknown type", i));
         const auto item = static_cast<std::uint64_t>(component) * static_cast<std::uint64_t>(components);
         const std::uint64_t stride = view.byteStride ? view.byteStride : item;
         if (stride < item) fail(fmt::format("accessor {}: its items overlap", i));
-        const std::uint64_t end = accessor.byteOffset + (accessor.count ? stride * (accessor.count - 1) + item : 0);
+        const std::uint64_t end =
+            accessor.byteOffset + (accessor.count ? stride * (accessor.count - 1) + item : 0);
         if (end > view.byteLength)
-            fail(fmt::format("accessor {} reaches {} bytes into a buffer view of {}", i, end, view.byteLength));
+            fail(fmt::format("accessor {} reaches {} bytes into a buffer view of {}", i, end,
+                             view.byteLength));
     }
 
     const fs::path& path_;

@@ -20,10 +20,11 @@ struct GltfLimits {
     std::size_t elements = 50'000'000;  ///< of one accessor
 };
 
-/// The geometry of a .gltf or .glb file from anybody: nodes, meshes, accessors, buffer views and buffers, and nothing else (no
-/// images, no animations, no extras). Every index among them leads somewhere, nodes form trees, and every accessor lies
-/// inside its buffer. Files beside it are read from its own folder only.
+/// The geometry of a .gltf or .glb file from anybody: nodes, meshes, accessors, buffer views and buffers, and
+/// nothing else (no images, no animations, no extras). Every index among them leads somewhere, nodes form
+/// trees, and every accessor lies inside its buffer. Files beside it are read from its own folder only.
 /// @throws InputError, which says what is wrong
-std::unique_ptr<tinygltf::Model> loadCheckedGltf(const std::filesystem::path& path, const GltfLimits& limits = {});
+std::unique_ptr<tinygltf::Model> loadCheckedGltf(const std::filesystem::path& path,
+                                                 const GltfLimits& limits = {});
 
 }  // namespace throng::io

@@ -57,7 +57,8 @@ void addWalls(GlbDocument& document, const BakeDescription& description) {
     for (std::size_t i = 0; i < description.walls.size(); ++i) {
         const authoring::Wall& wall = description.walls[i];
         const std::vector<glm::dvec2> points = relative(wall.points, description.output_origin);
-        const glm::dvec2 ground = description.terrain ? description.terrain->along_walls.at(i) : glm::dvec2(0.0);
+        const glm::dvec2 ground =
+            description.terrain ? description.terrain->along_walls.at(i) : glm::dvec2(0.0);
         const double height = wall.height + ground.y - ground.x;
         document.addMeshNode("wall " + wall.id,
                              raised(wall.closed ? closedWallMesh(points, height)

@@ -27,7 +27,8 @@ struct GltfSummary {
 GltfSummary writeCrowdGlb(const std::filesystem::path& path, const BakeDescription& description,
                           const StreamSet& streams);
 
-/// Writes the terrain alone, as it lies in the scene: one mesh, below a node at the bake's origin. Throws OutputError.
+/// Writes the terrain alone, as it lies in the scene: one mesh, below a node at the bake's origin. Throws
+/// OutputError.
 void writeTerrainGlb(const std::filesystem::path& path, const BakeDescription& description);
 
 }  // namespace throng::io

@@ -56,7 +56,8 @@ class TerrainReader {
     authoring::TerrainMesh read() {
         for (const int root : roots())
             visit(root);
-        if (!settings_.node.empty() && !found_) fail(fmt::format("has no node or mesh named `{}`", settings_.node));
+        if (!settings_.node.empty() && !found_)
+            fail(fmt::format("has no node or mesh named `{}`", settings_.node));
         if (mesh_.indices.empty()) fail("holds no triangles");
         return std::move(mesh_);
     }
@@ -140,7 +141,8 @@ class TerrainReader {
         const glm::dvec3 there(transform * glm::dvec4(point, 1.0));
         const glm::dvec3 world = settings_.offset + settings_.scale * zUp(there);
         for (int axis = 0; axis < 3; ++axis)
-            if (!(std::abs(world[axis]) <= kFurthest)) fail("has a corner that is not a number, or a million kilometres away");
+            if (!(std::abs(world[axis]) <= kFurthest))
+                fail("has a corner that is not a number, or a million kilometres away");
         return world;
     }
 
@@ -160,7 +162,8 @@ class TerrainReader {
             for (std::size_t i = first_index; i + 2 < mesh_.indices.size(); i += 3) {
                 const std::uint32_t* corner = &mesh_.indices[i];
                 const glm::dvec3 a = mesh_.positions[corner[0]];
-                const glm::dvec3 face = glm::cross(mesh_.positions[corner[1]] - a, mesh_.positions[corner[2]] - a);
+                const glm::dvec3 face =
+                    glm::cross(mesh_.positions[corner[1]] - a, mesh_.positions[corner[2]] - a);
                 for (int k = 0; k < 3; ++k)
                     normals[corner[k] - first] += face;
             }
@@ -181,8 +184,9 @@ class TerrainReader {
     Items itemsOf(const tinygltf::Accessor& accessor) const {
         const tinygltf::BufferView& view = model_->bufferViews[static_cast<std::size_t>(accessor.bufferView)];
         const tinygltf::Buffer& buffer = model_->buffers[static_cast<std::size_t>(view.buffer)];
-        const int size = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType)) *
-                         tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
+        const int size =
+            tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType)) *
+            tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
         return {buffer.data.data() + view.byteOffset + accessor.byteOffset,
                 view.byteStride ? view.byteStride : static_cast<std::size_t>(size), accessor.count};
     }
@@ -259,7 +263,8 @@ class TerrainReader {
 
 }  // namespace
 
-authoring::TerrainMesh readTerrain(const std::filesystem::path& path, const authoring::TerrainSettings& settings) {
+authoring::TerrainMesh readTerrain(const std::filesystem::path& path,
+                                   const authoring::TerrainSettings& settings) {
     return TerrainReader(path, settings).read();
 }
 
