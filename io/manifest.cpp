@@ -29,7 +29,8 @@ Json geometryToJson(const BakeDescription& description) {
                                      {"closed", wall.closed},
                                      {"thickness", wall.thickness},
                                      {"height", wall.height}});
-        if (description.terrain) geometry["walls"].back()["ground"] = pointToJson(description.terrain->along_walls.at(i));
+        if (description.terrain)
+            geometry["walls"].back()["ground"] = pointToJson(description.terrain->along_walls.at(i));
         if (!wall.toggles.empty())
             geometry["walls"].back()["gate"] = {{"open_at_start", wall.open_at_start},
                                                 {"toggles", wall.toggles}};
@@ -56,6 +57,7 @@ Json terrainToJson(const BakeTerrain& terrain) {
     return {{"file", "terrain.glb"},
             {"source", terrain.source},
             {"hash", "xxh3:" + terrain.hash},
+            {"surface", terrain.surface->highest() ? "highest" : "lowest"},
             {"triangles", terrain.mesh->indices.size() / 3},
             {"lowest", low->z},
             {"highest", high->z}};
