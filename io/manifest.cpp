@@ -57,6 +57,7 @@ Json terrainToJson(const BakeTerrain& terrain) {
     return {{"file", "terrain.glb"},
             {"source", terrain.source},
             {"hash", "xxh3:" + terrain.hash},
+            {"surface", terrain.surface->highest() ? "highest" : "lowest"},
             {"triangles", terrain.mesh->indices.size() / 3},
             {"lowest", low->z},
             {"highest", high->z}};

@@ -48,6 +48,7 @@ class Terrain {
     Face faceAt(glm::vec2 point) const;
     float heightAt(glm::vec2 point) const { return faceAt(point).height; }
 
+    bool highest() const { return highest_; }
     bool isEmpty() const { return triangles_.empty(); }
     /// Where the lattice begins, m, scene frame.
     glm::vec2 minimum() const { return minimum_; }

@@ -14,7 +14,6 @@ from bpy.props import PointerProperty
 from .nodes import Maths, new_tree, set_input, socket
 
 GROUND = "throng_ground"
-LEAN = "throng ground lean"       # the modifier that shears
 CONFORM = "throng conform"        # the modifier that looks for the ground
 REACH = 0.3                       # m before and behind the body: about where planted feet are
 HIGH = 1000.0                     # m over the point: where rays come from; they reach as far below
@@ -48,8 +47,7 @@ def _lean_tree():
     tree, inputs, outputs = new_tree(name, _GEOMETRY, _GEOMETRY)
     maths = Maths(tree)
     along, across, _ = _named(maths, GROUND)
-    cosine, sine, _ = _named(maths, "throng_dir")
-    heading = maths.math("ARCTAN2", sine, cosine)
+    heading = _named(maths, "throng_turn")[2]
     uphill = maths.math("ADD", heading, maths.math("ARCTAN2", across, along))
     slope = maths.math("SQRT", maths.math("MULTIPLY_ADD", along, along, maths.math("MULTIPLY", across, across)))
     # In the plane of uphill and up, the shear is [1 0; k 1] = turn(out) scale(large, 1 / large) turn(-into).
@@ -81,10 +79,17 @@ def _lean_tree():
     return tree
 
 
-def lean(crowd):
-    """Lets a crowd's people follow the slopes in the attribute GROUND."""
-    if LEAN not in crowd.modifiers:
-        crowd.modifiers.new(LEAN, "NODES").node_group = _lean_tree()
+def slopes(crowd):
+    """Whether a crowd's ground slopes: flat ones are spared the work."""
+    return "throng ground" in crowd.modifiers or CONFORM in crowd.modifiers
+
+
+def leaning(maths, instances):
+    """Nodes of the instancer that let people follow the slopes in the attribute GROUND; they are turned by `throng_turn`."""
+    group = maths.node("GeometryNodeGroup")
+    group.node_tree = _lean_tree()
+    maths.link(instances, group.inputs[0])
+    return group.outputs[0]
 
 
 def _ray(maths, target, origin, offset=None):
@@ -158,21 +163,22 @@ def _move(crowd, name, to):
 
 def conform(crowd, ground):
     """Lets a crowd stand on a mesh of the scene, whatever its bake says about heights."""
+    from .playback import set_cast
+
     if CONFORM not in crowd.modifiers:
         crowd.modifiers.new(CONFORM, "NODES").node_group = _conform_tree()
         _move(crowd, CONFORM, [each.name for each in crowd.modifiers].index("throng pos") + 1)
     set_input(crowd.modifiers[CONFORM], "Ground", ground)
-    lean(crowd)
-    crowd.update_tag()
+    set_cast(crowd, crowd["throng_cast"])
 
 
 def release(crowd):
     """Undoes conform(): the bake's own ground, or a flat one."""
-    names = [CONFORM] if "throng ground" in crowd.modifiers else [CONFORM, LEAN]
-    for name in names:
-        if name in crowd.modifiers:
-            crowd.modifiers.remove(crowd.modifiers[name])
-    crowd.update_tag()
+    from .playback import set_cast
+
+    if CONFORM in crowd.modifiers:
+        crowd.modifiers.remove(crowd.modifiers[CONFORM])
+        set_cast(crowd, crowd["throng_cast"])
 
 
 class THRONG_OT_conform(bpy.types.Operator):
@@ -198,10 +204,10 @@ class THRONG_OT_conform(bpy.types.Operator):
         return chosen or (active if active and "throng pos" not in active.modifiers else None)
 
     def execute(self, context):
-        from .operators import _chosen_crowds
+        from .crowds import chosen_crowds
 
         ground = self._ground(context)
-        crowds = _chosen_crowds(context)
+        crowds = chosen_crowds(context)
         if not ground or ground.type not in {"MESH", "CURVE", "SURFACE"} or ground in crowds:
             self.report({"ERROR"}, f"There is no mesh `{self.ground}` to stand on" if self.ground else "Choose the mesh to stand on: in the sidebar, or make it active")
             return {"CANCELLED"}
@@ -223,9 +229,9 @@ class THRONG_OT_release(bpy.types.Operator):
         return any(CONFORM in thing.modifiers for thing in context.scene.objects)
 
     def execute(self, context):
-        from .operators import _chosen_crowds
+        from .crowds import chosen_crowds
 
-        for crowd in _chosen_crowds(context):
+        for crowd in chosen_crowds(context):
             release(crowd)
         return {"FINISHED"}
 

@@ -135,7 +135,7 @@ class _Points:
             self.points = remove.outputs[0]
 
 
-def _instancer_tree(cast, repertoire):
+def _instancer_tree(cast, repertoire, leans):
     """One Instance on Points for each block of the cast. All poses in one would take 5.0 time that grows with their square: it looks every
     one up among those before it. For the same reason each block is handed on as one instance."""
     blocks = blocks_of(cast)
@@ -157,13 +157,13 @@ def _instancer_tree(cast, repertoire):
 
     # In a group of its own: 5.0 notes down what goes through all sockets outside of it, which takes longer than the work itself.
     inside = maths.node("GeometryNodeGroup")
-    inside.node_tree = _blocks_tree(blocks)
+    inside.node_tree = _blocks_tree(blocks, leans)
     maths.link(points.points, inside.inputs[0])
     maths.link(inside.outputs[0], outputs.inputs[0])
     return tree
 
 
-def _blocks_tree(blocks):
+def _blocks_tree(blocks, leans):
     tree, inputs, outputs = new_tree("Throng blocks", GEOMETRY, GEOMETRY)
     maths = Maths(tree)
     block, pose, turn = (_attribute(maths, name, kind) for name, kind in ((BLOCK, "INT"), ("throng_pose", "INT"), ("throng_turn", "FLOAT_VECTOR")))
@@ -183,7 +183,7 @@ def _blocks_tree(blocks):
         maths.link(size, place.inputs["Scale"])
         maths.link(turn, place.inputs["Rotation"])  # the points' other attributes go along: id, tint
         one = maths.node("GeometryNodeGeometryToInstance")
-        maths.link(place.outputs[0], one.inputs[0])
+        maths.link(ground.leaning(maths, place.outputs[0]) if leans else place.outputs[0], one.inputs[0])
         maths.link(one.outputs[0], everybody.inputs[0])
     maths.link(everybody.outputs[0], outputs.inputs[0])
     return tree
@@ -194,7 +194,7 @@ def set_cast(crowd, cast):
     modifiers = [crowd.modifiers[name] for name in INSTANCERS]
     before = modifiers[0].node_group
     shares = [get_input(modifier, "Share") if modifier.node_group else 2.0 for modifier in modifiers]  # 2: everybody
-    tree = _instancer_tree(cast, Repertoire(tuple(crowd["throng_strides"])))
+    tree = _instancer_tree(cast, Repertoire(tuple(crowd["throng_strides"])), ground.slopes(crowd))
     for modifier, share in zip(modifiers, shares):
         modifier.node_group = tree
         set_input(modifier, "Share", share)
@@ -249,8 +249,6 @@ def build_crowd(bake, name, cast, frame_start, paths):
     _add_cache(crowd, "throng pos", paths["pos"], "LINEAR", frame_start)
     for name, hidden in zip(INSTANCERS, ("show_viewport", "show_render")):
         setattr(crowd.modifiers.new(name, "NODES"), hidden, False)
-    if "ground" in paths:
-        ground.lean(crowd)
     crowd["throng_strides"] = list(bake.strides)
     cast["throng_drawn"], cast["throng_shipped"] = bake.variations, cast["throng_variations"]
     crowd["throng_frame_start"], crowd["throng_offset"], crowd["throng_percent"] = frame_start, 0, 100.0

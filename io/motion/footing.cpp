@@ -24,6 +24,14 @@ float Footing::stepAt(glm::vec2 place) const {
     return terrain_->heightAt(place) - terrain_->smoothAt(place);
 }
 
+Stance Footing::entering(glm::vec2 place, glm::vec2 heading) const {
+    const authoring::Terrain::Face here = terrain_->faceAt(place);
+    const glm::vec2 slopes(glm::dot(here.slope, heading),
+                           glm::dot(here.slope, glm::vec2(-heading.y, heading.x)));
+    return {here.height, glm::clamp(slopes.x, -kSteepest, kSteepest),
+            glm::clamp(slopes.y, -kSteepest, kSteepest), here.height};
+}
+
 Stance Footing::stand(std::size_t row, glm::vec2 place, glm::vec2 heading, glm::vec2 moved,
                       const GaitTrack& gait) {
     Feet& feet = feet_[row];

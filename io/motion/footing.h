@@ -37,6 +37,8 @@ class Footing {
     /// The next frame of somebody. @param heading unit vector; @param moved m, since the frame before; zero
     /// in the first one
     Stance stand(std::size_t row, glm::vec2 place, glm::vec2 heading, glm::vec2 moved, const GaitTrack& gait);
+    /// As stand() begins, of somebody who has yet to come.
+    Stance entering(glm::vec2 place, glm::vec2 heading) const;
     /// The last one, of somebody who has left.
     const Stance& last(std::size_t row) const { return feet_[row].stance; }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <glm/common.hpp>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -16,6 +17,8 @@
 #include "io/files/input_file.h"
 #include "io/files/output_file.h"
 #include "io/gltf/crowd_glb.h"
+#include "io/gltf/terrain_file.h"
+#include "io/motion/footing.h"
 #include "io/overrides/agent_table_edit.h"
 #include "io/overrides/row_sampler.h"
 #include "io/streams/stream_writer.h"
@@ -68,6 +71,7 @@ struct ChangedRow {
     std::optional<std::uint32_t> first = {};  ///< frame of its entry in the source
     std::array<float, kComponents> pivot{};   ///< its place there
     std::uint32_t first_alive = kNever;       ///< in the new bake
+    glm::vec2 place{0.0f};                    ///< in the frame before
     bool is_held = false;
 };
 
@@ -101,6 +105,7 @@ class Application {
             density_.emplace(source, streams_folder_, "density");
         for (const RowChange& each : changes)
             rows_.push_back(prepared(each));
+        if (source.manifest.contains("terrain")) readTerrainBack();
     }
 
     /// False when it was stopped.
@@ -134,7 +139,52 @@ class Application {
     std::vector<Passage*> streams() {
         std::vector<Passage*> all{&positions_, &directions_, &states_};
         if (density_) all.push_back(&*density_);
+        if (ground_) all.push_back(&*ground_);
         return all;
+    }
+
+    /// Who is moved or comes at another time stands on the ground anew.
+    void readTerrainBack() {
+        const Json& facts = source_.manifest["terrain"];
+        ground_.emplace(source_, streams_folder_, "ground");
+        terrain_.emplace();
+        terrain_->mesh = std::make_shared<const authoring::TerrainMesh>(
+            readTerrain(source_.folder / "terrain.glb", authoring::TerrainSettings{}));
+        glm::dvec2 furthest(0.0);
+        for (const ChangedRow& each : rows_)
+            furthest = glm::max(furthest, glm::abs(glm::dvec2(each.change.move.x, each.change.move.y)));
+        terrain_->surface = std::make_shared<const authoring::Terrain>(
+            *terrain_->mesh, facts.value("surface", "highest") == "highest", source_.origin,
+            glm::vec2(source_.minimum - furthest), glm::vec2(source_.maximum + furthest));
+        terrain_->source = facts.value("source", "");
+        for (std::size_t i = 0; i < source_.walls.size(); ++i) {
+            const Json ground =
+                source_.manifest["geometry"]["walls"].at(i).value("ground", Json::array({0.0, 0.0}));
+            terrain_->along_walls.emplace_back(ground.at(0).get<double>(), ground.at(1).get<double>());
+        }
+        footing_.emplace(terrain_->surface, source_.agents, source_.fps);
+    }
+
+    void stand(ChangedRow& each, const RowSample& sample) {
+        const glm::vec2 place(sample.position[0], sample.position[1]);
+        const glm::vec2 heading(sample.direction[0], sample.direction[1]);
+        const bool is_alive = sample.state[0] > 0.5f, was_alive = each.first_alive != kNever;
+        Stance stance = footing_->last(each.row);
+        if (is_alive) {
+            const GaitTrack gait{sample.state[2],
+                                 static_cast<std::uint32_t>(std::lround(
+                                     (sample.state[0] - std::floor(sample.state[0])) / kGaitInState))};
+            stance = footing_->stand(each.row, place, heading,
+                                     was_alive ? place - each.place : glm::vec2(0.0f), gait);
+            each.place = place;
+        } else if (!was_alive) {
+            stance = footing_->entering(place, heading);
+        }
+        positions_.row(each.row)[2] = stance.height + static_cast<float>(each.change.move.z);
+        const std::span<float> ground = ground_->row(each.row);
+        ground[0] = stance.along;
+        ground[1] = stance.across;
+        ground[2] = stance.ground;
     }
 
     ChangedRow prepared(const RowChange& each) const {
@@ -160,6 +210,7 @@ class Application {
         std::ranges::copy(sample.direction, directions_.row(each.row).begin());
         std::ranges::copy(sample.state, states_.row(each.row).begin());
         if (density_) std::ranges::copy(sample.density, density_->row(each.row).begin());
+        if (footing_ && (each.change.moves() || each.change.retimes())) stand(each, sample);
         if (sample.state[0] <= 0.5f) return;
         each.first_alive = std::min(each.first_alive, frame);
         const glm::dvec2 place(sample.position[0], sample.position[1]);
@@ -224,7 +275,7 @@ class Application {
 
     bool isWrittenAnew(const std::string& path) const {
         if (path == "agents.csv" || path == "crowd.glb" || path.starts_with("diagrams/")) return true;
-        for (const char* stream : {"pos", "dir", "state", "density"})
+        for (const char* stream : {"pos", "dir", "state", "density", "ground"})
             for (const char* extension : {".npy", ".pc2"})
                 if (path == std::string("streams/") + stream + extension) return true;
         return false;
@@ -279,6 +330,7 @@ class Application {
             toWorld(area.polygon);
         for (authoring::Wall& wall : description.walls)
             toWorld(wall.points);
+        description.terrain = terrain_;
         std::map<std::string, std::uint32_t> groups;
         for (std::uint32_t row = 0; row < table_.rows(); ++row) {
             const std::string& group = table_.at(row, "group");
@@ -347,7 +399,9 @@ class Application {
     Passage positions_;
     Passage directions_;
     Passage states_;
-    std::optional<Passage> density_;
+    std::optional<Passage> density_, ground_;
+    std::optional<BakeTerrain> terrain_;  // none on flat ground
+    std::optional<Footing> footing_;
     std::vector<ChangedRow> rows_;
     std::vector<std::string> copied_;
     glm::dvec2 minimum_;  ///< bounds, widened to where people have been moved

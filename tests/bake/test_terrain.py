@@ -138,3 +138,26 @@ def test_terrains_that_cannot_be_used_are_told_where_they_are_named(throng, tmp_
         for word in words:
             assert word in refused.stderr + refused.stdout, refused.stderr
     assert sorted(path.name for path in tmp_path.iterdir()) == ["hill.glb", "junk.glb", "layout.json"]
+
+
+def test_overrides_set_people_on_the_ground_anew(throng, tmp_path, manifest_of):
+    (tmp_path / "ramp.glb").write_bytes(terrain_files.glb(*terrain_files.surface(ramp, (-20, -9), (60, 9), 4.0)))
+    agents = [{"position": [2, y], "goal": [30, y], "speed": 1.3} for y in (-3, 0, 3)]
+    layout = {"throng": 1, "simulation": {"duration": 12}, "terrain": {"file": "ramp.glb"},
+              "formations": [{"id": "three", "type": "agents", "agents": agents, "arrival": "leave"}]}
+    (tmp_path / "ramp.json").write_text(json.dumps(layout))
+    throng("bake", tmp_path / "ramp.json", "-o", tmp_path / "bake", "-q", "--no-gltf")
+    entry = lambda row, y, **change: {"id": row, "group": "three", "spawn": {"frame": 0, "position": [2, y, 0.2]}, **change}
+    (tmp_path / "changes.json").write_text(json.dumps({"throng_overrides": 1, "overrides": [
+        entry(0, -3, move={"by": [8, 0, 0]}), entry(1, 0, retime={"offset": 30, "speed": 1.2})]}))
+    throng("apply", tmp_path / "bake", "--overrides", tmp_path / "changes.json", "-o", tmp_path / "changed", "--strict")
+    before, after, slopes = (numpy.load(tmp_path / path / "streams" / f"{name}.npy")
+                             for path, name in (("bake", "pos"), ("changed", "pos"), ("changed", "ground")))
+    assert numpy.abs(after[:, 0, 0] - before[:, 0, 0] - 8.0).max() < 1e-4, "moved up the ramp"
+    assert numpy.array_equal(after[:, 2], before[:, 2]), "untouched"
+    assert numpy.abs(after[:, 1, 0] - before[:, 1, 0]).max() > 0.3, "comes at another time"
+    for row in range(3):
+        assert numpy.abs(after[:, row, 2] - 0.1 * after[:, row, 0]).max() < 1e-3, row
+        assert numpy.abs(slopes[:, row, 0] - 0.1).max() < 2e-3
+    throng("info", tmp_path / "changed", "--verify")
+    assert manifest_of(tmp_path / "changed")["terrain"] == manifest_of(tmp_path / "bake")["terrain"]

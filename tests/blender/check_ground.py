@@ -6,7 +6,6 @@ check_ground.py ADDON BAKE FLAT TIMES OUT: the same people on a terrain and on f
 import json
 import os
 import sys
-import time
 
 import bpy
 
@@ -42,6 +41,7 @@ def crowd_of(path):
 result = {}
 crowd = crowd_of(flat)
 result["flat"] = [modifier.name for modifier in crowd.modifiers if "ground" in modifier.name or "conform" in modifier.name]
+result["flat"] += [node.bl_idname for tree in bpy.data.node_groups for node in tree.nodes if node.bl_idname == "GeometryNodeRotateInstances"]
 
 crowd = crowd_of(bake)
 scene = bpy.context.scene
@@ -85,7 +85,6 @@ assert bpy.ops.throng.conform(ground="hill") == {"FINISHED"}
 result["modifiers"] = [modifier.name for modifier in crowd.modifiers]
 result["conformed"] = shots(crowd)
 bpy.ops.wm.save_as_mainfile(filepath=out)
-start = time.perf_counter()
 bpy.ops.throng.release()
 result["released"] = shots(crowd)
 print("RESULT " + json.dumps(result))
