@@ -17,6 +17,9 @@ import numpy
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.path.insert(0, str(ROOT / "tests"))
+import terrain_files  # noqa: E402
+
 EXAMPLES = ROOT / "examples"
 
 BASE = {
@@ -215,6 +218,19 @@ def test_a_bake_that_is_there_without_its_result_is_measured_not_baked(throng, t
     again = rows(tmp_path / "out")[2]
     assert bake.stat().st_mtime_ns == made
     assert again["steps"] == row["steps"] and again["simulate_seconds"] > 0 and again["arrived"] == row["arrived"]
+
+
+def test_a_changed_terrain_makes_results_out_of_date(throng, tmp_path):
+    plain = terrain_files.surface(lambda x, y: 0.0, (-2.0, -2.0), (14.0, 6.0), 2.0)
+    (tmp_path / "ground.glb").write_bytes(terrain_files.glb(*plain))
+    (tmp_path / "base.json").write_text(json.dumps({**BASE, "terrain": {"file": "ground.glb"}}))
+    plan = family(tmp_path, base="base.json")
+    throng("batch", plan, "-o", tmp_path / "out", "-q")
+    assert "to bake: 0" in throng("batch", plan, "-o", tmp_path / "out", "--dry-run").stdout
+    slope = terrain_files.surface(lambda x, y: 0.1 * x, (-2.0, -2.0), (14.0, 6.0), 2.0)
+    (tmp_path / "ground.glb").write_bytes(terrain_files.glb(*slope))
+    told = throng("batch", plan, "-o", tmp_path / "out", "--dry-run").stdout
+    assert "6 are out of date" in told and "to bake: 6" in told
 
 
 def test_a_changed_family_says_what_it_invalidates(throng, tmp_path):

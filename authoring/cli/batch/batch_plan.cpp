@@ -77,8 +77,23 @@ std::string BatchPlan::layoutText(std::size_t index) const {
 
 std::string BatchPlan::inputHash(const std::string& layout_text) const {
     const authoring::Family::Bake& bake = family_.bake;
-    return io::hashText(
-        fmt::format("{}\n{} {} {} {}", layout_text, bake.keep, bake.gltf, bake.density, bake.diagrams));
+    return io::hashText(fmt::format("{}\n{} {} {} {}{}", layout_text, bake.keep, bake.gltf, bake.density,
+                                    bake.diagrams, terrainOf(layout_text)));
+}
+
+/// What the terrain's file holds, for a layout that has one: a result is out of date when it changes.
+std::string BatchPlan::terrainOf(const std::string& layout_text) const {
+    if (layout_text.find("\"terrain\"") == std::string::npos) return "";
+    const Json layout = Json::parse(layout_text, nullptr, false);
+    const Json::json_pointer pointer("/terrain/file");
+    if (!layout.is_object() || !layout.contains(pointer) || !layout.at(pointer).is_string()) return "";
+    const std::string file = layout.at(pointer);
+    const auto known = terrains_.find(file);
+    if (known != terrains_.end()) return known->second;
+    std::error_code none;
+    const std::string hash =
+        std::filesystem::is_regular_file(file, none) ? "\n" + io::hashFile(file).xxh3 : "";
+    return terrains_[file] = hash;
 }
 
 void BatchPlan::tryLayouts() {

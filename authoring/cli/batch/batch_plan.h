@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -50,11 +51,13 @@ class BatchPlan {
 
   private:
     void addLoad(const authoring::Layout& layout, double share);
+    std::string terrainOf(const std::string& layout_text) const;
 
     std::string path_;
     authoring::Family family_;
     std::vector<PlannedScenario> scenarios_;
     BatchLoad load_;
+    mutable std::map<std::string, std::string> terrains_;  ///< hashes of their files, by path
     std::string self_contained_;
 };
 
