@@ -13,6 +13,7 @@ import time
 
 _DIAGNOSTIC = re.compile(r"(?P<file>.*?)(?::(?P<line>\d+):(?P<column>\d+))?: (?P<severity>error|warning): (?:(?P<pointer>/.*?): )?(?P<message>.*)")
 _PATIENCE = 20.0  # s from SIGINT to SIGKILL
+_AGAIN = 4.0      # s from one SIGINT to the next
 INVALID = 3       # exit code
 
 Diagnostic = collections.namedtuple("Diagnostic", "severity pointer message hint line column")
@@ -51,7 +52,7 @@ class BakeJob:
         self.result, self.diagnostics, self.message, self.code = None, [], "", None
         self._process, self._said, self._readers = None, {"stdout": [], "stderr": []}, []
         self._lock = threading.Lock()
-        self._cancelled_at = None
+        self._cancelled_at = self._told_at = None
         self._before = frozenset()
 
     def start(self):
@@ -93,27 +94,39 @@ class BakeJob:
         if self.state != "running":
             return self.state
         if self._process.poll() is None:
-            if self._cancelled_at is not None and time.monotonic() - self._cancelled_at > _PATIENCE:
-                self._process.kill()
+            self._insist()
             return self.state
         self._finish()
         return self.state
 
     def wait(self, timeout=None):
         """Until it has ended, or the time is over; returns the state."""
-        if self.state == "running":
+        until = None if timeout is None else time.monotonic() + timeout
+        while self.poll() == "running" and (until is None or time.monotonic() < until):
             try:
-                self._process.wait(timeout)
+                self._process.wait(0.2 if until is None else min(0.2, max(0.0, until - time.monotonic())))
             except subprocess.TimeoutExpired:
-                return self.state
+                continue
         return self.poll()
 
     def cancel(self):
         """Asks the program to stop; poll() says `cancelled` once it has. A bake that ends before it hears of it counts as done."""
         if self.state == "running" and self._cancelled_at is None:
-            self._cancelled_at = time.monotonic()
+            self._cancelled_at = self._told_at = time.monotonic()
             if self._process.poll() is None:
                 self._process.send_signal(signal.SIGINT)
+
+    def _insist(self):
+        """A program that has only just begun may not have heard: where interrupts are ignored (in background jobs of a shell, say), it
+        begins to listen only when it has begun."""
+        now = time.monotonic()
+        if self._cancelled_at is None:
+            return
+        if now - self._cancelled_at > _PATIENCE:
+            self._process.kill()
+        elif now - self._told_at > _AGAIN:
+            self._told_at = now
+            self._process.send_signal(signal.SIGINT)
 
     def stop(self):
         """Cancels and waits: for when Blender closes."""
@@ -160,7 +173,7 @@ class BakeJob:
         """What an unfinished bake leaves beside its output, by name and identity."""
         folder, name = os.path.split(os.path.abspath(self.output))
         try:
-            entries = [entry for entry in os.scandir(folder) if re.fullmatch(re.escape(name) + r"\.(partial(-\d+)?|tmp-\w+)", entry.name)]
+            entries = [entry for entry in os.scandir(folder) if re.fullmatch(re.escape(name) + r"\.(partial(-\d+)?|unfinished|tmp-\w+)", entry.name)]
         except OSError:
             return []
         return [(entry.path, entry.inode()) for entry in entries]
