@@ -18,7 +18,7 @@ bpy.ops.import_scene.throng(filepath=os.path.join(bake, "bake.json"))
 imported = time.perf_counter() - start
 scene = bpy.context.scene
 times = []
-for frame in (2, 4, 3, 5, 1, 4, 2, 5, 3, 1, 5, 2):
+for frame in 5 * (2, 4, 3, 5, 1, 4, 2, 5, 3, 1, 5, 2):
     start = time.perf_counter()
     scene.frame_set(frame)
     times.append(time.perf_counter() - start)

@@ -192,7 +192,7 @@ def test_the_film_look_and_its_layers(blender, tmp_path):
 
 @pytest.mark.parametrize("people, seconds, milliseconds", [(16384, 10.0, 25.0), (65536, 40.0, 80.0)])
 def test_large_crowds_import_and_scrub_quickly(blender, tmp_path, people, seconds, milliseconds):
-    """The fastest of twelve changes of frame, and still two to three times what it takes alone: other tests are going on."""
+    """The fastest of sixty changes of frame, and still two to three times what it takes alone: other tests are going on."""
     write_bake(tmp_path / "bake", agents=people, frames=28)
     found = result_of(blender(pathlib.Path(__file__).parent / "check_speed.py", ADDON, tmp_path / "bake"))
     assert found["people"] > 0.7 * people
