@@ -23,6 +23,7 @@ void put(std::vector<std::byte>& bytes, std::span<const T> items) {
 template <class T>
 void take(std::span<const std::byte>& bytes, std::span<T> items) {
     if (bytes.size() < items.size_bytes()) throw std::runtime_error("the checkpoint's frames are cut short");
+    if (items.empty()) return;
     std::memcpy(items.data(), bytes.data(), items.size_bytes());
     bytes = bytes.subspan(items.size_bytes());
 }
