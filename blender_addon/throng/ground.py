@@ -251,15 +251,15 @@ class VIEW3D_PT_throng_ground(bpy.types.Panel):
 
 CLASSES = (THRONG_OT_conform, THRONG_OT_release, VIEW3D_PT_throng_ground)
 
+_register_classes, _unregister_classes = bpy.utils.register_classes_factory(CLASSES)
+
 
 def register():
-    for each in CLASSES:
-        bpy.utils.register_class(each)
+    _register_classes()
     bpy.types.Scene.throng_ground = PointerProperty(type=bpy.types.Object, name="Ground", description="The mesh that crowds are to stand on",
                                                     poll=lambda _, thing: thing.type == "MESH" and "throng pos" not in thing.modifiers)
 
 
 def unregister():
     del bpy.types.Scene.throng_ground
-    for each in reversed(CLASSES):
-        bpy.utils.unregister_class(each)
+    _unregister_classes()

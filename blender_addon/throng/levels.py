@@ -133,12 +133,4 @@ class VIEW3D_PT_throng_levels(bpy.types.Panel):
 
 CLASSES = (THRONG_OT_levels, VIEW3D_PT_throng_levels)
 
-
-def register():
-    for each in CLASSES:
-        bpy.utils.register_class(each)
-
-
-def unregister():
-    for each in reversed(CLASSES):
-        bpy.utils.unregister_class(each)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -74,12 +74,4 @@ class VIEW3D_PT_throng_staging(bpy.types.Panel):
 
 CLASSES = (THRONG_OT_shot, THRONG_OT_light, VIEW3D_PT_throng_staging)
 
-
-def register():
-    for each in CLASSES:
-        bpy.utils.register_class(each)
-
-
-def unregister():
-    for each in reversed(CLASSES):
-        bpy.utils.unregister_class(each)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

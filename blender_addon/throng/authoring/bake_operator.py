@@ -357,14 +357,14 @@ class THRONG_OT_show_problem(bpy.types.Operator):
 
 CLASSES = (THRONG_OT_bake, THRONG_OT_bake_cancel, THRONG_OT_check, THRONG_OT_show_problem)
 
+_register_classes, _unregister_classes = bpy.utils.register_classes_factory(CLASSES)
+
 
 def register():
-    for each in CLASSES:
-        bpy.utils.register_class(each)
+    _register_classes()
 
 
 def unregister():
     if running():
         running().abandon()
-    for each in reversed(CLASSES):
-        bpy.utils.unregister_class(each)
+    _unregister_classes()

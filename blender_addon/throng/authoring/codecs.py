@@ -144,55 +144,65 @@ PROFILES = ("adult", "child", "elderly", "runner")
 MIX = "MIX"
 
 
-class Profile(Codec):
-    """A kind of people, or several by weight: an enum, and weights for MIX."""
+class _WordOrWeights(Codec):
+    """A word (an enum), or weights of several kinds for MIX. `weights_of` tells the weights in a value, None where it has none."""
+
+    words = ()
+
+    def __init__(self, key, weights):
+        super().__init__(key)
+        self.weights = weights
 
     def shown(self, raw):
-        if isinstance(raw, str) and raw in PROFILES:
+        if isinstance(raw, str) and raw in self.words:
             return raw
-        if isinstance(raw, dict) and raw and all(key in PROFILES and is_number(value) for key, value in raw.items()):
-            return tuple(single(raw.get(word, 0.0)) for word in PROFILES)
-        return UNSET
+        weights = self.weights_of(raw)
+        return UNSET if weights is None else tuple(single(weight) for weight in weights)
 
     def put(self, group, raw, _world=None):
         value = self.shown(raw)
-        group.profile = value if isinstance(value, str) else MIX
-        group.profile_weights = value if isinstance(value, tuple) else (1.0, 0.0, 0.0, 0.0)
+        setattr(group, self.attribute, value if isinstance(value, str) else MIX)
+        setattr(group, self.weights, value if isinstance(value, tuple) else (1.0, 0.0, 0.0, 0.0))
 
     def present(self, group):
-        return tuple(group.profile_weights) if group.profile == MIX else group.profile
+        word = getattr(group, self.attribute)
+        return tuple(getattr(group, self.weights)) if word == MIX else word
 
     def written(self, value):
         if isinstance(value, tuple):
-            return {word: short(weight) for word, weight in zip(PROFILES, value) if weight > 0.0}
+            return self.mixed(value)
         return MISSING if value == UNSET else value
+
+
+class Profile(_WordOrWeights):
+    """A kind of people, or several by weight."""
+
+    words = PROFILES
+
+    def weights_of(self, raw):
+        if isinstance(raw, dict) and raw and all(key in PROFILES and is_number(value) for key, value in raw.items()):
+            return [raw.get(word, 0.0) for word in PROFILES]
+        return None
+
+    def mixed(self, weights):
+        return {word: short(weight) for word, weight in zip(PROFILES, weights) if weight > 0.0}
 
 
 GROUPS = ("alone", "weekday", "leisure")
 
 
-class Groups(Codec):
+class Groups(_WordOrWeights):
     """Who walks together: a word, or weights of one to four."""
 
-    def shown(self, raw):
-        if isinstance(raw, str) and raw in GROUPS:
-            return raw
+    words = GROUPS
+
+    def weights_of(self, raw):
         if isinstance(raw, list) and 1 <= len(raw) <= 4 and all(is_number(part) for part in raw):
-            return tuple(single(part) for part in (raw + [0.0] * 4)[:4])
-        return UNSET
+            return (raw + [0.0] * 4)[:4]
+        return None
 
-    def put(self, group, raw, _world=None):
-        value = self.shown(raw)
-        group.groups = value if isinstance(value, str) else MIX
-        group.group_weights = value if isinstance(value, tuple) else (1.0, 0.0, 0.0, 0.0)
-
-    def present(self, group):
-        return tuple(group.group_weights) if group.groups == MIX else group.groups
-
-    def written(self, value):
-        if isinstance(value, tuple):
-            return [short(weight) for weight in value]
-        return MISSING if value == UNSET else value
+    def mixed(self, weights):
+        return [short(weight) for weight in weights]
 
 
 class Nested(Codec):

@@ -34,8 +34,8 @@ BARS = ("arrived", "stuck", "refused", "seconds", "overlapping_percent", "deepes
 
 BAR = (Optional(Number("min", 0.0, "least")), Optional(Number("max", 0.0, "most")))
 
-PEOPLE = (Distribution("speed"), Distribution("radius"), Number("maximum_speed_factor", 1.4), Number("headway", 0.0), Profile("profile"),
-          Distribution("reaction"), Groups("groups"))
+PEOPLE = (Distribution("speed"), Distribution("radius"), Number("maximum_speed_factor", 1.4), Number("headway", 0.0), Profile("profile", "profile_weights"),
+          Distribution("reaction"), Groups("groups", "group_weights"))
 
 ROAD = (Number("width", 3.0), Flag("one_way"))
 OPEN_WALL = (Number("thickness", 0.2), Number("height", 3.0))

@@ -303,10 +303,11 @@ def _import_menu(self, _context):
 def _export_menu(self, _context):
     self.layout.operator(EXPORT_SCENE_OT_throng_layout.bl_idname, text="Throng layout (.json)")
 
+_register_classes, _unregister_classes = bpy.utils.register_classes_factory(CLASSES)
+
 
 def register():
-    for each in CLASSES:
-        bpy.utils.register_class(each)
+    _register_classes()
     bpy.types.TOPBAR_MT_file_import.append(_import_menu)
     bpy.types.TOPBAR_MT_file_export.append(_export_menu)
 
@@ -314,5 +315,4 @@ def register():
 def unregister():
     bpy.types.TOPBAR_MT_file_export.remove(_export_menu)
     bpy.types.TOPBAR_MT_file_import.remove(_import_menu)
-    for each in reversed(CLASSES):
-        bpy.utils.unregister_class(each)
+    _unregister_classes()

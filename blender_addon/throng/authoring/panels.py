@@ -325,12 +325,4 @@ class VIEW3D_PT_throng_bake(_InSidebar, bpy.types.Panel):
 CLASSES = (VIEW3D_PT_throng_layout, VIEW3D_PT_throng_bake, THRONG_UL_flows, THRONG_UL_events, VIEW3D_PT_throng_flows, VIEW3D_PT_throng_events,
            VIEW3D_PT_throng_simulation, VIEW3D_PT_throng_bars)
 
-
-def register():
-    for each in CLASSES:
-        bpy.utils.register_class(each)
-
-
-def unregister():
-    for each in reversed(CLASSES):
-        bpy.utils.unregister_class(each)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -247,10 +247,11 @@ class ThrongScene(bpy.types.PropertyGroup):
 CLASSES = (ThrongDistribution, ThrongPeople, ThrongPlace, ThrongDestination, ThrongStop, ThrongFlow, ThrongMember, ThrongEvent, ThrongBar, ThrongFormation,
            ThrongObject, ThrongSimulation, ThrongProblem, ThrongScene)
 
+_register_classes, _unregister_classes = bpy.utils.register_classes_factory(CLASSES)
+
 
 def register():
-    for each in CLASSES:
-        bpy.utils.register_class(each)
+    _register_classes()
     bpy.types.Object.throng_layout = PointerProperty(type=ThrongObject)
     bpy.types.Scene.throng_layout = PointerProperty(type=ThrongScene)
 
@@ -258,5 +259,4 @@ def register():
 def unregister():
     del bpy.types.Scene.throng_layout
     del bpy.types.Object.throng_layout
-    for each in reversed(CLASSES):
-        bpy.utils.unregister_class(each)
+    _unregister_classes()

@@ -167,12 +167,4 @@ class VIEW3D_PT_throng_characters(bpy.types.Panel):
 
 CLASSES = (THRONG_OT_add_character, THRONG_OT_add_armature, THRONG_OT_remove_character, VIEW3D_PT_throng_characters)
 
-
-def register():
-    for each in CLASSES:
-        bpy.utils.register_class(each)
-
-
-def unregister():
-    for each in reversed(CLASSES):
-        bpy.utils.unregister_class(each)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

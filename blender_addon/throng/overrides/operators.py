@@ -293,10 +293,11 @@ ON_PEOPLE = (THRONG_OT_hide_people, THRONG_OT_swap_people, THRONG_OT_tint_people
 CLASSES = (ThrongOverride, picking.THRONG_OT_pick_people, *ON_PEOPLE, THRONG_OT_clear_override, THRONG_OT_reload_overrides, THRONG_UL_overrides,
            VIEW3D_PT_throng_overrides)
 
+_register_classes, _unregister_classes = bpy.utils.register_classes_factory(CLASSES)
+
 
 def register():
-    for each in CLASSES:
-        bpy.utils.register_class(each)
+    _register_classes()
     bpy.types.Object.throng_overrides = CollectionProperty(type=ThrongOverride)
     bpy.types.Object.throng_override_index = IntProperty(name="Override")
     for handlers in (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post):
@@ -309,5 +310,4 @@ def unregister():
     for handlers in (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post):
         handlers.remove(layer.write_after_undo)
     del bpy.types.Object.throng_override_index, bpy.types.Object.throng_overrides
-    for each in reversed(CLASSES):
-        bpy.utils.unregister_class(each)
+    _unregister_classes()
