@@ -76,7 +76,7 @@ void run(const Options& options) {
         chosen.push_back(&scenarioNamed(name));
     if (chosen.empty())
         for (const Scenario& scenario : scenarios())
-            chosen.push_back(&scenario);
+            if (!scenario.large) chosen.push_back(&scenario);
     io::makeFolder(options.output);
 
     nlohmann::ordered_json report = nlohmann::ordered_json::object();
@@ -94,7 +94,11 @@ void addScenarios(CLI::App& app) {
         app.add_subcommand("scenarios", "Bake and measure the scenarios that the motion is judged by");
     auto options = std::make_shared<Options>();
     command->add_flag("--list", options->list, "Only name them");
-    command->add_option("--run", options->names, "Only this one (repeatable)")->take_all()->expected(1);
+    command
+        ->add_option("--run", options->names,
+                     "Only this one (repeatable); those of 16,384 people run only where they are named")
+        ->take_all()
+        ->expected(1);
     command->add_option("-o,--output", options->output, "Where layouts and bakes are left")
         ->capture_default_str();
     command->add_option("--set", options->overrides, "Override a value of every layout (repeatable)")

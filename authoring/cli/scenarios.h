@@ -10,6 +10,7 @@ namespace throng::cli {
 struct Scenario {
     std::string_view name;
     std::string_view layout;  ///< the file's text
+    bool large;               ///< takes long: run only where it is asked for by name
 };
 
 /// All of them, put into the binary by the build.
