@@ -14,10 +14,10 @@ bl_info = {
 
 def _parts():
     """The modules that register classes of their own, in order."""
-    from . import authoring, ground, levels, operators, overrides, preferences, staging
+    from . import authoring, cells, ground, levels, operators, overrides, preferences, staging
     from .characters import operators as characters
 
-    return (preferences, operators, staging, levels, ground, authoring, characters, overrides)
+    return (preferences, operators, staging, cells, levels, ground, authoring, characters, overrides)
 
 
 def register():

@@ -13,8 +13,11 @@
 #include <ImfOutputFile.h>
 #include <ImfStandardAttributes.h>
 #include <ImfVecAttribute.h>
+#include <half.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <exception>
 #include <stdexcept>
 #include <vector>
@@ -54,6 +57,23 @@ class CheckedStream : public Imf::OStream {
     std::exception_ptr error_;
 };
 
+constexpr const char* kPicture[] = {"R", "G", "B", "A"};
+
+/// A colour of its own for each person: neighbours in the table are far apart on the wheel. Linear light.
+std::array<float, 3> colourOf(std::uint32_t row) {
+    const float hue = 6.0f * std::fmod(static_cast<float>(row % 4096u) * 0.61803399f, 1.0f);
+    const float value = (row & 1u) != 0u ? 0.75f : 0.45f;
+    std::array<float, 3> colour{};
+    for (std::size_t part = 0; part < 3; ++part) {
+        const float away = std::fmod(hue + (part == 0 ? 5.0f : part == 1 ? 3.0f : 1.0f), 6.0f);
+        colour[part] = value * (1.0f - 0.7f * std::clamp(std::min(away, 4.0f - away), 0.0f, 1.0f));
+    }
+    return colour;
+}
+
+/// Cells are bright around their owner and darker towards their edge (1/m).
+constexpr float kShade = 1.5f;
+
 /// A diagram and what is known of its owners.
 struct Content {
     const DiagramImage& image;
@@ -69,6 +89,8 @@ Imf::Header describe(const Content& content, glm::dvec2 scene_origin, std::uint3
     header.channels().insert("id", Imf::Channel(Imf::UINT));
     header.channels().insert("kind", Imf::Channel(Imf::UINT));
     header.channels().insert("distance", Imf::Channel(Imf::FLOAT));
+    for (const char* name : kPicture)
+        header.channels().insert(name, Imf::Channel(Imf::HALF));
     if (content.hasSecond())
         for (const char* name : {"second", "secondKind"})
             header.channels().insert(name, Imf::Channel(Imf::UINT));
@@ -97,12 +119,22 @@ struct Lines {
           second(content.hasSecond() ? width * kLines : 0),
           second_kind(second.size()),
           distance(width * kLines),
-          density(content.hasDensity() ? width * kLines : 0) {}
+          density(content.hasDensity() ? width * kLines : 0) {
+        for (std::vector<half>& part : picture)
+            part.resize(width * kLines);
+    }
 
     static void put(std::uint32_t site, std::uint32_t agents, std::uint32_t& number, std::uint32_t& what) {
         const bool is_wall = site != kNone && site >= agents;
         number = is_wall ? site - agents : site;
         what = site == kNone ? 0 : is_wall ? 2 : 1;
+    }
+
+    void paint(std::size_t at, std::uint32_t row, float away) {
+        const std::array<float, 3> colour = row == kNone ? std::array<float, 3>{} : colourOf(row);
+        for (std::size_t part = 0; part < 3; ++part)
+            picture[part][at] = colour[part] / (1.0f + kShade * std::max(away, 0.0f));
+        picture[3][at] = row == kNone ? 0.0f : 1.0f;
     }
 
     void fill(const Content& content, std::uint32_t top, std::uint32_t count) {
@@ -114,6 +146,7 @@ struct Lines {
                 const std::uint32_t site = image.site[from + x];
                 put(site, image.agent_count, id[to + x], kind[to + x]);
                 distance[to + x] = site == kNone ? -1.0f : image.distance[from + x];
+                paint(to + x, site < image.agent_count ? site : kNone, distance[to + x]);
                 if (content.hasSecond())
                     put(image.second[from + x], image.agent_count, second[to + x], second_kind[to + x]);
                 if (content.hasDensity())
@@ -125,6 +158,7 @@ struct Lines {
 
     std::vector<std::uint32_t> id, kind, second, second_kind;
     std::vector<float> distance, density;
+    std::array<std::vector<half>, 4> picture;
 };
 
 template <typename T>
@@ -143,6 +177,8 @@ void writePixels(Imf::OutputFile& output, const Content& content) {
         buffer.insert("id", sliceOf(Imf::UINT, lines.id, top, image.width));
         buffer.insert("kind", sliceOf(Imf::UINT, lines.kind, top, image.width));
         buffer.insert("distance", sliceOf(Imf::FLOAT, lines.distance, top, image.width));
+        for (std::size_t part = 0; part < lines.picture.size(); ++part)
+            buffer.insert(kPicture[part], sliceOf(Imf::HALF, lines.picture[part], top, image.width));
         if (content.hasSecond()) {
             buffer.insert("second", sliceOf(Imf::UINT, lines.second, top, image.width));
             buffer.insert("secondKind", sliceOf(Imf::UINT, lines.second_kind, top, image.width));

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Runs inside Blender: cells on the ground as an overlay and as a mask, rendered from straight above, with and without the add-on."""
+import json
+import os
+import sys
+
+import bpy
+
+PIXELS = 8.0  # per metre
+
+
+def look_from_above(scene, low, high):
+    camera = bpy.data.objects.new("above", bpy.data.cameras.new("above"))
+    camera.data.type, camera.data.ortho_scale = "ORTHO", high[0] - low[0]
+    camera.location = (0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]), 50.0)
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+    scene.render.engine = "CYCLES"
+    scene.cycles.samples, scene.cycles.use_denoising, scene.cycles.use_adaptive_sampling = 4, False, False
+    scene.cycles.filter_width = 0.01
+    scene.render.use_motion_blur = False
+    scene.render.resolution_x, scene.render.resolution_y = (int(PIXELS * (high[axis] - low[axis])) for axis in (0, 1))
+    scene.render.resolution_percentage = 100
+    settings = scene.render.image_settings
+    if hasattr(settings, "media_type"):
+        settings.media_type = "IMAGE"
+    settings.file_format, settings.color_mode, settings.color_depth = "OPEN_EXR", "RGB", "32"
+
+
+def render(scene, frame, path):
+    scene.frame_set(frame)
+    scene.render.filepath = path
+    bpy.ops.render.render(write_still=True)
+
+
+def only_ground_is_seen(crowd):
+    for thing in bpy.context.scene.objects:
+        if thing.type == "MESH" and not thing.name.startswith(("Throng ground", "Throng road", "Throng area", "Throng cells")):
+            thing.hide_render = True
+    crowd.hide_render = True
+    for light in [thing for thing in bpy.context.scene.objects if thing.type == "LIGHT"]:
+        light.hide_render = True
+    world = bpy.data.worlds.new("white")
+    world.use_nodes = True
+    next(node for node in world.node_tree.nodes if node.type == "BACKGROUND").inputs[0].default_value = (1.0, 1.0, 1.0, 1.0)
+    bpy.context.scene.world = world
+
+
+def with_the_add_on(addon, bake, folder):
+    sys.path.insert(0, addon)
+    import throng
+
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    throng.register()
+    bpy.ops.wm.save_as_mainfile(filepath=os.path.join(folder, "overlay.blend"))
+    assert bpy.ops.import_scene.throng(filepath=os.path.join(bake, "bake.json")) == {"FINISHED"}
+    scene = bpy.context.scene
+    crowd = next(thing for thing in scene.objects if "throng pos" in thing.modifiers)
+    manifest = json.load(open(os.path.join(bake, "bake.json")))
+    only_ground_is_seen(crowd)
+    look_from_above(scene, manifest["bounds"]["min"], manifest["bounds"]["max"])
+    result = {"objects": len(scene.objects)}
+    render(scene, 25, os.path.join(folder, "bare.exr"))
+    assert bpy.ops.throng.cells(kind="overlay", strength=1.0) == {"FINISHED"}
+    assert bpy.ops.throng.cells(kind="overlay", strength=1.0) == {"FINISHED"}
+    result["with overlay"] = len(scene.objects)
+    bpy.ops.wm.save_mainfile()
+    assert bpy.ops.throng.cells(kind="mask", strength=1.0) == {"FINISHED"}
+    result["with mask"] = len(scene.objects)
+    render(scene, 25, os.path.join(folder, "mask.exr"))
+    assert bpy.ops.throng.cells(kind="mask", strength=1.0) == {"FINISHED"}
+    render(scene, 25, os.path.join(folder, "mask-again.exr"))
+    assert bpy.ops.throng.cells(kind="none") == {"FINISHED"}
+    render(scene, 25, os.path.join(folder, "none.exr"))
+    diagrams = os.path.join(bake, "diagrams")
+    os.rename(diagrams, diagrams + "-away")
+    try:
+        bpy.ops.throng.cells(kind="overlay")
+        result["missing"] = "accepted"
+    except RuntimeError as error:
+        result["missing"] = str(error)
+    os.rename(diagrams + "-away", diagrams)
+    print("RESULT " + json.dumps(result))
+
+
+def on_a_farm(folder):
+    assert not hasattr(bpy.types, "THRONG_OT_cells")
+    for frame in (25, 26, 30):
+        render(bpy.context.scene, frame, os.path.join(folder, f"overlay.{frame}.exr"))
+
+
+given = sys.argv[sys.argv.index("--") + 1:]
+if len(given) == 3:
+    with_the_add_on(*given)
+else:
+    on_a_farm(*given)
