@@ -31,3 +31,27 @@ def test_shots_show_the_crowd_and_nights_have_lamps_beside_the_roads(blender, ba
                 if 0.0 <= along <= length:
                     gaps.append(abs((x - ax) * (by - ay) - (y - ay) * (bx - ax)) / length - 0.5 * road["width"])
         assert 0.0 <= min(gaps) < 1.0, (x, y)
+
+
+def test_low_walls_round_much_ground_are_the_rim_of_a_lawn_and_a_pitch_has_lines_that_fit(blender, throng, tmp_path):
+    throng("generate", "stadium", "--set", "people=12", "--set", "radius=62", "--set", "duration=1", "-o", tmp_path / "stadium.json")
+    throng("bake", tmp_path / "stadium.json", "-o", tmp_path / "bake", "-q", "--no-gltf")
+    script = tmp_path / "lawn.py"
+    script.write_text(f"""
+import math, sys
+sys.path.insert(0, {str(ADDON)!r})
+import bpy, throng
+bpy.ops.wm.read_factory_settings(use_empty=True)
+throng.register()
+bpy.ops.import_scene.throng(filepath={str(tmp_path / "bake" / "bake.json")!r})
+pitch = bpy.data.objects['Throng wall pitch'].data
+parts = {{}}
+for polygon in pitch.polygons:
+    parts.setdefault(pitch.materials[polygon.material_index].name, []).append(polygon)
+grass, = parts['throng grass']
+assert 0.97 * math.pi * 62 ** 2 < grass.area < math.pi * 62 ** 2 and grass.normal.z > 0.99 and grass.center.z < 0.5
+corners = [pitch.vertices[i].co for polygon in parts['throng line'] for i in polygon.vertices]
+assert max(corner.z for corner in corners) < 0.5 and 59.0 < max(corner.xy.length for corner in corners) < 61.6
+assert max(v.co.z for v in pitch.vertices) == 1.0
+""")
+    blender(script)

@@ -120,7 +120,7 @@ def _flood(collection, manifest):
     (x0, y0), (x1, y1) = (tuple(bounds.get(key, fallback))[:2] for key, fallback in (("min", (-20.0, -20.0)), ("max", (20.0, 20.0))))
     middle, radius = (0.5 * (x0 + x1), 0.5 * (y0 + y1)), 0.5 * math.hypot(x1 - x0, y1 - y0)
     light = bpy.data.lights.new("Throng floodlight", "SPOT")
-    light.energy, light.color, light.spot_size, light.spot_blend = 55.0 * radius * radius, (1.0, 0.94, 0.84), math.radians(95.0), 0.6
+    light.energy, light.color, light.spot_size, light.spot_blend = 13.0 * radius * radius, (1.0, 0.94, 0.84), math.radians(95.0), 0.6
     light.shadow_soft_size = 1.2
     for i in range(4):
         angle = math.pi * (0.25 + 0.5 * i)

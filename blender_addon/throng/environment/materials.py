@@ -75,6 +75,75 @@ def slabs(name, colour, joint, size):
     return material
 
 
+def outskirts(paving, low, high, beyond):
+    """A copy of `paving` that goes over into fields `beyond` metres outside a rectangle, with rounded corners and a ragged edge."""
+    material = paving.copy()
+    material.name = "throng ground"
+    nodes, links = material.node_tree.nodes, material.node_tree.links
+    shader = next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
+    place = nodes.new("ShaderNodeTexCoord").outputs["Object"]
+
+    def vector(operation, a, b=None):
+        node = nodes.new("ShaderNodeVectorMath")
+        node.operation = operation
+        for slot, value in zip(node.inputs, (a, b)):
+            if isinstance(value, tuple):
+                slot.default_value = value
+            elif value is not None:
+                links.new(value, slot)
+        return node.outputs["Value" if operation == "LENGTH" else "Vector"]
+
+    def noise(size, detail):
+        node = nodes.new("ShaderNodeTexNoise")
+        node.inputs["Scale"].default_value, node.inputs["Detail"].default_value = size, detail
+        links.new(place, node.inputs["Vector"])
+        return node.outputs[0]
+
+    half = tuple(0.5 * (b - a) for a, b in zip(low, high))
+    corner = 0.7 * min(half)
+    from_middle = vector("ABSOLUTE", vector("SUBTRACT", vector("MULTIPLY", place, (1.0, 1.0, 0.0)), (0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]), 0.0)))
+    out = vector("LENGTH", vector("MAXIMUM", vector("SUBTRACT", from_middle, (half[0] - corner, half[1] - corner, 0.0)), (0.0, 0.0, 0.0)))
+    ragged = nodes.new("ShaderNodeMath")
+    ragged.operation = "MULTIPLY_ADD"
+    ragged.inputs[1].default_value = 22.0
+    links.new(noise(0.09, 6.0), ragged.inputs[0])
+    links.new(out, ragged.inputs[2])
+    edge = nodes.new("ShaderNodeMapRange")
+    edge.inputs["From Min"].default_value, edge.inputs["From Max"].default_value = corner + beyond + 9.0, corner + beyond + 13.0
+    links.new(ragged.outputs[0], edge.inputs["Value"])
+    fields = nodes.new("ShaderNodeValToRGB")
+    fields.color_ramp.elements[0].position, fields.color_ramp.elements[0].color = 0.35, (0.022, 0.030, 0.010, 1.0)
+    fields.color_ramp.elements[1].position, fields.color_ramp.elements[1].color = 0.66, (0.062, 0.058, 0.026, 1.0)
+    links.new(noise(0.045, 9.0), fields.inputs[0])
+    mix = nodes.new("ShaderNodeMixRGB")
+    for source, slot in ((edge.outputs[0], "Fac"), (shader.inputs["Base Color"].links[0].from_socket, "Color1"), (fields.outputs[0], "Color2")):
+        links.new(source, mix.inputs[slot])
+    links.new(mix.outputs[0], shader.inputs["Base Color"])
+    return material
+
+
+def mown(name, dark, light, width):
+    """Grass, mown to and fro in stripes of `width` metres."""
+    found = bpy.data.materials.get(f"throng {name}")
+    if found:
+        return found
+    material = mottled(name, tuple(0.8 * c for c in dark), light, 0.6, 0.9, 9.0, 0.2)
+    nodes, links = material.node_tree.nodes, material.node_tree.links
+    shader = next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
+    ways = nodes.new("ShaderNodeSeparateXYZ")
+    links.new(nodes.new("ShaderNodeTexCoord").outputs["Object"], ways.inputs[0])
+    stripe = [nodes.new("ShaderNodeMath") for _ in range(2)]
+    stripe[0].operation, stripe[0].inputs[1].default_value = "PINGPONG", width
+    stripe[1].operation, stripe[1].inputs[1].default_value = "GREATER_THAN", 0.5 * width
+    shade = nodes.new("ShaderNodeHueSaturation")
+    shade.inputs["Value"].default_value = 0.72
+    for a, b in ((ways.outputs[0], stripe[0].inputs[0]), (stripe[0].outputs[0], stripe[1].inputs[0]), (stripe[1].outputs[0], shade.inputs["Fac"]),
+                 (shader.inputs["Base Color"].links[0].from_socket, shade.inputs["Color"])):
+        links.new(a, b)
+    links.new(shade.outputs[0], shader.inputs["Base Color"])
+    return material
+
+
 def glass():
     """Panes as seen from the street: dark rooms behind a reflecting surface."""
     found = bpy.data.materials.get("throng glass")

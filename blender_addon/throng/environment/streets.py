@@ -7,14 +7,16 @@ GROUND_Z, AREA_Z, ROAD_Z, MARK_Z = -0.012, -0.004, 0.0, 0.004
 KERB_HEIGHT = 0.10
 
 
+_PAVED = 26.0  # m round everything; fields begin beyond
+
+
 def build_ground(manifest):
     bounds = manifest.get("bounds") or {}
-    low, high = bounds.get("min", (-50.0, -50.0)), bounds.get("max", (50.0, 50.0))
-    margin = 3.0 * max(high[0] - low[0], high[1] - low[1], 100.0)
+    low, high = (tuple(bounds.get(key, fallback))[:2] for key, fallback in (("min", (-50.0, -50.0)), ("max", (50.0, 50.0))))
+    far = 3.0 * max(high[0] - low[0], high[1] - low[1], 100.0)
     shape = Shape("Throng ground")
-    paving = materials.slabs("pavement", (0.30, 0.29, 0.27), (0.16, 0.155, 0.15), 0.9)
-    shape.flat([(low[0] - margin, low[1] - margin), (high[0] + margin, low[1] - margin), (high[0] + margin, high[1] + margin), (low[0] - margin, high[1] + margin)],
-               GROUND_Z, paving)
+    shape.flat([(low[0] - far, low[1] - far), (high[0] + far, low[1] - far), (high[0] + far, high[1] + far), (low[0] - far, high[1] + far)], GROUND_Z,
+               materials.outskirts(materials.slabs("pavement", (0.235, 0.228, 0.212), (0.13, 0.126, 0.12), 0.9), low, high, _PAVED))
     return shape.to_object()
 
 
@@ -54,7 +56,7 @@ def build_streets(geometry):
     objects = []
     for area in geometry.get("areas", []):
         shape = Shape(f"Throng area {area.get('id', '')}")
-        shape.flat(counter_clockwise(area["polygon"]), AREA_Z, materials.slabs("plaza", (0.36, 0.33, 0.28), (0.20, 0.19, 0.17), 0.6))
+        shape.flat(counter_clockwise(area["polygon"]), AREA_Z, materials.slabs("plaza", (0.255, 0.235, 0.205), (0.15, 0.14, 0.125), 0.6))
         objects.append(shape.to_object())
     junctions = _junctions(roads)
     for i, road in enumerate(roads):

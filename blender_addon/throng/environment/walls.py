@@ -4,12 +4,13 @@ import math
 import zlib
 
 from . import materials
-from .shapes import Shape, counter_clockwise, direction
+from .shapes import Shape, counter_clockwise, direction, offset_polygon, signed_area
 
 STOREY = 3.5        # m
 GROUND_FLOOR = 4.3  # m
 BAY = 2.7           # m from window to window
 BUILDING = 6.0      # m: closed walls at least this high are buildings
+BED, LAWN = 1.5, 60.0  # m and m^2: closed walls lower than this round more than this are the rim of a lawn
 
 _FACADES = [((0.36, 0.24, 0.17), (0.44, 0.31, 0.22)), ((0.42, 0.39, 0.33), (0.52, 0.48, 0.41)), ((0.25, 0.105, 0.075), (0.32, 0.145, 0.105)),
             ((0.30, 0.31, 0.31), (0.38, 0.38, 0.37)), ((0.47, 0.40, 0.28), (0.56, 0.48, 0.35))]
@@ -29,6 +30,8 @@ def build_wall(wall):
     if wall.get("closed"):
         if height >= BUILDING:
             _building(shape, counter_clockwise(points), height, _number(name))
+        elif height < BED and abs(signed_area(points)) > LAWN:
+            _lawn(shape, counter_clockwise(points), height, "pitch" in name)
         else:
             stone = materials.mottled("stone", (0.26, 0.25, 0.23), (0.36, 0.35, 0.32), 1.2)
             shape.prism(points, 0.0, height, stone)
@@ -38,6 +41,46 @@ def build_wall(wall):
     thing = shape.to_object()
     thing.location.z = low
     return thing
+
+
+_RIM = 0.35    # m
+_PITCH = (52.5, 34.0, 9.15, 16.5, 20.16)  # m: half a football pitch's length and width, its circle, the depth and half the width of its boxes
+_LINE = 0.06   # m, half of a line's width
+
+
+def _lawn(shape, outline, height, is_pitch):
+    """A low wall with grass inside; on a pitch, lines that fit."""
+    stone = materials.mottled("stone", (0.26, 0.25, 0.23), (0.36, 0.35, 0.32), 1.2)
+    inner, floor = offset_polygon(outline, -_RIM), 0.08
+    for i, (a, b) in enumerate(zip(outline, outline[1:] + outline[:1])):
+        c, d = inner[i], inner[(i + 1) % len(inner)]
+        shape.face([(*a, 0.0), (*b, 0.0), (*b, height), (*a, height)], stone)
+        shape.face([(*a, height), (*b, height), (*d, height), (*c, height)], stone)
+        shape.face([(*d, floor), (*c, floor), (*c, height), (*d, height)], stone)
+    shape.flat(inner, floor, materials.mown("grass", (0.030, 0.075, 0.016), (0.045, 0.105, 0.022), 5.5))
+    if is_pitch:
+        _pitch_lines(shape, inner, floor + 0.012)
+
+
+def _pitch_lines(shape, outline, z):
+    paint = materials.plain("line", (0.62, 0.63, 0.60), 0.8)
+    middle = tuple(sum(p[axis] for p in outline) / len(outline) for axis in (0, 1))
+    room = min(math.dist(middle, p) for p in outline) * 0.97
+    fit = min(1.0, room / math.hypot(_PITCH[0], _PITCH[1]))
+    length, width, circle, depth, box = (fit * value for value in _PITCH)
+
+    def way(points):
+        for a, b in zip(points, points[1:]):
+            (ux, uy), _ = direction(a, b)
+            sx, sy, ex, ey = -uy * _LINE, ux * _LINE, ux * _LINE, uy * _LINE
+            shape.flat([(middle[0] + x, middle[1] + y) for x, y in ((a[0] - ex - sx, a[1] - ey - sy), (b[0] + ex - sx, b[1] + ey - sy),
+                                                                    (b[0] + ex + sx, b[1] + ey + sy), (a[0] - ex + sx, a[1] - ey + sy))], z, paint)
+
+    way([(-length, -width), (length, -width), (length, width), (-length, width), (-length, -width)])
+    way([(0.0, -width), (0.0, width)])
+    way([(circle * math.cos(math.tau * i / 64), circle * math.sin(math.tau * i / 64)) for i in range(65)])
+    for side in (-1.0, 1.0):
+        way([(side * length, -box), (side * (length - depth), -box), (side * (length - depth), box), (side * length, box)])
 
 
 def key_gate(thing, wall, fps, frame_start):
