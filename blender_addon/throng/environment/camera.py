@@ -8,6 +8,7 @@ import bpy
 
 from ..formats import BakeError, load_bake
 from ..terrain_mesh import read_mesh
+from .lights import expose
 from .shapes import direction, inside
 
 _HEADER = 32
@@ -86,6 +87,8 @@ def build_camera(scene, manifest, collection, shot="crane"):
     holder.data.dof.use_dof, holder.data.dof.aperture_fstop = shot != "wide", 2.8
     holder.data.dof.focus_object, holder.data.dof.focus_distance = None, distance * (1.0 if shot == "wide" else 0.72)
     scene.camera = holder
+    collection["throng_shot"] = shot
+    expose(scene, collection)
     collection["throng_camera_frame"] = scene.frame_start + frame
     return holder
 

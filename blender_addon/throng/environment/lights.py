@@ -11,6 +11,8 @@ ELEVATION, AZIMUTH = math.radians(31.0), math.radians(128.0)
 
 
 TIMES = ("day", "night")
+_EXPOSURE = {"day": 0.6, "night": 1.3}  # stops, for people in streets; from afar all the ground is in the sun
+_LESS_FROM_AFAR = 0.5
 _LAMP_HEIGHT, _LAMPS_APART, _MOST_LAMPS = 5.4, 16.0, 60
 _WARM = (1.0, 0.66, 0.36)
 
@@ -22,14 +24,21 @@ def build_light(scene, collection, time="day", manifest=None):
     if time == "day":
         _add(collection, _sun("Throng sun", 3.6, (1.0, 0.90, 0.78), ELEVATION))
         scene.world = _world("Throng sky", _day_sky, 0.22)
-        scene.view_settings.exposure = 0.6
     else:
         _add(collection, _sun("Throng moon", 0.035, (0.62, 0.74, 1.0), math.radians(48.0)))
         scene.world = _world("Throng night", None, 0.018)
         _light_streets(collection, manifest or {})
-        scene.view_settings.exposure = 1.3
+    collection["throng_light_time"] = time
+    expose(scene, collection)
     glow(glass(), 0.0 if time == "day" else 0.55)
     set_colours(scene)
+
+
+def expose(scene, collection):
+    """Exposure for the collection's light and shot."""
+    time, shot = collection.get("throng_light_time"), collection.get("throng_shot", "crane")
+    if time:
+        scene.view_settings.exposure = _EXPOSURE[time] - (_LESS_FROM_AFAR if shot == "wide" else 0.0)
 
 
 def _add(collection, thing):

@@ -111,10 +111,27 @@ def outskirts(paving, low, high, beyond):
     edge = nodes.new("ShaderNodeMapRange")
     edge.inputs["From Min"].default_value, edge.inputs["From Max"].default_value = corner + beyond + 9.0, corner + beyond + 13.0
     links.new(ragged.outputs[0], edge.inputs["Value"])
-    fields = nodes.new("ShaderNodeValToRGB")
-    fields.color_ramp.elements[0].position, fields.color_ramp.elements[0].color = 0.35, (0.022, 0.030, 0.010, 1.0)
-    fields.color_ramp.elements[1].position, fields.color_ramp.elements[1].color = 0.66, (0.062, 0.058, 0.026, 1.0)
-    links.new(noise(0.045, 9.0), fields.inputs[0])
+    # Parcels of crops, meadow and bare earth, each a little uneven.
+    parcels = nodes.new("ShaderNodeTexVoronoi")
+    parcels.inputs["Scale"].default_value, parcels.inputs["Randomness"].default_value = 0.012, 0.85
+    links.new(place, parcels.inputs["Vector"])
+    crops = nodes.new("ShaderNodeValToRGB")
+    crops.color_ramp.interpolation = "CONSTANT"
+    while len(crops.color_ramp.elements) < 5:
+        crops.color_ramp.elements.new(0.5)
+    for element, (position, colour) in zip(crops.color_ramp.elements, ((0.0, (0.030, 0.045, 0.012)), (0.28, (0.055, 0.062, 0.020)), (0.48, (0.085, 0.066, 0.032)),
+                                                                       (0.66, (0.022, 0.034, 0.010)), (0.82, (0.115, 0.095, 0.040)))):
+        element.position, element.color = position, (*colour, 1.0)
+    links.new(parcels.outputs["Color"], crops.inputs[0])
+    fields = nodes.new("ShaderNodeHueSaturation")
+    uneven = nodes.new("ShaderNodeMapRange")
+    uneven.inputs["To Min"].default_value, uneven.inputs["To Max"].default_value = 0.35, 1.65
+    links.new(noise(0.4, 9.0), uneven.inputs["Value"])
+    links.new(uneven.outputs[0], fields.inputs["Value"])
+    links.new(crops.outputs[0], fields.inputs["Color"])
+    for specular in ("Specular", "Specular IOR Level"):  # or ground far away mirrors the sky like a lake
+        if specular in shader.inputs:
+            shader.inputs[specular].default_value = 0.12
     mix = nodes.new("ShaderNodeMixRGB")
     for source, slot in ((edge.outputs[0], "Fac"), (shader.inputs["Base Color"].links[0].from_socket, "Color1"), (fields.outputs[0], "Color2")):
         links.new(source, mix.inputs[slot])

@@ -16,7 +16,7 @@ def build_ground(manifest):
     far = 3.0 * max(high[0] - low[0], high[1] - low[1], 100.0)
     shape = Shape("Throng ground")
     shape.flat([(low[0] - far, low[1] - far), (high[0] + far, low[1] - far), (high[0] + far, high[1] + far), (low[0] - far, high[1] + far)], GROUND_Z,
-               materials.outskirts(materials.slabs("pavement", (0.235, 0.228, 0.212), (0.13, 0.126, 0.12), 0.9), low, high, _PAVED))
+               materials.outskirts(materials.slabs("pavement", (0.185, 0.180, 0.168), (0.105, 0.102, 0.097), 0.9), low, high, _PAVED))
     return shape.to_object()
 
 
@@ -56,7 +56,7 @@ def build_streets(geometry):
     objects = []
     for area in geometry.get("areas", []):
         shape = Shape(f"Throng area {area.get('id', '')}")
-        shape.flat(counter_clockwise(area["polygon"]), AREA_Z, materials.slabs("plaza", (0.255, 0.235, 0.205), (0.15, 0.14, 0.125), 0.6))
+        shape.flat(counter_clockwise(area["polygon"]), AREA_Z, materials.slabs("plaza", (0.190, 0.175, 0.153), (0.115, 0.107, 0.096), 0.6))
         objects.append(shape.to_object())
     junctions = _junctions(roads)
     for i, road in enumerate(roads):
