@@ -114,15 +114,11 @@ def _either(maths, hit, value, otherwise):
     return maths.math("ADD", maths.math("MULTIPLY", hit, value), maths.math("MULTIPLY", maths.math("SUBTRACT", 1.0, hit), otherwise))
 
 
-def _conform_tree():
-    name = "Throng conform to ground"
-    found = bpy.data.node_groups.get(name)
-    if found:
-        return found
-    tree, inputs, outputs = new_tree(name, _GEOMETRY + [("Ground", "NodeSocketObject")], _GEOMETRY)
-    maths = Maths(tree)
+def _footing(maths, ground):
+    """Of every point, by three rays on an object's geometry: its place, whether there is ground, its slopes and height, and the mean height
+    under the feet."""
     info = maths.node("GeometryNodeObjectInfo", transform_space="RELATIVE")
-    maths.link(inputs.outputs["Ground"], info.inputs["Object"])
+    maths.link(ground, info.inputs["Object"])
     target = info.outputs["Geometry"]
     cosine, sine, _ = _named(maths, "throng_dir")
     place = maths.node("ShaderNodeSeparateXYZ")
@@ -141,14 +137,43 @@ def _conform_tree():
     sign = maths.math("SIGN", parts.outputs[2])  # meshes may be inside out
     slopes = [maths.math("DIVIDE", maths.math("SUBTRACT", ahead, behind), 2.0 * REACH), maths.math("MULTIPLY", maths.math("DIVIDE", left, down), sign)]
     slopes = [maths.math("MULTIPLY", hit, maths.math("MAXIMUM", maths.math("MINIMUM", slope, STEEPEST), -STEEPEST)) for slope in slopes]
+    return place.outputs, hit, _vector(maths, *slopes, height), mean
+
+
+def _stand(maths, geometry, ground, over=0.0):
+    """Points on an object's geometry, `over` metres above it, with the slopes there; where there is none they stay."""
+    place, hit, slopes, mean = _footing(maths, ground)
     store = maths.node("GeometryNodeStoreNamedAttribute", data_type="FLOAT_VECTOR", domain="POINT")
     store.inputs["Name"].default_value = GROUND
-    maths.link(inputs.outputs["Geometry"], store.inputs["Geometry"])
-    maths.link(_vector(maths, *slopes, height), socket(store.inputs, "Value"))
+    maths.link(geometry, store.inputs["Geometry"])
+    maths.link(slopes, socket(store.inputs, "Value"))
     stand = maths.node("GeometryNodeSetPosition")
     maths.link(store.outputs[0], stand.inputs["Geometry"])
-    maths.link(_vector(maths, place.outputs[0], place.outputs[1], _either(maths, hit, mean, place.outputs[2])), stand.inputs["Position"])
-    maths.link(stand.outputs[0], outputs.inputs[0])
+    maths.link(_vector(maths, place[0], place[1], _either(maths, hit, maths.math("ADD", mean, over), place[2])), stand.inputs["Position"])
+    return stand.outputs[0]
+
+
+def stand_anew(maths, geometry, ground, who, over):
+    """Lets only those points stand on an object's geometry where the attribute `who` is 1: rays cost time, so the others are set apart."""
+    apart = maths.node("GeometryNodeSeparateGeometry", domain="POINT")
+    maths.link(geometry, apart.inputs["Geometry"])
+    some = maths.node("GeometryNodeInputNamedAttribute", data_type="FLOAT")
+    some.inputs["Name"].default_value = who
+    maths.link(maths.greater(socket(some.outputs, "Attribute"), 0.5), apart.inputs["Selection"])
+    join = maths.node("GeometryNodeJoinGeometry")
+    maths.link(_stand(maths, apart.outputs["Selection"], ground, over), join.inputs[0])
+    maths.link(apart.outputs["Inverted"], join.inputs[0])
+    return join.outputs[0]
+
+
+def _conform_tree():
+    name = "Throng conform to ground"
+    found = bpy.data.node_groups.get(name)
+    if found:
+        return found
+    tree, inputs, outputs = new_tree(name, _GEOMETRY + [("Ground", "NodeSocketObject")], _GEOMETRY)
+    maths = Maths(tree)
+    maths.link(_stand(maths, inputs.outputs["Geometry"], inputs.outputs["Ground"]), outputs.inputs[0])
     return tree
 
 

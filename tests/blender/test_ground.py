@@ -3,6 +3,7 @@
 import json
 import math
 import pathlib
+import shutil
 import sys
 
 import numpy
@@ -134,3 +135,31 @@ def test_a_manifest_cannot_name_a_terrain_elsewhere(two_bakes):
     with pytest.raises(formats.BakeError, match="names no file"):
         formats.Bake(manifest, str(two_bakes / "ramp")).terrain_path
     assert math.isclose(manifest["terrain"]["highest"] - manifest["terrain"]["lowest"], 4.0)
+
+
+def test_whoever_is_moved_retimed_or_a_hero_stands_on_the_ground_anew_as_throng_apply_has_it(blender, throng, two_bakes, tmp_path):
+    bake = tmp_path / "ramp"
+    shutil.copytree(two_bakes / "ramp", bake)
+    state = numpy.load(bake / "streams" / "state.npy")
+    moved, retimed, hero = numpy.nonzero((state[[0, 40, 96], :, 0] > 0.5).all(axis=0))[0][:3]
+    frames = [1, 41, 97]
+    shots = result_of(blender(pathlib.Path(__file__).parent / "check_moved.py", ADDON, bake, moved, retimed, hero, json.dumps(frames)))
+    throng("apply", bake, "-o", tmp_path / "applied")
+    pos, direction, state, ground = (numpy.load(tmp_path / "applied" / "streams" / f"{name}.npy") for name in ("pos", "dir", "state", "ground"))
+    climbed = set()
+    for frame, shot in zip(frames, shots):
+        people = {int(row): numpy.array(matrix) for row, matrix in shot["people"].items()}
+        assert hero not in people
+        x, y, _ = pos[frame - 1, hero]
+        assert numpy.abs(numpy.array(shot["hero"]) - (x, y, 7.0 + ramp(x, y))).max() < 0.03
+        for row in (moved, retimed):
+            x, y, z = pos[frame - 1, row]
+            assert numpy.abs(people[row][:3, 3] - (x, y, z)).max() < 0.03, (row, frame)
+            along, across, _ = ground[frame - 1, row]
+            cosine, sine, _ = direction[frame - 1, row]
+            if min(abs(x - edge) for edge in (-10.0, 10.0, 26.0)) > 0.5:
+                assert numpy.abs(people[row][:3, :3] - [[cosine, -sine, 0.0], [sine, cosine, 0.0], [along, across, 1.0]]).max() < 0.03
+            climbed.add(round(float(z) - 7.0 - ramp(x, y), 1))
+        others = [row for row in people if row not in (moved, retimed)]
+        assert len(others) > 20 and all(numpy.abs(people[row][:3, 3] - pos[frame - 1, row]).max() < 1e-4 for row in others)
+    assert climbed == {0.0, 0.5}, "half a metre over the ground, and on it"

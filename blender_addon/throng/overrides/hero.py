@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Heroes: single people outside the crowd, as armatures with keys, who walk just as they did in it, for an animator to change."""
 import math
+from dataclasses import replace
 
 import bpy
-from mathutils import Matrix
+from mathutils import Matrix, Vector
 
 from .. import cast
 from ..cast import gait, library, people
 from ..cast.materials import cast_materials
+from ..ground import HIGH, REACH
 from ..playback import FRAMES_A_ROUND, NATURE, STANDING_SPEED
 from . import native, skeleton
 
@@ -118,6 +120,27 @@ def _dress(crowd, body, person, materials, row, change):
         body["throng_dyed"], body["throng_dye"] = 1.0, list(native.linear(change.tint))
 
 
+def _on_terrain(crowd, samples, over):
+    """Who is moved or comes at another time stands on the scene's terrain anew, as native.py has it for the crowd."""
+    terrain = native.terrain_of(crowd)
+    if not terrain:
+        return samples
+    to_terrain = terrain.matrix_world.inverted() @ crowd.matrix_world
+
+    def height(x, y, z):
+        hit, place, _, _ = terrain.ray_cast(to_terrain @ Vector((x, y, z + HIGH)), to_terrain.to_3x3() @ Vector((0.0, 0.0, -1.0)))
+        return (to_terrain.inverted() @ place).z if hit else None
+
+    result = []
+    for sample in samples:
+        (x, y, z), (cosine, sine, _) = sample.position, sample.direction
+        middle, ahead, behind = (height(x + reach * cosine, y + reach * sine, z) for reach in (0.0, REACH, -REACH))
+        if middle is not None:
+            z = 0.5 * middle + 0.25 * sum(middle if other is None else other for other in (ahead, behind)) + over
+        result.append(replace(sample, position=(x, y, z)))
+    return result
+
+
 def _key_root(curves, frames, samples):
     for axis in range(3):
         curves.add("location", axis, frames, [sample.position[axis] for sample in samples])
@@ -167,6 +190,8 @@ def promote(crowd, bake, rows, people_of_bake, row, change):
     first = people_of_bake[row].frame
     start = crowd.modifiers["throng pos"].frame_start
     samples = [rows.changed(row, first, change, frame, hides=False) for frame in range(rows.frames)]
+    if change.moves or change.retimes:
+        samples = _on_terrain(crowd, samples, change.move[2])
     frames = [start + frame for frame in range(rows.frames)]
     alive = [sample.state[0] > 0.5 for sample in samples]
     variation = int(samples[0].state[1])

@@ -9,15 +9,16 @@ import os
 
 import bpy
 
-from .. import playback
+from .. import ground, playback
 from ..playback import BIGGER
 from ..nodes import Maths, new_tree, set_input, socket
 from .rows import write_caches
 
 MODIFIER = "throng overrides"
 RETIMED = "throng_retimed_of"  # points to the crowd whose retimed people an object plays
+STANDS = "throng_stands"  # 1 for whoever the bake has no ground for: moved, or at another time
 _ATTRIBUTES = {"throng_hide": "FLOAT", "throng_swap": "FLOAT", "throng_moved": "BOOLEAN", "throng_move": "FLOAT_VECTOR", "throng_turned": "FLOAT",
-               "throng_pivot": "FLOAT_VECTOR", BIGGER: "FLOAT", "throng_dyed": "FLOAT", "throng_dye": "FLOAT_VECTOR"}
+               "throng_pivot": "FLOAT_VECTOR", STANDS: "FLOAT", BIGGER: "FLOAT", "throng_dyed": "FLOAT", "throng_dye": "FLOAT_VECTOR"}
 _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
 
 
@@ -84,7 +85,8 @@ def _tree(parts):
     found = bpy.data.node_groups.get(name)
     if found:
         return found
-    tree, inputs, outputs = new_tree(name, _GEOMETRY + ([("Retimed", "NodeSocketObject")] if "retimed" in parts else []), _GEOMETRY)
+    objects = [(socket_name, "NodeSocketObject") for part, socket_name in (("retimed", "Retimed"), ("ground", "Ground")) if part in parts]
+    tree, inputs, outputs = new_tree(name, _GEOMETRY + objects, _GEOMETRY)
     maths = Maths(tree)
     geometry = inputs.outputs[0]
     for part, build in (("state", _state_nodes), ("turn", _turn_nodes), ("move", _place_nodes)):
@@ -97,6 +99,10 @@ def _tree(parts):
         maths.link(points.outputs["Geometry"], join.inputs[0])
         maths.link(geometry, join.inputs[0])
         geometry = join.outputs[0]
+    if "ground" in parts:
+        move = maths.node("ShaderNodeSeparateXYZ")
+        maths.link(_named(maths, "throng_move", "FLOAT_VECTOR"), move.inputs[0])
+        geometry = ground.stand_anew(maths, geometry, inputs.outputs["Ground"], STANDS, move.outputs[2])
     maths.link(geometry, outputs.inputs[0])
     return tree
 
@@ -110,11 +116,20 @@ def _move_modifier(thing, name, index):
             bpy.ops.object.modifier_move_to_index(modifier=name, index=index)
 
 
+def terrain_of(crowd):
+    """The mesh of the bake's terrain, if the scene has it."""
+    if "throng ground" not in crowd.modifiers:
+        return None
+    return next((thing for collection in crowd.users_collection for thing in collection.objects if thing.name.startswith("Throng terrain")), None)
+
+
 def _add_modifier(crowd, parts, retimed):
     modifier = crowd.modifiers.new(MODIFIER, "NODES")
     modifier.node_group = _tree(parts)
     if retimed:
         set_input(modifier, "Retimed", retimed)
+    if "ground" in parts:
+        set_input(modifier, "Ground", terrain_of(crowd))
     _move_modifier(crowd, MODIFIER, crowd.modifiers.find("throng pos") + 1)
 
 
@@ -134,6 +149,7 @@ def _write_attributes(mesh, changes, pivots):
         values["throng_hide"][row] = float(change.hides or change.retimes)
         values["throng_swap"][row] = -1.0 if change.character is None else float(change.character)
         values[BIGGER][row] = 0.0 if change.scale is None else change.scale - 1.0
+        values[STANDS][row] = float(change.moves or change.retimes)
         if change.moves:
             values["throng_moved"][row] = True
             values["throng_move"][three], values["throng_pivot"][three] = change.move, pivots[row]
@@ -234,6 +250,7 @@ def play(crowd, rows, people, changes, folder):
         parts |= {part for part, there in (("turn", any(c.turn for c in moved)), ("move", any(any(c.move) for c in moved))) if there}
         joined = _build_retimed(crowd, rows, people, retimed, folder) if retimed else None
         parts |= {"retimed"} if joined else set()
+        parts |= {"ground"} if (moved or joined) and terrain_of(crowd) else set()
         if parts:
             _add_modifier(crowd, parts, joined)
     crowd.update_tag()
