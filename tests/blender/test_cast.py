@@ -9,9 +9,11 @@ import pytest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "blender_addon"))
 from throng import cast  # noqa: E402
 from throng.cast import gait, people  # noqa: E402
-from throng.cast.mesh_builder import Plan  # noqa: E402
+from throng.cast.figure import Figure  # noqa: E402
+from throng.cast.mesh_builder import Plan, add, cross, mix, scale, sub, unit  # noqa: E402
+from throng.cast.outfit import _SHANK, _THIGH  # noqa: E402
 
-STRIDES = tuple(1.446 * 1.28 ** k for k in range(-3, 3))  # shaders/gait.glsl
+STRIDES = tuple(1.446 * 1.28 ** k for k in range(-3, 3))  # as of `throng bake`
 GAITS = [gait.gait_of(stride) for stride in STRIDES]
 REPERTOIRE = cast.Repertoire(STRIDES)
 LEVELS = range(cast.LEVELS)
@@ -154,6 +156,46 @@ def test_silhouettes_hardly_change_between_levels(figures, plans, level, most):
             for axis in range(3):
                 for end in (min, max):
                     assert abs(end(p[axis] for p in fine) - end(p[axis] for p in coarse)) < most
+
+
+def outside(cloth, point):
+    """How far a point sticks out of rings of points, m; none where it is above or below them."""
+    for upper, lower in zip(cloth, cloth[1:]):
+        high, low = (sum(p[2] for p in points) / len(points) for points in (upper, lower))
+        if low + 0.01 < point[2] <= high:
+            polygon = [mix(a, b, (point[2] - low) / (high - low)) for a, b in zip(lower, upper)]
+            edges = zip(polygon, polygon[1:] + polygon[:1])
+            return max(((point[0] - a[0]) * (b[1] - a[1]) - (point[1] - a[1]) * (b[0] - a[0])) / (math.dist(a[:2], b[:2]) or 1.0) for a, b in edges)
+    return None
+
+
+def skin_of(upper, lower, radii):
+    """Points all round a limb."""
+    axis = unit(sub(lower, upper))
+    across = unit(cross((0.0, 1.0, 0.0), axis))
+    other = cross(axis, across)
+    for share, radius in radii:
+        for step in range(12):
+            angle = step * math.pi / 6.0
+            yield add(mix(upper, lower, share), add(scale(across, radius * math.cos(angle)), scale(other, radius * math.sin(angle))))
+
+
+@pytest.mark.parametrize("index", [index for index, person in enumerate(people.CAST) if person.top in ("coat", "dress") or person.bottom == "skirt"])
+def test_legs_stay_inside_of_skirts_and_coats_and_hands_outside(index):
+    person = people.CAST[index]
+    legs, hands = {False: -1.0, True: -1.0}, 1.0
+    for number, pose in enumerate(cast.poses_of(person, REPERTOIRE)):
+        figure = Figure(person, pose, people.build_of(person))
+        wide, runs = figure.s * figure.g ** 0.7, 4 * cast.POSES <= number < REPERTOIRE.walking()
+        for cloth in figure.skirts:
+            for hip, knee, ankle in figure.legs:
+                for upper, lower, radii in ((hip, knee, _THIGH), (knee, ankle, _SHANK)):
+                    gaps = [outside(cloth, point) for point in skin_of(upper, lower, [(share, radius * wide) for share, radius in radii])]
+                    legs[runs] = max([legs[runs], *(gap for gap in gaps if gap is not None)])
+            if not runs:
+                hands = min([hands, *(gap for *_, wrist in figure.arms for gap in [outside(cloth, wrist)] if gap is not None)])
+    assert figure.skirts and legs[False] < 0.006 and legs[True] < 0.025, legs
+    assert hands > 0.0, hands
 
 
 def test_a_levels_rings_keep_to_the_tolerance(figures):

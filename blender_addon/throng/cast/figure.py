@@ -30,6 +30,7 @@ class Figure:
         self.pelvis = pose.pelvis
         self.hair_material = GREY if person.grey else HAIR
         self.arms, self.legs = [], []  # right and left: (shoulder, elbow, wrist), (hip, knee, ankle)
+        self.skirts = []  # of what hangs over the hips, rings of points from the waist down
         self._trunk()
         self._head()
         wrists = [self._arm(side, *pose.arms[index]) for index, side in enumerate((-1, 1))]
@@ -101,7 +102,9 @@ class Figure:
         turn = self.yaw(1.0)
         bulk = outfit.SLEEVES.get(p.top, 1.0) * self.g ** 0.5
         shoulder = self.at(0.435, -0.005, side * p.shoulders * 0.465)
-        out = 0.11 * side + 0.05 * side * (self.g - 1.0)
+        # Outwards enough for the hand to pass beside what hangs over the hips.
+        room = (outfit.hem(p) + 0.055 - p.shoulders * 0.465 / s) / 0.55
+        out = side * max(0.11 + 0.05 * (self.g - 1.0), min(room, 0.30))
         share, held, more = _CARRYING.get((p.extra, side), (1.0, 0.0, 0.0))
         swing, elbow = swing * share + held, elbow * share + more
 

@@ -2,7 +2,7 @@
 """What people wear and carry: hair, collars, skirts, bags. Pure Python."""
 import math
 
-from .mesh_builder import add, mix, ring, turn_z
+from .mesh_builder import add, mix, outline, ring, scale, turn_z
 from .people import BOTTOM, EXTRA, TOP
 
 BULK = {"coat": 1.10, "jacket": 1.06, "hoodie": 1.08}
@@ -81,24 +81,80 @@ def add_skirts(figure, hips, knees, ankles):
     if p.bottom == "skirt":
         _skirt(figure, hips, knees, ankles, 0.95, BOTTOM, 1.0)
     if p.top == "coat":
-        _skirt(figure, hips, knees, ankles, 0.82, TOP, 1.1)
+        _skirt(figure, hips, knees, ankles, 0.82, TOP, 1.1, _CLOTH if p.bottom != "skirt" else 4.0 * _CLOTH)
     if p.top == "dress":
         _skirt(figure, hips, knees, ankles, 1.62, TOP, 1.12)
 
 
-def _skirt(figure, hips, knees, ankles, length, material, flare):
-    """Cloth from the waist down, wide enough for both legs: its lower rings follow thighs (length up to 1) and shanks (up to 2)."""
+_SKIRT_POINTS, _SKIRT_SQUARE = 12, 0.4
+_CLOTH, _BESIDE = 0.012, 0.86  # m that cloth stands off a leg; how deep rings are where legs are
+_THIGH = ((0.0, 0.080), (0.15, 0.090), (0.3, 0.086), (0.45, 0.079), (0.6, 0.072), (0.7, 0.068), (0.8, 0.063), (0.9, 0.060), (1.0, 0.057))  # share of its length, radius in m
+_SHANK = ((0.0, 0.057), (0.12, 0.058), (0.3, 0.059), (0.4, 0.057), (0.5, 0.054), (0.6, 0.051), (0.7, 0.049), (0.8, 0.048), (0.9, 0.047), (1.0, 0.048))
+
+
+def hem(person):
+    """Half the width of what hangs over the hips, for somebody of standard height, m: arms swing outside of it."""
+    flare = {"coat": 1.1, "dress": 1.12}.get(person.top, 1.0 if person.bottom == "skirt" else 0.0)
+    hips = 0.176 * BULK.get(person.top, 1.0) * person.hips
+    return max(hips, 0.178 * person.hips * flare * 1.06)
+
+
+def _surface(upper, lower, radii):
+    """The foremost and the hindmost points of a limb's skin, along it: [(x, z of the front, x, z of the back)]."""
+    dx, dz = lower[0] - upper[0], lower[2] - upper[2]
+    size = math.hypot(dx, dz)
+    nx, nz = (-dz / size, dx / size) if size > 1e-6 else (1.0, 0.0)  # forward, across the limb
+    points = []
+    for share, radius in radii:
+        x, z = upper[0] + dx * share, upper[2] + dz * share
+        points.append((x + nx * radius, z + nz * radius, x - nx * radius, z - nz * radius))
+    return points
+
+
+def _cover(spans, x, z, side):
+    """Widens rings [front, back, y, z, half width] until the cloth between them is outside of a point; `side` is 0 in front and 1 behind."""
+    sign = 1.0 if side == 0 else -1.0
+    if spans[-1][3] - 0.05 < z:  # what is just below the hem is at the hem a little higher
+        z = max(z, spans[-1][3])
+    for upper, lower in zip(spans, spans[1:]):
+        if lower[3] <= z <= upper[3]:
+            share = (z - lower[3]) / max(upper[3] - lower[3], 1e-6)
+            near, far = (lower[end] + (upper[end] - lower[end]) * share for end in (side, 1 - side))
+            missing = sign * ((x - 0.5 * (1.0 - _BESIDE) * far) / (0.5 * (1.0 + _BESIDE)) - near)
+            if missing > 0.0:  # shared so that what is nearer gives more
+                weight = share * share + (1.0 - share) * (1.0 - share)
+                upper[side] += sign * missing * share / weight
+                lower[side] += sign * missing * (1.0 - share) / weight
+            return
+    if z > spans[0][3]:
+        spans[0][side] = sign * max(sign * spans[0][side], sign * x)
+
+
+def _skirt(figure, hips, knees, ankles, length, material, flare, off=_CLOTH):
+    """Cloth from the waist down to a share of the legs: 1 is the knees, 2 the ankles. It hangs as tight as both legs let it."""
     p, g, s = figure.person, figure.g, figure.s
-    rings = [figure.trunk_ring(0.09, 0.116 * g * flare, 0.160 * flare, 0.0), figure.trunk_ring(-0.02, 0.135 * g * flare, 0.185 * p.hips * flare, -0.01)]
-    turn = 0.5 * figure.pose.pelvis_yaw
-    x, y = turn_z((1, 0, 0), turn), turn_z((0, 1, 0), turn)
-    for share in (0.5, 1.0) if length <= 1.0 else (0.28, 0.60, 1.0):
+    waist = figure.trunk_ring(0.09, 0.116 * g * flare, 0.160 * flare, 0.0)
+    below = figure.at(-0.02, -0.01, 0.0, 0.0)
+    spans = [[below[0] + 0.135 * g * flare * s, below[0] - 0.135 * g * flare * s, below[1], below[2], 0.185 * p.hips * flare * s]]
+    for share in (0.2, 0.55, 1.0) if length <= 1.0 else (0.12, 0.33, 0.62, 1.0):
         t = share * length
         points = [mix(hip, knee, t) if t <= 1.0 else mix(knee, ankle, t - 1.0) for hip, knee, ankle in zip(hips, knees, ankles)]
         centre = mix(points[0], points[1], 0.5)
-        reach = 0.5 * abs(points[0][0] - points[1][0]) + (0.125 if t <= 1.0 else 0.10) * s * g * flare
-        rings.append(ring(centre, x, y, reach, 0.178 * s * p.hips * flare * (1.0 + 0.06 * share) * (1.0 if t <= 1.0 else 0.92)))
-    figure.mesh.loft(rings, material, 12, 0.2, caps=(False, True))
+        least = (0.125 if t <= 1.0 else 0.10) * s * g * flare
+        spans.append([centre[0] + least, centre[0] - least, centre[1], min(centre[2], spans[-1][3] - 0.02 * s),
+                      0.178 * s * p.hips * flare * (1.0 + 0.06 * share) * (1.0 if t <= 1.0 else 0.92)])
+    wide = s * g ** 0.7
+    for _ in range(4):  # what covers one point may move the cloth off another
+        for hip, knee, ankle in zip(hips, knees, ankles):
+            for upper, lower, radii in ((hip, knee, _THIGH), (knee, ankle, _SHANK)):
+                for front, front_z, back, back_z in _surface(upper, lower, [(share, radius * wide + off * s) for share, radius in radii]):
+                    _cover(spans, front, front_z, 0)
+                    _cover(spans, back, back_z, 1)
+    turn = 0.5 * figure.pose.pelvis_yaw
+    x, y = turn_z((1, 0, 0), turn), turn_z((0, 1, 0), turn)
+    rings = [waist] + [ring((0.5 * (front + back), across, z), x, y, 0.5 * (front - back), width) for front, back, across, z, width in spans]
+    figure.mesh.loft(rings, material, _SKIRT_POINTS, _SKIRT_SQUARE, caps=(False, True), stands=True)
+    figure.skirts.append([[add(r[:3], add(scale(r[3:6], c), scale(r[6:9], n))) for c, n in outline(_SKIRT_POINTS, _SKIRT_SQUARE)] for r in rings])
 
 
 def add_things(figure, hands, ankles):

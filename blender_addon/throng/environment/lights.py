@@ -11,9 +11,9 @@ ELEVATION, AZIMUTH = math.radians(31.0), math.radians(128.0)
 
 
 TIMES = ("day", "night")
-_EXPOSURE = {"day": 0.6, "night": 1.3}  # stops, for people in streets; from afar all the ground is in the sun
+_EXPOSURE = {"day": 0.6, "night": 1.7}  # stops, for people in streets; from afar all the ground is in the sun
 _LESS_FROM_AFAR = 0.5
-_LAMP_HEIGHT, _LAMPS_APART, _MOST_LAMPS = 5.4, 16.0, 60
+_LAMP_HEIGHT, _LAMPS_APART, _MOST_LAMPS, _HUNG_HEIGHT = 5.4, 16.0, 40, 8.5
 _WARM = (1.0, 0.66, 0.36)
 
 
@@ -25,12 +25,12 @@ def build_light(scene, collection, time="day", manifest=None):
         _add(collection, _sun("Throng sun", 3.6, (1.0, 0.90, 0.78), ELEVATION))
         scene.world = _world("Throng sky", _day_sky, 0.22)
     else:
-        _add(collection, _sun("Throng moon", 0.035, (0.62, 0.74, 1.0), math.radians(48.0)))
-        scene.world = _world("Throng night", None, 0.018)
+        _add(collection, _sun("Throng moon", 0.10, (0.60, 0.73, 1.0), math.radians(48.0)))
+        scene.world = _world("Throng night", None, 0.05)
         _light_streets(collection, manifest or {})
     collection["throng_light_time"] = time
     expose(scene, collection)
-    glow(glass(), 0.0 if time == "day" else 0.55)
+    glow(glass(), 0.0 if time == "day" else 0.3)
     set_colours(scene)
 
 
@@ -120,7 +120,32 @@ def _light_streets(collection, manifest):
         _add(collection, holder)
         shape.strip((x - 0.05, y), (x + 0.05, y), 0.05, 0.0, _LAMP_HEIGHT, post)
         shape.strip((x - 0.16, y), (x + 0.16, y), 0.16, _LAMP_HEIGHT, _LAMP_HEIGHT + 0.12, head)
+    hung = bpy.data.lights.new("Throng hung lamp", "SPOT")  # over junctions, from cables
+    hung.energy, hung.color, hung.shadow_soft_size, hung.spot_size, hung.spot_blend = 2600.0, _WARM, 0.25, math.radians(150.0), 0.8
+    for x, y in junctions(manifest):
+        holder = bpy.data.objects.new("Throng hung lamp", hung)
+        holder.location = (x, y, _HUNG_HEIGHT - 0.15)
+        _add(collection, holder)
+        shape.strip((x - 0.25, y), (x + 0.25, y), 0.25, _HUNG_HEIGHT, _HUNG_HEIGHT + 0.12, head)
     _add(collection, shape.to_object())
+
+
+def junctions(manifest):
+    """[(x, y)] where roads cross."""
+    found = []
+    lines = [[tuple(p[:2]) for p in road["centreline"]] for road in (manifest.get("geometry") or {}).get("roads", [])]
+    for i, one in enumerate(lines):
+        for other in lines[:i]:
+            for a, b in zip(one, one[1:]):
+                for c, d in zip(other, other[1:]):
+                    turn = (b[0] - a[0]) * (d[1] - c[1]) - (b[1] - a[1]) * (d[0] - c[0])
+                    if abs(turn) < 1e-6:
+                        continue
+                    s = ((c[0] - a[0]) * (d[1] - c[1]) - (c[1] - a[1]) * (d[0] - c[0])) / turn
+                    t = ((c[0] - a[0]) * (b[1] - a[1]) - (c[1] - a[1]) * (b[0] - a[0])) / turn
+                    if 0.0 <= s <= 1.0 and 0.0 <= t <= 1.0:
+                        found.append((a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1])))
+    return found
 
 
 def _flood(collection, manifest):

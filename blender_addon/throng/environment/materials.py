@@ -179,6 +179,10 @@ def glow(material, strength, varied=True):
     shader = next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
     colour = shader.inputs["Emission Color" if "Emission Color" in shader.inputs else "Emission"]
     colour.default_value = (1.0, 0.66, 0.34, 1.0)
+    if not hasattr(material.cycles, "emission_sampling"):
+        material.cycles.sample_as_light = False  # hundreds of panes light little and cost much noise
+    else:
+        material.cycles.emission_sampling = "NONE"
     socket = shader.inputs["Emission Strength"]
     for link in [*socket.links]:
         links.remove(link)
