@@ -163,6 +163,34 @@ def _instancer_tree(cast, repertoire, leans):
     return tree
 
 
+def _shelf(collection):
+    """An object whose geometry is the poses of a block, one instance each, in order of their names. It is in no scene and worked out once;
+    asked for in the crowd's own nodes, the collection would be put in order again in every frame."""
+    found = collection.get("throng_shelf")
+    if found:
+        return found
+    tree, _, outputs = new_tree(f"{collection.name} shelf", GEOMETRY, GEOMETRY)
+    poses = tree.nodes.new("GeometryNodeCollectionInfo")
+    poses.transform_space = "ORIGINAL"
+    poses.inputs["Collection"].default_value = collection
+    poses.inputs["Separate Children"].default_value = True
+    poses.inputs["Reset Children"].default_value = True
+    tree.links.new(poses.outputs[0], outputs.inputs[0])
+    shelf = bpy.data.objects.new(tree.name, bpy.data.meshes.new(tree.name))
+    shelf.modifiers.new("throng shelf", "NODES").node_group = tree
+    collection["throng_shelf"], shelf["throng_is_shelf"] = shelf, True
+    return shelf
+
+
+def _clear_shelves():
+    """Those of blocks that are gone."""
+    for shelf in [thing for thing in bpy.data.objects if thing.get("throng_is_shelf") and thing.users == 0]:
+        tree, mesh = shelf.modifiers[0].node_group, shelf.data
+        bpy.data.objects.remove(shelf)
+        bpy.data.meshes.remove(mesh)
+        bpy.data.node_groups.remove(tree)
+
+
 def _blocks_tree(blocks, leans):
     tree, inputs, outputs = new_tree("Throng blocks", GEOMETRY, GEOMETRY)
     maths = Maths(tree)
@@ -170,15 +198,13 @@ def _blocks_tree(blocks, leans):
     size = maths.math("ADD", _attribute(maths, BIGGER), 1.0)
     everybody = maths.node("GeometryNodeJoinGeometry")
     for (level, first), collection in sorted(blocks.items()):
-        people = maths.node("GeometryNodeCollectionInfo", transform_space="ORIGINAL")
-        people.inputs["Collection"].default_value = collection
-        people.inputs["Separate Children"].default_value = True
-        people.inputs["Reset Children"].default_value = True
+        people = maths.node("GeometryNodeObjectInfo", transform_space="ORIGINAL")
+        people.inputs["Object"].default_value = _shelf(collection)
         place = maths.node("GeometryNodeInstanceOnPoints")
         place.inputs["Pick Instance"].default_value = True
         maths.link(inputs.outputs[0], place.inputs["Points"])
         maths.link(maths.equal(block, _block_number(level, first)), place.inputs["Selection"])
-        maths.link(people.outputs[0], place.inputs["Instance"])
+        maths.link(socket(people.outputs, "Geometry"), place.inputs["Instance"])
         maths.link(pose, place.inputs["Instance Index"])
         maths.link(size, place.inputs["Scale"])
         maths.link(turn, place.inputs["Rotation"])  # the points' other attributes go along: id, tint
@@ -203,6 +229,7 @@ def set_cast(crowd, cast):
         bpy.data.node_groups.remove(before)
         for group in (group for group in inner if group and group.users == 0):
             bpy.data.node_groups.remove(group)
+    _clear_shelves()
     crowd["throng_cast"] = cast
     crowd.update_tag()
 
