@@ -170,8 +170,9 @@ def _backpack(figure, _hands, _ankles):
     turn = figure.yaw(1.0)
     figure.mesh.box(figure.at(0.27, -0.105 * figure.g - 0.088 * big), (0.080 * s * big, 0.140 * s * big, 0.20 * s * big), turn, EXTRA, 0.84, 8, 1.0, figure.lean)
     for side in (-1, 1):  # straps, over the shoulders
-        over, low = figure.at(0.492, -0.01, side * 0.095), figure.at(0.27, 0.112 * figure.g, side * 0.105)
-        for start, end in ((over, low), (over, figure.at(0.42, -0.11 * figure.g, side * 0.08))):
+        over, collar = figure.at(0.497, -0.005, side * 0.095), figure.at(0.462, 0.090 * figure.g, side * 0.097)
+        chest, low = figure.at(0.40, 0.122 * figure.g, side * 0.100), figure.at(0.27, 0.125 * figure.g + 0.008, side * 0.105)
+        for start, end in ((over, collar), (collar, chest), (chest, low), (over, figure.at(0.42, -0.11 * figure.g, side * 0.08))):
             figure.mesh.limb(start, end, [(0, 0.019 * s), (1, 0.017 * s)], EXTRA, 4, until=0)
 
 
