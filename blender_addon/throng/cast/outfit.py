@@ -142,7 +142,7 @@ def _skirt(figure, hips, knees, ankles, length, material, flare, off=_CLOTH):
         centre = mix(points[0], points[1], 0.5)
         least = (0.125 if t <= 1.0 else 0.10) * s * g * flare
         spans.append([centre[0] + least, centre[0] - least, centre[1], min(centre[2], spans[-1][3] - 0.02 * s),
-                      0.178 * s * p.hips * flare * (1.0 + 0.06 * share) * (1.0 if t <= 1.0 else 0.92)])
+                      0.178 * s * p.hips * flare * (1.0 + 0.06 * share) * (1.0 if t <= 1.0 else 0.97)])
     wide = s * g ** 0.7
     for _ in range(4):  # what covers one point may move the cloth off another
         for hip, knee, ankle in zip(hips, knees, ankles):
@@ -150,6 +150,8 @@ def _skirt(figure, hips, knees, ankles, length, material, flare, off=_CLOTH):
                 for front, front_z, back, back_z in _surface(upper, lower, [(share, radius * wide + off * s) for share, radius in radii]):
                     _cover(spans, front, front_z, 0)
                     _cover(spans, back, back_z, 1)
+    for upper, lower in zip(spans, spans[1:]):  # cloth hangs: it does not draw in below a knee
+        lower[0], lower[1] = max(lower[0], upper[0] - 0.015 * s), min(lower[1], upper[1] + 0.015 * s)
     turn = 0.5 * figure.pose.pelvis_yaw
     x, y = turn_z((1, 0, 0), turn), turn_z((0, 1, 0), turn)
     rings = [waist] + [ring((0.5 * (front + back), across, z), x, y, 0.5 * (front - back), width) for front, back, across, z, width in spans]
