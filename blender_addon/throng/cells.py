@@ -37,7 +37,7 @@ def show(context, crowd, kind, strength):
     if kind == "overlay":
         collection.objects.link(_overlay(collection, bake, diagrams, tree, strength))
     else:
-        for material in _grounds(collection):
+        for material in _own_grounds(collection):
             _tread(material, tree, strength)
 
 
@@ -59,36 +59,34 @@ def _file(bake, frame):
 def _take_away(collection):
     for thing in [thing for thing in collection.objects if OVERLAY in thing]:
         bpy.data.objects.remove(thing)
-    for material in _grounds(collection):
+    for material in {slot.material for slot in _ground_slots(collection)}:
         nodes, links = material.node_tree.nodes, material.node_tree.links
         for node in [node for node in nodes if node.name.startswith(TRODDEN)]:
             if node.type == "HUE_SAT":
-                target = node.outputs[0].links[0].to_socket
-                source = node.inputs["Color"]
-                if source.links:
-                    links.new(source.links[0].from_socket, target)
-                else:
-                    links.remove(node.outputs[0].links[0])
+                source, targets = node.inputs["Color"], [link.to_socket for link in node.outputs[0].links]
+                for target in targets:
+                    if source.links:
+                        links.new(source.links[0].from_socket, target)
             nodes.remove(node)
 
 
-def _grounds(collection):
-    """Materials of what people walk on, each once; of this crowd alone from now on, for its cells are."""
-    found = {}
-    for thing in collection.objects:
-        if thing.type != "MESH" or not thing.name.startswith(_GROUNDS):
-            continue
-        for slot in thing.material_slots:
-            if not slot.material or not slot.material.use_nodes:
-                continue
-            if slot.material.get("throng_crowd") != collection.name:
-                own = found.get(slot.material.name) or next((m for m in bpy.data.materials if m.get("throng_crowd") == collection.name
-                                                            and m.get("throng_of") == slot.material.name), None) or slot.material.copy()
-                own["throng_crowd"], own["throng_of"] = collection.name, slot.material.name
-                found[slot.material.name] = own
-                slot.material = own
-            found[slot.material["throng_of"]] = slot.material
-    return list(found.values())
+def _ground_slots(collection):
+    """Material slots of what people walk on."""
+    return [slot for thing in collection.objects if thing.type == "MESH" and thing.name.startswith(_GROUNDS)
+            for slot in thing.material_slots if slot.material and slot.material.use_nodes]
+
+
+def _own_grounds(collection):
+    """Their materials, each once; of this crowd alone from now on, for its cells are."""
+    own = {material["throng_of"]: material for material in bpy.data.materials if material.get("throng_crowd") == collection.name}
+    for slot in _ground_slots(collection):
+        if slot.material.get("throng_crowd") != collection.name:
+            name = slot.material.name
+            if name not in own:
+                own[name] = slot.material.copy()
+                own[name]["throng_crowd"], own[name]["throng_of"] = collection.name, name
+            slot.material = own[name]
+    return list({slot.material for slot in _ground_slots(collection)})
 
 
 def _cells_tree(bake, diagrams, crowd):
