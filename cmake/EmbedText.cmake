@@ -1,18 +1,23 @@
 # SPDX-License-Identifier: Apache-2.0
-# throng_embed_schema(FILE FUNCTION HEADER): writes FUNCTION.cpp into the build folder, which defines
-# std::string_view throng::authoring::FUNCTION(), declared in HEADER, as the content of FILE: cut below the compilers' limit
-# for one literal.
-function(throng_embed_schema file function header)
-    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
-    file(READ ${file} text)
+# throng_cut_text(TEXT TAG OUT): TEXT as raw string literals with the delimiter TAG, cut below the compilers' limit for one.
+function(throng_cut_text text tag out)
     string(LENGTH "${text}" length)
     set(pieces "")
     set(from 0)
     while(from LESS length)
         string(SUBSTRING "${text}" ${from} 8000 piece)
-        string(APPEND pieces "R\"schema(${piece})schema\"\n")
+        string(APPEND pieces "R\"${tag}(${piece})${tag}\"\n")
         math(EXPR from "${from} + 8000")
     endwhile()
+    set(${out} "${pieces}" PARENT_SCOPE)
+endfunction()
+
+# throng_embed_schema(FILE FUNCTION HEADER): writes FUNCTION.cpp into the build folder, which defines
+# std::string_view throng::authoring::FUNCTION(), declared in HEADER, as the content of FILE.
+function(throng_embed_schema file function header)
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+    file(READ ${file} text)
+    throng_cut_text("${text}" schema pieces)
     file(CONFIGURE OUTPUT ${function}.cpp @ONLY CONTENT
 "#include \"@header@\"
 

@@ -9,11 +9,12 @@ import os
 import bpy
 from bpy.props import EnumProperty, FloatProperty
 
-from .crowds import bake_path, chosen_crowds, collection_of, crowd_objects
+from .crowds import OnCrowds, bake_path, chosen_crowds, collection_of
 from .environment.shapes import Shape
 from .environment.streets import MARK_Z
 from .formats import Bake, BakeError, read_manifest
 from .importer import stored_path
+from .panels import Below
 
 KINDS = ("overlay", "mask", "none")
 OVERLAY, TRODDEN = "throng_cells", "throng trodden"  # a property of the overlay's object; the nodes that darken ground
@@ -21,7 +22,7 @@ _GROUNDS = ("Throng ground", "Throng terrain", "Throng road", "Throng area")
 _ABOVE = 0.006  # m, over the road's markings
 
 
-def show(context, crowd, kind, strength):
+def show(crowd, kind, strength):
     """Puts the crowd's cells on its ground, in place of what was there before. Raises BakeError before anything is changed."""
     collection = collection_of(crowd)
     if not collection:
@@ -112,7 +113,7 @@ def _cells_tree(bake, diagrams, crowd):
     texture = tree.nodes.new("ShaderNodeTexImage")
     texture.name, texture.extension = "cells", "CLIP"
     texture.image = _sequence(bake, crowd.modifiers["throng pos"].filepath.startswith("//"))
-    _play(tree, texture.image_user, diagrams, crowd.get("throng_frame_start", 1) + crowd.get("throng_offset", 0))
+    _play(tree, texture.image_user, diagrams, int(crowd.modifiers["throng pos"].frame_start))
     out = tree.nodes.new("NodeGroupOutput")
     for a, b in ((place.outputs["Object"], fit.inputs["Vector"]), (fit.outputs[0], texture.inputs[0]),
                  (texture.outputs["Color"], out.inputs["Colour"]), (texture.outputs["Alpha"], out.inputs["Mask"])):
@@ -206,7 +207,7 @@ def _tread(material, tree, strength):
     links.new(darker.outputs[0], colour)
 
 
-class THRONG_OT_cells(bpy.types.Operator):
+class THRONG_OT_cells(OnCrowds, bpy.types.Operator):
     """Show the bake's diagram images on the ground: whose ground is whose, or a mask where people are"""
 
     bl_idname = "throng.cells"
@@ -218,29 +219,18 @@ class THRONG_OT_cells(bpy.types.Operator):
                                          ("none", "Nothing", "As it was before")])
     strength: FloatProperty(name="Strength", default=0.6, min=0.0, max=1.0, description="How opaque the cells are, or how much darker the ground is")
 
-    @classmethod
-    def poll(cls, context):
-        return bool(crowd_objects(context.scene))
-
     def execute(self, context):
         try:
             for crowd in chosen_crowds(context):
-                show(context, crowd, self.kind, self.strength)
+                show(crowd, self.kind, self.strength)
         except BakeError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         return {"FINISHED"}
 
 
-class VIEW3D_PT_throng_cells(bpy.types.Panel):
+class VIEW3D_PT_throng_cells(OnCrowds, Below, bpy.types.Panel):
     bl_label = "Cells on the Ground"
-    bl_space_type, bl_region_type, bl_category = "VIEW_3D", "UI", "Throng"
-    bl_parent_id = "VIEW3D_PT_throng"
-    bl_options = {"DEFAULT_CLOSED"}
-
-    @classmethod
-    def poll(cls, context):
-        return bool(crowd_objects(context.scene))
 
     def draw(self, _context):
         row = self.layout.row(align=True)

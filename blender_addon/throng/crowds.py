@@ -21,6 +21,14 @@ def crowd_objects(scene):
     return [thing for thing in scene.objects if all(name in thing.modifiers for name in CACHES)]
 
 
+class OnCrowds:
+    """Operators and panels that are there while the scene has a crowd."""
+
+    @classmethod
+    def poll(cls, context):
+        return bool(crowd_objects(context.scene))
+
+
 def chosen_crowds(context):
     """The crowds that are selected, or all of the scene."""
     crowds = crowd_objects(context.scene)

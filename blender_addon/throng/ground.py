@@ -12,6 +12,7 @@ import bpy
 from bpy.props import PointerProperty
 
 from .nodes import Maths, new_tree, set_input, socket
+from .panels import Below
 
 GROUND = "throng_ground"
 CONFORM = "throng conform"        # the modifier that looks for the ground
@@ -22,10 +23,8 @@ _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
 
 
 def _named(maths, name):
-    node = maths.node("GeometryNodeInputNamedAttribute", data_type="FLOAT_VECTOR")
-    node.inputs["Name"].default_value = name
     separate = maths.node("ShaderNodeSeparateXYZ")
-    maths.link(socket(node.outputs, "Attribute"), separate.inputs[0])
+    maths.link(maths.attribute(name, "FLOAT_VECTOR"), separate.inputs[0])
     return separate.outputs
 
 
@@ -157,9 +156,7 @@ def stand_anew(maths, geometry, ground, who, over):
     """Lets only those points stand on an object's geometry where the attribute `who` is 1: rays cost time, so the others are set apart."""
     apart = maths.node("GeometryNodeSeparateGeometry", domain="POINT")
     maths.link(geometry, apart.inputs["Geometry"])
-    some = maths.node("GeometryNodeInputNamedAttribute", data_type="FLOAT")
-    some.inputs["Name"].default_value = who
-    maths.link(maths.greater(socket(some.outputs, "Attribute"), 0.5), apart.inputs["Selection"])
+    maths.link(maths.greater(maths.attribute(who), 0.5), apart.inputs["Selection"])
     join = maths.node("GeometryNodeJoinGeometry")
     maths.link(_stand(maths, apart.outputs["Selection"], ground, over), join.inputs[0])
     maths.link(apart.outputs["Inverted"], join.inputs[0])
@@ -261,11 +258,8 @@ class THRONG_OT_release(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class VIEW3D_PT_throng_ground(bpy.types.Panel):
+class VIEW3D_PT_throng_ground(Below, bpy.types.Panel):
     bl_label = "Ground"
-    bl_space_type, bl_region_type, bl_category = "VIEW_3D", "UI", "Throng"
-    bl_parent_id = "VIEW3D_PT_throng"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):
         column = self.layout.column(align=True)

@@ -12,6 +12,7 @@ from bpy.props import EnumProperty, FloatProperty
 from . import crowds, culling, playback
 from .cast import Repertoire, library
 from .nodes import Maths, new_tree, set_input, socket
+from .panels import Below
 
 MODIFIER = "throng levels"
 TALL = 1.75           # m
@@ -119,11 +120,8 @@ class THRONG_OT_levels(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class VIEW3D_PT_throng_levels(bpy.types.Panel):
+class VIEW3D_PT_throng_levels(Below, bpy.types.Panel):
     bl_label = "Levels of Detail"
-    bl_parent_id = "VIEW3D_PT_throng"
-    bl_space_type, bl_region_type, bl_category = "VIEW_3D", "UI", "Throng"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, _context):
         row = self.layout.row(align=True)

@@ -50,6 +50,12 @@ class Maths:
     def link(self, source, target):
         self.tree.links.new(source, target)
 
+    def attribute(self, name, kind="FLOAT"):
+        """A named attribute's value."""
+        node = self.node("GeometryNodeInputNamedAttribute", data_type=kind)
+        node.inputs["Name"].default_value = name
+        return socket(node.outputs, "Attribute")
+
     def math(self, operation, *values):
         node = self.node("ShaderNodeMath", operation=operation)
         for slot, value in zip(node.inputs, values):

@@ -3,8 +3,10 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
+from .crowds import OnCrowds
 from .formats import BakeError
 from .overrides.operators import report_orphans
+from .panels import InSidebar
 
 
 class IMPORT_SCENE_OT_throng(bpy.types.Operator, ImportHelper):
@@ -37,14 +39,8 @@ class IMPORT_SCENE_OT_throng(bpy.types.Operator, ImportHelper):
         return {"FINISHED"}
 
 
-class _OnCrowds:
+class _OnCrowds(OnCrowds):
     bl_options = {"REGISTER", "UNDO"}
-
-    @classmethod
-    def poll(cls, context):
-        from .crowds import crowd_objects
-
-        return bool(crowd_objects(context.scene))
 
 
 class THRONG_OT_verify(_OnCrowds, bpy.types.Operator):
@@ -181,9 +177,8 @@ class THRONG_OT_film_look(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class VIEW3D_PT_throng(bpy.types.Panel):
+class VIEW3D_PT_throng(InSidebar, bpy.types.Panel):
     bl_label = "Throng"
-    bl_space_type, bl_region_type, bl_category = "VIEW_3D", "UI", "Throng"
 
     def draw(self, context):
         from .crowds import crowd_objects

@@ -39,10 +39,8 @@ def _store_tree(attribute):
 
 
 def _components(maths, attribute):
-    named = maths.node("GeometryNodeInputNamedAttribute", data_type="FLOAT_VECTOR")
-    named.inputs["Name"].default_value = attribute
     separate = maths.node("ShaderNodeSeparateXYZ")
-    maths.link(socket(named.outputs, "Attribute"), separate.inputs[0])
+    maths.link(maths.attribute(attribute, "FLOAT_VECTOR"), separate.inputs[0])
     return separate.outputs
 
 
@@ -75,15 +73,9 @@ def _pose_index(maths, speed, state, phase, nature, repertoire, level):
     return maths.math("ADD", maths.math("MULTIPLY", walking, walks), maths.math("MULTIPLY", standing, maths.math("SUBTRACT", 1.0, walks)))
 
 
-def _attribute(maths, name, kind="FLOAT"):
-    named = maths.node("GeometryNodeInputNamedAttribute", data_type=kind)
-    named.inputs["Name"].default_value = name
-    return socket(named.outputs, "Attribute")
-
-
 def _present(maths, alive, nature, share):
     """1 for whoever is there, shown and not culled."""
-    seen = maths.math("SUBTRACT", maths.math("LESS_THAN", nature[2], share), _attribute(maths, HIDDEN))  # HIDDEN is zero where nothing is culled
+    seen = maths.math("SUBTRACT", maths.math("LESS_THAN", nature[2], share), maths.attribute(HIDDEN))  # HIDDEN is zero where nothing is culled
     return maths.math("GREATER_THAN", maths.math("MULTIPLY", maths.math("GREATER_THAN", alive, 0.5), seen), 0.5)
 
 
@@ -91,7 +83,7 @@ def _chosen(maths, levels, values):
     """Of values by level those of everybody's own level."""
     if len(levels) == 1:
         return values[0]
-    level, total = _attribute(maths, LEVEL), 0.0
+    level, total = maths.attribute(LEVEL), 0.0
     for number, value in zip(levels, values):
         total = maths.math("MULTIPLY_ADD", value, maths.math("COMPARE", level, float(number), 0.5), total)
     return total
@@ -194,8 +186,8 @@ def _clear_shelves():
 def _blocks_tree(blocks, leans):
     tree, inputs, outputs = new_tree("Throng blocks", GEOMETRY, GEOMETRY)
     maths = Maths(tree)
-    block, pose, turn = (_attribute(maths, name, kind) for name, kind in ((BLOCK, "INT"), ("throng_pose", "INT"), ("throng_turn", "FLOAT_VECTOR")))
-    size = maths.math("ADD", _attribute(maths, BIGGER), 1.0)
+    block, pose, turn = (maths.attribute(name, kind) for name, kind in ((BLOCK, "INT"), ("throng_pose", "INT"), ("throng_turn", "FLOAT_VECTOR")))
+    size = maths.math("ADD", maths.attribute(BIGGER), 1.0)
     everybody = maths.node("GeometryNodeJoinGeometry")
     for (level, first), collection in sorted(blocks.items()):
         people = maths.node("GeometryNodeObjectInfo", transform_space="ORIGINAL")

@@ -3,9 +3,10 @@
 import bpy
 from bpy.props import EnumProperty
 
-from .crowds import chosen_crowds, collection_of, crowd_objects
+from .crowds import OnCrowds, chosen_crowds, collection_of
 from .environment import camera, lights
 from .formats import BakeError, read_manifest
+from .panels import Below
 
 
 def _staged(context):
@@ -16,12 +17,8 @@ def _staged(context):
     return collection, read_manifest(collection["throng_bake"])
 
 
-class _Stages:
+class _Stages(OnCrowds):
     bl_options = {"REGISTER", "UNDO"}
-
-    @classmethod
-    def poll(cls, context):
-        return bool(crowd_objects(context.scene))
 
     def execute(self, context):
         try:
@@ -55,15 +52,8 @@ class THRONG_OT_light(_Stages, bpy.types.Operator):
         lights.build_light(scene, collection, self.time, manifest)
 
 
-class VIEW3D_PT_throng_staging(bpy.types.Panel):
+class VIEW3D_PT_throng_staging(OnCrowds, Below, bpy.types.Panel):
     bl_label = "Shot and Light"
-    bl_space_type, bl_region_type, bl_category = "VIEW_3D", "UI", "Throng"
-    bl_parent_id = "VIEW3D_PT_throng"
-    bl_options = {"DEFAULT_CLOSED"}
-
-    @classmethod
-    def poll(cls, context):
-        return bool(crowd_objects(context.scene))
 
     def draw(self, _context):
         for operator, key, choices in ((THRONG_OT_shot, "kind", camera.SHOTS), (THRONG_OT_light, "time", lights.TIMES)):

@@ -4,6 +4,7 @@ import textwrap
 
 import bpy
 
+from ..panels import InSidebar
 from . import fields
 from .bake_operator import described, running
 from .codecs import MIX, UNSET
@@ -95,11 +96,7 @@ def _letters(context):
     return max(20, int(context.region.width / (7.5 * context.preferences.system.ui_scale)) - 8)
 
 
-class _InSidebar:
-    bl_space_type, bl_region_type, bl_category = "VIEW_3D", "UI", "Throng"
-
-
-class VIEW3D_PT_throng_layout(_InSidebar, bpy.types.Panel):
+class VIEW3D_PT_throng_layout(InSidebar, bpy.types.Panel):
     bl_label = "Layout"
     bl_parent_id = "VIEW3D_PT_throng"
 
@@ -182,7 +179,7 @@ def _list(layout, data, name, active, kind, add=None):
     return items[index] if 0 <= index < len(items) else None
 
 
-class VIEW3D_PT_throng_flows(_InSidebar, bpy.types.Panel):
+class VIEW3D_PT_throng_flows(InSidebar, bpy.types.Panel):
     bl_label = "Flows"
     bl_parent_id = "VIEW3D_PT_throng"
 
@@ -225,7 +222,7 @@ class VIEW3D_PT_throng_flows(_InSidebar, bpy.types.Panel):
                 _change(row, f"{where}.via", action, icon, index)
 
 
-class VIEW3D_PT_throng_events(_InSidebar, bpy.types.Panel):
+class VIEW3D_PT_throng_events(InSidebar, bpy.types.Panel):
     bl_label = "Events"
     bl_parent_id = "VIEW3D_PT_throng"
     bl_options = {"DEFAULT_CLOSED"}
@@ -259,7 +256,7 @@ class VIEW3D_PT_throng_events(_InSidebar, bpy.types.Panel):
                 _change(row, f"{where}.who", "REMOVE", "X", index)
 
 
-class VIEW3D_PT_throng_simulation(_InSidebar, bpy.types.Panel):
+class VIEW3D_PT_throng_simulation(InSidebar, bpy.types.Panel):
     bl_label = "Simulation"
     bl_parent_id = "VIEW3D_PT_throng"
     bl_options = {"DEFAULT_CLOSED"}
@@ -273,7 +270,7 @@ class VIEW3D_PT_throng_simulation(_InSidebar, bpy.types.Panel):
         _problems_of(context, column, lambda problem: problem.pointer.startswith("/simulation"))
 
 
-class VIEW3D_PT_throng_bars(_InSidebar, bpy.types.Panel):
+class VIEW3D_PT_throng_bars(InSidebar, bpy.types.Panel):
     bl_label = "Expectations"
     bl_parent_id = "VIEW3D_PT_throng"
     bl_options = {"DEFAULT_CLOSED"}
@@ -291,7 +288,7 @@ class VIEW3D_PT_throng_bars(_InSidebar, bpy.types.Panel):
         layout.prop(data, "expect_line")
 
 
-class VIEW3D_PT_throng_bake(_InSidebar, bpy.types.Panel):
+class VIEW3D_PT_throng_bake(InSidebar, bpy.types.Panel):
     bl_label = "Bake"
     bl_parent_id = "VIEW3D_PT_throng"
 

@@ -19,10 +19,8 @@ def pick(maths, variation, drawn, count):
     later = count - drawn
     if later <= 0:
         return own
-    tint = maths.node("GeometryNodeInputNamedAttribute", data_type="FLOAT_VECTOR")
-    tint.inputs["Name"].default_value = "tint"
     draws = maths.node("ShaderNodeSeparateXYZ")
-    maths.link(next(s for s in tint.outputs if s.enabled and s.name == "Attribute"), draws.inputs[0])
+    maths.link(maths.attribute("tint", "FLOAT_VECTOR"), draws.inputs[0])
     joins, which = (maths.math("FRACT", maths.math("MULTIPLY", draws.outputs[axis], 97.0)) for axis in (0, 1))
     joined = maths.math("ADD", maths.math("FLOOR", maths.math("MULTIPLY", which, float(later))), float(drawn))
     taken = maths.math("MULTIPLY", maths.math("LESS_THAN", joins, later / count), maths.math("LESS_THAN", variation, drawn - 0.5))

@@ -5,6 +5,7 @@ import bpy
 from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
+from ..panels import Below
 from . import CharacterError
 from .clips import HEADINGS, Options
 from .roles import ROLES
@@ -141,11 +142,8 @@ class THRONG_OT_remove_character(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class VIEW3D_PT_throng_characters(bpy.types.Panel):
+class VIEW3D_PT_throng_characters(Below, bpy.types.Panel):
     bl_label = "Characters"
-    bl_parent_id = "VIEW3D_PT_throng"
-    bl_space_type, bl_region_type, bl_category = "VIEW_3D", "UI", "Throng"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):
         from . import members

@@ -3,12 +3,23 @@
 import bpy
 
 
+def _nodes_of(material):
+    """(nodes, links, the shader) of a material made here."""
+    nodes = material.node_tree.nodes
+    return nodes, material.node_tree.links, next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
+
+
+def _set_specular(shader, value):
+    for name in ("Specular", "Specular IOR Level"):  # before Blender 4.0, and since
+        if name in shader.inputs:
+            shader.inputs[name].default_value = value
+
+
 def _base(name, colour, roughness):
     material = bpy.data.materials.new(f"throng {name}")
     material.use_nodes = True
     material.diffuse_color = (*colour, 1.0)
-    nodes, links = material.node_tree.nodes, material.node_tree.links
-    shader = next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
+    nodes, links, shader = _nodes_of(material)
     shader.inputs["Base Color"].default_value = (*colour, 1.0)
     shader.inputs["Roughness"].default_value = roughness
     return material, nodes, links, shader
@@ -79,8 +90,7 @@ def outskirts(paving, low, high, beyond):
     """A copy of `paving` that goes over into fields `beyond` metres outside a rectangle, with rounded corners and a ragged edge."""
     material = paving.copy()
     material.name = "throng ground"
-    nodes, links = material.node_tree.nodes, material.node_tree.links
-    shader = next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
+    nodes, links, shader = _nodes_of(material)
     place = nodes.new("ShaderNodeTexCoord").outputs["Object"]
 
     def vector(operation, a, b=None):
@@ -129,9 +139,7 @@ def outskirts(paving, low, high, beyond):
     links.new(noise(0.4, 9.0), uneven.inputs["Value"])
     links.new(uneven.outputs[0], fields.inputs["Value"])
     links.new(crops.outputs[0], fields.inputs["Color"])
-    for specular in ("Specular", "Specular IOR Level"):  # or ground far away mirrors the sky like a lake
-        if specular in shader.inputs:
-            shader.inputs[specular].default_value = 0.12
+    _set_specular(shader, 0.12)  # or ground far away mirrors the sky like a lake
     mix = nodes.new("ShaderNodeMixRGB")
     for source, slot in ((edge.outputs[0], "Fac"), (shader.inputs["Base Color"].links[0].from_socket, "Color1"), (fields.outputs[0], "Color2")):
         links.new(source, mix.inputs[slot])
@@ -145,8 +153,7 @@ def mown(name, dark, light, width):
     if found:
         return found
     material = mottled(name, tuple(0.8 * c for c in dark), light, 0.6, 0.9, 9.0, 0.2)
-    nodes, links = material.node_tree.nodes, material.node_tree.links
-    shader = next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
+    nodes, links, shader = _nodes_of(material)
     ways = nodes.new("ShaderNodeSeparateXYZ")
     links.new(nodes.new("ShaderNodeTexCoord").outputs["Object"], ways.inputs[0])
     stripe = [nodes.new("ShaderNodeMath") for _ in range(2)]
@@ -167,16 +174,13 @@ def glass():
     if found:
         return found
     material, _, _, shader = _base("glass", (0.018, 0.024, 0.030), 0.06)
-    for specular in ("Specular", "Specular IOR Level"):
-        if specular in shader.inputs:
-            shader.inputs[specular].default_value = 0.9
+    _set_specular(shader, 0.9)
     return material
 
 
 def glow(material, strength, varied=True):
     """Lets a surface shine, warm as lit rooms are. `varied`: about half of the rooms (2.7 m wide) are dark."""
-    nodes, links = material.node_tree.nodes, material.node_tree.links
-    shader = next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
+    nodes, links, shader = _nodes_of(material)
     colour = shader.inputs["Emission Color" if "Emission Color" in shader.inputs else "Emission"]
     colour.default_value = (1.0, 0.66, 0.34, 1.0)
     if not hasattr(material.cycles, "emission_sampling"):

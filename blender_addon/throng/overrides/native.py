@@ -22,31 +22,25 @@ _ATTRIBUTES = {"throng_hide": "FLOAT", "throng_swap": "FLOAT", "throng_moved": "
 _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
 
 
-def _named(maths, name, kind):
-    node = maths.node("GeometryNodeInputNamedAttribute", data_type=kind)
-    node.inputs["Name"].default_value = name
-    return socket(node.outputs, "Attribute")
-
-
 def _store(maths, geometry, name, kind, value, selection=None):
     node = maths.node("GeometryNodeStoreNamedAttribute", data_type=kind, domain="POINT")
     node.inputs["Name"].default_value = name
     maths.link(geometry, node.inputs["Geometry"])
     maths.link(value, socket(node.inputs, "Value"))
     if selection and "Selection" in node.inputs:  # Blender 3.5
-        maths.link(_named(maths, selection, "BOOLEAN"), node.inputs["Selection"])
+        maths.link(maths.attribute(selection, "BOOLEAN"), node.inputs["Selection"])
     return node.outputs[0]
 
 
 def _state_nodes(maths, geometry):
     """Who hides is not there; who is swapped has another variation (-1: its own)."""
     separate = maths.node("ShaderNodeSeparateXYZ")
-    maths.link(_named(maths, "throng_state", "FLOAT_VECTOR"), separate.inputs[0])
-    swap = _named(maths, "throng_swap", "FLOAT")
+    maths.link(maths.attribute("throng_state", "FLOAT_VECTOR"), separate.inputs[0])
+    swap = maths.attribute("throng_swap", "FLOAT")
     swapped = maths.math("GREATER_THAN", swap, -0.5)
     kept = maths.math("MULTIPLY", separate.outputs[1], maths.math("SUBTRACT", 1.0, swapped))
     combine = maths.node("ShaderNodeCombineXYZ")
-    maths.link(maths.math("MULTIPLY", separate.outputs[0], maths.math("SUBTRACT", 1.0, _named(maths, "throng_hide", "FLOAT"))), combine.inputs[0])
+    maths.link(maths.math("MULTIPLY", separate.outputs[0], maths.math("SUBTRACT", 1.0, maths.attribute("throng_hide", "FLOAT"))), combine.inputs[0])
     maths.link(maths.math("MULTIPLY_ADD", swap, swapped, kept), combine.inputs[1])
     maths.link(separate.outputs[2], combine.inputs[2])
     return _store(maths, geometry, "throng_state", "FLOAT_VECTOR", combine.outputs[0])
@@ -56,14 +50,14 @@ def _place_nodes(maths, geometry):
     """Moved. With a selection, so that fields are worked out for those few only."""
     place = maths.node("GeometryNodeSetPosition")
     maths.link(geometry, place.inputs["Geometry"])
-    maths.link(_named(maths, "throng_moved", "BOOLEAN"), place.inputs["Selection"])
-    maths.link(_named(maths, "throng_move", "FLOAT_VECTOR"), place.inputs["Offset"])
+    maths.link(maths.attribute("throng_moved", "BOOLEAN"), place.inputs["Selection"])
+    maths.link(maths.attribute("throng_move", "FLOAT_VECTOR"), place.inputs["Offset"])
     return place.outputs[0]
 
 
 def _turn_nodes(maths, geometry):
     """Turned about where it entered, heading and all."""
-    turn = _named(maths, "throng_turned", "FLOAT")
+    turn = maths.attribute("throng_turned", "FLOAT")
 
     def turned(vector, centre=None):
         node = maths.node("ShaderNodeVectorRotate", rotation_type="Z_AXIS")
@@ -75,9 +69,9 @@ def _turn_nodes(maths, geometry):
 
     place = maths.node("GeometryNodeSetPosition")
     maths.link(geometry, place.inputs["Geometry"])
-    maths.link(_named(maths, "throng_moved", "BOOLEAN"), place.inputs["Selection"])
-    maths.link(turned(maths.node("GeometryNodeInputPosition").outputs[0], _named(maths, "throng_pivot", "FLOAT_VECTOR")), place.inputs["Position"])
-    return _store(maths, place.outputs[0], "throng_dir", "FLOAT_VECTOR", turned(_named(maths, "throng_dir", "FLOAT_VECTOR")), "throng_moved")
+    maths.link(maths.attribute("throng_moved", "BOOLEAN"), place.inputs["Selection"])
+    maths.link(turned(maths.node("GeometryNodeInputPosition").outputs[0], maths.attribute("throng_pivot", "FLOAT_VECTOR")), place.inputs["Position"])
+    return _store(maths, place.outputs[0], "throng_dir", "FLOAT_VECTOR", turned(maths.attribute("throng_dir", "FLOAT_VECTOR")), "throng_moved")
 
 
 def _tree(parts):
@@ -101,7 +95,7 @@ def _tree(parts):
         geometry = join.outputs[0]
     if "ground" in parts:
         move = maths.node("ShaderNodeSeparateXYZ")
-        maths.link(_named(maths, "throng_move", "FLOAT_VECTOR"), move.inputs[0])
+        maths.link(maths.attribute("throng_move", "FLOAT_VECTOR"), move.inputs[0])
         geometry = ground.stand_anew(maths, geometry, inputs.outputs["Ground"], STANDS, move.outputs[2])
     maths.link(geometry, outputs.inputs[0])
     return tree

@@ -6,6 +6,7 @@ import bpy
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, StringProperty
 
 from ..formats import BakeError
+from ..panels import InSidebar
 from . import hero, layer, picking
 
 
@@ -264,9 +265,9 @@ class THRONG_UL_overrides(bpy.types.UIList):
         row.operator(THRONG_OT_clear_override.bl_idname, text="", icon="X", emboss=False).index = index
 
 
-class VIEW3D_PT_throng_overrides(bpy.types.Panel):
+class VIEW3D_PT_throng_overrides(InSidebar, bpy.types.Panel):
     bl_label = "People"
-    bl_space_type, bl_region_type, bl_category, bl_parent_id = "VIEW_3D", "UI", "Throng", "VIEW3D_PT_throng"
+    bl_parent_id = "VIEW3D_PT_throng"
 
     @classmethod
     def poll(cls, context):
