@@ -11,6 +11,7 @@
 
 #include "io/diagram/diagram_exr.h"
 #include "io/files/output_file.h"
+#include "io/motion/gaits.h"
 
 namespace throng::io {
 namespace {
@@ -95,6 +96,7 @@ namespace {
 
 constexpr const char* kFirstAlive = "first alive";
 constexpr const char* kDiagrams = "diagrams";
+constexpr const char* kGaitsWalked = "gaits walked";
 
 std::string diagramName(std::uint32_t frame) {
     return fmt::format("diagrams/diagram.{:04}.exr", frame + 1);
@@ -135,6 +137,7 @@ void BakeWriter::removeLeftovers(const Checkpoint& checkpoint) const {
 void BakeWriter::goOnFrom(const Checkpoint& checkpoint) {
     frames_ = checkpoint.frames;
     readSection(checkpoint, kFirstAlive, std::span(first_alive_));
+    readSection(checkpoint, kGaitsWalked, std::span(&gaits_, 1));
     if (diagramsIn(checkpoint) == 0) return;
     diagrams_.emplace();
     readSection(checkpoint, kDiagrams, std::span(&*diagrams_, 1));
@@ -156,6 +159,7 @@ void BakeWriter::save(Checkpoint checkpoint) {
     }
     checkpoint.frames = frames_;
     checkpoint.add(kFirstAlive, std::as_bytes(std::span(first_alive_)));
+    checkpoint.add(kGaitsWalked, std::as_bytes(std::span(&gaits_, 1)));
     if (diagrams_) checkpoint.add(kDiagrams, std::as_bytes(std::span(&*diagrams_, 1)));
     saveCheckpoint(folder_->path(), checkpoint);
     folder_->keep();
@@ -167,7 +171,7 @@ void BakeWriter::write(const Frame& frame) {
     if (frame.positions.size() != values || frame.directions.size() != values ||
         frame.states.size() != values)
         throw std::invalid_argument("a frame has three values for each person in each stream");
-    trackFirstAlive(frame);
+    trackPeople(frame);
     const glm::dvec2 shift = description_.scene_origin - description_.output_origin;
     for (std::size_t i = 0; i < values; i += kComponents) {
         shifted_[i] = static_cast<float>(frame.positions[i] + shift.x);
@@ -191,10 +195,13 @@ void BakeWriter::write(const Frame& frame) {
 
 /// Kept here rather than taken from the account, so that what is filled in always agrees with the alive
 /// flags.
-void BakeWriter::trackFirstAlive(const Frame& frame) {
-    for (std::size_t row = 0; row < first_alive_.size(); ++row)
-        if (first_alive_[row] == kNone && frame.states[row * kComponents] > 0.5f)
-            first_alive_[row] = frame.index;
+void BakeWriter::trackPeople(const Frame& frame) {
+    for (std::size_t row = 0; row < first_alive_.size(); ++row) {
+        const float activity = frame.states[row * kComponents];
+        if (activity <= 0.5f) continue;
+        if (first_alive_[row] == kNone) first_alive_[row] = frame.index;
+        gaits_ |= 1u << gaitOf(activity);
+    }
 }
 
 void BakeWriter::writeDiagram(const Frame& frame) {
@@ -227,6 +234,7 @@ BakeOutcome BakeWriter::writeAll(const Account& account, const BakeTiming& timin
     outcome.frames = frames_;
     outcome.account = countOutcomes(account);
     outcome.timing = timing;
+    outcome.gaits = gaits_;
     outcome.diagrams = diagrams_;
     std::vector<std::string> files{"layout.json", "agents.csv"};
     writeFile(folder_->path() / files[0], description_.layout_text);

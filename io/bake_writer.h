@@ -78,7 +78,7 @@ class BakeWriter {
     std::filesystem::path streamsFolder(const Checkpoint* go_on_from);
     void goOnFrom(const Checkpoint& checkpoint);
     void removeLeftovers(const Checkpoint& checkpoint) const;
-    void trackFirstAlive(const Frame& frame);
+    void trackPeople(const Frame& frame);
     void finishStreams();
     std::vector<Stream*> streams();
     BakeOutcome writeAll(const Account& account, const BakeTiming& timing, bool complete);
@@ -94,6 +94,7 @@ class BakeWriter {
     std::optional<Stream> grounds_;
     std::uint32_t frames_ = 0;
     std::vector<std::uint32_t> first_alive_;  ///< per row, the first frame it is alive in, or kNone
+    std::uint32_t gaits_ = 0;                 ///< BakeOutcome::gaits, so far
     std::vector<float> shifted_;              ///< one frame of positions in the output frame of reference
     std::optional<DiagramSummary> diagrams_;
     std::vector<std::string> diagram_files_;

@@ -95,6 +95,14 @@ Json timingToJson(const BakeTiming& timing) {
     return {{"wall_seconds", timing.wall_seconds}, {"steps", timing.steps}, {"steps_per_second", rate}};
 }
 
+/// Their numbers, in order: renderers need not make the poses of the others.
+Json gaitsToJson(std::uint32_t gaits) {
+    Json list = Json::array();
+    for (int gait = 0; gaits >> gait != 0; ++gait)
+        if (gaits >> gait & 1u) list.push_back(gait);
+    return list;
+}
+
 Json filesToJson(const std::vector<BakeOutcome::File>& files) {
     Json list = Json::array();
     for (const BakeOutcome::File& file : files)
@@ -124,6 +132,7 @@ Json bakeManifest(const BakeDescription& description, const BakeOutcome& outcome
     json["agents"] = description.agents.size();
     json["variations"] = description.variations;
     json["strides"] = description.strides;
+    json["gaits"] = gaitsToJson(outcome.gaits);
     json["units"] = "metres";
     json["up_axis"] = "Z";
     json["origin"] = {origin.x, origin.y, 0.0};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -34,6 +35,7 @@ struct BakeOutcome {
     std::uint32_t frames = 0;
     AccountTotals account;
     BakeTiming timing;
+    std::uint32_t gaits = 0;  ///< bit by gait: which of the strides somebody walks with
     std::optional<GltfSummary> gltf;
     std::optional<DiagramSummary> diagrams;
     struct File {

@@ -18,6 +18,7 @@ from .panels import Below
 
 KINDS = ("overlay", "mask", "none")
 OVERLAY, TRODDEN = "throng_cells", "throng trodden"  # a property of the overlay's object; the nodes that darken ground
+SHOWN = "throng_cells_shown"  # a collection's [kind, strength], while it has cells
 _GROUNDS = ("Throng ground", "Throng terrain", "Throng road", "Throng area")
 _ABOVE = 0.006  # m, over the road's markings
 
@@ -29,17 +30,33 @@ def show(crowd, kind, strength):
         raise BakeError("this crowd's collection is not its import's any more: import the bake again")
     if kind == "none":
         _take_away(collection)
+        collection.pop(SHOWN, None)
         return
     path = bake_path(crowd)
     bake = Bake(read_manifest(path), os.path.dirname(path))
     diagrams = _diagrams(bake)
     _take_away(collection)
-    tree = _cells_tree(bake, diagrams, crowd)
+    tree = _cells_tree(f"{collection.name} cells", bake, diagrams, crowd)
     if kind == "overlay":
-        collection.objects.link(_overlay(collection, bake, diagrams, tree, strength))
+        collection.objects.link(_overlay(collection, crowd, diagrams, tree, strength))
     else:
         for material in _own_grounds(collection):
             _tread(material, tree, strength)
+    collection[SHOWN] = {"kind": kind, "strength": strength}
+
+
+def follow(crowd):
+    """Where a crowd's cells are shown, shows those of what it plays now. What has no cells, loses them; returns that, in sentences."""
+    collection = collection_of(crowd)
+    shown = collection.get(SHOWN) if collection else None
+    if not shown:
+        return []
+    try:
+        show(crowd, shown["kind"], shown["strength"])
+    except BakeError as error:
+        show(crowd, "none", 0.0)
+        return [f"{crowd.name}: no cells on the ground any more: {error}"]
+    return []
 
 
 def _diagrams(bake):
@@ -73,7 +90,7 @@ def _take_away(collection):
 
 def _ground_slots(collection):
     """Material slots of what people walk on."""
-    return [slot for thing in collection.objects if thing.type == "MESH" and thing.name.startswith(_GROUNDS)
+    return [slot for thing in collection.all_objects if thing.type == "MESH" and thing.name.startswith(_GROUNDS)
             for slot in thing.material_slots if slot.material and slot.material.use_nodes]
 
 
@@ -90,9 +107,8 @@ def _own_grounds(collection):
     return list({slot.material for slot in _ground_slots(collection)})
 
 
-def _cells_tree(bake, diagrams, crowd):
+def _cells_tree(name, bake, diagrams, crowd):
     """Colour and mask of the cells, as a group of nodes for any material, whatever it is on."""
-    name = f"Throng {bake.name} cells"
     tree = bpy.data.node_groups.get(name)
     if tree:
         tree.nodes.clear()
@@ -126,6 +142,7 @@ def _sequence(bake, relative):
     image = bpy.data.images.load(path, check_existing=True)
     image.source = "SEQUENCE"
     image.filepath = stored_path(path, relative)
+    image.reload()  # it may have been baked again
     return image
 
 
@@ -152,7 +169,7 @@ def _curves(tree):
     return [curve for layer in action.layers for strip in layer.strips for bag in strip.channelbags for curve in bag.fcurves]
 
 
-def _overlay(collection, bake, diagrams, tree, strength):
+def _overlay(collection, crowd, diagrams, tree, strength):
     """The cells shine a little above the ground: on the terrain's own mesh, or on a plane."""
     material = bpy.data.materials.new("throng cells")
     material.use_nodes = True
@@ -181,6 +198,7 @@ def _overlay(collection, bake, diagrams, tree, strength):
         shape = Shape("Throng cells")
         shape.flat([(low[0], low[1]), (high[0], low[1]), (high[0], high[1]), (low[0], high[1])], MARK_Z + _ABOVE, material)
         plane = shape.to_object()
+        plane.parent = crowd  # wherever that is: a drawn layout may have another origin than its bake
     plane[OVERLAY] = True
     plane.visible_shadow = False
     return plane

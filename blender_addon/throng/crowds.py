@@ -5,6 +5,7 @@ import os
 import bpy
 
 from . import nodes, playback
+from .characters import members
 from .formats import STREAMS, Bake, BakeError, check_pc2, load_bake, read_manifest
 from .overrides import native
 
@@ -102,6 +103,7 @@ def reload(crowd, scene, path=None):
     if len(caches(crowd)) != len(bake.streams):
         raise BakeError("one of the two bakes has a terrain and the other has none: import it anew")
     overrides = Arrival(bake, crowd)
+    members.widen(crowd, bake.gaits)
     mesh = crowd.data
     if len(mesh.vertices) != bake.agents:
         mesh.clear_geometry()

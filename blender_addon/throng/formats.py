@@ -24,6 +24,7 @@ class Bake:
         self.frames = _whole(manifest, "frames")
         self.fps = float(manifest.get("fps", 24.0))
         self.strides = _strides(manifest)
+        self.gaits = _gaits(manifest, len(self.strides))
         self.variations = max(1, int(manifest.get("variations", 1)))
         self.complete = bool(manifest.get("complete", False))
         self.origin = tuple(float(value) for value in manifest.get("origin", (0.0, 0.0, 0.0)))
@@ -57,6 +58,14 @@ def _strides(manifest):
     if not isinstance(strides, list) or not 1 <= len(strides) <= 16 or not all(isinstance(s, (int, float)) and 0.1 < s < 10.0 for s in strides):
         raise BakeError(f"bake.json: `strides` should be the gaits' stride lengths in metres, found {strides!r}: bake again")
     return tuple(float(stride) for stride in strides)
+
+
+def _gaits(manifest, count):
+    """(first, last) of those that somebody walks with; all, where the manifest is older than the list."""
+    gaits = manifest.get("gaits") or range(count)
+    if not isinstance(gaits, (list, range)) or not all(isinstance(gait, int) and 0 <= gait < count for gait in gaits):
+        raise BakeError(f"bake.json: `gaits` should list numbers of `strides`, from 0 to {count - 1}, found {gaits!r}: bake again")
+    return min(gaits), max(gaits)
 
 
 def _whole(manifest, key):

@@ -32,7 +32,7 @@ def set_up_scene(scene, bake, frame_start):
     scene.render.motion_blur_shutter = 0.5
     if hasattr(scene.render, "motion_blur_position"):
         scene.render.motion_blur_position = "CENTER"
-    else:
+    elif hasattr(scene, "cycles"):  # not where that add-on is disabled
         scene.cycles.motion_blur_position = "CENTER"
 
 
@@ -50,7 +50,7 @@ def import_bake(context, path, *, frame_start=1, walls=True, roads=True, scenery
     collection["throng_origin"] = bake.origin
 
     variations = min(bake.variations, cast.VARIATIONS)
-    repertoire = cast.Repertoire(bake.strides)
+    repertoire = cast.Repertoire.of(bake.strides, bake.gaits)
     people = library.build_cast(variations, repertoire, f"Throng {bake.name} cast")
     paths = {stream: stored_path(bake.stream_path(stream), relative) for stream in bake.streams}
     crowd = playback.build_crowd(bake, f"Throng {bake.name} crowd", people, frame_start, paths)

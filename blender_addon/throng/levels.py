@@ -10,7 +10,8 @@ import bpy
 from bpy.props import EnumProperty, FloatProperty
 
 from . import crowds, culling, playback
-from .cast import Repertoire, library
+from .cast import library
+from .characters.members import repertoire_of
 from .nodes import Maths, new_tree, set_input, socket
 from .panels import Below
 
@@ -65,7 +66,7 @@ def remove(crowd):
 def apply(crowd, camera, near, far):
     """Level 1 from `near` metres from the camera on, level 2 from `far` on."""
     cast = crowd["throng_cast"]
-    library.add_levels(cast, Repertoire(tuple(crowd["throng_strides"])))
+    library.add_levels(cast, repertoire_of(crowd))
     playback.set_cast(crowd, cast)
     modifier = crowd.modifiers.get(MODIFIER)
     if not modifier:

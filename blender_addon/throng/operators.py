@@ -42,6 +42,13 @@ class IMPORT_SCENE_OT_throng(bpy.types.Operator, ImportHelper):
 class _OnCrowds(OnCrowds):
     bl_options = {"REGISTER", "UNDO"}
 
+    def follow(self, crowds):
+        """The ground shows the cells of what these crowds play now."""
+        from . import cells
+
+        for line in [line for crowd in crowds for line in cells.follow(crowd)]:
+            self.report({"WARNING"}, line)
+
 
 class THRONG_OT_verify(_OnCrowds, bpy.types.Operator):
     """Say what is wrong with the bakes of the selected crowds, or of all"""
@@ -76,6 +83,7 @@ class THRONG_OT_reload(_OnCrowds, bpy.types.Operator):
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         report_orphans(self, orphans)
+        self.follow(chosen_crowds(context))
         return {"FINISHED"}
 
 
@@ -100,6 +108,7 @@ class THRONG_OT_relink(_OnCrowds, bpy.types.Operator, ImportHelper):
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         report_orphans(self, orphans)
+        self.follow(crowds)
         return {"FINISHED"}
 
 
@@ -125,6 +134,7 @@ class THRONG_OT_show(_OnCrowds, bpy.types.Operator):
         for crowd in chosen_crowds(context):
             set_viewport_percent(crowd, self.percent)
             set_offset(crowd, self.offset)
+        self.follow(chosen_crowds(context))
         return {"FINISHED"}
 
 
@@ -173,6 +183,9 @@ class THRONG_OT_film_look(bpy.types.Operator):
     def execute(self, context):
         from . import film_look
 
+        if not hasattr(context.scene, "cycles"):
+            self.report({"ERROR"}, "Film looks render with Cycles: enable the add-on Cycles Render Engine in Blender's preferences")
+            return {"CANCELLED"}
         film_look.apply(context.scene, self.preset, crane=self.crane, haze=self.haze)
         return {"FINISHED"}
 

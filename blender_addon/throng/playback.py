@@ -10,9 +10,9 @@ import random
 import bpy
 
 from . import ground
-from .cast import LEVEL_BEATS, LEVEL_POSES, PEOPLE_A_BLOCK, Repertoire
+from .cast import LEVEL_BEATS, LEVEL_POSES, PEOPLE_A_BLOCK
 from .cast.library import blocks_of
-from .characters.members import pick
+from .characters.members import pick, repertoire_of
 from .culling import HIDDEN
 from .formats import STREAMS
 from .nodes import Maths, get_input, new_tree, set_input, socket
@@ -44,9 +44,14 @@ def _components(maths, attribute):
     return separate.outputs
 
 
-def _walking_pose(maths, state, phase, poses):
-    """The gait is what `state` adds to the activity, in sixteenths; the pose is the phase's."""
+def _walking_pose(maths, state, phase, poses, first):
+    """The gait is what `state` adds to the activity, in sixteenths; the pose is the phase's.
+
+    @param first the number of the cast's first gait; nobody walks with those that it has not
+    """
     gait = maths.math("ROUND", maths.math("MULTIPLY", maths.math("FRACT", state), 16.0))
+    if first:
+        gait = maths.math("SUBTRACT", gait, float(first))
     step = maths.math("MINIMUM", maths.math("FLOOR", maths.math("MULTIPLY", maths.math("FRACT", phase), poses)), poses - 1)
     return maths.math("MULTIPLY_ADD", gait, poses, step)
 
@@ -68,7 +73,7 @@ def _standing_pose(maths, state, nature, beats, walking):
 
 def _pose_index(maths, speed, state, phase, nature, repertoire, level):
     walks = maths.math("GREATER_THAN", speed, STANDING_SPEED)
-    walking = _walking_pose(maths, state, phase, LEVEL_POSES[level])
+    walking = _walking_pose(maths, state, phase, LEVEL_POSES[level], repertoire.first)
     standing = _standing_pose(maths, state, nature, LEVEL_BEATS[level], repertoire.walking(level))
     return maths.math("ADD", maths.math("MULTIPLY", walking, walks), maths.math("MULTIPLY", standing, maths.math("SUBTRACT", 1.0, walks)))
 
@@ -128,8 +133,13 @@ class _Points:
 
 
 def _instancer_tree(cast, repertoire, leans):
-    """One Instance on Points for each block of the cast. All poses in one would take 5.0 time that grows with their square: it looks every
-    one up among those before it. For the same reason each block is handed on as one instance."""
+    """One Instance on Points for each block of the cast.
+
+    While a crowd is on screen, Blender notes down all attributes of what goes through a socket, those of every pose included, which takes
+    longer than the work itself. 5.0 does so for sockets outside of groups only, so there the blocks are in a group; 3.4 for all, so there
+    should be few. And 5.0 looks up every pose among those before it, in time that grows with their square: so it gets several blocks, each
+    handed on as one instance.
+    """
     blocks = blocks_of(cast)
     levels = sorted({level for level, _ in blocks})
     tree, inputs, outputs = new_tree("Throng instancer", GEOMETRY + [("Share", "NodeSocketFloat")], GEOMETRY)
@@ -147,9 +157,13 @@ def _instancer_tree(cast, repertoire, leans):
     points.store("throng_turn", rotation.outputs[0], "FLOAT_VECTOR")
     points.remove("throng_dir", "throng_state", NATURE)
 
-    # In a group of its own: 5.0 notes down what goes through all sockets outside of it, which takes longer than the work itself.
+    if bpy.app.version < (4, 0, 0):
+        maths.link(_instances(maths, points.points, blocks, leans, apart=False), outputs.inputs[0])
+        return tree
     inside = maths.node("GeometryNodeGroup")
-    inside.node_tree = _blocks_tree(blocks, leans)
+    inside.node_tree, inner_inputs, inner_outputs = new_tree("Throng blocks", GEOMETRY, GEOMETRY)
+    within = Maths(inside.node_tree)
+    within.link(_instances(within, inner_inputs.outputs[0], blocks, leans, apart=True), inner_outputs.inputs[0])
     maths.link(points.points, inside.inputs[0])
     maths.link(inside.outputs[0], outputs.inputs[0])
     return tree
@@ -183,28 +197,29 @@ def _clear_shelves():
         bpy.data.node_groups.remove(tree)
 
 
-def _blocks_tree(blocks, leans):
-    tree, inputs, outputs = new_tree("Throng blocks", GEOMETRY, GEOMETRY)
-    maths = Maths(tree)
+def _instances(maths, points, blocks, leans, apart):
+    """Everybody's pose. @param apart whether each block is one instance, of its people"""
     block, pose, turn = (maths.attribute(name, kind) for name, kind in ((BLOCK, "INT"), ("throng_pose", "INT"), ("throng_turn", "FLOAT_VECTOR")))
     size = maths.math("ADD", maths.attribute(BIGGER), 1.0)
     everybody = maths.node("GeometryNodeJoinGeometry")
     for (level, first), collection in sorted(blocks.items()):
-        people = maths.node("GeometryNodeObjectInfo", transform_space="ORIGINAL")
-        people.inputs["Object"].default_value = _shelf(collection)
+        poses = maths.node("GeometryNodeObjectInfo", transform_space="ORIGINAL")
+        poses.inputs["Object"].default_value = _shelf(collection)
         place = maths.node("GeometryNodeInstanceOnPoints")
         place.inputs["Pick Instance"].default_value = True
-        maths.link(inputs.outputs[0], place.inputs["Points"])
+        maths.link(points, place.inputs["Points"])
         maths.link(maths.equal(block, _block_number(level, first)), place.inputs["Selection"])
-        maths.link(socket(people.outputs, "Geometry"), place.inputs["Instance"])
+        maths.link(socket(poses.outputs, "Geometry"), place.inputs["Instance"])
         maths.link(pose, place.inputs["Instance Index"])
         maths.link(size, place.inputs["Scale"])
         maths.link(turn, place.inputs["Rotation"])  # the points' other attributes go along: id, tint
-        one = maths.node("GeometryNodeGeometryToInstance")
-        maths.link(ground.leaning(maths, place.outputs[0]) if leans else place.outputs[0], one.inputs[0])
-        maths.link(one.outputs[0], everybody.inputs[0])
-    maths.link(everybody.outputs[0], outputs.inputs[0])
-    return tree
+        people = ground.leaning(maths, place.outputs[0]) if leans else place.outputs[0]
+        if apart:
+            one = maths.node("GeometryNodeGeometryToInstance")
+            maths.link(people, one.inputs[0])
+            people = one.outputs[0]
+        maths.link(people, everybody.inputs[0])
+    return everybody.outputs[0]
 
 
 def set_cast(crowd, cast):
@@ -212,15 +227,14 @@ def set_cast(crowd, cast):
     modifiers = [crowd.modifiers[name] for name in INSTANCERS]
     before = modifiers[0].node_group
     shares = [get_input(modifier, "Share") if modifier.node_group else 2.0 for modifier in modifiers]  # 2: everybody
-    tree = _instancer_tree(cast, Repertoire(tuple(crowd["throng_strides"])), ground.slopes(crowd))
+    tree = _instancer_tree(cast, repertoire_of(crowd), ground.slopes(crowd))
     for modifier, share in zip(modifiers, shares):
         modifier.node_group = tree
         set_input(modifier, "Share", share)
     if before and before.users == 0:
-        inner = [node.node_tree for node in before.nodes if node.type == "GROUP"]
+        inner = {node.node_tree for node in before.nodes if node.type == "GROUP" and node.node_tree}
         bpy.data.node_groups.remove(before)
-        for group in (group for group in inner if group and group.users == 0):
-            bpy.data.node_groups.remove(group)
+        bpy.data.batch_remove([group for group in inner if group.users == 0])
     _clear_shelves()
     crowd["throng_cast"] = cast
     crowd.update_tag()
@@ -268,7 +282,7 @@ def build_crowd(bake, name, cast, frame_start, paths):
     _add_cache(crowd, "throng pos", paths["pos"], "LINEAR", frame_start)
     for name, hidden in zip(INSTANCERS, ("show_viewport", "show_render")):
         setattr(crowd.modifiers.new(name, "NODES"), hidden, False)
-    crowd["throng_strides"] = list(bake.strides)
+    crowd["throng_strides"], crowd["throng_gaits"] = list(bake.strides), list(bake.gaits)
     cast["throng_drawn"], cast["throng_shipped"] = bake.variations, cast["throng_variations"]
     crowd["throng_frame_start"], crowd["throng_offset"], crowd["throng_percent"] = frame_start, 0, 100.0
     set_cast(crowd, cast)

@@ -32,6 +32,10 @@ double strideOf(std::uint32_t gait) {
     return kNormalStride * std::pow(kRatio, static_cast<double>(gait) - kNormal);
 }
 
+std::uint32_t gaitOf(float state) {
+    return static_cast<std::uint32_t>(std::lround((state - std::floor(state)) / kGaitInState));
+}
+
 std::uint32_t gaitFor(double speed) {
     return static_cast<std::uint32_t>(std::clamp(std::round(gaitScale(speed)), 0.0, kGaits - 1.0));
 }

@@ -29,6 +29,9 @@ std::uint32_t gaitFor(double speed);
 
 std::vector<double> allStrides();
 
+/// The gait that a value of the stream of states holds beside the activity.
+std::uint32_t gaitOf(float state);
+
 /// The gait of one person over time.
 struct GaitTrack {
     double phase = 0.0;  ///< cycles, unwrapped

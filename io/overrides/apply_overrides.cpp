@@ -171,9 +171,7 @@ class Application {
         const bool is_alive = sample.state[0] > 0.5f, was_alive = each.first_alive != kNever;
         Stance stance = footing_->last(each.row);
         if (is_alive) {
-            const GaitTrack gait{sample.state[2],
-                                 static_cast<std::uint32_t>(std::lround(
-                                     (sample.state[0] - std::floor(sample.state[0])) / kGaitInState))};
+            const GaitTrack gait{sample.state[2], gaitOf(sample.state[0])};
             stance = footing_->stand(each.row, place, heading,
                                      was_alive ? place - each.place : glm::vec2(0.0f), gait);
             each.place = place;

@@ -136,6 +136,14 @@ def test_the_streams_have_the_promised_shape_in_both_formats(bakes, manifest_of)
             assert numpy.array_equal(numpy.fromfile(file, "<f4").reshape(array.shape), array)
 
 
+def test_the_manifest_lists_the_gaits_that_occur(bakes, manifest_of):
+    for name in ("intersection", "hill"):
+        manifest = manifest_of(bakes(name))
+        activity = streams(bakes(name))["state"][:, :, 0]
+        walked = numpy.unique(numpy.round(numpy.mod(activity[activity > 0.5], 1.0) * 16.0))
+        assert manifest["gaits"] == walked.astype(int).tolist() and set(manifest["gaits"]) < set(range(len(manifest["strides"])))
+
+
 def test_rows_hold_still_before_they_enter_and_after_they_leave(bakes):
     data = streams(bakes("intersection"))
     alive = data["state"][:, :, 0] > 0.5

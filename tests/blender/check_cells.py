@@ -2,6 +2,7 @@
 """Runs inside Blender: cells on the ground as an overlay and as a mask, rendered from straight above, with and without the add-on."""
 import json
 import os
+import shutil
 import sys
 
 import bpy
@@ -70,6 +71,21 @@ def with_the_add_on(addon, bake, folder):
     render(scene, 25, os.path.join(folder, "mask.exr"))
     assert bpy.ops.throng.cells(kind="mask", strength=1.0) == {"FINISHED"}
     render(scene, 25, os.path.join(folder, "mask-again.exr"))
+    # Cells go where their crowd goes: in time, and to the bake that it plays.
+    assert bpy.ops.throng.show(offset=10) == {"FINISHED"}
+    render(scene, 35, os.path.join(folder, "mask-later.exr"))
+    assert bpy.ops.throng.show(offset=0) == {"FINISHED"}
+    shutil.copytree(bake, bake + "-retake")
+    shutil.copy(os.path.join(bake, "diagrams", "diagram.0001.exr"), os.path.join(bake + "-retake", "diagrams", "diagram.0021.exr"))
+    assert bpy.ops.throng.relink(filepath=os.path.join(bake + "-retake", "bake.json")) == {"FINISHED"}
+    render(scene, 25, os.path.join(folder, "mask-of-retake.exr"))
+    assert bpy.ops.throng.relink(filepath=os.path.join(bake, "bake.json")) == {"FINISHED"}
+    render(scene, 25, os.path.join(folder, "mask-back.exr"))
+    shutil.rmtree(os.path.join(bake + "-retake", "diagrams"))
+    assert bpy.ops.throng.relink(filepath=os.path.join(bake + "-retake", "bake.json")) == {"FINISHED"}
+    render(scene, 25, os.path.join(folder, "mask-lost.exr"))
+    assert bpy.ops.throng.relink(filepath=os.path.join(bake, "bake.json")) == {"FINISHED"}
+    assert bpy.ops.throng.cells(kind="mask", strength=1.0) == {"FINISHED"}
     assert bpy.ops.throng.cells(kind="none") == {"FINISHED"}
     render(scene, 25, os.path.join(folder, "none.exr"))
     diagrams = os.path.join(bake, "diagrams")

@@ -18,9 +18,9 @@ bpy.ops.import_scene.throng(filepath=os.path.join(bake, "bake.json"))
 imported = time.perf_counter() - start
 scene = bpy.context.scene
 times = []
-for frame in 5 * (2, 4, 3, 5, 1, 4, 2, 5, 3, 1, 5, 2):
+for back in 5 * (2, 4, 3, 5, 1, 4, 2, 5, 3, 1, 5, 2):  # near the end: people have spread over all of the cast's gaits
     start = time.perf_counter()
-    scene.frame_set(frame)
+    scene.frame_set(scene.frame_end - back)
     times.append(time.perf_counter() - start)
 people = sum(1 for i in bpy.context.evaluated_depsgraph_get().object_instances if i.is_instance)
-print("RESULT " + json.dumps({"import": imported, "frame": min(times), "people": people}))
+print("RESULT " + json.dumps({"import": imported, "frame": min(times), "median": sorted(times)[len(times) // 2], "people": people}))

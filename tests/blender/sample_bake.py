@@ -8,8 +8,8 @@ import numpy
 STRIDES = [0.7, 1.0, 1.4, 1.8]
 
 
-def write_bake(folder, agents=63, frames=40, fps=24.0, seed=7, variations=8):
-    """People on arcs; some enter late, some leave early, some stand. Returns (pos, dir, state)."""
+def write_bake(folder, agents=63, frames=40, fps=24.0, seed=7, variations=8, gaits=range(len(STRIDES))):
+    """People on arcs, in some of the gaits; some enter late, some leave early, some stand. Returns (pos, dir, state)."""
     random = numpy.random.default_rng(seed)
     time = numpy.arange(frames)[:, None] / fps
     speed = numpy.where(numpy.arange(agents) % 7 == 3, 0.0, random.uniform(0.8, 1.7, agents))
@@ -21,7 +21,7 @@ def write_bake(folder, agents=63, frames=40, fps=24.0, seed=7, variations=8):
     pos[..., 1] = start[1] + numpy.cumsum(numpy.sin(heading) * step, axis=0)
     direction = numpy.stack([numpy.cos(heading), numpy.sin(heading), numpy.broadcast_to(speed, heading.shape)], axis=2).astype("<f4")
     state = numpy.ones((frames, agents, 3), "<f4")
-    gait = numpy.arange(agents) % len(STRIDES)
+    gait = numpy.array(gaits)[numpy.arange(agents) % len(gaits)]
     state[..., 0] += gait / 16.0
     state[:, speed == 0.0, 0] += 1.0  # stands
     state[..., 1] = numpy.arange(agents) % variations
@@ -41,7 +41,7 @@ def write_bake(folder, agents=63, frames=40, fps=24.0, seed=7, variations=8):
             file.write(struct.pack("<12siiffi", b"POINTCACHE2\0", 1, agents, 1.0, 1.0, frames) + stream.tobytes())
     manifest = {
         "format": "throng bake", "version": 1, "name": "sample", "complete": True, "fps": fps, "frames": frames, "frame_start": 1, "agents": agents,
-        "variations": variations, "strides": STRIDES, "origin": [0.0, 0.0, 0.0], "bounds": {"min": [-20.0, -20.0], "max": [20.0, 20.0]},
+        "variations": variations, "strides": STRIDES, "gaits": sorted(gaits), "origin": [0.0, 0.0, 0.0], "bounds": {"min": [-20.0, -20.0], "max": [20.0, 20.0]},
         "streams": {name: {"npy": f"streams/{name}.npy", "pc2": f"streams/{name}.pc2"} for name in ("pos", "dir", "state")},
         "geometry": {"walls": [{"id": "house", "points": [[10, 10], [18, 10], [18, 18], [10, 18]], "closed": True, "thickness": 0.2, "height": 9.0},
                                {"id": "rail", "points": [[-9, 9], [-4, 9]], "closed": False, "thickness": 0.2, "height": 1.0},

@@ -60,6 +60,13 @@ def test_cells_lie_on_the_ground_where_people_are_and_stay_until_the_next_image(
     ratio = mask.mean(axis=2) / bare.mean(axis=2)  # dark ground still reflects the sky
     assert numpy.median(ratio[within]) < 0.5 and ratio[within].max() < 0.8 and ratio[without].min() > 0.9
 
+    for name in ("mask-later", "mask-back"):
+        assert numpy.abs(picture(tmp_path / f"{name}.exr") - mask).max() < 1e-4, name
+    retake = picture(tmp_path / "mask-of-retake.exr").mean(axis=2) / bare.mean(axis=2)
+    first_within, _ = cells(bake, manifest, 1, bare.shape[:2])
+    assert numpy.median(retake[first_within]) < 0.5 and numpy.abs(retake - ratio).max() > 0.3
+    assert numpy.abs(picture(tmp_path / "mask-lost.exr") - bare).max() < 1e-4, "a bake without images takes the cells away"
+
     shown = {frame: picture(tmp_path / f"overlay.{frame}.exr") for frame in (25, 26, 30)}
     assert numpy.abs(shown[26] - shown[30]).max() < 1e-4 and numpy.abs(shown[25] - shown[26]).max() > 0.1
     for frame, image in ((25, 21), (26, 26)):

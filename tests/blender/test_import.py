@@ -30,16 +30,16 @@ def wrapped(angle):
     return abs((angle + math.pi) % (2.0 * math.pi) - math.pi)
 
 
-def expected_poses(state, direction, row, frame, level=0):
+def expected_poses(state, direction, row, frame, level=0, repertoire=REPERTOIRE):
     """Names of the poses that somebody may have: those who stand have a beat of their own."""
     activity, variation, phase = state[row]
     if direction[row, 2] > 0.1:
-        poses = [REPERTOIRE.walking_pose(round((activity % 1.0) * 16), phase, level)]
+        poses = [repertoire.walking_pose(round((activity % 1.0) * 16), phase, level)]
     else:
         pick = row % 4 if int(activity) == 2 else row % 2
         beat = (row * 0.618034 + frame / 80.0) % 1.0 * cast.BEATS
         beats = {int(beat), int(beat + 1e-3) % cast.BEATS, int(beat - 1e-3) % cast.BEATS}
-        poses = [REPERTOIRE.standing_pose(cast.gait.STANDING_CLIPS[pick], b, level) for b in beats]
+        poses = [repertoire.standing_pose(cast.gait.STANDING_CLIPS[pick], b, level) for b in beats]
     return [cast.pose_name(int(variation), pose, level) for pose in poses]
 
 
@@ -65,6 +65,19 @@ def test_instances_are_where_the_arrays_say_at_frames_and_between(blender, tmp_p
             assert wrapped(math.atan2(facing[1], facing[0]) - heading) < 1e-4
             scene_frames = {math.floor(shot["frame"] + shot["sub"] + 0.5), math.ceil(shot["frame"] + shot["sub"] - 0.5)}
             assert name in [pose for k in nearest for frame in scene_frames for pose in expected_poses(state[k], direction[low], row, frame)]
+
+
+def test_a_cast_has_only_the_gaits_of_its_bake_and_gets_others_when_a_new_bake_walks_with_them(blender, tmp_path):
+    few = write_bake(tmp_path / "few", gaits=(2, 1))
+    many = write_bake(tmp_path / "many", gaits=(0, 1, 3))
+    result = result_of(blender(pathlib.Path(__file__).parent / "check_gaits.py", ADDON, tmp_path / "few", tmp_path / "many"))
+    narrow, wide = cast.Repertoire.of(REPERTOIRE.strides, (1, 2)), REPERTOIRE
+    for shown, (_, direction, state), repertoire in zip(result["shots"], (few, many, few), (narrow, wide, wide)):  # fewer take nothing away
+        assert shown["poses"] == 8 * repertoire.count and shown["coarse"] == 8 * repertoire.poses(1)
+        assert {int(row) for row in shown["people"]} == set(numpy.nonzero(state[9, :, 0] > 0.5)[0])
+        for row, name in shown["people"].items():
+            assert name in expected_poses(state[9], direction[9], int(row), 10, repertoire=repertoire)
+    assert all(shown["look"] == result["shots"][0]["look"] for shown in result["shots"]), "new poses have the materials that the old ones had"
 
 
 def test_the_pose_does_not_change_while_the_shutter_is_open(blender, tmp_path):
@@ -296,3 +309,25 @@ print('RESULT ' + json.dumps(result))
     stored = numpy.load(bake / "streams" / "pos.npy", mmap_mode="r")
     for frame, found in zip((0, 699, 1399), frames):
         assert numpy.abs(numpy.array(found) - stored[frame]).max() < 1e-5
+
+
+def test_all_but_film_looks_works_without_cycles(blender, tmp_path):
+    write_bake(tmp_path / "bake")
+    script = tmp_path / "no_cycles.py"
+    script.write_text(f"""
+import addon_utils, bpy, sys
+sys.path.insert(0, {str(ADDON)!r})
+import throng
+bpy.ops.wm.read_factory_settings(use_empty=True)
+addon_utils.disable('cycles')
+assert not hasattr(bpy.context.scene, 'cycles')
+throng.register()
+assert bpy.ops.import_scene.throng(filepath={str(tmp_path / "bake" / "bake.json")!r}) == {{'FINISHED'}}
+assert bpy.ops.throng.light(time='night') == {{'FINISHED'}}
+try:
+    bpy.ops.throng.film_look(preset='plate')
+    raise SystemExit('accepted')
+except RuntimeError as error:
+    assert 'enable the add-on Cycles' in str(error), error
+""")
+    blender(script)

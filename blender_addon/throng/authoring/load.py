@@ -2,7 +2,7 @@
 """A layout's own bake in its scene: the crowd, and the streets and buildings that were drawn."""
 import bpy
 
-from .. import crowds, environment
+from .. import cells, crowds, environment
 from ..formats import load_bake, read_manifest
 from ..importer import import_bake
 from .exporter import origin_of
@@ -38,6 +38,7 @@ def load(context, path, own_meshes=()):
         crowds.reload(crowd, scene, path)
         crowd.location[:2] = offset
     _build(context, crowds.collection_of(crowd) or scene.collection, read_manifest(path), set(own_meshes), offset)
+    cells.follow(crowd)
     return crowd
 
 

@@ -29,7 +29,14 @@ PEOPLE_A_BLOCK = (3, 3, 9)  # some 500 objects: fewer blocks cost less, but the 
 @dataclass(frozen=True)
 class Repertoire:
     """What everybody in a cast can do, and which pose is where, at each level of detail."""
-    strides: tuple  # m, of each gait
+    strides: tuple  # m, of each gait that there is
+    first: int = 0  # the number that the bake gives the first of them
+
+    @classmethod
+    def of(cls, strides, gaits):
+        """@param strides of all gaits that the bake knows of; @param gaits the first and the last that the cast has"""
+        first, last = gaits
+        return cls(tuple(strides[first:last + 1]), first)
 
     def walking(self, level=0):
         """How many poses walk; the standing ones come after."""
@@ -43,8 +50,9 @@ class Repertoire:
         return self.poses(0)
 
     def walking_pose(self, gait_index, phase, level=0):
+        """@param gait_index as the bake numbers them"""
         poses = LEVEL_POSES[level]
-        return gait_index * poses + min(poses - 1, int((phase % 1.0) * poses))
+        return (gait_index - self.first) * poses + min(poses - 1, int((phase % 1.0) * poses))
 
     def standing_pose(self, clip, beat, level=0):
         """@param beat one of BEATS, whatever the level"""

@@ -34,8 +34,34 @@ def cast_of(crowd):
     return crowd["throng_cast"]
 
 
+def _gaits_of(crowd):
+    """(first, last): the add-on once made all of them."""
+    return tuple(crowd.get("throng_gaits", (0, len(crowd["throng_strides"]) - 1)))
+
+
 def repertoire_of(crowd):
-    return cast.Repertoire(tuple(crowd["throng_strides"]))
+    """What everybody in a crowd's cast can do."""
+    return cast.Repertoire.of(tuple(crowd["throng_strides"]), _gaits_of(crowd))
+
+
+def widen(crowd, gaits=None):
+    """Lets a cast walk with more gaits, from a first to a last one; with all of them unless told.
+
+    A crowd has only those that its bake walks with, as every pose costs time in every frame. Characters that were brought along cannot be
+    made again, so whoever brings one widens the crowd to all gaits first: here, everybody is a shipped person whose poses are made anew.
+    """
+    first, last = _gaits_of(crowd)
+    wanted = (min(first, gaits[0]), max(last, gaits[1])) if gaits else (0, len(crowd["throng_strides"]) - 1)
+    if wanted == (first, last):
+        return
+    shown = cast_of(crowd)
+    levels = _levels(shown)
+    crowd["throng_gaits"] = wanted
+    for number in range(shown["throng_variations"]):
+        materials = list(library.objects_of(shown, 0, number)[0].data.materials)
+        _discard(shown, number, keep=materials)
+        library.add_person(shown, number, repertoire_of(crowd), materials, levels)
+    _changed(crowd)
 
 
 def poses(crowd, level=0):
@@ -54,14 +80,14 @@ def _levels(shown):
     return sorted({level for level, _ in library.blocks_of(shown)})
 
 
-def _discard(shown, number):
-    """Removes a member at all levels, with the meshes that it brought."""
+def _discard(shown, number, keep=()):
+    """Removes a member at all levels, with the meshes that it brought, and with their materials that nobody else has, unless they are to be kept."""
     things = [thing for level in _levels(shown) for thing in library.objects_of(shown, level, number)]
     holders = {thing.parent for thing in things if thing.parent}
     details = [holder["throng_details"] for holder in holders if holder.get("throng_details")]
     stored = [thing for collection in details for thing in collection.objects]
     meshes = {thing.data for thing in things + stored}
-    materials = {material for mesh in meshes for material in mesh.materials if material}
+    materials = {material for mesh in meshes for material in mesh.materials if material and material not in keep}
     images = {node.image for material in materials if material.node_tree for node in material.node_tree.nodes if getattr(node, "image", None)}
     bpy.data.batch_remove([*things, *stored, *details, *holders])
     for brought in (meshes, materials, images):

@@ -64,6 +64,7 @@ class _AddsCharacter:
         from . import character, files, members
 
         number = members.number_for(crowd, None if self.replace < 0 else self.replace)
+        members.widen(crowd)
         made = character.make(armature, members.repertoire_of(crowd), name, self._options())
         try:
             files.pack_images([level[0] for level in made.meshes])

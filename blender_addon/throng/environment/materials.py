@@ -183,10 +183,11 @@ def glow(material, strength, varied=True):
     nodes, links, shader = _nodes_of(material)
     colour = shader.inputs["Emission Color" if "Emission Color" in shader.inputs else "Emission"]
     colour.default_value = (1.0, 0.66, 0.34, 1.0)
-    if not hasattr(material.cycles, "emission_sampling"):
-        material.cycles.sample_as_light = False  # hundreds of panes light little and cost much noise
-    else:
-        material.cycles.emission_sampling = "NONE"
+    cycles = getattr(material, "cycles", None)  # none where that add-on is disabled
+    if cycles and hasattr(cycles, "emission_sampling"):
+        cycles.emission_sampling = "NONE"  # hundreds of panes light little and cost much noise
+    elif cycles:
+        cycles.sample_as_light = False
     socket = shader.inputs["Emission Strength"]
     for link in [*socket.links]:
         links.remove(link)

@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Runs inside Blender: a crowd of few gaits, with levels of detail and a changed look, plays a bake of more gaits, and the first one again."""
+import json
+import os
+import sys
+
+import bpy
+
+addon, few, many = sys.argv[-3:]
+sys.path.insert(0, addon)
+import throng  # noqa: E402
+from throng import crowds  # noqa: E402
+from throng.characters import members  # noqa: E402
+
+bpy.ops.wm.read_factory_settings(use_empty=True)
+throng.register()
+assert bpy.ops.import_scene.throng(filepath=os.path.join(few, "bake.json"), scenery=False) == {"FINISHED"}
+scene = bpy.context.scene
+crowd = crowds.crowd_objects(scene)[0]
+assert bpy.ops.throng.levels(by="camera", near=1e5, far=1e6) == {"FINISHED"}
+members.poses(crowd)[0][0].data.materials[0].diffuse_color = (0.25, 0.5, 0.75, 1.0)
+shots = []
+for bake in (None, many, few):
+    if bake:
+        assert bpy.ops.throng.relink(filepath=os.path.join(bake, "bake.json")) == {"FINISHED"}
+    scene.frame_set(10)
+    shots.append({
+        "poses": sum(len(poses) for poses in members.poses(crowd).values()), "coarse": sum(len(poses) for poses in members.poses(crowd, 1).values()),
+        "people": {i.persistent_id[0]: i.object.name for i in bpy.context.evaluated_depsgraph_get().object_instances
+                   if i.is_instance and i.parent and i.parent.original == crowd},
+        "look": [(material.name, tuple(material.diffuse_color)) for material in members.poses(crowd)[0][0].data.materials] + [len(bpy.data.materials)]})
+print("RESULT " + json.dumps({"shots": shots}))
