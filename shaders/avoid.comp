@@ -11,7 +11,6 @@ layout(std430) readonly buffer Bodies { Body bodies[]; };
 layout(std430) readonly buffer PreferredVelocities { vec2 preferred_velocities[]; };
 layout(std430) readonly buffer Neighbours { uint neighbours[]; };
 layout(std430) readonly buffer NeighbourCounts { uint neighbour_counts[]; };
-layout(std430) readonly buffer RowSlots { uint row_slots[]; };
 layout(std430) readonly buffer TouchWords { uint touch_words[]; };
 layout(std430) readonly buffer WallSegments { WallSegment wall_segments[]; };
 layout(std430) readonly buffer WallStarts { uint wall_starts[]; };
@@ -123,10 +122,9 @@ float paceAmongAll(Body self, uint slot, vec2 way, float speed, float headway) {
     for (uint i = 0u; i < neighbour_counts[slot]; ++i) {
         uint key = neighbours[i * slot_capacity + slot];
         if ((key & NEIGHBOUR_IS_WALL) != 0u) continue;
-        uint other_slot = row_slots[key];
-        Body other = bodies[other_slot];
+        Body other = bodies[key];
         pace = min(pace, paceBehind(way, speed, headway, other.position - self.position, self.radius + other.radius,
-                                    preferred_velocities[other_slot]));
+                                    preferred_velocities[key]));
     }
     return pace;
 }
@@ -137,10 +135,9 @@ vec2 roomForAll(Body self, uint slot, vec2 wish, Manners manners) {
     for (uint i = 0u; i < neighbour_counts[slot]; ++i) {
         uint key = neighbours[i * slot_capacity + slot];
         if ((key & NEIGHBOUR_IS_WALL) != 0u) continue;
-        uint other_slot = row_slots[key];
-        Body other = bodies[other_slot];
+        Body other = bodies[key];
         room += roomFor(manners, self.position - other.position, self.velocity - other.velocity, wish - other.velocity,
-                        self.radius + other.radius, preferred_velocities[other_slot]);
+                        self.radius + other.radius, preferred_velocities[key]);
     }
     return room;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Orders the people of each cell by row, so that a bake repeats byte for byte, and gathers what neighbours read of
-// each other into slot order: that memory locality is what makes sensing fast.
+// each other into slot order: that memory locality is what makes sensing fast. For its sake the diagram that people
+// sense with calls its sites by their slots; only pictures of it call them by their rows.
 #include "shaders/shared/simulation_types.h"
 
 layout(local_size_x = AGENT_GROUP_SIZE) in;
@@ -11,9 +12,10 @@ layout(std430) readonly buffer States { AgentState states[]; };
 layout(std430) readonly buffer RowCells { uint row_cells[]; };
 layout(std430) readonly buffer CellStarts { uint cell_starts[]; };
 layout(std430) readonly buffer LooseRows { uint loose_rows[]; };
-layout(std430) writeonly buffer RowSlots { uint row_slots[]; };
+layout(std430) writeonly buffer SiteSlots { uint site_slots[]; };
 layout(std430) writeonly buffer Bodies { Body bodies[]; };
 layout(std430) writeonly buffer Sites { DiagramSite sites[]; };
+uniform uint ids_are_rows;  // 0: slots
 
 void main() {
     uint loose = gl_GlobalInvocationID.x;
@@ -24,7 +26,6 @@ void main() {
     uint last = cell_starts[cell + 1u];
     uint slot = first;
     for (uint other = first; other < last; ++other) slot += loose_rows[other] < row ? 1u : 0u;
-    row_slots[row] = slot;
 
     Body body;
     body.position = states[row].position;
@@ -39,6 +40,7 @@ void main() {
     DiagramSite site;
     site.position = pixel;
     site.radius = max(parameters.tile_radius, body.radius) * parameters.pixels_per_metre;
-    site.id = row;
+    site.id = ids_are_rows != 0u ? row : slot;
     sites[slot] = site;
+    site_slots[site.id] = slot;
 }

@@ -7,14 +7,16 @@ layout(std140) uniform ParametersBlock { Parameters parameters; };
 layout(std430) readonly buffer RowCells { uint row_cells[]; };
 layout(std430) buffer CellCursors { uint cell_cursors[]; };
 layout(std430) writeonly buffer LooseRows { uint loose_rows[]; };
-layout(std430) writeonly buffer RowSlots { uint row_slots[]; };
+layout(std430) readonly buffer LiveDispatch { uint live_groups[3]; uint live_count; };
+layout(std430) writeonly buffer SiteSlots { uint site_slots[]; };
+uniform uint ids_are_rows;  // of the sites, see bodies_gather.comp
 
 void main() {
     uint row = gl_GlobalInvocationID.x;
     if (row >= parameters.row_count) return;
     uint cell = row_cells[row];
-    if (cell == NO_INDEX)
-        row_slots[row] = NO_INDEX;
-    else
+    bool site_exists = ids_are_rows != 0u ? cell != NO_INDEX : row < live_count;
+    if (!site_exists) site_slots[row] = NO_INDEX;
+    if (cell != NO_INDEX)
         loose_rows[atomicAdd(cell_cursors[cell], 1u)] = row;
 }

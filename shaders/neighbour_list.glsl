@@ -61,7 +61,7 @@ uint feelContacts(Body self, uint self_slot) {
             vec2 offset = bodies[slot].position - self.position;
             float distance_squared = dot(offset, offset);
             if (distance_squared > range_squared || slot == self_slot) continue;
-            keepNearest(distance_squared, bodies[slot].row);
+            keepNearest(distance_squared, slot);
             float touch_distance = reach + bodies[slot].radius;
             if (distance_squared > touch_distance * touch_distance) continue;
             if (touching < TOUCH_CAPACITY) touch_lists[self_slot * TOUCH_CAPACITY + touching] = slot;

@@ -17,7 +17,6 @@
 #include "shaders/neighbour_list.glsl"
 #include "shaders/owners.glsl"
 
-layout(std430) readonly buffer RowSlots { uint row_slots[]; };
 layout(std430) readonly buffer WallTiles { WallTile wall_tiles[]; };
 uniform vec2 pattern[SENSING_SAMPLES];  // m, in the person's own frame: where it looks
 
@@ -25,18 +24,18 @@ uniform vec2 pattern[SENSING_SAMPLES];  // m, in the person's own frame: where i
 /// of their angle, so what lies in one direction is met in one go and few ids come twice.
 uint candidates[SENSING_SAMPLES];
 
-int marchRays(Body self) {
+int marchRays(Body self, uint self_slot) {
     vec2 centre = (self.position - parameters.diagram_minimum) * parameters.pixels_per_metre;
     vec2 forward = vec2(cos(self.heading), sin(self.heading)) * parameters.pixels_per_metre;
     vec2 upper = vec2(parameters.diagram_width, parameters.diagram_height) - 1.0;
     int count = 0;
-    uvec3 recent = uvec3(self.row);
+    uvec3 recent = uvec3(self_slot);
     for (int i = 0; i < SENSING_SAMPLES; ++i) {
         vec2 local = pattern[i];
         vec2 pixel = centre + vec2(forward.x * local.x - forward.y * local.y, forward.y * local.x + forward.x * local.y);
         uvec2 at = uvec2(clamp(pixel, vec2(0.0), upper));
         uint owner = ownerAt(at);
-        bool fresh = owner != NO_INDEX && owner != self.row && owner != recent.x && owner != recent.y && owner != recent.z;
+        bool fresh = owner != NO_INDEX && owner != self_slot && owner != recent.x && owner != recent.y && owner != recent.z;
         candidates[count] = owner;
         count += fresh ? 1 : 0;
         recent = fresh ? uvec3(owner, recent.xy) : recent;
@@ -44,10 +43,10 @@ int marchRays(Body self) {
     return count;
 }
 
-void weighBody(Body self, uint row) {
-    if (isKept(row)) return;
-    vec2 offset = bodies[row_slots[row]].position - self.position;
-    keepNearest(dot(offset, offset), row);
+void weighBody(Body self, uint slot) {
+    if (isKept(slot)) return;
+    vec2 offset = bodies[slot].position - self.position;
+    keepNearest(dot(offset, offset), slot);
 }
 
 void main() {
@@ -56,7 +55,7 @@ void main() {
     Body self = bodies[slot];
     forgetEverybody();
     uint touch_word = feelContacts(self, slot);
-    int count = marchRays(self);
+    int count = marchRays(self, slot);
     for (int i = 0; i < count; ++i) {
         uint site = candidates[i];
         if (site < parameters.row_count)

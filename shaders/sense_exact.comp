@@ -53,7 +53,7 @@ void weighSlots(Body self, vec2 forward, uint first, uint last) {
         // Those within the contact range are listed already, and nobody is farther than the list's last when it is full.
         if (distance_squared <= felt || distance_squared > reach * reach) continue;
         if (distance_squared > nearest_distance[NEIGHBOURS - 1] || !isInView(forward, offset)) continue;
-        keepNearest(distance_squared, bodies[slot].row);
+        keepNearest(distance_squared, slot);
     }
 }
 

@@ -45,7 +45,7 @@ std::vector<gpu::AgentState> initialStates(const authoring::Scene& scene) {
     return states;
 }
 
-std::vector<std::uint32_t> initialRowSlots(const authoring::Scene& scene) {
+std::vector<std::uint32_t> initialSiteSlots(const authoring::Scene& scene) {
     const std::size_t rows = scene.people.size();
     std::vector<std::uint32_t> slots(rows + scene.wall_tiles.size(), gpu::NO_INDEX);
     for (std::size_t tile = 0; tile < scene.wall_tiles.size(); ++tile)
@@ -166,7 +166,7 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
     loose_rows = gl::Buffer("loose rows", kWord * rows);
     live_dispatch = gl::Buffer("live dispatch", kWord * 4);
 
-    row_slots = gl::makeBuffer("row slots", initialRowSlots(scene));
+    site_slots = gl::makeBuffer("site slots", initialSiteSlots(scene));
     bodies = gl::Buffer("bodies", sizeof(gpu::Body) * rows);
     sites = gl::Buffer("sites", sizeof(gpu::DiagramSite) * (rows + scene.wall_tiles.size()));
     const std::vector<gpu::DiagramSite> fixed = wallSites(scene, parameter_values);
@@ -213,7 +213,7 @@ std::vector<std::pair<std::string, const gl::Buffer*>> Buffers::named() const {
             {"RowCells", &row_cells},
             {"LooseRows", &loose_rows},
             {"LiveDispatch", &live_dispatch},
-            {"RowSlots", &row_slots},
+            {"SiteSlots", &site_slots},
             {"Bodies", &bodies},
             {"Sites", &sites},
             {"Neighbours", &neighbours},

@@ -36,7 +36,9 @@ CellSort::CellSort(const gl::ShaderLibrary& library, Buffers& buffers, const gpu
     scan_threads_ = (cells + gpu::CELLS_PER_THREAD - 1) / gpu::CELLS_PER_THREAD;
 }
 
-void CellSort::run() {
+void CellSort::run(SiteIds ids) {
+    for (gl::ComputeProgram* program : {&scatter_, &gather_})
+        program->set("ids_are_rows", ids == SiteIds::rows ? 1u : 0u);
     buffers_.cell_counts.fill(0);
     count_.dispatch(rows_);
     sum_.dispatch(scan_threads_);

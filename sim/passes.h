@@ -15,8 +15,11 @@ namespace throng::sim {
 /// Sorts people into cells and gathers their bodies in that order (counting sort, deterministic).
 class CellSort {
   public:
+    /// What a diagram built afterwards has for owners: slots to sense with, rows to look at.
+    enum class SiteIds { slots, rows };
+
     CellSort(const gl::ShaderLibrary& library, Buffers& buffers, const gpu::Parameters& parameters);
-    void run();
+    void run(SiteIds ids = SiteIds::slots);
 
   private:
     Buffers& buffers_;

@@ -123,7 +123,7 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
     // Slots are in the order of the cells, and cells and diagram have one origin.
     const BinGrid cell_grid(parameters.cell_size * parameters.pixels_per_metre,
                             {parameters.cells_width, parameters.cells_height});
-    diagram.connect({&buffers.sites, &buffers.live_dispatch, &buffers.row_slots,
+    diagram.connect({&buffers.sites, &buffers.live_dispatch, &buffers.site_slots,
                      DiagramInput::Sorted{&buffers.cell_starts, cell_grid}});
     pack.bindAll(buffers.named());
     anybody_enters_later = std::any_of(
@@ -281,7 +281,7 @@ void Simulation::packFrame(const gl::Buffer& buffer) {
 }
 
 Diagram& Simulation::buildDiagramNow() {
-    parts_->cells.run();
+    parts_->cells.run(CellSort::SiteIds::rows);
     parts_->diagram.build();
     return parts_->diagram;
 }

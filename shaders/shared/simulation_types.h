@@ -24,7 +24,7 @@ const uint STATUS_GONE = 3u;     // arrived, and has left the scene
 
 const float STANDING_SPEED = 0.1f;  // m/s: slower people stand; slower wishes are to stand
 
-/// A neighbour key is a row, or a wall segment with this bit.
+/// A neighbour key is a slot, or a wall segment with this bit.
 const uint NEIGHBOUR_IS_WALL = 0x80000000u;
 
 /// A touch word counts those who may touch somebody within this step (its low bits) and says whether walls
@@ -73,7 +73,7 @@ struct Body {
 struct DiagramSite {
     vec2 position;
     float radius;  // the tile's
-    uint id;       // agents: the row; wall tiles: the number of rows + the tile's index
+    uint id;  // agents: the slot, or for pictures the row; wall tiles: the number of rows + the tile's index
 };
 
 /// What a person asks for when it wants to enter.

@@ -61,14 +61,17 @@ Lists senseNow(Simulation& simulation) {
     if (parts.sensing.needsDiagram()) parts.diagram.build();
     parts.sensing.run();
     const std::uint32_t capacity = parts.buffers.slotCapacity();
-    const auto slots = parts.buffers.row_slots.download<std::uint32_t>(parts.rows);
+    const auto bodies = parts.buffers.bodies.download<gpu::Body>(parts.rows);
     const auto counts = parts.buffers.neighbour_counts.download<std::uint32_t>(parts.rows);
     const auto keys = parts.buffers.neighbours.download<std::uint32_t>(
         std::size_t{capacity} * static_cast<std::size_t>(parts.settings.neighbours));
     Lists lists(parts.rows);
-    for (std::uint32_t row = 0; row < parts.rows; ++row)
-        for (std::uint32_t i = 0; i < counts[slots[row]]; ++i)
-            lists[row].push_back(keys[i * capacity + slots[row]]);
+    const std::uint32_t present = parts.buffers.live_dispatch.download<std::uint32_t>(4)[3];
+    for (std::uint32_t slot = 0; slot < present; ++slot)
+        for (std::uint32_t i = 0; i < counts[slot]; ++i) {
+            const std::uint32_t key = keys[i * capacity + slot];
+            lists[bodies[slot].row].push_back(key & gpu::NEIGHBOUR_IS_WALL ? key : bodies[key].row);
+        }
     return lists;
 }
 
