@@ -5,9 +5,9 @@
 layout(local_size_x = AGENT_GROUP_SIZE) in;
 layout(std140) uniform ParametersBlock { Parameters parameters; };
 layout(std430) readonly buffer LiveDispatch { uint live_groups[3]; uint live_count; };
-layout(std430) readonly buffer People { Person people[]; };
 layout(std430) readonly buffer States { AgentState states[]; };
 layout(std430) readonly buffer Bodies { Body bodies[]; };
+layout(std430) readonly buffer Walkers { Walker walkers[]; };
 layout(std430) readonly buffer PreferredVelocities { vec2 preferred_velocities[]; };
 layout(std430) readonly buffer Neighbours { uint neighbours[]; };
 layout(std430) readonly buffer NeighbourCounts { uint neighbour_counts[]; };
@@ -155,24 +155,24 @@ void main() {
     uint slot = gl_GlobalInvocationID.x;
     if (slot >= live_count) return;
     Body self = bodies[slot];
+    Walker walker = walkers[slot];
     bool walls = (touch_words[slot] & (TOUCH_WALL_NEAR | TOUCH_WALL_SENSED)) != 0u;
     int hard = walls ? gatherWalls(self, slot) : 0;
     int count = hard;
     vec3 kerb;
-    if (parameters.has_roads != 0u && (people[self.row].flags & PERSON_KEEPS_TO_ROADS) != 0u && kerbConstraint(self, kerb))
+    if (parameters.has_roads != 0u && (walker.flags & PERSON_KEEPS_TO_ROADS) != 0u && kerbConstraint(self, kerb))
         setConstraint(count++, kerb);
 
     vec2 wish = preferred_velocities[slot];
     float speed = length(wish);
     vec2 way = speed > STANDING_SPEED ? wish / speed : vec2(cos(self.heading), sin(self.heading));
-    float headway = people[self.row].headway;
-    float pace = paceAmongAll(self, slot, way, speed, headway);
+    float pace = paceAmongAll(self, slot, way, speed, walker.headway);
     paces[slot] = pace;
-    Manners manners = mannersOf(way, states[self.row].nervousness, neighbour_counts[slot], headway, pace / max(speed, STANDING_SPEED));
+    Manners manners = mannersOf(way, walker.nervousness, neighbour_counts[slot], walker.headway, pace / max(speed, STANDING_SPEED));
     vec2 acceleration = drive(pace < speed ? wish * (pace / speed) : wish, self.velocity) +
                         roomForAll(self, slot, wish, manners) * (speed > STANDING_SPEED ? 1.0 : ROOM_OF_THE_STANDING);
-    if (people[self.row].party_size > 1u && speed > STANDING_SPEED)
-        acceleration += company(self, way) * smoothstep(0.0, 0.7, speed / people[self.row].preferred_speed);
+    if (walker.party_size > 1u && speed > STANDING_SPEED)
+        acceleration += company(self, walker.party_first, walker.party_size, way) * smoothstep(0.0, 0.7, speed / walker.preferred_speed);
     vec2 wanted = self.velocity + acceleration * parameters.step_seconds;
     vec2 velocity;
     int obeyed = solveInDisc(0, count, self.maximum_speed, wanted, false, velocity);

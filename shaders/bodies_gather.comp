@@ -14,6 +14,7 @@ layout(std430) readonly buffer CellStarts { uint cell_starts[]; };
 layout(std430) readonly buffer LooseRows { uint loose_rows[]; };
 layout(std430) writeonly buffer SiteSlots { uint site_slots[]; };
 layout(std430) writeonly buffer Bodies { Body bodies[]; };
+layout(std430) writeonly buffer Walkers { Walker walkers[]; };
 layout(std430) writeonly buffer Sites { DiagramSite sites[]; };
 uniform uint ids_are_rows;  // 0: slots
 
@@ -27,14 +28,18 @@ void main() {
     uint slot = first;
     for (uint other = first; other < last; ++other) slot += loose_rows[other] < row ? 1u : 0u;
 
+    AgentState state = states[row];
+    Person person = people[row];
     Body body;
-    body.position = states[row].position;
-    body.velocity = states[row].velocity;
-    body.radius = people[row].radius;
-    body.heading = states[row].heading;
+    body.position = state.position;
+    body.velocity = state.velocity;
+    body.radius = person.radius;
+    body.heading = state.heading;
     body.row = row;
-    body.maximum_speed = people[row].maximum_speed;
+    body.maximum_speed = person.maximum_speed;
     bodies[slot] = body;
+    walkers[slot] = Walker(person.preferred_speed, person.headway, person.flags, person.party_first, person.party_size, person.change_count,
+                           state.status, state.stage, state.stage_end, state.leave_step, state.ticket, state.nervousness);
 
     precise vec2 pixel = (body.position - parameters.diagram_minimum) * parameters.pixels_per_metre;
     DiagramSite site;

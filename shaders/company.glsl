@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Walking together (Moussaid et al. 2010, equations 3 to 5, with its figures): people who belong together would like to see
 // each other without turning their heads by more than a right angle, stay near, and leave each other an arm's length. Two
-// walk abreast then, three in a V and four in a U, and in a crowd the V closes. Needs the blocks People and States.
+// walk abreast then, three in a V and four in a U, and in a crowd the V closes. Needs the block States.
 
 const float SEEING_EACH_OTHER = 4.0;  // 1/s per rad of turning the head
 const float STAYING_NEAR = 3.0;       // m/s^2
@@ -12,11 +12,10 @@ const float LEAVING_ROOM = 1.0;       // m/s^2
 const float OUT_OF_COMPANY = 4.0;
 
 /// m/s^2: what walking with its party makes of somebody's way.
-vec2 company(Body self, vec2 way) {
-    Person person = people[self.row];
+vec2 company(Body self, uint first, uint size, vec2 way) {
     vec2 sum = vec2(0.0), apart = vec2(0.0);
     float others = 0.0;
-    for (uint row = person.party_first; row < person.party_first + person.party_size; ++row) {
+    for (uint row = first; row < first + size; ++row) {
         if (row == self.row || states[row].status != STATUS_WALKING) continue;
         vec2 offset = states[row].position - self.position;
         float distance = length(offset);

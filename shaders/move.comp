@@ -7,6 +7,7 @@ layout(std140) uniform ParametersBlock { Parameters parameters; };
 layout(std430) readonly buffer LiveDispatch { uint live_groups[3]; uint live_count; };
 layout(std430) readonly buffer People { Person people[]; };
 layout(std430) readonly buffer Bodies { Body bodies[]; };
+layout(std430) readonly buffer Walkers { Walker walkers[]; };
 layout(std430) readonly buffer PreferredVelocities { vec2 preferred_velocities[]; };
 layout(std430) readonly buffer Paces { float paces[]; };
 layout(std430) readonly buffer Targets { vec2 targets[]; };
@@ -110,9 +111,9 @@ void followRoute(inout AgentState state, Stage stage, uint row) {
 }
 
 /// @returns whether plans have changed
-bool changePlans(inout AgentState state, Person person) {
-    if (state.changes >= person.change_count) return false;
-    PlanChange change = plan_changes[person.first_change + state.changes];
+bool changePlans(inout AgentState state, uint change_count, uint row) {
+    if (state.changes >= change_count) return false;
+    PlanChange change = plan_changes[people[row].first_change + state.changes];
     if (change.start_step > steps_done) return false;
     state.changes += 1u;
     state.stage = change.first_stage;
@@ -128,9 +129,8 @@ void main() {
     uint slot = gl_GlobalInvocationID.x;
     if (slot >= live_count) return;
     Body self = bodies[slot];
-    Person person = people[self.row];
     AgentState state = states[self.row];
-    Stage stage = stageOf(state);
+    Stage stage = stageOf(state.stage, state.ticket);
 
     vec2 moved = targets[slot] - self.position;
     float distance_moved = length(moved);
@@ -138,14 +138,14 @@ void main() {
     state.velocity = moved / parameters.step_seconds;
     float speed = length(state.velocity);
     // A push may be faster than legs are; the next step does not build on it.
-    if (speed > person.maximum_speed) state.velocity *= person.maximum_speed / speed;
+    if (speed > self.maximum_speed) state.velocity *= self.maximum_speed / speed;
     state.nervousness += (heldUp(preferred_velocities[slot], paces[slot], state.velocity) - state.nervousness) *
                          min(parameters.step_seconds / PATIENCE_TIME, 1.0);
     state.heading = turned(state, stage, speed);
     state.walked += distance_moved;
     if (state.shortest_way <= 0.0) state.shortest_way = routeAhead(stage, self.position).remaining + stage.beyond;
-    if (changePlans(state, person)) {
-        stage = stageOf(state);
+    if (changePlans(state, walkers[slot].change_count, self.row)) {
+        stage = stageOf(state.stage, state.ticket);
         state.shortest_way = state.walked + routeAhead(stage, state.position).remaining + stage.beyond;
     } else {
         followRoute(state, stage, self.row);

@@ -5,9 +5,9 @@
 layout(local_size_x = AGENT_GROUP_SIZE) in;
 layout(std140) uniform ParametersBlock { Parameters parameters; };
 layout(std430) readonly buffer LiveDispatch { uint live_groups[3]; uint live_count; };
-layout(std430) readonly buffer People { Person people[]; };
 layout(std430) readonly buffer States { AgentState states[]; };
 layout(std430) readonly buffer Bodies { Body bodies[]; };
+layout(std430) readonly buffer Walkers { Walker walkers[]; };
 layout(std430) readonly buffer Stages { Stage stages[]; };
 uniform usamplerBuffer field_cells;  // FieldCell
 layout(std430) readonly buffer DetourSlopes { vec2 detour_slopes[]; };
@@ -54,24 +54,24 @@ const float HURRYING_PACE = 1.2;
 const float LOST = 2.0;       // m to the nearest of the party
 const float QUITE_LOST = 5.0;
 
-vec2 towardsParty(uint row, Person person, vec2 position, vec2 direction) {
+vec2 towardsParty(uint row, Walker walker, vec2 position, vec2 direction) {
     vec2 nearest = vec2(1.0e6);
-    for (uint other = person.party_first; other < person.party_first + person.party_size; ++other) {
+    for (uint other = walker.party_first; other < walker.party_first + walker.party_size; ++other) {
         if (other == row || states[other].status != STATUS_WALKING || states[other].leave_step != 0u) continue;
         vec2 offset = states[other].position - position;
         if (dot(offset, offset) < dot(nearest, nearest)) nearest = offset;
     }
     float distance = length(nearest);
     if (distance <= LOST || distance > 1.0e5) return direction;
-    float pull = smoothstep(LOST, QUITE_LOST, distance) * (1.0 - smoothstep(0.3, 0.6, states[row].nervousness));
+    float pull = smoothstep(LOST, QUITE_LOST, distance) * (1.0 - smoothstep(0.3, 0.6, walker.nervousness));
     vec2 result = direction + pull * nearest / distance;
     float size = length(result);
     return size > 0.3 ? result / size : direction;
 }
 
 /// Where two ways are as good, a party takes the one of its first: whoever is near it and would turn off does not.
-vec2 wayOfParty(uint row, Person person, Stage stage, vec2 position, vec2 direction) {
-    for (uint first = person.party_first; first < row; ++first) {
+vec2 wayOfParty(uint row, Walker walker, Stage stage, vec2 position, vec2 direction) {
+    for (uint first = walker.party_first; first < row; ++first) {
         if (states[first].status != STATUS_WALKING || states[first].leave_step != 0u) continue;
         if (distance(states[first].position, position) > 2.0 * QUITE_LOST) return direction;
         vec2 its_direction = routeAhead(stage, states[first].position).direction;
@@ -80,11 +80,11 @@ vec2 wayOfParty(uint row, Person person, Stage stage, vec2 position, vec2 direct
     return direction;
 }
 
-float paceInParty(uint row, Person person, Stage stage, float remaining) {
-    uint stages_left = states[row].stage_end - states[row].stage;
+float paceInParty(uint row, Walker walker, Stage stage, float remaining) {
+    uint stages_left = walker.stage_end - walker.stage;
     float lead = -LEAD_ENDS;  // over whoever is furthest behind
     float lag = -LEAD_ENDS;   // behind whoever is furthest ahead
-    for (uint other = person.party_first; other < person.party_first + person.party_size; ++other) {
+    for (uint other = walker.party_first; other < walker.party_first + walker.party_size; ++other) {
         if (other == row || states[other].status != STATUS_WALKING) continue;
         uint its_stages_left = states[other].stage_end - states[other].stage;
         float its_remaining = routeAhead(stage, states[other].position).remaining;
@@ -108,25 +108,25 @@ void main() {
     uint slot = gl_GlobalInvocationID.x;
     if (slot >= live_count) return;
     uint row = bodies[slot].row;
-    Person person = people[row];
-    Stage stage = stageOf(states[row]);
+    Walker walker = walkers[slot];
+    Stage stage = stageOf(walker.stage, walker.ticket);
     RouteAhead ahead = routeAhead(stage, bodies[slot].position);
 
-    if (person.party_size > 1u) {
-        ahead.direction = wayOfParty(row, person, stage, bodies[slot].position, ahead.direction);
+    if (walker.party_size > 1u) {
+        ahead.direction = wayOfParty(row, walker, stage, bodies[slot].position, ahead.direction);
         // Near one's own place, one goes there, wherever the others' are.
         bool arrives = stage.dwell > 0.0 && ahead.remaining < QUITE_LOST;
-        if (!arrives) ahead.direction = towardsParty(row, person, bodies[slot].position, ahead.direction);
+        if (!arrives) ahead.direction = towardsParty(row, walker, bodies[slot].position, ahead.direction);
     }
     float angle = (randomUnit(parameters.seed, row, PURPOSE_SYMMETRY) * 2.0 - 1.0) * SYMMETRY_BREAKING +
-                  ((touch_words[slot] & TOUCH_WALL_NEAR) != 0u ? searchAngle(row, states[row].nervousness) : 0.0);
+                  ((touch_words[slot] & TOUCH_WALL_NEAR) != 0u ? searchAngle(row, walker.nervousness) : 0.0);
     vec2 direction = mat2(cos(angle), sin(angle), -sin(angle), cos(angle)) * ahead.direction;
-    float speed = person.preferred_speed;
+    float speed = walker.preferred_speed;
 #ifdef TERRAIN
     speed *= slopePace(bodies[slot].position, direction);
 #endif
-    if (person.party_size > 1u) speed *= paceInParty(row, person, stage, ahead.remaining);
-    bool stopped = states[row].status == STATUS_ARRIVED || states[row].leave_step != 0u;
+    if (walker.party_size > 1u) speed *= paceInParty(row, walker, stage, ahead.remaining);
+    bool stopped = walker.status == STATUS_ARRIVED || walker.leave_step != 0u;
     if (stopped && (stage.flags & STAGE_ANYWHERE) != 0u && ahead.remaining > CONTENT)
         speed = 0.0;
     else if (stage.dwell > 0.0)

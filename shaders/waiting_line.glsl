@@ -13,10 +13,10 @@ vec2 placeInLine(WaitingLine line, uint nth) {
 }
 
 /// The stage somebody is at. In a line its point is the own place, or the end of the line for those who come.
-Stage stageOf(AgentState state) {
-    Stage stage = stages[state.stage];
+Stage stageOf(uint number, uint ticket) {
+    Stage stage = stages[number];
     if (stage.line == NO_INDEX) return stage;
     WaitingLine line = waiting_lines[stage.line];
-    stage.point = placeInLine(line, (state.ticket == NO_INDEX ? line.given : state.ticket) - line.served);
+    stage.point = placeInLine(line, (ticket == NO_INDEX ? line.given : ticket) - line.served);
     return stage;
 }

@@ -168,6 +168,7 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
 
     site_slots = gl::makeBuffer("site slots", initialSiteSlots(scene));
     bodies = gl::Buffer("bodies", sizeof(gpu::Body) * rows);
+    walkers = gl::Buffer("walkers", sizeof(gpu::Walker) * rows);
     sites = gl::Buffer("sites", sizeof(gpu::DiagramSite) * (rows + scene.wall_tiles.size()));
     const std::vector<gpu::DiagramSite> fixed = wallSites(scene, parameter_values);
     if (!fixed.empty()) sites.upload(std::span<const gpu::DiagramSite>(fixed), rows);
@@ -215,6 +216,7 @@ std::vector<std::pair<std::string, const gl::Buffer*>> Buffers::named() const {
             {"LiveDispatch", &live_dispatch},
             {"SiteSlots", &site_slots},
             {"Bodies", &bodies},
+            {"Walkers", &walkers},
             {"Sites", &sites},
             {"Neighbours", &neighbours},
             {"NeighbourCounts", &neighbour_counts},

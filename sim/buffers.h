@@ -31,7 +31,7 @@ struct Buffers {
 
     gl::Buffer cell_counts, group_sums, cell_starts, cell_cursors, row_cells, loose_rows, live_dispatch;
     gl::Buffer site_slots;  // by ids of sites: also the order in which gradient1 draws
-    gl::Buffer bodies, sites;
+    gl::Buffer bodies, walkers, sites;
     gl::Buffer neighbours, neighbour_counts, touch_words, touch_lists, touch_slots, touch_dispatch;
     gl::Buffer preferred_velocities, paces, targets, targets_after;
 

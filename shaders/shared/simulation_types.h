@@ -69,6 +69,23 @@ struct Body {
     float maximum_speed;  // m/s
 };
 
+/// What else moving somebody takes, by slot, too: looked up once by row, and read in order by the passes that
+/// follow.
+struct Walker {
+    float preferred_speed;  // m/s, and so on as in Person
+    float headway;
+    uint flags;
+    uint party_first;
+    uint party_size;
+    uint change_count;
+    uint status;  // and so on as in AgentState
+    uint stage;
+    uint stage_end;
+    uint leave_step;
+    uint ticket;
+    float nervousness;
+};
+
 /// A site of the diagram, in pixels from the window's corner.
 struct DiagramSite {
     vec2 position;

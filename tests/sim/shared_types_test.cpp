@@ -77,6 +77,13 @@ TEST_F(SharedTypesTest, PersonAndStateAgree) {
     EXPECT_MEMBER(found, "bodies", Body, radius);
     EXPECT_MEMBER(found, "bodies", Body, row);
     EXPECT_MEMBER(found, "bodies", Body, maximum_speed);
+    EXPECT_MEMBER(found, "walkers", Walker, preferred_speed);
+    EXPECT_MEMBER(found, "walkers", Walker, flags);
+    EXPECT_MEMBER(found, "walkers", Walker, party_size);
+    EXPECT_MEMBER(found, "walkers", Walker, change_count);
+    EXPECT_MEMBER(found, "walkers", Walker, stage);
+    EXPECT_MEMBER(found, "walkers", Walker, ticket);
+    EXPECT_MEMBER(found, "walkers", Walker, nervousness);
     EXPECT_MEMBER(found, "stages", Stage, point);
     EXPECT_MEMBER(found, "stages", Stage, tolerance);
     EXPECT_MEMBER(found, "stages", Stage, field);
