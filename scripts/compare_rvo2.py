@@ -100,6 +100,37 @@ def compare(program, people, rounds, folder):
             "ms": {name: statistics.median(values) for name, values in times.items()}}
 
 
+def flatness(program, counts, rounds):
+    """What a person costs in crowds of several sizes, taken in turn, as the machine is now faster and now slower: {proximity: {count: (us, ratio)}}.
+
+    The ratio to the smallest crowd's is the median over the rounds.
+    """
+    result = {}
+    for name, proximity in (("diagram", "voronoi"), ("grid", "grid")):
+        crowds = {people: Throng(program, people, proximity) for people in counts}
+        costs = {people: [] for people in counts}
+        for i in range(rounds + 1):
+            for people, crowd in crowds.items():
+                cost = 1000.0 * statistics.median(crowd.step() for _ in range(max(1, 262144 // people))) / people
+                if i > 0:  # the first warms up
+                    costs[people].append(cost)
+        for crowd in crowds.values():
+            crowd.close()
+        base = costs[counts[0]]
+        result[name] = {people: (statistics.median(costs[people]), statistics.median(cost / least for cost, least in zip(costs[people], base)))
+                        for people in counts}
+    return result
+
+
+def flatness_table(found):
+    counts = list(found["diagram"])
+    lines = ["| people | " + " | ".join(f"{people:,}" for people in counts) + " |", "| --- |" + " --- |" * len(counts)]
+    for name, costs in found.items():
+        lines.append(f"| {name}, us a person | " + " | ".join(f"{costs[people][0]:.3f}" for people in counts) + " |")
+        lines.append(f"| {name}, beside {counts[0]:,} | " + " | ".join(f"{100.0 * (costs[people][1] - 1.0):+.0f} %" for people in counts) + " |")
+    return "\n".join(lines)
+
+
 def table(results, base_memory):
     lines = ["| people | Throng, diagram | Throng, grid | RVO2 | diagram / RVO2 | grid / RVO2 | us a person: diagram | grid | RVO2 | KiB a person: diagram | grid | RVO2 |",
              "| --- |" + " --- |" * 11]
@@ -130,6 +161,7 @@ def main():
     parser.add_argument("--people", type=int, nargs="+", default=[4096, 16384, 65536, 262144, 1048576])
     parser.add_argument("--rounds", type=int, default=15)
     options = parser.parse_args()
+    base_memory_of(options.program)  # fills the driver's cache of shaders: compiling takes memory, too
     with tempfile.TemporaryDirectory() as folder:
         results = [compare(options.program, people, options.rounds, folder) for people in options.people]
     text = f"""# Whole steps beside RVO2
@@ -140,6 +172,10 @@ The same crowd for all: one person per 4 m^2 on its way to a random goal, body r
 Memory is the resident set of the process less that of the same program with one person (RVO2: what its agents added).
 
 {table(results, base_memory_of(options.program))}
+
+**How flat it is.** Whole steps of crowds of several sizes in turn, {options.rounds} rounds; ratios are medians over the rounds.
+
+{flatness_table(flatness(options.program, [people for people in options.people if people >= 16384] or options.people[:1], options.rounds))}
 """
     options.output.mkdir(parents=True, exist_ok=True)
     (options.output / "rvo2.md").write_text(text)
