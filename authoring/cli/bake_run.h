@@ -15,6 +15,7 @@ struct BakeRequest {
     std::vector<std::string> overrides;
     std::string diagrams = "none";
     std::string method, proximity;
+    std::string fields = "auto";
     bool densities = false;
     bool seconds = false;
     double checkpoint_minutes = 10.0;

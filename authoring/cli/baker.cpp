@@ -29,6 +29,7 @@ std::string identityOf(const LoadedLayout& loaded, const BakeJob& job, const gl:
                     job.diagram_every, job.seconds, job.densities, job.options.gltf, job.options.gltf_agents);
     for (const std::string& override_text : loaded.overrides)
         text += override_text + "\n";
+    if (loaded.fields_on_device) text += "fields on the device\n";  // other bits than the CPU's
     if (loaded.terrain) text += fmt::format("{:016x}\n", loaded.terrain_identity);
     return io::hashText(text + loaded.text);
 }

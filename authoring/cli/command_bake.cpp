@@ -10,6 +10,7 @@
 #include "authoring/cli/bake_run.h"
 #include "authoring/cli/baker.h"
 #include "authoring/cli/commands.h"
+#include "authoring/cli/device_fields.h"
 #include "authoring/cli/exit_codes.h"
 #include "authoring/cli/interrupt.h"
 #include "io/bake_info.h"
@@ -33,6 +34,10 @@ std::string methodWords() {
     for (const authoring::DiagramMethodEntry& entry : authoring::kDiagramMethods)
         words += (words.empty() ? "" : ", ") + std::string(entry.word);
     return words;
+}
+
+FieldsBy fieldsBy(const std::string& word) {
+    return word == "gpu" ? FieldsBy::device : word == "cpu" ? FieldsBy::cpu : FieldsBy::automatic;
 }
 
 /// --method and --proximity are short for --set; what is set by hand wins.
@@ -88,7 +93,9 @@ void bakeLayout(const BakeRequest& options) {
         return signal == SIGTERM && options.checkpoint_minutes > 0.0 ? WhenStopped::checkpoint
                                                                      : WhenStopped::keep_partial;
     };
-    const LoadedLayout loaded = loadLayout(options.layout, overridesOf(options));
+    const LoadedLayout loaded = loadLayout(options.layout, overridesOf(options), [&] {
+        return makeDeviceFields(fieldsBy(options.fields), options.device, options.shader_dir);
+    });
     Baker baker(options.device, options.shader_dir, loaded.scene.people.size());
     const InterruptGuard interrupt;
     const BakeRun run = baker.bake(loaded, job, interrupt);
@@ -144,6 +151,11 @@ void addBake(CLI::App& app) {
                         "How the diagram is built: auto, " + methodWords() + " (as simulation.method)");
     command->add_option("--proximity", options->proximity,
                         "What finds neighbours: voronoi, grid or brute (as simulation.proximity)");
+    command
+        ->add_option(
+            "--fields", options->fields,
+            "What solves distance fields: cpu, gpu, or auto: the GPU unless that is a software renderer")
+        ->check(CLI::IsMember({"auto", "cpu", "gpu"}));
     command->add_flag("!--no-gltf", options->bake.gltf, "Write no crowd.glb");
     command->add_option("--gltf-agents", options->bake.gltf_agents, "At most this many people in crowd.glb")
         ->capture_default_str();

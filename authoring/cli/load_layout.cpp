@@ -58,7 +58,7 @@ std::string readText(const std::string& path) {
 }  // namespace
 
 LoadAttempt tryReadLayout(std::string text, const std::string& name, std::vector<std::string> overrides,
-                          authoring::GroundCache* cache) {
+                          authoring::GroundCache* cache, const SolverMaker& make_solver) {
     LoadAttempt attempt;
     LoadedLayout& loaded = attempt.loaded;
     loaded.text = std::move(text);
@@ -70,8 +70,10 @@ LoadAttempt tryReadLayout(std::string text, const std::string& name, std::vector
     loaded.layout = std::move(*layout);
     if (loaded.layout.terrain) readTerrain(name, loaded);
     if (loaded.diagnostics.hasErrors()) return attempt;
+    const auto solver = make_solver ? make_solver() : nullptr;
+    loaded.fields_on_device = solver != nullptr;
     std::optional<authoring::Scene> scene =
-        authoring::buildScene(loaded.layout, loaded.diagnostics, cache, loaded.terrain.get());
+        authoring::buildScene(loaded.layout, loaded.diagnostics, cache, loaded.terrain.get(), solver.get());
     if (!scene) return attempt;
     loaded.scene = std::move(*scene);
     if (loaded.layout.name.empty()) loaded.layout.name = std::filesystem::path(name).stem().string();
@@ -79,8 +81,10 @@ LoadAttempt tryReadLayout(std::string text, const std::string& name, std::vector
     return attempt;
 }
 
-LoadAttempt tryLoadLayout(const std::string& path, const std::vector<std::string>& overrides) {
-    return tryReadLayout(readText(path), path == "-" ? "standard input" : path, overrides);
+LoadAttempt tryLoadLayout(const std::string& path, const std::vector<std::string>& overrides,
+                          const SolverMaker& make_solver) {
+    return tryReadLayout(readText(path), path == "-" ? "standard input" : path, overrides, nullptr,
+                         make_solver);
 }
 
 void printDiagnostics(const LoadedLayout& loaded) {
@@ -88,8 +92,9 @@ void printDiagnostics(const LoadedLayout& loaded) {
         fmt::print(stderr, "{}\n", authoring::formatDiagnostic(entry, loaded.diagnostics.file, loaded.text));
 }
 
-LoadedLayout loadLayout(const std::string& path, const std::vector<std::string>& overrides) {
-    LoadAttempt attempt = tryLoadLayout(path, overrides);
+LoadedLayout loadLayout(const std::string& path, const std::vector<std::string>& overrides,
+                        const SolverMaker& make_solver) {
+    LoadAttempt attempt = tryLoadLayout(path, overrides, make_solver);
     printDiagnostics(attempt.loaded);
     if (!attempt.valid) throw Exit(kInvalidInput);
     return std::move(attempt.loaded);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@ struct LoadedLayout {
     std::string terrain_hash;                               ///< of the terrain's file
     std::uint64_t terrain_identity = 0;                     ///< of all that was read of it
     authoring::Scene scene;
+    bool fields_on_device = false;       ///< where distance fields were solved
     authoring::Diagnostics diagnostics;  ///< warnings
 };
 
@@ -31,20 +33,25 @@ struct LoadAttempt {
     bool valid = false;
 };
 
+/// Makes what solves distance fields, once a layout is known to be one; null: the CPU.
+using SolverMaker = std::function<std::unique_ptr<authoring::DistanceSolver>()>;
+
 /// Makes the scene of a layout's text.
 /// @param name of the file, for messages, for the layout if it has none of its own, and to find its terrain
 /// beside it
 /// @param cache as buildScene
 LoadAttempt tryReadLayout(std::string text, const std::string& name, std::vector<std::string> overrides,
-                          authoring::GroundCache* cache = nullptr);
+                          authoring::GroundCache* cache = nullptr, const SolverMaker& make_solver = {});
 
 /// Reads a layout ("-" is standard input) and builds its scene.
 /// @throws io::InputError when the file cannot be read at all
-LoadAttempt tryLoadLayout(const std::string& path, const std::vector<std::string>& overrides);
+LoadAttempt tryLoadLayout(const std::string& path, const std::vector<std::string>& overrides,
+                          const SolverMaker& make_solver = {});
 
 /// The same, printing what is wrong to stderr.
 /// @throws Exit with kInvalidInput when there are errors
-LoadedLayout loadLayout(const std::string& path, const std::vector<std::string>& overrides);
+LoadedLayout loadLayout(const std::string& path, const std::vector<std::string>& overrides,
+                        const SolverMaker& make_solver = {});
 
 /// Prints all diagnostics to stderr.
 void printDiagnostics(const LoadedLayout& loaded);

@@ -18,8 +18,6 @@ namespace {
 
 constexpr float kFillCost = 10.0f;  // per metre into what is blocked, so that "downhill" points out of it
 constexpr float kFillDepth = 4.0f;  // m
-constexpr float kAgainstOneWay =
-    -0.1f;  // cosine: walking more than this against a one-way road is not allowed
 constexpr int kExactCells =
     12;  // around small targets, where fitted planes are poor, distances are taken exactly
 
@@ -79,6 +77,46 @@ class FrontQueue {
     std::size_t count_ = 0;
 };
 
+/// Exact distances around a point target, where no obstacle or bad ground is near.
+void startAround(const WalkMap& map, std::uint32_t target, std::vector<float>& start) {
+    const FieldGrid& grid = map.grid;
+    const auto x0 = static_cast<int>(target % grid.width);
+    const auto y0 = static_cast<int>(target / grid.width);
+    const auto each = [&](auto&& visit) {
+        for (int dy = -kExactCells; dy <= kExactCells; ++dy)
+            for (int dx = -kExactCells; dx <= kExactCells; ++dx) {
+                const int x = x0 + dx;
+                const int y = y0 + dy;
+                if (x < 0 || y < 0 || x >= static_cast<int>(grid.width) || y >= static_cast<int>(grid.height))
+                    continue;
+                visit(static_cast<std::uint32_t>(y) * grid.width + static_cast<std::uint32_t>(x),
+                      std::hypot(static_cast<float>(dx), static_cast<float>(dy)));
+            }
+    };
+    bool open = true;
+    each([&](std::uint32_t cell, float) { open = open && map.cost[cell] == 1.0f; });
+    if (!open) return;
+    each([&](std::uint32_t cell, float cells) {
+        if (cells <= static_cast<float>(kExactCells))
+            start[cell] = std::min(start[cell], cells * grid.cell_size);
+    });
+}
+
+bool isBound(const WalkMap& map) {
+    return !map.open_sides.empty() || !map.one_way.empty();
+}
+
+/// Distances at the target, and around small ones.
+std::vector<float> startOf(const WalkMap& map, std::span<const std::uint32_t> targets) {
+    std::vector<float> start(map.cost.size(), kUnreachable);
+    for (const std::uint32_t cell : targets)
+        if (map.cost[cell] < kUnreachable) start[cell] = 0.0f;
+    if (targets.size() <= 4 && !isBound(map))
+        for (const std::uint32_t cell : targets)
+            startAround(map, cell, start);
+    return start;
+}
+
 /// Works on a grid with a blocked margin of one cell all round, so that no cell has to ask whether it has a
 /// neighbour.
 /// @tparam kBound whether sides of cells are closed or roads one-way
@@ -98,12 +136,10 @@ class Marcher {
                 steps_[padded(x, y)] = map.cost[std::size_t{y} * grid_.width + x] * grid_.cell_size;
     }
 
-    void start(std::span<const std::uint32_t> targets) {
-        for (const std::uint32_t cell : targets)
-            if (map_.cost[cell] < kUnreachable) push(padded(cell % grid_.width, cell / grid_.width), 0.0f);
-        if (targets.size() <= 4)
-            for (const std::uint32_t cell : targets)
-                startAround(cell);
+    void start(const std::vector<float>& distances) {
+        for (std::uint32_t cell = 0; cell < distances.size(); ++cell)
+            if (distances[cell] < kUnreachable)
+                push(padded(cell % grid_.width, cell / grid_.width), distances[cell]);
     }
 
     void march() {
@@ -140,31 +176,6 @@ class Marcher {
     void push(std::uint32_t cell, float distance) {
         tentative_[cell] = distance;
         fronts_.push({distance, cell});
-    }
-
-    /// Exact distances around a point target, where no obstacle or bad ground is near.
-    void startAround(std::uint32_t target) {
-        const auto x0 = static_cast<int>(target % grid_.width);
-        const auto y0 = static_cast<int>(target / grid_.width);
-        const auto each = [&](auto&& visit) {
-            for (int dy = -kExactCells; dy <= kExactCells; ++dy)
-                for (int dx = -kExactCells; dx <= kExactCells; ++dx) {
-                    const int x = x0 + dx;
-                    const int y = y0 + dy;
-                    if (x < 0 || y < 0 || x >= static_cast<int>(grid_.width) ||
-                        y >= static_cast<int>(grid_.height))
-                        continue;
-                    visit(padded(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)),
-                          std::hypot(static_cast<float>(dx), static_cast<float>(dy)));
-                }
-        };
-        bool open = !kBound;
-        each([&](std::uint32_t cell, float) { open = open && steps_[cell] == grid_.cell_size; });
-        if (!open) return;
-        each([&](std::uint32_t cell, float cells) {
-            const float exact = cells * grid_.cell_size;
-            if (cells <= static_cast<float>(kExactCells) && exact < tentative_[cell]) push(cell, exact);
-        });
     }
 
     /// The settled distance beyond one side of a cell, if one may walk that way.
@@ -205,9 +216,9 @@ class Marcher {
 };
 
 template <bool kBound>
-std::vector<float> marchFrom(const WalkMap& map, std::span<const std::uint32_t> targets) {
+std::vector<float> marchFrom(const WalkMap& map, const std::vector<float>& start) {
     Marcher<kBound> marcher(map);
-    marcher.start(targets);
+    marcher.start(start);
     marcher.march();
     return marcher.take();
 }
@@ -275,10 +286,12 @@ void fillBlocked(const FieldGrid& grid, std::vector<float>& distance, std::vecto
 
 }  // namespace
 
-Field solveField(const WalkMap& map, std::span<const std::uint32_t> targets) {
+Field solveField(const WalkMap& map, std::span<const std::uint32_t> targets, DistanceSolver* solver) {
     Field field;
-    const bool bound = !map.open_sides.empty() || !map.one_way.empty();
-    field.reachable = bound ? marchFrom<true>(map, targets) : marchFrom<false>(map, targets);
+    const std::vector<float> start = startOf(map, targets);
+    field.reachable = solver         ? solver->solve(map, start)
+                      : isBound(map) ? marchFrom<true>(map, start)
+                                     : marchFrom<false>(map, start);
 
     // Inside a wide target all is zero: point at its middle.
     glm::vec2 middle(0.0f);

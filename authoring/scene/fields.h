@@ -75,10 +75,23 @@ struct Field {
     std::vector<float> reachable;  ///< the same distances, kUnreachable where no path leads to the target
 };
 
-/// Walking distance to the nearest target cell (Eikonal equation, fast marching: Sethian 1996) and the way
-/// downhill.
+/// Walking more than this (cosine) against a one-way road is not allowed.
+inline constexpr float kAgainstOneWay = -0.1f;
+
+/// Something else that solves the Eikonal equation: a device. Not for several threads at once.
+class DistanceSolver {
+  public:
+    virtual ~DistanceSolver() = default;
+    /// @param start distances at and around the target, kUnreachable elsewhere
+    /// @returns the distance everywhere, kUnreachable where no path leads to the target
+    virtual std::vector<float> solve(const WalkMap& map, const std::vector<float>& start) = 0;
+};
+
+/// Walking distance to the nearest target cell (Eikonal equation) and the way downhill.
 /// @param targets cell indices; blocked ones among them are ignored
-Field solveField(const WalkMap& map, std::span<const std::uint32_t> targets);
+/// @param solver null: fast marching (Sethian 1996), here
+Field solveField(const WalkMap& map, std::span<const std::uint32_t> targets,
+                 DistanceSolver* solver = nullptr);
 
 /// Cells whose centre lies in the polygon, and for thin polygons at least the cell of its middle.
 std::vector<std::uint32_t> cellsInPolygon(const FieldGrid& grid, const LocalPolygon& polygon);

@@ -97,7 +97,7 @@ std::shared_ptr<const Field> Ground::solveOnce(Solved& solved, const WalkMap& ma
         const std::lock_guard lock(solving_);
         if (const auto known = solved.find(targets); known != solved.end()) return known->second;
     }
-    auto field = std::make_shared<const Field>(solveField(map, targets));
+    auto field = std::make_shared<const Field>(solveField(map, targets, solver_));
     const std::lock_guard lock(solving_);
     return solved.try_emplace(targets, std::move(field)).first->second;
 }

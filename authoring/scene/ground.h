@@ -25,6 +25,10 @@ class Ground {
     FieldGrid coarseGrid() const;
     const std::vector<float>& roadDistances();
 
+    /// From now on fields are solved by it, in the thread that asks; null: here, by any thread.
+    void solveWith(DistanceSolver* solver) { solver_ = solver; }
+    DistanceSolver* solver() const { return solver_; }
+
     using Targets = std::vector<std::uint32_t>;  // cells
     std::shared_ptr<const Field> solve(bool keep_to_roads, const Targets& targets);
     /// Distances on the coarse map.
@@ -39,6 +43,7 @@ class Ground {
 
     WalkGeometry geometry_;
     FieldGrid grid_;
+    DistanceSolver* solver_ = nullptr;
     std::recursive_mutex making_;  // maps and distances
     std::optional<WalkMap> maps_[2];
     std::optional<CoarseMap> coarse_[2];

@@ -72,12 +72,14 @@ void Routes::solveAll(const std::vector<std::vector<Place>>& destinations, bool 
         tasks.push_back({std::move(targets), entry->second});
     }
     std::atomic<std::size_t> next = 0;
+    const auto work = [&] {
+        for (std::size_t task = next++; task < tasks.size(); task = next++)
+            fields_[tasks[task].field] = ground_.solve(keep_to_roads, tasks[task].targets);
+    };
+    if (ground_.solver()) return work();  // a device works for this thread only
     std::vector<std::jthread> workers;
     for (std::size_t i = 0; i < std::min<std::size_t>(std::thread::hardware_concurrency(), tasks.size()); ++i)
-        workers.emplace_back([&] {
-            for (std::size_t task = next++; task < tasks.size(); task = next++)
-                fields_[tasks[task].field] = ground_.solve(keep_to_roads, tasks[task].targets);
-        });
+        workers.emplace_back(work);
 }
 
 std::uint32_t Routes::addField(std::shared_ptr<const Field> field, std::vector<std::uint32_t> targets,

@@ -53,8 +53,14 @@ class PlacedBodies {
 
 class Builder {
   public:
-    Builder(const Layout& layout, Diagnostics& diagnostics, GroundCache& cache, const TerrainMesh* terrain)
-        : layout_(layout), diagnostics_(diagnostics), cache_(cache), terrain_mesh_(terrain), rebase_(layout) {
+    Builder(const Layout& layout, Diagnostics& diagnostics, GroundCache& cache, const TerrainMesh* terrain,
+            DistanceSolver* solver)
+        : layout_(layout),
+          diagnostics_(diagnostics),
+          cache_(cache),
+          terrain_mesh_(terrain),
+          solver_(solver),
+          rebase_(layout) {
         scene_.settings = layout.simulation;
         scene_.origin = rebase_.origin();
         scene_.output_origin = rebase_.outputOrigin();
@@ -68,6 +74,7 @@ class Builder {
         buildTerrain();
         scene_.grid = makeGrid(geometry_);
         ground_ = cache_.groundFor(geometry_, scene_.grid);
+        ground_->solveWith(solver_);
         Routes routes(layout_, rebase_, *ground_);
         Itineraries itineraries(layout_, rebase_, geometry_, routes, diagnostics_, scene_);
         itineraries.prepare();
@@ -470,6 +477,7 @@ class Builder {
     Diagnostics& diagnostics_;
     GroundCache& cache_;
     const TerrainMesh* terrain_mesh_;
+    DistanceSolver* solver_;
     Rebase rebase_;
     WalkGeometry geometry_;
     std::shared_ptr<Ground> ground_;
@@ -480,9 +488,9 @@ class Builder {
 }  // namespace
 
 std::optional<Scene> buildScene(const Layout& layout, Diagnostics& diagnostics, GroundCache* cache,
-                                const TerrainMesh* terrain) {
+                                const TerrainMesh* terrain, DistanceSolver* solver) {
     GroundCache own;
-    return Builder(layout, diagnostics, cache ? *cache : own, terrain).build();
+    return Builder(layout, diagnostics, cache ? *cache : own, terrain, solver).build();
 }
 
 }  // namespace throng::authoring

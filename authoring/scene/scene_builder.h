@@ -15,7 +15,8 @@ namespace throng::authoring {
 /// @returns nothing when `diagnostics` has errors: people inside walls, goals that cannot be reached, entries
 /// without room
 /// @param cache of ground, for whoever makes several scenes; null: for this one only
+/// @param solver of distance fields; null: fast marching on all processors
 std::optional<Scene> buildScene(const Layout& layout, Diagnostics& diagnostics, GroundCache* cache = nullptr,
-                                const TerrainMesh* terrain = nullptr);
+                                const TerrainMesh* terrain = nullptr, DistanceSolver* solver = nullptr);
 
 }  // namespace throng::authoring

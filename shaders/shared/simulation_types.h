@@ -13,6 +13,10 @@ const uint CELLS_PER_THREAD = 16u;  // cells that one invocation of the scan add
 const uint SPAWN_GROUP_SIZE = 64u;  // people of one queue that may try to enter in one step
 const uint PIXEL_GROUP_SIZE = 64u;  // invocations per group of passes over pixels or blocks of pixels
 
+const uint FIELD_BLOCK_SIDE = 16u;    // cells: distance fields are solved in square blocks
+const uint FIELD_BLOCK_CELLS = 256u;  // of one block
+const float FIELD_FAR = 1.0e30f;      // m: no way is known
+
 const uint SMALLEST_NORMAL = 0x00800000u;  // bits of the smallest float that no device flushes to zero
 
 const uint PAGE_SIDE = 16u;  // px, of a page of a diagram that is not kept whole

@@ -155,6 +155,12 @@ std::vector<Device> listDevices() {
     return devices;
 }
 
+bool hasRealDevice() {
+    const std::vector<Candidate> candidates = candidatesFromDevices(clientExtensions());
+    return std::any_of(candidates.begin(), candidates.end(),
+                       [](const Candidate& candidate) { return !candidate.software; });
+}
+
 struct Context::State {
     EGLDisplay display = EGL_NO_DISPLAY;
     EGLContext context = EGL_NO_CONTEXT;

@@ -30,6 +30,9 @@ struct Device {
 /// @throws GraphicsError where there is no EGL at all, naming the Debian packages to install.
 std::vector<Device> listDevices();
 
+/// Whether EGL knows of a device that is no software renderer. Makes no context.
+bool hasRealDevice();
+
 /// A headless OpenGL 4.5 core context, current on the thread that made it until destroyed.
 class Context {
   public:

@@ -165,6 +165,23 @@ def test_the_same_layout_and_seed_give_the_same_bytes(throng, tmp_path):
     assert digest(tmp_path / "a") == digest(tmp_path / "b") != digest(tmp_path / "c")
 
 
+def test_fields_solved_on_the_device_lead_the_same_ways(throng, tmp_path, manifest_of):
+    detour = {"throng": 1, "simulation": {"duration": 30},
+              "roads": [{"id": "one", "centreline": [[0, 12], [40, 12]], "width": 4, "one_way": True}],
+              "walls": [{"points": [[20, -8], [20, 9]], "thickness": 0.3}, {"points": [[20, 9], [10, 9]], "thickness": 0.3}],
+              "areas": [{"id": "goal", "polygon": [[30, -6], [34, -6], [34, -2], [30, -2]]}],
+              "formations": [{"id": "some", "type": "grid", "origin": [12, -4], "rows": 3, "columns": 3, "goal": "goal"}]}
+    layout = write(tmp_path / "detour.json", detour)
+    for where in ("cpu", "gpu", "auto"):
+        throng("bake", layout, "-o", tmp_path / where, "-q", "--no-gltf", "--fields", where)
+    cpu, gpu = (streams(tmp_path / where) for where in ("cpu", "gpu"))
+    assert manifest_of(tmp_path / "cpu")["account"]["arrived"] == manifest_of(tmp_path / "gpu")["account"]["arrived"] == 9
+    assert numpy.abs(cpu["pos"][:48] - gpu["pos"][:48]).max() < 1e-3, "the same ways up to rounding, which crowds make more of later"
+    assert all(data["pos"][:, :, 1].min() < -7.5 for data in (cpu, gpu)), "round the end of the wall"
+    # Other bits than the CPU's: who resumes with another choice begins anew.
+    assert manifest_of(tmp_path / "cpu")["inputs"] != manifest_of(tmp_path / "gpu")["inputs"]
+
+
 def test_coordinates_of_utm_size_bake_as_exactly_as_small_ones(throng, tmp_path, manifest_of):
     moved = json.loads(json.dumps(SMALL))
     dx, dy = 395131, 5268347
