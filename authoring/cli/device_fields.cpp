@@ -7,11 +7,17 @@
 namespace throng::cli {
 namespace {
 
+/// Every field takes the same programs.
+gl::ShaderLibrary keptPrograms(const std::string& shader_dir) {
+    gl::ShaderLibrary library = shader_dir.empty() ? gl::ShaderLibrary() : gl::ShaderLibrary(shader_dir);
+    library.keepPrograms();
+    return library;
+}
+
 class DeviceFields : public authoring::DistanceSolver {
   public:
     DeviceFields(int device, const std::string& shader_dir)
-        : context_({device, false}),
-          solver_(shader_dir.empty() ? gl::ShaderLibrary() : gl::ShaderLibrary(shader_dir)) {}
+        : context_({device, false}), solver_(keptPrograms(shader_dir)) {}
 
     const gl::Device& device() const { return context_.device(); }
 

@@ -88,9 +88,10 @@ class Builder {
                                "there are too many different goals behind walls: their distance fields need "
                                "more than 1 GiB",
                                "give people areas as goals instead of single points");
-        if (diagnostics_.hasErrors()) return std::nullopt;
-        finish(routes);
-        return std::move(scene_);
+        const bool valid = !diagnostics_.hasErrors();
+        if (valid) finish(routes);
+        ground_->solveWith(nullptr);  // ground may be kept for longer than its solver lives
+        return valid ? std::optional(std::move(scene_)) : std::nullopt;
     }
 
   private:

@@ -18,7 +18,7 @@ from .panels import Below
 
 KINDS = ("overlay", "mask", "none")
 OVERLAY, TRODDEN = "throng_cells", "throng trodden"  # a property of the overlay's object; the nodes that darken ground
-SHOWN = "throng_cells_shown"  # a collection's [kind, strength], while it has cells
+SHOWN = "throng_cells_shown"  # a collection's {kind, strength, lost}, while it has cells, or had until its bake lost its images
 _GROUNDS = ("Throng ground", "Throng terrain", "Throng road", "Throng area")
 _ABOVE = 0.006  # m, over the road's markings
 
@@ -42,19 +42,23 @@ def show(crowd, kind, strength):
     else:
         for material in _own_grounds(collection):
             _tread(material, tree, strength)
-    collection[SHOWN] = {"kind": kind, "strength": strength}
+    collection[SHOWN] = {"kind": kind, "strength": strength, "lost": False}
 
 
 def follow(crowd):
-    """Where a crowd's cells are shown, shows those of what it plays now. What has no cells, loses them; returns that, in sentences."""
+    """Where a crowd's cells are shown, shows those of what it plays now. Without images they go, until it has some again; returns that, in sentences."""
     collection = collection_of(crowd)
     shown = collection.get(SHOWN) if collection else None
     if not shown:
         return []
+    if shown["kind"] == "overlay" and not shown["lost"] and not any(OVERLAY in thing for thing in collection.objects):
+        del collection[SHOWN]  # removed by hand
+        return []
     try:
         show(crowd, shown["kind"], shown["strength"])
     except BakeError as error:
-        show(crowd, "none", 0.0)
+        _take_away(collection)
+        shown["lost"] = True
         return [f"{crowd.name}: no cells on the ground any more: {error}"]
     return []
 
@@ -77,7 +81,8 @@ def _file(bake, frame):
 def _take_away(collection):
     for thing in [thing for thing in collection.objects if OVERLAY in thing]:
         bpy.data.objects.remove(thing)
-    for material in {slot.material for slot in _ground_slots(collection)}:
+    # Also where it is on nothing just now: streets that are built anew take their old materials again.
+    for material in {slot.material for slot in _ground_slots(collection)} | {own for own in bpy.data.materials if own.get("throng_crowd") == collection.name}:
         nodes, links = material.node_tree.nodes, material.node_tree.links
         for node in [node for node in nodes if node.name.startswith(TRODDEN)]:
             if node.type == "HUE_SAT":

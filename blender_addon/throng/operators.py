@@ -131,10 +131,12 @@ class THRONG_OT_show(_OnCrowds, bpy.types.Operator):
     def execute(self, context):
         from .crowds import chosen_crowds, set_offset, set_viewport_percent
 
-        for crowd in chosen_crowds(context):
+        chosen = chosen_crowds(context)
+        later = [crowd for crowd in chosen if crowd.get("throng_offset", 0) != self.offset]
+        for crowd in chosen:
             set_viewport_percent(crowd, self.percent)
             set_offset(crowd, self.offset)
-        self.follow(chosen_crowds(context))
+        self.follow(later)
         return {"FINISHED"}
 
 

@@ -224,6 +224,7 @@ def _instances(maths, points, blocks, leans, apart):
 
 def set_cast(crowd, cast):
     """Lets a crowd show the blocks of a cast as they are now: call it again after some have come or gone."""
+    crowd["throng_cast"] = cast
     modifiers = [crowd.modifiers[name] for name in INSTANCERS]
     before = modifiers[0].node_group
     shares = [get_input(modifier, "Share") if modifier.node_group else 2.0 for modifier in modifiers]  # 2: everybody
@@ -236,7 +237,6 @@ def set_cast(crowd, cast):
         bpy.data.node_groups.remove(before)
         bpy.data.batch_remove([group for group in inner if group.users == 0])
     _clear_shelves()
-    crowd["throng_cast"] = cast
     crowd.update_tag()
 
 
@@ -282,7 +282,7 @@ def build_crowd(bake, name, cast, frame_start, paths):
     _add_cache(crowd, "throng pos", paths["pos"], "LINEAR", frame_start)
     for name, hidden in zip(INSTANCERS, ("show_viewport", "show_render")):
         setattr(crowd.modifiers.new(name, "NODES"), hidden, False)
-    crowd["throng_strides"], crowd["throng_gaits"] = list(bake.strides), list(bake.gaits)
+    crowd["throng_strides"], cast["throng_gaits"] = list(bake.strides), list(bake.gaits)
     cast["throng_drawn"], cast["throng_shipped"] = bake.variations, cast["throng_variations"]
     crowd["throng_frame_start"], crowd["throng_offset"], crowd["throng_percent"] = frame_start, 0, 100.0
     set_cast(crowd, cast)

@@ -81,10 +81,25 @@ def with_the_add_on(addon, bake, folder):
     render(scene, 25, os.path.join(folder, "mask-of-retake.exr"))
     assert bpy.ops.throng.relink(filepath=os.path.join(bake, "bake.json")) == {"FINISHED"}
     render(scene, 25, os.path.join(folder, "mask-back.exr"))
+    # Streets that are built anew, with the materials that they had, are not darkened twice.
+    roads = [thing for thing in scene.objects if thing.name.startswith("Throng road")]
+    worn = {thing: thing.material_slots[0].material for thing in roads}
+    for thing in roads:
+        thing.material_slots[0].material = bpy.data.materials[worn[thing]["throng_of"]]
+    assert bpy.ops.throng.cells(kind="mask", strength=1.0) == {"FINISHED"}
+    assert all(thing.material_slots[0].material == worn[thing] for thing in roads)
+    render(scene, 25, os.path.join(folder, "mask-anew.exr"))
+    # Without images the cells go; shown in part only, nothing is asked for; when the images are back, so are the cells.
     shutil.rmtree(os.path.join(bake + "-retake", "diagrams"))
     assert bpy.ops.throng.relink(filepath=os.path.join(bake + "-retake", "bake.json")) == {"FINISHED"}
     render(scene, 25, os.path.join(folder, "mask-lost.exr"))
+    assert bpy.ops.throng.show(percent=50.0, offset=0) == {"FINISHED"}
     assert bpy.ops.throng.relink(filepath=os.path.join(bake, "bake.json")) == {"FINISHED"}
+    render(scene, 25, os.path.join(folder, "mask-found.exr"))
+    assert bpy.ops.throng.cells(kind="overlay") == {"FINISHED"}
+    bpy.data.objects.remove(next(thing for thing in scene.objects if "throng_cells" in thing))
+    assert bpy.ops.throng.reload() == {"FINISHED"}
+    result["removed by hand"] = not any("throng_cells" in thing for thing in scene.objects)
     assert bpy.ops.throng.cells(kind="mask", strength=1.0) == {"FINISHED"}
     assert bpy.ops.throng.cells(kind="none") == {"FINISHED"}
     render(scene, 25, os.path.join(folder, "none.exr"))

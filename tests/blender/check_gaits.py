@@ -19,8 +19,13 @@ scene = bpy.context.scene
 crowd = crowds.crowd_objects(scene)[0]
 assert bpy.ops.throng.levels(by="camera", near=1e5, far=1e6) == {"FINISHED"}
 members.poses(crowd)[0][0].data.materials[0].diffuse_color = (0.25, 0.5, 0.75, 1.0)
+copy = crowd.copy()  # shares the cast, and plays the first bake to the end
+scene.collection.objects.link(copy)
+copy.location.x = 500.0
 shots = []
 for bake in (None, many, few):
+    copy.select_set(False)
+    crowd.select_set(True)
     if bake:
         assert bpy.ops.throng.relink(filepath=os.path.join(bake, "bake.json")) == {"FINISHED"}
     scene.frame_set(10)
@@ -28,5 +33,7 @@ for bake in (None, many, few):
         "poses": sum(len(poses) for poses in members.poses(crowd).values()), "coarse": sum(len(poses) for poses in members.poses(crowd, 1).values()),
         "people": {i.persistent_id[0]: i.object.name for i in bpy.context.evaluated_depsgraph_get().object_instances
                    if i.is_instance and i.parent and i.parent.original == crowd},
+        "copy": {i.persistent_id[0]: i.object.name for i in bpy.context.evaluated_depsgraph_get().object_instances
+                 if i.is_instance and i.parent and i.parent.original == copy},
         "look": [(material.name, tuple(material.diffuse_color)) for material in members.poses(crowd)[0][0].data.materials] + [len(bpy.data.materials)]})
 print("RESULT " + json.dumps({"shots": shots}))

@@ -72,6 +72,10 @@ def test_a_cast_has_only_the_gaits_of_its_bake_and_gets_others_when_a_new_bake_w
     many = write_bake(tmp_path / "many", gaits=(0, 1, 3))
     result = result_of(blender(pathlib.Path(__file__).parent / "check_gaits.py", ADDON, tmp_path / "few", tmp_path / "many"))
     narrow, wide = cast.Repertoire.of(REPERTOIRE.strides, (1, 2)), REPERTOIRE
+    for shown, repertoire in zip(result["shots"], (narrow, wide, wide)):
+        for row, name in shown["copy"].items():
+            assert name in expected_poses(few[2][9], few[1][9], int(row), 10, repertoire=repertoire)
+        assert len(shown["copy"]) > 50
     for shown, (_, direction, state), repertoire in zip(result["shots"], (few, many, few), (narrow, wide, wide)):  # fewer take nothing away
         assert shown["poses"] == 8 * repertoire.count and shown["coarse"] == 8 * repertoire.poses(1)
         assert {int(row) for row in shown["people"]} == set(numpy.nonzero(state[9, :, 0] > 0.5)[0])

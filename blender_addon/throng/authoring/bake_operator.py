@@ -198,12 +198,15 @@ class Bake:
         if job.state != "done":
             return "ERROR", self._first_error(layout)
         try:
-            load(context, os.path.join(job.output, "bake.json"), self.file.own_meshes)
+            lost = load(context, os.path.join(job.output, "bake.json"), self.file.own_meshes)
         except BakeError as error:
             layout.problems.add().message = str(error)
             return "ERROR", str(error)
         account = job.result["account"]
         self._note_refused(layout, account)
+        for line in lost:
+            problem = layout.problems.add()
+            problem.message, problem.is_error = line, False
         return "INFO", f"{account['agents']} people, {job.result['frames']} frames in {time.monotonic() - self.start:.1f} s"
 
     def _first_error(self, layout):

@@ -21,7 +21,8 @@ def _move(things, offset):
 
 
 def load(context, path, own_meshes=()):
-    """Loads the bake of the scene's layout: the first time as a new crowd, later in its place. Raises BakeError before anything is changed.
+    """Loads the bake of the scene's layout: the first time as a new crowd, later in its place. Returns what could not follow, in
+    sentences. Raises BakeError before anything is changed.
 
     own_meshes: indices of the layout's walls that are meshes of the user's, which are not built a second time.
     """
@@ -38,8 +39,7 @@ def load(context, path, own_meshes=()):
         crowds.reload(crowd, scene, path)
         crowd.location[:2] = offset
     _build(context, crowds.collection_of(crowd) or scene.collection, read_manifest(path), set(own_meshes), offset)
-    cells.follow(crowd)
-    return crowd
+    return cells.follow(crowd)
 
 
 def _build(context, collection, manifest, own_meshes, offset):

@@ -35,8 +35,8 @@ def cast_of(crowd):
 
 
 def _gaits_of(crowd):
-    """(first, last): the add-on once made all of them."""
-    return tuple(crowd.get("throng_gaits", (0, len(crowd["throng_strides"]) - 1)))
+    """(first, last) of a crowd's cast: the add-on once made all of them."""
+    return tuple(cast_of(crowd).get("throng_gaits", (0, len(crowd["throng_strides"]) - 1)))
 
 
 def repertoire_of(crowd):
@@ -50,13 +50,15 @@ def widen(crowd, gaits=None):
     A crowd has only those that its bake walks with, as every pose costs time in every frame. Characters that were brought along cannot be
     made again, so whoever brings one widens the crowd to all gaits first: here, everybody is a shipped person whose poses are made anew.
     """
+    if "throng_cast" not in crowd:
+        return  # of an earlier version, which made all gaits
     first, last = _gaits_of(crowd)
     wanted = (min(first, gaits[0]), max(last, gaits[1])) if gaits else (0, len(crowd["throng_strides"]) - 1)
     if wanted == (first, last):
         return
     shown = cast_of(crowd)
     levels = _levels(shown)
-    crowd["throng_gaits"] = wanted
+    shown["throng_gaits"] = wanted
     for number in range(shown["throng_variations"]):
         materials = list(library.objects_of(shown, 0, number)[0].data.materials)
         _discard(shown, number, keep=materials)
@@ -99,7 +101,8 @@ def _changed(crowd):
 
     shown = cast_of(crowd)
     bpy.data.batch_remove([block for block in library.blocks_of(shown).values() if not block.objects])
-    set_cast(crowd, shown)
+    for each in [thing for thing in bpy.data.objects if thing.get("throng_cast") == shown]:  # copies of a crowd share its cast
+        set_cast(each, shown)
 
 
 def _details(character, holder):
