@@ -58,21 +58,26 @@ def blender_program():
     return command
 
 
-def blender_module():
+def blender_module(folder="bpy"):
     """A current Blender as a Python module, in a Python of its own."""
-    python = os.environ.get("THRONG_BPY_PYTHON", str(ROOT / "build" / "bpy" / "bin" / "python"))
+    python = ROOT / "build" / folder / "bin" / "python"
     if not os.path.exists(python):
-        pytest.skip("the Python module bpy is not installed (scripts/test does)")
+        pytest.skip(f"the Python module bpy is not installed in build/{folder} (scripts/test does)")
 
     def command(script, arguments, blend, factory):
-        return [python, str(ROOT / "tests" / "blender" / "run_in_bpy.py"), str(blend or ""), str(script), *arguments]
+        return [str(python), str(ROOT / "tests" / "blender" / "run_in_bpy.py"), str(blend or ""), str(script), *arguments]
 
     return command
 
 
-@pytest.fixture(scope="session", params=[blender_program, blender_module], ids=["blender", "bpy"])
+def blender_module_lts():
+    """The last Blender 4 with long-term support, in the same way."""
+    return blender_module("bpy-lts")
+
+
+@pytest.fixture(scope="session", params=[blender_program, blender_module_lts, blender_module], ids=["blender", "lts", "bpy"])
 def blender(request):
-    """Runs a Python script in a Blender, in an empty scene: in Debian's, and in a current one."""
+    """Runs a Python script in a Blender, in an empty scene: in Debian's, in the last 4.x, and in a current one."""
     command = request.param()
 
     def run(script, *arguments, blend=None, factory=True, environment=None):

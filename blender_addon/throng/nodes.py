@@ -21,13 +21,23 @@ def _identifier(modifier, name):
     return next(s for s in sockets if s.name == name and getattr(s, "in_out", "INPUT") == "INPUT").identifier
 
 
+def _slot(modifier, name):
+    """From 5.2 on a modifier's inputs are properties of their own; custom properties before."""
+    return getattr(modifier.properties.inputs, _identifier(modifier, name)) if hasattr(modifier, "properties") else None
+
+
 def set_input(modifier, name, value):
     """Sets an input of a node modifier by its socket's name."""
-    modifier[_identifier(modifier, name)] = value
+    slot = _slot(modifier, name)
+    if slot is None:
+        modifier[_identifier(modifier, name)] = value
+    else:
+        slot.value = value
 
 
 def get_input(modifier, name):
-    return modifier[_identifier(modifier, name)]
+    slot = _slot(modifier, name)
+    return modifier[_identifier(modifier, name)] if slot is None else slot.value
 
 
 def socket(sockets, name=None):

@@ -3,8 +3,10 @@
 
 run_in_bpy.py BLEND|"" SCRIPT ARGUMENTS...
 """
+import os
 import runpy
 import sys
+import traceback
 
 import bpy
 
@@ -13,4 +15,16 @@ bpy.ops.wm.read_factory_settings()
 if blend:
     bpy.ops.wm.open_mainfile(filepath=blend)
 sys.argv = ["blender", "--", *arguments]
-runpy.run_path(script, run_name="__main__")
+try:
+    runpy.run_path(script, run_name="__main__")
+    status = 0
+except SystemExit as ending:
+    status = ending.code if isinstance(ending.code, int) else 0 if ending.code is None else 1
+    if status and not isinstance(ending.code, int):
+        print(ending.code, file=sys.stderr)
+except BaseException:
+    traceback.print_exc()
+    status = 1
+sys.stdout.flush()
+sys.stderr.flush()
+os._exit(status)  # the module of 4.5 never comes to an end of itself

@@ -276,7 +276,7 @@ assert hasattr(bpy.types, 'IMPORT_SCENE_OT_throng')
 
 def test_the_extension_builds_and_is_valid(tmp_path):
     """With the tool of the current Blender's own distribution."""
-    python = pathlib.Path(os.environ.get("THRONG_BPY_PYTHON", str(ROOT / "build" / "bpy" / "bin" / "python")))
+    python = ROOT / "build" / "bpy" / "bin" / "python"
     tools = sorted(python.parent.parent.glob("lib/python*/site-packages/bpy/*/scripts/addons_core/bl_pkg/cli/blender_ext.py"))
     if not tools:
         pytest.skip("the Python module bpy is not installed (scripts/test does)")
