@@ -29,8 +29,8 @@ void main() {
             return;
     }
     Person person = people[mine.row];
-    RouteAhead ahead = routeAhead(stageOf(states[mine.row].stage, states[mine.row].ticket), mine.position);
     AgentState state = states[mine.row];
+    RouteAhead ahead = routeAhead(stageOf(state.stage, state.ticket), mine.position);
     bool turned = (person.flags & PERSON_FIXED_SPAWN) == 0u && ahead.direction != vec2(0.0);
     state.heading = turned ? atan(ahead.direction.y, ahead.direction.x) : person.heading;
     state.position = mine.position;

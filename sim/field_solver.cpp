@@ -35,10 +35,6 @@ std::vector<std::uint32_t> startingBlocks(const authoring::FieldGrid& grid, cons
     return blocks;
 }
 
-bool isBound(const authoring::WalkMap& map) {
-    return !map.open_sides.empty() || !map.one_way.empty();
-}
-
 }  // namespace
 
 FieldSolver::FieldSolver(const gl::ShaderLibrary& library)
@@ -47,7 +43,7 @@ FieldSolver::FieldSolver(const gl::ShaderLibrary& library)
       block_dispatch_("block dispatch", no_blocks_.bytes()) {}
 
 FieldSolver::Programs FieldSolver::programsFor(const authoring::WalkMap& map) const {
-    const gl::Definitions definitions = isBound(map) ? gl::Definitions{{"BOUND", "1"}} : gl::Definitions{};
+    const gl::Definitions definitions = map.isBound() ? gl::Definitions{{"BOUND", "1"}} : gl::Definitions{};
     Programs programs{gl::ComputeProgram(library_, "shaders/field_relax.comp", definitions),
                       gl::ComputeProgram(library_, "shaders/field_keep.comp"),
                       gl::ComputeProgram(library_, "shaders/field_list.comp")};
@@ -62,7 +58,7 @@ FieldSolver::Programs FieldSolver::programsFor(const authoring::WalkMap& map) co
                           {"BlockDispatch", &block_dispatch_}});
         program->set("grid_size", glm::uvec2(map.grid.width, map.grid.height));
     }
-    if (isBound(map)) programs.relax.set("against_one_way", authoring::kAgainstOneWay);
+    if (map.isBound()) programs.relax.set("against_one_way", authoring::kAgainstOneWay);
     return programs;
 }
 
@@ -81,10 +77,10 @@ void FieldSolver::iterate(Programs& programs, std::uint32_t blocks) {
 std::vector<float> FieldSolver::solve(const authoring::WalkMap& map, const std::vector<float>& start) {
     steps_ = gl::makeBuffer("cell steps", finite(map.cost, map.grid.cell_size));
     const std::size_t cells = map.cost.size();
-    std::vector<std::uint32_t> sides(isBound(map) ? cells : 0, gpu::OPEN_TO_X | gpu::OPEN_TO_Y);
+    std::vector<std::uint32_t> sides(map.isBound() ? cells : 0, gpu::OPEN_TO_X | gpu::OPEN_TO_Y);
     std::copy(map.open_sides.begin(), map.open_sides.end(), sides.begin());
     open_sides_ = gl::makeBuffer("open sides", sides);
-    std::vector<glm::vec2> one_way(isBound(map) ? cells : 0, glm::vec2(0.0f));
+    std::vector<glm::vec2> one_way(map.isBound() ? cells : 0, glm::vec2(0.0f));
     std::copy(map.one_way.begin(), map.one_way.end(), one_way.begin());
     one_way_ = gl::makeBuffer("one way", one_way);
     distances_ = gl::makeBuffer("distances", finite(start));

@@ -190,9 +190,7 @@ gl::Context::Options contextFor(int device, std::size_t people) {
 }  // namespace
 
 Baker::Baker(int device, const std::string& shader_dir, std::size_t people)
-    : context_(contextFor(device, people)),
-      shaders_(shader_dir.empty() ? gl::ShaderLibrary() : gl::ShaderLibrary(shader_dir)),
-      costs_(costsFor(context_.device())) {
+    : context_(contextFor(device, people)), shaders_(shader_dir), costs_(costsFor(context_.device())) {
     shaders_.keepPrograms();
 }
 

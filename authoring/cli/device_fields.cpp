@@ -9,7 +9,7 @@ namespace {
 
 /// Every field takes the same programs.
 gl::ShaderLibrary keptPrograms(const std::string& shader_dir) {
-    gl::ShaderLibrary library = shader_dir.empty() ? gl::ShaderLibrary() : gl::ShaderLibrary(shader_dir);
+    gl::ShaderLibrary library(shader_dir);
     library.keepPrograms();
     return library;
 }

@@ -102,16 +102,12 @@ void startAround(const WalkMap& map, std::uint32_t target, std::vector<float>& s
     });
 }
 
-bool isBound(const WalkMap& map) {
-    return !map.open_sides.empty() || !map.one_way.empty();
-}
-
 /// Distances at the target, and around small ones.
 std::vector<float> startOf(const WalkMap& map, std::span<const std::uint32_t> targets) {
     std::vector<float> start(map.cost.size(), kUnreachable);
     for (const std::uint32_t cell : targets)
         if (map.cost[cell] < kUnreachable) start[cell] = 0.0f;
-    if (targets.size() <= 4 && !isBound(map))
+    if (targets.size() <= 4 && !map.isBound())
         for (const std::uint32_t cell : targets)
             startAround(map, cell, start);
     return start;
@@ -289,9 +285,9 @@ void fillBlocked(const FieldGrid& grid, std::vector<float>& distance, std::vecto
 Field solveField(const WalkMap& map, std::span<const std::uint32_t> targets, DistanceSolver* solver) {
     Field field;
     const std::vector<float> start = startOf(map, targets);
-    field.reachable = solver         ? solver->solve(map, start)
-                      : isBound(map) ? marchFrom<true>(map, start)
-                                     : marchFrom<false>(map, start);
+    field.reachable = solver          ? solver->solve(map, start)
+                      : map.isBound() ? marchFrom<true>(map, start)
+                                      : marchFrom<false>(map, start);
 
     // Inside a wide target all is zero: point at its middle.
     glm::vec2 middle(0.0f);

@@ -39,6 +39,9 @@ struct WalkMap {
         one_way;  ///< unit direction that may not be walked against, or zero; empty when there is none
     std::vector<std::uint8_t>
         open_sides;  ///< gpu::OPEN_TO_X, OPEN_TO_Y: where one may go to the next cell; empty = all
+
+    /// Whether there are closed sides or one-way roads.
+    bool isBound() const { return !open_sides.empty() || !one_way.empty(); }
 };
 
 /// The grid for a scene: cells of 0.1 to 1 m, at most about 1.5 million of them.

@@ -17,7 +17,8 @@ using Definitions = std::vector<std::pair<std::string, std::string>>;
 class ShaderLibrary {
   public:
     ShaderLibrary() = default;
-    /// @param folder a copy of the project's shaders/ folder; files that it lacks come from the binary
+    /// @param folder a copy of the project's shaders/ folder; files that it lacks come from the binary, all
+    /// of them where it is empty
     explicit ShaderLibrary(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
     /// The complete GLSL of one shader: version line, definitions, and its includes put in place, each once.

@@ -203,10 +203,8 @@ class Bake:
             layout.problems.add().message = str(error)
             return "ERROR", str(error)
         account = job.result["account"]
-        self._note_refused(layout, account)
-        for line in lost:
-            problem = layout.problems.add()
-            problem.message, problem.is_error = line, False
+        refused = account.get("refused_reasons", {}).items()
+        self._warn(layout, [f"{count} people are not in the crowd: {reason}" for reason, count in refused] + lost)
         return "INFO", f"{account['agents']} people, {job.result['frames']} frames in {time.monotonic() - self.start:.1f} s"
 
     def _first_error(self, layout):
@@ -217,10 +215,10 @@ class Bake:
         return described(layout, errors[0]) + (f" (and {len(errors) - 1} more)" if len(errors) > 1 else "")
 
     @staticmethod
-    def _note_refused(layout, account):
-        for reason, count in account.get("refused_reasons", {}).items():
+    def _warn(layout, lines):
+        for line in lines:
             problem = layout.problems.add()
-            problem.message, problem.is_error = f"{count} people are not in the crowd: {reason}", False
+            problem.message, problem.is_error = line, False
 
 
 class THRONG_OT_bake(bpy.types.Operator):
