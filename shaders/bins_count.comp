@@ -6,7 +6,7 @@
 layout(local_size_x = AGENT_GROUP_SIZE) in;
 layout(std430) readonly buffer LiveDispatch { uint live_groups[3]; uint live_count; };
 layout(std430) readonly buffer Sites { DiagramSite sites[]; };
-layout(std430) buffer CellCounts { uint cell_counts[]; };
+layout(std430) buffer Counts { uint counts[]; };
 layout(std430) writeonly buffer SitePlaces { uvec2 site_places[]; };  // bin, and place in the bin
 #include "shaders/bins.glsl"
 
@@ -15,5 +15,5 @@ void main() {
     if (index >= live_count) return;
     uvec2 bin = binOf(sites[index].position);
     uint number = bin.y * uint(bin_count.x) + bin.x;
-    site_places[index] = uvec2(number, atomicAdd(cell_counts[number], 1u));
+    site_places[index] = uvec2(number, atomicAdd(counts[number], 1u));
 }

@@ -10,7 +10,6 @@ layout(std430) readonly buffer LiveDispatch { uint live_groups[3]; uint live_cou
 layout(std430) readonly buffer People { Person people[]; };
 layout(std430) readonly buffer States { AgentState states[]; };
 layout(std430) readonly buffer RowCells { uint row_cells[]; };
-layout(std430) readonly buffer CellStarts { uint cell_starts[]; };
 layout(std430) readonly buffer LooseRows { uint loose_rows[]; };
 layout(std430) writeonly buffer SiteSlots { uint site_slots[]; };
 layout(std430) writeonly buffer Bodies { Body bodies[]; };
@@ -18,13 +17,15 @@ layout(std430) writeonly buffer Walkers { Walker walkers[]; };
 layout(std430) writeonly buffer Sites { DiagramSite sites[]; };
 uniform uint ids_are_rows;  // 0: slots
 
+#include "shaders/cell_starts.glsl"
+
 void main() {
     uint loose = gl_GlobalInvocationID.x;
     if (loose >= live_count) return;
     uint row = loose_rows[loose];
     uint cell = row_cells[row];
-    uint first = cell_starts[cell];
-    uint last = cell_starts[cell + 1u];
+    uint first = cellStart(cell);
+    uint last = cellStart(cell + 1u);
     uint slot = first;
     for (uint other = first; other < last; ++other) slot += loose_rows[other] < row ? 1u : 0u;
 

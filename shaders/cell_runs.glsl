@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs of slots around a cell. Needs the block CellStarts.
+// Runs of slots around a cell.
+
+#include "shaders/cell_starts.glsl"
 
 /// The slots of up to three cells of line `y` around column `x`: first and one past the last.
 uvec2 slotRun(int x, int y) {
@@ -7,5 +9,5 @@ uvec2 slotRun(int x, int y) {
     uint first = uint(max(x - 1, 0));
     uint last = uint(min(x + 1, int(parameters.cells_width) - 1));
     uint line = uint(y) * parameters.cells_width;
-    return uvec2(cell_starts[line + first], cell_starts[line + last + 1u]);
+    return uvec2(cellStart(line + first), cellStart(line + last + 1u));
 }

@@ -17,7 +17,6 @@ layout(std430) readonly buffer TouchSlots { uint touch_slots[]; };
 layout(std430) readonly buffer Bodies { Body bodies[]; };
 layout(std430) readonly buffer TouchWords { uint touch_words[]; };
 layout(std430) readonly buffer TouchLists { uint touch_lists[]; };
-layout(std430) readonly buffer CellStarts { uint cell_starts[]; };
 layout(std430) readonly buffer WallSegments { WallSegment wall_segments[]; };
 layout(std430) readonly buffer WallStarts { uint wall_starts[]; };
 layout(std430) readonly buffer WallItems { uint wall_items[]; };

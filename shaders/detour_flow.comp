@@ -4,7 +4,6 @@
 
 layout(local_size_x = PIXEL_GROUP_SIZE) in;
 layout(std140) uniform ParametersBlock { Parameters parameters; };
-layout(std430) readonly buffer CellStarts { uint cell_starts[]; };
 layout(std430) readonly buffer Ground { GroundCell ground[]; };
 layout(std430) readonly buffer Bodies { Body bodies[]; };
 layout(std430) buffer CrowdFlows { CrowdFlow crowd_flows[]; };
@@ -12,6 +11,7 @@ layout(std430) writeonly buffer DenseBlocks { uint dense_blocks[]; };  // 1 wher
 uniform float fading;  // 0 to 1: how much of what was known is replaced
 
 #include "shaders/cells.glsl"
+#include "shaders/cell_starts.glsl"
 #include "shaders/flat_index.glsl"
 
 /// Walls take part of some cells, and people crowd in the rest: at least this share of it.
@@ -24,8 +24,8 @@ CrowdFlow flowAround(vec2 middle, float free_share) {
     ivec2 high = cellOf(middle + parameters.detour_cell);
     vec3 sum = vec3(0.0);
     for (int y = low.y; y <= high.y; ++y) {
-        uint end = cell_starts[cellIndex(ivec2(high.x, y)) + 1u];
-        for (uint slot = cell_starts[cellIndex(ivec2(low.x, y))]; slot < end; ++slot) {
+        uint end = cellStart(cellIndex(ivec2(high.x, y)) + 1u);
+        for (uint slot = cellStart(cellIndex(ivec2(low.x, y))); slot < end; ++slot) {
             vec2 near = max(1.0 - abs(bodies[slot].position - middle) / parameters.detour_cell, vec2(0.0));
             sum += near.x * near.y * vec3(bodies[slot].velocity, 1.0);
         }

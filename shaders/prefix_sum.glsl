@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Second half of a prefix sum over `cell_counts`: needs the blocks CellCounts and GroupSums (one total per group of
-// threads, from cells_sum.comp), and groups of SCAN_GROUP_SIZE.
+// Second half of a prefix sum over `counts`: needs the blocks Counts and GroupSums (one total per group of threads,
+// from counts_sum.comp), and groups of SCAN_GROUP_SIZE.
 
 shared uint thread_sums[SCAN_GROUP_SIZE];
 
-/// The sum of all cells before this thread's first one, `first`; `last` is one past its last.
+/// The sum of all counts before this thread's first one, `first`; `last` is one past its last.
 uint sumBefore(uint first, uint last) {
     uint thread = gl_LocalInvocationID.x;
     // What stands before this group, added up by all its threads together.
@@ -17,7 +17,7 @@ uint sumBefore(uint first, uint last) {
     barrier();
 
     uint sum = 0u;
-    for (uint cell = first; cell < last; ++cell) sum += cell_counts[cell];
+    for (uint i = first; i < last; ++i) sum += counts[i];
     thread_sums[thread] = sum;
     barrier();
     for (uint i = 0u; i < thread; ++i) start += thread_sums[i];

@@ -77,7 +77,7 @@ void main() {
         int y = cell.y + ((i & 1) == 1 ? (i + 1) / 2 : -(i / 2));
         if (y < lower.y || y > upper.y) continue;
         uint line = uint(y) * parameters.cells_width;
-        weighSlots(self, forward, cell_starts[line + uint(lower.x)], cell_starts[line + uint(upper.x) + 1u]);
+        weighSlots(self, forward, cellStart(line + uint(lower.x)), cellStart(line + uint(upper.x) + 1u));
     }
     uint number = cellIndex(cell);
     for (uint i = far_wall_starts[number]; i < far_wall_starts[number + 1u]; ++i)

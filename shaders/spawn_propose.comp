@@ -11,7 +11,6 @@ layout(std430) readonly buffer Queues { SpawnQueue queues[]; };
 layout(std430) readonly buffer Entries { Entry entries[]; };
 layout(std430) readonly buffer EntryPoints { vec2 entry_points[]; };
 layout(std430) readonly buffer Bodies { Body bodies[]; };
-layout(std430) readonly buffer CellStarts { uint cell_starts[]; };
 layout(std430) buffer States { AgentState states[]; };
 layout(std430) buffer QueueHeads { uint queue_heads[]; };
 layout(std430) writeonly buffer Proposals { SpawnProposal proposals[]; };

@@ -157,12 +157,23 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
     wall_starts = gl::makeBuffer("wall starts", walls.starts);
     wall_items = gl::makeBuffer("wall items", walls.items);
 
-    const std::size_t cells_per_group = std::size_t{gpu::SCAN_GROUP_SIZE} * gpu::CELLS_PER_THREAD;
-    cell_counts = gl::Buffer("cell counts", kWord * cells);
-    group_sums = gl::Buffer("cell group sums", kWord * (cells / cells_per_group + 1));
-    cell_starts = gl::Buffer("cell starts", kWord * (cells + 1));
-    cell_cursors = gl::Buffer("cell cursors", kWord * cells);
+    // One cell more than there are belongs to the last strip: where it starts is how many people there are.
+    const std::size_t strips = cells / gpu::CELLS_PER_STRIP + 1;
+    for (gl::Buffer* per_cell : {&cell_counts, &cell_offsets, &cell_cursors}) {
+        *per_cell = gl::Buffer("cells", kWord * gpu::CELLS_PER_STRIP * strips);
+        per_cell->fill(0);
+    }
+    for (gl::Buffer* per_strip : {&strip_counts, &strip_marks, &strip_starts}) {
+        *per_strip = gl::Buffer("strips of cells", kWord * strips);
+        per_strip->fill(0);
+    }
+    const std::size_t strips_per_group = std::size_t{gpu::SCAN_GROUP_SIZE} * gpu::COUNTS_PER_THREAD;
+    strip_group_sums = gl::Buffer("strip group sums", kWord * (strips / strips_per_group + 1));
+    strip_list = gl::Buffer("listed strips", kWord * std::min(strips, 2 * rows));
+    strip_list_end = gl::makeBuffer("end of listed strips", std::vector<std::uint32_t>{0});
+    fill_dispatch = gl::Buffer("fill dispatch", kWord * 4);
     row_cells = gl::Buffer("row cells", kWord * rows);
+    row_cells.fill(gpu::NO_INDEX);
     loose_rows = gl::Buffer("loose rows", kWord * rows);
     live_dispatch = gl::Buffer("live dispatch", kWord * 4);
 
@@ -208,9 +219,16 @@ std::vector<std::pair<std::string, const gl::Buffer*>> Buffers::named() const {
             {"WallStarts", &wall_starts},
             {"WallItems", &wall_items},
             {"CellCounts", &cell_counts},
-            {"GroupSums", &group_sums},
-            {"CellStarts", &cell_starts},
+            {"CellOffsets", &cell_offsets},
             {"CellCursors", &cell_cursors},
+            {"StripCounts", &strip_counts},
+            {"StripMarks", &strip_marks},
+            {"StripStarts", &strip_starts},
+            {"Counts", &strip_counts},
+            {"StripList", &strip_list},
+            {"StripListEnd", &strip_list_end},
+            {"FillDispatch", &fill_dispatch},
+            {"GroupSums", &strip_group_sums},
             {"RowCells", &row_cells},
             {"LooseRows", &loose_rows},
             {"LiveDispatch", &live_dispatch},

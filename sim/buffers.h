@@ -29,7 +29,10 @@ struct Buffers {
     gl::Buffer queues, queue_heads, entries, entry_points, proposals;  // entering
     gl::Buffer wall_segments, wall_tiles, wall_starts, wall_items;
 
-    gl::Buffer cell_counts, group_sums, cell_starts, cell_cursors, row_cells, loose_rows, live_dispatch;
+    gl::Buffer cell_counts, cell_offsets, cell_cursors;                    // per cell
+    gl::Buffer strip_counts, strip_marks, strip_starts, strip_group_sums;  // per strip of cells
+    gl::Buffer strip_list, strip_list_end, fill_dispatch;
+    gl::Buffer row_cells, loose_rows, live_dispatch;
     gl::Buffer site_slots;  // by ids of sites: also the order in which gradient1 draws
     gl::Buffer bodies, walkers, sites;
     gl::Buffer neighbours, neighbour_counts, touch_words, touch_lists, touch_slots, touch_dispatch;

@@ -26,23 +26,24 @@ CellSort::CellSort(const gl::ShaderLibrary& library, Buffers& buffers, const gpu
     : buffers_(buffers),
       rows_(parameters.row_count),
       count_(connected(library, "shaders/cells_count.comp", buffers)),
-      sum_(connected(library, "shaders/cells_sum.comp", buffers)),
-      scan_(connected(library, "shaders/cells_scan.comp", buffers)),
+      sum_(connected(library, "shaders/counts_sum.comp", buffers)),
+      scan_(connected(library, "shaders/strips_scan.comp", buffers)),
+      fill_(connected(library, "shaders/strips_fill.comp", buffers)),
       scatter_(connected(library, "shaders/cells_scatter.comp", buffers)),
       gather_(connected(library, "shaders/bodies_gather.comp", buffers)) {
-    const std::uint32_t cells = parameters.cells_width * parameters.cells_height;
-    sum_.set("cell_count", cells);
-    scan_.set("cell_count", cells);
-    scan_threads_ = (cells + gpu::CELLS_PER_THREAD - 1) / gpu::CELLS_PER_THREAD;
+    const auto strips = static_cast<std::uint32_t>(buffers.strip_counts.bytes() / sizeof(std::uint32_t));
+    sum_.set("count_total", strips);
+    scan_.set("count_total", strips);
+    scan_threads_ = (strips + gpu::COUNTS_PER_THREAD - 1) / gpu::COUNTS_PER_THREAD;
 }
 
 void CellSort::run(SiteIds ids) {
     for (gl::ComputeProgram* program : {&scatter_, &gather_})
         program->set("ids_are_rows", ids == SiteIds::rows ? 1u : 0u);
-    buffers_.cell_counts.fill(0);
     count_.dispatch(rows_);
     sum_.dispatch(scan_threads_);
     scan_.dispatch(scan_threads_);
+    fill_.dispatchIndirect(buffers_.fill_dispatch);
     scatter_.dispatch(rows_);
     gather_.dispatchIndirect(buffers_.live_dispatch);
 }

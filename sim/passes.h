@@ -25,7 +25,7 @@ class CellSort {
     Buffers& buffers_;
     std::uint32_t rows_;
     std::uint64_t scan_threads_;
-    gl::ComputeProgram count_, sum_, scan_, scatter_, gather_;
+    gl::ComputeProgram count_, sum_, scan_, fill_, scatter_, gather_;
 };
 
 /// Lets people enter where there is room.

@@ -124,7 +124,7 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
     const BinGrid cell_grid(parameters.cell_size * parameters.pixels_per_metre,
                             {parameters.cells_width, parameters.cells_height});
     diagram.connect({&buffers.sites, &buffers.live_dispatch, &buffers.site_slots,
-                     DiagramInput::Sorted{&buffers.cell_starts, cell_grid}});
+                     DiagramInput::Sorted{&buffers.strip_starts, &buffers.cell_offsets, cell_grid}});
     pack.bindAll(buffers.named());
     anybody_enters_later = std::any_of(
         scene.people.begin(), scene.people.end(),

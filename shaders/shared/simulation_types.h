@@ -7,11 +7,12 @@
 
 THRONG_SHARED_BEGIN
 
-const uint AGENT_GROUP_SIZE = 64u;  // invocations per group of every pass over agents
-const uint SCAN_GROUP_SIZE = 64u;   // invocations per group of the cell scan
-const uint CELLS_PER_THREAD = 16u;  // cells that one invocation of the scan adds up
-const uint SPAWN_GROUP_SIZE = 64u;  // people of one queue that may try to enter in one step
-const uint PIXEL_GROUP_SIZE = 64u;  // invocations per group of passes over pixels or blocks of pixels
+const uint AGENT_GROUP_SIZE = 64u;   // invocations per group of every pass over agents
+const uint SCAN_GROUP_SIZE = 64u;    // invocations per group of a prefix sum
+const uint COUNTS_PER_THREAD = 16u;  // counts that one invocation of it adds up
+const uint CELLS_PER_STRIP = 64u;    // cells whose people are added up together (cell_starts.glsl)
+const uint SPAWN_GROUP_SIZE = 64u;   // people of one queue that may try to enter in one step
+const uint PIXEL_GROUP_SIZE = 64u;   // invocations per group of passes over pixels or blocks of pixels
 
 const uint FIELD_BLOCK_SIDE = 16u;    // cells: distance fields are solved in square blocks
 const uint FIELD_BLOCK_CELLS = 256u;  // of one block

@@ -52,7 +52,8 @@ struct DiagramInput {
     /// Where the moving sites already stand in the order of some bins, those bins: it saves sorting them
     /// again.
     struct Sorted {
-        const gl::Buffer* starts = nullptr;  ///< per bin, and one more
+        const gl::Buffer* strip_starts = nullptr;  ///< per strip of bins (shaders/cell_starts.glsl)
+        const gl::Buffer* starts = nullptr;        ///< per bin, within its strip, and one more
         BinGrid grid;
     };
     std::optional<Sorted> sorted = {};

@@ -70,7 +70,8 @@ class BinnedDiagram final : public Diagram::Implementation {
     DiagramOptions options_;
     std::span<const gpu::DiagramSite> fixed_sites_;
     std::optional<SiteBins> bins_;  // unless the sites come sorted
-    gl::WordTexture sorted_sites_;  // where they do
+    gl::Buffer no_strips_;          // beside bins_
+    gl::WordTexture sorted_sites_;  // where the sites do come sorted
     std::optional<FixedBins> fixed_bins_;
     std::uint64_t blocks_;
     gl::ComputeProgram gather_;

@@ -20,7 +20,7 @@ float leastSide(std::uint32_t width, std::uint32_t height) {
 }
 
 std::uint64_t scanThreads(const BinGrid& grid) {
-    return (grid.count() + gpu::CELLS_PER_THREAD - 1) / gpu::CELLS_PER_THREAD;
+    return (grid.count() + gpu::COUNTS_PER_THREAD - 1) / gpu::COUNTS_PER_THREAD;
 }
 
 }  // namespace
@@ -44,19 +44,19 @@ SiteBins::SiteBins(const gl::ShaderLibrary& library, const BinGrid& grid, std::u
       sites_("binned sites", std::max<std::size_t>(1, capacity) * sizeof(gpu::DiagramSite)),
       site_texture_(sites_, gl::WordTexture::Texel::four_words),
       count_(library, "shaders/bins_count.comp"),
-      sum_(library, "shaders/cells_sum.comp"),
+      sum_(library, "shaders/counts_sum.comp"),
       find_starts_(library, "shaders/bins_starts.comp"),
       scatter_(library, "shaders/bins_scatter.comp") {
-    count_.bind("CellCounts", counts_);
+    count_.bind("Counts", counts_);
     count_.bind("SitePlaces", places_);
     grid.describeTo(count_);
-    sum_.bind("CellCounts", counts_);
+    sum_.bind("Counts", counts_);
     sum_.bind("GroupSums", group_sums_);
-    sum_.set("cell_count", grid.count());
-    find_starts_.bind("CellCounts", counts_);
+    sum_.set("count_total", grid.count());
+    find_starts_.bind("Counts", counts_);
     find_starts_.bind("GroupSums", group_sums_);
     find_starts_.bind("BinStarts", starts_);
-    find_starts_.set("cell_count", grid.count());
+    find_starts_.set("count_total", grid.count());
     scatter_.bind("BinStarts", starts_);
     scatter_.bind("SitePlaces", places_);
     scatter_.bind("BinnedSites", sites_);

@@ -50,14 +50,14 @@ TEST_F(GlTest, RefusesABufferLargerThanTheDeviceGives) {
 }
 
 TEST_F(GlTest, RefusesToRunAProgramWithAnUnboundBlockOrUnsetUniform) {
-    gl::ComputeProgram program(library, "shaders/cells_sum.comp");
+    gl::ComputeProgram program(library, "shaders/counts_sum.comp");
     const gl::Buffer counts("counts", 4096);
     const gl::Buffer sums("sums", 4096);
-    program.bind("CellCounts", counts);
+    program.bind("Counts", counts);
     EXPECT_THROW(program.dispatch(1), std::logic_error);
     program.bind("GroupSums", sums);
     EXPECT_THROW(program.dispatch(1), std::logic_error);
-    program.set("cell_count", 1u);
+    program.set("count_total", 1u);
     EXPECT_NO_THROW(program.dispatch(1));
     EXPECT_THROW(program.bind("NoSuchBlock", counts), std::logic_error);
     EXPECT_THROW(program.set("no_such_uniform", 1u), std::logic_error);
@@ -68,16 +68,16 @@ TEST(Shaders, AreReadFromAFolderBeforeTheBinary) {
     const gl::Context context({});
     const std::filesystem::path folder = std::filesystem::temp_directory_path() / "throng_shader_folder_test";
     std::filesystem::create_directories(folder);
-    std::ofstream(folder / "cells_sum.comp") << "this is not GLSL\n";
+    std::ofstream(folder / "counts_sum.comp") << "this is not GLSL\n";
     const gl::ShaderLibrary edited(folder);
     try {
-        gl::ComputeProgram program(edited, "shaders/cells_sum.comp");
+        gl::ComputeProgram program(edited, "shaders/counts_sum.comp");
         FAIL() << "compiled nonsense";
     } catch (const gl::GraphicsError& error) {
-        EXPECT_NE(std::string(error.what()).find("shaders/cells_sum.comp"), std::string::npos)
+        EXPECT_NE(std::string(error.what()).find("shaders/counts_sum.comp"), std::string::npos)
             << error.what();
     }
-    EXPECT_NO_THROW(gl::ComputeProgram(edited, "shaders/cells_scan.comp"));
+    EXPECT_NO_THROW(gl::ComputeProgram(edited, "shaders/strips_scan.comp"));
     EXPECT_THROW(gl::ComputeProgram(edited, "shaders/none.comp"), gl::GraphicsError);
     std::filesystem::remove_all(folder);
 }

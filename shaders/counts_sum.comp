@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// First half of the prefix sum over cells: one total per group of threads.
+// First half of a prefix sum: one total per group of threads.
 #include "shaders/shared/simulation_types.h"
 
 layout(local_size_x = SCAN_GROUP_SIZE) in;
-layout(std430) readonly buffer CellCounts { uint cell_counts[]; };
+layout(std430) readonly buffer Counts { uint counts[]; };
 layout(std430) writeonly buffer GroupSums { uint group_sums[]; };
-uniform uint cell_count;
+uniform uint count_total;  // how many counts there are
 
 shared uint thread_sums[SCAN_GROUP_SIZE];
 
 void main() {
-    uint first = gl_GlobalInvocationID.x * CELLS_PER_THREAD;
-    uint last = min(first + CELLS_PER_THREAD, cell_count);
+    uint first = gl_GlobalInvocationID.x * COUNTS_PER_THREAD;
+    uint last = min(first + COUNTS_PER_THREAD, count_total);
     uint sum = 0u;
-    for (uint cell = first; cell < last; ++cell) sum += cell_counts[cell];
+    for (uint i = first; i < last; ++i) sum += counts[i];
     thread_sums[gl_LocalInvocationID.x] = sum;
     barrier();
     if (gl_LocalInvocationID.x == 0u) {
