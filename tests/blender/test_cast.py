@@ -11,7 +11,6 @@ from throng import cast  # noqa: E402
 from throng.cast import gait, people  # noqa: E402
 from throng.cast.figure import Figure  # noqa: E402
 from throng.cast.mesh_builder import Plan, add, cross, mix, scale, sub, unit  # noqa: E402
-from throng.cast.outfit import _SHANK, _THIGH  # noqa: E402
 
 STRIDES = tuple(1.446 * 1.28 ** k for k in range(-3, 3))  # as of `throng bake`
 GAITS = [gait.gait_of(stride) for stride in STRIDES]
@@ -180,18 +179,25 @@ def skin_of(upper, lower, radii):
             yield add(mix(upper, lower, share), add(scale(across, radius * math.cos(angle)), scale(other, radius * math.sin(angle))))
 
 
-@pytest.mark.parametrize("index", [index for index, person in enumerate(people.CAST) if person.top in ("coat", "dress") or person.bottom == "skirt"])
-def test_legs_stay_inside_of_skirts_and_coats_and_hands_outside(index):
+def along(profile, step=0.04):
+    """A limb's radius every so often along it, and at its ends."""
+    for (share, radius), (later, wider) in zip(profile, profile[1:]):
+        count = max(1, round((later - share) / step))
+        yield from ((share + (later - share) * k / count, radius + (wider - radius) * k / count) for k in range(count))
+    yield profile[-1]
+
+
+@pytest.mark.parametrize("index", [index for index, person in enumerate(people.CAST) if person.top != "shirt" or person.bottom == "skirt"])
+def test_legs_stay_inside_of_skirts_coats_and_hems_and_hands_outside(index):
     person = people.CAST[index]
     legs, hands = {False: -1.0, True: -1.0}, 1.0
     for number, pose in enumerate(cast.poses_of(person, REPERTOIRE)):
         figure = Figure(person, pose, people.build_of(person))
-        wide, runs = figure.s * figure.g ** 0.7, 4 * cast.POSES <= number < REPERTOIRE.walking()
+        runs = 4 * cast.POSES <= number < REPERTOIRE.walking()
         for cloth in figure.skirts:
-            for hip, knee, ankle in figure.legs:
-                for upper, lower, radii in ((hip, knee, _THIGH), (knee, ankle, _SHANK)):
-                    gaps = [outside(cloth, point) for point in skin_of(upper, lower, [(share, radius * wide) for share, radius in radii])]
-                    legs[runs] = max([legs[runs], *(gap for gap in gaps if gap is not None)])
+            for upper, lower, profile in figure.leg_limbs:
+                gaps = [outside(cloth, point) for point in skin_of(upper, lower, list(along(profile)))]
+                legs[runs] = max([legs[runs], *(gap for gap in gaps if gap is not None)])
             if not runs:
                 hands = min([hands, *(gap for *_, wrist in figure.arms for gap in [outside(cloth, wrist)] if gap is not None)])
     assert figure.skirts and legs[False] < 0.006 and legs[True] < 0.025, legs

@@ -2,8 +2,8 @@
 """A person's body in one pose, as lofts. Pure Python."""
 import math
 
-from . import gait, outfit
-from .mesh_builder import MeshBuilder, add, mix, ring, scale, sub, turn_y, turn_z, unit
+from . import cloth, gait, outfit
+from .mesh_builder import MeshBuilder, add, mix, ring, scale, turn_y, turn_z, unit
 from .people import EYES, BOTTOM, GREY, HAIR, SHOES, SKIN, STANDARD_HEIGHT, TOP
 
 _SHOE = (  # along the foot from the ankle, height of the sole and of the upper, half width
@@ -30,12 +30,15 @@ class Figure:
         self.pelvis = pose.pelvis
         self.hair_material = GREY if person.grey else HAIR
         self.arms, self.legs = [], []  # right and left: (shoulder, elbow, wrist), (hip, knee, ankle)
+        self.leg_limbs = []  # what of them cloth must cover: (start, end, [(share of the length, radius)])
+        self.profile = _profile(person)
         self.skirts = []  # of what hangs over the hips, rings of points from the waist down
         self._trunk()
         self._head()
         wrists = [self._arm(side, *pose.arms[index]) for index, side in enumerate((-1, 1))]
         hips, knees, ankles = zip(*(self._leg(side, pose.feet[index]) for index, side in enumerate((-1, 1))))
-        outfit.add_skirts(self, hips, knees, ankles)
+        cloth.add_hem(self)
+        cloth.add_skirts(self, hips, knees, ankles)
         outfit.add_things(self, wrists, ankles)
 
     def along(self, height):
@@ -57,23 +60,27 @@ class Figure:
         lean = self.lean + (self.person.stoop if height > _WAIST else 0.0)
         return ring(centre, turn_z(turn_y((1.0, 0.0, 0.0), lean), turn), turn_z((0.0, 1.0, 0.0), turn), rx * self.s, ry * self.s)
 
+    def trunk_at(self, height):
+        """(fore-aft, half width, forward) of the trunk at a height, clothes included."""
+        for (low, *below), (high, *above) in zip(self.profile, self.profile[1:]):
+            if height <= high:
+                return mix(below, above, max(0.0, (height - low) / (high - low)))
+        return self.profile[-1][1:]
+
+    def on_trunk(self, height, aside, off, front=True, wider=1.0):
+        """A point before the chest or behind the back, so many metres off it; `wider` is what is worn over it."""
+        deep, wide, forward = self.trunk_at(height)
+        deep, wide = deep * wider, wide * wider
+        power = 1.0 - 0.45 * _TRUNK_SQUARE  # of the outline, see mesh_builder
+        share = max(0.0, 1.0 - min(1.0, abs(aside) / wide) ** (2.0 / power)) ** (0.5 * power)
+        return self.at(height, forward + (1.0 if front else -1.0) * (deep * share + off), aside, min(1.0, max(0.0, height / 0.45)))
+
     def _trunk(self):
-        p, g, mesh = self.person, self.g, self.mesh
-        wide = p.shoulders * 0.5
-        bulk = outfit.BULK.get(p.top, 1.0)
-        belly = 0.012 * max(0.0, g - 0.95) / 0.1
-        profile = [  # height, fore-aft, half width, forward
-            (-0.07, 0.100 * g, 0.150 * p.hips, -0.010), (0.00, 0.118 * g, 0.168 * p.hips, -0.010),
-            (0.08, 0.110 * g, 0.152 * (0.5 + 0.5 * p.hips), 0.0), (0.17, 0.106 * g + belly, 0.138 * g, 0.008 + belly),
-            (0.27, 0.116 * g + 0.5 * belly, wide * 0.80 * g ** 0.5, 0.010), (0.37, 0.124 * g, wide * 0.93, 0.006),
-            (0.43, 0.108 * g, wide * 0.99, -0.004), (0.468, 0.090, wide * 0.80, -0.010), (0.495, 0.074, wide * 0.52, -0.012), (0.52, 0.060, 0.070, -0.010)]
-        rings = [self.trunk_ring(h, a * (bulk if h > 0.05 else 1.0), b * (bulk if h > 0.05 else 1.0), f) for h, a, b, f in profile]
+        p, mesh = self.person, self.mesh
+        rings = [self.trunk_ring(*each) for each in self.profile]
         split = 2 if p.top in ("shirt", "tee") else 1
-        mesh.loft(rings[:split + 1], BOTTOM, 12, 0.25, caps=(True, False))
-        mesh.loft(rings[split:], TOP, 12, 0.25, caps=(False, True))
-        if p.top in ("jacket", "hoodie", "tee"):  # the hem hangs over the hips
-            mesh.loft([self.trunk_ring(-0.035, 0.122 * g * bulk, 0.176 * p.hips * bulk, -0.008), self.trunk_ring(0.10, 0.121 * g * bulk, 0.163 * bulk, 0.0)],
-                      TOP, 12, 0.25, caps=(False, False))
+        mesh.loft(rings[:split + 1], BOTTOM, 12, _TRUNK_SQUARE, caps=(True, False))
+        mesh.loft(rings[split:], TOP, 12, _TRUNK_SQUARE, caps=(False, True))
         mesh.limb(self.along(0.47), self.at(0.575, 0.018), [(0.0, 0.066 * self.s), (0.4, 0.056 * self.s), (1.0, 0.053 * self.s)], SKIN, 8)
         outfit.add_collar(self)
 
@@ -103,7 +110,7 @@ class Figure:
         bulk = outfit.SLEEVES.get(p.top, 1.0) * self.g ** 0.5
         shoulder = self.at(0.435, -0.005, side * p.shoulders * 0.465)
         # Outwards enough for the hand to pass beside what hangs over the hips.
-        room = (outfit.hem(p) + 0.055 - p.shoulders * 0.465 / s) / 0.55
+        room = (cloth.hem(p) + 0.055 - p.shoulders * 0.465 / s) / 0.55
         out = side * max(0.11 + 0.05 * (self.g - 1.0), min(room, 0.30))
         share, held, more = _CARRYING.get((p.extra, side), (1.0, 0.0, 0.0))
         swing, elbow = swing * share + held, elbow * share + more
@@ -117,14 +124,16 @@ class Figure:
         fore = unit(add(hang(swing + elbow), (0.0, -side * 0.09, 0.0)))
         wrist = add(elbow_at, scale(fore, 0.245 * s))
         self.arms.append((shoulder, elbow_at, wrist))
-        mesh.ball(shoulder, (0.050 * s * bulk, 0.049 * s * bulk, 0.056 * s * bulk), TOP, 8, 4, until=1)
+        mesh.ball(shoulder, (0.0485 * s * bulk, 0.0485 * s * bulk, 0.052 * s * bulk), TOP, 8, 4, until=1)
         if p.top == "tee":
             mesh.limb(shoulder, mix(shoulder, elbow_at, 0.52), [(0, 0.056 * s * bulk), (1, 0.056 * s * bulk)], TOP, caps=(True, True))
             mesh.limb(mix(shoulder, elbow_at, 0.4), elbow_at, [(0, 0.044 * s * bulk), (0.6, 0.042 * s * bulk), (1, 0.037 * s * bulk)], SKIN)
-            mesh.limb(elbow_at, wrist, [(0, 0.037 * s * bulk), (0.3, 0.039 * s * bulk), (1, 0.026 * s * bulk)], SKIN)
+            mesh.ball(elbow_at, (0.037 * s * bulk,) * 3, SKIN, 8, 4, until=0)
+            mesh.limb(elbow_at, wrist, [(0, 0.037 * s * bulk), (0.3, 0.039 * s * bulk), (1, 0.026 * s * bulk)], SKIN, caps=(False, True))
         else:
-            mesh.limb(shoulder, elbow_at, [(0, 0.047 * s * bulk), (0.5, 0.045 * s * bulk), (1.04, 0.039 * s * bulk)], TOP, caps=(True, False))
-            mesh.limb(add(elbow_at, scale(upper, -0.01)), wrist, [(0, 0.038 * s * bulk), (0.35, 0.039 * s * bulk), (1, 0.030 * s * bulk)], TOP, caps=(False, True))
+            mesh.limb(shoulder, elbow_at, [(0, 0.0485 * s * bulk), (0.5, 0.045 * s * bulk), (1.0, 0.0395 * s * bulk)], TOP, caps=(True, False))
+            mesh.ball(elbow_at, (0.0395 * s * bulk,) * 3, TOP, 8, 4, until=0)
+            mesh.limb(elbow_at, wrist, [(0, 0.0395 * s * bulk), (0.35, 0.039 * s * bulk), (1, 0.030 * s * bulk)], TOP, caps=(False, True))
         hand = unit(add(fore, (0.0, 0.0, -0.25)))
         mesh.limb(add(wrist, scale(fore, -0.015 * s)), add(wrist, scale(hand, 0.165 * s)),
                   [(0, 0.024 * s), (0.25, 0.030 * s), (0.6, 0.035 * s), (0.85, 0.027 * s), (1, 0.012 * s)], SKIN, 8, 0.55, side=(1, 0, 0), caps=(False, True))
@@ -140,14 +149,21 @@ class Figure:
         self.legs.append((hip, knee, ankle))
         w = s * self.g ** 0.7
         thigh = SKIN if p.bottom == "skirt" else TOP if p.top == "dress" else BOTTOM
-        mesh.limb(add(hip, (0, 0, 0.05 * s)), knee, [(0, 0.080 * w), (0.18, 0.091 * w), (0.55, 0.074 * w), (0.9, 0.060 * w), (1.04, 0.055 * w)], thigh, 8)
+
+        def limb(start, end, profile, material):
+            radii = [(share, radius * w) for share, radius in profile]
+            self.leg_limbs.append((start, end, radii))
+            mesh.limb(start, end, radii, material)
+
+        limb(add(hip, (0, 0, 0.05 * s)), knee, _THIGH, thigh)
+        if p.bottom != "shorts":
+            mesh.ball(knee, (0.0575 * w,) * 3, SKIN if p.bottom == "skirt" else BOTTOM, 8, 4, until=0)
         if p.bottom in ("skirt", "shorts"):
-            mesh.limb(mix(hip, knee, 0.7), ankle, [(0, 0.058 * w), (0.25, 0.054 * w), (0.5, 0.055 * w), (0.75, 0.045 * w), (1, 0.034 * w)], SKIN, 8)
+            limb(mix(hip, knee, 0.7), ankle, _BARE_SHANK, SKIN)
             if p.bottom == "shorts":
-                mesh.limb(hip, mix(hip, knee, 0.98), [(0, 0.09 * w), (0.6, 0.086 * w), (1, 0.083 * w)], BOTTOM, 8)
+                limb(hip, mix(hip, knee, 0.98), _SHORTS, BOTTOM)
         else:
-            mesh.limb(add(knee, scale(unit(sub(knee, hip)), -0.02)), ankle,
-                      [(0, 0.057 * w), (0.25, 0.060 * w), (0.6, 0.051 * w), (0.93, 0.046 * w), (1.0, 0.048 * w)], BOTTOM, 8)
+            limb(knee, ankle, _TROUSERS, BOTTOM)
         self._shoe(ankle, foot.pitch)
         return hip, knee, ankle
 
@@ -170,3 +186,22 @@ class Figure:
 
 
 _WAIST = 0.12  # m above the hips: from here on a bent back bends
+_TRUNK_SQUARE = 0.25
+# Of the legs' limbs: (share of the length, radius in m).
+_THIGH = ((0.0, 0.080), (0.18, 0.091), (0.55, 0.074), (0.9, 0.060), (1.0, 0.0575))
+_SHORTS = ((0.0, 0.09), (0.6, 0.086), (1.0, 0.083))
+_BARE_SHANK = ((0.0, 0.058), (0.25, 0.054), (0.5, 0.055), (0.75, 0.045), (1.0, 0.034))
+_TROUSERS = ((0.0, 0.0575), (0.25, 0.060), (0.6, 0.051), (0.93, 0.046), (1.0, 0.048))
+
+
+def _profile(person):
+    """The trunk with its clothes: [(height above the hips, fore-aft, half width, forward)], in m for somebody of standard height."""
+    p, g, wide = person, person.girth, person.shoulders * 0.5
+    bulk = cloth.BULK.get(p.top, 1.0)
+    belly = 0.012 * max(0.0, g - 0.95) / 0.1
+    profile = (
+        (-0.07, 0.100 * g, 0.150 * p.hips, -0.010), (0.00, 0.118 * g, 0.168 * p.hips, -0.010),
+        (0.08, 0.110 * g, 0.152 * (0.5 + 0.5 * p.hips), 0.0), (0.17, 0.106 * g + belly, 0.138 * g, 0.008 + belly),
+        (0.27, 0.116 * g + 0.5 * belly, wide * 0.80 * g ** 0.5, 0.010), (0.37, 0.124 * g, wide * 0.93, 0.006),
+        (0.43, 0.108 * g, wide * 0.99, -0.004), (0.468, 0.090, wide * 0.80, -0.010), (0.495, 0.074, wide * 0.52, -0.012), (0.52, 0.060, 0.070, -0.010))
+    return [(h, a * (bulk if h > 0.05 else 1.0), b * (bulk if h > 0.05 else 1.0), f) for h, a, b, f in profile]

@@ -11,6 +11,7 @@ from functools import lru_cache
 # How far (m) a level's skin may be from the full one where it leaves out rings, and how many points its rings have.
 TOLERANCES = (0.004, 0.013, 0.045)
 _POINTS = ({}, {12: 6, 8: 5, 6: 4}, {12: 5, 10: 4, 8: 3, 6: 3, 4: 3})
+_CLOTH_POINTS = (12, 8, 6)  # of what hangs over legs
 
 
 def add(a, b):
@@ -77,8 +78,12 @@ def _area(points):
 
 
 @lru_cache(maxsize=None)
-def outline_at(count, square, level, stands=False):
+def outline_at(count, square, level, stands=False, drapes=False):
     """The same with the points of a level of detail, grown so that it covers the same area: silhouettes stay as wide."""
+    if drapes:  # it stays outside of what it covers, which is angular, too
+        points = min(count, _CLOTH_POINTS[level])
+        grown = (math.cos(math.pi / count) / math.cos(math.pi / points)) ** (1.0 if level < 2 else 0.5)  # the coarsest, half so
+        return tuple((c * grown, s * grown) for c, s in outline(points, square))
     if stands:
         return outline(max(4, _POINTS[level].get(count, count)), square)
     full, fewer = outline(count, square), outline(_POINTS[level].get(count, count), square)
@@ -97,6 +102,7 @@ class Part:
     caps: tuple      # whether (start, end) are closed
     until: int       # the last level of detail that has it
     stands: bool     # on the ground: it must not grow into it where it has fewer points
+    drapes: bool     # over legs, which must not show through it
 
 
 class MeshBuilder:
@@ -106,8 +112,8 @@ class MeshBuilder:
         self.rings = []
         self.parts = []
 
-    def loft(self, rings, material, count, square=0.0, caps=(True, True), until=2, stands=False):
-        self.parts.append(Part(len(self.rings), len(rings), count, square, material, caps, until, stands))
+    def loft(self, rings, material, count, square=0.0, caps=(True, True), until=2, stands=False, drapes=False):
+        self.parts.append(Part(len(self.rings), len(rings), count, square, material, caps, until, stands, drapes))
         self.rings += rings
 
     def limb(self, start, end, profile, material, count=8, flat=1.0, side=(0.0, 1.0, 0.0), caps=(False, False), until=2):
@@ -169,8 +175,8 @@ class Plan:
         for part in parts:
             if part.until < level:
                 continue
-            points = outline_at(part.count, part.square, level, part.stands)
-            kept = _kept(part, samples, TOLERANCES[level] * (0.4 if part.stands else 1.0))
+            points = outline_at(part.count, part.square, level, part.stands, part.drapes)
+            kept = _kept(part, samples, TOLERANCES[level] * (0.4 if part.stands or part.drapes else 1.0))
             self._rings += [(index, points) for index in kept]
             self._join(base, len(kept), len(points), part)
             base += len(kept) * len(points)

@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What hangs over hips and legs: skirts, coats, dresses, hems. Pure Python.
+
+Nothing is simulated: in every pose, the rings of the cloth are made just deep and wide enough for the legs that are within them, so that
+legs never show through and cloth rests on a thigh that comes forward.
+"""
+import math
+
+from .mesh_builder import add, mix, outline, ring, scale, turn_z
+from .people import BOTTOM, TOP
+
+BULK = {"coat": 1.10, "jacket": 1.06, "hoodie": 1.08}
+_OPEN = (False, False)
+
+
+def add_skirts(figure, hips, knees, ankles):
+    p = figure.person
+    if p.bottom == "skirt":
+        _skirt(figure, hips, knees, ankles, 0.95, BOTTOM, 1.0)
+    if p.top == "coat":
+        _skirt(figure, hips, knees, ankles, 0.82, TOP, 1.1, _CLOTH if p.bottom != "skirt" else 4.0 * _CLOTH)
+    if p.top == "dress":
+        _skirt(figure, hips, knees, ankles, 1.62, TOP, 1.12)
+
+
+_SKIRT_POINTS, _SKIRT_SQUARE = 12, 0.4
+_CLOTH, _BESIDE = 0.012, 0.86  # m that cloth stands off a leg; how deep rings are where legs are
+_FAR_ALONG = 0.8  # of half a ring's depth: nobody's cloth is made wider for what is further from its middle
+
+
+def hem(person):
+    """Half the width of what hangs over the hips, for somebody of standard height, m: arms swing outside of it."""
+    flare = {"coat": 1.1, "dress": 1.12}.get(person.top, 1.0 if person.bottom == "skirt" else 0.0)
+    hips = 0.176 * BULK.get(person.top, 1.0) * person.hips
+    return max(hips, 0.178 * person.hips * flare * 1.06)
+
+
+def _surfaces(figure, off):
+    """The foremost and the hindmost points of the legs' skin, `off` metres off it, and the outermost y: [(x, z of the front, x, z of the back, y)]."""
+    points = []
+    for start, end, profile in figure.leg_limbs:
+        dx, dz = end[0] - start[0], end[2] - start[2]
+        size = math.hypot(dx, dz)
+        nx, nz = (-dz / size, dx / size) if size > 1e-6 else (1.0, 0.0)  # forward, across the limb
+        for (share, radius), (later, wider) in zip(profile, profile[1:]):
+            for part in (0.0, 0.33, 0.67, 1.0) if later == profile[-1][0] else (0.0, 0.33, 0.67):
+                x, y, z = mix(start, end, share + (later - share) * part)
+                away = radius + (wider - radius) * part + off
+                points.append((x + nx * away, z + nz * away, x - nx * away, z - nz * away, y + math.copysign(away, start[1] - figure.pelvis[1])))
+    return points
+
+
+def _cover(spans, x, z, side):
+    """Widens rings [front, back, y, z, half width] until the cloth between them is outside of a point; `side` is 0 in front and 1 behind."""
+    sign = 1.0 if side == 0 else -1.0
+    if spans[-1][3] - 0.05 < z:  # what is just below the hem is at the hem a little higher
+        z = max(z, spans[-1][3])
+    for upper, lower in zip(spans, spans[1:]):
+        if lower[3] <= z <= upper[3]:
+            share = (z - lower[3]) / max(upper[3] - lower[3], 1e-6)
+            near, far = (lower[end] + (upper[end] - lower[end]) * share for end in (side, 1 - side))
+            missing = sign * ((x - 0.5 * (1.0 - _BESIDE) * far) / (0.5 * (1.0 + _BESIDE)) - near)
+            if missing > 0.0:  # shared so that what is nearer gives more
+                weight = share * share + (1.0 - share) * (1.0 - share)
+                upper[side] += sign * missing * share / weight
+                lower[side] += sign * missing * (1.0 - share) / weight
+            return
+    if z > spans[0][3]:
+        spans[0][side] = sign * max(sign * spans[0][side], sign * x)
+
+
+def _cover_legs(figure, spans, off):
+    """Makes rings as deep and as wide as what is within them."""
+    points = _surfaces(figure, off * figure.s)
+    for _ in range(4):  # what covers one point may move the cloth off another
+        for front, front_z, back, back_z, _ in points:
+            _cover(spans, front, front_z, 0)
+            _cover(spans, back, back_z, 1)
+    _widen(spans, points)
+
+
+def _widen(spans, points):
+    """Makes rings as wide as both legs, wherever along them these are."""
+    power = 1.0 - 0.45 * _SKIRT_SQUARE  # of the outline, see mesh_builder
+    for front, front_z, back, back_z, aside in points:
+        z = min(0.5 * (front_z + back_z), spans[0][3])
+        if z < spans[-1][3] - 0.02:
+            continue
+        upper, lower = next((pair for pair in zip(spans, spans[1:]) if pair[1][3] <= z), spans[-2:])
+        share = min(1.0, max(0.0, (z - lower[3]) / max(upper[3] - lower[3], 1e-6)))
+        first, last = (lower[end] + (upper[end] - lower[end]) * share for end in (0, 1))
+        along = min(_FAR_ALONG, abs(0.5 * (front + back) - 0.5 * (first + last)) / (0.5 * (first - last)))
+        needed = abs(aside - lower[2]) / (1.0 - along ** (2.0 / power)) ** (0.5 * power)
+        missing = needed - (lower[4] + (upper[4] - lower[4]) * share)
+        if missing > 0.0:  # shared so that what is nearer gives more
+            weight = share * share + (1.0 - share) * (1.0 - share)
+            upper[4] += missing * share / weight
+            lower[4] += missing * (1.0 - share) / weight
+
+
+def _skirt(figure, hips, knees, ankles, length, material, flare, off=_CLOTH):
+    """Cloth from the waist down to a share of the legs: 1 is the knees, 2 the ankles. It hangs as tight as both legs let it."""
+    p, g, s = figure.person, figure.g, figure.s
+    waist = [figure.trunk_ring(0.08, 0.114 * g * flare, 0.156 * (0.5 + 0.5 * p.hips) * flare, 0.0)]
+    if material == TOP:  # of one piece with what is above
+        waist.insert(0, _flush(figure, 0.16, 1.01))
+    below = figure.at(-0.02, -0.01, 0.0, 0.0)
+    spans = [[below[0] + 0.135 * g * flare * s, below[0] - 0.135 * g * flare * s, below[1], below[2], 0.185 * p.hips * flare * s]]
+    for share in (0.2, 0.55, 1.0) if length <= 1.0 else (0.12, 0.33, 0.62, 1.0):
+        t = share * length
+        points = [mix(hip, knee, t) if t <= 1.0 else mix(knee, ankle, t - 1.0) for hip, knee, ankle in zip(hips, knees, ankles)]
+        centre = mix(points[0], points[1], 0.5)
+        least = (0.125 if t <= 1.0 else 0.10) * s * g * flare
+        spans.append([centre[0] + least, centre[0] - least, centre[1], min(centre[2], spans[-1][3] - 0.02 * s),
+                      0.178 * s * p.hips * flare * (1.0 + 0.06 * share) * (1.0 if t <= 1.0 else 0.97)])
+    _cover_legs(figure, spans, off)
+    for upper, lower in zip(spans, spans[1:]):  # cloth hangs: it does not draw in below a knee
+        lower[0], lower[1] = max(lower[0], upper[0] - 0.015 * s), min(lower[1], upper[1] + 0.015 * s)
+    _hang(figure, waist, spans, material, (False, True))
+
+
+def _hang(figure, rings, spans, material, caps):
+    """Cloth from rings down through spans."""
+    turn = 0.5 * figure.pose.pelvis_yaw
+    x, y = turn_z((1, 0, 0), turn), turn_z((0, 1, 0), turn)
+    rings = rings + [ring((0.5 * (front + back), across, z), x, y, 0.5 * (front - back), width) for front, back, across, z, width in spans]
+    figure.mesh.loft(rings, material, _SKIRT_POINTS, _SKIRT_SQUARE, caps=caps, drapes=True)
+    figure.skirts.append([[add(r[:3], add(scale(r[3:6], c), scale(r[6:9], n))) for c, n in outline(_SKIRT_POINTS, _SKIRT_SQUARE)] for r in rings])
+
+
+def add_hem(figure):
+    """Of a jacket or a shirt that is not tucked in: over the hips, and over thighs that come forward."""
+    p, g, s = figure.person, figure.g, figure.s
+    if p.top not in ("jacket", "hoodie", "tee") or p.bottom == "skirt":
+        return
+    bulk = BULK.get(p.top, 1.0)
+    above, waist = _flush(figure, 0.15, 1.01), _flush(figure, 0.08, 1.04)
+    spans = []
+    for height, deep, wide in ((0.0, 0.121, 0.172), (-0.055, 0.124, 0.178)):
+        x, y, z = figure.at(height, -0.006, 0.0, 0.0)
+        spans.append([x + deep * g * bulk * s, x - deep * g * bulk * s, y, z, wide * p.hips * bulk * s])
+    _cover_legs(figure, spans, _CLOTH)
+    _hang(figure, [above, waist], spans, TOP, _OPEN)
+
+
+def _flush(figure, height, wider):
+    """A ring just over what is worn beneath."""
+    deep, wide, forward = figure.trunk_at(height)
+    return figure.trunk_ring(height, deep * wider, wide * wider, forward)
