@@ -98,6 +98,12 @@ def _figures(holder, repertoire):
     return [people.build_figure(person, pose) for pose in poses_of(person, repertoire)]
 
 
+def drop_spare_attributes(mesh, smooth=True):
+    """What editing left in a mesh, and marks of sharp faces where there are none: Blender goes over the attributes of all poses in every frame."""
+    for name in [each.name for each in mesh.attributes if each.name.startswith((".select_", ".uv_select_")) or (smooth and each.name == "sharp_face")]:
+        mesh.attributes.remove(mesh.attributes[name])
+
+
 def _template(plan, flat, materials):
     mesh = bpy.data.meshes.new("throng template")
     mesh.from_pydata(list(zip(flat[::3], flat[1::3], flat[2::3])), [], plan.faces)
@@ -106,6 +112,7 @@ def _template(plan, flat, materials):
     mesh.polygons.foreach_set("material_index", plan.materials)
     mesh.polygons.foreach_set("use_smooth", [True] * len(plan.faces))
     mesh.update()
+    drop_spare_attributes(mesh)
     return mesh
 
 

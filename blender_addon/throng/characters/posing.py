@@ -10,6 +10,7 @@ import bpy
 import numpy
 from mathutils import Matrix
 
+from ..cast.library import drop_spare_attributes
 from . import CharacterError
 from .rig import bone_above, is_skinned
 
@@ -145,8 +146,7 @@ class Puppet:
         whole.free()
         for material in materials:
             mesh.materials.append(material)
-        for left_over in [each.name for each in mesh.attributes if each.name.startswith((".select_", ".uv_select_"))]:
-            mesh.attributes.remove(mesh.attributes[left_over])
+        drop_spare_attributes(mesh, smooth=False)
         if customs and hasattr(mesh, "use_auto_smooth"):
             mesh.use_auto_smooth = True
         return mesh
