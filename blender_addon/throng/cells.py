@@ -80,7 +80,10 @@ def _file(bake, frame):
 
 def _take_away(collection):
     for thing in [thing for thing in collection.objects if OVERLAY in thing]:
+        mesh, materials = thing.data, {slot.material for slot in thing.material_slots if slot.material}
         bpy.data.objects.remove(thing)
+        for brought in ([mesh], materials):  # the mesh may be the terrain's
+            bpy.data.batch_remove([each for each in brought if each.users == 0])
     # Also where it is on nothing just now: streets that are built anew take their old materials again.
     for material in {slot.material for slot in _ground_slots(collection)} | {own for own in bpy.data.materials if own.get("throng_crowd") == collection.name}:
         nodes, links = material.node_tree.nodes, material.node_tree.links

@@ -66,7 +66,9 @@ def with_the_add_on(addon, bake, folder):
     assert bpy.ops.throng.cells(kind="overlay", strength=1.0) == {"FINISHED"}
     result["with overlay"] = len(scene.objects)
     bpy.ops.wm.save_mainfile()
+    assert sum(material.name.startswith("throng cells") for material in bpy.data.materials) == 1
     assert bpy.ops.throng.cells(kind="mask", strength=1.0) == {"FINISHED"}
+    assert not any(thing.name.startswith(("throng cells", "Throng cells")) for things in (bpy.data.materials, bpy.data.meshes) for thing in things)
     result["with mask"] = len(scene.objects)
     render(scene, 25, os.path.join(folder, "mask.exr"))
     assert bpy.ops.throng.cells(kind="mask", strength=1.0) == {"FINISHED"}
