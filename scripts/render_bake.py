@@ -45,7 +45,6 @@ def set_up_render(scene, options):
         cycles.use_denoising = False  # not every build has a denoiser
         cycles.max_bounces, cycles.diffuse_bounces, cycles.glossy_bounces, cycles.transmission_bounces = 4, 3, 2, 2
         cycles.caustics_reflective = cycles.caustics_refractive = False
-        cycles.sample_clamp_indirect = 1.5 if options.light == "night" else 4.0  # fireflies
 
 
 def main():

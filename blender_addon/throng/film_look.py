@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import bpy
 
-from .environment.lights import set_colours
+from .environment.lights import set_colours, tame_fireflies
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ def _set_render(scene, look):
         cycles.samples = 2 * look.samples
     cycles.max_bounces, cycles.diffuse_bounces, cycles.glossy_bounces, cycles.transmission_bounces = 6, 3, 2, 2
     cycles.caustics_reflective = cycles.caustics_refractive = False
-    cycles.sample_clamp_indirect = 4.0
+    tame_fireflies(scene)
     scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = look.width, look.height, 100
     scene.render.use_motion_blur, scene.render.motion_blur_shutter = True, 0.5  # 180 degrees
     if hasattr(scene.render, "motion_blur_position"):

@@ -32,5 +32,7 @@ for time in ("night", "day", "night"):
     assert bpy.ops.throng.light(time=time) == {"FINISHED"}
     lights = [thing.data for thing in scene.objects if thing.type == "LIGHT"]
     result["lights"].setdefault(time, []).append({"kinds": sorted(light.type for light in lights), "world": scene.world.name.split(".")[0],
-                                                  "lamps": [list(thing.location.xy) for thing in scene.objects if thing.type == "LIGHT" and thing.data.type == "POINT"]})
+                                                  "lamps": [list(thing.location.xy) for thing in scene.objects if thing.type == "LIGHT" and thing.data.type == "POINT"],
+                                                  "clamp": scene.cycles.sample_clamp_indirect,
+                                                  "heads_light": [thing.visible_diffuse for thing in scene.objects if thing.name.startswith("Throng lamp heads")]})
 print("RESULT " + json.dumps(result))

@@ -18,6 +18,8 @@ def test_shots_show_the_crowd_and_nights_have_lamps_beside_the_roads(blender, ba
     assert shots["crane"]["height"] > 4.0 and shots["crane"]["seen"] > 50
     assert {shot["cameras"] for shot in shots.values()} == {1}
     day, = result["lights"]["day"]
+    assert day["clamp"] > 1.0 > result["lights"]["night"][0]["clamp"] and day["heads_light"] == [], "fireflies are clamped at night only"
+    assert result["lights"]["night"][0]["heads_light"] == [False]
     assert day["kinds"] == ["SUN"] and day["world"] == "Throng sky"
     roads = manifest_of(bake)["geometry"]["roads"]
     first, again = result["lights"]["night"]

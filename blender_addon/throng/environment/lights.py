@@ -11,6 +11,7 @@ ELEVATION, AZIMUTH = math.radians(31.0), math.radians(128.0)
 
 
 TIMES = ("day", "night")
+_CLAMP = {"day": 4.0, "night": 0.4}  # of indirect light: what lies next to a lamp is so bright that the few rays that find it would be fireflies
 _EXPOSURE = {"day": 0.6, "night": 1.7}  # stops, for people in streets; from afar all the ground is in the sun
 _LESS_FROM_AFAR = 0.5
 _LAMP_HEIGHT, _LAMPS_APART, _MOST_LAMPS, _HUNG_HEIGHT = 5.4, 16.0, 40, 8.5
@@ -30,6 +31,7 @@ def build_light(scene, collection, time="day", manifest=None):
         _light_streets(collection, manifest or {})
     collection["throng_light_time"] = time
     expose(scene, collection)
+    tame_fireflies(scene)
     glow(glass(), 0.0 if time == "day" else 0.3)
     set_colours(scene)
 
@@ -39,6 +41,13 @@ def expose(scene, collection):
     time, shot = collection.get("throng_light_time"), collection.get("throng_shot", "crane")
     if time:
         scene.view_settings.exposure = _EXPOSURE[time] - (_LESS_FROM_AFAR if shot == "wide" else 0.0)
+
+
+def tame_fireflies(scene):
+    """How much of indirect light to keep, by the time of the day that the scene's crowds are lit for."""
+    times = {collection["throng_light_time"] for collection in scene.collection.children_recursive if "throng_light_time" in collection}
+    if hasattr(scene, "cycles"):  # which may be disabled
+        scene.cycles.sample_clamp_indirect = _CLAMP["night" if "night" in times else "day"]
 
 
 def _add(collection, thing):
@@ -112,22 +121,25 @@ def _light_streets(collection, manifest):
         return
     lamp = bpy.data.lights.new("Throng lamp", "POINT")
     lamp.energy, lamp.color, lamp.shadow_soft_size = 520.0, _WARM, 0.16
-    shape = Shape("Throng lamp posts")
+    posts, heads = Shape("Throng lamp posts"), Shape("Throng lamp heads")
     post, head = plain("lamp post", (0.03, 0.03, 0.035), 0.5), glow(plain("lamp head", (0.9, 0.8, 0.6), 0.4).copy(), 25.0, varied=False)
     for x, y in places:
         holder = bpy.data.objects.new("Throng lamp", lamp)
         holder.location = (x, y, _LAMP_HEIGHT - 0.25)
         _add(collection, holder)
-        shape.strip((x - 0.05, y), (x + 0.05, y), 0.05, 0.0, _LAMP_HEIGHT, post)
-        shape.strip((x - 0.16, y), (x + 0.16, y), 0.16, _LAMP_HEIGHT, _LAMP_HEIGHT + 0.12, head)
+        posts.strip((x - 0.05, y), (x + 0.05, y), 0.05, 0.0, _LAMP_HEIGHT, post)
+        heads.strip((x - 0.16, y), (x + 0.16, y), 0.16, _LAMP_HEIGHT, _LAMP_HEIGHT + 0.12, head)
     hung = bpy.data.lights.new("Throng hung lamp", "SPOT")  # over junctions, from cables
     hung.energy, hung.color, hung.shadow_soft_size, hung.spot_size, hung.spot_blend = 2600.0, _WARM, 0.25, math.radians(150.0), 0.8
     for x, y in junctions(manifest):
         holder = bpy.data.objects.new("Throng hung lamp", hung)
         holder.location = (x, y, _HUNG_HEIGHT - 0.15)
         _add(collection, holder)
-        shape.strip((x - 0.25, y), (x + 0.25, y), 0.25, _HUNG_HEIGHT, _HUNG_HEIGHT + 0.12, head)
-    _add(collection, shape.to_object())
+        heads.strip((x - 0.25, y), (x + 0.25, y), 0.25, _HUNG_HEIGHT, _HUNG_HEIGHT + 0.12, head)
+    _add(collection, posts.to_object())
+    shining = heads.to_object()
+    shining.visible_diffuse = shining.visible_glossy = False  # the lamps light; rays that found so small a head by chance would be fireflies
+    _add(collection, shining)
 
 
 def junctions(manifest):
