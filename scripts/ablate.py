@@ -5,9 +5,10 @@
 Usage: ablate.py THRONG -o FOLDER [--scenario corridor crossing] [--only 3 4 ...]
        ablate.py --check     whether every rule is still found in the shaders
 
-What has been measured stays in FOLDER/results.jsonl and is not measured again.
+What has been measured stays in FOLDER/results.jsonl and is not measured again while program, shaders and layout are the same.
 """
 import argparse
+import hashlib
 import json
 import pathlib
 import shutil
@@ -20,7 +21,8 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 NO_BRAKING_RULE = ("anticipation.glsl", "along *= 1.0 - max(oncoming, manners.impatience);", "along *= 1.0 - manners.impatience;")
 NO_IMPATIENCE = ("anticipation.glsl", "float impatience = clamp((nervousness - PATIENT) / (IMPATIENT - PATIENT), 0.0, 1.0);", "float impatience = 0.0;")
 
-# name in the table: (name for --only, edits of shaders [(file, what stands there, what takes its place)], settings)
+# name in the table: (name for --only, edits of shaders [(file, what stands there, what takes its place)], settings).
+# Edits leave every uniform in use: the program sets them all.
 VARIANTS = {
     "all rules": ("all", [], []),
     "people brake for oncoming people, too (no rule 3)": ("3", [NO_BRAKING_RULE], []),
@@ -29,18 +31,20 @@ VARIANTS = {
     "people swerve for those who cross, however dense the crowd (no rule 5)": (
         "5", [("anticipation.glsl", "float crowding = clamp((float(sensed) - SWERVE_FREELY) / (SWERVE_NO_MORE - SWERVE_FREELY), 0.0, 1.0);", "float crowding = 0.0;")], []),
     "routes do not heed jams (no rule 6)": ("6", [], ["simulation.avoid_congestion=false"]),
-    "the stuck do not look for another way (no rule 7)": ("7", [("steer.comp", "float despair = smoothstep(0.7, 0.95, nervousness);", "float despair = 0.0;")], []),
+    "the stuck do not look for another way (no rule 7)": ("7", [("steer.comp", "float despair = smoothstep(0.7, 0.95, nervousness);",
+              "float despair = steps_done == 0u ? nervousness : 0.0;")], []),
     "no cushion, no room to step": (
         "gaps", [("anticipation.glsl", "vec2 touch = cushion(offset, relative, reach) * patience;", "vec2 touch = vec2(0.0);"),
                  ("anticipation.glsl", "const float FOLLOWING_GAP = 0.1;", "const float FOLLOWING_GAP = 0.0;")], []),
-    "contact without Chebyshev's weights": ("weights", [("contact.comp", "position = mix(targets_after[slot], position, momentum);", "")], []),
+    "contact without Chebyshev's weights": ("weights", [("contact.comp", "position = mix(targets_after[slot], position, momentum);",
+                 "position = mix(targets_after[slot], position, min(momentum, 1.0));")], []),
     "everybody senses exactly (the grid) instead of through the diagram": ("grid", [], ["simulation.proximity=grid"]),
 }
 
 
-def edited_shaders(edits, folder):
+def edited_shaders(edits, folder, shaders=ROOT / "shaders"):
     """A copy of the shaders without a rule. Raises ValueError where the rule is not where it should be."""
-    shutil.copytree(ROOT / "shaders", folder)
+    shutil.copytree(shaders, folder)
     for file, found, instead in edits:
         path = pathlib.Path(folder) / file
         text = path.read_text()
@@ -50,14 +54,26 @@ def edited_shaders(edits, folder):
     return folder
 
 
-def measured(program, scenario, edits, settings):
+def hash_of(*things):
+    """Of files, folders and whatever can be printed."""
+    known = hashlib.sha256()
+    for thing in things:
+        files = sorted(path for path in thing.rglob("*") if path.is_file()) if isinstance(thing, pathlib.Path) and thing.is_dir() else [thing]
+        for each in files:
+            known.update(each.read_bytes() if isinstance(each, pathlib.Path) else repr(each).encode())
+    return known.hexdigest()[:16]
+
+
+def measured(program, scenario, edits, settings, shaders):
     """What `throng measure` says of a bake without the rule."""
     with tempfile.TemporaryDirectory() as scratch:
-        shaders = edited_shaders(edits, pathlib.Path(scratch) / "shaders")
+        shaders = edited_shaders(edits, pathlib.Path(scratch) / "shaders", shaders)
         bake = pathlib.Path(scratch) / "bake"
         subprocess.run([program, "bake", ROOT / "scenarios" / f"{scenario}.json", "-o", bake, "--no-gltf", "-q", "--shader-dir", shaders,
                         *(word for each in settings for word in ("--set", each))], check=True, stdout=subprocess.DEVNULL)
-        result = subprocess.run([program, "measure", bake, "--json"], stdout=subprocess.PIPE, check=False)  # 1: a bar is missed
+        result = subprocess.run([program, "measure", bake, "--json"], stdout=subprocess.PIPE, check=False)
+        if result.returncode not in (0, 1):  # 1: a bar is missed
+            raise SystemExit(result.returncode)
         return json.loads(result.stdout)
 
 
@@ -88,7 +104,7 @@ def main():
     parser.add_argument("program", nargs="?")
     parser.add_argument("-o", "--output", type=pathlib.Path)
     parser.add_argument("--scenario", nargs="+", default=["corridor", "crossing"])
-    parser.add_argument("--only", nargs="+", default=[], help="of " + ", ".join(short for short, _, _ in VARIANTS.values()))
+    parser.add_argument("--only", nargs="+", default=[], choices=[short for short, _, _ in VARIANTS.values()])
     parser.add_argument("--check", action="store_true")
     options = parser.parse_args()
     if options.check:
@@ -98,16 +114,23 @@ def main():
         parser.error("needs the program and -o FOLDER")
     options.output.mkdir(parents=True, exist_ok=True)
     known = options.output / "results.jsonl"
-    rows = [json.loads(line) for line in known.read_text().splitlines()] if known.exists() else []
-    for scenario in options.scenario:
-        for variant, (short, edits, settings) in VARIANTS.items():
-            if (options.only and short not in options.only) or any(row["scenario"] == scenario and row["variant"] == variant for row in rows):
-                continue
-            print(f"{scenario}: {variant} ...", file=sys.stderr, flush=True)
-            rows.append(row_of(scenario, variant, measured(options.program, scenario, edits, settings)))
-            with known.open("a") as file:
-                file.write(json.dumps(rows[-1]) + "\n")
-    (options.output / "table.md").write_text(table(rows) + "\n")
+    earlier = [json.loads(line) for line in known.read_text().splitlines()] if known.exists() else []
+    rows = []
+    with tempfile.TemporaryDirectory() as scratch:
+        shaders = edited_shaders([], pathlib.Path(scratch) / "shaders")  # as they are now, whatever is edited meanwhile
+        for scenario in options.scenario:
+            for variant, (short, edits, settings) in VARIANTS.items():
+                if options.only and short not in options.only:
+                    continue
+                of = hash_of(pathlib.Path(options.program), shaders, ROOT / "scenarios" / f"{scenario}.json", edits, settings)
+                row = next((row for row in earlier if row["of"] == of), None)
+                if not row:
+                    print(f"{scenario}: {variant} ...", file=sys.stderr, flush=True)
+                    row = {**row_of(scenario, variant, measured(options.program, scenario, edits, settings, shaders)), "of": of}
+                    with known.open("a") as file:
+                        file.write(json.dumps(row) + "\n")
+                rows.append(row)
+                (options.output / "table.md").write_text(table(rows) + "\n")
     print(table(rows))
 
 

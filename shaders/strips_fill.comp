@@ -13,6 +13,8 @@ layout(std430) buffer CellCounts { uint cell_counts[]; };
 layout(std430) writeonly buffer CellOffsets { uint cell_offsets[]; };
 layout(std430) writeonly buffer CellCursors { uint cell_cursors[]; };
 
+const uint BATCH = 16u;  // a divisor of CELLS_PER_STRIP
+
 void main() {
     if (gl_GlobalInvocationID.x >= fill_total) return;
     uint strip = strip_list[gl_GlobalInvocationID.x];
@@ -20,12 +22,16 @@ void main() {
     strip_marks[strip] = 0u;
     uint start = strip_starts[strip];
     uint offset = 0u;
-    for (uint cell = strip * CELLS_PER_STRIP; cell < (strip + 1u) * CELLS_PER_STRIP; ++cell) {
-        cell_offsets[cell] = offset;
-        uint people = cell_counts[cell];
-        if (people == 0u) continue;
-        cell_counts[cell] = 0u;
-        cell_cursors[cell] = start + offset;
-        offset += people;
+    uint first = strip * CELLS_PER_STRIP;
+    for (uint batch = first; batch < first + CELLS_PER_STRIP; batch += BATCH) {
+        uint people[BATCH];  // loaded together: one wait for memory instead of one for each
+        for (uint i = 0u; i < BATCH; ++i) people[i] = cell_counts[batch + i];
+        for (uint i = 0u; i < BATCH; ++i) {
+            cell_offsets[batch + i] = offset;
+            if (people[i] == 0u) continue;
+            cell_counts[batch + i] = 0u;
+            cell_cursors[batch + i] = start + offset;
+            offset += people[i];
+        }
     }
 }

@@ -64,12 +64,12 @@ float defaultPixelsPerMetre(const authoring::Scene& scene) {
     return std::max(2.0f / smallest_tile, 1.0f / std::max(scene.smallest_radius, 0.05f));
 }
 
-/// Cells that one storage block of every device holds.
-constexpr double kMostCells = 33'554'432.0;
+/// Cells that one storage block of every device holds, whole strips of them.
+constexpr double kMostCells = 33'554'432.0 - gpu::CELLS_PER_STRIP;
 
 void checkCells(glm::vec2 extent, float cell_size) {
-    const double cells = double{extent.x} * double{extent.y} / (double{cell_size} * double{cell_size});
-    if (cells <= kMostCells) return;
+    const auto across = [&](float metres) { return std::ceil(double{metres} / double{cell_size}); };
+    if (across(extent.x) * across(extent.y) <= kMostCells) return;
     throw std::runtime_error(fmt::format(
         "the layout covers {:.1f} x {:.1f} km: at most {:.0f} square kilometres fit one bake. Split the "
         "layout.",
@@ -159,14 +159,17 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
 
     // One cell more than there are belongs to the last strip: where it starts is how many people there are.
     const std::size_t strips = cells / gpu::CELLS_PER_STRIP + 1;
-    for (gl::Buffer* per_cell : {&cell_counts, &cell_offsets, &cell_cursors}) {
-        *per_cell = gl::Buffer("cells", kWord * gpu::CELLS_PER_STRIP * strips);
-        per_cell->fill(0);
-    }
-    for (gl::Buffer* per_strip : {&strip_counts, &strip_marks, &strip_starts}) {
-        *per_strip = gl::Buffer("strips of cells", kWord * strips);
-        per_strip->fill(0);
-    }
+    const auto zeros = [](const char* name, std::size_t words) {
+        gl::Buffer buffer(name, kWord * words);
+        buffer.fill(0);
+        return buffer;
+    };
+    cell_counts = zeros("cell counts", gpu::CELLS_PER_STRIP * strips);
+    cell_offsets = zeros("cell offsets", gpu::CELLS_PER_STRIP * strips);
+    cell_cursors = zeros("cell cursors", gpu::CELLS_PER_STRIP * strips);
+    strip_counts = zeros("strip counts", strips);
+    strip_marks = zeros("strip marks", strips);
+    strip_starts = zeros("strip starts", strips);
     const std::size_t strips_per_group = std::size_t{gpu::SCAN_GROUP_SIZE} * gpu::COUNTS_PER_THREAD;
     strip_group_sums = gl::Buffer("strip group sums", kWord * (strips / strips_per_group + 1));
     strip_list = gl::Buffer("listed strips", kWord * std::min(strips, 2 * rows));

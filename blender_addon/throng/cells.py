@@ -80,7 +80,7 @@ def _file(bake, frame):
 
 def _take_away(collection):
     for thing in [thing for thing in collection.objects if OVERLAY in thing]:
-        mesh, materials = thing.data, {slot.material for slot in thing.material_slots if slot.material}
+        mesh, materials = thing.data, {slot.material for slot in thing.material_slots if slot.material and OVERLAY in slot.material}
         bpy.data.objects.remove(thing)
         for brought in ([mesh], materials):  # the mesh may be the terrain's
             bpy.data.batch_remove([each for each in brought if each.users == 0])
@@ -180,6 +180,7 @@ def _curves(tree):
 def _overlay(collection, crowd, diagrams, tree, strength):
     """The cells shine a little above the ground: on the terrain's own mesh, or on a plane."""
     material = bpy.data.materials.new("throng cells")
+    material[OVERLAY] = True  # who puts another in its place keeps that
     material.use_nodes = True
     if hasattr(material, "blend_method"):
         material.blend_method = "BLEND"

@@ -23,6 +23,10 @@ class CellsTest : public GpuTest {
         states_ = buffers_->states.download<gpu::AgentState>(count);
     }
 
+    static bool isThere(const gpu::AgentState& state) {
+        return state.status == gpu::STATUS_WALKING || state.status == gpu::STATUS_ARRIVED;
+    }
+
     glm::vec2 anywhere(float side) {
         std::uniform_real_distribution<float> along(0.0f, side);
         const float x = along(random_);
@@ -38,7 +42,7 @@ class CellsTest : public GpuTest {
     std::vector<std::uint32_t> plainOrder() const {
         std::vector<std::uint32_t> rows;
         for (std::uint32_t row = 0; row < states_.size(); ++row)
-            if (states_[row].status == gpu::STATUS_WALKING) rows.push_back(row);
+            if (isThere(states_[row])) rows.push_back(row);
         std::stable_sort(rows.begin(), rows.end(), [&](std::uint32_t a, std::uint32_t b) {
             return cellOf(states_[a].position) < cellOf(states_[b].position);
         });
@@ -46,15 +50,21 @@ class CellsTest : public GpuTest {
     }
 
     /// Sorts on the device and compares the order of the people and where each cell starts.
-    void expectSorted(sim::CellSort& sort) {
+    void expectSorted(sim::CellSort& sort, sim::CellSort::SiteIds ids = sim::CellSort::SiteIds::slots) {
         buffers_->states.upload(states_);
-        sort.run();
+        sort.run(ids);
         const std::vector<std::uint32_t> order = plainOrder();
         const auto live = buffers_->live_dispatch.download<std::uint32_t>(4);
         ASSERT_EQ(live[3], order.size());
         const auto bodies = buffers_->bodies.download<gpu::Body>(order.size());
-        for (std::size_t slot = 0; slot < order.size(); ++slot)
+        const auto sites = buffers_->sites.download<gpu::DiagramSite>(order.size());
+        const auto places = buffers_->site_slots.download<std::uint32_t>(states_.size());
+        const bool rows = ids == sim::CellSort::SiteIds::rows;
+        for (std::uint32_t slot = 0; slot < order.size(); ++slot) {
             ASSERT_EQ(bodies[slot].row, order[slot]) << "slot " << slot;
+            ASSERT_EQ(sites[slot].id, rows ? order[slot] : slot);
+            ASSERT_EQ(places[sites[slot].id], slot);
+        }
 
         const std::uint32_t cells = parameters_.cells_width * parameters_.cells_height;
         const auto offsets = buffers_->cell_offsets.download<std::uint32_t>(cells + 1);
@@ -90,12 +100,14 @@ TEST_F(CellsTest, NobodyIsLeftBehindWhereTheyWere) {
     for (int step = 0; step < 6; ++step) {
         SCOPED_TRACE(testing::Message() << "step " << step);
         for (std::size_t row = 0; row < states_.size(); ++row) {
-            const bool jumps = (row + static_cast<std::size_t>(step)) % 3 == 0;
+            const bool jumps = step == 4 || (row + static_cast<std::size_t>(step)) % 3 == 0;
             if (jumps) states_[row].position = anywhere(kSide);
             const bool gone = (row / 7 + static_cast<std::size_t>(step)) % 5 == 0;
-            states_[row].status = gone ? gpu::STATUS_GONE : gpu::STATUS_WALKING;
+            states_[row].status = gone           ? gpu::STATUS_GONE
+                                  : row % 3 == 0 ? gpu::STATUS_ARRIVED
+                                                 : gpu::STATUS_WALKING;
         }
-        expectSorted(sort);
+        expectSorted(sort, step % 2 == 0 ? sim::CellSort::SiteIds::slots : sim::CellSort::SiteIds::rows);
     }
     for (gpu::AgentState& state : states_)
         state.status = gpu::STATUS_GONE;

@@ -2,7 +2,7 @@
 """What hangs over hips and legs: skirts, coats, dresses, hems. Pure Python.
 
 Nothing is simulated: in every pose, the rings of the cloth are made just deep and wide enough for the legs that are within them, so that
-legs never show through and cloth rests on a thigh that comes forward.
+legs do not show through and cloth rests on a thigh that comes forward.
 """
 import math
 
@@ -11,6 +11,7 @@ from .people import BOTTOM, TOP
 
 BULK = {"coat": 1.10, "jacket": 1.06, "hoodie": 1.08}
 _OPEN = (False, False)
+_LOOSE = ("jacket", "hoodie", "tee")  # over the hips, where no skirt holds them
 
 
 def add_skirts(figure, hips, knees, ankles):
@@ -30,9 +31,13 @@ _FAR_ALONG = 0.8  # of half a ring's depth: nobody's cloth is made wider for wha
 
 def hem(person):
     """Half the width of what hangs over the hips, for somebody of standard height, m: arms swing outside of it."""
-    flare = {"coat": 1.1, "dress": 1.12}.get(person.top, 1.0 if person.bottom == "skirt" else 0.0)
     hips = 0.176 * BULK.get(person.top, 1.0) * person.hips
-    return max(hips, 0.178 * person.hips * flare * 1.06)
+    over = _CLOTH * (4.0 if person.top == "coat" and person.bottom == "skirt" else 1.0)
+    legs = 0.093 * person.hips + 0.091 * person.girth ** 0.7 + over
+    if person.top in ("coat", "dress") or person.bottom == "skirt":  # which is wider than the legs where these are not beside its middle
+        flare = {"coat": 1.1, "dress": 1.12}.get(person.top, 1.0)
+        return max(hips, 0.198 * person.hips * flare, 1.1 * legs)
+    return max(hips, legs) if person.top in _LOOSE else hips
 
 
 def _surfaces(figure, off):
@@ -120,18 +125,18 @@ def _skirt(figure, hips, knees, ankles, length, material, flare, off=_CLOTH):
 
 
 def _hang(figure, rings, spans, material, caps):
-    """Cloth from rings down through spans."""
+    """Cloth from rings down through spans. @param caps of its upper and its lower end"""
     turn = 0.5 * figure.pose.pelvis_yaw
     x, y = turn_z((1, 0, 0), turn), turn_z((0, 1, 0), turn)
     rings = rings + [ring((0.5 * (front + back), across, z), x, y, 0.5 * (front - back), width) for front, back, across, z, width in spans]
-    figure.mesh.loft(rings, material, _SKIRT_POINTS, _SKIRT_SQUARE, caps=caps, drapes=True)
+    figure.mesh.loft(rings[::-1], material, _SKIRT_POINTS, _SKIRT_SQUARE, caps=caps[::-1], drapes=True)  # upwards, as all faces look outwards then
     figure.skirts.append([[add(r[:3], add(scale(r[3:6], c), scale(r[6:9], n))) for c, n in outline(_SKIRT_POINTS, _SKIRT_SQUARE)] for r in rings])
 
 
 def add_hem(figure):
     """Of a jacket or a shirt that is not tucked in: over the hips, and over thighs that come forward."""
     p, g, s = figure.person, figure.g, figure.s
-    if p.top not in ("jacket", "hoodie", "tee") or p.bottom == "skirt":
+    if p.top not in _LOOSE or p.bottom == "skirt":
         return
     bulk = BULK.get(p.top, 1.0)
     above, waist = _flush(figure, 0.15, 1.01), _flush(figure, 0.08, 1.04)

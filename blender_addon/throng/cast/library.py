@@ -98,9 +98,9 @@ def _figures(holder, repertoire):
     return [people.build_figure(person, pose) for pose in poses_of(person, repertoire)]
 
 
-def drop_spare_attributes(mesh, smooth=True):
+def drop_spare_attributes(mesh, keep_sharp=False):
     """What editing left in a mesh, and marks of sharp faces where there are none: Blender goes over the attributes of all poses in every frame."""
-    for name in [each.name for each in mesh.attributes if each.name.startswith((".select_", ".uv_select_")) or (smooth and each.name == "sharp_face")]:
+    for name in [each.name for each in mesh.attributes if each.name.startswith((".select_", ".uv_select_")) or (each.name == "sharp_face" and not keep_sharp)]:
         mesh.attributes.remove(mesh.attributes[name])
 
 

@@ -146,7 +146,7 @@ class Puppet:
         whole.free()
         for material in materials:
             mesh.materials.append(material)
-        drop_spare_attributes(mesh, smooth=False)
+        drop_spare_attributes(mesh, keep_sharp=True)
         if customs and hasattr(mesh, "use_auto_smooth"):
             mesh.use_auto_smooth = True
         return mesh
