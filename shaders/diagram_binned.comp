@@ -14,8 +14,6 @@
 #include "shaders/shared/simulation_types.h"
 
 layout(local_size_x = PIXEL_GROUP_SIZE) in;
-layout(std430) readonly buffer BinStarts { uint bin_starts[]; };            // within their strips
-layout(std430) readonly buffer BinStripStarts { uint bin_strip_starts[]; };
 #ifdef STORE_BY_FOUR
 layout(std430) writeonly buffer Owners { uvec4 owners[]; };
 #else
@@ -37,9 +35,7 @@ uniform usamplerBuffer fixed_binned_sites;
 #endif
 
 #include "shaders/bins.glsl"
-
-/// As cell_starts.glsl has it.
-uint binStart(uint bin) { return bin_strip_starts[bin / CELLS_PER_STRIP] + bin_starts[bin]; }
+#include "shaders/cell_starts.glsl"  // bins are the cells, or stand in for them
 #include "shaders/flat_index.glsl"
 
 const uint BLOCK_PIXELS = BLOCK_WIDTH * BLOCK_HEIGHT;
@@ -114,8 +110,8 @@ void main() {
     bool touched = false;
     for (uint line = lower.y; line <= upper.y; ++line) {
         uint bins = line * uint(bin_count.x);
-        uint first = binStart(bins + lower.x);
-        uint last = binStart(bins + upper.x + 1u);
+        uint first = cellStart(bins + lower.x);
+        uint last = cellStart(bins + upper.x + 1u);
         touched = touched || first < last;
         for (uint i = first; i < last; ++i) offer(corner, texelFetch(binned_sites, int(i)));
 #ifdef FIXED_SITES

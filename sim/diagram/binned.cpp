@@ -83,8 +83,8 @@ void BinnedDiagram::connect(const DiagramInput& input) {
     bins_.reset();
     if (sorted) {
         sorted_sites_ = gl::WordTexture(*input.sites, gl::WordTexture::Texel::four_words);
-        gather_.bind("BinStripStarts", *input.sorted->strip_starts);
-        gather_.bind("BinStarts", *input.sorted->starts);
+        gather_.bind("StripStarts", *input.sorted->strip_starts);
+        gather_.bind("CellOffsets", *input.sorted->starts);
         gather_.bind("binned_sites", sorted_sites_);
     } else {
         bins_.emplace(library_, grid, options_.live_capacity);
@@ -92,8 +92,8 @@ void BinnedDiagram::connect(const DiagramInput& input) {
         // All its bins start where they say, whatever the strip.
         no_strips_ =
             gl::makeBuffer("no strips", std::vector<std::uint32_t>(grid.count() / gpu::CELLS_PER_STRIP + 1));
-        gather_.bind("BinStripStarts", no_strips_);
-        gather_.bind("BinStarts", bins_->starts());
+        gather_.bind("StripStarts", no_strips_);
+        gather_.bind("CellOffsets", bins_->starts());
         gather_.bind("binned_sites", bins_->sites());
     }
     if (fixed_sites_.empty()) return;

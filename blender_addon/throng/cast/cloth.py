@@ -6,10 +6,11 @@ legs do not show through and cloth rests on a thigh that comes forward.
 """
 import math
 
-from .mesh_builder import add, mix, outline, ring, scale, turn_z
+from .mesh_builder import add, extent_at, mix, outline, ring, scale, turn_z
 from .people import BOTTOM, TOP
 
 BULK = {"coat": 1.10, "jacket": 1.06, "hoodie": 1.08}
+_FLARE = {"coat": 1.1, "dress": 1.12}
 _OPEN = (False, False)
 _LOOSE = ("jacket", "hoodie", "tee")  # over the hips, where no skirt holds them
 
@@ -17,11 +18,9 @@ _LOOSE = ("jacket", "hoodie", "tee")  # over the hips, where no skirt holds them
 def add_skirts(figure, hips, knees, ankles):
     p = figure.person
     if p.bottom == "skirt":
-        _skirt(figure, hips, knees, ankles, 0.95, BOTTOM, 1.0)
-    if p.top == "coat":
-        _skirt(figure, hips, knees, ankles, 0.82, TOP, 1.1, _CLOTH if p.bottom != "skirt" else 4.0 * _CLOTH)
-    if p.top == "dress":
-        _skirt(figure, hips, knees, ankles, 1.62, TOP, 1.12)
+        _skirt(figure, hips, knees, ankles, 0.95, BOTTOM, 1.0, _CLOTH)
+    if p.top in _FLARE:
+        _skirt(figure, hips, knees, ankles, 0.82 if p.top == "coat" else 1.62, TOP, _FLARE[p.top], _off_legs(p))
 
 
 _SKIRT_POINTS, _SKIRT_SQUARE = 12, 0.4
@@ -29,14 +28,17 @@ _CLOTH, _BESIDE = 0.012, 0.86  # m that cloth stands off a leg; how deep rings a
 _FAR_ALONG = 0.8  # of half a ring's depth: nobody's cloth is made wider for what is further from its middle
 
 
+def _off_legs(person):
+    """How far the outermost cloth stands off the legs, m: a coat over a skirt further."""
+    return 4.0 * _CLOTH if person.top == "coat" and person.bottom == "skirt" else _CLOTH
+
+
 def hem(person):
     """Half the width of what hangs over the hips, for somebody of standard height, m: arms swing outside of it."""
     hips = 0.176 * BULK.get(person.top, 1.0) * person.hips
-    over = _CLOTH * (4.0 if person.top == "coat" and person.bottom == "skirt" else 1.0)
-    legs = 0.093 * person.hips + 0.091 * person.girth ** 0.7 + over
-    if person.top in ("coat", "dress") or person.bottom == "skirt":  # which is wider than the legs where these are not beside its middle
-        flare = {"coat": 1.1, "dress": 1.12}.get(person.top, 1.0)
-        return max(hips, 0.198 * person.hips * flare, 1.1 * legs)
+    legs = 0.093 * person.hips + 0.091 * person.girth ** 0.7 + _off_legs(person)
+    if person.top in _FLARE or person.bottom == "skirt":  # which is wider than the legs where these are not beside its middle
+        return max(hips, 0.198 * person.hips * _FLARE.get(person.top, 1.0), 1.1 * legs)
     return max(hips, legs) if person.top in _LOOSE else hips
 
 
@@ -55,6 +57,13 @@ def _surfaces(figure, off):
     return points
 
 
+def _give(upper, lower, which, share, missing):
+    """Moves two rings so that the cloth at a share of the way up from one to the other gets what it misses; what is nearer gives more."""
+    weight = share * share + (1.0 - share) * (1.0 - share)
+    upper[which] += missing * share / weight
+    lower[which] += missing * (1.0 - share) / weight
+
+
 def _cover(spans, x, z, side):
     """Widens rings [front, back, y, z, half width] until the cloth between them is outside of a point; `side` is 0 in front and 1 behind."""
     sign = 1.0 if side == 0 else -1.0
@@ -65,10 +74,8 @@ def _cover(spans, x, z, side):
             share = (z - lower[3]) / max(upper[3] - lower[3], 1e-6)
             near, far = (lower[end] + (upper[end] - lower[end]) * share for end in (side, 1 - side))
             missing = sign * ((x - 0.5 * (1.0 - _BESIDE) * far) / (0.5 * (1.0 + _BESIDE)) - near)
-            if missing > 0.0:  # shared so that what is nearer gives more
-                weight = share * share + (1.0 - share) * (1.0 - share)
-                upper[side] += sign * missing * share / weight
-                lower[side] += sign * missing * (1.0 - share) / weight
+            if missing > 0.0:
+                _give(upper, lower, side, share, sign * missing)
             return
     if z > spans[0][3]:
         spans[0][side] = sign * max(sign * spans[0][side], sign * x)
@@ -86,7 +93,6 @@ def _cover_legs(figure, spans, off):
 
 def _widen(spans, points):
     """Makes rings as wide as both legs, wherever along them these are."""
-    power = 1.0 - 0.45 * _SKIRT_SQUARE  # of the outline, see mesh_builder
     for front, front_z, back, back_z, aside in points:
         z = min(0.5 * (front_z + back_z), spans[0][3])
         if z < spans[-1][3] - 0.02:
@@ -95,15 +101,13 @@ def _widen(spans, points):
         share = min(1.0, max(0.0, (z - lower[3]) / max(upper[3] - lower[3], 1e-6)))
         first, last = (lower[end] + (upper[end] - lower[end]) * share for end in (0, 1))
         along = min(_FAR_ALONG, abs(0.5 * (front + back) - 0.5 * (first + last)) / (0.5 * (first - last)))
-        needed = abs(aside - lower[2]) / (1.0 - along ** (2.0 / power)) ** (0.5 * power)
+        needed = abs(aside - lower[2]) / extent_at(along, _SKIRT_SQUARE)
         missing = needed - (lower[4] + (upper[4] - lower[4]) * share)
-        if missing > 0.0:  # shared so that what is nearer gives more
-            weight = share * share + (1.0 - share) * (1.0 - share)
-            upper[4] += missing * share / weight
-            lower[4] += missing * (1.0 - share) / weight
+        if missing > 0.0:
+            _give(upper, lower, 4, share, missing)
 
 
-def _skirt(figure, hips, knees, ankles, length, material, flare, off=_CLOTH):
+def _skirt(figure, hips, knees, ankles, length, material, flare, off):
     """Cloth from the waist down to a share of the legs: 1 is the knees, 2 the ankles. It hangs as tight as both legs let it."""
     p, g, s = figure.person, figure.g, figure.s
     waist = [figure.trunk_ring(0.08, 0.114 * g * flare, 0.156 * (0.5 + 0.5 * p.hips) * flare, 0.0)]

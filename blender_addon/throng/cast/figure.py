@@ -3,7 +3,7 @@
 import math
 
 from . import cloth, gait, outfit
-from .mesh_builder import MeshBuilder, add, mix, ring, scale, turn_y, turn_z, unit
+from .mesh_builder import MeshBuilder, add, extent_at, mix, ring, scale, turn_y, turn_z, unit
 from .people import EYES, BOTTOM, GREY, HAIR, SHOES, SKIN, STANDARD_HEIGHT, TOP
 
 _SHOE = (  # along the foot from the ankle, height of the sole and of the upper, half width
@@ -71,8 +71,7 @@ class Figure:
         """A point before the chest or behind the back, so many metres off it; `wider` is what is worn over it."""
         deep, wide, forward = self.trunk_at(height)
         deep, wide = deep * wider, wide * wider
-        power = 1.0 - 0.45 * _TRUNK_SQUARE  # of the outline, see mesh_builder
-        share = max(0.0, 1.0 - min(1.0, abs(aside) / wide) ** (2.0 / power)) ** (0.5 * power)
+        share = extent_at(min(1.0, abs(aside) / wide), _TRUNK_SQUARE)
         return self.at(height, forward + (1.0 if front else -1.0) * (deep * share + off), aside, min(1.0, max(0.0, height / 0.45)))
 
     def _trunk(self):

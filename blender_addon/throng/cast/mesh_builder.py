@@ -59,10 +59,19 @@ def ring(centre, x_axis, y_axis, rx, ry):
     return (*centre, x_axis[0] * rx, x_axis[1] * rx, x_axis[2] * rx, y_axis[0] * ry, y_axis[1] * ry, y_axis[2] * ry)
 
 
+def _power(square):
+    return 1.0 - 0.45 * min(square, 1.0)
+
+
+def extent_at(share, square):
+    """How far a ring of half axes 1 reaches along one axis, at a share of the other one."""
+    return max(0.0, 1.0 - share ** (2.0 / _power(square))) ** (0.5 * _power(square))
+
+
 @lru_cache(maxsize=None)
 def outline(count, square=0.0):
     """The points of a ring of half axes 1: a circle, blended towards a box with rounded corners; boxes begin at a corner."""
-    power, first = 1.0 - 0.45 * min(square, 1.0), 0.5 if square >= 1.0 else 0.0
+    power, first = _power(square), 0.5 if square >= 1.0 else 0.0
     if square > 1.0:
         power = 0.25
     points = []
