@@ -12,6 +12,7 @@ import bpy
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "blender_addon"))
 from throng import cast  # noqa: E402
 from throng.cast import library  # noqa: E402
+from throng.cast.sheets import pose_mesh  # noqa: E402
 from throng.environment import lights  # noqa: E402
 
 STRIDES = tuple(1.446 * 1.28 ** k for k in range(-3, 3))  # as of `throng bake`
@@ -29,8 +30,8 @@ def arguments():
 
 
 def place(scene, variation, level, x, y, pose, plain):
-    original = library.objects_of(plain, level, variation)[pose]
-    shown = bpy.data.objects.new(original.name, original.data)
+    figure = library.figures_of(plain)[level, variation]
+    shown = bpy.data.objects.new(figure.name, pose_mesh(figure, pose))
     shown.location, shown.rotation_euler = (x, y, 0.0), (0.0, 0.0, -1.15)
     scene.collection.objects.link(shown)
 

@@ -6,7 +6,7 @@ those whose shadows and reflections fall into the picture.
 """
 import bpy
 
-from .nodes import Maths, new_tree, set_input, socket
+from .nodes import Maths, new_tree, set_input
 
 MODIFIER = "throng cull"
 HIDDEN = "throng_hidden"  # 1 for those who are left out
@@ -60,11 +60,8 @@ def _tree(mode):
         return found
     tree, inputs, outputs = new_tree(name, _INPUTS, [("Geometry", "NodeSocketGeometry")])
     maths = Maths(tree)
-    store = maths.node("GeometryNodeStoreNamedAttribute", data_type="FLOAT", domain="POINT")
-    store.inputs["Name"].default_value = HIDDEN
-    maths.link(inputs.outputs["Geometry"], store.inputs["Geometry"])
-    maths.link(_outside_box(maths, inputs) if mode == "box" else _outside_view(maths, inputs), socket(store.inputs, "Value"))
-    maths.link(store.outputs[0], outputs.inputs[0])
+    out = _outside_box(maths, inputs) if mode == "box" else _outside_view(maths, inputs)
+    maths.link(maths.store(inputs.outputs["Geometry"], HIDDEN, out), outputs.inputs[0])
     return tree
 
 

@@ -75,7 +75,8 @@ def _set_output(scene, look):
     if look.layers:
         settings.color_depth, settings.exr_codec = "32", "ZIP"  # Cryptomatte's numbers bear no loss
     for layer in scene.view_layers:
-        layer.use_pass_z = layer.use_pass_mist = layer.use_pass_cryptomatte_asset = look.layers
+        layer.use_pass_z = layer.use_pass_mist = look.layers
+        layer.use_pass_cryptomatte_object = layer.use_pass_cryptomatte_asset = layer.use_pass_cryptomatte_material = look.layers
         if look.layers:
             layer.pass_cryptomatte_depth = 6
 

@@ -11,7 +11,7 @@ with a terrain brings them in its stream `ground`; for others, conform() looks f
 import bpy
 from bpy.props import PointerProperty
 
-from .nodes import Maths, new_tree, set_input, socket
+from .nodes import Maths, new_tree, set_input
 from .panels import Below
 
 GROUND = "throng_ground"
@@ -142,12 +142,8 @@ def _footing(maths, ground):
 def _stand(maths, geometry, ground, over=0.0):
     """Points on an object's geometry, `over` metres above it, with the slopes there; where there is none they stay."""
     place, hit, slopes, mean = _footing(maths, ground)
-    store = maths.node("GeometryNodeStoreNamedAttribute", data_type="FLOAT_VECTOR", domain="POINT")
-    store.inputs["Name"].default_value = GROUND
-    maths.link(geometry, store.inputs["Geometry"])
-    maths.link(slopes, socket(store.inputs, "Value"))
     stand = maths.node("GeometryNodeSetPosition")
-    maths.link(store.outputs[0], stand.inputs["Geometry"])
+    maths.link(maths.store(geometry, GROUND, slopes, "FLOAT_VECTOR"), stand.inputs["Geometry"])
     maths.link(_vector(maths, place[0], place[1], _either(maths, hit, maths.math("ADD", mean, over), place[2])), stand.inputs["Position"])
     return stand.outputs[0]
 

@@ -12,7 +12,7 @@ from bpy.props import EnumProperty, FloatProperty
 from . import crowds, culling, playback
 from .cast import library
 from .characters.members import repertoire_of
-from .nodes import Maths, new_tree, set_input, socket
+from .nodes import Maths, new_tree, set_input
 from .panels import Below
 
 MODIFIER = "throng levels"
@@ -44,11 +44,7 @@ def _tree():
     for name in ("Near", "Far"):
         beyond = maths.math("GREATER_THAN", distance.outputs["Value"], inputs.outputs[name])
         level = beyond if level is None else maths.math("ADD", level, beyond)
-    store = maths.node("GeometryNodeStoreNamedAttribute", data_type="FLOAT", domain="POINT")
-    store.inputs["Name"].default_value = playback.LEVEL
-    maths.link(inputs.outputs["Geometry"], store.inputs["Geometry"])
-    maths.link(level, socket(store.inputs, "Value"))
-    maths.link(store.outputs[0], outputs.inputs[0])
+    maths.link(maths.store(inputs.outputs["Geometry"], playback.LEVEL, level), outputs.inputs[0])
     return tree
 
 

@@ -66,6 +66,19 @@ class Maths:
         node.inputs["Name"].default_value = name
         return socket(node.outputs, "Attribute")
 
+    def store(self, geometry, name, value, kind="FLOAT", only=None):
+        """Files a value away as an attribute of points; returns the geometry that has it.
+
+        @param only a boolean attribute: where it is false nothing changes, if the version can do so (3.5); it saves work, results must not need it
+        """
+        node = self.node("GeometryNodeStoreNamedAttribute", data_type=kind, domain="POINT")
+        node.inputs["Name"].default_value = name
+        self.link(geometry, node.inputs["Geometry"])
+        self.link(value, socket(node.inputs, "Value"))
+        if only and "Selection" in node.inputs:
+            self.link(self.attribute(only, "BOOLEAN"), node.inputs["Selection"])
+        return node.outputs[0]
+
     def math(self, operation, *values):
         node = self.node("ShaderNodeMath", operation=operation)
         for slot, value in zip(node.inputs, values):

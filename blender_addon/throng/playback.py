@@ -10,8 +10,8 @@ import random
 import bpy
 
 from . import ground
-from .cast import LEVEL_BEATS, LEVEL_POSES, PEOPLE_A_BLOCK
-from .cast.library import blocks_of
+from .cast import LEVEL_BEATS, LEVEL_POSES
+from .cast.library import shown_figures
 from .characters.members import pick, repertoire_of
 from .culling import HIDDEN
 from .formats import STREAMS
@@ -21,7 +21,7 @@ STANDING_SPEED = 0.1    # m/s: slower people stand
 FRAMES_A_ROUND = 80.0   # of a standing clip
 NATURE = "throng_nature"
 LEVEL = "throng_level"  # of detail, of each person; see levels.py
-BLOCK = "throng_block"
+FIGURE = "throng_figure"
 INSTANCERS = ("throng people", "throng people (viewport)")
 BIGGER = "throng_bigger"  # how much larger than 1 somebody's scale is; nobody's where there is no such attribute
 GEOMETRY = [("Geometry", "NodeSocketGeometry")]
@@ -30,11 +30,8 @@ GEOMETRY = [("Geometry", "NodeSocketGeometry")]
 def _store_tree(attribute):
     tree, inputs, outputs = new_tree(f"Throng store {attribute}", GEOMETRY, GEOMETRY)
     maths = Maths(tree)
-    store = maths.node("GeometryNodeStoreNamedAttribute", data_type="FLOAT_VECTOR", domain="POINT")
-    store.inputs["Name"].default_value = attribute
-    maths.link(inputs.outputs[0], store.inputs["Geometry"])
-    maths.link(maths.node("GeometryNodeInputPosition").outputs[0], socket(store.inputs, "Value"))
-    maths.link(store.outputs[0], outputs.inputs[0])
+    position = maths.node("GeometryNodeInputPosition").outputs[0]
+    maths.link(maths.store(inputs.outputs[0], attribute, position, "FLOAT_VECTOR"), outputs.inputs[0])
     return tree
 
 
@@ -94,54 +91,28 @@ def _chosen(maths, levels, values):
     return total
 
 
-def _blocks_and_poses(maths, state, phase, speed, variation, nature, repertoire, levels):
-    """Whose block of the cast everybody's pose is in (_block_number), and which object there."""
-    blocks, poses = [], []
-    for level in levels:
-        people = PEOPLE_A_BLOCK[level]
-        block = maths.math("FLOOR", maths.math("DIVIDE", maths.math("ADD", variation, 0.5), people))
-        one = maths.math("SUBTRACT", variation, maths.math("MULTIPLY", block, people))
-        poses.append(maths.math("MULTIPLY_ADD", one, repertoire.poses(level), _pose_index(maths, speed, state, phase, nature, repertoire, level)))
-        blocks.append(maths.math("ADD", block, _block_number(level, 0)))
-    return _chosen(maths, levels, blocks), _chosen(maths, levels, poses)
+def _figure_number(level, member):
+    """How points say which figure they show. 0 is nobody."""
+    return 1 + 1000 * level + member
 
 
-def _block_number(level, first):
-    return 1 + 1000 * level + first // PEOPLE_A_BLOCK[level]
-
-
-class _Points:
-    """Points on which values are filed away: worked out for all at once, and then looked up by every block."""
-
-    def __init__(self, maths, points):
-        self.maths, self.points = maths, points
-
-    def store(self, name, value, kind):
-        store = self.maths.node("GeometryNodeStoreNamedAttribute", data_type=kind, domain="POINT")
-        store.inputs["Name"].default_value = name
-        self.maths.link(self.points, store.inputs["Geometry"])
-        self.maths.link(value, socket(store.inputs, "Value"))
-        self.points = store.outputs[0]
-
-    def remove(self, *names):
-        """What instances need not carry along."""
-        for name in names:
-            remove = self.maths.node("GeometryNodeRemoveAttribute")
-            remove.inputs["Name"].default_value = name
-            self.maths.link(self.points, remove.inputs[0])
-            self.points = remove.outputs[0]
+def _figures_and_poses(maths, state, phase, speed, variation, nature, repertoire, levels):
+    """Everybody's figure (_figure_number), and which of its poses."""
+    poses = [_pose_index(maths, speed, state, phase, nature, repertoire, level) for level in levels]
+    figures = [maths.math("ADD", variation, float(_figure_number(level, 0))) for level in levels]
+    return _chosen(maths, levels, figures), _chosen(maths, levels, poses)
 
 
 def _instancer_tree(cast, repertoire, leans):
-    """One Instance on Points for each block of the cast.
+    """One Instance on Points for each figure of the cast. What it needs is filed away on the points: worked out for all at once, not by every figure.
 
     While a crowd is on screen, Blender notes down all attributes of what goes through a socket, those of every pose included, which takes
-    longer than the work itself. 5.0 does so for sockets outside of groups only, so there the blocks are in a group; 3.4 for all, so there
-    should be few. And 5.0 looks up every pose among those before it, in time that grows with their square: so it gets several blocks, each
-    handed on as one instance.
+    longer than the work itself. From 4.0 on it does so for sockets outside of groups only, so there the figures are in a group; before for all, so
+    there should be few. And later versions look up every pose among those before it, in time that grows with their square: there each figure's people
+    are handed on as one instance.
     """
-    blocks = blocks_of(cast)
-    levels = sorted({level for level, _ in blocks})
+    figures = shown_figures(cast)
+    levels = sorted({level for level, _ in figures})
     tree, inputs, outputs = new_tree("Throng instancer", GEOMETRY + [("Share", "NodeSocketFloat")], GEOMETRY)
     maths = Maths(tree)
     cosine, sine, speed = _components(maths, "throng_dir")
@@ -150,65 +121,41 @@ def _instancer_tree(cast, repertoire, leans):
     variation = pick(maths, variation, cast.get("throng_drawn", cast["throng_variations"]), cast["throng_variations"])
     rotation = maths.node("ShaderNodeCombineXYZ")
     maths.link(maths.math("ARCTAN2", sine, cosine), rotation.inputs[2])
-    block, pose = _blocks_and_poses(maths, state, phase, speed, variation, nature, repertoire, levels)
-    points = _Points(maths, inputs.outputs[0])
-    points.store(BLOCK, maths.math("MULTIPLY", block, _present(maths, state, nature, inputs.outputs["Share"])), "INT")  # 0: who is not there
-    points.store("throng_pose", pose, "INT")
-    points.store("throng_turn", rotation.outputs[0], "FLOAT_VECTOR")
-    points.remove("throng_dir", "throng_state", NATURE)
+    figure, pose = _figures_and_poses(maths, state, phase, speed, variation, nature, repertoire, levels)
+    there = _present(maths, state, nature, inputs.outputs["Share"])
+    points = maths.store(inputs.outputs[0], FIGURE, maths.math("MULTIPLY", figure, there), "INT")
+    points = maths.store(points, "throng_pose", pose, "INT")
+    points = maths.store(points, "throng_turn", rotation.outputs[0], "FLOAT_VECTOR")
+    for spare in ("throng_dir", "throng_state", NATURE):  # instances need not carry them along
+        remove = maths.node("GeometryNodeRemoveAttribute")
+        remove.inputs["Name"].default_value = spare
+        maths.link(points, remove.inputs[0])
+        points = remove.outputs[0]
 
     if bpy.app.version < (4, 0, 0):
-        maths.link(_instances(maths, points.points, blocks, leans, apart=False), outputs.inputs[0])
+        maths.link(_instances(maths, points, figures, leans, apart=False), outputs.inputs[0])
         return tree
     inside = maths.node("GeometryNodeGroup")
-    inside.node_tree, inner_inputs, inner_outputs = new_tree("Throng blocks", GEOMETRY, GEOMETRY)
+    inside.node_tree, inner_inputs, inner_outputs = new_tree("Throng figures", GEOMETRY, GEOMETRY)
     within = Maths(inside.node_tree)
-    within.link(_instances(within, inner_inputs.outputs[0], blocks, leans, apart=True), inner_outputs.inputs[0])
-    maths.link(points.points, inside.inputs[0])
+    within.link(_instances(within, inner_inputs.outputs[0], figures, leans, apart=True), inner_outputs.inputs[0])
+    maths.link(points, inside.inputs[0])
     maths.link(inside.outputs[0], outputs.inputs[0])
     return tree
 
 
-def _shelf(collection):
-    """An object whose geometry is the poses of a block, one instance each, in order of their names. It is in no scene and worked out once;
-    asked for in the crowd's own nodes, the collection would be put in order again in every frame."""
-    found = collection.get("throng_shelf")
-    if found:
-        return found
-    tree, _, outputs = new_tree(f"{collection.name} shelf", GEOMETRY, GEOMETRY)
-    poses = tree.nodes.new("GeometryNodeCollectionInfo")
-    poses.transform_space = "ORIGINAL"
-    poses.inputs["Collection"].default_value = collection
-    poses.inputs["Separate Children"].default_value = True
-    poses.inputs["Reset Children"].default_value = True
-    tree.links.new(poses.outputs[0], outputs.inputs[0])
-    shelf = bpy.data.objects.new(tree.name, bpy.data.meshes.new(tree.name))
-    shelf.modifiers.new("throng shelf", "NODES").node_group = tree
-    collection["throng_shelf"], shelf["throng_is_shelf"] = shelf, True
-    return shelf
-
-
-def _clear_shelves():
-    """Those of blocks that are gone."""
-    for shelf in [thing for thing in bpy.data.objects if thing.get("throng_is_shelf") and thing.users == 0]:
-        tree, mesh = shelf.modifiers[0].node_group, shelf.data
-        bpy.data.objects.remove(shelf)
-        bpy.data.meshes.remove(mesh)
-        bpy.data.node_groups.remove(tree)
-
-
-def _instances(maths, points, blocks, leans, apart):
-    """Everybody's pose. @param apart whether each block is one instance, of its people"""
-    block, pose, turn = (maths.attribute(name, kind) for name, kind in ((BLOCK, "INT"), ("throng_pose", "INT"), ("throng_turn", "FLOAT_VECTOR")))
+def _instances(maths, points, figures, leans, apart):
+    """Everybody's pose. @param apart whether the people of each figure are one instance"""
+    figure, pose, turn = (maths.attribute(name, kind) for name, kind in ((FIGURE, "INT"), ("throng_pose", "INT"), ("throng_turn", "FLOAT_VECTOR")))
     size = maths.math("ADD", maths.attribute(BIGGER), 1.0)
     everybody = maths.node("GeometryNodeJoinGeometry")
-    for (level, first), collection in sorted(blocks.items()):
+    for (level, member), thing in figures.items():
         poses = maths.node("GeometryNodeObjectInfo", transform_space="ORIGINAL")
-        poses.inputs["Object"].default_value = _shelf(collection)
+        poses.inputs["Object"].default_value = thing
         place = maths.node("GeometryNodeInstanceOnPoints")
         place.inputs["Pick Instance"].default_value = True
         maths.link(points, place.inputs["Points"])
-        maths.link(maths.equal(block, _block_number(level, first)), place.inputs["Selection"])
+        maths.link(maths.equal(figure, _figure_number(level, member)), place.inputs["Selection"])
         maths.link(socket(poses.outputs, "Geometry"), place.inputs["Instance"])
         maths.link(pose, place.inputs["Instance Index"])
         maths.link(size, place.inputs["Scale"])
@@ -223,7 +170,7 @@ def _instances(maths, points, blocks, leans, apart):
 
 
 def set_cast(crowd, cast):
-    """Lets a crowd show the blocks of a cast as they are now: call it again after some have come or gone."""
+    """Lets a crowd show the figures of a cast as they are now: call it again after some have come or gone."""
     crowd["throng_cast"] = cast
     modifiers = [crowd.modifiers[name] for name in INSTANCERS]
     before = modifiers[0].node_group
@@ -236,7 +183,6 @@ def set_cast(crowd, cast):
         inner = {node.node_tree for node in before.nodes if node.type == "GROUP" and node.node_tree}
         bpy.data.node_groups.remove(before)
         bpy.data.batch_remove([group for group in inner if group.users == 0])
-    _clear_shelves()
     crowd.update_tag()
 
 

@@ -14,6 +14,8 @@ sys.path[:0] = [addon, here]
 import throng  # noqa: E402
 import walker  # noqa: E402
 from throng import cast, crowds  # noqa: E402
+from pose_names import Names  # noqa: E402
+from throng.cast.sheets import points_of  # noqa: E402
 from throng.characters import members  # noqa: E402
 
 if "bool" not in vars(numpy):
@@ -78,34 +80,28 @@ assert bpy.ops.throng.add_character(filepath=glb) == {"FINISHED"}
 after = counts()
 result["left"] = {kind: after[kind] - before[kind] for kind in after}
 result["members"] = members.members(crowd)[shipped:]
-joined = sorted(members.poses(crowd)[shipped], key=lambda thing: thing.name)
-result["report"] = json.loads(joined[0].parent["throng_report"])
+joined = members.figure(crowd, shipped)
+result["report"] = members.report_of(crowd, shipped)
 
 
-def points_of(mesh):
-    flat = numpy.empty(3 * len(mesh.vertices), numpy.float32)
-    mesh.vertices.foreach_get("co", flat)
-    return flat.reshape(-1, 3)
-
-
-def feet_of(things):
+def feet_of(figure):
     """(K, 2, V, 3) of right and left foot: the two boxes' vertices, told by where they are when somebody stands."""
-    standing = points_of(things[repertoire.standing_pose("idle", 0)].data)
+    poses = points_of(figure)
+    standing = poses[repertoire.standing_pose("idle", 0)]
     low = standing[:, 2] < walker.ANKLE + 0.005
     sides = [numpy.nonzero(low & (standing[:, 1] < 0.0))[0], numpy.nonzero(low & (standing[:, 1] > 0.0))[0]]
-    return numpy.array([[points_of(thing.data)[side] for side in sides] for thing in things[:repertoire.walking()]])
+    return numpy.array([[pose[side] for side in sides] for pose in poses[:repertoire.walking()]])
 
 
 soles = feet_of(joined)
 result["feet"] = soles[..., ::7, :].round(5).tolist()
-mesh = joined[30].data
-velocity = numpy.empty(3 * len(mesh.vertices), numpy.float32)
-mesh.attributes["velocity"].data.foreach_get("vector", velocity)
+mesh, poses, velocity = joined.data, points_of(joined), points_of(joined, "velocity")
 stride = repertoire.strides[1]
 seconds = 2.0 * cast.gait.gait_of(stride).seconds / cast.POSES
-expected = (points_of(joined[31].data) - points_of(joined[29].data)) / seconds
-result["velocity"] = float(numpy.abs(velocity.reshape(-1, 3) - expected).max())
-result["standing_height"] = float(numpy.ptp(points_of(joined[repertoire.standing_pose("idle", 0)].data)[:, 2]))
+expected = (poses[31] - poses[29]) / seconds
+result["velocity"] = float(numpy.abs(velocity[30] - expected).max())
+result["still"] = float(numpy.abs(velocity[repertoire.walking():]).max())
+result["standing_height"] = float(numpy.ptp(poses[repertoire.standing_pose("idle", 0), :, 2]))
 result["look"] = {"materials": [m.name.split(".")[0] for m in mesh.materials], "uv": len(mesh.uv_layers),
                   "packed": all(image.packed_file is not None for image in bpy.data.images if image.source == "FILE")}
 
@@ -114,11 +110,11 @@ scene.frame_set(20)
 
 
 def shown():
-    graph = bpy.context.evaluated_depsgraph_get()
+    graph, names = bpy.context.evaluated_depsgraph_get(), Names()
     found = {}
     for instance in graph.object_instances:
         if instance.is_instance and instance.parent and instance.parent.original == crowd:
-            number = int(instance.object.name[8:10])
+            number = int(names.of(instance.object.data)[1:3])
             found[number] = found.get(number, 0) + 1
     return found
 
@@ -135,10 +131,11 @@ before = counts()
 result["levels"] = {}
 for level, (near, far) in ((1, (10.0, 1000.0)), (2, (10.0, 20.0))):
     assert bpy.ops.throng.levels(by="camera", near=near, far=far) == {"FINISHED"}
-    meshes = [instance.object.data for instance in bpy.context.evaluated_depsgraph_get().object_instances
-              if instance.is_instance and instance.object.name.startswith(f"throng_v{shipped:02d}") and instance.object.name.endswith(f"_l{level}")]
-    result["levels"][level] = [len(meshes), sum(len(p.vertices) - 2 for p in meshes[0].polygons), len(members.poses(crowd, level)[shipped])]
-    result["levels"]["finest"] = sum(len(p.vertices) - 2 for p in joined[0].data.polygons)
+    names = Names()
+    triangles = [sum(len(p.vertices) - 2 for p in instance.object.data.polygons) for instance in bpy.context.evaluated_depsgraph_get().object_instances
+                 if instance.is_instance and (name := names.of(instance.object.data)).startswith(f"m{shipped:02d}") and name.endswith(f"_l{level}")]
+    result["levels"][level] = [len(triangles), triangles[0], len(points_of(members.figure(crowd, shipped, level)))]
+    result["levels"]["finest"] = sum(len(p.vertices) - 2 for p in joined.data.polygons)
 result["shown_far"] = shown()
 assert bpy.ops.throng.remove_character(member=shipped) == {"FINISHED"}  # it leaves and comes while levels are on
 assert bpy.ops.throng.add_character(filepath=glb) == {"FINISHED"}
@@ -158,9 +155,9 @@ before = counts()
 assert bpy.ops.throng.add_armature(replace=2, height=1.6, keep="*stick*", character_name="Second") == {"FINISHED"}
 assert place == (tuple(second.location), second.animation_data.use_nla) and second.animation_data.action is None
 result["scenes"] = counts()["scenes"] - before["scenes"], counts()["armatures"] - before["armatures"]
-replaced = sorted(members.poses(crowd)[2], key=lambda thing: thing.name)
-result["second"] = {"report": json.loads(replaced[0].parent["throng_report"]), "count": len(replaced), "vertices": len(replaced[0].data.vertices),
-                    "smooth": sum(p.use_smooth for p in replaced[0].data.polygons) > 0.9 * len(replaced[0].data.polygons)}
+replaced = members.figure(crowd, 2)
+result["second"] = {"report": members.report_of(crowd, 2), "count": len(points_of(replaced)), "vertices": len(replaced.data.vertices),
+                    "smooth": sum(p.use_smooth for p in replaced.data.polygons) > 0.9 * len(replaced.data.polygons)}
 result["second_feet"] = feet_of(replaced)[..., ::7, :].round(5).tolist()
 
 # Unsuitable armatures in the scene.
@@ -188,7 +185,7 @@ assert bpy.ops.throng.remove_character(member=shipped) == {"FINISHED"}
 result["at_the_end"] = [len(members.members(crowd)), max(shown())]
 assert bpy.ops.throng.add_character(filepath=glb, walk="walk_cycle: 1.5", run="walk_cycle", idle="Jump_Idle", heading="-X",
                                        height=2.5, leave_out="none, *stick") == {"FINISHED"}
-result["said"] = json.loads(members.poses(crowd)[shipped][0].parent["throng_report"])
+result["said"] = members.report_of(crowd, shipped)
 bpy.ops.wm.save_mainfile()
 throng.unregister()
 bpy.ops.wm.open_mainfile(filepath=os.path.join(folder, "scene.blend"))

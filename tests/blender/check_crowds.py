@@ -22,7 +22,7 @@ scene = bpy.context.scene
 
 def people_of(crowd):
     graph = bpy.context.evaluated_depsgraph_get()
-    return {i.persistent_id[0]: tuple(round(v, 4) for v in i.matrix_world.translation)
+    return {i.persistent_id[1]: tuple(round(v, 4) for v in i.matrix_world.translation)
             for i in graph.object_instances if i.is_instance and i.parent and i.parent.original == crowd}
 
 

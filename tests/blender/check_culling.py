@@ -8,8 +8,9 @@ import bpy
 from bpy_extras.object_utils import world_to_camera_view
 
 addon, bake = sys.argv[-2:]
-sys.path.insert(0, addon)
+sys.path[:0] = [addon, os.path.dirname(os.path.abspath(__file__))]
 import throng  # noqa: E402
+from pose_names import Names  # noqa: E402
 from throng import crowds  # noqa: E402
 
 bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -17,11 +18,12 @@ throng.register()
 bpy.ops.import_scene.throng(filepath=os.path.join(bake, "bake.json"), scenery=False)
 scene = bpy.context.scene
 crowd = crowds.crowd_objects(scene)[0]
+names = Names()
 
 
 def people():
     graph = bpy.context.evaluated_depsgraph_get()
-    return {i.persistent_id[0]: (i.object.name, *(round(v, 4) for v in i.matrix_world.translation))
+    return {i.persistent_id[1]: (names.of(i.object.data), *(round(v, 4) for v in i.matrix_world.translation))
             for i in graph.object_instances if i.is_instance and i.parent and i.parent.original == crowd}
 
 

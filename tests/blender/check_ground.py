@@ -18,7 +18,7 @@ def people(crowd):
     found = {}
     for instance in bpy.context.evaluated_depsgraph_get().object_instances:
         if instance.is_instance and instance.parent and instance.parent.original == crowd:
-            found[instance.persistent_id[0]] = [list(row) for row in instance.matrix_world]
+            found[instance.persistent_id[1]] = [list(row) for row in instance.matrix_world]
     return found
 
 

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs inside Blender: which level of detail everybody has, by a camera that moves; then off again, and from a saved file without the add-on."""
 import json
-import math
 import os
 import sys
 
 import bpy
 
 addon, bake, folder = sys.argv[-3:]
-sys.path.insert(0, addon)
+sys.path[:0] = [addon, os.path.dirname(os.path.abspath(__file__))]
 import throng  # noqa: E402
+from pose_names import Names  # noqa: E402
 from throng import crowds, levels  # noqa: E402
 
 bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -21,12 +21,12 @@ camera = scene.camera
 
 
 def people():
-    graph = bpy.context.evaluated_depsgraph_get()
-    return {i.persistent_id[0]: i.object.name for i in graph.object_instances if i.is_instance and i.parent and i.parent.original.name == "Throng sample crowd"}
+    graph, names = bpy.context.evaluated_depsgraph_get(), Names()
+    return {i.persistent_id[1]: names.of(i.object.data) for i in graph.object_instances if i.is_instance and i.parent and i.parent.original.name == "Throng sample crowd"}
 
 
 def sizes():
-    return [sum(thing.name.startswith("throng_v") for thing in things) for things in (bpy.data.objects, bpy.data.meshes)]
+    return [sum(thing.name.startswith("Throng person") for thing in things) for things in (bpy.data.objects, bpy.data.meshes)]
 
 
 scene.frame_set(20)

@@ -9,8 +9,9 @@ import sys
 import bpy
 
 addon, folder = sys.argv[-2:]
-sys.path.insert(0, addon)
+sys.path[:0] = [addon, os.path.dirname(os.path.abspath(__file__))]
 import throng  # noqa: E402
+from pose_names import Names  # noqa: E402
 from throng import crowds  # noqa: E402
 from throng.overrides import hero, layer, native, picking, skeleton  # noqa: E402
 
@@ -30,8 +31,8 @@ entries = lambda: json.load(open(FILE, encoding="utf-8"))["overrides"] if os.pat
 def people(of=None):
     """{row: [pose, x, y, z, heading, scale]} as the scene shows them now."""
     of = of or crowd
-    graph = bpy.context.evaluated_depsgraph_get()
-    return {i.persistent_id[0]: [i.object.name, *i.matrix_world.translation, math.atan2(i.matrix_world[1][0], i.matrix_world[0][0]),
+    graph, names = bpy.context.evaluated_depsgraph_get(), Names()
+    return {i.persistent_id[1]: [names.of(i.object.data), *i.matrix_world.translation, math.atan2(i.matrix_world[1][0], i.matrix_world[0][0]),
                                  i.matrix_world.to_scale().x]
             for i in graph.object_instances if i.is_instance and i.parent and i.parent.original == of}
 
@@ -144,9 +145,9 @@ ops.promote_person(rows="10", hero="Anna")
 crowd.name = "Somebody's crowd"
 result["twice"] = refused(ops.promote_person, rows="11", hero="Anna")
 ops.promote_person(rows="16")  # enters later
-from throng.cast import library  # noqa: E402
+from throng.characters import members  # noqa: E402
 
-holder = library.objects_of(crowd["throng_cast"], 0, layer.variation_of(crowd, 18))[0].parent
+holder = members.figure(crowd, layer.variation_of(crowd, 18))
 number = holder["throng_person"]
 del holder["throng_person"]  # as if somebody had brought this member along
 result["brought"] = refused(ops.promote_person, rows="18")

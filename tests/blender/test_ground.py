@@ -108,7 +108,7 @@ crowd = next(thing for thing in bpy.context.scene.objects if 'throng pos' in thi
 result = []
 for frame in json.loads(sys.argv[-1]):
     bpy.context.scene.frame_set(frame)
-    result.append({i.persistent_id[0]: [list(row) for row in i.matrix_world] for i in bpy.context.evaluated_depsgraph_get().object_instances
+    result.append({i.persistent_id[1]: [list(row) for row in i.matrix_world] for i in bpy.context.evaluated_depsgraph_get().object_instances
                    if i.is_instance and i.parent and i.parent.original == crowd})
 print('RESULT ' + json.dumps(result))
 """)

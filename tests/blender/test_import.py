@@ -16,6 +16,7 @@ from conftest import ROOT
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 sys.path.insert(0, str(ROOT / "blender_addon"))
 from sample_bake import write_bake  # noqa: E402
+from pose_names import pose_name  # noqa: E402
 from throng import cast, formats  # noqa: E402
 
 ADDON = ROOT / "blender_addon"
@@ -40,7 +41,7 @@ def expected_poses(state, direction, row, frame, level=0, repertoire=REPERTOIRE)
         beat = (row * 0.618034 + frame / 80.0) % 1.0 * cast.BEATS
         beats = {int(beat), int(beat + 1e-3) % cast.BEATS, int(beat - 1e-3) % cast.BEATS}
         poses = [repertoire.standing_pose(cast.gait.STANDING_CLIPS[pick], b, level) for b in beats]
-    return [cast.pose_name(int(variation), pose, level) for pose in poses]
+    return [pose_name(int(variation), pose, level) for pose in poses]
 
 
 def test_instances_are_where_the_arrays_say_at_frames_and_between(blender, tmp_path):
@@ -64,7 +65,16 @@ def test_instances_are_where_the_arrays_say_at_frames_and_between(blender, tmp_p
             facing = direction[low, row] * (1.0 - blend) + direction[high, row] * blend
             assert wrapped(math.atan2(facing[1], facing[0]) - heading) < 1e-4
             scene_frames = {math.floor(shot["frame"] + shot["sub"] + 0.5), math.ceil(shot["frame"] + shot["sub"] - 0.5)}
-            assert name in [pose for k in nearest for frame in scene_frames for pose in expected_poses(state[k], direction[low], row, frame)]
+            assert set(name.split("|")) & {pose for k in nearest for frame in scene_frames for pose in expected_poses(state[k], direction[low], row, frame)}
+
+
+def test_figures_bring_every_pose_in_order(blender):
+    found = result_of(blender(pathlib.Path(__file__).parent / "check_sheets.py", ADDON))
+    for figure in found["shown"]:
+        assert figure["count"] == figure["expected"] and figure["off"] == 0.0 and figure["velocity_off"] < 1e-4 and figure["faces"]
+        assert figure["blurring"] == (figure["walking"] if figure["level"] < 2 else 0), "those who stand have no velocities"
+        assert figure["materials"] == [[f"throng {name}" for name in cast.people.MATERIALS]]
+    assert not any(found["left"].values()), "nothing is left of figures that are removed"
 
 
 def test_a_cast_has_only_the_gaits_of_its_bake_and_gets_others_when_a_new_bake_walks_with_them(blender, tmp_path):
@@ -74,13 +84,13 @@ def test_a_cast_has_only_the_gaits_of_its_bake_and_gets_others_when_a_new_bake_w
     narrow, wide = cast.Repertoire.of(REPERTOIRE.strides, (1, 2)), REPERTOIRE
     for shown, repertoire in zip(result["shots"], (narrow, wide, wide)):
         for row, name in shown["copy"].items():
-            assert name in expected_poses(few[2][9], few[1][9], int(row), 10, repertoire=repertoire)
+            assert set(name.split("|")) & set(expected_poses(few[2][9], few[1][9], int(row), 10, repertoire=repertoire))
         assert len(shown["copy"]) > 50
     for shown, (_, direction, state), repertoire in zip(result["shots"], (few, many, few), (narrow, wide, wide)):  # fewer take nothing away
         assert shown["poses"] == 8 * repertoire.count and shown["coarse"] == 8 * repertoire.poses(1)
         assert {int(row) for row in shown["people"]} == set(numpy.nonzero(state[9, :, 0] > 0.5)[0])
         for row, name in shown["people"].items():
-            assert name in expected_poses(state[9], direction[9], int(row), 10, repertoire=repertoire)
+            assert set(name.split("|")) & set(expected_poses(state[9], direction[9], int(row), 10, repertoire=repertoire))
     assert all(shown["look"] == result["shots"][0]["look"] for shown in result["shots"]), "new poses have the materials that the old ones had"
 
 
@@ -177,6 +187,20 @@ def test_crowds_are_verified_mended_moved_and_shown_in_part(blender, tmp_path):
     assert found["reopened"] == [[], []] and min(found["people"]) > 50
 
 
+CAST_MATERIALS = {f"throng {name}" for name in cast.people.MATERIALS}
+WANTED = {"CryptoObject": ["Throng sample crowd", "Throng wall house"], "CryptoAsset": ["Throng sample crowd"], "CryptoMaterial": ["throng top", "throng skin"]}
+
+
+def coverage(channels, layer, number):
+    """How much of each pixel a Cryptomatte name covers. Pairs of a name's number and its share go through red, green, and blue, alpha."""
+    wanted, total = numpy.uint32(int(number, 16)), 0.0
+    for rank in range(3):
+        planes = [next(c.pixels for name, c in channels.items() if name.lower().endswith(f"{layer}0{rank}.{plane}".lower())) for plane in "RGBA"]
+        for numbers, shares in (planes[:2], planes[2:]):
+            total = total + numpy.where(numpy.ascontiguousarray(numbers, numpy.float32).view(numpy.uint32) == wanted, shares, 0.0)
+    return total
+
+
 def test_the_film_look_and_its_layers(blender, tmp_path):
     import OpenEXR
 
@@ -197,14 +221,15 @@ def test_the_film_look_and_its_layers(blender, tmp_path):
             header = {key: value for part in file.parts for key, value in part.header.items()}
         names = " ".join(channels)
         assert "CryptoAsset00" in names and "Mist" in names and ("Depth" in names or ".Z" in names)
-        manifest = next(json.loads(value) for key, value in header.items() if key.startswith("cryptomatte/") and key.endswith("/manifest"))
-        people = {name for name in manifest if name.startswith("Throng person")}
-        assert people and not any(name.startswith("throng_v") for name in manifest), "mattes go by person, not by pose"
-        mattes.append({name: manifest[name] for name in people})
+        manifests = {header[key.replace("/manifest", "/name")].split(".")[-1]: json.loads(value) for key, value in header.items()
+                     if key.startswith("cryptomatte/") and key.endswith("/manifest")}
+        crowd = coverage(channels, "CryptoObject", manifests["CryptoObject"]["Throng sample crowd"])
+        clothes = sum(coverage(channels, "CryptoMaterial", number) for name, number in manifests["CryptoMaterial"].items() if name in CAST_MATERIALS)
+        assert 0.005 < crowd.mean() < 0.9 and abs(crowd - clothes).max() < 1e-3, "the crowd's matte is that of all that people are made of"
+        mattes.append({kind: {name: manifest[name] for name in wanted if name in manifest} for kind, wanted in WANTED.items() for manifest in [manifests[kind]]})
         combined = next(channel for name, channel in channels.items() if name.endswith("Combined.R"))
         assert numpy.isfinite(combined.pixels).all() and combined.pixels.std() > 0.01
-    shared = set(mattes[0]) & set(mattes[1])
-    assert shared and all(mattes[0][name] == mattes[1][name] for name in shared), "a person's matte is the same in the next frame"
+    assert mattes[0] == mattes[1] and all(mattes[0].values()), "mattes are the same in the next frame, whatever poses people take"
 
 
 @pytest.mark.parametrize("people, seconds, milliseconds", [(16384, 10.0, 25.0), (65536, 40.0, 80.0)])
@@ -229,8 +254,8 @@ def test_only_those_outside_a_box_or_the_cameras_view_are_left_out(blender, tmp_
 def test_levels_of_detail_follow_the_camera_and_can_be_taken_out_again(blender, tmp_path):
     pos, direction, state = write_bake(tmp_path / "bake", agents=400, variations=cast.VARIATIONS)
     found = result_of(blender(pathlib.Path(__file__).parent / "check_levels.py", ADDON, tmp_path / "bake", tmp_path))
-    each = [cast.VARIATIONS * REPERTOIRE.poses(level) for level in range(cast.LEVELS)]
-    assert found["sizes"] == [[each[0]] * 2, [each[0]] * 2, [sum(each)] * 2] and found["after"] == [each[0]] * 2
+    once = 2 * cast.VARIATIONS  # of everybody the figure and its sheet of poses, as objects and as meshes
+    assert found["sizes"] == [[once] * 2, [once] * 2, [cast.LEVELS * once] * 2] and found["after"] == [once] * 2
     # A person of 1.75 m is 120 and 40 pixels tall there: the sensor is 36 mm wide, the picture 1920 x 1080.
     pixels = [1.75 / distance * found["lens"] / 36.0 * 1920.0 for distance in found["defaults"]]
     assert pixels == pytest.approx([120.0, 40.0], rel=1e-3)
@@ -250,7 +275,7 @@ def test_levels_of_detail_follow_the_camera_and_can_be_taken_out_again(blender, 
                 continue
             level = (distance > 9.5) + (distance > 18.5)
             levels.add(level)
-            assert name in expected_poses(state[near], direction[low], row, near + 1, level), (frame, sub, row, distance)
+            assert set(name.split("|")) & set(expected_poses(state[near], direction[low], row, near + 1, level)), (frame, sub, row, distance)
     assert levels == {0, 1, 2}
     middle, opened, closed = ({row: name for row, name in people.items()} for frame, sub, _, people in found["shots"] if (frame, sub) in ((25, 0.0), (24, 0.76), (25, 0.24)))
     changed = [row for row in middle if {opened[row], closed[row]} != {middle[row]}]

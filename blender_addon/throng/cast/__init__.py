@@ -1,16 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """The people that the add-on ships, and the order that they are kept in.
 
-A cast is a collection that is not in the scene. Its child collections are blocks: each holds the poses of some neighbouring people at one
-level of detail, and has the custom properties `throng_level` (0 is the finest) and `throng_first`, the first of its people as the bake
-numbers them (variations). A block of level L has PEOPLE_A_BLOCK[L] people, the last one may have fewer. Its objects, sorted by name, are
-
-    (variation - throng_first) * repertoire.poses(L) + pose
-
-where the poses are the gaits first, each a cycle from the right heel's strike on, then the beats of the standing clips (Repertoire numbers
-them). pose_name() makes such names. Level 0 is always there, levels 1 and 2 only where they are asked for (levels.py). An object's parent
-is the person: an empty that Cryptomatte goes by, with the property `throng_person` where the add-on's own cast made it. Whoever puts
-somebody else in a person's place exchanges all of its objects. Figures look along +x and stand on z = 0; all take the bake's strides.
+A cast is a collection that is not in the scene, of figures (sheets.py): one object for each member at each level of detail, with the custom
+properties `throng_member`, its number as the bake has them (variations), and `throng_level` (0 is the finest). A figure brings an instance of each
+of its poses, in order: the gaits first, each a cycle from the right heel's strike on, then the beats of the standing clips (Repertoire numbers
+them). The collection's `throng_variations` says how many members there are, `throng_levels` how many levels the crowd shows. `throng_person` is there
+where the add-on's own cast made a figure, `throng_character` where it was brought along. Figures look along +x and stand on z = 0; all take
+the bake's strides.
 """
 from dataclasses import dataclass
 
@@ -23,7 +19,6 @@ POSES = 24  # of each gait's cycle, at level 0
 BEATS = 4   # of each standing clip's round
 LEVEL_POSES = (POSES, POSES, 8)  # far away, fewer do
 LEVEL_BEATS = (BEATS, BEATS, 1)
-PEOPLE_A_BLOCK = (3, 3, 9)  # some 500 objects: fewer blocks cost less, but the time for each grows with the square of its objects
 
 
 @dataclass(frozen=True)
@@ -62,10 +57,6 @@ class Repertoire:
         """For each pose of a level, the one of level 0 that it is: of those that it stands for, the one in the middle."""
         share, beats = POSES // LEVEL_POSES[level], BEATS // LEVEL_BEATS[level]
         return (list(range(share // 2, self.walking(), share)) + list(range(self.walking(), self.poses(), beats)))
-
-
-def pose_name(variation, pose, level=0):
-    return f"throng_v{variation:02d}_p{pose:03d}" + (f"_l{level}" if level else "")
 
 
 def poses_of(person, repertoire):

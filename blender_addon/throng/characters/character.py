@@ -8,6 +8,7 @@ import numpy
 from ..cast import BEATS, POSES
 from ..cast.gait import STANDING_CLIPS, gait_of
 from ..cast.library import BLURS_UNTIL
+from ..cast.sheets import MOST_POINTS, Posed
 from . import CharacterError, anatomy, clips, feet, motion, posing, roles
 from .rig import Stage, rig_of
 
@@ -44,7 +45,7 @@ class Report:
 @dataclass
 class Character:
     name: str
-    meshes: list  # of each level, of each pose in the repertoire's order
+    levels: list  # of each level of detail, the Posed
     report: Report
 
 
@@ -62,10 +63,10 @@ def make(armature, repertoire, name, options):
         bones += _standing(reader, chosen, cycles, body, report)
         puppet = posing.Puppet(rig, stage, reader.placement)
         try:
-            meshes = _meshes(puppet, reader, bones, repertoire, report, plans)
+            levels = _levels(puppet, reader, bones, repertoire, report, plans)
         finally:
             puppet.remove()
-    return Character(name, meshes, report)
+    return Character(name, levels, report)
 
 
 def _nearest(cycles, stride):
@@ -91,7 +92,7 @@ def _standing(reader, chosen, cycles, body, report):
     return found
 
 
-def _meshes(puppet, reader, bones, repertoire, report, plans):
+def _levels(puppet, reader, bones, repertoire, report, plans):
     made = []
     try:
         points = [{} for _ in posing.LEVELS]
@@ -102,15 +103,13 @@ def _meshes(puppet, reader, bones, repertoire, report, plans):
                     posed[index] = puppet.points(level)
         for level, posed in enumerate(points):
             template = puppet.template(level, f"{report.name} {level}")
-            made.append([template])
             sources = repertoire.sources(level)
-            if len(template.vertices) != len(posed[sources[0]]):
-                raise CharacterError("the meshes lose or gain vertices when they are joined: apply their modifiers first")
-            made[level] += [template.copy() for _ in sources[1:]]
-            for mesh, source in zip(made[level], sources):
-                posing.set_points(mesh, posed[source])
-                if level <= BLURS_UNTIL and source < repertoire.walking():
-                    posing.set_velocities(mesh, _velocity(posed, source, repertoire))
+            made.append(Posed(template, numpy.array([posed[source] for source in sources], numpy.float32)))
+            _check_size(template, made[level].points)
+            if level <= BLURS_UNTIL:
+                made[level].velocities = numpy.array([_velocity(posed, source, repertoire) for source in sources if source < repertoire.walking()], numpy.float32)
+            template.vertices.foreach_set("co", made[level].points[-1].ravel())
+            template.update()
             template.calc_loop_triangles()
             report.triangles.append(len(template.loop_triangles))
         for index, plan in enumerate(plans):
@@ -119,10 +118,17 @@ def _meshes(puppet, reader, bones, repertoire, report, plans):
                                  "slide": max(feet.slide(posed[:, sole], plan.stride) for sole in _soles(reader, posed))})
             report.notes += [f"{plan.cycle.name}: {note}" for note in plan.cycle.notes if f"{plan.cycle.name}: {note}" not in report.notes]
     except BaseException:
-        for mesh in [mesh for level in made for mesh in level]:
-            bpy.data.meshes.remove(mesh)
+        bpy.data.batch_remove([posed.mesh for posed in made])
         raise
     return made
+
+
+def _check_size(template, points):
+    poses, vertices, _ = points.shape
+    if len(template.vertices) != vertices:
+        raise CharacterError("the meshes lose or gain vertices when they are joined: apply their modifiers first")
+    if poses * vertices > MOST_POINTS:
+        raise CharacterError(f"{vertices} vertices are too many: a cast of {poses} poses takes up to {MOST_POINTS // poses}; decimate its meshes first")
 
 
 def _soles(reader, posed):

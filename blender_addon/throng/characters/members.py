@@ -6,6 +6,7 @@ import bpy
 
 from .. import cast
 from ..cast import library
+from ..cast.sheets import remove_figures
 from . import CharacterError
 
 
@@ -29,7 +30,7 @@ def pick(maths, variation, drawn, count):
 
 def cast_of(crowd):
     """The cast that a crowd shows."""
-    if "throng_cast" not in crowd:
+    if "throng_levels" not in crowd.get("throng_cast", ()):
         raise CharacterError(f"{crowd.name} was imported by an earlier version of the add-on: import its bake again")
     return crowd["throng_cast"]
 
@@ -57,42 +58,37 @@ def widen(crowd, gaits=None):
     if wanted == (first, last):
         return
     shown = cast_of(crowd)
-    levels = _levels(shown)
     shown["throng_gaits"] = wanted
     for number in range(shown["throng_variations"]):
-        materials = list(library.objects_of(shown, 0, number)[0].data.materials)
+        materials = list(figure(crowd, number).data.materials)
         _discard(shown, number, keep=materials)
-        library.add_person(shown, number, repertoire_of(crowd), materials, levels)
+        library.add_person(shown, number, repertoire_of(crowd), materials)
     _changed(crowd)
 
 
-def poses(crowd, level=0):
-    """{member: [its pose objects, in order]}."""
-    shown = cast_of(crowd)
-    return {number: library.objects_of(shown, level, number) for number in range(shown["throng_variations"])}
+def figure(crowd, number, level=0):
+    """The object of a member at a level of detail (cast.sheets); None where there is none."""
+    return library.figures_of(cast_of(crowd)).get((level, number))
 
 
 def members(crowd):
     """[(name, whether it is a character of one's own)], by number."""
-    holders = [things[0].parent for _, things in sorted(poses(crowd).items())]
-    return [(holder.get("throng_character", holder.name), "throng_character" in holder) if holder else ("", False) for holder in holders]
+    figures = [figure(crowd, number) for number in range(cast_of(crowd)["throng_variations"])]
+    return [(each.get("throng_character", each.name), "throng_character" in each) for each in figures]
 
 
-def _levels(shown):
-    return sorted({level for level, _ in library.blocks_of(shown)})
+def report_of(crowd, number):
+    """What was found and chosen when a character was added, in lines."""
+    return json.loads(figure(crowd, number)["throng_report"])
 
 
 def _discard(shown, number, keep=()):
-    """Removes a member at all levels, with the meshes that it brought, and with their materials that nobody else has, unless they are to be kept."""
-    things = [thing for level in _levels(shown) for thing in library.objects_of(shown, level, number)]
-    holders = {thing.parent for thing in things if thing.parent}
-    details = [holder["throng_details"] for holder in holders if holder.get("throng_details")]
-    stored = [thing for collection in details for thing in collection.objects]
-    meshes = {thing.data for thing in things + stored}
-    materials = {material for mesh in meshes for material in mesh.materials if material and material not in keep}
+    """Removes a member at all levels, with its materials that nobody else has, unless they are to be kept."""
+    figures = [each for (_, member), each in library.figures_of(shown).items() if member == number]
+    materials = {material for each in figures for material in each.data.materials if material and material not in keep}
     images = {node.image for material in materials if material.node_tree for node in material.node_tree.nodes if getattr(node, "image", None)}
-    bpy.data.batch_remove([*things, *stored, *details, *holders])
-    for brought in (meshes, materials, images):
+    remove_figures(figures)
+    for brought in (materials, images):
         bpy.data.batch_remove([each for each in brought if each.users == 0])
 
 
@@ -100,20 +96,8 @@ def _changed(crowd):
     from ..playback import set_cast
 
     shown = cast_of(crowd)
-    bpy.data.batch_remove([block for block in library.blocks_of(shown).values() if not block.objects])
     for each in [thing for thing in bpy.data.objects if thing.get("throng_cast") == shown]:  # copies of a crowd share its cast
         set_cast(each, shown)
-
-
-def _details(character, holder):
-    """The coarser meshes, for when levels of detail are asked for: in a collection that nothing shows but the file keeps."""
-    details = bpy.data.collections.new(f"{holder.name} details")
-    for level, meshes in enumerate(character.meshes):
-        for index, mesh in enumerate(meshes if level else ()):
-            thing = bpy.data.objects.new(mesh.name, mesh)
-            thing["throng_level"], thing["throng_pose"] = level, index
-            details.objects.link(thing)
-    holder["throng_details"] = details
 
 
 def number_for(crowd, place=None):
@@ -129,49 +113,30 @@ def number_for(crowd, place=None):
 
 def put(crowd, character, number):
     """Makes a character the member of that number (number_for)."""
-    repertoire, shown = repertoire_of(crowd), cast_of(crowd)
-    count, levels = shown["throng_variations"], _levels(shown)
+    shown = cast_of(crowd)
     _discard(shown, number)
-    holder = bpy.data.objects.new(f"Throng character {character.name}", None)
-    holder["throng_character"] = character.name
-    holder["throng_report"] = json.dumps(character.report.lines())
-    block = library.block_for(shown, 0, number)
-    for index, mesh in enumerate(character.meshes[0]):
-        thing = bpy.data.objects.new(cast.pose_name(number, index), mesh)
-        mesh.name = thing.name
-        thing.parent = holder
-        block.objects.link(thing)
-    _details(character, holder)
-    for level in levels:
-        if level > 0:
-            library.add_brought(shown, level, number, repertoire)
-    shown["throng_variations"] = max(count, number + 1)
+    for level, posed in enumerate(character.levels):
+        made = library.add_figure(shown, level, number, f"Throng character {character.name}", posed)
+        made["throng_character"], made["throng_report"] = character.name, json.dumps(character.report.lines())
+    shown["throng_variations"] = max(shown["throng_variations"], number + 1)
     _changed(crowd)
 
 
 def remove(crowd, number):
     """Takes a character out. Where it had replaced somebody, that one comes back; those who joined after it move up."""
     shown = cast_of(crowd)
-    count, levels = shown["throng_variations"], _levels(shown)
+    count = shown["throng_variations"]
     if not 0 <= number < count or not members(crowd)[number][1]:
         raise CharacterError(f"{number} is no character that was added")
     _discard(shown, number)
     if number < shown.get("throng_shipped", count):
-        library.add_person(shown, number, repertoire_of(crowd), _shipped_materials(shown), levels)
+        library.add_person(shown, number, repertoire_of(crowd), _shipped_materials(shown))
     else:
-        for later in range(number + 1, count):
-            for level in levels:
-                _renumber(shown, level, later, later - 1)
+        for (_, member), each in library.figures_of(shown).items():
+            if member > number:
+                each["throng_member"] = member - 1
         shown["throng_variations"] = count - 1
     _changed(crowd)
-
-
-def _renumber(shown, level, number, to):
-    things = library.objects_of(shown, level, number)
-    for index, thing in enumerate(things):
-        thing.users_collection[0].objects.unlink(thing)
-        thing.name = cast.pose_name(to, index, level)
-        library.block_for(shown, level, to).objects.link(thing)
 
 
 def _shipped_materials(shown):
@@ -179,8 +144,7 @@ def _shipped_materials(shown):
     from ..cast import people
     from ..cast.materials import cast_materials
 
-    for block in library.blocks_of(shown).values():
-        for thing in block.objects:
-            if thing.parent and "throng_person" in thing.parent:
-                return list(thing.data.materials)
+    for each in library.figures_of(shown).values():
+        if "throng_person" in each:
+            return list(each.data.materials)
     return cast_materials(people.MATERIALS)

@@ -67,9 +67,9 @@ class _AddsCharacter:
         members.widen(crowd)
         made = character.make(armature, members.repertoire_of(crowd), name, self._options())
         try:
-            files.pack_images([level[0] for level in made.meshes])
+            files.pack_images([posed.mesh for posed in made.levels])
         except CharacterError:
-            bpy.data.batch_remove([mesh for level in made.meshes for mesh in level])
+            bpy.data.batch_remove([posed.mesh for posed in made.levels])
             raise
         members.put(crowd, made, number)
         for line in made.report.lines():

@@ -10,7 +10,7 @@ import bpy
 import numpy
 from mathutils import Matrix
 
-from ..cast.library import drop_spare_attributes
+from ..cast.sheets import drop_spare_attributes
 from . import CharacterError
 from .rig import bone_above, is_skinned
 
@@ -161,13 +161,3 @@ class Puppet:
             bpy.data.meshes.remove(mesh)
         bpy.data.armatures.remove(data)
         bpy.data.scenes.remove(self.scene)
-
-
-def set_points(mesh, points):
-    mesh.vertices.foreach_set("co", numpy.ascontiguousarray(points, numpy.float32).ravel())
-    mesh.update()
-
-
-def set_velocities(mesh, velocities):
-    layer = mesh.attributes.get("velocity") or mesh.attributes.new("velocity", "FLOAT_VECTOR", "POINT")
-    layer.data.foreach_set("vector", numpy.ascontiguousarray(velocities, numpy.float32).ravel())

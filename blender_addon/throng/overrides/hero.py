@@ -103,11 +103,10 @@ def _build_body(name, person, strides, armature, collection):
 def shipped_person(crowd, variation):
     """(person, materials) of the shipped cast whom a variation shows as; None where it is a character that was brought along."""
     shown = crowd["throng_cast"]
-    poses = library.objects_of(shown, 0, variation % shown["throng_variations"])
-    holder = poses[0].parent if poses else None
-    if holder is None or "throng_person" not in holder:
+    figure = library.figures_of(shown).get((0, variation % shown["throng_variations"]))
+    if figure is None or "throng_person" not in figure:
         return None
-    return people.CAST[holder["throng_person"]], list(poses[0].data.materials)
+    return people.CAST[figure["throng_person"]], list(figure.data.materials)
 
 
 def _dress(crowd, body, person, materials, row, change):

@@ -22,16 +22,6 @@ _ATTRIBUTES = {"throng_hide": "FLOAT", "throng_swap": "FLOAT", "throng_moved": "
 _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
 
 
-def _store(maths, geometry, name, kind, value, selection=None):
-    node = maths.node("GeometryNodeStoreNamedAttribute", data_type=kind, domain="POINT")
-    node.inputs["Name"].default_value = name
-    maths.link(geometry, node.inputs["Geometry"])
-    maths.link(value, socket(node.inputs, "Value"))
-    if selection and "Selection" in node.inputs:  # Blender 3.5
-        maths.link(maths.attribute(selection, "BOOLEAN"), node.inputs["Selection"])
-    return node.outputs[0]
-
-
 def _state_nodes(maths, geometry):
     """Who hides is not there; who is swapped has another variation (-1: its own)."""
     separate = maths.node("ShaderNodeSeparateXYZ")
@@ -43,7 +33,7 @@ def _state_nodes(maths, geometry):
     maths.link(maths.math("MULTIPLY", separate.outputs[0], maths.math("SUBTRACT", 1.0, maths.attribute("throng_hide", "FLOAT"))), combine.inputs[0])
     maths.link(maths.math("MULTIPLY_ADD", swap, swapped, kept), combine.inputs[1])
     maths.link(separate.outputs[2], combine.inputs[2])
-    return _store(maths, geometry, "throng_state", "FLOAT_VECTOR", combine.outputs[0])
+    return maths.store(geometry, "throng_state", combine.outputs[0], "FLOAT_VECTOR")
 
 
 def _place_nodes(maths, geometry):
@@ -71,7 +61,7 @@ def _turn_nodes(maths, geometry):
     maths.link(geometry, place.inputs["Geometry"])
     maths.link(maths.attribute("throng_moved", "BOOLEAN"), place.inputs["Selection"])
     maths.link(turned(maths.node("GeometryNodeInputPosition").outputs[0], maths.attribute("throng_pivot", "FLOAT_VECTOR")), place.inputs["Position"])
-    return _store(maths, place.outputs[0], "throng_dir", "FLOAT_VECTOR", turned(maths.attribute("throng_dir", "FLOAT_VECTOR")), "throng_moved")
+    return maths.store(place.outputs[0], "throng_dir", turned(maths.attribute("throng_dir", "FLOAT_VECTOR")), "FLOAT_VECTOR", only="throng_moved")
 
 
 def _tree(parts):

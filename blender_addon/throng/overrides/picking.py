@@ -14,7 +14,7 @@ def instances_of(crowd, depsgraph):
     """(row, matrix) of everybody who is shown."""
     for instance in depsgraph.object_instances:
         if instance.is_instance and instance.parent and instance.parent.original == crowd:
-            yield instance.persistent_id[0], instance.matrix_world
+            yield instance.persistent_id[1], instance.matrix_world
 
 
 def _ray_to_body(origin, direction, feet, head):

@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How a cast keeps its poses: a figure is somebody's mesh at a level of detail, and a sheet is where its vertices are in every pose.
+
+The sheet is a mesh of loose points: all vertices of the figure in the first pose, then all in the second, and so on; its attribute `velocity`
+says how fast they move in the poses that walk. The figure's one modifier makes an instance of each pose from the two, in order, and a
+crowd's instancer picks among them. Figure and sheet are in no scene and are worked out once, when a file is opened.
+
+Why a pose is no object of its own: a crowd has more than a thousand, and Blender's dependency graph goes over all operations of every object
+that something refers to in every frame, whether anything has changed or not. With objects that took as long as all people together. The
+price: a crowd renders as one object, so mattes go by crowd and by material.
+"""
+from dataclasses import dataclass
+
+import bpy
+import numpy
+
+from ..nodes import Maths, get_input, new_tree, set_input, socket
+
+MODIFIER = "throng poses"
+MOST_POINTS = 1 << 24  # numbers of points go through nodes as floats, which count no further
+_GEOMETRY = [("Geometry", "NodeSocketGeometry")]
+
+
+@dataclass
+class Posed:
+    """A mesh, and where its V vertices are in P poses, of which the first W walk."""
+    mesh: bpy.types.Mesh
+    points: numpy.ndarray             # (P, V, 3) m
+    velocities: numpy.ndarray = None  # (W, V, 3) m/s in the walker's own frame, where limbs blur
+
+
+def drop_spare_attributes(mesh, keep_sharp=False):
+    """What editing left in a mesh, and marks of sharp faces where there are none: Blender goes over the attributes of all poses in every frame."""
+    for name in [each.name for each in mesh.attributes if each.name.startswith((".select_", ".uv_select_")) or (each.name == "sharp_face" and not keep_sharp)]:
+        mesh.attributes.remove(mesh.attributes[name])
+
+
+def make_figure(name, posed):
+    """The object of somebody at a level of detail. The mesh becomes its own."""
+    poses, vertices, _ = posed.points.shape
+    sheet = bpy.data.objects.new(f"{name} poses", bpy.data.meshes.new(f"{name} poses"))
+    sheet.data.vertices.add(poses * vertices)
+    sheet.data.vertices.foreach_set("co", numpy.ascontiguousarray(posed.points, numpy.float32).ravel())
+    blurring = 0
+    if posed.velocities is not None:
+        blurring = len(posed.velocities)
+        whole = numpy.zeros((poses, vertices, 3), numpy.float32)
+        whole[:blurring] = posed.velocities
+        sheet.data.attributes.new("velocity", "FLOAT_VECTOR", "POINT").data.foreach_set("vector", whole.ravel())
+    sheet.data.update()
+    posed.mesh.name = name
+    figure = bpy.data.objects.new(name, posed.mesh)
+    modifier = figure.modifiers.new(MODIFIER, "NODES")
+    modifier.node_group = _poses_tree(poses, blurring)
+    set_input(modifier, "Sheet", sheet)
+    return figure
+
+
+def sheet_of(figure):
+    return get_input(figure.modifiers[MODIFIER], "Sheet")
+
+
+def points_of(figure, values="points"):
+    """(P, V, 3): where a figure's vertices are in each pose, or their "velocity"."""
+    mesh = sheet_of(figure).data
+    flat = numpy.empty(3 * len(mesh.vertices), numpy.float32)
+    if values == "points":
+        mesh.vertices.foreach_get("co", flat)
+    else:
+        mesh.attributes[values].data.foreach_get("vector", flat)
+    return flat.reshape(-1, len(figure.data.vertices), 3)
+
+
+def pose_mesh(figure, pose):
+    """A mesh of one pose alone, with the figure's materials."""
+    mesh = figure.data.copy()
+    mesh.vertices.foreach_set("co", points_of(figure)[pose].ravel())
+    mesh.update()
+    return mesh
+
+
+def remove_figures(figures):
+    """With their meshes, sheets, and the nodes that nobody else needs. Materials stay."""
+    sheets = [sheet_of(figure) for figure in figures]
+    trees = {figure.modifiers[MODIFIER].node_group for figure in figures}
+    meshes = [thing.data for thing in (*figures, *sheets)]
+    bpy.data.batch_remove([*figures, *sheets])
+    bpy.data.batch_remove(meshes)
+    for tree in [tree for tree in trees if tree.users == 0]:
+        inner = {node.node_tree for node in tree.nodes if node.type == "GROUP"}
+        bpy.data.node_groups.remove(tree)
+        bpy.data.batch_remove([group for group in inner if group.users == 0])
+
+
+def _pose_tree(blurs):
+    """One pose: the figure's mesh with its vertices where the sheet has them."""
+    name = "Throng pose that blurs" if blurs else "Throng pose"
+    found = bpy.data.node_groups.get(name)
+    if found:
+        return found
+    tree, inputs, outputs = new_tree(name, [("Figure", "NodeSocketGeometry"), ("Sheet", "NodeSocketGeometry"), ("First", "NodeSocketInt")], _GEOMETRY)
+    maths = Maths(tree)
+    place = maths.math("ADD", maths.node("GeometryNodeInputIndex").outputs[0], inputs.outputs["First"])
+
+    def from_sheet(value):
+        sample = maths.node("GeometryNodeSampleIndex", data_type="FLOAT_VECTOR", domain="POINT")
+        maths.link(inputs.outputs["Sheet"], sample.inputs["Geometry"])
+        maths.link(value, socket(sample.inputs, "Value"))
+        maths.link(place, sample.inputs["Index"])
+        return socket(sample.outputs, "Value")
+
+    moved = maths.node("GeometryNodeSetPosition")
+    maths.link(inputs.outputs["Figure"], moved.inputs["Geometry"])
+    maths.link(from_sheet(maths.node("GeometryNodeInputPosition").outputs[0]), moved.inputs["Position"])
+    posed = moved.outputs[0]
+    if blurs:
+        posed = maths.store(posed, "velocity", from_sheet(maths.attribute("velocity", "FLOAT_VECTOR")), "FLOAT_VECTOR")
+    instance = maths.node("GeometryNodeGeometryToInstance")
+    maths.link(posed, instance.inputs[0])
+    maths.link(instance.outputs[0], outputs.inputs[0])
+    return tree
+
+
+def _poses_tree(poses, blurring):
+    """An instance of each pose, in order; the first ones blur."""
+    name = f"Throng {poses} poses, {blurring} blur"
+    found = bpy.data.node_groups.get(name)
+    if found:
+        return found
+    tree, inputs, outputs = new_tree(name, _GEOMETRY + [("Sheet", "NodeSocketObject")], _GEOMETRY)
+    maths = Maths(tree)
+    sheet = maths.node("GeometryNodeObjectInfo", transform_space="ORIGINAL")
+    maths.link(inputs.outputs["Sheet"], sheet.inputs["Object"])
+    size = maths.node("GeometryNodeAttributeDomainSize")
+    maths.link(inputs.outputs["Geometry"], size.inputs[0])
+    everything = maths.node("GeometryNodeJoinGeometry")
+    for pose in reversed(range(poses)):  # what is linked to a Join Geometry last comes out first
+        one = maths.node("GeometryNodeGroup")
+        one.node_tree = _pose_tree(pose < blurring)
+        maths.link(inputs.outputs["Geometry"], one.inputs["Figure"])
+        maths.link(socket(sheet.outputs, "Geometry"), one.inputs["Sheet"])
+        maths.link(maths.math("MULTIPLY", socket(size.outputs, "Point Count"), float(pose)), one.inputs["First"])
+        maths.link(one.outputs[0], everything.inputs[0])
+    maths.link(everything.outputs[0], outputs.inputs[0])
+    return tree

@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Which pose of the cast an instance is, told by its vertices alone. Runs inside Blender, also without the add-on."""
+import numpy
+
+
+def pose_name(member, pose, level=0):
+    return f"m{member:02d}_p{pose:03d}" + (f"_l{level}" if level else "")
+
+
+def _points(mesh):
+    flat = numpy.empty(3 * len(mesh.vertices), numpy.float32)
+    mesh.vertices.foreach_get("co", flat)
+    return flat
+
+
+class Names:
+    """Of all figures in the file, as they are when this is made."""
+
+    def __init__(self):
+        import bpy
+
+        self.names = {}
+        for figure in bpy.data.objects:
+            if "throng_member" in figure:
+                sheet = _points(bpy.data.objects[f"{figure.name} poses"].data).reshape(-1, 3 * len(figure.data.vertices))
+                for pose, points in enumerate(sheet):
+                    self.names.setdefault(points.tobytes(), []).append(pose_name(figure["throng_member"], pose, figure["throng_level"]))
+
+    def of(self, mesh):
+        """The names of all poses that look like this one, | between them: who stands is twice the same in a round."""
+        return "|".join(self.names[_points(mesh).tobytes()])
