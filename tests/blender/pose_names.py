@@ -28,4 +28,6 @@ class Names:
 
     def of(self, mesh):
         """The names of all poses that look like this one, | between them: who stands is twice the same in a round."""
-        return "|".join(self.names[_points(mesh).tobytes()])
+        found = self.names.get(_points(mesh).tobytes())
+        assert found, f"{mesh.name}: {len(mesh.vertices)} vertices, no figure's pose; the first at {mesh.vertices[0].co[:]}"
+        return "|".join(found)

@@ -6,7 +6,7 @@ import numpy
 from . import LEVELS, POSES, VARIATIONS, limb_velocities, people, plan_of, poses_of
 from .gait import gait_of
 from .materials import cast_materials
-from .sheets import Posed, drop_spare_attributes, make_figure, remove_figures
+from .sheets import Posed, drop_spare_attributes, make_figure, remove_figures, sheet_of
 
 BLURS_UNTIL = 1  # the last level whose limbs blur: further away they move by less than a pixel or two
 
@@ -52,8 +52,12 @@ def add_levels(cast, repertoire):
     if cast["throng_levels"] == LEVELS:
         return
     cast["throng_levels"] = LEVELS
-    for (_, member), finest in [(key, figure) for key, figure in figures_of(cast).items() if key[0] == 0 and "throng_person" in figure]:
-        add_person(cast, member, repertoire, finest.data.materials, range(1, LEVELS))
+    for (level, member), figure in figures_of(cast).items():
+        if "throng_person" not in figure:
+            for thing in (figure, sheet_of(figure)):
+                thing.update_tag()  # 3.4 does not find out by itself that what nobody saw is now seen
+        elif level == 0:
+            add_person(cast, member, repertoire, figure.data.materials, range(1, LEVELS))
 
 
 def remove_levels(cast):
