@@ -181,22 +181,24 @@ def _move(crowd, name, to):
 
 def conform(crowd, ground):
     """Lets a crowd stand on a mesh of the scene, whatever its bake says about heights."""
+    from .characters.members import cast_of
     from .playback import set_cast
 
     if CONFORM not in crowd.modifiers:
         crowd.modifiers.new(CONFORM, "NODES").node_group = _conform_tree()
         _move(crowd, CONFORM, [each.name for each in crowd.modifiers].index("throng pos") + 1)
     set_input(crowd.modifiers[CONFORM], "Ground", ground)
-    set_cast(crowd, crowd["throng_cast"])
+    set_cast(crowd, cast_of(crowd))
 
 
 def release(crowd):
     """Undoes conform(): the bake's own ground, or a flat one."""
+    from .characters.members import cast_of
     from .playback import set_cast
 
     if CONFORM in crowd.modifiers:
         crowd.modifiers.remove(crowd.modifiers[CONFORM])
-        set_cast(crowd, crowd["throng_cast"])
+        set_cast(crowd, cast_of(crowd))
 
 
 class THRONG_OT_conform(bpy.types.Operator):

@@ -11,7 +11,7 @@ from bpy.props import EnumProperty, FloatProperty
 
 from . import crowds, culling, playback
 from .cast import library
-from .characters.members import repertoire_of
+from .characters.members import cast_of, repertoire_of
 from .nodes import Maths, new_tree, set_input
 from .panels import Below
 
@@ -54,14 +54,14 @@ def remove(crowd):
     if not modifier:
         return
     crowd.modifiers.remove(modifier)
-    cast = crowd["throng_cast"]
+    cast = cast_of(crowd)
     library.remove_levels(cast)
     playback.set_cast(crowd, cast)
 
 
 def apply(crowd, camera, near, far):
     """Level 1 from `near` metres from the camera on, level 2 from `far` on."""
-    cast = crowd["throng_cast"]
+    cast = cast_of(crowd)
     library.add_levels(cast, repertoire_of(crowd))
     playback.set_cast(crowd, cast)
     modifier = crowd.modifiers.get(MODIFIER)

@@ -16,7 +16,7 @@ import walker  # noqa: E402
 from throng import cast, crowds  # noqa: E402
 from pose_names import Names  # noqa: E402
 from throng.cast.sheets import points_of  # noqa: E402
-from throng.characters import members  # noqa: E402
+from throng.characters import character, members  # noqa: E402
 
 if "bool" not in vars(numpy):
     numpy.bool = bool
@@ -74,6 +74,10 @@ for label in ("words.glb", "half.glb", "empty.gltf", "absent.glb"):
 refused("no clip of that name", bpy.ops.throng.add_character, filepath=glb, walk="Stroll")
 refused("no such member", bpy.ops.throng.add_character, filepath=glb, replace=shipped + 5)
 refused("walks backwards only", bpy.ops.throng.add_character, filepath=glb, walk="Walking_Backwards", run="Idle", heading="-X")
+
+most, character.MOST_POINTS = character.MOST_POINTS, 100000
+refused("too many vertices", bpy.ops.throng.add_character, filepath=glb)
+character.MOST_POINTS = most
 
 before = counts()
 assert bpy.ops.throng.add_character(filepath=glb) == {"FINISHED"}

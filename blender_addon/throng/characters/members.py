@@ -28,16 +28,21 @@ def pick(maths, variation, drawn, count):
     return maths.math("MULTIPLY_ADD", taken, maths.math("SUBTRACT", joined, own), own)
 
 
+def _is_current(crowd):
+    """Whether this version of the add-on made a crowd's cast."""
+    return "throng_levels" in crowd.get("throng_cast", ())
+
+
 def cast_of(crowd):
     """The cast that a crowd shows."""
-    if "throng_levels" not in crowd.get("throng_cast", ()):
+    if not _is_current(crowd):
         raise CharacterError(f"{crowd.name} was imported by an earlier version of the add-on: import its bake again")
     return crowd["throng_cast"]
 
 
 def _gaits_of(crowd):
-    """(first, last) of a crowd's cast: the add-on once made all of them."""
-    return tuple(cast_of(crowd).get("throng_gaits", (0, len(crowd["throng_strides"]) - 1)))
+    """(first, last) of a crowd's cast."""
+    return tuple(cast_of(crowd)["throng_gaits"])
 
 
 def repertoire_of(crowd):
@@ -51,8 +56,8 @@ def widen(crowd, gaits=None):
     A crowd has only those that its bake walks with, as every pose costs time in every frame. Characters that were brought along cannot be
     made again, so whoever brings one widens the crowd to all gaits first: here, everybody is a shipped person whose poses are made anew.
     """
-    if "throng_cast" not in crowd:
-        return  # of an earlier version, which made all gaits
+    if not _is_current(crowd):
+        return  # plays on, with the gaits that it has
     first, last = _gaits_of(crowd)
     wanted = (min(first, gaits[0]), max(last, gaits[1])) if gaits else (0, len(crowd["throng_strides"]) - 1)
     if wanted == (first, last):
