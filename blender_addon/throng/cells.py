@@ -36,7 +36,7 @@ def show(crowd, kind, strength):
     bake = Bake(read_manifest(path), os.path.dirname(path))
     diagrams = _diagrams(bake)
     _take_away(collection)
-    tree = _cells_tree(f"{collection.name} cells", bake, diagrams, crowd)
+    tree = _cells_tree(_tree_name(collection), bake, diagrams, crowd)
     if kind == "overlay":
         collection.objects.link(_overlay(collection, crowd, diagrams, tree, strength))
     else:
@@ -80,10 +80,10 @@ def _file(bake, frame):
 
 def _take_away(collection):
     for thing in [thing for thing in collection.objects if OVERLAY in thing]:
-        mesh, materials = thing.data, {slot.material for slot in thing.material_slots if slot.material and OVERLAY in slot.material}
         bpy.data.objects.remove(thing)
-        for brought in ([mesh], materials):  # the mesh may be the terrain's
-            bpy.data.batch_remove([each for each in brought if each.users == 0])
+    # Also of overlays that were removed by hand. On a terrain the mesh is the terrain's, and has materials of its own.
+    bpy.data.batch_remove([mesh for mesh in bpy.data.meshes if mesh.users == 0 and any(material and OVERLAY in material for material in mesh.materials)])
+    bpy.data.batch_remove([material for material in bpy.data.materials if OVERLAY in material and material.users == 0])
     # Also where it is on nothing just now: streets that are built anew take their old materials again.
     for material in {slot.material for slot in _ground_slots(collection)} | {own for own in bpy.data.materials if own.get("throng_crowd") == collection.name}:
         nodes, links = material.node_tree.nodes, material.node_tree.links
@@ -94,6 +94,20 @@ def _take_away(collection):
                     if source.links:
                         links.new(source.links[0].from_socket, target)
             nodes.remove(node)
+    tree = bpy.data.node_groups.get(_tree_name(collection))
+    if tree and tree.users == 0:  # an artist's materials may have it, too
+        _remove_tree(tree)
+
+
+def _tree_name(collection):
+    return f"{collection.name} cells"
+
+
+def _remove_tree(tree):
+    images = {node.image for node in tree.nodes if node.type == "TEX_IMAGE" and node.image}
+    action = tree.animation_data.action if tree.animation_data else None
+    bpy.data.node_groups.remove(tree)
+    bpy.data.batch_remove([each for each in (*images, action) if each and each.users == 0])
 
 
 def _ground_slots(collection):

@@ -104,6 +104,14 @@ def with_the_add_on(addon, bake, folder):
     result["removed by hand"] = not any("throng_cells" in thing for thing in scene.objects)
     assert bpy.ops.throng.cells(kind="mask", strength=1.0) == {"FINISHED"}
     assert bpy.ops.throng.cells(kind="none") == {"FINISHED"}
+    result["left"] = sorted(thing.name for things in (bpy.data.node_groups, bpy.data.images, bpy.data.actions) for thing in things if "cells" in thing.name or "diagram" in thing.name)
+    own = bpy.data.materials.new("artist's")
+    own.use_nodes = True
+    assert bpy.ops.throng.cells(kind="overlay") == {"FINISHED"}
+    tree = next(group for group in bpy.data.node_groups if group.name.endswith(" cells"))
+    own.node_tree.nodes.new("ShaderNodeGroup").node_tree = tree
+    assert bpy.ops.throng.cells(kind="none") == {"FINISHED"}
+    result["kept"] = tree.name in bpy.data.node_groups and any(node.type == "TEX_IMAGE" and node.image for node in tree.nodes)
     render(scene, 25, os.path.join(folder, "none.exr"))
     diagrams = os.path.join(bake, "diagrams")
     os.rename(diagrams, diagrams + "-away")

@@ -61,6 +61,7 @@ def test_cells_lie_on_the_ground_where_people_are_and_stay_until_the_next_image(
     assert numpy.median(ratio[within]) < 0.5 and ratio[within].max() < 0.8 and ratio[without].min() > 0.9
 
     assert result["removed by hand"]
+    assert (result["left"], result["kept"]) == ([], True), "nodes and images go with the cells, unless somebody else uses them"
     for name in ("mask-later", "mask-back", "mask-anew", "mask-found"):
         assert numpy.abs(picture(tmp_path / f"{name}.exr") - mask).max() < 1e-4, name
     retake = picture(tmp_path / "mask-of-retake.exr").mean(axis=2) / bare.mean(axis=2)
