@@ -9,7 +9,7 @@
 namespace throng::io {
 namespace {
 
-constexpr double kSlack = 0.005;   // of the sum of radii: overlaps this deep stay
+constexpr double kSlack = 0.004;   // of the sum of radii: overlaps this deep stay
 constexpr double kMoved = 1.0e-3;  // m: who moved less is where the simulation had it
 constexpr double kMargin = 0.05;   // m: pairs this far apart may be pushed together by others
 constexpr double kDeep = 0.005;    // of the sum of radii, beyond kSlack: not to be left

@@ -8,6 +8,8 @@ import shutil
 import numpy
 import pytest
 
+from conftest import ROOT
+
 HOLD_ALL_BARS = [
     "ring", "rimea-1", "rimea-4-050", "rimea-4-100", "rimea-4-200", "rimea-4-300", "rimea-6", "rimea-10",
     "bottleneck-080", "bottleneck-100", "bottleneck-120",
@@ -47,6 +49,14 @@ def test_streams_of_thousands_get_through_each_other(scenario, name):
     assert figures["deepest_overlap_percent"] < 2
     assert figures["overlapping_percent"] < 0.1
     assert figures["wall_crossings"] == 0
+
+
+def test_a_crowd_at_random_holds_the_bars_of_the_large_one(throng, tmp_path):
+    """`uniform` with 4,096 people as close together: what is recorded may not overlap where the simulation does not."""
+    throng("bake", ROOT / "scenarios" / "uniform.json", "--no-gltf", "-o", tmp_path / "bake", "--set", "formations.0.rows=64", "--set", "formations.0.columns=64",
+           "--set", "formations.0.goal.anywhere=[[0, 0], [128, 128]]")
+    figures = json.loads(throng("measure", tmp_path / "bake", "--json").stdout)
+    assert figures["agents"] == 4096 and figures["missed"] == [] and figures["deepest_overlap_percent"] > 0.0
 
 
 def ends_of(bake):
