@@ -14,6 +14,7 @@ from .environment.shapes import Shape
 from .environment.streets import MARK_Z
 from .formats import Bake, BakeError, read_manifest
 from .importer import stored_path
+from .nodes import own_tree
 from .panels import Below
 
 KINDS = ("overlay", "mask", "none")
@@ -94,7 +95,7 @@ def _take_away(collection):
                     if source.links:
                         links.new(source.links[0].from_socket, target)
             nodes.remove(node)
-    tree = bpy.data.node_groups.get(_tree_name(collection))
+    tree = own_tree(_tree_name(collection))
     if tree and tree.users == 0:  # an artist's materials may have it, too
         _remove_tree(tree)
 
@@ -131,7 +132,7 @@ def _own_grounds(collection):
 
 def _cells_tree(name, bake, diagrams, crowd):
     """Colour and mask of the cells, as a group of nodes for any material, whatever it is on."""
-    tree = bpy.data.node_groups.get(name)
+    tree = own_tree(name)
     if tree:
         tree.nodes.clear()
         tree.animation_data_clear()

@@ -18,7 +18,16 @@ def caches(crowd):
 
 
 def crowd_objects(scene):
-    """All crowds of a scene."""
+    """All crowds of a scene that this version of the add-on can work on."""
+    return [thing for thing in _playing(scene) if members.is_current(thing)]
+
+
+def earlier_crowds(scene):
+    """Those of earlier versions, or without a cast: they play as they are, and no more."""
+    return [thing for thing in _playing(scene) if not members.is_current(thing)]
+
+
+def _playing(scene):
     return [thing for thing in scene.objects if all(name in thing.modifiers for name in CACHES)]
 
 

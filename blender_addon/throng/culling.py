@@ -6,7 +6,7 @@ those whose shadows and reflections fall into the picture.
 """
 import bpy
 
-from .nodes import Maths, new_tree, set_input
+from .nodes import Maths, new_tree, own_tree, set_input
 
 MODIFIER = "throng cull"
 HIDDEN = "throng_hidden"  # 1 for those who are left out
@@ -55,7 +55,7 @@ def _outside_view(maths, inputs):
 
 def _tree(mode):
     name = f"Throng cull by {mode}"
-    found = bpy.data.node_groups.get(name)
+    found = own_tree(name)
     if found:
         return found
     tree, inputs, outputs = new_tree(name, _INPUTS, [("Geometry", "NodeSocketGeometry")])

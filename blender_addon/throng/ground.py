@@ -11,7 +11,7 @@ with a terrain brings them in its stream `ground`; for others, conform() looks f
 import bpy
 from bpy.props import PointerProperty
 
-from .nodes import Maths, new_tree, set_input
+from .nodes import Maths, new_tree, own_tree, set_input
 from .panels import Below
 
 GROUND = "throng_ground"
@@ -40,7 +40,7 @@ def _vector(maths, x=0.0, y=0.0, z=0.0):
 
 def _lean_tree():
     name = "Throng ground lean"
-    found = bpy.data.node_groups.get(name)
+    found = own_tree(name)
     if found:
         return found
     tree, inputs, outputs = new_tree(name, _GEOMETRY, _GEOMETRY)
@@ -161,7 +161,7 @@ def stand_anew(maths, geometry, ground, who, over):
 
 def _conform_tree():
     name = "Throng conform to ground"
-    found = bpy.data.node_groups.get(name)
+    found = own_tree(name)
     if found:
         return found
     tree, inputs, outputs = new_tree(name, _GEOMETRY + [("Ground", "NodeSocketObject")], _GEOMETRY)

@@ -11,8 +11,8 @@ from bpy.props import EnumProperty, FloatProperty
 
 from . import crowds, culling, playback
 from .cast import library
-from .characters.members import cast_of, repertoire_of
-from .nodes import Maths, new_tree, set_input
+from .characters import members
+from .nodes import Maths, new_tree, own_tree, set_input
 from .panels import Below
 
 MODIFIER = "throng levels"
@@ -30,7 +30,7 @@ def default_distances(camera, scene):
 
 
 def _tree():
-    found = bpy.data.node_groups.get(_TREE)
+    found = own_tree(_TREE)
     if found:
         return found
     tree, inputs, outputs = new_tree(_TREE, _INPUTS, [("Geometry", "NodeSocketGeometry")])
@@ -53,17 +53,20 @@ def remove(crowd):
     modifier = crowd.modifiers.get(MODIFIER)
     if not modifier:
         return
+    tree = modifier.node_group
     crowd.modifiers.remove(modifier)
-    cast = cast_of(crowd)
-    library.remove_levels(cast)
-    playback.set_cast(crowd, cast)
+    if tree and tree.users == 0:
+        bpy.data.node_groups.remove(tree)
+    cast = members.cast_of(crowd)
+    if not any(MODIFIER in other.modifiers for other in members.crowds_of(cast)):
+        library.remove_levels(cast)
+        members.changed(crowd)
 
 
 def apply(crowd, camera, near, far):
     """Level 1 from `near` metres from the camera on, level 2 from `far` on."""
-    cast = cast_of(crowd)
-    library.add_levels(cast, repertoire_of(crowd))
-    playback.set_cast(crowd, cast)
+    library.add_levels(members.cast_of(crowd), members.repertoire_of(crowd))
+    members.changed(crowd)
     modifier = crowd.modifiers.get(MODIFIER)
     if not modifier:
         modifier = crowd.modifiers.new(MODIFIER, "NODES")

@@ -15,6 +15,11 @@ def new_tree(name, inputs=(), outputs=()):
     return tree, tree.nodes.new("NodeGroupInput"), tree.nodes.new("NodeGroupOutput")
 
 
+def own_tree(name):
+    """The node tree of a name that is in this file, and not one of a library that it links: those may go away."""
+    return bpy.data.node_groups.get((name, None))
+
+
 def _identifier(modifier, name):
     tree = modifier.node_group
     sockets = tree.interface.items_tree if hasattr(tree, "interface") else tree.inputs

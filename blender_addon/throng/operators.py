@@ -196,7 +196,7 @@ class VIEW3D_PT_throng(InSidebar, bpy.types.Panel):
     bl_label = "Throng"
 
     def draw(self, context):
-        from .crowds import crowd_objects
+        from .crowds import crowd_objects, earlier_crowds
 
         layout = self.layout
         layout.operator(IMPORT_SCENE_OT_throng.bl_idname, icon="IMPORT")
@@ -204,6 +204,8 @@ class VIEW3D_PT_throng(InSidebar, bpy.types.Panel):
             row = layout.row()
             row.label(text=crowd.name, icon="COMMUNITY")
             row.label(text=f"{len(crowd.data.vertices):,} people")
+        for crowd in earlier_crowds(context.scene):
+            layout.label(text=f"{crowd.name}: of an earlier version, import its bake again", icon="ERROR")
         column = layout.column(align=True)
         for operator in (THRONG_OT_show, THRONG_OT_cull, THRONG_OT_verify, THRONG_OT_reload, THRONG_OT_relink):
             column.operator(operator.bl_idname)

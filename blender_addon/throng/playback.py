@@ -118,7 +118,7 @@ def _instancer_tree(cast, repertoire, leans):
     cosine, sine, speed = _components(maths, "throng_dir")
     state, variation, phase = _components(maths, "throng_state")
     nature = _components(maths, NATURE)
-    variation = pick(maths, variation, cast.get("throng_drawn", cast["throng_variations"]), cast["throng_variations"])
+    variation = pick(maths, variation, cast["throng_drawn"], cast["throng_variations"])
     rotation = maths.node("ShaderNodeCombineXYZ")
     maths.link(maths.math("ARCTAN2", sine, cosine), rotation.inputs[2])
     figure, pose = _figures_and_poses(maths, state, phase, speed, variation, nature, repertoire, levels)

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Which pose of the cast an instance is, told by its vertices alone. Runs inside Blender, also without the add-on."""
+import importlib.util
+import pathlib
+
 import numpy
 
 
@@ -13,6 +16,14 @@ def _points(mesh):
     return flat
 
 
+def _nodes():
+    """The add-on's helpers over modifiers' inputs, which every version keeps elsewhere; they need nothing else of it."""
+    described = importlib.util.spec_from_file_location("helpers_over_nodes", pathlib.Path(__file__).resolve().parents[2] / "blender_addon/throng/nodes.py")
+    module = importlib.util.module_from_spec(described)
+    described.loader.exec_module(module)
+    return module
+
+
 class Names:
     """Of all figures in the file, as they are when this is made."""
 
@@ -22,7 +33,7 @@ class Names:
         self.names = {}
         for figure in bpy.data.objects:
             if "throng_member" in figure:
-                sheet = _points(bpy.data.objects[f"{figure.name} poses"].data).reshape(-1, 3 * len(figure.data.vertices))
+                sheet = _points(_nodes().get_input(figure.modifiers["throng poses"], "Sheet").data).reshape(-1, 3 * len(figure.data.vertices))
                 for pose, points in enumerate(sheet):
                     self.names.setdefault(points.tobytes(), []).append(pose_name(figure["throng_member"], pose, figure["throng_level"]))
 

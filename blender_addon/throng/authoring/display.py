@@ -6,7 +6,7 @@ import math
 
 import bpy
 
-from ..nodes import Maths, new_tree, set_input, socket
+from ..nodes import Maths, new_tree, own_tree, set_input, socket
 
 MODIFIER = "Throng drawing"
 _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
@@ -134,7 +134,7 @@ _TREES = {"Throng drawing road": _road_tree, "Throng drawing wall": _wall_tree, 
 
 
 def _tree(name):
-    return bpy.data.node_groups.get(name) or _TREES[name]()
+    return own_tree(name) or _TREES[name]()
 
 
 def _tree_for(thing):

@@ -24,7 +24,8 @@ def shown_figures(cast):
 def add_figure(cast, level, member, name, posed):
     figure = make_figure(f"{name} level {level}" if level else name, posed)
     figure["throng_level"], figure["throng_member"] = level, member
-    cast.objects.link(figure)
+    for thing in (figure, sheet_of(figure)):
+        cast.objects.link(thing)
     return figure
 
 
@@ -32,6 +33,7 @@ def build_cast(variations, repertoire, name="Throng cast"):
     """A cast of that many people at level 0."""
     cast = bpy.data.collections.new(name)
     cast["throng_variations"], cast["throng_levels"] = variations, 1
+    cast.hide_viewport = cast.hide_render = True  # File > Append puts it into the scene
     materials = cast_materials(people.MATERIALS)
     for member in range(variations):
         add_person(cast, member, repertoire, materials)
@@ -41,9 +43,9 @@ def build_cast(variations, repertoire, name="Throng cast"):
 def add_person(cast, member, repertoire, materials, levels=None):
     """The shipped person of a number, at the levels that the cast shows unless told."""
     person = member % VARIATIONS
-    figures = [people.build_figure(people.CAST[person], pose) for pose in poses_of(people.CAST[person], repertoire)]
+    bodies = [people.build_figure(people.CAST[person], pose) for pose in poses_of(people.CAST[person], repertoire)]
     for level in range(cast["throng_levels"]) if levels is None else levels:
-        figure = add_figure(cast, level, member, f"Throng person {member:02d}", _posed(figures, level, repertoire, materials))
+        figure = add_figure(cast, level, member, f"Throng person {member:02d}", _posed(bodies, level, repertoire, materials))
         figure["throng_person"] = person
 
 
@@ -66,9 +68,9 @@ def remove_levels(cast):
     remove_figures([figure for (level, _), figure in figures_of(cast).items() if level > 0 and "throng_person" in figure])
 
 
-def _posed(figures, level, repertoire, materials):
-    plan = plan_of(figures, repertoire, level)
-    flat = [plan.vertices(figures[index].rings) for index in repertoire.sources(level)]
+def _posed(bodies, level, repertoire, materials):
+    plan = plan_of(bodies, repertoire, level)
+    flat = [plan.vertices(bodies[index].rings) for index in repertoire.sources(level)]
     points = numpy.array(flat, numpy.float32).reshape(len(flat), -1, 3)
     velocities = None
     if level <= BLURS_UNTIL:

@@ -7,14 +7,14 @@ crowd's instancer picks among them. Figure and sheet are in no scene and are wor
 
 Why a pose is no object of its own: a crowd has more than a thousand, and Blender's dependency graph goes over all operations of every object
 that something refers to in every frame, whether anything has changed or not. With objects that took as long as all people together. The
-price: a crowd renders as one object, so mattes go by crowd and by material.
+price: people are geometry of one object, the crowd, so mattes go by crowd and by material, and exports want Realize Instances (docs/blender.md).
 """
 from dataclasses import dataclass
 
 import bpy
 import numpy
 
-from ..nodes import Maths, get_input, new_tree, set_input, socket
+from ..nodes import Maths, get_input, new_tree, own_tree, set_input, socket
 
 MODIFIER = "throng poses"
 MOST_POINTS = 1 << 24  # numbers of points go through nodes as floats, which count no further
@@ -80,12 +80,12 @@ def pose_mesh(figure, pose):
 
 
 def remove_figures(figures):
-    """With their meshes, sheets, and the nodes that nobody else needs. Materials stay."""
+    """With their sheets, and with the meshes and nodes that nobody else uses. Materials stay."""
     sheets = [sheet_of(figure) for figure in figures]
     trees = {figure.modifiers[MODIFIER].node_group for figure in figures}
     meshes = [thing.data for thing in (*figures, *sheets)]
     bpy.data.batch_remove([*figures, *sheets])
-    bpy.data.batch_remove(meshes)
+    bpy.data.batch_remove([mesh for mesh in meshes if mesh.users == 0])
     for tree in [tree for tree in trees if tree.users == 0]:
         inner = {node.node_tree for node in tree.nodes if node.type == "GROUP"}
         bpy.data.node_groups.remove(tree)
@@ -95,7 +95,7 @@ def remove_figures(figures):
 def _pose_tree(blurs):
     """One pose: the figure's mesh with its vertices where the sheet has them."""
     name = "Throng pose that blurs" if blurs else "Throng pose"
-    found = bpy.data.node_groups.get(name)
+    found = own_tree(name)
     if found:
         return found
     tree, inputs, outputs = new_tree(name, [("Figure", "NodeSocketGeometry"), ("Sheet", "NodeSocketGeometry"), ("First", "NodeSocketInt")], _GEOMETRY)
@@ -124,7 +124,7 @@ def _pose_tree(blurs):
 def _poses_tree(poses, blurring):
     """An instance of each pose, in order; the first ones blur."""
     name = f"Throng {poses} poses, {blurring} blur"
-    found = bpy.data.node_groups.get(name)
+    found = own_tree(name)
     if found:
         return found
     tree, inputs, outputs = new_tree(name, _GEOMETRY + [("Sheet", "NodeSocketObject")], _GEOMETRY)

@@ -101,11 +101,13 @@ def _levels(puppet, reader, bones, repertoire, report, plans):
             for level, posed in enumerate(points):
                 if index in repertoire.sources(level):
                     posed[index] = puppet.points(level)
+                    _check_size(len(posed[index]), repertoire.poses(level))
         for level, posed in enumerate(points):
             template = puppet.template(level, f"{report.name} {level}")
             sources = repertoire.sources(level)
             made.append(Posed(template, numpy.array([posed[source] for source in sources], numpy.float32)))
-            _check_size(template, made[level].points)
+            if len(template.vertices) != made[level].points.shape[1]:
+                raise CharacterError("the meshes lose or gain vertices when they are joined: apply their modifiers first")
             if level <= BLURS_UNTIL:
                 made[level].velocities = numpy.array([_velocity(posed, source, repertoire) for source in sources if source < repertoire.walking()], numpy.float32)
             template.vertices.foreach_set("co", made[level].points[-1].ravel())
@@ -123,10 +125,7 @@ def _levels(puppet, reader, bones, repertoire, report, plans):
     return made
 
 
-def _check_size(template, points):
-    poses, vertices, _ = points.shape
-    if len(template.vertices) != vertices:
-        raise CharacterError("the meshes lose or gain vertices when they are joined: apply their modifiers first")
+def _check_size(vertices, poses):
     if poses * vertices > MOST_POINTS:
         raise CharacterError(f"{vertices} vertices are too many: a cast of {poses} poses takes up to {MOST_POINTS // poses}; decimate its meshes first")
 

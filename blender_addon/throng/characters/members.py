@@ -28,15 +28,13 @@ def pick(maths, variation, drawn, count):
     return maths.math("MULTIPLY_ADD", taken, maths.math("SUBTRACT", joined, own), own)
 
 
-def _is_current(crowd):
-    """Whether this version of the add-on made a crowd's cast."""
-    return "throng_levels" in crowd.get("throng_cast", ())
+def is_current(crowd):
+    """Whether a crowd has a cast, as this version of the add-on makes them."""
+    return "throng_levels" in (crowd.get("throng_cast") or ())
 
 
 def cast_of(crowd):
     """The cast that a crowd shows."""
-    if not _is_current(crowd):
-        raise CharacterError(f"{crowd.name} was imported by an earlier version of the add-on: import its bake again")
     return crowd["throng_cast"]
 
 
@@ -56,8 +54,6 @@ def widen(crowd, gaits=None):
     A crowd has only those that its bake walks with, as every pose costs time in every frame. Characters that were brought along cannot be
     made again, so whoever brings one widens the crowd to all gaits first: here, everybody is a shipped person whose poses are made anew.
     """
-    if not _is_current(crowd):
-        return  # plays on, with the gaits that it has
     first, last = _gaits_of(crowd)
     wanted = (min(first, gaits[0]), max(last, gaits[1])) if gaits else (0, len(crowd["throng_strides"]) - 1)
     if wanted == (first, last):
@@ -68,7 +64,7 @@ def widen(crowd, gaits=None):
         materials = list(figure(crowd, number).data.materials)
         _discard(shown, number, keep=materials)
         library.add_person(shown, number, repertoire_of(crowd), materials)
-    _changed(crowd)
+    changed(crowd)
 
 
 def figure(crowd, number, level=0):
@@ -78,8 +74,8 @@ def figure(crowd, number, level=0):
 
 def members(crowd):
     """[(name, whether it is a character of one's own)], by number."""
-    figures = [figure(crowd, number) for number in range(cast_of(crowd)["throng_variations"])]
-    return [(each.get("throng_character", each.name), "throng_character" in each) for each in figures]
+    finest = sorted((member, each) for (level, member), each in library.figures_of(cast_of(crowd)).items() if level == 0)
+    return [(each.get("throng_character", each.name), "throng_character" in each) for _, each in finest]
 
 
 def report_of(crowd, number):
@@ -97,11 +93,17 @@ def _discard(shown, number, keep=()):
         bpy.data.batch_remove([each for each in brought if each.users == 0])
 
 
-def _changed(crowd):
+def crowds_of(shown):
+    """All crowds that show a cast: copies of a crowd share its."""
+    return [thing for thing in bpy.data.objects if thing.get("throng_cast") == shown]
+
+
+def changed(crowd):
+    """To be called when figures of a crowd's cast have come or gone."""
     from ..playback import set_cast
 
     shown = cast_of(crowd)
-    for each in [thing for thing in bpy.data.objects if thing.get("throng_cast") == shown]:  # copies of a crowd share its cast
+    for each in crowds_of(shown):
         set_cast(each, shown)
 
 
@@ -124,7 +126,7 @@ def put(crowd, character, number):
         made = library.add_figure(shown, level, number, f"Throng character {character.name}", posed)
         made["throng_character"], made["throng_report"] = character.name, json.dumps(character.report.lines())
     shown["throng_variations"] = max(shown["throng_variations"], number + 1)
-    _changed(crowd)
+    changed(crowd)
 
 
 def remove(crowd, number):
@@ -134,14 +136,14 @@ def remove(crowd, number):
     if not 0 <= number < count or not members(crowd)[number][1]:
         raise CharacterError(f"{number} is no character that was added")
     _discard(shown, number)
-    if number < shown.get("throng_shipped", count):
+    if number < shown["throng_shipped"]:
         library.add_person(shown, number, repertoire_of(crowd), _shipped_materials(shown))
     else:
         for (_, member), each in library.figures_of(shown).items():
             if member > number:
                 each["throng_member"] = member - 1
         shown["throng_variations"] = count - 1
-    _changed(crowd)
+    changed(crowd)
 
 
 def _shipped_materials(shown):

@@ -11,7 +11,7 @@ import bpy
 
 from .. import ground, playback
 from ..playback import BIGGER
-from ..nodes import Maths, new_tree, set_input, socket
+from ..nodes import Maths, new_tree, own_tree, set_input, socket
 from .rows import write_caches
 
 MODIFIER = "throng overrides"
@@ -66,7 +66,7 @@ def _turn_nodes(maths, geometry):
 
 def _tree(parts):
     name = "Throng overrides: " + ", ".join(sorted(parts))
-    found = bpy.data.node_groups.get(name)
+    found = own_tree(name)
     if found:
         return found
     objects = [(socket_name, "NodeSocketObject") for part, socket_name in (("retimed", "Retimed"), ("ground", "Ground")) if part in parts]
