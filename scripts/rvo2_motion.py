@@ -97,7 +97,7 @@ def move(folder, frames, step, substeps):
     first = numpy.load(folder / "streams" / "pos.npy")[0]
     crowd = Crowd(people, manifest["geometry"]["walls"], first, step)
     pos, heading, state = (numpy.zeros((frames, len(people), 3), numpy.float32) for _ in range(3))
-    places, arrived = crowd.places(), [None] * len(people)
+    places = crowd.places()
     for frame in range(frames):
         before = places
         for _ in range(substeps if frame else 0):
@@ -107,8 +107,6 @@ def move(folder, frames, step, substeps):
         angle = numpy.arctan2(way[:, 1], way[:, 0])
         heading[frame] = numpy.stack([numpy.cos(angle), numpy.sin(angle), speed], axis=1)
         state[frame, :, 0] = ~crowd.there
-        for row in numpy.nonzero(crowd.there)[0]:
-            arrived[row] = frame if arrived[row] is None else arrived[row]
         if frame % 300 == 0:
             print(f"{manifest['name']}: frame {frame} of {frames}, {int(crowd.there.sum())} of {len(people)} there", file=sys.stderr, flush=True)
         if crowd.there.all():
@@ -116,15 +114,17 @@ def move(folder, frames, step, substeps):
             break
     for name, stream in (("pos", pos), ("dir", heading), ("state", state)):
         numpy.save(folder / "streams" / f"{name}.npy", stream)
-    _describe(folder, manifest, people, frames, arrived)
+    arrived = numpy.where(crowd.there, state[..., 0].argmin(axis=0), -1)
+    _describe(folder, manifest, people, frames, arrived.tolist())
 
 
 def _describe(folder, manifest, people, frames, arrived):
-    there = sum(frame is not None for frame in arrived)
+    """@param arrived the first frame that each is gone from; -1: none"""
+    there = sum(frame >= 0 for frame in arrived)
     manifest |= {"generator": "RVO2", "frames": frames, "duration": frames / manifest["fps"], "files": [], "gltf": None}
     manifest["account"] |= {"arrived": there, "walking": len(people) - there}
     for person, frame in zip(people, arrived):
-        person |= {"arrival_frame": "" if frame is None else frame + manifest["frame_start"], "outcome": "walking" if frame is None else "arrived"}
+        person |= {"arrival_frame": frame + manifest["frame_start"] if frame >= 0 else "", "outcome": "arrived" if frame >= 0 else "walking"}
     with open(folder / "agents.csv", "w", newline="") as file:
         table = csv.DictWriter(file, people[0].keys())
         table.writeheader()

@@ -12,7 +12,7 @@ from bpy.props import EnumProperty, FloatProperty
 from . import crowds, culling, playback
 from .cast import library
 from .characters import members
-from .nodes import Maths, new_tree, own_tree, set_input
+from .nodes import Maths, drop_tree, new_tree, own_tree, set_input
 from .panels import Below
 
 MODIFIER = "throng levels"
@@ -55,8 +55,7 @@ def remove(crowd):
         return
     tree = modifier.node_group
     crowd.modifiers.remove(modifier)
-    if tree and tree.users == 0:
-        bpy.data.node_groups.remove(tree)
+    drop_tree(tree)
     cast = members.cast_of(crowd)
     if not any(MODIFIER in other.modifiers for other in members.crowds_of(cast)):
         library.remove_levels(cast)

@@ -20,6 +20,15 @@ def own_tree(name):
     return bpy.data.node_groups.get((name, None))
 
 
+def drop_tree(tree):
+    """Removes a node tree that nobody uses any more, with the groups in it that nobody else does."""
+    if tree is None or tree.users:
+        return
+    inner = {node.node_tree for node in tree.nodes if node.type == "GROUP" and node.node_tree}
+    bpy.data.node_groups.remove(tree)
+    bpy.data.batch_remove([group for group in inner if group.users == 0])
+
+
 def _identifier(modifier, name):
     tree = modifier.node_group
     sockets = tree.interface.items_tree if hasattr(tree, "interface") else tree.inputs

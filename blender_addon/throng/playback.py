@@ -15,7 +15,7 @@ from .cast.library import shown_figures
 from .characters.members import pick, repertoire_of
 from .culling import HIDDEN
 from .formats import STREAMS
-from .nodes import Maths, get_input, new_tree, set_input, socket
+from .nodes import Maths, drop_tree, get_input, new_tree, set_input, socket
 
 STANDING_SPEED = 0.1    # m/s: slower people stand
 FRAMES_A_ROUND = 80.0   # of a standing clip
@@ -179,10 +179,7 @@ def set_cast(crowd, cast):
     for modifier, share in zip(modifiers, shares):
         modifier.node_group = tree
         set_input(modifier, "Share", share)
-    if before and before.users == 0:
-        inner = {node.node_tree for node in before.nodes if node.type == "GROUP" and node.node_tree}
-        bpy.data.node_groups.remove(before)
-        bpy.data.batch_remove([group for group in inner if group.users == 0])
+    drop_tree(before)
     crowd.update_tag()
 
 

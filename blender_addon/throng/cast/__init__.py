@@ -10,6 +10,8 @@ the bake's strides.
 """
 from dataclasses import dataclass
 
+import numpy
+
 from . import gait, people
 from .mesh_builder import Plan
 
@@ -74,6 +76,5 @@ def plan_of(figures, repertoire, level):
 
 
 def limb_velocities(before, after, seconds):
-    """m/s of every vertex in the walker's own frame, from the vertices of the poses before and after, both flat."""
-    rate = 1.0 / seconds
-    return [(b - a) * rate for a, b in zip(before, after)]
+    """m/s of every vertex in the walker's own frame, from the vertices of the poses before and after, so many seconds apart."""
+    return (numpy.asarray(after) - numpy.asarray(before)) / seconds

@@ -72,9 +72,7 @@ def _posed(bodies, level, repertoire, materials):
     plan = plan_of(bodies, repertoire, level)
     flat = [plan.vertices(bodies[index].rings) for index in repertoire.sources(level)]
     points = numpy.array(flat, numpy.float32).reshape(len(flat), -1, 3)
-    velocities = None
-    if level <= BLURS_UNTIL:
-        velocities = numpy.array([_velocities(flat, index, repertoire) for index in range(repertoire.walking(level))], numpy.float32).reshape(-1, *points.shape[1:])
+    velocities = walking_velocities(points, repertoire) if level <= BLURS_UNTIL else None
     return Posed(_template(plan, points[-1], materials), points, velocities)
 
 
@@ -90,9 +88,11 @@ def _template(plan, points, materials):
     return mesh
 
 
-def _velocities(poses, index, repertoire):
-    """Limbs blur, too: each walking pose knows how fast its parts move at the gait's natural speed."""
-    which, pose = divmod(index, POSES)
-    cycle = which * POSES
-    seconds = 2.0 * gait_of(repertoire.strides[which]).seconds / POSES
-    return limb_velocities(poses[cycle + (pose - 1) % POSES], poses[cycle + (pose + 1) % POSES], seconds)
+def walking_velocities(points, repertoire):
+    """Limbs blur, too: how fast the parts of each walking pose move at its gait's natural speed, (W, V, 3) m/s.
+
+    @param points (P, V, 3) of a level that blurs: these have all poses of a cycle
+    """
+    cycles = points[:repertoire.walking()].reshape(-1, POSES, *points.shape[1:])
+    return numpy.concatenate([limb_velocities(numpy.roll(cycle, 1, axis=0), numpy.roll(cycle, -1, axis=0), 2.0 * gait_of(stride).seconds / POSES)
+                              for stride, cycle in zip(repertoire.strides, cycles)])

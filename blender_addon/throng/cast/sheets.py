@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import bpy
 import numpy
 
-from ..nodes import Maths, get_input, new_tree, own_tree, set_input, socket
+from ..nodes import Maths, drop_tree, get_input, new_tree, own_tree, set_input, socket
 
 MODIFIER = "throng poses"
 MOST_POINTS = 1 << 24  # numbers of points go through nodes as floats, which count no further
@@ -86,10 +86,8 @@ def remove_figures(figures):
     meshes = [thing.data for thing in (*figures, *sheets)]
     bpy.data.batch_remove([*figures, *sheets])
     bpy.data.batch_remove([mesh for mesh in meshes if mesh.users == 0])
-    for tree in [tree for tree in trees if tree.users == 0]:
-        inner = {node.node_tree for node in tree.nodes if node.type == "GROUP"}
-        bpy.data.node_groups.remove(tree)
-        bpy.data.batch_remove([group for group in inner if group.users == 0])
+    for tree in trees:
+        drop_tree(tree)
 
 
 def _pose_tree(blurs):

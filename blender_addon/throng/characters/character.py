@@ -6,8 +6,8 @@ import bpy
 import numpy
 
 from ..cast import BEATS, POSES
-from ..cast.gait import STANDING_CLIPS, gait_of
-from ..cast.library import BLURS_UNTIL
+from ..cast.gait import STANDING_CLIPS
+from ..cast.library import BLURS_UNTIL, walking_velocities
 from ..cast.sheets import MOST_POINTS, Posed
 from . import CharacterError, anatomy, clips, feet, motion, posing, roles
 from .rig import Stage, rig_of
@@ -109,7 +109,7 @@ def _levels(puppet, reader, bones, repertoire, report, plans):
             if len(template.vertices) != made[level].points.shape[1]:
                 raise CharacterError("the meshes lose or gain vertices when they are joined: apply their modifiers first")
             if level <= BLURS_UNTIL:
-                made[level].velocities = numpy.array([_velocity(posed, source, repertoire) for source in sources if source < repertoire.walking()], numpy.float32)
+                made[level].velocities = walking_velocities(made[level].points, repertoire)
             template.vertices.foreach_set("co", made[level].points[-1].ravel())
             template.update()
             template.calc_loop_triangles()
@@ -137,10 +137,3 @@ def _soles(reader, posed):
         return [numpy.isin(reader.main, anatomy.below(leg.foot, reader.stage.parents)) for leg in reader.legs]
     near, left = posed[..., 2].min(axis=0) < 0.05, posed[..., 1].mean(axis=0) > 0.0
     return [near & ~left, near & left]
-
-
-def _velocity(posed, index, repertoire):
-    """As the shipped cast's: how fast the parts of a walking pose move at the gait's natural speed, in the walker's frame."""
-    which, pose = divmod(index, POSES)
-    seconds = 2.0 * gait_of(repertoire.strides[which]).seconds / POSES
-    return (posed[which * POSES + (pose + 1) % POSES] - posed[which * POSES + (pose - 1) % POSES]) / seconds
