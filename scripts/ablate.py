@@ -18,20 +18,24 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
+NO_BRAKING_RULE = ("anticipation.glsl", "along *= 1.0 - max(oncoming, manners.impatience);", "along *= 1.0 - manners.impatience;")
 NO_IMPATIENCE = ("anticipation.glsl", "float impatience = clamp((nervousness - PATIENT) / (IMPATIENT - PATIENT), 0.0, 1.0);", "float impatience = 0.0;")
 
 # name in the table: (name for --only, edits of shaders [(file, what stands there, what takes its place)], settings).
 # Edits leave every uniform in use: the program sets them all.
 VARIANTS = {
     "all rules": ("all", [], []),
-    "who is carried off gives as much as others (no rule 3)": (
-        "3", [("contact.comp", "bracing * STANDING_FAST * smoothstep", "bracing * 1.0e-6 * smoothstep")], []),
+    "people brake for oncoming people, too (no rule 3)": ("3", [NO_BRAKING_RULE], []),
     "nobody grows impatient (no rule 4)": ("4", [NO_IMPATIENCE], []),
+    "neither rule 3 nor rule 4": ("3+4", [NO_BRAKING_RULE, NO_IMPATIENCE], []),
     "people swerve for those who cross, however dense the crowd (no rule 5)": (
         "5", [("anticipation.glsl", "float crowding = clamp((float(sensed) - SWERVE_FREELY) / (SWERVE_NO_MORE - SWERVE_FREELY), 0.0, 1.0);", "float crowding = 0.0;")], []),
     "routes do not heed jams (no rule 6)": ("6", [], ["simulation.avoid_congestion=false"]),
     "the stuck do not look for another way (no rule 7)": ("7", [("steer.comp", "float despair = smoothstep(0.7, 0.95, nervousness);",
               "float despair = steps_done == 0u ? nervousness : 0.0;")], []),
+    "no cushion, no room to step": (
+        "gaps", [("anticipation.glsl", "vec2 touch = cushion(offset, relative, reach) * patience;", "vec2 touch = vec2(0.0);"),
+                 ("anticipation.glsl", "const float FOLLOWING_GAP = 0.1;", "const float FOLLOWING_GAP = 0.0;")], []),
     "contact without Chebyshev's weights": ("weights", [("contact.comp", "position = mix(targets_after[slot], position, momentum);",
                  "position = mix(targets_after[slot], position, min(momentum, 1.0));")], []),
     "everybody senses exactly (the grid) instead of through the diagram": ("grid", [], ["simulation.proximity=grid"]),

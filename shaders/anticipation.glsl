@@ -7,14 +7,20 @@
 // back along it when there is none: people go round each other first, and brake last.
 //
 // In a dense crowd that is too polite. Who brakes for everybody that comes the other way never gets through, and everybody
-// behind stops too: opposing streams freeze at the line where they meet. Held up for long, people grow impatient: they stop
-// making room and push (Helbing, Farkas and Vicsek 2000, the nervousness 1 - v / v0). So braking and swerving fade as somebody
-// is held up, except swerving for oncoming people, which ends behind somebody who goes the same way: lanes form. Contact keeps
-// bodies apart. That is how streams that cross at right angles get through each other.
+// behind stops too: opposing streams freeze at the line where they meet. Two observations undo this.
+//  - Two who walk straight at each other only swerve; they do not change their speeds. Those who cross do both (Huber et
+//    al. 2014). So nobody brakes for oncoming people, and lanes form by themselves, because a swerve ends only behind
+//    somebody who goes the same way.
+//  - Held up for long, people grow impatient: they stop making room and push (Helbing, Farkas and Vicsek 2000, the
+//    nervousness 1 - v / v0). So braking and swerving fade as somebody is held up, except swerving for oncoming people,
+//    and contact keeps bodies apart. That is how streams that cross at right angles get through each other.
 
 const float REPULSION = 1.5;         // m^2/s^2: k, as fitted there for a person of unit mass
 const float REPULSION_HORIZON = 3.0; // s: t0, as fitted there
 const float MOST_REPULSION = 20.0;   // m/s^2, of one person on another: the law has no upper bound
+
+/// Those who walk behind each other leave room to step (m, beyond touching) while they are patient.
+const float FOLLOWING_GAP = 0.1;
 
 /// Where this many others are near, swerving for those who cross only sweeps people along with them: it fades.
 const float SWERVE_FREELY = 3.0;
@@ -48,6 +54,17 @@ vec2 repulsion(vec2 offset, vec2 relative, float reach) {
     float strength = REPULSION * exp(-time / REPULSION_HORIZON) / (speed_squared * time * time) *
                      (2.0 / time + 1.0 / REPULSION_HORIZON);
     return atMost(-strength * across, MOST_REPULSION);
+}
+
+/// Nobody walks into anybody: closing speeds that would use up the gap within CUSHION are taken back, half by each of the
+/// two, at a rate that leaves little for the hard contact to stop at once.
+const float CUSHION = 0.25;        // s
+const float CUSHION_RATE = 5.0;    // 1/s
+vec2 cushion(vec2 offset, vec2 relative, float reach) {
+    float distance = max(length(offset), 1.0e-3);
+    float closing = -dot(offset, relative) / distance;
+    float excess = closing - max(distance - reach, 0.0) / CUSHION;
+    return excess > 0.0 ? offset * (excess * CUSHION_RATE / distance) : vec2(0.0);
 }
 
 /// Walking behind somebody takes room to step: the free way ahead is to last for one's headway, whatever is left of it,
@@ -99,6 +116,8 @@ vec2 roomFor(Manners manners, vec2 offset, vec2 relative, vec2 overtaking, float
     float oncoming = smoothstep(0.2, 0.8, -alike);
     float behind = followed(alike) * manners.follows;
     float patience = 1.0 - manners.impatience;
+    vec2 touch = cushion(offset, relative, reach) * patience;
+    reach += FOLLOWING_GAP * followed(alike) * patience;
     // Who follows looks for a way past at the speed it would like; its pace does the braking, and it does not hurry for
     // those behind.
     vec2 room = repulsion(offset, mix(relative, overtaking, behind), reach);
@@ -106,6 +125,6 @@ vec2 roomFor(Manners manners, vec2 offset, vec2 relative, vec2 overtaking, float
     float swerve = patience * mix(1.0 - manners.crowding, manners.freedom, behind);
     vec2 aside = (room - manners.way * along) * mix(swerve, 1.0, oncoming);
     along *= 1.0 - behind;
-    if (along < 0.0) along *= patience;
-    return manners.way * along + aside;
+    if (along < 0.0) along *= 1.0 - max(oncoming, manners.impatience);
+    return manners.way * along + aside + touch;
 }

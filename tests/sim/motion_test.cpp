@@ -73,7 +73,7 @@ TEST_F(MotionTest, TwoPeopleHeadOnPassEachOther) {
     EXPECT_LT(seen.deepest_percent, 1.0f);
 }
 
-TEST_F(MotionTest, TwoPeopleHeadOnSwerveAndSlowDownByLessThanAThird) {
+TEST_F(MotionTest, TwoPeopleHeadOnSwerveWithoutSlowingDown) {
     authoring::Scene scene = emptyScene({-10, -5}, {10, 5});
     addPerson(scene, {-8, 0}, {8, 0}, 1.3f);
     addPerson(scene, {8, 0}, {-8, 0}, 1.3f);
@@ -86,7 +86,7 @@ TEST_F(MotionTest, TwoPeopleHeadOnSwerveAndSlowDownByLessThanAThird) {
         slowest = std::min(slowest, states[0].velocity.x);
         furthest_aside = std::max(furthest_aside, std::abs(states[0].position.y));
     }
-    EXPECT_GT(slowest, 0.87f) << "m/s, of 1.3";
+    EXPECT_GT(slowest, 0.95f) << "m/s; 0.88 where people brake for oncoming people";
     EXPECT_GT(furthest_aside, 0.15f) << "they pass, so somebody has to give way";
 }
 
