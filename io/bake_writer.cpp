@@ -29,16 +29,22 @@ constexpr std::array kStateRule{BackFill::keep, BackFill::first_alive, BackFill:
 namespace {
 
 StreamWriter openStream(const std::filesystem::path& path, StreamFormat format,
-                        const BakeDescription& description, std::uint32_t frames_there) {
+                        const BakeDescription& description, std::optional<std::uint32_t> frames_there) {
     const auto rows = static_cast<std::uint32_t>(description.agents.size());
-    return frames_there > 0 ? StreamWriter(path, format, rows, description.frames, frames_there)
-                            : StreamWriter(path, format, rows, description.frames);
+    return frames_there ? StreamWriter(path, format, rows, description.frames, *frames_there)
+                        : StreamWriter(path, format, rows, description.frames);
+}
+
+/// How many frames the streams have, perhaps none yet (the recorded motion lags behind), where a bake goes
+/// on.
+std::optional<std::uint32_t> framesIn(const Checkpoint* go_on_from) {
+    return go_on_from ? std::optional(go_on_from->frames) : std::nullopt;
 }
 
 }  // namespace
 
 BakeWriter::Stream::Stream(const std::filesystem::path& folder, const std::string& stream_name,
-                           const BakeDescription& description, std::uint32_t frames_there)
+                           const BakeDescription& description, std::optional<std::uint32_t> frames_there)
     : name(stream_name),
       npy(openStream(folder / (stream_name + ".npy"), StreamFormat::npy, description, frames_there)),
       pc2(openStream(folder / (stream_name + ".pc2"), StreamFormat::pc2, description, frames_there)) {}
@@ -71,15 +77,14 @@ BakeWriter::BakeWriter(BakeDescription description, std::unique_ptr<BakeFolder> 
     : description_(std::move(description)),
       folder_(std::move(folder)),
       streams_folder_(streamsFolder(go_on_from)),
-      positions_(streams_folder_, "pos", description_, go_on_from ? go_on_from->frames : 0),
-      directions_(streams_folder_, "dir", description_, go_on_from ? go_on_from->frames : 0),
-      states_(streams_folder_, "state", description_, go_on_from ? go_on_from->frames : 0),
+      positions_(streams_folder_, "pos", description_, framesIn(go_on_from)),
+      directions_(streams_folder_, "dir", description_, framesIn(go_on_from)),
+      states_(streams_folder_, "state", description_, framesIn(go_on_from)),
       first_alive_(description_.agents.size(), kNone),
       shifted_(description_.agents.size() * kComponents) {
     if (description_.densities)
-        densities_.emplace(streams_folder_, "density", description_, go_on_from ? go_on_from->frames : 0);
-    if (description_.terrain)
-        grounds_.emplace(streams_folder_, "ground", description_, go_on_from ? go_on_from->frames : 0);
+        densities_.emplace(streams_folder_, "density", description_, framesIn(go_on_from));
+    if (description_.terrain) grounds_.emplace(streams_folder_, "ground", description_, framesIn(go_on_from));
     if (go_on_from)
         goOnFrom(*go_on_from);
     else if (description_.diagram_every > 0)

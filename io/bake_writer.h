@@ -64,7 +64,7 @@ class BakeWriter {
   private:
     struct Stream {
         Stream(const std::filesystem::path& folder, const std::string& name,
-               const BakeDescription& description, std::uint32_t frames_there);
+               const BakeDescription& description, std::optional<std::uint32_t> frames_there);
         void append(std::span<const float> frame);
         void finish(std::span<const std::uint32_t> first_alive,
                     const std::array<BackFill, kComponents>& rule);

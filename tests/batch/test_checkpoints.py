@@ -5,6 +5,7 @@ import os
 import pathlib
 import random
 import signal
+import struct
 import subprocess
 import time
 
@@ -39,7 +40,7 @@ def whole(throng, tmp_path_factory):
 
 
 def start(throng, layout, output, *more):
-    return subprocess.Popen([throng.binary, "bake", str(layout), "-o", str(output), *OPTIONS, "--checkpoint", "0.002", *more],
+    return subprocess.Popen([throng.binary, "bake", str(layout), "-o", str(output), *OPTIONS, *(() if "--checkpoint" in more else ("--checkpoint", "0.002")), *more],
                             stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
 
@@ -98,6 +99,30 @@ def test_a_torn_checkpoint_is_passed_over_for_the_one_before(throng, whole, tmp_
     content = newest.read_bytes()
     newest.write_bytes({"cut": content[: len(content) // 2], "empty": b"",
                         "flipped": content[:-100] + bytes([content[-100] ^ 1]) + content[-99:]}[damage])
+    throng("bake", layout, "-o", tmp_path / "bake", *OPTIONS, "--resume")
+    assert files_of(tmp_path / "bake") == expected
+
+
+def frames_at(checkpoint):
+    """How many frames had been written (io/checkpoint.cpp: a head of 24 bytes, the identity and its length, then this)."""
+    content = checkpoint.read_bytes()
+    return struct.unpack_from("<Q", content, 32 + struct.unpack_from("<Q", content, 24)[0])[0]
+
+
+def test_killed_before_its_first_frame_is_written_a_bake_goes_on(throng, whole, tmp_path):
+    """What is recorded is averaged over frames to come, so the first checkpoints come before the first frame."""
+    layout, expected = whole
+    checkpoint = tmp_path / "bake.unfinished" / "checkpoint.a"
+    for _ in range(20):
+        process = start(throng, layout, tmp_path / "bake", "--checkpoint", "1e-9", "--force")
+        while not checkpoint.exists():
+            assert process.poll() is None
+        process.kill()
+        process.wait()
+        if frames_at(checkpoint) == 0:
+            break
+        checkpoint.unlink()
+    assert frames_at(checkpoint) == 0
     throng("bake", layout, "-o", tmp_path / "bake", *OPTIONS, "--resume")
     assert files_of(tmp_path / "bake") == expected
 

@@ -4,9 +4,13 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
+#include "io/bake_folder.h"
+#include "io/bake_writer.h"
 #include "io/checkpoint.h"
 #include "io/files/input_file.h"
+#include "sample_crowd.h"
 
 namespace throng::io {
 namespace {
@@ -91,6 +95,28 @@ TEST_F(CheckpointTest, CutAnywhereOrChangedAnywhereTheOneBeforeIsTaken) {
     }
     replace(whole);
     EXPECT_EQ(loadCheckpoint(folder)->frames, 2u);
+}
+
+std::string contentOf(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST_F(CheckpointTest, ABakeGoesOnFromBeforeItsFirstFrame) {
+    const test::SampleCrowd crowd({});
+    crowd.bake(folder / "whole");
+    const BakeDescription description = crowd.description(folder / "bake");
+    { BakeWriter(description, nullptr).save({}); }
+    const auto checkpoint = loadCheckpoint(BakeFolder::unfinishedPath(description.output));
+    ASSERT_TRUE(checkpoint);
+    ASSERT_EQ(checkpoint->frames, 0u);
+
+    BakeWriter writer(description, &*checkpoint);
+    crowd.writeTo(writer, description.frames);
+    writer.finish(crowd.account(), {});
+    for (const char* name : {"pos.npy", "dir.npy", "state.npy", "pos.pc2"})
+        EXPECT_EQ(contentOf(folder / "bake/streams" / name), contentOf(folder / "whole/streams" / name))
+            << name;
 }
 
 TEST_F(CheckpointTest, ATornOneIsTheFirstToBeReplaced) {
