@@ -39,8 +39,8 @@ def whole(throng, tmp_path_factory):
     return layout, files_of(folder / "bake")
 
 
-def start(throng, layout, output, *more):
-    return subprocess.Popen([throng.binary, "bake", str(layout), "-o", str(output), *OPTIONS, *(() if "--checkpoint" in more else ("--checkpoint", "0.002")), *more],
+def start(throng, layout, output, *more, minutes="0.002"):
+    return subprocess.Popen([throng.binary, "bake", str(layout), "-o", str(output), *OPTIONS, "--checkpoint", minutes, *more],
                             stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
 
@@ -114,7 +114,7 @@ def test_killed_before_its_first_frame_is_written_a_bake_goes_on(throng, whole, 
     layout, expected = whole
     checkpoint = tmp_path / "bake.unfinished" / "checkpoint.a"
     for _ in range(20):
-        process = start(throng, layout, tmp_path / "bake", "--checkpoint", "1e-9", "--force")
+        process = start(throng, layout, tmp_path / "bake", "--force", minutes="1e-9")
         while not checkpoint.exists():
             assert process.poll() is None
         process.kill()
