@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <numbers>
 #include <stdexcept>
 
@@ -190,6 +192,11 @@ SampleDiagram::SampleDiagram(const std::vector<glm::vec2>& sites, std::uint32_t 
             }
         }
     image = {width, height, minimum, pixels_per_metre, agent_count, site, distance, {}};
+}
+
+std::string contentOf(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
 }
 
 TemporaryFolder::TemporaryFolder() {

@@ -66,6 +66,9 @@ struct SampleDiagram {
     DiagramImage image;
 };
 
+/// The bytes of a file; none where it is not there.
+std::string contentOf(const std::filesystem::path& path);
+
 /// A folder of its own for each test, removed at the end.
 class TemporaryFolder {
   public:

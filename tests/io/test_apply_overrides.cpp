@@ -19,6 +19,7 @@ namespace throng::io {
 namespace {
 
 using authoring::PersonChange;
+using test::contentOf;
 using test::SampleCrowd;
 using test::TemporaryFolder;
 
@@ -75,10 +76,8 @@ TEST(ApplyOverrides, ChangesNobodyElse) {
     EXPECT_EQ(rows[1].group, "north, \"bound\"");
     EXPECT_EQ(applied.made.account.refused, applied.source.account.refused + 1);
     EXPECT_EQ(applied.made.account.walking + applied.made.account.arrived, applied.made.account.spawned);
-    std::ifstream one(applied.folder / "bake" / "layout.json"),
-        two(applied.folder / "applied" / "layout.json");
-    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(one), {}),
-              std::string(std::istreambuf_iterator<char>(two), {}));
+    EXPECT_EQ(contentOf(applied.folder / "bake" / "layout.json"),
+              contentOf(applied.folder / "applied" / "layout.json"));
 }
 
 TEST(ApplyOverrides, TurnsWaysAboutTheirEntryAndMovesThem) {

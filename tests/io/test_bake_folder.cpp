@@ -15,6 +15,7 @@
 namespace throng::io {
 namespace {
 
+using test::contentOf;
 using test::SampleCrowd;
 using test::SampleOptions;
 using test::TemporaryFolder;
@@ -43,11 +44,6 @@ void makeBake(const std::filesystem::path& path, const std::string& content, boo
     BakeFolder folder(path, force);
     writeFile(folder.path() / "bake.json", content);
     folder.commit();
-}
-
-std::string contentOf(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    return {std::istreambuf_iterator<char>(file), {}};
 }
 
 std::string errorOf(const std::function<void()>& action) {

@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 #include "io/bake_folder.h"
 #include "io/bake_writer.h"
@@ -15,6 +14,7 @@
 namespace throng::io {
 namespace {
 namespace fs = std::filesystem;
+using test::contentOf;
 
 class CheckpointTest : public ::testing::Test {
   protected:
@@ -95,11 +95,6 @@ TEST_F(CheckpointTest, CutAnywhereOrChangedAnywhereTheOneBeforeIsTaken) {
     }
     replace(whole);
     EXPECT_EQ(loadCheckpoint(folder)->frames, 2u);
-}
-
-std::string contentOf(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
 }
 
 TEST_F(CheckpointTest, ABakeGoesOnFromBeforeItsFirstFrame) {

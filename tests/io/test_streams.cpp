@@ -13,12 +13,8 @@
 namespace throng::io {
 namespace {
 
+using test::contentOf;
 using test::TemporaryFolder;
-
-std::string contentOf(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
 
 void writeContent(const std::filesystem::path& path, const std::string& content) {
     std::ofstream(path, std::ios::binary) << content;
