@@ -24,10 +24,6 @@ constexpr std::array kGroundRule{BackFill::first_alive, BackFill::first_alive, B
 constexpr std::array kDensityRule{BackFill::keep, BackFill::keep, BackFill::keep};
 constexpr std::array kStateRule{BackFill::keep, BackFill::first_alive, BackFill::first_alive};
 
-}  // namespace
-
-namespace {
-
 StreamWriter openStream(const std::filesystem::path& path, StreamFormat format,
                         const BakeDescription& description, std::optional<std::uint32_t> frames_there) {
     const auto rows = static_cast<std::uint32_t>(description.agents.size());
