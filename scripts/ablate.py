@@ -19,7 +19,9 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 NO_BRAKING_RULE = ("anticipation.glsl", "along *= 1.0 - max(oncoming, manners.impatience);", "along *= 1.0 - manners.impatience;")
-NO_IMPATIENCE = ("anticipation.glsl", "float impatience = clamp((nervousness - PATIENT) / (IMPATIENT - PATIENT), 0.0, 1.0);", "float impatience = 0.0;")
+NO_IMPATIENCE = ("anticipation.glsl", "return clamp((nervousness - PATIENT) / (IMPATIENT - PATIENT), 0.0, 1.0);", "return 0.0;")
+NO_HEADWAY_IN_PEACE = ("anticipation.glsl", "const float HEADWAY_IN_PEACE = 0.1;", "const float HEADWAY_IN_PEACE = 0.0;")
+NO_STANDING_FAST = ("contact.comp", "bracing * STANDING_FAST * smoothstep", "bracing * 1.0e-6 * smoothstep")
 
 # name in the table: (name for --only, edits of shaders [(file, what stands there, what takes its place)], settings).
 # Edits leave every uniform in use: the program sets them all.
@@ -33,6 +35,9 @@ VARIANTS = {
     "routes do not heed jams (no rule 6)": ("6", [], ["simulation.avoid_congestion=false"]),
     "the stuck do not look for another way (no rule 7)": ("7", [("steer.comp", "float despair = smoothstep(0.7, 0.95, nervousness);",
               "float despair = steps_done == 0u ? nervousness : 0.0;")], []),
+    "platoons do not spread (no headway in peace, rule 8)": ("8", [NO_HEADWAY_IN_PEACE], []),
+    "who is carried off does not stand fast (no rule 10)": ("10", [NO_STANDING_FAST], []),
+    "neither of these two": ("8+10", [NO_HEADWAY_IN_PEACE, NO_STANDING_FAST], []),
     "no cushion, no room to step": (
         "gaps", [("anticipation.glsl", "vec2 touch = cushion(offset, relative, reach) * patience;", "vec2 touch = vec2(0.0);"),
                  ("anticipation.glsl", "const float FOLLOWING_GAP = 0.1;", "const float FOLLOWING_GAP = 0.0;")], []),

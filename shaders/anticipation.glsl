@@ -29,6 +29,9 @@ const float SWERVE_NO_MORE = 7.0;
 const float PATIENT = 0.05;    // held up less than this, of the wished speed: as polite as can be
 const float IMPATIENT = 0.25;  // from here on nobody makes room any more
 
+/// 0 to 1.
+float impatienceOf(float nervousness) { return clamp((nervousness - PATIENT) / (IMPATIENT - PATIENT), 0.0, 1.0); }
+
 /// Seconds until two discs touch, or -1 where they do not.
 /// @param offset from the other to oneself, m
 /// @param relative one's own velocity less the other's, m/s
@@ -72,6 +75,12 @@ vec2 cushion(vec2 offset, vec2 relative, float reach) {
 /// down with their density as people's do (Weidmann 1993).
 const float SLOWEST_PACE = 0.1;       // m/s
 const float STRAIGHT_AHEAD = 0.7;     // of the sum of the radii: further aside, one could pass
+const float LEAST_HEADWAY = 0.01;     // s: less is none
+
+/// s: those who were given no headway keep this one while they are patient and everybody they sense goes their way: a
+/// platoon that walks on by itself spreads. A tight one would enclose whoever crosses its way and carry them off. Where
+/// streams meet they close up, because there a headway only gives room away to those who come across.
+const float HEADWAY_IN_PEACE = 0.1;
 
 /// How much two who want to go this way and that walk behind each other, 0 to 1.
 float followed(float alike) { return smoothstep(0.3, 0.8, alike); }
@@ -99,12 +108,11 @@ struct Manners {
     vec2 way;          // where it wants to go, of unit length
     float impatience;  // 0 to 1
     float crowding;    // 0 to 1
-    float follows;     // 1 where it keeps a headway, 0 where it pushes on
+    float follows;     // 1 where it was given a headway, 0 where it pushes on
     float freedom;     // 0 to 1: how little those ahead hold it up
 };
 
-Manners mannersOf(vec2 way, float nervousness, uint sensed, float headway, float pace_share) {
-    float impatience = clamp((nervousness - PATIENT) / (IMPATIENT - PATIENT), 0.0, 1.0);
+Manners mannersOf(vec2 way, float impatience, uint sensed, float headway, float pace_share) {
     float crowding = clamp((float(sensed) - SWERVE_FREELY) / (SWERVE_NO_MORE - SWERVE_FREELY), 0.0, 1.0);
     return Manners(way, impatience, crowding, headway > 0.0 ? 1.0 : 0.0, smoothstep(0.7, 1.0, pace_share));
 }

@@ -117,7 +117,7 @@ vec2 drive(vec2 wish, vec2 velocity) {
 
 /// m/s: how fast one wants to walk behind those ahead.
 float paceAmongAll(Body self, uint slot, vec2 way, float speed, float headway) {
-    if (headway <= 0.0) return speed;
+    if (headway <= LEAST_HEADWAY) return speed;
     float pace = speed;
     for (uint i = 0u; i < neighbour_counts[slot]; ++i) {
         uint key = neighbours[i * slot_capacity + slot];
@@ -130,14 +130,18 @@ float paceAmongAll(Body self, uint slot, vec2 way, float speed, float headway) {
 }
 
 /// m/s^2: the room made for all people sensed together.
-vec2 roomForAll(Body self, uint slot, vec2 wish, Manners manners) {
+/// @param in_peace receives whether all of them go one's way
+vec2 roomForAll(Body self, uint slot, vec2 wish, Manners manners, out bool in_peace) {
     vec2 room = vec2(0.0);
+    in_peace = true;
     for (uint i = 0u; i < neighbour_counts[slot]; ++i) {
         uint key = neighbours[i * slot_capacity + slot];
         if ((key & NEIGHBOUR_IS_WALL) != 0u) continue;
         Body other = bodies[key];
+        vec2 its_wish = preferred_velocities[key];
         room += roomFor(manners, self.position - other.position, self.velocity - other.velocity, wish - other.velocity,
-                        self.radius + other.radius, preferred_velocities[key]);
+                        self.radius + other.radius, its_wish);
+        in_peace = in_peace && followed(likeness(manners.way, its_wish)) > 0.0;
     }
     return room;
 }
@@ -166,11 +170,16 @@ void main() {
     vec2 wish = preferred_velocities[slot];
     float speed = length(wish);
     vec2 way = speed > STANDING_SPEED ? wish / speed : vec2(cos(self.heading), sin(self.heading));
+    float impatience = impatienceOf(walker.nervousness);
+    // Manners depend on the pace of those with a headway of their own only; for the others one look at everybody will do.
     float pace = paceAmongAll(self, slot, way, speed, walker.headway);
+    Manners manners = mannersOf(way, impatience, neighbour_counts[slot], walker.headway, pace / max(speed, STANDING_SPEED));
+    bool in_peace;
+    vec2 room = roomForAll(self, slot, wish, manners, in_peace);
+    if (in_peace && walker.headway <= 0.0) pace = paceAmongAll(self, slot, way, speed, HEADWAY_IN_PEACE * (1.0 - impatience));
     paces[slot] = pace;
-    Manners manners = mannersOf(way, walker.nervousness, neighbour_counts[slot], walker.headway, pace / max(speed, STANDING_SPEED));
     vec2 acceleration = drive(pace < speed ? wish * (pace / speed) : wish, self.velocity) +
-                        roomForAll(self, slot, wish, manners) * (speed > STANDING_SPEED ? 1.0 : ROOM_OF_THE_STANDING);
+                        room * (speed > STANDING_SPEED ? 1.0 : ROOM_OF_THE_STANDING);
     if (walker.party_size > 1u && speed > STANDING_SPEED)
         acceleration += company(self, walker.party_first, walker.party_size, way) * smoothstep(0.0, 0.7, speed / walker.preferred_speed);
     vec2 wanted = self.velocity + acceleration * parameters.step_seconds;

@@ -15,6 +15,7 @@ layout(std140) uniform ParametersBlock { Parameters parameters; };
 layout(std430) readonly buffer TouchDispatch { uint touch_groups[3]; uint touch_count; };
 layout(std430) readonly buffer TouchSlots { uint touch_slots[]; };
 layout(std430) readonly buffer Bodies { Body bodies[]; };
+layout(std430) readonly buffer PreferredVelocities { vec2 preferred_velocities[]; };
 layout(std430) readonly buffer TouchWords { uint touch_words[]; };
 layout(std430) readonly buffer TouchLists { uint touch_lists[]; };
 layout(std430) readonly buffer WallSegments { WallSegment wall_segments[]; };
@@ -23,6 +24,7 @@ layout(std430) readonly buffer WallItems { uint wall_items[]; };
 layout(std430) readonly buffer TargetsBefore { vec2 targets_before[]; };
 layout(std430) buffer TargetsAfter { vec2 targets_after[]; };  // those of the round before the last; then the new ones
 uniform float momentum;  // 1 = none
+uniform float bracing;   // 1 = who is carried off its way gives less than others, 0 = all give alike
 
 #include "shaders/at_most.glsl"
 #include "shaders/cells.glsl"
@@ -41,26 +43,48 @@ vec2 apartDirection(vec2 offset, float size, uint row, uint other_row) {
     return (row < other_row ? 1.0 : -1.0) * vec2(cos(angle), sin(angle));
 }
 
+/// m/s across one's way or back along it: from the first on somebody is being carried off, at the second it stands as fast
+/// as it can.
+const float CARRIED = 0.3;
+const float SWEPT_AWAY = 1.0;
+/// How much heavier than others it is to push then.
+const float STANDING_FAST = 1.0;
+
+/// How hard somebody is to move out of the way. A platoon would carry whoever it has caught along for its whole length; who
+/// stands fast is passed on both sides instead, as a post would be.
+float weightOf(uint slot) {
+    vec2 wish = preferred_velocities[slot];
+    float speed = length(wish);
+    if (bracing <= 0.0 || speed <= STANDING_SPEED) return 1.0;
+    vec2 way = wish / speed;
+    vec2 velocity = bodies[slot].velocity;
+    vec2 astray = velocity - way * max(dot(velocity, way), 0.0);
+    return 1.0 + bracing * STANDING_FAST * smoothstep(CARRIED, SWEPT_AWAY, length(astray));
+}
+
 /// What one neighbour adds to the push: direction and depth, and one more to average over.
-void addPush(Body self, uint self_slot, uint slot, vec2 position, inout vec3 push) {
+void addPush(Body self, uint self_slot, float weight, uint slot, vec2 position, inout vec3 push) {
     vec2 offset = position - targets_before[slot];
     float reach = self.radius + bodies[slot].radius + SKIN;
     float size_squared = dot(offset, offset);
     if (size_squared >= reach * reach || slot == self_slot) return;
     float size = sqrt(size_squared);
-    push += vec3(apartDirection(offset, size, self.row, bodies[slot].row) * (reach - size) * 0.5, 1.0);
+    float its_weight = weightOf(slot);
+    vec2 apart = apartDirection(offset, size, self.row, bodies[slot].row);
+    push += vec3(apart * (reach - size) * its_weight / (weight + its_weight), 1.0);
 }
 
 vec2 pushFromNeighbours(Body self, uint self_slot, uint touching, vec2 position) {
     vec3 push = vec3(0.0);
+    float weight = weightOf(self_slot);
     if (touching <= TOUCH_CAPACITY) {
         for (uint i = 0u; i < touching; ++i)
-            addPush(self, self_slot, touch_lists[self_slot * TOUCH_CAPACITY + i], position, push);
+            addPush(self, self_slot, weight, touch_lists[self_slot * TOUCH_CAPACITY + i], position, push);
     } else {
         ivec2 cell = cellOf(self.position);
         for (int y = cell.y - 1; y <= cell.y + 1; ++y) {
             uvec2 run = slotRun(cell.x, y);
-            for (uint slot = run.x; slot < run.y; ++slot) addPush(self, self_slot, slot, position, push);
+            for (uint slot = run.x; slot < run.y; ++slot) addPush(self, self_slot, weight, slot, position, push);
         }
     }
     // Plain sums overshoot where many push: a mildly over-relaxed average converges and does not ring.

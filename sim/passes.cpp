@@ -155,6 +155,8 @@ void Contacts::run() {
         if (iteration > 2) momentum = 4.0f / (4.0f - kSquared * momentum);
         gl::ComputeProgram& round = iteration % 2 ? back_ : forth_;
         round.set("momentum", momentum);
+        // Unequal weights settle slowly: the later rounds know none, so that no overlap is left.
+        round.set("bracing", iteration < iterations_ / 4 ? 1.0f : 0.0f);
         round.dispatchIndirect(buffers_.touch_dispatch);
     }
 }

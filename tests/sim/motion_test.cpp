@@ -121,6 +121,54 @@ TEST_F(MotionTest, NervousnessGrowsWhileSomebodyIsHeldUpAndFadesOnAFreeWay) {
     EXPECT_LT(states[1].nervousness, 0.1f) << "what is left of setting off";
 }
 
+TEST_F(MotionTest, WhoWasGivenNoHeadwayClosesUpWhereSomebodyComesAnotherWay) {
+    const auto pace = [&](float headway, glm::vec2 goal_of_another) {
+        authoring::Scene scene = emptyScene({-10, -10}, {40, 10});
+        addPerson(scene, {0, 0}, {30, 0}, 1.3f).headway = headway;
+        addPerson(scene, {0.58f, 0}, {30, 0});  // 8 cm ahead
+        addPerson(scene, {2, 1}, goal_of_another);
+        sim::Simulation simulation(scene, library);
+        simulation.step();
+        const sim::Buffers& buffers = simulation.parts().buffers;
+        const auto bodies = buffers.bodies.download<gpu::Body>(3);
+        const auto paces = buffers.paces.download<float>(3);
+        for (std::size_t slot = 0; slot < 3; ++slot)
+            if (bodies[slot].row == 0) return paces[slot];
+        return -1.0f;
+    };
+    const glm::vec2 along(30, 1), across(2, -8), against(-8, 1);
+    EXPECT_NEAR(pace(0.0f, along), 0.8f, 0.05f) << "m/s: 8 cm in a tenth of a second";
+    EXPECT_FLOAT_EQ(pace(0.0f, across), 1.3f);
+    EXPECT_FLOAT_EQ(pace(0.0f, against), 1.3f);
+    EXPECT_NEAR(pace(0.2f, along), 0.4f, 0.05f) << "its own headway";
+    EXPECT_NEAR(pace(0.2f, across), 0.4f, 0.05f) << "which it keeps in any case";
+}
+
+TEST_F(MotionTest, WhoIsCarriedOffGivesLessInContact) {
+    const auto pushes = [&](glm::vec2 goal) {
+        authoring::Scene scene = emptyScene({-10, -10}, {10, 10});
+        scene.settings.maximum_acceleration = 0.01;  // so that nothing but contact moves anybody
+        addPerson(scene, {0, 0}, goal);
+        addPerson(scene, {-0.4f, 0}, {8, 0});  // walks into the other from behind, 10 cm deep
+        sim::Simulation simulation(scene, library);
+        sim::Buffers& buffers = simulation.parts().buffers;
+        auto states = buffers.states.download<gpu::AgentState>(2);
+        for (gpu::AgentState& state : states)
+            state.velocity = {1.2f, 0.0f};
+        buffers.states.upload(states);
+        simulation.step();
+        const auto after = buffers.states.download<gpu::AgentState>(2);
+        const float walked = 1.2f / 48.0f;
+        return glm::vec2(after[0].position.x - states[0].position.x - walked,
+                         states[1].position.x + walked - after[1].position.x);
+    };
+    const glm::vec2 along = pushes({8, 0});
+    EXPECT_NEAR(along.x, along.y, 0.001f) << "both walk where they want to: both give half";
+    const glm::vec2 across = pushes({0, 8});
+    EXPECT_NEAR(across.y, 2.0f * across.x, 0.005f) << "m: the other gives twice as much";
+    EXPECT_NEAR(across.x + across.y, 0.1f, 0.01f);
+}
+
 TEST_F(MotionTest, FourPeopleMeetingAtACrossingAllArrive) {
     authoring::Scene scene = emptyScene({-10, -10}, {10, 10});
     addPerson(scene, {-6, 0}, {6, 0});
