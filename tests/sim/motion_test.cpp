@@ -169,6 +169,47 @@ TEST_F(MotionTest, WhoIsCarriedOffGivesLessInContact) {
     EXPECT_NEAR(across.x + across.y, 0.1f, 0.01f);
 }
 
+TEST_F(MotionTest, WhoIsPushedBackALittlePlantsItsFeetAndWhoIsPushedHardGoesAlong) {
+    const auto velocityAfterAPush = [&](float back) {  // m/s
+        authoring::Scene scene = emptyScene({-10, -10}, {10, 10});
+        addPerson(scene, {0, 0}, {8, 0}).heading = 0.0f;
+        sim::Simulation simulation(scene, library);
+        sim::Buffers& buffers = simulation.parts().buffers;
+        auto states = buffers.states.download<gpu::AgentState>(1);
+        states[0].velocity = {-back, 0.0f};
+        buffers.states.upload(states);
+        for (int step = 0; step < 4; ++step)
+            simulation.step();
+        return buffers.states.download<gpu::AgentState>(1)[0].velocity.x;
+    };
+    EXPECT_GE(velocityAfterAPush(0.2f), -0.001f) << "m/s, a twelfth of a second later; without feet -0.12";
+    EXPECT_LT(velocityAfterAPush(0.8f), -0.7f) << "m/s: legs take 1 m/s^2 off it";
+}
+
+TEST_F(MotionTest, WhoStandsInAPlaceStepsBackToIt) {
+    authoring::Scene scene = emptyScene({-10, -10}, {10, 10});
+    addPerson(scene, {0.4f, 0}, {0, 0}).heading = 0.0f;  // its place is behind it
+    scene.stages.back().dwell = 60.0f;
+    scene.stages.back().facing = {5, 0};
+    sim::Simulation simulation(scene, library);
+    auto states = simulation.parts().buffers.states.download<gpu::AgentState>(1);
+    states[0].leave_step = 10'000;  // has stopped, and was pushed off its place
+    simulation.parts().buffers.states.upload(states);
+    for (int step = 0; step < 240; ++step)
+        simulation.step();
+    states = simulation.parts().buffers.states.download<gpu::AgentState>(1);
+    EXPECT_LT(std::abs(states[0].position.x), 0.15f);
+    EXPECT_LT(std::abs(states[0].heading), 0.1f) << "and looks at what there is to see";
+}
+
+TEST_F(MotionTest, WhoDoesNotGetOnTurnsOnTheSpot) {
+    authoring::Scene scene = emptyScene({-10, -10}, {10, 10});
+    scene.settings.maximum_acceleration = 0.01;  // so that it does not get on
+    addPerson(scene, {0, 0}, {8, 0}).heading = 3.0f;
+    EXPECT_GT(std::abs(statesAfter(scene, 2)[0].heading), 2.5f) << "it takes time";
+    EXPECT_LT(std::abs(statesAfter(scene, 96)[0].heading), 0.1f);
+}
+
 TEST_F(MotionTest, FourPeopleMeetingAtACrossingAllArrive) {
     authoring::Scene scene = emptyScene({-10, -10}, {10, 10});
     addPerson(scene, {-6, 0}, {6, 0});
