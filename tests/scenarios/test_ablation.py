@@ -17,7 +17,7 @@ def test_every_rule_can_be_taken_out_which_changes_what_people_do_and_nothing_is
     command = [sys.executable, SCRIPT, os.environ["THRONG_BINARY"], "-o", tmp_path, "--scenario", "trap-narrow-door"]
     first = subprocess.run(command, check=True, capture_output=True, text=True)
     rows = {row["variant"]: row for row in (json.loads(line) for line in (tmp_path / "results.jsonl").read_text().splitlines())}
-    assert len(rows) == 13 and all(row["agents"] == 20 for row in rows.values())
+    assert len(rows) == 14 and all(row["agents"] == 20 for row in rows.values())
     figures = {variant: [row[key] for key in ("seconds", "deepest_overlap_percent", "acceleration_p99", "backward_percent")] for variant, row in rows.items()}
     whole = figures.pop("all rules")
     unchanged = {variant for variant, row in figures.items() if row == whole}

@@ -134,6 +134,21 @@ def test_a_counterflow_slows_a_corridor_down(scenario):
     assert seconds[-1] > 1.5 * seconds[0]
 
 
+@pytest.mark.parametrize("name, width, start", [("imo-4", 1.0, [4, 2]), ("rimea-9-four-exits", 1.0, [15, 10]), ("rimea-9-two-exits", 1.0, [15, 10]), ("rimea-11", 1.0, [15, 10]),
+                                                ("bottleneck-080", 0.8, [-5, 1]), ("bottleneck-100", 1.0, [-5, 1]), ("bottleneck-120", 1.2, [-5, 1])])
+def test_doors_are_as_wide_as_they_are_said_to_be(throng, tmp_path, name, width, start):
+    """Between the round ends of walls, too: a body a little narrower gets through, one a little wider does not."""
+    def outcome(radius):
+        # Whom no door lets through is told of at once, or left where it is.
+        done = throng("bake", ROOT / "scenarios" / f"{name}.json", "-o", tmp_path / f"{radius}", "--no-gltf", "--set", "simulation.duration=60",
+                      "--set", "formations.0.rows=1", "--set", "formations.0.columns=1", "--set", "formations.0.count=1", "--set", f"formations.0.origin={start}",
+                      "--set", f"formations.0.people.radius={radius}", expect=None)
+        return done.returncode == 0 and [row["outcome"] for row in ends_of(tmp_path / f"{radius}")[0]] == ["arrived"]
+
+    assert outcome(width / 2 - 0.01)
+    assert not outcome(width / 2 + 0.01)
+
+
 def test_a_door_of_a_metre_lets_at_most_four_in_three_seconds_through(throng, tmp_path):
     """IMO test 4: 1.33 per second at most, on average over three crowds; single ones are above it now and then."""
     flows = []
