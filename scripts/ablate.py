@@ -38,9 +38,7 @@ VARIANTS = {
     "platoons do not spread (no headway in peace, rule 8)": ("8", [NO_HEADWAY_IN_PEACE], []),
     "who is carried off does not stand fast (no rule 10)": ("10", [NO_STANDING_FAST], []),
     "neither of these two": ("8+10", [NO_HEADWAY_IN_PEACE, NO_STANDING_FAST], []),
-    "who is pushed back walks on backwards, nobody turns on the spot (no rule 11)": (
-        "11", [("avoid.comp", "bool under_way = walker.status", "bool under_way = false && walker.status"),
-               ("move.comp", "if (!stops && length(wish) > STANDING_SPEED)", "if (false && length(wish) > STANDING_SPEED)")], []),
+    "who keeps a headway is pushed about like others (no rule 11)": ("11", [("feet.glsl", "return walker.headway > 0.0 &&", "return false &&")], []),
     "no cushion, no room to step": (
         "gaps", [("anticipation.glsl", "vec2 touch = cushion(offset, relative, reach) * patience;", "vec2 touch = vec2(0.0);"),
                  ("anticipation.glsl", "const float FOLLOWING_GAP = 0.1;", "const float FOLLOWING_GAP = 0.0;")], []),

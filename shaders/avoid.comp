@@ -29,6 +29,7 @@ uniform uint slot_capacity;
 #include "shaders/walls.glsl"
 #include "shaders/anticipation.glsl"
 #include "shaders/company.glsl"
+#include "shaders/feet.glsl"
 #include "shaders/linear_program.glsl"
 
 /// Bodies inside walls are to leave them within this time (s); the contact pass takes them out in any case.
@@ -149,19 +150,6 @@ vec2 roomForAll(Body self, uint slot, vec2 wish, Manners manners, out bool in_pe
 /// Who stands somewhere is walked around, and makes this share of the room that somebody under way would make.
 const float ROOM_OF_THE_STANDING = 0.4;
 
-/// m/s: as slowly as the first nobody walks backwards; from the second on one cannot but go along.
-const float FEET_STAY = 0.3;
-const float FEET_YIELD = 0.6;
-
-/// Legs walk forwards. A push takes somebody back, and its velocity with it; but who is under way plants its feet instead of
-/// walking on backwards from there, which in a crush is a step of some centimetres there and back, again and again. Who is
-/// pressed hard goes along all the same: where opposing streams have locked, somebody has to.
-vec2 withPlantedFeet(vec2 wanted, float heading) {
-    vec2 facing = vec2(cos(heading), sin(heading));
-    float back = max(-dot(wanted, facing), 0.0);
-    return wanted + facing * back * (1.0 - smoothstep(FEET_STAY, FEET_YIELD, back));
-}
-
 vec2 limitChange(vec2 from, vec2 to, float most) {
     vec2 change = to - from;
     float size = length(change);
@@ -196,8 +184,7 @@ void main() {
     if (walker.party_size > 1u && speed > STANDING_SPEED)
         acceleration += company(self, walker.party_first, walker.party_size, way) * smoothstep(0.0, 0.7, speed / walker.preferred_speed);
     vec2 wanted = self.velocity + acceleration * parameters.step_seconds;
-    bool under_way = walker.status == STATUS_WALKING && walker.leave_step == 0u && walker.ticket == NO_INDEX;
-    if (under_way) wanted = withPlantedFeet(wanted, self.heading);
+    if (walksForwards(walker)) wanted = withPlantedFeet(wanted, self.heading);
     vec2 velocity;
     int obeyed = solveInDisc(0, count, self.maximum_speed, wanted, false, velocity);
     if (obeyed < count) relax(hard, obeyed, count, self.maximum_speed, velocity);

@@ -22,6 +22,7 @@ uniform uint steps_done;  // counted with this one
 
 #include "shaders/route.glsl"
 #include "shaders/waiting_line.glsl"
+#include "shaders/feet.glsl"
 
 const float PI = 3.14159265358979;
 const float TURN_TIME = 0.22;          // s: the heading closes in on the velocity's direction with this time constant
@@ -58,12 +59,11 @@ vec2 nextInLine(AgentState state, Stage stage) {
     return placeInLine(line, state.ticket - line.served - 1u);
 }
 
-/// Who walks looks where it goes; who has stopped, at what there is to see. Who does not get on turns on the spot to where it
-/// wants to go: legs walk forwards.
-float turned(AgentState state, Stage stage, vec2 wish, float speed) {
+/// Who walks looks where it goes; who has stopped, at what there is to see.
+float turned(AgentState state, Stage stage, Walker walker, vec2 wish, float speed) {
     bool stops = state.status == STATUS_ARRIVED || state.leave_step != 0u || state.ticket != NO_INDEX;
     if (speed >= (stops ? STEPPING_ASIDE : STANDING_SPEED)) return turnTowards(state.heading, state.velocity);
-    if (!stops && length(wish) > STANDING_SPEED) return turnTowards(state.heading, wish);
+    if (walksForwards(walker) && length(wish) > STANDING_SPEED) return turnTowards(state.heading, wish);
     vec2 sight = (stage.line != NO_INDEX ? nextInLine(state, stage) : stage.facing) - state.position;
     return stops && length(sight) > SIGHT ? turnTowards(state.heading, sight) : state.heading;
 }
@@ -143,7 +143,7 @@ void main() {
     if (speed > self.maximum_speed) state.velocity *= self.maximum_speed / speed;
     state.nervousness += (heldUp(preferred_velocities[slot], paces[slot], state.velocity) - state.nervousness) *
                          min(parameters.step_seconds / PATIENCE_TIME, 1.0);
-    state.heading = turned(state, stage, preferred_velocities[slot], speed);
+    state.heading = turned(state, stage, walkers[slot], preferred_velocities[slot], speed);
     state.walked += distance_moved;
     if (state.shortest_way <= 0.0) state.shortest_way = routeAhead(stage, self.position).remaining + stage.beyond;
     if (changePlans(state, walkers[slot].change_count, self.row)) {

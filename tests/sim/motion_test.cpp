@@ -169,10 +169,12 @@ TEST_F(MotionTest, WhoIsCarriedOffGivesLessInContact) {
     EXPECT_NEAR(across.x + across.y, 0.1f, 0.01f);
 }
 
-TEST_F(MotionTest, WhoIsPushedBackALittlePlantsItsFeetAndWhoIsPushedHardGoesAlong) {
-    const auto velocityAfterAPush = [&](float back) {  // m/s
+TEST_F(MotionTest, WhoKeepsAHeadwayPlantsItsFeetAgainstASmallPushBack) {
+    const auto velocityAfterAPush = [&](float back, float headway) {  // m/s
         authoring::Scene scene = emptyScene({-10, -10}, {10, 10});
-        addPerson(scene, {0, 0}, {8, 0}).heading = 0.0f;
+        gpu::Person& person = addPerson(scene, {0, 0}, {8, 0});
+        person.heading = 0.0f;
+        person.headway = headway;
         sim::Simulation simulation(scene, library);
         sim::Buffers& buffers = simulation.parts().buffers;
         auto states = buffers.states.download<gpu::AgentState>(1);
@@ -182,13 +184,16 @@ TEST_F(MotionTest, WhoIsPushedBackALittlePlantsItsFeetAndWhoIsPushedHardGoesAlon
             simulation.step();
         return buffers.states.download<gpu::AgentState>(1)[0].velocity.x;
     };
-    EXPECT_GE(velocityAfterAPush(0.2f), -0.001f) << "m/s, a twelfth of a second later; without feet -0.12";
-    EXPECT_LT(velocityAfterAPush(0.8f), -0.7f) << "m/s: legs take 1 m/s^2 off it";
+    EXPECT_GE(velocityAfterAPush(0.2f, 0.1f), -0.001f) << "m/s, a twelfth of a second later";
+    EXPECT_NEAR(velocityAfterAPush(0.2f, 0.0f), -0.2f + 4.0f / 48.0f, 0.001f) << "legs take 1 m/s^2 off it";
+    EXPECT_NEAR(velocityAfterAPush(0.8f, 0.1f), -0.8f + 4.0f / 48.0f, 0.001f) << "too hard a push";
 }
 
 TEST_F(MotionTest, WhoStandsInAPlaceStepsBackToIt) {
     authoring::Scene scene = emptyScene({-10, -10}, {10, 10});
-    addPerson(scene, {0.4f, 0}, {0, 0}).heading = 0.0f;  // its place is behind it
+    gpu::Person& person = addPerson(scene, {0.4f, 0}, {0, 0});  // its place is behind it
+    person.heading = 0.0f;
+    person.headway = 0.2f;
     scene.stages.back().dwell = 60.0f;
     scene.stages.back().facing = {5, 0};
     sim::Simulation simulation(scene, library);
@@ -202,10 +207,12 @@ TEST_F(MotionTest, WhoStandsInAPlaceStepsBackToIt) {
     EXPECT_LT(std::abs(states[0].heading), 0.1f) << "and looks at what there is to see";
 }
 
-TEST_F(MotionTest, WhoDoesNotGetOnTurnsOnTheSpot) {
+TEST_F(MotionTest, WhoKeepsAHeadwayAndDoesNotGetOnTurnsOnTheSpot) {
     authoring::Scene scene = emptyScene({-10, -10}, {10, 10});
     scene.settings.maximum_acceleration = 0.01;  // so that it does not get on
-    addPerson(scene, {0, 0}, {8, 0}).heading = 3.0f;
+    gpu::Person& person = addPerson(scene, {0, 0}, {8, 0});
+    person.heading = 3.0f;
+    person.headway = 0.2f;
     EXPECT_GT(std::abs(statesAfter(scene, 2)[0].heading), 2.5f) << "it takes time";
     EXPECT_LT(std::abs(statesAfter(scene, 96)[0].heading), 0.1f);
 }
