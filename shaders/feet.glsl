@@ -7,12 +7,13 @@
 // backwards slowly, and where it cannot get on, it turns on the spot to where it wants to go before it walks there.
 //
 // Only those who keep a headway do: they wait for their turn, and space opens in front of them. Who presses on meets others
-// who press on the other way, and where such streams have locked, somebody has to yield: with planted feet, the jam of four
-// sides of `scenarios/annulus.json` stood still for good with one of three seeds.
+// who press on the other way, and where such streams have locked, somebody has to yield: with firmly planted feet, the jam of
+// four sides of `scenarios/annulus.json` stood still for good with one of three seeds.
 
-/// m/s: as slowly as the first nobody walks backwards; from the second on one cannot but go along.
-const float FEET_STAY = 0.3;
-const float FEET_YIELD = 0.6;
+/// m/s: as slowly as the first nobody walks backwards; from the second on one cannot but go along. Feet planted more firmly (0.3
+/// and 0.6) break a dense stream that walks one way into waves of stopping and going.
+const float FEET_STAY = 0.1;
+const float FEET_YIELD = 0.25;
 
 /// Of those who are under way, who walks like that. Who stands somewhere shuffles back to its place as it likes.
 bool walksForwards(Walker walker) {
