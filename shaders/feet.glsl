@@ -15,10 +15,13 @@
 const float FEET_STAY = 0.1;
 const float FEET_YIELD = 0.25;
 
-/// Of those who are under way, who walks like that. Who stands somewhere shuffles back to its place as it likes.
-bool walksForwards(Walker walker) {
-    return walker.headway > 0.0 && walker.status == STATUS_WALKING && walker.leave_step == 0u && walker.ticket == NO_INDEX;
+/// Neither stands somewhere nor waits in a line.
+bool isUnderWay(Walker walker) {
+    return walker.status == STATUS_WALKING && walker.leave_step == 0u && walker.ticket == NO_INDEX;
 }
+
+/// Who stands somewhere shuffles back to its place as it likes.
+bool walksForwards(Walker walker) { return walker.headway > 0.0 && isUnderWay(walker); }
 
 vec2 withPlantedFeet(vec2 wanted, float heading) {
     vec2 facing = vec2(cos(heading), sin(heading));

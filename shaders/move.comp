@@ -61,7 +61,7 @@ vec2 nextInLine(AgentState state, Stage stage) {
 
 /// Who walks looks where it goes; who has stopped, at what there is to see.
 float turned(AgentState state, Stage stage, Walker walker, vec2 wish, float speed) {
-    bool stops = state.status == STATUS_ARRIVED || state.leave_step != 0u || state.ticket != NO_INDEX;
+    bool stops = !isUnderWay(walker);
     if (speed >= (stops ? STEPPING_ASIDE : STANDING_SPEED)) return turnTowards(state.heading, state.velocity);
     if (walksForwards(walker) && length(wish) > STANDING_SPEED) return turnTowards(state.heading, wish);
     vec2 sight = (stage.line != NO_INDEX ? nextInLine(state, stage) : stage.facing) - state.position;
