@@ -38,7 +38,10 @@ VARIANTS = {
     "platoons do not spread (no headway in peace, rule 8)": ("8", [NO_HEADWAY_IN_PEACE], []),
     "who is carried off does not stand fast (no rule 10)": ("10", [NO_STANDING_FAST], []),
     "neither of these two": ("8+10", [NO_HEADWAY_IN_PEACE, NO_STANDING_FAST], []),
-    "who keeps a headway is pushed about like others (no rule 11)": ("11", [("feet.glsl", "return walker.headway > 0.0 &&", "return false &&")], []),
+    "nobody plants its feet (no rule 11)": (
+        "11", [("avoid.comp", "if (in_traffic && isUnderWay(walker))", "if (in_traffic && in_peace && !in_peace)"),
+               ("move.comp", "if (!stops && length(wish) > STANDING_SPEED) return", "if (false) return")], []),
+    "who is pushed back plants its feet, and does not slip past": ("slip", [("feet.glsl", "const float SLIP = 1.5;", "const float SLIP = 0.0;")], []),
     "no cushion, no room to step": (
         "gaps", [("anticipation.glsl", "vec2 touch = cushion(offset, relative, reach) * patience;", "vec2 touch = vec2(0.0);"),
                  ("anticipation.glsl", "const float FOLLOWING_GAP = 0.1;", "const float FOLLOWING_GAP = 0.0;")], []),

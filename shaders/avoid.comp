@@ -132,9 +132,11 @@ float paceAmongAll(Body self, uint slot, vec2 way, float speed, float headway) {
 
 /// m/s^2: the room made for all people sensed together.
 /// @param in_peace receives whether all of them go one's way
-vec2 roomForAll(Body self, uint slot, vec2 wish, Manners manners, out bool in_peace) {
+/// @param in_traffic receives whether any of them goes anywhere
+vec2 roomForAll(Body self, uint slot, vec2 wish, Manners manners, out bool in_peace, out bool in_traffic) {
     vec2 room = vec2(0.0);
     in_peace = true;
+    in_traffic = false;
     for (uint i = 0u; i < neighbour_counts[slot]; ++i) {
         uint key = neighbours[i * slot_capacity + slot];
         if ((key & NEIGHBOUR_IS_WALL) != 0u) continue;
@@ -143,6 +145,7 @@ vec2 roomForAll(Body self, uint slot, vec2 wish, Manners manners, out bool in_pe
         room += roomFor(manners, self.position - other.position, self.velocity - other.velocity, wish - other.velocity,
                         self.radius + other.radius, its_wish);
         in_peace = in_peace && followed(likeness(manners.way, its_wish)) > 0.0;
+        in_traffic = in_traffic || length(its_wish) > STANDING_SPEED;
     }
     return room;
 }
@@ -175,8 +178,8 @@ void main() {
     // Manners depend on the pace of those with a headway of their own only; for the others one look at everybody will do.
     float pace = paceAmongAll(self, slot, way, speed, walker.headway);
     Manners manners = mannersOf(way, impatience, neighbour_counts[slot], walker.headway, pace / max(speed, STANDING_SPEED));
-    bool in_peace;
-    vec2 room = roomForAll(self, slot, wish, manners, in_peace);
+    bool in_peace, in_traffic;
+    vec2 room = roomForAll(self, slot, wish, manners, in_peace, in_traffic);
     if (in_peace && walker.headway <= 0.0) pace = paceAmongAll(self, slot, way, speed, HEADWAY_IN_PEACE * (1.0 - impatience));
     paces[slot] = pace;
     vec2 acceleration = drive(pace < speed ? wish * (pace / speed) : wish, self.velocity) +
@@ -184,12 +187,13 @@ void main() {
     if (walker.party_size > 1u && speed > STANDING_SPEED)
         acceleration += company(self, walker.party_first, walker.party_size, way) * smoothstep(0.0, 0.7, speed / walker.preferred_speed);
     vec2 wanted = self.velocity + acceleration * parameters.step_seconds;
-    if (walksForwards(walker)) wanted = withPlantedFeet(wanted, self.heading);
+    vec2 legs = self.velocity;  // what they start from
+    if (in_traffic && isUnderWay(walker)) plantFeet(self, in_peace && walker.headway > 0.0, wanted, legs);
     vec2 velocity;
     int obeyed = solveInDisc(0, count, self.maximum_speed, wanted, false, velocity);
     if (obeyed < count) relax(hard, obeyed, count, self.maximum_speed, velocity);
 
-    velocity = limitChange(self.velocity, velocity, parameters.maximum_acceleration * parameters.step_seconds);
+    velocity = limitChange(legs, velocity, parameters.maximum_acceleration * parameters.step_seconds);
     vec2 target = self.position + velocity * parameters.step_seconds;
     targets[slot] = target;
     targets_after[slot] = target;

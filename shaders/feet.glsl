@@ -3,28 +3,46 @@
 //
 // In a crush, bodies push each other to and fro by centimetres. A push takes somebody back, and its velocity with it, which
 // would then be walked on backwards for half a second: seen from outside, a crowd that paddles. People meet a small push with
-// their feet in place, and only a large one with a step (Horak and Nashner 1986). So who is under way does not walk on
-// backwards slowly, and where it cannot get on, it turns on the spot to where it wants to go before it walks there.
+// their feet in place, and only a large one with a step (Horak and Nashner 1986). So who is under way neither keeps the small
+// velocity backwards that a push has left it with nor walks backwards slowly by itself, and where it cannot get on, it turns on
+// the spot to where it wants to go before it walks there.
 //
-// Only those who keep a headway do: they wait for their turn, and space opens in front of them. Who presses on meets others
-// who press on the other way, and where such streams have locked, somebody has to yield: with firmly planted feet, the jam of
-// four sides of `scenarios/annulus.json` stood still for good with one of three seeds.
+// Feet in place alone would be a vice: two streams that have locked stay locked, because nobody yields any more. People who
+// are pushed head-on turn a shoulder and let the other slip past. So what is taken from walking backwards is walked aside
+// instead, to the side to which one is moving already, and streams get through each other sooner than without planted feet.
+// To the side where one would like to go does worse: before a passage all of them like its middle, and they wedge each other.
+//
+// Who waits for its turn in a stream that goes one way has nobody to slip past, and its feet give more: planted firmly, they
+// break the stream up into waves of stopping and going. And who is among people who only stand is pushed by nobody: it is itself
+// that presses, and steps back where it has gone astray among them.
 
-/// m/s: as slowly as the first nobody walks backwards; from the second on one cannot but go along. Feet planted more firmly (0.3
-/// and 0.6) break a dense stream that walks one way into waves of stopping and going.
-const float FEET_STAY = 0.1;
-const float FEET_YIELD = 0.25;
+/// m/s: as slowly as the first nobody walks backwards; from the second on one cannot but go along.
+const vec2 FIRM = vec2(0.3, 0.6);
+const vec2 WAITING = vec2(0.1, 0.25);
+/// The speed aside over the speed backwards that is taken for it.
+const float SLIP = 1.5;
 
 /// Neither stands somewhere nor waits in a line.
 bool isUnderWay(Walker walker) {
     return walker.status == STATUS_WALKING && walker.leave_step == 0u && walker.ticket == NO_INDEX;
 }
 
-/// Who stands somewhere shuffles back to its place as it likes.
-bool walksForwards(Walker walker) { return walker.headway > 0.0 && isUnderWay(walker); }
+/// m/s: what feet take from walking backwards.
+float takenBack(vec2 velocity, vec2 facing, vec2 feet) {
+    float back = max(-dot(velocity, facing), 0.0);
+    return back * (1.0 - smoothstep(feet.x, feet.y, back));
+}
 
-vec2 withPlantedFeet(vec2 wanted, float heading) {
-    vec2 facing = vec2(cos(heading), sin(heading));
-    float back = max(-dot(wanted, facing), 0.0);
-    return wanted + facing * back * (1.0 - smoothstep(FEET_STAY, FEET_YIELD, back));
+/// For somebody under way among others who are.
+/// @param waits for its turn in a stream that goes one way
+/// @param wanted the velocity that it is to have next
+/// @param legs the velocity that legs start from
+void plantFeet(Body self, bool waits, inout vec2 wanted, inout vec2 legs) {
+    vec2 facing = vec2(cos(self.heading), sin(self.heading));
+    float back = takenBack(wanted, facing, waits ? WAITING : FIRM);
+    wanted += facing * back;
+    if (waits) return;
+    legs += facing * takenBack(legs, facing, FIRM);
+    vec2 aside = vec2(-facing.y, facing.x);
+    wanted += aside * (dot(self.velocity, aside) >= 0.0 ? SLIP : -SLIP) * back;
 }

@@ -63,7 +63,7 @@ vec2 nextInLine(AgentState state, Stage stage) {
 float turned(AgentState state, Stage stage, Walker walker, vec2 wish, float speed) {
     bool stops = !isUnderWay(walker);
     if (speed >= (stops ? STEPPING_ASIDE : STANDING_SPEED)) return turnTowards(state.heading, state.velocity);
-    if (walksForwards(walker) && length(wish) > STANDING_SPEED) return turnTowards(state.heading, wish);
+    if (!stops && length(wish) > STANDING_SPEED) return turnTowards(state.heading, wish);
     vec2 sight = (stage.line != NO_INDEX ? nextInLine(state, stage) : stage.facing) - state.position;
     return stops && length(sight) > SIGHT ? turnTowards(state.heading, sight) : state.heading;
 }

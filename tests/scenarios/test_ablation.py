@@ -17,7 +17,7 @@ def test_every_rule_can_be_taken_out_which_changes_what_people_do_and_nothing_is
     command = [sys.executable, SCRIPT, os.environ["THRONG_BINARY"], "-o", tmp_path, "--scenario", "trap-narrow-door", "imo-4"]
     first = subprocess.run(command, check=True, capture_output=True, text=True)
     rows = [json.loads(line) for line in (tmp_path / "results.jsonl").read_text().splitlines()]
-    assert len(rows) == 2 * 14 and all(row["agents"] == (20 if row["scenario"] == "trap-narrow-door" else 100) for row in rows)
+    assert len(rows) == 2 * 15 and all(row["agents"] == (20 if row["scenario"] == "trap-narrow-door" else 100) for row in rows)
     figures = {}
     for row in rows:
         figures.setdefault(row["variant"], []).extend(row[key] for key in ("seconds", "deepest_overlap_percent", "acceleration_p99", "backward_percent"))
