@@ -11,10 +11,10 @@
 #include <random>
 
 #include "sim/benchmarks/diagram_benchmark.h"
+#include "sim/benchmarks/open_crowd.h"
 #include "sim/diagram/methods.h"
 #include "sim/gl/context.h"
 #include "sim/simulation.h"
-#include "tests/sim/scenes.h"
 
 namespace {
 
@@ -33,7 +33,7 @@ gl::ShaderLibrary shaders() {
 }
 
 authoring::Scene benchScene(std::uint32_t count) {
-    authoring::Scene scene = test::uniformScene(count, 2.0f, 7);  // one person per 4 m^2
+    authoring::Scene scene = sim::openCrowd(count, 2.0f, 7);  // one person per 4 m^2
     scene.settings.tile_radius = 0.6;
     scene.settings.field_of_view = 200.0;
     scene.settings.samples_per_ray = 6;

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "io/files/csv.h"
+#include "base/files/csv.h"
 
 namespace throng::io {
 namespace {
@@ -44,7 +44,7 @@ AccountTotals countOutcomes(const Account& account) {
     return totals;
 }
 
-std::string agentTable(const BakeDescription& description, const Account& account) {
+std::string agentTable(const recording::BakeDescription& description, const Account& account) {
     if (account.agents.size() != description.agents.size())
         throw std::invalid_argument("the account and the description differ in their number of people");
     std::string table =
@@ -53,8 +53,8 @@ std::string agentTable(const BakeDescription& description, const Account& accoun
         "y,"
         "distance_walked,shortest_way\n";
     for (std::size_t row = 0; row < description.agents.size(); ++row) {
-        const BakeAgent& agent = description.agents[row];
-        const BakeGroup& group = description.groups.at(agent.group);
+        const recording::BakeAgent& agent = description.agents[row];
+        const recording::BakeGroup& group = description.groups.at(agent.group);
         const AgentOutcome& outcome = account.agents[row];
         fmt::format_to(std::back_inserter(table), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row,
                        csvField(group.id), group.is_flow ? "flow" : "formation", agent.radius,

@@ -4,8 +4,8 @@
 #include <map>
 #include <string>
 
-#include "io/bake_description.h"
-#include "sim/frame.h"
+#include "base/frame.h"
+#include "recording/bake_description.h"
 
 namespace throng::io {
 
@@ -24,6 +24,6 @@ AccountTotals countOutcomes(const Account& account);
 
 /// agents.csv: a heading, then one line a row (RFC 4180, lines end in \n). The account has as many rows as
 /// the description (std::invalid_argument otherwise).
-std::string agentTable(const BakeDescription& description, const Account& account);
+std::string agentTable(const recording::BakeDescription& description, const Account& account);
 
 }  // namespace throng::io

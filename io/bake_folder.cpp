@@ -14,8 +14,8 @@
 #include <system_error>
 #include <utility>
 
+#include "base/files/output_file.h"
 #include "io/checkpoint.h"
-#include "io/files/output_file.h"
 
 namespace throng::io {
 namespace fs = std::filesystem;

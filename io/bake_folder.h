@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "io/files/errors.h"
+#include "base/files/errors.h"
 
 namespace throng::io {
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "io/files/hash.h"
-#include "io/numbers.h"
+#include "base/files/hash.h"
+#include "base/numbers.h"
 #include "io/streams/stream_reader.h"
 
 namespace throng::io {

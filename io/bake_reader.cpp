@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/files/csv.h"
-#include "io/files/input_file.h"
+#include "base/files/csv.h"
+#include "base/files/input_file.h"
 
 namespace throng::io {
 namespace fs = std::filesystem;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "authoring/layout.h"
-#include "io/files/errors.h"
+#include "base/files/errors.h"
 
 namespace throng::io {
 

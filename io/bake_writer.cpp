@@ -9,9 +9,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/files/output_file.h"
 #include "io/diagram/diagram_exr.h"
-#include "io/files/output_file.h"
-#include "io/motion/gaits.h"
+#include "recording/gaits.h"
 
 namespace throng::io {
 namespace {
@@ -25,7 +25,8 @@ constexpr std::array kDensityRule{BackFill::keep, BackFill::keep, BackFill::keep
 constexpr std::array kStateRule{BackFill::keep, BackFill::first_alive, BackFill::first_alive};
 
 StreamWriter openStream(const std::filesystem::path& path, StreamFormat format,
-                        const BakeDescription& description, std::optional<std::uint32_t> frames_there) {
+                        const recording::BakeDescription& description,
+                        std::optional<std::uint32_t> frames_there) {
     const auto rows = static_cast<std::uint32_t>(description.agents.size());
     return frames_there ? StreamWriter(path, format, rows, description.frames, *frames_there)
                         : StreamWriter(path, format, rows, description.frames);
@@ -40,7 +41,8 @@ std::optional<std::uint32_t> framesIn(const Checkpoint* go_on_from) {
 }  // namespace
 
 BakeWriter::Stream::Stream(const std::filesystem::path& folder, const std::string& stream_name,
-                           const BakeDescription& description, std::optional<std::uint32_t> frames_there)
+                           const recording::BakeDescription& description,
+                           std::optional<std::uint32_t> frames_there)
     : name(stream_name),
       npy(openStream(folder / (stream_name + ".npy"), StreamFormat::npy, description, frames_there)),
       pc2(openStream(folder / (stream_name + ".pc2"), StreamFormat::pc2, description, frames_there)) {}
@@ -58,17 +60,17 @@ void BakeWriter::Stream::finish(std::span<const std::uint32_t> first_alive,
     }
 }
 
-BakeWriter::BakeWriter(const BakeDescription& description)
+BakeWriter::BakeWriter(const recording::BakeDescription& description)
     : BakeWriter(description, std::make_unique<BakeFolder>(description.output, description.force), nullptr) {}
 
-BakeWriter::BakeWriter(const BakeDescription& description, const Checkpoint* go_on_from)
+BakeWriter::BakeWriter(const recording::BakeDescription& description, const Checkpoint* go_on_from)
     : BakeWriter(
           description,
           std::make_unique<BakeFolder>(description.output, description.force,
                                        go_on_from ? BakeFolder::Begun::go_on : BakeFolder::Begun::begin),
           go_on_from) {}
 
-BakeWriter::BakeWriter(BakeDescription description, std::unique_ptr<BakeFolder> folder,
+BakeWriter::BakeWriter(recording::BakeDescription description, std::unique_ptr<BakeFolder> folder,
                        const Checkpoint* go_on_from)
     : description_(std::move(description)),
       folder_(std::move(folder)),
@@ -201,7 +203,7 @@ void BakeWriter::trackPeople(const Frame& frame) {
         const float activity = frame.states[row * kComponents];
         if (activity <= 0.5f) continue;
         if (first_alive_[row] == kNone) first_alive_[row] = frame.index;
-        gaits_ |= 1u << gaitOf(activity);
+        gaits_ |= 1u << recording::gaitOf(activity);
     }
 }
 

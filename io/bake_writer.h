@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "io/bake_description.h"
+#include "base/frame.h"
 #include "io/bake_folder.h"
 #include "io/checkpoint.h"
 #include "io/manifest.h"
 #include "io/streams/stream_writer.h"
-#include "sim/frame.h"
+#include "recording/bake_description.h"
 
 namespace throng::io {
 
@@ -33,10 +33,10 @@ struct BakeResult {
 class BakeWriter {
   public:
     /// An error before any work when the bake exists (see BakeFolder).
-    explicit BakeWriter(const BakeDescription& description);
+    explicit BakeWriter(const recording::BakeDescription& description);
     /// The same for a bake that leaves checkpoints in `NAME.unfinished`.
     /// @param go_on_from where it goes on, or null where it begins
-    BakeWriter(const BakeDescription& description, const Checkpoint* go_on_from);
+    BakeWriter(const recording::BakeDescription& description, const Checkpoint* go_on_from);
 
     /// Takes the frames in order, index 0 first. The spans need to live during the call only. Throws
     /// std::invalid_argument when the frame does not fit the description.
@@ -64,7 +64,7 @@ class BakeWriter {
   private:
     struct Stream {
         Stream(const std::filesystem::path& folder, const std::string& name,
-               const BakeDescription& description, std::optional<std::uint32_t> frames_there);
+               const recording::BakeDescription& description, std::optional<std::uint32_t> frames_there);
         void append(std::span<const float> frame);
         void finish(std::span<const std::uint32_t> first_alive,
                     const std::array<BackFill, kComponents>& rule);
@@ -74,7 +74,8 @@ class BakeWriter {
         StreamWriter pc2;
     };
 
-    BakeWriter(BakeDescription description, std::unique_ptr<BakeFolder> folder, const Checkpoint* go_on_from);
+    BakeWriter(recording::BakeDescription description, std::unique_ptr<BakeFolder> folder,
+               const Checkpoint* go_on_from);
     std::filesystem::path streamsFolder(const Checkpoint* go_on_from);
     void goOnFrom(const Checkpoint& checkpoint);
     void removeLeftovers(const Checkpoint& checkpoint) const;
@@ -84,7 +85,7 @@ class BakeWriter {
     BakeOutcome writeAll(const Account& account, const BakeTiming& timing, bool complete);
     BakeResult resultAt(std::filesystem::path path, const BakeOutcome& outcome) const;
 
-    BakeDescription description_;
+    recording::BakeDescription description_;
     std::unique_ptr<BakeFolder> folder_;
     std::filesystem::path streams_folder_;
     Stream positions_;

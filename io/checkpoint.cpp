@@ -5,9 +5,9 @@
 #include <cstring>
 #include <system_error>
 
-#include "io/files/hash.h"
-#include "io/files/input_file.h"
-#include "io/files/output_file.h"
+#include "base/files/hash.h"
+#include "base/files/input_file.h"
+#include "base/files/output_file.h"
 
 // The file: the magic word, how many bytes there are in all and their XXH3, then the content: counts and
 // texts and sections one after the other, numbers as they lie in memory.

@@ -19,7 +19,7 @@ Json pointsToJson(const std::vector<glm::dvec2>& points, glm::dvec2 origin) {
     return list;
 }
 
-Json geometryToJson(const BakeDescription& description) {
+Json geometryToJson(const recording::BakeDescription& description) {
     const glm::dvec2 origin = description.output_origin;
     Json geometry{{"walls", Json::array()}, {"roads", Json::array()}, {"areas", Json::array()}};
     for (std::size_t i = 0; i < description.walls.size(); ++i) {
@@ -50,7 +50,7 @@ Json streamToJson(const std::string& name, const Json& components) {
         {"npy", "streams/" + name + ".npy"}, {"pc2", "streams/" + name + ".pc2"}, {"components", components}};
 }
 
-Json terrainToJson(const BakeTerrain& terrain) {
+Json terrainToJson(const recording::BakeTerrain& terrain) {
     const auto [low, high] =
         std::minmax_element(terrain.mesh->positions.begin(), terrain.mesh->positions.end(),
                             [](const glm::dvec3& a, const glm::dvec3& b) { return a.z < b.z; });
@@ -73,7 +73,8 @@ Json accountToJson(const AccountTotals& account) {
              account.refused_reasons.empty() ? Json::object() : Json(account.refused_reasons)}};
 }
 
-Json diagramsToJson(const BakeDescription& description, const std::optional<DiagramSummary>& diagrams) {
+Json diagramsToJson(const recording::BakeDescription& description,
+                    const std::optional<DiagramSummary>& diagrams) {
     if (!diagrams) return nullptr;
     return {{"pattern", "diagrams/diagram.####.exr"},
             {"every", description.diagram_every},
@@ -112,7 +113,7 @@ Json filesToJson(const std::vector<BakeOutcome::File>& files) {
 
 }  // namespace
 
-Json bakeManifest(const BakeDescription& description, const BakeOutcome& outcome) {
+Json bakeManifest(const recording::BakeDescription& description, const BakeOutcome& outcome) {
     const glm::dvec2 origin = description.output_origin;
     Json json;
     json["format"] = "throng bake";

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "base/files/hash.h"
 #include "io/agent_table.h"
-#include "io/bake_description.h"
-#include "io/files/hash.h"
 #include "io/gltf/crowd_glb.h"
+#include "recording/bake_description.h"
 
 namespace throng::io {
 
@@ -46,6 +46,7 @@ struct BakeOutcome {
 };
 
 /// The content of bake.json.
-nlohmann::ordered_json bakeManifest(const BakeDescription& description, const BakeOutcome& outcome);
+nlohmann::ordered_json bakeManifest(const recording::BakeDescription& description,
+                                    const BakeOutcome& outcome);
 
 }  // namespace throng::io

@@ -52,10 +52,11 @@ Congestion::Congestion(const gl::ShaderLibrary& library, Buffers& buffers, const
                                {"DenseBlocks", &dense_blocks_},
                                {"ListedBlocks", &listed_},
                                {"BlockDispatch", &block_dispatch_}});
-    for (const auto& [program, path] :
-         {std::pair{&flow_, "shaders/detour_flow.comp"}, std::pair{&list_, "shaders/detour_list.comp"},
-          std::pair{&relax_, "shaders/detour_relax.comp"}, std::pair{&keep_, "shaders/detour_keep.comp"},
-          std::pair{&slope_, "shaders/detour_slope.comp"}}) {
+    for (const auto& [program, path] : {std::pair{&flow_, "shaders/routes/detour_flow.comp"},
+                                        std::pair{&list_, "shaders/routes/detour_list.comp"},
+                                        std::pair{&relax_, "shaders/routes/detour_relax.comp"},
+                                        std::pair{&keep_, "shaders/routes/detour_keep.comp"},
+                                        std::pair{&slope_, "shaders/routes/detour_slope.comp"}}) {
         *program = gl::ComputeProgram(library, path);
         program->bindAll(named);
     }

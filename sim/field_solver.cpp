@@ -44,9 +44,9 @@ FieldSolver::FieldSolver(const gl::ShaderLibrary& library)
 
 FieldSolver::Programs FieldSolver::programsFor(const authoring::WalkMap& map) const {
     const gl::Definitions definitions = map.isBound() ? gl::Definitions{{"BOUND", "1"}} : gl::Definitions{};
-    Programs programs{gl::ComputeProgram(library_, "shaders/field_relax.comp", definitions),
-                      gl::ComputeProgram(library_, "shaders/field_keep.comp"),
-                      gl::ComputeProgram(library_, "shaders/field_list.comp")};
+    Programs programs{gl::ComputeProgram(library_, "shaders/routes/field_relax.comp", definitions),
+                      gl::ComputeProgram(library_, "shaders/routes/field_keep.comp"),
+                      gl::ComputeProgram(library_, "shaders/routes/field_list.comp")};
     for (gl::ComputeProgram* program : {&programs.relax, &programs.keep, &programs.list}) {
         program->bindAll({{"CellSteps", &steps_},
                           {"OpenSides", &open_sides_},

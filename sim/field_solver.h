@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "authoring/scene/fields.h"
+#include "authoring/scene/distance_solver.h"
 #include "sim/gl/buffer.h"
 #include "sim/gl/program.h"
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <memory>
 
-#include "sim/frame.h"
+#include "base/frame.h"
 #include "sim/simulation.h"
 
 namespace throng::sim {

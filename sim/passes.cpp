@@ -25,12 +25,12 @@ gl::Definitions listLength(int neighbours) {
 CellSort::CellSort(const gl::ShaderLibrary& library, Buffers& buffers, const gpu::Parameters& parameters)
     : buffers_(buffers),
       rows_(parameters.row_count),
-      count_(connected(library, "shaders/cells_count.comp", buffers)),
-      sum_(connected(library, "shaders/counts_sum.comp", buffers)),
-      scan_(connected(library, "shaders/strips_scan.comp", buffers)),
-      fill_(connected(library, "shaders/strips_fill.comp", buffers)),
-      scatter_(connected(library, "shaders/cells_scatter.comp", buffers)),
-      gather_(connected(library, "shaders/bodies_gather.comp", buffers)) {
+      count_(connected(library, "shaders/cells/cells_count.comp", buffers)),
+      sum_(connected(library, "shaders/cells/counts_sum.comp", buffers)),
+      scan_(connected(library, "shaders/cells/strips_scan.comp", buffers)),
+      fill_(connected(library, "shaders/cells/strips_fill.comp", buffers)),
+      scatter_(connected(library, "shaders/cells/cells_scatter.comp", buffers)),
+      gather_(connected(library, "shaders/cells/bodies_gather.comp", buffers)) {
     const auto strips = static_cast<std::uint32_t>(buffers.strip_counts.bytes() / sizeof(std::uint32_t));
     sum_.set("count_total", strips);
     scan_.set("count_total", strips);
@@ -50,8 +50,8 @@ void CellSort::run(SiteIds ids) {
 
 Spawner::Spawner(const gl::ShaderLibrary& library, Buffers& buffers, const gpu::Parameters& parameters)
     : invocations_(std::uint64_t{parameters.queue_count} * gpu::SPAWN_GROUP_SIZE),
-      propose_(connected(library, "shaders/spawn_propose.comp", buffers)),
-      accept_(connected(library, "shaders/spawn_accept.comp", buffers)) {}
+      propose_(connected(library, "shaders/motion/spawn_propose.comp", buffers)),
+      accept_(connected(library, "shaders/motion/spawn_accept.comp", buffers)) {}
 
 void Spawner::run(float now, std::uint32_t steps_done) {
     propose_.set("now", now);
@@ -62,7 +62,7 @@ void Spawner::run(float now, std::uint32_t steps_done) {
 }
 
 WaitingLines::WaitingLines(const gl::ShaderLibrary& library, Buffers& buffers, std::uint32_t count)
-    : count_(count), program_(connected(library, "shaders/lines.comp", buffers)) {
+    : count_(count), program_(connected(library, "shaders/motion/lines.comp", buffers)) {
     program_.set("line_count", count);
 }
 
@@ -88,7 +88,7 @@ void Sensing::marchRays(const gl::ShaderLibrary& library, const Diagram& diagram
     definitions.emplace_back("SENSING_SAMPLES", std::to_string(pattern.size()));
     for (const auto& definition : diagram.lookupDefinitions())
         definitions.push_back(definition);
-    program_ = connected(library, "shaders/sense.comp", buffers_, definitions);
+    program_ = connected(library, "shaders/sensing/sense.comp", buffers_, definitions);
     diagram.describeTo(program_);
     program_.set("pattern", pattern);
 }
@@ -99,7 +99,7 @@ void Sensing::compareExactly(const gl::ShaderLibrary& library, const SensingOpti
     const bool everybody = proximity_ == authoring::Proximity::brute;
     gl::Definitions definitions = listLength(options.neighbours);
     if (everybody) definitions.emplace_back("EVERYBODY", "1");
-    program_ = connected(library, "shaders/sense_exact.comp", buffers_, definitions);
+    program_ = connected(library, "shaders/sensing/sense_exact.comp", buffers_, definitions);
     program_.set("reach", reach);
     program_.set("half_view", 0.5f * options.geometry.field_of_view);
     if (everybody) {
@@ -120,9 +120,9 @@ void Sensing::run() {
 Avoidance::Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, int neighbours,
                      const TerrainSlopes* ground)
     : buffers_(buffers),
-      steer_(connected(library, "shaders/steer.comp", buffers,
+      steer_(connected(library, "shaders/motion/steer.comp", buffers,
                        ground ? gl::Definitions{{"TERRAIN", "1"}} : gl::Definitions{})),
-      avoid_(connected(library, "shaders/avoid.comp", buffers, listLength(neighbours))) {
+      avoid_(connected(library, "shaders/motion/avoid.comp", buffers, listLength(neighbours))) {
     avoid_.set("slot_capacity", buffers.slotCapacity());
     if (ground) ground->describeTo(steer_);
 }
@@ -136,8 +136,8 @@ void Avoidance::run(std::uint32_t steps_done) {
 Contacts::Contacts(const gl::ShaderLibrary& library, Buffers& buffers, int iterations)
     : buffers_(buffers),
       iterations_(iterations),
-      forth_(connected(library, "shaders/contact.comp", buffers)),
-      back_(connected(library, "shaders/contact.comp", buffers)) {
+      forth_(connected(library, "shaders/motion/contact.comp", buffers)),
+      back_(connected(library, "shaders/motion/contact.comp", buffers)) {
     forth_.bind("TargetsBefore", buffers.targets);
     forth_.bind("TargetsAfter", buffers.targets_after);
     back_.bind("TargetsBefore", buffers.targets_after);
@@ -162,7 +162,7 @@ void Contacts::run() {
 }
 
 Motion::Motion(const gl::ShaderLibrary& library, Buffers& buffers, const gl::Buffer& targets)
-    : buffers_(buffers), program_(connected(library, "shaders/move.comp", buffers)) {
+    : buffers_(buffers), program_(connected(library, "shaders/motion/move.comp", buffers)) {
     program_.bind("Targets", targets);
 }
 

@@ -116,7 +116,7 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
       motion(library, buffers, contacts.result()),
       lines(library, buffers, static_cast<std::uint32_t>(scene.lines.size())),
       gates(scene, buffers, diagram, parameters),
-      pack(library, "shaders/pack_frame.comp"),
+      pack(library, "shaders/frame/pack_frame.comp"),
       costs(cost_model),
       fixed_sites(static_cast<std::uint32_t>(scene.wall_tiles.size())),
       rows(parameters.row_count) {
@@ -294,7 +294,7 @@ void Simulation::packDensities(const gl::Buffer& buffer) {
     Parts& p = *parts_;
     const gl::Buffer& counts = p.diagram.countPixels();
     if (!p.pack_density) {
-        p.pack_density.emplace(p.library, "shaders/pack_density.comp");
+        p.pack_density.emplace(p.library, "shaders/frame/pack_density.comp");
         p.pack_density->bindAll(p.buffers.named());
     }
     p.pack_density->bind("PixelCounts", counts);

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "authoring/scene.h"
+#include "base/frame.h"
 #include "sim/diagram/cost_model.h"
 #include "sim/diagram/diagram.h"
-#include "sim/frame.h"
 #include "sim/gl/shader_source.h"
 
 namespace throng::sim {

@@ -14,7 +14,7 @@ class TerrainSlopes {
   public:
     explicit TerrainSlopes(std::shared_ptr<const authoring::Terrain> terrain);
 
-    /// Connects a program that reads shaders/terrain.glsl.
+    /// Connects a program that reads shaders/shared/terrain.glsl.
     void describeTo(gl::Program& program) const;
 
   private:

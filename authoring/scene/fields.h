@@ -3,11 +3,11 @@
 
 #include <cstdint>
 #include <glm/vec2.hpp>
-#include <limits>
 #include <span>
 #include <vector>
 
 #include "authoring/scene.h"
+#include "authoring/scene/distance_solver.h"
 
 namespace throng::authoring {
 
@@ -29,19 +29,6 @@ struct WalkGeometry {
     std::vector<LocalPolygon> areas;
     float smallest_radius = 0.25f;  ///< of all people, m
     float largest_radius = 0.25f;
-};
-
-/// How hard it is to walk, cell by cell.
-struct WalkMap {
-    FieldGrid grid;
-    std::vector<float> cost;  ///< >= 1 per metre walked; infinity where nobody can stand
-    std::vector<glm::vec2>
-        one_way;  ///< unit direction that may not be walked against, or zero; empty when there is none
-    std::vector<std::uint8_t>
-        open_sides;  ///< gpu::OPEN_TO_X, OPEN_TO_Y: where one may go to the next cell; empty = all
-
-    /// Whether there are closed sides or one-way roads.
-    bool isBound() const { return !open_sides.empty() || !one_way.empty(); }
 };
 
 /// The grid for a scene: cells of 0.1 to 1 m, at most about 1.5 million of them.
@@ -69,25 +56,10 @@ CoarseMap coarsen(const WalkMap& fine, const FieldGrid& coarse);
 /// Empty without roads.
 std::vector<float> roadDistance(const WalkGeometry& geometry, const FieldGrid& grid);
 
-/// Marks a distance that no path leads to, before blocked cells are filled in.
-inline constexpr float kUnreachable = std::numeric_limits<float>::infinity();
-
 /// One solved distance field.
 struct Field {
     std::vector<gpu::FieldCell> cells;  ///< finite everywhere, as the GPU wants them
     std::vector<float> reachable;  ///< the same distances, kUnreachable where no path leads to the target
-};
-
-/// Walking more than this (cosine) against a one-way road is not allowed.
-inline constexpr float kAgainstOneWay = -0.1f;
-
-/// Something else that solves the Eikonal equation: a device. Not for several threads at once.
-class DistanceSolver {
-  public:
-    virtual ~DistanceSolver() = default;
-    /// @param start distances at and around the target, kUnreachable elsewhere
-    /// @returns the distance everywhere, kUnreachable where no path leads to the target
-    virtual std::vector<float> solve(const WalkMap& map, const std::vector<float>& start) = 0;
 };
 
 /// Walking distance to the nearest target cell (Eikonal equation) and the way downhill.

@@ -8,27 +8,12 @@
 #include <string_view>
 
 #include "authoring/layout.h"
+#include "base/random.h"
 
 /// Randomness by counting: a number depends on the seed, its group's id, the person and the purpose, and on
 /// nothing drawn before, so adding a flow changes nobody in the others. The standard library's distributions
 /// differ between implementations: not used.
 namespace throng::authoring {
-
-/// SplitMix64's finaliser (Steele, Lea and Flood 2014).
-inline std::uint64_t scramble(std::uint64_t x) {
-    x += 0x9e3779b97f4a7c15ull;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
-    return x ^ (x >> 31);
-}
-
-/// FNV-1a.
-inline std::uint64_t hashText(std::string_view text) {
-    std::uint64_t hash = 0xcbf29ce484222325ull;
-    for (const char letter : text)
-        hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3ull;
-    return hash;
-}
 
 enum class Purpose : std::uint64_t {
     speed,
@@ -49,7 +34,7 @@ enum class Purpose : std::uint64_t {
 
 class GroupRandom {
   public:
-    GroupRandom(std::uint64_t seed, std::string_view group_id) : key_(scramble(seed) ^ hashText(group_id)) {}
+    GroupRandom(std::uint64_t seed, std::string_view group_id) : key_(scramble(seed) ^ wordOf(group_id)) {}
 
     std::uint64_t word(std::uint64_t person, Purpose purpose, std::uint64_t draw = 0) const {
         return scramble(key_ ^ scramble(person ^ scramble(static_cast<std::uint64_t>(purpose) << 32 | draw)));

@@ -22,7 +22,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "io/files/output_file.h"
+#include "base/files/output_file.h"
 
 namespace throng::io {
 namespace {

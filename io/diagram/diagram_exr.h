@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <glm/vec2.hpp>
 
-#include "io/files/errors.h"
-#include "sim/frame.h"
+#include "base/files/errors.h"
+#include "base/frame.h"
 
 namespace throng::io {
 

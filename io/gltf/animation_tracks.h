@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "io/files/output_file.h"
+#include "base/files/output_file.h"
 #include "io/gltf/crowd_glb.h"
 
 namespace throng::io {

@@ -12,8 +12,8 @@
 #include <string>
 #include <string_view>
 
-#include "io/files/beneath.h"
-#include "io/files/input_file.h"
+#include "base/files/beneath.h"
+#include "base/files/input_file.h"
 
 namespace throng::io {
 namespace fs = std::filesystem;

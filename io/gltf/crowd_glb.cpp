@@ -7,11 +7,11 @@
 #include <array>
 #include <map>
 
-#include "io/files/output_file.h"
+#include "base/files/output_file.h"
+#include "base/palette.h"
 #include "io/gltf/animation_tracks.h"
 #include "io/gltf/glb_document.h"
 #include "io/gltf/meshes.h"
-#include "io/palette.h"
 
 namespace throng::io {
 namespace {
@@ -30,7 +30,7 @@ std::vector<glm::dvec2> relative(const std::vector<glm::dvec2>& points, glm::dve
     return result;
 }
 
-Mesh terrainMesh(const BakeDescription& description) {
+Mesh terrainMesh(const recording::BakeDescription& description) {
     const authoring::TerrainMesh& terrain = *description.terrain->mesh;
     Mesh mesh;
     mesh.positions.reserve(terrain.positions.size());
@@ -41,7 +41,7 @@ Mesh terrainMesh(const BakeDescription& description) {
     return mesh;
 }
 
-GlbDocument documentFor(const BakeDescription& description) {
+GlbDocument documentFor(const recording::BakeDescription& description) {
     return {description.name, {description.output_origin.x, 0.0, -description.output_origin.y}};
 }
 
@@ -52,7 +52,7 @@ Mesh raised(Mesh mesh, double base) {
     return mesh;
 }
 
-void addWalls(GlbDocument& document, const BakeDescription& description) {
+void addWalls(GlbDocument& document, const recording::BakeDescription& description) {
     const int material = document.addMaterial("wall", colourFromHex(0xcfc8bb), 0.8);
     for (std::size_t i = 0; i < description.walls.size(); ++i) {
         const authoring::Wall& wall = description.walls[i];
@@ -69,7 +69,7 @@ void addWalls(GlbDocument& document, const BakeDescription& description) {
 }
 
 /// A terrain takes the place of the ground, and of roads and areas, which are flat.
-void addScenery(GlbDocument& document, const BakeDescription& description) {
+void addScenery(GlbDocument& document, const recording::BakeDescription& description) {
     const glm::dvec2 origin = description.output_origin;
     const int ground = document.addMaterial("ground", colourFromHex(0x9a978f), 0.95);
     if (description.terrain) {
@@ -97,12 +97,12 @@ struct Bodies {
     std::vector<int> of_groups;
     std::map<std::uint32_t, int> of_colours;
 
-    int of(const BakeAgent& agent) const {
+    int of(const recording::BakeAgent& agent) const {
         return agent.colour ? of_colours.at(*agent.colour) : of_groups.at(agent.group);
     }
 };
 
-Bodies addBodies(GlbDocument& document, const BakeDescription& description,
+Bodies addBodies(GlbDocument& document, const recording::BakeDescription& description,
                  const std::vector<TrackRow>& rows) {
     Bodies bodies;
     if (description.agents.empty()) return bodies;
@@ -129,8 +129,8 @@ std::vector<std::uint32_t> chooseRows(std::uint32_t rows, std::uint32_t frames, 
     return chosen;
 }
 
-void addPeople(GlbDocument& document, const BakeDescription& description, const std::vector<TrackRow>& rows,
-               std::uint32_t frames) {
+void addPeople(GlbDocument& document, const recording::BakeDescription& description,
+               const std::vector<TrackRow>& rows, std::uint32_t frames) {
     const Bodies bodies = addBodies(document, description, rows);
     if (rows.empty()) return;
     const int people = document.addEmptyNode("people");
@@ -144,13 +144,13 @@ void addPeople(GlbDocument& document, const BakeDescription& description, const 
 
 }  // namespace
 
-GltfSummary writeCrowdGlb(const std::filesystem::path& path, const BakeDescription& description,
+GltfSummary writeCrowdGlb(const std::filesystem::path& path, const recording::BakeDescription& description,
                           const StreamSet& streams) {
     const std::uint32_t frames = streams.positions.frames();
     const std::uint32_t all_rows = streams.positions.rows();
     std::vector<TrackRow> rows;
     for (const std::uint32_t row : chooseRows(all_rows, frames, description.gltf_agents)) {
-        const BakeAgent& agent = description.agents.at(row);
+        const recording::BakeAgent& agent = description.agents.at(row);
         rows.push_back({row, static_cast<float>(agent.scale * agent.radius / kBodyRadius),
                         static_cast<float>(agent.scale), false});
     }
@@ -169,7 +169,7 @@ GltfSummary writeCrowdGlb(const std::filesystem::path& path, const BakeDescripti
     return {static_cast<std::uint32_t>(rows.size()), all_rows};
 }
 
-void writeTerrainGlb(const std::filesystem::path& path, const BakeDescription& description) {
+void writeTerrainGlb(const std::filesystem::path& path, const recording::BakeDescription& description) {
     GlbDocument document = documentFor(description);
     document.addMeshNode("terrain", terrainMesh(description),
                          document.addMaterial("ground", colourFromHex(0x9a978f), 0.95));

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "io/bake_description.h"
 #include "io/streams/stream_reader.h"
+#include "recording/bake_description.h"
 
 namespace throng::io {
 
@@ -24,11 +24,11 @@ struct GltfSummary {
 /// Writes crowd.glb (glTF 2.0, Y up): ground, roads, areas and walls as meshes, and one animated node for
 /// each person, at most `description.gltf_agents` of them, evenly chosen; fewer where the file would pass 2
 /// GiB. Memory stays bounded however long the bake. Throws OutputError and InputError.
-GltfSummary writeCrowdGlb(const std::filesystem::path& path, const BakeDescription& description,
+GltfSummary writeCrowdGlb(const std::filesystem::path& path, const recording::BakeDescription& description,
                           const StreamSet& streams);
 
 /// Writes the terrain alone, as it lies in the scene: one mesh, below a node at the bake's origin. Throws
 /// OutputError.
-void writeTerrainGlb(const std::filesystem::path& path, const BakeDescription& description);
+void writeTerrainGlb(const std::filesystem::path& path, const recording::BakeDescription& description);
 
 }  // namespace throng::io

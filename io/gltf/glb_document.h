@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "io/files/output_file.h"
+#include "base/files/output_file.h"
+#include "base/palette.h"
 #include "io/gltf/meshes.h"
-#include "io/palette.h"
 
 namespace tinygltf {
 class Model;

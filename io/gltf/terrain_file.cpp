@@ -14,7 +14,7 @@
 #include <glm/matrix.hpp>
 #include <span>
 
-#include "io/files/errors.h"
+#include "base/files/errors.h"
 #include "io/gltf/checked_gltf.h"
 
 namespace throng::io {

@@ -7,8 +7,8 @@
 #include <array>
 #include <charconv>
 
-#include "io/files/csv.h"
-#include "io/files/input_file.h"
+#include "base/files/csv.h"
+#include "base/files/input_file.h"
 #include "io/streams/stream_reader.h"
 
 namespace throng::io {

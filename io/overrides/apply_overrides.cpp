@@ -12,16 +12,16 @@
 #include <numbers>
 #include <set>
 
+#include "base/files/hash.h"
+#include "base/files/input_file.h"
+#include "base/files/output_file.h"
 #include "io/bake_folder.h"
-#include "io/files/hash.h"
-#include "io/files/input_file.h"
-#include "io/files/output_file.h"
 #include "io/gltf/crowd_glb.h"
 #include "io/gltf/terrain_file.h"
-#include "io/motion/footing.h"
 #include "io/overrides/agent_table_edit.h"
 #include "io/overrides/row_sampler.h"
 #include "io/streams/stream_writer.h"
+#include "recording/footing.h"
 
 namespace throng::io {
 namespace fs = std::filesystem;
@@ -169,9 +169,9 @@ class Application {
         const glm::vec2 place(sample.position[0], sample.position[1]);
         const glm::vec2 heading(sample.direction[0], sample.direction[1]);
         const bool is_alive = sample.state[0] > 0.5f, was_alive = each.first_alive != kNever;
-        Stance stance = footing_->last(each.row);
+        recording::Stance stance = footing_->last(each.row);
         if (is_alive) {
-            const GaitTrack gait{sample.state[2], gaitOf(sample.state[0])};
+            const recording::GaitTrack gait{sample.state[2], recording::gaitOf(sample.state[0])};
             stance = footing_->stand(each.row, place, heading,
                                      was_alive ? place - each.place : glm::vec2(0.0f), gait);
             each.place = place;
@@ -298,7 +298,7 @@ class Application {
     }
 
     Json writeGltf() {
-        const BakeDescription description = describe();
+        const recording::BakeDescription description = describe();
         const GltfSummary summary =
             writeCrowdGlb(folder_.path() / "crowd.glb", description,
                           {StreamReader(positions_.npy.path()), StreamReader(directions_.npy.path()),
@@ -307,8 +307,8 @@ class Application {
     }
 
     /// What the glTF writer has to know, from the source's files.
-    BakeDescription describe() const {
-        BakeDescription description;
+    recording::BakeDescription describe() const {
+        recording::BakeDescription description;
         description.name = source_.name;
         description.fps = source_.fps;
         description.frames = source_.frames;
@@ -335,7 +335,7 @@ class Application {
             const auto [known, is_new] =
                 groups.emplace(group, static_cast<std::uint32_t>(description.groups.size()));
             if (is_new) description.groups.push_back({group, table_.at(row, "kind") == "flow"});
-            BakeAgent agent;
+            recording::BakeAgent agent;
             agent.group = known->second;
             agent.radius = static_cast<float>(table_.number(row, "radius"));
             agent.scale = table_.number(row, "scale");
@@ -398,8 +398,8 @@ class Application {
     Passage directions_;
     Passage states_;
     std::optional<Passage> density_, ground_;
-    std::optional<BakeTerrain> terrain_;  // none on flat ground
-    std::optional<Footing> footing_;
+    std::optional<recording::BakeTerrain> terrain_;  // none on flat ground
+    std::optional<recording::Footing> footing_;
     std::vector<ChangedRow> rows_;
     std::vector<std::string> copied_;
     glm::dvec2 minimum_;  ///< bounds, widened to where people have been moved

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <span>
 
-#include "io/files/input_file.h"
+#include "base/files/input_file.h"
 #include "io/streams/stream_format.h"
 
 namespace throng::io {

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <span>
 
-#include "io/files/output_file.h"
+#include "base/files/output_file.h"
 #include "io/streams/stream_format.h"
 
 namespace throng::io {

@@ -4,6 +4,7 @@
 #define THRONG_SHARED_SIMULATION_TYPES_H
 
 #include "shaders/shared/scene_types.h"
+#include "shaders/shared/walking.h"
 
 THRONG_SHARED_BEGIN
 
@@ -26,8 +27,6 @@ const uint STATUS_WAITING = 0u;  // to enter
 const uint STATUS_WALKING = 1u;  // under way, or at a stop
 const uint STATUS_ARRIVED = 2u;  // and stays there
 const uint STATUS_GONE = 3u;     // arrived, and has left the scene
-
-const float STANDING_SPEED = 0.1f;  // m/s: slower people stand; slower wishes are to stand
 
 /// A neighbour key is a slot, or a wall segment with this bit.
 const uint NEIGHBOUR_IS_WALL = 0x80000000u;

@@ -47,7 +47,7 @@ BinnedDiagram::BinnedDiagram(const DiagramSetup& setup, Pages* pages)
       fixed_sites_(setup.fixed_sites),
       blocks_(blocksAcross(setup.options.width, setup.options.gather.block_width) *
               blocksAcross(setup.options.height, setup.options.gather.block_height)),
-      gather_(setup.library, "shaders/diagram_binned.comp", definitionsFor(setup, pages)),
+      gather_(setup.library, "shaders/diagram/binned.comp", definitionsFor(setup, pages)),
       pages_(pages),
       owners_(setup.owners) {
     gather_.set("largest_radius", setup.options.largest_radius);
@@ -61,7 +61,7 @@ BinnedDiagram::BinnedDiagram(const DiagramSetup& setup, Pages* pages)
     pages_per_range_ = pagesPerRange(blocks_per_page);
     ranges_ = (pages_->capacity() + pages_per_range_ - 1) / pages_per_range_;
     page_dispatch_ = gl::Buffer("diagram page dispatch", std::size_t{12} * ranges_);
-    count_groups_ = gl::ComputeProgram(setup.library, "shaders/diagram_page_dispatch.comp");
+    count_groups_ = gl::ComputeProgram(setup.library, "shaders/diagram/page_dispatch.comp");
     count_groups_.bind("PageCount", pages_->count());
     count_groups_.bind("PageDispatch", page_dispatch_);
     count_groups_.set("ranges", ranges_);

@@ -162,7 +162,7 @@ const gl::Buffer& Diagram::wholeOwners() {
         extras_->whole.emplace();
         extras_->whole->owners = gl::Buffer("diagram owners, whole", pixelBytes(options_));
         gl::ComputeProgram& flatten = extras_->whole->flatten;
-        flatten = gl::ComputeProgram(library_, "shaders/diagram_flatten.comp", lookupDefinitions());
+        flatten = gl::ComputeProgram(library_, "shaders/diagram/flatten.comp", lookupDefinitions());
         flatten.bind("WholeOwners", extras_->whole->owners);
         flatten.set("diagram_size", sizeOf(options_));
         describeTo(flatten);
@@ -177,7 +177,7 @@ const gl::Buffer& Diagram::measureDistances() {
         extras_->distances.emplace();
         extras_->distances->distances = gl::Buffer("diagram distances", pixelBytes(options_));
         gl::ComputeProgram& measure = extras_->distances->measure;
-        measure = gl::ComputeProgram(library_, "shaders/diagram_measure.comp");
+        measure = gl::ComputeProgram(library_, "shaders/diagram/measure.comp");
         measure.bind("Owners", owners);
         measure.bind("Sites", *input_.sites);
         measure.bind("SiteSlots", *input_.site_slots);
@@ -202,7 +202,7 @@ const gl::Buffer& Diagram::findSeconds() {
             seconds.fixed_bins.emplace(library_, grid, fixed_sites_);
             definitions.emplace_back("FIXED_SITES", "1");
         }
-        seconds.find = gl::ComputeProgram(library_, "shaders/diagram_second.comp", definitions);
+        seconds.find = gl::ComputeProgram(library_, "shaders/diagram/second.comp", definitions);
         grid.describeTo(seconds.find);
         seconds.find.bind("Owners", owners);
         seconds.find.bind("Seconds", seconds.seconds);
@@ -225,7 +225,7 @@ const gl::Buffer& Diagram::countPixels() {
         extras_->counts.emplace();
         extras_->counts->counts = gl::Buffer("pixels of each site", std::size_t{4} * options_.live_capacity);
         gl::ComputeProgram& count = extras_->counts->count;
-        count = gl::ComputeProgram(library_, "shaders/diagram_count.comp", lookupDefinitions());
+        count = gl::ComputeProgram(library_, "shaders/diagram/count.comp", lookupDefinitions());
         count.bind("Sites", *input_.sites);
         count.bind("LiveDispatch", *input_.live_dispatch);
         count.bind("PixelCounts", extras_->counts->counts);

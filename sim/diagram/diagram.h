@@ -52,7 +52,7 @@ struct DiagramInput {
     /// Where the moving sites already stand in the order of some bins, those bins: it saves sorting them
     /// again.
     struct Sorted {
-        const gl::Buffer* strip_starts = nullptr;  ///< per strip of bins (shaders/cell_starts.glsl)
+        const gl::Buffer* strip_starts = nullptr;  ///< per strip of bins (shaders/cells/cell_starts.glsl)
         const gl::Buffer* starts = nullptr;        ///< per bin, within its strip, and one more
         BinGrid grid;
     };
@@ -86,7 +86,7 @@ class Diagram {
 
     /// The owners' ids, NO_INDEX where there is none: per pixel, bottom row first, or a store of pages.
     const gl::Buffer& owners() const { return *owners_; }
-    /// Makes a program with shaders/owners.glsl look up owners here.
+    /// Makes a program with shaders/diagram/owners.glsl look up owners here.
     void describeTo(gl::Program& program) const;
     /// What such a program has to be compiled with.
     gl::Definitions lookupDefinitions() const;

@@ -28,10 +28,10 @@ FloodDiagram::FloodDiagram(const DiagramSetup& setup, const FloodVariant& varian
       site_count_(setup.siteCount()),
       seeds_("flood seeds", pixels_ * 4),
       other_seeds_("flood seeds, other", pixels_ * 4),
-      seed_(setup.library, "shaders/diagram_flood_seed.comp"),
-      forth_(setup.library, "shaders/diagram_flood_jump.comp"),
-      back_(setup.library, "shaders/diagram_flood_jump.comp"),
-      finish_(setup.library, "shaders/diagram_flood_finish.comp") {
+      seed_(setup.library, "shaders/diagram/flood_seed.comp"),
+      forth_(setup.library, "shaders/diagram/flood_jump.comp"),
+      back_(setup.library, "shaders/diagram/flood_jump.comp"),
+      finish_(setup.library, "shaders/diagram/flood_finish.comp") {
     for (gl::ComputeProgram* program : {&seed_, &forth_, &back_, &finish_})
         program->set("diagram_size", glm::uvec2(setup.options.width, setup.options.height));
     seed_.set("fixed_first", setup.options.live_capacity);

@@ -19,7 +19,7 @@ float spriteSize(float radius) {
 GradientDiagram::GradientDiagram(const DiagramSetup& setup)
     : target_("gradient1", gl::RasterTarget::Kind::unsigned_nearest, setup.options.width,
               setup.options.height, marginFor(setup.options.largest_radius)),
-      program_(setup.library, {"shaders/diagram_gradient.vert", "shaders/diagram_gradient.frag"}, {}),
+      program_(setup.library, {"shaders/diagram/gradient.vert", "shaders/diagram/gradient.frag"}, {}),
       draw_count_(setup.siteCount()),
       owners_(setup.owners) {
     const float radius = setup.options.largest_radius;
@@ -48,7 +48,7 @@ void GradientDiagram::build() {
 namespace {
 
 gl::Program blendProgram(const DiagramSetup& setup, const gl::RasterTarget& target, const char* pass) {
-    gl::Program program(setup.library, {"shaders/diagram_gradient.vert", "shaders/diagram_blend.frag"},
+    gl::Program program(setup.library, {"shaders/diagram/gradient.vert", "shaders/diagram/blend.frag"},
                         {{pass, "1"}});
     program.set("target_size", target.size());
     program.set("margin", static_cast<float>(target.margin()));
@@ -75,7 +75,7 @@ BlendedDiagram::BlendedDiagram(const DiagramSetup& setup, bool packed)
       draw_count_(setup.siteCount()),
       pixels_(std::uint64_t{setup.options.width} * setup.options.height),
       keys_("blended keys", pixels_ * 4),
-      decode_(setup.library, "shaders/diagram_blend_decode.comp") {
+      decode_(setup.library, "shaders/diagram/blend_decode.comp") {
     const float radius = setup.options.largest_radius;
     gl::RasterTarget::requirePointSize("gradient2", spriteSize(radius));
     const std::uint32_t id_bits = bitsFor(setup.siteCount());
@@ -119,7 +119,7 @@ void BlendedDiagram::build() {
 ConesDiagram::ConesDiagram(const DiagramSetup& setup)
     : target_("cones", gl::RasterTarget::Kind::unsigned_nearest, setup.options.width, setup.options.height,
               marginFor(setup.options.largest_radius)),
-      program_(setup.library, {"shaders/diagram_cones.vert", "shaders/diagram_cones.frag"}, {}),
+      program_(setup.library, {"shaders/diagram/cones.vert", "shaders/diagram/cones.frag"}, {}),
       sides_(setup.options.cone_sides),
       draw_count_(setup.siteCount()),
       owners_(setup.owners) {

@@ -23,7 +23,7 @@ struct DiagramSetup {
     }
 };
 
-/// Every site offers itself to the pixels under its tile, see shaders/diagram_splat.glsl.
+/// Every site offers itself to the pixels under its tile, see shaders/diagram/splat.glsl.
 class PerSiteDiagram final : public Diagram::Implementation {
   public:
     explicit PerSiteDiagram(const DiagramSetup& setup);
@@ -42,7 +42,7 @@ class PerSiteDiagram final : public Diagram::Implementation {
     const gl::Buffer* live_dispatch_ = nullptr;
 };
 
-/// Every pixel compares all sites, see shaders/diagram_per_pixel.comp.
+/// Every pixel compares all sites, see shaders/diagram/per_pixel.comp.
 class PerPixelDiagram final : public Diagram::Implementation {
   public:
     explicit PerPixelDiagram(const DiagramSetup& setup);
@@ -55,7 +55,7 @@ class PerPixelDiagram final : public Diagram::Implementation {
     gl::WordTexture sites_;
 };
 
-/// Sites sorted into bins, blocks of pixels look through the bins near them, see shaders/diagram_binned.comp.
+/// Sites sorted into bins, blocks of pixels look through the bins near them, see shaders/diagram/binned.comp.
 class BinnedDiagram final : public Diagram::Implementation {
   public:
     /// @param pages where the owners are kept page by page; they then hold a store of pages
@@ -84,7 +84,7 @@ class BinnedDiagram final : public Diagram::Implementation {
     gl::Buffer page_dispatch_;
 };
 
-/// Point sprites and the depth test, see shaders/diagram_gradient.frag.
+/// Point sprites and the depth test, see shaders/diagram/gradient.frag.
 class GradientDiagram final : public Diagram::Implementation {
   public:
     explicit GradientDiagram(const DiagramSetup& setup);
@@ -101,7 +101,7 @@ class GradientDiagram final : public Diagram::Implementation {
     const gl::Buffer& owners_;
 };
 
-/// Point sprites and blending, see shaders/diagram_blend.frag.
+/// Point sprites and blending, see shaders/diagram/blend.frag.
 class BlendedDiagram final : public Diagram::Implementation {
   public:
     /// @param packed one pass over a quantised distance and the id, instead of two exact ones
@@ -120,7 +120,7 @@ class BlendedDiagram final : public Diagram::Implementation {
     gl::ComputeProgram decode_;
 };
 
-/// A cone a site and the depth test, see shaders/diagram_cones.vert.
+/// A cone a site and the depth test, see shaders/diagram/cones.vert.
 class ConesDiagram final : public Diagram::Implementation {
   public:
     explicit ConesDiagram(const DiagramSetup& setup);
@@ -135,7 +135,7 @@ class ConesDiagram final : public Diagram::Implementation {
     const gl::Buffer& owners_;
 };
 
-/// Which jump flooding, see shaders/diagram_flood_jump.comp.
+/// Which jump flooding, see shaders/diagram/flood_jump.comp.
 struct FloodVariant {
     bool one_before = false;
     bool one_after = false;

@@ -50,7 +50,7 @@ Pages::Pages(const gl::ShaderLibrary& library, std::uint32_t width, std::uint32_
       fixed_table_("diagram page table, fixed sites", table_.bytes()),
       count_("diagram page count", kWord),
       fixed_count_("diagram page count, fixed sites", kWord),
-      place_(library, "shaders/diagram_pages.comp") {
+      place_(library, "shaders/diagram/pages.comp") {
     place_.set("diagram_size", glm::vec2(width, height));
     place_.set("pages_per_line", per_line_);
     place_.bind("PageTable", table_);

@@ -5,7 +5,7 @@ namespace throng::sim {
 
 PerPixelDiagram::PerPixelDiagram(const DiagramSetup& setup)
     : pixels_(std::uint64_t{setup.options.width} * setup.options.height),
-      program_(setup.library, "shaders/diagram_per_pixel.comp") {
+      program_(setup.library, "shaders/diagram/per_pixel.comp") {
     program_.bind("Owners", setup.owners);
     program_.set("diagram_size", glm::uvec2(setup.options.width, setup.options.height));
     program_.set("fixed_first", setup.options.live_capacity);

@@ -5,8 +5,8 @@ namespace throng::sim {
 
 PerSiteDiagram::PerSiteDiagram(const DiagramSetup& setup)
     : owners_(setup.owners),
-      distance_pass_(setup.library, "shaders/diagram_distance.comp"),
-      site_pass_(setup.library, "shaders/diagram_site.comp"),
+      distance_pass_(setup.library, "shaders/diagram/distance.comp"),
+      site_pass_(setup.library, "shaders/diagram/site.comp"),
       distances_("diagram distances", owners_.bytes()),
       fixed_owners_("diagram owners, fixed sites", owners_.bytes()),
       fixed_distances_("diagram distances, fixed sites", owners_.bytes()) {

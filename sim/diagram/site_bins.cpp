@@ -43,10 +43,10 @@ SiteBins::SiteBins(const gl::ShaderLibrary& library, const BinGrid& grid, std::u
       places_("places in bins", 2 * kWord * capacity),
       sites_("binned sites", std::max<std::size_t>(1, capacity) * sizeof(gpu::DiagramSite)),
       site_texture_(sites_, gl::WordTexture::Texel::four_words),
-      count_(library, "shaders/bins_count.comp"),
-      sum_(library, "shaders/counts_sum.comp"),
-      find_starts_(library, "shaders/bins_starts.comp"),
-      scatter_(library, "shaders/bins_scatter.comp") {
+      count_(library, "shaders/diagram/bins_count.comp"),
+      sum_(library, "shaders/cells/counts_sum.comp"),
+      find_starts_(library, "shaders/diagram/bins_starts.comp"),
+      scatter_(library, "shaders/diagram/bins_scatter.comp") {
     count_.bind("Counts", counts_);
     count_.bind("SitePlaces", places_);
     grid.describeTo(count_);

@@ -23,7 +23,7 @@ struct BinGrid {
     std::uint32_t width;
     std::uint32_t height;
     std::uint32_t count() const { return width * height; }
-    /// Sets what shaders/bins.glsl asks for.
+    /// Sets what shaders/diagram/bins.glsl asks for.
     void describeTo(gl::Program& program) const;
 };
 

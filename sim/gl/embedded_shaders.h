@@ -7,7 +7,7 @@
 namespace throng::gl {
 
 struct EmbeddedShader {
-    std::string_view path;  ///< e.g. "shaders/sense.comp"
+    std::string_view path;  ///< e.g. "shaders/sensing/sense.comp"
     std::string_view text;
 };
 

@@ -113,7 +113,7 @@ class ComputeProgram : public Program {
     std::uint32_t groupSize() const { return group_size_; }
 
     /// Runs at least `invocations` invocations, then makes its writes visible to later commands. Groups that
-    /// do not fit one axis go on along the next: such shaders count with shaders/flat_index.glsl.
+    /// do not fit one axis go on along the next: such shaders count with shaders/shared/flat_index.glsl.
     void dispatch(std::uint64_t invocations) const;
     /// The same with the number of groups read on the device: three words at `offset` of `arguments`.
     void dispatchIndirect(const Buffer& arguments, std::size_t offset = 0) const;

@@ -22,7 +22,7 @@ class ShaderLibrary {
     explicit ShaderLibrary(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
     /// The complete GLSL of one shader: version line, definitions, and its includes put in place, each once.
-    /// @param path e.g. "shaders/sense.comp"
+    /// @param path e.g. "shaders/sensing/sense.comp"
     /// @param files receives the names behind the #line numbers of compiler messages
     /// @throws GraphicsError for a missing file
     std::string load(const std::string& path, const Definitions& definitions,

@@ -65,8 +65,8 @@ double SampleCrowd::phase(std::uint32_t row, std::uint32_t frame) const {
     return 0.1 * (row % 10) + distance(row, frame) / kStride;
 }
 
-io::BakeDescription SampleCrowd::description(const std::filesystem::path& output) const {
-    io::BakeDescription description;
+recording::BakeDescription SampleCrowd::description(const std::filesystem::path& output) const {
+    recording::BakeDescription description;
     description.output = output;
     description.force = options_.force;
     description.name = "sample crossing";

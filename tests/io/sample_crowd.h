@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "io/bake_description.h"
+#include "base/frame.h"
 #include "io/bake_writer.h"
-#include "sim/frame.h"
+#include "recording/bake_description.h"
 
 namespace throng::test {
 
@@ -31,7 +31,7 @@ class SampleCrowd {
   public:
     explicit SampleCrowd(SampleOptions options) : options_(options) {}
 
-    io::BakeDescription description(const std::filesystem::path& output) const;
+    recording::BakeDescription description(const std::filesystem::path& output) const;
     Account account() const;
     /// Calls writer.write() for the frames [0, count).
     void writeTo(io::BakeWriter& writer, std::uint32_t count) const;

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <numbers>
 
+#include "io/agent_rows.h"
 #include "io/bake_info.h"
-#include "io/measure/agent_rows.h"
 #include "io/overrides/agent_table_edit.h"
 #include "io/overrides/apply_overrides.h"
 #include "io/overrides/row_sampler.h"

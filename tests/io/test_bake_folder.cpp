@@ -7,9 +7,9 @@
 #include <cerrno>
 #include <fstream>
 
+#include "base/files/output_file.h"
 #include "io/bake_folder.h"
 #include "io/bake_writer.h"
-#include "io/files/output_file.h"
 #include "sample_crowd.h"
 
 namespace throng::io {

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/files/input_file.h"
 #include "io/bake_folder.h"
 #include "io/bake_writer.h"
 #include "io/checkpoint.h"
-#include "io/files/input_file.h"
 #include "sample_crowd.h"
 
 namespace throng::io {
@@ -100,7 +100,7 @@ TEST_F(CheckpointTest, CutAnywhereOrChangedAnywhereTheOneBeforeIsTaken) {
 TEST_F(CheckpointTest, ABakeGoesOnFromBeforeItsFirstFrame) {
     const test::SampleCrowd crowd({});
     crowd.bake(folder / "whole");
-    const BakeDescription description = crowd.description(folder / "bake");
+    const recording::BakeDescription description = crowd.description(folder / "bake");
     { BakeWriter(description, nullptr).save({}); }
     const auto checkpoint = loadCheckpoint(BakeFolder::unfinishedPath(description.output));
     ASSERT_TRUE(checkpoint);

@@ -6,10 +6,10 @@
 #include <random>
 #include <vector>
 
-#include "io/motion/frame_window.h"
-#include "io/motion/gaits.h"
-#include "io/motion/keep_apart.h"
-#include "io/motion/motion_recorder.h"
+#include "recording/frame_window.h"
+#include "recording/gaits.h"
+#include "recording/keep_apart.h"
+#include "recording/motion_recorder.h"
 
 namespace throng::io {
 namespace {
@@ -21,41 +21,42 @@ constexpr double kFps = 24.0;
 
 TEST(Gaits, StridesFollowTheSpeedAndThePhaseTheWay) {
     for (const double speed : {0.3, 0.6, 1.0, 1.34, 1.7, 2.2, 3.5}) {
-        GaitTrack track{0.25, 1};
+        recording::GaitTrack track{0.25, 1};
         for (int frame = 0; frame < 240; ++frame)
             track.advance(speed / kFps, speed);
-        EXPECT_EQ(track.gait, gaitFor(speed)) << speed;
+        EXPECT_EQ(track.gait, recording::gaitFor(speed)) << speed;
         // Sekiya et al. 1996: within what lies between two gaits.
-        EXPECT_NEAR(strideOf(track.gait) / (1.249 * std::sqrt(speed)), 1.0, 0.14) << speed;
+        EXPECT_NEAR(recording::strideOf(track.gait) / (1.249 * std::sqrt(speed)), 1.0, 0.14) << speed;
         const double before = track.phase;
         track.advance(speed, speed);
-        EXPECT_NEAR((track.phase - before) * strideOf(track.gait), speed, 1e-9) << speed;
+        EXPECT_NEAR((track.phase - before) * recording::strideOf(track.gait), speed, 1e-9) << speed;
     }
 }
 
 TEST(Gaits, ChangeOnlyWhereThePlantedFootIsUnderTheBody) {
-    GaitTrack track{0.1, 1};
+    recording::GaitTrack track{0.1, 1};
     int changes = 0;
     for (int frame = 0; frame < 2000; ++frame) {
         const double speed = 1.5 + 1.3 * std::sin(0.01 * frame);
-        const GaitTrack before = track;
+        const recording::GaitTrack before = track;
         track.advance(speed / kFps, speed);
         if (track.gait == before.gait) continue;
         ++changes;
         // The way until then with the old stride, the rest with the new one: the foot is not moved at all.
-        const double half = std::floor(2.0 * (track.phase - kUnderBody)) / 2.0 + kUnderBody;
-        EXPECT_NEAR(
-            (half - before.phase) * strideOf(before.gait) + (track.phase - half) * strideOf(track.gait),
-            speed / kFps, 1e-9);
+        const double half =
+            std::floor(2.0 * (track.phase - recording::kUnderBody)) / 2.0 + recording::kUnderBody;
+        EXPECT_NEAR((half - before.phase) * recording::strideOf(before.gait) +
+                        (track.phase - half) * recording::strideOf(track.gait),
+                    speed / kFps, 1e-9);
         EXPECT_GE(half, before.phase);
     }
     EXPECT_GT(changes, 20);
 }
 
 TEST(Gaits, WhoStandsSetsOffWithAShortStride) {
-    GaitTrack track{0.0, 4};
+    recording::GaitTrack track{0.0, 4};
     track.advance(0.0, 0.0);
-    EXPECT_LT(strideOf(track.gait), 1.0);
+    EXPECT_LT(recording::strideOf(track.gait), 1.0);
 }
 
 // --- averages over time
@@ -89,15 +90,15 @@ struct Crowd {
     }
 };
 
-BakeDescription describe(std::size_t rows, double smoothing) {
-    BakeDescription description;
+recording::BakeDescription describe(std::size_t rows, double smoothing) {
+    recording::BakeDescription description;
     description.fps = kFps;
     description.frames = 60;
     description.smoothing = smoothing;
     description.minimum = {-50.0, -50.0};
     description.maximum = {50.0, 50.0};
     for (std::size_t row = 0; row < rows; ++row) {
-        BakeAgent agent;
+        recording::BakeAgent agent;
         agent.radius = 0.25f;
         agent.preferred_speed = 1.3f;
         description.agents.push_back(agent);
@@ -107,7 +108,7 @@ BakeDescription describe(std::size_t rows, double smoothing) {
 
 struct Recorded {
     std::vector<std::vector<float>> positions, directions, states;
-    MotionRecorder::Sink sink() {
+    recording::MotionRecorder::Sink sink() {
         return [this](const Frame& frame) {
             EXPECT_EQ(frame.index, positions.size()) << "in order";
             positions.emplace_back(frame.positions.begin(), frame.positions.end());
@@ -122,10 +123,10 @@ const auto kAlways = [](std::size_t, std::uint32_t) { return true; };
 template <class Place, class Alive>
 Recorded record(std::size_t rows, double smoothing, std::uint32_t frames, Place place, Alive alive,
                 std::vector<authoring::Wall> walls = {}) {
-    BakeDescription description = describe(rows, smoothing);
+    recording::BakeDescription description = describe(rows, smoothing);
     description.walls = std::move(walls);
     Recorded recorded;
-    MotionRecorder recorder(description, recorded.sink());
+    recording::MotionRecorder recorder(description, recorded.sink());
     Crowd crowd{rows, {}, {}, {}};
     for (std::uint32_t frame = 0; frame < frames; ++frame)
         recorder.take(crowd.at(frame, place, alive));
@@ -209,7 +210,7 @@ TEST(Motion, NobodyIsAveragedIntoAWall) {
     wall.thickness = 0.2;
     const Recorded free = record(1, 0.5, 48, place, kAlways);
     const Recorded walled = record(1, 0.5, 48, place, kAlways, {wall});
-    WallWatch watch({wall}, {-50.0, -50.0}, {50.0, 50.0});
+    recording::WallWatch watch({wall}, {-50.0, -50.0}, {50.0, 50.0});
     watch.look(0.0, 0.0);
     double without = 0.0, with = 0.0;
     for (std::uint32_t frame = 0; frame < 48; ++frame) {
@@ -249,17 +250,17 @@ TEST(Motion, GoesOnFromACheckpointAsIfNothingHadHappened) {
     for (const double smoothing : {0.0, 0.25, 0.5}) {
         const Recorded whole = record(17, smoothing, 40, place, alive);
         for (const std::uint32_t stop : {1u, 3u, 12u, 39u}) {
-            const BakeDescription description = describe(17, smoothing);
+            const recording::BakeDescription description = describe(17, smoothing);
             Recorded parts;
             Crowd crowd{17, {}, {}, {}};
             std::vector<std::byte> saved;
             {
-                MotionRecorder first(description, parts.sink());
+                recording::MotionRecorder first(description, parts.sink());
                 for (std::uint32_t frame = 0; frame < stop; ++frame)
                     first.take(crowd.at(frame, place, alive));
                 saved = first.save();
             }
-            MotionRecorder second(description, parts.sink());
+            recording::MotionRecorder second(description, parts.sink());
             second.restore(saved);
             EXPECT_EQ(second.framesTaken(), stop);
             for (std::uint32_t frame = stop; frame < 40; ++frame)
@@ -269,7 +270,7 @@ TEST(Motion, GoesOnFromACheckpointAsIfNothingHadHappened) {
             EXPECT_EQ(parts.directions, whole.directions);
             EXPECT_EQ(parts.states, whole.states);
             saved.pop_back();
-            MotionRecorder third(description, parts.sink());
+            recording::MotionRecorder third(description, parts.sink());
             EXPECT_THROW(third.restore(saved), std::runtime_error);
         }
     }

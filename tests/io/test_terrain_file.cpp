@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "io/files/errors.h"
+#include "base/files/errors.h"
 #include "io/gltf/terrain_file.h"
 
 namespace throng::test {
@@ -66,7 +66,7 @@ class TerrainFileTest : public ::testing::Test {
     std::string refusal(const fs::path& path) const {
         try {
             read(path);
-        } catch (const io::InputError& error) {
+        } catch (const InputError& error) {
             return error.what();
         }
         ADD_FAILURE() << path << " was read";
@@ -258,7 +258,7 @@ TEST_F(TerrainFileTest, TruncatedAndFlippedFilesNeverDoHarm) {
     const std::string whole = glb();
     std::size_t refused = 0;
     for (std::size_t size = 0; size < whole.size(); size += 7) {
-        EXPECT_THROW(read(write("cut.glb", whole.substr(0, size))), io::InputError) << size;
+        EXPECT_THROW(read(write("cut.glb", whole.substr(0, size))), InputError) << size;
         ++refused;
     }
     std::mt19937 random(5);
@@ -270,7 +270,7 @@ TEST_F(TerrainFileTest, TruncatedAndFlippedFilesNeverDoHarm) {
             const authoring::TerrainMesh mesh = read(write("flipped.glb", changed));
             for (const std::uint32_t index : mesh.indices)
                 ASSERT_LT(index, mesh.positions.size());
-        } catch (const io::InputError&) {
+        } catch (const InputError&) {
             ++refused;
         }
     }

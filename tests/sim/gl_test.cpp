@@ -50,7 +50,7 @@ TEST_F(GlTest, RefusesABufferLargerThanTheDeviceGives) {
 }
 
 TEST_F(GlTest, RefusesToRunAProgramWithAnUnboundBlockOrUnsetUniform) {
-    gl::ComputeProgram program(library, "shaders/counts_sum.comp");
+    gl::ComputeProgram program(library, "shaders/cells/counts_sum.comp");
     const gl::Buffer counts("counts", 4096);
     const gl::Buffer sums("sums", 4096);
     program.bind("Counts", counts);
@@ -71,13 +71,13 @@ TEST(Shaders, AreReadFromAFolderBeforeTheBinary) {
     std::ofstream(folder / "counts_sum.comp") << "this is not GLSL\n";
     const gl::ShaderLibrary edited(folder);
     try {
-        gl::ComputeProgram program(edited, "shaders/counts_sum.comp");
+        gl::ComputeProgram program(edited, "shaders/cells/counts_sum.comp");
         FAIL() << "compiled nonsense";
     } catch (const gl::GraphicsError& error) {
-        EXPECT_NE(std::string(error.what()).find("shaders/counts_sum.comp"), std::string::npos)
+        EXPECT_NE(std::string(error.what()).find("shaders/cells/counts_sum.comp"), std::string::npos)
             << error.what();
     }
-    EXPECT_NO_THROW(gl::ComputeProgram(edited, "shaders/strips_scan.comp"));
+    EXPECT_NO_THROW(gl::ComputeProgram(edited, "shaders/cells/strips_scan.comp"));
     EXPECT_THROW(gl::ComputeProgram(edited, "shaders/none.comp"), gl::GraphicsError);
     std::filesystem::remove_all(folder);
 }

@@ -17,7 +17,7 @@ from functools import lru_cache
 
 UNDER_BODY = 0.28     # as GAIT_UNDER_BODY of the simulation
 NORMAL_STRIDE = 1.446  # m, of an adult at 1.34 m/s
-STRIDE_AT_ONE = 1.249  # m, at 1 m/s: as in io/motion/gaits.cpp; strides grow with the root of the speed
+STRIDE_AT_ONE = 1.249  # m, at 1 m/s: as in recording/gaits.cpp; strides grow with the root of the speed
 RUNNING_STRIDE = 2.1   # m: from here on people run
 HIP_DROP = 0.02        # m, of the hip joints below the middle of the pelvis
 

@@ -1,0 +1,394 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "analysis/measure/measure.h"
+
+#include <glm/geometric.hpp>
+#include <map>
+#include <numbers>
+
+#include "analysis/measure/histogram.h"
+#include "base/plane_grid.h"
+#include "io/agent_rows.h"
+#include "io/streams/stream_reader.h"
+#include "recording/wall_watch.h"
+#include "shaders/shared/walking.h"
+
+namespace throng::analysis {
+namespace {
+
+constexpr double kOverlap = 0.01;       // share of the sum of radii from which a pair counts
+constexpr double kStuckSeconds = 5.0;   // s
+constexpr double kStuckDistance = 0.5;  // m
+
+/// Somebody in one frame.
+struct Body {
+    glm::dvec2 position{0.0};
+    glm::dvec2 facing{1.0, 0.0};
+    bool alive = false;
+    bool under_way = false;  ///< neither at a stop nor in a line
+};
+
+/// Everybody in one frame.
+class FrameReader {
+  public:
+    explicit FrameReader(const io::Bake& bake)
+        : positions_(bake.streamPath("pos")),
+          directions_(bake.streamPath("dir")),
+          states_(bake.streamPath("state")),
+          values_(std::size_t{bake.agents} * 3) {
+        for (const io::StreamReader* stream : {&positions_, &directions_, &states_})
+            if (stream->rows() != bake.agents || stream->frames() != bake.frames)
+                throw InputError(bake.folder / "streams",
+                                 "the streams have other numbers of people or frames than bake.json");
+    }
+    void read(std::uint32_t frame, std::vector<Body>& bodies) {
+        bodies.resize(values_.size() / 3);
+        positions_.readFrame(frame, values_);
+        each(bodies, [](Body& body, const float* v) { body.position = {v[0], v[1]}; });
+        directions_.readFrame(frame, values_);
+        each(bodies, [](Body& body, const float* v) { body.facing = {v[0], v[1]}; });
+        states_.readFrame(frame, values_);
+        each(bodies, [](Body& body, const float* v) {
+            body.alive = v[0] > 0.5f;
+            body.under_way = body.alive && v[0] < 1.5f;
+        });
+    }
+
+  private:
+    template <class Take>
+    void each(std::vector<Body>& bodies, Take take) const {
+        for (std::size_t row = 0; row < bodies.size(); ++row)
+            take(bodies[row], &values_[row * 3]);
+    }
+    io::StreamReader positions_, directions_, states_;
+    std::vector<float> values_;
+};
+
+double median(std::vector<double> values) {
+    if (values.empty()) return 0.0;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+Spread spreadOf(const Histogram& histogram) {
+    return {histogram.percentile(0.5), histogram.percentile(0.99), histogram.worst()};
+}
+
+/// Goes through a bake frame by frame; each observe...() is one family of figures.
+class Measurer {
+  public:
+    Measurer(const io::Bake& bake, const MeasureOptions& options)
+        : bake_(bake),
+          options_(options),
+          rows_(io::loadAgentRows(bake)),
+          reader_(bake),
+          walls_(bake.walls, bake.minimum, bake.maximum),
+          grid_(bake.minimum, bake.maximum, 1.0),
+          dt_(1.0 / bake.fps),
+          way_(rows_.size(), 0.0),
+          effort_(rows_.size(), 0.0),
+          start_(rows_.size()),
+          straight_(rows_.size(), 0.0) {
+        for (const io::AgentRow& row : rows_)
+            largest_radius_ = std::max(largest_radius_, static_cast<double>(row.radius));
+    }
+
+    Measurement run() {
+        for (std::uint32_t frame = 0; frame < bake_.frames; ++frame) {
+            std::rotate(history_.begin(), history_.end() - 1, history_.end());
+            reader_.read(frame, history_.front());
+            seen_ = std::min<std::size_t>(frame + 1, history_.size());
+            gatherPresent();
+            observeEnds(frame);
+            observeOverlaps(frame);
+            observeSteps(frame);
+            if (frame % static_cast<std::uint32_t>(std::max(1.0, std::round(bake_.fps))) == 0) {
+                observeLanes();
+                observeDensity();
+            }
+            rememberForStuck(frame);
+        }
+        account();
+        summarise();
+        return std::move(result_);
+    }
+
+  private:
+    const std::vector<Body>& now() const { return history_[0]; }
+    const std::vector<Body>& before(std::size_t frames) const { return history_[frames]; }
+    bool aliveSince(std::size_t row, std::size_t frames) const {
+        if (seen_ <= frames) return false;
+        for (std::size_t i = 0; i <= frames; ++i)
+            if (!history_[i][row].alive) return false;
+        return true;
+    }
+    glm::dvec2 velocity(std::size_t row, std::size_t frames_ago) const {
+        return (before(frames_ago)[row].position - before(frames_ago + 1)[row].position) / dt_;
+    }
+
+    void gatherPresent() {
+        present_.clear();
+        places_.clear();
+        for (std::uint32_t row = 0; row < rows_.size(); ++row)
+            if (now()[row].alive) {
+                present_.push_back(row);
+                places_.push_back(now()[row].position);
+            }
+        grid_.sort(places_);
+    }
+
+    void observeOverlaps(std::uint32_t frame) {
+        std::uint64_t pairs = 0;
+        for (std::uint32_t i = 0; i < present_.size(); ++i) {
+            const double radius = rows_[present_[i]].radius;
+            grid_.near(places_[i], radius + largest_radius_, [&](std::uint32_t j) {
+                if (j <= i) return;
+                const double reach = radius + rows_[present_[j]].radius;
+                const double depth = 1.0 - glm::distance(places_[i], places_[j]) / reach;
+                result_.deepest_overlap_percent = std::max(result_.deepest_overlap_percent, 100.0 * depth);
+                pairs += depth > kOverlap ? 1 : 0;
+            });
+        }
+        result_.overlaps.emplace_back(frame * dt_, static_cast<double>(pairs));
+        if (present_.empty()) return;
+        const double percent = 100.0 * static_cast<double>(pairs) / static_cast<double>(present_.size());
+        overlapping_sum_ += percent;
+        ++overlapping_frames_;
+        result_.worst_overlapping_percent = std::max(result_.worst_overlapping_percent, percent);
+    }
+
+    void observeEnds(std::uint32_t frame) {
+        for (std::size_t row = 0; row < rows_.size(); ++row) {
+            if (!start_[row] && now()[row].alive) start_[row] = now()[row].position;
+            if (start_[row] && frame == rows_[row].arrival_frame)
+                straight_[row] = glm::distance(*start_[row], now()[row].position);
+        }
+    }
+
+    void observeSteps(std::uint32_t frame) {
+        std::uint64_t across = 0;
+        walls_.look((frame - 1.0) * dt_, frame * dt_);
+        for (const std::uint32_t row : present_) {
+            result_.deepest_wall_penetration =
+                std::max(result_.deepest_wall_penetration,
+                         walls_.empty() ? 0.0 : walls_.penetration(now()[row].position, rows_[row].radius));
+            if (!aliveSince(row, 1)) continue;
+            const glm::dvec2 from = before(1)[row].position;
+            const glm::dvec2 to = now()[row].position;
+            const double step = glm::distance(from, to);
+            const double speed = step / dt_;
+            if (!walls_.empty() && walls_.crosses(from, to)) ++result_.wall_crossings;
+            if (options_.line) across += crossesLine(from, to) ? 1 : 0;
+            speed_sum_ += speed;
+            ++speed_count_;
+            if (hasArrived(row, frame)) continue;
+            way_[row] += step;
+            effort_[row] += (2.23 + 1.26 * speed * speed) * dt_;
+            observeMotion(row, speed);
+        }
+        if (across) {
+            crossed_ += across;
+            first_across_ = std::min(first_across_, frame);
+            last_across_ = frame;
+        }
+    }
+
+    bool hasArrived(std::size_t row, std::uint32_t frame) const { return frame >= rows_[row].arrival_frame; }
+
+    void observeMotion(std::size_t row, double speed) {
+        if (speed < gpu::STANDING_SPEED) return;
+        ++walked_frames_;
+        const glm::dvec2 v = velocity(row, 0);
+        if (glm::dot(v, now()[row].facing) < -0.05) ++backward_frames_;
+        const glm::dvec2 a = now()[row].facing;
+        const glm::dvec2 b = before(1)[row].facing;
+        const double turn = std::abs(std::atan2(b.x * a.y - b.y * a.x, glm::dot(a, b)));
+        heading_rate_.add(turn * 180.0 / std::numbers::pi / dt_);
+        if (!aliveSince(row, 2)) return;
+        const glm::dvec2 acceleration = (v - velocity(row, 1)) / dt_;
+        acceleration_.add(glm::length(acceleration));
+        if (!aliveSince(row, 3)) return;
+        const glm::dvec2 earlier = (velocity(row, 1) - velocity(row, 2)) / dt_;
+        jerk_.add(glm::length(acceleration - earlier) / dt_);
+    }
+
+    bool crossesLine(glm::dvec2 from, glm::dvec2 to) const {
+        const glm::dvec2 a = options_.line->first - bake_.origin;
+        const glm::dvec2 axis = options_.line->second - options_.line->first;
+        const auto side = [&](glm::dvec2 p) { return axis.x * (p.y - a.y) - axis.y * (p.x - a.x); };
+        const double before_side = side(from), after_side = side(to);
+        if ((before_side < 0.0) == (after_side < 0.0)) return false;
+        const glm::dvec2 at = from + (to - from) * (before_side / (before_side - after_side));
+        const double along = glm::dot(at - a, axis) / glm::dot(axis, axis);
+        return along >= 0.0 && along <= 1.0;
+    }
+
+    /// Rex and Loewen 2007, equation (4): for each walker the square of (same - opposite) / (same + opposite)
+    /// over those in its lane, here half a metre to both sides and ten metres along its own direction.
+    void observeLanes() {
+        constexpr double kHalfLane = 0.5, kAlong = 10.0;
+        double sum = 0.0;
+        std::size_t counted = 0;
+        for (std::uint32_t i = 0; i < present_.size(); ++i) {
+            if (!aliveSince(present_[i], 1) || glm::length(velocity(present_[i], 0)) < gpu::STANDING_SPEED)
+                continue;
+            const glm::dvec2 way = now()[present_[i]].facing;
+            int same = 0, opposite = 0;
+            grid_.near(places_[i], kAlong, [&](std::uint32_t j) {
+                const glm::dvec2 offset = places_[j] - places_[i];
+                if (j == i || std::abs(way.x * offset.y - way.y * offset.x) > kHalfLane ||
+                    std::abs(glm::dot(way, offset)) > kAlong)
+                    return;
+                const double agreement = glm::dot(way, now()[present_[j]].facing);
+                same += agreement > 0.5 ? 1 : 0;
+                opposite += agreement < -0.5 ? 1 : 0;
+            });
+            if (same + opposite == 0) continue;
+            const double order = static_cast<double>(same - opposite) / (same + opposite);
+            sum += order * order;
+            ++counted;
+        }
+        if (counted == 0) return;
+        lane_sum_ += sum / static_cast<double>(counted);
+        ++lane_frames_;
+    }
+
+    /// One over the area of the Voronoi cell, truncated at a metre and counted in squares around the person
+    /// (Steffen and Seyfried 2010).
+    void observeDensity() {
+        constexpr double kRadius = 1.0, kSquare = 0.1;
+        constexpr int kReach = 10;
+        std::vector<glm::dvec2> others;
+        for (std::uint32_t i = 0; i < present_.size(); ++i) {
+            others.clear();
+            grid_.near(places_[i], 2.0 * kRadius, [&](std::uint32_t j) {
+                const glm::dvec2 offset = places_[j] - places_[i];
+                if (j != i && glm::dot(offset, offset) < 4.0 * kRadius * kRadius) others.push_back(offset);
+            });
+            int owned = 0;
+            for (int y = -kReach; y < kReach; ++y)
+                for (int x = -kReach; x < kReach; ++x) {
+                    const glm::dvec2 at = glm::dvec2(x + 0.5, y + 0.5) * kSquare;
+                    const double own = glm::dot(at, at);
+                    owned += own <= kRadius * kRadius && std::ranges::none_of(others, [&](glm::dvec2 other) {
+                                 return glm::dot(at - other, at - other) < own;
+                             });
+                }
+            addDensity(i, 1.0 / (std::max(owned, 1) * kSquare * kSquare));
+        }
+    }
+
+    void addDensity(std::uint32_t i, double density) {
+        density_.add(density);
+        density_sum_ += density;
+        if (!aliveSince(present_[i], 1)) return;
+        auto& [speed, count] = speeds_[static_cast<int>(density / 0.25)];
+        speed += glm::length(velocity(present_[i], 0));
+        ++count;
+    }
+
+    void rememberForStuck(std::uint32_t frame) {
+        const auto wait = static_cast<std::uint32_t>(kStuckSeconds * bake_.fps);
+        if (bake_.frames > wait && frame == bake_.frames - 1 - wait) {
+            long_before_.resize(rows_.size());
+            for (std::size_t row = 0; row < rows_.size(); ++row)
+                long_before_[row] = now()[row];
+        }
+    }
+
+    void account() {
+        result_.agents = static_cast<std::uint32_t>(rows_.size());
+        result_.duration = bake_.frames * dt_;
+        std::vector<double> time_ratios, detours, efforts;
+        std::vector<std::uint32_t> arrival_frames;
+        std::uint32_t last = 0;
+        for (std::size_t row = 0; row < rows_.size(); ++row) {
+            const io::AgentRow& agent = rows_[row];
+            result_.arrived += agent.outcome == "arrived" ? 1 : 0;
+            result_.walking += agent.outcome == "walking" ? 1 : 0;
+            result_.refused += agent.outcome == "refused" ? 1 : 0;
+            if (way_[row] > 1.0) efforts.push_back(effort_[row] / way_[row]);
+            if (agent.outcome == "walking" && now()[row].under_way && !long_before_.empty() &&
+                long_before_[row].alive &&
+                glm::distance(long_before_[row].position, now()[row].position) < kStuckDistance)
+                ++result_.stuck;
+            if (agent.outcome != "arrived") continue;
+            arrival_frames.push_back(agent.arrival_frame);
+            last = std::max(last, agent.arrival_frame);
+            // The bake's own shortest way is one to the goal; who was content with less went straight at
+            // best.
+            const double shortest = std::max(straight_[row], agent.shortest_way);
+            if (shortest < 1.0) continue;
+            time_ratios.push_back((agent.arrival_frame - agent.spawn_frame) * dt_ /
+                                  (shortest / agent.preferred_speed));
+            detours.push_back(way_[row] / shortest);
+        }
+        result_.seconds = result_.arrived == result_.agents ? last * dt_ : result_.duration;
+        result_.time_ratio = median(time_ratios);
+        result_.detour_ratio = median(detours);
+        result_.effort = median(efforts);
+        std::sort(arrival_frames.begin(), arrival_frames.end());
+        for (std::size_t i = 0; i < arrival_frames.size(); ++i)
+            result_.arrivals.emplace_back(arrival_frames[i] * dt_, static_cast<double>(i + 1));
+    }
+
+    void summarise() {
+        const auto mean = [](double sum, std::uint64_t count) {
+            return count ? sum / static_cast<double>(count) : 0.0;
+        };
+        result_.overlapping_percent = mean(overlapping_sum_, overlapping_frames_);
+        result_.heading_rate = spreadOf(heading_rate_);
+        result_.acceleration = spreadOf(acceleration_);
+        result_.jerk = spreadOf(jerk_);
+        result_.backward_percent = 100.0 * mean(static_cast<double>(backward_frames_), walked_frames_);
+        result_.lane_order = mean(lane_sum_, lane_frames_);
+        result_.mean_density = mean(density_sum_, density_.count());
+        result_.high_density = density_.percentile(0.99);
+        result_.mean_speed = mean(speed_sum_, speed_count_);
+        for (const auto& [bin, entry] : speeds_)
+            if (entry.second >= 20)
+                result_.speed_by_density.emplace_back((bin + 0.5) * 0.25,
+                                                      entry.first / static_cast<double>(entry.second));
+        if (options_.line && crossed_ > 1 && last_across_ > first_across_)
+            result_.flow = static_cast<double>(crossed_ - 1) / ((last_across_ - first_across_) * dt_);
+        else if (options_.line)
+            result_.flow = 0.0;
+        if (result_.flow)
+            result_.specific_flow =
+                *result_.flow / glm::distance(options_.line->first, options_.line->second);
+    }
+
+    const io::Bake& bake_;
+    const MeasureOptions& options_;
+    std::vector<io::AgentRow> rows_;
+    FrameReader reader_;
+    recording::WallWatch walls_;
+    PlaneGrid grid_;
+    double dt_;
+    double largest_radius_ = 0.0;
+    std::vector<std::vector<Body>> history_ = std::vector<std::vector<Body>>(4);  // newest first
+    std::size_t seen_ = 0;
+    std::vector<std::uint32_t> present_;  // rows alive now
+    std::vector<glm::dvec2> places_;      // of those
+    std::vector<Body> long_before_;
+    std::vector<double> way_, effort_;
+    std::vector<std::optional<glm::dvec2>> start_;  // where somebody was first seen
+    std::vector<double> straight_;                  // m, from there to where it arrived
+    Histogram heading_rate_{3600.0, 7200}, acceleration_{100.0, 10000}, jerk_{5000.0, 10000},
+        density_{20.0, 2000};
+    std::map<int, std::pair<double, std::uint64_t>> speeds_;
+    double overlapping_sum_ = 0.0, lane_sum_ = 0.0, density_sum_ = 0.0, speed_sum_ = 0.0;
+    std::uint64_t overlapping_frames_ = 0, lane_frames_ = 0, speed_count_ = 0, walked_frames_ = 0,
+                  backward_frames_ = 0;
+    std::uint64_t crossed_ = 0;
+    std::uint32_t first_across_ = ~0u, last_across_ = 0;
+    Measurement result_;
+};
+
+}  // namespace
+
+Measurement measureBake(const io::Bake& bake, const MeasureOptions& options) {
+    return Measurer(bake, options).run();
+}
+
+}  // namespace throng::analysis

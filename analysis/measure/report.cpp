@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "analysis/measure/measure.h"
+#include "analysis/plot/line_plot.h"
+
+namespace throng::analysis {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double rounded(double value) {
+    return std::stod(fmt::format("{:.6g}", value));
+}
+
+Json spreadJson(const Spread& spread) {
+    return {
+        {"median", rounded(spread.median)}, {"p99", rounded(spread.high)}, {"worst", rounded(spread.worst)}};
+}
+
+std::string spreadText(const Spread& spread) {
+    return fmt::format("{:.3g} median, {:.3g} 99th percentile, {:.3g} worst", spread.median, spread.high,
+                       spread.worst);
+}
+
+/// What an expectation may speak of.
+std::optional<double> figureNamed(const Measurement& m, const std::string& name) {
+    const auto share = [&](std::uint32_t count) {
+        return m.agents ? static_cast<double>(count) / m.agents : 0.0;
+    };
+    const std::pair<const char*, double> figures[] = {
+        {"arrived", share(m.arrived)},
+        {"stuck", share(m.stuck)},
+        {"refused", share(m.refused)},
+        {"seconds", m.seconds},
+        {"overlapping_percent", m.overlapping_percent},
+        {"deepest_overlap_percent", m.deepest_overlap_percent},
+        {"wall_crossings", static_cast<double>(m.wall_crossings)},
+        {"deepest_wall_penetration", m.deepest_wall_penetration},
+        {"time_ratio", m.time_ratio},
+        {"detour_ratio", m.detour_ratio},
+        {"heading_rate_p99", m.heading_rate.high},
+        {"acceleration_p99", m.acceleration.high},
+        {"backward_percent", m.backward_percent},
+        {"effort", m.effort},
+        {"lane_order", m.lane_order},
+        {"mean_speed", m.mean_speed},
+        {"high_density", m.high_density},
+        {"flow", m.flow.value_or(0.0)},
+    };
+    for (const auto& [known, value] : figures)
+        if (name == known) return value;
+    return std::nullopt;
+}
+
+LinePlot plotOf(const std::string& title, const std::string& note, const std::string& x, const std::string& y,
+                const std::vector<glm::dvec2>& points, bool markers) {
+    LinePlot plot;
+    plot.title = title;
+    plot.note = note;
+    plot.x.label = x;
+    plot.y.label = y;
+    plot.series.push_back({"", points, false, markers, -1});
+    return plot;
+}
+
+}  // namespace
+
+Json measurementJson(const Measurement& m) {
+    Json json = {{"agents", m.agents},
+                 {"arrived", m.arrived},
+                 {"walking", m.walking},
+                 {"refused", m.refused},
+                 {"stuck", m.stuck},
+                 {"seconds", rounded(m.seconds)},
+                 {"duration", rounded(m.duration)},
+                 {"overlapping_percent", rounded(m.overlapping_percent)},
+                 {"worst_overlapping_percent", rounded(m.worst_overlapping_percent)},
+                 {"deepest_overlap_percent", rounded(m.deepest_overlap_percent)},
+                 {"wall_crossings", m.wall_crossings},
+                 {"deepest_wall_penetration", rounded(m.deepest_wall_penetration)},
+                 {"time_ratio", rounded(m.time_ratio)},
+                 {"detour_ratio", rounded(m.detour_ratio)},
+                 {"heading_rate", spreadJson(m.heading_rate)},
+                 {"acceleration", spreadJson(m.acceleration)},
+                 {"jerk", spreadJson(m.jerk)},
+                 {"backward_percent", rounded(m.backward_percent)},
+                 {"effort", rounded(m.effort)},
+                 {"lane_order", rounded(m.lane_order)},
+                 {"mean_density", rounded(m.mean_density)},
+                 {"high_density", rounded(m.high_density)},
+                 {"mean_speed", rounded(m.mean_speed)}};
+    if (m.flow) json["flow"] = rounded(*m.flow);
+    if (m.specific_flow) json["specific_flow"] = rounded(*m.specific_flow);
+    json["speed_by_density"] = Json::array();
+    for (const glm::dvec2 point : m.speed_by_density)
+        json["speed_by_density"].push_back({rounded(point.x), rounded(point.y)});
+    return json;
+}
+
+std::string measurementText(const Measurement& m) {
+    std::string text;
+    const auto line = [&](const char* name, const std::string& value) {
+        text += fmt::format("{:20} {}\n", name, value);
+    };
+    line("people", fmt::format("{}: {} arrived, {} walking ({} of them stuck), {} refused", m.agents,
+                               m.arrived, m.walking, m.stuck, m.refused));
+    line("time", fmt::format("{:.1f} s{} of {:.1f} s", m.seconds,
+                             m.arrived == m.agents ? " until the last arrived," : "", m.duration));
+    line("overlaps",
+         fmt::format("{:.3f} % of people (mean; worst frame {:.2f} %), deepest {:.2f} % of the radii",
+                     m.overlapping_percent, m.worst_overlapping_percent, m.deepest_overlap_percent));
+    line("walls", fmt::format("{} crossings, deepest body in a wall {:.3f} m", m.wall_crossings,
+                              m.deepest_wall_penetration));
+    line("to the goal", fmt::format("{:.2f} times the free time, {:.2f} times the shortest way (medians)",
+                                    m.time_ratio, m.detour_ratio));
+    line("heading rate, deg/s", spreadText(m.heading_rate));
+    line("acceleration, m/s^2", spreadText(m.acceleration));
+    line("jerk, m/s^3", spreadText(m.jerk));
+    line("backward steps", fmt::format("{:.2f} % of walked frames", m.backward_percent));
+    line("effort",
+         fmt::format("{:.2f} J/(kg m) (median; 3.35 is walking alone at its best speed)", m.effort));
+    line("lane order", fmt::format("{:.2f} (0 mixed, 1 pure lanes)", m.lane_order));
+    line("density",
+         fmt::format("{:.2f} persons/m^2 (mean), {:.2f} (99th percentile)", m.mean_density, m.high_density));
+    line("speed", fmt::format("{:.2f} m/s (mean of all present)", m.mean_speed));
+    if (m.specific_flow) line("flow over the line", fmt::format("{:.2f} persons/(s m)", *m.specific_flow));
+    return text;
+}
+
+void writeMeasurementPlots(const std::filesystem::path& folder, const Measurement& m,
+                           const std::string& name) {
+    writeLinePlot(folder / "arrivals.png",
+                  plotOf("People arrived", name, "seconds", "people", m.arrivals, false));
+    writeLinePlot(folder / "overlaps.png",
+                  plotOf("Pairs that overlap by more than 1 %", name, "seconds", "pairs", m.overlaps, false));
+    LinePlot speeds = plotOf("Speed by density", name + "; dashed: Weidmann 1993", "persons per square metre",
+                             "metres per second", m.speed_by_density, true);
+    speeds.series.front().name = "measured";
+    PlotSeries weidmann{"Weidmann", {}, true, false, -1};
+    for (int i = 1; i <= 50; ++i) {
+        const double density = 0.1 * i;
+        weidmann.points.emplace_back(density, 1.34 * (1.0 - std::exp(-1.913 * (1.0 / density - 1.0 / 5.4))));
+    }
+    speeds.series.push_back(std::move(weidmann));
+    writeLinePlot(folder / "speed_by_density.png", speeds);
+}
+
+std::vector<std::string> missedExpectations(const Measurement& m,
+                                            const std::vector<authoring::Expectation>& expectations) {
+    std::vector<std::string> missed;
+    for (const authoring::Expectation& bar : expectations) {
+        const double value = figureNamed(m, bar.figure).value();
+        if (bar.minimum && value < *bar.minimum)
+            missed.push_back(
+                fmt::format("{} is {:.4g}, expected at least {:.4g}", bar.figure, value, *bar.minimum));
+        if (bar.maximum && value > *bar.maximum)
+            missed.push_back(
+                fmt::format("{} is {:.4g}, expected at most {:.4g}", bar.figure, value, *bar.maximum));
+    }
+    return missed;
+}
+
+}  // namespace throng::analysis

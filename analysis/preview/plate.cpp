@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "analysis/preview/plate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace throng::analysis {
+namespace {
+
+constexpr double kMargin = 28.0;      // px
+constexpr double kHeader = 64.0;      // px, above the drawing
+constexpr double kFooter = 58.0;      // px, below it
+constexpr double kDensityCell = 1.0;  // m
+constexpr double kMostDensity = 3.0;  // persons per m^2 at the warm end of the scale
+constexpr Colour kPaper = colourFromHex(0xf6f4ef), kInk = colourFromHex(0x22252b),
+                 kRoad = colourFromHex(0xe2dfd6), kArea = colourFromHex(0xece6d3),
+                 kWall = colourFromHex(0x3d424c), kSolid = colourFromHex(0xc9c6be);
+
+void setColour(cairo_t* context, Colour colour, double alpha = 1.0) {
+    cairo_set_source_rgba(context, colour.red, colour.green, colour.blue, alpha);
+}
+
+/// From paper through yellow to red, transparent where nobody is.
+void setHeat(cairo_t* context, double share) {
+    const double t = std::clamp(share, 0.0, 1.0);
+    cairo_set_source_rgba(context, 0.98 - 0.12 * t, 0.80 - 0.66 * t, 0.36 - 0.24 * t,
+                          std::min(0.85, 1.3 * t));
+}
+
+struct Context {
+    explicit Context(cairo_surface_t* surface) : context(cairo_create(surface)) {}
+    ~Context() { cairo_destroy(context); }
+    Context(const Context&) = delete;
+    Context& operator=(const Context&) = delete;
+    cairo_t* context;
+};
+
+}  // namespace
+
+Plate::Plate(const std::filesystem::path& bake, const PreviewOptions& options)
+    : bake_(io::loadBake(bake)),
+      groups_(io::loadGroups(bake_)),
+      positions_(bake_.streamPath("pos")),
+      directions_(bake_.streamPath("dir")),
+      states_(bake_.streamPath("state")),
+      options_(options) {
+    const glm::dvec2 extent = bake_.maximum - bake_.minimum;
+    width_ = options.width / 2 * 2;  // video encoders want even sizes
+    scale_ = (width_ - 2.0 * kMargin) / std::max(extent.x, 1.0);
+    height_ = static_cast<int>(std::ceil(extent.y * scale_ + kHeader + kFooter)) / 2 * 2;
+    for (std::vector<float>* values : {&position_, &direction_, &state_, &trail_, &trail_state_})
+        values->resize(std::size_t{3} * bake_.agents);
+    layout_.reset(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_, height_));
+    canvas_.reset(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_, height_));
+    if (cairo_surface_status(canvas_.get()) != CAIRO_STATUS_SUCCESS)
+        throw InputError(
+            bake, fmt::format("a picture of {} x {} px is more than can be drawn: ask for a smaller --width",
+                              width_, height_));
+    drawLayout();
+}
+
+glm::dvec2 Plate::toPixel(double x, double y) const {
+    return {kMargin + (x - bake_.minimum.x) * scale_, kHeader + (bake_.maximum.y - y) * scale_};
+}
+
+void Plate::path(cairo_t* context, const std::vector<glm::dvec2>& points, bool close) const {
+    cairo_new_path(context);
+    for (const glm::dvec2 point : points) {
+        const glm::dvec2 at = toPixel(point.x, point.y);
+        cairo_line_to(context, at.x, at.y);
+    }
+    if (close) cairo_close_path(context);
+}
+
+void Plate::text(cairo_t* context, double x, double y, double size, const std::string& what,
+                 bool bold) const {
+    cairo_select_font_face(context, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
+                           bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+    cairo_set_font_size(context, size);
+    cairo_move_to(context, x, y);
+    cairo_show_text(context, what.c_str());
+}
+
+void Plate::drawLayout() {
+    const Context scope(layout_.get());
+    cairo_t* context = scope.context;
+    setColour(context, kPaper);
+    cairo_paint(context);
+    for (const authoring::Road& road : bake_.roads) {
+        path(context, road.centreline, false);
+        cairo_set_line_width(context, road.width * scale_);
+        cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
+        setColour(context, kRoad);
+        cairo_stroke(context);
+    }
+    for (const authoring::Area& area : bake_.areas) {
+        path(context, area.polygon, true);
+        setColour(context, kArea);
+        cairo_fill(context);
+    }
+    for (const authoring::Wall& wall : bake_.walls)
+        if (wall.toggles.empty()) drawWall(context, wall);
+    setColour(context, kInk);
+    text(context, kMargin, 38.0, 22.0, bake_.name, true);
+    drawScaleBar(context);
+}
+
+void Plate::drawScaleBar(cairo_t* context) const {
+    const double wanted = 0.16 * width_ / scale_;
+    const double decade = std::pow(10.0, std::floor(std::log10(wanted)));
+    const double metres = wanted >= 5.0 * decade   ? 5.0 * decade
+                          : wanted >= 2.0 * decade ? 2.0 * decade
+                                                   : decade;
+    const double right = width_ - kMargin, y = height_ - 24.0;
+    setColour(context, kInk);
+    cairo_set_line_width(context, 2.0);
+    cairo_move_to(context, right - metres * scale_, y - 5.0);
+    cairo_rel_line_to(context, 0.0, 5.0);
+    cairo_rel_line_to(context, metres * scale_, 0.0);
+    cairo_rel_line_to(context, 0.0, -5.0);
+    cairo_stroke(context);
+    text(context, right - metres * scale_, y - 10.0, 13.0, fmt::format("{:.4g} m", metres));
+    if (!options_.density) return;
+    const double left = right - metres * scale_ - 250.0;
+    for (int i = 0; i < 120; ++i) {
+        setHeat(context, i / 119.0);
+        cairo_rectangle(context, left + i, y - 12.0, 1.5, 12.0);
+        cairo_fill(context);
+    }
+    setColour(context, kInk);
+    text(context, left, y - 17.0, 12.0, "persons per square metre");
+    text(context, left, y + 14.0, 11.0, "0");
+    text(context, left + 112.0, y + 14.0, 11.0, fmt::format("{:.0f}+", kMostDensity));
+}
+
+void Plate::drawDensity(cairo_t* context) const {
+    const glm::dvec2 extent = bake_.maximum - bake_.minimum;
+    const auto columns = static_cast<std::size_t>(std::ceil(extent.x / kDensityCell)) + 1;
+    const auto rows = static_cast<std::size_t>(std::ceil(extent.y / kDensityCell)) + 1;
+    // Everybody's mark is spread over the four nearest cells, and the cells over their neighbours: a smooth
+    // layer.
+    std::vector<double> density(columns * rows, 0.0), smooth(columns * rows, 0.0);
+    for (std::size_t row = 0; row < bake_.agents; ++row) {
+        if (state_[3 * row] < 0.5f) continue;
+        const auto x =
+            static_cast<std::size_t>(std::max(0.0, (position_[3 * row] - bake_.minimum.x) / kDensityCell));
+        const auto y = static_cast<std::size_t>(
+            std::max(0.0, (position_[3 * row + 1] - bake_.minimum.y) / kDensityCell));
+        if (x < columns && y < rows) density[y * columns + x] += 1.0 / (kDensityCell * kDensityCell);
+    }
+    constexpr double kKernel[3] = {0.25, 0.5, 0.25};
+    for (std::size_t y = 1; y + 1 < rows; ++y)
+        for (std::size_t x = 1; x + 1 < columns; ++x)
+            for (std::size_t j = 0; j < 3; ++j)
+                for (std::size_t i = 0; i < 3; ++i)
+                    smooth[y * columns + x] +=
+                        kKernel[j] * kKernel[i] * density[(y + j - 1) * columns + x + i - 1];
+    for (std::size_t y = 0; y < rows; ++y)
+        for (std::size_t x = 0; x < columns; ++x) {
+            const double here = smooth[y * columns + x];
+            if (here < 0.15) continue;
+            const glm::dvec2 at = toPixel(bake_.minimum.x + static_cast<double>(x) * kDensityCell,
+                                          bake_.minimum.y + static_cast<double>(y + 1) * kDensityCell);
+            setHeat(context, here / kMostDensity);
+            cairo_rectangle(context, at.x, at.y, kDensityCell * scale_ + 0.5, kDensityCell * scale_ + 0.5);
+            cairo_fill(context);
+        }
+}
+
+void Plate::drawTrails(cairo_t* context, std::uint32_t frame) {
+    const auto length = static_cast<std::uint32_t>(options_.trail_seconds * bake_.fps);
+    const std::uint32_t stride = std::max(1u, length / 24);
+    if (length == 0) return;
+    std::vector<float> later = position_;
+    std::vector<float> later_state = state_;
+    cairo_set_line_width(context, std::max(1.0, 0.10 * scale_));
+    cairo_set_line_cap(context, CAIRO_LINE_CAP_ROUND);
+    for (std::uint32_t back = stride; back <= length && back <= frame; back += stride) {
+        positions_.readFrame(frame - back, trail_);
+        states_.readFrame(frame - back, trail_state_);
+        const double alpha = 0.42 * (1.0 - static_cast<double>(back) / length);
+        for (std::size_t row = 0; row < bake_.agents; ++row) {
+            if (later_state[3 * row] < 0.5f || trail_state_[3 * row] < 0.5f) continue;
+            const glm::dvec2 a = toPixel(later[3 * row], later[3 * row + 1]);
+            const glm::dvec2 b = toPixel(trail_[3 * row], trail_[3 * row + 1]);
+            setColour(context, groupColour(groups_.group_of[row]), alpha);
+            cairo_move_to(context, a.x, a.y);
+            cairo_line_to(context, b.x, b.y);
+            cairo_stroke(context);
+        }
+        later.swap(trail_);
+        later_state.swap(trail_state_);
+    }
+}
+
+void Plate::drawWall(cairo_t* context, const authoring::Wall& wall) const {
+    path(context, wall.points, wall.closed);
+    if (wall.closed) {
+        setColour(context, kSolid);
+        cairo_fill_preserve(context);
+    }
+    cairo_set_line_cap(context, CAIRO_LINE_CAP_ROUND);
+    cairo_set_line_width(context, wall.closed ? 2.0 : std::max(2.0, wall.thickness * scale_));
+    setColour(context, kWall);
+    cairo_stroke(context);
+}
+
+/// Gates that are closed; of open ones, the posts.
+void Plate::drawGates(cairo_t* context, std::uint32_t frame) const {
+    for (const authoring::Wall& wall : bake_.walls) {
+        if (wall.toggles.empty()) continue;
+        if (!wall.isOpen(frame / bake_.fps)) {
+            drawWall(context, wall);
+            continue;
+        }
+        setColour(context, kWall);
+        for (const glm::dvec2 end : {wall.points.front(), wall.points.back()}) {
+            const glm::dvec2 at = toPixel(end.x, end.y);
+            cairo_arc(context, at.x, at.y, std::max(2.5, 0.75 * wall.thickness * scale_), 0.0,
+                      2.0 * std::numbers::pi);
+            cairo_fill(context);
+        }
+    }
+}
+
+void Plate::drawPeople(cairo_t* context) const {
+    const double radius = std::max(1.6, 0.25 * scale_);
+    for (std::size_t row = 0; row < bake_.agents; ++row) {
+        if (state_[3 * row] < 0.5f) continue;
+        const glm::dvec2 at = toPixel(position_[3 * row], position_[3 * row + 1]);
+        const glm::dvec2 ahead(direction_[3 * row], -direction_[3 * row + 1]);
+        setColour(context, groupColour(groups_.group_of[row]));
+        cairo_arc(context, at.x, at.y, radius, 0.0, 2.0 * std::numbers::pi);
+        cairo_fill(context);
+        // A nose: a white wedge tells which way somebody looks.
+        cairo_set_source_rgba(context, 1.0, 1.0, 1.0, 0.9);
+        cairo_move_to(context, at.x + ahead.x * radius, at.y + ahead.y * radius);
+        cairo_line_to(context, at.x - ahead.y * 0.42 * radius, at.y + ahead.x * 0.42 * radius);
+        cairo_line_to(context, at.x + ahead.y * 0.42 * radius, at.y - ahead.x * 0.42 * radius);
+        cairo_fill(context);
+    }
+}
+
+void Plate::drawCaption(cairo_t* context, std::uint32_t frame) const {
+    std::uint32_t alive = 0;
+    for (std::size_t row = 0; row < bake_.agents; ++row)
+        alive += state_[3 * row] > 0.5f;
+    setColour(context, kInk, 0.75);
+    text(context, kMargin, 56.0, 13.0,
+         fmt::format("{:.2f} s, frame {} of {} at {:.4g} frames/s, {} people in the scene", frame / bake_.fps,
+                     frame + 1, bake_.frames, bake_.fps, alive));
+    text(context, kMargin, height_ - 34.0, 13.0,
+         fmt::format("whole bake: {} people, {} arrived, {} walking at the end, {} refused",
+                     bake_.account.agents, bake_.account.arrived, bake_.account.walking,
+                     bake_.account.refused));
+    double x = kMargin;
+    for (std::size_t group = 0; group < groups_.names.size() && x < 0.55 * width_; ++group) {
+        setColour(context, groupColour(group));
+        cairo_arc(context, x + 5.0, height_ - 17.0, 5.0, 0.0, 2.0 * std::numbers::pi);
+        cairo_fill(context);
+        setColour(context, kInk);
+        text(context, x + 15.0, height_ - 13.0, 12.0, groups_.names[group]);
+        cairo_text_extents_t extents;
+        cairo_text_extents(context, groups_.names[group].c_str(), &extents);
+        x += extents.x_advance + 34.0;
+    }
+}
+
+std::uint32_t Plate::busiestFrame() const {
+    const auto stride = std::max(1u, static_cast<std::uint32_t>(bake_.fps));
+    std::vector<float> values(std::size_t{3} * bake_.agents);
+    std::uint32_t best = 0, most = 0;
+    for (std::uint32_t frame = 0; frame < bake_.frames; frame += stride) {
+        states_.readFrame(frame, values);
+        std::uint32_t alive = 0;
+        for (std::size_t row = 0; row < bake_.agents; ++row)
+            alive += values[3 * row] > 0.5f;
+        if (alive > most) {
+            most = alive;
+            best = frame;
+        }
+    }
+    return best;
+}
+
+cairo_surface_t* Plate::draw(std::uint32_t frame) {
+    positions_.readFrame(frame, position_);
+    directions_.readFrame(frame, direction_);
+    states_.readFrame(frame, state_);
+    const Context scope(canvas_.get());
+    cairo_t* context = scope.context;
+    cairo_set_source_surface(context, layout_.get(), 0.0, 0.0);
+    cairo_paint(context);
+    if (options_.density) drawDensity(context);
+    drawTrails(context, frame);
+    drawGates(context, frame);
+    drawPeople(context);
+    drawCaption(context, frame);
+    cairo_surface_flush(canvas_.get());
+    return canvas_.get();
+}
+
+}  // namespace throng::analysis

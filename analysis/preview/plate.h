@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cairo.h>
+
+#include <glm/vec2.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "analysis/preview/preview.h"
+#include "base/palette.h"
+#include "io/bake_reader.h"
+#include "io/streams/stream_reader.h"
+
+namespace throng::analysis {
+
+/// Draws frames of one bake. What does not move is drawn once.
+class Plate {
+  public:
+    Plate(const std::filesystem::path& bake, const PreviewOptions& options);
+
+    std::uint32_t frames() const { return bake_.frames; }
+    double fps() const { return bake_.fps; }
+    int width() const { return width_; }
+    int height() const { return height_; }
+
+    /// The frame with the most people (looked for in steps of a second).
+    std::uint32_t busiestFrame() const;
+
+    /// The surface stays valid until the next call.
+    cairo_surface_t* draw(std::uint32_t frame);
+
+  private:
+    struct SurfaceFree {
+        void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
+    };
+    using Surface = std::unique_ptr<cairo_surface_t, SurfaceFree>;
+
+    glm::dvec2 toPixel(double x, double y) const;
+    void drawLayout();
+    void drawWall(cairo_t* context, const authoring::Wall& wall) const;
+    void drawGates(cairo_t* context, std::uint32_t frame) const;
+    void drawDensity(cairo_t* context) const;
+    void drawTrails(cairo_t* context, std::uint32_t frame);
+    void drawPeople(cairo_t* context) const;
+    void drawCaption(cairo_t* context, std::uint32_t frame) const;
+    void drawScaleBar(cairo_t* context) const;
+    void path(cairo_t* context, const std::vector<glm::dvec2>& points, bool close) const;
+    void text(cairo_t* context, double x, double y, double size, const std::string& what,
+              bool bold = false) const;
+
+    io::Bake bake_;
+    io::GroupTable groups_;
+    io::StreamReader positions_, directions_, states_;
+    PreviewOptions options_;
+    int width_ = 0, height_ = 0;
+    double scale_ = 1.0;  // px per m
+    Surface layout_, canvas_;
+    std::vector<float> position_, direction_, state_, trail_, trail_state_;
+};
+
+}  // namespace throng::analysis

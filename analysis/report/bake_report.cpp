@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "analysis/report/bake_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "analysis/report/packed_ways.h"
+#include "analysis/report/page.h"
+#include "base/palette.h"
+#include "base/plane_grid.h"
+#include "io/agent_rows.h"
+#include "io/streams/stream_reader.h"
+
+namespace throng::analysis {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double rounded(double value, double step) {
+    return std::round(value / step) * step;
+}
+
+Json pointsOf(const std::vector<glm::dvec2>& points) {
+    Json list = Json::array();
+    for (const glm::dvec2 point : points) {
+        list.push_back(std::round(point.x * 1000.0) / 1000.0);
+        list.push_back(std::round(point.y * 1000.0) / 1000.0);
+    }
+    return list;
+}
+
+Json geometryOf(const io::Bake& bake) {
+    Json geometry = {{"roads", Json::array()}, {"areas", Json::array()}, {"walls", Json::array()}};
+    for (const authoring::Road& road : bake.roads)
+        geometry["roads"].push_back(
+            {{"id", road.id}, {"width", road.width}, {"points", pointsOf(road.centreline)}});
+    for (const authoring::Area& area : bake.areas)
+        geometry["areas"].push_back({{"id", area.id}, {"points", pointsOf(area.polygon)}});
+    for (const authoring::Wall& wall : bake.walls)
+        geometry["walls"].push_back({{"id", wall.id},
+                                     {"closed", wall.closed},
+                                     {"width", wall.thickness},
+                                     {"points", pointsOf(wall.points)},
+                                     {"open", wall.open_at_start},
+                                     {"toggles", wall.toggles}});
+    return geometry;
+}
+
+std::string hexOf(const Colour& colour) {
+    const auto part = [](double value) { return static_cast<int>(std::lround(255.0 * value)); };
+    return fmt::format("#{:02x}{:02x}{:02x}", part(colour.red), part(colour.green), part(colour.blue));
+}
+
+/// What is plotted over time, second by second, and who got in whose way.
+class Watch {
+  public:
+    Watch(const io::Bake& bake, const std::vector<io::AgentRow>& rows)
+        : bake_(bake),
+          rows_(rows),
+          positions_(bake.streamPath("pos")),
+          directions_(bake.streamPath("dir")),
+          states_(bake.streamPath("state")),
+          values_(std::size_t{bake.agents} * 3),
+          places_(bake.agents),
+          alive_(bake.agents),
+          grid_(bake.minimum, bake.maximum, 1.0) {
+        for (const io::AgentRow& row : rows)
+            largest_radius_ = std::max(largest_radius_, static_cast<double>(row.radius));
+    }
+
+    void run() {
+        const auto per_second = static_cast<std::uint32_t>(std::max(1.0, std::round(bake_.fps)));
+        const std::uint32_t for_overlaps = std::max(1u, per_second / 6);
+        for (std::uint32_t frame = 0; frame < bake_.frames; ++frame) {
+            const bool whole_second = frame % per_second == 0 || frame + 1 == bake_.frames;
+            if (!whole_second && frame % for_overlaps != 0) continue;
+            read(frame);
+            if (whole_second) tally(frame);
+            findOverlaps(frame);
+        }
+    }
+
+    Json series = {{"time", Json::array()}, {"present", Json::array()}, {"speed", Json::array()}};
+
+    /// The deepest pairs, each in its worst moment.
+    Json overlaps() const {
+        constexpr std::size_t kMost = 200;
+        std::vector<std::pair<double, std::pair<std::uint64_t, std::uint32_t>>> worst;
+        for (const auto& [pair, found] : overlaps_)
+            worst.push_back({found.first, {pair, found.second}});
+        std::sort(worst.begin(), worst.end(), [](const auto& a, const auto& b) {
+            return a.first != b.first ? a.first > b.first : a.second < b.second;
+        });
+        Json list = Json::array();
+        for (std::size_t i = 0; i < std::min(kMost, worst.size()); ++i)
+            list.push_back({{"a", worst[i].second.first >> 32},
+                            {"b", worst[i].second.first & 0xffffffffu},
+                            {"frame", worst[i].second.second},
+                            {"percent", rounded(100.0 * worst[i].first, 0.1)}});
+        return list;
+    }
+    std::size_t overlapCount() const { return overlaps_.size(); }
+
+  private:
+    void read(std::uint32_t frame) {
+        positions_.readFrame(frame, values_);
+        for (std::size_t row = 0; row < places_.size(); ++row)
+            places_[row] = {values_[3 * row], values_[3 * row + 1]};
+        states_.readFrame(frame, values_);
+        present_.clear();
+        bodies_.clear();
+        for (std::uint32_t row = 0; row < places_.size(); ++row) {
+            alive_[row] = values_[3 * std::size_t{row}] > 0.5f;
+            if (!alive_[row]) continue;
+            present_.push_back(row);
+            bodies_.push_back(places_[row]);
+        }
+    }
+
+    void tally(std::uint32_t frame) {
+        directions_.readFrame(frame, values_);
+        double speeds = 0.0;
+        for (const std::uint32_t row : present_)
+            speeds += values_[3 * std::size_t{row} + 2];
+        series["time"].push_back(rounded(frame / bake_.fps, 0.001));
+        series["present"].push_back(present_.size());
+        series["speed"].push_back(
+            present_.empty() ? Json() : Json(rounded(speeds / static_cast<double>(present_.size()), 0.001)));
+    }
+
+    void findOverlaps(std::uint32_t frame) {
+        constexpr double kCounts = 0.01;  // of the sum of radii, as `throng measure` has it
+        grid_.sort(bodies_);
+        for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
+            const std::uint32_t row = present_[i];
+            grid_.near(bodies_[i], rows_[row].radius + largest_radius_, [&](std::uint32_t j) {
+                if (j <= i) return;
+                const std::uint32_t other = present_[j];
+                const double sum = static_cast<double>(rows_[row].radius) + rows_[other].radius;
+                const double depth =
+                    1.0 - std::hypot(bodies_[i].x - bodies_[j].x, bodies_[i].y - bodies_[j].y) / sum;
+                if (depth <= kCounts) return;
+                auto& found = overlaps_[std::uint64_t{row} << 32 | other];
+                if (depth > found.first) found = {depth, frame};
+            });
+        }
+    }
+
+    const io::Bake& bake_;
+    const std::vector<io::AgentRow>& rows_;
+    io::StreamReader positions_, directions_, states_;
+    std::vector<float> values_;
+    std::vector<glm::dvec2> places_, bodies_;
+    std::vector<bool> alive_;
+    std::vector<std::uint32_t> present_;
+    PlaneGrid grid_;
+    double largest_radius_ = 0.0;
+    std::map<std::uint64_t, std::pair<double, std::uint32_t>> overlaps_;
+};
+
+/// Who walks at the end and has not come half a metre further in five seconds, and since when.
+Json stuckOnes(const io::Bake& bake, const std::vector<io::AgentRow>& rows) {
+    constexpr double kSeconds = 5.0, kMetres = 0.5;
+    Json list = Json::array();
+    if (bake.frames / bake.fps < kSeconds) return list;
+    const io::StreamReader positions(bake.streamPath("pos"));
+    std::vector<float> end(std::size_t{bake.agents} * 3), then(end.size());
+    positions.readFrame(bake.frames - 1, end);
+    std::vector<std::uint32_t> waiting;
+    for (std::uint32_t row = 0; row < rows.size(); ++row)
+        if (rows[row].outcome == "walking") waiting.push_back(row);
+    const auto step = static_cast<std::uint32_t>(std::max(1.0, std::round(bake.fps / 4.0)));
+    const auto needed = static_cast<std::uint32_t>(std::ceil(kSeconds * bake.fps));
+    for (std::uint32_t back = needed; !waiting.empty(); back += step) {
+        const bool at_start = back + 1 >= bake.frames;
+        positions.readFrame(at_start ? 0 : bake.frames - 1 - back, then);
+        std::vector<std::uint32_t> still;
+        for (const std::uint32_t row : waiting) {
+            const std::size_t i = 3 * std::size_t{row};
+            const bool near = std::hypot(end[i] - then[i], end[i + 1] - then[i + 1]) < kMetres;
+            if (near && !at_start)
+                still.push_back(row);
+            else if (back > needed || (near && at_start))
+                list.push_back({{"agent", row}, {"frame", at_start ? 0 : bake.frames - 1 - back}});
+        }
+        waiting = std::move(still);
+    }
+    return list;
+}
+
+Json measuredJson(const Measurement& measured) {
+    Json json = measurementJson(measured);
+    const auto curve = [](const std::vector<glm::dvec2>& points) {
+        Json list = Json::array();
+        for (const glm::dvec2 point : points)
+            list.push_back({rounded(point.x, 0.001), rounded(point.y, 0.0001)});
+        return list;
+    };
+    json["speed_by_density"] = curve(measured.speed_by_density);
+    json["arrivals"] = curve(measured.arrivals);
+    json["overlaps"] = curve(measured.overlaps);
+    return json;
+}
+
+}  // namespace
+
+std::string bakeReport(const io::Bake& bake, const Measurement& measured,
+                       const std::vector<std::string>& missed) {
+    const std::vector<io::AgentRow> rows = io::loadAgentRows(bake);
+    const PackedWays ways = packWays(bake);
+    Watch watch(bake, rows);
+    watch.run();
+
+    std::vector<std::string> groups;
+    Json agents = {{"group", Json::array()},   {"radius", Json::array()}, {"outcome", Json::array()},
+                   {"arrival", Json::array()}, {"first", Json::array()},  {"last", Json::array()}};
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+        const auto known = std::find(groups.begin(), groups.end(), rows[row].group);
+        agents["group"].push_back(known - groups.begin());
+        if (known == groups.end()) groups.push_back(rows[row].group);
+        agents["radius"].push_back(rounded(rows[row].radius, 0.001));
+        agents["outcome"].push_back(rows[row].outcome == "arrived"   ? 1
+                                    : rows[row].outcome == "walking" ? 0
+                                                                     : 2);
+        agents["arrival"].push_back(rows[row].arrival_frame == 0xffffffffu ? Json()
+                                                                           : Json(rows[row].arrival_frame));
+        const bool never = ways.first[row] > ways.last[row];
+        agents["first"].push_back(never ? Json() : Json(ways.first[row]));
+        agents["last"].push_back(never ? Json() : Json(ways.last[row]));
+    }
+    Json colours = Json::array();
+    for (std::size_t group = 0; group < groups.size(); ++group)
+        colours.push_back(hexOf(groupColour(group)));
+
+    Json data;
+    data["name"] = bake.name;
+    data["fps"] = bake.fps;
+    data["frames"] = bake.frames;
+    data["complete"] = bake.complete;
+    data["seed"] = bake.seed;
+    data["minimum"] = {bake.minimum.x, bake.minimum.y};
+    data["maximum"] = {bake.maximum.x, bake.maximum.y};
+    data["geometry"] = geometryOf(bake);
+    data["groups"] = groups;
+    data["colours"] = colours;
+    data["agents"] = agents;
+    data["measured"] = measuredJson(measured);
+    data["missed"] = missed;
+    data["refused"] = bake.manifest.contains("/account/refused_reasons"_json_pointer)
+                          ? bake.manifest.at("/account/refused_reasons"_json_pointer)
+                          : Json::object();
+    data["device"] = bake.manifest.value("device", Json::object());
+    data["generator"] = bake.manifest.value("generator", "");
+    data["series"] = watch.series;
+    data["overlaps"] = watch.overlaps();
+    data["overlap_pairs"] = watch.overlapCount();
+    data["stuck"] = stuckOnes(bake, rows);
+    data["ways"] = {{"every", ways.every},
+                    {"moments", ways.moments},
+                    {"quantum", ways.quantum},
+                    {"largest_error", rounded(ways.largest_error, 0.0001)},
+                    {"usual_error", rounded(ways.usual_error, 0.0001)},
+                    {"deflated", base64(ways.deflated)}};
+    return makePage("bake", bake.name, data);
+}
+
+nlohmann::ordered_json thumbnailOf(const io::Bake& bake) {
+    constexpr std::uint32_t kPeople = 60, kPoints = 14;
+    const glm::dvec2 extent = bake.maximum - bake.minimum;
+    const double scale = 255.0 / std::max({extent.x, extent.y, 1.0});
+    const auto put = [&](Json& list, double x, double y) {
+        list.push_back(static_cast<int>(std::clamp((x - bake.minimum.x) * scale, 0.0, 255.0)));
+        list.push_back(static_cast<int>(std::clamp((y - bake.minimum.y) * scale, 0.0, 255.0)));
+    };
+    Json thumbnail = {{"size", {std::lround(extent.x * scale), std::lround(extent.y * scale)}},
+                      {"walls", Json::array()},
+                      {"ways", Json::array()}};
+    for (const authoring::Wall& wall : bake.walls) {
+        Json outline = Json::array({wall.closed ? 1 : 0});
+        for (const glm::dvec2 point : wall.points)
+            put(outline, point.x, point.y);
+        thumbnail["walls"].push_back(outline);
+    }
+    const std::uint32_t step = std::max(1u, bake.agents / kPeople);
+    const io::StreamReader positions(bake.streamPath("pos"));
+    const io::GroupTable groups = io::loadGroups(bake);
+    std::vector<Json> ways;
+    for (std::uint32_t row = 0; row < bake.agents; row += step)
+        ways.push_back(Json::array({groups.group_of[row]}));
+    std::vector<float> values(std::size_t{bake.agents} * 3);
+    for (std::uint32_t point = 0; point < kPoints && bake.frames > 0; ++point) {
+        positions.readFrame(
+            static_cast<std::uint32_t>(std::uint64_t{point} * (bake.frames - 1) / (kPoints - 1)), values);
+        for (std::size_t way = 0; way < ways.size(); ++way)
+            put(ways[way], values[3 * way * step], values[3 * way * step + 1]);
+    }
+    for (Json& way : ways)
+        thumbnail["ways"].push_back(std::move(way));
+    return thumbnail;
+}
+
+}  // namespace throng::analysis

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "io/bake_reader.h"
+
+namespace throng::analysis {
+
+/// Everybody's ways, small enough for a page.
+///
+/// Positions are taken every few frames and rounded to 16 bits of the scene's longer side. Each is written as
+/// what is left when one expects people to go on as they went (twice the last place less the one before),
+/// with the sign in the lowest bit; for one moment after the other, the low bytes of all x and y, then the
+/// high ones; all of it deflated (RFC 1950). In between, whoever plays it goes in straight lines.
+struct PackedWays {
+    std::uint32_t every = 1;  ///< frames from one moment to the next; the last frame is always one
+    std::uint32_t moments = 0;
+    double quantum = 0.0;  ///< m
+    std::vector<unsigned char> deflated;
+    double largest_error = 0.0;  ///< m, of all people present in all frames, straight lines included
+    double usual_error = 0.0;    ///< m, root of the mean square
+    std::vector<std::uint32_t> first, last;  ///< frames in which each row is there; first > last: never
+};
+
+PackedWays packWays(const io::Bake& bake);
+
+}  // namespace throng::analysis

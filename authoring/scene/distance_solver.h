@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <limits>
+#include <vector>
+
+#include "authoring/scene.h"
+
+/// Ground to walk on as a grid, and who works distances out on it.
+namespace throng::authoring {
+
+/// How hard it is to walk, cell by cell.
+struct WalkMap {
+    FieldGrid grid;
+    std::vector<float> cost;  ///< >= 1 per metre walked; infinity where nobody can stand
+    std::vector<glm::vec2>
+        one_way;  ///< unit direction that may not be walked against, or zero; empty when there is none
+    std::vector<std::uint8_t>
+        open_sides;  ///< gpu::OPEN_TO_X, OPEN_TO_Y: where one may go to the next cell; empty = all
+
+    /// Whether there are closed sides or one-way roads.
+    bool isBound() const { return !open_sides.empty() || !one_way.empty(); }
+};
+
+/// Marks a distance that no path leads to, before blocked cells are filled in.
+inline constexpr float kUnreachable = std::numeric_limits<float>::infinity();
+
+/// Walking more than this (cosine) against a one-way road is not allowed.
+inline constexpr float kAgainstOneWay = -0.1f;
+
+/// Something else that solves the Eikonal equation: a device. Not for several threads at once.
+class DistanceSolver {
+  public:
+    virtual ~DistanceSolver() = default;
+    /// @param start distances at and around the target, kUnreachable elsewhere
+    /// @returns the distance everywhere, kUnreachable where no path leads to the target
+    virtual std::vector<float> solve(const WalkMap& map, const std::vector<float>& start) = 0;
+};
+
+}  // namespace throng::authoring

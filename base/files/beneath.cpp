@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/files/beneath.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <linux/openat2.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <iterator>
+#include <system_error>
+
+#include "base/files/errors.h"
+
+namespace throng {
+namespace fs = std::filesystem;
+namespace {
+
+class Descriptor {
+  public:
+    explicit Descriptor(int number) : number_(number) {}
+    ~Descriptor() {
+        if (number_ >= 0) ::close(number_);
+    }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    int get() const { return number_; }
+    void reset(int number) {
+        if (number_ >= 0) ::close(number_);
+        number_ = number;
+    }
+
+  private:
+    int number_;
+};
+
+// Without O_NONBLOCK, a named pipe would wait for a writer for ever.
+constexpr int kReading = O_RDONLY | O_CLOEXEC | O_NONBLOCK;
+
+/// For kernels and sandboxes without openat2: name by name, and no links at all.
+int openByNames(int folder, const std::string& relative) {
+    Descriptor at(::dup(folder));
+    const fs::path path(relative);
+    if (path.is_absolute() || path.empty()) {
+        errno = EXDEV;
+        return -1;
+    }
+    for (auto name = path.begin(); name != path.end(); ++name) {
+        if (*name == ".") continue;
+        if (*name == "..") {
+            errno = EXDEV;
+            return -1;
+        }
+        const bool is_last = std::next(name) == path.end();
+        const int flags = is_last ? kReading | O_NOFOLLOW : O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC;
+        const int next = ::openat(at.get(), name->c_str(), flags);
+        if (next < 0 || is_last) return next;
+        at.reset(next);
+    }
+    errno = EISDIR;
+    return -1;
+}
+
+int openBeneath(int folder, const std::string& relative) {
+    struct open_how how {};
+    how.flags = kReading;
+    how.resolve = RESOLVE_BENEATH | RESOLVE_NO_MAGICLINKS;
+    const long opened = ::syscall(SYS_openat2, folder, relative.c_str(), &how, sizeof how);
+    if (opened >= 0) return static_cast<int>(opened);
+    return errno == ENOSYS || errno == EPERM ? openByNames(folder, relative) : -1;
+}
+
+}  // namespace
+
+std::vector<unsigned char> readBeneath(const fs::path& folder, const std::string& relative,
+                                       std::uint64_t limit) {
+    const fs::path shown = folder / relative;
+    const fs::path where = folder.empty() ? fs::path(".") : folder;
+    const Descriptor at(::open(where.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
+    if (at.get() < 0) throw InputError(where, "cannot open: " + std::generic_category().message(errno));
+    if (relative.find('\0') != std::string::npos) throw InputError(shown, "is no name of a file");
+    const Descriptor file(openBeneath(at.get(), relative));
+    if (file.get() < 0)
+        throw InputError(shown, errno == EXDEV ? "leads out of the folder of the file that names it"
+                                               : "cannot open: " + std::generic_category().message(errno));
+    struct stat facts {};
+    if (::fstat(file.get(), &facts) != 0 || !S_ISREG(facts.st_mode))
+        throw InputError(shown, "not a regular file");
+    const auto size = static_cast<std::uint64_t>(facts.st_size);
+    if (size > limit)
+        throw InputError(shown, fmt::format("{} bytes is more than the {} that can be read", size, limit));
+    std::vector<unsigned char> bytes(static_cast<std::size_t>(size));
+    for (std::size_t done = 0; done < bytes.size();) {
+        const ssize_t got = ::read(file.get(), bytes.data() + done, bytes.size() - done);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) throw InputError(shown, "cannot read: " + std::generic_category().message(errno));
+        if (got == 0) throw InputError(shown, "became shorter while it was read");
+        done += static_cast<std::size_t>(got);
+    }
+    return bytes;
+}
+
+}  // namespace throng

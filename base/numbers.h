@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+/// Numbers as people read them.
+namespace throng {
+
+/// 1234567 -> "1,234,567"
+std::string grouped(std::uint64_t number);
+
+/// 94371840 -> "90.0 MiB"
+std::string readableBytes(std::uint64_t bytes);
+
+/// The smallest of 1, 2, 5 times a power of ten that is not below `value`; `value` is more than 0.
+double roundUpNicely(double value);
+
+}  // namespace throng

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/baking/bake_description.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "authoring/scene/terrain_check.h"
+#include "recording/gaits.h"
+
+namespace throng::cli {
+namespace {
+
+std::vector<recording::BakeAgent> describeAgents(const authoring::Scene& scene) {
+    std::vector<recording::BakeAgent> agents;
+    agents.reserve(scene.people.size());
+    for (std::size_t row = 0; row < scene.people.size(); ++row) {
+        const gpu::Person& person = scene.people[row];
+        agents.push_back({person.group, person.radius, person.preferred_speed, person.variation,
+                          person.party_first, scene.origin + glm::dvec2(scene.goals[row])});
+    }
+    return agents;
+}
+
+}  // namespace
+
+recording::BakeDescription describeBake(const LoadedLayout& loaded, const BakeOptions& options,
+                                        const gl::Device& device) {
+    const authoring::Scene& scene = loaded.scene;
+    recording::BakeDescription bake;
+    bake.output = options.output.empty() ? loaded.layout.name : options.output;
+    bake.force = options.force;
+    bake.name = loaded.layout.name;
+    bake.layout_text = loaded.text;
+    bake.seed = scene.settings.seed;
+    bake.fps = scene.settings.fps;
+    bake.frames =
+        static_cast<std::uint32_t>(std::max(1l, std::lround(scene.settings.duration * scene.settings.fps)));
+    bake.substeps = static_cast<std::uint32_t>(scene.settings.substeps);
+    bake.duration = scene.settings.duration;
+    bake.warmup = scene.settings.warmup;
+    bake.smoothing = scene.settings.smoothing;
+    for (const gpu::Person& person : scene.people)
+        bake.variations = std::max(bake.variations, person.variation + 1);
+    bake.strides = recording::allStrides();
+    bake.scene_origin = scene.origin;
+    bake.output_origin = scene.output_origin;
+    bake.minimum = scene.origin + glm::dvec2(scene.minimum);
+    bake.maximum = scene.origin + glm::dvec2(scene.maximum);
+    for (const authoring::Group& group : scene.groups)
+        bake.groups.push_back({group.id, group.is_flow});
+    bake.agents = describeAgents(scene);
+    bake.roads = loaded.layout.roads;
+    bake.areas = loaded.layout.areas;
+    bake.walls = loaded.layout.walls;
+    if (loaded.terrain) {
+        const authoring::Rebase rebase(loaded.layout);
+        bake.terrain = recording::BakeTerrain{
+            loaded.terrain, scene.terrain, loaded.layout.terrain->file, loaded.terrain_hash, {}};
+        for (const authoring::Wall& wall : loaded.layout.walls)
+            bake.terrain->along_walls.push_back(authoring::groundAlong(wall, rebase, *scene.terrain));
+    }
+    bake.renderer = device.name;
+    bake.driver = device.version;
+    bake.gltf = options.gltf;
+    bake.gltf_agents = options.gltf_agents;
+    return bake;
+}
+
+std::map<std::string, std::uint32_t> refusals(const Account& account) {
+    std::map<std::string, std::uint32_t> reasons;
+    for (const AgentOutcome& agent : account.agents)
+        if (agent.status == AgentStatus::refused) ++reasons[agent.reason];
+    return reasons;
+}
+
+}  // namespace throng::cli

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "base/frame.h"
+#include "cli/baking/load_layout.h"
+#include "recording/bake_description.h"
+#include "sim/gl/context.h"
+
+namespace throng::cli {
+
+struct BakeOptions {
+    std::string output;
+    bool force = false;
+    bool gltf = true;
+    std::uint32_t gltf_agents = 2000;
+};
+
+/// All that the writers have to know of a layout and its scene.
+recording::BakeDescription describeBake(const LoadedLayout& loaded, const BakeOptions& options,
+                                        const gl::Device& device);
+
+/// How many people were refused for each reason.
+std::map<std::string, std::uint32_t> refusals(const Account& account);
+
+}  // namespace throng::cli

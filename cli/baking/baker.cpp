@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/baking/baker.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <cstring>
+#include <span>
+
+#include "base/files/hash.h"
+#include "base/stopwatch.h"
+#include "cli/baking/calibration_file.h"
+#include "io/bake_reader.h"
+#include "io/checkpoint.h"
+#include "recording/motion_recorder.h"
+
+namespace throng::cli {
+namespace {
+
+constexpr const char* kSeconds = "seconds";
+constexpr const char* kMotion = "motion";
+
+/// Everything that the bytes of a bake depend on.
+std::string identityOf(const LoadedLayout& loaded, const BakeJob& job, const gl::Device& device) {
+    std::string text =
+        fmt::format("{}\n{}\n{}\n{} {} {} {} {}\n", THRONG_VERSION, device.name, device.version,
+                    job.diagram_every, job.seconds, job.densities, job.options.gltf, job.options.gltf_agents);
+    for (const std::string& override_text : loaded.overrides)
+        text += override_text + "\n";
+    if (loaded.fields_on_device) text += "fields on the device\n";  // other bits than the CPU's
+    if (loaded.terrain) text += fmt::format("{:016x}\n", loaded.terrain_identity);
+    return hashText(text + loaded.text);
+}
+
+/// The bake of an earlier run that has come to its end, so that there is nothing left to go on with.
+std::optional<io::Bake> findComplete(const recording::BakeDescription& description,
+                                     const std::string& identity) {
+    const std::filesystem::path bake(description.output);
+    if (!std::filesystem::exists(bake / "bake.json")) return std::nullopt;
+    try {
+        io::Bake found = io::loadBake(bake);
+        if (!found.complete || found.manifest.value("inputs", "") != "xxh3:" + identity) return std::nullopt;
+        io::BakeWriter::tidy(bake);
+        return found;
+    } catch (const InputError&) {
+        return std::nullopt;
+    }
+}
+
+/// From where an earlier run is to be gone on with, if it is.
+std::optional<io::Checkpoint> findCheckpoint(const recording::BakeDescription& description,
+                                             const BakeJob& job, const std::string& identity) {
+    if (job.checkpoint_seconds <= 0.0 && !job.resume) return std::nullopt;
+    const std::filesystem::path folder = io::BakeFolder::unfinishedPath(description.output);
+    std::optional<io::Checkpoint> checkpoint = io::loadCheckpoint(folder);
+    if (!checkpoint) return std::nullopt;
+    if (job.resume && checkpoint->identity == identity) return checkpoint;
+    if (job.options.force) return std::nullopt;
+    if (job.resume)
+        throw OutputError(folder,
+                          "was begun with another layout, other options or another driver; --force "
+                          "starts over");
+    throw OutputError(folder, fmt::format("holds the first {} of {} frames of an earlier run; --resume "
+                                          "goes on with it, --force starts over",
+                                          checkpoint->frames, description.frames));
+}
+
+/// One bake under way.
+class Run {
+  public:
+    Run(sim::Simulation& simulation, const authoring::SimulationSettings& settings, const BakeJob& job,
+        io::BakeWriter& writer, const recording::BakeDescription& description, std::string identity)
+        : simulation_(simulation),
+          job_(job),
+          writer_(writer),
+          recorder_(description, [&writer](const Frame& frame) { writer.write(frame); }),
+          identity_(std::move(identity)),
+          frames_(description.frames),
+          substeps_(static_cast<std::uint32_t>(settings.substeps)),
+          warmup_(sim::warmupSteps(settings)),
+          pump_(simulation, {job.diagram_every > 0, job.seconds, job.densities},
+                [this](const Frame& frame) { receive(frame); }) {}
+
+    void goOnFrom(const io::Checkpoint& checkpoint) {
+        simulation_.restore({checkpoint.steps, checkpoint.sections});
+        const std::vector<std::byte>* motion = checkpoint.find(kMotion);
+        if (!motion) throw std::runtime_error("the checkpoint says nothing of the motion so far");
+        recorder_.restore(*motion);
+        if (const std::vector<std::byte>* bytes = checkpoint.find(kSeconds);
+            bytes && bytes->size() == sizeof seconds_before_)
+            std::memcpy(&seconds_before_, bytes->data(), sizeof seconds_before_);
+    }
+
+    /// @returns the signal that stopped it early, or 0
+    int simulate(const InterruptGuard& interrupt, Progress& progress) {
+        start_ = last_checkpoint_ = Clock::now();
+        for (std::uint32_t step = simulation_.stepsDone(); step < warmup_ && !interrupt.signal(); ++step) {
+            simulation_.step();
+            if (step % substeps_ != 0) continue;
+            simulation_.wait();
+            progress.update(0, 0, simulation_.stepsDone());
+        }
+        for (std::uint32_t frame = recorder_.framesTaken(); frame < frames_ && !interrupt.signal(); ++frame) {
+            if (frame > 0)
+                for (std::uint32_t step = 0; step < substeps_; ++step)
+                    simulation_.step();
+            pump_.submit(frame, job_.diagram_every > 0 && frame % job_.diagram_every == 0);
+            simulation_.adaptTo(present_);
+            progress.update(frame + 1, present_, simulation_.stepsDone());
+            if (job_.checkpoint_seconds > 0.0 && frame + 1 < frames_ &&
+                secondsSince(last_checkpoint_) >= job_.checkpoint_seconds)
+                save();
+        }
+        pump_.finish();
+        const std::uint32_t taken = recorder_.framesTaken();
+        progress.update(taken, present_, warmup_ + taken * substeps_);
+        return taken < frames_ ? interrupt.signal() : 0;
+    }
+
+    /// Writes the frames that wait for later ones.
+    void finish() { recorder_.finish(); }
+    std::uint32_t frames() const { return recorder_.framesTaken(); }
+
+    void save() {
+        pump_.finish();
+        io::Checkpoint checkpoint;
+        checkpoint.identity = identity_;
+        sim::Simulation::State state = simulation_.save();
+        checkpoint.steps = state.steps_done;
+        checkpoint.sections = std::move(state.parts);
+        const double so_far = seconds();
+        checkpoint.add(kSeconds, std::as_bytes(std::span(&so_far, 1)));
+        checkpoint.add(kMotion, recorder_.save());
+        writer_.save(std::move(checkpoint));
+        last_checkpoint_ = Clock::now();
+    }
+
+    /// Of simulating, with what earlier runs took.
+    double seconds() const { return seconds_before_ + secondsSince(start_); }
+
+  private:
+    void receive(const Frame& frame) {
+        std::uint32_t alive = 0;
+        for (std::size_t row = 0; row < frame.states.size(); row += 3)
+            alive += frame.states[row] > 0.5f;
+        present_ = alive;
+        writer_.writeDiagram(frame);
+        recorder_.take(frame);
+    }
+
+    sim::Simulation& simulation_;
+    const BakeJob& job_;
+    io::BakeWriter& writer_;
+    recording::MotionRecorder recorder_;
+    std::string identity_;
+    std::uint32_t frames_, substeps_, warmup_;
+    std::atomic<std::uint32_t> present_{0};
+    Clock::time_point start_ = Clock::now(), last_checkpoint_;
+    double seconds_before_ = 0.0;
+    sim::FramePump pump_;  // last: its thread uses the others
+};
+
+void stop(BakeRun& run, Run& running, io::BakeWriter& writer, WhenStopped what) {
+    if (run.frames == 0) what = WhenStopped::discard;
+    switch (what) {
+        case WhenStopped::discard:
+            run.end = BakeRun::End::discarded;
+            return;
+        case WhenStopped::checkpoint:
+            running.save();
+            run.end = BakeRun::End::checkpointed;
+            return;
+        case WhenStopped::keep_partial:
+            run.end = BakeRun::End::partial;
+            running.finish();
+            run.result = writer.finishPartial(run.account, run.timing);
+            return;
+    }
+}
+
+/// Mesa's software renderer wakes its threads for every pass: for small crowds that takes several times
+/// longer than the work. It asks the environment, once.
+gl::Context::Options contextFor(int device, std::size_t people) {
+    constexpr int kKeepWhatIsSet = 0;
+    if (static_cast<double>(people) < kWorthThreads) ::setenv("LP_NUM_THREADS", "0", kKeepWhatIsSet);
+    return {device, false};
+}
+
+}  // namespace
+
+Baker::Baker(int device, const std::string& shader_dir, std::size_t people)
+    : context_(contextFor(device, people)), shaders_(shader_dir), costs_(costsFor(context_.device())) {
+    shaders_.keepPrograms();
+}
+
+BakeRun Baker::bake(const LoadedLayout& loaded, const BakeJob& job, const InterruptGuard& interrupt) {
+    const Clock::time_point begin = Clock::now();
+    const authoring::SimulationSettings& settings = loaded.scene.settings;
+    recording::BakeDescription description = describeBake(loaded, job.options, device());
+    description.diagram_every = job.diagram_every;
+    description.densities = job.densities;
+    const std::uint32_t frames = description.frames;
+    const std::string identity = identityOf(loaded, job, device());
+    description.inputs = identity;
+    BakeRun run;
+    if (const auto complete = job.resume ? findComplete(description, identity) : std::nullopt) {
+        run.end = BakeRun::End::was_complete;
+        run.frames = complete->frames;
+        run.timing = {complete->manifest.value("/timing/wall_seconds"_json_pointer, 0.0),
+                      complete->manifest.value("/timing/steps"_json_pointer, std::uint64_t{0})};
+        return run;
+    }
+    const std::optional<io::Checkpoint> checkpoint = findCheckpoint(description, job, identity);
+    std::optional<io::BakeWriter> writer;
+    if (job.checkpoint_seconds > 0.0 || checkpoint)
+        writer.emplace(description, checkpoint ? &*checkpoint : nullptr);
+    else
+        writer.emplace(description);
+    sim::Simulation simulation = simulate(loaded.scene);
+    context_.check("setting up the simulation");
+
+    Run running(simulation, settings, job, *writer, description, identity);
+    if (checkpoint) running.goOnFrom(*checkpoint);
+    const std::uint32_t steps_before = simulation.stepsDone();
+    run.setup_seconds = secondsSince(begin);
+    {
+        Progress progress(job.progress, frames, sim::warmupSteps(settings),
+                          static_cast<std::uint32_t>(settings.substeps), steps_before);
+        run.signal = running.simulate(interrupt, progress);
+    }
+    context_.check("simulating");
+    run.timing.wall_seconds = running.seconds();
+    run.timing.steps = simulation.stepsDone();
+    run.frames = running.frames();
+    run.account = simulation.account();
+    if (run.signal)
+        stop(run, running, *writer, job.when_stopped(run.signal, run.timing.wall_seconds));
+    else {
+        running.finish();
+        run.result = writer->finish(run.account, run.timing);
+    }
+    return run;
+}
+
+}  // namespace throng::cli

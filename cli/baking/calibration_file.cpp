@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/baking/calibration_file.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "base/files/errors.h"
+#include "base/files/hash.h"
+
+namespace throng::cli {
+namespace {
+
+/// Raised when shaders change so much that old measurements say nothing any more.
+constexpr int kFormat = 1;
+
+std::string identity(const gl::Device& device) {
+    return device.name + " / " + device.version;
+}
+
+std::filesystem::path cacheFolder() {
+    if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache)
+        return std::filesystem::path(cache) / "throng";
+    const char* home = std::getenv("HOME");
+    return std::filesystem::path(home && *home ? home : "/tmp") / ".cache" / "throng";
+}
+
+nlohmann::ordered_json toJson(const sim::MethodCost& cost) {
+    nlohmann::ordered_json json = {{"method", authoring::wordFor(cost.method)},
+                                   {"base_ms", cost.base_ms},
+                                   {"pixel_ns", cost.pixel_ns},
+                                   {"site_ns", cost.site_ns},
+                                   {"covered_ns", cost.covered_ns}};
+    if (cost.method == sim::DiagramMethod::binned)
+        json["gather"] = {{"block_width", cost.gather.block_width},
+                          {"block_height", cost.gather.block_height},
+                          {"bin_radii", cost.gather.bin_radii}};
+    return json;
+}
+
+sim::MethodCost fromJson(const nlohmann::json& json) {
+    sim::MethodCost cost;
+    const auto method = authoring::diagramMethodNamed(json.at("method").get<std::string>());
+    if (!method || !authoring::isExact(*method) || *method == sim::DiagramMethod::automatic)
+        throw std::runtime_error("a method that cannot be chosen");
+    cost.method = *method;
+    cost.base_ms = json.at("base_ms");
+    cost.pixel_ns = json.at("pixel_ns");
+    cost.site_ns = json.at("site_ns");
+    cost.covered_ns = json.at("covered_ns");
+    if (json.contains("gather")) {
+        cost.gather.block_width = json["gather"].at("block_width");
+        cost.gather.block_height = json["gather"].at("block_height");
+        cost.gather.bin_radii = json["gather"].at("bin_radii");
+        const auto fits = [](std::uint32_t side) { return side == 1 || side == 2 || side == 4 || side == 8; };
+        if (!fits(cost.gather.block_width) || !fits(cost.gather.block_height) ||
+            !(cost.gather.bin_radii >= 0.25f))
+            throw std::runtime_error("blocks of a size that does not exist");
+    }
+    return cost;
+}
+
+}  // namespace
+
+std::filesystem::path calibrationPath(const gl::Device& device) {
+    return cacheFolder() / fmt::format("calibration-{}.json", hashText(identity(device)).substr(0, 16));
+}
+
+void saveCalibration(const gl::Device& device, const sim::CostModel& model) {
+    nlohmann::ordered_json json = {{"throng-calibration", kFormat},
+                                   {"version", THRONG_VERSION},
+                                   {"device", identity(device)},
+                                   {"costs", nlohmann::ordered_json::array()}};
+    for (const sim::MethodCost& cost : model.costs)
+        json["costs"].push_back(toJson(cost));
+    const std::filesystem::path path = calibrationPath(device);
+    const std::filesystem::path draft = path.string() + ".new";
+    std::error_code error;
+    std::filesystem::create_directories(path.parent_path(), error);
+    {
+        std::ofstream file(draft);
+        file << json.dump(2) << '\n';
+        file.close();
+        if (!file) throw OutputError(draft, "cannot be written; XDG_CACHE_HOME names another folder");
+    }
+    std::filesystem::rename(draft, path, error);
+    if (error) throw OutputError(path, "cannot be put in place: " + error.message());
+}
+
+std::optional<sim::CostModel> loadCalibration(const gl::Device& device) {
+    const std::filesystem::path path = calibrationPath(device);
+    std::ifstream file(path);
+    if (!file) return std::nullopt;
+    try {
+        const nlohmann::json json = nlohmann::json::parse(file);
+        if (json.at("throng-calibration") != kFormat || json.at("version") != THRONG_VERSION ||
+            json.at("device") != identity(device))
+            return std::nullopt;
+        sim::CostModel model;
+        model.device = json.at("device");
+        for (const nlohmann::json& cost : json.at("costs"))
+            model.costs.push_back(fromJson(cost));
+        if (model.costs.empty()) return std::nullopt;
+        return model;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "throng: warning: {} is passed over ({}); `throng calibrate` makes a new one\n",
+                   path.string(), error.what());
+        return std::nullopt;
+    }
+}
+
+sim::CostModel costsFor(const gl::Device& device) {
+    return loadCalibration(device).value_or(sim::CostModel::builtIn());
+}
+
+}  // namespace throng::cli

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/baking/load_layout.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <span>
+#include <sstream>
+
+#include "authoring/layout/layout_reader.h"
+#include "authoring/scene/scene_builder.h"
+#include "base/files/errors.h"
+#include "base/files/hash.h"
+#include "cli/terminal/exit_codes.h"
+#include "io/gltf/terrain_file.h"
+
+namespace throng::cli {
+namespace {
+
+/// A terrain that cannot be used is a mistake in the layout, told where the layout names it.
+void readTerrain(const std::string& name, LoadedLayout& loaded) {
+    const authoring::TerrainSettings& settings = *loaded.layout.terrain;
+    const std::filesystem::path path = std::filesystem::path(name).parent_path() / settings.file;
+    try {
+        loaded.terrain = std::make_shared<const authoring::TerrainMesh>(io::readTerrain(path, settings));
+        Hasher hasher;
+        hasher.add(std::as_bytes(std::span(loaded.terrain->positions)));
+        hasher.add(std::as_bytes(std::span(loaded.terrain->indices)));
+        loaded.terrain_hash = hashFile(path).xxh3;
+        loaded.terrain_identity = hasher.digest();
+    } catch (const InputError& error) {
+        const bool named = std::string_view(error.what()).find("named") != std::string_view::npos;
+        loaded.diagnostics.error(named ? settings.node_where : settings.file_where,
+                                 fmt::format("the terrain cannot be used: {}", error.what()),
+                                 named ? "`node` is the name of a node or a mesh in the file"
+                                       : "`file` is a .glb or .gltf file, relative to the layout's folder");
+    }
+}
+
+std::string readText(const std::string& path) {
+    std::ostringstream text;
+    if (path == "-") {
+        text << std::cin.rdbuf();
+        return text.str();
+    }
+    if (std::filesystem::is_directory(path))
+        throw InputError(path, "is a folder; a layout file was expected");
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream) throw InputError(path, fmt::format("cannot be read: {}", std::strerror(errno)));
+    text << stream.rdbuf();
+    return text.str();
+}
+
+}  // namespace
+
+LoadAttempt tryReadLayout(std::string text, const std::string& name, std::vector<std::string> overrides,
+                          authoring::GroundCache* cache, const SolverMaker& make_solver) {
+    LoadAttempt attempt;
+    LoadedLayout& loaded = attempt.loaded;
+    loaded.text = std::move(text);
+    loaded.overrides = std::move(overrides);
+    loaded.diagnostics.file = name;
+    std::optional<authoring::Layout> layout =
+        authoring::readLayout(loaded.text, loaded.overrides, loaded.diagnostics);
+    if (!layout) return attempt;
+    loaded.layout = std::move(*layout);
+    if (loaded.layout.terrain) readTerrain(name, loaded);
+    if (loaded.diagnostics.hasErrors()) return attempt;
+    const auto solver = make_solver ? make_solver() : nullptr;
+    loaded.fields_on_device = solver != nullptr;
+    std::optional<authoring::Scene> scene =
+        authoring::buildScene(loaded.layout, loaded.diagnostics, cache, loaded.terrain.get(), solver.get());
+    if (!scene) return attempt;
+    loaded.scene = std::move(*scene);
+    if (loaded.layout.name.empty()) loaded.layout.name = std::filesystem::path(name).stem().string();
+    attempt.valid = true;
+    return attempt;
+}
+
+LoadAttempt tryLoadLayout(const std::string& path, const std::vector<std::string>& overrides,
+                          const SolverMaker& make_solver) {
+    return tryReadLayout(readText(path), path == "-" ? "standard input" : path, overrides, nullptr,
+                         make_solver);
+}
+
+void printDiagnostics(const LoadedLayout& loaded) {
+    for (const authoring::Diagnostic& entry : loaded.diagnostics.entries)
+        fmt::print(stderr, "{}\n", authoring::formatDiagnostic(entry, loaded.diagnostics.file, loaded.text));
+}
+
+LoadedLayout loadLayout(const std::string& path, const std::vector<std::string>& overrides,
+                        const SolverMaker& make_solver) {
+    LoadAttempt attempt = tryLoadLayout(path, overrides, make_solver);
+    printDiagnostics(attempt.loaded);
+    if (!attempt.valid) throw Exit(kInvalidInput);
+    return std::move(attempt.loaded);
+}
+
+}  // namespace throng::cli

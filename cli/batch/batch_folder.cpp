@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/batch/batch_folder.h"
+
+#include <set>
+
+#include "base/files/input_file.h"
+#include "base/files/output_file.h"
+
+namespace throng::cli {
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+void BatchFolder::begin(const BatchPlan& plan) const {
+    std::error_code ignored;
+    if (fs::exists(root_, ignored) && !fs::is_empty(root_, ignored) && !fs::exists(familyFile(), ignored))
+        throw OutputError(root_, "is there and is no batch (no family.json inside); give another name");
+    for (const char* name : {"bakes", "results", "logs"})
+        makeFolder(root_ / name);
+    if (!fs::exists(familyFile()) || readFile(familyFile()) != plan.selfContained())
+        replaceFile(familyFile(), plan.selfContained());
+}
+
+std::optional<ordered_json> BatchFolder::readResult(const std::string& id) const {
+    std::error_code ignored;
+    if (!fs::exists(result(id), ignored)) return std::nullopt;
+    ordered_json json = ordered_json::parse(readFile(result(id)), nullptr, false);
+    const bool understood = json.is_object() && json.value("throng_result", 0) == 1 &&
+                            json.contains("status") && json.contains("input");
+    return understood ? std::optional(std::move(json)) : std::nullopt;
+}
+
+void BatchFolder::writeResult(const std::string& id, const ordered_json& content) const {
+    replaceFile(result(id), content.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n");
+}
+
+void BatchFolder::writeLog(const std::string& id, const std::string& text) const {
+    replaceFile(log(id), text);
+}
+
+BatchStanding standingOf(const BatchPlan& plan, const BatchFolder& folder, bool again) {
+    BatchStanding standing;
+    std::set<std::string> known;
+    const bool keeps = plan.family().bake.keep;
+    for (std::size_t i = 0; i < plan.scenarios().size(); ++i) {
+        const std::string& id = plan.scenarios()[i].id;
+        known.insert(id + ".json");
+        const std::optional<ordered_json> result = folder.readResult(id);
+        if (result && !again) {
+            std::string input;
+            try {
+                input = plan.inputHash(plan.layoutText(i));
+            } catch (const std::invalid_argument&) {
+                // Its layout cannot be made: it fails again, and says so.
+            }
+            const bool fits = result->at("input") == input;
+            const bool well = result->at("status") == "ok";
+            if (fits && well && (!keeps || fs::exists(folder.bake(id) / "bake.json"))) {
+                ++standing.done;
+                continue;
+            }
+            standing.failed_before += !well ? 1 : 0;
+            standing.out_of_date += well && !fits ? 1 : 0;
+        }
+        standing.open.push_back(i);
+    }
+    std::error_code ignored;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder.root() / "results", ignored)) {
+        const std::string name = entry.path().filename().string();
+        if (name.ends_with(".json") && !known.contains(name))
+            standing.foreign.push_back(entry.path().stem().string());
+    }
+    return standing;
+}
+
+}  // namespace throng::cli

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/batch/batch_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "authoring/family/family_reader.h"
+#include "authoring/layout/layout_reader.h"
+#include "base/files/hash.h"
+#include "base/files/input_file.h"
+#include "cli/terminal/exit_codes.h"
+
+namespace throng::cli {
+namespace {
+
+using authoring::Json;
+
+/// The parameters in the order of their names, so that the order of axes in the family does not matter.
+std::string idOf(const authoring::Scenario& scenario) {
+    auto parameters = scenario.parameters;
+    std::sort(parameters.begin(), parameters.end(),
+              [](const auto& a, const auto& b) { return a.first < b.first; });
+    Json canonical = Json::object();
+    for (const auto& [name, value] : parameters)
+        canonical[name] = value;
+    return hashText(canonical.dump());
+}
+
+double peopleOf(const authoring::Layout& layout) {
+    double people = 0.0;
+    for (const authoring::Flow& flow : layout.flows)
+        people += flow.count ? static_cast<double>(*flow.count)
+                             : flow.rate.value_or(0.0) *
+                                   std::max(0.0, flow.end - flow.start + layout.simulation.warmup);
+    for (const authoring::Formation& formation : layout.formations) {
+        if (const auto* circle = std::get_if<authoring::CircleFormation>(&formation.shape))
+            people += static_cast<double>(circle->count);
+        else if (const auto* grid = std::get_if<authoring::GridFormation>(&formation.shape))
+            people += static_cast<double>(grid->count ? grid->count : grid->rows * grid->columns);
+        else
+            people += static_cast<double>(std::get<authoring::ListFormation>(formation.shape).agents.size());
+    }
+    return people;
+}
+
+}  // namespace
+
+BatchPlan::BatchPlan(const std::string& path) : path_(path) {
+    const std::string text = readFile(path);
+    authoring::Diagnostics diagnostics;
+    diagnostics.file = path;
+    auto family = authoring::readFamily(text, std::filesystem::path(path).parent_path(), diagnostics);
+    for (const authoring::Diagnostic& entry : diagnostics.entries)
+        fmt::print(stderr, "{}\n", authoring::formatDiagnostic(entry, path, text));
+    if (!family) throw Exit(kInvalidInput);
+    family_ = std::move(*family);
+    if (family_.name.empty()) family_.name = std::filesystem::path(path).stem().string();
+    for (authoring::Scenario& scenario : authoring::planFamily(family_)) {
+        std::string id = idOf(scenario);
+        scenarios_.push_back({std::move(id), std::move(scenario)});
+    }
+    Json whole = Json::parse(text);
+    whole["name"] = family_.name;
+    if (whole.contains("base")) whole["base"] = family_.base;
+    whole.erase("$schema");
+    self_contained_ = whole.dump(1) + "\n";
+}
+
+std::string BatchPlan::layoutText(std::size_t index) const {
+    Json layout = authoring::composeLayout(family_, scenarios_.at(index).scenario);
+    if (!layout.contains("name")) layout["name"] = family_.name;
+    return layout.dump(1) + "\n";
+}
+
+std::string BatchPlan::inputHash(const std::string& layout_text) const {
+    const authoring::Family::Bake& bake = family_.bake;
+    return hashText(fmt::format("{}\n{} {} {} {}{}", layout_text, bake.keep, bake.gltf, bake.density,
+                                bake.diagrams, terrainOf(layout_text)));
+}
+
+/// What the terrain's file holds, for a layout that has one: a result is out of date when it changes.
+std::string BatchPlan::terrainOf(const std::string& layout_text) const {
+    if (layout_text.find("\"terrain\"") == std::string::npos) return "";
+    const Json layout = Json::parse(layout_text, nullptr, false);
+    const Json::json_pointer pointer("/terrain/file");
+    if (!layout.is_object() || !layout.contains(pointer) || !layout.at(pointer).is_string()) return "";
+    const std::string file = layout.at(pointer);
+    const auto known = terrains_.find(file);
+    if (known != terrains_.end()) return known->second;
+    std::error_code none;
+    const std::string hash = std::filesystem::is_regular_file(file, none) ? "\n" + hashFile(file).xxh3 : "";
+    return terrains_[file] = hash;
+}
+
+void BatchPlan::tryLayouts() {
+    constexpr std::size_t kMost = 4000;
+    constexpr std::size_t kMostPrinted = 3;
+    const std::size_t tried = std::min(kMost, scenarios_.size());
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < tried; ++i) {
+        const std::size_t index = i * scenarios_.size() / tried;
+        std::string problem;
+        try {
+            const std::string text = layoutText(index);
+            authoring::Diagnostics diagnostics;
+            const auto layout = authoring::readLayout(text, {}, diagnostics);
+            if (layout) addLoad(*layout, static_cast<double>(scenarios_.size()) / static_cast<double>(tried));
+            for (const authoring::Diagnostic& entry : diagnostics.entries)
+                if (entry.severity == authoring::Severity::error)
+                    problem += fmt::format("\n  {}: {}{}", entry.where.pointer, entry.message,
+                                           entry.hint.empty() ? "" : "\n    hint: " + entry.hint);
+        } catch (const std::invalid_argument& error) {
+            problem = std::string("\n  ") + error.what();
+        }
+        if (!problem.empty() && ++wrong <= kMostPrinted)
+            fmt::print(stderr, "{}: error: scenario {} ({}) is no valid layout:{}\n", path_, index + 1,
+                       authoring::describe(scenarios_[index].scenario), problem);
+    }
+    if (wrong > kMostPrinted)
+        fmt::print(stderr, "{}: {} scenarios more are no valid layouts\n", path_, wrong - kMostPrinted);
+    if (wrong > 0) throw Exit(kInvalidInput);
+}
+
+void BatchPlan::addLoad(const authoring::Layout& layout, double share) {
+    const authoring::SimulationSettings& settings = layout.simulation;
+    const double frames = std::max(1.0, std::round(settings.duration * settings.fps));
+    const double steps = (frames + std::round(settings.warmup * settings.fps)) * settings.substeps;
+    const double people = peopleOf(layout);
+    constexpr double kBytesPerValue = 4.0 * 3.0 * 2.0;  // three floats, as NPY and as PC2
+    const double streams = family_.bake.density ? 4.0 : 3.0;
+    load_.steps += share * steps;
+    load_.people_steps += share * steps * people;
+    load_.bytes += share * (family_.bake.keep ? frames * people * kBytesPerValue * streams + 20'000.0 : 0.0);
+    load_.largest_people = std::max(load_.largest_people, people);
+}
+
+}  // namespace throng::cli

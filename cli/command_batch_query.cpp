@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "base/files/output_file.h"
+#include "cli/batch/results_database.h"
+#include "cli/commands.h"
+
+namespace throng::cli {
+namespace {
+
+struct Options {
+    std::string batch;
+    std::string columns, where, sort, sql, output;
+    std::size_t limit = 0;
+    bool descending = false;
+    bool failed = false;
+    bool json = false;
+    bool csv = false;
+};
+
+/// What fits a terminal: the parameters and the figures that one looks at first.
+std::string usualColumns(const std::filesystem::path& database) {
+    std::string columns = "number, id, status";
+    for (const std::string& name : queryResults(database, "SELECT * FROM parameters LIMIT 0").columns)
+        if (name != "id") columns += ", parameters." + quotedName(name);
+    return columns + ", agents, arrived, stuck, deepest_overlap_percent, mean_speed, total_seconds";
+}
+
+std::string sqlOf(const Options& options, const std::filesystem::path& database) {
+    if (!options.sql.empty()) return options.sql;
+    std::string columns = options.columns.empty() ? usualColumns(database) : options.columns;
+    std::string from = options.columns.empty() ? "scenarios JOIN parameters USING (id)" : "results";
+    std::string where = options.where.empty() ? "" : "(" + options.where + ")";
+    if (options.failed) {
+        columns = "number, id, reason, log";
+        from = "scenarios";
+        where += (where.empty() ? "" : " AND ") + std::string("status = 'failed'");
+    }
+    std::string sql = fmt::format("SELECT {} FROM {}", columns, from);
+    if (!where.empty()) sql += " WHERE " + where;
+    sql +=
+        " ORDER BY " + (options.sort.empty() ? "number" : options.sort) + (options.descending ? " DESC" : "");
+    return options.limit ? sql + fmt::format(" LIMIT {}", options.limit) : sql;
+}
+
+void run(const Options& options) {
+    const std::filesystem::path given(options.batch);
+    const std::filesystem::path database =
+        std::filesystem::is_directory(given) ? given / "results.sqlite" : given;
+    const QueryResult result = queryResults(database, sqlOf(options, database));
+    const bool as_csv = options.csv || options.output.ends_with(".csv");
+    const std::string text = options.json ? jsonOf(result).dump(2) + "\n"
+                             : as_csv     ? csvOf(result)
+                                          : tableOf(result);
+    if (options.output.empty())
+        fmt::print("{}", text);
+    else
+        replaceFile(options.output, text);
+}
+
+}  // namespace
+
+void addBatchQuery(CLI::App& batch) {
+    CLI::App* command = batch.add_subcommand("query", "Ask a batch's database");
+    auto options = std::make_shared<Options>();
+    command->add_option("batch", options->batch, "The batch's folder, or its results.sqlite")->required();
+    command->add_option("--where", options->where, "Only scenarios for which this holds, in SQL");
+    command->add_option("--columns", options->columns,
+                        "What to tell, e.g. \"id, rate, arrived * 1.0 / agents\"; * for all");
+    command->add_option("--sort", options->sort, "By this column");
+    command->add_flag("--descending", options->descending, "Largest first");
+    command->add_option("--limit", options->limit, "At most so many");
+    command->add_flag("--failed", options->failed, "What failed and why");
+    command->add_option("--sql", options->sql, "A whole statement instead (docs/batch.md has the tables)");
+    command->add_flag("--json", options->json, "As JSON");
+    command->add_flag("--csv", options->csv, "As CSV");
+    command->add_option("-o,--output", options->output, "Into this file; .csv means CSV");
+    command->footer(
+        "Example:\n  throng batch query crossings --where \"arrived < agents\" --sort rate --csv");
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace throng::cli

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+#include <iterator>
+#include <memory>
+#include <thread>
+
+#include "base/files/output_file.h"
+#include "cli/baking/calibration_file.h"
+#include "cli/bench_report.h"
+#include "cli/commands.h"
+#include "sim/gl/context.h"
+#include "sim/gl/timer.h"
+
+namespace throng::cli {
+namespace {
+
+struct Options {
+    std::string output = "bench";
+    int device = -1;
+    int rounds = 15;
+    std::uint32_t most = 0;
+};
+
+BenchMachine machineOf(const gl::Device& device, const gl::Timer& timer) {
+    return {device, std::thread::hardware_concurrency(), timer.name()};
+}
+
+std::vector<sim::DiagramContestant> allContestants(std::size_t& yardstick) {
+    std::vector<sim::DiagramContestant> contestants;
+    for (const authoring::DiagramMethodEntry& entry : authoring::kDiagramMethods) {
+        std::string name(entry.word);
+        if (entry.method == sim::DiagramMethod::cones) name += ", 16 sides";
+        contestants.push_back({name, entry.method, 16, {}, false});
+    }
+    yardstick = contestants.size();
+    contestants.push_back({"gradient1, drawing alone", sim::DiagramMethod::gradient1, 16, {}, true});
+    contestants.push_back({"auto", sim::DiagramMethod::binned, 16, {}, false});
+    return contestants;
+}
+
+void runDiagrams(const Options& options) {
+    makeFolder(options.output);
+    const gl::Context context({options.device, false});
+    const gl::Timer timer(context.device().software);
+    const gl::ShaderLibrary shaders;
+    const sim::CostModel costs = costsFor(context.device());
+    DiagramReport report;
+    report.machine = machineOf(context.device(), timer);
+    report.contestants = allContestants(report.yardstick);
+    for (const sim::DiagramCase& setup :
+         {sim::DiagramCase{256, 8}, sim::DiagramCase{4096, 8}, sim::DiagramCase{16384, 8},
+          sim::DiagramCase{65536, 4}, sim::DiagramCase{262144, 2}, sim::DiagramCase{1048576, 1}})
+        if (options.most == 0 || setup.sites <= options.most) report.cases.push_back(setup);
+    sim::DiagramBenchmark benchmark;
+    benchmark.rounds = options.rounds;
+    benchmark.reference = report.yardstick;
+    for (const sim::DiagramCase& setup : report.cases) {
+        fmt::print(stderr, "{} sites of radius {} px\n", setup.sites, setup.radius);
+        std::vector<sim::DiagramContestant> contestants = report.contestants;
+        const sim::MethodCost& best = costs.choose(
+            {static_cast<double>(setup.sites), setup.radius, static_cast<double>(setup.side) * setup.side});
+        contestants.back().method = best.method;
+        contestants.back().gather = best.gather;
+        report.automatic.push_back(best.method == sim::DiagramMethod::binned
+                                       ? fmt::format("binned ({} x {} px blocks, bins of {:g} radii)",
+                                                     best.gather.block_width, best.gather.block_height,
+                                                     best.gather.bin_radii)
+                                       : std::string(authoring::wordFor(best.method)));
+        report.timings.push_back(benchmark.run(shaders, timer, setup, contestants));
+        for (std::size_t i = 0; i < contestants.size(); ++i)
+            if (const auto& timing = report.timings.back()[i])
+                fmt::print("  {:26} {:9.2f} ms  ratio {:6.2f}  wrong {:.4f} %\n", contestants[i].name,
+                           timing->median_ms, timing->ratio, 100.0 * timing->wrong_share);
+    }
+    context.check("timing diagrams");
+    writeDiagramReport(options.output, report);
+    fmt::print("{}/diagrams.md, .csv, .png\n", options.output);
+}
+
+void runProximity(const Options& options) {
+    makeFolder(options.output);
+    const gl::Context context({options.device, false});
+    const gl::Timer timer(true);  // passes are timed one by one, around waits
+    ProximityReport report;
+    report.machine = machineOf(context.device(), timer);
+    report.settings.rounds = options.rounds;
+    for (const std::uint32_t people : {256u, 4096u, 16384u, 65536u, 262144u}) {
+        if (options.most != 0 && people > options.most) continue;
+        fmt::print(stderr, "{} people\n", people);
+        report.rows.push_back(report.settings.run(gl::ShaderLibrary(), people));
+        const sim::ProximityRow& row = report.rows.back();
+        for (const auto& [name, result] : {std::pair{"voronoi", &row.voronoi}, std::pair{"grid", &row.grid},
+                                           std::pair{"brute", &row.brute}})
+            if (*result)
+                fmt::print("  {:8} {:9.2f} ms to find neighbours, {:9.2f} ms a step, recall {:.3f} %\n", name,
+                           (*result)->search_ms, (*result)->step_ms, 100.0 * (*result)->recall);
+    }
+    context.check("timing sensing");
+    writeProximityReport(options.output, report);
+    fmt::print("{}/proximity.md, .csv, .png\n", options.output);
+}
+
+struct StepOptions {
+    std::uint32_t people = 4096;
+    std::string proximity = "voronoi";
+    std::string crowd;
+    int device = -1;
+};
+
+/// One row per person: where it is, where it goes, how fast and how large it is.
+void writeCrowd(const std::string& path, const authoring::Scene& scene) {
+    std::string table = "x,y,goal_x,goal_y,speed,radius\n";
+    for (std::size_t row = 0; row < scene.people.size(); ++row) {
+        const gpu::Person& person = scene.people[row];
+        fmt::format_to(std::back_inserter(table), "{},{},{},{},{},{}\n", person.spawn_position.x,
+                       person.spawn_position.y, scene.goals[row].x, scene.goals[row].y,
+                       person.preferred_speed, person.radius);
+    }
+    writeFile(path, table);
+}
+
+/// Steps when told to, so that another program can be timed in turn: one step per line of the standard input.
+void runStep(const StepOptions& options) {
+    const gl::Context context({options.device, false});
+    authoring::Scene scene = sim::ProximityBenchmark{}.crowd(options.people);
+    scene.settings.proximity =
+        options.proximity == "grid" ? authoring::Proximity::grid : authoring::Proximity::voronoi;
+    if (!options.crowd.empty()) writeCrowd(options.crowd, scene);
+    sim::Simulation simulation(scene, gl::ShaderLibrary(), costsFor(context.device()));
+    simulation.step();
+    simulation.wait();
+    fmt::print("{}\n", context.device().name);
+    std::fflush(stdout);
+    for (std::string line; std::getline(std::cin, line);) {
+        const auto start = std::chrono::steady_clock::now();
+        simulation.step();
+        simulation.wait();
+        const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+        fmt::print("{:.4f}\n", time.count());
+        std::fflush(stdout);
+    }
+}
+
+void addStep(CLI::App& bench) {
+    CLI::App* command = bench.add_subcommand(
+        "step", "Whole steps, one for each line of the standard input: their times in ms, a line each");
+    auto options = std::make_shared<StepOptions>();
+    command->add_option("--people", options->people, "One per 4 m^2, on their way to random goals")
+        ->check(CLI::Range(1, 4'000'000))
+        ->capture_default_str();
+    command->add_option("--proximity", options->proximity, "What finds neighbours")
+        ->check(CLI::IsMember({"voronoi", "grid"}))
+        ->capture_default_str();
+    command->add_option("--crowd", options->crowd, "Write where everybody is and goes into this file (CSV)");
+    command->add_option("--device", options->device, "Run on this device (`throng devices` lists them)");
+    command->callback([options] { runStep(*options); });
+}
+
+CLI::App* addKind(CLI::App& bench, const char* name, const char* what, void (*run)(const Options&)) {
+    CLI::App* command = bench.add_subcommand(name, what);
+    auto options = std::make_shared<Options>();
+    command->add_option("-o,--output", options->output, "The folder to write the report into")
+        ->capture_default_str();
+    command->add_option("--device", options->device, "Run on this device (`throng devices` lists them)");
+    command->add_option("--rounds", options->rounds, "How often everything is timed")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    command->add_option("--most", options->most, "Leave out cases with more sites or people than this");
+    command->callback([options, run] { run(*options); });
+    return command;
+}
+
+}  // namespace
+
+void addBench(CLI::App& app) {
+    CLI::App* bench = app.add_subcommand("bench", "Time this device: Markdown, CSV and a plot");
+    bench->require_subcommand(1);
+    addKind(*bench, "diagrams", "Every way to build the diagram, beside the paper's Table 1", runDiagrams);
+    addKind(*bench, "proximity", "Finding neighbours by the diagram, by a grid, and by comparing everybody",
+            runProximity);
+    addStep(*bench);
+    bench->footer("Example:\n  throng bench diagrams -o bench");
+}
+
+}  // namespace throng::cli

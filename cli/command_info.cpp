@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/terminal/exit_codes.h"
+#include "io/bake_info.h"
+
+namespace throng::cli {
+namespace {
+
+struct Options {
+    std::string bake;
+    bool verify = false;
+    bool json = false;
+};
+
+void run(const Options& options) {
+    const io::Bake bake = io::loadBake(options.bake);
+    std::vector<io::BakeProblem> problems;
+    if (options.verify) problems = io::verifyBake(bake);
+    if (options.json) {
+        nlohmann::ordered_json document = io::infoJson(bake);
+        if (options.verify) {
+            document["problems"] = nlohmann::ordered_json::array();
+            for (const io::BakeProblem& problem : problems)
+                document["problems"].push_back({{"path", problem.path}, {"message", problem.message}});
+        }
+        fmt::print("{}\n", document.dump(2));
+    } else {
+        fmt::print("{}", io::infoText(bake));
+        for (const io::BakeProblem& problem : problems)
+            fmt::print(stderr, "{}: {}\n", problem.path, problem.message);
+        if (options.verify && problems.empty())
+            fmt::print("verified: all {} files are as they were written\n", bake.files.size());
+    }
+    if (!problems.empty()) throw Exit(kInvalidInput);
+}
+
+}  // namespace
+
+void addInfo(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("info", "Say what a bake holds and what became of everybody");
+    auto options = std::make_shared<Options>();
+    command->add_option("bake", options->bake, "A bake's folder, or its bake.json")->required();
+    command->add_flag("--verify", options->verify, "Compare every file with its size and hash");
+    command->add_flag("--json", options->json, "Print a JSON document");
+    command->footer("Example:\n  throng info bakes/intersection --verify");
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace throng::cli

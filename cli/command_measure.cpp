@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "analysis/measure/measure.h"
+#include "base/files/input_file.h"
+#include "base/files/output_file.h"
+#include "cli/baking/judge.h"
+#include "cli/commands.h"
+#include "cli/terminal/exit_codes.h"
+
+namespace throng::cli {
+namespace {
+
+struct Options {
+    std::string bake;
+    std::string plots;
+    std::vector<double> line;
+    bool json = false;
+};
+
+void run(const Options& options) {
+    const io::Bake bake = io::loadBake(options.bake);
+    analysis::MeasureOptions measure;
+    if (!options.line.empty())
+        measure.line = {{options.line[0], options.line[1]}, {options.line[2], options.line[3]}};
+    const auto [measured, missed] = judgeBake(bake, measure);
+    if (options.json) {
+        nlohmann::ordered_json json = analysis::measurementJson(measured);
+        json["missed"] = missed;
+        fmt::print("{}\n", json.dump(2));
+    } else {
+        fmt::print("{}", analysis::measurementText(measured));
+    }
+    if (!options.plots.empty()) {
+        makeFolder(options.plots);
+        analysis::writeMeasurementPlots(options.plots, measured, bake.name);
+    }
+    for (const std::string& bar : missed)
+        fmt::print(stderr, "throng: {}: {}\n", bake.name, bar);
+    if (!missed.empty()) throw Exit(kExpectationMissed);
+}
+
+}  // namespace
+
+void addMeasure(CLI::App& app) {
+    CLI::App* command =
+        app.add_subcommand("measure", "Measure how well a bake's people move, from its files alone");
+    auto options = std::make_shared<Options>();
+    command->add_option("bake", options->bake, "A bake's folder, or its bake.json")->required();
+    command->add_flag("--json", options->json, "Print a JSON document");
+    command->add_option("--plots", options->plots, "Also draw plots (PNG) into this folder");
+    command->add_option("--line", options->line, "Count people across a line: X1 Y1 X2 Y2, m in the world")
+        ->expected(4);
+    command->footer(
+        "Exits with 1 when a bar of the layout's `expect` block is missed.\n\n"
+        "Example:\n  throng measure bakes/intersection --plots plots");
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace throng::cli

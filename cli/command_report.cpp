@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "analysis/report/bake_report.h"
+#include "analysis/report/page.h"
+#include "base/files/output_file.h"
+#include "base/numbers.h"
+#include "base/palette.h"
+#include "cli/baking/judge.h"
+#include "cli/batch/results_database.h"
+#include "cli/commands.h"
+
+namespace throng::cli {
+namespace fs = std::filesystem;
+namespace {
+
+using nlohmann::ordered_json;
+
+struct Options {
+    std::string input;
+    std::string output;
+    bool each = false;
+};
+
+std::string pageOf(const fs::path& folder) {
+    const io::Bake bake = io::loadBake(folder);
+    const auto [measured, missed] = judgeBake(bake, {});
+    return analysis::bakeReport(bake, measured, missed);
+}
+
+std::string keyed(const QueryResult& about, const std::string& key) {
+    for (const auto& row : about.rows)
+        if (row[0] == key) return row[1].get<std::string>();
+    return {};
+}
+
+/// Bakes that are damaged have no picture; the page is about the others, too.
+ordered_json thumbnailOrNull(const fs::path& bake) try {
+    return analysis::thumbnailOf(io::loadBake(bake));
+} catch (const InputError&) {
+    return nullptr;
+}
+
+void reportBatch(const fs::path& folder, const fs::path& output, bool each) {
+    const fs::path database = folder / "results.sqlite";
+    const QueryResult table = queryResults(database, "SELECT * FROM results ORDER BY number");
+    const QueryResult about = queryResults(database, "SELECT key, value FROM batch");
+    const QueryResult figures = queryResults(database, "SELECT * FROM scenarios LIMIT 0");
+    const auto column = [&](const char* name) {
+        return static_cast<std::size_t>(std::find(table.columns.begin(), table.columns.end(), name) -
+                                        table.columns.begin());
+    };
+    const std::size_t id = column("id"), bake = column("bake");
+    ordered_json data;
+    data["name"] = keyed(about, "name");
+    data["base"] = keyed(about, "base");
+    data["version"] = keyed(about, "version");
+    data["columns"] = table.columns;
+    data["parameters"] = std::vector<std::string>(
+        table.columns.begin() + static_cast<std::ptrdiff_t>(figures.columns.size()), table.columns.end());
+    data["rows"] = table.rows;
+    data["colours"] = ordered_json::array();
+    for (const Colour& colour : kGroupColours)
+        data["colours"].push_back(fmt::format("rgb({:.0f} {:.0f} {:.0f})", 255 * colour.red,
+                                              255 * colour.green, 255 * colour.blue));
+    const fs::path beside = fs::absolute(output).parent_path();
+    const auto relative = [&](const fs::path& path) {
+        return fs::relative(path, beside).generic_string() + "/";
+    };
+    data["folder"] = relative(folder);
+    const fs::path pages = folder / "reports";
+    if (each) {
+        makeFolder(pages);
+        data["pages"] = relative(pages);
+    }
+    data["thumbnails"] = ordered_json::object();
+    for (const auto& row : table.rows) {
+        if (row[bake].is_null()) continue;
+        const fs::path path = folder / row[bake].get<std::string>();
+        const std::string name = row[id].get<std::string>();
+        data["thumbnails"][name] = thumbnailOrNull(path);
+        if (each) replaceFile(pages / (name + ".html"), pageOf(path));
+    }
+    replaceFile(output, analysis::makePage("batch", keyed(about, "name"), data));
+}
+
+void run(const Options& options) {
+    const fs::path input = fs::path(options.input).filename() == "bake.json"
+                               ? fs::path(options.input).parent_path()
+                               : fs::path(options.input);
+    const bool is_batch = fs::exists(input / "results.sqlite");
+    const fs::path whole = fs::absolute(input).lexically_normal();
+    const std::string name = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+    const fs::path output = !options.output.empty() ? fs::path(options.output)
+                            : is_batch              ? input / "report.html"
+                                                    : fs::path(name + ".html");
+    if (is_batch)
+        reportBatch(input, output, options.each);
+    else
+        replaceFile(output, pageOf(input));
+    fmt::print("{}: {}\n", output.string(), readableBytes(fs::file_size(output)));
+}
+
+}  // namespace
+
+void addReport(CLI::App& app) {
+    CLI::App* command =
+        app.add_subcommand("report", "Write a page to look at a bake or a batch in a browser");
+    auto options = std::make_shared<Options>();
+    command->add_option("input", options->input, "A bake's folder, or a batch's")->required();
+    command->add_option("-o,--output", options->output,
+                        "The page; by default NAME.html, or report.html in a batch's folder");
+    command->add_flag("--each", options->each,
+                      "Of a batch: also a page for every bake, linked from the table");
+    command->footer(
+        "One file that needs no network: send it, keep it, print it.\n\n"
+        "Example:\n  throng report bakes/intersection -o intersection.html");
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace throng::cli

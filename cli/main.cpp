@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+
+#include "base/files/errors.h"
+#include "cli/commands.h"
+#include "cli/terminal/exit_codes.h"
+#include "cli/terminal/suggestions.h"
+#include "sim/gl/context.h"
+
+namespace {
+
+using namespace throng;
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  throng check examples/intersection.json\n"
+    "  throng bake examples/intersection.json -o bakes/intersection\n"
+    "  throng preview bakes/intersection -o intersection.png\n"
+    "\nExit codes: 0 ok, 1 a bar was missed, 2 usage, 3 invalid input, 4 no usable OpenGL, 5 output failed, "
+    "85 stopped with a checkpoint, 130 interrupted.";
+
+int parseAndRun(CLI::App& app, int argc, char** argv) {
+    try {
+        app.parse(argc, argv);
+        return cli::kOk;
+    } catch (const CLI::Success& success) {  // --help and --version
+        return app.exit(success);
+    } catch (const CLI::ParseError& error) {
+        if (argc > 1 && argv[1][0] != '-' && !cli::isCommand(app, argv[1]))
+            fmt::print(stderr, "throng: there is no command `{}`\n", argv[1]);
+        else
+            fmt::print(stderr, "throng: {}\n", error.what());
+        const std::string hint = cli::suggestFor(app, argc, argv);
+        if (!hint.empty()) fmt::print(stderr, "  hint: {}\n", hint);
+        fmt::print(stderr,
+                   "  `throng --help` lists the commands, `throng COMMAND --help` a command's options.\n");
+        return cli::kUsage;
+    }
+}
+
+int fail(int code, const std::exception& error) {
+    fmt::print(stderr, "throng: {}\n", error.what());
+    return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app(
+        "Bakes crowds: layouts of roads, walls and flows of people in; animation caches and diagrams out.",
+        "throng");
+    app.set_version_flag("--version", "throng " THRONG_VERSION);
+    app.require_subcommand(1);
+    app.footer(kFooter);
+    cli::addBake(app);
+    cli::addApply(app);
+    cli::addCheck(app);
+    cli::addInfo(app);
+    cli::addPreview(app);
+    cli::addSchema(app);
+    cli::addDevices(app);
+    cli::addCalibrate(app);
+    cli::addBench(app);
+    cli::addMeasure(app);
+    cli::addScenarios(app);
+    cli::addGenerate(app);
+    cli::addBatch(app);
+    cli::addReport(app);
+    try {
+        return parseAndRun(app, argc, argv);
+    } catch (const cli::Exit& exit) {
+        return exit.code;
+    } catch (const gl::GraphicsError& error) {
+        return fail(cli::kNoGraphics, error);
+    } catch (const OutputError& error) {
+        return fail(cli::kOutputFailed, error);
+    } catch (const std::exception& error) {
+        return fail(cli::kInvalidInput, error);
+    }
+}

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/agent_rows.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "base/files/csv.h"
+#include "base/files/input_file.h"
+
+namespace throng::io {
+namespace {
+
+class Columns {
+  public:
+    Columns(const std::filesystem::path& path, const std::vector<std::string>& names) : path_(path) {
+        for (std::size_t i = 0; i < kNames.size(); ++i) {
+            const auto found = std::ranges::find(names, kNames[i]);
+            if (found == names.end()) throw InputError(path, fmt::format("has no column `{}`", kNames[i]));
+            at_[i] = static_cast<std::size_t>(found - names.begin());
+        }
+    }
+    enum Name {
+        group,
+        radius,
+        preferred_speed,
+        spawn_frame,
+        arrival_frame,
+        outcome,
+        goal_x,
+        goal_y,
+        shortest_way
+    };
+
+    AgentRow row(const std::vector<std::string>& fields, std::size_t line, glm::dvec2 origin) const {
+        AgentRow result;
+        result.group = text(fields, group, line);
+        result.radius = static_cast<float>(number(fields, radius, line));
+        result.preferred_speed = static_cast<float>(number(fields, preferred_speed, line));
+        result.outcome = text(fields, outcome, line);
+        result.shortest_way = number(fields, shortest_way, line);
+        for (const auto& [name, frame] :
+             {std::pair{spawn_frame, &result.spawn_frame}, std::pair{arrival_frame, &result.arrival_frame}})
+            if (!text(fields, name, line).empty())
+                *frame = static_cast<std::uint32_t>(number(fields, name, line));
+        result.goal = glm::dvec2(number(fields, goal_x, line), number(fields, goal_y, line)) - origin;
+        return result;
+    }
+
+  private:
+    static constexpr std::array kNames = {"group",       "radius",        "preferred_speed",
+                                          "spawn_frame", "arrival_frame", "outcome",
+                                          "goal_x",      "goal_y",        "shortest_way"};
+
+    const std::string& text(const std::vector<std::string>& fields, Name name, std::size_t line) const {
+        if (at_[name] >= fields.size())
+            throw InputError(path_, fmt::format("line {} is short of fields", line));
+        return fields[at_[name]];
+    }
+    double number(const std::vector<std::string>& fields, Name name, std::size_t line) const {
+        const std::string& field = text(fields, name, line);
+        double value = 0.0;
+        const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+        if (error != std::errc() || end != field.data() + field.size())
+            throw InputError(path_,
+                             fmt::format("line {}: `{}` is not a number ({})", line, field, kNames[name]));
+        return value;
+    }
+
+    const std::filesystem::path& path_;
+    std::array<std::size_t, kNames.size()> at_{};
+};
+
+}  // namespace
+
+std::vector<AgentRow> loadAgentRows(const Bake& bake) {
+    const std::filesystem::path path = bake.folder / "agents.csv";
+    CsvReader table(readFile(path));
+    std::vector<std::string> fields;
+    table.next(fields);
+    const Columns columns(path, fields);
+    std::vector<AgentRow> rows;
+    while (table.next(fields))
+        rows.push_back(columns.row(fields, rows.size() + 2, bake.origin));
+    if (rows.size() != bake.agents)
+        throw InputError(path, fmt::format("has {} people where bake.json has {}", rows.size(), bake.agents));
+    return rows;
+}
+
+}  // namespace throng::io

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "authoring/layout.h"
+#include "authoring/terrain/terrain.h"
+#include "authoring/terrain/terrain_mesh.h"
+
+namespace throng::recording {
+
+/// A flow or a formation of the layout.
+struct BakeGroup {
+    std::string id;
+    bool is_flow = false;
+};
+
+/// What is known of a row before the simulation begins.
+struct BakeAgent {
+    std::uint32_t group = 0;       ///< index into BakeDescription::groups
+    float radius = 0.0f;           ///< m
+    float preferred_speed = 0.0f;  ///< m/s
+    std::uint32_t variation = 0;
+    std::uint32_t party = 0;  ///< row of the first of those it walks with; its own where it walks alone
+    glm::dvec2 goal{0.0};     ///< m, world
+    double scale = 1.0;       ///< of the figure, beyond what the radius says
+    std::optional<std::uint32_t> colour = {};  ///< 0xRRGGBB, instead of the group's
+};
+
+/// Ground that is not flat.
+struct BakeTerrain {
+    std::shared_ptr<const authoring::TerrainMesh> mesh;
+    std::shared_ptr<const authoring::Terrain> surface;  ///< in the frame of reference of the frames
+    std::string source;                                 ///< the file, as the layout names it
+    std::string hash;                                   ///< of that file
+    std::vector<glm::dvec2> along_walls;  ///< per wall, the lowest and the highest ground along it, m
+};
+
+/// All that a bake's files say besides the frames. World coordinates unless told otherwise; metres and
+/// seconds.
+struct BakeDescription {
+    std::filesystem::path output;  ///< the folder to make
+    bool force = false;            ///< replace an existing bake
+
+    std::string name;         ///< the layout's
+    std::string layout_text;  ///< the layout file, byte for byte
+    std::string inputs;       ///< hash of all that the bytes depend on; empty: not told
+    std::uint64_t seed = 1;
+    double fps = 24.0;
+    std::uint32_t frames = 0;  ///< expected
+    std::uint32_t substeps = 1;
+    double duration = 0.0;
+    double warmup = 0.0;
+    double smoothing = 0.0;  ///< s, SimulationSettings::smoothing
+    std::uint32_t variations = 1;
+    std::vector<double> strides{1.446};  ///< m per cycle of each gait
+
+    glm::dvec2 scene_origin{0.0};   ///< world = scene_origin + what the frames hold
+    glm::dvec2 output_origin{0.0};  ///< world = output_origin + what the streams hold
+    glm::dvec2 minimum{0.0};        ///< bounds of all that people can reach
+    glm::dvec2 maximum{0.0};
+
+    std::vector<BakeGroup> groups;
+    std::vector<BakeAgent> agents;  ///< one per row
+    std::vector<authoring::Road> roads;
+    std::vector<authoring::Area> areas;
+    std::vector<authoring::Wall> walls;
+    std::optional<BakeTerrain> terrain;  ///< none: flat ground at height 0
+
+    std::string renderer;  ///< GL_RENDERER
+    std::string driver;    ///< GL_VERSION
+
+    bool gltf = true;
+    std::uint32_t gltf_agents = 2000;  ///< at most this many people in crowd.glb; the rest is left out
+    std::uint32_t diagram_every = 0;   ///< frames between diagram images; 0 = none
+    bool densities = false;            ///< the stream `density`, and a channel of that name in diagram images
+};
+
+}  // namespace throng::recording

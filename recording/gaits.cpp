@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "recording/gaits.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "shaders/shared/walking.h"
+
+namespace throng::recording {
+namespace {
+
+constexpr std::uint32_t kNormal = 3;      // of adults: 1.34 m/s
+constexpr std::uint32_t kSettingOff = 1;  // of those who begin to walk
+constexpr double kNormalStride = 1.446;   // m per cycle of two steps
+constexpr double kRatio = 1.28;           // of a gait's stride to the one before
+constexpr double kStrideAtOne = 1.249;    // m at 1 m/s
+constexpr double kStays = 0.6;            // gaits: speeds jitter, one that is nearly as good stays
+
+/// Where among the gaits somebody of this speed would be.
+double gaitScale(double speed) {
+    return kNormal +
+           std::log(kStrideAtOne * std::sqrt(std::max(speed, 1.0e-3)) / kNormalStride) / std::log(kRatio);
+}
+
+/// Cycles until a planted foot is next under the body: twice a cycle, once for each foot.
+double untilUnderBody(double phase) {
+    const double half = 2.0 * (phase - kUnderBody);
+    return 0.5 * (std::floor(half) + 1.0 - half);
+}
+
+}  // namespace
+
+double strideOf(std::uint32_t gait) {
+    return kNormalStride * std::pow(kRatio, static_cast<double>(gait) - kNormal);
+}
+
+std::uint32_t gaitOf(float state) {
+    return static_cast<std::uint32_t>(std::lround((state - std::floor(state)) / kGaitInState));
+}
+
+std::uint32_t gaitFor(double speed) {
+    return static_cast<std::uint32_t>(std::clamp(std::round(gaitScale(speed)), 0.0, kGaits - 1.0));
+}
+
+std::vector<double> allStrides() {
+    std::vector<double> strides;
+    for (std::uint32_t gait = 0; gait < kGaits; ++gait)
+        strides.push_back(strideOf(gait));
+    return strides;
+}
+
+void GaitTrack::advance(double way, double speed) {
+    if (speed < gpu::STANDING_SPEED) {
+        phase += way / strideOf(gait);
+        gait = kSettingOff;
+        return;
+    }
+    const double before = untilUnderBody(phase) * strideOf(gait);
+    const bool changes = std::abs(gaitScale(speed) - gait) >= kStays;
+    if (!changes || way < before) {
+        phase += way / strideOf(gait);
+        return;
+    }
+    phase += before / strideOf(gait);
+    gait = gaitFor(speed);
+    phase += (way - before) / strideOf(gait);
+}
+
+}  // namespace throng::recording

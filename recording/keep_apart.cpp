@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "recording/keep_apart.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace throng::recording {
+namespace {
+
+constexpr double kSlack = 0.004;   // of the sum of radii: overlaps this deep stay
+constexpr double kMoved = 1.0e-3;  // m: who moved less is where the simulation had it
+constexpr double kMargin = 0.05;   // m: pairs this far apart may be pushed together by others
+constexpr double kDeep = 0.005;    // of the sum of radii, beyond kSlack: not to be left
+constexpr int kRounds = 8, kAttempts = 3, kHalvings = 12;
+
+}  // namespace
+
+KeepApart::KeepApart(std::vector<authoring::Wall> walls, glm::dvec2 minimum, glm::dvec2 maximum)
+    : walls_(std::move(walls), minimum, maximum), grid_(minimum, maximum, 1.0) {}
+
+void KeepApart::settle(std::vector<MovedBody>& bodies, double before, double now) {
+    findPairs(bodies);
+    if (!walls_.empty()) walls_.look(before, now);
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+        for (int round = 0; round < kRounds && !pairs_.empty(); ++round)
+            separate(bodies);
+        clearWalls(bodies);
+    }
+    for (int halving = 0; halving < kHalvings && takeBack(bodies); ++halving)
+        clearWalls(bodies);
+}
+
+/// Takes those who are still deep in somebody half of the way back.
+/// @returns whether there were any
+bool KeepApart::takeBack(std::vector<MovedBody>& bodies) const {
+    bool any = false;
+    for (const Pair& pair : pairs_) {
+        MovedBody& a = bodies[pair.first];
+        MovedBody& b = bodies[pair.second];
+        if (glm::distance(a.place, b.place) >= pair.reach * (1.0 - kDeep)) continue;
+        any = true;
+        for (MovedBody* body : {&a, &b})
+            body->place = glm::mix(body->simulated, body->place, 0.5);
+    }
+    return any;
+}
+
+/// Pairs that may overlap and of which one has moved.
+void KeepApart::findPairs(const std::vector<MovedBody>& bodies) {
+    pairs_.clear();
+    places_.clear();
+    double largest = 0.0;
+    for (const MovedBody& body : bodies) {
+        places_.push_back(body.place);
+        largest = std::max(largest, body.radius);
+    }
+    grid_.sort(places_);
+    const auto moved = [&](std::uint32_t i) {
+        return glm::distance(bodies[i].simulated, bodies[i].place) > kMoved;
+    };
+    for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+        if (!moved(i)) continue;
+        grid_.near(places_[i], bodies[i].radius + largest + kMargin, [&](std::uint32_t j) {
+            if (j == i || (j < i && moved(j))) return;
+            const double reach = bodies[i].radius + bodies[j].radius;
+            if (glm::distance(places_[i], places_[j]) < reach + kMargin)
+                pairs_.push_back({i, j, reach * (1.0 - kSlack)});
+        });
+    }
+}
+
+void KeepApart::separate(std::vector<MovedBody>& bodies) const {
+    for (const Pair& pair : pairs_) {
+        glm::dvec2& a = bodies[pair.first].place;
+        glm::dvec2& b = bodies[pair.second].place;
+        const double apart = glm::distance(a, b);
+        if (apart >= pair.reach) continue;
+        // Two in the same place go the way they are apart in the simulation.
+        const glm::dvec2 way = apart > 1.0e-9
+                                   ? (b - a) / apart
+                                   : glm::normalize(bodies[pair.second].simulated -
+                                                    bodies[pair.first].simulated + glm::dvec2(1.0e-12, 0.0));
+        const glm::dvec2 push = 0.5 * (pair.reach - apart) * way;
+        a -= push;
+        b += push;
+    }
+}
+
+void KeepApart::clearWalls(std::vector<MovedBody>& bodies) const {
+    if (walls_.empty()) return;
+    for (MovedBody& body : bodies)
+        if (glm::distance(body.simulated, body.place) > kMoved) clearWalls(body);
+}
+
+/// As near to its average place as walls let it be, on the straight way from where the simulation had it.
+void KeepApart::clearWalls(MovedBody& body) const {
+    constexpr double kTouches = 1.0e-4;  // m
+    const double allowed = std::max(kTouches, walls_.penetration(body.simulated, body.radius));
+    const auto clear = [&](glm::dvec2 place) {
+        return walls_.penetration(place, body.radius) <= allowed && !walls_.crosses(body.simulated, place);
+    };
+    if (clear(body.place)) return;
+    double free = 0.0, blocked = 1.0;
+    for (int i = 0; i < kHalvings; ++i) {
+        const double middle = 0.5 * (free + blocked);
+        (clear(glm::mix(body.simulated, body.place, middle)) ? free : blocked) = middle;
+    }
+    body.place = glm::mix(body.simulated, body.place, free);
+}
+
+}  // namespace throng::recording

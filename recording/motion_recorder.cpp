@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "recording/motion_recorder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <stdexcept>
+#include <utility>
+
+namespace throng::recording {
+namespace {
+
+constexpr std::size_t kComponents = 3;
+constexpr double kPerMetre = 65536.0;
+
+/// The walls in the frame of reference of the frames, as finely as the simulation has them: a layout that is
+/// moved by whole metres then has the very same.
+std::vector<authoring::Wall> localWalls(const BakeDescription& description) {
+    std::vector<authoring::Wall> walls = description.walls;
+    for (authoring::Wall& wall : walls)
+        for (glm::dvec2& point : wall.points)
+            point = glm::round((point - description.scene_origin) * kPerMetre) / kPerMetre;
+    return walls;
+}
+
+}  // namespace
+
+MotionRecorder::MotionRecorder(const BakeDescription& description, Sink sink)
+    : fps_(description.fps),
+      sink_(std::move(sink)),
+      window_(description.smoothing, description.fps),
+      apart_(localWalls(description), description.minimum - description.scene_origin,
+             description.maximum - description.scene_origin),
+      walkers_(description.agents.size()) {
+    if (description.terrain) {
+        footing_.emplace(description.terrain->surface, walkers_.size(), fps_);
+        grounds_.resize(walkers_.size() * kComponents);
+    }
+    for (const BakeAgent& agent : description.agents) {
+        radii_.push_back(agent.radius);
+        speeds_.push_back(agent.preferred_speed);
+    }
+}
+
+void MotionRecorder::take(const Frame& frame) {
+    if (frame.index != taken_) throw std::invalid_argument("frames come in order");
+    ++taken_;
+    window_.push(frame);
+    while (window_.isReady())
+        giveOut();
+}
+
+void MotionRecorder::finish() {
+    while (!window_.isEmpty())
+        giveOut();
+}
+
+void MotionRecorder::giveOut() {
+    const KeptFrame& frame = window_.middle();
+    positions_ = frame.positions;
+    directions_ = frame.directions;
+    states_ = frame.states;
+    if (window_.reach() > 0) average(frame);
+    record(frame);
+    sink_({frame.index, positions_, directions_, states_, frame.densities, nullptr, grounds_});
+    window_.advance();
+}
+
+void MotionRecorder::average(const KeptFrame& frame) {
+    present_.clear();
+    bodies_.clear();
+    for (std::uint32_t row = 0; row < walkers_.size(); ++row) {
+        if (!frame.isAlive(row)) continue;
+        const std::size_t at = row * kComponents;
+        const Average average = window_.average(row);
+        present_.push_back(row);
+        bodies_.push_back(
+            {{positions_[at], positions_[at + 1]}, {average.position[0], average.position[1]}, radii_[row]});
+        positions_[at + 2] = static_cast<float>(average.position[2]);
+        directions_[at] = static_cast<float>(average.heading[0]);
+        directions_[at + 1] = static_cast<float>(average.heading[1]);
+        directions_[at + 2] = static_cast<float>(average.speed);
+    }
+    apart_.settle(bodies_, (frame.index - 1.0) / fps_, frame.index / fps_);
+    for (std::size_t i = 0; i < present_.size(); ++i) {
+        positions_[present_[i] * kComponents] = static_cast<float>(bodies_[i].place.x);
+        positions_[present_[i] * kComponents + 1] = static_cast<float>(bodies_[i].place.y);
+    }
+}
+
+/// Speeds and strides of what is shown.
+void MotionRecorder::record(const KeptFrame& frame) {
+    for (std::size_t row = 0; row < walkers_.size(); ++row) {
+        Walker& walker = walkers_[row];
+        const std::size_t at = row * kComponents;
+        const glm::vec2 place(positions_[at], positions_[at + 1]);
+        if (!frame.isAlive(row)) {
+            if (!walker.walks) continue;
+            // Who has left stays where it left, with the phase that it left with.
+            positions_[at] = walker.place.x;
+            positions_[at + 1] = walker.place.y;
+            states_[at + 2] = static_cast<float>(walker.gait.phase);
+            if (footing_) putStance(at, footing_->last(row));
+            continue;
+        }
+        const glm::vec2 moved = walker.walks ? place - walker.place : glm::vec2(0.0f);
+        if (walker.walks) {
+            const double way = glm::distance(glm::dvec2(walker.place), glm::dvec2(place));
+            if (window_.reach() > 0) directions_[at + 2] = static_cast<float>(way * fps_);
+            walker.gait.advance(way, way * fps_);
+        } else {
+            walker.gait = {states_[at + 2], gaitFor(speeds_[row])};
+            walker.walks = 1;
+        }
+        walker.place = place;
+        states_[at] += kGaitInState * static_cast<float>(walker.gait.gait);
+        states_[at + 2] = static_cast<float>(walker.gait.phase);
+        if (footing_)
+            putStance(
+                at, footing_->stand(row, place, {directions_[at], directions_[at + 1]}, moved, walker.gait));
+    }
+}
+
+void MotionRecorder::putStance(std::size_t at, const Stance& stance) {
+    positions_[at + 2] = stance.height;
+    grounds_[at] = stance.along;
+    grounds_[at + 1] = stance.across;
+    grounds_[at + 2] = stance.ground;
+}
+
+std::vector<std::byte> MotionRecorder::save() const {
+    std::vector<std::byte> bytes(sizeof taken_ + walkers_.size() * sizeof(Walker));
+    std::memcpy(bytes.data(), &taken_, sizeof taken_);
+    if (!walkers_.empty())
+        std::memcpy(bytes.data() + sizeof taken_, walkers_.data(), walkers_.size() * sizeof(Walker));
+    if (footing_) bytes.insert(bytes.end(), footing_->state().begin(), footing_->state().end());
+    window_.save(bytes);
+    return bytes;
+}
+
+void MotionRecorder::restore(std::span<const std::byte> bytes) {
+    const std::size_t own = sizeof taken_ + walkers_.size() * sizeof(Walker);
+    if (bytes.size() < own) throw std::runtime_error("the checkpoint's motion does not fit this bake");
+    std::memcpy(&taken_, bytes.data(), sizeof taken_);
+    if (!walkers_.empty()) std::memcpy(walkers_.data(), bytes.data() + sizeof taken_, own - sizeof taken_);
+    bytes = bytes.subspan(own);
+    if (footing_) {
+        const std::span<std::byte> feet = footing_->state();
+        if (bytes.size() < feet.size())
+            throw std::runtime_error("the checkpoint's motion does not fit this bake");
+        std::copy_n(bytes.begin(), feet.size(), feet.begin());
+        bytes = bytes.subspan(feet.size());
+    }
+    window_.restore(bytes, walkers_.size());
+}
+
+}  // namespace throng::recording

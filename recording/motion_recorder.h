@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "recording/bake_description.h"
+#include "recording/footing.h"
+#include "recording/frame_window.h"
+#include "recording/gaits.h"
+#include "recording/keep_apart.h"
+
+namespace throng::recording {
+
+/// Makes the motion that is shown out of the motion that is simulated: without tremor (FrameWindow), nobody
+/// in anybody or in a wall (KeepApart), and with the strides that go with it (GaitTrack).
+///
+/// Frames come out later than they go in, in the same order. Streams `pos` and `dir` are averages; `state`
+/// gets its gaits and phases here: what comes in has the phases at the start. On a terrain, heights and
+/// slopes (Footing) follow from these.
+class MotionRecorder {
+  public:
+    using Sink = std::function<void(const Frame&)>;
+
+    MotionRecorder(const BakeDescription& description, Sink sink);
+
+    void take(const Frame& frame);
+    /// Gives out the frames that wait for others, when there are no others.
+    void finish();
+
+    /// Frames taken, of an earlier run, too.
+    std::uint32_t framesTaken() const { return taken_; }
+
+    std::vector<std::byte> save() const;
+    /// @throws std::runtime_error where the bytes are not of this bake
+    void restore(std::span<const std::byte> bytes);
+
+  private:
+    struct Walker {
+        GaitTrack gait;
+        glm::vec2 place{0.0f};
+        std::uint32_t walks = 0;  ///< 1: there in the frame before
+    };
+    void giveOut();
+    void average(const KeptFrame& frame);
+    void record(const KeptFrame& frame);
+    void putStance(std::size_t at, const Stance& stance);
+
+    double fps_;
+    std::vector<float> radii_, speeds_;  ///< by row: m; preferred, m/s
+    Sink sink_;
+    FrameWindow window_;
+    KeepApart apart_;
+    std::vector<Walker> walkers_;
+    std::optional<Footing> footing_;  // none on flat ground
+    std::uint32_t taken_ = 0;
+
+    std::vector<float> positions_, directions_, states_, grounds_;  ///< of the frame being given out
+    std::vector<std::uint32_t> present_;
+    std::vector<MovedBody> bodies_;
+};
+
+}  // namespace throng::recording

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "recording/wall_watch.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <utility>
+
+namespace throng::recording {
+namespace {
+
+constexpr double kSpacing = 1.0;   // m
+constexpr double kThickest = 2.0;  // m: half thicknesses above this are looked for further away
+
+double cross(glm::dvec2 a, glm::dvec2 b) {
+    return a.x * b.y - a.y * b.x;
+}
+
+}  // namespace
+
+WallWatch::WallWatch(std::vector<authoring::Wall> walls, glm::dvec2 minimum, glm::dvec2 maximum)
+    : walls_(std::move(walls)), open_(walls_.size()), grid_(minimum, maximum, 2.0) {
+    for (std::size_t index = 0; index < walls_.size(); ++index) {
+        const authoring::Wall& wall = walls_[index];
+        const std::size_t count = wall.points.size() - (wall.closed ? 0 : 1);
+        for (std::size_t i = 0; i < count; ++i)
+            segments_.push_back({wall.points[i], wall.points[(i + 1) % wall.points.size()],
+                                 wall.closed ? 0.0 : 0.5 * wall.thickness, index});
+    }
+    for (std::uint32_t i = 0; i < segments_.size(); ++i) {
+        const int pieces = 1 + static_cast<int>(glm::distance(segments_[i].a, segments_[i].b) / kSpacing);
+        for (int k = 0; k <= pieces; ++k) {
+            samples_.push_back(glm::mix(segments_[i].a, segments_[i].b, static_cast<double>(k) / pieces));
+            sample_segment_.push_back(i);
+        }
+    }
+    grid_.sort(samples_);
+}
+
+template <class Visit>
+void WallWatch::near(glm::dvec2 place, double reach, Visit&& visit) const {
+    std::uint32_t last = ~0u;
+    grid_.near(place, reach + kSpacing + kThickest, [&](std::uint32_t sample) {
+        const std::uint32_t segment = sample_segment_[sample];
+        if (segment != last && !open_[segments_[segment].wall]) visit(segments_[segment]);
+        last = segment;
+    });
+}
+
+void WallWatch::look(double before, double now) {
+    for (std::size_t i = 0; i < walls_.size(); ++i)
+        open_[i] = walls_[i].isOpen(before) || walls_[i].isOpen(now);
+}
+
+bool WallWatch::crosses(glm::dvec2 before, glm::dvec2 after) const {
+    const glm::dvec2 path = after - before;
+    bool crossed = false;
+    near(before, glm::length(path), [&](const Segment& wall) {
+        const glm::dvec2 axis = wall.b - wall.a;
+        const double turn = cross(path, axis);
+        if (std::abs(turn) < 1.0e-12) return;
+        const double on_path = cross(wall.a - before, axis) / turn;
+        const double on_wall = cross(wall.a - before, path) / turn;
+        crossed = crossed || (on_path >= 0.0 && on_path <= 1.0 && on_wall >= 0.0 && on_wall <= 1.0);
+    });
+    return crossed;
+}
+
+double WallWatch::penetration(glm::dvec2 place, double radius) const {
+    double deepest = 0.0;
+    near(place, radius, [&](const Segment& wall) {
+        const glm::dvec2 axis = wall.b - wall.a;
+        const double squared = glm::dot(axis, axis);
+        const double along =
+            squared > 0.0 ? glm::clamp(glm::dot(place - wall.a, axis) / squared, 0.0, 1.0) : 0.0;
+        const double gap = glm::distance(place, wall.a + along * axis) - wall.half_thickness;
+        deepest = std::max(deepest, radius - gap);
+    });
+    return deepest;
+}
+
+}  // namespace throng::recording

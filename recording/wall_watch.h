@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <vector>
+
+#include "authoring/layout.h"
+#include "base/plane_grid.h"
+
+namespace throng::recording {
+
+/// Walls as segments, and what bodies do to them.
+class WallWatch {
+  public:
+    WallWatch(std::vector<authoring::Wall> walls, glm::dvec2 minimum, glm::dvec2 maximum);
+    bool empty() const { return segments_.empty(); }
+
+    /// Looks at a frame and the one before: gates that are open in either are not there.
+    void look(double before, double now);
+    /// Whether the straight line between two frames goes through a wall's axis or outline.
+    bool crosses(glm::dvec2 before, glm::dvec2 after) const;
+    /// How far a body is inside a wall, m; 0 where it is clear.
+    double penetration(glm::dvec2 place, double radius) const;
+
+  private:
+    struct Segment {
+        glm::dvec2 a, b;
+        double half_thickness;
+        std::size_t wall;
+    };
+    template <class Visit>
+    void near(glm::dvec2 place, double reach, Visit&& visit) const;
+
+    std::vector<authoring::Wall> walls_;
+    std::vector<bool> open_;  // by wall
+    std::vector<Segment> segments_;
+    std::vector<glm::dvec2> samples_;  // along the segments, at most kSpacing apart
+    std::vector<std::uint32_t> sample_segment_;
+    PlaneGrid grid_;
+};
+
+}  // namespace throng::recording

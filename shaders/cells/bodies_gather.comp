@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Orders the people of each cell by row, so that a bake repeats byte for byte, and gathers what neighbours read of
+// each other into slot order: that memory locality is what makes sensing fast. For its sake the diagram that people
+// sense with calls its sites by their slots; only pictures of it call them by their rows.
+#include "shaders/shared/simulation_types.h"
+
+layout(local_size_x = AGENT_GROUP_SIZE) in;
+layout(std140) uniform ParametersBlock { Parameters parameters; };
+layout(std430) readonly buffer LiveDispatch { uint live_groups[3]; uint live_count; };
+layout(std430) readonly buffer People { Person people[]; };
+layout(std430) readonly buffer States { AgentState states[]; };
+layout(std430) readonly buffer RowCells { uint row_cells[]; };
+layout(std430) readonly buffer LooseRows { uint loose_rows[]; };
+layout(std430) writeonly buffer SiteSlots { uint site_slots[]; };
+layout(std430) writeonly buffer Bodies { Body bodies[]; };
+layout(std430) writeonly buffer Walkers { Walker walkers[]; };
+layout(std430) writeonly buffer Sites { DiagramSite sites[]; };
+uniform uint ids_are_rows;  // 0: slots
+
+#include "shaders/cells/cell_starts.glsl"
+
+void main() {
+    uint loose = gl_GlobalInvocationID.x;
+    if (loose >= live_count) return;
+    uint row = loose_rows[loose];
+    uint cell = row_cells[row];
+    uint first = cellStart(cell);
+    uint last = cellStart(cell + 1u);
+    uint slot = first;
+    for (uint other = first; other < last; ++other) slot += loose_rows[other] < row ? 1u : 0u;
+
+    AgentState state = states[row];
+    Person person = people[row];
+    Body body;
+    body.position = state.position;
+    body.velocity = state.velocity;
+    body.radius = person.radius;
+    body.heading = state.heading;
+    body.row = row;
+    body.maximum_speed = person.maximum_speed;
+    bodies[slot] = body;
+    walkers[slot] = Walker(person.preferred_speed, person.headway, person.flags, person.party_first, person.party_size, person.change_count,
+                           state.status, state.stage, state.stage_end, state.leave_step, state.ticket, state.nervousness);
+
+    precise vec2 pixel = (body.position - parameters.diagram_minimum) * parameters.pixels_per_metre;
+    DiagramSite site;
+    site.position = pixel;
+    site.radius = max(parameters.tile_radius, body.radius) * parameters.pixels_per_metre;
+    site.id = ids_are_rows != 0u ? row : slot;
+    sites[slot] = site;
+    site_slots[site.id] = slot;
+}

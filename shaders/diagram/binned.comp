@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// The truncated Voronoi diagram by gathering: exact, without atomics, each pixel written once.
+//
+// Sites have been sorted into bins. An invocation keeps a block of pixels in registers and walks over the bins from
+// which a tile can reach the block: every candidate is loaded once and offered to all pixels of the block, and most of
+// the work is plain arithmetic on registers. Bins of one line are neighbours in memory, so a line of bins is one run of
+// sites. The result does not depend on the order of the candidates: distance decides, then the smaller id.
+//
+// What it costs: blocks x candidates loads and pixels x candidates comparisons. Small blocks waste no comparisons,
+// large ones save loads; small bins bring fewer candidates that cannot reach, but more lines to look up. The best sizes
+// depend on the device and the density, and are chosen by measurement (sim/diagram/calibration.h).
+//
+// With PAGED, blocks are those of the pages in the list of this build (sim/diagram/pages.h).
+#include "shaders/shared/simulation_types.h"
+
+layout(local_size_x = PIXEL_GROUP_SIZE) in;
+#ifdef STORE_BY_FOUR
+layout(std430) writeonly buffer Owners { uvec4 owners[]; };
+#else
+layout(std430) writeonly buffer Owners { uint owners[]; };
+#endif
+uniform usamplerBuffer binned_sites;  // a DiagramSite each, as bits
+uniform float largest_radius;  // px
+#ifdef PAGED
+layout(std430) readonly buffer PageList { uint page_list[]; };
+layout(std430) readonly buffer PageCount { uint page_count; };
+uniform uint first_page;  // of the range that Owners shows
+uniform uint pages_per_line;
+#else
+uniform vec2 diagram_size;  // whole pixels
+#endif
+#ifdef FIXED_SITES
+layout(std430) readonly buffer FixedBinStarts { uint fixed_bin_starts[]; };
+uniform usamplerBuffer fixed_binned_sites;
+#endif
+
+#include "shaders/diagram/bins.glsl"
+#include "shaders/cells/cell_starts.glsl"  // bins are the cells, or stand in for them
+#include "shaders/shared/flat_index.glsl"
+
+const uint BLOCK_PIXELS = BLOCK_WIDTH * BLOCK_HEIGHT;
+float nearest[BLOCK_PIXELS];
+uint nearest_id[BLOCK_PIXELS];
+
+/// Where this invocation's block is; false where there is none.
+bool placeBlock(out uvec2 corner, out uint first_word, out uint words_per_line, out uint words_in_line) {
+    uint block = flatIndex();
+#ifdef PAGED
+    const uint blocks_per_line = PAGE_SIDE / BLOCK_WIDTH;
+    const uint blocks_per_page = blocks_per_line * (PAGE_SIDE / BLOCK_HEIGHT);
+    uint page = first_page + block / blocks_per_page;
+    if (page == 0u || page >= page_count) return false;  // page 0 stays empty
+    block %= blocks_per_page;
+    uvec2 within = uvec2(block % blocks_per_line, block / blocks_per_line) * uvec2(BLOCK_WIDTH, BLOCK_HEIGHT);
+    uint number = page_list[page];
+    corner = uvec2(number % pages_per_line, number / pages_per_line) * PAGE_SIDE + within;
+    first_word = (page - first_page) * PAGE_SIDE * PAGE_SIDE + within.y * PAGE_SIDE + within.x;
+    words_per_line = PAGE_SIDE;
+    words_in_line = 0xffffffffu;  // pages go on beyond the edge of the window
+    return true;
+#else
+    uint width = uint(diagram_size.x);
+    uint blocks_per_line = (width + BLOCK_WIDTH - 1u) / BLOCK_WIDTH;
+    corner = uvec2(block % blocks_per_line, block / blocks_per_line) * uvec2(BLOCK_WIDTH, BLOCK_HEIGHT);
+    first_word = corner.y * width + corner.x;
+    words_per_line = width;
+    words_in_line = width;
+    return corner.y < uint(diagram_size.y);
+#endif
+}
+
+/// The same arithmetic as diagram_distance.glsl, with the square of each line and column taken once.
+void offer(vec2 corner, uvec4 words) {
+    vec3 site = uintBitsToFloat(words.xyz);
+    uint id = words.w;
+    precise float limit = site.z * site.z;
+    precise float across[BLOCK_WIDTH];
+    for (uint x = 0u; x < BLOCK_WIDTH; ++x) {
+        precise float offset = site.x - (corner.x + float(x) + 0.5);
+        across[x] = offset * offset;
+    }
+    for (uint y = 0u; y < BLOCK_HEIGHT; ++y) {
+        precise float offset = site.y - (corner.y + float(y) + 0.5);
+        precise float up = offset * offset;
+        for (uint x = 0u; x < BLOCK_WIDTH; ++x) {
+            uint pixel = y * BLOCK_WIDTH + x;
+            precise float squared = across[x] + up;
+            bool wins = squared < nearest[pixel] || (squared == nearest[pixel] && id < nearest_id[pixel]);
+            wins = wins && squared <= limit;
+            nearest[pixel] = wins ? squared : nearest[pixel];
+            nearest_id[pixel] = wins ? id : nearest_id[pixel];
+        }
+    }
+}
+
+void main() {
+    uvec2 block_corner;
+    uint first_word, words_per_line, words_in_line;
+    if (!placeBlock(block_corner, first_word, words_per_line, words_in_line)) return;
+    vec2 corner = vec2(block_corner);
+    for (uint pixel = 0u; pixel < BLOCK_PIXELS; ++pixel) {
+        nearest[pixel] = 3.0e38;
+        nearest_id[pixel] = NO_INDEX;
+    }
+
+    // A little more than the largest tile makes up for rounding.
+    float reach = largest_radius + 0.01;
+    uvec2 lower = binOf(corner - reach);
+    uvec2 upper = binOf(corner + vec2(BLOCK_WIDTH, BLOCK_HEIGHT) + reach);
+    bool touched = false;
+    for (uint line = lower.y; line <= upper.y; ++line) {
+        uint bins = line * uint(bin_count.x);
+        uint first = cellStart(bins + lower.x);
+        uint last = cellStart(bins + upper.x + 1u);
+        touched = touched || first < last;
+        for (uint i = first; i < last; ++i) offer(corner, texelFetch(binned_sites, int(i)));
+#ifdef FIXED_SITES
+        first = fixed_bin_starts[bins + lower.x];
+        last = fixed_bin_starts[bins + upper.x + 1u];
+        touched = touched || first < last;
+        for (uint i = first; i < last; ++i) offer(corner, texelFetch(fixed_binned_sites, int(i)));
+#endif
+    }
+
+#ifdef CLEARED_BEFORE
+    if (!touched) return;
+#endif
+    for (uint y = 0u; y < BLOCK_HEIGHT; ++y) {
+#ifndef PAGED
+        if (block_corner.y + y >= uint(diagram_size.y)) break;
+#endif
+        uint word = first_word + y * words_per_line;
+        uint pixel = y * BLOCK_WIDTH;
+#ifdef STORE_BY_FOUR
+        for (uint x = 0u; x < BLOCK_WIDTH; x += 4u) {
+            if (block_corner.x + x >= words_in_line) break;
+            owners[(word + x) / 4u] = uvec4(nearest_id[pixel + x], nearest_id[pixel + x + 1u], nearest_id[pixel + x + 2u],
+                                            nearest_id[pixel + x + 3u]);
+        }
+#else
+        for (uint x = 0u; x < BLOCK_WIDTH; ++x)
+            if (block_corner.x + x < words_in_line) owners[word + x] = nearest_id[pixel + x];
+#endif
+    }
+}

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// The squared distance from every pixel to its owner, whoever found the owner.
+#include "shaders/shared/simulation_types.h"
+
+layout(local_size_x = PIXEL_GROUP_SIZE) in;
+layout(std430) readonly buffer Owners { uint owners[]; };
+layout(std430) readonly buffer Sites { DiagramSite sites[]; };
+layout(std430) readonly buffer SiteSlots { uint site_slots[]; };
+layout(std430) writeonly buffer Distances { float distances[]; };
+uniform uvec2 diagram_size;
+
+#include "shaders/diagram/distance.glsl"
+#include "shaders/shared/flat_index.glsl"
+
+void main() {
+    uint index = flatIndex();
+    if (index >= diagram_size.x * diagram_size.y) return;
+    uint owner = owners[index];
+    float squared = uintBitsToFloat(0x7f800000u);
+    if (owner != NO_INDEX)
+        squared = squaredDistance(sites[site_slots[owner]].position, ivec2(index % diagram_size.x, index / diagram_size.x));
+    distances[index] = squared;
+}

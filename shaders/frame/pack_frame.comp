@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lays out one frame as the streams hold it: all rows, dead or alive. Strides are added when it is written (recording/gaits.h).
+#include "shaders/shared/simulation_types.h"
+
+layout(local_size_x = AGENT_GROUP_SIZE) in;
+layout(std140) uniform ParametersBlock { Parameters parameters; };
+layout(std430) readonly buffer People { Person people[]; };
+layout(std430) readonly buffer States { AgentState states[]; };
+layout(std430) readonly buffer Stages { Stage stages[]; };
+layout(std430) writeonly buffer FrameBlock { float frame[]; };  // positions of all rows, then directions, then states
+
+#include "shaders/shared/alive.glsl"
+
+void put(uint stream, uint row, vec3 value) {
+    uint at = (stream * parameters.row_count + row) * 3u;
+    frame[at] = value.x;
+    frame[at + 1u] = value.y;
+    frame[at + 2u] = value.z;
+}
+
+/// What somebody who is there does: the stream's first component.
+uint activityOf(AgentState state) {
+    bool stands = state.status == STATUS_ARRIVED || state.leave_step != 0u;
+    if (stands) return stages[state.stage].activity;
+    return state.ticket != NO_INDEX ? ACTIVITY_QUEUE : ACTIVITY_WALK;
+}
+
+void main() {
+    uint row = gl_GlobalInvocationID.x;
+    if (row >= parameters.row_count) return;
+    AgentState state = states[row];
+    bool alive = isAlive(state.status);
+    put(0u, row, vec3(state.position, 0.0));
+    put(1u, row, vec3(cos(state.heading), sin(state.heading), alive ? length(state.velocity) : 0.0));
+    put(2u, row, vec3(alive ? float(activityOf(state)) : 0.0, float(people[row].variation), people[row].phase));
+}

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// How dense the crowd is in each cell of the coarse map, and where it goes on the whole.
+#include "shaders/shared/simulation_types.h"
+
+layout(local_size_x = PIXEL_GROUP_SIZE) in;
+layout(std140) uniform ParametersBlock { Parameters parameters; };
+layout(std430) readonly buffer Ground { GroundCell ground[]; };
+layout(std430) readonly buffer Bodies { Body bodies[]; };
+layout(std430) buffer CrowdFlows { CrowdFlow crowd_flows[]; };
+layout(std430) writeonly buffer DenseBlocks { uint dense_blocks[]; };  // 1 where the crowd matters to routes
+uniform float fading;  // 0 to 1: how much of what was known is replaced
+
+#include "shaders/cells/cells.glsl"
+#include "shaders/cells/cell_starts.glsl"
+#include "shaders/shared/flat_index.glsl"
+
+/// Walls take part of some cells, and people crowd in the rest: at least this share of it.
+const float LEAST_SHARE = 0.2;
+
+/// Everybody within one coarse cell of the middle counts, the nearer the more (a tent, whose integral is the area of
+/// one coarse cell).
+CrowdFlow flowAround(vec2 middle, float free_share) {
+    ivec2 low = cellOf(middle - parameters.detour_cell);
+    ivec2 high = cellOf(middle + parameters.detour_cell);
+    vec3 sum = vec3(0.0);
+    for (int y = low.y; y <= high.y; ++y) {
+        uint end = cellStart(cellIndex(ivec2(high.x, y)) + 1u);
+        for (uint slot = cellStart(cellIndex(ivec2(low.x, y))); slot < end; ++slot) {
+            vec2 near = max(1.0 - abs(bodies[slot].position - middle) / parameters.detour_cell, vec2(0.0));
+            sum += near.x * near.y * vec3(bodies[slot].velocity, 1.0);
+        }
+    }
+    float area = parameters.detour_cell * parameters.detour_cell * max(free_share, LEAST_SHARE);
+    return CrowdFlow(sum.z > 1.0e-3 ? sum.xy / sum.z : vec2(0.0), sum.z / area, 0.0);
+}
+
+/// Brings one cell up to date. @returns its density
+float look(uint cell) {
+    vec2 at = vec2(cell % parameters.detour_width, cell / parameters.detour_width) + 0.5;
+    CrowdFlow now = flowAround(parameters.grid_minimum + at * parameters.detour_cell, ground[cell].free_share);
+    CrowdFlow known = crowd_flows[cell];
+    CrowdFlow mixed = CrowdFlow(mix(known.velocity, now.velocity, fading), mix(known.density, now.density, fading), 0.0);
+    crowd_flows[cell] = mixed;
+    return mixed.density;
+}
+
+void main() {
+    uint cell = flatIndex();
+    if (cell >= parameters.detour_width * parameters.detour_height) return;
+    // A little below what matters, so that routes learn that it does not any more. Several may write, all the same.
+    if (look(cell) > 0.9 * CROWD_THIN) dense_blocks[cell / PIXEL_GROUP_SIZE] = 1u;
+}

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// What each person perceives: the nearest sites, found by marching rays through the truncated Voronoi diagram
+// (De Gyves, Toledo and Rudomin 2013, equations (1) and (2)).
+//
+// A pixel's owner is the nearest site, so any site whose cell is wider than the gap between samples is met by one of
+// them. The samples lie on the rays r_j = a + j b inside the field of view. Inner circles need fewer rays than the outermost
+// one for the same gap, so the pattern (sim/sensing_pattern.h) thins them out. Samples only say who is there; distances
+// are then taken from the exact positions, and the k nearest are kept.
+//
+// Crowding cuts cells until samples miss some of them, and nobody sees behind; people still feel who touches them. So
+// everybody within the contact range is asked for exactly, whatever the field of view, through the cells.
+//
+// Candidates are first appended without a branch and then inserted into the sorted list: on wide SIMD units that costs
+// half of inserting at every sample, because the lanes stay together.
+#include "shaders/shared/simulation_types.h"
+
+#include "shaders/sensing/neighbour_list.glsl"
+#include "shaders/diagram/owners.glsl"
+
+layout(std430) readonly buffer WallTiles { WallTile wall_tiles[]; };
+uniform vec2 pattern[SENSING_SAMPLES];  // m, in the person's own frame: where it looks
+
+/// Site ids met by the samples, without those met among the last three; at most one per sample. The samples come in the order
+/// of their angle, so what lies in one direction is met in one go and few ids come twice.
+uint candidates[SENSING_SAMPLES];
+
+int marchRays(Body self, uint self_slot) {
+    vec2 centre = (self.position - parameters.diagram_minimum) * parameters.pixels_per_metre;
+    vec2 forward = vec2(cos(self.heading), sin(self.heading)) * parameters.pixels_per_metre;
+    vec2 upper = vec2(parameters.diagram_width, parameters.diagram_height) - 1.0;
+    int count = 0;
+    uvec3 recent = uvec3(self_slot);
+    for (int i = 0; i < SENSING_SAMPLES; ++i) {
+        vec2 local = pattern[i];
+        vec2 pixel = centre + vec2(forward.x * local.x - forward.y * local.y, forward.y * local.x + forward.x * local.y);
+        uvec2 at = uvec2(clamp(pixel, vec2(0.0), upper));
+        uint owner = ownerAt(at);
+        bool fresh = owner != NO_INDEX && owner != self_slot && owner != recent.x && owner != recent.y && owner != recent.z;
+        candidates[count] = owner;
+        count += fresh ? 1 : 0;
+        recent = fresh ? uvec3(owner, recent.xy) : recent;
+    }
+    return count;
+}
+
+void weighBody(Body self, uint slot) {
+    if (isKept(slot)) return;
+    vec2 offset = bodies[slot].position - self.position;
+    keepNearest(dot(offset, offset), slot);
+}
+
+void main() {
+    uint slot = gl_GlobalInvocationID.x;
+    if (slot >= live_count) return;
+    Body self = bodies[slot];
+    forgetEverybody();
+    uint touch_word = feelContacts(self, slot);
+    int count = marchRays(self, slot);
+    for (int i = 0; i < count; ++i) {
+        uint site = candidates[i];
+        if (site < parameters.row_count)
+            weighBody(self, site);
+        else
+            weighWall(self.position, wall_tiles[site - parameters.row_count].segment);
+    }
+    publish(slot, touch_word);
+}
