@@ -13,6 +13,7 @@
 
 #include "authoring/diagram_method.h"
 #include "authoring/expectation.h"
+#include "base/motion_settings.h"
 
 /// What a layout file says, checked but not yet interpreted. World coordinates: metres, double precision,
 /// X east, Y north, Z up. Angles in degrees, counter-clockwise from +X. Times in seconds from the first
@@ -107,6 +108,7 @@ struct SimulationSettings {
     double smoothing = 0.25;
     bool avoid_congestion = true;       ///< routes lead round jams, as far as people could see them coming
     double maximum_acceleration = 4.0;  ///< m/s^2, [0.1, 100]
+    MotionSettings motion;              ///< the layout's `motion`
 };
 
 struct Road {

@@ -8,7 +8,6 @@ namespace throng::sim {
 namespace {
 
 constexpr std::uint32_t kStepsPerLook = 4;   // the crowd is looked at this often
-constexpr float kMemory = 1.0f;              // s: and remembered with this time constant
 constexpr std::uint32_t kStepsPerRound = 4;  // every field is relaxed once within this many steps
 
 }  // namespace
@@ -16,6 +15,7 @@ constexpr std::uint32_t kStepsPerRound = 4;  // every field is relaxed once with
 Congestion::Congestion(const gl::ShaderLibrary& library, Buffers& buffers, const authoring::Scene& scene,
                        const gpu::Parameters& parameters) {
     const authoring::Detours& detours = scene.detours;
+    const MotionSettings& rules = scene.settings.motion;
     if (detours.distances.empty()) return;
     cells_ = parameters.detour_width * parameters.detour_height;
     fields_ = static_cast<std::uint32_t>(detours.ground_of_field.size());
@@ -57,12 +57,13 @@ Congestion::Congestion(const gl::ShaderLibrary& library, Buffers& buffers, const
                                         std::pair{&relax_, "shaders/routes/detour_relax.comp"},
                                         std::pair{&keep_, "shaders/routes/detour_keep.comp"},
                                         std::pair{&slope_, "shaders/routes/detour_slope.comp"}}) {
-        *program = gl::ComputeProgram(library, path);
+        *program = gl::ComputeProgram(library, path, rules.definitions());
         program->bindAll(named);
     }
     relax_.bind("ChangedBlocks", changed_now_);
+    const auto memory = static_cast<float>(rules.number("routes_round_jams", "memory"));
     flow_.set("fading",
-              1.0f - std::exp(-static_cast<float>(kStepsPerLook) * parameters.step_seconds / kMemory));
+              1.0f - std::exp(-static_cast<float>(kStepsPerLook) * parameters.step_seconds / memory));
 }
 
 void Congestion::run() {

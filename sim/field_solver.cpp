@@ -58,7 +58,6 @@ FieldSolver::Programs FieldSolver::programsFor(const authoring::WalkMap& map) co
                           {"BlockDispatch", &block_dispatch_}});
         program->set("grid_size", glm::uvec2(map.grid.width, map.grid.height));
     }
-    if (map.isBound()) programs.relax.set("against_one_way", authoring::kAgainstOneWay);
     return programs;
 }
 

@@ -16,6 +16,11 @@ gl::ComputeProgram connected(const gl::ShaderLibrary& library, const std::string
     return program;
 }
 
+gl::Definitions together(gl::Definitions some, const gl::Definitions& others) {
+    some.insert(some.end(), others.begin(), others.end());
+    return some;
+}
+
 gl::Definitions listLength(int neighbours) {
     return {{"NEIGHBOURS", std::to_string(neighbours)}};
 }
@@ -48,10 +53,11 @@ void CellSort::run(SiteIds ids) {
     gather_.dispatchIndirect(buffers_.live_dispatch);
 }
 
-Spawner::Spawner(const gl::ShaderLibrary& library, Buffers& buffers, const gpu::Parameters& parameters)
+Spawner::Spawner(const gl::ShaderLibrary& library, Buffers& buffers, const gpu::Parameters& parameters,
+                 const MotionSettings& rules)
     : invocations_(std::uint64_t{parameters.queue_count} * gpu::SPAWN_GROUP_SIZE),
-      propose_(connected(library, "shaders/motion/spawn_propose.comp", buffers)),
-      accept_(connected(library, "shaders/motion/spawn_accept.comp", buffers)) {}
+      propose_(connected(library, "shaders/motion/spawn_propose.comp", buffers, rules.definitions())),
+      accept_(connected(library, "shaders/motion/spawn_accept.comp", buffers, rules.definitions())) {}
 
 void Spawner::run(float now, std::uint32_t steps_done) {
     propose_.set("now", now);
@@ -86,9 +92,8 @@ void Sensing::marchRays(const gl::ShaderLibrary& library, const Diagram& diagram
     const std::vector<glm::vec2> pattern = thinnedPattern(options.geometry, options.felt_range);
     gl::Definitions definitions = listLength(options.neighbours);
     definitions.emplace_back("SENSING_SAMPLES", std::to_string(pattern.size()));
-    for (const auto& definition : diagram.lookupDefinitions())
-        definitions.push_back(definition);
-    program_ = connected(library, "shaders/sensing/sense.comp", buffers_, definitions);
+    program_ = connected(library, "shaders/sensing/sense.comp", buffers_,
+                         together(definitions, diagram.lookupDefinitions()));
     diagram.describeTo(program_);
     program_.set("pattern", pattern);
 }
@@ -118,26 +123,33 @@ void Sensing::run() {
 }
 
 Avoidance::Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, int neighbours,
-                     const TerrainSlopes* ground)
+                     const TerrainSlopes* ground, const MotionSettings& rules)
     : buffers_(buffers),
-      steer_(connected(library, "shaders/motion/steer.comp", buffers,
-                       ground ? gl::Definitions{{"TERRAIN", "1"}} : gl::Definitions{})),
-      avoid_(connected(library, "shaders/motion/avoid.comp", buffers, listLength(neighbours))) {
+      steer_(connected(
+          library, "shaders/motion/steer.comp", buffers,
+          together(rules.definitions(), ground ? gl::Definitions{{"TERRAIN", "1"}} : gl::Definitions{}))),
+      avoid_(connected(library, "shaders/motion/avoid.comp", buffers,
+                       together(rules.definitions(), listLength(neighbours)))) {
     avoid_.set("slot_capacity", buffers.slotCapacity());
     if (ground) ground->describeTo(steer_);
 }
 
 void Avoidance::run(std::uint32_t steps_done) {
-    steer_.set("steps_done", steps_done);
+    steer_.setIfUsed("steps_done", steps_done);
     steer_.dispatchIndirect(buffers_.live_dispatch);
     avoid_.dispatchIndirect(buffers_.live_dispatch);
 }
 
-Contacts::Contacts(const gl::ShaderLibrary& library, Buffers& buffers, int iterations)
+Contacts::Contacts(const gl::ShaderLibrary& library, Buffers& buffers, int iterations,
+                   const MotionSettings& rules)
     : buffers_(buffers),
       iterations_(iterations),
-      forth_(connected(library, "shaders/motion/contact.comp", buffers)),
-      back_(connected(library, "shaders/motion/contact.comp", buffers)) {
+      braced_(static_cast<int>(iterations * rules.number("standing_fast", "rounds"))),
+      spectral_radius_(rules.isOn("contact_momentum")
+                           ? static_cast<float>(rules.number("contact_momentum", "spectral_radius"))
+                           : 0.0f),
+      forth_(connected(library, "shaders/motion/contact.comp", buffers, rules.definitions())),
+      back_(connected(library, "shaders/motion/contact.comp", buffers, rules.definitions())) {
     forth_.bind("TargetsBefore", buffers.targets);
     forth_.bind("TargetsAfter", buffers.targets_after);
     back_.bind("TargetsBefore", buffers.targets_after);
@@ -145,24 +157,23 @@ Contacts::Contacts(const gl::ShaderLibrary& library, Buffers& buffers, int itera
 }
 
 void Contacts::run() {
-    // An estimate of how much of an error survives a plain round; too high and bodies begin to ring.
-    constexpr float kSpectralRadius = 0.985f;
-    constexpr float kSquared = kSpectralRadius * kSpectralRadius;
+    const float squared = spectral_radius_ * spectral_radius_;
     float momentum = 1.0f;
     for (int iteration = 0; iteration < iterations_; ++iteration) {
         // Two plain rounds first: momentum needs something to go on.
-        if (iteration == 2) momentum = 2.0f / (2.0f - kSquared);
-        if (iteration > 2) momentum = 4.0f / (4.0f - kSquared * momentum);
+        if (iteration == 2) momentum = 2.0f / (2.0f - squared);
+        if (iteration > 2) momentum = 4.0f / (4.0f - squared * momentum);
         gl::ComputeProgram& round = iteration % 2 ? back_ : forth_;
         round.set("momentum", momentum);
-        // Unequal weights settle slowly: the later rounds know none, so that no overlap is left.
-        round.set("bracing", iteration < iterations_ / 4 ? 1.0f : 0.0f);
+        round.setIfUsed("bracing", iteration < braced_ ? 1.0f : 0.0f);
         round.dispatchIndirect(buffers_.touch_dispatch);
     }
 }
 
-Motion::Motion(const gl::ShaderLibrary& library, Buffers& buffers, const gl::Buffer& targets)
-    : buffers_(buffers), program_(connected(library, "shaders/motion/move.comp", buffers)) {
+Motion::Motion(const gl::ShaderLibrary& library, Buffers& buffers, const gl::Buffer& targets,
+               const MotionSettings& rules)
+    : buffers_(buffers),
+      program_(connected(library, "shaders/motion/move.comp", buffers, rules.definitions())) {
     program_.bind("Targets", targets);
 }
 

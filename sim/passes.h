@@ -31,7 +31,8 @@ class CellSort {
 /// Lets people enter where there is room.
 class Spawner {
   public:
-    Spawner(const gl::ShaderLibrary& library, Buffers& buffers, const gpu::Parameters& parameters);
+    Spawner(const gl::ShaderLibrary& library, Buffers& buffers, const gpu::Parameters& parameters,
+            const MotionSettings& rules);
     /// @param now s, simulation time at the start of the step; @param steps_done counted with this step
     void run(float now, std::uint32_t steps_done);
 
@@ -83,8 +84,8 @@ class Sensing {
 class Avoidance {
   public:
     /// @param ground that slows people down where it slopes, or null where it is flat
-    Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, int neighbours,
-              const TerrainSlopes* ground);
+    Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, int neighbours, const TerrainSlopes* ground,
+              const MotionSettings& rules);
     void run(std::uint32_t steps_done);
 
   private:
@@ -95,7 +96,7 @@ class Avoidance {
 /// Keeps bodies out of each other and out of walls.
 class Contacts {
   public:
-    Contacts(const gl::ShaderLibrary& library, Buffers& buffers, int iterations);
+    Contacts(const gl::ShaderLibrary& library, Buffers& buffers, int iterations, const MotionSettings& rules);
     void run();
     /// Where run() leaves the positions.
     const gl::Buffer& result() const { return iterations_ % 2 ? buffers_.targets_after : buffers_.targets; }
@@ -103,13 +104,16 @@ class Contacts {
   private:
     Buffers& buffers_;
     int iterations_;
+    int braced_;             // of these, the first ones, in which weights count
+    float spectral_radius_;  // 0 = without momentum
     gl::ComputeProgram forth_, back_;
 };
 
 /// Ends the step: positions, headings, gait, routes, arrivals.
 class Motion {
   public:
-    Motion(const gl::ShaderLibrary& library, Buffers& buffers, const gl::Buffer& targets);
+    Motion(const gl::ShaderLibrary& library, Buffers& buffers, const gl::Buffer& targets,
+           const MotionSettings& rules);
     void run(std::uint32_t steps_done);
 
   private:

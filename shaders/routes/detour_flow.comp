@@ -14,10 +14,7 @@ uniform float fading;  // 0 to 1: how much of what was known is replaced
 #include "shaders/cells/cell_starts.glsl"
 #include "shaders/shared/flat_index.glsl"
 
-/// Walls take part of some cells, and people crowd in the rest: at least this share of it.
-const float LEAST_SHARE = 0.2;
-
-/// Everybody within one coarse cell of the middle counts, the nearer the more (a tent, whose integral is the area of
+/// Walls take part of some cells, and people crowd in the rest. Everybody within one coarse cell of the middle counts, the nearer the more (a tent, whose integral is the area of
 /// one coarse cell).
 CrowdFlow flowAround(vec2 middle, float free_share) {
     ivec2 low = cellOf(middle - parameters.detour_cell);
@@ -30,7 +27,7 @@ CrowdFlow flowAround(vec2 middle, float free_share) {
             sum += near.x * near.y * vec3(bodies[slot].velocity, 1.0);
         }
     }
-    float area = parameters.detour_cell * parameters.detour_cell * max(free_share, LEAST_SHARE);
+    float area = parameters.detour_cell * parameters.detour_cell * max(free_share, ROUTES_ROUND_JAMS_LEAST_SHARE);
     return CrowdFlow(sum.z > 1.0e-3 ? sum.xy / sum.z : vec2(0.0), sum.z / area, 0.0);
 }
 
@@ -48,5 +45,5 @@ void main() {
     uint cell = flatIndex();
     if (cell >= parameters.detour_width * parameters.detour_height) return;
     // A little below what matters, so that routes learn that it does not any more. Several may write, all the same.
-    if (look(cell) > 0.9 * CROWD_THIN) dense_blocks[cell / PIXEL_GROUP_SIZE] = 1u;
+    if (look(cell) > 0.9 * ROUTES_ROUND_JAMS_THIN) dense_blocks[cell / PIXEL_GROUP_SIZE] = 1u;
 }

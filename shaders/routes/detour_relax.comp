@@ -24,15 +24,6 @@ uniform uint first_field;     // of this round
 
 #include "shaders/routes/detour_blocks.glsl"
 
-const float THICK = 3.0;         // persons/m^2: from here on nobody walks faster than the crowd
-const float FREE_SPEED = 1.34;   // m/s (Weidmann 1993)
-/// Of the free speed: even through a jam that stands, one gets some time. Who may choose between several places takes a jam
-/// for what it is: a door that hundreds wait for is worth a walk to the next one. What counts then is how fast the crowd gets
-/// nearer to any of the places; or people would circle with those who circle.
-const float SLOWEST = 0.2;
-const float SLOWEST_WITH_CHOICE = 0.05;
-const float AGAINST_ONE_WAY = -0.1;
-
 float detourOr(uint field, uint cell, bool exists, float otherwise) {
     float distance = exists ? detour_distances[field * cellsOfMap() + cell] : otherwise;
     return distance < BLOCKED_COST ? distance : otherwise;
@@ -49,14 +40,17 @@ vec2 downhill(uint field, uint cell) {
     return size > 1.0e-6 ? slope / size : vec2(0.0);
 }
 
-/// Metres of free walking that leaving a cell in this direction is worth.
+/// Metres of free walking that leaving a cell in this direction is worth. Even through a jam that stands, one gets some
+/// time. Who may choose between several places takes a jam for what it is: a door that hundreds wait for is worth a walk to
+/// the next one. What counts then is how fast the crowd gets nearer to any of the places; or people would circle with those
+/// who circle.
 float costTowards(uint field, uint cell, GroundCell here, vec2 direction) {
     if (dot(unpackSnorm2x16(here.one_way), direction) < AGAINST_ONE_WAY) return BLOCKED_COST;
     CrowdFlow crowd = crowd_flows[cell];
     float with_crowd = field_maps[field].has_choice != 0u
-                           ? clamp(dot(crowd.velocity, downhill(field, cell)) / FREE_SPEED, SLOWEST_WITH_CHOICE, 1.0)
-                           : clamp(dot(crowd.velocity, direction) / FREE_SPEED, SLOWEST, 1.0);
-    float speed = mix(1.0, with_crowd, smoothstep(CROWD_THIN, THICK, crowd.density));
+                           ? clamp(dot(crowd.velocity, downhill(field, cell)) / ROUTES_ROUND_JAMS_FREE_SPEED, ROUTES_ROUND_JAMS_SLOWEST_WITH_CHOICE, 1.0)
+                           : clamp(dot(crowd.velocity, direction) / ROUTES_ROUND_JAMS_FREE_SPEED, ROUTES_ROUND_JAMS_SLOWEST, 1.0);
+    float speed = mix(1.0, with_crowd, smoothstep(ROUTES_ROUND_JAMS_THIN, ROUTES_ROUND_JAMS_THICK, crowd.density));
     return here.cost * parameters.detour_cell / speed;
 }
 

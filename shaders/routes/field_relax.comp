@@ -16,7 +16,6 @@ layout(std430) writeonly buffer ChangedBlocks { uint changed_blocks[]; };
 #ifdef BOUND
 layout(std430) readonly buffer OpenSides { uint open_sides[]; };
 layout(std430) readonly buffer OneWay { vec2 one_way[]; };
-uniform float against_one_way;  // cosine
 #endif
 
 #include "shaders/routes/field_blocks.glsl"
@@ -51,7 +50,7 @@ bvec4 waysFrom(uvec2 cell, uint index) {
     bvec4 open = bvec4((open_sides[index] & OPEN_TO_X) != 0u, (left & OPEN_TO_X) != 0u, (open_sides[index] & OPEN_TO_Y) != 0u,
                        (below & OPEN_TO_Y) != 0u);
     vec2 along = one_way[index];
-    bvec4 allowed = greaterThanEqual(vec4(along.x, -along.x, along.y, -along.y), vec4(against_one_way));
+    bvec4 allowed = greaterThanEqual(vec4(along.x, -along.x, along.y, -along.y), vec4(AGAINST_ONE_WAY));
     return bvec4(open.x && allowed.x, open.y && allowed.y, open.z && allowed.z, open.w && allowed.w);
 #else
     return bvec4(true);

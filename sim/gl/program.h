@@ -61,6 +61,11 @@ class Program {
     void set(const std::string& uniform, glm::vec2 value);
     void set(const std::string& uniform, glm::uvec2 value);
     void set(const std::string& uniform, const std::vector<glm::vec2>& values);
+    /// The same where the compiler has found a use for the uniform.
+    template <class Value>
+    void setIfUsed(const std::string& uniform, Value value) {
+        if (hasUniform(uniform)) set(uniform, value);
+    }
 
     /// Makes the program and its buffers current.
     /// @throws std::logic_error when a block has no buffer or a uniform no value

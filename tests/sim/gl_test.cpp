@@ -67,8 +67,8 @@ TEST_F(GlTest, RefusesToRunAProgramWithAnUnboundBlockOrUnsetUniform) {
 TEST(Shaders, AreReadFromAFolderBeforeTheBinary) {
     const gl::Context context({});
     const std::filesystem::path folder = std::filesystem::temp_directory_path() / "throng_shader_folder_test";
-    std::filesystem::create_directories(folder);
-    std::ofstream(folder / "counts_sum.comp") << "this is not GLSL\n";
+    std::filesystem::create_directories(folder / "cells");
+    std::ofstream(folder / "cells" / "counts_sum.comp") << "this is not GLSL\n";
     const gl::ShaderLibrary edited(folder);
     try {
         gl::ComputeProgram program(edited, "shaders/cells/counts_sum.comp");

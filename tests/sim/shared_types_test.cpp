@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <map>
 
+#include "base/motion_settings.h"
 #include "shaders/shared/simulation_types.h"
 #include "sim/gl/program.h"
 #include "tests/sim/gpu_test.h"
@@ -127,7 +128,9 @@ TEST_F(SharedTypesTest, WallsSitesAndQueuesAgree) {
 }
 
 TEST_F(SharedTypesTest, ParametersAgree) {
-    const gl::Program avoid(library, {"shaders/motion/avoid.comp"}, {{"NEIGHBOURS", "4"}});
+    gl::Definitions definitions = MotionSettings().definitions();
+    definitions.emplace_back("NEIGHBOURS", "4");
+    const gl::Program avoid(library, {"shaders/motion/avoid.comp"}, definitions);
     const auto found = offsets(avoid, GL_UNIFORM);
     const auto expectParameter = [&](const std::string& member, std::size_t offset) {
         const std::string suffix = "." + member;
