@@ -13,10 +13,12 @@ addon, here, bake, folder = sys.argv[-4:]
 sys.path[:0] = [addon, here]
 import throng  # noqa: E402
 import walker  # noqa: E402
-from throng import cast, crowds  # noqa: E402
+from throng import cast  # noqa: E402
 from pose_names import Names  # noqa: E402
 from throng.cast.sheets import points_of  # noqa: E402
-from throng.characters import character, members  # noqa: E402
+from throng.characters import character  # noqa: E402
+from throng.characters.members import report_of  # noqa: E402
+from throng.crowd.queries import crowd_objects, figure, members_of, repertoire_of  # noqa: E402
 
 if "bool" not in vars(numpy):
     numpy.bool = bool
@@ -47,20 +49,20 @@ throng.register()
 bpy.ops.wm.save_as_mainfile(filepath=os.path.join(folder, "scene.blend"))
 assert bpy.ops.import_scene.throng(filepath=os.path.join(bake, "bake.json"), scenery=False, camera=False) == {"FINISHED"}
 scene = bpy.context.scene
-crowd = crowds.crowd_objects(scene)[0]
-repertoire = members.repertoire_of(crowd)
-shipped = len(members.members(crowd))
+crowd = crowd_objects(scene)[0]
+repertoire = repertoire_of(crowd)
+shipped = len(members_of(crowd))
 
 
 def refused(label, operator, **properties):
     """The error's words; nothing may have changed."""
-    before, names = counts(), members.members(crowd)
+    before, names = counts(), members_of(crowd)
     try:
         operator(**properties)
         result["errors"][label] = "no error"
     except RuntimeError as error:
         result["errors"][label] = str(error)
-    assert counts() == before and members.members(crowd) == names, (label, before, counts())
+    assert counts() == before and members_of(crowd) == names, (label, before, counts())
 
 
 with open(os.path.join(folder, "words.glb"), "w", encoding="utf-8") as file:
@@ -83,9 +85,9 @@ before = counts()
 assert bpy.ops.throng.add_character(filepath=glb) == {"FINISHED"}
 after = counts()
 result["left"] = {kind: after[kind] - before[kind] for kind in after}
-result["members"] = members.members(crowd)[shipped:]
-joined = members.figure(crowd, shipped)
-result["report"] = members.report_of(crowd, shipped)
+result["members"] = members_of(crowd)[shipped:]
+joined = figure(crowd, shipped)
+result["report"] = report_of(crowd, shipped)
 
 
 def feet_of(figure):
@@ -138,7 +140,7 @@ for level, (near, far) in ((1, (10.0, 1000.0)), (2, (10.0, 20.0))):
     names = Names()
     triangles = [sum(len(p.vertices) - 2 for p in instance.object.data.polygons) for instance in bpy.context.evaluated_depsgraph_get().object_instances
                  if instance.is_instance and (name := names.of(instance.object.data)).startswith(f"m{shipped:02d}") and name.endswith(f"_l{level}")]
-    result["levels"][level] = [len(triangles), triangles[0], len(points_of(members.figure(crowd, shipped, level)))]
+    result["levels"][level] = [len(triangles), triangles[0], len(points_of(figure(crowd, shipped, level)))]
     result["levels"]["finest"] = sum(len(p.vertices) - 2 for p in joined.data.polygons)
 result["shown_far"] = shown()
 assert bpy.ops.throng.remove_character(member=shipped) == {"FINISHED"}  # it leaves and comes while levels are on
@@ -159,8 +161,8 @@ before = counts()
 assert bpy.ops.throng.add_armature(replace=2, height=1.6, keep="*stick*", character_name="Second") == {"FINISHED"}
 assert place == (tuple(second.location), second.animation_data.use_nla) and second.animation_data.action is None
 result["scenes"] = counts()["scenes"] - before["scenes"], counts()["armatures"] - before["armatures"]
-replaced = members.figure(crowd, 2)
-result["second"] = {"report": members.report_of(crowd, 2), "count": len(points_of(replaced)), "vertices": len(replaced.data.vertices),
+replaced = figure(crowd, 2)
+result["second"] = {"report": report_of(crowd, 2), "count": len(points_of(replaced)), "vertices": len(replaced.data.vertices),
                     "smooth": sum(p.use_smooth for p in replaced.data.polygons) > 0.9 * len(replaced.data.polygons)}
 result["second_feet"] = feet_of(replaced)[..., ::7, :].round(5).tolist()
 
@@ -183,13 +185,13 @@ bpy.data.objects.remove(second)
 
 # Out again: who was replaced comes back, the other leaves, and the crowd is as it was.
 assert bpy.ops.throng.remove_character(member=2) == {"FINISHED"}
-result["restored"] = members.members(crowd)[2]
+result["restored"] = members_of(crowd)[2]
 refused("not a character", bpy.ops.throng.remove_character, member=2)
 assert bpy.ops.throng.remove_character(member=shipped) == {"FINISHED"}
-result["at_the_end"] = [len(members.members(crowd)), max(shown())]
+result["at_the_end"] = [len(members_of(crowd)), max(shown())]
 assert bpy.ops.throng.add_character(filepath=glb, walk="walk_cycle: 1.5", run="walk_cycle", idle="Jump_Idle", heading="-X",
                                        height=2.5, leave_out="none, *stick") == {"FINISHED"}
-result["said"] = members.report_of(crowd, shipped)
+result["said"] = report_of(crowd, shipped)
 bpy.ops.wm.save_mainfile()
 throng.unregister()
 bpy.ops.wm.open_mainfile(filepath=os.path.join(folder, "scene.blend"))

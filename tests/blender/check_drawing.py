@@ -10,8 +10,9 @@ import bpy
 addon, folder = sys.argv[-2:]
 sys.path.insert(0, addon)
 import throng  # noqa: E402
-from throng import crowds  # noqa: E402
 from throng.authoring import bake_operator  # noqa: E402
+from throng.crowd.queries import crowd_objects  # noqa: E402
+from throng.crowd.verify import verify  # noqa: E402
 
 bpy.ops.wm.read_factory_settings(use_empty=True)
 throng.register()
@@ -105,9 +106,9 @@ assert ops.check() == {"FINISHED"}
 assert ops.bake() == {"FINISHED"}
 crowd = data().crowd
 names = [each.name for each in data().built.objects]
-result["first"] = {"people": len(crowd.data.vertices), "crowds": len(crowds.crowd_objects(bpy.context.scene)), "bake": os.listdir(os.path.join(folder, "throng")),
+result["first"] = {"people": len(crowd.data.vertices), "crowds": len(crowd_objects(bpy.context.scene)), "bake": os.listdir(os.path.join(folder, "throng")),
                    "streets": "Throng road Road" in names, "kiosk": sum("Kiosk" in name for name in names)}
-assert crowds.verify(crowd, bpy.context.scene) == []
+assert verify(crowd, bpy.context.scene) == []
 
 # What is wrong is shown at what is wrong.
 result["errors"], result["words"] = {}, {}
@@ -140,7 +141,7 @@ thing("Road").throng_layout.width = 6.0
 assert ops.bake() == {"FINISHED"}
 assert not any(each.is_error for each in data().problems)
 road = bpy.data.objects["Throng road Road"]
-result["second"] = {"people": len(crowd.data.vertices), "crowds": len(crowds.crowd_objects(bpy.context.scene)), "same": data().crowd == crowd,
+result["second"] = {"people": len(crowd.data.vertices), "crowds": len(crowd_objects(bpy.context.scene)), "same": data().crowd == crowd,
                     "width": sorted({round(abs(v.co.y), 2) for v in road.data.vertices if abs(v.co.z) < 1e-3})[-1] * 2.0}
 thing("Road").throng_layout.width = 11.0
 bpy.context.view_layer.update()
@@ -155,7 +156,7 @@ for name, path in (("program", os.path.join(folder, "absent")), ("other", "/bin/
 addon_entry.preferences.program = ""
 manifest = os.path.join(folder, "throng", "shot", "bake.json")
 before = open(manifest, "rb").read()
-result["kept"] = [len(crowd.data.vertices), crowds.verify(crowd, bpy.context.scene) == []]
+result["kept"] = [len(crowd.data.vertices), verify(crowd, bpy.context.scene) == []]
 
 # Cancelled from another thread, as a button would.
 data().simulation.duration = 3000.0
@@ -201,7 +202,7 @@ assert ops.bake() == {"FINISHED"}
 bpy.context.view_layer.update()
 road, built = thing("far road"), next(each for each in data().built.objects if each.name.startswith("Throng road"))
 xs = [(built.matrix_world @ v.co).x for v in built.data.vertices]
-result["far"] = [road.location.x, 0.5 * (min(xs) + max(xs)), [round(value, 6) for value in json.loads(data().origin)], len(crowds.crowd_objects(bpy.context.scene))]
+result["far"] = [road.location.x, 0.5 * (min(xs) + max(xs)), [round(value, 6) for value in json.loads(data().origin)], len(crowd_objects(bpy.context.scene))]
 bpy.context.scene.frame_set(bpy.context.scene.frame_end)
 graph = bpy.context.evaluated_depsgraph_get()
 where = [each.matrix_world.translation.copy() for each in graph.object_instances

@@ -11,8 +11,7 @@ addon, bake, folder = sys.argv[-3:]
 sys.path[:0] = [addon, os.path.dirname(os.path.abspath(__file__))]
 import throng  # noqa: E402
 from pose_names import Names  # noqa: E402
-from throng import crowds  # noqa: E402
-from throng.characters import members  # noqa: E402
+from throng.crowd.queries import collection_of, crowd_objects, earlier_crowds, figure  # noqa: E402
 
 LIBRARY = os.path.join(folder, "library.blend")
 result = {}
@@ -27,7 +26,7 @@ def fresh():
 def imported():
     assert bpy.ops.import_scene.throng(filepath=os.path.join(bake, "bake.json"), scenery=False, walls=False, roads=False, relative=False) == {"FINISHED"}
     bpy.context.scene.frame_set(20)
-    return crowds.crowd_objects(bpy.context.scene)[-1]
+    return crowd_objects(bpy.context.scene)[-1]
 
 
 def shown(crowd=None):
@@ -40,7 +39,7 @@ def shown(crowd=None):
 fresh()
 crowd = imported()
 result["alone"] = shown()
-name = crowds.collection_of(crowd).name
+name = collection_of(crowd).name
 bpy.ops.wm.save_as_mainfile(filepath=LIBRARY)
 
 # Appended by hand, the cast does not come into the picture.
@@ -81,11 +80,11 @@ for step, (chosen, options) in enumerate((((crowd, other), far), ((crowd,), {"by
     assert bpy.ops.throng.levels(**options) == {"FINISHED"}
     result[f"copies {step}"] = [shown(crowd), shown(other), len([thing for thing in bpy.data.objects if "throng_member" in thing])]
     if step == 0:  # somebody takes a coarse mesh for a thing of their own
-        mine = bpy.data.objects.new("mine", members.figure(crowd, 3, 2).data)
+        mine = bpy.data.objects.new("mine", figure(crowd, 3, 2).data)
         bpy.context.scene.collection.objects.link(mine)
 result["mine"] = "mine" in bpy.data.objects and len(bpy.data.objects["mine"].data.vertices) > 0
 
 # A crowd of an earlier version plays on; nothing works on it, and the panel says why.
 del crowd["throng_cast"]["throng_levels"]
-result["earlier"] = [shown(crowd), len(crowds.crowd_objects(bpy.context.scene)), len(crowds.earlier_crowds(bpy.context.scene)), bpy.ops.throng.levels.poll()]
+result["earlier"] = [shown(crowd), len(crowd_objects(bpy.context.scene)), len(earlier_crowds(bpy.context.scene)), bpy.ops.throng.levels.poll()]
 print("RESULT " + json.dumps(result))

@@ -12,6 +12,9 @@ import bpy
 addon, bake, flat, times, out = sys.argv[-5:]
 sys.path.insert(0, addon)
 import throng  # noqa: E402
+from throng.crowd.verify import verify  # noqa: E402
+from throng.formats import BakeError  # noqa: E402
+from throng.tools.update import reload, set_offset  # noqa: E402
 
 
 def people(crowd):
@@ -52,17 +55,16 @@ result["terrain"] = {"corners": [list(v.co) for v in terrain.data.vertices], "fa
 result["ground"] = "Throng ground" in bpy.data.objects or any(name.startswith("Throng road") for name in bpy.data.objects.keys())
 result["walls"] = {thing.name: [thing.location.z, max(v.co.z for v in thing.data.vertices)] for thing in scene.objects if thing.name.startswith("Throng wall")}
 result["camera"] = scene.camera.location.z
-from throng import crowds  # noqa: E402
 
-result["problems"] = crowds.verify(crowd, scene)
-crowds.set_offset(crowd, 3)
+result["problems"] = verify(crowd, scene)
+set_offset(crowd, 3)
 result["starts"] = sorted({modifier.frame_start for modifier in crowd.modifiers if modifier.type == "MESH_CACHE"})
-crowds.set_offset(crowd, 0)
-crowds.reload(crowd, scene)
+set_offset(crowd, 0)
+reload(crowd, scene)
 try:
-    crowds.reload(crowd, scene, os.path.join(flat, "bake.json"))
+    reload(crowd, scene, os.path.join(flat, "bake.json"))
     result["relinked"] = ""
-except throng.operators.BakeError as error:
+except BakeError as error:
     result["relinked"] = str(error)
 
 # The flat bake on the terrain's mesh.

@@ -10,13 +10,14 @@ addon, bake, folder = sys.argv[-3:]
 sys.path[:0] = [addon, os.path.dirname(os.path.abspath(__file__))]
 import throng  # noqa: E402
 from pose_names import Names  # noqa: E402
-from throng import crowds, levels  # noqa: E402
+from throng.crowd.queries import crowd_objects  # noqa: E402
+from throng.tools.levels import default_distances  # noqa: E402
 
 bpy.ops.wm.read_factory_settings(use_empty=True)
 throng.register()
 bpy.ops.import_scene.throng(filepath=os.path.join(bake, "bake.json"), scenery=False, walls=False, roads=False, relative=False)
 scene = bpy.context.scene
-crowd = crowds.crowd_objects(scene)[0]
+crowd = crowd_objects(scene)[0]
 camera = scene.camera
 
 
@@ -32,7 +33,7 @@ def sizes():
 scene.frame_set(20)
 result = {"before": people(), "sizes": [sizes()], "lens": camera.data.lens}
 scene.render.resolution_x, scene.render.resolution_y = 1920, 1080
-result["defaults"] = levels.default_distances(camera, scene)
+result["defaults"] = default_distances(camera, scene)
 camera.data.type = "ORTHO"
 for options, key in (({"by": "camera"}, "ortho"), ({"by": "camera", "near": 30.0, "far": 20.0}, "order")):
     try:

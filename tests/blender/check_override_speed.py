@@ -10,7 +10,7 @@ import bpy
 addon, bake = sys.argv[-2:]
 sys.path.insert(0, addon)
 import throng  # noqa: E402
-from throng import crowds  # noqa: E402
+from throng.crowd.queries import crowd_objects  # noqa: E402
 from throng.overrides import layer, native  # noqa: E402
 from throng.overrides.override_file import Change  # noqa: E402
 
@@ -18,7 +18,7 @@ bpy.ops.wm.read_factory_settings(use_empty=True)
 throng.register()
 bpy.ops.import_scene.throng(filepath=os.path.join(bake, "bake.json"), scenery=False, camera=False)
 scene = bpy.context.scene
-crowd = crowds.crowd_objects(scene)[0]
+crowd = crowd_objects(scene)[0]
 loaded = layer.bake_of(crowd)
 KINDS = {"none": {}, "state": {5: Change(hide=True), 6: Change(character=1)}, "move": {7: Change(move=(1.0, 0.0, 0.0))}, "turn": {9: Change(turn=20.0)},
          "scale": {8: Change(scale=1.1)}}

@@ -11,8 +11,10 @@ import bpy
 addon, folder = sys.argv[-2:]
 sys.path[:0] = [addon, os.path.dirname(os.path.abspath(__file__))]
 import throng  # noqa: E402
+from throng.cast import gait, people as cast_people  # noqa: E402
 from pose_names import Names  # noqa: E402
-from throng import crowds  # noqa: E402
+from throng.crowd.queries import crowd_objects, figure  # noqa: E402
+from throng.crowd.verify import verify  # noqa: E402
 from throng.overrides import hero, layer, native, picking, skeleton  # noqa: E402
 
 BAKE, FILE = os.path.join(folder, "street"), os.path.join(folder, "street.overrides.json")
@@ -23,7 +25,7 @@ bpy.ops.wm.save_as_mainfile(filepath=os.path.join(folder, "scene.blend"))
 load = lambda path: bpy.ops.import_scene.throng(filepath=os.path.join(path, "bake.json"), scenery=False, camera=False)
 assert load(BAKE) == {"FINISHED"}
 scene = bpy.context.scene
-crowd = crowds.crowd_objects(scene)[0]
+crowd = crowd_objects(scene)[0]
 result = {"version": list(bpy.app.version), "modifiers": [m.name for m in crowd.modifiers]}
 entries = lambda: json.load(open(FILE, encoding="utf-8"))["overrides"] if os.path.exists(FILE) else None
 
@@ -93,11 +95,11 @@ ops.hide_people(rows="4")
 bpy.ops.ed.undo_push(message="hidden")
 hidden = [len(entries()), 4 in people()]
 bpy.ops.ed.undo()
-crowd = crowds.crowd_objects(bpy.context.scene)[0]
+crowd = crowd_objects(bpy.context.scene)[0]
 scene = bpy.context.scene
 result["undo"] = [hidden, [len(entries()), 4 in people(), len(crowd.throng_overrides)]]
 bpy.ops.ed.redo()
-crowd, scene = crowds.crowd_objects(bpy.context.scene)[0], bpy.context.scene
+crowd, scene = crowd_objects(bpy.context.scene)[0], bpy.context.scene
 result["redo"] = [len(entries()), 4 in people(), len(crowd.throng_overrides)]
 ops.clear_override(index=0)
 
@@ -119,7 +121,7 @@ dyed = crowd.data.attributes["throng_dyed"].data
 result["dye"] = [list(crowd.data.attributes["throng_dye"].data[15].vector), dyed[15].value, dyed[14].value]
 result["dyed_materials"] = sorted(m.name for m in bpy.data.materials if m.use_nodes and "Throng dye" in m.node_tree.nodes)
 result["list"] = [[item.name, item.status] for item in crowd.throng_overrides]
-result["verify"] = crowds.verify(crowd, scene)
+result["verify"] = verify(crowd, scene)
 retimed = native.retimed_object(crowd)
 result["sidecar"] = [retimed.modifiers["throng retimed pos"].filepath, len(retimed.data.vertices)]
 ops.show(percent=100.0, offset=5)
@@ -145,17 +147,14 @@ ops.promote_person(rows="10", hero="Anna")
 crowd.name = "Somebody's crowd"
 result["twice"] = refused(ops.promote_person, rows="11", hero="Anna")
 ops.promote_person(rows="16")  # enters later
-from throng.characters import members  # noqa: E402
 
-holder = members.figure(crowd, layer.variation_of(crowd, 18))
+holder = figure(crowd, layer.variation_of(crowd, 18))
 number = holder["throng_person"]
 del holder["throng_person"]  # as if somebody had brought this member along
 result["brought"] = refused(ops.promote_person, rows="18")
 holder["throng_person"] = number
 anna, late_hero = hero.heroes_of(crowd)["Anna"], hero.heroes_of(crowd)["Hero 16"]
 body = next(thing for thing in bpy.data.objects if thing.parent == anna)
-from throng import cast  # noqa: E402
-from throng.cast import gait, people as cast_people  # noqa: E402
 with layer.Rows(layer.bake_of(crowd)) as rows:
     bake = layer.bake_of(crowd)
     first = layer.Table(bake, rows).people[10].frame
@@ -168,10 +167,10 @@ with layer.Rows(layer.bake_of(crowd)) as rows:
                          abs(math.remainder(math.atan2(matrix[1][0], matrix[0][0]) - math.atan2(sample.direction[1], sample.direction[0]), 2 * math.pi)))
         person = cast_people.CAST[int(sample.state[1]) % crowd["throng_cast"]["throng_variations"]]
         stride = gait.gait_of(bake.strides[round((sample.state[0] % 1.0) * 16)])
-        figure = skeleton.vertices_of(person, gait.walk_pose(sample.state[2] % 1.0, cast_people.build_of(person), stride))
+        expected = skeleton.vertices_of(person, gait.walk_pose(sample.state[2] % 1.0, cast_people.build_of(person), stride))
         mesh = body.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
-        off = sorted(math.dist(vertex.co, place) for vertex, place in zip(mesh.vertices, figure))
-        errors.append([sum(off) / len(off), off[int(0.99 * len(off))], off[-1], sample.direction[2], len(figure) == len(mesh.vertices)])
+        off = sorted(math.dist(vertex.co, place) for vertex, place in zip(mesh.vertices, expected))
+        errors.append([sum(off) / len(off), off[int(0.99 * len(off))], off[-1], sample.direction[2], len(expected) == len(mesh.vertices)])
 result["hero"] = {"root": worst_root, "errors": errors, "in_crowd": [10 in people(), 16 in people()], "bones": len(anna.data.bones),
                   "materials": all(material for material in body.data.materials) and len(body.data.materials) == len(cast_people.MATERIALS), "tint": list(body["tint"])}
 late_body = next(thing for thing in bpy.data.objects if thing.parent == late_hero)
@@ -186,7 +185,7 @@ final = shots()
 bpy.ops.wm.save_mainfile()
 bpy.ops.wm.open_mainfile(filepath=os.path.join(folder, "scene.blend"))
 scene = bpy.context.scene
-crowd = crowds.crowd_objects(scene)[0]
+crowd = crowd_objects(scene)[0]
 result["reopened"] = [shots() == final, len(crowd.throng_overrides) == len(entries()), sorted(hero.heroes_of(crowd))]
 result["final"] = final
 shutil.copy(os.path.join(folder, "scene.blend"), os.path.join(folder, "farm.blend"))
@@ -199,7 +198,7 @@ for take in ("take2", "take3"):
     scene.frame_set(100)
     result[take] = {"matches": [[json.loads(item.text)["id"], item.status, item.row] for item in crowd.throng_overrides], "people": people(),
                     "details": [item.detail for item in crowd.throng_overrides], "entries": entries(), "heroes": sorted(hero.heroes_of(crowd)),
-                    "frame": 99, "verify": crowds.verify(crowd, scene)}
+                    "frame": 99, "verify": verify(crowd, scene)}
 
 # --- an import finds the file, damage is told before anything changes --------------------------------------------------------
 shutil.rmtree(BAKE)
@@ -214,7 +213,7 @@ with open(FILE, "w", encoding="utf-8") as file:
 bpy.ops.wm.read_factory_settings(use_empty=True)
 assert load(BAKE) == {"FINISHED"}
 scene = bpy.context.scene
-crowd = crowds.crowd_objects(scene)[0]
+crowd = crowd_objects(scene)[0]
 result["imported"] = [shots() == {f: result["final"][f] for f in FRAMES}, sorted(hero.heroes_of(crowd))]
 for name in ("Anna", "Hero 16"):
     index = next(i for i, item in enumerate(crowd.throng_overrides) if json.loads(item.text).get("hero") == name)
@@ -239,7 +238,7 @@ native_tints = tints()
 for thing in list(bpy.data.objects):
     bpy.data.objects.remove(thing)
 assert load(os.path.join(folder, "applied")) == {"FINISHED"}
-crowd = crowds.crowd_objects(bpy.context.scene)[0]
+crowd = crowd_objects(bpy.context.scene)[0]
 scene = bpy.context.scene
 result["native"], result["applied"] = native_shots, shots()
 result["applied_tints"] = max(abs(a - b) for one, two in zip(native_tints, tints()) for a, b in zip(one, two))

@@ -9,6 +9,7 @@ import numpy
 sys.path.insert(0, sys.argv[-1])
 from throng import cast  # noqa: E402
 from throng.cast import gait, library, people, sheets  # noqa: E402
+from throng.cast.figure import build_figure  # noqa: E402
 
 bpy.ops.wm.read_factory_settings(use_empty=True)
 STRIDES = (1.1, 1.446)
@@ -24,7 +25,7 @@ for member, level in ((0, 0), (3, 1), (8, 0), (11, 2)):
     layer = scene.view_layers[0]
     layer.update()
     person = people.CAST[member]
-    figures = [people.build_figure(person, pose) for pose in cast.poses_of(person, repertoire)]
+    figures = [build_figure(person, pose) for pose in cast.poses_of(person, repertoire)]
     plan = cast.plan_of(figures, repertoire, level)
     flat = [numpy.array(plan.vertices(figures[source].rings), numpy.float32) for source in repertoire.sources(level)]
     shown = []

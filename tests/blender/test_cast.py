@@ -9,7 +9,7 @@ import pytest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "blender_addon"))
 from throng import cast  # noqa: E402
 from throng.cast import gait, people  # noqa: E402
-from throng.cast.figure import Figure  # noqa: E402
+from throng.cast.figure import Figure, build_figure  # noqa: E402
 from throng.cast.mesh_builder import Plan, add, cross, mix, scale, sub, unit  # noqa: E402
 
 STRIDES = tuple(1.446 * 1.28 ** k for k in range(-3, 3))  # as of `throng bake`
@@ -21,7 +21,7 @@ LEVELS = range(cast.LEVELS)
 @pytest.fixture(scope="module")
 def figures():
     """All poses of everybody."""
-    return [[people.build_figure(person, pose) for pose in cast.poses_of(person, REPERTOIRE)] for person in people.CAST]
+    return [[build_figure(person, pose) for pose in cast.poses_of(person, REPERTOIRE)] for person in people.CAST]
 
 
 @pytest.fixture(scope="module")

@@ -210,12 +210,12 @@ bpy.ops.wm.read_factory_settings(use_empty=True)
 throng.register()
 bpy.ops.import_scene.throng(filepath=bake + "/bake.json", scenery=False, camera=False)
 assert bpy.ops.throng.add_character(filepath=model) == {"FINISHED"}
-from throng import crowds
-from throng.characters import members
-crowd = crowds.crowd_objects(bpy.context.scene)[0]
+from throng.characters.members import report_of
+from throng.crowd.queries import crowd_objects, figure
+crowd = crowd_objects(bpy.context.scene)[0]
 from throng.cast.sheets import points_of
-mesh = members.figure(crowd, 8).data
-print("RESULT " + json.dumps({"report": members.report_of(crowd, 8), "poses": points_of(members.figure(crowd, 8)).shape[:2],
+mesh = figure(crowd, 8).data
+print("RESULT " + json.dumps({"report": report_of(crowd, 8), "poses": points_of(figure(crowd, 8)).shape[:2],
                               "materials": [material.name for material in mesh.materials], "vertices": len(mesh.vertices),
                               "smooth": sum(p.use_smooth for p in mesh.polygons) / len(mesh.polygons)}))
 """)

@@ -15,7 +15,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 sys.path.insert(0, str(ROOT / "blender_addon"))
 import terrain_files  # noqa: E402
 from test_import import result_of  # noqa: E402
-from throng import formats, terrain_mesh  # noqa: E402
+from throng import formats  # noqa: E402
+from throng.formats.terrain_mesh import read_mesh  # noqa: E402
 
 ADDON = ROOT / "blender_addon"
 FRAMES = [1, 40, 97, 150]
@@ -123,10 +124,10 @@ print('RESULT ' + json.dumps(result))
 def test_a_damaged_terrain_is_one_clear_error(two_bakes, tmp_path, damage, words):
     path = tmp_path / "terrain.glb"
     path.write_bytes((two_bakes / "ramp" / "terrain.glb").read_bytes())
-    assert len(terrain_mesh.read_mesh(str(path))[1]) == 40 * 20 * 6
+    assert len(read_mesh(str(path))[1]) == 40 * 20 * 6
     damage(path)
     with pytest.raises(formats.BakeError, match=words):
-        terrain_mesh.read_mesh(str(path))
+        read_mesh(str(path))
 
 
 def test_a_manifest_cannot_name_a_terrain_elsewhere(two_bakes):

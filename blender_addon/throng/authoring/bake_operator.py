@@ -9,13 +9,13 @@ import bpy
 from bpy.props import IntProperty
 
 from ..formats import BakeError
-from ..preferences import program
 from .bake_job import BakeJob, Diagnostic, check_layout
 from .executable import ExecutableError, check_version, find_executable
 from .exporter import default_name, export_layout, folder_of_files, layout_text, write_text
 from .geometry import AuthoringError
 from .load import load
 from .operators import refused, select_only
+from .preferences import program
 
 _running = {}  # the bake under way, if there is one: "bake"
 

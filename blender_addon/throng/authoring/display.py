@@ -6,7 +6,7 @@ import math
 
 import bpy
 
-from ..nodes import Maths, new_tree, own_tree, set_input, socket
+from ..blender.nodes import Maths, new_tree, own_tree, set_input, socket
 
 MODIFIER = "Throng drawing"
 _GEOMETRY = [("Geometry", "NodeSocketGeometry")]

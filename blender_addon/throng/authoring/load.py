@@ -2,15 +2,18 @@
 """A layout's own bake in its scene: the crowd, and the streets and buildings that were drawn."""
 import bpy
 
-from .. import cells, crowds, environment
+from .. import environment
+from ..crowd.queries import collection_of, crowd_objects
 from ..formats import load_bake, read_manifest
-from ..importer import import_bake
+from ..tools import cells
+from ..tools.importer import import_bake
+from ..tools.update import reload
 from .exporter import origin_of
 
 
 def _crowd_of(scene):
     crowd = scene.throng_layout.crowd
-    return crowd if crowd in crowds.crowd_objects(scene) else None
+    return crowd if crowd in crowd_objects(scene) else None
 
 
 def _move(things, offset):
@@ -34,11 +37,11 @@ def load(context, path, own_meshes=()):
         crowd = import_bake(context, path, frame_start=scene.frame_start, walls=False, roads=False, scenery=layout.build_scenery,
                             camera=layout.build_camera and scene.camera is None)
         layout.crowd = crowd
-        _move(crowds.collection_of(crowd).objects, offset)
+        _move(collection_of(crowd).objects, offset)
     else:
-        crowds.reload(crowd, scene, path)
+        reload(crowd, scene, path)
         crowd.location[:2] = offset
-    _build(context, crowds.collection_of(crowd) or scene.collection, read_manifest(path), set(own_meshes), offset)
+    _build(context, collection_of(crowd) or scene.collection, read_manifest(path), set(own_meshes), offset)
     return cells.follow(crowd)
 
 

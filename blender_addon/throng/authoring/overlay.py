@@ -3,6 +3,8 @@
 import math
 
 import bpy
+import gpu
+from gpu_extras.batch import batch_for_shader
 
 from .geometry import AuthoringError, outlines_of, splines_of
 
@@ -69,9 +71,6 @@ def _draw():
     scene = bpy.context.scene
     if not scene.throng_layout.show_flows or not len(scene.throng_layout.flows):
         return
-    import gpu
-    from gpu_extras.batch import batch_for_shader
-
     shader = gpu.shader.from_builtin("UNIFORM_COLOR" if bpy.app.version >= (3, 6, 0) else "3D_UNIFORM_COLOR")
     gpu.state.line_width_set(2.0)
     for colour, lines in strokes(scene):

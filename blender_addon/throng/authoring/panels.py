@@ -4,7 +4,7 @@ import textwrap
 
 import bpy
 
-from ..panels import InSidebar
+from ..blender.panels import InSidebar
 from . import fields
 from .bake_operator import described, running
 from .codecs import MIX, UNSET

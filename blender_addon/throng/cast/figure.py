@@ -2,9 +2,9 @@
 """A person's body in one pose, as lofts. Pure Python."""
 import math
 
-from . import cloth, gait, outfit
+from . import cloth, gait, hair, outfit
 from .mesh_builder import MeshBuilder, add, extent_at, mix, ring, scale, turn_y, turn_z, unit
-from .people import EYES, BOTTOM, GREY, HAIR, SHOES, SKIN, STANDARD_HEIGHT, TOP
+from .people import EYES, BOTTOM, GREY, HAIR, SHOES, SKIN, STANDARD_HEIGHT, TOP, build_of
 
 _SHOE = (  # along the foot from the ankle, height of the sole and of the upper, half width
     (-0.072, 0.018, 0.055, 0.020), (-0.060, 0.0, 0.085, 0.032), (-0.010, 0.004, 0.105, 0.036), (0.050, 0.006, 0.082, 0.039),
@@ -101,7 +101,7 @@ class Figure:
         if p.hair != "headscarf":
             for side in (-1, 1):
                 self.mesh.ball(at(0.0, side * 0.074, -0.005), (0.020 * s, 0.009 * s, 0.030 * s), SKIN, 6, 3, until=0)
-        outfit.add_hair(self, at, x, y, s)
+        hair.add_hair(hair.Head(self, at, x, y, s))
 
     def _arm(self, side, swing, elbow):
         p, s, mesh = self.person, self.s, self.mesh
@@ -204,3 +204,11 @@ def _profile(person):
         (0.27, 0.116 * g + 0.5 * belly, wide * 0.80 * g ** 0.5, 0.010), (0.37, 0.124 * g, wide * 0.93, 0.006),
         (0.43, 0.108 * g, wide * 0.99, -0.004), (0.468, 0.090, wide * 0.80, -0.010), (0.495, 0.074, wide * 0.52, -0.012), (0.52, 0.060, 0.070, -0.010))
     return [(h, a * (bulk if h > 0.05 else 1.0), b * (bulk if h > 0.05 else 1.0), f) for h, a, b, f in profile]
+
+
+def build_figure(person, pose):
+    """The rings and parts of one person in one pose (gait.walk_pose or gait.standing_pose with build_of(person)).
+
+    Figures look along +x and stand on z = 0.
+    """
+    return Figure(person, pose, build_of(person)).mesh

@@ -4,6 +4,7 @@ import bpy
 import numpy
 
 from . import LEVELS, POSES, VARIATIONS, limb_velocities, people, plan_of, poses_of
+from .figure import build_figure
 from .gait import gait_of
 from .materials import cast_materials
 from .sheets import Posed, drop_spare_attributes, make_figure, remove_figures, sheet_of
@@ -43,7 +44,7 @@ def build_cast(variations, repertoire, name="Throng cast"):
 def add_person(cast, member, repertoire, materials, levels=None):
     """The shipped person of a number, at the levels that the cast shows unless told."""
     person = member % VARIATIONS
-    bodies = [people.build_figure(people.CAST[person], pose) for pose in poses_of(people.CAST[person], repertoire)]
+    bodies = [build_figure(people.CAST[person], pose) for pose in poses_of(people.CAST[person], repertoire)]
     for level in range(cast["throng_levels"]) if levels is None else levels:
         figure = add_figure(cast, level, member, f"Throng person {member:02d}", _posed(bodies, level, repertoire, materials))
         figure["throng_person"] = person

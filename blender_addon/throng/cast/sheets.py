@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import bpy
 import numpy
 
-from ..nodes import Maths, drop_tree, get_input, new_tree, own_tree, set_input, socket
+from ..blender.nodes import Maths, drop_tree, get_input, new_tree, own_tree, set_input, socket
 
 MODIFIER = "throng poses"
 MOST_POINTS = 1 << 24  # numbers of points go through nodes as floats, which count no further

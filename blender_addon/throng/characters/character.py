@@ -92,37 +92,51 @@ def _standing(reader, chosen, cycles, body, report):
     return found
 
 
+def _points(puppet, bones, repertoire):
+    """For each level {number of a pose: where its vertices are}, of the poses that it has."""
+    points = [{} for _ in posing.LEVELS]
+    for index, pose in enumerate(bones):
+        puppet.pose(pose)
+        for level, posed in enumerate(points):
+            if index in repertoire.sources(level):
+                posed[index] = puppet.points(level)
+                _check_size(len(posed[index]), repertoire.poses(level))
+    return points
+
+
 def _levels(puppet, reader, bones, repertoire, report, plans):
-    made = []
+    points, made = _points(puppet, bones, repertoire), []
     try:
-        points = [{} for _ in posing.LEVELS]
-        for index, pose in enumerate(bones):
-            puppet.pose(pose)
-            for level, posed in enumerate(points):
-                if index in repertoire.sources(level):
-                    posed[index] = puppet.points(level)
-                    _check_size(len(posed[index]), repertoire.poses(level))
         for level, posed in enumerate(points):
             template = puppet.template(level, f"{report.name} {level}")
-            sources = repertoire.sources(level)
-            made.append(Posed(template, numpy.array([posed[source] for source in sources], numpy.float32)))
-            if len(template.vertices) != made[level].points.shape[1]:
-                raise CharacterError("the meshes lose or gain vertices when they are joined: apply their modifiers first")
-            if level <= BLURS_UNTIL:
-                made[level].velocities = walking_velocities(made[level].points, repertoire)
-            template.vertices.foreach_set("co", made[level].points[-1].ravel())
-            template.update()
-            template.calc_loop_triangles()
+            made.append(Posed(template, numpy.array([posed[source] for source in repertoire.sources(level)], numpy.float32)))
+            _finish(made[level], level, repertoire)
             report.triangles.append(len(template.loop_triangles))
         for index, plan in enumerate(plans):
-            posed = numpy.array([points[0][index * POSES + pose] for pose in range(POSES)])
-            report.gaits.append({"stride": plan.stride, "clip": plan.cycle.name, "natural": plan.cycle.stride, "planted": plan.share,
-                                 "slide": max(feet.slide(posed[:, sole], plan.stride) for sole in _soles(reader, posed))})
-            report.notes += [f"{plan.cycle.name}: {note}" for note in plan.cycle.notes if f"{plan.cycle.name}: {note}" not in report.notes]
+            _report_gait(report, reader, plan, numpy.array([points[0][index * POSES + pose] for pose in range(POSES)]))
     except BaseException:
         bpy.data.batch_remove([posed.mesh for posed in made])
         raise
     return made
+
+
+def _finish(made, level, repertoire):
+    """The velocities of a level that blurs, and the template's vertices where they are in the last pose."""
+    if len(made.mesh.vertices) != made.points.shape[1]:
+        raise CharacterError("the meshes lose or gain vertices when they are joined: apply their modifiers first")
+    if level <= BLURS_UNTIL:
+        made.velocities = walking_velocities(made.points, repertoire)
+    made.mesh.vertices.foreach_set("co", made.points[-1].ravel())
+    made.mesh.update()
+    made.mesh.calc_loop_triangles()
+
+
+def _report_gait(report, reader, plan, posed):
+    """@param posed where the vertices are in the poses of the gait"""
+    slide = max(feet.slide(posed[:, sole], plan.stride) for sole in _soles(reader, posed))
+    report.gaits.append({"stride": plan.stride, "clip": plan.cycle.name, "natural": plan.cycle.stride, "planted": plan.share, "slide": slide})
+    notes = [f"{plan.cycle.name}: {note}" for note in plan.cycle.notes]
+    report.notes += [note for note in notes if note not in report.notes]
 
 
 def _check_size(vertices, poses):

@@ -223,27 +223,37 @@ class Reader:
         return bool(numpy.ptp(ankles, axis=0).max() < 0.03 * self.height and upright > 0.85 and numpy.abs(moves).max() > 1e-4 * self.height)
 
 
+def _clip_named(name, role, by_name):
+    if name in by_name:
+        return by_name[name]
+    near = [each for each in by_name if name.lower() in each.lower()] or by_name
+    known = ", ".join(sorted(near)[:12])
+    raise CharacterError(f"there is no clip {name} (asked for as {role}): there are {known}{' ...' if len(near) > 12 else ''}")
+
+
+def _asked_for(asked, by_name):
+    """({role: [clips]}, {clip's name: stride}) of what the user says."""
+    chosen, strides = {}, {}
+    for role, entries in asked.items():
+        for name, stride in entries:
+            chosen.setdefault(role, []).append(_clip_named(name, role, by_name))
+            if stride:
+                strides[name] = stride
+    return chosen, strides
+
+
 def choose(reader, clips):
     """({role: [clips]}, {clip's name: stride that the user said}): by the user, by name, by motion."""
     by_name = {clip.name: clip for clip in clips}
-    chosen, strides = {}, {}
-    for role, entries in (reader.options.roles or {}).items():
-        for name, stride in entries:
-            if name not in by_name:
-                near = [each for each in by_name if name.lower() in each.lower()]
-                known = ", ".join(sorted(near or by_name)[:12])
-                raise CharacterError(f"there is no clip {name} (asked for as {role}): there are {known}{' ...' if len(near or by_name) > 12 else ''}")
-            chosen.setdefault(role, []).append(by_name[name])
-            if stride:
-                strides[name] = stride
-    named = roles.clips_by_role(list(by_name))
-    for role, names in named.items():
+    chosen, strides = _asked_for(reader.options.roles or {}, by_name)
+    for role, names in roles.clips_by_role(list(by_name)).items():
         chosen.setdefault(role, [by_name[name] for name in names])
+    everyday = [clip for clip in clips if not roles.says_otherwise(clip.name)]
     if roles.WALK not in chosen and roles.RUN not in chosen:
-        chosen[roles.WALK] = [clip for clip in clips if not roles.says_otherwise(clip.name)]
+        chosen[roles.WALK] = everyday
         reader.notes.append("no clip's name says that it walks: their feet were asked")
     if roles.IDLE not in chosen:
-        still = [clip for clip in clips if not roles.says_otherwise(clip.name) and reader.stands_still(clip)]
+        still = [clip for clip in everyday if reader.stands_still(clip)]
         if still:
             chosen[roles.IDLE] = still
     return chosen, strides

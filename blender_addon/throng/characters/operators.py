@@ -5,15 +5,14 @@ import bpy
 from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
-from ..panels import Below
-from . import CharacterError
+from ..blender.panels import Below
+from ..crowd.queries import chosen_crowds, members_of, repertoire_of
+from . import CharacterError, character, files, members
 from .clips import HEADINGS, Options
 from .roles import ROLES
 
 
 def _one_crowd(context):
-    from ..crowds import chosen_crowds
-
     chosen = chosen_crowds(context)
     if len(chosen) != 1:
         raise CharacterError("Select one crowd: each has a cast of its own" if chosen else "There is no crowd: import a bake first")
@@ -61,11 +60,9 @@ class _AddsCharacter:
                        feet=tuple(part.strip() for part in self.feet.split(",") if part.strip()))
 
     def _add(self, crowd, armature, name):
-        from . import character, files, members
-
         number = members.number_for(crowd, None if self.replace < 0 else self.replace)
         members.widen(crowd)
-        made = character.make(armature, members.repertoire_of(crowd), name, self._options())
+        made = character.make(armature, repertoire_of(crowd), name, self._options())
         try:
             files.pack_images([posed.mesh for posed in made.levels])
         except CharacterError:
@@ -97,9 +94,7 @@ class THRONG_OT_add_character(_AddsCharacter, bpy.types.Operator, ImportHelper):
     filter_glob: StringProperty(default="*.glb;*.gltf", options={"HIDDEN"})
 
     def _run(self, context, crowd):
-        from .files import imported
-
-        with imported(context, self.filepath) as armature:
+        with files.imported(context, self.filepath) as armature:
             self._add(crowd, armature, self.character_name or os.path.splitext(os.path.basename(self.filepath))[0])
 
 
@@ -133,8 +128,6 @@ class THRONG_OT_remove_character(bpy.types.Operator):
     member: IntProperty(name="Member", min=0, description="Its number in the cast")
 
     def execute(self, context):
-        from . import members
-
         try:
             members.remove(_one_crowd(context), self.member)
         except CharacterError as error:
@@ -147,8 +140,6 @@ class VIEW3D_PT_throng_characters(Below, bpy.types.Panel):
     bl_label = "Characters"
 
     def draw(self, context):
-        from . import members
-
         layout = self.layout
         layout.operator(THRONG_OT_add_character.bl_idname, icon="IMPORT")
         layout.operator(THRONG_OT_add_armature.bl_idname, icon="ARMATURE_DATA")
@@ -157,7 +148,7 @@ class VIEW3D_PT_throng_characters(Below, bpy.types.Panel):
         except CharacterError as error:
             layout.label(text=str(error))
             return
-        for number, (name, own) in enumerate(members.members(crowd)):
+        for number, (name, own) in enumerate(members_of(crowd)):
             row = layout.row()
             row.label(text=f"{number}  {name}", icon="ARMATURE_DATA" if own else "COMMUNITY")
             if own:

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 import bpy
 import numpy
 
+from ..blender.actions import curves_of
 from . import CharacterError
 from .roles import words_of
 
@@ -32,30 +33,28 @@ class Rig:
     held: list = field(default_factory=list)  # names of what hands hold, left out
 
 
-def _action_curves(action):
-    if hasattr(action, "fcurves"):
-        return list(action.fcurves)
-    return [curve for layer in action.layers for strip in layer.strips for bag in strip.channelbags for curve in bag.fcurves]
-
-
 def _moves_bones(action, armature):
     """Whether an action was made for such bones."""
-    bones = {curve.data_path.split('"')[1] for curve in _action_curves(action) if curve.data_path.startswith('pose.bones["')}
+    bones = {curve.data_path.split('"')[1] for curve in curves_of(action) if curve.data_path.startswith('pose.bones["')}
     return bool(bones) and len(bones & set(armature.data.bones.keys())) * 2 > len(bones)
+
+
+def _own_clips(data):
+    """Those on NLA tracks, and the one in the armature's hand."""
+    for track in data.nla_tracks:
+        for strip in track.strips:
+            if strip.action:
+                named = len(track.strips) == 1 and not track.name.startswith("NlaTrack")
+                yield Clip(track.name if named else strip.action.name, strip.action, getattr(strip, "action_slot", None))
+    if data.action:
+        yield Clip(data.action.name, data.action, getattr(data, "action_slot", None))
 
 
 def clips_of(armature):
     """Clips on the armature's NLA tracks and in its hand; where there are none, every action in the file that moves such bones."""
     found = {}
-    data = armature.animation_data
-    if data:
-        for track in data.nla_tracks:
-            for strip in track.strips:
-                if strip.action and strip.action.name not in found:
-                    name = track.name if len(track.strips) == 1 and not track.name.startswith("NlaTrack") else strip.action.name
-                    found[strip.action.name] = Clip(name, strip.action, getattr(strip, "action_slot", None))
-        if data.action and data.action.name not in found:
-            found[data.action.name] = Clip(data.action.name, data.action, getattr(data, "action_slot", None))
+    for clip in _own_clips(armature.animation_data) if armature.animation_data else ():
+        found.setdefault(clip.action.name, clip)
     if len(found) < 2:
         for action in bpy.data.actions:
             if action.name not in found and _moves_bones(action, armature):

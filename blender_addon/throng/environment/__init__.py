@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the crowd walks among: walls, roads, ground, light and a camera, all from the bake's manifest."""
-from .. import terrain_mesh
+from ..formats.terrain_mesh import read_mesh
 from . import camera as camera_module
 from . import lights, streets, terrain as terrain_module, walls as walls_module
 
 
 def read_terrain(bake):
     """The terrain's mesh for build_environment(), or None where the ground is flat. Raises formats.BakeError."""
-    return terrain_mesh.read_mesh(bake.terrain_path) if bake.terrain_path else None
+    return read_mesh(bake.terrain_path) if bake.terrain_path else None
 
 
 def build_environment(context, manifest, collection, *, walls=True, roads=True, ground=True, light=True, camera=True, frame_start=1, terrain=None):

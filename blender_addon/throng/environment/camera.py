@@ -7,7 +7,7 @@ import os
 import bpy
 
 from ..formats import BakeError, load_bake
-from ..terrain_mesh import read_mesh
+from ..formats.terrain_mesh import read_mesh
 from .lights import expose
 from .shapes import direction, inside
 

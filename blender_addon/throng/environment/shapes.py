@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Flat polygons and boxes, gathered into one mesh. Pure Python except for to_object()."""
+"""Flat polygons and boxes, gathered into one mesh."""
 import math
+
+import bpy
 
 
 def signed_area(polygon):
@@ -86,8 +88,6 @@ class Shape:
                    low, high, material)
 
     def to_object(self):
-        import bpy
-
         mesh = bpy.data.meshes.new(self.name)
         mesh.from_pydata(self.vertices, [], self.faces)
         for material in self.materials:

@@ -9,9 +9,12 @@ from mathutils import Matrix, Vector
 from .. import cast
 from ..cast import gait, library, people
 from ..cast.materials import cast_materials
-from ..ground import HIGH, REACH
-from ..playback import FRAMES_A_ROUND, NATURE, STANDING_SPEED
-from . import native, skeleton
+from ..crowd.footing import HIGH, REACH
+from ..crowd.names import NATURE
+from ..crowd.poses import FRAMES_A_ROUND, STANDING_SPEED
+from ..crowd.queries import terrain_of
+from . import skeleton
+from .dyes import linear
 
 HERO, HERO_OF, HERO_ROW = "throng_hero", "throng_hero_of", "throng_hero_row"
 
@@ -116,12 +119,12 @@ def _dress(crowd, body, person, materials, row, change):
     body.data.polygons.foreach_set("material_index", skeleton.plan_of(person).materials)
     body["tint"] = list(crowd.data.attributes["tint"].data[row].vector)
     if isinstance(change.tint, str):
-        body["throng_dyed"], body["throng_dye"] = 1.0, list(native.linear(change.tint))
+        body["throng_dyed"], body["throng_dye"] = 1.0, list(linear(change.tint))
 
 
 def _on_terrain(crowd, samples, over):
     """Who is moved or comes at another time stands on the scene's terrain anew, as native.py has it for the crowd."""
-    terrain = native.terrain_of(crowd)
+    terrain = terrain_of(crowd)
     if not terrain:
         return samples
     to_terrain = terrain.matrix_world.inverted() @ crowd.matrix_world

@@ -9,6 +9,7 @@ from dataclasses import replace
 
 import bpy
 
+from ..crowd.queries import bake_path, crowd_objects
 from ..formats import BakeError, load_bake
 from . import hero, native
 from .matching import match, orphan_reason
@@ -24,14 +25,10 @@ def entries_of(crowd):
 
 
 def bake_of(crowd):
-    from ..crowds import bake_path
-
     return load_bake(bake_path(crowd))
 
 
 def file_of(crowd):
-    from ..crowds import bake_path
-
     return path_beside(os.path.dirname(bake_path(crowd)))
 
 
@@ -211,8 +208,6 @@ def load(crowd):
 @bpy.app.handlers.persistent
 def write_after_undo(scene, *_):
     """Undo brings back the scene's entries; the file follows, where this session wrote it."""
-    from ..crowds import crowd_objects
-
     for crowd in crowd_objects(scene):
         try:
             path = file_of(crowd)

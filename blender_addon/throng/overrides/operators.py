@@ -5,8 +5,9 @@ import math
 import bpy
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, StringProperty
 
+from ..crowd.queries import crowd_objects
 from ..formats import BakeError
-from ..panels import InSidebar
+from ..blender.panels import InSidebar
 from . import hero, layer, picking
 
 
@@ -21,8 +22,6 @@ class ThrongOverride(bpy.types.PropertyGroup):
 
 def _crowd(context):
     """The crowd that is meant: the active one, else one with people picked, else the only one."""
-    from ..crowds import crowd_objects
-
     crowds = crowd_objects(context.scene)
     active = context.view_layer.objects.active
     if active in crowds:

@@ -3,7 +3,12 @@
 import math
 
 import bpy
+import gpu
+from bpy_extras import view3d_utils
+from gpu_extras.batch import batch_for_shader
 from mathutils import Vector
+
+from ..crowd.queries import crowd_objects
 
 PICKED = "throng_picked"  # rows, as a text: numbers between blanks
 BODY_HEIGHT, BODY_REACH = 1.75, 0.45  # m: a click this near to somebody's middle line is on them
@@ -89,8 +94,6 @@ class THRONG_OT_pick_people(bpy.types.Operator):
 
     @staticmethod
     def _click(context, event):
-        from bpy_extras import view3d_utils
-
         region = next((r for r in context.area.regions if r.type == "WINDOW"), None)
         if not region or not (0 <= event.mouse_x - region.x < region.width and 0 <= event.mouse_y - region.y < region.height):
             return False
@@ -104,8 +107,6 @@ class THRONG_OT_pick_people(bpy.types.Operator):
 
 def pick_at(context, origin, direction, extend=False):
     """Picks whoever a ray meets in any crowd of the scene; returns (crowd, row) or None."""
-    from ..crowds import crowd_objects
-
     depsgraph = context.evaluated_depsgraph_get()
     found = None
     for crowd in crowd_objects(context.scene):
@@ -143,11 +144,6 @@ def _rings_of(crowd, frame, depsgraph):
 
 
 def _draw():
-    import gpu
-    from gpu_extras.batch import batch_for_shader
-
-    from ..crowds import crowd_objects
-
     context = bpy.context
     points = []
     for crowd in crowd_objects(context.scene):

@@ -98,22 +98,33 @@ def weights_of(person, strides):
     figures = [vertices_of(person, pose) for pose in poses]
     result = []
     for index, vertex in enumerate(vertices_of(person, rest_pose(person))):
-        goes = [figure[index] for figure in figures]
-        taken = {}
+        taken = {}  # where each bone would take it
         for name in BONES:
             local = rest[name].local(vertex)
             taken[name] = [bones[name].place(local) for bones in skeletons]
-        best = min(BONES, key=lambda name: _error(taken[name], goes))
-        least, blend = _error(taken[best], goes), [(best, 1.0)]
-        for other in BONES:
-            apart = _error(taken[other], taken[best])
-            if other == best or apart < 1e-12:
-                continue
-            share = sum((g - b) * (o - b) for gs, bs, os in zip(goes, taken[best], taken[other]) for g, b, o in zip(gs, bs, os)) / apart
-            share = min(1.0, max(0.0, share))
-            mixed = [tuple(b + (o - b) * share for b, o in zip(bs, os)) for bs, os in zip(taken[best], taken[other])]
-            error = _error(mixed, goes)
-            if error < 0.8 * least and share > 0.02:
-                least, blend = error, [(best, 1.0 - share), (other, share)]
-        result.append(blend)
+        result.append(_blend([figure[index] for figure in figures], taken))
     return result
+
+
+def _blend(goes, taken):
+    """The bone that takes a vertex nearest to where it goes, and another one with it where that helps much: [(bone, weight)]."""
+    best = min(BONES, key=lambda name: _error(taken[name], goes))
+    least, blend = _error(taken[best], goes), [(best, 1.0)]
+    for other in BONES:
+        share = _share(goes, taken[best], taken[other]) if other != best else 0.0
+        if share <= 0.02:
+            continue
+        mixed = [tuple(b + (o - b) * share for b, o in zip(bs, os)) for bs, os in zip(taken[best], taken[other])]
+        error = _error(mixed, goes)
+        if error < 0.8 * least:
+            least, blend = error, [(best, 1.0 - share), (other, share)]
+    return blend
+
+
+def _share(goes, best, other):
+    """Of another bone, beside the best: the one with which both together come nearest."""
+    apart = _error(other, best)
+    if apart < 1e-12:
+        return 0.0
+    share = sum((g - b) * (o - b) for gs, bs, os in zip(goes, best, other) for g, b, o in zip(gs, bs, os)) / apart
+    return min(1.0, max(0.0, share))

@@ -9,13 +9,14 @@ import os
 import bpy
 from bpy.props import EnumProperty, FloatProperty
 
-from .crowds import OnCrowds, bake_path, chosen_crowds, collection_of
-from .environment.shapes import Shape
-from .environment.streets import MARK_Z
-from .formats import Bake, BakeError, read_manifest
-from .importer import stored_path
-from .nodes import own_tree
-from .panels import Below
+from ..blender.actions import curves_of
+from ..blender.nodes import own_tree
+from ..blender.panels import Below
+from ..blender.paths import stored_path
+from ..crowd.queries import OnCrowds, bake_path, chosen_crowds, collection_of
+from ..environment.shapes import Shape
+from ..environment.streets import MARK_Z
+from ..formats import Bake, BakeError, read_manifest
 
 KINDS = ("overlay", "mask", "none")
 OVERLAY, TRODDEN = "throng_cells", "throng trodden"  # a property of the overlay's object; the nodes that darken ground
@@ -80,24 +81,23 @@ def _file(bake, frame):
 
 
 def _take_away(collection):
-    for thing in [thing for thing in collection.objects if OVERLAY in thing]:
-        bpy.data.objects.remove(thing)
-    # Also of overlays that were removed by hand. On a terrain the mesh is the terrain's, and has materials of its own.
-    bpy.data.batch_remove([mesh for mesh in bpy.data.meshes if mesh.users == 0 and any(material and OVERLAY in material for material in mesh.materials)])
-    bpy.data.batch_remove([material for material in bpy.data.materials if OVERLAY in material and material.users == 0])
+    _remove_overlays(collection)
     # Also where it is on nothing just now: streets that are built anew take their old materials again.
-    for material in {slot.material for slot in _ground_slots(collection)} | {own for own in bpy.data.materials if own.get("throng_crowd") == collection.name}:
-        nodes, links = material.node_tree.nodes, material.node_tree.links
-        for node in [node for node in nodes if node.name.startswith(TRODDEN)]:
-            if node.type == "HUE_SAT":
-                source, targets = node.inputs["Color"], [link.to_socket for link in node.outputs[0].links]
-                for target in targets:
-                    if source.links:
-                        links.new(source.links[0].from_socket, target)
-            nodes.remove(node)
+    own = {material for material in bpy.data.materials if material.get("throng_crowd") == collection.name}
+    for material in {slot.material for slot in _ground_slots(collection)} | own:
+        _untread(material)
     tree = own_tree(_tree_name(collection))
     if tree and tree.users == 0:  # an artist's materials may have it, too
         _remove_tree(tree)
+
+
+def _remove_overlays(collection):
+    for thing in [thing for thing in collection.objects if OVERLAY in thing]:
+        bpy.data.objects.remove(thing)
+    # Also of overlays that were removed by hand. On a terrain the mesh is the terrain's, and has materials of its own.
+    bpy.data.batch_remove([mesh for mesh in bpy.data.meshes
+                           if mesh.users == 0 and any(material and OVERLAY in material for material in mesh.materials)])
+    bpy.data.batch_remove([material for material in bpy.data.materials if OVERLAY in material and material.users == 0])
 
 
 def _tree_name(collection):
@@ -180,16 +180,9 @@ def _play(tree, user, diagrams, start):
     for i in range(count):
         user.frame_offset = i * every
         tree.keyframe_insert('nodes["cells"].image_user.frame_offset', frame=start + i * every)
-    for curve in _curves(tree):
+    for curve in curves_of(tree.animation_data.action):
         for key in curve.keyframe_points:
             key.interpolation = "CONSTANT"
-
-
-def _curves(tree):
-    action = tree.animation_data.action
-    if hasattr(action, "fcurves"):
-        return action.fcurves
-    return [curve for layer in action.layers for strip in layer.strips for bag in strip.channelbags for curve in bag.fcurves]
 
 
 def _overlay(collection, crowd, diagrams, tree, strength):
@@ -247,6 +240,17 @@ def _tread(material, tree, strength):
     links.new(group.outputs["Mask"], share.inputs[0])
     links.new(share.outputs[0], darker.inputs["Fac"])
     links.new(darker.outputs[0], colour)
+
+
+def _untread(material):
+    """Undoes _tread(): the colour goes where it went before."""
+    nodes, links = material.node_tree.nodes, material.node_tree.links
+    for node in [node for node in nodes if node.name.startswith(TRODDEN)]:
+        if node.type == "HUE_SAT" and node.inputs["Color"].links:
+            source = node.inputs["Color"].links[0].from_socket
+            for target in [link.to_socket for link in node.outputs[0].links]:
+                links.new(source, target)
+        nodes.remove(node)
 
 
 class THRONG_OT_cells(OnCrowds, bpy.types.Operator):

@@ -6,26 +6,15 @@ so that feet follow the ground and bodies stay upright. Instances can only be tu
 well as their own, and every shear is a turn, a scale along the axes, and another turn (its singular value decomposition).
 
 The slopes are the attribute GROUND of everybody's point: along the heading, to the left of it, and the height of the ground. A bake
-with a terrain brings them in its stream `ground`; for others, conform() looks for the ground below.
+with a terrain brings them in its stream `ground`; for others, a modifier looks for the ground below (tools/ground.py).
 """
-import bpy
-from bpy.props import PointerProperty
+from ..blender.nodes import Maths, new_tree, own_tree
+from .names import CONFORM, GROUND
 
-from .nodes import Maths, new_tree, own_tree, set_input
-from .panels import Below
-
-GROUND = "throng_ground"
-CONFORM = "throng conform"        # the modifier that looks for the ground
 REACH = 0.3                       # m before and behind the body: about where planted feet are
 HIGH = 1000.0                     # m over the point: where rays come from; they reach as far below
 STEEPEST = 1.2
 _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
-
-
-def _named(maths, name):
-    separate = maths.node("ShaderNodeSeparateXYZ")
-    maths.link(maths.attribute(name, "FLOAT_VECTOR"), separate.inputs[0])
-    return separate.outputs
 
 
 def _vector(maths, x=0.0, y=0.0, z=0.0):
@@ -45,8 +34,8 @@ def _lean_tree():
         return found
     tree, inputs, outputs = new_tree(name, _GEOMETRY, _GEOMETRY)
     maths = Maths(tree)
-    along, across, _ = _named(maths, GROUND)
-    heading = _named(maths, "throng_turn")[2]
+    along, across, _ = maths.components(GROUND)
+    heading = maths.components("throng_turn")[2]
     uphill = maths.math("ADD", heading, maths.math("ARCTAN2", across, along))
     slope = maths.math("SQRT", maths.math("MULTIPLY_ADD", along, along, maths.math("MULTIPLY", across, across)))
     # In the plane of uphill and up, the shear is [1 0; k 1] = turn(out) scale(large, 1 / large) turn(-into).
@@ -119,7 +108,7 @@ def _footing(maths, ground):
     info = maths.node("GeometryNodeObjectInfo", transform_space="RELATIVE")
     maths.link(ground, info.inputs["Object"])
     target = info.outputs["Geometry"]
-    cosine, sine, _ = _named(maths, "throng_dir")
+    cosine, sine, _ = maths.components("throng_dir")
     place = maths.node("ShaderNodeSeparateXYZ")
     maths.link(maths.node("GeometryNodeInputPosition").outputs[0], place.inputs[0])
     above = _vector(maths, place.outputs[0], place.outputs[1], maths.math("ADD", place.outputs[2], HIGH))
@@ -159,7 +148,7 @@ def stand_anew(maths, geometry, ground, who, over):
     return join.outputs[0]
 
 
-def _conform_tree():
+def conform_tree():
     name = "Throng conform to ground"
     found = own_tree(name)
     if found:
@@ -168,115 +157,3 @@ def _conform_tree():
     maths = Maths(tree)
     maths.link(_stand(maths, inputs.outputs["Geometry"], inputs.outputs["Ground"]), outputs.inputs[0])
     return tree
-
-
-def _move(crowd, name, to):
-    at = [each.name for each in crowd.modifiers].index(name)
-    if hasattr(crowd.modifiers, "move"):
-        crowd.modifiers.move(at, to)
-    else:
-        with bpy.context.temp_override(object=crowd, active_object=crowd):
-            bpy.ops.object.modifier_move_to_index(modifier=name, index=to)
-
-
-def conform(crowd, ground):
-    """Lets a crowd stand on a mesh of the scene, whatever its bake says about heights."""
-    from .characters.members import cast_of
-    from .playback import set_cast
-
-    if CONFORM not in crowd.modifiers:
-        crowd.modifiers.new(CONFORM, "NODES").node_group = _conform_tree()
-        _move(crowd, CONFORM, [each.name for each in crowd.modifiers].index("throng pos") + 1)
-    set_input(crowd.modifiers[CONFORM], "Ground", ground)
-    set_cast(crowd, cast_of(crowd))
-
-
-def release(crowd):
-    """Undoes conform(): the bake's own ground, or a flat one."""
-    from .characters.members import cast_of
-    from .playback import set_cast
-
-    if CONFORM in crowd.modifiers:
-        crowd.modifiers.remove(crowd.modifiers[CONFORM])
-        set_cast(crowd, cast_of(crowd))
-
-
-class THRONG_OT_conform(bpy.types.Operator):
-    """Let the selected crowds, or all, stand on the mesh chosen above: heights and slopes come from it in every frame, on farms too"""
-
-    bl_idname = "throng.conform"
-    bl_label = "Conform to Ground"
-    bl_options = {"REGISTER", "UNDO"}
-
-    ground: bpy.props.StringProperty(name="Ground", description="The mesh object; by default the one chosen in the sidebar, or the active one")
-
-    @classmethod
-    def poll(cls, context):
-        from .crowds import crowd_objects
-
-        return bool(crowd_objects(context.scene))
-
-    def _ground(self, context):
-        if self.ground:
-            return context.scene.objects.get(self.ground)
-        chosen = getattr(context.scene, "throng_ground", None)
-        active = context.view_layer.objects.active
-        return chosen or (active if active and "throng pos" not in active.modifiers else None)
-
-    def execute(self, context):
-        from .crowds import chosen_crowds
-
-        ground = self._ground(context)
-        crowds = chosen_crowds(context)
-        if not ground or ground.type not in {"MESH", "CURVE", "SURFACE"} or ground in crowds:
-            self.report({"ERROR"}, f"There is no mesh `{self.ground}` to stand on" if self.ground else "Choose the mesh to stand on: in the sidebar, or make it active")
-            return {"CANCELLED"}
-        for crowd in crowds:
-            conform(crowd, ground)
-        self.report({"INFO"}, f"{len(crowds)} crowds stand on {ground.name}")
-        return {"FINISHED"}
-
-
-class THRONG_OT_release(bpy.types.Operator):
-    """Let the selected crowds, or all, stand where their bakes have them"""
-
-    bl_idname = "throng.release"
-    bl_label = "Back to the Bake's Ground"
-    bl_options = {"REGISTER", "UNDO"}
-
-    @classmethod
-    def poll(cls, context):
-        return any(CONFORM in thing.modifiers for thing in context.scene.objects)
-
-    def execute(self, context):
-        from .crowds import chosen_crowds
-
-        for crowd in chosen_crowds(context):
-            release(crowd)
-        return {"FINISHED"}
-
-
-class VIEW3D_PT_throng_ground(Below, bpy.types.Panel):
-    bl_label = "Ground"
-
-    def draw(self, context):
-        column = self.layout.column(align=True)
-        column.prop(context.scene, "throng_ground", text="")
-        column.operator(THRONG_OT_conform.bl_idname)
-        column.operator(THRONG_OT_release.bl_idname)
-
-
-CLASSES = (THRONG_OT_conform, THRONG_OT_release, VIEW3D_PT_throng_ground)
-
-_register_classes, _unregister_classes = bpy.utils.register_classes_factory(CLASSES)
-
-
-def register():
-    _register_classes()
-    bpy.types.Scene.throng_ground = PointerProperty(type=bpy.types.Object, name="Ground", description="The mesh that crowds are to stand on",
-                                                    poll=lambda _, thing: thing.type == "MESH" and "throng pos" not in thing.modifiers)
-
-
-def unregister():
-    del bpy.types.Scene.throng_ground
-    _unregister_classes()

@@ -3,10 +3,14 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
-from .crowds import OnCrowds
-from .formats import BakeError
-from .overrides.operators import report_orphans
-from .panels import InSidebar
+from ..blender.panels import InSidebar
+from ..crowd.queries import OnCrowds, chosen_crowds, crowd_objects, earlier_crowds
+from ..crowd.verify import verify
+from ..formats import BakeError
+from ..overrides.operators import report_orphans
+from . import cells, culling, film_look
+from .importer import import_bake
+from .update import reload, set_offset, set_viewport_percent
 
 
 class IMPORT_SCENE_OT_throng(bpy.types.Operator, ImportHelper):
@@ -26,8 +30,6 @@ class IMPORT_SCENE_OT_throng(bpy.types.Operator, ImportHelper):
     relative: BoolProperty(name="Relative Paths", default=True, description="Store the streams' paths relative to the .blend, once that is saved")
 
     def execute(self, context):
-        from .importer import import_bake
-
         try:
             crowd = import_bake(context, self.filepath, frame_start=self.frame_start, walls=self.walls, roads=self.roads,
                                 scenery=self.scenery, camera=self.camera, relative=self.relative)
@@ -44,8 +46,6 @@ class _OnCrowds(OnCrowds):
 
     def follow(self, crowds):
         """The ground shows the cells of what these crowds play now."""
-        from . import cells
-
         for line in [line for crowd in crowds for line in cells.follow(crowd)]:
             self.report({"WARNING"}, line)
 
@@ -58,8 +58,6 @@ class THRONG_OT_verify(_OnCrowds, bpy.types.Operator):
     bl_options = {"REGISTER"}
 
     def execute(self, context):
-        from .crowds import chosen_crowds, verify
-
         found = [f"{crowd.name}: {problem}" for crowd in chosen_crowds(context) for problem in verify(crowd, context.scene)]
         if found:
             self.report({"WARNING"}, "\n".join(found))
@@ -75,8 +73,6 @@ class THRONG_OT_reload(_OnCrowds, bpy.types.Operator):
     bl_label = "Re-load Bakes"
 
     def execute(self, context):
-        from .crowds import chosen_crowds, reload
-
         try:
             orphans = [orphan for crowd in chosen_crowds(context) for orphan in reload(crowd, context.scene)]
         except BakeError as error:
@@ -96,8 +92,6 @@ class THRONG_OT_relink(_OnCrowds, bpy.types.Operator, ImportHelper):
     filter_glob: StringProperty(default="*.json", options={"HIDDEN"})
 
     def execute(self, context):
-        from .crowds import chosen_crowds, reload
-
         crowds = chosen_crowds(context)
         if len(crowds) != 1:
             self.report({"ERROR"}, "Select one crowd: each plays a bake of its own")
@@ -122,15 +116,11 @@ class THRONG_OT_show(_OnCrowds, bpy.types.Operator):
     offset: IntProperty(name="Later by", default=0, description="Frames that the crowd plays later")
 
     def invoke(self, context, _event):
-        from .crowds import chosen_crowds
-
         crowd = chosen_crowds(context)[0]
         self.percent, self.offset = crowd.get("throng_percent", 100.0), crowd.get("throng_offset", 0)
         return context.window_manager.invoke_props_dialog(self)
 
     def execute(self, context):
-        from .crowds import chosen_crowds, set_offset, set_viewport_percent
-
         chosen = chosen_crowds(context)
         later = [crowd for crowd in chosen if crowd.get("throng_offset", 0) != self.offset]
         for crowd in chosen:
@@ -151,9 +141,6 @@ class THRONG_OT_cull(_OnCrowds, bpy.types.Operator):
     margin: FloatProperty(name="Margin", default=3.0, min=0.0, subtype="DISTANCE", description="Whoever is out by less stays, for shadows and reflections")
 
     def execute(self, context):
-        from . import culling
-        from .crowds import chosen_crowds
-
         camera = context.scene.camera
         if self.by == "camera" and (not camera or camera.type != "CAMERA"):
             self.report({"ERROR"}, "The scene has no camera")
@@ -183,8 +170,6 @@ class THRONG_OT_film_look(bpy.types.Operator):
     haze: FloatProperty(name="Haze", default=0.3, min=0.0, max=1.0, description="How much of what is far is lost in the air")
 
     def execute(self, context):
-        from . import film_look
-
         if not hasattr(context.scene, "cycles"):
             self.report({"ERROR"}, "Film looks render with Cycles: enable the add-on Cycles Render Engine in Blender's preferences")
             return {"CANCELLED"}
@@ -196,8 +181,6 @@ class VIEW3D_PT_throng(InSidebar, bpy.types.Panel):
     bl_label = "Throng"
 
     def draw(self, context):
-        from .crowds import crowd_objects, earlier_crowds
-
         layout = self.layout
         layout.operator(IMPORT_SCENE_OT_throng.bl_idname, icon="IMPORT")
         for crowd in crowd_objects(context.scene):

@@ -9,11 +9,13 @@ render that frame at the level of its middle, without the blur of their way; tha
 import bpy
 from bpy.props import EnumProperty, FloatProperty
 
-from . import crowds, culling, playback
-from .cast import library
-from .characters import members
-from .nodes import Maths, drop_tree, new_tree, own_tree, set_input
-from .panels import Below
+from ..blender.nodes import Maths, drop_tree, new_tree, own_tree, set_input
+from ..blender.panels import Below
+from ..cast import library
+from ..crowd.names import LEVEL
+from ..crowd.playback import cast_changed
+from ..crowd.queries import OnCrowds, cast_of, chosen_crowds, crowds_of, repertoire_of
+from . import culling
 
 MODIFIER = "throng levels"
 TALL = 1.75           # m
@@ -44,7 +46,7 @@ def _tree():
     for name in ("Near", "Far"):
         beyond = maths.math("GREATER_THAN", distance.outputs["Value"], inputs.outputs[name])
         level = beyond if level is None else maths.math("ADD", level, beyond)
-    maths.link(maths.store(inputs.outputs["Geometry"], playback.LEVEL, level), outputs.inputs[0])
+    maths.link(maths.store(inputs.outputs["Geometry"], LEVEL, level), outputs.inputs[0])
     return tree
 
 
@@ -56,16 +58,16 @@ def remove(crowd):
     tree = modifier.node_group
     crowd.modifiers.remove(modifier)
     drop_tree(tree)
-    cast = members.cast_of(crowd)
-    if not any(MODIFIER in other.modifiers for other in members.crowds_of(cast)):
+    cast = cast_of(crowd)
+    if not any(MODIFIER in other.modifiers for other in crowds_of(cast)):
         library.remove_levels(cast)
-        members.changed(crowd)
+        cast_changed(crowd)
 
 
 def apply(crowd, camera, near, far):
     """Level 1 from `near` metres from the camera on, level 2 from `far` on."""
-    library.add_levels(members.cast_of(crowd), members.repertoire_of(crowd))
-    members.changed(crowd)
+    library.add_levels(cast_of(crowd), repertoire_of(crowd))
+    cast_changed(crowd)
     modifier = crowd.modifiers.get(MODIFIER)
     if not modifier:
         modifier = crowd.modifiers.new(MODIFIER, "NODES")
@@ -77,7 +79,7 @@ def apply(crowd, camera, near, far):
     crowd.update_tag()
 
 
-class THRONG_OT_levels(bpy.types.Operator):
+class THRONG_OT_levels(OnCrowds, bpy.types.Operator):
     """Give people far from the camera coarser meshes: the selected crowds', or all"""
 
     bl_idname = "throng.levels"
@@ -88,15 +90,11 @@ class THRONG_OT_levels(bpy.types.Operator):
     near: FloatProperty(name="Near", min=0.0, subtype="DISTANCE", description="A third of the triangles from here on. 0: where people are 120 pixels tall")
     far: FloatProperty(name="Far", min=0.0, subtype="DISTANCE", description="A tenth of the triangles from here on. 0: where people are 40 pixels tall")
 
-    @classmethod
-    def poll(cls, context):
-        return bool(crowds.crowd_objects(context.scene))
-
     def invoke(self, context, _event):
         return context.window_manager.invoke_props_dialog(self)
 
     def execute(self, context):
-        chosen = crowds.chosen_crowds(context)
+        chosen = chosen_crowds(context)
         if self.by == "none":
             for crowd in chosen:
                 remove(crowd)

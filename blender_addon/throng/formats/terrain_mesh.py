@@ -5,7 +5,7 @@ import json
 import os
 import struct
 
-from .formats import BakeError
+from . import BakeError
 
 
 def read_mesh(path):

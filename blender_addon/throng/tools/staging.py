@@ -3,10 +3,10 @@
 import bpy
 from bpy.props import EnumProperty
 
-from .crowds import OnCrowds, chosen_crowds, collection_of
-from .environment import camera, lights
-from .formats import BakeError, read_manifest
-from .panels import Below
+from ..blender.panels import Below
+from ..crowd.queries import OnCrowds, chosen_crowds, collection_of
+from ..environment import camera, lights
+from ..formats import BakeError, read_manifest
 
 
 def _staged(context):
