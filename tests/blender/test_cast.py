@@ -1,16 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """The walkers, without Blender: planted feet, sane bodies, different people."""
 import math
-import pathlib
-import sys
 
 import pytest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "blender_addon"))
-from throng import cast  # noqa: E402
-from throng.cast import gait, people  # noqa: E402
-from throng.cast.figure import Figure, build_figure  # noqa: E402
-from throng.cast.mesh_builder import Plan, add, cross, mix, scale, sub, unit  # noqa: E402
+import results  # noqa: F401  it puts the add-on on the path
+from throng import cast
+from throng.cast import gait, people
+from throng.cast.figure import Figure, build_figure
+from throng.cast.mesh_builder import MeshBuilder, Plan, add, cross, mix, ring, scale, sub, unit
 
 STRIDES = tuple(1.446 * 1.28 ** k for k in range(-3, 3))  # as of `throng bake`
 GAITS = [gait.gait_of(stride) for stride in STRIDES]
@@ -187,28 +185,34 @@ def along(profile, step=0.04):
     yield profile[-1]
 
 
-@pytest.mark.parametrize("index", [index for index, person in enumerate(people.CAST) if person.top != "shirt" or person.bottom == "skirt"])
+DRAPED = [index for index, person in enumerate(people.CAST) if person.top != "shirt" or person.bottom == "skirt"]
+
+
+def gaps(cloth, points):
+    """How far those of some points stick out of a cloth that are beside it, m."""
+    return [gap for gap in (outside(cloth, point) for point in points) if gap is not None]
+
+
+@pytest.mark.parametrize("index", DRAPED)
 def test_legs_stay_inside_of_skirts_coats_and_hems_and_hands_outside(index):
     person = people.CAST[index]
     legs, hands = {False: -1.0, True: -1.0}, 1.0
     for number, pose in enumerate(cast.poses_of(person, REPERTOIRE)):
         figure = Figure(person, pose, people.build_of(person))
+        assert figure.skirts
         runs = 4 * cast.POSES <= number < REPERTOIRE.walking()
+        palms = [add(wrist, scale(unit(sub(wrist, elbow)), 0.09 * figure.s)) for _, elbow, wrist in figure.arms]
         for cloth in figure.skirts:
             for upper, lower, profile in figure.leg_limbs:
-                gaps = [outside(cloth, point) for point in skin_of(upper, lower, list(along(profile)))]
-                legs[runs] = max([legs[runs], *(gap for gap in gaps if gap is not None)])
+                legs[runs] = max([legs[runs], *gaps(cloth, skin_of(upper, lower, list(along(profile))))])
             if not runs:
-                palms = [add(wrist, scale(unit(sub(wrist, elbow)), 0.09 * figure.s)) for _, elbow, wrist in figure.arms]
-                hands = min([hands, *(gap for palm in palms for gap in [outside(cloth, palm)] if gap is not None)])
-    assert figure.skirts and legs[False] < 0.006 and legs[True] < 0.025, legs
+                hands = min([hands, *gaps(cloth, palms)])
+    assert legs[False] < 0.006 and legs[True] < 0.025, legs
     assert hands > 0.008, hands  # half as thick as they are
 
 
 def test_a_levels_rings_keep_to_the_tolerance(figures):
     """Known answer: a straight tube needs its ends only, a bent one its bend."""
-    from throng.cast.mesh_builder import MeshBuilder, ring
-
     builder = MeshBuilder()
     builder.loft([ring((0.0, 0.0, z), (1, 0, 0), (0, 1, 0), 0.1, 0.1) for z in (0.0, 0.3, 0.6, 1.0)], 0, 8, caps=(False, False))
     builder.loft([ring((x, 0.0, z), (1, 0, 0), (0, 1, 0), 0.1, 0.1) for x, z in ((0.0, 0.0), (0.2, 0.5), (0.0, 1.0))], 0, 8, caps=(False, False))

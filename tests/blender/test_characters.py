@@ -1,28 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """Characters of one's own: what clips are for, where feet are, and members of a cast in a real Blender."""
-import json
 import math
-import pathlib
-import sys
 
 import numpy
 import pytest
 
 from conftest import ROOT
+from results import ADDON, HERE, result_of
+from sample_bake import STRIDES, write_bake
+from throng import cast
+from throng.characters import CharacterError, anatomy, feet, legs, roles
 
-sys.path.insert(0, str(pathlib.Path(__file__).parent))
-sys.path.insert(0, str(ROOT / "blender_addon"))
-from sample_bake import STRIDES, write_bake  # noqa: E402
-from throng import cast  # noqa: E402
-from throng.characters import CharacterError, anatomy, feet, legs, roles  # noqa: E402
-
-HERE, ADDON = pathlib.Path(__file__).parent, ROOT / "blender_addon"
 CHARACTERS = ROOT.parent / "shared" / "data" / "characters"
 HEEL, TOE = 0.07, 0.17  # walker.py
-
-
-def result_of(output):
-    return json.loads(next(line for line in output.splitlines() if line.startswith("RESULT "))[7:])
 
 
 @pytest.mark.parametrize("name, role", [
@@ -149,50 +139,77 @@ def check_feet(positions, strides, least_carried):
             assert (under[:, 1] < 0.0).all() == (side == 0), "right foot first"
 
 
-def test_characters_join_a_cast_by_file_and_from_the_scene(blender, tmp_path):
-    write_bake(tmp_path / "bake")
-    found = result_of(blender(HERE / "check_characters.py", ADDON, HERE, tmp_path / "bake", tmp_path))
-    words = {"words.glb": "not a glTF", "half.glb": "truncated", "empty.gltf": "no skeleton", "absent.glb": "cannot be read",
-             "no clip of that name": "no clip Stroll", "no such member": "no 13 to replace", "too many vertices": "takes up to 892", "walks backwards only": "no clip walks", "no clips": "has no clips", "no walk": "no clip walks",
-             "no size": "no height", "no meshes": "no mesh hangs", "no armature": "no armature", "not a character": "no character that was added"}
-    assert set(found["errors"]) == set(words)
-    for label, expected in words.items():
-        assert expected in found["errors"][label] and "Traceback" not in found["errors"][label], found["errors"][label]
+@pytest.fixture(scope="module")
+def joined(blender, tmp_path_factory):
+    """What check_characters.py has seen."""
+    folder = tmp_path_factory.mktemp("characters")
+    write_bake(folder / "bake")
+    return result_of(blender(HERE / "check_characters.py", ADDON, HERE, folder / "bake", folder))
 
-    repertoire = cast.Repertoire(tuple(STRIDES))
-    poses = repertoire.count
-    assert found["members"] == [["walker", True]]
-    assert found["left"] == {"objects": 2 * cast.LEVELS, "meshes": 2 * cast.LEVELS, "materials": 1, "images": 1, "actions": 0, "armatures": 0, "scenes": 0,
-                             "collections": 0, "node_groups": 1}  # the nodes of level 2, which has fewer poses
-    report = "\n".join(found["report"])
+
+REFUSED = {"words.glb": "not a glTF", "half.glb": "truncated", "empty.gltf": "no skeleton", "absent.glb": "cannot be read",
+           "no clip of that name": "no clip Stroll", "no such member": "no 13 to replace",
+           "too many vertices": "takes up to 892", "walks backwards only": "no clip walks", "no clips": "has no clips",
+           "no walk": "no clip walks", "no size": "no height", "no meshes": "no mesh hangs", "no armature": "no armature",
+           "not a character": "no character that was added"}
+
+
+def test_what_cannot_join_is_refused_in_clear_words(joined):
+    assert set(joined["errors"]) == set(REFUSED)
+    for label, expected in REFUSED.items():
+        said = joined["errors"][label]
+        assert expected in said and "Traceback" not in said, said
+
+
+def test_a_file_joins_and_leaves_nothing_but_a_member(joined):
+    assert joined["members"] == [["walker", True]]
+    left = {"objects": 2 * cast.LEVELS, "meshes": 2 * cast.LEVELS, "materials": 1, "images": 1, "actions": 0, "armatures": 0,
+            "scenes": 0, "collections": 0, "node_groups": 1}  # the nodes of level 2, which has fewer poses
+    assert joined["left"] == left
+    assert joined["look"] == {"materials": ["Walker cloth"], "uv": 1, "packed": True}
+
+
+def test_clips_are_found_and_told(joined):
+    report = "\n".join(joined["report"])
     assert "1.70 m (scaled by 1)" in report and ("looks -180" in report or "looks 180" in report)
     assert "stride 1.00 m: walk_cycle (its own: 1.20 m)" in report and "Walking_Fast (its own: 1.70 m)" in report
-    assert "Walking_Fast: holds 2 cycles" in report and "Walking_Fast: goes 1.70 m a cycle" in report and "Backwards" not in report
+    assert "Walking_Fast: holds 2 cycles" in report and "Walking_Fast: goes 1.70 m a cycle" in report
+    assert "Backwards" not in report
     assert "idle = Idle" in report and "left out, because hands hold it: Walker stick" in report
-    check_feet(found["feet"], STRIDES, 0.4)
-    assert found["velocity"] < 1e-4 and found["still"] == 0.0 and found["standing_height"] == pytest.approx(1.7, abs=0.01)
-    assert found["look"] == {"materials": ["Walker cloth"], "uv": 1, "packed": True}
 
-    present = sum(found["shown"].values())
-    assert 2 <= found["shown"]["8"] <= present * 0.3 and len(found["shown"]) == 9
-    assert found["after_reload"] == found["shown"]
 
+def test_planted_feet_stay_on_the_ground(joined):
+    check_feet(joined["feet"], STRIDES, 0.4)
+    assert joined["velocity"] < 1e-4 and joined["still"] == 0.0
+    assert joined["standing_height"] == pytest.approx(1.7, abs=0.01)
+
+
+def test_a_member_is_shown_by_its_share_at_all_levels(joined):
+    shown = joined["shown"]
+    assert 2 <= shown["8"] <= sum(shown.values()) * 0.3 and len(shown) == 9
     for level, share in (("1", 3.0), ("2", 10.0)):
-        count, triangles, there = found["levels"][level]
-        assert count == found["shown"]["8"] and there == repertoire.poses(int(level))
-        assert triangles * share == pytest.approx(found["levels"]["finest"], rel=0.1)
-    assert found["shown_far"] == found["shown_again"] == found["shown"]
-    assert not any(found["left_by_levels"].values())
+        count, triangles, there = joined["levels"][level]
+        assert count == shown["8"] and there == cast.Repertoire(tuple(STRIDES)).poses(int(level))
+        assert triangles * share == pytest.approx(joined["levels"]["finest"], rel=0.1)
+    assert joined["after_reload"] == joined["shown_far"] == joined["shown_again"] == shown
+    assert not any(joined["left_by_levels"].values())
+    assert joined["without_add_on"].get("8", 0) > 0
 
-    second = "\n".join(found["second"]["report"])
-    assert "their feet were asked" in second and "Clip.001 (its own: 1.22 m)" in second and "idle = Clip.002" in second and "looks 90" in second
-    assert found["second"]["count"] == poses and found["second"]["vertices"] == 14 * 150 and found["scenes"] == [0, 0]
-    assert found["second"]["smooth"]
-    check_feet(numpy.array(found["second_feet"]) * (1.7 / 1.6), numpy.array(STRIDES) * (1.7 / 1.6), 0.4)
-    assert found["restored"] == ["Throng person 02", False] and found["at_the_end"] == [8, 7]
-    said = "\n".join(found["said"])
+
+def test_an_armature_of_the_scene_replaces_a_member_until_it_is_removed(joined):
+    second = joined["second"]
+    report = "\n".join(second["report"])
+    assert "their feet were asked" in report and "Clip.001 (its own: 1.22 m)" in report
+    assert "idle = Clip.002" in report and "looks 90" in report
+    assert second["count"] == cast.Repertoire(tuple(STRIDES)).count and second["vertices"] == 14 * 150 and second["smooth"]
+    assert joined["scenes"] == [0, 0]
+    check_feet(numpy.array(joined["second_feet"]) * (1.7 / 1.6), numpy.array(STRIDES) * (1.7 / 1.6), 0.4)
+    assert joined["restored"] == ["Throng person 02", False] and joined["at_the_end"] == [8, 7]
+
+
+def test_clips_strides_and_height_are_the_users_where_they_say_so(joined):
+    said = "\n".join(joined["said"])
     assert "2.50 m" in said and "walk_cycle (its own: 1.50 m)" in said and "idle = Jump_Idle" in said
-    assert found["without_add_on"].get("8", 0) > 0
 
 
 @pytest.mark.parametrize("name", ["Mage", "Rogue"])
