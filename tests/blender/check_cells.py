@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs inside Blender: cells on the ground as an overlay and as a mask, rendered from straight above, with and without the add-on."""
+"""Runs inside Blender: cells on the ground as an overlay and as a mask, from straight above, with and without the add-on."""
 import importlib
 import json
 import os
@@ -127,7 +127,7 @@ class Check:
         self.render("mask-anew")
 
     def lose_images(self):
-        """Without images the cells go; shown in part only, nothing is asked for; when the images are back, so are the cells."""
+        """Without images the cells go; shown in part only, nothing is asked for; with the images they come back."""
         shutil.rmtree(os.path.join(self.retake, "diagrams"))
         play(self.retake)
         self.render("mask-lost")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs inside Blender: two crowds, verified, damaged, moved, re-loaded, shown in part and later; then saved and opened again."""
+"""Runs inside Blender: two crowds, verified, damaged, moved, re-loaded, shown in part and later; saved and opened."""
 import json
 import os
 import shutil

@@ -17,7 +17,7 @@ def _points(mesh):
 
 
 def _nodes():
-    """The add-on's helpers over modifiers' inputs, which every version keeps elsewhere; they need nothing else of it."""
+    """The add-on's helpers over modifiers' inputs, which versions keep elsewhere; they need nothing else of it."""
     described = importlib.util.spec_from_file_location("helpers_over_nodes", pathlib.Path(__file__).resolve().parents[2] / "blender_addon/throng/blender/nodes.py")
     module = importlib.util.module_from_spec(described)
     described.loader.exec_module(module)

@@ -9,7 +9,7 @@ STRIDES = [0.7, 1.0, 1.4, 1.8]
 
 
 def write_bake(folder, agents=63, frames=40, fps=24.0, seed=7, variations=8, gaits=range(len(STRIDES))):
-    """People on arcs, in some of the gaits; some enter late, some leave early, some stand. Returns (pos, dir, state)."""
+    """People on arcs, in some gaits; some enter late, some leave early, some stand. Returns (pos, dir, state)."""
     random = numpy.random.default_rng(seed)
     time = numpy.arange(frames)[:, None] / fps
     speed = numpy.where(numpy.arange(agents) % 7 == 3, 0.0, random.uniform(0.8, 1.7, agents))

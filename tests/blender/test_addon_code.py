@@ -34,7 +34,7 @@ def import_statements(tree):
 
 
 def targets(node, file, name):
-    """Dotted names from the root of what a statement in a file of the package `name` imports; of the package's own only."""
+    """Dotted names, from the root, of what a statement in a file of a package imports; of its own only."""
     if isinstance(node, ast.Import):
         found = [alias.name.split(".") for alias in node.names]
     elif node.level == 0:
@@ -87,7 +87,7 @@ def inner_imports(files):
 
 
 def complexity(node):
-    """Ways through a function: one, and one more for each branch, loop, condition and handler. An assertion counts as one."""
+    """Ways through a function: one, and one for each branch, loop, condition, handler and assertion."""
     if isinstance(node, ast.Assert):
         return 1
     own = 0

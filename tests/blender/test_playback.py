@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Playback in a real Blender: instances against the arrays, figures and their poses, farms without the add-on, large crowds."""
+"""Playback in a real Blender: instances against the arrays, figures and poses, farms without the add-on, large crowds."""
 import json
 import math
 import shutil
@@ -108,7 +108,7 @@ assert len(set(round(x, 2) for x in pixels)) > 20, 'nothing to see'
 
 @pytest.mark.parametrize("people, seconds, milliseconds", [(16384, 10.0, 18.0), (65536, 40.0, 55.0)])
 def test_large_crowds_import_and_scrub_quickly(blender, tmp_path, people, seconds, milliseconds):
-    """The fastest of sixty changes of frame, and still two to three times what it takes alone: other tests are going on."""
+    """The fastest of sixty changes of frame, still two to three times what it takes alone: other tests are going on."""
     write_bake(tmp_path / "bake", agents=people, frames=28)
     found = result_of(blender(HERE / "check_speed.py", ADDON, tmp_path / "bake"))
     assert found["people"] > 0.7 * people

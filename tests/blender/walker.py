@@ -60,7 +60,7 @@ def _box(low, high, turn, parts=4):
 
 
 def make(heading=180.0, name="Walker", scale=1.0):
-    """The armature, its mesh (smooth, with a texture), and a stick in its hand; no clips yet. Looks that way, in degrees."""
+    """The armature, its mesh (smooth, with a texture), and a stick in its hand; no clips yet. Looks that way, degrees."""
     turn = Matrix.Rotation(math.radians(heading), 3, "Z")
     data = bpy.data.armatures.new(name)
     armature = bpy.data.objects.new(name, data)
@@ -111,7 +111,7 @@ def _material(name):
 
 
 def _foot(phase, stride, stance):
-    """(x, z) of an ankle at a phase of its own cycle: planted from 0, flat; under the hip in the middle of the stance."""
+    """(x, z) of an ankle at a phase of its own cycle: planted from 0, flat; under the hip in mid-stance."""
     reach = 0.5 * stance * stride
     if phase < stance:
         return reach - phase * stride, ANKLE
@@ -131,7 +131,7 @@ def _leg(ankle, hip_height):
 
 
 def add_clip(armature, name, stride=0.0, stance=0.6, frames=24, cycles=1, offset=0.25, travels=False, backwards=False, heading=180.0, closed=True):
-    """An action on an NLA track of its own. The right foot comes down at `offset` of the cycle; stride 0 stands and nods."""
+    """An action on an NLA track of its own. The right foot comes down at `offset` of the cycle; stride 0 nods."""
     scale = armature.data.bones["thigh.R"].length / THIGH
     data = armature.animation_data_create()
     action = bpy.data.actions.new(name)

@@ -15,7 +15,7 @@ def _middle(p, q):
 
 
 def flatten(a, b, c, d, tolerance, depth=12):
-    """Points on a cubic from a to d, without a: no further off than the tolerance. The control points bound the curve."""
+    """Points on a cubic from a to d, without a: no further off than the tolerance. Its control points bound it."""
     if depth == 0 or max(_distance_to_chord(b, a, d), _distance_to_chord(c, a, d)) <= tolerance:
         return [d]
     ab, bc, cd = _middle(a, b), _middle(b, c), _middle(c, d)

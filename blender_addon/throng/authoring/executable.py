@@ -14,7 +14,7 @@ class ExecutableError(Exception):
 
 
 def find_executable(chosen=""):
-    """The program's path: the one chosen in the preferences, or of the environment, or on the PATH. Raises ExecutableError."""
+    """The program's path: chosen in the preferences, or of the environment, or on the PATH. Raises ExecutableError."""
     wanted = chosen or os.environ.get(ENVIRONMENT) or "throng"
     path = shutil.which(os.path.expanduser(wanted))
     if path:

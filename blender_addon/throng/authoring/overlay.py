@@ -41,7 +41,7 @@ def flow_lines(flow, tolerance):
 
 
 def arrow(a, b, side=0.0):
-    """The strokes of an arrow from a to b, bowed a little to the left, so that flows to and fro do not hide each other."""
+    """The strokes of an arrow from a to b, bowed a little to the left, so that to and fro do not hide each other."""
     dx, dy = b[0] - a[0], b[1] - a[1]
     size = math.hypot(dx, dy) or 1.0
     ux, uy = dx / size, dy / size

@@ -56,7 +56,7 @@ class Repertoire:
         return self.walking(level) + gait.STANDING_CLIPS.index(clip) * LEVEL_BEATS[level] + beat * LEVEL_BEATS[level] // BEATS
 
     def sources(self, level):
-        """For each pose of a level, the one of level 0 that it is: of those that it stands for, the one in the middle."""
+        """For each pose of a level, the one of level 0 that it is: the middle one of those that it stands for."""
         share, beats = POSES // LEVEL_POSES[level], BEATS // LEVEL_BEATS[level]
         return (list(range(share // 2, self.walking(), share)) + list(range(self.walking(), self.poses(), beats)))
 
@@ -70,11 +70,11 @@ def poses_of(person, repertoire):
 
 
 def plan_of(figures, repertoire, level):
-    """The mesh of a person at a level of detail; what it leaves out is told from a stand and from quarters of every gait."""
+    """The mesh of a person at a level of detail; what it leaves out is told from a stand and quarters of each gait."""
     samples = [figures[index].rings for index in (*range(0, repertoire.walking(), POSES // 4), repertoire.walking())]
     return Plan(figures[0].parts, samples, level)
 
 
 def limb_velocities(before, after, seconds):
-    """m/s of every vertex in the walker's own frame, from the vertices of the poses before and after, so many seconds apart."""
+    """m/s of every vertex in the walker's own frame, from those of the poses before and after, so many seconds apart."""
     return (numpy.asarray(after) - numpy.asarray(before)) / seconds

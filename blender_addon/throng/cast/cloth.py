@@ -108,7 +108,7 @@ def _widen(spans, points):
 
 
 def _skirt(figure, hips, knees, ankles, length, material, flare, off):
-    """Cloth from the waist down to a share of the legs: 1 is the knees, 2 the ankles. It hangs as tight as both legs let it."""
+    """Cloth from the waist down to a share of the legs: 1 is the knees, 2 the ankles. It hangs as tight as legs let it."""
     p, g, s = figure.person, figure.g, figure.s
     waist = [figure.trunk_ring(0.08, 0.114 * g * flare, 0.156 * (0.5 + 0.5 * p.hips) * flare, 0.0)]
     if material == TOP:  # of one piece with what is above

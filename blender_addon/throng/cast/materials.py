@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Materials of the cast. Every person carries three random numbers (the instance attribute `tint`); they pick its colours."""
+"""Materials of the cast. Three random numbers a person (the instance attribute `tint`) pick its colours."""
 import bpy
 
 # Linear colours. Streets are mostly dark and muted, with a few strong accents.

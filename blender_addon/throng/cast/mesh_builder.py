@@ -70,7 +70,7 @@ def extent_at(share, square):
 
 @lru_cache(maxsize=None)
 def outline(count, square=0.0):
-    """The points of a ring of half axes 1: a circle, blended towards a box with rounded corners; boxes begin at a corner."""
+    """The points of a ring of half axes 1: a circle, blended towards a box with round corners; boxes begin at one."""
     power, first = _power(square), 0.5 if square >= 1.0 else 0.0
     if square > 1.0:
         power = 0.25
@@ -88,7 +88,7 @@ def _area(points):
 
 @lru_cache(maxsize=None)
 def outline_at(count, square, level, stands=False, drapes=False):
-    """The same with the points of a level of detail, grown so that it covers the same area: silhouettes stay as wide."""
+    """That with the points of a level of detail, grown so that it covers the same area: silhouettes stay as wide."""
     if drapes:  # it stays outside of what it covers, which is angular, too
         points = min(count, _CLOTH_POINTS[level])
         grown = (math.cos(math.pi / count) / math.cos(math.pi / points)) ** (1.0 if level < 2 else 0.5)  # the coarsest, half so
@@ -145,7 +145,7 @@ class MeshBuilder:
         self.loft(rings, material, count, until=until)
 
     def box(self, centre, half, yaw, material, taper=1.0, count=8, square=1.0, tilt=0.0):
-        """A box with soft edges; `half` are its half sizes, `taper` how much narrower its top is, `tilt` its forward lean."""
+        """A box with soft edges; `half` are its half sizes, `taper` how much narrower its top is, `tilt` its lean."""
         x, y, up = (turn_z(turn_y(axis, tilt), yaw) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)))
         self.loft([ring(add(centre, scale(up, half[2] * z)), x, y, half[0] * f, half[1] * f)
                    for z, f in ((-1.0, 0.86), (-0.84, 1.0), (0.80, taper), (1.0, 0.82 * taper))], material, count, square)

@@ -74,7 +74,7 @@ def _nearest(cycles, stride):
 
 
 def _standing(reader, chosen, cycles, body, report):
-    """The bones of all standing poses. A cast's second way to stand is a second clip, or the first half a round later."""
+    """The bones of all standing poses. A cast's second way to stand is a second clip, or half a round later."""
     found = []
     for clip in STANDING_CLIPS:
         role = next((role for role in _STANDING.get(clip, (roles.IDLE,)) if chosen.get(role)), None)

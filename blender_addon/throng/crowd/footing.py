@@ -73,7 +73,7 @@ def slopes(crowd):
 
 
 def leaning(maths, instances):
-    """Nodes of the instancer that let people follow the slopes in the attribute GROUND; they are turned by `throng_turn`."""
+    """Nodes that let instances follow the slopes in the attribute GROUND; they are turned by `throng_turn`."""
     group = maths.node("GeometryNodeGroup")
     group.node_tree = _lean_tree()
     maths.link(instances, group.inputs[0])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Ground, roads and areas. Flat things lie a few millimetres above each other, in this order: ground, areas, roads, markings."""
+"""Ground, roads and areas. Flat things lie millimetres above each other: ground, areas, roads, markings, in this order."""
 from . import materials
 from .shapes import Shape, counter_clockwise, direction
 
@@ -27,7 +27,7 @@ def _pieces(road):
 
 
 def _rectangle(a, along, start, end, low, high):
-    """Corners of a box in a road piece's own frame: from start to end along it, from low to high across it (left is positive)."""
+    """Corners of a box in a road piece's own frame: from start to end along it, low to high across it, to the left."""
     side = (-along[1], along[0])
     return [(a[0] + along[0] * s + side[0] * t, a[1] + along[1] * s + side[1] * t) for s, t in ((start, low), (end, low), (end, high), (start, high))]
 

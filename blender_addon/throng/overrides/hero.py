@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Heroes: single people outside the crowd, as armatures with keys, who walk just as they did in it, for an animator to change."""
+"""Heroes: single people outside the crowd, as armatures with keys, who walk as they did in it, for an animator to change."""
 import math
 from dataclasses import replace
 
@@ -104,7 +104,7 @@ def _build_body(name, person, strides, armature, collection):
 
 
 def shipped_person(crowd, variation):
-    """(person, materials) of the shipped cast whom a variation shows as; None where it is a character that was brought along."""
+    """(person, materials) of the shipped cast whom a variation shows as; None where somebody brought it along."""
     shown = crowd["throng_cast"]
     figure = library.figures_of(shown).get((0, variation % shown["throng_variations"]))
     if figure is None or "throng_person" not in figure:
@@ -187,7 +187,7 @@ def _key_presence(thing, name, frames, alive):
 
 
 def promote(crowd, bake, rows, people_of_bake, row, change):
-    """Makes somebody a hero; `change` is its override. The crowd's instance is not hidden here. Returns the armature."""
+    """Makes somebody a hero; `change` is its override. The crowd's instance is not hidden. Returns the armature."""
     collection = crowd.users_collection[0] if crowd.users_collection else bpy.context.scene.collection
     first = people_of_bake[row].frame
     start = crowd.modifiers["throng pos"].frame_start

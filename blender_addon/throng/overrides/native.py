@@ -50,7 +50,7 @@ def _said_of(change, pivot):
 
 
 def _write_attribute(mesh, name, kind, by_row):
-    """One attribute. Where it says nothing of anybody it is left out, but for the two that nodes read whatever they do."""
+    """One attribute. Where it says nothing of anybody it is left out, but for two that nodes always read."""
     default = -1.0 if name == "throng_swap" else 0.0
     size = 3 if kind == "FLOAT_VECTOR" else 1
     values = [default] * (size * len(mesh.vertices))
@@ -110,7 +110,7 @@ def _copy_attributes(source, rows, mesh):
 
 
 def _build_retimed(crowd, rows, people, changes, folder):
-    """Points with the natures and looks that they have in the crowd, over caches that have the moves and swaps in them."""
+    """Points with the natures and looks that they have in the crowd, over caches with the moves and swaps in them."""
     paths = write_caches(folder, rows, people, changes)
     relative = crowd.modifiers["throng pos"].filepath.startswith("//")
     order = sorted(changes)

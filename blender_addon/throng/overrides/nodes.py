@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Nodes that read what is changed about people from attributes of the crowd's points, and change what is played by it."""
+"""Nodes that read from attributes of the crowd's points what is changed about people, and play them so."""
 from ..blender.nodes import Maths, new_tree, own_tree
 from ..crowd.footing import stand_anew
 

@@ -91,7 +91,7 @@ def _error(a, b):
 
 @lru_cache(maxsize=8)
 def weights_of(person, strides):
-    """For each vertex of the person's mesh [(bone, weight)], one or two; weights add up to one. `strides` is a tuple."""
+    """For each vertex of the person's mesh [(bone, weight)], one or two; weights add up to one. `strides`: a tuple."""
     rest = bones_of(person, rest_pose(person))
     poses = _training_poses(person, strides)
     skeletons = [bones_of(person, pose) for pose in poses]
@@ -107,7 +107,7 @@ def weights_of(person, strides):
 
 
 def _blend(goes, taken):
-    """The bone that takes a vertex nearest to where it goes, and another one with it where that helps much: [(bone, weight)]."""
+    """The bone that takes a vertex nearest to where it goes, and another where that helps: [(bone, weight)]."""
     best = min(BONES, key=lambda name: _error(taken[name], goes))
     least, blend = _error(taken[best], goes), [(best, 1.0)]
     for other in BONES:

@@ -26,7 +26,7 @@ _ABOVE = 0.006  # m, over the road's markings
 
 
 def show(crowd, kind, strength):
-    """Puts the crowd's cells on its ground, in place of what was there before. Raises BakeError before anything is changed."""
+    """Puts the crowd's cells on its ground, in place of what was there. Raises BakeError before anything is changed."""
     collection = collection_of(crowd)
     if not collection:
         raise BakeError("this crowd's collection is not its import's any more: import the bake again")
