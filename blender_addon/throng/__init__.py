@@ -22,8 +22,8 @@ else:
     from .tools import cells, ground, levels, operators, staging
 
     # What registers classes of its own, in order: panels appear in it.
-    _PARTS = (preferences, operators, staging, cells, levels, ground,
-              properties, authoring_operators, bake_operator, overlay, panels, characters_operators, overrides_operators)
+    _PARTS = (preferences, operators, staging, cells, levels, ground, properties, authoring_operators, bake_operator,
+              overlay, panels, characters_operators, overrides_operators)
 
 
 def register():

@@ -24,8 +24,8 @@ def _move(things, offset):
 
 
 def load(context, path, own_meshes=()):
-    """Loads the bake of the scene's layout: the first time as a new crowd, later in its place. Returns what could not follow, in
-    sentences. Raises BakeError before anything is changed.
+    """Loads the bake of the scene's layout: the first time as a new crowd, later in its place. Returns what could not
+    follow, in sentences. Raises BakeError before anything is changed.
 
     own_meshes: indices of the layout's walls that are meshes of the user's, which are not built a second time.
     """
@@ -34,8 +34,8 @@ def load(context, path, own_meshes=()):
     offset = [baked - here for baked, here in zip(bake.origin, origin_of(scene))]
     crowd = _crowd_of(scene)
     if crowd is None:
-        crowd = import_bake(context, path, frame_start=scene.frame_start, walls=False, roads=False, scenery=layout.build_scenery,
-                            camera=layout.build_camera and scene.camera is None)
+        crowd = import_bake(context, path, frame_start=scene.frame_start, walls=False, roads=False,
+                            scenery=layout.build_scenery, camera=layout.build_camera and scene.camera is None)
         layout.crowd = crowd
         _move(collection_of(crowd).objects, offset)
     else:
@@ -62,7 +62,8 @@ def _build(context, collection, manifest, own_meshes, offset):
             bpy.data.meshes.remove(data)
     geometry = dict(manifest.get("geometry") or {})
     geometry["walls"] = [wall for i, wall in enumerate(geometry.get("walls", [])) if i not in own_meshes]
-    environment.build_environment(context, {**manifest, "geometry": geometry}, built, walls=layout.build_walls, roads=layout.build_streets, ground=False,
-                                  light=False, camera=False, frame_start=scene.frame_start)
+    environment.build_environment(context, {**manifest, "geometry": geometry}, built, walls=layout.build_walls,
+                                  roads=layout.build_streets, ground=False, light=False, camera=False,
+                                  frame_start=scene.frame_start)
     _move(built.objects, offset)
     layout.show_solid = False

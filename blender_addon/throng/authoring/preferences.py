@@ -11,7 +11,8 @@ _ADDON = __package__.rpartition(".")[0]  # as Blender knows it
 class ThrongPreferences(bpy.types.AddonPreferences):
     bl_idname = _ADDON
 
-    program: StringProperty(name="Program", subtype="FILE_PATH", description="The program `throng`; by default the one on the PATH")
+    program: StringProperty(name="Program", subtype="FILE_PATH",
+                            description="The program `throng`; by default the one on the PATH")
 
     def draw(self, _context):
         self.layout.prop(self, "program")

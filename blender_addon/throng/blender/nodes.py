@@ -89,7 +89,8 @@ class Maths:
     def store(self, geometry, name, value, kind="FLOAT", only=None):
         """Files a value away as an attribute of points; returns the geometry that has it.
 
-        @param only a boolean attribute: where it is false nothing changes, if the version can do so (3.5); it saves work, results must not need it
+        @param only a boolean attribute: where it is false nothing changes, if the version can do so (3.5); it saves
+        work, results must not need it
         """
         node = self.node("GeometryNodeStoreNamedAttribute", data_type=kind, domain="POINT")
         node.inputs["Name"].default_value = name

@@ -42,7 +42,8 @@ def add_hair(head):
 
 
 def _beard(head):
-    rings = ((-0.128, 0.020, 0.020, 0.040), (-0.112, 0.056, 0.048, 0.030), (-0.080, 0.074, 0.062, 0.026), (-0.040, 0.070, 0.069, 0.016))
+    rings = ((-0.128, 0.020, 0.020, 0.040), (-0.112, 0.056, 0.048, 0.030), (-0.080, 0.074, 0.062, 0.026),
+             (-0.040, 0.070, 0.069, 0.016))
     head.mesh.loft([head.level(*each) for each in rings], head.hair, 12, caps=(True, False), until=1)
 
 
@@ -57,12 +58,15 @@ _CROWN = ((0.115, -0.006, 0.077, 0.062), (0.132, -0.008, 0.040, 0.034))
 
 def _short(head, material=None, crown=_CROWN):
     """A cap of hair, or one over it: low at the nape, high at the brow, so rings are tilted backwards."""
-    rings = ((-0.045, -0.030, 0.080, 0.079), (0.0, -0.016, 0.096, 0.083), (0.045, -0.007, 0.104, 0.085), (0.085, -0.004, 0.100, 0.080), *crown)
-    head.mesh.loft([head.tilted(*each, 0.42 if each[0] < 0.06 else 0.147) for each in rings], head.hair if material is None else material, 12)
+    rings = ((-0.045, -0.030, 0.080, 0.079), (0.0, -0.016, 0.096, 0.083), (0.045, -0.007, 0.104, 0.085),
+             (0.085, -0.004, 0.100, 0.080), *crown)
+    head.mesh.loft([head.tilted(*each, 0.42 if each[0] < 0.06 else 0.147) for each in rings],
+                   head.hair if material is None else material, 12)
 
 
 def _below_cap(head):
-    head.mesh.loft([head.level(-0.05, 0.076, 0.078, -0.03), head.level(0.02, 0.076, 0.078, -0.03)], head.hair, 12, caps=(True, False), until=0)
+    head.mesh.loft([head.level(-0.05, 0.076, 0.078, -0.03), head.level(0.02, 0.076, 0.078, -0.03)], head.hair, 12,
+                   caps=(True, False), until=0)
 
 
 def _cap(head):
@@ -77,15 +81,16 @@ def _flat_cap(head):
     """It falls forward over its peak, and covers the crown."""
     _short(head, crown=())
     _below_cap(head)
-    rings = ((0.052, 0.024, 0.122, 0.092, -0.05), (0.066, 0.026, 0.138, 0.104, -0.08), (0.104, 0.004, 0.122, 0.098, -0.20),
-             (0.134, -0.012, 0.070, 0.058, -0.20))
+    rings = ((0.052, 0.024, 0.122, 0.092, -0.05), (0.066, 0.026, 0.138, 0.104, -0.08),
+             (0.104, 0.004, 0.122, 0.098, -0.20), (0.134, -0.012, 0.070, 0.058, -0.20))
     head.mesh.loft([head.tilted(*each) for each in rings], EXTRA, 12)
 
 
 def _long(head):
     _short(head)
     widths = (0.078, 0.086, 0.088, 0.084, 0.074, 0.05)
-    rings = [head.level(0.02 - 0.062 * k, 0.062 - 0.004 * k, width, -0.045 - 0.012 * k) for k, width in enumerate(widths)]
+    rings = [head.level(0.02 - 0.062 * k, 0.062 - 0.004 * k, width, -0.045 - 0.012 * k)
+             for k, width in enumerate(widths)]
     head.mesh.loft(rings, head.hair, 12)
 
 
@@ -103,8 +108,9 @@ def _tail(head):
 def _headscarf(head):
     """Round the face, over hair and neck, down to the shoulders; the face looks out."""
     figure = head.figure
-    rings = ((-0.150, -0.014, 0.086, 0.090, 0.0), (-0.112, -0.024, 0.078, 0.080, 0.30), (-0.060, -0.032, 0.080, 0.082, 0.50),
-             (0.000, -0.024, 0.096, 0.086, 0.60), (0.050, -0.010, 0.106, 0.088, 0.50), (0.090, -0.006, 0.103, 0.083, 0.20),
+    rings = ((-0.150, -0.014, 0.086, 0.090, 0.0), (-0.112, -0.024, 0.078, 0.080, 0.30),
+             (-0.060, -0.032, 0.080, 0.082, 0.50), (0.000, -0.024, 0.096, 0.086, 0.60),
+             (0.050, -0.010, 0.106, 0.088, 0.50), (0.090, -0.006, 0.103, 0.083, 0.20),
              (0.120, -0.008, 0.080, 0.064, 0.10), (0.138, -0.010, 0.040, 0.034, 0.0))
     head.mesh.loft([head.tilted(*each) for each in rings], EXTRA, 12, caps=(False, True))
     shoulders = ((0.520, 0.084, 0.098, -0.008), (0.470, 0.120, 0.158, -0.004), (0.400, 0.142 * figure.g, 0.166, 0.004))
@@ -112,4 +118,5 @@ def _headscarf(head):
     head.mesh.loft([neck, *(figure.trunk_ring(*each) for each in shoulders)], EXTRA, 12, 0.0, _OPEN)
 
 
-_HAIR = {"short": _short, "long": _long, "bun": _bun, "tail": _tail, "bald": _bald, "cap": _cap, "flat cap": _flat_cap, "headscarf": _headscarf}
+_HAIR = {"short": _short, "long": _long, "bun": _bun, "tail": _tail, "bald": _bald, "cap": _cap, "flat cap": _flat_cap,
+         "headscarf": _headscarf}

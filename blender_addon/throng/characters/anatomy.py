@@ -47,7 +47,8 @@ def _lowest(points, main, count):
 def find_legs(names, parents, heads, points, main, feet=()):
     """Both legs.
 
-    @param heads (B, 3), the bones' joints in a pose that stands; points (V, 3), the vertices; main (V,), the bone that moves each most
+    @param heads (B, 3), the bones' joints in a pose that stands; points (V, 3), the vertices; main (V,), the
+    bone that moves each most
     @param feet the names of both feet's bones, where they are known
     """
     lowest = _lowest(points, main, len(names))
@@ -57,7 +58,8 @@ def find_legs(names, parents, heads, points, main, feet=()):
     if feet:
         missing = [name for name in feet if name not in names]
         if missing or len(feet) != 2:
-            raise CharacterError(f"the feet should be the names of two bones, found {', '.join(feet)}: there are {', '.join(names[:12])} ...")
+            raise CharacterError(f"the feet should be the names of two bones, found {', '.join(feet)}: there are "
+                                 f"{', '.join(names[:12])} ...")
         ends = [names.index(name) for name in feet]
     else:
         ends = _feet_of(names, parents, lowest, ground + 0.06 * height, heads, height)
@@ -89,9 +91,11 @@ def _foot_above(bone, names, parents, lowest, near, heads, height):
 
 
 def _unlikeness(a, b, names, parents, lowest, heads):
-    """How little two bones are like a pair of feet: as high and as deep as each other, on the ground; those with a foot's name come first."""
+    """How little two bones are like a pair of feet: as high and as deep as each other, on the ground; those with a
+    foot's name come first."""
     depths = len(_chain(a, parents)) - len(_chain(b, parents))
-    unlike = abs(heads[a][2] - heads[b][2]) + 0.05 * abs(depths) + abs(lowest[a] - lowest[b]) + min(lowest[a], lowest[b])
+    unlike = abs(heads[a][2] - heads[b][2]) + 0.05 * abs(depths) + abs(lowest[a] - lowest[b])
+    unlike += min(lowest[a], lowest[b])
     return unlike - (10.0 if _is_foot(names[a]) and _is_foot(names[b]) else 0.0)
 
 
@@ -103,7 +107,8 @@ def _feet_of(names, parents, lowest, near, heads, height):
               if a not in _chain(b, parents) and b not in _chain(a, parents)}
     pairs = [pair for pair, much in unlike.items() if much < numpy.inf]  # bones that move nothing are no feet
     if not pairs:
-        raise CharacterError("no two feet were found: no two bones on branches of their own move vertices near the ground. Name the bones of both feet")
+        raise CharacterError("no two feet were found: no two bones on branches of their own move vertices near the "
+                             "ground. Name the bones of both feet")
     return min(pairs, key=unlike.get)
 
 
@@ -119,7 +124,8 @@ def _joints(leg, heads):
 
 def _soles(points, main, bones):
     """The vertices of a foot that can be its lowest, however it is turned: its corners, of each bone on its own."""
-    directions = [(numpy.cos(a) * c, numpy.sin(a) * c, -s) for a in numpy.arange(16) * numpy.pi / 8 for c, s in ((0.97, 0.24), (0.7, 0.7), (0.3, 0.95))]
+    directions = [(numpy.cos(a) * c, numpy.sin(a) * c, -s) for a in numpy.arange(16) * numpy.pi / 8
+                  for c, s in ((0.97, 0.24), (0.7, 0.7), (0.3, 0.95))]
     chosen = set()
     for bone in bones:
         mine = numpy.nonzero(main == bone)[0]

@@ -13,8 +13,9 @@ from . import CharacterError, anatomy, clips, feet, motion, posing, roles
 from .rig import Stage, rig_of
 
 # What stands in where a character has no such clip.
-_STANDING = {"idle": (roles.IDLE,), "shift": (roles.IDLE,), "talk": (roles.TALK, roles.IDLE), "phone": (roles.PHONE, roles.IDLE), "look": (roles.LOOK, roles.IDLE),
-             "cheer": (roles.CHEER, roles.IDLE), "sit": (roles.SIT, roles.IDLE)}
+_STANDING = {"idle": (roles.IDLE,), "shift": (roles.IDLE,), "talk": (roles.TALK, roles.IDLE),
+             "phone": (roles.PHONE, roles.IDLE), "look": (roles.LOOK, roles.IDLE), "cheer": (roles.CHEER, roles.IDLE),
+             "sit": (roles.SIT, roles.IDLE)}
 
 
 @dataclass
@@ -31,11 +32,11 @@ class Report:
     triangles: list = field(default_factory=list)  # of each level of detail
 
     def lines(self):
-        found = [f"{self.name}: {self.height:.2f} m (scaled by {self.scale:.3g}), looks {self.heading:.0f} degrees from x, "
-                 f"{' / '.join(str(count) for count in self.triangles)} triangles"]
+        found = [f"{self.name}: {self.height:.2f} m (scaled by {self.scale:.3g}), looks {self.heading:.0f} degrees "
+                 f"from x, {' / '.join(str(count) for count in self.triangles)} triangles"]
         for gait in self.gaits:
-            found.append(f"stride {gait['stride']:.2f} m: {gait['clip']} (its own: {gait['natural']:.2f} m), planted {100.0 * gait['planted']:.0f} %, "
-                         f"slides {100.0 * gait['slide']:.1f} cm a step")
+            found.append(f"stride {gait['stride']:.2f} m: {gait['clip']} (its own: {gait['natural']:.2f} m), planted "
+                         f"{100.0 * gait['planted']:.0f} %, slides {100.0 * gait['slide']:.1f} cm a step")
         found.append("stands: " + ", ".join(f"{ours} = {theirs}" for ours, theirs in self.standing.items()))
         if self.held:
             found.append("left out, because hands hold it: " + ", ".join(self.held))
@@ -82,7 +83,8 @@ def _standing(reader, chosen, cycles, body, report):
             found += [motion.standing_from_walk(cycles[0], body)] * BEATS
             report.standing[clip] = f"the mean of {cycles[0].name}"
             continue
-        other = clip == "shift" and len(chosen[role]) > 1 and (roles.is_plain(chosen[role][1].name) or roles.IDLE in (reader.options.roles or {}))
+        other = clip == "shift" and len(chosen[role]) > 1 and (
+            roles.is_plain(chosen[role][1].name) or roles.IDLE in (reader.options.roles or {}))
         taken = chosen[role][1 if other else 0]
         poses = list(reader.standing(taken, BEATS))
         if clip == "shift" and not other:
@@ -109,7 +111,8 @@ def _levels(puppet, reader, bones, repertoire, report, plans):
     try:
         for level, posed in enumerate(points):
             template = puppet.template(level, f"{report.name} {level}")
-            made.append(Posed(template, numpy.array([posed[source] for source in repertoire.sources(level)], numpy.float32)))
+            made.append(Posed(template,
+                              numpy.array([posed[source] for source in repertoire.sources(level)], numpy.float32)))
             _finish(made[level], level, repertoire)
             report.triangles.append(len(template.loop_triangles))
         for index, plan in enumerate(plans):
@@ -134,19 +137,21 @@ def _finish(made, level, repertoire):
 def _report_gait(report, reader, plan, posed):
     """@param posed where the vertices are in the poses of the gait"""
     slide = max(feet.slide(posed[:, sole], plan.stride) for sole in _soles(reader, posed))
-    report.gaits.append({"stride": plan.stride, "clip": plan.cycle.name, "natural": plan.cycle.stride, "planted": plan.share, "slide": slide})
+    report.gaits.append({"stride": plan.stride, "clip": plan.cycle.name, "natural": plan.cycle.stride,
+                         "planted": plan.share, "slide": slide})
     notes = [f"{plan.cycle.name}: {note}" for note in plan.cycle.notes]
     report.notes += [note for note in notes if note not in report.notes]
 
 
 def _check_size(vertices, poses):
     if poses * vertices > MOST_POINTS:
-        raise CharacterError(f"{vertices} vertices are too many: a cast of {poses} poses takes up to {MOST_POINTS // poses}; decimate its meshes first")
+        raise CharacterError(f"{vertices} vertices are too many: a cast of {poses} poses takes up to "
+                             f"{MOST_POINTS // poses}; decimate its meshes first")
 
 
 def _soles(reader, posed):
-    """Which vertices of the pose meshes are of each foot: what its bones move; where modifiers have made other vertices, what comes near the
-    ground on its side."""
+    """Which vertices of the pose meshes are of each foot: what its bones move; where modifiers have made other
+    vertices, what comes near the ground on its side."""
     if posed.shape[1] == len(reader.main):
         return [numpy.isin(reader.main, anatomy.below(leg.foot, reader.stage.parents)) for leg in reader.legs]
     near, left = posed[..., 2].min(axis=0) < 0.05, posed[..., 1].mean(axis=0) > 0.0

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Who is in a crowd's cast: characters that join it, replace somebody, and leave again. The cast's order is in the package `cast`."""
+"""Who is in a crowd's cast: characters that join it, replace somebody, and leave again. The cast's order is
+in the package `cast`."""
 import json
 
 import bpy
@@ -15,8 +16,9 @@ from . import CharacterError
 def widen(crowd, gaits=None):
     """Lets a cast walk with more gaits, from a first to a last one; with all of them unless told.
 
-    A crowd has only those that its bake walks with, as every pose costs time in every frame. Characters that were brought along cannot be
-    made again, so whoever brings one widens the crowd to all gaits first: here, everybody is a shipped person whose poses are made anew.
+    A crowd has only those that its bake walks with, as every pose costs time in every frame. Characters that were
+    brought along cannot be made again, so whoever brings one widens the crowd to all gaits first: here, everybody is a
+    shipped person whose poses are made anew.
     """
     first, last = gaits_of(crowd)
     wanted = (min(first, gaits[0]), max(last, gaits[1])) if gaits else (0, len(crowd["throng_strides"]) - 1)
@@ -40,7 +42,8 @@ def _discard(shown, number, keep=()):
     """Removes a member at all levels, with its materials that nobody else has, unless they are to be kept."""
     figures = [each for (_, member), each in library.figures_of(shown).items() if member == number]
     materials = {material for each in figures for material in each.data.materials if material and material not in keep}
-    images = {node.image for material in materials if material.node_tree for node in material.node_tree.nodes if getattr(node, "image", None)}
+    images = {node.image for material in materials if material.node_tree for node in material.node_tree.nodes
+              if getattr(node, "image", None)}
     remove_figures(figures)
     for brought in (materials, images):
         bpy.data.batch_remove([each for each in brought if each.users == 0])

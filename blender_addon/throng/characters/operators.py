@@ -15,7 +15,8 @@ from .roles import ROLES
 def _one_crowd(context):
     chosen = chosen_crowds(context)
     if len(chosen) != 1:
-        raise CharacterError("Select one crowd: each has a cast of its own" if chosen else "There is no crowd: import a bake first")
+        raise CharacterError("Select one crowd: each has a cast of its own" if chosen
+                             else "There is no crowd: import a bake first")
     return chosen[0]
 
 
@@ -29,7 +30,8 @@ def parse_clips(text, role):
         except ValueError:
             name, metres = part, 0.0  # a name may hold a colon
         if metres < 0.0 or metres > 10.0:
-            raise CharacterError(f"{role}: a stride of {metres:g} m: it should be between 0 (found automatically) and 10")
+            raise CharacterError(f"{role}: a stride of {metres:g} m: it should be between 0 "
+                                 "(found automatically) and 10")
         found.append((name.strip(), metres))
     return found
 
@@ -38,15 +40,20 @@ class _AddsCharacter:
     bl_options = {"REGISTER", "UNDO"}
 
     character_name: StringProperty(name="Name", description="Of the character; by default the file's or the armature's")
-    replace: IntProperty(name="Replace", default=-1, min=-1, description="The number of the cast's member whom it replaces; -1: it joins them")
+    replace: IntProperty(name="Replace", default=-1, min=-1,
+                         description="The number of the cast's member whom it replaces; -1: it joins them")
     height: FloatProperty(name="Height", default=0.0, min=0.0, max=100.0, unit="LENGTH",
                           description="0: as it is, or 1.75 m where that is not between 1.3 and 2.1 m")
-    heading: EnumProperty(name="Looks Along", default="AUTO", items=[("AUTO", "Automatic", "Where its feet walk to")] + [(axis, axis, "") for axis in HEADINGS])
-    leave_out: StringProperty(name="Leave Out", description="Meshes that shall not be there, by comma; * stands for anything")
+    heading: EnumProperty(name="Looks Along", default="AUTO", items=[("AUTO", "Automatic", "Where its feet walk to")]
+                                                              + [(axis, axis, "") for axis in HEADINGS])
+    leave_out: StringProperty(name="Leave Out",
+                              description="Meshes that shall not be there, by comma; * stands for anything")
     keep: StringProperty(name="Keep", description="Meshes that shall be there although hands hold them, by comma")
     feet: StringProperty(name="Feet", description="The bones of both feet, by comma, where they are not found")
     idle: StringProperty(name="Idle", description="Clips to stand with, by comma; empty: found by name, then by motion")
-    walk: StringProperty(name="Walk", description="Clips to walk with; a stride in metres can follow a colon: Stroll: 1.1, March: 1.6")
+    walk: StringProperty(name="Walk",
+                         description="Clips to walk with; a stride in metres can follow a "
+                                     "colon: Stroll: 1.1, March: 1.6")
     run: StringProperty(name="Run", description="Clips to run with")
     talk: StringProperty(name="Talk", description="Clips to talk with")
     phone: StringProperty(name="Phone", description="Clips to look at a phone with")

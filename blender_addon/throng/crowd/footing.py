@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Crowds on ground that is not flat. Natively, as playback is: modifiers only, no Python when frames change.
 
-Poses are made for flat ground. Where it slopes, people are sheared: whatever is at (x, y) of a person goes up by slope_x x + slope_y y,
-so that feet follow the ground and bodies stay upright. Instances can only be turned and scaled, but along the axes of the scene as
-well as their own, and every shear is a turn, a scale along the axes, and another turn (its singular value decomposition).
+Poses are made for flat ground. Where it slopes, people are sheared: whatever is at (x, y) of a person goes up by
+slope_x x + slope_y y, so that feet follow the ground and bodies stay upright. Instances can only be turned and scaled,
+but along the axes of the scene as well as their own, and every shear is a turn, a scale along the axes, and another
+turn (its singular value decomposition).
 
-The slopes are the attribute GROUND of everybody's point: along the heading, to the left of it, and the height of the ground. A bake
-with a terrain brings them in its stream `ground`; for others, a modifier looks for the ground below (tools/ground.py).
+The slopes are the attribute GROUND of everybody's point: along the heading, to the left of it, and the height of
+the ground. A bake with a terrain brings them in its stream `ground`; for others, a modifier looks for the ground
+below (tools/ground.py).
 """
 from ..blender.nodes import Maths, new_tree, own_tree
 from .names import CONFORM, GROUND
@@ -60,7 +62,8 @@ def _lean_tree():
     scale = maths.node("GeometryNodeScaleInstances")
     scale.inputs["Local Space"].default_value = False
     maths.link(geometry, scale.inputs["Instances"])
-    maths.link(_vector(maths, maths.math("ADD", root, half), 1.0, maths.math("SUBTRACT", root, half)), scale.inputs["Scale"])
+    maths.link(_vector(maths, maths.math("ADD", root, half), 1.0, maths.math("SUBTRACT", root, half)),
+               scale.inputs["Scale"])
     maths.link(place, scale.inputs["Center"])
     geometry = turn(scale.outputs[0], y=maths.math("MULTIPLY", out, -1.0), z=uphill)
     maths.link(geometry, outputs.inputs[0])
@@ -99,12 +102,13 @@ def _ray(maths, target, origin, offset=None):
 
 def _either(maths, hit, value, otherwise):
     """`value` where something was hit."""
-    return maths.math("ADD", maths.math("MULTIPLY", hit, value), maths.math("MULTIPLY", maths.math("SUBTRACT", 1.0, hit), otherwise))
+    return maths.math("ADD", maths.math("MULTIPLY", hit, value),
+                      maths.math("MULTIPLY", maths.math("SUBTRACT", 1.0, hit), otherwise))
 
 
 def _footing(maths, ground):
-    """Of every point, by three rays on an object's geometry: its place, whether there is ground, its slopes and height, and the mean height
-    under the feet."""
+    """Of every point, by three rays on an object's geometry: its place, whether there is ground, its slopes and height,
+    and the mean height under the feet."""
     info = maths.node("GeometryNodeObjectInfo", transform_space="RELATIVE")
     maths.link(ground, info.inputs["Object"])
     target = info.outputs["Geometry"]
@@ -115,16 +119,21 @@ def _footing(maths, ground):
     forward = [maths.math("MULTIPLY", part, REACH) for part in (cosine, sine)]
     hit, height, normal = _ray(maths, target, above)
     ahead_hit, ahead, _ = _ray(maths, target, above, _vector(maths, *forward))
-    behind_hit, behind, _ = _ray(maths, target, above, _vector(maths, *(maths.math("MULTIPLY", part, -1.0) for part in forward)))
+    behind_hit, behind, _ = _ray(maths, target, above,
+                                 _vector(maths, *(maths.math("MULTIPLY", part, -1.0) for part in forward)))
     ahead, behind = _either(maths, ahead_hit, ahead, height), _either(maths, behind_hit, behind, height)
-    mean = maths.math("MULTIPLY", maths.math("ADD", maths.math("MULTIPLY", height, 2.0), maths.math("ADD", ahead, behind)), 0.25)
+    mean = maths.math("MULTIPLY",
+                      maths.math("ADD", maths.math("MULTIPLY", height, 2.0), maths.math("ADD", ahead, behind)), 0.25)
     parts = maths.node("ShaderNodeSeparateXYZ")
     maths.link(normal, parts.inputs[0])
     down = maths.math("MAXIMUM", maths.math("ABSOLUTE", parts.outputs[2]), 0.05)
-    left = maths.math("SUBTRACT", maths.math("MULTIPLY", parts.outputs[0], sine), maths.math("MULTIPLY", parts.outputs[1], cosine))
+    left = maths.math("SUBTRACT", maths.math("MULTIPLY", parts.outputs[0], sine),
+                      maths.math("MULTIPLY", parts.outputs[1], cosine))
     sign = maths.math("SIGN", parts.outputs[2])  # meshes may be inside out
-    slopes = [maths.math("DIVIDE", maths.math("SUBTRACT", ahead, behind), 2.0 * REACH), maths.math("MULTIPLY", maths.math("DIVIDE", left, down), sign)]
-    slopes = [maths.math("MULTIPLY", hit, maths.math("MAXIMUM", maths.math("MINIMUM", slope, STEEPEST), -STEEPEST)) for slope in slopes]
+    slopes = [maths.math("DIVIDE", maths.math("SUBTRACT", ahead, behind), 2.0 * REACH),
+              maths.math("MULTIPLY", maths.math("DIVIDE", left, down), sign)]
+    slopes = [maths.math("MULTIPLY", hit, maths.math("MAXIMUM", maths.math("MINIMUM", slope, STEEPEST), -STEEPEST))
+              for slope in slopes]
     return place.outputs, hit, _vector(maths, *slopes, height), mean
 
 
@@ -133,12 +142,14 @@ def _stand(maths, geometry, ground, over=0.0):
     place, hit, slopes, mean = _footing(maths, ground)
     stand = maths.node("GeometryNodeSetPosition")
     maths.link(maths.store(geometry, GROUND, slopes, "FLOAT_VECTOR"), stand.inputs["Geometry"])
-    maths.link(_vector(maths, place[0], place[1], _either(maths, hit, maths.math("ADD", mean, over), place[2])), stand.inputs["Position"])
+    maths.link(_vector(maths, place[0], place[1], _either(maths, hit, maths.math("ADD", mean, over), place[2])),
+               stand.inputs["Position"])
     return stand.outputs[0]
 
 
 def stand_anew(maths, geometry, ground, who, over):
-    """Lets only those points stand on an object's geometry where the attribute `who` is 1: rays cost time, so the others are set apart."""
+    """Lets only those points stand on an object's geometry where the attribute `who` is 1: rays cost time, so the
+    others are set apart."""
     apart = maths.node("GeometryNodeSeparateGeometry", domain="POINT")
     maths.link(geometry, apart.inputs["Geometry"])
     maths.link(maths.greater(maths.attribute(who), 0.5), apart.inputs["Selection"])

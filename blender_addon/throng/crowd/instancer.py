@@ -13,7 +13,8 @@ _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
 
 def _present(maths, alive, nature, share):
     """1 for whoever is there, shown and not culled."""
-    seen = maths.math("SUBTRACT", maths.math("LESS_THAN", nature[2], share), maths.attribute(HIDDEN))  # HIDDEN is zero where nothing is culled
+    # HIDDEN is zero where nothing is culled
+    seen = maths.math("SUBTRACT", maths.math("LESS_THAN", nature[2], share), maths.attribute(HIDDEN))
     return maths.math("GREATER_THAN", maths.math("MULTIPLY", maths.math("GREATER_THAN", alive, 0.5), seen), 0.5)
 
 
@@ -40,12 +41,14 @@ def _figures_and_poses(maths, state, phase, speed, variation, nature, repertoire
 
 
 def instancer_tree(cast, repertoire, leans):
-    """One Instance on Points for each figure of the cast. What it needs is filed away on the points: worked out for all at once, not by every figure.
+    """One Instance on Points for each figure of the cast. What it needs is filed away on the points: worked out for all
+    at once, not by every figure.
 
-    While a crowd is on screen, Blender notes down all attributes of what goes through a socket, those of every pose included, which takes
-    longer than the work itself. From 4.0 on it does so for sockets outside of groups only, so there the figures are in a group; before for all, so
-    there should be few. And later versions look up every pose among those before it, in time that grows with their square: there each figure's people
-    are handed on as one instance.
+    While a crowd is on screen, Blender notes down all attributes of what goes through a socket, those of every pose
+    included, which takes longer than the work itself. From 4.0 on it does so for sockets outside of groups only, so
+    there the figures are in a group; before for all, so there should be few. And later versions look up every pose
+    among those before it, in time that grows with their square: there each figure's people are handed on as one
+    instance.
     """
     figures = shown_figures(cast)
     levels = sorted({level for level, _ in figures})
@@ -82,7 +85,8 @@ def instancer_tree(cast, repertoire, leans):
 
 def _instances(maths, points, figures, leans, apart):
     """Everybody's pose. @param apart whether the people of each figure are one instance"""
-    figure, pose, turn = (maths.attribute(name, kind) for name, kind in ((FIGURE, "INT"), ("throng_pose", "INT"), ("throng_turn", "FLOAT_VECTOR")))
+    figure, pose, turn = (maths.attribute(name, kind)
+                          for name, kind in ((FIGURE, "INT"), ("throng_pose", "INT"), ("throng_turn", "FLOAT_VECTOR")))
     size = maths.math("ADD", maths.attribute(BIGGER), 1.0)
     everybody = maths.node("GeometryNodeJoinGeometry")
     for (level, member), thing in figures.items():

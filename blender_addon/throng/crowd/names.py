@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Names that scenes have in them: of a crowd's modifiers, and of the attributes of its points. Saved files keep them, so they stay as they are."""
+"""Names that scenes have in them: of a crowd's modifiers, and of the attributes of its points. Saved files keep them,
+so they stay as they are."""
 from ..formats import STREAMS
 
 CACHES = tuple(f"throng {stream}" for stream in STREAMS)

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Native playback: one object of loose vertices, a stack of modifiers, no Python at render time.
 
-Each Mesh Cache modifier overwrites the vertices with one stream, and a node group behind it files them away as an attribute; the
-last one leaves the positions. The instancer then puts a pose on every vertex that is alive. `state` is read without interpolation,
-because a pose index between two others would be a third one, and must not change while the shutter is open.
+Each Mesh Cache modifier overwrites the vertices with one stream, and a node group behind it files them away as an
+attribute; the last one leaves the positions. The instancer then puts a pose on every vertex that is alive. `state` is
+read without interpolation, because a pose index between two others would be a third one, and must not change while the
+shutter is open.
 """
 import random
 
@@ -63,8 +64,9 @@ def add_cache(target, name, path, interpolation, frame_start):
 def give_natures(mesh):
     """What never changes about people, as attributes of their points: it need not be worked out in every frame.
 
-    `id`, so that instances keep theirs when others come and go; `tint`, three random numbers for colours; NATURE: which standing clip
-    they take (0 to 3), when its beats fall (0 to 1), and a draw that decides who is shown when not all are.
+    `id`, so that instances keep theirs when others come and go; `tint`, three random numbers for colours;
+    NATURE: which standing clip they take (0 to 3), when its beats fall (0 to 1), and a draw that decides who
+    is shown when not all are.
     """
     count = len(mesh.vertices)
     draw = random.Random(7)
@@ -74,7 +76,8 @@ def give_natures(mesh):
         mesh.attributes.new(name, kind, "POINT")
     mesh.attributes["id"].data.foreach_set("value", range(count))
     mesh.attributes["tint"].data.foreach_set("vector", [draw.random() for _ in range(3 * count)])
-    mesh.attributes[NATURE].data.foreach_set("vector", [value for row in range(count) for value in (row % 4, row * 0.618034 % 1.0, draw.random())])
+    mesh.attributes[NATURE].data.foreach_set("vector", [value for row in range(count)
+                                                        for value in (row % 4, row * 0.618034 % 1.0, draw.random())])
 
 
 def build_crowd(bake, name, cast, frame_start, paths):

@@ -10,8 +10,10 @@ FRAMES_A_ROUND = 80.0  # of a standing clip
 def member_of(maths, variation, drawn, count):
     """Nodes that say which member somebody is.
 
-    The bake draws among so many as it knew of; members that joined later take their share from all alike, by numbers that everybody has.
-    @param variation the stream's value; @param drawn how many the bake draws among; @param count how many members there are
+    The bake draws among so many as it knew of; members that joined later take their share from all alike, by
+    numbers that everybody has.
+    @param variation the stream's value; @param drawn how many the bake draws among; @param count
+    how many members there are
     """
     own = maths.math("MODULO", variation, float(count))
     later = count - drawn
@@ -21,7 +23,8 @@ def member_of(maths, variation, drawn, count):
     maths.link(maths.attribute("tint", "FLOAT_VECTOR"), draws.inputs[0])
     joins, which = (maths.math("FRACT", maths.math("MULTIPLY", draws.outputs[axis], 97.0)) for axis in (0, 1))
     joined = maths.math("ADD", maths.math("FLOOR", maths.math("MULTIPLY", which, float(later))), float(drawn))
-    taken = maths.math("MULTIPLY", maths.math("LESS_THAN", joins, later / count), maths.math("LESS_THAN", variation, drawn - 0.5))
+    taken = maths.math("MULTIPLY", maths.math("LESS_THAN", joins, later / count),
+                       maths.math("LESS_THAN", variation, drawn - 0.5))
     return maths.math("MULTIPLY_ADD", taken, maths.math("SUBTRACT", joined, own), own)
 
 
@@ -33,7 +36,8 @@ def _walking_pose(maths, state, phase, poses, first):
     gait = maths.math("ROUND", maths.math("MULTIPLY", maths.math("FRACT", state), 16.0))
     if first:
         gait = maths.math("SUBTRACT", gait, float(first))
-    step = maths.math("MINIMUM", maths.math("FLOOR", maths.math("MULTIPLY", maths.math("FRACT", phase), poses)), poses - 1)
+    step = maths.math("MINIMUM", maths.math("FLOOR", maths.math("MULTIPLY", maths.math("FRACT", phase), poses)),
+                      poses - 1)
     return maths.math("MULTIPLY_ADD", gait, poses, step)
 
 
@@ -56,4 +60,5 @@ def pose_index(maths, speed, state, phase, nature, repertoire, level):
     walks = maths.math("GREATER_THAN", speed, STANDING_SPEED)
     walking = _walking_pose(maths, state, phase, LEVEL_POSES[level], repertoire.first)
     standing = _standing_pose(maths, state, nature, LEVEL_BEATS[level], repertoire.walking(level))
-    return maths.math("ADD", maths.math("MULTIPLY", walking, walks), maths.math("MULTIPLY", standing, maths.math("SUBTRACT", 1.0, walks)))
+    return maths.math("ADD", maths.math("MULTIPLY", walking, walks),
+                      maths.math("MULTIPLY", standing, maths.math("SUBTRACT", 1.0, walks)))

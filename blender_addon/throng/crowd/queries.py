@@ -93,5 +93,6 @@ def figure(crowd, number, level=0):
 
 def members_of(crowd):
     """[(name, whether it is a character of one's own)], by number."""
-    finest = sorted((member, each) for (level, member), each in library.figures_of(cast_of(crowd)).items() if level == 0)
+    finest = sorted((member, each) for (level, member), each in library.figures_of(cast_of(crowd)).items()
+                    if level == 0)
     return [(each.get("throng_character", each.name), "throng_character" in each) for _, each in finest]

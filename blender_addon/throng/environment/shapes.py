@@ -24,8 +24,8 @@ def direction(a, b):
 def inside(polygon, point):
     hit = False
     for a, b in zip(polygon, polygon[1:] + polygon[:1]):
-        if (a[1] > point[1]) != (b[1] > point[1]) and point[0] < (b[0] - a[0]) * (point[1] - a[1]) / (b[1] - a[1]) + a[0]:
-            hit = not hit
+        if (a[1] > point[1]) != (b[1] > point[1]):
+            hit ^= point[0] < (b[0] - a[0]) * (point[1] - a[1]) / (b[1] - a[1]) + a[0]
     return hit
 
 
@@ -84,8 +84,8 @@ class Shape:
         """A box along a line, ends flat."""
         along, _ = direction(a, b)
         side = (-along[1] * half_width, along[0] * half_width)
-        self.prism([(a[0] - side[0], a[1] - side[1]), (b[0] - side[0], b[1] - side[1]), (b[0] + side[0], b[1] + side[1]), (a[0] + side[0], a[1] + side[1])],
-                   low, high, material)
+        self.prism([(a[0] - side[0], a[1] - side[1]), (b[0] - side[0], b[1] - side[1]),
+                    (b[0] + side[0], b[1] + side[1]), (a[0] + side[0], a[1] + side[1])], low, high, material)
 
     def to_object(self):
         mesh = bpy.data.meshes.new(self.name)

@@ -11,17 +11,19 @@ def linear(colour):
 
 def _cast_materials(crowd):
     """Materials of all whom the crowd can show."""
-    return {slot.material for thing in crowd["throng_cast"].all_objects for slot in thing.material_slots if slot.material}
+    return {slot.material for thing in crowd["throng_cast"].all_objects for slot in thing.material_slots
+            if slot.material}
 
 
 def allow_dyes(crowd):
-    """Lets the materials of top garments take somebody's own colour: the instance attributes `throng_dyed` (0 or 1) and `throng_dye`."""
+    """Lets the materials of top garments take somebody's own colour: the instance attributes `throng_dyed` (0
+    or 1) and `throng_dye`."""
     for material in _cast_materials(crowd):
-        if not material.name.startswith("throng top") or not material.use_nodes or "Throng dye" in material.node_tree.nodes:
+        if not material.name.startswith("throng top") or not material.use_nodes:
             continue
         nodes, links = material.node_tree.nodes, material.node_tree.links
         shader = next((node for node in nodes if node.type == "BSDF_PRINCIPLED"), None)
-        if not shader:
+        if not shader or "Throng dye" in nodes:
             continue
         base = shader.inputs["Base Color"]
         mix = nodes.new("ShaderNodeMix")

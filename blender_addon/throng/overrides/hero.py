@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Heroes: single people outside the crowd, as armatures with keys, who walk as they did in it, for an animator to change."""
+"""Heroes: single people outside the crowd, as armatures with keys, who walk as they did in it, for
+an animator to change."""
 import math
 from dataclasses import replace
 
@@ -21,11 +22,13 @@ HERO, HERO_OF, HERO_ROW = "throng_hero", "throng_hero_of", "throng_hero_row"
 
 def heroes_of(crowd):
     """The armatures of a crowd's heroes by name."""
-    return {thing[HERO]: thing for thing in bpy.data.objects if thing.get(HERO_OF) == crowd and thing.type == "ARMATURE"}
+    return {thing[HERO]: thing for thing in bpy.data.objects
+            if thing.get(HERO_OF) == crowd and thing.type == "ARMATURE"}
 
 
 def _matrix(bone):
-    return Matrix([(*row, place) for row, place in zip(zip(bone.left, bone.along, bone.ahead), bone.head)] + [(0.0, 0.0, 0.0, 1.0)])
+    return Matrix([(*row, place) for row, place in zip(zip(bone.left, bone.along, bone.ahead), bone.head)]
+                  + [(0.0, 0.0, 0.0, 1.0)])
 
 
 class _Curves:
@@ -37,7 +40,8 @@ class _Curves:
         data.action = self.action
         if hasattr(self.action, "slots"):
             slot = self.action.slots.new(id_type="OBJECT", name=thing.name)
-            self.curves = self.action.layers.new("Layer").strips.new(type="KEYFRAME").channelbag(slot, ensure=True).fcurves
+            strip = self.action.layers.new("Layer").strips.new(type="KEYFRAME")
+            self.curves = strip.channelbag(slot, ensure=True).fcurves
             data.action_slot = slot
         else:
             self.curves = self.action.fcurves
@@ -47,7 +51,8 @@ class _Curves:
         curve.keyframe_points.add(len(frames))
         curve.keyframe_points.foreach_set("co", [v for pair in zip(frames, values) for v in pair])
         kinds = bpy.types.Keyframe.bl_rna.properties["interpolation"].enum_items
-        curve.keyframe_points.foreach_set("interpolation", [kinds["CONSTANT" if stepped else "LINEAR"].value] * len(frames))
+        curve.keyframe_points.foreach_set("interpolation",
+                                          [kinds["CONSTANT" if stepped else "LINEAR"].value] * len(frames))
         curve.update()
 
 
@@ -130,7 +135,8 @@ def _on_terrain(crowd, samples, over):
     to_terrain = terrain.matrix_world.inverted() @ crowd.matrix_world
 
     def height(x, y, z):
-        hit, place, _, _ = terrain.ray_cast(to_terrain @ Vector((x, y, z + HIGH)), to_terrain.to_3x3() @ Vector((0.0, 0.0, -1.0)))
+        hit, place, _, _ = terrain.ray_cast(to_terrain @ Vector((x, y, z + HIGH)),
+                                            to_terrain.to_3x3() @ Vector((0.0, 0.0, -1.0)))
         return (to_terrain.inverted() @ place).z if hit else None
 
     result = []
@@ -197,7 +203,8 @@ def promote(crowd, bake, rows, people_of_bake, row, change):
     frames = [start + frame for frame in range(rows.frames)]
     alive = [sample.state[0] > 0.5 for sample in samples]
     variation = int(samples[0].state[1])
-    person, materials = shipped_person(crowd, variation) or (people.CAST[variation % cast.VARIATIONS], cast_materials(people.MATERIALS))
+    shipped = shipped_person(crowd, variation)
+    person, materials = shipped or (people.CAST[variation % cast.VARIATIONS], cast_materials(people.MATERIALS))
     strides = tuple(crowd.get("throng_strides", bake.strides))
     nature = crowd.data.attributes[NATURE].data[row].vector
 

@@ -36,8 +36,8 @@ def _compare(entry, person):
 def match(entries, people):
     """One Match for each entry, in their order; each person has at most one.
 
-    First whoever is sure; then, nearest first, by (metres / MOST_METRES)^2 + (frames / MOST_FRAMES)^2, and among equals by the order of the
-    entries and then the rows.
+    First whoever is sure; then, nearest first, by (metres / MOST_METRES)^2 + (frames / MOST_FRAMES)^2, and among equals
+    by the order of the entries and then the rows.
     """
     matches, taken = [Match("orphaned")] * len(entries), set()
     for index, entry in enumerate(entries):
@@ -67,14 +67,16 @@ def _square(place):
 
 
 def _nearest_first(entries, left, people, taken):
-    """[(index of the entry, Match)] of all pairs of the entries that are left with people who are not taken, the nearest pair first."""
+    """[(index of the entry, Match)] of all pairs of the entries that are left with people who are not taken,
+    the nearest pair first."""
     if not left:
         return []
     free = defaultdict(list)  # by group and square
     for row, person in enumerate(people):
         if person.frame is not None and row not in taken:
             free[(person.group, *_square(person.place))].append(row)
-    pairs = [(distance, index, found.row, found) for index in left for distance, found in _near(entries[index], people, free)]
+    pairs = [(distance, index, found.row, found) for index in left
+             for distance, found in _near(entries[index], people, free)]
     return [(index, found) for _, index, _, found in sorted(pairs, key=lambda pair: pair[:3])]
 
 
@@ -93,4 +95,5 @@ def orphan_reason(entry, people):
     """Why an entry has nobody, for its user."""
     if all(person.group != entry["group"] for person in people):
         return f"there is no group `{entry['group']}` in this bake"
-    return f"nobody else of `{entry['group']}` enters within {MOST_METRES:g} m and {MOST_FRAMES:g} frames of its place and time"
+    return (f"nobody else of `{entry['group']}` enters within {MOST_METRES:g} m and {MOST_FRAMES:g} frames "
+            "of its place and time")

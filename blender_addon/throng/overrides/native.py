@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Plays overrides without Python: attributes on the crowd's points, read by modifiers that are there only while somebody is changed.
+"""Plays overrides without Python: attributes on the crowd's points, read by modifiers that are there only
+while somebody is changed.
 
-Whoever is retimed is left out of the crowd's points; instead, those of an object over point caches of its own join them before the instancer,
-so that culling and all else has them, too. That object is in no scene.
+Whoever is retimed is left out of the crowd's points; instead, those of an object over point caches of its own join them
+before the instancer, so that culling and all else has them, too. That object is in no scene.
 """
 import math
 import os
@@ -21,8 +22,9 @@ from .rows import write_caches
 
 MODIFIER = "throng overrides"
 RETIMED = "throng_retimed_of"  # points to the crowd whose retimed people an object plays
-_ATTRIBUTES = {"throng_hide": "FLOAT", "throng_swap": "FLOAT", "throng_moved": "BOOLEAN", "throng_move": "FLOAT_VECTOR", "throng_turned": "FLOAT",
-               "throng_pivot": "FLOAT_VECTOR", STANDS: "FLOAT", BIGGER: "FLOAT", "throng_dyed": "FLOAT", "throng_dye": "FLOAT_VECTOR"}
+_ATTRIBUTES = {"throng_hide": "FLOAT", "throng_swap": "FLOAT", "throng_moved": "BOOLEAN", "throng_move": "FLOAT_VECTOR",
+               "throng_turned": "FLOAT", "throng_pivot": "FLOAT_VECTOR", STANDS: "FLOAT", BIGGER: "FLOAT",
+               "throng_dyed": "FLOAT", "throng_dye": "FLOAT_VECTOR"}
 
 
 def _add_modifier(crowd, parts, retimed):
@@ -43,7 +45,8 @@ def _said_of(change, pivot):
     if change.scale is not None:
         said[BIGGER] = change.scale - 1.0
     if change.moves:
-        said.update({"throng_moved": True, "throng_move": change.move, "throng_pivot": pivot, "throng_turned": math.radians(change.turn)})
+        said.update({"throng_moved": True, "throng_move": change.move, "throng_pivot": pivot,
+                     "throng_turned": math.radians(change.turn)})
     if isinstance(change.tint, str):
         said.update({"throng_dyed": 1.0, "throng_dye": linear(change.tint)})
     return said
@@ -121,7 +124,8 @@ def _build_retimed(crowd, rows, people, changes, folder):
     thing[RETIMED] = crowd
     start = crowd.modifiers["throng pos"].frame_start
     for stream in ("state", "dir", "pos"):
-        add_cache(thing, f"throng retimed {stream}", stored_path(paths[stream], relative), "NONE" if stream == "state" else "LINEAR", start)
+        add_cache(thing, f"throng retimed {stream}", stored_path(paths[stream], relative),
+                  "NONE" if stream == "state" else "LINEAR", start)
         if stream != "pos":
             store = f"throng {stream} to attribute"
             thing.modifiers.new(store, "NODES").node_group = crowd.modifiers[store].node_group
@@ -148,7 +152,8 @@ def _parts_for(changes, retimed, terrain):
 
 
 def play(crowd, rows, people, changes, folder):
-    """Shows a crowd with the changes of some rows ({row: Change}); none takes all back. `folder` is for the caches of whoever is retimed.
+    """Shows a crowd with the changes of some rows ({row: Change}); none takes all back. `folder` is for the
+    caches of whoever is retimed.
 
     Raises BakeError, before anything is changed.
     """

@@ -14,7 +14,8 @@ def _state_nodes(maths, geometry):
     swapped = maths.math("GREATER_THAN", swap, -0.5)
     kept = maths.math("MULTIPLY", state[1], maths.math("SUBTRACT", 1.0, swapped))
     combine = maths.node("ShaderNodeCombineXYZ")
-    maths.link(maths.math("MULTIPLY", state[0], maths.math("SUBTRACT", 1.0, maths.attribute("throng_hide", "FLOAT"))), combine.inputs[0])
+    maths.link(maths.math("MULTIPLY", state[0], maths.math("SUBTRACT", 1.0, maths.attribute("throng_hide", "FLOAT"))),
+               combine.inputs[0])
     maths.link(maths.math("MULTIPLY_ADD", swap, swapped, kept), combine.inputs[1])
     maths.link(state[2], combine.inputs[2])
     return maths.store(geometry, "throng_state", combine.outputs[0], "FLOAT_VECTOR")
@@ -44,8 +45,10 @@ def _turn_nodes(maths, geometry):
     place = maths.node("GeometryNodeSetPosition")
     maths.link(geometry, place.inputs["Geometry"])
     maths.link(maths.attribute("throng_moved", "BOOLEAN"), place.inputs["Selection"])
-    maths.link(turned(maths.node("GeometryNodeInputPosition").outputs[0], maths.attribute("throng_pivot", "FLOAT_VECTOR")), place.inputs["Position"])
-    return maths.store(place.outputs[0], "throng_dir", turned(maths.attribute("throng_dir", "FLOAT_VECTOR")), "FLOAT_VECTOR", only="throng_moved")
+    maths.link(turned(maths.node("GeometryNodeInputPosition").outputs[0],
+                      maths.attribute("throng_pivot", "FLOAT_VECTOR")), place.inputs["Position"])
+    return maths.store(place.outputs[0], "throng_dir", turned(maths.attribute("throng_dir", "FLOAT_VECTOR")),
+                       "FLOAT_VECTOR", only="throng_moved")
 
 
 def overrides_tree(parts):
@@ -54,7 +57,8 @@ def overrides_tree(parts):
     found = own_tree(name)
     if found:
         return found
-    objects = [(socket_name, "NodeSocketObject") for part, socket_name in (("retimed", "Retimed"), ("ground", "Ground")) if part in parts]
+    objects = [(socket_name, "NodeSocketObject") for part, socket_name in (("retimed", "Retimed"), ("ground", "Ground"))
+               if part in parts]
     tree, inputs, outputs = new_tree(name, _GEOMETRY + objects, _GEOMETRY)
     maths = Maths(tree)
     geometry = inputs.outputs[0]

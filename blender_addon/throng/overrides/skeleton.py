@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A simple skeleton of the cast's people: where its bones are in a pose, and how a person's mesh hangs on them. Pure Python.
+"""A simple skeleton of the cast's people: where its bones are in a pose, and how a person's mesh
+hangs on them. Pure Python.
 
-Bones are frames (head, axes) in the walker's own frame; each bone's y axis points along it, x to the left. Weights are found rather than
-painted: a vertex hangs on the one or two bones that best explain where it goes over a set of poses.
+Bones are frames (head, axes) in the walker's own frame; each bone's y axis points along it, x to the left. Weights are
+found rather than painted: a vertex hangs on the one or two bones that best explain where it goes over a set of poses.
 """
 from dataclasses import dataclass
 from functools import lru_cache
@@ -12,8 +13,9 @@ from ..cast.figure import Figure
 from ..cast.mesh_builder import Plan, add, cross, scale, sub, turn_y, turn_z, unit
 
 PARENTS = {"hips": None, "spine": "hips", "head": "spine",
-           **{f"{part}.{side}": parent.format(side) for side in "RL" for part, parent in
-              (("upper_arm", "spine"), ("forearm", "upper_arm.{}"), ("thigh", "hips"), ("shank", "thigh.{}"), ("foot", "shank.{}"))}}
+           **{f"{part}.{side}": parent.format(side) for side in "RL"
+              for part, parent in (("upper_arm", "spine"), ("forearm", "upper_arm.{}"), ("thigh", "hips"),
+                                   ("shank", "thigh.{}"), ("foot", "shank.{}"))}}
 BONES = tuple(PARENTS)
 
 
@@ -27,7 +29,8 @@ class Bone:
 
     def place(self, local):
         """A point of the bone's own frame."""
-        return add(self.head, add(scale(self.left, local[0]), add(scale(self.along, local[1]), scale(self.ahead, local[2]))))
+        return add(self.head,
+                   add(scale(self.left, local[0]), add(scale(self.along, local[1]), scale(self.ahead, local[2]))))
 
     def local(self, point):
         away = sub(point, self.head)
@@ -56,7 +59,8 @@ def bones_of(person, pose):
         bones[f"forearm.{side}"] = _bone(elbow, wrist, across(1.0))
         bones[f"thigh.{side}"] = _bone(hip, knee, (0.0, 1.0, 0.0))
         bones[f"shank.{side}"] = _bone(knee, ankle, (0.0, 1.0, 0.0))
-        bones[f"foot.{side}"] = _bone(ankle, add(ankle, turn_y((0.16 * figure.s, 0.0, 0.0), -foot.pitch)), (0.0, 1.0, 0.0))
+        bones[f"foot.{side}"] = _bone(ankle, add(ankle, turn_y((0.16 * figure.s, 0.0, 0.0), -foot.pitch)),
+                                      (0.0, 1.0, 0.0))
     return bones
 
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Leaves out people whom nobody sees: outside a box, or outside what the camera sees, with a margin.
 
-Natively, as playback is: a modifier before the instancer marks whoever is out, and no Python runs when frames change. The margin keeps
-those whose shadows and reflections fall into the picture.
+Natively, as playback is: a modifier before the instancer marks whoever is out, and no Python runs when frames change.
+The margin keeps those whose shadows and reflections fall into the picture.
 """
 import bpy
 from mathutils import Vector
@@ -12,8 +12,8 @@ from ..blender.nodes import Maths, new_tree, own_tree, set_input
 from ..crowd.names import HIDDEN
 
 MODIFIER = "throng cull"
-_INPUTS = [("Geometry", "NodeSocketGeometry"), ("Object", "NodeSocketObject"), ("Margin", "NodeSocketFloat"), ("Wide", "NodeSocketFloat"),
-           ("High", "NodeSocketFloat")]
+_INPUTS = [("Geometry", "NodeSocketGeometry"), ("Object", "NodeSocketObject"), ("Margin", "NodeSocketFloat"),
+           ("Wide", "NodeSocketFloat"), ("High", "NodeSocketFloat")]
 
 
 def _local(maths, inputs):
@@ -50,7 +50,8 @@ def _outside_view(maths, inputs):
     ahead = maths.math("MULTIPLY", local[2], -1.0)
     out = maths.math("LESS_THAN", maths.math("ADD", ahead, inputs.outputs["Margin"]), 0.0)
     for axis, reach in ((0, "Wide"), (1, "High")):
-        half = maths.math("MULTIPLY_ADD", maths.math("MAXIMUM", ahead, 0.0), inputs.outputs[reach], inputs.outputs["Margin"])
+        half = maths.math("MULTIPLY_ADD", maths.math("MAXIMUM", ahead, 0.0), inputs.outputs[reach],
+                          inputs.outputs["Margin"])
         out = maths.math("MAXIMUM", out, maths.math("GREATER_THAN", maths.math("ABSOLUTE", local[axis]), half))
     return out
 
@@ -102,7 +103,8 @@ def apply(crowd, scene, mode, target, margin):
 def box(scene, crowd, name="Throng box"):
     """An empty cube round everybody, to be made smaller."""
     graph = bpy.context.evaluated_depsgraph_get()
-    places = [i.matrix_world.translation.copy() for i in graph.object_instances if i.is_instance and i.parent and i.parent.original == crowd]
+    places = [i.matrix_world.translation.copy() for i in graph.object_instances
+              if i.is_instance and i.parent and i.parent.original == crowd]
     made = bpy.data.objects.new(name, None)
     made.empty_display_type = "CUBE"
     if places:

@@ -61,7 +61,8 @@ def _set_render(scene, look):
     cycles.max_bounces, cycles.diffuse_bounces, cycles.glossy_bounces, cycles.transmission_bounces = 6, 3, 2, 2
     cycles.caustics_reflective = cycles.caustics_refractive = False
     tame_fireflies(scene)
-    scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = look.width, look.height, 100
+    scene.render.resolution_x, scene.render.resolution_y = look.width, look.height
+    scene.render.resolution_percentage = 100
     scene.render.use_motion_blur, scene.render.motion_blur_shutter = True, 0.5  # 180 degrees
     if hasattr(scene.render, "motion_blur_position"):
         scene.render.motion_blur_position = "CENTER"
@@ -78,7 +79,8 @@ def _set_output(scene, look):
         settings.color_depth, settings.exr_codec = "32", "ZIP"  # Cryptomatte's numbers bear no loss
     for layer in scene.view_layers:
         layer.use_pass_z = layer.use_pass_mist = look.layers
-        layer.use_pass_cryptomatte_object = layer.use_pass_cryptomatte_asset = layer.use_pass_cryptomatte_material = look.layers
+        for matte in ("object", "asset", "material"):
+            setattr(layer, f"use_pass_cryptomatte_{matte}", look.layers)
         if look.layers:
             layer.pass_cryptomatte_depth = 6
 
@@ -107,7 +109,8 @@ def _set_crane(scene, camera):
 
 
 def _set_haze(scene, amount):
-    """Air between us and what is far: the mist pass, mixed in by the compositor, so that it costs no samples and can be taken out."""
+    """Air between us and what is far: the mist pass, mixed in by the compositor, so that it costs no samples
+    and can be taken out."""
     _set_mist(scene, amount)
     tree = _compositor(scene)
     tree.nodes.clear()
@@ -127,7 +130,8 @@ def _set_mist(scene, amount):
     camera, world = scene.camera, scene.world
     if world:
         reach = (camera.data.dof.focus_distance if camera and camera.type == "CAMERA" else 0.0) or 30.0
-        world.mist_settings.start, world.mist_settings.depth, world.mist_settings.falloff = 0.6 * reach, 12.0 * reach, "LINEAR"
+        mist = world.mist_settings
+        mist.start, mist.depth, mist.falloff = 0.6 * reach, 12.0 * reach, "LINEAR"
     for layer in scene.view_layers:
         layer.use_pass_mist = layer.use_pass_mist or amount > 0.0
 

@@ -29,13 +29,14 @@ def release(crowd):
 
 
 class THRONG_OT_conform(OnCrowds, bpy.types.Operator):
-    """Let the selected crowds, or all, stand on the mesh chosen above: heights and slopes come from it in every frame, on farms too"""
-
     bl_idname = "throng.conform"
     bl_label = "Conform to Ground"
+    bl_description = ("Let the selected crowds, or all, stand on the mesh chosen above: heights and slopes come from "
+                      "it in every frame, on farms too")
     bl_options = {"REGISTER", "UNDO"}
 
-    ground: StringProperty(name="Ground", description="The mesh object; by default the one chosen in the sidebar, or the active one")
+    ground: StringProperty(name="Ground",
+                           description="The mesh object; by default the one chosen in the sidebar, or the active one")
 
     def _ground(self, context):
         if self.ground:
@@ -48,7 +49,8 @@ class THRONG_OT_conform(OnCrowds, bpy.types.Operator):
         ground = self._ground(context)
         crowds = chosen_crowds(context)
         if not ground or ground.type not in {"MESH", "CURVE", "SURFACE"} or ground in crowds:
-            self.report({"ERROR"}, f"There is no mesh `{self.ground}` to stand on" if self.ground else "Choose the mesh to stand on: in the sidebar, or make it active")
+            self.report({"ERROR"}, f"There is no mesh `{self.ground}` to stand on" if self.ground
+                                   else "Choose the mesh to stand on: in the sidebar, or make it active")
             return {"CANCELLED"}
         for crowd in crowds:
             conform(crowd, ground)
@@ -90,8 +92,10 @@ _register_classes, _unregister_classes = bpy.utils.register_classes_factory(CLAS
 
 def register():
     _register_classes()
-    bpy.types.Scene.throng_ground = PointerProperty(type=bpy.types.Object, name="Ground", description="The mesh that crowds are to stand on",
-                                                    poll=lambda _, thing: thing.type == "MESH" and "throng pos" not in thing.modifiers)
+    bpy.types.Scene.throng_ground = PointerProperty(type=bpy.types.Object, name="Ground",
+                                                    description="The mesh that crowds are to stand on",
+                                                    poll=lambda _, thing: thing.type == "MESH"
+                                                    and "throng pos" not in thing.modifiers)
 
 
 def unregister():

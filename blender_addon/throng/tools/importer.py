@@ -48,7 +48,7 @@ def import_bake(context, path, *, frame_start=1, walls=True, roads=True, scenery
     crowd = playback.build_crowd(bake, f"Throng {bake.name} crowd", people, frame_start, paths)
     collection.objects.link(crowd)
     set_up_scene(scene, bake, frame_start)
-    environment.build_environment(context, bake.manifest, collection, walls=walls, roads=roads, ground=scenery, light=scenery, camera=camera,
-                                  frame_start=frame_start, terrain=terrain)
+    environment.build_environment(context, bake.manifest, collection, walls=walls, roads=roads, ground=scenery,
+                                  light=scenery, camera=camera, frame_start=frame_start, terrain=terrain)
     overrides.place(crowd)
     return crowd

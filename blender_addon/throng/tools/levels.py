@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Levels of detail: people far from a camera take coarser meshes.
 
-Natively, as playback is: a modifier before the instancer files everybody's level away, by the distance between where they stand and the
-camera, and no Python runs when frames change. A level is a function of these two places alone. While the shutter is open it therefore
-changes only for those who cross one of the two distances in that time, by their own way or the camera's (a few centimetres): these few
-render that frame at the level of its middle, without the blur of their way; that of their limbs stays.
+Natively, as playback is: a modifier before the instancer files everybody's level away, by the distance between where
+they stand and the camera, and no Python runs when frames change. A level is a function of these two places alone. While
+the shutter is open it therefore changes only for those who cross one of the two distances in that time, by their own
+way or the camera's (a few centimetres): these few render that frame at the level of its middle, without the blur of
+their way; that of their limbs stays.
 """
 import bpy
 from bpy.props import EnumProperty, FloatProperty
@@ -21,7 +22,8 @@ MODIFIER = "throng levels"
 TALL = 1.75           # m
 PIXELS = (120.0, 40.0)  # who is less tall in the picture gets level 1, level 2
 _TREE = "Throng levels by distance"
-_INPUTS = [("Geometry", "NodeSocketGeometry"), ("Camera", "NodeSocketObject"), ("Near", "NodeSocketFloat"), ("Far", "NodeSocketFloat")]
+_INPUTS = [("Geometry", "NodeSocketGeometry"), ("Camera", "NodeSocketObject"), ("Near", "NodeSocketFloat"),
+           ("Far", "NodeSocketFloat")]
 
 
 def default_distances(camera, scene):
@@ -86,9 +88,12 @@ class THRONG_OT_levels(OnCrowds, bpy.types.Operator):
     bl_label = "Levels of Detail"
     bl_options = {"REGISTER", "UNDO"}
 
-    by: EnumProperty(name="By", items=[("camera", "Camera", "By the distance to the scene's camera"), ("none", "Nothing", "Everybody in full detail")])
-    near: FloatProperty(name="Near", min=0.0, subtype="DISTANCE", description="A third of the triangles from here on. 0: where people are 120 pixels tall")
-    far: FloatProperty(name="Far", min=0.0, subtype="DISTANCE", description="A tenth of the triangles from here on. 0: where people are 40 pixels tall")
+    by: EnumProperty(name="By", items=[("camera", "Camera", "By the distance to the scene's camera"),
+                                       ("none", "Nothing", "Everybody in full detail")])
+    near: FloatProperty(name="Near", min=0.0, subtype="DISTANCE",
+                        description="A third of the triangles from here on. 0: where people are 120 pixels tall")
+    far: FloatProperty(name="Far", min=0.0, subtype="DISTANCE",
+                       description="A tenth of the triangles from here on. 0: where people are 40 pixels tall")
 
     def invoke(self, context, _event):
         return context.window_manager.invoke_props_dialog(self)
@@ -104,7 +109,8 @@ class THRONG_OT_levels(OnCrowds, bpy.types.Operator):
             self.report({"ERROR"}, "The scene has no camera: add one, or choose By Nothing")
             return {"CANCELLED"}
         if camera.data.type != "PERSP":
-            self.report({"ERROR"}, f"{camera.name} is not a perspective camera: how far somebody is says little about how large they are in its picture")
+            self.report({"ERROR"}, f"{camera.name} is not a perspective camera: how far somebody is says little about "
+                                   "how large they are in its picture")
             return {"CANCELLED"}
         defaults = default_distances(camera, context.scene)
         near, far = (given or default for given, default in zip((self.near, self.far), defaults))

@@ -22,21 +22,24 @@ class IMPORT_SCENE_OT_throng(bpy.types.Operator, ImportHelper):
 
     filename_ext = ".json"
     filter_glob: StringProperty(default="*.json", options={"HIDDEN"})
-    frame_start: IntProperty(name="First Frame", default=1, description="The scene's frame that shows the bake's first frame")
+    frame_start: IntProperty(name="First Frame", default=1,
+                             description="The scene's frame that shows the bake's first frame")
     walls: BoolProperty(name="Walls", default=True, description="Build the layout's walls as meshes")
     roads: BoolProperty(name="Roads", default=True, description="Build the layout's roads and areas as meshes")
     scenery: BoolProperty(name="Ground and Light", default=True, description="Add a ground, a sun and a sky")
     camera: BoolProperty(name="Camera", default=True, description="Add a camera that frames the crowd")
-    relative: BoolProperty(name="Relative Paths", default=True, description="Store the streams' paths relative to the .blend, once that is saved")
+    relative: BoolProperty(name="Relative Paths", default=True,
+                           description="Store the streams' paths relative to the .blend, once that is saved")
 
     def execute(self, context):
         try:
-            crowd = import_bake(context, self.filepath, frame_start=self.frame_start, walls=self.walls, roads=self.roads,
-                                scenery=self.scenery, camera=self.camera, relative=self.relative)
+            crowd = import_bake(context, self.filepath, frame_start=self.frame_start, walls=self.walls,
+                                roads=self.roads, scenery=self.scenery, camera=self.camera, relative=self.relative)
         except BakeError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        report_orphans(self, [f"{item.name}: {item.detail}" for item in crowd.throng_overrides if item.status == "orphaned"])
+        report_orphans(self,
+                       [f"{item.name}: {item.detail}" for item in crowd.throng_overrides if item.status == "orphaned"])
         self.report({"INFO"}, f"Imported {len(crowd.data.vertices)} people")
         return {"FINISHED"}
 
@@ -58,7 +61,8 @@ class THRONG_OT_verify(_OnCrowds, bpy.types.Operator):
     bl_options = {"REGISTER"}
 
     def execute(self, context):
-        found = [f"{crowd.name}: {problem}" for crowd in chosen_crowds(context) for problem in verify(crowd, context.scene)]
+        found = [f"{crowd.name}: {problem}" for crowd in chosen_crowds(context)
+                 for problem in verify(crowd, context.scene)]
         if found:
             self.report({"WARNING"}, "\n".join(found))
         else:
@@ -67,10 +71,10 @@ class THRONG_OT_verify(_OnCrowds, bpy.types.Operator):
 
 
 class THRONG_OT_reload(_OnCrowds, bpy.types.Operator):
-    """Play the selected crowds' bakes as they are now: after baking again, or after files have moved. Looks and settings stay"""
-
     bl_idname = "throng.reload"
     bl_label = "Re-load Bakes"
+    bl_description = ("Play the selected crowds' bakes as they are now: after baking again, or after files have moved. "
+                      "Looks and settings stay")
 
     def execute(self, context):
         try:
@@ -112,7 +116,8 @@ class THRONG_OT_show(_OnCrowds, bpy.types.Operator):
     bl_idname = "throng.show"
     bl_label = "Show Crowds"
 
-    percent: FloatProperty(name="In the Viewport", default=100.0, min=0.0, max=100.0, subtype="PERCENTAGE", description="Renders show everybody")
+    percent: FloatProperty(name="In the Viewport", default=100.0, min=0.0, max=100.0, subtype="PERCENTAGE",
+                           description="Renders show everybody")
     offset: IntProperty(name="Later by", default=0, description="Frames that the crowd plays later")
 
     def invoke(self, context, _event):
@@ -136,9 +141,11 @@ class THRONG_OT_cull(_OnCrowds, bpy.types.Operator):
     bl_idname = "throng.cull"
     bl_label = "Cull Crowds"
 
-    by: EnumProperty(name="By", items=[("none", "Nothing", "Everybody is there"), ("box", "Box", "The active empty, or a new one round the crowd"),
+    by: EnumProperty(name="By", items=[("none", "Nothing", "Everybody is there"),
+                                       ("box", "Box", "The active empty, or a new one round the crowd"),
                                        ("camera", "Camera", "What the scene's camera sees")])
-    margin: FloatProperty(name="Margin", default=3.0, min=0.0, subtype="DISTANCE", description="Whoever is out by less stays, for shadows and reflections")
+    margin: FloatProperty(name="Margin", default=3.0, min=0.0, subtype="DISTANCE",
+                          description="Whoever is out by less stays, for shadows and reflections")
 
     def execute(self, context):
         camera = context.scene.camera
@@ -158,20 +165,23 @@ class THRONG_OT_cull(_OnCrowds, bpy.types.Operator):
 
 
 class THRONG_OT_film_look(bpy.types.Operator):
-    """Set up rendering as for film: noise, motion blur, depth of field, a crane move, haze, and layers to composite with"""
-
     bl_idname = "throng.film_look"
     bl_label = "Film Look"
+    bl_description = ("Set up rendering as for film: noise, motion blur, depth of field, a crane move, haze, "
+                      "and layers to composite with")
     bl_options = {"REGISTER", "UNDO"}
 
-    preset: EnumProperty(name="For", items=[("preview", "Preview", "Small and quick, PNG"), ("plate", "Plate", "HD, multilayer EXR with Cryptomatte"),
+    preset: EnumProperty(name="For", items=[("preview", "Preview", "Small and quick, PNG"),
+                                            ("plate", "Plate", "HD, multilayer EXR with Cryptomatte"),
                                             ("final", "Final", "As a plate, with four times the samples")])
     crane: BoolProperty(name="Crane Move", default=True, description="The camera rises and drifts over the shot")
-    haze: FloatProperty(name="Haze", default=0.3, min=0.0, max=1.0, description="How much of what is far is lost in the air")
+    haze: FloatProperty(name="Haze", default=0.3, min=0.0, max=1.0,
+                        description="How much of what is far is lost in the air")
 
     def execute(self, context):
         if not hasattr(context.scene, "cycles"):
-            self.report({"ERROR"}, "Film looks render with Cycles: enable the add-on Cycles Render Engine in Blender's preferences")
+            self.report({"ERROR"}, "Film looks render with Cycles: enable the add-on Cycles Render Engine "
+                                   "in Blender's preferences")
             return {"CANCELLED"}
         film_look.apply(context.scene, self.preset, crane=self.crane, haze=self.haze)
         return {"FINISHED"}
@@ -197,7 +207,8 @@ class VIEW3D_PT_throng(InSidebar, bpy.types.Panel):
             row.operator(THRONG_OT_film_look.bl_idname, text=preset.capitalize()).preset = preset
 
 
-CLASSES = (IMPORT_SCENE_OT_throng, THRONG_OT_verify, THRONG_OT_reload, THRONG_OT_relink, THRONG_OT_show, THRONG_OT_cull, THRONG_OT_film_look, VIEW3D_PT_throng)
+CLASSES = (IMPORT_SCENE_OT_throng, THRONG_OT_verify, THRONG_OT_reload, THRONG_OT_relink, THRONG_OT_show, THRONG_OT_cull,
+           THRONG_OT_film_look, VIEW3D_PT_throng)
 
 
 def _menu(self, _context):

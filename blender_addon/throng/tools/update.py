@@ -31,8 +31,9 @@ def set_viewport_percent(crowd, percent):
 
 
 def reload(crowd, scene, path=None):
-    """Plays another bake, or the same after it was baked again: the cast, its materials and all settings stay. Overrides find their people
-    again; returns those that don't, in sentences. Raises BakeError before anything is changed."""
+    """Plays another bake, or the same after it was baked again: the cast, its materials and all settings
+    stay. Overrides find their people again; returns those that don't, in sentences. Raises BakeError
+    before anything is changed."""
     bake = load_bake(path or bake_path(crowd))
     if list(bake.strides) != list(crowd.get("throng_strides", bake.strides)):
         raise BakeError("this bake walks with other strides than the cast was made for: import it anew")
