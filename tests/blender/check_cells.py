@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs inside Blender: cells on the ground as an overlay and as a mask, from straight above, with and without the add-on."""
+"""Runs inside Blender: cells on the ground as an overlay and as a mask, from above, with and without the add-on."""
 import importlib
 import json
 import os
@@ -36,15 +36,17 @@ def render(scene, frame, path):
 
 
 def only_ground_is_seen(crowd):
+    ground = ("Throng ground", "Throng road", "Throng area", "Throng cells")
     for thing in bpy.context.scene.objects:
-        if thing.type == "MESH" and not thing.name.startswith(("Throng ground", "Throng road", "Throng area", "Throng cells")):
+        if thing.type == "MESH" and not thing.name.startswith(ground):
             thing.hide_render = True
     crowd.hide_render = True
     for light in [thing for thing in bpy.context.scene.objects if thing.type == "LIGHT"]:
         light.hide_render = True
     world = bpy.data.worlds.new("white")
     world.use_nodes = True
-    next(node for node in world.node_tree.nodes if node.type == "BACKGROUND").inputs[0].default_value = (1.0, 1.0, 1.0, 1.0)
+    background = next(node for node in world.node_tree.nodes if node.type == "BACKGROUND")
+    background.inputs[0].default_value = (1.0, 1.0, 1.0, 1.0)
     bpy.context.scene.world = world
 
 

@@ -16,7 +16,8 @@ from throng.crowd.verify import verify  # noqa: E402
 bpy.ops.wm.read_factory_settings(use_empty=True)
 throng.register()
 bpy.ops.wm.save_as_mainfile(filepath=os.path.join(folder, "scene.blend"))
-load = lambda path, **options: bpy.ops.import_scene.throng(filepath=os.path.join(path, "bake.json"), scenery=False, camera=False, **options)
+load = lambda path, **options: bpy.ops.import_scene.throng(filepath=os.path.join(path, "bake.json"),
+                                                           scenery=False, camera=False, **options)
 assert load(first) == {"FINISHED"} and load(second, frame_start=11) == {"FINISHED"}
 scene = bpy.context.scene
 

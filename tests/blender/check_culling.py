@@ -47,7 +47,8 @@ def in_box(place):
 
 
 left = people()
-result["box"] = [len(left), set(left) == {row for row, place in everybody.items() if in_box(place)}, all(everybody[row] == left[row] for row in left)]
+result["box"] = [len(left), set(left) == {row for row, place in everybody.items() if in_box(place)},
+                 all(everybody[row] == left[row] for row in left)]
 
 camera = scene.camera
 camera.location, camera.rotation_euler = (-16.0, -6.0, 3.0), (1.35, 0.0, -1.2)

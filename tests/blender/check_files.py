@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs inside Blender: crowds that come from other files by link and append, copies that share a cast, an artist's own use of a figure."""
+"""Runs inside Blender: crowds that come from other files by link and append, copies that share a cast, an
+artist's own use of a figure."""
 import json
 import os
 import shutil
@@ -24,7 +25,8 @@ def fresh():
 
 
 def imported():
-    assert bpy.ops.import_scene.throng(filepath=os.path.join(bake, "bake.json"), scenery=False, walls=False, roads=False, relative=False) == {"FINISHED"}
+    assert bpy.ops.import_scene.throng(filepath=os.path.join(bake, "bake.json"), scenery=False, walls=False,
+                                       roads=False, relative=False) == {"FINISHED"}
     bpy.context.scene.frame_set(20)
     return crowd_objects(bpy.context.scene)[-1]
 
@@ -44,10 +46,12 @@ bpy.ops.wm.save_as_mainfile(filepath=LIBRARY)
 
 # Appended by hand, the cast does not come into the picture.
 fresh()
-bpy.ops.wm.append(filepath=os.path.join(LIBRARY, "Collection", name), directory=os.path.join(LIBRARY, "Collection"), filename=name)
+bpy.ops.wm.append(filepath=os.path.join(LIBRARY, "Collection", name), directory=os.path.join(LIBRARY, "Collection"),
+                  filename=name)
 bpy.context.scene.frame_set(20)
 graph = bpy.context.evaluated_depsgraph_get()
-result["appended"] = [shown(), sum(i.is_instance for i in graph.object_instances), sum("throng_member" in i.object for i in graph.object_instances if not i.is_instance)]
+result["appended"] = [shown(), sum(i.is_instance for i in graph.object_instances),
+                      sum("throng_member" in i.object for i in graph.object_instances if not i.is_instance)]
 bpy.ops.wm.save_as_mainfile(filepath=os.path.join(folder, "appended.blend"))
 bpy.ops.wm.open_mainfile(filepath=os.path.join(folder, "appended.blend"))
 bpy.context.scene.frame_set(20)
@@ -74,11 +78,13 @@ other = crowd.copy()
 bpy.context.scene.collection.objects.link(other)
 far = {"by": "camera", "near": 1.0, "far": 2.0}
 
-for step, (chosen, options) in enumerate((((crowd, other), far), ((crowd,), {"by": "none"}), ((crowd,), far), ((crowd, other), {"by": "none"}))):
+for step, (chosen, options) in enumerate((((crowd, other), far), ((crowd,), {"by": "none"}), ((crowd,), far),
+                                          ((crowd, other), {"by": "none"}))):
     for thing in (crowd, other):
         thing.select_set(thing in chosen)
     assert bpy.ops.throng.levels(**options) == {"FINISHED"}
-    result[f"copies {step}"] = [shown(crowd), shown(other), len([thing for thing in bpy.data.objects if "throng_member" in thing])]
+    result[f"copies {step}"] = [shown(crowd), shown(other),
+                                len([thing for thing in bpy.data.objects if "throng_member" in thing])]
     if step == 0:  # somebody takes a coarse mesh for a thing of their own
         mine = bpy.data.objects.new("mine", figure(crowd, 3, 2).data)
         bpy.context.scene.collection.objects.link(mine)
@@ -86,5 +92,6 @@ result["mine"] = "mine" in bpy.data.objects and len(bpy.data.objects["mine"].dat
 
 # A crowd of an earlier version plays on; nothing works on it, and the panel says why.
 del crowd["throng_cast"]["throng_levels"]
-result["earlier"] = [shown(crowd), len(crowd_objects(bpy.context.scene)), len(earlier_crowds(bpy.context.scene)), bpy.ops.throng.levels.poll()]
+result["earlier"] = [shown(crowd), len(crowd_objects(bpy.context.scene)), len(earlier_crowds(bpy.context.scene)),
+                     bpy.ops.throng.levels.poll()]
 print("RESULT " + json.dumps(result))

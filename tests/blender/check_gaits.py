@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs inside Blender: a crowd of few gaits, with levels of detail and a changed look, plays a bake of more gaits, and the first one again."""
+"""Runs inside Blender: a crowd of few gaits, with levels of detail and a changed look, plays a bake of more gaits,
+and the first one again."""
 import json
 import os
 import sys
@@ -34,9 +35,12 @@ for bake in (None, many, few):
     shots.append({
         "poses": sum(len(points_of(figure(crowd, number))) for number in range(8)),
         "coarse": sum(len(points_of(figure(crowd, number, 1))) for number in range(8)),
-        "people": {i.persistent_id[1]: names.of(i.object.data) for i in bpy.context.evaluated_depsgraph_get().object_instances
+        "people": {i.persistent_id[1]: names.of(i.object.data)
+                   for i in bpy.context.evaluated_depsgraph_get().object_instances
                    if i.is_instance and i.parent and i.parent.original == crowd},
-        "copy": {i.persistent_id[1]: names.of(i.object.data) for i in bpy.context.evaluated_depsgraph_get().object_instances
+        "copy": {i.persistent_id[1]: names.of(i.object.data)
+                 for i in bpy.context.evaluated_depsgraph_get().object_instances
                  if i.is_instance and i.parent and i.parent.original == copy},
-        "look": [(material.name, tuple(material.diffuse_color)) for material in figure(crowd, 0).data.materials] + [len(bpy.data.materials)]})
+        "look": [(material.name, tuple(material.diffuse_color)) for material in figure(crowd, 0).data.materials]
+        + [len(bpy.data.materials)]})
 print("RESULT " + json.dumps({"shots": shots}))

@@ -43,8 +43,10 @@ def crowd_of(path):
 
 result = {}
 crowd = crowd_of(flat)
-result["flat"] = [modifier.name for modifier in crowd.modifiers if "ground" in modifier.name or "conform" in modifier.name]
-result["flat"] += [node.bl_idname for tree in bpy.data.node_groups for node in tree.nodes if node.bl_idname == "GeometryNodeRotateInstances"]
+result["flat"] = [modifier.name for modifier in crowd.modifiers
+                  if "ground" in modifier.name or "conform" in modifier.name]
+result["flat"] += [node.bl_idname for tree in bpy.data.node_groups for node in tree.nodes
+                   if node.bl_idname == "GeometryNodeRotateInstances"]
 
 crowd = crowd_of(bake)
 scene = bpy.context.scene
@@ -52,8 +54,9 @@ result["baked"] = shots(crowd)
 terrain = bpy.data.objects["Throng terrain"]
 result["terrain"] = {"corners": [list(v.co) for v in terrain.data.vertices], "faces": len(terrain.data.polygons),
                      "road": [item.value for item in terrain.data.attributes["throng_road"].data]}
-result["ground"] = "Throng ground" in bpy.data.objects or any(name.startswith("Throng road") for name in bpy.data.objects.keys())
-result["walls"] = {thing.name: [thing.location.z, max(v.co.z for v in thing.data.vertices)] for thing in scene.objects if thing.name.startswith("Throng wall")}
+result["ground"] = any(name == "Throng ground" or name.startswith("Throng road") for name in bpy.data.objects.keys())
+result["walls"] = {thing.name: [thing.location.z, max(v.co.z for v in thing.data.vertices)] for thing in scene.objects
+                   if thing.name.startswith("Throng wall")}
 result["camera"] = scene.camera.location.z
 
 result["problems"] = verify(crowd, scene)

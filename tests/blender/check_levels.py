@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs inside Blender: which level of detail everybody has, by a camera that moves; then off again, and from a saved file without the add-on."""
+"""Runs inside Blender: which level of detail everybody has, by a camera that moves; then off again, and from a saved
+file without the add-on."""
 import json
 import os
 import sys
@@ -15,7 +16,8 @@ from throng.tools.levels import default_distances  # noqa: E402
 
 bpy.ops.wm.read_factory_settings(use_empty=True)
 throng.register()
-bpy.ops.import_scene.throng(filepath=os.path.join(bake, "bake.json"), scenery=False, walls=False, roads=False, relative=False)
+bpy.ops.import_scene.throng(filepath=os.path.join(bake, "bake.json"), scenery=False, walls=False, roads=False,
+                            relative=False)
 scene = bpy.context.scene
 crowd = crowd_objects(scene)[0]
 camera = scene.camera
@@ -23,11 +25,13 @@ camera = scene.camera
 
 def people():
     graph, names = bpy.context.evaluated_depsgraph_get(), Names()
-    return {i.persistent_id[1]: names.of(i.object.data) for i in graph.object_instances if i.is_instance and i.parent and i.parent.original.name == "Throng sample crowd"}
+    return {i.persistent_id[1]: names.of(i.object.data) for i in graph.object_instances
+            if i.is_instance and i.parent and i.parent.original.name == "Throng sample crowd"}
 
 
 def sizes():
-    return [sum(thing.name.startswith("Throng person") for thing in things) for things in (bpy.data.objects, bpy.data.meshes)]
+    return [sum(thing.name.startswith("Throng person") for thing in things)
+            for things in (bpy.data.objects, bpy.data.meshes)]
 
 
 scene.frame_set(20)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs inside Blender: how much processor time a change of frame takes for a crowd as it is and with overrides of each kind, in turn."""
+"""Runs inside Blender: how much processor time a change of frame takes for a crowd as it is and with overrides
+of each kind, in turn."""
 import json
 import os
 import sys
@@ -20,8 +21,8 @@ bpy.ops.import_scene.throng(filepath=os.path.join(bake, "bake.json"), scenery=Fa
 scene = bpy.context.scene
 crowd = crowd_objects(scene)[0]
 loaded = layer.bake_of(crowd)
-KINDS = {"none": {}, "state": {5: Change(hide=True), 6: Change(character=1)}, "move": {7: Change(move=(1.0, 0.0, 0.0))}, "turn": {9: Change(turn=20.0)},
-         "scale": {8: Change(scale=1.1)}}
+KINDS = {"none": {}, "state": {5: Change(hide=True), 6: Change(character=1)}, "move": {7: Change(move=(1.0, 0.0, 0.0))},
+         "turn": {9: Change(turn=20.0)}, "scale": {8: Change(scale=1.1)}}
 KINDS["all"] = {**KINDS["state"], **KINDS["move"], **KINDS["turn"], **KINDS["scale"],
                 **{row: Change(delay=3.0, speed=1.1, tint=(0.1, 0.2, 0.3)) for row in range(20, 40)}}
 times = {kind: [] for kind in KINDS}
@@ -36,4 +37,5 @@ with layer.Rows(loaded) as rows:
                 times[kind].append(time.process_time() - start)
 ops_start = time.process_time()
 assert bpy.ops.throng.hide_people(rows="100 200 300") == {"FINISHED"}
-print("RESULT " + json.dumps({**{kind: 1000.0 * min(values) for kind, values in times.items()}, "operator": time.process_time() - ops_start}))
+result = {kind: 1000.0 * min(values) for kind, values in times.items()}
+print("RESULT " + json.dumps({**result, "operator": time.process_time() - ops_start}))

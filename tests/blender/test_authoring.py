@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Layouts drawn in a real Blender: lossless files, changes that appear and nothing else, bakes from the panel, errors at what caused them."""
+"""Layouts drawn in a real Blender: lossless files, changes that appear and nothing else, bakes from the panel,
+errors at what caused them."""
 import json
 import math
 import random
@@ -16,7 +17,8 @@ UTM = (448262.123, 5411932.678)
 def differences(a, b, pointer=""):
     """JSON pointers of what differs; {} where a key or an item is there in one of them only."""
     if isinstance(a, dict) and isinstance(b, dict):
-        return {p for key in a.keys() | b.keys() for p in (differences(a[key], b[key], f"{pointer}/{key}") if key in a and key in b else {f"{pointer}/{key}"})}
+        both = {p for key in a.keys() & b.keys() for p in differences(a[key], b[key], f"{pointer}/{key}")}
+        return both | {f"{pointer}/{key}" for key in a.keys() ^ b.keys()}
     if isinstance(a, list) and isinstance(b, list):
         longer = {f"{pointer}/{i}" for i in range(min(len(a), len(b)), max(len(a), len(b)))}
         return {p for i, (x, y) in enumerate(zip(a, b)) for p in differences(x, y, f"{pointer}/{i}")} | longer
@@ -27,11 +29,14 @@ def moved(layout, x, y):
     """The layout elsewhere in the world."""
     points = {"centreline", "polygon", "points", "line", "centre", "origin", "facing", "position", "mirror", "anywhere"}
 
+    def there(point):
+        return [point[0] + x, point[1] + y]
+
     def walk(value, key=""):
         if key in points and isinstance(value, list):
-            return [value[0] + x, value[1] + y] if isinstance(value[0], (int, float)) else [[p[0] + x, p[1] + y] for p in value]
+            return there(value) if isinstance(value[0], (int, float)) else [there(point) for point in value]
         if key == "goal" and isinstance(value, list):
-            return [value[0] + x, value[1] + y]
+            return there(value)
         if isinstance(value, dict):
             return {k: walk(v, k) for k, v in value.items()}
         return [walk(v) for v in value] if isinstance(value, list) else value
@@ -40,7 +45,8 @@ def moved(layout, x, y):
 
 
 def layouts():
-    return [path for folder in (EXAMPLES, ROOT / "scenarios") for path in sorted(folder.glob("*.json")) if "throng" in json.loads(path.read_text())]
+    return [path for folder in (EXAMPLES, ROOT / "scenarios") for path in sorted(folder.glob("*.json"))
+            if "throng" in json.loads(path.read_text())]
 
 
 def test_every_layout_goes_through_blender_unchanged(blender, throng, tmp_path):
@@ -50,8 +56,11 @@ def test_every_layout_goes_through_blender_unchanged(blender, throng, tmp_path):
     (tmp_path / "in" / "far.json").write_text(json.dumps(moved(everything, *UTM)))
     wave = [[0.1 * i, math.sin(0.01 * i) * 3.0] for i in range(10000)]
     draw = random.Random(5)
-    people = [{"position": [draw.uniform(0, 90), draw.uniform(5, 80)], "goal": [draw.uniform(0, 90), draw.uniform(5, 80)]} for _ in range(1000)]
-    (tmp_path / "in" / "bulk.json").write_text(json.dumps({"throng": 1, "walls": [{"points": wave}], "formations": [{"id": "list", "type": "agents", "agents": people}]}))
+    people = [{"position": [draw.uniform(0, 90), draw.uniform(5, 80)],
+               "goal": [draw.uniform(0, 90), draw.uniform(5, 80)]} for _ in range(1000)]
+    bulk = {"throng": 1, "walls": [{"points": wave}],
+            "formations": [{"id": "list", "type": "agents", "agents": people}]}
+    (tmp_path / "in" / "bulk.json").write_text(json.dumps(bulk))
     (tmp_path / "in" / "bare.json").write_text('{"throng": 1, "walls": [], "expect": {}, "simulation": {}}')
     paths = layouts() + [EVERYTHING] + sorted((tmp_path / "in").glob("*.json"))
     assert len(paths) > 35
@@ -62,7 +71,7 @@ def test_every_layout_goes_through_blender_unchanged(blender, throng, tmp_path):
     into, out, objects = times["bulk.json"]
     assert into < 3.0 and out < 3.0 and objects == 2, "10,000 points and 1,000 people take fractions of a second"
     # What is equal is as valid as it was; these few also show that the text is one that the program reads.
-    throng("check", *(tmp_path / "out" / name for name in ("station.json", "intersection.json", "everything.json", "far.json")))
+    throng("check", *(tmp_path / "out" / f"{name}.json" for name in ("station", "intersection", "everything", "far")))
 
 
 EDITS = {
@@ -73,9 +82,10 @@ EDITS = {
     "insert_a_point": {"/roads/2/centreline/1/0", "/roads/2/centreline/2"},
     "change_width": {"/roads/2/width"},
     "add_flow": {"/flows/3"},
-    "rename_area": {"/areas/1/id", "/flows/0/to", "/flows/1/via/2/choose/hall", "/flows/1/via/2/choose/foyer", "/flows/1/via/3/at", "/flows/1/via/4/at",
-                    "/flows/1/to/choose/hall", "/flows/1/to/choose/foyer", "/flows/2/to/nearest/0", "/formations/4/goal/nearest/0",
-                    "/events/3/go_to/choose/hall", "/events/3/go_to/choose/foyer", "/events/4/go_to"},
+    "rename_area": {"/areas/1/id", "/flows/0/to", "/flows/1/via/2/choose/hall", "/flows/1/via/2/choose/foyer",
+                    "/flows/1/via/3/at", "/flows/1/via/4/at", "/flows/1/to/choose/hall", "/flows/1/to/choose/foyer",
+                    "/flows/2/to/nearest/0", "/formations/4/goal/nearest/0", "/events/3/go_to/choose/hall",
+                    "/events/3/go_to/choose/foyer", "/events/4/go_to"},
     "rename_flow": {"/flows/1/id", "/events/2/flow"},
     "people": {"/flows/2/people/profile"},
     "mean_speed": {"/flows/0/people/speed/log_normal/0"},
@@ -154,7 +164,8 @@ def test_formations_are_as_they_were_set(edited):
 
 
 def test_what_cannot_be_imported_is_refused_and_nothing_changes(blender, tmp_path):
-    bad = {"syntax": "{", "family": '{"throng_family": 1}', "points": '{"throng": 1, "roads": [{"id": "a", "centreline": [[0, 0], "x"]}]}',
+    bad = {"syntax": "{", "family": '{"throng_family": 1}',
+           "points": '{"throng": 1, "roads": [{"id": "a", "centreline": [[0, 0], "x"]}]}',
            "type": '{"throng": 1, "formations": [{"id": "a", "type": "star"}]}', "list": '{"throng": 1, "walls": {}}'}
     for name, text in bad.items():
         (tmp_path / f"{name}.json").write_text(text)
@@ -189,7 +200,8 @@ print('RESULT ' + json.dumps(result))
     (tmp_path / "good").mkdir()
     (tmp_path / "good" / "good.json").write_text('{"throng": 1}')
     found = result_of(blender(script, ADDON, tmp_path))
-    words = {"syntax": "is not JSON", "family": "family", "points": "/roads/0/centreline: expected at least 2 points", "type": "/formations/0/type", "list": "/walls: expected a list",
+    words = {"syntax": "is not JSON", "family": "family", "points": "/roads/0/centreline: expected at least 2 points",
+             "type": "/formations/0/type", "list": "/walls: expected a list",
              "twice": "there is a layout in this scene already", "folder": "cannot be written"}
     assert found.keys() == words.keys()
     for name, text in words.items():

@@ -23,7 +23,8 @@ def test_the_simulations_settings_are_the_schemas():
             assert isinstance(codec, Flag)
         else:
             assert isinstance(codec, Whole) == (entry["type"] == "integer")
-            assert least == entry.get("minimum", entry.get("exclusiveMinimum")) and most == min(entry["maximum"], 2**31 - 1), key
+            assert least == entry.get("minimum", entry.get("exclusiveMinimum")), key
+            assert most == min(entry["maximum"], 2**31 - 1), key
     assert set(fields.BARS) == set(schema["definitions"]["expect"]["properties"]) - {"line"}
 
 
@@ -38,20 +39,24 @@ def test_numbers_keep_their_digits():
     shown[1] = (shown[1][0] + 1.0, shown[1][1])
     assert keep_points(shown, raw, origin) == [raw[0], [448273.1, 5411933.2], raw[2]]
     assert keep_points(shown[:1] + shown[2:], raw, origin) == [raw[0], raw[2]]
-    assert keep_points(shown[:1] + [(0.0, 5.0), (1.0, 5.0)] + shown[2:], raw, origin) == [raw[0], [448272, 5411938], [448273, 5411938], raw[2]]
+    more = shown[:1] + [(0.0, 5.0), (1.0, 5.0)] + shown[2:]
+    assert keep_points(more, raw, origin) == [raw[0], [448272, 5411938], [448273, 5411938], raw[2]]
 
 
 def test_bezier_curves_keep_to_their_tolerance():
     a, b, c, d = (0.0, 0.0), (0.0, 10.0), (10.0, 10.0), (10.0, 0.0)
-    point = lambda t: tuple((1 - t) ** 3 * a[i] + 3 * (1 - t) ** 2 * t * b[i] + 3 * (1 - t) * t * t * c[i] + t**3 * d[i] for i in (0, 1))
+    point = lambda t: tuple((1 - t) ** 3 * a[i] + 3 * (1 - t) ** 2 * t * b[i] + 3 * (1 - t) * t * t * c[i] + t**3 * d[i]
+                            for i in (0, 1))
     sizes = []
     for tolerance in (0.5, 0.02, 0.001):
         line = [a] + curves.flatten(a, b, c, d, tolerance)
-        worst = max(min(curves._distance_to_chord(point(t / 500), p, q) for p, q in zip(line, line[1:])) for t in range(501))
+        worst = max(min(curves._distance_to_chord(point(t / 500), p, q) for p, q in zip(line, line[1:]))
+                    for t in range(501))
         assert worst <= tolerance and line[-1] == d
         sizes.append(len(line))
     assert sizes[0] < sizes[1] < sizes[2] < 200
-    assert curves.flatten(a, (1.0, 0.0), (2.0, 0.0), (3.0, 0.0), 0.01) == [(3.0, 0.0)], "a straight one needs no points between"
+    straight = curves.flatten(a, (1.0, 0.0), (2.0, 0.0), (3.0, 0.0), 0.01)
+    assert straight == [(3.0, 0.0)], "a straight one needs no points between"
 
 
 def test_footprints_of_meshes():

@@ -19,20 +19,23 @@ def wait_for(job, condition, seconds=60.0):
 
 
 def test_a_job_bakes_and_tells_how_far_it_is(throng, tmp_path):
-    job = BakeJob(throng.binary, str(EXAMPLES / "circle.json"), str(tmp_path / "bake"), ["--set", "simulation.duration=6", "--no-gltf"])
+    job = BakeJob(throng.binary, str(EXAMPLES / "circle.json"), str(tmp_path / "bake"),
+                  ["--set", "simulation.duration=6", "--no-gltf"])
     assert job.poll() == "new"
     job.start()
     seen = []
     wait_for(job, lambda: seen.append(job.frame) or job.state != "running")
-    assert job.state == "done" and job.percent == 100.0 and seen == sorted(seen) and job.frames == 144 and job.people == 256
-    assert job.result["agents"] == 256 and job.diagnostics == [] and [path.name for path in tmp_path.iterdir()] == ["bake"]
+    assert job.state == "done" and job.percent == 100.0 and seen == sorted(seen)
+    assert job.frames == 144 and job.people == job.result["agents"] == 256 and job.diagnostics == []
+    assert [path.name for path in tmp_path.iterdir()] == ["bake"]
 
 
 @pytest.mark.parametrize("when", ["at once", "under way"])
 def test_a_cancelled_job_leaves_what_was_there_before_and_nothing_else(throng, tmp_path, when):
     (tmp_path / "bake.partial").mkdir()  # of somebody who stopped a bake by hand
     (tmp_path / "bake.partial" / "bake.json").write_text("{}")
-    job = BakeJob(throng.binary, str(EXAMPLES / "circle.json"), str(tmp_path / "bake"), ["--set", "simulation.duration=3000"])
+    job = BakeJob(throng.binary, str(EXAMPLES / "circle.json"), str(tmp_path / "bake"),
+                  ["--set", "simulation.duration=3000"])
     job.start()
     if when == "under way":
         wait_for(job, lambda: job.frame > 20)
@@ -46,11 +49,13 @@ def test_a_cancelled_job_leaves_what_was_there_before_and_nothing_else(throng, t
 
 def test_a_job_that_fails_says_why(throng, tmp_path):
     layout = tmp_path / "layout.json"
-    layout.write_text('{"throng": 1,\n "roads": [{"id": "a", "centreline": [[0, 0], [9, 0]], "width": 0}],\n "flows": [{"id": "f", "from": "b", "to": "a:end", "count": 1}]}')
+    layout.write_text('{"throng": 1,\n "roads": [{"id": "a", "centreline": [[0, 0], [9, 0]], "width": 0}],\n '
+                      '"flows": [{"id": "f", "from": "b", "to": "a:end", "count": 1}]}')
     job = BakeJob(throng.binary, str(layout), str(tmp_path / "bake"))
     job.start()
     assert job.wait(30.0) == "failed" and job.code == 3
-    assert [(d.severity, d.pointer, d.line) for d in job.diagnostics] == [("error", "/roads/0/width", 2), ("error", "/flows/0/from", 3)]
+    said = [(entry.severity, entry.pointer, entry.line) for entry in job.diagnostics]
+    assert said == [("error", "/roads/0/width", 2), ("error", "/flows/0/from", 3)]
     assert job.diagnostics[1].hint.startswith("known here: a:start") and job.message.endswith("(and 1 more)")
     assert [path.name for path in tmp_path.iterdir()] == ["layout.json"]
     assert check_layout(throng.binary, str(layout))[1] == job.diagnostics
@@ -63,7 +68,8 @@ def test_a_job_that_fails_says_why(throng, tmp_path):
 
 
 def test_a_job_whose_program_is_killed_says_so(throng, tmp_path):
-    job = BakeJob(throng.binary, str(EXAMPLES / "circle.json"), str(tmp_path / "bake"), ["--set", "simulation.duration=3000"])
+    job = BakeJob(throng.binary, str(EXAMPLES / "circle.json"), str(tmp_path / "bake"),
+                  ["--set", "simulation.duration=3000"])
     job.start()
     wait_for(job, lambda: job.frame > 2)
     job._process.kill()
@@ -71,11 +77,14 @@ def test_a_job_whose_program_is_killed_says_so(throng, tmp_path):
 
 
 def test_diagnostics_are_read_from_what_the_program_says():
-    text = ("lay out.json:4:20: error: /roads/0/width: 0 is out of range: expected at least 0.5\n  \"width\": 0\n           ^\n  hint: write 3\n"
-            "lay out.json:9:1: warning: /flows/0/to/choose/main street: nobody: goes there\nlay out.json: error: a layout begins with {\"throng\": 1}\n")
+    text = ("lay out.json:4:20: error: /roads/0/width: 0 is out of range: expected at least 0.5\n"
+            "  \"width\": 0\n           ^\n  hint: write 3\n"
+            "lay out.json:9:1: warning: /flows/0/to/choose/main street: nobody: goes there\n"
+            "lay out.json: error: a layout begins with {\"throng\": 1}\n")
     first, second, third = parse_diagnostics(text)
     assert first == ("error", "/roads/0/width", "0 is out of range: expected at least 0.5", "write 3", 4, 20)
-    assert second[:3] == ("warning", "/flows/0/to/choose/main street", "nobody: goes there") and third[:3] == ("error", "", 'a layout begins with {"throng": 1}')
+    assert second[:3] == ("warning", "/flows/0/to/choose/main street", "nobody: goes there")
+    assert third[:3] == ("error", "", 'a layout begins with {"throng": 1}')
 
 
 def program(path, says, code=0):

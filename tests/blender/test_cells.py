@@ -12,9 +12,12 @@ from sample_bake import write_bake
 SCRIPT = HERE / "check_cells.py"
 LAYOUT = {"throng": 1, "name": "square", "simulation": {"duration": 1.5, "fps": 24},
           "roads": [{"id": "main", "centreline": [[-12, 0], [12, 0]], "width": 6}],
-          "areas": [{"id": "plaza", "polygon": [[-8, 4], [8, 4], [8, 9], [-8, 9]]}, {"id": "goal", "polygon": [[9, -9], [11, -9], [11, -7], [9, -7]]}],
-          "formations": [{"id": "some", "type": "grid", "origin": [-9, -2], "rows": 3, "columns": 8, "spacing": 2.0, "jitter": 0.2, "goal": "goal"},
-                         {"id": "more", "type": "grid", "origin": [-5, 5], "rows": 2, "columns": 5, "spacing": 2.0, "jitter": 0.2, "goal": "goal"}]}
+          "areas": [{"id": "plaza", "polygon": [[-8, 4], [8, 4], [8, 9], [-8, 9]]},
+                    {"id": "goal", "polygon": [[9, -9], [11, -9], [11, -7], [9, -7]]}],
+          "formations": [{"id": "some", "type": "grid", "origin": [-9, -2], "rows": 3, "columns": 8, "spacing": 2.0,
+                          "jitter": 0.2, "goal": "goal"},
+                         {"id": "more", "type": "grid", "origin": [-5, 5], "rows": 2, "columns": 5, "spacing": 2.0,
+                          "jitter": 0.2, "goal": "goal"}]}
 
 
 def picture(path):
@@ -23,7 +26,8 @@ def picture(path):
 
 
 def cells(bake, manifest, frame, shape):
-    """Which pixels of a picture of the bounds from above are within a cell and which are without, by the bake's own image; neither near an edge."""
+    """Which pixels of a picture of the bounds from above are within a cell and which are without, by the bake's own
+    image; neither near an edge."""
     with OpenEXR.File(str(bake / "diagrams" / f"diagram.{frame:04d}.exr"), separate_channels=True) as file:
         inside = file.channels()["kind"].pixels == 1
     low, high = (numpy.array(manifest["bounds"][key]) for key in ("min", "max"))
@@ -35,7 +39,8 @@ def cells(bake, manifest, frame, shape):
     line = inside.shape[0] - (y - at[1]) * scale - 0.5
 
     def around(reach):
-        return [inside[numpy.clip((line + dy).round().astype(int), 0, inside.shape[0] - 1), numpy.clip((column + dx).round().astype(int), 0, inside.shape[1] - 1)]
+        return [inside[numpy.clip((line + dy).round().astype(int), 0, inside.shape[0] - 1),
+                       numpy.clip((column + dx).round().astype(int), 0, inside.shape[1] - 1)]
                 for dy in range(-reach, reach + 1) for dx in range(-reach, reach + 1)]
 
     return numpy.all(around(1), axis=0), ~numpy.any(around(2), axis=0)
@@ -77,9 +82,9 @@ def test_a_mask_darkens_the_ground_within_cells(square):
     assert numpy.median(ratio[within]) < 0.5 and ratio[within].max() < 0.8 and ratio[without].min() > 0.9
 
 
-@pytest.mark.parametrize("name, like", [
-    ("mask-again", "mask"), ("mask-later", "mask"), ("mask-back", "mask"), ("mask-anew", "mask"), ("mask-found", "mask"),
-    ("mask-lost", "bare"), ("none", "bare")])
+@pytest.mark.parametrize("name, like", [("mask-again", "mask"), ("mask-later", "mask"), ("mask-back", "mask"),
+                                        ("mask-anew", "mask"), ("mask-found", "mask"), ("mask-lost", "bare"),
+                                        ("none", "bare")])
 def test_a_mask_is_always_the_same_or_gone(square, name, like):
     """Put there twice, or with its crowd; gone where a bake has no images, or when it is taken away."""
     assert numpy.abs(square.picture(name) - square.picture(like)).max() < 1e-4

@@ -36,11 +36,12 @@ def test_what_is_drawn_is_the_layout(drawn):
 
 
 def test_what_is_added_is_undone(drawn):
-    assert drawn["undone"] == {"add_road": True, "add_wall": True, "add_area": True, "add_formation": True, "add_flow": True}
+    assert drawn["undone"] == {"add_road": True, "add_wall": True, "add_area": True, "add_formation": True,
+                               "add_flow": True}
 
 
-@pytest.mark.parametrize("name, size, off", [
-    ("road", [40.0, 8.0, 0.0], 0.05), ("wall", [10.0, 0.4, 2.5], 1e-3), ("solid", [6.0, 4.0, 9.0], 1e-3), ("wider", [40.0, 11.0, 0.0], 0.05)])
+@pytest.mark.parametrize("name, size, off", [("road", [40.0, 8.0, 0.0], 0.05), ("wall", [10.0, 0.4, 2.5], 1e-3),
+                                             ("solid", [6.0, 4.0, 9.0], 1e-3), ("wider", [40.0, 11.0, 0.0], 0.05)])
 def test_the_drawing_is_as_large_as_its_properties_say(drawn, name, size, off):
     assert drawn["boxes"][name] == pytest.approx(size, abs=off)
 
@@ -55,7 +56,8 @@ def test_a_bake_comes_back_as_a_crowd_and_again_in_its_place(drawn):
 def test_errors_are_shown_at_what_caused_them(drawn):
     errors, words = drawn["errors"], drawn["words"]
     assert drawn["unsaved"] == "save the .blend first: bakes are written beside it (or choose another folder)"
-    assert errors["width"] == ["Road", "/roads/0/width", "Road"] and words["width"].startswith("Road width: 0 is out of range")
+    assert errors["width"] == ["Road", "/roads/0/width", "Road"]
+    assert words["width"].startswith("Road width: 0 is out of range")
     assert errors["wall"][0] == "Wall"
     assert errors["flow"][0] == 1 and words["flow"] == "Flow 2 to: choose where people go"
     assert errors["nurbs"][0] == "Area" and "NURBS" in words["nurbs"]

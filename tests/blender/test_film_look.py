@@ -15,16 +15,20 @@ from throng import cast
 CAST_MATERIALS = {f"throng {name}" for name in cast.people.MATERIALS}
 
 
-WANTED = {"CryptoObject": ["Throng sample crowd", "Throng wall house"], "CryptoAsset": ["Throng sample crowd"], "CryptoMaterial": ["throng top", "throng skin"]}
+WANTED = {"CryptoObject": ["Throng sample crowd", "Throng wall house"], "CryptoAsset": ["Throng sample crowd"],
+          "CryptoMaterial": ["throng top", "throng skin"]}
 
 
 def coverage(channels, layer, number):
-    """How much of each pixel a Cryptomatte name covers. Pairs of a name's number and its share go through red, green, and blue, alpha."""
+    """How much of each pixel a Cryptomatte name covers. Pairs of a name's number and its share go through red,
+    green, and blue, alpha."""
     wanted, total = numpy.uint32(int(number, 16)), 0.0
     for rank in range(3):
-        planes = [next(c.pixels for name, c in channels.items() if name.lower().endswith(f"{layer}0{rank}.{plane}".lower())) for plane in "RGBA"]
+        planes = [next(c.pixels for name, c in channels.items()
+                       if name.lower().endswith(f"{layer}0{rank}.{plane}".lower())) for plane in "RGBA"]
         for numbers, shares in (planes[:2], planes[2:]):
-            total = total + numpy.where(numpy.ascontiguousarray(numbers, numpy.float32).view(numpy.uint32) == wanted, shares, 0.0)
+            known = numpy.ascontiguousarray(numbers, numpy.float32).view(numpy.uint32)
+            total = total + numpy.where(known == wanted, shares, 0.0)
     return total
 
 

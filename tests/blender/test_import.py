@@ -10,13 +10,17 @@ from sample_bake import write_bake
 from throng import formats
 
 
+def replace(path, old, new):
+    path.write_text(path.read_text().replace(old, new))
+
+
 @pytest.mark.parametrize("damage, words", [
     (lambda bake: (bake / "streams" / "pos.pc2").unlink(), "cannot be read"),
     (lambda bake: os.truncate(bake / "streams" / "dir.pc2", 5000), "truncated"),
     (lambda bake: (bake / "bake.json").write_text("{"), "not JSON"),
     (lambda bake: (bake / "bake.json").write_text("{}"), "not the manifest"),
-    (lambda bake: (bake / "bake.json").write_text((bake / "bake.json").read_text().replace('"version": 1', '"version": 9')), "update the add-on"),
-    (lambda bake: (bake / "bake.json").write_text((bake / "bake.json").read_text().replace('"agents": 63', '"agents": 64')), "different bakes")])
+    (lambda bake: replace(bake / "bake.json", '"version": 1', '"version": 9'), "update the add-on"),
+    (lambda bake: replace(bake / "bake.json", '"agents": 63', '"agents": 64'), "different bakes")])
 def test_broken_bakes_are_refused_with_one_clear_sentence(tmp_path, damage, words):
     write_bake(tmp_path / "bake")
     formats.load_bake(str(tmp_path / "bake"))

@@ -19,13 +19,15 @@ bpy.ops.preferences.addon_install(filepath=sys.argv[-1])
 bpy.ops.preferences.addon_enable(module='throng')
 assert hasattr(bpy.types, 'IMPORT_SCENE_OT_throng')
 """)
-    blender(script, archive, environment={"BLENDER_USER_SCRIPTS": str(tmp_path / "scripts"), "BLENDER_USER_CONFIG": str(tmp_path / "config")})
+    blender(script, archive, environment={"BLENDER_USER_SCRIPTS": str(tmp_path / "scripts"),
+                                          "BLENDER_USER_CONFIG": str(tmp_path / "config")})
 
 
 def test_the_extension_builds_and_is_valid(tmp_path):
     """With the tool of the current Blender's own distribution."""
     python = ROOT / "build" / "bpy" / "bin" / "python"
-    tools = sorted(python.parent.parent.glob("lib/python*/site-packages/bpy/*/scripts/addons_core/bl_pkg/cli/blender_ext.py"))
+    tools = sorted(python.parent.parent.glob(
+        "lib/python*/site-packages/bpy/*/scripts/addons_core/bl_pkg/cli/blender_ext.py"))
     if not tools:
         pytest.skip("the Python module bpy is not installed (scripts/test does)")
     run = lambda *words: subprocess.run([python, tools[-1], *words], capture_output=True, text=True)

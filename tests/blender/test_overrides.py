@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Overrides in a real Blender: every operator against the instances' transforms, undo, files, farms, retakes, and the same as `throng apply`."""
+"""Overrides in a real Blender: every operator against the instances' transforms, undo, files, farms, retakes, and the
+same as `throng apply`."""
 import csv
 import json
 import math
@@ -27,10 +28,9 @@ def takes(throng, tmp_path_factory):
     """Three takes of a street: as it was, with another seed, with fewer people."""
     folder = tmp_path_factory.mktemp("takes")
     (folder / "street.json").write_text(json.dumps(STREET))
-    bake = lambda name, *options: throng("bake", folder / "street.json", "-o", folder / name, "-q", "--no-gltf", *options)
-    bake("take1")
-    bake("take2", "--set", "simulation.seed=8")
-    bake("take3", "--set", "flows.0.count=2", "--set", "flows.0.end=0.2")
+    fewer = ("--set", "flows.0.count=2", "--set", "flows.0.end=0.2")
+    for name, options in (("take1", ()), ("take2", ("--set", "simulation.seed=8")), ("take3", fewer)):
+        throng("bake", folder / "street.json", "-o", folder / name, "-q", "--no-gltf", *options)
     return folder
 
 
@@ -41,8 +41,10 @@ def found(blender, throng, takes, tmp_path_factory):
     for take in ("take1", "take2", "take3"):
         shutil.copytree(takes / take, folder / take)
     shutil.copytree(takes / "take1", folder / "street")
-    (folder / "expected.overrides.json").write_text(json.dumps({"throng_overrides": 1, "overrides": entries_of(folder / "street")}))
-    throng("apply", folder / "street", "--overrides", folder / "expected.overrides.json", "-o", folder / "applied", "-q")
+    document = {"throng_overrides": 1, "overrides": entries_of(folder / "street")}
+    (folder / "expected.overrides.json").write_text(json.dumps(document))
+    throng("apply", folder / "street", "--overrides", folder / "expected.overrides.json", "-o", folder / "applied",
+           "-q")
     return result_of(blender(HERE / "check_overrides.py", ADDON, folder)), folder
 
 
@@ -54,15 +56,17 @@ def entries_of(bake):
 
     def entry(row, **change):
         frame = int(table[row]["spawn_frame"])
-        return {"id": row, "group": table[row]["group"], "spawn": {"frame": frame, "position": places[frame, row].astype(float).tolist()}, **change}
+        return {"id": row, "group": table[row]["group"],
+                "spawn": {"frame": frame, "position": places[frame, row].astype(float).tolist()}, **change}
 
     frame, turn = int(table[11]["spawn_frame"]), 28.64789
     flat = lambda at: complex(*places[at, 11, :2].astype(float))
     away = (flat(99) - flat(frame)) * numpy.exp(1j * math.radians(turn)) + flat(frame)
     to_cursor = {"move": {"by": [round(-3.0 - away.real, 6), round(4.0 - away.imag, 6), 0.5], "turn": turn}}
+    look = {"character": 5, "tint": [0.1, 0.2, 0.3], "scale": 1.2}
     return [entry(3, hide=True), entry(6, move={"by": [1.5, -2.0, 0.25], "turn": 30.0}),
-            entry(7, retime={"offset": -9.5, "speed": 1.3}, move={"by": [0, 1, 0]}, character=5, tint=[0.1, 0.2, 0.3], scale=1.2),
-            entry(9, character=5, tint=[0.1, 0.2, 0.3], scale=1.2), entry(15, tint="#a01020"), entry(11, **to_cursor), entry(13, **to_cursor)]
+            entry(7, retime={"offset": -9.5, "speed": 1.3}, move={"by": [0, 1, 0]}, **look), entry(9, **look),
+            entry(15, tint="#a01020"), entry(11, **to_cursor), entry(13, **to_cursor)]
 
 
 def test_people_are_found_by_the_ray_through_the_mouse(found):
@@ -72,10 +76,13 @@ def test_people_are_found_by_the_ray_through_the_mouse(found):
 
 
 def test_mistakes_are_reported_and_change_nothing(found):
-    assert "Nobody is picked" in found[0]["nobody"] and "no person 999" in found[0]["stranger"] and "found `three`" in found[0]["words"]
-    assert "changed by somebody else" in found[0]["conflict"] and found[0]["theirs"], "what they have taken back is back"
-    assert "`Anna` already" in found[0]["twice"] and "person 18 is a character that was brought along" in found[0]["brought"]
-    imported, reloaded, more = found[0]["damaged"]
+    found = found[0]
+    assert "Nobody is picked" in found["nobody"] and "no person 999" in found["stranger"]
+    assert "found `three`" in found["words"]
+    assert "changed by somebody else" in found["conflict"] and found["theirs"], "what they have taken back is back"
+    assert "`Anna` already" in found["twice"]
+    assert "person 18 is a character that was brought along" in found["brought"]
+    imported, reloaded, more = found["damaged"]
     assert "/hide: expected true or false" in imported and "/hide: expected true or false" in reloaded and more == 0
 
 
@@ -133,7 +140,8 @@ def test_retimed_people_have_caches_beside_the_bake(found):
 
 def test_entries_are_those_that_a_person_would_write(found):
     found, folder = found
-    expected = {entry["id"]: entry for entry in json.loads((folder / "expected.overrides.json").read_text())["overrides"]}
+    document = json.loads((folder / "expected.overrides.json").read_text())
+    expected = {entry["id"]: entry for entry in document["overrides"]}
     assert {entry["id"] for entry in found["entries"]} == set(expected)
     for entry in found["entries"]:
         hand = expected[entry["id"]]
@@ -150,7 +158,8 @@ def test_the_command_lines_bake_is_the_same_crowd(found):
         assert set(one) == set(two) and len(one) > 5
         for row in one:
             assert one[row][0].split(".")[0] == two[row][0].split(".")[0], (frame, row)
-            assert max(abs(a - b) for a, b in zip(one[row][1:4] + one[row][5:], two[row][1:4] + two[row][5:])) < 1e-4, (frame, row)
+            pairs = zip(one[row][1:4] + one[row][5:], two[row][1:4] + two[row][5:])
+            assert max(abs(a - b) for a, b in pairs) < 1e-4, (frame, row)
             assert abs(math.remainder(one[row][4] - two[row][4], math.tau)) < 1e-4
     assert found["applied_tints"] < 1e-5 and found["applied_dye"] == 1.0
 
@@ -177,7 +186,8 @@ def test_a_retake_keeps_approved_work(found, throng, take):
     seen = found[take]
     assert seen["verify"] == [] and seen["entries"] == found["take2"]["entries"], "the file stays as it was"
     (folder / "now.overrides.json").write_text(json.dumps({"throng_overrides": 1, "overrides": seen["entries"]}))
-    told = json.loads(throng("apply", folder / take, "--overrides", folder / "now.overrides.json", "--dry-run", "--json").stdout)
+    told = json.loads(throng("apply", folder / take, "--overrides", folder / "now.overrides.json", "--dry-run",
+                             "--json").stdout)
     matches = [[entry["id"], entry["match"], entry.get("row", -1)] for entry in told]
     assert seen["matches"] == matches, "as the command line finds them"
     assert all(bool(detail) == (entry["match"] != "sure") for detail, entry in zip(seen["details"], told))
@@ -224,7 +234,8 @@ result = {}
 for frame in (1, 30, 63, 100, 120):
     bpy.context.scene.frame_set(frame)
     graph, names = bpy.context.evaluated_depsgraph_get(), Names()
-    result[frame] = {i.persistent_id[1]: [names.of(i.object.data), *i.matrix_world.translation, math.atan2(i.matrix_world[1][0], i.matrix_world[0][0]),
+    result[frame] = {i.persistent_id[1]: [names.of(i.object.data), *i.matrix_world.translation,
+                                          math.atan2(i.matrix_world[1][0], i.matrix_world[0][0]),
                                           i.matrix_world.to_scale().x]
                      for i in graph.object_instances if i.is_instance and i.parent and i.parent.original in crowds}
 anna = bpy.data.objects['Anna']
@@ -243,7 +254,8 @@ print('RESULT ' + json.dumps(result))
     for frame in FRAMES:
         assert set(seen[frame]) == set(found["final"][frame])
         for row, values in seen[frame].items():
-            assert values[0] == found["final"][frame][row][0] and values[1:] == pytest.approx(found["final"][frame][row][1:], abs=1e-5)
+            name, *numbers = found["final"][frame][row]
+            assert values[0] == name and values[1:] == pytest.approx(numbers, abs=1e-5)
     assert seen["anna"] == pytest.approx(list(pos(folder / "take1")[119, 10]), abs=1e-4)
     assert (tmp_path / "frame.png").stat().st_size > 2000
 

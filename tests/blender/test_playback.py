@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Playback in a real Blender: instances against the arrays, figures and poses, farms without the add-on, large crowds."""
+"""Playback in a real Blender: instances against the arrays, figures and poses, farms without the
+add-on, large crowds."""
 import json
 import math
 import shutil
@@ -39,14 +40,17 @@ def test_instances_are_where_the_arrays_say_at_frames_and_between(blender, tmp_p
             facing = direction[low, row] * (1.0 - blend) + direction[high, row] * blend
             assert wrapped(math.atan2(facing[1], facing[0]) - heading) < 1e-4
             scene_frames = {math.floor(shot["frame"] + shot["sub"] + 0.5), math.ceil(shot["frame"] + shot["sub"] - 0.5)}
-            assert any(is_expected(name, state[k], direction[low], row, frame) for k in nearest for frame in scene_frames)
+            assert any(is_expected(name, state[k], direction[low], row, frame) for k in nearest
+                       for frame in scene_frames)
 
 
 def test_figures_bring_every_pose_in_order(blender):
     found = result_of(blender(HERE / "check_sheets.py", ADDON))
     for figure in found["shown"]:
-        assert figure["count"] == figure["expected"] and figure["off"] == 0.0 and figure["velocity_off"] < 1e-4 and figure["faces"]
-        assert figure["blurring"] == (figure["walking"] if figure["level"] < 2 else 0), "those who stand have no velocities"
+        assert figure["count"] == figure["expected"] and figure["faces"]
+        assert figure["off"] == 0.0 and figure["velocity_off"] < 1e-4
+        blurring = figure["walking"] if figure["level"] < 2 else 0
+        assert figure["blurring"] == blurring, "those who stand have no velocities"
         assert figure["materials"] == [[f"throng {name}" for name in cast.people.MATERIALS]]
     assert not any(found["left"].values()), "nothing is left of figures that are removed"
 
@@ -60,19 +64,21 @@ def test_a_cast_has_only_the_gaits_of_its_bake_and_gets_others_when_a_new_bake_w
         for row, name in shown["copy"].items():
             assert is_expected(name, few[2][9], few[1][9], int(row), 10, repertoire=repertoire)
         assert len(shown["copy"]) > 50
-    for shown, (_, direction, state), repertoire in zip(result["shots"], (few, many, few), (narrow, wide, wide)):  # fewer take nothing away
+    # fewer take nothing away
+    for shown, (_, direction, state), repertoire in zip(result["shots"], (few, many, few), (narrow, wide, wide)):
         assert shown["poses"] == 8 * repertoire.count and shown["coarse"] == 8 * repertoire.poses(1)
         assert {int(row) for row in shown["people"]} == set(numpy.nonzero(state[9, :, 0] > 0.5)[0])
         for row, name in shown["people"].items():
             assert is_expected(name, state[9], direction[9], int(row), 10, repertoire=repertoire)
-    assert all(shown["look"] == result["shots"][0]["look"] for shown in result["shots"]), "new poses have the materials that the old ones had"
+    first, *others = (shown["look"] for shown in result["shots"])
+    assert all(look == first for look in others), "new poses have the materials that the old ones had"
 
 
 def test_the_pose_does_not_change_while_the_shutter_is_open(blender, tmp_path):
     write_bake(tmp_path / "bake")
-    times = [(frame, sub) for frame in (8, 19, 33) for sub in (0.0,)] + [(frame - 1, 0.76) for frame in (8, 19, 33)] + [(frame, 0.24) for frame in (8, 19, 33)]
-    shots = {(s["frame"], s["sub"]): s["people"] for s in result_of(blender(HERE / "check_playback.py", ADDON, tmp_path / "bake",
-                                                                          json.dumps(times)))["shots"]}
+    times = [time for frame in (8, 19, 33) for time in ((frame, 0.0), (frame - 1, 0.76), (frame, 0.24))]
+    found = result_of(blender(HERE / "check_playback.py", ADDON, tmp_path / "bake", json.dumps(times)))
+    shots = {(shot["frame"], shot["sub"]): shot["people"] for shot in found["shots"]}
     for frame in (8, 19, 33):
         middle = {row: values[0] for row, values in shots[(frame, 0.0)].items()}
         for other in ((frame - 1, 0.76), (frame, 0.24)):
@@ -81,8 +87,9 @@ def test_the_pose_does_not_change_while_the_shutter_is_open(blender, tmp_path):
 
 def test_a_saved_scene_renders_without_the_add_on_and_after_moving(blender, tmp_path):
     write_bake(tmp_path / "shot" / "bake")
-    blender(ROOT / "scripts" / "render_bake.py", tmp_path / "shot" / "bake", tmp_path / "with.png", "--engine", "workbench", "--width", 320, "--height", 180,
-            "--samples", 1, "--frame", 20, "--save", tmp_path / "shot" / "scene.blend")
+    blender(ROOT / "scripts" / "render_bake.py", tmp_path / "shot" / "bake", tmp_path / "with.png", "--engine",
+            "workbench", "--width", 320, "--height", 180, "--samples", 1, "--frame", 20, "--save",
+            tmp_path / "shot" / "scene.blend")
     shutil.move(str(tmp_path / "shot"), str(tmp_path / "farm"))
     script = tmp_path / "farm.py"
     script.write_text("""

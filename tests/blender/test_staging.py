@@ -44,7 +44,8 @@ def test_lamps_stand_beside_the_roads(staged, bakes, manifest_of):
 
 
 def test_low_walls_round_much_ground_are_the_rim_of_a_lawn_and_a_pitch_has_lines_that_fit(blender, throng, tmp_path):
-    throng("generate", "stadium", "--set", "people=12", "--set", "radius=62", "--set", "duration=1", "-o", tmp_path / "stadium.json")
+    throng("generate", "stadium", "--set", "people=12", "--set", "radius=62", "--set", "duration=1", "-o",
+           tmp_path / "stadium.json")
     throng("bake", tmp_path / "stadium.json", "-o", tmp_path / "bake", "-q", "--no-gltf")
     script = tmp_path / "lawn.py"
     script.write_text(f"""
