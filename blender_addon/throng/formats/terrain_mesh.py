@@ -5,17 +5,19 @@ import json
 import os
 import struct
 
-from .formats import BakeError
+from . import BakeError
 
 
 def read_mesh(path):
-    """Positions (x, y, z, x, ...) and corners (three for each triangle) of the one mesh in a bake's terrain.glb, z up, from the bake's origin."""
+    """Positions (x, y, z, x, ...) and corners (three for each triangle) of the one mesh in a bake's terrain.glb, z up,
+    from the bake's origin."""
     name = os.path.basename(path)
     try:
         with open(path, "rb") as file:
             data = file.read()
     except OSError as error:
-        raise BakeError(f"{name} cannot be read: {error.strerror}. Copy the whole bake folder, not only bake.json") from None
+        raise BakeError(f"{name} cannot be read: {error.strerror}. Copy the whole bake "
+                        "folder, not only bake.json") from None
     try:
         magic, _, size, text_size, _ = struct.unpack_from("<4sIII4s", data)
         if magic != b"glTF" or size != len(data):

@@ -1,25 +1,29 @@
 # SPDX-License-Identifier: Apache-2.0
 """Levels of detail: people far from a camera take coarser meshes.
 
-Natively, as playback is: a modifier before the instancer files everybody's level away, by the distance between where they stand and the
-camera, and no Python runs when frames change. A level is a function of these two places alone. While the shutter is open it therefore
-changes only for those who cross one of the two distances in that time, by their own way or the camera's (a few centimetres): these few
-render that frame at the level of its middle, without the blur of their way; that of their limbs stays.
+Natively, as playback is: a modifier before the instancer files everybody's level away, by the distance between where
+they stand and the camera, and no Python runs when frames change. A level is a function of these two places alone. While
+the shutter is open it therefore changes only for those who cross one of the two distances in that time, by their own
+way or the camera's (a few centimetres): these few render that frame at the level of its middle, without the blur of
+their way; that of their limbs stays.
 """
 import bpy
 from bpy.props import EnumProperty, FloatProperty
 
-from . import crowds, culling, playback
-from .cast import library
-from .characters import members
-from .nodes import Maths, drop_tree, new_tree, own_tree, set_input
-from .panels import Below
+from ..blender.nodes import Maths, drop_tree, new_tree, own_tree, set_input
+from ..blender.panels import Below
+from ..cast import library
+from ..crowd.names import LEVEL
+from ..crowd.playback import cast_changed
+from ..crowd.queries import OnCrowds, cast_of, chosen_crowds, crowds_of, repertoire_of
+from . import culling
 
 MODIFIER = "throng levels"
 TALL = 1.75           # m
 PIXELS = (120.0, 40.0)  # who is less tall in the picture gets level 1, level 2
 _TREE = "Throng levels by distance"
-_INPUTS = [("Geometry", "NodeSocketGeometry"), ("Camera", "NodeSocketObject"), ("Near", "NodeSocketFloat"), ("Far", "NodeSocketFloat")]
+_INPUTS = [("Geometry", "NodeSocketGeometry"), ("Camera", "NodeSocketObject"), ("Near", "NodeSocketFloat"),
+           ("Far", "NodeSocketFloat")]
 
 
 def default_distances(camera, scene):
@@ -44,7 +48,7 @@ def _tree():
     for name in ("Near", "Far"):
         beyond = maths.math("GREATER_THAN", distance.outputs["Value"], inputs.outputs[name])
         level = beyond if level is None else maths.math("ADD", level, beyond)
-    maths.link(maths.store(inputs.outputs["Geometry"], playback.LEVEL, level), outputs.inputs[0])
+    maths.link(maths.store(inputs.outputs["Geometry"], LEVEL, level), outputs.inputs[0])
     return tree
 
 
@@ -56,16 +60,16 @@ def remove(crowd):
     tree = modifier.node_group
     crowd.modifiers.remove(modifier)
     drop_tree(tree)
-    cast = members.cast_of(crowd)
-    if not any(MODIFIER in other.modifiers for other in members.crowds_of(cast)):
+    cast = cast_of(crowd)
+    if not any(MODIFIER in other.modifiers for other in crowds_of(cast)):
         library.remove_levels(cast)
-        members.changed(crowd)
+        cast_changed(crowd)
 
 
 def apply(crowd, camera, near, far):
     """Level 1 from `near` metres from the camera on, level 2 from `far` on."""
-    library.add_levels(members.cast_of(crowd), members.repertoire_of(crowd))
-    members.changed(crowd)
+    library.add_levels(cast_of(crowd), repertoire_of(crowd))
+    cast_changed(crowd)
     modifier = crowd.modifiers.get(MODIFIER)
     if not modifier:
         modifier = crowd.modifiers.new(MODIFIER, "NODES")
@@ -77,26 +81,25 @@ def apply(crowd, camera, near, far):
     crowd.update_tag()
 
 
-class THRONG_OT_levels(bpy.types.Operator):
+class THRONG_OT_levels(OnCrowds, bpy.types.Operator):
     """Give people far from the camera coarser meshes: the selected crowds', or all"""
 
     bl_idname = "throng.levels"
     bl_label = "Levels of Detail"
     bl_options = {"REGISTER", "UNDO"}
 
-    by: EnumProperty(name="By", items=[("camera", "Camera", "By the distance to the scene's camera"), ("none", "Nothing", "Everybody in full detail")])
-    near: FloatProperty(name="Near", min=0.0, subtype="DISTANCE", description="A third of the triangles from here on. 0: where people are 120 pixels tall")
-    far: FloatProperty(name="Far", min=0.0, subtype="DISTANCE", description="A tenth of the triangles from here on. 0: where people are 40 pixels tall")
-
-    @classmethod
-    def poll(cls, context):
-        return bool(crowds.crowd_objects(context.scene))
+    by: EnumProperty(name="By", items=[("camera", "Camera", "By the distance to the scene's camera"),
+                                       ("none", "Nothing", "Everybody in full detail")])
+    near: FloatProperty(name="Near", min=0.0, subtype="DISTANCE",
+                        description="A third of the triangles from here on. 0: where people are 120 pixels tall")
+    far: FloatProperty(name="Far", min=0.0, subtype="DISTANCE",
+                       description="A tenth of the triangles from here on. 0: where people are 40 pixels tall")
 
     def invoke(self, context, _event):
         return context.window_manager.invoke_props_dialog(self)
 
     def execute(self, context):
-        chosen = crowds.chosen_crowds(context)
+        chosen = chosen_crowds(context)
         if self.by == "none":
             for crowd in chosen:
                 remove(crowd)
@@ -106,7 +109,8 @@ class THRONG_OT_levels(bpy.types.Operator):
             self.report({"ERROR"}, "The scene has no camera: add one, or choose By Nothing")
             return {"CANCELLED"}
         if camera.data.type != "PERSP":
-            self.report({"ERROR"}, f"{camera.name} is not a perspective camera: how far somebody is says little about how large they are in its picture")
+            self.report({"ERROR"}, f"{camera.name} is not a perspective camera: how far somebody is says little about "
+                                   "how large they are in its picture")
             return {"CANCELLED"}
         defaults = default_distances(camera, context.scene)
         near, far = (given or default for given, default in zip((self.near, self.far), defaults))

@@ -80,10 +80,17 @@ class Maths:
         node.inputs["Name"].default_value = name
         return socket(node.outputs, "Attribute")
 
+    def components(self, name):
+        """The three numbers of a vector attribute."""
+        separate = self.node("ShaderNodeSeparateXYZ")
+        self.link(self.attribute(name, "FLOAT_VECTOR"), separate.inputs[0])
+        return separate.outputs
+
     def store(self, geometry, name, value, kind="FLOAT", only=None):
         """Files a value away as an attribute of points; returns the geometry that has it.
 
-        @param only a boolean attribute: where it is false nothing changes, if the version can do so (3.5); it saves work, results must not need it
+        @param only a boolean attribute: where it is false nothing changes, if the version can do so (3.5); it saves
+        work, results must not need it
         """
         node = self.node("GeometryNodeStoreNamedAttribute", data_type=kind, domain="POINT")
         node.inputs["Name"].default_value = name

@@ -3,8 +3,10 @@
 from dataclasses import dataclass
 
 import bpy
+from mathutils import Vector
 
-from .environment.lights import set_colours, tame_fireflies
+from ..blender.nodes import socket
+from ..environment.lights import set_colours, tame_fireflies
 
 
 @dataclass(frozen=True)
@@ -59,7 +61,8 @@ def _set_render(scene, look):
     cycles.max_bounces, cycles.diffuse_bounces, cycles.glossy_bounces, cycles.transmission_bounces = 6, 3, 2, 2
     cycles.caustics_reflective = cycles.caustics_refractive = False
     tame_fireflies(scene)
-    scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = look.width, look.height, 100
+    scene.render.resolution_x, scene.render.resolution_y = look.width, look.height
+    scene.render.resolution_percentage = 100
     scene.render.use_motion_blur, scene.render.motion_blur_shutter = True, 0.5  # 180 degrees
     if hasattr(scene.render, "motion_blur_position"):
         scene.render.motion_blur_position = "CENTER"
@@ -76,7 +79,8 @@ def _set_output(scene, look):
         settings.color_depth, settings.exr_codec = "32", "ZIP"  # Cryptomatte's numbers bear no loss
     for layer in scene.view_layers:
         layer.use_pass_z = layer.use_pass_mist = look.layers
-        layer.use_pass_cryptomatte_object = layer.use_pass_cryptomatte_asset = layer.use_pass_cryptomatte_material = look.layers
+        for matte in ("object", "asset", "material"):
+            setattr(layer, f"use_pass_cryptomatte_{matte}", look.layers)
         if look.layers:
             layer.pass_cryptomatte_depth = 6
 
@@ -88,7 +92,7 @@ def _set_crane(scene, camera):
     if not aim:
         aim = bpy.data.objects.new(name, None)
         scene.collection.objects.link(aim)
-        forward = camera.matrix_world.to_quaternion() @ _vector(0.0, 0.0, -1.0)
+        forward = camera.matrix_world.to_quaternion() @ Vector((0.0, 0.0, -1.0))
         distance = camera.data.dof.focus_distance or 15.0
         aim.location = camera.matrix_world.translation + forward * distance
         aim.empty_display_size = 0.5
@@ -96,56 +100,59 @@ def _set_crane(scene, camera):
         track.target, track.track_axis, track.up_axis = aim, "TRACK_NEGATIVE_Z", "UP_Y"
         camera["throng_crane"] = list(camera.location)
     camera.data.dof.focus_object = aim
-    start = _vector(*camera["throng_crane"])
+    start = Vector(tuple(camera["throng_crane"]))
     way = (aim.location - start).length
-    side = (aim.location - start).cross(_vector(0.0, 0.0, 1.0)).normalized()
+    side = (aim.location - start).cross(Vector((0.0, 0.0, 1.0))).normalized()
     for frame, along, up in ((scene.frame_start, -0.04, -0.03), (scene.frame_end, 0.04, 0.05)):
-        camera.location = start + side * (along * way) + _vector(0.0, 0.0, up * way)
+        camera.location = start + side * (along * way) + Vector((0.0, 0.0, up * way))
         camera.keyframe_insert("location", frame=frame)
 
 
-def _vector(x, y, z):
-    from mathutils import Vector
-
-    return Vector((x, y, z))
-
-
 def _set_haze(scene, amount):
-    """Air between us and what is far: the mist pass, mixed in by the compositor, so that it costs no samples and can be taken out."""
-    camera = scene.camera
-    world = scene.world
-    if world:
-        reach = (camera.data.dof.focus_distance if camera and camera.type == "CAMERA" else 0.0) or 30.0
-        world.mist_settings.start, world.mist_settings.depth, world.mist_settings.falloff = 0.6 * reach, 12.0 * reach, "LINEAR"
-    for layer in scene.view_layers:
-        layer.use_pass_mist = layer.use_pass_mist or amount > 0.0
+    """Air between us and what is far: the mist pass, mixed in by the compositor, so that it costs no samples
+    and can be taken out."""
+    _set_mist(scene, amount)
     tree = _compositor(scene)
     tree.nodes.clear()
     layers = tree.nodes.new("CompositorNodeRLayers")
-    strength = tree.nodes.new("ShaderNodeMath" if not hasattr(bpy.types, "CompositorNodeMath") else "CompositorNodeMath")
+    strength = tree.nodes.new("CompositorNodeMath" if hasattr(bpy.types, "CompositorNodeMath") else "ShaderNodeMath")
     strength.operation = "MULTIPLY"
     strength.inputs[1].default_value = amount
-    tree.links.new(next(s for s in layers.outputs if s.name == "Mist"), strength.inputs[0])
-    image = next(s for s in layers.outputs if s.name == "Image")
-    if hasattr(bpy.types, "CompositorNodeMixRGB"):
-        mix = tree.nodes.new("CompositorNodeMixRGB")
-        factor, first, second, mixed = mix.inputs[0], mix.inputs[1], mix.inputs[2], mix.outputs[0]
-    else:
-        mix = tree.nodes.new("ShaderNodeMix")
-        mix.data_type = "RGBA"
-        factor = next(s for s in mix.inputs if s.enabled and s.type == "VALUE")
-        first, second = [s for s in mix.inputs if s.enabled and s.type == "RGBA"]
-        mixed = next(s for s in mix.outputs if s.enabled)
+    tree.links.new(layers.outputs["Mist"], strength.inputs[0])
+    factor, first, second, mixed = _mix_sockets(tree)
     second.default_value = HAZE_COLOUR
     tree.links.new(strength.outputs[0], factor)
-    tree.links.new(image, first)
+    tree.links.new(layers.outputs["Image"], first)
+    tree.links.new(mixed, _output_socket(tree))
+
+
+def _set_mist(scene, amount):
+    camera, world = scene.camera, scene.world
+    if world:
+        reach = (camera.data.dof.focus_distance if camera and camera.type == "CAMERA" else 0.0) or 30.0
+        mist = world.mist_settings
+        mist.start, mist.depth, mist.falloff = 0.6 * reach, 12.0 * reach, "LINEAR"
+    for layer in scene.view_layers:
+        layer.use_pass_mist = layer.use_pass_mist or amount > 0.0
+
+
+def _mix_sockets(tree):
+    """A new node that mixes two colours: (how much of the second, the first, the second, the mixture)."""
+    if hasattr(bpy.types, "CompositorNodeMixRGB"):
+        mix = tree.nodes.new("CompositorNodeMixRGB")
+        return mix.inputs[0], mix.inputs[1], mix.inputs[2], mix.outputs[0]
+    mix = tree.nodes.new("ShaderNodeMix")
+    mix.data_type = "RGBA"
+    return socket(mix.inputs, "Factor"), socket(mix.inputs, "A"), socket(mix.inputs, "B"), socket(mix.outputs, "Result")
+
+
+def _output_socket(tree):
+    """Where the finished picture goes: from 5.0 on a compositor is a group of nodes with an output."""
     if hasattr(bpy.types, "CompositorNodeComposite"):
-        out = tree.nodes.new("CompositorNodeComposite").inputs[0]
-    else:
-        if not any(s.name == "Image" for s in tree.interface.items_tree):
-            tree.interface.new_socket(name="Image", in_out="OUTPUT", socket_type="NodeSocketColor")
-        out = tree.nodes.new("NodeGroupOutput").inputs[0]
-    tree.links.new(mixed, out)
+        return tree.nodes.new("CompositorNodeComposite").inputs[0]
+    if not any(each.name == "Image" for each in tree.interface.items_tree):
+        tree.interface.new_socket(name="Image", in_out="OUTPUT", socket_type="NodeSocketColor")
+    return tree.nodes.new("NodeGroupOutput").inputs[0]
 
 
 def _compositor(scene):

@@ -4,18 +4,12 @@ import os
 
 import bpy
 
-from . import cast, environment, playback
-from .cast import library
-from .formats import load_bake
-
-
-def stored_path(path, relative):
-    if not relative or not bpy.data.filepath:
-        return path
-    try:
-        return bpy.path.relpath(path)
-    except ValueError:  # another drive on Windows
-        return path
+from .. import cast, environment
+from ..blender.paths import stored_path
+from ..cast import library
+from ..crowd import playback
+from ..formats import load_bake
+from ..overrides.layer import Arrival
 
 
 def set_frame_rate(scene, fps):
@@ -38,8 +32,6 @@ def set_up_scene(scene, bake, frame_start):
 
 def import_bake(context, path, *, frame_start=1, walls=True, roads=True, scenery=True, camera=True, relative=True):
     """Imports a bake and returns the crowd's object. Raises formats.BakeError before anything is changed."""
-    from .overrides.layer import Arrival
-
     bake = load_bake(path)
     overrides = Arrival(bake)
     terrain = environment.read_terrain(bake) if scenery else None
@@ -56,7 +48,7 @@ def import_bake(context, path, *, frame_start=1, walls=True, roads=True, scenery
     crowd = playback.build_crowd(bake, f"Throng {bake.name} crowd", people, frame_start, paths)
     collection.objects.link(crowd)
     set_up_scene(scene, bake, frame_start)
-    environment.build_environment(context, bake.manifest, collection, walls=walls, roads=roads, ground=scenery, light=scenery, camera=camera,
-                                  frame_start=frame_start, terrain=terrain)
+    environment.build_environment(context, bake.manifest, collection, walls=walls, roads=roads, ground=scenery,
+                                  light=scenery, camera=camera, frame_start=frame_start, terrain=terrain)
     overrides.place(crowd)
     return crowd

@@ -3,10 +3,10 @@
 import bpy
 from bpy.props import EnumProperty
 
-from .crowds import OnCrowds, chosen_crowds, collection_of
-from .environment import camera, lights
-from .formats import BakeError, read_manifest
-from .panels import Below
+from ..blender.panels import Below
+from ..crowd.queries import OnCrowds, chosen_crowds, collection_of
+from ..environment import camera, lights
+from ..formats import BakeError, read_manifest
 
 
 def _staged(context):
@@ -34,7 +34,8 @@ class THRONG_OT_shot(_Stages, bpy.types.Operator):
 
     bl_idname = "throng.shot"
     bl_label = "Shot"
-    kind: EnumProperty(name="From", items=[("crane", "A Crane", "Above the street, along it"), ("street", "The Street", "At eye level, in the crowd"),
+    kind: EnumProperty(name="From", items=[("crane", "A Crane", "Above the street, along it"),
+                                           ("street", "The Street", "At eye level, in the crowd"),
                                            ("wide", "Afar", "Everybody is in the picture")])
 
     def stage(self, scene, collection, manifest):
@@ -46,7 +47,8 @@ class THRONG_OT_light(_Stages, bpy.types.Operator):
 
     bl_idname = "throng.light"
     bl_label = "Light"
-    time: EnumProperty(name="Time", items=[("day", "Day", "A late-afternoon sun"), ("night", "Night", "The moon, street lamps or floodlights, lit windows")])
+    time: EnumProperty(name="Time", items=[("day", "Day", "A late-afternoon sun"),
+                                           ("night", "Night", "The moon, street lamps or floodlights, lit windows")])
 
     def stage(self, scene, collection, manifest):
         lights.build_light(scene, collection, self.time, manifest)

@@ -1,31 +1,34 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The bake's diagram images on the ground: as an overlay that shows whose ground is whose, or as a mask in the ground's own materials.
+"""The bake's diagram images on the ground: as an overlay that shows whose ground is whose, or as a mask in
+the ground's own materials.
 
-Image textures play them natively. A bake may have an image every so many frames only; then the texture's frame offset is keyed, so
-that each stays until the next, and a farm needs no add-on.
+Image textures play them natively. A bake may have an image every so many frames only; then the texture's frame offset
+is keyed, so that each stays until the next, and a farm needs no add-on.
 """
 import os
 
 import bpy
 from bpy.props import EnumProperty, FloatProperty
 
-from .crowds import OnCrowds, bake_path, chosen_crowds, collection_of
-from .environment.shapes import Shape
-from .environment.streets import MARK_Z
-from .formats import Bake, BakeError, read_manifest
-from .importer import stored_path
-from .nodes import own_tree
-from .panels import Below
+from ..blender.actions import curves_of
+from ..blender.nodes import own_tree
+from ..blender.panels import Below
+from ..blender.paths import stored_path
+from ..crowd.queries import OnCrowds, bake_path, chosen_crowds, collection_of
+from ..environment.shapes import Shape
+from ..environment.streets import MARK_Z
+from ..formats import Bake, BakeError, read_manifest
 
 KINDS = ("overlay", "mask", "none")
 OVERLAY, TRODDEN = "throng_cells", "throng trodden"  # a property of the overlay's object; the nodes that darken ground
-SHOWN = "throng_cells_shown"  # a collection's {kind, strength, lost}, while it has cells, or had until its bake lost its images
+# a collection's {kind, strength, lost}, while it has cells, or had until its bake lost its images
+SHOWN = "throng_cells_shown"
 _GROUNDS = ("Throng ground", "Throng terrain", "Throng road", "Throng area")
 _ABOVE = 0.006  # m, over the road's markings
 
 
 def show(crowd, kind, strength):
-    """Puts the crowd's cells on its ground, in place of what was there before. Raises BakeError before anything is changed."""
+    """Puts the crowd's cells on its ground, in place of what was there. Raises BakeError before anything is changed."""
     collection = collection_of(crowd)
     if not collection:
         raise BakeError("this crowd's collection is not its import's any more: import the bake again")
@@ -47,7 +50,8 @@ def show(crowd, kind, strength):
 
 
 def follow(crowd):
-    """Where a crowd's cells are shown, shows those of what it plays now. Without images they go, until it has some again; returns that, in sentences."""
+    """Where a crowd's cells are shown, shows those of what it plays now. Without images they go, until it has some
+    again; returns that, in sentences."""
     collection = collection_of(crowd)
     shown = collection.get(SHOWN) if collection else None
     if not shown:
@@ -71,7 +75,8 @@ def _diagrams(bake):
         raise BakeError("this bake has no diagram images: bake it with --diagrams")
     for frame in range(0, diagrams["count"] * diagrams["every"], diagrams["every"]):
         if not os.path.exists(_file(bake, frame)):
-            raise BakeError(f"{os.path.basename(_file(bake, frame))} is missing: copy the whole bake folder, or bake it again")
+            raise BakeError(f"{os.path.basename(_file(bake, frame))} is missing: copy the whole bake "
+                            "folder, or bake it again")
     return diagrams
 
 
@@ -80,24 +85,23 @@ def _file(bake, frame):
 
 
 def _take_away(collection):
-    for thing in [thing for thing in collection.objects if OVERLAY in thing]:
-        bpy.data.objects.remove(thing)
-    # Also of overlays that were removed by hand. On a terrain the mesh is the terrain's, and has materials of its own.
-    bpy.data.batch_remove([mesh for mesh in bpy.data.meshes if mesh.users == 0 and any(material and OVERLAY in material for material in mesh.materials)])
-    bpy.data.batch_remove([material for material in bpy.data.materials if OVERLAY in material and material.users == 0])
+    _remove_overlays(collection)
     # Also where it is on nothing just now: streets that are built anew take their old materials again.
-    for material in {slot.material for slot in _ground_slots(collection)} | {own for own in bpy.data.materials if own.get("throng_crowd") == collection.name}:
-        nodes, links = material.node_tree.nodes, material.node_tree.links
-        for node in [node for node in nodes if node.name.startswith(TRODDEN)]:
-            if node.type == "HUE_SAT":
-                source, targets = node.inputs["Color"], [link.to_socket for link in node.outputs[0].links]
-                for target in targets:
-                    if source.links:
-                        links.new(source.links[0].from_socket, target)
-            nodes.remove(node)
+    own = {material for material in bpy.data.materials if material.get("throng_crowd") == collection.name}
+    for material in {slot.material for slot in _ground_slots(collection)} | own:
+        _untread(material)
     tree = own_tree(_tree_name(collection))
     if tree and tree.users == 0:  # an artist's materials may have it, too
         _remove_tree(tree)
+
+
+def _remove_overlays(collection):
+    for thing in [thing for thing in collection.objects if OVERLAY in thing]:
+        bpy.data.objects.remove(thing)
+    # Also of overlays that were removed by hand. On a terrain the mesh is the terrain's, and has materials of its own.
+    bpy.data.batch_remove([mesh for mesh in bpy.data.meshes
+                           if mesh.users == 0 and any(material and OVERLAY in material for material in mesh.materials)])
+    bpy.data.batch_remove([material for material in bpy.data.materials if OVERLAY in material and material.users == 0])
 
 
 def _tree_name(collection):
@@ -119,7 +123,8 @@ def _ground_slots(collection):
 
 def _own_grounds(collection):
     """Their materials, each once; of this crowd alone from now on, for its cells are."""
-    own = {material["throng_of"]: material for material in bpy.data.materials if material.get("throng_crowd") == collection.name}
+    own = {material["throng_of"]: material for material in bpy.data.materials
+           if material.get("throng_crowd") == collection.name}
     for slot in _ground_slots(collection):
         if slot.material.get("throng_crowd") != collection.name:
             name = slot.material.name
@@ -170,7 +175,8 @@ def _sequence(bake, relative):
 
 
 def _play(tree, user, diagrams, start):
-    """Files are numbered by the bake's frames from 1 on. With a duration of 1, Blender shows file 1 + the offset whatever the frame is."""
+    """Files are numbered by the bake's frames from 1 on. With a duration of 1, Blender shows file 1 + the offset
+    whatever the frame is."""
     every, count = diagrams["every"], diagrams["count"]
     user.use_auto_refresh = True
     if every == 1:
@@ -180,16 +186,9 @@ def _play(tree, user, diagrams, start):
     for i in range(count):
         user.frame_offset = i * every
         tree.keyframe_insert('nodes["cells"].image_user.frame_offset', frame=start + i * every)
-    for curve in _curves(tree):
+    for curve in curves_of(tree.animation_data.action):
         for key in curve.keyframe_points:
             key.interpolation = "CONSTANT"
-
-
-def _curves(tree):
-    action = tree.animation_data.action
-    if hasattr(action, "fcurves"):
-        return action.fcurves
-    return [curve for layer in action.layers for strip in layer.strips for bag in strip.channelbags for curve in bag.fcurves]
 
 
 def _overlay(collection, crowd, diagrams, tree, strength):
@@ -205,9 +204,11 @@ def _overlay(collection, crowd, diagrams, tree, strength):
     group.node_tree = tree
     share = nodes.new("ShaderNodeMath")
     share.operation, share.inputs[1].default_value = "MULTIPLY", strength
-    see, shine, mix, out = (nodes.new(f"ShaderNode{kind}") for kind in ("BsdfTransparent", "Emission", "MixShader", "OutputMaterial"))
-    for a, b in ((group.outputs["Mask"], share.inputs[0]), (group.outputs["Colour"], shine.inputs["Color"]), (share.outputs[0], mix.inputs[0]),
-                 (see.outputs[0], mix.inputs[1]), (shine.outputs[0], mix.inputs[2]), (mix.outputs[0], out.inputs["Surface"])):
+    see, shine, mix, out = (nodes.new(f"ShaderNode{kind}")
+                            for kind in ("BsdfTransparent", "Emission", "MixShader", "OutputMaterial"))
+    for a, b in ((group.outputs["Mask"], share.inputs[0]), (group.outputs["Colour"], shine.inputs["Color"]),
+                 (share.outputs[0], mix.inputs[0]), (see.outputs[0], mix.inputs[1]), (shine.outputs[0], mix.inputs[2]),
+                 (mix.outputs[0], out.inputs["Surface"])):
         links.new(a, b)
     ground = next((thing for thing in collection.objects if thing.name.startswith("Throng terrain")), None)
     if ground:
@@ -218,9 +219,11 @@ def _overlay(collection, crowd, diagrams, tree, strength):
             slot.link, slot.material = "OBJECT", material
     else:
         low = diagrams["min"]
-        high = [low[axis] + diagrams[side] / diagrams["pixels_per_metre"] for axis, side in enumerate(("width", "height"))]
+        high = [low[axis] + diagrams[side] / diagrams["pixels_per_metre"]
+                for axis, side in enumerate(("width", "height"))]
         shape = Shape("Throng cells")
-        shape.flat([(low[0], low[1]), (high[0], low[1]), (high[0], high[1]), (low[0], high[1])], MARK_Z + _ABOVE, material)
+        shape.flat([(low[0], low[1]), (high[0], low[1]), (high[0], high[1]), (low[0], high[1])], MARK_Z + _ABOVE,
+                   material)
         plane = shape.to_object()
         plane.parent = crowd  # wherever that is: a drawn layout may have another origin than its bake
     plane[OVERLAY] = True
@@ -234,7 +237,7 @@ def _tread(material, tree, strength):
     shader = next((node for node in nodes if node.type == "BSDF_PRINCIPLED"), None)
     if not shader:
         return
-    group, share, darker = nodes.new("ShaderNodeGroup"), nodes.new("ShaderNodeMath"), nodes.new("ShaderNodeHueSaturation")
+    group, share, darker = (nodes.new(f"ShaderNode{kind}") for kind in ("Group", "Math", "HueSaturation"))
     for node in (group, share, darker):
         node.name = TRODDEN
     group.node_tree = tree
@@ -249,6 +252,17 @@ def _tread(material, tree, strength):
     links.new(darker.outputs[0], colour)
 
 
+def _untread(material):
+    """Undoes _tread(): the colour goes where it went before."""
+    nodes, links = material.node_tree.nodes, material.node_tree.links
+    for node in [node for node in nodes if node.name.startswith(TRODDEN)]:
+        if node.type == "HUE_SAT" and node.inputs["Color"].links:
+            source = node.inputs["Color"].links[0].from_socket
+            for target in [link.to_socket for link in node.outputs[0].links]:
+                links.new(source, target)
+        nodes.remove(node)
+
+
 class THRONG_OT_cells(OnCrowds, bpy.types.Operator):
     """Show the bake's diagram images on the ground: whose ground is whose, or a mask where people are"""
 
@@ -256,10 +270,12 @@ class THRONG_OT_cells(OnCrowds, bpy.types.Operator):
     bl_label = "Cells on the Ground"
     bl_options = {"REGISTER", "UNDO"}
 
-    kind: EnumProperty(name="As", items=[("overlay", "Overlay", "Everybody's cell in a colour of its own, over the ground"),
-                                         ("mask", "Ground Mask", "The ground's materials are darker where people are"),
-                                         ("none", "Nothing", "As it was before")])
-    strength: FloatProperty(name="Strength", default=0.6, min=0.0, max=1.0, description="How opaque the cells are, or how much darker the ground is")
+    kind: EnumProperty(name="As",
+                       items=[("overlay", "Overlay", "Everybody's cell in a colour of its own, over the ground"),
+                              ("mask", "Ground Mask", "The ground's materials are darker where people are"),
+                              ("none", "Nothing", "As it was before")])
+    strength: FloatProperty(name="Strength", default=0.6, min=0.0, max=1.0,
+                            description="How opaque the cells are, or how much darker the ground is")
 
     def execute(self, context):
         try:

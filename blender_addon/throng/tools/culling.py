@@ -1,17 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
 """Leaves out people whom nobody sees: outside a box, or outside what the camera sees, with a margin.
 
-Natively, as playback is: a modifier before the instancer marks whoever is out, and no Python runs when frames change. The margin keeps
-those whose shadows and reflections fall into the picture.
+Natively, as playback is: a modifier before the instancer marks whoever is out, and no Python runs when frames change.
+The margin keeps those whose shadows and reflections fall into the picture.
 """
 import bpy
+from mathutils import Vector
 
-from .nodes import Maths, new_tree, own_tree, set_input
+from ..blender.modifiers import move_modifier
+from ..blender.nodes import Maths, new_tree, own_tree, set_input
+from ..crowd.names import HIDDEN
 
 MODIFIER = "throng cull"
-HIDDEN = "throng_hidden"  # 1 for those who are left out
-_INPUTS = [("Geometry", "NodeSocketGeometry"), ("Object", "NodeSocketObject"), ("Margin", "NodeSocketFloat"), ("Wide", "NodeSocketFloat"),
-           ("High", "NodeSocketFloat")]
+_INPUTS = [("Geometry", "NodeSocketGeometry"), ("Object", "NodeSocketObject"), ("Margin", "NodeSocketFloat"),
+           ("Wide", "NodeSocketFloat"), ("High", "NodeSocketFloat")]
 
 
 def _local(maths, inputs):
@@ -48,7 +50,8 @@ def _outside_view(maths, inputs):
     ahead = maths.math("MULTIPLY", local[2], -1.0)
     out = maths.math("LESS_THAN", maths.math("ADD", ahead, inputs.outputs["Margin"]), 0.0)
     for axis, reach in ((0, "Wide"), (1, "High")):
-        half = maths.math("MULTIPLY_ADD", maths.math("MAXIMUM", ahead, 0.0), inputs.outputs[reach], inputs.outputs["Margin"])
+        half = maths.math("MULTIPLY_ADD", maths.math("MAXIMUM", ahead, 0.0), inputs.outputs[reach],
+                          inputs.outputs["Margin"])
         out = maths.math("MAXIMUM", out, maths.math("GREATER_THAN", maths.math("ABSOLUTE", local[axis]), half))
     return out
 
@@ -79,13 +82,7 @@ def remove(crowd):
 
 def put_before_instancer(crowd, modifier):
     """Where a modifier has to be that says something about people."""
-    names = [each.name for each in crowd.modifiers]
-    at, to = names.index(modifier.name), names.index("throng people")
-    if hasattr(crowd.modifiers, "move"):
-        crowd.modifiers.move(at, to)
-    else:
-        with bpy.context.temp_override(object=crowd, active_object=crowd):
-            bpy.ops.object.modifier_move_to_index(modifier=modifier.name, index=to)
+    move_modifier(crowd, modifier.name, crowd.modifiers.find("throng people"))
 
 
 def apply(crowd, scene, mode, target, margin):
@@ -105,10 +102,9 @@ def apply(crowd, scene, mode, target, margin):
 
 def box(scene, crowd, name="Throng box"):
     """An empty cube round everybody, to be made smaller."""
-    from mathutils import Vector
-
     graph = bpy.context.evaluated_depsgraph_get()
-    places = [i.matrix_world.translation.copy() for i in graph.object_instances if i.is_instance and i.parent and i.parent.original == crowd]
+    places = [i.matrix_world.translation.copy() for i in graph.object_instances
+              if i.is_instance and i.parent and i.parent.original == crowd]
     made = bpy.data.objects.new(name, None)
     made.empty_display_type = "CUBE"
     if places:

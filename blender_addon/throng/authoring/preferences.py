@@ -1,14 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
+"""The add-on's preferences: where the program is."""
 import bpy
 from bpy.props import StringProperty
 
-from .authoring.executable import ExecutableError, check_version, find_executable
+from .executable import ExecutableError, check_version, find_executable
+
+_ADDON = __package__.rpartition(".")[0]  # as Blender knows it
 
 
 class ThrongPreferences(bpy.types.AddonPreferences):
-    bl_idname = __package__
+    bl_idname = _ADDON
 
-    program: StringProperty(name="Program", subtype="FILE_PATH", description="The program `throng`; by default the one on the PATH")
+    program: StringProperty(name="Program", subtype="FILE_PATH",
+                            description="The program `throng`; by default the one on the PATH")
 
     def draw(self, _context):
         self.layout.prop(self, "program")
@@ -21,7 +25,7 @@ class ThrongPreferences(bpy.types.AddonPreferences):
 
 def program(context):
     """The program chosen in the preferences; empty when none was."""
-    addon = context.preferences.addons.get(__package__)
+    addon = context.preferences.addons.get(_ADDON)
     return addon.preferences.program if addon and addon.preferences else ""
 
 

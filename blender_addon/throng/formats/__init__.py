@@ -55,8 +55,10 @@ class Bake:
 
 def _strides(manifest):
     strides = manifest.get("strides")
-    if not isinstance(strides, list) or not 1 <= len(strides) <= 16 or not all(isinstance(s, (int, float)) and 0.1 < s < 10.0 for s in strides):
-        raise BakeError(f"bake.json: `strides` should be the gaits' stride lengths in metres, found {strides!r}: bake again")
+    if not isinstance(strides, list) or not 1 <= len(strides) <= 16 or not all(
+            isinstance(stride, (int, float)) and 0.1 < stride < 10.0 for stride in strides):
+        raise BakeError("bake.json: `strides` should be the gaits' stride lengths in metres, "
+                        f"found {strides!r}: bake again")
     return tuple(float(stride) for stride in strides)
 
 
@@ -64,7 +66,8 @@ def _gaits(manifest, count):
     """(first, last) of those that somebody walks with; all, where the manifest is older than the list."""
     gaits = manifest.get("gaits") or range(count)
     if not isinstance(gaits, (list, range)) or not all(isinstance(gait, int) and 0 <= gait < count for gait in gaits):
-        raise BakeError(f"bake.json: `gaits` should list numbers of `strides`, from 0 to {count - 1}, found {gaits!r}: bake again")
+        raise BakeError(f"bake.json: `gaits` should list numbers of `strides`, from 0 to {count - 1}, "
+                        f"found {gaits!r}: bake again")
     return min(gaits), max(gaits)
 
 
@@ -83,15 +86,16 @@ def check_pc2(path, points, samples):
         with open(path, "rb") as file:
             header = file.read(_PC2.size)
     except OSError as error:
-        raise BakeError(f"the stream {name} cannot be read: {error.strerror}. Copy the whole bake folder, not only bake.json") from None
+        raise BakeError(f"the stream {name} cannot be read: {error.strerror}. Copy the whole bake "
+                        "folder, not only bake.json") from None
     if len(header) < _PC2.size:
         raise BakeError(f"{name} is not a point cache: it has only {size} bytes")
     magic, version, file_points, _, _, file_samples = _PC2.unpack(header)
     if magic != _PC2_MAGIC or version != 1:
         raise BakeError(f"{name} is not a PC2 point cache of version 1")
     if file_points != points or file_samples != samples:
-        raise BakeError(f"{name} holds {file_samples} frames of {file_points} people, bake.json says {samples} of {points}: "
-                        "the files are of different bakes")
+        raise BakeError(f"{name} holds {file_samples} frames of {file_points} people, bake.json says {samples} of "
+                        f"{points}: the files are of different bakes")
     expected = _PC2.size + 12 * points * samples
     if size != expected:
         raise BakeError(f"{name} is truncated: {size} of {expected} bytes. Copy or bake it again")
@@ -109,9 +113,11 @@ def read_manifest(path):
     except ValueError as error:
         raise BakeError(f"{path} is not JSON: {error}") from None
     if not isinstance(manifest, dict) or manifest.get("format") != "throng bake":
-        raise BakeError(f"{os.path.basename(path)} is not the manifest of a Throng bake: choose the file bake.json in the bake's folder")
+        raise BakeError(f"{os.path.basename(path)} is not the manifest of a Throng bake: choose the file "
+                        "bake.json in the bake's folder")
     if manifest.get("version") != 1:
-        raise BakeError(f"this bake has format version {manifest.get('version')}, the add-on reads version 1: update the add-on")
+        raise BakeError(f"this bake has format version {manifest.get('version')}, the add-on reads "
+                        "version 1: update the add-on")
     return manifest
 
 
