@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What the site's generator does not look at: pages fetch nothing from elsewhere, lines end at 120 columns, the README's links lead somewhere.
+"""What the site's generator does not look at: pages fetch nothing from elsewhere, lines end at 120
+columns, the README's links lead somewhere.
 
 Usage: check_docs.py SITE
 """
+
 import html.parser
 import pathlib
 import re
@@ -13,7 +15,17 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 COLUMNS = 120
 MADE = {"docs/layout.md"}  # from the schema, whose descriptions are lines of their own
 ELSEWHERE = re.compile(r"^\s*(https?:)?//", re.IGNORECASE)
-FETCHING = {"script": "src", "img": "src", "iframe": "src", "source": "src", "video": "src", "audio": "src", "embed": "src", "object": "data", "link": "href"}
+FETCHING = {
+    "script": "src",
+    "img": "src",
+    "iframe": "src",
+    "source": "src",
+    "video": "src",
+    "audio": "src",
+    "embed": "src",
+    "object": "data",
+    "link": "href",
+}
 STYLE = re.compile(r"""(?:url\(\s*|@import\s+)['"]?((?:https?:)?//[^'")\s]+)""", re.IGNORECASE)
 
 
@@ -64,24 +76,45 @@ def broken_links(path):
         there = path.parent / file if file else path
         if not there.exists():
             yield target
-        elif anchor and anchor not in [anchor_of(line.lstrip("#")) for line in there.read_text().splitlines() if line.startswith("#")]:
+        elif anchor and anchor not in [
+            anchor_of(line.lstrip("#")) for line in there.read_text().splitlines() if line.startswith("#")
+        ]:
             yield target
 
 
 def long_lines(path):
     """Tables, and words that nothing can wrap, may be longer."""
     for number, line in enumerate(path.read_text().splitlines(), 1):
-        if len(line) > COLUMNS and not line.startswith("|") and " " in line[:COLUMNS].strip() and not line.startswith(("![", "<")):
+        if (
+            len(line) > COLUMNS
+            and not line.startswith("|")
+            and " " in line[:COLUMNS].strip()
+            and not line.startswith(("![", "<"))
+        ):
             yield number
 
 
 def main(site):
-    wrong = [f"{path.relative_to(site)} fetches {address}" for path in sorted(site.rglob("*")) if path.suffix in (".html", ".css") for address in fetched_by(path)]
+    wrong = [
+        f"{path.relative_to(site)} fetches {address}"
+        for path in sorted(site.rglob("*"))
+        if path.suffix in (".html", ".css")
+        for address in fetched_by(path)
+    ]
     if not any(site.rglob("*.html")):
         wrong.append(f"{site} has no pages")
-    wrong += [f"{name}: {target} leads nowhere" for name in ("README.md", "CHANGELOG.md") for target in broken_links(ROOT / name)]
+    wrong += [
+        f"{name}: {target} leads nowhere"
+        for name in ("README.md", "CHANGELOG.md")
+        for target in broken_links(ROOT / name)
+    ]
     pages = [ROOT / "README.md"] + sorted((ROOT / "docs").rglob("*.md"))
-    wrong += [f"{path.relative_to(ROOT)}:{number}: more than {COLUMNS} columns" for path in pages if str(path.relative_to(ROOT)) not in MADE for number in long_lines(path)]
+    wrong += [
+        f"{path.relative_to(ROOT)}:{number}: more than {COLUMNS} columns"
+        for path in pages
+        if str(path.relative_to(ROOT)) not in MADE
+        for number in long_lines(path)
+    ]
     if wrong:
         sys.exit("\n".join(wrong))
 

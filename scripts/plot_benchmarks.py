@@ -2,8 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Draws diagrams.png and proximity.png from what `throng bench` has written.
 
-Usage: plot_benchmarks.py FOLDER   (needs matplotlib). FOLDER holds diagrams.csv, proximity.csv or both; the plots lie beside them.
+Usage: plot_benchmarks.py FOLDER   (needs matplotlib)
+
+FOLDER holds diagrams.csv, proximity.csv or both; the plots lie beside them.
 """
+
 import csv
 import pathlib
 import sys
@@ -15,11 +18,20 @@ import matplotlib.pyplot as plt  # noqa: E402
 
 # One colour for each family of methods; its members differ by their dashes.
 STYLES = {
-    "binned": ("#1b6ca8", "-"), "per-site": ("#1b6ca8", "--"), "per-pixel": ("#1b6ca8", ":"),
-    "gradient1": ("#c2571a", "-"), "gradient2": ("#c2571a", "--"), "gradient2-packed": ("#c2571a", ":"),
+    "binned": ("#1b6ca8", "-"),
+    "per-site": ("#1b6ca8", "--"),
+    "per-pixel": ("#1b6ca8", ":"),
+    "gradient1": ("#c2571a", "-"),
+    "gradient2": ("#c2571a", "--"),
+    "gradient2-packed": ("#c2571a", ":"),
     "cones, 16 sides": ("#7a3e9d", "-"),
-    "jfa": ("#3b7d3b", "-"), "1+jfa": ("#3b7d3b", "--"), "jfa+1": ("#3b7d3b", ":"), "jfa-r": ("#3b7d3b", "-."),
-    "voronoi": ("#1b6ca8", "-"), "grid": ("#c2571a", "-"), "brute": ("#666666", "-"),
+    "jfa": ("#3b7d3b", "-"),
+    "1+jfa": ("#3b7d3b", "--"),
+    "jfa+1": ("#3b7d3b", ":"),
+    "jfa-r": ("#3b7d3b", "-."),
+    "voronoi": ("#1b6ca8", "-"),
+    "grid": ("#c2571a", "-"),
+    "brute": ("#666666", "-"),
 }
 AUTO = "auto"
 DRAWING_ALONE = "gradient1, drawing alone"  # the yardstick of the table: beside gradient1 it would only hide it

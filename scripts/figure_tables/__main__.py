@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The command line of scripts/figures."""
+
 import argparse
 import pathlib
 import shutil
@@ -45,10 +46,17 @@ def arguments():
     parser = argparse.ArgumentParser(prog="scripts/figures", description="Makes the tables of figures in docs/ anew.")
     parser.add_argument("names", nargs="*", metavar="NAME", help="only these; by default all")
     parser.add_argument("--list", action="store_true", help="name the tables, with the minutes that each takes")
-    parser.add_argument("--quick", action="store_true",
-                        help="a trial: one seed, some seconds of each scenario, into a copy in build/figures/docs")
-    parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build" / "release" / "throng",
-                        help="measure this program instead of building one from the checkout")
+    parser.add_argument(
+        "--quick",
+        action="store_true",
+        help="a trial: one seed, some seconds of each scenario, into a copy in build/figures/docs",
+    )
+    parser.add_argument(
+        "--program",
+        type=pathlib.Path,
+        default=ROOT / "build" / "release" / "throng",
+        help="measure this program instead of building one from the checkout",
+    )
     options = parser.parse_args()
     unknown = [name for name in options.names if name not in TABLES]
     if unknown:
@@ -82,7 +90,11 @@ def main():
         print(f"{name}:", file=sys.stderr, flush=True)
         body = TABLES[name].make(runs)
         pages.put(docs / TABLES[name].page, name, f"{body}\n\n{pages.paragraph(runs.stamp(name))}")
-        print(f"{name}: {(time.monotonic() - start) / 60:.1f} min, {docs / TABLES[name].page}", file=sys.stderr, flush=True)
+        print(
+            f"{name}: {(time.monotonic() - start) / 60:.1f} min, {docs / TABLES[name].page}",
+            file=sys.stderr,
+            flush=True,
+        )
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tables of times. Each takes Runs and returns Markdown. Nothing else should run on the machine meanwhile."""
+
 import csv
 import json
 import shutil
@@ -39,7 +40,9 @@ def by_case(rows, cell):
     measured = [row for row in rows if row["source"] == "measured"]
     cases = list(dict.fromkeys((int(row["sites"]), row["radius_px"]) for row in measured))
     found = {(row["method"], int(row["sites"])): cell(row) for row in measured}
-    lines = [[method, *(found.get((method, sites), "-") for sites, _ in cases)] for method in in_order(measured, "method")]
+    lines = [
+        [method, *(found.get((method, sites), "-") for sites, _ in cases)] for method in in_order(measured, "method")
+    ]
     return table(["method", *(f"{sites:,} r {radius}" for sites, radius in cases)], lines)
 
 
@@ -55,15 +58,24 @@ def wrong_pixels(row):
 
 def diagrams(runs):
     rows = benched(runs, "diagrams")
-    times = by_case(rows, lambda row: f"{milliseconds(row['median_ms'])} ({milliseconds(row['p10_ms'])}-"
-                                      f"{milliseconds(row['p90_ms'])})")
+    times = by_case(
+        rows,
+        lambda row: f"{milliseconds(row['median_ms'])} ({milliseconds(row['p10_ms'])}-"
+        f"{milliseconds(row['p90_ms'])})",
+    )
     ratios = by_case(rows, lambda row: f"{float(row['ratio']):.2f}")
     took = [f"{row['took']} at {int(row['sites']):,}" for row in rows if row.get("took")]
-    return "\n\n".join([
-        "Milliseconds, median (10th to 90th percentile):", times,
-        *([paragraph(f"`auto` took {'; '.join(took)}.")] if took else []),
-        f'Ratio to "{DRAWING_ALONE}", median over the rounds:', ratios,
-        "Pixels with a wrong owner, against comparing all sites on the CPU:", by_case(rows, wrong_pixels)])
+    return "\n\n".join(
+        [
+            "Milliseconds, median (10th to 90th percentile):",
+            times,
+            *([paragraph(f"`auto` took {'; '.join(took)}.")] if took else []),
+            f'Ratio to "{DRAWING_ALONE}", median over the rounds:',
+            ratios,
+            "Pixels with a wrong owner, against comparing all sites on the CPU:",
+            by_case(rows, wrong_pixels),
+        ]
+    )
 
 
 def proximity(runs):
@@ -75,10 +87,16 @@ def proximity(runs):
         found = {(row["way"], row["people"]): cell(row) for row in rows}
         return table(head, [[way, *(found.get((way, count), "-") for count in counts)] for way in ways])
 
-    return "\n\n".join([
-        "Finding neighbours, ms a step (median), by number of people:", matrix(lambda row: milliseconds(row["search_ms"])),
-        "The whole step, ms (median):", matrix(lambda row: milliseconds(row["step_ms"])),
-        "Recall of the nearest neighbours:", matrix(lambda row: f"{100.0 * float(row['recall']):.3f} %")])
+    return "\n\n".join(
+        [
+            "Finding neighbours, ms a step (median), by number of people:",
+            matrix(lambda row: milliseconds(row["search_ms"])),
+            "The whole step, ms (median):",
+            matrix(lambda row: milliseconds(row["step_ms"])),
+            "Recall of the nearest neighbours:",
+            matrix(lambda row: f"{100.0 * float(row['recall']):.3f} %"),
+        ]
+    )
 
 
 def rvo2(runs):
@@ -94,8 +112,16 @@ def rvo2(runs):
 
     base = runs.known("memory of one person", memory, "base memory")
     with tempfile.TemporaryDirectory() as folder:
-        found = [runs.known(f"{people:,} people beside RVO2", lambda people=people: compare_rvo2.compare(
-            program, people, rounds, folder), "rvo2", people, rounds) for people in counts]
+        found = [
+            runs.known(
+                f"{people:,} people beside RVO2",
+                lambda people=people: compare_rvo2.compare(program, people, rounds, folder),
+                "rvo2",
+                people,
+                rounds,
+            )
+            for people in counts
+        ]
     sizes = [people for people in counts if people >= 16384] or counts
     flat = runs.known("how flat it is", lambda: compare_rvo2.flatness(program, sizes, rounds), "flat", sizes, rounds)
     flat = {name: {int(people): cost for people, cost in costs.items()} for name, costs in flat.items()}
@@ -108,33 +134,64 @@ STEP_PASSES = ("cells", "diagram", "sensing", "avoidance", "contacts", "motion")
 def step(runs):
     bench = runs.program.parent / "bench" / "throng_bench"
     only = ["--benchmark_filter=wholeStep/256/|stepOverGradient1"] if runs.quick else []
-    told = runs.known("the step beside one diagram", lambda: json.loads(output_of(
-        bench, "--benchmark_format=json", *only)), bench, only)
+    told = runs.known(
+        "the step beside one diagram",
+        lambda: json.loads(output_of(bench, "--benchmark_format=json", *only)),
+        bench,
+        only,
+    )
     benches = {each["name"].split("/")[0]: each for each in told["benchmarks"]}
     pair = benches["stepOverGradient1"]
-    rows = [[f"{int(each['name'].split('/')[1]):,}", milliseconds(each["real_time"]),
-             *(f"{each[name]:.2f}" if name in each else "-" for name in passes_of(each))]
-            for each in told["benchmarks"] if each["name"].startswith("wholeStep/")]
+    rows = [
+        [
+            f"{int(each['name'].split('/')[1]):,}",
+            milliseconds(each["real_time"]),
+            *(f"{each[name]:.2f}" if name in each else "-" for name in passes_of(each)),
+        ]
+        for each in told["benchmarks"]
+        if each["name"].startswith("wholeStep/")
+    ]
     whole = next(each for each in told["benchmarks"] if each["name"].startswith("wholeStep/"))
-    return "\n\n".join([
-        paragraph(f"Whole step of 16,384 people {pair['step_ms']:.1f} ms, gradient1 diagram {pair['gradient1_ms']:.1f} "
-                  f"ms, ratio (median of pairs) **{pair['ratio']:.2f}**."),
-        table(["people", "step", *passes_of(whole)], rows)])
+    return "\n\n".join(
+        [
+            paragraph(
+                f"Whole step of 16,384 people {pair['step_ms']:.1f} ms, gradient1 diagram {pair['gradient1_ms']:.1f} "
+                f"ms, ratio (median of pairs) **{pair['ratio']:.2f}**."
+            ),
+            table(["people", "step", *passes_of(whole)], rows),
+        ]
+    )
 
 
 def passes_of(bench):
     """The counters of a whole step: its passes, in their order where that is known."""
-    usual = {"name", "family_index", "per_family_instance_index", "run_name", "run_type", "repetitions",
-             "repetition_index", "threads", "iterations", "real_time", "cpu_time", "time_unit"}
+    usual = {
+        "name",
+        "family_index",
+        "per_family_instance_index",
+        "run_name",
+        "run_type",
+        "repetitions",
+        "repetition_index",
+        "threads",
+        "iterations",
+        "real_time",
+        "cpu_time",
+        "time_unit",
+    }
     names = [name for name in bench if name not in usual]
     return sorted(names, key=lambda name: STEP_PASSES.index(name) if name in STEP_PASSES else len(STEP_PASSES))
 
 
 FAMILIES = {
     "a corridor of 40 x 8 m, 200 people (20 a second from either end), 5 s at 24 frames/s and 2 steps a frame": (
-        {"kind": "corridor", "length": 40, "width": 8, "forth": 20, "back": 20, "duration": 5}, 1000),
+        {"kind": "corridor", "length": 40, "width": 8, "forth": 20, "back": 20, "duration": 5},
+        1000,
+    ),
     "a plaza of 30 m with 12 random pillars, four exits, 200 people, 5 s": (
-        {"kind": "plaza", "size": 30, "rate": 40, "duration": 5}, 200),
+        {"kind": "plaza", "size": 30, "rate": 40, "duration": 5},
+        200,
+    ),
 }
 COSTS = """SELECT count(*) AS scenarios, avg(agents) AS people, 1000 * avg(load_seconds) AS load_ms,
     1000 * avg(setup_seconds) AS setup_ms, 1000 * avg(simulate_seconds) AS simulate_ms,
@@ -162,11 +219,15 @@ def batch(runs):
     for about, (generate, count) in FAMILIES.items():
         count = 4 if runs.quick else count
         cost = batch_costs(runs, generate, count)
-        rows = [["simulation, mean", f"{cost['simulate_ms']:.0f} ms"],
-                ["reading the layout, making the scene", f"{cost['load_ms']:.1f} ms"],
-                ["setting up the simulation", f"{cost['setup_ms']:.1f} ms"],
-                ["**beyond the simulation, mean**", f"**{cost['beyond_ms']:.0f} ms**"],
-                ["memory of a worker, first 100 scenarios, all",
-                 f"{cost['memory_first']:.0f} MiB, {cost['memory_all']:.0f} MiB"]]
+        rows = [
+            ["simulation, mean", f"{cost['simulate_ms']:.0f} ms"],
+            ["reading the layout, making the scene", f"{cost['load_ms']:.1f} ms"],
+            ["setting up the simulation", f"{cost['setup_ms']:.1f} ms"],
+            ["**beyond the simulation, mean**", f"**{cost['beyond_ms']:.0f} ms**"],
+            [
+                "memory of a worker, first 100 scenarios, all",
+                f"{cost['memory_first']:.0f} MiB, {cost['memory_all']:.0f} MiB",
+            ],
+        ]
         parts += [paragraph(f"{count:,} scenarios: {about}, seeds 1 to {count:,}."), table(["", ""], rows)]
     return "\n\n".join(parts)

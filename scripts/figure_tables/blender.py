@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """How long importing a bake takes in each Blender that is here, and a change of frame."""
+
 import json
 import shutil
 import subprocess
@@ -42,9 +43,12 @@ def synthetic(people):
     return write
 
 
-CROWDS = {"a stadium": (stadium, "stadium", False), "the same, levels of detail by camera": (stadium, "stadium", True),
-          "synthetic, 16,384": (synthetic(16384), "synthetic", False),
-          "synthetic, 65,536": (synthetic(65536), "synthetic", False)}
+CROWDS = {
+    "a stadium": (stadium, "stadium", False),
+    "the same, levels of detail by camera": (stadium, "stadium", True),
+    "synthetic, 16,384": (synthetic(16384), "synthetic", False),
+    "synthetic, 65,536": (synthetic(65536), "synthetic", False),
+}
 
 
 def timed(runs, title, command):
@@ -54,13 +58,20 @@ def timed(runs, title, command):
     make(runs, folder)
     found = []
     for _ in range(1 if runs.quick else ROUNDS):
-        words = [*command, ROOT / "blender_addon", folder / name, folder / "saved.blend", "levels" if levels else "plain"]
-        done = subprocess.run([str(word) for word in words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                              check=False)
+        words = [
+            *command,
+            ROOT / "blender_addon",
+            folder / name,
+            folder / "saved.blend",
+            "levels" if levels else "plain",
+        ]
+        done = subprocess.run(
+            [str(word) for word in words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False
+        )
         results = [line for line in done.stdout.splitlines() if line.startswith("RESULT ")]
         if done.returncode or not results:
             raise SystemExit(f"{' '.join(map(str, words))} ended with {done.returncode}:\n{done.stdout[-2000:]}")
-        found.append(json.loads(results[-1][len("RESULT "):]))
+        found.append(json.loads(results[-1][len("RESULT ") :]))
     shutil.rmtree(folder)
     return found
 
@@ -75,13 +86,30 @@ def blender(runs):
     addon = sorted((ROOT / "blender_addon").rglob("*.py"))
     for title in CROWDS:
         for name, command in here.items():
-            found = runs.known(f"{title}, {name}", lambda title=title, command=command: timed(runs, title, command),
-                               "blender", title, name, runs.quick, SCRIPT, *addon)
+            found = runs.known(
+                f"{title}, {name}",
+                lambda title=title, command=command: timed(runs, title, command),
+                "blender",
+                title,
+                name,
+                runs.quick,
+                SCRIPT,
+                *addon,
+            )
             last = found[-1]
-            rows.append([title, f"{last['people']:,}", last["version"], f"{max(each['import'] for each in found):.1f} s",
-                         milliseconds([each["frame"] for each in found]),
-                         milliseconds([each["median"] for each in found]), f"{last['bytes'] / 1e6:.0f} MB"])
+            rows.append(
+                [
+                    title,
+                    f"{last['people']:,}",
+                    last["version"],
+                    f"{max(each['import'] for each in found):.1f} s",
+                    milliseconds([each["frame"] for each in found]),
+                    milliseconds([each["median"] for each in found]),
+                    f"{last['bytes'] / 1e6:.0f} MB",
+                ]
+            )
     if not here:
         raise SystemExit("there is no Blender here")
-    return table(["crowd", "people drawn", "Blender", "import", "change of frame: fastest", "median",
-                  ".blend, compressed"], rows)
+    return table(
+        ["crowd", "people drawn", "Blender", "import", "change of frame: fastest", "median", ".blend, compressed"], rows
+    )

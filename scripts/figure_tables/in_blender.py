@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs inside Blender: ADDON BAKE SAVED.blend plain|levels. Times importing and changes of frame, and saves the scene."""
+"""Runs inside Blender: ADDON BAKE SAVED.blend plain|levels. Times importing and changes of frame, saves the scene."""
+
 import json
 import os
 import sys
@@ -27,6 +28,16 @@ for back in 5 * (2, 4, 3, 5, 1, 4, 2, 5, 3, 1, 5, 2):  # near the end: people ha
     times.append(time.perf_counter() - start)
 people = sum(1 for instance in bpy.context.evaluated_depsgraph_get().object_instances if instance.is_instance)
 bpy.ops.wm.save_mainfile(compress=True)
-print("RESULT " + json.dumps({
-    "version": bpy.app.version_string, "import": imported, "frame": min(times), "median": sorted(times)[len(times) // 2],
-    "people": people, "bytes": os.path.getsize(saved)}))
+print(
+    "RESULT "
+    + json.dumps(
+        {
+            "version": bpy.app.version_string,
+            "import": imported,
+            "frame": min(times),
+            "median": sorted(times)[len(times) // 2],
+            "people": people,
+            "bytes": os.path.getsize(saved),
+        }
+    )
+)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tables of how people move. Each takes Runs and returns Markdown."""
+
 import json
 import subprocess
 import sys
@@ -36,8 +37,12 @@ def there_after(figures):
 
 
 def motion_of(figures):
-    return [share(figures), there_after(figures), f"{figures['deepest_overlap_percent']:.2g}",
-            number(figures["overlapping_percent"])]
+    return [
+        share(figures),
+        there_after(figures),
+        f"{figures['deepest_overlap_percent']:.2g}",
+        number(figures["overlapping_percent"]),
+    ]
 
 
 def with_time(runs, name, about):
@@ -65,10 +70,27 @@ def large(runs):
         settings = ["simulation.proximity=grid"] if name.startswith("ring") else []  # 27 million cells of diagram else
         figures = runs.scenario(name, *settings)
         time = f"{figures['time_ratio']:.2f}"
-        rows.append([with_time(runs, name, "16,384"), *motion_of(figures), f"{figures['stuck']:,}", time,
-                     f"{figures['mean_density']:.1f}", f"{figures['lane_order']:.2f}"])
-    return table(["scenario", *MOTION, "stuck at the end", "time over the free time, median",
-                  "mean density, persons/m^2", "lane order"], rows)
+        rows.append(
+            [
+                with_time(runs, name, "16,384"),
+                *motion_of(figures),
+                f"{figures['stuck']:,}",
+                time,
+                f"{figures['mean_density']:.1f}",
+                f"{figures['lane_order']:.2f}",
+            ]
+        )
+    return table(
+        [
+            "scenario",
+            *MOTION,
+            "stuck at the end",
+            "time over the free time, median",
+            "mean density, persons/m^2",
+            "lane order",
+        ],
+        rows,
+    )
 
 
 def seeds(runs):
@@ -79,12 +101,25 @@ def seeds(runs):
         off = [span_of([each["off"][i] for each in found], 0) for i in (0, 1)] if read else ["", ""]
         missing = [each["agents"] - each["arrived"] for each in found]
         ends = ", ".join(there_after(each) if not gone else f"{gone:,} late" for each, gone in zip(found, missing))
-        rows.append([f"{name}, seeds 1 to {len(found)}", ends,
-                     span_of([each["deepest_overlap_percent"] for each in found]),
-                     number(max(each["overlapping_percent"] for each in found)),
-                     sum(each["wall_crossings"] for each in found), *off])
-    head = ["scenario", "all there after", "deepest overlap, % of 2a", "overlapping pairs, % of people, worst seed",
-            "walls crossed", "people more than 20 m off their way", "more than 40 m"]
+        rows.append(
+            [
+                f"{name}, seeds 1 to {len(found)}",
+                ends,
+                span_of([each["deepest_overlap_percent"] for each in found]),
+                number(max(each["overlapping_percent"] for each in found)),
+                sum(each["wall_crossings"] for each in found),
+                *off,
+            ]
+        )
+    head = [
+        "scenario",
+        "all there after",
+        "deepest overlap, % of 2a",
+        "overlapping pairs, % of people, worst seed",
+        "walls crossed",
+        "people more than 20 m off their way",
+        "more than 40 m",
+    ]
     return table(head, rows)
 
 
@@ -92,29 +127,66 @@ def steadiness(runs):
     rows = []
     for name in ("ring", "annulus", "corridor", "crossing"):
         as_recorded, simulated = runs.scenario(name), runs.scenario(name, "simulation.smoothing=0")
-        rows.append([name, f"{as_recorded['acceleration']['p99']:.1f}", f"{simulated['acceleration']['p99']:.1f}",
-                     f"{as_recorded['heading_rate']['p99']:.0f}", f"{as_recorded['backward_percent']:.2f}",
-                     f"{simulated['backward_percent']:.2f}", f"{as_recorded['deepest_overlap_percent']:.1f}"])
-    return table(["", "acceleration, 99th percentile, m/s^2", "the same as simulated",
-                  "turning, 99th percentile, degrees/s", "steps backwards, %", "as simulated",
-                  "deepest overlap, % of 2a"], rows)
+        rows.append(
+            [
+                name,
+                f"{as_recorded['acceleration']['p99']:.1f}",
+                f"{simulated['acceleration']['p99']:.1f}",
+                f"{as_recorded['heading_rate']['p99']:.0f}",
+                f"{as_recorded['backward_percent']:.2f}",
+                f"{simulated['backward_percent']:.2f}",
+                f"{as_recorded['deepest_overlap_percent']:.1f}",
+            ]
+        )
+    return table(
+        [
+            "",
+            "acceleration, 99th percentile, m/s^2",
+            "the same as simulated",
+            "turning, 99th percentile, degrees/s",
+            "steps backwards, %",
+            "as simulated",
+            "deepest overlap, % of 2a",
+        ],
+        rows,
+    )
 
 
 def doors(runs):
-    cases = [("imo-4", 3), *((name, 6) for name in BOTTLENECKS), ("rimea-9-four-exits", 1), ("rimea-9-two-exits", 1),
-             ("rimea-11", 1), ("imo-8-50", 3), ("imo-8-100", 3)]
+    cases = [
+        ("imo-4", 3),
+        *((name, 6) for name in BOTTLENECKS),
+        ("rimea-9-four-exits", 1),
+        ("rimea-9-two-exits", 1),
+        ("rimea-11", 1),
+        ("imo-8-50", 3),
+        ("imo-8-100", 3),
+    ]
     rows = []
     for name, count in cases:
         found = [runs.scenario(name, seed(value)) for value in runs.seeds(count)]
         flows = [each["flow"] for each in found if "flow" in each]
-        rows.append([f"{name}, seeds 1 to {len(found)}" if len(found) > 1 else f"{name}, seed 1",
-                     f"{span_of(flows, 2)} ({sum(flows) / len(flows):.2f} on average)" if flows else "-",
-                     span_of([each["seconds"] for each in found], 0),
-                     span_of([each["acceleration"]["p99"] for each in found]),
-                     span_of([each["heading_rate"]["p99"] for each in found], 0),
-                     span_of([each["backward_percent"] for each in found], 2)])
-    return table(["scenario", "flow, persons/s", "seconds", "acceleration, 99th percentile, m/s^2",
-                  "turning, 99th percentile, degrees/s", "steps backwards, %"], rows)
+        rows.append(
+            [
+                f"{name}, seeds 1 to {len(found)}" if len(found) > 1 else f"{name}, seed 1",
+                f"{span_of(flows, 2)} ({sum(flows) / len(flows):.2f} on average)" if flows else "-",
+                span_of([each["seconds"] for each in found], 0),
+                span_of([each["acceleration"]["p99"] for each in found]),
+                span_of([each["heading_rate"]["p99"] for each in found], 0),
+                span_of([each["backward_percent"] for each in found], 2),
+            ]
+        )
+    return table(
+        [
+            "scenario",
+            "flow, persons/s",
+            "seconds",
+            "acceleration, 99th percentile, m/s^2",
+            "turning, 99th percentile, degrees/s",
+            "steps backwards, %",
+        ],
+        rows,
+    )
 
 
 def door_widths(runs):
@@ -124,8 +196,11 @@ def door_widths(runs):
         for least, most in RADII:
             flows = []
             for name in BOTTLENECKS:
-                figures = runs.scenario(name, f"formations.0.people.headway={value:g}",
-                                        f'formations.0.people.radius={{"uniform": [{least}, {most}]}}')
+                figures = runs.scenario(
+                    name,
+                    f"formations.0.people.headway={value:g}",
+                    f'formations.0.people.radius={{"uniform": [{least}, {most}]}}',
+                )
                 star = "" if figures["arrived"] == figures["agents"] else "*"
                 flows.append(f"{figures.get('flow', 0.0):.2f}{star}")
             cells.append(" / ".join(flows))
@@ -140,8 +215,12 @@ def headway(runs):
     for value in (0.0, 0.18, 0.3):
         cells = []
         for name in names:
-            found = [runs.scenario(name, seed(each), f"formations.0.people.headway={value:g}",
-                                   read=reading.speed_and_density) for each in runs.seeds(3)]
+            found = [
+                runs.scenario(
+                    name, seed(each), f"formations.0.people.headway={value:g}", read=reading.speed_and_density
+                )
+                for each in runs.seeds(3)
+            ]
             densities[name] += [each["density"] for each in found]
             cells.append(f"{sum(each['speed'] / each['usual'] for each in found) / len(found):.2f}")
         rows.append([f"{value:g} s" if value else "none given (0.1 s in peace)", *cells])
@@ -165,54 +244,81 @@ def rimea_rows(runs):
     four, two = runs.scenario("rimea-9-four-exits"), runs.scenario("rimea-9-two-exits")
     return [
         ["rimea-1, one person, 40 m at 1.33 m/s", f"{alone['seconds']:.1f} s", "26 to 34 s"],
-        ["rimea-4, flow in a corridor at 0.5 / 1 / 2 / 3 persons per m^2, headway 0.18 s",
-         f"{slashes([each.get('flow', 0.0) for each in densities], 2)} per s",
-         "within 15 % of Weidmann 1993: 2.75 / 4.23 / 5.14 / 4.01"],
-        ["rimea-6, 20 people round a corner", f"{corner['wall_crossings']} walls crossed, bodies at most "
-         f"{1000 * corner['deepest_wall_penetration']:.1f} mm in a wall", "nobody in a wall by 1 mm"],
-        ["rimea-9, 1,000 people, room with four exits of 1 m and with two",
-         f"{four['seconds']:.0f} and {two['seconds']:.0f} s: {two['seconds'] / four['seconds']:.2f} times",
-         "all leave, in 1.6 to 2.4 times the time"],
-        [f"rimea-10, {exits['agents']} people in twelve cabins, each with an exit of its own",
-         f"{exits['own_exit']} take it, {exits['seconds']:.0f} s", "everybody takes it"],
-        ["rimea-11, 1,000 people at one end of a room with two doors of 1 m",
-         f"{nearer['further']} take the further one, {nearer['seconds']:.0f} s",
-         "most take the nearer one, some the other"],
+        [
+            "rimea-4, flow in a corridor at 0.5 / 1 / 2 / 3 persons per m^2, headway 0.18 s",
+            f"{slashes([each.get('flow', 0.0) for each in densities], 2)} per s",
+            "within 15 % of Weidmann 1993: 2.75 / 4.23 / 5.14 / 4.01",
+        ],
+        [
+            "rimea-6, 20 people round a corner",
+            f"{corner['wall_crossings']} walls crossed, bodies at most "
+            f"{1000 * corner['deepest_wall_penetration']:.1f} mm in a wall",
+            "nobody in a wall by 1 mm",
+        ],
+        [
+            "rimea-9, 1,000 people, room with four exits of 1 m and with two",
+            f"{four['seconds']:.0f} and {two['seconds']:.0f} s: {two['seconds'] / four['seconds']:.2f} times",
+            "all leave, in 1.6 to 2.4 times the time",
+        ],
+        [
+            f"rimea-10, {exits['agents']} people in twelve cabins, each with an exit of its own",
+            f"{exits['own_exit']} take it, {exits['seconds']:.0f} s",
+            "everybody takes it",
+        ],
+        [
+            "rimea-11, 1,000 people at one end of a room with two doors of 1 m",
+            f"{nearer['further']} take the further one, {nearer['seconds']:.0f} s",
+            "most take the nearer one, some the other",
+        ],
     ]
 
 
 def company_row(runs):
     groups = runs.scenario("company", read=reading.company)
-    return ["company, 2 x 100 people in groups through each other",
-            f"members within {groups['apart']:.1f} m of their group's middle (median; {groups['furthest']:.1f} m at "
-            f"worst), arrive within {groups['late']:.1f} s of each other", "not split"]
+    return [
+        "company, 2 x 100 people in groups through each other",
+        f"members within {groups['apart']:.1f} m of their group's middle (median; {groups['furthest']:.1f} m at "
+        f"worst), arrive within {groups['late']:.1f} s of each other",
+        "not split",
+    ]
 
 
 def imo_rows(runs):
     flows = [runs.scenario("imo-4", seed(value))["flow"] for value in runs.seeds(3)]
     against = [runs.scenario(f"imo-8-{others}")["seconds"] for others in (0, 10, 50, 100)]
     return [
-        [f"imo-4, 100 people as wide as their shoulders, door of 1 m, headway 0.1 s, seeds 1 to {len(flows)}",
-         f"{slashes(flows, 2)} per s: {sum(flows) / len(flows):.2f} on average", "at most 1.33 per s on average"],
-        ["imo-8, 100 people against 0 / 10 / 50 / 100 in a corridor 2 m wide", f"{slashes(against, 0)} s",
-         "more take longer"],
+        [
+            f"imo-4, 100 people as wide as their shoulders, door of 1 m, headway 0.1 s, seeds 1 to {len(flows)}",
+            f"{slashes(flows, 2)} per s: {sum(flows) / len(flows):.2f} on average",
+            "at most 1.33 per s on average",
+        ],
+        [
+            "imo-8, 100 people against 0 / 10 / 50 / 100 in a corridor 2 m wide",
+            f"{slashes(against, 0)} s",
+            "more take longer",
+        ],
     ]
 
 
 def trap_row(runs):
     traps = {name: runs.scenario(f"trap-{name}")["missed"] for name in TRAPS}
     missed = "; ".join(f"{name}: {', '.join(bars)}" for name, bars in traps.items() if bars)
-    return [f"traps: {', '.join(TRAPS)}", missed or "all bars hold",
-            "everybody arrives, nobody overlaps by more than 2 %, nobody passes a wall"]
+    return [
+        f"traps: {', '.join(TRAPS)}",
+        missed or "all bars hold",
+        "everybody arrives, nobody overlaps by more than 2 %, nobody passes a wall",
+    ]
 
 
 def bottleneck_rows(runs):
     for name, width in BOTTLENECKS.items():
         found = [runs.scenario(name, seed(value))["flow"] for value in runs.seeds(6)]
         bar = runs.layout(name)["expect"]["flow"]
-        yield [f"bottleneck of {width}, 100 adults, headway 0.09 s, radius 0.17 to 0.21 m, seeds 1 to {len(found)}",
-               f"{span_of(found, 2)} per s ({sum(found) / len(found):.2f} on average)",
-               f"Kretz, Gruenebohm and Schreckenberg 2006 within 15 %: {bar['min']:.2f} to {bar['max']:.2f}"]
+        yield [
+            f"bottleneck of {width}, 100 adults, headway 0.09 s, radius 0.17 to 0.21 m, seeds 1 to {len(found)}",
+            f"{span_of(found, 2)} per s ({sum(found) / len(found):.2f} on average)",
+            f"Kretz, Gruenebohm and Schreckenberg 2006 within 15 %: {bar['min']:.2f} to {bar['max']:.2f}",
+        ]
 
 
 def ablation(runs, names):
@@ -238,8 +344,9 @@ def rvo2_moved(runs, name):
     def moved():
         folder = runs.scratch("rvo2-motion")
         command = [sys.executable, script, runs.program, "-o", folder, "--scenario", name, *shorter]
-        told = subprocess.run([str(word) for word in command], check=True, stdout=subprocess.PIPE, text=True,
-                              stderr=subprocess.DEVNULL).stdout
+        told = subprocess.run(
+            [str(word) for word in command], check=True, stdout=subprocess.PIPE, text=True, stderr=subprocess.DEVNULL
+        ).stdout
         runs.scratch("rvo2-motion").rmdir()  # streams of minutes are gigabytes
         return json.loads(told.splitlines()[-1])
 
@@ -251,6 +358,12 @@ def rvo2_motion(runs):
     for name, about in CROWDS.items():
         figures = rvo2_moved(runs, name)
         title = f"uniform, {about}, 10 s" if name == "uniform" else with_time(runs, name, about)
-        rows.append([title, "-" if name == "uniform" else share(figures), f"{figures['deepest_overlap_percent']:.2g}",
-                     number(figures["overlapping_percent"], 1)])
+        rows.append(
+            [
+                title,
+                "-" if name == "uniform" else share(figures),
+                f"{figures['deepest_overlap_percent']:.2g}",
+                number(figures["overlapping_percent"], 1),
+            ]
+        )
     return table(["scenario", "RVO2: at goal by T", "deepest overlap, % of 2a", "overlapping pairs, % of people"], rows)

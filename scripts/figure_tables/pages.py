@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Where tables stand in the docs: between <!-- figures: NAME --> and <!-- /figures -->."""
+
 import re
 import textwrap
 
@@ -31,7 +32,7 @@ def paragraph(text):
 
 def number(value, digits=3):
     """Without noise behind the point: 0.000, 0.00002, 12.3."""
-    if value and abs(value) < 10.0 ** -digits:
+    if value and abs(value) < 10.0**-digits:
         return f"{value:.1g}" if abs(value) >= 1e-4 else f"{value:.6f}".rstrip("0")
     return f"{value:.{digits}f}"
 

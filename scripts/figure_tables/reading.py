@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """What only the streams of a bake tell. Each takes a bake's folder and returns figures."""
+
 import csv
 import json
 
 import numpy
 
-FURTHER_DOOR = 15.0                          # m: rimea-11's crowd starts west of it
-WEIDMANN = (1.34, 1.913, 5.4)                # m/s, 1/m^2, 1/m^2: free speed, gauge, density at standstill
-STRETCH = (45.0, 65.0)                       # m along rimea-4's corridors
-OFF = (20.0, 40.0)                           # m from the middle of one's way
+FURTHER_DOOR = 15.0  # m: rimea-11's crowd starts west of it
+WEIDMANN = (1.34, 1.913, 5.4)  # m/s, 1/m^2, 1/m^2: free speed, gauge, density at standstill
+STRETCH = (45.0, 65.0)  # m along rimea-4's corridors
+OFF = (20.0, 40.0)  # m from the middle of one's way
 
 
 def people_of(bake):
@@ -67,7 +68,7 @@ def carried_off(bake):
 
 
 def speed_and_density(bake):
-    """Mean density and speed in a stretch of rimea-4's corridors, from the second second on; Weidmann's speed for it."""
+    """Mean density and speed in a stretch of rimea-4's corridors, from the second second on; Weidmann's for it."""
     about = json.loads((bake / "bake.json").read_text())
     sides = [abs(point[1]) - wall["thickness"] / 2.0 for wall in about["geometry"]["walls"] for point in wall["points"]]
     place, speed = stream(bake, "pos"), stream(bake, "dir")

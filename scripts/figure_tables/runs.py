@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs the program and keeps what was measured, by a hash of program, layout, settings and machine."""
+
 import hashlib
 import inspect
 import json
@@ -52,7 +53,9 @@ class Runs:
 
     def stamp(self, name):
         shortened = " A quick trial, good for nothing else." if self.quick else ""
-        return f"Made by `scripts/figures {name}`: {commit()}, program {self.program_hash[:8]}; {self.machine}.{shortened}"
+        return (
+            f"Made by `scripts/figures {name}`: {commit()}, program {self.program_hash[:8]}; {self.machine}.{shortened}"
+        )
 
     def seeds(self, count):
         return [1] if self.quick else list(range(1, count + 1))
@@ -74,7 +77,9 @@ class Runs:
         seconds = time.monotonic() - start
         print(f" {seconds:.0f} s", file=sys.stderr, flush=True)
         complete = path.with_suffix(".new")
-        complete.write_text(json.dumps({"what": what, "commit": commit(), "seconds": round(seconds, 1), "result": result}))
+        complete.write_text(
+            json.dumps({"what": what, "commit": commit(), "seconds": round(seconds, 1), "result": result})
+        )
         complete.rename(path)
         return result
 
@@ -87,7 +92,9 @@ class Runs:
             with tempfile.TemporaryDirectory(dir=self.folder) as scratch:
                 words = [word for setting in settings for word in ("--set", setting)]
                 command = [self.program, "scenarios", "--run", name, "--json", "-o", scratch, *words]
-                done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, check=False)
+                done = subprocess.run(
+                    command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, check=False
+                )
                 if done.returncode not in (0, 1):  # 1: a bar is missed
                     raise SystemExit(f"{' '.join(map(str, command))} ended with {done.returncode}")
                 figures = json.loads(done.stdout)
