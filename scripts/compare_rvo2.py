@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Times whole steps of Throng and of RVO2 (pyrvo) in turn, over the same crowd, and writes a table.
+"""Times whole steps of Throng and of RVO2 (pyrvo) in turn, over the same crowd, and prints tables.
 
-Usage: compare_rvo2.py THRONG -o FOLDER [--people 4096 16384 ...] [--rounds 15]   (needs numpy and pyrvo)
+Usage: compare_rvo2.py THRONG [--people 4096 16384 ...] [--rounds 15]   (needs pyrvo; `scripts/figures rvo2` runs it)
 """
 import argparse
 import csv
 import os
-import pathlib
 import statistics
 import subprocess
 import tempfile
@@ -154,32 +153,29 @@ def base_memory_of(program):
     return base
 
 
+def tables(results, base_memory, flat, rounds):
+    """What docs/benchmarks/llvmpipe/rvo2.md holds."""
+    return f"""RVO2 through pyrvo {pyrvo_version()}, threads in its process: {results[0]["threads"]}. Medians of {rounds} rounds, ms a step.
+
+{table(results, base_memory)}
+
+**How flat it is.** Whole steps of crowds of several sizes in turn, {rounds} rounds; ratios are medians over the rounds.
+
+{flatness_table(flat)}"""
+
+
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
-    parser.add_argument("-o", "--output", type=pathlib.Path, required=True)
     parser.add_argument("--people", type=int, nargs="+", default=[4096, 16384, 65536, 262144, 1048576])
     parser.add_argument("--rounds", type=int, default=15)
     options = parser.parse_args()
     base_memory_of(options.program)  # fills the driver's cache of shaders: compiling takes memory, too
     with tempfile.TemporaryDirectory() as folder:
         results = [compare(options.program, people, options.rounds, folder) for people in options.people]
-    text = f"""# Whole steps beside RVO2
-
-{results[0]["device"]}, {os.cpu_count()} processor cores; RVO2 through pyrvo {pyrvo_version()}, {results[0]["threads"]} threads in its process. Made by `scripts/compare_rvo2.py`.
-The same crowd for all: one person per 4 m^2 on its way to a random goal, body radius 0.3 m, {NEIGHBOURS} neighbours within {SIGHT} m, horizon {HORIZON:g} s. Medians of
-{options.rounds} rounds, all three in turn, ms a step. Throng's step is everything from sorting to contact; RVO2's is `do_step` alone, without setting preferred velocities.
-Memory is the resident set of the process less that of the same program with one person (RVO2: what its agents added).
-
-{table(results, base_memory_of(options.program))}
-
-**How flat it is.** Whole steps of crowds of several sizes in turn, {options.rounds} rounds; ratios are medians over the rounds.
-
-{flatness_table(flatness(options.program, [people for people in options.people if people >= 16384] or options.people[:1], options.rounds))}
-"""
-    options.output.mkdir(parents=True, exist_ok=True)
-    (options.output / "rvo2.md").write_text(text)
-    print(text)
+    large = [people for people in options.people if people >= 16384] or options.people[:1]
+    flat = flatness(options.program, large, options.rounds)
+    print(tables(results, base_memory_of(options.program), flat, options.rounds))
 
 
 def pyrvo_version():
@@ -187,4 +183,5 @@ def pyrvo_version():
     return version("pyrvo")
 
 
-main()
+if __name__ == "__main__":
+    main()
