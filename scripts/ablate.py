@@ -42,8 +42,12 @@ TOGETHER = {
 def variants():
     """Name for --only -> (what the table calls it, settings)."""
     rules = json.loads(SCHEMA.read_text())["properties"]["motion"]["properties"]
-    alone = {name: (f"without: {rule['title']}", [f"motion.{name}.enabled=false"])
-             for name, rule in rules.items() if "enabled" in rule["properties"]}
+    alone = {}
+    for name, rule in rules.items():
+        switch = rule["properties"].get("enabled")
+        if switch:  # to the other side than usual
+            word, value = ("without", "false") if switch["default"] else ("with", "true")
+            alone[name] = (f"{word}: {rule['title']}", [f"motion.{name}.enabled={value}"])
     return {"all": ("all rules", []), **alone, **TOGETHER}
 
 
