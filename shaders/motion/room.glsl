@@ -10,6 +10,7 @@
 #include "shaders/motion/no_braking_for_oncoming.glsl"
 #include "shaders/motion/impatience.glsl"
 #include "shaders/motion/no_swerving_in_crowds.glsl"
+#include "shaders/motion/passing_side.glsl"
 #include "shaders/motion/cushion.glsl"
 #include "shaders/motion/room_to_step.glsl"
 #include "shaders/motion/headway.glsl"
@@ -38,6 +39,7 @@ vec2 roomFor(Manners manners, vec2 offset, vec2 relative, vec2 overtaking, float
     float along = dot(room, manners.way);
     float swerve = patience * mix(1.0 - manners.crowding, manners.freedom, behind);
     vec2 aside = (room - manners.way * along) * mix(swerve, 1.0, oncoming);
+    if (PASSING_SIDE_ENABLED) aside += passingSide(manners.way, oncoming, room);
     along *= 1.0 - behind;
     if (along < 0.0) along *= 1.0 - max(unbraked(oncoming), manners.impatience);
     return manners.way * along + aside + touch;

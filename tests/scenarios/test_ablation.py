@@ -7,15 +7,18 @@ import pathlib
 import subprocess
 import sys
 
-import pytest
-
 SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "ablate.py"
 FIGURES = ("arrived", "seconds", "deepest_overlap_percent", "acceleration_p99", "backward_percent", "way")
-# Where a rule is seen at work that is not seen at the door of imo-4, and for how many seconds it is looked at.
-AT_THE_DOOR = "imo-4"
-SECONDS = {AT_THE_DOOR: 25, "trap-narrow-door": 20, "company": 20, "bidirectional": 8, "hill": 10, "station": 15}
-ELSEWHERE = {"headway_in_peace": "trap-narrow-door", "company": "company", "waiting_for_company": "company",
-             "kerb": "bidirectional", "slope_pace": "hill", "room_of_the_standing": "station"}
+# Where rules are looked at, one place after the other until each has been seen at work, and for how many seconds.
+PLACES = {"imo-4": 25, "trap-head-on": 10, "trap-narrow-door": 20, "company": 20, "bidirectional": 8, "hill": 10,
+          "station": 15}
+
+
+def ablate_module():
+    spec = importlib.util.spec_from_file_location("ablate", SCRIPT)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
 
 
 def ablate(folder, *words):
@@ -23,23 +26,29 @@ def ablate(folder, *words):
                           capture_output=True, text=True)
 
 
-def known_variants():
-    spec = importlib.util.spec_from_file_location("ablate", SCRIPT)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module.variants()
-
-
-@pytest.mark.parametrize("scenario", SECONDS)
-def test_a_rule_that_is_switched_off_changes_what_people_do_and_nothing_is_measured_twice(tmp_path, scenario):
-    names = [name for name in known_variants() if name == "all" or ELSEWHERE.get(name, AT_THE_DOOR) == scenario]
-    words = ["--scenario", scenario, "--set", f"simulation.duration={SECONDS[scenario]}", "--only", *names]
-    first = ablate(tmp_path, *words)
-    rows = [json.loads(line) for line in (tmp_path / "results.jsonl").read_text().splitlines()]
-    assert [row["name"] for row in rows] == names
+def seen_at_work(folder, scenario, seconds, names):
+    """Those whose switch changes any figure there."""
+    ablate(folder, "--scenario", scenario, "--set", f"simulation.duration={seconds}", "--only", "all", *names)
+    rows = [json.loads(line) for line in (folder / "results.jsonl").read_text().splitlines()]
+    assert sorted(row["name"] for row in rows) == sorted(["all", *names])
     figures = {row["name"]: [row[figure] for figure in FIGURES] for row in rows}
-    whole = figures.pop("all")
-    assert [name for name, row in figures.items() if row == whole] == [], figures
+    return {name for name in names if figures[name] != figures["all"]}
+
+
+def test_every_switch_of_a_rule_changes_what_people_do_somewhere(tmp_path):
+    module = ablate_module()
+    left = set(module.variants()) - {"all"}
+    for scenario, seconds in PLACES.items():
+        names = sorted(left & set(module.chosen(module.layout_of(scenario), [])))
+        if names:
+            left -= seen_at_work(tmp_path / scenario, scenario, seconds, names)
+    assert left == set()
+
+
+def test_nothing_is_measured_twice(tmp_path):
+    words = ["--scenario", "trap-head-on", "--seed", "1", "2", "--set", "simulation.duration=5", "--only", "all", "cushion"]
+    first = ablate(tmp_path, *words)
+    assert first.stderr.count("...") == 4
     again = ablate(tmp_path, *words)
     assert again.stdout == first.stdout == (tmp_path / "table.md").read_text()
     assert not again.stderr
