@@ -2,9 +2,9 @@
 // One round of bringing one field's walking distances up to date with the crowd.
 //
 // Who can see that the crowd ahead stands, or comes the other way, walks round it. The way costs as many metres as one
-// could have walked in the same time without a crowd: where it is dense, one gets on as fast as the crowd moves in one's
-// own direction, and next to not at all against it (Treuille, Cooper and Popovic 2006, equations 4, 7 and 8). Walking with a
-// stream is therefore cheap, and lanes attract those who go the same way.
+// could have walked in the same time without a crowd: where it is dense, one gets on as fast as the crowd moves in
+// one's own direction, and next to not at all against it (Treuille, Cooper and Popovic 2006, equations 4, 7 and 8).
+// Walking with a stream is therefore cheap, and lanes attract those who go the same way.
 //
 // The distances obey the Eikonal equation with these costs. Every round recomputes each cell from its neighbours' last
 // values (Jacobi), so news of a jam spreads by one cell a round, and no order of invocations shows in the result.
@@ -26,9 +26,9 @@ uniform uint first_field;     // of this round
 
 const float THICK = 3.0;         // persons/m^2: from here on nobody walks faster than the crowd
 const float FREE_SPEED = 1.34;   // m/s (Weidmann 1993)
-/// Of the free speed: even through a jam that stands, one gets some time. Who may choose between several places takes a jam
-/// for what it is: a door that hundreds wait for is worth a walk to the next one. What counts then is how fast the crowd gets
-/// nearer to any of the places; or people would circle with those who circle.
+/// Of the free speed: even through a jam that stands, one gets some time. Who may choose between several places takes a
+/// jam for what it is: a door that hundreds wait for is worth a walk to the next one. What counts then is how fast the
+/// crowd gets nearer to any of the places; or people would circle with those who circle.
 const float SLOWEST = 0.2;
 const float SLOWEST_WITH_CHOICE = 0.05;
 const float AGAINST_ONE_WAY = -0.1;
@@ -42,9 +42,11 @@ float detourOr(uint field, uint cell, bool exists, float otherwise) {
 vec2 downhill(uint field, uint cell) {
     uint x = cell % parameters.detour_width;
     float here = detour_distances[field * cellsOfMap() + cell];
-    vec2 slope = vec2(detourOr(field, cell - 1u, x > 0u, here) - detourOr(field, cell + 1u, x + 1u < parameters.detour_width, here),
+    vec2 slope = vec2(detourOr(field, cell - 1u, x > 0u, here) -
+                          detourOr(field, cell + 1u, x + 1u < parameters.detour_width, here),
                       detourOr(field, cell - parameters.detour_width, cell >= parameters.detour_width, here) -
-                      detourOr(field, cell + parameters.detour_width, cell + parameters.detour_width < cellsOfMap(), here));
+                          detourOr(field, cell + parameters.detour_width,
+                                   cell + parameters.detour_width < cellsOfMap(), here));
     float size = length(slope);
     return size > 1.0e-6 ? slope / size : vec2(0.0);
 }
@@ -91,11 +93,12 @@ float relaxed(uint field, uint cell) {
     if (free <= 0.0 || free >= BLOCKED_COST || here.cost >= BLOCKED_COST) return free;
     uvec2 at = uvec2(cell % parameters.detour_width, cell / parameters.detour_width);
     vec2 x = betterSide(field, cell, here, at.x > 0u, at.x + 1u < parameters.detour_width, 1u, vec2(1.0, 0.0));
-    vec2 y = betterSide(field, cell, here, at.y > 0u, at.y + 1u < parameters.detour_height, parameters.detour_width, vec2(0.0, 1.0));
+    vec2 y = betterSide(field, cell, here, at.y > 0u, at.y + 1u < parameters.detour_height, parameters.detour_width,
+                        vec2(0.0, 1.0));
     return min(eikonal(x, y), BLOCKED_COST);
 }
 
-/// m: smaller changes are none. Rounding and the first solution's own small errors would keep whole maps busy otherwise.
+/// m: smaller changes are none. Rounding and the first solution's own small errors would else keep whole maps busy.
 const float SETTLED = 1.0e-3;
 
 void main() {
