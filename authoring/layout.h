@@ -103,7 +103,7 @@ struct SimulationSettings {
     double wall_time_horizon = 0.6;            ///< s, [0.05, 20]: how far ahead people avoid walls
     double contact_range = 1.0;  ///< m, [0.5, 3]: those nearer than this are felt whatever the field of view
     int contact_iterations = 8;  ///< [1, 32]: rounds per step that keep bodies apart
-    /// s, [0, 1]: what is recorded is averaged over nearly as much before and after (io/motion); 0: not at
+    /// s, [0, 1]: what is recorded is averaged over nearly as much before and after (recording/); 0: not at
     /// all
     double smoothing = 0.25;
     bool avoid_congestion = true;       ///< routes lead round jams, as far as people could see them coming

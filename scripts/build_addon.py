@@ -1,6 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Packs the Blender add-on as a zip that installs in Blender 3.4 and later. Usage: build_addon.py [throng-blender.zip]"""
+"""Packs the Blender add-on as a zip that installs in Blender 3.4 and later.
+
+Usage: build_addon.py [throng-blender.zip]
+"""
 import pathlib
 import sys
 import zipfile

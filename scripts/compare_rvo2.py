@@ -30,7 +30,8 @@ class Throng:
 
     def __init__(self, program, people, proximity, crowd=None):
         command = [program, "bench", "step", "--people", str(people), "--proximity", proximity]
-        self.process = subprocess.Popen(command + (["--crowd", crowd] if crowd else []), stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        command += ["--crowd", crowd] if crowd else []
+        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         self.device = self.process.stdout.readline().strip()
 
     def step(self):
@@ -100,9 +101,9 @@ def compare(program, people, rounds, folder):
 
 
 def flatness(program, counts, rounds):
-    """What a person costs in crowds of several sizes, taken in turn, as the machine is now faster and now slower: {proximity: {count: (us, ratio)}}.
+    """What a person costs in crowds of several sizes, taken in turn, as the machine is now faster and now slower.
 
-    The ratio to the smallest crowd's is the median over the rounds.
+    @returns {proximity: {count: (us, ratio)}}; the ratio to the smallest crowd's is the median over the rounds
     """
     result = {}
     for name, proximity in (("diagram", "voronoi"), ("grid", "grid")):
@@ -116,7 +117,8 @@ def flatness(program, counts, rounds):
         for crowd in crowds.values():
             crowd.close()
         base = costs[counts[0]]
-        result[name] = {people: (statistics.median(costs[people]), statistics.median(cost / least for cost, least in zip(costs[people], base)))
+        ratios = {people: [cost / least for cost, least in zip(costs[people], base)] for people in counts}
+        result[name] = {people: (statistics.median(costs[people]), statistics.median(ratios[people]))
                         for people in counts}
     return result
 
@@ -126,19 +128,23 @@ def flatness_table(found):
     lines = ["| people | " + " | ".join(f"{people:,}" for people in counts) + " |", "| --- |" + " --- |" * len(counts)]
     for name, costs in found.items():
         lines.append(f"| {name}, us a person | " + " | ".join(f"{costs[people][0]:.3f}" for people in counts) + " |")
-        lines.append(f"| {name}, beside {counts[0]:,} | " + " | ".join(f"{100.0 * (costs[people][1] - 1.0):+.0f} %" for people in counts) + " |")
+        beside = [f"{100.0 * (costs[people][1] - 1.0):+.0f} %" for people in counts]
+        lines.append(f"| {name}, beside {counts[0]:,} | " + " | ".join(beside) + " |")
     return "\n".join(lines)
 
 
 def table(results, base_memory):
-    lines = ["| people | Throng, diagram | Throng, grid | RVO2 | diagram / RVO2 | grid / RVO2 | us a person: diagram | grid | RVO2 | KiB a person: diagram | grid | RVO2 |",
+    lines = ["| people | Throng, diagram | Throng, grid | RVO2 | diagram / RVO2 | grid / RVO2 | "
+             "us a person: diagram | grid | RVO2 | KiB a person: diagram | grid | RVO2 |",
              "| --- |" + " --- |" * 11]
     for r in results:
         ms, n = r["ms"], r["people"]
         each = [f"{1000 * ms[k] / n:.3f}" for k in ("diagram", "grid", "RVO2")]
-        kib = [f"{(r['memory'][k] - base_memory[k]) / n:.2f}" for k in ("diagram", "grid")] + [f"{r['memory']['RVO2'] / n:.2f}"]
-        lines.append(f"| {n:,} | {ms['diagram']:.2f} | {ms['grid']:.2f} | {ms['RVO2']:.2f} | {ms['diagram'] / ms['RVO2']:.2f} | {ms['grid'] / ms['RVO2']:.2f} | "
-                     + " | ".join(each) + " | " + " | ".join(kib) + " |")
+        kib = [f"{(r['memory'][k] - base_memory[k]) / n:.2f}" for k in ("diagram", "grid")]
+        kib.append(f"{r['memory']['RVO2'] / n:.2f}")
+        whole = [f"{ms[k]:.2f}" for k in ("diagram", "grid", "RVO2")]
+        ratios = [f"{ms[k] / ms['RVO2']:.2f}" for k in ("diagram", "grid")]
+        lines.append(f"| {n:,} | " + " | ".join(whole + ratios + each + kib) + " |")
     return "\n".join(lines)
 
 

@@ -36,7 +36,8 @@ float look(uint cell) {
     vec2 at = vec2(cell % parameters.detour_width, cell / parameters.detour_width) + 0.5;
     CrowdFlow now = flowAround(parameters.grid_minimum + at * parameters.detour_cell, ground[cell].free_share);
     CrowdFlow known = crowd_flows[cell];
-    CrowdFlow mixed = CrowdFlow(mix(known.velocity, now.velocity, fading), mix(known.density, now.density, fading), 0.0);
+    CrowdFlow mixed = CrowdFlow(mix(known.velocity, now.velocity, fading),
+                                mix(known.density, now.density, fading), 0.0);
     crowd_flows[cell] = mixed;
     return mixed.density;
 }

@@ -42,7 +42,8 @@ TEST(OverridesReader, ReadsEveryKindOfChange) {
             entryWith(
                 R"("hide": true, "character": 5, "tint": [0.25, 0.5, 1], "scale": 1.25, "note": "seen in dailies")") +
             R"(, {"id": 4, "group": "g", "spawn": {"frame": 0, "position": [0, 0, 0]}, "tint": "#A01020",
-                      "move": {"by": [1, 2, 3], "turn": -90}, "retime": {"offset": -12.5, "speed": 1.5}, "hero": "Anna"})"),
+                      "move": {"by": [1, 2, 3], "turn": -90}, "retime": {"offset": -12.5, "speed": 1.5},
+                      "hero": "Anna"})"),
         diagnostics);
     ASSERT_TRUE(read);
     EXPECT_TRUE(diagnostics.entries.empty());
