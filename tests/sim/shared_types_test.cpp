@@ -55,7 +55,7 @@ class SharedTypesTest : public GpuTest {
     expectOffset(found, block "[0]." #member, offsetof(gpu::type, member), sizeof(gpu::type))
 
 TEST_F(SharedTypesTest, PersonAndStateAgree) {
-    const gl::Program move(library, {"shaders/motion/move.comp"}, {});
+    const gl::Program move(library, everythingIn("shaders/motion/move.comp"));
     const auto found = offsets(move, GL_BUFFER_VARIABLE);
     EXPECT_MEMBER(found, "people", Person, spawn_position);
     EXPECT_MEMBER(found, "people", Person, radius);
@@ -100,7 +100,7 @@ TEST_F(SharedTypesTest, PersonAndStateAgree) {
 }
 
 TEST_F(SharedTypesTest, WallsSitesAndQueuesAgree) {
-    const gl::Program sense(library, {"shaders/sensing/sense.comp"},
+    const gl::Program sense(library, everythingIn("shaders/sensing/sense.comp"),
                             {{"NEIGHBOURS", "4"}, {"SENSING_SAMPLES", "4"}});
     const auto sensed = offsets(sense, GL_BUFFER_VARIABLE);
     EXPECT_MEMBER(sensed, "wall_tiles", WallTile, position);
@@ -110,7 +110,7 @@ TEST_F(SharedTypesTest, WallsSitesAndQueuesAgree) {
     EXPECT_MEMBER(sensed, "wall_segments", WallSegment, b);
     EXPECT_MEMBER(sensed, "wall_segments", WallSegment, half_thickness);
     EXPECT_MEMBER(sensed, "wall_segments", WallSegment, wall);
-    const gl::Program propose(library, {"shaders/motion/spawn_propose.comp"}, {});
+    const gl::Program propose(library, everythingIn("shaders/motion/spawn_propose.comp"));
     const auto proposed = offsets(propose, GL_BUFFER_VARIABLE);
     EXPECT_MEMBER(proposed, "queues", SpawnQueue, first_row);
     EXPECT_MEMBER(proposed, "queues", SpawnQueue, row_count);
@@ -119,7 +119,7 @@ TEST_F(SharedTypesTest, WallsSitesAndQueuesAgree) {
     EXPECT_MEMBER(proposed, "proposals", SpawnProposal, position);
     EXPECT_MEMBER(proposed, "proposals", SpawnProposal, radius);
     EXPECT_MEMBER(proposed, "proposals", SpawnProposal, row);
-    const gl::Program splat(library, {"shaders/diagram/site.comp"}, {});
+    const gl::Program splat(library, everythingIn("shaders/diagram/site.comp"));
     const auto splatted = offsets(splat, GL_BUFFER_VARIABLE);
     EXPECT_MEMBER(splatted, "sites", DiagramSite, position);
     EXPECT_MEMBER(splatted, "sites", DiagramSite, radius);
@@ -127,7 +127,7 @@ TEST_F(SharedTypesTest, WallsSitesAndQueuesAgree) {
 }
 
 TEST_F(SharedTypesTest, ParametersAgree) {
-    const gl::Program avoid(library, {"shaders/motion/avoid.comp"}, {{"NEIGHBOURS", "4"}});
+    const gl::Program avoid(library, everythingIn("shaders/motion/avoid.comp"), {{"NEIGHBOURS", "4"}});
     const auto found = offsets(avoid, GL_UNIFORM);
     const auto expectParameter = [&](const std::string& member, std::size_t offset) {
         const std::string suffix = "." + member;
