@@ -56,7 +56,7 @@ class SharedTypesTest : public GpuTest {
     expectOffset(found, block "[0]." #member, offsetof(gpu::type, member), sizeof(gpu::type))
 
 TEST_F(SharedTypesTest, PersonAndStateAgree) {
-    const gl::Program move(library, {"shaders/motion/move.comp"}, {});
+    const gl::Program move(library, everythingIn("shaders/motion/move.comp"));
     const auto found = offsets(move, GL_BUFFER_VARIABLE);
     EXPECT_MEMBER(found, "people", Person, spawn_position);
     EXPECT_MEMBER(found, "people", Person, radius);
@@ -101,7 +101,7 @@ TEST_F(SharedTypesTest, PersonAndStateAgree) {
 }
 
 TEST_F(SharedTypesTest, WallsSitesAndQueuesAgree) {
-    const gl::Program sense(library, {"shaders/sensing/sense.comp"},
+    const gl::Program sense(library, everythingIn("shaders/sensing/sense.comp"),
                             {{"NEIGHBOURS", "4"}, {"SENSING_SAMPLES", "4"}});
     const auto sensed = offsets(sense, GL_BUFFER_VARIABLE);
     EXPECT_MEMBER(sensed, "wall_tiles", WallTile, position);
@@ -111,7 +111,7 @@ TEST_F(SharedTypesTest, WallsSitesAndQueuesAgree) {
     EXPECT_MEMBER(sensed, "wall_segments", WallSegment, b);
     EXPECT_MEMBER(sensed, "wall_segments", WallSegment, half_thickness);
     EXPECT_MEMBER(sensed, "wall_segments", WallSegment, wall);
-    const gl::Program propose(library, {"shaders/motion/spawn_propose.comp"}, {});
+    const gl::Program propose(library, everythingIn("shaders/motion/spawn_propose.comp"));
     const auto proposed = offsets(propose, GL_BUFFER_VARIABLE);
     EXPECT_MEMBER(proposed, "queues", SpawnQueue, first_row);
     EXPECT_MEMBER(proposed, "queues", SpawnQueue, row_count);
@@ -120,7 +120,7 @@ TEST_F(SharedTypesTest, WallsSitesAndQueuesAgree) {
     EXPECT_MEMBER(proposed, "proposals", SpawnProposal, position);
     EXPECT_MEMBER(proposed, "proposals", SpawnProposal, radius);
     EXPECT_MEMBER(proposed, "proposals", SpawnProposal, row);
-    const gl::Program splat(library, {"shaders/diagram/site.comp"}, {});
+    const gl::Program splat(library, everythingIn("shaders/diagram/site.comp"));
     const auto splatted = offsets(splat, GL_BUFFER_VARIABLE);
     EXPECT_MEMBER(splatted, "sites", DiagramSite, position);
     EXPECT_MEMBER(splatted, "sites", DiagramSite, radius);
@@ -128,9 +128,7 @@ TEST_F(SharedTypesTest, WallsSitesAndQueuesAgree) {
 }
 
 TEST_F(SharedTypesTest, ParametersAgree) {
-    gl::Definitions definitions = MotionSettings().definitions();
-    definitions.emplace_back("NEIGHBOURS", "4");
-    const gl::Program avoid(library, {"shaders/motion/avoid.comp"}, definitions);
+    const gl::Program avoid(library, everythingIn("shaders/motion/avoid.comp"), {{"NEIGHBOURS", "4"}});
     const auto found = offsets(avoid, GL_UNIFORM);
     const auto expectParameter = [&](const std::string& member, std::size_t offset) {
         const std::string suffix = "." + member;
