@@ -53,13 +53,14 @@ def entries_for(bake):
 
 
 @pytest.fixture(scope="module")
-def street(throng, tmp_path_factory):
-    folder = tmp_path_factory.mktemp("street")
-    (folder / "street.json").write_text(json.dumps(STREET))
-    throng("bake", folder / "street.json", "-o", folder / "street", "-q", "--density", "--diagrams", "60")
-    write(folder / "street.overrides.json", entries_for(folder / "street"))
-    throng("apply", folder / "street", "-o", folder / "final", "-q")
-    return folder
+def street(throng, once):
+    def make(folder):
+        (folder / "street.json").write_text(json.dumps(STREET))
+        throng("bake", folder / "street.json", "-o", folder / "street", "-q", "--density", "--diagrams", "60")
+        write(folder / "street.overrides.json", entries_for(folder / "street"))
+        throng("apply", folder / "street", "-o", folder / "final", "-q")
+
+    return once("street", make)
 
 
 def test_the_new_bake_is_whole_and_says_what_was_applied(throng, street, manifest_of):

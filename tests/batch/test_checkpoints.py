@@ -31,12 +31,13 @@ def files_of(bake):
 
 
 @pytest.fixture(scope="module")
-def whole(throng, tmp_path_factory):
-    folder = tmp_path_factory.mktemp("whole")
-    layout = folder / "layout.json"
-    layout.write_text(json.dumps(LAYOUT))
-    throng("bake", layout, "-o", folder / "bake", *OPTIONS)
-    return layout, files_of(folder / "bake")
+def whole(throng, once):
+    def make(folder):
+        (folder / "layout.json").write_text(json.dumps(LAYOUT))
+        throng("bake", folder / "layout.json", "-o", folder / "bake", *OPTIONS)
+
+    folder = once("whole", make)
+    return folder / "layout.json", files_of(folder / "bake")
 
 
 def start(throng, layout, output, *more, minutes="0.002"):
