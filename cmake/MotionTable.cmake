@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# throng_motion_table(SCHEMA OUTPUT): writes OUTPUT, a C++ source that defines throng::motionParameters() as the table in the
-# property `motion` of the layout's SCHEMA.
+# throng_motion_table(SCHEMA OUTPUT): writes OUTPUT, a C++ source that defines throng::motionParameters() as the table
+# in the property `motion` of the layout's SCHEMA.
 function(throng_motion_table schema output)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${schema})
     file(READ ${schema} text)

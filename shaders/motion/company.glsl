@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Company: walking together (Moussaid et al. 2010, equations 3 to 5, with its figures). People who belong together would
-// like to see each other without turning their heads by more than a right angle, stay near, and leave each other an arm's
-// length. Two walk abreast then, three in a V and four in a U, and in a crowd the V closes. Who is too far away is no
-// company to walk beside; one waits for it and looks for it instead (shaders/motion/waiting_for_company.glsl).
+// Company: walking together (Moussaid et al. 2010, equations 3 to 5, with its figures). People who belong together
+// would like to see each other without turning their heads by more than a right angle, stay near, and leave each other
+// an arm's length. Two walk abreast then, three in a V and four in a U, and in a crowd the V closes. Who is too far
+// away is no company to walk beside; one waits for it and looks for it instead
+// (shaders/motion/waiting_for_company.glsl).
 // Needs the block States.
 
 /// m/s^2: what walking with those from row `first` on makes of somebody's way.

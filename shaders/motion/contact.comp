@@ -2,12 +2,13 @@
 // One round of keeping bodies out of each other and out of walls, by moving positions (position-based dynamics, Mueller
 // et al. 2007): avoidance foresees, but in a crush there may be nothing to foresee that works.
 //
-// All people move at once from the same positions (a Jacobi round), so the result does not depend on the order. Walls come
-// last and do not give: whatever neighbours push, a body ends up on the side of the wall on which it began the step.
+// All people move at once from the same positions (a Jacobi round), so the result does not depend on the order. Walls
+// come last and do not give: whatever neighbours push, a body ends up on the side of the wall on which it began the
+// step.
 //
-// In a crush a push has to travel through many bodies, and a round carries it one body further. Each round therefore goes on
-// in the direction of the last two by Chebyshev's weights (Wang 2015, A Chebyshev semi-iterative approach for accelerating
-// projective and position-based dynamics); docs/motion.md says what that gains.
+// In a crush a push has to travel through many bodies, and a round carries it one body further. Each round therefore
+// goes on in the direction of the last two by Chebyshev's weights (Wang 2015, A Chebyshev semi-iterative approach for
+// accelerating projective and position-based dynamics); docs/motion.md says what that gains.
 #include "shaders/shared/simulation_types.h"
 
 layout(local_size_x = AGENT_GROUP_SIZE) in;

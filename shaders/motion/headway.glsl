@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Headway, for those who are given one (`people.headway`): walking behind somebody takes room to step. The free way
-// ahead is to last for one's headway; whatever is left of it, one creeps (Tordeux, Chraibi and Seyfried 2016, equation 2,
-// with the free way between discs). Crowds that walk one way then slow down with their density as people's do (Weidmann
-// 1993). Who follows looks for a way past at the speed it would like, and does not hurry for those behind.
+// ahead is to last for one's headway; whatever is left of it, one creeps (Tordeux, Chraibi and Seyfried 2016, equation
+// 2, with the free way between discs). Crowds that walk one way then slow down with their density as people's do
+// (Weidmann 1993). Who follows looks for a way past at the speed it would like, and does not hurry for those behind.
 // Needs shaders/motion/walking_behind.glsl.
 
 /// s; 0 = presses on.

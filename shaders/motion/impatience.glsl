@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Impatience. Who is held up for long stops making room and pushes: the nervousness 1 - v / v0 of Helbing, Farkas and
-// Vicsek (2000), followed over some seconds. Braking and swerving fade with it, except swerving for oncoming people, and
-// contact keeps bodies apart. That is how streams that cross at right angles get through each other.
+// Vicsek (2000), followed over some seconds. Braking and swerving fade with it, except swerving for oncoming people,
+// and contact keeps bodies apart. That is how streams that cross at right angles get through each other.
 
 /// 0 (as polite as can be) to 1 (makes no room any more).
 float impatienceOf(float nervousness) {

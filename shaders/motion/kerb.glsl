@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kerb, for those who keep to roads: like a wall's face, along the gradient of the distance to the roads' edge, but it
-// gives way where walls leave no other way. Those pushed off the road come back at a stroll: nothing hard is there.
+// The kerb, for those who keep to roads: like a wall's face, along the gradient of the distance to the roads' edge, but
+// it gives way where walls leave no other way. Those pushed off the road come back at a stroll: nothing hard is there.
 // Needs the blocks ParametersBlock and RoadDistances, and shaders/motion/linear_program.glsl.
 
 float roadDistance(uvec2 cell) { return road_distances[cell.y * parameters.grid_width + cell.x]; }

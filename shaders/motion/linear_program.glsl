@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The smallest change to a wish that obeys a set of half-planes: a linear program in the plane.
 //
-// A constraint (n.x, n.y, c) allows the velocities v with n . v >= c, n of unit length. The best allowed point either is
-// the wish itself or lies on some constraint's line; adding constraints one by one (Seidel 1991; de Berg et al.,
+// A constraint (n.x, n.y, c) allows the velocities v with n . v >= c, n of unit length. The best allowed point either
+// is the wish itself or lies on some constraint's line; adding constraints one by one (Seidel 1991; de Berg et al.,
 // Computational Geometry, chapter 4) means that only when the newest one is violated does the optimum move, and then it
 // lies on the newest line: a search in one dimension, between the bounds that the earlier constraints leave. All of it
 // happens inside the disc of speeds the person is capable of.
 //
-// The last constraint may be one that gives way. Where the others leave no velocity that obeys it, the best is as far on
-// its side as they allow: the same search, along its normal instead of near the wish.
+// The last constraint may be one that gives way. Where the others leave no velocity that obeys it, the best is as far
+// on its side as they allow: the same search, along its normal instead of near the wish.
 // Needs CONSTRAINT_CAPACITY and shaders/shared/at_most.glsl.
 
 const float PARALLEL = 1.0e-5;
@@ -60,7 +60,8 @@ int solveInDisc(int count, float limit, vec2 wish, bool furthest, out vec2 veloc
     return count;
 }
 
-/// The velocity nearest to the wish. Of the constraints, the first `hard` ones do not give way, and one more may follow.
+/// The velocity nearest to the wish. Of the constraints, the first `hard` ones do not give way, and one more may
+/// follow.
 vec2 nearestAllowed(int hard, int count, float limit, vec2 wish) {
     vec2 velocity;
     int obeyed = solveInDisc(count, limit, wish, false, velocity);

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plans: routes advance stage by stage, with stops and lines on the way, until somebody arrives; and events change them.
+// Plans: routes advance stage by stage, with stops and lines on the way, until somebody arrives; and events change
+// them.
 // Needs the blocks ParametersBlock, People, PlanChanges and WaitingLines, the uniform steps_done,
 // shaders/routes/route.glsl and shaders/motion/waiting_line.glsl.
 
 /// Whether somebody is where its stage leads. Where there are too many for a place, near by will do in the end.
 bool isThere(AgentState state, Stage stage) {
     RouteAhead ahead = routeAhead(stage, state.position);
-    if (stage.line != NO_INDEX && (state.ticket == NO_INDEX || state.ticket != waiting_lines[stage.line].served)) return false;
+    if (stage.line != NO_INDEX && (state.ticket == NO_INDEX || state.ticket != waiting_lines[stage.line].served))
+        return false;
     if (ahead.remaining <= stage.tolerance) return true;
     bool in_area = (stage.flags & STAGE_IN_AREA) != 0u && ahead.straight;
     return (stage.flags & STAGE_ANYWHERE) != 0u && (in_area || ahead.remaining < ARRIVING_NEAR_BY) &&
@@ -16,7 +18,8 @@ bool isThere(AgentState state, Stage stage) {
 /// Who comes to the end of a line joins it at the end of the step; of several, the smallest row.
 void askToJoin(AgentState state, Stage stage, uint row) {
     if (stage.line == NO_INDEX || state.ticket != NO_INDEX || state.leave_step != 0u) return;
-    if (distance(stage.point, state.position) < ARRIVING_JOINS_LINE) atomicMin(waiting_lines[stage.line].candidate, row);
+    if (distance(stage.point, state.position) < ARRIVING_JOINS_LINE)
+        atomicMin(waiting_lines[stage.line].candidate, row);
 }
 
 void goOn(inout AgentState state) {

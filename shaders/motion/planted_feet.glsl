@@ -2,20 +2,20 @@
 // Planted feet: legs walk forwards.
 //
 // In a crush, bodies push each other to and fro by centimetres. A push takes somebody back, and its velocity with it,
-// which would then be walked on backwards for half a second: seen from outside, a crowd that paddles. People meet a small
-// push with their feet in place, and only a large one with a step (Horak and Nashner 1986). So who is under way among
-// others who are neither keeps the small velocity backwards that a push has left it with nor walks backwards slowly by
-// itself, and where it cannot get on, it turns on the spot (shaders/motion/turning.glsl).
+// which would then be walked on backwards for half a second: seen from outside, a crowd that paddles. People meet a
+// small push with their feet in place, and only a large one with a step (Horak and Nashner 1986). So who is under way
+// among others who are neither keeps the small velocity backwards that a push has left it with nor walks backwards
+// slowly by itself, and where it cannot get on, it turns on the spot (shaders/motion/turning.glsl).
 //
-// Feet in place alone would be a vice: two streams that have locked stay locked, because nobody yields any more. People who
-// are pushed head-on turn a shoulder and let the other slip past. So what is taken from walking backwards is walked aside
-// instead, to the side to which one is moving already, and streams get through each other sooner than without planted feet.
-// To the side where one would like to go does worse: before a passage all of them like its middle, and they wedge each
-// other.
+// Feet in place alone would be a vice: two streams that have locked stay locked, because nobody yields any more. People
+// who are pushed head-on turn a shoulder and let the other slip past. So what is taken from walking backwards is walked
+// aside instead, to the side to which one is moving already, and streams get through each other sooner than without
+// planted feet. To the side where one would like to go does worse: before a passage all of them like its middle, and
+// they wedge each other.
 //
 // Who waits for its turn in a stream that goes one way has nobody to slip past, and its feet give more: planted firmly,
-// they break the stream up into waves of stopping and going. And who is among people who only stand is pushed by nobody: it
-// is itself that presses, and steps back where it has gone astray among them.
+// they break the stream up into waves of stopping and going. And who is among people who only stand is pushed by
+// nobody: it is itself that presses, and steps back where it has gone astray among them.
 // Needs shaders/motion/under_way.glsl.
 
 /// m/s: as slowly as the first nobody walks backwards; from the second on one cannot but go along.

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // How one person makes room for another: what the rules make of it together.
 //
-// Room by time to collision alone is too polite for a dense crowd. Who brakes for everybody that comes the other way never
-// gets through, and everybody behind stops too: opposing streams freeze at the line where they meet. So nobody brakes for
-// oncoming people, who is held up grows impatient and makes less room, and in a crowd nobody swerves for those who cross.
+// Room by time to collision alone is too polite for a dense crowd. Who brakes for everybody that comes the other way
+// never gets through, and everybody behind stops too: opposing streams freeze at the line where they meet. So nobody
+// brakes for oncoming people, who is held up grows impatient and makes less room, and in a crowd nobody swerves for
+// those who cross.
 // Needs the block ParametersBlock and shaders/shared/at_most.glsl.
 #include "shaders/motion/walking_behind.glsl"
 #include "shaders/motion/room_by_time_to_collision.glsl"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Room by time to collision. People do not react to how near somebody is but to how soon they would collide: from
 // trajectories of real pedestrians, the energy of a pair that would touch in t seconds is k / t^2 exp(-t / t0)
-// (Karamouzas, Skinner and Guy 2014, equations 3 and 4). Its downhill gradient is an acceleration that points across the
-// relative velocity while there is time, and back along it when there is none: people go round each other first, and
-// brake last.
+// (Karamouzas, Skinner and Guy 2014, equations 3 and 4). Its downhill gradient is an acceleration that points across
+// the relative velocity while there is time, and back along it when there is none: people go round each other first,
+// and brake last.
 // Needs the block ParametersBlock and shaders/shared/at_most.glsl.
 
 /// Seconds until two discs touch, or -1 where they do not.

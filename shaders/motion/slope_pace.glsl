@@ -2,13 +2,14 @@
 // Slopes: how much slower people walk uphill, and faster or slower downhill, as a factor on their speed in plan.
 // Needs shaders/shared/terrain.glsl.
 
-/// Tobler's hiking function (1993), 6 exp(-3.5 |slope + 0.05|) km/h, over its value on flat ground: fastest at 5 % down.
+/// Tobler's hiking function (1993), 6 exp(-3.5 |slope + 0.05|) km/h, over its value on flat ground: fastest at 5 %
+/// down.
 float hikingPace(float slope) {
     return exp(-SLOPE_PACE_HIKING * (abs(slope + SLOPE_PACE_FASTEST_DOWN) - SLOPE_PACE_FASTEST_DOWN));
 }
 
-/// Weidmann (1993): how fast people climb stairs and go down, where on flat ground they walk at 1.34 m/s. Stairs that rise
-/// less than those slow people down by less.
+/// Weidmann (1993): how fast people climb stairs and go down, where on flat ground they walk at 1.34 m/s. Stairs that
+/// rise less than those slow people down by less.
 float stairPace(float slope) {
     const float FLAT = 1.34;  // m/s
     float least = slope > 0.0 ? SLOPE_PACE_STAIRS_UP / FLAT : SLOPE_PACE_STAIRS_DOWN / FLAT;

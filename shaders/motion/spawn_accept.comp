@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of those who found room, the ones that would stand in each other's way give way to the smaller row, and the rest enter.
+// Of those who found room, the ones that would stand in each other's way give way to the smaller row, and the rest
+// enter.
 #include "shaders/shared/simulation_types.h"
 
 layout(local_size_x = SPAWN_GROUP_SIZE) in;
@@ -23,8 +24,8 @@ void main() {
     uint count = parameters.queue_count * SPAWN_GROUP_SIZE;
     for (uint i = 0u; i < count; ++i) {
         SpawnProposal other = proposals[i];
-        if (other.row < mine.row && distance(other.position, mine.position) < other.radius + mine.radius + ENTERING_BESIDE)
-            return;
+        float apart = other.radius + mine.radius + ENTERING_BESIDE;
+        if (other.row < mine.row && distance(other.position, mine.position) < apart) return;
     }
     Person person = people[mine.row];
     AgentState state = states[mine.row];

@@ -82,7 +82,8 @@ void main() {
     if (lane == 0u) head = rows;
     barrier();
     uint candidate = queue_heads[queue] + lane;
-    if (candidate < rows && states[queues[queue].first_row + candidate].status == STATUS_WAITING) atomicMin(head, candidate);
+    if (candidate < rows && states[queues[queue].first_row + candidate].status == STATUS_WAITING)
+        atomicMin(head, candidate);
     barrier();
     if (lane == 0u) queue_heads[queue] = head == rows ? min(queue_heads[queue] + SPAWN_GROUP_SIZE, rows) : head;
 

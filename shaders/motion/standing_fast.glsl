@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who is carried off stands fast: somebody who is moved across its own way, or back along it, weighs more than others in
-// the first rounds of contact (unequal masses in position-based dynamics: Mueller et al. 2007). A platoon would carry
-// whoever it has caught along for its whole length; who stands fast is passed on both sides instead, as a post would be.
+// Who is carried off stands fast: somebody who is moved across its own way, or back along it, weighs more than others
+// in the first rounds of contact (unequal masses in position-based dynamics: Mueller et al. 2007). A platoon would
+// carry whoever it has caught along for its whole length; who stands fast is passed on both sides instead, as a post
+// would be.
 // Needs the blocks Bodies and PreferredVelocities.
 
 /// How hard somebody is to move out of the way.

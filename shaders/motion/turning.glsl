@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Turning: who walks looks where it goes, who has stopped at what there is to see, and who cannot get on turns on the spot
-// to where it wants to go before it walks there.
+// Turning: who walks looks where it goes, who has stopped at what there is to see, and who cannot get on turns on the
+// spot to where it wants to go before it walks there.
 // Needs the blocks ParametersBlock and WaitingLines, and shaders/motion/waiting_line.glsl and under_way.glsl.
 
 const float PI = 3.14159265358979;

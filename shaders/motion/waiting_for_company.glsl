@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Nobody leaves their company behind: who is ahead of somebody slows down, who is behind hurries, who has lost its company
-// walks towards it as much as to its goal, and where two ways are as good, a party takes the one of its first.
+// Nobody leaves their company behind: who is ahead of somebody slows down, who is behind hurries, who has lost its
+// company walks towards it as much as to its goal, and where two ways are as good, a party takes the one of its first.
 // Walking abreast is another rule (shaders/motion/company.glsl). Needs the block States and shaders/routes/route.glsl.
 
 /// A way towards the nearest of the party, for who has lost it; not for long where something is in between.
@@ -54,7 +54,7 @@ float paceInParty(uint row, Walker walker, Stage stage, float remaining) {
         lead = max(lead, difference);
         lag = max(lag, -difference);
     }
-    float waiting = mix(1.0, WAITING_FOR_COMPANY_WAITING_PACE, smoothstep(WAITING_FOR_COMPANY_LEAD_BEGINS, ENDS, lead));
-    return waiting < 1.0 ? waiting
-                         : mix(1.0, WAITING_FOR_COMPANY_HURRYING_PACE, smoothstep(WAITING_FOR_COMPANY_LEAD_BEGINS, ENDS, lag));
+    const float BEGINS = WAITING_FOR_COMPANY_LEAD_BEGINS;
+    float waiting = mix(1.0, WAITING_FOR_COMPANY_WAITING_PACE, smoothstep(BEGINS, ENDS, lead));
+    return waiting < 1.0 ? waiting : mix(1.0, WAITING_FOR_COMPANY_HURRYING_PACE, smoothstep(BEGINS, ENDS, lag));
 }

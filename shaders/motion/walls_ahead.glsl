@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Walls ahead: a wall allows no more speed towards its nearest point than reaches it at the horizon. Bodies inside walls
-// are to leave them soon; the contact pass takes them out in any case.
+// Walls ahead: a wall allows no more speed towards its nearest point than reaches it at the horizon. Bodies inside
+// walls are to leave them soon; the contact pass takes them out in any case.
 // Needs the blocks TouchWords, Neighbours, NeighbourCounts, WallSegments, WallStarts and WallItems,
 // shaders/cells/cells.glsl, shaders/shared/walls.glsl and shaders/motion/linear_program.glsl.
 

@@ -14,8 +14,8 @@ uniform float fading;  // 0 to 1: how much of what was known is replaced
 #include "shaders/cells/cell_starts.glsl"
 #include "shaders/shared/flat_index.glsl"
 
-/// Walls take part of some cells, and people crowd in the rest. Everybody within one coarse cell of the middle counts, the nearer the more (a tent, whose integral is the area of
-/// one coarse cell).
+/// Walls take part of some cells, and people crowd in the rest. Everybody within one coarse cell of the middle counts,
+/// the nearer the more (a tent, whose integral is the area of one coarse cell).
 CrowdFlow flowAround(vec2 middle, float free_share) {
     ivec2 low = cellOf(middle - parameters.detour_cell);
     ivec2 high = cellOf(middle + parameters.detour_cell);
