@@ -30,7 +30,7 @@ def own_exits(bake):
     """How many of rimea-10's cabins leave by their exits: the first eight to the west."""
     ends = stream(bake, "pos")[-1]
     cabins = [int(person["group"][-2:]) for person in people_of(bake)]
-    return {"own_exit": sum((end[0] < -3.0) == (cabin <= 8) for end, cabin in zip(ends, cabins))}
+    return {"own_exit": sum(bool(end[0] < -3.0) == (cabin <= 8) for end, cabin in zip(ends, cabins))}
 
 
 def company(bake):
