@@ -69,7 +69,8 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
       congestion(library, buffers, scene, parameters),
       spawner(library, buffers, parameters, settings.motion),
       sensing(library, buffers, diagram, sensingFor(scene, parameters), scene, parameters),
-      slopes(scene.terrain ? std::optional<TerrainSlopes>(scene.terrain) : std::nullopt),
+      slopes(scene.terrain && settings.motion.isOn("slope_pace") ? std::optional<TerrainSlopes>(scene.terrain)
+                                                                 : std::nullopt),
       avoidance(library, buffers, settings.neighbours, slopes ? &*slopes : nullptr, settings.motion),
       contacts(library, buffers, settings.contact_iterations, settings.motion),
       motion(library, buffers, contacts.result(), settings.motion),

@@ -17,7 +17,6 @@ float stairPace(float slope) {
 }
 
 float slopePace(vec2 position, vec2 direction) {
-    if (!SLOPE_PACE_ENABLED) return 1.0;
     float slope = smoothSlope(position, direction, SLOPE_PACE_REACH);
     float stairs = smoothstep(SLOPE_PACE_STAIRS_BEGIN, SLOPE_PACE_STAIRS_COMPLETE, smoothGround(position).y);
     return mix(hikingPace(slope), stairPace(slope), stairs);

@@ -30,10 +30,19 @@ class Scanner {
 
     bool skipped() {
         const std::string_view rest = text_.substr(at_);
-        if (rest.starts_with("//") || rest.starts_with("#")) return skipTo("\n");
+        if (rest.starts_with("//")) return skipTo("\n");
+        if (rest.starts_with("#")) return skipDirective();
         if (rest.starts_with("/*")) return skipTo("*/");
         if (rest.empty() || !std::isspace(static_cast<unsigned char>(rest.front()))) return false;
         ++at_;
+        return true;
+    }
+
+    /// It goes on where a line ends in a backslash.
+    bool skipDirective() {
+        do {
+            skipTo("\n");
+        } while (at_ >= 2 && text_[at_ - 2] == '\\' && at_ < text_.size());
         return true;
     }
 

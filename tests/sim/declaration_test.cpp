@@ -45,6 +45,9 @@ TEST(Access, IsNotReadOffCommentsOrDirectives) {
 /* layout(std430) buffer InAComment { uint b[]; };
    uniform sampler2D too; */
 #define BLOCK buffer InADefinition { uint c[]; };
+#define LONG_BLOCK \
+    buffer InADefinition { \
+        uint c[]
 layout(std430) /* readonly */ buffer Real { uint d[]; };  // writeonly
 )")),
               "Real reads writes; ");
