@@ -290,16 +290,17 @@ Diagram& Simulation::diagram() {
     return parts_->diagram;
 }
 
-void Simulation::packDensities(const gl::Buffer& buffer) {
+void Simulation::packStream(Stream stream, const gl::Buffer& buffer) {
     Parts& p = *parts_;
-    const gl::Buffer& counts = p.diagram.countPixels();
-    if (!p.pack_density) {
-        p.pack_density.emplace(p.library, "shaders/frame/pack_density.comp");
-        p.pack_density->bindAll(p.buffers.named());
+    const StreamInfo& info = infoOf(stream);
+    std::optional<gl::ComputeProgram>& program = p.pack_streams[stream];
+    if (!program) {
+        program.emplace(p.library, std::string(info.shader));
+        program->bindAll(p.buffers.named());
     }
-    p.pack_density->bind("PixelCounts", counts);
-    p.pack_density->bind("DensityBlock", buffer);
-    p.pack_density->dispatch(p.rows);
+    if (info.needs_diagram) program->bind("PixelCounts", p.diagram.countPixels());
+    program->bind("StreamBlock", buffer);
+    program->dispatch(p.rows);
 }
 
 Account Simulation::account() const {
