@@ -80,7 +80,7 @@ void bakeLayout(const BakeRequest& options) {
     job.options = options.bake;
     job.diagram_every = diagramInterval(options.diagrams);
     job.seconds = options.seconds;
-    job.densities = options.densities;
+    job.streams = options.streams;
     job.checkpoint_seconds = 60.0 * options.checkpoint_minutes;
     job.resume = options.resume;
     job.progress = options.quiet  ? ProgressStyle::quiet
@@ -142,9 +142,10 @@ void addBake(CLI::App& app) {
         ->add_flag("--second", options->seconds,
                    "With --diagrams: also the second-nearest site of each pixel")
         ->needs(diagrams);
-    command->add_flag(
-        "--density", options->densities,
-        "Also the stream `density`: persons per square metre by the area of each person's cell");
+    for (const StreamInfo& info : kStreams)
+        if (info.source == StreamSource::device)
+            command->add_flag(fmt::format("--{}", info.name), options->streams[info.id],
+                              fmt::format("Also the stream `{}`: {}", info.name, info.about));
     command->add_option("--method", options->method,
                         "How the diagram is built: auto, " + methodWords() + " (as simulation.method)");
     command->add_option("--proximity", options->proximity,

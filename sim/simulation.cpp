@@ -15,10 +15,17 @@
 namespace throng::sim {
 namespace {
 
-const gl::Declaration kPackDensity = {"densities",
-                                      {"shaders/frame/pack_density.comp"},
-                                      {"ParametersBlock", "People", "States", "PixelCounts"},
-                                      {"DensityBlock"}};
+constexpr const char* kStreamBlock = "StreamBlock";
+
+/// A stream may look at everything, and writes nothing but itself.
+gl::Declaration packingOf(const StreamInfo& info, const gl::ShaderLibrary& library) {
+    gl::Declaration declaration = {
+        "stream " + std::string(info.name), {std::string(info.shader)}, {}, {kStreamBlock}};
+    std::vector<std::string> files;
+    for (const gl::Access& access : gl::accessIn(library.load(declaration.shaders.front(), {}, files)))
+        if (access.name != kStreamBlock) declaration.reads.push_back(access.name);
+    return declaration;
+}
 
 std::uint32_t presentAtStart(const authoring::Scene& scene) {
     return static_cast<std::uint32_t>(std::count_if(
@@ -173,13 +180,14 @@ Diagram& Simulation::diagram() {
     return parts_->diagram;
 }
 
-void Simulation::packDensities(const gl::Buffer& buffer) {
+void Simulation::packStream(Stream stream, const gl::Buffer& buffer) {
     Parts& p = *parts_;
-    const gl::Buffer& counts = p.diagram.countPixels();
-    if (!p.pack_density) p.pack_density = p.buffers.connect(p.library, kPackDensity);
-    p.pack_density->bind("PixelCounts", counts);
-    p.pack_density->bind("DensityBlock", buffer);
-    p.pack_density->dispatch(p.rows);
+    const StreamInfo& info = infoOf(stream);
+    std::optional<gl::ComputeProgram>& program = p.pack_streams[stream];
+    if (!program) program = p.buffers.connect(p.library, packingOf(info, p.library));
+    if (info.needs_diagram) program->bind("PixelCounts", p.diagram.countPixels());
+    program->bind(kStreamBlock, buffer);
+    program->dispatch(p.rows);
 }
 
 Account Simulation::account() const {

@@ -44,7 +44,7 @@ struct Simulation::Parts {
     WaitingLines lines;
     Gates gates;
     gl::ComputeProgram pack;
-    std::optional<gl::ComputeProgram> pack_density;  // made at the first asking
+    PerStream<std::optional<gl::ComputeProgram>> pack_streams;  // made at the first asking
 
     CostModel costs;
     DiagramLoad load;                    // of the present population

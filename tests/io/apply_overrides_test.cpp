@@ -37,13 +37,13 @@ struct Applied {
         made = loadBake(folder / "applied");
         problems = verifyBake(made);
     }
-    std::vector<float> frame(const Bake& bake, const char* stream, std::uint32_t index) const {
+    std::vector<float> frame(const Bake& bake, Stream stream, std::uint32_t index) const {
         const StreamReader reader(bake.streamPath(stream));
         std::vector<float> values(std::size_t{reader.rows()} * 3);
         reader.readFrame(index, values);
         return values;
     }
-    std::vector<float> row(const char* stream, std::uint32_t index, std::uint32_t person) const {
+    std::vector<float> row(Stream stream, std::uint32_t index, std::uint32_t person) const {
         const std::vector<float> values = frame(made, stream, index);
         return {values.begin() + 3 * person, values.begin() + 3 * person + 3};
     }
@@ -61,12 +61,12 @@ TEST(ApplyOverrides, ChangesNobodyElse) {
     const Applied applied({{2, hide}});
     EXPECT_TRUE(applied.problems.empty());
     for (std::uint32_t frame = 0; frame < 48; ++frame)
-        for (const char* stream : {"pos", "dir", "state"}) {
+        for (const Stream stream : {Stream::pos, Stream::dir, Stream::state}) {
             const auto before = applied.frame(applied.source, stream, frame);
             const auto after = applied.frame(applied.made, stream, frame);
             for (std::size_t i = 0; i < before.size(); ++i) {
-                const bool hidden = i == 2 * 3 && std::string(stream) == "state";
-                ASSERT_EQ(after[i], hidden ? 0.0f : before[i]) << stream << " " << i;
+                const bool hidden = i == 2 * 3 && stream == Stream::state;
+                ASSERT_EQ(after[i], hidden ? 0.0f : before[i]) << infoOf(stream).name << " " << i;
             }
         }
     const auto rows = loadAgentRows(applied.made);
@@ -91,11 +91,11 @@ TEST(ApplyOverrides, TurnsWaysAboutTheirEntryAndMovesThem) {
     const glm::dvec2 pivot = crowd.position(9, spawn);
     for (const std::uint32_t frame : {0u, spawn, spawn + 1, 47u}) {
         const glm::dvec2 arm = crowd.position(9, frame) - pivot;
-        const auto position = applied.row("pos", frame, 9);
+        const auto position = applied.row(Stream::pos, frame, 9);
         EXPECT_NEAR(position[0], pivot.x - arm.y + 5.0, 1e-5);
         EXPECT_NEAR(position[1], pivot.y + arm.x - 1.0, 1e-5);
         EXPECT_NEAR(position[2], 0.5, 1e-6);
-        const auto direction = applied.row("dir", frame, 9);
+        const auto direction = applied.row(Stream::dir, frame, 9);
         const double heading = crowd.heading(9, frame) + 0.5 * std::numbers::pi;
         EXPECT_NEAR(direction[0], std::cos(heading), 1e-6);
         EXPECT_NEAR(direction[1], std::sin(heading), 1e-6);
@@ -121,14 +121,14 @@ TEST(ApplyOverrides, RetimesFromTheEntryOn) {
         const double share = std::clamp(at, 0.0, 47.0) - low;
         const glm::dvec2 before = crowd.position(14, low), after = crowd.position(14, high);
         const glm::dvec2 expected = before + (after - before) * share;
-        const auto position = applied.row("pos", frame, 14);
+        const auto position = applied.row(Stream::pos, frame, 14);
         EXPECT_NEAR(position[0], expected.x, 1e-5) << frame;
         EXPECT_NEAR(position[1], expected.y, 1e-5) << frame;
-        const auto state = applied.row("state", frame, 14);
+        const auto state = applied.row(Stream::state, frame, 14);
         EXPECT_EQ(state[0] > 0.5f, at >= first - 0.5) << frame;
         const double phase = std::lerp(crowd.phase(14, low), crowd.phase(14, high), share);
         EXPECT_NEAR(state[2], phase, 1e-5);
-        const auto direction = applied.row("dir", frame, 14);
+        const auto direction = applied.row(Stream::dir, frame, 14);
         const double heading = std::lerp(crowd.heading(14, low), crowd.heading(14, high), share);
         EXPECT_NEAR(std::atan2(direction[1], direction[0]), heading, 1e-5);
         const double speed = at < first - 1 || at > 47.0 ? 0.0 : 1.5 * (1.1 + 0.1 * (14 % 4));
@@ -142,28 +142,27 @@ TEST(ApplyOverrides, RetimesFromTheEntryOn) {
 
 TEST(ApplyOverrides, HeadingsGoTheShorterWayRound) {
     // Somebody who walks due west and sways: headings on both sides of pi.
-    const StreamReader* none = nullptr;
     TemporaryFolder folder;
-    const auto write = [&](const char* name, const std::vector<float>& values) {
-        StreamWriter writer(folder / name, StreamFormat::npy, 1, 2);
+    std::filesystem::create_directory(folder / "streams");
+    const auto write = [&](Stream stream, const std::vector<float>& values) {
+        StreamWriter writer(folder / streamFile(infoOf(stream), StreamFormat::npy), StreamFormat::npy, 1, 2);
         writer.append(std::span(values).first(3));
         writer.append(std::span(values).last(3));
         writer.finish();
     };
     const auto c = static_cast<float>(std::cos(3.0)), s = static_cast<float>(std::sin(3.0));
-    write("pos.npy", {0, 0, 0, 1, 0, 0});
-    write("dir.npy", {c, s, 1, c, -s, 1});
-    write("state.npy", {1, 2, 0.5f, 2, 3, 1.5f});
-    const StreamReader positions(folder / "pos.npy"), directions(folder / "dir.npy"),
-        states(folder / "state.npy");
-    const RowSampler sampler(positions, directions, states, none);
-    EXPECT_NEAR(sampler.at(0, 0.5, 1.0).direction[0], -1.0, 1e-6);
-    EXPECT_NEAR(sampler.at(0, 0.25, 2.0).direction[2], 2.0, 1e-6);
-    EXPECT_EQ(sampler.at(0, 0.49, 1.0).state[0], 1.0f);
-    EXPECT_EQ(sampler.at(0, 0.5, 1.0).state[1], 3.0f);
-    EXPECT_FLOAT_EQ(sampler.at(0, 0.25, 1.0).state[2], 0.75f);
-    EXPECT_EQ(sampler.at(0, -3.0, 1.0).position[0], 0.0f);
-    EXPECT_EQ(sampler.at(0, 7.0, 1.0).direction[2], 0.0f);
+    write(Stream::pos, {0, 0, 0, 1, 0, 0});
+    write(Stream::dir, {c, s, 1, c, -s, 1});
+    write(Stream::state, {1, 2, 0.5f, 2, 3, 1.5f});
+    const StreamSet streams(folder.path(), streamsOf(false, {}), 2, 1);
+    const RowSampler sampler(streams);
+    EXPECT_NEAR(sampler.at(0, 0.5, 1.0)[Stream::dir][0], -1.0, 1e-6);
+    EXPECT_NEAR(sampler.at(0, 0.25, 2.0)[Stream::dir][2], 2.0, 1e-6);
+    EXPECT_EQ(sampler.at(0, 0.49, 1.0)[Stream::state][0], 1.0f);
+    EXPECT_EQ(sampler.at(0, 0.5, 1.0)[Stream::state][1], 3.0f);
+    EXPECT_FLOAT_EQ(sampler.at(0, 0.25, 1.0)[Stream::state][2], 0.75f);
+    EXPECT_EQ(sampler.at(0, -3.0, 1.0)[Stream::pos][0], 0.0f);
+    EXPECT_EQ(sampler.at(0, 7.0, 1.0)[Stream::dir][2], 0.0f);
 }
 
 TEST(ApplyOverrides, LooksGoIntoTheTableTheManifestAndTheGltf) {
@@ -178,7 +177,7 @@ TEST(ApplyOverrides, LooksGoIntoTheTableTheManifestAndTheGltf) {
     EXPECT_EQ(table.at(3, "variation"), "6");
     EXPECT_EQ(table.at(3, "overrides"), "character tint scale");
     EXPECT_EQ(table.at(2, "scale"), "1");
-    EXPECT_EQ(applied.row("state", 0, 3)[1], 6.0f);
+    EXPECT_EQ(applied.row(Stream::state, 0, 3)[1], 6.0f);
     EXPECT_EQ(applied.made.manifest["variations"], 7);
     EXPECT_EQ(applied.made.manifest["applied"]["overrides"], "x");
     std::ifstream file(applied.folder / "applied" / "crowd.glb", std::ios::binary);
@@ -204,7 +203,7 @@ TEST(ApplyOverrides, WhatStopsItLeavesNothingBehind) {
     apply.go_on = [](std::uint32_t frames) { return frames < 5; };
     EXPECT_FALSE(applyOverrides(source, {}, apply));
     EXPECT_EQ(folder.names(), std::vector<std::string>{"bake"});
-    std::filesystem::resize_file(source.streamPath("dir"), 4000);
+    std::filesystem::resize_file(source.streamPath(Stream::dir), 4000);
     apply.go_on = [](std::uint32_t) { return true; };
     EXPECT_THROW(applyOverrides(source, {}, apply), InputError);
     EXPECT_EQ(folder.names(), std::vector<std::string>{"bake"});

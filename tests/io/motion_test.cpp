@@ -86,7 +86,11 @@ struct Crowd {
             states[row * 3 + 1] = static_cast<float>(row % 8);
             states[row * 3 + 2] = 0.5f;
         }
-        return {index, positions, directions, states, {}, nullptr};
+        Frame frame{index};
+        frame[Stream::pos] = positions;
+        frame[Stream::dir] = directions;
+        frame[Stream::state] = states;
+        return frame;
     }
 };
 
@@ -111,9 +115,9 @@ struct Recorded {
     recording::MotionRecorder::Sink sink() {
         return [this](const Frame& frame) {
             EXPECT_EQ(frame.index, positions.size()) << "in order";
-            positions.emplace_back(frame.positions.begin(), frame.positions.end());
-            directions.emplace_back(frame.directions.begin(), frame.directions.end());
-            states.emplace_back(frame.states.begin(), frame.states.end());
+            for (const auto& [stream, frames] :
+                 {std::pair{Stream::pos, &positions}, {Stream::dir, &directions}, {Stream::state, &states}})
+                frames->emplace_back(frame[stream].begin(), frame[stream].end());
         };
     }
 };
