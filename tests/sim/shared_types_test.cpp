@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <regex>
 #include <set>
 
@@ -246,12 +247,16 @@ TEST_F(SharedTypesTest, EveryShaderDeclaresItsBlocksInTheLayoutThatIsShared) {
                 if (!structures.contains(word)) continue;
                 seen.insert(word);
                 const bool uniform = (*found)[3] == "uniform";
-                EXPECT_EQ((*found)[2], uniform ? "std140" : "std430") << shader.path << ": " << found->str();
+                EXPECT_EQ((*found)[2].str(), std::string(uniform ? "std140" : "std430"))
+                    << shader.path << ": " << found->str();
                 EXPECT_EQ(uniform, isUniform(word)) << shader.path << ": " << found->str();
             }
         }
     }
-    EXPECT_EQ(seen.size(), structures.size()) << "a structure that no shader has";
+    for (const auto& [structure, header] : structures) {
+        if (structure == "FieldCell") continue;  // shaders read its words, through a texture
+        EXPECT_TRUE(seen.contains(structure)) << structure << " is in no block of a shader";
+    }
 }
 
 }  // namespace
