@@ -46,8 +46,8 @@ Pipe makePipe() {
     return {movedUp(ends[0]), movedUp(ends[1])};
 }
 
-Pipe pipeFor(Stream stream) {
-    return stream == Stream::pipe ? makePipe() : Pipe{};
+Pipe pipeFor(StandardStream stream) {
+    return stream == StandardStream::pipe ? makePipe() : Pipe{};
 }
 
 std::vector<std::string> environmentWith(const std::vector<std::pair<std::string, std::string>>& additions) {
@@ -199,7 +199,7 @@ ProgramEnd Process::wait() {
 }
 
 ProgramRun runProgram(const std::vector<std::string>& words) {
-    Process process(words, {.output = Stream::pipe, .errors = Stream::pipe});
+    Process process(words, {.output = StandardStream::pipe, .errors = StandardStream::pipe});
     ProgramRun run;
     pollfd sources[] = {{process.output(), POLLIN, 0}, {process.errors(), POLLIN, 0}};
     std::string* texts[] = {&run.output, &run.errors};

@@ -24,11 +24,11 @@ struct ProgramEnd {
     std::string text() const;
 };
 
-enum class Stream { ours, pipe };
+enum class StandardStream { ours, pipe };
 
 struct ProcessOptions {
     std::string file = {};  ///< to run, where it is another than the first word says
-    Stream input = Stream::ours, output = Stream::ours, errors = Stream::ours;
+    StandardStream input = StandardStream::ours, output = StandardStream::ours, errors = StandardStream::ours;
     std::vector<std::pair<std::string, std::string>> environment = {};  ///< set besides ours, or in its place
     bool ends_with_us = false;  ///< gets SIGTERM when the thread that started it ends, in whatever way
 };

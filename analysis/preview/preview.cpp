@@ -40,7 +40,7 @@ class Encoder {
         add({"-r", fmt::format("{}", plate.fps()), "-i", "-"});
         add({"-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "20", "-f", "mp4", path.string()});
         try {
-            process_.emplace(words, ProcessOptions{.input = Stream::pipe});
+            process_.emplace(words, ProcessOptions{.input = StandardStream::pipe});
         } catch (const std::system_error& error) {
             if (error.code() != std::errc::no_such_file_or_directory)
                 throw OutputError(path, "start ffmpeg for", error.code().value());

@@ -41,7 +41,7 @@ std::vector<int> realGpus() {
 ProcessOptions workerOptions(std::size_t render_threads, double people) {
     ProcessOptions options;
     options.file = "/proc/self/exe";
-    options.input = options.output = Stream::pipe;
+    options.input = options.output = StandardStream::pipe;
     options.ends_with_us = true;
     // Small crowds do better without, as Baker has it.
     if (people >= kWorthThreads && !std::getenv("LP_NUM_THREADS"))

@@ -74,7 +74,7 @@ TEST(Process, AMissingProgramIsNamed) {
 }
 
 TEST(Process, TalksThroughPipes) {
-    Process process({"cat"}, {.input = Stream::pipe, .output = Stream::pipe});
+    Process process({"cat"}, {.input = StandardStream::pipe, .output = StandardStream::pipe});
     EXPECT_FALSE(process.write("one\n"));
     EXPECT_EQ(process.read(), "one\n");
     EXPECT_FALSE(process.write("two\n"));
@@ -87,14 +87,15 @@ TEST(Process, TalksThroughPipes) {
 
 TEST(Process, WritesMoreThanAPipeHolds) {
     const std::string text(3'000'000, 'x');
-    Process process({"wc", "-c"}, {.input = Stream::pipe, .output = Stream::pipe});
+    Process process({"wc", "-c"}, {.input = StandardStream::pipe, .output = StandardStream::pipe});
     EXPECT_FALSE(process.write(text));
     process.closeInput();
     EXPECT_EQ(process.read(), "3000000\n");
 }
 
 TEST(Process, WritingWhereNobodyReadsIsAnErrorAndNoSignal) {
-    Process process({"sh", "-c", "exec <&-; echo closed"}, {.input = Stream::pipe, .output = Stream::pipe});
+    Process process({"sh", "-c", "exec <&-; echo closed"},
+                    {.input = StandardStream::pipe, .output = StandardStream::pipe});
     EXPECT_EQ(process.read(), "closed\n");
     EXPECT_EQ(process.write("word"), std::errc::broken_pipe);
     sigset_t pending;
@@ -106,7 +107,7 @@ TEST(Process, SetsVariablesBesideOurs) {
     ::setenv("THRONG_TEST_OURS", "ours", 1);
     ::setenv("THRONG_TEST_REPLACED", "old", 1);
     Process process({"sh", "-c", "echo $THRONG_TEST_OURS $THRONG_TEST_REPLACED $THRONG_TEST_NEW"},
-                    {.output = Stream::pipe,
+                    {.output = StandardStream::pipe,
                      .environment = {{"THRONG_TEST_REPLACED", "replaced"}, {"THRONG_TEST_NEW", "new"}}});
     EXPECT_EQ(process.read(), "ours replaced new\n");
     EXPECT_STREQ(::getenv("THRONG_TEST_REPLACED"), "old");
@@ -125,7 +126,7 @@ TEST(Process, StartsWhereStandardStreamsAreClosed) {
     const Descriptor input(::dup(STDIN_FILENO));
     ::close(STDIN_FILENO);
     const ProgramRun run = shell("echo out; echo errors >&2");
-    Process cat({"cat"}, {.input = Stream::pipe, .output = Stream::pipe});
+    Process cat({"cat"}, {.input = StandardStream::pipe, .output = StandardStream::pipe});
     EXPECT_FALSE(cat.write("word"));
     EXPECT_EQ(cat.read(), "word");
     ::dup2(input.get(), STDIN_FILENO);
@@ -134,7 +135,7 @@ TEST(Process, StartsWhereStandardStreamsAreClosed) {
 }
 
 TEST(Process, SignalsReachItsGroup) {
-    Process process({"sh", "-c", "sleep 1000 & echo ready; wait"}, {.output = Stream::pipe});
+    Process process({"sh", "-c", "sleep 1000 & echo ready; wait"}, {.output = StandardStream::pipe});
     EXPECT_EQ(process.read(), "ready\n");
     process.tell(SIGTERM);
     EXPECT_TRUE(readToTheEnd(process)) << "what it has started still holds the output";
@@ -144,7 +145,7 @@ TEST(Process, SignalsReachItsGroup) {
 TEST(Process, NobodyIsLeftBehind) {
     Descriptor output;
     {
-        Process process({"sh", "-c", "sleep 1000 & echo ready; wait"}, {.output = Stream::pipe});
+        Process process({"sh", "-c", "sleep 1000 & echo ready; wait"}, {.output = StandardStream::pipe});
         EXPECT_EQ(process.read(), "ready\n");
         output.reset(::dup(process.output()));
     }
@@ -160,7 +161,7 @@ TEST(Process, EndsWithWhoeverStartedItIfItShall) {
         std::thread([&] {
             process = std::make_unique<Process>(
                 std::vector<std::string>{"sleep", "1000"},
-                ProcessOptions{.output = Stream::pipe, .ends_with_us = ends_with_us});
+                ProcessOptions{.output = StandardStream::pipe, .ends_with_us = ends_with_us});
         }).join();
         pollfd source{process->output(), POLLIN, 0};
         return ::poll(&source, 1, ends_with_us ? 10'000 : 200) == 0 ? 0 : process->wait().signal;
