@@ -60,8 +60,9 @@ TEST(MotionRules, AreConstantsOfTheShadersWrittenExactly) {
 }
 
 TEST(MotionRules, AreReadFromALayoutAndFromItsOverrides) {
-    const Read found = read(R"({"throng": 1, "motion": {"headway": {"enabled": false}, "drive": {"most": 2.5}}})",
-                            {"motion.cushion.enabled=false", "motion.planted_feet.slip=0"});
+    const Read found =
+        read(R"({"throng": 1, "motion": {"headway": {"enabled": false}, "drive": {"most": 2.5}}})",
+             {"motion.cushion.enabled=false", "motion.planted_feet.slip=0"});
     ASSERT_TRUE(found.layout);
     const MotionSettings& motion = found.layout->simulation.motion;
     EXPECT_FALSE(motion.isOn("headway"));

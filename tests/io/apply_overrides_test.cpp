@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "io/overrides/apply_overrides.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,7 +11,6 @@
 #include "io/agent_rows.h"
 #include "io/bake_info.h"
 #include "io/overrides/agent_table_edit.h"
-#include "io/overrides/apply_overrides.h"
 #include "io/overrides/row_sampler.h"
 #include "io/streams/stream_reader.h"
 #include "io/streams/stream_writer.h"

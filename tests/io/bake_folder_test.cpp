@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "io/bake_folder.h"
+
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
@@ -8,7 +10,6 @@
 #include <fstream>
 
 #include "base/files/output_file.h"
-#include "io/bake_folder.h"
 #include "io/bake_writer.h"
 #include "sample_crowd.h"
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "io/checkpoint.h"
+
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -8,7 +10,6 @@
 #include "base/files/input_file.h"
 #include "io/bake_folder.h"
 #include "io/bake_writer.h"
-#include "io/checkpoint.h"
 #include "sample_crowd.h"
 
 namespace throng::io {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Terrains from anybody: sound ones give known triangles, all others one clear error, and never a crash or a
 // hang.
+#include "io/gltf/terrain_file.h"
+
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -13,7 +15,6 @@
 #include <random>
 
 #include "base/files/errors.h"
-#include "io/gltf/terrain_file.h"
 
 namespace throng::test {
 namespace {
