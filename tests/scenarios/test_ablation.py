@@ -11,7 +11,7 @@ SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "ablate.py"
 FIGURES = ("arrived", "seconds", "deepest_overlap_percent", "acceleration_p99", "backward_percent", "way")
 # Where rules are looked at, one place after the other until each has been seen at work, and for how many seconds.
 PLACES = {"imo-4": 25, "trap-head-on": 10, "trap-narrow-door": 20, "company": 20, "bidirectional": 8, "hill": 10,
-          "station": 15}
+          "station": 40}
 
 
 def ablate_module():
