@@ -11,14 +11,18 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 INTRO = """# What a step reads and writes
 
-A [step](method.md) is a list of passes, and a pass is one or more programs that run one after the other on the device. Every program says in the C++ which blocks and samplers
-it reads and which blocks it writes (`gl::Declaration`); it is held against its shader when it is made, and a program that touches anything else, or writes what it says
-it only reads, does not start. This page is made from that by `scripts/passes_page.py`: `throng devices --passes` prints the same for any layout.
+A [step](method.md) is a list of passes, and a pass is one or more programs that run one after the other on the
+device. Every program says in the C++ which blocks and samplers it reads and which blocks it writes
+(`gl::Declaration`); it is held against its shader when it is made, and a program that touches anything else, or
+writes what it says it only reads, does not start. This page is made from that by `scripts/passes_page.py`: `throng
+devices --passes` prints the same for any layout.
 
-Here: {people} people who enter a street little by little, some of them waiting in a line, round a wall; the diagram by the method `binned`. Rows stand in the order in which the device
-is asked. A buffer stands with the bytes of one element and with what it has an element for: `bodies` 32/person. **Read** and **written** are bytes per person and launch: the elements of the
-person's own row or slot, whole and once. What a program looks at of others, and buffers with elements for anything but people (and sites: people and wall tiles), are not in them.
-A row without a program is a transfer that the driver does.
+Here: {people} people who enter a street little by little, some of them waiting in a line, round a wall; the diagram
+by the method `binned`. Rows stand in the order in which the device is asked. A buffer stands with the bytes of one
+element and with what it has an element for: `bodies` 32/person. **Read** and **written** are bytes per person and
+launch: the elements of the person's own row or slot, whole and once. What a program looks at of others, and buffers
+with elements for anything but people (and sites: people and wall tiles), are not in them. A row without a program is
+a transfer that the driver does.
 """
 
 

@@ -7,6 +7,7 @@
 
 #include "authoring/layout/layout_reader.h"
 #include "authoring/scene/scene_builder.h"
+#include "base/streams.h"
 #include "sim/simulation_parts.h"
 #include "tests/sim/gpu_test.h"
 
@@ -93,9 +94,12 @@ class StepTableTest : public GpuTest {
         simulation.packFrame(frame);
         frame.download<float>(1);
         sim::Diagram& diagram = simulation.buildDiagramNow();
-        gl::Buffer densities("densities", std::size_t{12} * simulation.parameters().row_count);
-        simulation.packDensities(densities);
-        densities.download<float>(1);
+        gl::Buffer stream("stream", std::size_t{12} * simulation.parameters().row_count);
+        for (const StreamInfo& info : kStreams) {
+            if (info.source != StreamSource::device) continue;
+            simulation.packStream(info.id, stream);
+            stream.download<float>(1);
+        }
         diagram.measureDistances().download<float>(1);
         diagram.findSeconds().download<float>(1);
         simulation.save();
