@@ -161,7 +161,8 @@ def base_memory_of(program):
 
 def tables(results, base_memory, flat, rounds):
     """What docs/benchmarks/llvmpipe/rvo2.md holds."""
-    return f"""RVO2 through pyrvo {pyrvo_version()}, threads in its process: {results[0]["threads"]}. Medians of {rounds} rounds, ms a step.
+    version, threads = pyrvo_version(), results[0]["threads"]
+    return f"""RVO2 through pyrvo {version}, threads in its process: {threads}. Medians of {rounds} rounds, ms a step.
 
 {table(results, base_memory)}
 
