@@ -202,6 +202,7 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
     targets = gl::Buffer("targets", {rows, sizeof(glm::vec2), kPerson});
     targets_after = gl::Buffer("targets after contact", {rows, sizeof(glm::vec2), kPerson});
     queue_heads.fill(0);
+    tickets.fill(0);
     detour_slopes.fill(0);
 }
 

@@ -13,8 +13,14 @@
 namespace throng::gl {
 namespace {
 
-void note(const char* what, std::vector<Touch> touches) {
-    if (Journal* journal = Journal::kept()) journal->note(what, std::move(touches));
+/// A transfer: from what, if from a buffer, and to what.
+void note(const char* what, const Buffer* read, const Buffer* written) {
+    Journal* journal = Journal::kept();
+    if (!journal) return;
+    std::vector<Touch> touches;
+    if (read) touches.push_back({read->contents(), true, false});
+    if (written) touches.push_back({written->contents(), false, true});
+    journal->note(what, std::move(touches));
 }
 
 }  // namespace
@@ -70,26 +76,26 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
 }
 
 void Buffer::fill(std::uint32_t word) {
-    note("fill", {{contents_, false, true}});
+    note("fill", nullptr, this);
     glClearNamedBufferData(handle_, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &word);
 }
 
 void Buffer::copyFrom(const Buffer& source) {
-    note("copy", {{source.contents_, true, false}, {contents_, false, true}});
+    note("copy", &source, this);
     glCopyNamedBufferSubData(source.handle_, handle_, 0, 0,
                              static_cast<GLsizeiptr>(std::min(bytes_, source.bytes_)));
 }
 
 void Buffer::uploadBytes(std::span<const std::byte> bytes, std::size_t offset) {
     if (offset + bytes.size() > bytes_) throw std::out_of_range("upload past the end of a buffer");
-    note("upload", {{contents_, false, true}});
+    note("upload", nullptr, this);
     glNamedBufferSubData(handle_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes.size()),
                          bytes.data());
 }
 
 void Buffer::downloadBytes(std::span<std::byte> bytes, std::size_t offset) const {
     if (offset + bytes.size() > bytes_) throw std::out_of_range("download past the end of a buffer");
-    note("download", {{contents_, true, false}});
+    note("download", this, nullptr);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     glGetNamedBufferSubData(handle_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes.size()),
                             bytes.data());

@@ -103,7 +103,10 @@ template <class T>
 Buffer makeBuffer(const std::string& name, const std::vector<T>& items, const std::string& per = "",
                   Buffer::Use use = Buffer::Use::device) {
     Buffer buffer(name, Room{items.size(), sizeof(T), per}, use);
-    if (!items.empty()) buffer.upload(items);
+    if (items.empty())
+        buffer.fill(0);  // there is room for one word all the same
+    else
+        buffer.upload(items);
     return buffer;
 }
 
