@@ -128,4 +128,6 @@ def pytest_collection_modifyitems(items):
             item.add_marker(pytest.mark.xdist_group("slurm"))
         if "found" in item.fixturenames:
             item.add_marker(pytest.mark.xdist_group(f"overrides in {item.callspec.id}"))
+        if item.path.parent.name == "house":
+            item.add_marker(pytest.mark.quick)
     items.sort(key=lambda item: (item.get_closest_marker("slow") is None, place.get(item.path.parent.name, len(first))))

@@ -36,6 +36,7 @@ def test_the_grid_and_everybody_compared_give_the_same_bytes(throng, tmp_path):
     assert digest(tmp_path / "grid") == digest(tmp_path / "brute")
 
 
+@pytest.mark.quick
 def test_images_and_stream_agree_on_areas_densities_and_second_owners(throng, tmp_path, manifest_of):
     OpenEXR = pytest.importorskip("OpenEXR")
     layout = write(tmp_path / "small.json", SMALL)

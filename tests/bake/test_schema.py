@@ -36,6 +36,7 @@ def test_the_schema_is_a_schema_and_documents_everything(schema):
 
 
 @pytest.mark.parametrize("path", sorted(path for path in EXAMPLES.glob("*.json") if not path.name.startswith("family-")), ids=lambda path: path.stem)
+@pytest.mark.quick
 def test_the_examples_are_valid(schema, path):
     jsonschema.validate(json.loads(path.read_text()), schema)
 
@@ -50,6 +51,7 @@ def numbers(schema):
                 yield place + (name,), rule
 
 
+@pytest.mark.quick
 def test_the_readers_limits_are_the_schemas(schema, throng, tmp_path):
     cases = []
     for place, rule in numbers(schema):

@@ -58,6 +58,7 @@ def test_the_examples_fit_the_schema_and_can_be_planned(throng, path, tmp_path):
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.quick
 def test_a_grid_has_every_combination_once(throng, tmp_path):
     throng("batch", family(tmp_path), "-o", tmp_path / "out", "-q")
     found = rows(tmp_path / "out")
@@ -146,6 +147,7 @@ def generators(throng):
 
 
 @pytest.mark.parametrize("kind", ["crossing", "corridor", "streets", "plaza", "stadium"])
+@pytest.mark.slow
 def test_whatever_is_generated_is_valid(throng, kind, tmp_path):
     chance = random.Random(kind)
     whole = {"arms", "pillars", "columns", "rows", "exits", "people", "seed"}
@@ -167,6 +169,7 @@ def test_whatever_is_generated_is_valid(throng, kind, tmp_path):
         assert process.returncode == 0, f"{settings}: {process.stderr}"
 
 
+@pytest.mark.slow
 def test_generated_people_get_where_they_want_to(throng, tmp_path):
     plan = tmp_path / "family.json"
     for kind, settings in {"crossing": {"arms": 5, "irregularity": 1, "length": 12, "width": 4}, "plaza": {"size": 14, "pillars": 10},
@@ -246,6 +249,7 @@ def test_a_changed_family_says_what_it_invalidates(throng, tmp_path):
     assert {row["duration"] for row in rows(tmp_path / "out")} == {3.0}
 
 
+@pytest.mark.quick
 def test_failures_keep_their_reason_and_never_stop_the_rest(throng, tmp_path):
     # With the second wall, nobody can get from west to east: a layout that is valid to read and cannot be baked.
     shut = [{"id": "south", "points": [[-1, -0.5], [13, -0.5]]}, {"id": "ring", "points": [[-1, -1], [3, -1], [3, 5], [-1, 5], [-1, -1]]}]
@@ -274,6 +278,7 @@ def processes_of(parent):
 LONGER = {**BASE, "simulation": {"duration": 60, "seed": 1}}
 
 
+@pytest.mark.slow
 def test_ctrl_c_stops_at_once_and_leaves_each_bake_complete_or_absent(throng, tmp_path):
     plan = family(tmp_path, base=LONGER, axes=[{"set": "/simulation/seed", "range": [1, 16]}])
     process = subprocess.Popen([throng.binary, "batch", str(plan), "-o", str(tmp_path / "out")], stdout=subprocess.PIPE,

@@ -45,6 +45,7 @@ def start(throng, layout, output, *more, minutes="0.002"):
                             stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
 
+@pytest.mark.slow
 def test_killed_a_hundred_times_at_random_moments_a_bake_ends_as_the_same_bytes(throng, whole, tmp_path):
     layout, expected = whole
     chance = random.Random(5)
@@ -68,6 +69,7 @@ def test_killed_a_hundred_times_at_random_moments_a_bake_ends_as_the_same_bytes(
     assert bakes < kills, "most runs were killed"
 
 
+@pytest.mark.quick
 def test_sigterm_leaves_a_checkpoint_and_85(throng, whole, tmp_path):
     layout, expected = whole
     process = start(throng, layout, tmp_path / "bake")

@@ -19,6 +19,7 @@ def wrapped(angle):
     return abs((angle + math.pi) % (2.0 * math.pi) - math.pi)
 
 
+@pytest.mark.quick
 def test_instances_are_where_the_arrays_say_at_frames_and_between(blender, tmp_path):
     pos, direction, state = write_bake(tmp_path / "bake")
     times = [(1, 0.0), (30, 0.0), (11, 0.5), (2, 0.25), (40, 0.0), (26, 0.6), (5, 0.0), (500, 0.0), (18, 0.75)]

@@ -72,6 +72,7 @@ def clock(page):
     return float(re.match(r"([\d.]+) s", page.inner_text("#clock")).group(1))
 
 
+@pytest.mark.quick
 def test_the_page_says_who_and_what(visit, bake):
     page = visit(bake / "bake.html")
     assert page.inner_text("h1") == LAYOUT["name"] == page.title()

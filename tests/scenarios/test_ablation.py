@@ -7,6 +7,8 @@ import pathlib
 import subprocess
 import sys
 
+import pytest
+
 SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "ablate.py"
 FIGURES = ("arrived", "seconds", "deepest_overlap_percent", "acceleration_p99", "backward_percent", "way")
 # Where rules are looked at, one place after the other until each has been seen at work, and for how many seconds.
@@ -35,6 +37,7 @@ def seen_at_work(folder, scenario, seconds, names):
     return {name for name in names if figures[name] != figures["all"]}
 
 
+@pytest.mark.slow
 def test_every_switch_of_a_rule_changes_what_people_do_somewhere(tmp_path):
     module = ablate_module()
     left = set(module.variants()) - {"all"}
