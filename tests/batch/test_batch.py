@@ -316,13 +316,13 @@ def test_ctrl_c_stops_at_once_and_leaves_each_bake_complete_or_absent(throng, tm
 def test_killed_workers_are_replaced_and_the_batch_ends_complete(throng, tmp_path):
     plan = family(tmp_path, base=LONGER, axes=[{"set": "/simulation/seed", "range": [1, 12]}])
     process = subprocess.Popen([throng.binary, "batch", str(plan), "-o", str(tmp_path / "out"), "--workers", "2", "-q"])
-    kills = 0
-    while kills < 4:
+    killed = []
+    while len(killed) < 4:
         assert process.poll() is None
         time.sleep(0.4)
-        for worker in processes_of(process.pid)[:1]:
+        for worker in [worker for worker in processes_of(process.pid) if worker not in killed][:1]:
             os.kill(worker, signal.SIGKILL)
-            kills += 1
+            killed.append(worker)
     assert process.wait(timeout=120) in (0, 1)
     found = rows(tmp_path / "out", "SELECT * FROM scenarios")
     assert all(row["status"] == "ok" or "killed by signal 9" in row["reason"] for row in found)
