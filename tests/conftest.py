@@ -32,7 +32,8 @@ def throng():
 
 @pytest.fixture(scope="session")
 def once(tmp_path_factory):
-    """once("street", make) is a folder that make(folder) has filled, once for all processes that tests run in. Tests only read it."""
+    """once("street", make) is a folder that make(folder) has filled, once for all processes that tests run in. Tests
+    only read it."""
     folder = tmp_path_factory.getbasetemp()
     if "PYTEST_XDIST_WORKER" in os.environ:
         folder = folder.parent  # which the processes share
@@ -84,7 +85,8 @@ def blender_module(folder="bpy"):
         pytest.skip(f"the Python module bpy is not installed in build/{folder} (scripts/test does)")
 
     def command(script, arguments, blend, factory):
-        return [str(python), str(ROOT / "tests" / "blender" / "run_in_bpy.py"), str(blend or ""), str(script), *arguments]
+        return [str(python), str(ROOT / "tests" / "blender" / "run_in_bpy.py"), str(blend or ""), str(script),
+                *arguments]
 
     return command
 
@@ -94,13 +96,15 @@ def blender_module_lts():
     return blender_module("bpy-lts")
 
 
-@pytest.fixture(scope="session", params=[blender_program, blender_module_lts, blender_module], ids=["blender", "lts", "bpy"])
+@pytest.fixture(scope="session", params=[blender_program, blender_module_lts, blender_module],
+                ids=["blender", "lts", "bpy"])
 def blender(request):
     """Runs a Python script in a Blender, in an empty scene: in Debian's, in the last 4.x, and in a current one."""
     command = request.param()
 
     def run(script, *arguments, blend=None, factory=True, environment=None):
-        process = subprocess.run(command(script, [str(argument) for argument in arguments], blend, factory), capture_output=True, text=True,
+        process = subprocess.run(command(script, [str(argument) for argument in arguments], blend, factory),
+                                 capture_output=True, text=True,
                                  env={**os.environ, **(environment or {})})
         assert process.returncode == 0, process.stdout[-4000:] + process.stderr[-4000:]
         return process.stdout
@@ -120,7 +124,7 @@ def pytest_configure(config):
 
 @pytest.hookimpl(tryfirst=True)  # before the processes are told of the groups
 def pytest_collection_modifyitems(items):
-    """The longest first, so that no processor is idle at the end; what only one process can make stays in one process."""
+    """The longest first, so that no processor is idle at the end; what only one process can make stays in one."""
     first = ("slurm", "scenarios", "blender", "batch")
     place = {name: i for i, name in enumerate(first)}
     for item in items:

@@ -114,7 +114,8 @@ def test_benchmarks_write_markdown_and_csv(throng, tmp_path):
 
 def far_apart(shift):
     """Two small crowds, the second `shift` metres away."""
-    people = [{"id": f"ring{i}", "type": "circle", "centre": [x, x], "radius": 5, "count": 31} for i, x in enumerate((0.0, shift))]
+    people = [{"id": f"ring{i}", "type": "circle", "centre": [x, x], "radius": 5, "count": 31} for i,
+              x in enumerate((0.0, shift))]
     return {"throng": 1, "simulation": {"duration": 3, "pixels_per_metre": 8}, "formations": people,
             "walls": [{"points": [[-3, 5.8], [3, 6]]}, {"points": [[shift - 3, shift + 5.8], [shift + 3, shift + 6]]}]}
 
@@ -124,7 +125,8 @@ def test_a_world_larger_than_any_texture_bakes_like_a_small_one(throng, tmp_path
     for name, shift in (("near", 40.0), ("far", 2500.0)):
         layout = write(tmp_path / f"{name}.json", far_apart(shift))
         throng("bake", layout, "-o", tmp_path / name, "-q", "--no-gltf")
-    near, far = (numpy.load(tmp_path / name / "streams" / "pos.npy") + numpy.array(manifest_of(tmp_path / name)["origin"])
+    near, far = (numpy.load(tmp_path / name / "streams" / "pos.npy")
+                 + numpy.array(manifest_of(tmp_path / name)["origin"])
                  for name in ("near", "far"))
     # The first ring sees the same, so it sets out the same; a ring is symmetric, and roundings at 1,250 m from the
     # origin soon decide who passes on which side.

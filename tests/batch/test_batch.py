@@ -25,7 +25,8 @@ EXAMPLES = ROOT / "examples"
 BASE = {
     "throng": 1,
     "simulation": {"duration": 2, "seed": 1},
-    "areas": [{"id": "west", "polygon": [[0, 0], [2, 0], [2, 4], [0, 4]]}, {"id": "east", "polygon": [[10, 0], [12, 0], [12, 4], [10, 4]]}],
+    "areas": [{"id": "west", "polygon": [[0, 0], [2, 0], [2, 4], [0, 4]]},
+              {"id": "east", "polygon": [[10, 0], [12, 0], [12, 4], [10, 4]]}],
     "walls": [{"id": "south", "points": [[-1, -0.5], [13, -0.5]]}],
     "flows": [{"id": "walkers", "from": "west", "to": "east", "rate": 2}],
 }
@@ -33,7 +34,8 @@ BASE = {
 
 def family(folder, **changes):
     content = {"throng_family": 1, "name": "small", "base": BASE,
-               "axes": [{"name": "rate", "set": "/flows/0/rate", "values": [1, 2, 4]}, {"name": "seed", "set": "/simulation/seed", "range": [1, 2]}]}
+               "axes": [{"name": "rate", "set": "/flows/0/rate", "values": [1, 2, 4]},
+                        {"name": "seed", "set": "/simulation/seed", "range": [1, 2]}]}
     content.update(changes)
     path = folder / "family.json"
     path.write_text(json.dumps({key: value for key, value in content.items() if value is not None}))
@@ -71,7 +73,8 @@ def test_a_grid_has_every_combination_once(throng, tmp_path):
 
 
 def drawn(throng, tmp_path, sampling, count, axes):
-    plan = family(tmp_path, sampling=sampling, count=count, axes=axes, base={**BASE, "simulation": {"duration": 0.05}}, bake={"keep": False})
+    plan = family(tmp_path, sampling=sampling, count=count, axes=axes, base={**BASE, "simulation": {"duration": 0.05}},
+                  bake={"keep": False})
     throng("batch", plan, "-o", tmp_path / sampling, "-q")
     return rows(tmp_path / sampling)
 
@@ -84,11 +87,13 @@ def test_a_latin_hypercube_covers_each_axis_evenly(throng, tmp_path):
     assert sorted(int((row["rate"] - 1) / 2 * 50) for row in found) == list(range(50))
     assert sorted(row["seed"] for row in found) == list(range(50))
     widths = numpy.array([row["width"] for row in found])
-    assert 0.1 <= widths.min() and widths.max() <= 0.6 and abs(widths.mean() - 0.3) < 0.01 and 0.08 < widths.std() < 0.11
+    assert 0.1 <= widths.min() and widths.max() <= 0.6 and abs(widths.mean() - 0.3) < 0.01 \
+        and 0.08 < widths.std() < 0.11
 
 
 def test_weights_decide_how_often_a_value_is_drawn(throng, tmp_path):
-    axes = [{"name": "profile", "set": "/flows/0/people", "values": [{"profile": "adult"}, {"profile": "child"}], "weights": [3, 1]},
+    axes = [{"name": "profile", "set": "/flows/0/people", "values": [{"profile": "adult"}, {"profile": "child"}],
+             "weights": [3, 1]},
             {"name": "seed", "set": "/simulation/seed", "uniform": [0, 1000000], "whole": True}]
     found = drawn(throng, tmp_path, "latin", 80, axes)
     assert sum("adult" in row["profile"] for row in found) == 60
@@ -116,11 +121,14 @@ WRONG = [
     ({"axes": [{"set": "/flows/0/rate", "values": [1, -1]}]}, "/flows/0/rate"),
     ({"axes": [{"set": "/flows/0/rat", "values": [1]}]}, "did you mean `rate`?"),
     ({"axes": [{"parameter": "arms", "values": [3]}]}, "this family has a base layout"),
-    ({"base": None, "generate": {"kind": "crossing", "arms": 3.5}, "axes": [{"parameter": "seed", "values": [3]}]}, "whole number"),
-    ({"base": None, "generate": {"kind": "crossing"}, "axes": [{"parameter": "legs", "values": [3]}]}, "there is no parameter `legs`"),
+    ({"base": None, "generate": {"kind": "crossing", "arms": 3.5}, "axes": [{"parameter": "seed", "values": [3]}]},
+     "whole number"),
+    ({"base": None, "generate": {"kind": "crossing"}, "axes": [{"parameter": "legs", "values": [3]}]},
+     "there is no parameter `legs`"),
     ({"sampling": "latin"}, "how many scenarios"),
     ({"axes": [{"set": "/simulation/seed", "range": [1, 10000000]}]}, "in steps above zero"),
-    ({"axes": [{"set": "/simulation/seed", "range": [1, 2000]}, {"set": "/flows/0/rate", "range": [1, 2000]}]}, "too many"),
+    ({"axes": [{"set": "/simulation/seed", "range": [1, 2000]}, {"set": "/flows/0/rate", "range": [1, 2000]}]},
+     "too many"),
     ({"axis": []}, "did you mean `axes`?"),
 ]
 
@@ -172,8 +180,10 @@ def test_whatever_is_generated_is_valid(throng, kind, tmp_path):
 @pytest.mark.slow
 def test_generated_people_get_where_they_want_to(throng, tmp_path):
     plan = tmp_path / "family.json"
-    for kind, settings in {"crossing": {"arms": 5, "irregularity": 1, "length": 12, "width": 4}, "plaza": {"size": 14, "pillars": 10},
-                           "corridor": {"length": 14, "pillars": 4}, "streets": {"columns": 1, "rows": 1, "block": 10, "width": 4},
+    for kind, settings in {"crossing": {"arms": 5, "irregularity": 1, "length": 12, "width": 4},
+                           "plaza": {"size": 14, "pillars": 10},
+                           "corridor": {"length": 14, "pillars": 4},
+                           "streets": {"columns": 1, "rows": 1, "block": 10, "width": 4},
                            "stadium": {"radius": 12, "stand": 5, "people": 60}}.items():
         plan.write_text(json.dumps({"throng_family": 1, "generate": {"kind": kind, "duration": 60, **settings},
                                     "axes": [{"parameter": "seed", "range": [1, 2]}], "bake": {"keep": False}}))
@@ -188,10 +198,12 @@ def test_generated_people_get_where_they_want_to(throng, tmp_path):
 def test_run_again_and_nothing_is_done_twice(throng, tmp_path):
     plan = family(tmp_path)
     throng("batch", plan, "-o", tmp_path / "out", "-q")
-    before = {path: path.stat().st_mtime_ns for path in (tmp_path / "out").rglob("*") if path.is_file() and path.name != "results.sqlite"}
+    before = {path: path.stat().st_mtime_ns for path in (tmp_path / "out").rglob("*") if path.is_file()
+              and path.name != "results.sqlite"}
     told = throng("batch", plan, "-o", tmp_path / "out").stdout
     assert "6 are done" in told and "0 baked" in told
-    after = {path: path.stat().st_mtime_ns for path in (tmp_path / "out").rglob("*") if path.is_file() and path.name != "results.sqlite"}
+    after = {path: path.stat().st_mtime_ns for path in (tmp_path / "out").rglob("*") if path.is_file()
+             and path.name != "results.sqlite"}
     assert before == after
 
 
@@ -241,7 +253,8 @@ def test_a_changed_terrain_makes_results_out_of_date(throng, tmp_path):
 def test_a_changed_family_says_what_it_invalidates(throng, tmp_path):
     throng("batch", family(tmp_path), "-o", tmp_path / "out", "-q")
     changed = family(tmp_path, base={**BASE, "simulation": {"duration": 3, "seed": 1}},
-                     axes=[{"name": "rate", "set": "/flows/0/rate", "values": [1, 2, 3]}, {"name": "seed", "set": "/simulation/seed", "range": [1, 2]}])
+                     axes=[{"name": "rate", "set": "/flows/0/rate", "values": [1, 2, 3]},
+                           {"name": "seed", "set": "/simulation/seed", "range": [1, 2]}])
     told = throng("batch", changed, "-o", tmp_path / "out", "--dry-run").stdout
     assert "4 are out of date" in told and "2 results belong to no scenario" in told and "to bake: 6" in told
     throng("batch", changed, "-o", tmp_path / "out", "-q", "--prune")
@@ -252,7 +265,8 @@ def test_a_changed_family_says_what_it_invalidates(throng, tmp_path):
 @pytest.mark.quick
 def test_failures_keep_their_reason_and_never_stop_the_rest(throng, tmp_path):
     # With the second wall, nobody can get from west to east: a layout that is valid to read and cannot be baked.
-    shut = [{"id": "south", "points": [[-1, -0.5], [13, -0.5]]}, {"id": "ring", "points": [[-1, -1], [3, -1], [3, 5], [-1, 5], [-1, -1]]}]
+    shut = [{"id": "south", "points": [[-1, -0.5], [13, -0.5]]},
+            {"id": "ring", "points": [[-1, -1], [3, -1], [3, 5], [-1, 5], [-1, -1]]}]
     plan = family(tmp_path, axes=[{"name": "walls", "set": "/walls", "values": [BASE["walls"], shut]},
                                   {"name": "seed", "set": "/simulation/seed", "range": [1, 3]}])
     process = throng("batch", plan, "-o", tmp_path / "out", expect=1)
@@ -302,13 +316,13 @@ def test_ctrl_c_stops_at_once_and_leaves_each_bake_complete_or_absent(throng, tm
 def test_killed_workers_are_replaced_and_the_batch_ends_complete(throng, tmp_path):
     plan = family(tmp_path, base=LONGER, axes=[{"set": "/simulation/seed", "range": [1, 12]}])
     process = subprocess.Popen([throng.binary, "batch", str(plan), "-o", str(tmp_path / "out"), "--workers", "2", "-q"])
-    kills = 0
-    while kills < 4:
+    killed = []
+    while len(killed) < 4:
         assert process.poll() is None
         time.sleep(0.4)
-        for worker in processes_of(process.pid)[:1]:
+        for worker in [worker for worker in processes_of(process.pid) if worker not in killed][:1]:
             os.kill(worker, signal.SIGKILL)
-            kills += 1
+            killed.append(worker)
     assert process.wait(timeout=120) in (0, 1)
     found = rows(tmp_path / "out", "SELECT * FROM scenarios")
     assert all(row["status"] == "ok" or "killed by signal 9" in row["reason"] for row in found)
@@ -415,9 +429,11 @@ def test_parquet_and_arrow_hold_the_same_table(throng, tmp_path):
     import pyarrow.parquet
     throng("batch", family(tmp_path), "-o", tmp_path / "out", "-q")
     for name in ("all.parquet", "all.arrow"):
-        subprocess.run([sys.executable, ROOT / "scripts" / "export_batch.py", tmp_path / "out", tmp_path / name], check=True)
+        subprocess.run([sys.executable, ROOT / "scripts" / "export_batch.py", tmp_path / "out", tmp_path / name],
+                       check=True)
     expected = rows(tmp_path / "out")
-    for table in (pyarrow.parquet.read_table(tmp_path / "all.parquet"), pyarrow.feather.read_table(tmp_path / "all.arrow")):
+    for table in (pyarrow.parquet.read_table(tmp_path / "all.parquet"),
+                  pyarrow.feather.read_table(tmp_path / "all.arrow")):
         assert table.to_pylist() == expected
 
 
@@ -439,7 +455,8 @@ def test_flamenco_job_types_compile(throng, tmp_path):
     script = throng("batch", family(tmp_path), "-o", tmp_path / "out", "--emit", "flamenco", "--tasks", "3").stdout
     harness = """
     const author = {Task: (name, type) => ({name, type, commands: [], dependencies: [],
-                        addCommand(c) { this.commands.push(c); }, addDependency(t) { this.dependencies.push(t.name); }}),
+                        addCommand(c) { this.commands.push(c); },
+                        addDependency(t) { this.dependencies.push(t.name); }}),
                     Command: (name, parameters) => ({name, parameters})};
     """ + script + """
     const settings = Object.fromEntries(JOB_TYPE.settings.map(s => [s.key, s.default]));

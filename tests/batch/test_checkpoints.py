@@ -41,7 +41,8 @@ def whole(throng, once):
 
 
 def start(throng, layout, output, *more, minutes="0.002"):
-    return subprocess.Popen([throng.binary, "bake", str(layout), "-o", str(output), *OPTIONS, "--checkpoint", minutes, *more],
+    return subprocess.Popen([throng.binary, "bake", str(layout), "-o", str(output), *OPTIONS, "--checkpoint", minutes,
+                             *more],
                             stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
 
@@ -82,7 +83,8 @@ def test_sigterm_leaves_a_checkpoint_and_85(throng, whole, tmp_path):
     assert not (tmp_path / "bake").exists()
     again = throng("bake", layout, "-o", tmp_path / "bake", *OPTIONS, expect=5)
     assert "--resume" in again.stderr
-    other = throng("bake", layout, "-o", tmp_path / "bake", *OPTIONS, "--set", "simulation.seed=12", "--resume", expect=5)
+    other = throng("bake", layout, "-o", tmp_path / "bake", *OPTIONS, "--set", "simulation.seed=12", "--resume",
+                   expect=5)
     assert "another layout" in other.stderr
     throng("bake", layout, "-o", tmp_path / "bake", *OPTIONS, "--resume")
     assert files_of(tmp_path / "bake") == expected
@@ -107,7 +109,8 @@ def test_a_torn_checkpoint_is_passed_over_for_the_one_before(throng, whole, tmp_
 
 
 def frames_at(checkpoint):
-    """How many frames had been written (io/checkpoint.cpp: a head of 24 bytes, the identity and its length, then this)."""
+    """How many frames had been written (io/checkpoint.cpp: a head of 24 bytes, the identity and its length, then
+    this)."""
     content = checkpoint.read_bytes()
     return struct.unpack_from("<Q", content, 32 + struct.unpack_from("<Q", content, 24)[0])[0]
 

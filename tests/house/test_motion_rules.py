@@ -5,7 +5,8 @@ import pathlib
 import re
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-RULES = json.loads((ROOT / "authoring/layout/throng-layout.schema.json").read_text())["properties"]["motion"]["properties"]
+SCHEMA = json.loads((ROOT / "authoring/layout/throng-layout.schema.json").read_text())
+RULES = SCHEMA["properties"]["motion"]["properties"]
 # Rules that have no file of their own: what they are about is one line of a pass, or a folder.
 ELSEWHERE = {"room_of_the_standing": "shaders/motion/room.glsl", "arriving": "shaders/motion/plans.glsl",
              "contact": "shaders/motion/contact.comp", "contact_momentum": "sim/passes.cpp",

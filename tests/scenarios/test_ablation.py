@@ -49,7 +49,8 @@ def test_every_switch_of_a_rule_changes_what_people_do_somewhere(tmp_path):
 
 
 def test_nothing_is_measured_twice(tmp_path):
-    words = ["--scenario", "trap-head-on", "--seed", "1", "2", "--set", "simulation.duration=5", "--only", "all", "cushion"]
+    words = ["--scenario", "trap-head-on", "--seed", "1", "2", "--set", "simulation.duration=5", "--only", "all",
+             "cushion"]
     first = ablate(tmp_path, *words)
     assert first.stderr.count("...") == 4
     again = ablate(tmp_path, *words)
