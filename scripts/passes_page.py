@@ -57,8 +57,10 @@ def section(entry):
 def total(passes):
     rows = [row for entry in passes for row in entry["rows"]]
     launches = sum(row["launches"] for row in rows)
-    read, written = (sum(row["launches"] * row[f"bytes_{what}_per_person"] for row in rows) for what in ("read", "written"))
-    return f"In all {launches:.4g} programs and transfers a step, {read:.0f} bytes read and {written:.0f} written for each person.\n"
+    read, written = (sum(row["launches"] * row[f"bytes_{what}_per_person"] for row in rows)
+                     for what in ("read", "written"))
+    return (f"In all {launches:.4g} programs and transfers a step, {read:.0f} bytes read and {written:.0f} written "
+            "for each person.\n")
 
 
 def page(document):

@@ -9,5 +9,6 @@ SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "command_refe
 
 
 def test_the_pages_are_up_to_date():
-    made = subprocess.run([sys.executable, SCRIPT, os.environ["THRONG_BINARY"], "--check"], capture_output=True, text=True)
+    made = subprocess.run([sys.executable, SCRIPT, os.environ["THRONG_BINARY"], "--check"], capture_output=True,
+                          text=True)
     assert made.returncode == 0, made.stderr
