@@ -3,6 +3,7 @@
 
 What it does is a generator of steps; between two steps the windows are drawn. A step may yield the seconds to wait.
 """
+
 import math
 import os
 import sys
@@ -15,8 +16,8 @@ import mathutils
 bake_operator = None  # of the add-on, once it is enabled
 
 folder, pictures = sys.argv[-2:]
-SECONDS = 40
-FRAME = 600  # the two streams have met by then
+SECONDS, ENTERED = 40, 20  # how long the shot is, and when the last of a flow come
+FRAME = 500  # the streams have met by then
 
 
 def window():
@@ -90,9 +91,10 @@ def beginning():
     global bake_operator
     addon_utils.enable("throng", default_set=True)
     from throng.authoring import bake_operator
+
     yield 2
-    with in_view():
-        bpy.data.objects.remove(bpy.data.objects["Cube"])
+    for thing in list(bpy.data.objects):
+        bpy.data.objects.remove(thing)
     bpy.context.scene.frame_end = SECONDS * 24
     bpy.ops.wm.save_as_mainfile(filepath=os.path.join(folder, "street.blend"))
     yield from open_sidebar()
@@ -112,7 +114,6 @@ def streets():
     picture("road")
     run(bpy.ops.throng.add_road, "EXEC_DEFAULT", length=60.0, width=8.0, angle=math.radians(90.0))
     yield 1
-    picture("roads")
 
 
 def buildings():
@@ -121,15 +122,16 @@ def buildings():
         run(bpy.ops.throng.add_wall, "EXEC_DEFAULT", length=25.0, depth=25.0, closed=True, height=12.0)
         yield 0.5
     cursor(0, 0)
-    yield 1
-    picture("buildings")
 
 
 def flows():
     for name in ("Road", "Road.001"):
         select(name)
         run(bpy.ops.throng.add_flow, "EXEC_DEFAULT")
+        flow = bpy.context.scene.throng_layout.flows[-1]
+        flow.use_end, flow.end = True, ENTERED
         yield 0.5
+    view().tag_redraw()
     yield 1
     picture("flows")
 
@@ -144,7 +146,8 @@ def mistake():
             bpy.ops.throng.check()
         except RuntimeError as error:
             print("check:", error, flush=True)
-    yield 1
+    view().tag_redraw()
+    yield 2
     picture("check")
     flow.to.place.target = target
     with in_view():
@@ -161,7 +164,7 @@ def bake():
             picture("bake")
             taken = True
         yield 0.3
-    assert taken and "ERROR" not in [problem.is_error for problem in bpy.context.scene.throng_layout.problems]
+    assert taken and not bpy.context.scene.throng_layout.problems, "everybody is in the crowd"
     yield 2
 
 
@@ -169,7 +172,7 @@ def crowd():
     bpy.context.scene.frame_set(FRAME)
     view().spaces.active.shading.color_type = "MATERIAL"
     view().spaces.active.region_3d.view_perspective = "CAMERA"
-    select(next(thing.name for thing in bpy.data.objects if thing.name in bpy.context.view_layer.objects))
+    view().tag_redraw()
     yield 3
     picture("crowd")
     bpy.ops.wm.save_mainfile()
@@ -181,10 +184,11 @@ def still():
     run(bpy.ops.throng.film_look, "EXEC_DEFAULT", preset="preview")
     yield 1
     scene.frame_set(FRAME)
-    scene.render.filepath = os.path.join(pictures, "still.png")
+    scene.render.filepath = os.path.join(pictures, "still.jpg")
     for name in dir(scene.render):
         if name.startswith("use_stamp_"):
             setattr(scene.render, name, False)  # pictures carry no paths of the machine
+    scene.render.image_settings.file_format, scene.render.image_settings.quality = "JPEG", 85
     bpy.ops.render.render(write_still=True)
     print("picture", scene.render.filepath, flush=True)
 

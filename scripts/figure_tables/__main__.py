@@ -17,21 +17,21 @@ from runs import ROOT, Runs
 
 class Table(typing.NamedTuple):
     page: str
-    minutes: int  # on two idle cores, without a GPU
+    minutes: int  # expected, on two idle cores without a GPU
     make: typing.Callable
 
 
 TABLES = {
-    "scenarios": Table("motion-validation.md", 20, motion.scenarios),
-    "rvo2-motion": Table("motion-validation.md", 60, motion.rvo2_motion),
-    "seeds": Table("motion-validation.md", 80, motion.seeds),
-    "large": Table("motion-validation.md", 300, motion.large),
-    "rooms": Table("motion-validation.md", 15, motion.rooms),
-    "door-widths": Table("motion-validation.md", 10, motion.door_widths),
-    "headway": Table("motion-validation.md", 5, motion.headway),
-    "steadiness": Table("motion-validation.md", 30, motion.steadiness),
-    "doors": Table("motion-validation.md", 10, motion.doors),
-    "ablations": Table("motion-notebook.md", 200, motion.ablations),
+    "scenarios": Table("motion-validation.md", 8, motion.scenarios),
+    "rvo2-motion": Table("motion-validation.md", 15, motion.rvo2_motion),
+    "seeds": Table("motion-validation.md", 30, motion.seeds),
+    "large": Table("motion-validation.md", 150, motion.large),
+    "rooms": Table("motion-validation.md", 12, motion.rooms),
+    "door-widths": Table("motion-validation.md", 8, motion.door_widths),
+    "headway": Table("motion-validation.md", 3, motion.headway),
+    "steadiness": Table("motion-validation.md", 8, motion.steadiness),
+    "doors": Table("motion-validation.md", 5, motion.doors),
+    "ablations": Table("motion-notebook.md", 80, motion.ablations),
     "ablations-doors": Table("motion-notebook.md", 60, motion.ablations_doors),
     "diagrams": Table("benchmarks/llvmpipe/diagrams.md", 15, benchmarks.diagrams),
     "proximity": Table("benchmarks/llvmpipe/proximity.md", 3, benchmarks.proximity),

@@ -49,8 +49,14 @@ def with_time(runs, name, about):
     return f"{name}, {about}, T = {runs.layout(name)['simulation']['duration']:,} s"
 
 
-def seed(value):
-    return f"simulation.seed={value}"
+def each_seed(runs, name, count, *settings, read=None):
+    """The figures of seeds 1 to count. The first is what layouts have that name none."""
+    seeds = [[f"simulation.seed={value}"] if value > 1 else [] for value in runs.seeds(count)]
+    return [runs.scenario(name, *seed, *settings, read=read) for seed in seeds]
+
+
+def seeds_of(found):
+    return f"seeds 1 to {len(found)}" if len(found) > 1 else "seed 1"
 
 
 def scenarios(runs):
@@ -96,14 +102,13 @@ def large(runs):
 def seeds(runs):
     rows = []
     for name, count in (("ring", 3), ("annulus", 3), ("corridor", 3), ("crossing", 8)):
-        read = reading.carried_off if name == "crossing" else None
-        found = [runs.scenario(name, seed(value), read=read) for value in runs.seeds(count)]
-        off = [span_of([each["off"][i] for each in found], 0) for i in (0, 1)] if read else ["", ""]
+        found = each_seed(runs, name, count)
+        off = [span_of([each["off"][i] for each in found], 0) for i in (0, 1)] if "off" in found[0] else ["", ""]
         missing = [each["agents"] - each["arrived"] for each in found]
         ends = ", ".join(there_after(each) if not gone else f"{gone:,} late" for each, gone in zip(found, missing))
         rows.append(
             [
-                f"{name}, seeds 1 to {len(found)}",
+                f"{name}, {seeds_of(found)}",
                 ends,
                 span_of([each["deepest_overlap_percent"] for each in found]),
                 number(max(each["overlapping_percent"] for each in found)),
@@ -164,11 +169,11 @@ def doors(runs):
     ]
     rows = []
     for name, count in cases:
-        found = [runs.scenario(name, seed(value)) for value in runs.seeds(count)]
+        found = each_seed(runs, name, count)
         flows = [each["flow"] for each in found if "flow" in each]
         rows.append(
             [
-                f"{name}, seeds 1 to {len(found)}" if len(found) > 1 else f"{name}, seed 1",
+                f"{name}, {seeds_of(found)}",
                 f"{span_of(flows, 2)} ({sum(flows) / len(flows):.2f} on average)" if flows else "-",
                 span_of([each["seconds"] for each in found], 0),
                 span_of([each["acceleration"]["p99"] for each in found]),
@@ -215,12 +220,8 @@ def headway(runs):
     for value in (0.0, 0.18, 0.3):
         cells = []
         for name in names:
-            found = [
-                runs.scenario(
-                    name, seed(each), f"formations.0.people.headway={value:g}", read=reading.speed_and_density
-                )
-                for each in runs.seeds(3)
-            ]
+            given = f"formations.0.people.headway={value:g}"
+            found = each_seed(runs, name, 3, given, read=reading.speed_and_density)
             densities[name] += [each["density"] for each in found]
             cells.append(f"{sum(each['speed'] / each['usual'] for each in found) / len(found):.2f}")
         rows.append([f"{value:g} s" if value else "none given (0.1 s in peace)", *cells])
@@ -239,8 +240,8 @@ def rooms(runs):
 def rimea_rows(runs):
     alone, corner = runs.scenario("rimea-1"), runs.scenario("rimea-6")
     densities = [runs.scenario(f"rimea-4-{name}") for name in ("050", "100", "200", "300")]
-    exits = runs.scenario("rimea-10", read=reading.own_exits)
-    nearer = runs.scenario("rimea-11", read=reading.further_door)
+    exits = runs.scenario("rimea-10")
+    nearer = runs.scenario("rimea-11")
     four, two = runs.scenario("rimea-9-four-exits"), runs.scenario("rimea-9-two-exits")
     return [
         ["rimea-1, one person, 40 m at 1.33 m/s", f"{alone['seconds']:.1f} s", "26 to 34 s"],
@@ -274,7 +275,7 @@ def rimea_rows(runs):
 
 
 def company_row(runs):
-    groups = runs.scenario("company", read=reading.company)
+    groups = runs.scenario("company")
     return [
         "company, 2 x 100 people in groups through each other",
         f"members within {groups['apart']:.1f} m of their group's middle (median; {groups['furthest']:.1f} m at "
@@ -284,11 +285,11 @@ def company_row(runs):
 
 
 def imo_rows(runs):
-    flows = [runs.scenario("imo-4", seed(value))["flow"] for value in runs.seeds(3)]
+    flows = [each["flow"] for each in each_seed(runs, "imo-4", 3)]
     against = [runs.scenario(f"imo-8-{others}")["seconds"] for others in (0, 10, 50, 100)]
     return [
         [
-            f"imo-4, 100 people as wide as their shoulders, door of 1 m, headway 0.1 s, seeds 1 to {len(flows)}",
+            f"imo-4, 100 people as wide as their shoulders, door of 1 m, headway 0.1 s, {seeds_of(flows)}",
             f"{slashes(flows, 2)} per s: {sum(flows) / len(flows):.2f} on average",
             "at most 1.33 per s on average",
         ],
@@ -312,10 +313,10 @@ def trap_row(runs):
 
 def bottleneck_rows(runs):
     for name, width in BOTTLENECKS.items():
-        found = [runs.scenario(name, seed(value))["flow"] for value in runs.seeds(6)]
+        found = [each["flow"] for each in each_seed(runs, name, 6)]
         bar = runs.layout(name)["expect"]["flow"]
         yield [
-            f"bottleneck of {width}, 100 adults, headway 0.09 s, radius 0.17 to 0.21 m, seeds 1 to {len(found)}",
+            f"bottleneck of {width}, 100 adults, headway 0.09 s, radius 0.17 to 0.21 m, {seeds_of(found)}",
             f"{span_of(found, 2)} per s ({sum(found) / len(found):.2f} on average)",
             f"Kretz, Gruenebohm and Schreckenberg 2006 within 15 %: {bar['min']:.2f} to {bar['max']:.2f}",
         ]

@@ -80,3 +80,7 @@ def speed_and_density(bake):
     free, gauge, jam = WEIDMANN
     usual = free * (1.0 - numpy.exp(-gauge * (1.0 / density - 1.0 / jam)))
     return {"density": density, "speed": float(speed[begin:, :, 2][inside].mean()), "usual": float(usual)}
+
+
+# What is read besides whenever one of these is baked, so that no table bakes it again.
+OF = {"company": company, "crossing": carried_off, "rimea-10": own_exits, "rimea-11": further_door}

@@ -13,6 +13,8 @@ import sys
 import tempfile
 import time
 
+import reading
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 QUICK_SECONDS = 3
 
@@ -85,6 +87,7 @@ class Runs:
 
     def scenario(self, name, *settings, read=None):
         """What `throng scenarios --json` prints of it, and what `read` (of the bake's folder) finds besides."""
+        read = read or reading.OF.get(name)
         if self.quick:
             settings = (*settings, f"simulation.duration={QUICK_SECONDS}")
 
