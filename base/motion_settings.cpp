@@ -26,6 +26,7 @@ std::string literal(double value) {
 }  // namespace
 
 void MotionSettings::set(std::size_t row, double value) {
+    told_.reserve(motionParameters().size());
     if (told_.empty())
         for (const MotionParameter& parameter : motionParameters())
             told_.push_back(parameter.value);
@@ -44,6 +45,7 @@ double MotionSettings::number(std::string_view rule, std::string_view name) cons
 std::vector<std::pair<std::string, std::string>> MotionSettings::definitions() const {
     std::vector<std::pair<std::string, std::string>> all;
     const auto rows = motionParameters();
+    all.reserve(rows.size());
     for (std::size_t row = 0; row < rows.size(); ++row) {
         const double value = number(row);
         all.emplace_back(inCapitals(fmt::format("{}_{}", rows[row].rule, rows[row].name)),

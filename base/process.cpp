@@ -52,8 +52,9 @@ Pipe pipeFor(StandardStream stream) {
 
 std::vector<std::string> environmentWith(const std::vector<std::pair<std::string, std::string>>& additions) {
     std::vector<std::string> all;
+    all.reserve(additions.size());
     for (const auto& [name, value] : additions)
-        all.push_back(name + "=" + value);
+        all.push_back(fmt::format("{}={}", name, value));
     for (char** ours = environ; *ours; ++ours) {
         const std::string_view entry(*ours);
         const bool replaced = std::any_of(additions.begin(), additions.end(), [&](const auto& addition) {
@@ -66,6 +67,7 @@ std::vector<std::string> environmentWith(const std::vector<std::pair<std::string
 
 std::vector<char*> pointersTo(const std::vector<std::string>& texts) {
     std::vector<char*> pointers;
+    pointers.reserve(texts.size() + 1);
     for (const std::string& text : texts)
         pointers.push_back(const_cast<char*>(text.c_str()));
     pointers.push_back(nullptr);
