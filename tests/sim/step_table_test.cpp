@@ -134,10 +134,11 @@ TEST_F(StepTableTest, HoldsForTheOtherWaysToFindNeighbours) {
         scene.settings.proximity = proximity;
         const gl::Journal journal;
         sim::Simulation simulation(scene, library);
+        const std::size_t made = journal.commands().size();  // with walls in the diagram that nobody asks for
         for (int step = 0; step < 60; ++step)
             simulation.step();
         lookAtEverything(simulation);
-        EXPECT_EQ(writtenForNobody(journal.commands(), 0), Names{});
+        EXPECT_EQ(writtenForNobody(journal.commands(), made), Names{});
         EXPECT_EQ(readUnwritten(journal.commands()), Names{});
     }
 }
@@ -183,6 +184,7 @@ TEST_F(StepTableTest, LeavesOutPassesThatHaveNothingToDo) {
         person.flags |= gpu::PERSON_PRESENT_AT_START;
     scene.lines.clear();
     scene.detours = {};
+    scene.gate_moves.clear();
     scene.settings.proximity = authoring::Proximity::grid;
     sim::Simulation simulation(scene, library);
     Names idle;
