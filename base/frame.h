@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "base/streams.h"
+
 /// What the simulation hands to the writers. No GL here: the writers and their tests need no GPU.
 namespace throng {
 
@@ -29,17 +31,13 @@ struct DiagramImage {
 
 /// One frame of all rows. The spans stay valid only while the receiver is being called.
 struct Frame {
-    std::uint32_t index = 0;            ///< from 0
-    std::span<const float> positions;   ///< rows x (x, y, z), scene frame, m
-    std::span<const float> directions;  ///< rows x (cos heading, sin heading, speed in m/s)
-    std::span<const float>
-        states;  ///< rows x (activity: 0 = not there, variation, unwrapped gait phase in cycles)
-    /// rows x (density 1/m^2, area of the cell m^2, share of its tile that it owns); empty unless asked for
-    std::span<const float> densities;
+    std::uint32_t index = 0;  ///< from 0
+    /// rows x 3 values each, places in the scene frame; empty where there is no such stream
+    PerStream<std::span<const float>> streams{};
     const DiagramImage* diagram = nullptr;
-    /// rows x (slope along the heading, slope to the left of it, height of the very ground m); empty on flat
-    /// ground
-    std::span<const float> grounds{};
+
+    std::span<const float>& operator[](Stream stream) { return streams[stream]; }
+    std::span<const float> operator[](Stream stream) const { return streams[stream]; }
 };
 
 enum class AgentStatus : std::uint32_t {

@@ -16,7 +16,7 @@ struct BakeRequest {
     std::string diagrams = "none";
     std::string method, proximity;
     std::string fields = "auto";
-    bool densities = false;
+    StreamChoice streams{};  ///< asked for
     bool seconds = false;
     double checkpoint_minutes = 10.0;
     bool resume = false;

@@ -69,12 +69,10 @@ void printResult(const io::BakeResult& result, const Account& account, const io:
     if (result.diagrams) fmt::print("{} diagram images\n", result.diagrams);
 }
 
-}  // namespace
-
-namespace {
 std::string outputOf(const LoadedLayout& loaded, const BakeRequest& options) {
     return options.bake.output.empty() ? loaded.layout.name : options.bake.output;
 }
+
 }  // namespace
 
 void bakeLayout(const BakeRequest& options) {
@@ -82,7 +80,7 @@ void bakeLayout(const BakeRequest& options) {
     job.options = options.bake;
     job.diagram_every = diagramInterval(options.diagrams);
     job.seconds = options.seconds;
-    job.densities = options.densities;
+    job.streams = options.streams;
     job.checkpoint_seconds = 60.0 * options.checkpoint_minutes;
     job.resume = options.resume;
     job.progress = options.quiet  ? ProgressStyle::quiet
@@ -144,9 +142,10 @@ void addBake(CLI::App& app) {
         ->add_flag("--second", options->seconds,
                    "With --diagrams: also the second-nearest site of each pixel")
         ->needs(diagrams);
-    command->add_flag(
-        "--density", options->densities,
-        "Also the stream `density`: persons per square metre by the area of each person's cell");
+    for (const StreamInfo& info : kStreams)
+        if (info.source == StreamSource::device)
+            command->add_flag(fmt::format("--{}", info.name), options->streams[info.id],
+                              fmt::format("Also the stream `{}`: {}", info.name, info.about));
     command->add_option("--method", options->method,
                         "How the diagram is built: auto, " + methodWords() + " (as simulation.method)");
     command->add_option("--proximity", options->proximity,

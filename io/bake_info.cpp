@@ -17,7 +17,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 bool isStream(const std::string& path) {
-    return path.ends_with(".npy") || path.ends_with(".pc2");
+    return std::ranges::any_of(kStreamFormats,
+                               [&](StreamFormat format) { return path.ends_with("." + nameOf(format)); });
 }
 
 std::optional<std::string> problemOf(const Bake& bake, const Bake::File& file) {
@@ -88,12 +89,11 @@ std::vector<BakeProblem> verifyBake(const Bake& bake) {
     std::vector<BakeProblem> problems;
     for (const Bake::File& file : bake.files)
         if (const auto problem = problemOf(bake, file)) problems.push_back({file.path, *problem});
-    std::vector<std::string> streams = {"pos", "dir", "state"};
-    if (bake.manifest.contains("terrain")) streams.emplace_back("ground");
-    for (const std::string& stream : streams)
-        for (const char* extension : {".npy", ".pc2"}) {
-            const std::string path = "streams/" + stream + extension;
-            if (std::ranges::none_of(bake.files, [&](const Bake::File& file) { return file.path == path; }))
+    for (const StreamInfo& info : kStreams)
+        for (const StreamFormat format : kStreamFormats) {
+            const std::string path = streamFile(info, format);
+            if (bake.streams[info.id] &&
+                std::ranges::none_of(bake.files, [&](const Bake::File& file) { return file.path == path; }))
                 problems.push_back({path, "not listed in bake.json"});
         }
     return problems;

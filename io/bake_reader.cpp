@@ -118,6 +118,14 @@ bool staysInside(const std::string& path) {
            std::ranges::none_of(relative, [](const fs::path& part) { return part == ".."; });
 }
 
+/// Those that the manifest does not name are there where every such bake has them.
+StreamChoice readStreams(const ManifestReader& reader) {
+    StreamChoice asked;
+    for (const StreamInfo& info : kStreams)
+        asked[info.id] = reader.has(fmt::format("/streams/{}", info.name));
+    return streamsOf(reader.has("/terrain"), asked);
+}
+
 void readFiles(const ManifestReader& reader, Bake& bake) {
     for (std::size_t i = 0; i < reader.list("/files").size(); ++i) {
         const std::string at = fmt::format("/files/{}", i);
@@ -156,6 +164,7 @@ Bake loadBake(const fs::path& path) {
     bake.account = {reader.count("/account/agents"), reader.count("/account/spawned"),
                     reader.count("/account/walking"), reader.count("/account/arrived"),
                     reader.count("/account/refused")};
+    bake.streams = readStreams(reader);
     readFiles(reader, bake);
     return bake;
 }

@@ -10,6 +10,7 @@
 
 #include "authoring/layout.h"
 #include "base/files/errors.h"
+#include "io/streams/stream_format.h"
 
 namespace throng::io {
 
@@ -46,9 +47,9 @@ struct Bake {
     };
     std::vector<File> files;
 
-    /// "pos", "dir" or "state" as NPY.
-    std::filesystem::path streamPath(const std::string& stream) const {
-        return folder / "streams" / (stream + ".npy");
+    StreamChoice streams;  ///< that it says it has
+    std::filesystem::path streamPath(Stream stream, StreamFormat format = StreamFormat::npy) const {
+        return folder / streamFile(infoOf(stream), format);
     }
 };
 

@@ -14,51 +14,6 @@
 #include "recording/gaits.h"
 
 namespace throng::io {
-namespace {
-
-// What rows hold before they enter (docs/bake.md): where they will appear, facing as they will, standing
-// still, not alive, with the gait phase they will start from.
-constexpr std::array kPositionRule{BackFill::first_alive, BackFill::first_alive, BackFill::first_alive};
-constexpr std::array kDirectionRule{BackFill::first_alive, BackFill::first_alive, BackFill::zero};
-constexpr std::array kGroundRule{BackFill::first_alive, BackFill::first_alive, BackFill::first_alive};
-constexpr std::array kDensityRule{BackFill::keep, BackFill::keep, BackFill::keep};
-constexpr std::array kStateRule{BackFill::keep, BackFill::first_alive, BackFill::first_alive};
-
-StreamWriter openStream(const std::filesystem::path& path, StreamFormat format,
-                        const recording::BakeDescription& description,
-                        std::optional<std::uint32_t> frames_there) {
-    const auto rows = static_cast<std::uint32_t>(description.agents.size());
-    return frames_there ? StreamWriter(path, format, rows, description.frames, *frames_there)
-                        : StreamWriter(path, format, rows, description.frames);
-}
-
-/// How many frames the streams have, perhaps none yet (the recorded motion lags behind), where a bake goes
-/// on.
-std::optional<std::uint32_t> framesIn(const Checkpoint* go_on_from) {
-    return go_on_from ? std::optional(go_on_from->frames) : std::nullopt;
-}
-
-}  // namespace
-
-BakeWriter::Stream::Stream(const std::filesystem::path& folder, const std::string& stream_name,
-                           const recording::BakeDescription& description,
-                           std::optional<std::uint32_t> frames_there)
-    : name(stream_name),
-      npy(openStream(folder / (stream_name + ".npy"), StreamFormat::npy, description, frames_there)),
-      pc2(openStream(folder / (stream_name + ".pc2"), StreamFormat::pc2, description, frames_there)) {}
-
-void BakeWriter::Stream::append(std::span<const float> frame) {
-    npy.append(frame);
-    pc2.append(frame);
-}
-
-void BakeWriter::Stream::finish(std::span<const std::uint32_t> first_alive,
-                                const std::array<BackFill, kComponents>& rule) {
-    for (StreamWriter* writer : {&npy, &pc2}) {
-        writer->backFill(first_alive, rule);
-        writer->finish();
-    }
-}
 
 BakeWriter::BakeWriter(const recording::BakeDescription& description)
     : BakeWriter(description, std::make_unique<BakeFolder>(description.output, description.force), nullptr) {}
@@ -74,25 +29,30 @@ BakeWriter::BakeWriter(recording::BakeDescription description, std::unique_ptr<B
                        const Checkpoint* go_on_from)
     : description_(std::move(description)),
       folder_(std::move(folder)),
-      streams_folder_(streamsFolder(go_on_from)),
-      positions_(streams_folder_, "pos", description_, framesIn(go_on_from)),
-      directions_(streams_folder_, "dir", description_, framesIn(go_on_from)),
-      states_(streams_folder_, "state", description_, framesIn(go_on_from)),
       first_alive_(description_.agents.size(), kNone),
-      shifted_(description_.agents.size() * kComponents) {
-    if (description_.densities)
-        densities_.emplace(streams_folder_, "density", description_, framesIn(go_on_from));
-    if (description_.terrain) grounds_.emplace(streams_folder_, "ground", description_, framesIn(go_on_from));
+      placed_(description_.agents.size() * kComponents) {
+    if (go_on_from)
+        removeLeftovers(*go_on_from);
+    else
+        folder_->addFolder("streams");
+    openStreams(go_on_from);
     if (go_on_from)
         goOnFrom(*go_on_from);
     else if (description_.diagram_every > 0)
         folder_->addFolder("diagrams");
 }
 
-std::filesystem::path BakeWriter::streamsFolder(const Checkpoint* go_on_from) {
-    if (!go_on_from) return folder_->addFolder("streams");
-    removeLeftovers(*go_on_from);
-    return folder_->path() / "streams";
+/// Those that were asked for come last, as bake.json has always listed their files.
+/// @param go_on_from may be before the first frame: the recorded motion lags behind
+void BakeWriter::openStreams(const Checkpoint* go_on_from) {
+    const auto frames_there = go_on_from ? std::optional(go_on_from->frames) : std::nullopt;
+    const StreamChoice streams = description_.streams();
+    for (const bool asked : {false, true})
+        for (const StreamInfo& info : kStreams)
+            if (streams[info.id] && (info.source == StreamSource::device) == asked)
+                streams_.emplace_back(folder_->path(), info,
+                                      static_cast<std::uint32_t>(description_.agents.size()),
+                                      description_.frames, frames_there);
 }
 
 namespace {
@@ -148,18 +108,9 @@ void BakeWriter::goOnFrom(const Checkpoint& checkpoint) {
         diagram_files_.push_back(diagramName(i * description_.diagram_every));
 }
 
-std::vector<BakeWriter::Stream*> BakeWriter::streams() {
-    std::vector<Stream*> all = {&positions_, &directions_, &states_};
-    if (grounds_) all.push_back(&*grounds_);
-    if (densities_) all.push_back(&*densities_);
-    return all;
-}
-
 void BakeWriter::save(Checkpoint checkpoint) {
-    for (Stream* stream : streams()) {
-        stream->npy.flush();
-        stream->pc2.flush();
-    }
+    for (StreamFiles& stream : streams_)
+        stream.flush();
     checkpoint.frames = frames_;
     checkpoint.add(kFirstAlive, std::as_bytes(std::span(first_alive_)));
     checkpoint.add(kGaitsWalked, std::as_bytes(std::span(&gaits_, 1)));
@@ -169,38 +120,35 @@ void BakeWriter::save(Checkpoint checkpoint) {
 }
 
 void BakeWriter::write(const Frame& frame) {
-    const std::size_t values = description_.agents.size() * kComponents;
     if (frame.index != frames_) throw std::invalid_argument("frames come in order");
-    if (frame.positions.size() != values || frame.directions.size() != values ||
-        frame.states.size() != values)
-        throw std::invalid_argument("a frame has three values for each person in each stream");
+    for (const StreamFiles& stream : streams_)
+        if (frame[stream.info().id].size() != description_.agents.size() * kComponents)
+            throw std::invalid_argument(fmt::format(
+                "a frame of this bake has three values for each person in `{}`", stream.info().name));
     trackPeople(frame);
-    const glm::dvec2 shift = description_.scene_origin - description_.output_origin;
-    for (std::size_t i = 0; i < values; i += kComponents) {
-        shifted_[i] = static_cast<float>(frame.positions[i] + shift.x);
-        shifted_[i + 1] = static_cast<float>(frame.positions[i + 1] + shift.y);
-        shifted_[i + 2] = frame.positions[i + 2];
-    }
-    positions_.append(shifted_);
-    directions_.append(frame.directions);
-    states_.append(frame.states);
-    if (grounds_) {
-        if (frame.grounds.size() != values) throw std::invalid_argument("a frame of this bake has grounds");
-        grounds_->append(frame.grounds);
-    }
-    if (densities_) {
-        if (frame.densities.size() != values)
-            throw std::invalid_argument("a frame of this bake has densities");
-        densities_->append(frame.densities);
+    for (StreamFiles& stream : streams_) {
+        const std::span<const float> values = frame[stream.info().id];
+        stream.append(stream.info().in_plane == InPlane::place ? placed(values) : values);
     }
     ++frames_;
+}
+
+/// Places in the output frame of reference.
+std::span<const float> BakeWriter::placed(std::span<const float> places) {
+    const glm::dvec2 shift = description_.scene_origin - description_.output_origin;
+    for (std::size_t i = 0; i < places.size(); i += kComponents) {
+        placed_[i] = static_cast<float>(places[i] + shift.x);
+        placed_[i + 1] = static_cast<float>(places[i + 1] + shift.y);
+        placed_[i + 2] = places[i + 2];
+    }
+    return placed_;
 }
 
 /// Kept here rather than taken from the account, so that what is filled in always agrees with the alive
 /// flags.
 void BakeWriter::trackPeople(const Frame& frame) {
     for (std::size_t row = 0; row < first_alive_.size(); ++row) {
-        const float activity = frame.states[row * kComponents];
+        const float activity = frame[Stream::state][row * kComponents];
         if (activity <= 0.5f) continue;
         if (first_alive_[row] == kNone) first_alive_[row] = frame.index;
         gaits_ |= 1u << recording::gaitOf(activity);
@@ -212,8 +160,8 @@ void BakeWriter::writeDiagram(const Frame& frame) {
         return;
     const DiagramImage& image = *frame.diagram;
     const std::string name = diagramName(frame.index);
-    writeDiagramExr(folder_->path() / name, image, frame.densities, description_.scene_origin, frame.index,
-                    description_.fps);
+    writeDiagramExr(folder_->path() / name, image, frame[Stream::density], description_.scene_origin,
+                    frame.index, description_.fps);
     diagram_files_.push_back(name);
     if (!diagrams_) {
         const glm::dvec2 minimum =
@@ -221,14 +169,6 @@ void BakeWriter::writeDiagram(const Frame& frame) {
         diagrams_ = DiagramSummary{0, image.width, image.height, image.pixels_per_metre, minimum};
     }
     ++diagrams_->count;
-}
-
-void BakeWriter::finishStreams() {
-    positions_.finish(first_alive_, kPositionRule);
-    directions_.finish(first_alive_, kDirectionRule);
-    states_.finish(first_alive_, kStateRule);
-    if (grounds_) grounds_->finish(first_alive_, kGroundRule);
-    if (densities_) densities_->finish(first_alive_, kDensityRule);
 }
 
 BakeOutcome BakeWriter::writeAll(const Account& account, const BakeTiming& timing, bool complete) {
@@ -242,20 +182,21 @@ BakeOutcome BakeWriter::writeAll(const Account& account, const BakeTiming& timin
     std::vector<std::string> files{"layout.json", "agents.csv"};
     writeFile(folder_->path() / files[0], description_.layout_text);
     writeFile(folder_->path() / files[1], agentTable(description_, account));
-    finishStreams();
-    for (const Stream* stream : streams())
-        for (const char* extension : {".npy", ".pc2"})
-            files.push_back("streams/" + stream->name + extension);
+    for (StreamFiles& stream : streams_) {
+        stream.backFill(first_alive_);
+        stream.finish();
+    }
+    for (const std::string& file : filesOf(streams_))
+        files.push_back(file);
     if (description_.terrain) {
         files.push_back("terrain.glb");
         writeTerrainGlb(folder_->path() / files.back(), description_);
     }
     if (description_.gltf) {
         files.push_back("crowd.glb");
-        outcome.gltf =
-            writeCrowdGlb(folder_->path() / files.back(), description_,
-                          {StreamReader(positions_.npy.path()), StreamReader(directions_.npy.path()),
-                           StreamReader(states_.npy.path())});
+        outcome.gltf = writeCrowdGlb(folder_->path() / files.back(), description_,
+                                     {folder_->path(), description_.streams(), frames_,
+                                      static_cast<std::uint32_t>(description_.agents.size())});
     }
     files.insert(files.end(), diagram_files_.begin(), diagram_files_.end());
     for (const std::string& file : files)

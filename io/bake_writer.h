@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -13,7 +12,7 @@
 #include "io/bake_folder.h"
 #include "io/checkpoint.h"
 #include "io/manifest.h"
-#include "io/streams/stream_writer.h"
+#include "io/streams/stream_files.h"
 #include "recording/bake_description.h"
 
 namespace throng::io {
@@ -39,7 +38,7 @@ class BakeWriter {
     BakeWriter(const recording::BakeDescription& description, const Checkpoint* go_on_from);
 
     /// Takes the frames in order, index 0 first. The spans need to live during the call only. Throws
-    /// std::invalid_argument when the frame does not fit the description.
+    /// std::invalid_argument when the frame does not fit the description, or lacks one of its streams.
     void write(const Frame& frame);
     /// Writes the frame's diagram when it has one and its index is a multiple of `diagram_every`: in order,
     /// too, but as long before write() as one likes.
@@ -62,41 +61,23 @@ class BakeWriter {
     std::uint32_t framesWritten() const { return frames_; }
 
   private:
-    struct Stream {
-        Stream(const std::filesystem::path& folder, const std::string& name,
-               const recording::BakeDescription& description, std::optional<std::uint32_t> frames_there);
-        void append(std::span<const float> frame);
-        void finish(std::span<const std::uint32_t> first_alive,
-                    const std::array<BackFill, kComponents>& rule);
-
-        std::string name;
-        StreamWriter npy;
-        StreamWriter pc2;
-    };
-
     BakeWriter(recording::BakeDescription description, std::unique_ptr<BakeFolder> folder,
                const Checkpoint* go_on_from);
-    std::filesystem::path streamsFolder(const Checkpoint* go_on_from);
+    void openStreams(const Checkpoint* go_on_from);
     void goOnFrom(const Checkpoint& checkpoint);
     void removeLeftovers(const Checkpoint& checkpoint) const;
     void trackPeople(const Frame& frame);
-    void finishStreams();
-    std::vector<Stream*> streams();
+    std::span<const float> placed(std::span<const float> places);
     BakeOutcome writeAll(const Account& account, const BakeTiming& timing, bool complete);
     BakeResult resultAt(std::filesystem::path path, const BakeOutcome& outcome) const;
 
     recording::BakeDescription description_;
     std::unique_ptr<BakeFolder> folder_;
-    std::filesystem::path streams_folder_;
-    Stream positions_;
-    Stream directions_;
-    Stream states_;
-    std::optional<Stream> densities_;
-    std::optional<Stream> grounds_;
+    std::vector<StreamFiles> streams_;
     std::uint32_t frames_ = 0;
     std::vector<std::uint32_t> first_alive_;  ///< per row, the first frame it is alive in, or kNone
     std::uint32_t gaits_ = 0;                 ///< BakeOutcome::gaits, so far
-    std::vector<float> shifted_;              ///< one frame of positions in the output frame of reference
+    std::vector<float> placed_;               ///< one frame of places in the output frame of reference
     std::optional<DiagramSummary> diagrams_;
     std::vector<std::string> diagram_files_;
 };

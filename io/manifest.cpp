@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "io/streams/stream_format.h"
+
 namespace throng::io {
 namespace {
 
@@ -45,9 +47,27 @@ Json geometryToJson(const recording::BakeDescription& description) {
     return geometry;
 }
 
-Json streamToJson(const std::string& name, const Json& components) {
-    return {
-        {"npy", "streams/" + name + ".npy"}, {"pc2", "streams/" + name + ".pc2"}, {"components", components}};
+const char* nameOf(Between between) {
+    return between == Between::nearest ? "nearest" : between == Between::linear ? "linear" : "heading";
+}
+
+Json streamToJson(const StreamInfo& info) {
+    Json json;
+    for (const StreamFormat format : kStreamFormats)
+        json[nameOf(format)] = streamFile(info, format);
+    for (const StreamComponent& component : info.components) {
+        json["components"].push_back(component.name);
+        json["units"].push_back(component.unit);
+        json["interpolation"].push_back(nameOf(component.between));
+    }
+    return json;
+}
+
+Json streamsToJson(const StreamChoice& streams) {
+    Json json;
+    for (const StreamInfo& info : kStreams)
+        if (streams[info.id]) json[std::string(info.name)] = streamToJson(info);
+    return json;
 }
 
 Json terrainToJson(const recording::BakeTerrain& terrain) {
@@ -139,15 +159,8 @@ Json bakeManifest(const recording::BakeDescription& description, const BakeOutco
     json["origin"] = {origin.x, origin.y, 0.0};
     json["bounds"] = {{"min", pointToJson(description.minimum - origin)},
                       {"max", pointToJson(description.maximum - origin)}};
-    json["streams"] = {{"pos", streamToJson("pos", {"x", "y", "z"})},
-                       {"dir", streamToJson("dir", {"cos_heading", "sin_heading", "speed"})},
-                       {"state", streamToJson("state", {"activity", "variation", "phase"})}};
-    if (description.densities)
-        json["streams"]["density"] = streamToJson("density", {"density", "area", "share"});
-    if (description.terrain) {
-        json["streams"]["ground"] = streamToJson("ground", {"slope_along", "slope_across", "height"});
-        json["terrain"] = terrainToJson(*description.terrain);
-    }
+    json["streams"] = streamsToJson(description.streams());
+    if (description.terrain) json["terrain"] = terrainToJson(*description.terrain);
     json["table"] = "agents.csv";
     json["gltf"] = gltfToJson(outcome.gltf);
     json["diagrams"] = diagramsToJson(description, outcome.diagrams);

@@ -12,6 +12,7 @@
 #include "authoring/layout.h"
 #include "authoring/terrain/terrain.h"
 #include "authoring/terrain/terrain_mesh.h"
+#include "base/streams.h"
 
 namespace throng::recording {
 
@@ -79,7 +80,9 @@ struct BakeDescription {
     bool gltf = true;
     std::uint32_t gltf_agents = 2000;  ///< at most this many people in crowd.glb; the rest is left out
     std::uint32_t diagram_every = 0;   ///< frames between diagram images; 0 = none
-    bool densities = false;            ///< the stream `density`, and a channel of that name in diagram images
+    StreamChoice asked{};              ///< the streams from the device that are written, too
+
+    StreamChoice streams() const { return streamsOf(terrain.has_value(), asked); }
 };
 
 }  // namespace throng::recording

@@ -10,10 +10,6 @@
 namespace throng::recording {
 namespace {
 
-std::vector<float> kept(std::span<const float> values) {
-    return {values.begin(), values.end()};
-}
-
 template <class T>
 void put(std::vector<std::byte>& bytes, std::span<const T> items) {
     const auto raw = std::as_bytes(items);
@@ -48,12 +44,17 @@ std::vector<double> hann(std::uint32_t reach) {
 
 }  // namespace
 
-KeptFrame::KeptFrame(const Frame& frame)
-    : index(frame.index),
-      positions(kept(frame.positions)),
-      directions(kept(frame.directions)),
-      states(kept(frame.states)),
-      densities(kept(frame.densities)) {}
+KeptFrame::KeptFrame(const Frame& frame) : index(frame.index) {
+    for (const StreamInfo& info : kStreams)
+        streams[info.id].assign(frame[info.id].begin(), frame[info.id].end());
+}
+
+Frame KeptFrame::view() const {
+    Frame frame{index};
+    for (const StreamInfo& info : kStreams)
+        frame[info.id] = streams[info.id];
+    return frame;
+}
 
 FrameWindow::FrameWindow(double half_width, double fps) : reach_(reachOf(half_width, fps)) {
     for (std::uint32_t reach = 0; reach <= reach_; ++reach)
@@ -84,60 +85,58 @@ std::uint32_t FrameWindow::room(std::size_t row) const {
 }
 
 Average FrameWindow::average(std::size_t row) const {
-    const std::size_t at = row * 3;
+    const std::size_t at = row * kComponents;
     const std::uint32_t reach = room(row);
     const std::vector<double>& weights = weights_[reach];
     const KeptFrame& centre = frames_[middle_];
-    double sums[6];
-    for (int k = 0; k < 3; ++k) {
-        sums[k] = weights[0] * centre.positions[at + k];
-        sums[3 + k] = weights[0] * centre.directions[at + k];
-    }
-    for (std::uint32_t i = 1; i <= reach; ++i) {
-        const KeptFrame& before = frames_[middle_ - i];
-        const KeptFrame& after = frames_[middle_ + i];
-        for (int k = 0; k < 3; ++k) {
-            sums[k] += weights[i] * (double{before.positions[at + k]} + after.positions[at + k]);
-            sums[3 + k] += weights[i] * (double{before.directions[at + k]} + after.directions[at + k]);
-        }
-    }
-    Average average{{sums[0], sums[1], sums[2]}, {centre.directions[at], centre.directions[at + 1]}, sums[5]};
-    const double length = std::hypot(sums[3], sums[4]);
+    const auto sumOf = [&](Stream stream, std::size_t component) {
+        double sum = weights[0] * centre[stream][at + component];
+        for (std::uint32_t i = 1; i <= reach; ++i)
+            sum += weights[i] * (double{frames_[middle_ - i][stream][at + component]} +
+                                 frames_[middle_ + i][stream][at + component]);
+        return sum;
+    };
+    Average average{{sumOf(Stream::pos, 0), sumOf(Stream::pos, 1), sumOf(Stream::pos, 2)},
+                    {centre[Stream::dir][at], centre[Stream::dir][at + 1]},
+                    sumOf(Stream::dir, 2)};
+    const double x = sumOf(Stream::dir, 0), y = sumOf(Stream::dir, 1);
+    const double length = std::hypot(x, y);
     constexpr double kTurnsRound = 1.0e-3;  // whoever looks both ways within the window
     if (length > kTurnsRound) {
-        average.heading[0] = sums[3] / length;
-        average.heading[1] = sums[4] / length;
+        average.heading[0] = x / length;
+        average.heading[1] = y / length;
     }
     return average;
 }
 
 void FrameWindow::save(std::vector<std::byte>& bytes) const {
-    const std::uint64_t counts[] = {frames_.size(), middle_,
-                                    frames_.empty() ? 0 : frames_[0].densities.size()};
+    std::uint64_t counts[] = {frames_.size(), middle_, 0};
+    for (const StreamInfo& info : kStreams)
+        if (!frames_.empty() && info.source != StreamSource::motion) counts[2] += frames_[0][info.id].size();
     put<std::uint64_t>(bytes, counts);
     for (const KeptFrame& frame : frames_) {
         put<std::uint32_t>(bytes, {&frame.index, 1});
-        for (const std::vector<float>* values :
-             {&frame.positions, &frame.directions, &frame.states, &frame.densities})
-            put<float>(bytes, *values);
+        for (const StreamInfo& info : kStreams)
+            put<float>(bytes, frame[info.id]);
     }
 }
 
-void FrameWindow::restore(std::span<const std::byte> bytes, std::size_t rows) {
+void FrameWindow::restore(std::span<const std::byte> bytes, std::size_t rows, const StreamChoice& carried) {
     std::uint64_t counts[3];
     take<std::uint64_t>(bytes, counts);
-    if (counts[0] > 2ull * reach_ + 1 || counts[1] > counts[0] || (counts[2] != 0 && counts[2] != rows * 3))
+    const std::size_t values = rows * kComponents;
+    if (counts[0] > 2ull * reach_ + 1 || counts[1] > counts[0] ||
+        counts[2] != (counts[0] ? countOf(carried) * values : 0))
         throw std::runtime_error("the checkpoint's frames do not fit this bake");
     frames_.assign(counts[0], {});
     middle_ = counts[1];
     for (KeptFrame& frame : frames_) {
         take<std::uint32_t>(bytes, {&frame.index, 1});
-        frame.densities.resize(counts[2]);
-        for (std::vector<float>* values : {&frame.positions, &frame.directions, &frame.states}) {
-            values->resize(rows * 3);
-            take<float>(bytes, *values);
+        for (const StreamInfo& info : kStreams) {
+            if (info.source != StreamSource::motion && !carried[info.id]) continue;
+            frame[info.id].resize(values);
+            take<float>(bytes, frame[info.id]);
         }
-        take<float>(bytes, frame.densities);
     }
 }
 

@@ -15,11 +15,14 @@ namespace throng::recording {
 struct KeptFrame {
     explicit KeptFrame(const Frame& frame);
     KeptFrame() = default;
-    Frame view() const { return {index, positions, directions, states, densities, nullptr}; }
-    bool isAlive(std::size_t row) const { return states[row * 3] > 0.5f; }
+    Frame view() const;
+    bool isAlive(std::size_t row) const { return (*this)[Stream::state][row * kComponents] > 0.5f; }
+
+    std::vector<float>& operator[](Stream stream) { return streams[stream]; }
+    const std::vector<float>& operator[](Stream stream) const { return streams[stream]; }
 
     std::uint32_t index = 0;
-    std::vector<float> positions, directions, states, densities;
+    PerStream<std::vector<float>> streams;
 };
 
 /// Somebody in a frame, averaged over the frames around it.
@@ -58,8 +61,9 @@ class FrameWindow {
 
     /// All that average() and what follows depend on, as bytes.
     void save(std::vector<std::byte>& bytes) const;
+    /// @param carried the streams that the frames have besides those of every bake
     /// @throws std::runtime_error where the bytes do not fit
-    void restore(std::span<const std::byte> bytes, std::size_t rows);
+    void restore(std::span<const std::byte> bytes, std::size_t rows, const StreamChoice& carried);
 
   private:
     std::uint32_t room(std::size_t row) const;

@@ -12,7 +12,6 @@
 namespace throng::recording {
 namespace {
 
-constexpr std::size_t kComponents = 3;
 constexpr double kPerMetre = 65536.0;
 
 /// The walls in the frame of reference of the frames, as finely as the simulation has them: a layout that is
@@ -33,7 +32,8 @@ MotionRecorder::MotionRecorder(const BakeDescription& description, Sink sink)
       window_(description.smoothing, description.fps),
       apart_(localWalls(description), description.minimum - description.scene_origin,
              description.maximum - description.scene_origin),
-      walkers_(description.agents.size()) {
+      walkers_(description.agents.size()),
+      carried_(description.asked) {
     if (description.terrain) {
         footing_.emplace(description.terrain->surface, walkers_.size(), fps_);
         grounds_.resize(walkers_.size() * kComponents);
@@ -59,12 +59,17 @@ void MotionRecorder::finish() {
 
 void MotionRecorder::giveOut() {
     const KeptFrame& frame = window_.middle();
-    positions_ = frame.positions;
-    directions_ = frame.directions;
-    states_ = frame.states;
+    positions_ = frame[Stream::pos];
+    directions_ = frame[Stream::dir];
+    states_ = frame[Stream::state];
     if (window_.reach() > 0) average(frame);
     record(frame);
-    sink_({frame.index, positions_, directions_, states_, frame.densities, nullptr, grounds_});
+    Frame shown = frame.view();
+    shown[Stream::pos] = positions_;
+    shown[Stream::dir] = directions_;
+    shown[Stream::state] = states_;
+    shown[Stream::ground] = grounds_;
+    sink_(shown);
     window_.advance();
 }
 
@@ -153,7 +158,7 @@ void MotionRecorder::restore(std::span<const std::byte> bytes) {
         std::copy_n(bytes.begin(), feet.size(), feet.begin());
         bytes = bytes.subspan(feet.size());
     }
-    window_.restore(bytes, walkers_.size());
+    window_.restore(bytes, walkers_.size(), carried_);
 }
 
 }  // namespace throng::recording

@@ -19,7 +19,7 @@ namespace throng::recording {
 ///
 /// Frames come out later than they go in, in the same order. Streams `pos` and `dir` are averages; `state`
 /// gets its gaits and phases here: what comes in has the phases at the start. On a terrain, heights and
-/// slopes (Footing) follow from these.
+/// slopes (Footing) follow from these. Streams from the device pass through as they are.
 class MotionRecorder {
   public:
     using Sink = std::function<void(const Frame&)>;
@@ -55,6 +55,7 @@ class MotionRecorder {
     KeepApart apart_;
     std::vector<Walker> walkers_;
     std::optional<Footing> footing_;  // none on flat ground
+    StreamChoice carried_;            // from the device, past all this
     std::uint32_t taken_ = 0;
 
     std::vector<float> positions_, directions_, states_, grounds_;  ///< of the frame being given out

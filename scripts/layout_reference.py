@@ -99,7 +99,10 @@ class Reference:
 
     def row(self, owner, key, rule):
         described = self.followed(rule)
-        link = f"[`{key}`](#{key})" if key in LINKED_KEYS and owner is self.schema else f"`{key}`"
+        anchor = anchor_of(described)
+        if owner is self.schema and key in LINKED_KEYS:
+            anchor = key
+        link = f"[`{key}`](#{anchor})" if anchor else f"`{key}`"
         unit = rule.get("x-unit", "")
         return {"key": link, "type": self.type_of(rule), "default": self.default_of(owner, key, rule),
                 "limits": self.limits_of(rule), "unit": unit, "meaning": without_unit(described["description"], unit),
@@ -162,14 +165,12 @@ class Reference:
         return markdown_table(("key", "type", "meaning"), keys)
 
     def rules_of_motion(self):
-        """Nothing as long as the schema knows none."""
-        if "motion" not in self.schema["properties"]:
-            return ""
+        """A section for each of them."""
         motion = self.named("motion")
-        parts = ["## Motion", motion["description"], self.table(motion)]
+        parts = [self.table(motion)]
         for name, rule in motion["properties"].items():
             rule = self.followed(rule)
-            parts += [f"### `{name}`", rule["description"], self.table(rule)]
+            parts += [f"### {rule['title']}", f"`{name}`: {rule['description']}", self.table(rule)]
         return "\n\n".join(parts)
 
 
@@ -187,6 +188,11 @@ def condition_of(case):
     """The word that a rule's `if` asks for."""
     (rule,) = case["if"]["properties"].values()
     return rule["const"]
+
+
+def anchor_of(rule):
+    """Of the section that an object with a title has."""
+    return re.sub(r"[^\w -]", "", rule.get("title", "").lower()).replace(" ", "-")
 
 
 def is_distribution(rule):

@@ -4,6 +4,7 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <condition_variable>
@@ -25,7 +26,7 @@ struct Slot {
     gl::Buffer owners;
     gl::Buffer distances;
     gl::Buffer seconds;
-    gl::Buffer densities;
+    PerStream<gl::Buffer> streams;
     GLsync fence = nullptr;
     std::uint32_t index = 0;
     bool has_diagram = false;
@@ -61,6 +62,8 @@ struct FramePump::State {
     State(Simulation& the_simulation, const Cargo& the_cargo, Receiver the_receiver)
         : simulation(the_simulation), receiver(std::move(the_receiver)), cargo(the_cargo) {}
 
+    bool asksForDiagram() const;
+    void packStreams(Slot& slot, bool of_diagram);
     void receiveAll();
     void deliver(const Slot& slot);
     void handOver(bool wait);
@@ -95,8 +98,11 @@ FramePump::FramePump(Simulation& simulation, const Cargo& cargo, Receiver receiv
     state_->image.agent_count = parameters.row_count;
     for (Slot& slot : state_->slots) {
         slot.frame = gl::Buffer("frame read-back", simulation.frameBytes(), gl::Buffer::Use::read_back);
-        if (cargo.densities)
-            slot.densities = gl::Buffer("densities read-back", state_->rows * 12, gl::Buffer::Use::read_back);
+        for (const StreamInfo& info : kStreams)
+            if (cargo.streams[info.id])
+                slot.streams[info.id] =
+                    gl::Buffer(fmt::format("{} read-back", info.name),
+                               state_->rows * kComponents * sizeof(float), gl::Buffer::Use::read_back);
         if (!cargo.diagrams) continue;
         if (cargo.seconds)
             slot.seconds = gl::Buffer("second owners read-back", pixels * 4, gl::Buffer::Use::read_back);
@@ -132,8 +138,9 @@ void FramePump::submit(std::uint32_t index, bool with_diagram) {
     slot.index = index;
     slot.has_diagram = with_diagram;
     state.simulation.packFrame(slot.frame);
-    if (with_diagram || state.cargo.densities) state.simulation.buildDiagramNow();
-    if (state.cargo.densities) state.simulation.packDensities(slot.densities);
+    state.packStreams(slot, false);
+    if (with_diagram || state.asksForDiagram()) state.simulation.buildDiagramNow();
+    state.packStreams(slot, true);
     if (with_diagram) {
         Diagram& diagram = state.simulation.diagram();
         slot.owners.copyFrom(diagram.wholeOwners());
@@ -163,6 +170,17 @@ void FramePump::finish() {
         });
     }
     state.rethrow();
+}
+
+bool FramePump::State::asksForDiagram() const {
+    return std::ranges::any_of(
+        kStreams, [&](const StreamInfo& info) { return cargo.streams[info.id] && info.needs_diagram; });
+}
+
+void FramePump::State::packStreams(Slot& slot, bool of_diagram) {
+    for (const StreamInfo& info : kStreams)
+        if (cargo.streams[info.id] && info.needs_diagram == of_diagram)
+            simulation.packStream(info.id, slot.streams[info.id]);
 }
 
 /// Gives the receiver those frames whose fences have been passed, in order.
@@ -223,11 +241,12 @@ void FramePump::State::receiveAll() {
 void FramePump::State::deliver(const Slot& slot) {
     Frame frame;
     frame.index = slot.index;
-    const std::size_t floats = rows * 3;
-    frame.positions = view<float>(slot.frame, 0, floats);
-    frame.directions = view<float>(slot.frame, floats, floats);
-    frame.states = view<float>(slot.frame, 2 * floats, floats);
-    if (cargo.densities) frame.densities = view<float>(slot.densities, 0, floats);
+    const std::size_t floats = rows * kComponents;
+    frame[Stream::pos] = view<float>(slot.frame, 0, floats);
+    frame[Stream::dir] = view<float>(slot.frame, floats, floats);
+    frame[Stream::state] = view<float>(slot.frame, 2 * floats, floats);
+    for (const StreamInfo& info : kStreams)
+        if (cargo.streams[info.id]) frame[info.id] = view<float>(slot.streams[info.id], 0, floats);
     DiagramImage diagram = image;
     if (slot.has_diagram) {
         const std::size_t pixels = std::size_t{image.width} * image.height;

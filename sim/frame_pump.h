@@ -23,7 +23,7 @@ class FramePump {
     struct Cargo {
         bool diagrams = false;   ///< submit() may ask for the diagram
         bool seconds = false;    ///< diagrams with the second-nearest sites
-        bool densities = false;  ///< every frame with the densities
+        StreamChoice streams{};  ///< from the device, in every frame
     };
 
     /// @throws GraphicsError where diagrams are too large to be read back

@@ -61,8 +61,9 @@ class Simulation {
     /// Brings the diagram up to the present positions; the next step builds its own.
     Diagram& buildDiagramNow();
     Diagram& diagram();
-    /// Puts density, cell area and share of the tile of all rows into `buffer`, from the diagram as it is.
-    void packDensities(const gl::Buffer& buffer);
+    /// Puts a stream from the device into `buffer`, three floats a row. Some streams are of the last step and
+    /// have to be packed before buildDiagramNow(), others need it: see StreamInfo::needs_diagram.
+    void packStream(Stream stream, const gl::Buffer& buffer);
 
     /// What became of everybody; waits for the device. Steps are turned into frames by the scene's settings.
     Account account() const;

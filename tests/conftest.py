@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What all Python tests share: the binary, bakes of the examples (each made once), and where other tools are."""
+"""What all Python tests share: the binary, bakes (each made once), and where other tools are."""
 import json
 import os
 import pathlib
 import shutil
 import subprocess
 
+import filelock
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -30,17 +31,35 @@ def throng():
 
 
 @pytest.fixture(scope="session")
-def bakes(throng, tmp_path_factory):
+def once(tmp_path_factory):
+    """once("street", make) is a folder that make(folder) has filled, once for all processes that tests run in. Tests only read it."""
+    folder = tmp_path_factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        folder = folder.parent  # which the processes share
+    folder /= "shared"
+    folder.mkdir(exist_ok=True)
+
+    def folder_of(name, make):
+        made = folder / f"{name}.made"
+        with filelock.FileLock(folder / f"{name}.lock"):
+            if not made.exists():
+                shutil.rmtree(folder / name, ignore_errors=True)  # of one that failed
+                (folder / name).mkdir()
+                make(folder / name)
+                made.touch()
+        return folder / name
+
+    return folder_of
+
+
+@pytest.fixture(scope="session")
+def bakes(throng, once):
     """bakes("intersection") is the folder of that example's bake."""
-    folder = tmp_path_factory.mktemp("bakes")
-    made = {}
 
     def bake(name):
-        if name not in made:
-            extra = ["--diagrams", "480"] if name == "intersection" else ["--no-gltf"]
-            throng("bake", EXAMPLES / f"{name}.json", "-o", folder / name, "-q", *extra)
-            made[name] = folder / name
-        return made[name]
+        extra = ["--diagrams", "480"] if name == "intersection" else ["--no-gltf"]
+        make = lambda folder: throng("bake", EXAMPLES / f"{name}.json", "-o", folder / name, "-q", *extra)
+        return once(f"example-{name}", make) / name
 
     return bake
 
@@ -94,8 +113,21 @@ def manifest_of():
     return lambda bake: json.loads((pathlib.Path(bake) / "bake.json").read_text())
 
 
+def pytest_configure(config):
+    config.addinivalue_line("markers", "slow: takes ten seconds or more of a processor, and begins before all others")
+    config.addinivalue_line("markers", "quick: one of those that `scripts/test quick` passes")
+
+
+@pytest.hookimpl(tryfirst=True)  # before the processes are told of the groups
 def pytest_collection_modifyitems(items):
-    """The longest first, so that no processor is idle at the end."""
-    first = ("scenarios", "slurm", "batch", "blender")
+    """The longest first, so that no processor is idle at the end; what only one process can make stays in one process."""
+    first = ("slurm", "scenarios", "blender", "batch")
     place = {name: i for i, name in enumerate(first)}
-    items.sort(key=lambda item: place.get(pathlib.Path(item.fspath).parent.name, len(first)))
+    for item in items:
+        if "slurm" in item.fixturenames:
+            item.add_marker(pytest.mark.xdist_group("slurm"))
+        if "found" in item.fixturenames:
+            item.add_marker(pytest.mark.xdist_group(f"overrides in {item.callspec.id}"))
+        if item.path.parent.name == "house":
+            item.add_marker(pytest.mark.quick)
+    items.sort(key=lambda item: (item.get_closest_marker("slow") is None, place.get(item.path.parent.name, len(first))))

@@ -31,9 +31,9 @@ struct Body {
 class FrameReader {
   public:
     explicit FrameReader(const io::Bake& bake)
-        : positions_(bake.streamPath("pos")),
-          directions_(bake.streamPath("dir")),
-          states_(bake.streamPath("state")),
+        : positions_(bake.streamPath(Stream::pos)),
+          directions_(bake.streamPath(Stream::dir)),
+          states_(bake.streamPath(Stream::state)),
           values_(std::size_t{bake.agents} * 3) {
         for (const io::StreamReader* stream : {&positions_, &directions_, &states_})
             if (stream->rows() != bake.agents || stream->frames() != bake.frames)

@@ -43,9 +43,9 @@ struct Context {
 Plate::Plate(const std::filesystem::path& bake, const PreviewOptions& options)
     : bake_(io::loadBake(bake)),
       groups_(io::loadGroups(bake_)),
-      positions_(bake_.streamPath("pos")),
-      directions_(bake_.streamPath("dir")),
-      states_(bake_.streamPath("state")),
+      positions_(bake_.streamPath(Stream::pos)),
+      directions_(bake_.streamPath(Stream::dir)),
+      states_(bake_.streamPath(Stream::state)),
       options_(options) {
     const glm::dvec2 extent = bake_.maximum - bake_.minimum;
     width_ = options.width / 2 * 2;  // video encoders want even sizes

@@ -60,9 +60,9 @@ class Watch {
     Watch(const io::Bake& bake, const std::vector<io::AgentRow>& rows)
         : bake_(bake),
           rows_(rows),
-          positions_(bake.streamPath("pos")),
-          directions_(bake.streamPath("dir")),
-          states_(bake.streamPath("state")),
+          positions_(bake.streamPath(Stream::pos)),
+          directions_(bake.streamPath(Stream::dir)),
+          states_(bake.streamPath(Stream::state)),
           values_(std::size_t{bake.agents} * 3),
           places_(bake.agents),
           alive_(bake.agents),
@@ -166,7 +166,7 @@ Json stuckOnes(const io::Bake& bake, const std::vector<io::AgentRow>& rows) {
     constexpr double kSeconds = 5.0, kMetres = 0.5;
     Json list = Json::array();
     if (bake.frames / bake.fps < kSeconds) return list;
-    const io::StreamReader positions(bake.streamPath("pos"));
+    const io::StreamReader positions(bake.streamPath(Stream::pos));
     std::vector<float> end(std::size_t{bake.agents} * 3), then(end.size());
     positions.readFrame(bake.frames - 1, end);
     std::vector<std::uint32_t> waiting;
@@ -285,7 +285,7 @@ nlohmann::ordered_json thumbnailOf(const io::Bake& bake) {
         thumbnail["walls"].push_back(outline);
     }
     const std::uint32_t step = std::max(1u, bake.agents / kPeople);
-    const io::StreamReader positions(bake.streamPath("pos"));
+    const io::StreamReader positions(bake.streamPath(Stream::pos));
     const io::GroupTable groups = io::loadGroups(bake);
     std::vector<Json> ways;
     for (std::uint32_t row = 0; row < bake.agents; row += step)

@@ -78,8 +78,8 @@ class Packer {
 class Ways {
   public:
     explicit Ways(const io::Bake& bake)
-        : positions_(bake.streamPath("pos")),
-          states_(bake.streamPath("state")),
+        : positions_(bake.streamPath(Stream::pos)),
+          states_(bake.streamPath(Stream::state)),
           values_(std::size_t{bake.agents} * 3) {
         for (const io::StreamReader* stream : {&positions_, &states_})
             if (stream->rows() != bake.agents || stream->frames() != bake.frames)

@@ -315,7 +315,9 @@ class Reader {
         if (!reader.isObject()) return;
         reader.boolean("gltf", family_.bake.gltf);
         reader.boolean("keep", family_.bake.keep);
-        reader.boolean("density", family_.bake.density);
+        for (const StreamInfo& info : kStreams)
+            if (info.source == StreamSource::device)
+                reader.boolean(std::string(info.name), family_.bake.streams[info.id]);
         reader.integer("diagrams", family_.bake.diagrams);
         reader.finish();
     }

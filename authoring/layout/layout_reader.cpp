@@ -28,6 +28,7 @@ class Reader {
         readVersion(reader);
         reader.text("name", layout_.name);
         if (const JsonNode* node = reader.get("simulation")) readSimulation(*node, reader.rule("simulation"));
+        if (const JsonNode* node = reader.get("motion")) readMotion(*node, reader.rule("motion"));
         eachOf(reader, "roads", [this](const JsonNode& node) { readRoad(node); });
         eachOf(reader, "areas", [this](const JsonNode& node) { readArea(node); });
         eachOf(reader, "walls", [this](const JsonNode& node) { readWall(node); });
@@ -96,6 +97,39 @@ class Reader {
         reader.number("maximum_acceleration", s.maximum_acceleration);
         reader.finish();
         simulation_where_ = node.where;
+    }
+
+    void readMotion(const JsonNode& node, SchemaRule schema_rule) {
+        ObjectReader motion(node, schema_rule, "`motion`", diagnostics_);
+        if (!motion.isObject()) return;
+        const auto rows = motionParameters();
+        for (std::size_t first = 0, end = 0; first < rows.size(); first = end) {
+            while (end < rows.size() && rows[end].rule == rows[first].rule)
+                ++end;
+            const std::string rule(rows[first].rule);
+            if (const JsonNode* told = motion.get(rule)) readRule(*told, motion.rule(rule), rule, first, end);
+        }
+        motion.finish();
+    }
+
+    /// Its parameters are the rows from `first` to before `end`.
+    void readRule(const JsonNode& node, SchemaRule schema_rule, const std::string& rule, std::size_t first,
+                  std::size_t end) {
+        ObjectReader reader(node, schema_rule, fmt::format("the rule `{}`", rule), diagnostics_);
+        if (!reader.isObject()) return;
+        MotionSettings& settings = layout_.simulation.motion;
+        for (std::size_t row = first; row < end; ++row) {
+            const MotionParameter& parameter = motionParameters()[row];
+            const std::string name(parameter.name);
+            double value = settings.number(rule, name);
+            bool on = value != 0.0;
+            if (parameter.is_switch)
+                reader.boolean(name, on);
+            else
+                reader.number(name, value);
+            settings.set(row, parameter.is_switch ? (on ? 1.0 : 0.0) : value);
+        }
+        reader.finish();
     }
 
     void readExpectations(const JsonNode& node) {

@@ -24,9 +24,9 @@ constexpr const char* kMotion = "motion";
 
 /// Everything that the bytes of a bake depend on.
 std::string identityOf(const LoadedLayout& loaded, const BakeJob& job, const gl::Device& device) {
-    std::string text =
-        fmt::format("{}\n{}\n{}\n{} {} {} {} {}\n", THRONG_VERSION, device.name, device.version,
-                    job.diagram_every, job.seconds, job.densities, job.options.gltf, job.options.gltf_agents);
+    std::string text = fmt::format(
+        "{}\n{}\n{}\n{} {} {} {} {}\n", THRONG_VERSION, device.name, device.version, job.diagram_every,
+        job.seconds, throng::identityOf(job.streams), job.options.gltf, job.options.gltf_agents);
     for (const std::string& override_text : loaded.overrides)
         text += override_text + "\n";
     if (loaded.fields_on_device) text += "fields on the device\n";  // other bits than the CPU's
@@ -80,7 +80,7 @@ class Run {
           frames_(description.frames),
           substeps_(static_cast<std::uint32_t>(settings.substeps)),
           warmup_(sim::warmupSteps(settings)),
-          pump_(simulation, {job.diagram_every > 0, job.seconds, job.densities},
+          pump_(simulation, {job.diagram_every > 0, job.seconds, job.streams},
                 [this](const Frame& frame) { receive(frame); }) {}
 
     void goOnFrom(const io::Checkpoint& checkpoint) {
@@ -143,8 +143,9 @@ class Run {
   private:
     void receive(const Frame& frame) {
         std::uint32_t alive = 0;
-        for (std::size_t row = 0; row < frame.states.size(); row += 3)
-            alive += frame.states[row] > 0.5f;
+        const std::span<const float> states = frame[Stream::state];
+        for (std::size_t at = 0; at < states.size(); at += kComponents)
+            alive += states[at] > 0.5f;
         present_ = alive;
         writer_.writeDiagram(frame);
         recorder_.take(frame);
@@ -200,7 +201,7 @@ BakeRun Baker::bake(const LoadedLayout& loaded, const BakeJob& job, const Interr
     const authoring::SimulationSettings& settings = loaded.scene.settings;
     recording::BakeDescription description = describeBake(loaded, job.options, device());
     description.diagram_every = job.diagram_every;
-    description.densities = job.densities;
+    description.asked = job.streams;
     const std::uint32_t frames = description.frames;
     const std::string identity = identityOf(loaded, job, device());
     description.inputs = identity;

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <ctime>
 #include <iostream>
@@ -143,7 +144,7 @@ ScenarioEnd ScenarioBaker::tryBake(std::size_t index, const InterruptGuard& inte
     job.options.output = folder_.bake(id).string();
     job.options.force = true;
     job.options.gltf = plan_.family().bake.gltf;
-    job.densities = plan_.family().bake.density;
+    job.streams = plan_.family().bake.streams;
     job.diagram_every = static_cast<std::uint32_t>(plan_.family().bake.diagrams);
     job.checkpoint_seconds = options_.checkpoint_seconds;
     job.resume = true;
@@ -186,6 +187,7 @@ ScenarioEnd ScenarioBaker::tryBake(std::size_t index, const InterruptGuard& inte
 
 void runWorker(const BatchPlan& plan, const BatchFolder& folder, const ScenarioBaker::Options& options) {
     const InterruptGuard interrupt;
+    std::signal(SIGPIPE, SIG_IGN);  // where nobody hears of a scenario any more, it is ended all the same
     ScenarioBaker baker(plan, folder, options);
     std::size_t index = 0;
     while (!interrupt.signal() && std::cin >> index) {

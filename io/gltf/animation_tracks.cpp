@@ -97,15 +97,15 @@ void findDeadRows(const StreamReader& states, std::vector<TrackRow>& rows) {
 }
 
 void writeTracks(OutputFile& file, const StreamSet& streams, const std::vector<TrackRow>& rows) {
-    const std::uint32_t frames = streams.positions.frames();
+    const std::uint32_t frames = streams.frames();
     if (rows.empty() || frames == 0) return;
     const auto tile_rows = static_cast<std::size_t>(
         std::max<std::uint64_t>(1, kTileValues / (std::uint64_t{frames} * kComponents)));
     for (std::size_t first = 0; first < rows.size(); first += tile_rows) {
         const std::span tile = std::span(rows).subspan(first, std::min(tile_rows, rows.size() - first));
-        const Tile positions(streams.positions, tile);
-        const Tile directions(streams.directions, tile);
-        const Tile states(streams.states, tile);
+        const Tile positions(streams[Stream::pos], tile);
+        const Tile directions(streams[Stream::dir], tile);
+        const Tile states(streams[Stream::state], tile);
         for (std::size_t i = 0; i < tile.size(); ++i) {
             writeTranslations(file, positions, i, frames);
             writeRotations(file, directions, i, frames);

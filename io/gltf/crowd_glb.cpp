@@ -146,15 +146,15 @@ void addPeople(GlbDocument& document, const recording::BakeDescription& descript
 
 GltfSummary writeCrowdGlb(const std::filesystem::path& path, const recording::BakeDescription& description,
                           const StreamSet& streams) {
-    const std::uint32_t frames = streams.positions.frames();
-    const std::uint32_t all_rows = streams.positions.rows();
+    const std::uint32_t frames = streams.frames();
+    const std::uint32_t all_rows = streams.rows();
     std::vector<TrackRow> rows;
     for (const std::uint32_t row : chooseRows(all_rows, frames, description.gltf_agents)) {
         const recording::BakeAgent& agent = description.agents.at(row);
         rows.push_back({row, static_cast<float>(agent.scale * agent.radius / kBodyRadius),
                         static_cast<float>(agent.scale), false});
     }
-    findDeadRows(streams.states, rows);
+    findDeadRows(streams[Stream::state], rows);
 
     GlbDocument document = documentFor(description);
     addScenery(document, description);

@@ -4,17 +4,10 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "io/streams/stream_reader.h"
+#include "io/streams/stream_set.h"
 #include "recording/bake_description.h"
 
 namespace throng::io {
-
-/// The finished streams of a bake.
-struct StreamSet {
-    StreamReader positions;
-    StreamReader directions;
-    StreamReader states;
-};
 
 struct GltfSummary {
     std::uint32_t agents = 0;  ///< people in the file

@@ -9,7 +9,7 @@
 
 #include "base/files/csv.h"
 #include "base/files/input_file.h"
-#include "io/streams/stream_reader.h"
+#include "io/streams/stream_set.h"
 
 namespace throng::io {
 
@@ -82,9 +82,7 @@ std::string AgentTableEdit::text() const {
 
 std::vector<authoring::Entrant> loadEntrants(const Bake& bake) {
     const AgentTableEdit table(bake);
-    const StreamReader positions(bake.streamPath("pos"));
-    if (positions.rows() != bake.agents || positions.frames() != bake.frames)
-        throw InputError(bake.streamPath("pos"), "is of another bake than bake.json");
+    const StreamSet streams(bake.folder, bake.streams, bake.frames, bake.agents);
     const double height = bake.manifest.value("/origin/2"_json_pointer, 0.0);
     std::vector<authoring::Entrant> people(table.rows());
     for (std::uint32_t row = 0; row < table.rows(); ++row) {
@@ -93,7 +91,7 @@ std::vector<authoring::Entrant> loadEntrants(const Bake& bake) {
         const std::optional<std::uint32_t> frame = table.frame(row, "spawn_frame");
         if (!frame || *frame >= bake.frames) continue;
         std::array<float, kComponents> place{};
-        positions.readRows(*frame, row, place);
+        streams[Stream::pos].readRows(*frame, row, place);
         person.enters = true;
         person.frame = *frame;
         person.place = {bake.origin.x + static_cast<double>(place[0]),

@@ -20,7 +20,7 @@
 #include "io/gltf/terrain_file.h"
 #include "io/overrides/agent_table_edit.h"
 #include "io/overrides/row_sampler.h"
-#include "io/streams/stream_writer.h"
+#include "io/streams/stream_files.h"
 #include "recording/footing.h"
 
 namespace throng::io {
@@ -32,38 +32,6 @@ using authoring::PersonChange;
 
 constexpr std::uint32_t kNever = std::numeric_limits<std::uint32_t>::max();
 
-/// One stream on its way from the source to the new bake.
-struct Passage {
-    Passage(const Bake& source, const fs::path& folder, const std::string& stream)
-        : name(stream),
-          reader(source.streamPath(stream)),
-          npy(folder / (stream + ".npy"), StreamFormat::npy, source.agents, source.frames),
-          pc2(folder / (stream + ".pc2"), StreamFormat::pc2, source.agents, source.frames),
-          frame(std::size_t{source.agents} * kComponents) {
-        if (reader.rows() != source.agents || reader.frames() != source.frames)
-            throw InputError(source.streamPath(stream),
-                             fmt::format("holds {} frames of {} people where bake.json says {} of {}",
-                                         reader.frames(), reader.rows(), source.frames, source.agents));
-    }
-    void write() {
-        npy.append(frame);
-        pc2.append(frame);
-    }
-    void finish() {
-        npy.finish();
-        pc2.finish();
-    }
-    std::span<float> row(std::uint32_t index) {
-        return std::span(frame).subspan(std::size_t{index} * kComponents, kComponents);
-    }
-
-    std::string name;
-    StreamReader reader;
-    StreamWriter npy;
-    StreamWriter pc2;
-    std::vector<float> frame;
-};
-
 /// A row that changes, and what came of it.
 struct ChangedRow {
     std::uint32_t row = 0;
@@ -74,10 +42,6 @@ struct ChangedRow {
     glm::vec2 place{0.0f};                    ///< in the frame before
     bool is_held = false;
 };
-
-std::array<float, kComponents> threeOf(std::span<const float> values) {
-    return {values[0], values[1], values[2]};
-}
 
 /// Of a tint that is a colour.
 std::optional<std::uint32_t> colourOf(const std::string& tint) {
@@ -95,14 +59,16 @@ class Application {
           options_(options),
           folder_(options.output, options.force),
           table_(source),
-          streams_folder_(folder_.addFolder("streams")),
-          positions_(source, streams_folder_, "pos"),
-          directions_(source, streams_folder_, "dir"),
-          states_(source, streams_folder_, "state"),
+          streams_(source.folder, source.streams, source.frames, source.agents),
+          sampler_(streams_),
           minimum_(source.minimum),
           maximum_(source.maximum) {
-        if (source.manifest.contains("/streams/density"_json_pointer))
-            density_.emplace(source, streams_folder_, "density");
+        folder_.addFolder("streams");
+        for (const StreamInfo& info : kStreams) {
+            if (!streams_.has(info.id)) continue;
+            files_.emplace_back(folder_.path(), info, source.agents, source.frames);
+            frame_[info.id].resize(std::size_t{source.agents} * kComponents);
+        }
         for (const RowChange& each : changes)
             rows_.push_back(prepared(each));
         if (source.manifest.contains("terrain")) readTerrainBack();
@@ -110,19 +76,17 @@ class Application {
 
     /// False when it was stopped.
     bool writeStreams() {
-        const RowSampler sampler(positions_.reader, directions_.reader, states_.reader,
-                                 density_ ? &density_->reader : nullptr);
         for (std::uint32_t frame = 0; frame < source_.frames; ++frame) {
-            for (Passage* stream : streams())
-                stream->reader.readFrame(frame, stream->frame);
+            for (const StreamFiles& stream : files_)
+                streams_[stream.info().id].readFrame(frame, frame_[stream.info().id]);
             for (ChangedRow& each : rows_)
-                change(each, frame, sampler);
-            for (Passage* stream : streams())
-                stream->write();
+                change(each, frame);
+            for (StreamFiles& stream : files_)
+                stream.append(frame_[stream.info().id]);
             if (!options_.go_on(frame + 1)) return false;
         }
-        for (Passage* stream : streams())
-            stream->finish();
+        for (StreamFiles& stream : files_)
+            stream.finish();
         return true;
     }
 
@@ -136,17 +100,13 @@ class Application {
     }
 
   private:
-    std::vector<Passage*> streams() {
-        std::vector<Passage*> all{&positions_, &directions_, &states_};
-        if (density_) all.push_back(&*density_);
-        if (ground_) all.push_back(&*ground_);
-        return all;
+    std::span<float, kComponents> row(Stream stream, std::uint32_t index) {
+        return rowOf(std::span(frame_[stream]), index);
     }
 
     /// Who is moved or comes at another time stands on the ground anew.
     void readTerrainBack() {
         const Json& facts = source_.manifest["terrain"];
-        ground_.emplace(source_, streams_folder_, "ground");
         terrain_.emplace();
         terrain_->mesh = std::make_shared<const authoring::TerrainMesh>(
             readTerrain(source_.folder / "terrain.glb", authoring::TerrainSettings{}));
@@ -166,52 +126,55 @@ class Application {
     }
 
     void stand(ChangedRow& each, const RowSample& sample) {
-        const glm::vec2 place(sample.position[0], sample.position[1]);
-        const glm::vec2 heading(sample.direction[0], sample.direction[1]);
-        const bool is_alive = sample.state[0] > 0.5f, was_alive = each.first_alive != kNever;
+        const glm::vec2 place(sample[Stream::pos][0], sample[Stream::pos][1]);
+        const glm::vec2 heading(sample[Stream::dir][0], sample[Stream::dir][1]);
+        const std::array<float, kComponents>& state = sample[Stream::state];
+        const bool is_alive = state[0] > 0.5f, was_alive = each.first_alive != kNever;
         recording::Stance stance = footing_->last(each.row);
         if (is_alive) {
-            const recording::GaitTrack gait{sample.state[2], recording::gaitOf(sample.state[0])};
+            const recording::GaitTrack gait{state[2], recording::gaitOf(state[0])};
             stance = footing_->stand(each.row, place, heading,
                                      was_alive ? place - each.place : glm::vec2(0.0f), gait);
             each.place = place;
         } else if (!was_alive) {
             stance = footing_->entering(place, heading);
         }
-        positions_.row(each.row)[2] = stance.height + static_cast<float>(each.change.move.z);
-        const std::span<float> ground = ground_->row(each.row);
+        row(Stream::pos, each.row)[2] = stance.height + static_cast<float>(each.change.move.z);
+        const auto ground = row(Stream::ground, each.row);
         ground[0] = stance.along;
         ground[1] = stance.across;
         ground[2] = stance.ground;
     }
 
     ChangedRow prepared(const RowChange& each) const {
-        ChangedRow row{each.row, each.change};
-        row.first = table_.frame(each.row, "spawn_frame");
-        if (row.first && *row.first >= source_.frames) row.first.reset();
-        if (row.first) positions_.reader.readRows(*row.first, each.row, row.pivot);
-        return row;
+        ChangedRow changed{each.row, each.change};
+        changed.first = table_.frame(each.row, "spawn_frame");
+        if (changed.first && *changed.first >= source_.frames) changed.first.reset();
+        if (changed.first) streams_[Stream::pos].readRows(*changed.first, each.row, changed.pivot);
+        return changed;
     }
 
-    void change(ChangedRow& each, std::uint32_t frame, const RowSampler& sampler) {
-        RowSample sample{threeOf(positions_.row(each.row)), threeOf(directions_.row(each.row)),
-                         threeOf(states_.row(each.row)),
-                         density_ ? threeOf(density_->row(each.row)) : std::array<float, kComponents>{}};
-        if (each.change.retimes() && each.first) {
-            const double at = sourceFrame(frame, *each.first, each.change);
-            sample = sampler.at(each.row, at, each.change.speed);
-            const bool is_beyond = at < 0.0 || at > static_cast<double>(source_.frames - 1);
-            each.is_held = each.is_held || (is_beyond && sample.state[0] > 0.5f);
-        }
+    /// In the frame under way.
+    RowSample asItIs(std::uint32_t index) {
+        RowSample sample;
+        for (const StreamFiles& stream : files_)
+            std::ranges::copy(row(stream.info().id, index), sample[stream.info().id].begin());
+        return sample;
+    }
+
+    void change(ChangedRow& each, std::uint32_t frame) {
+        const bool is_retimed = each.change.retimes() && each.first;
+        const double at = is_retimed ? sourceFrame(frame, *each.first, each.change) : frame;
+        RowSample sample = is_retimed ? sampler_.at(each.row, at, each.change.speed) : asItIs(each.row);
+        const bool is_beyond = at < 0.0 || at > static_cast<double>(source_.frames - 1);
+        each.is_held = each.is_held || (is_beyond && sample[Stream::state][0] > 0.5f);
         changeSample(sample, each.pivot, each.change);
-        std::ranges::copy(sample.position, positions_.row(each.row).begin());
-        std::ranges::copy(sample.direction, directions_.row(each.row).begin());
-        std::ranges::copy(sample.state, states_.row(each.row).begin());
-        if (density_) std::ranges::copy(sample.density, density_->row(each.row).begin());
+        for (const StreamFiles& stream : files_)
+            std::ranges::copy(sample[stream.info().id], row(stream.info().id, each.row).begin());
         if (footing_ && (each.change.moves() || each.change.retimes())) stand(each, sample);
-        if (sample.state[0] <= 0.5f) return;
+        if (sample[Stream::state][0] <= 0.5f) return;
         each.first_alive = std::min(each.first_alive, frame);
-        const glm::dvec2 place(sample.position[0], sample.position[1]);
+        const glm::dvec2 place(sample[Stream::pos][0], sample[Stream::pos][1]);
         minimum_ = glm::dvec2(std::min(minimum_.x, place.x), std::min(minimum_.y, place.y));
         maximum_ = glm::dvec2(std::max(maximum_.x, place.x), std::max(maximum_.y, place.y));
     }
@@ -273,9 +236,9 @@ class Application {
 
     bool isWrittenAnew(const std::string& path) const {
         if (path == "agents.csv" || path == "crowd.glb" || path.starts_with("diagrams/")) return true;
-        for (const char* stream : {"pos", "dir", "state", "density", "ground"})
-            for (const char* extension : {".npy", ".pc2"})
-                if (path == std::string("streams/") + stream + extension) return true;
+        for (const StreamInfo& info : kStreams)
+            for (const StreamFormat format : kStreamFormats)
+                if (path == streamFile(info, format)) return true;
         return false;
     }
 
@@ -301,8 +264,7 @@ class Application {
         const recording::BakeDescription description = describe();
         const GltfSummary summary =
             writeCrowdGlb(folder_.path() / "crowd.glb", description,
-                          {StreamReader(positions_.npy.path()), StreamReader(directions_.npy.path()),
-                           StreamReader(states_.npy.path())});
+                          {folder_.path(), source_.streams, source_.frames, source_.agents});
         return {{"file", "crowd.glb"}, {"agents", summary.agents}, {"of", summary.of}};
     }
 
@@ -376,9 +338,8 @@ class Application {
         manifest["applied"] = options_.applied;
         std::vector<std::string> files{"agents.csv"};
         files.insert(files.end(), copied_.begin(), copied_.end());
-        for (Passage* stream : streams())
-            for (const char* extension : {".npy", ".pc2"})
-                files.push_back("streams/" + stream->name + extension);
+        for (const std::string& file : filesOf(files_))
+            files.push_back(file);
         if (!gltf.is_null()) files.emplace_back("crowd.glb");
         manifest["files"] = Json::array();
         for (const std::string& file : files) {
@@ -393,11 +354,10 @@ class Application {
     const ApplyOptions& options_;
     BakeFolder folder_;
     AgentTableEdit table_;
-    fs::path streams_folder_;
-    Passage positions_;
-    Passage directions_;
-    Passage states_;
-    std::optional<Passage> density_, ground_;
+    StreamSet streams_;
+    RowSampler sampler_;
+    std::vector<StreamFiles> files_;
+    PerStream<std::vector<float>> frame_;            ///< the one under way
     std::optional<recording::BakeTerrain> terrain_;  // none on flat ground
     std::optional<recording::Footing> footing_;
     std::vector<ChangedRow> rows_;

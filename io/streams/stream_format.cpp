@@ -36,6 +36,14 @@ std::string pc2Header(std::uint64_t frames, std::uint64_t rows) {
 
 }  // namespace
 
+std::string nameOf(StreamFormat format) {
+    return format == StreamFormat::npy ? "npy" : "pc2";
+}
+
+std::string streamFile(const StreamInfo& info, StreamFormat format) {
+    return fmt::format("streams/{}.{}", info.name, nameOf(format));
+}
+
 std::string streamHeader(StreamFormat format, std::uint64_t frames, std::uint64_t rows) {
     return format == StreamFormat::npy ? npyHeader(frames, rows) : pc2Header(frames, rows);
 }

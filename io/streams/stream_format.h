@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string>
 
+#include "base/streams.h"
+
 /// The two containers of a stream: frames x rows x 3 float32, little endian, frame after frame.
 namespace throng::io {
 
@@ -13,7 +15,14 @@ enum class StreamFormat {
     pc2,  ///< point cache as Blender's Mesh Cache modifier reads it
 };
 
-inline constexpr std::size_t kComponents = 3;
+/// Every stream is written in all of them.
+inline constexpr StreamFormat kStreamFormats[] = {StreamFormat::npy, StreamFormat::pc2};
+
+/// Also of files' names.
+std::string nameOf(StreamFormat format);
+
+/// Where a stream is in the folder of its bake, with forward slashes.
+std::string streamFile(const StreamInfo& info, StreamFormat format);
 
 /// The size of the header depends on the format only, so that the counts can be mended in place.
 constexpr std::size_t headerSize(StreamFormat format) {

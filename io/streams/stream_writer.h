@@ -11,13 +11,6 @@
 
 namespace throng::io {
 
-/// What happens to one component of a row in the frames before the row is first alive.
-enum class BackFill {
-    keep,         ///< stays as it was written
-    first_alive,  ///< takes the value of the first frame in which the row is alive
-    zero,
-};
-
 /// Writes one stream in one format. All members throw OutputError.
 class StreamWriter {
   public:

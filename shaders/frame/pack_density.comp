@@ -8,7 +8,7 @@ layout(std140) uniform ParametersBlock { Parameters parameters; };
 layout(std430) readonly buffer People { Person people[]; };
 layout(std430) readonly buffer States { AgentState states[]; };
 layout(std430) readonly buffer PixelCounts { uint pixel_counts[]; };
-layout(std430) writeonly buffer DensityBlock { float densities[]; };
+layout(std430) writeonly buffer StreamBlock { float densities[]; };
 
 #include "shaders/shared/alive.glsl"
 

@@ -5,6 +5,8 @@ import subprocess
 import sys
 import zipfile
 
+import pytest
+
 from conftest import ROOT
 
 from test_layout_page import SCHEMA, with_motion
@@ -13,6 +15,8 @@ sys.path.insert(0, str(ROOT / "blender_addon"))
 from throng.authoring import codecs, fields, schema  # noqa: E402
 
 COPY = "throng/authoring/throng-layout.schema.json"
+
+pytestmark = pytest.mark.quick
 
 
 def test_every_setting_of_the_simulation_has_a_row():
@@ -44,7 +48,7 @@ def test_rules_of_motion_come_as_groups_of_rows():
     assert fields.motion_of(schema.Schema({**SCHEMA, "properties": {}})) == ()
     drive, swerve = fields.motion_of(schema.Schema(with_motion()))
     name, label, description, rows = drive
-    assert (name, label, description) == ("drive", "Drive", "Towards the goal")
+    assert (name, label, description) == ("drive", "Drive on", "Towards the goal")
     (enabled, *_), (constant, label, least, most, _) = rows
     assert isinstance(enabled, codecs.Flag) and enabled.default is True
     assert (constant.key, constant.default, label, least, most) == ("time_constant", 0.5, "Time Constant", 0.1, 5.0)

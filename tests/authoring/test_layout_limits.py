@@ -15,6 +15,8 @@ REFUSALS = {"number": ("out of range", "whole number"), "word": ("expected one o
             "key": ("has no key",)}
 FILES_AT_ONCE = 400
 
+pytestmark = pytest.mark.xdist_group("layouts that are wrong in one place")  # which are made and checked once
+
 
 @pytest.fixture(scope="module")
 def cases():

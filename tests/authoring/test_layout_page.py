@@ -15,6 +15,8 @@ PAGE = (ROOT / "docs" / "layout.md").read_text("utf-8")
 EXAMPLES = sorted((ROOT / "docs" / "examples").glob("*.json"))
 MOST_BYTES = 60_000
 
+pytestmark = pytest.mark.quick
+
 
 def script(name):
     """A script of ours as a module."""
@@ -65,12 +67,12 @@ def test_the_page_is_what_the_schema_and_the_examples_say():
 
 RULES = {
     "type": "object", "description": "How people move.", "properties": {
-        "drive": {"type": "object", "description": "Towards the goal.", "additionalProperties": False, "properties": {
+        "drive": {"type": "object", "title": "Drive on", "description": "Towards the goal.", "properties": {
             "enabled": {"type": "boolean", "default": True, "description": "Whether it acts."},
             "time_constant": {"type": "number", "minimum": 0.1, "maximum": 5, "default": 0.5, "x-unit": "s",
                               "x-source": "Helbing and Molnar 1995", "description": "How soon, s."}}},
         "swerve": {"$ref": "#/definitions/swerve"}}}
-SWERVE = {"type": "object", "description": "Past oncoming people.", "properties": {
+SWERVE = {"type": "object", "title": "Swerve", "description": "Past oncoming people.", "properties": {
     "enabled": {"type": "boolean", "default": True, "description": "Whether it acts."}}}
 
 
@@ -86,9 +88,9 @@ def test_rules_of_motion_get_a_table_each():
     page = script("layout_reference.py").made(PAGE, schema)
     assert missing_keys(schema, page) == []
     assert "| `time_constant` | number | `0.5` | 0.1 to 5 | s | How soon. | Helbing and Molnar 1995 |" in page
-    assert "## Motion\n\nHow people move.\n\n| key |" in page
-    assert "### `drive`\n\nTowards the goal.\n\n| key |" in page
-    assert "### `swerve`\n\nPast oncoming people.\n\n| key |" in page
+    assert "| [`drive`](#drive-on) | object |" in page
+    assert "### Drive on\n\n`drive`: Towards the goal.\n\n| key |" in page
+    assert "### Swerve\n\n`swerve`: Past oncoming people.\n\n| key |" in page
 
 
 @pytest.mark.parametrize("name", SCHEMA["definitions"]["people"]["properties"]["profile"]["oneOf"][0]["enum"])

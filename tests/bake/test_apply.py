@@ -53,15 +53,17 @@ def entries_for(bake):
 
 
 @pytest.fixture(scope="module")
-def street(throng, tmp_path_factory):
-    folder = tmp_path_factory.mktemp("street")
-    (folder / "street.json").write_text(json.dumps(STREET))
-    throng("bake", folder / "street.json", "-o", folder / "street", "-q", "--density", "--diagrams", "60")
-    write(folder / "street.overrides.json", entries_for(folder / "street"))
-    throng("apply", folder / "street", "-o", folder / "final", "-q")
-    return folder
+def street(throng, once):
+    def make(folder):
+        (folder / "street.json").write_text(json.dumps(STREET))
+        throng("bake", folder / "street.json", "-o", folder / "street", "-q", "--density", "--diagrams", "60")
+        write(folder / "street.overrides.json", entries_for(folder / "street"))
+        throng("apply", folder / "street", "-o", folder / "final", "-q")
+
+    return once("street", make)
 
 
+@pytest.mark.quick
 def test_the_new_bake_is_whole_and_says_what_was_applied(throng, street, manifest_of):
     assert "verified" in throng("info", street / "final", "--verify").stdout
     before, after = manifest_of(street / "street"), manifest_of(street / "final")
@@ -81,6 +83,7 @@ def test_the_new_bake_is_whole_and_says_what_was_applied(throng, street, manifes
     assert measured["agents"] == 37 and measured["refused"] == 2
 
 
+@pytest.mark.quick
 def test_known_answers_frame_by_frame(street):
     before, after = streams(street / "street"), streams(street / "final")
     untouched = [row for row in range(37) if row not in (HIDDEN, MOVED, RETIMED, LOOKS, HERO)]
@@ -116,6 +119,7 @@ def test_known_answers_frame_by_frame(street):
     assert int(table(street / "final")[RETIMED]["spawn_frame"]) == numpy.nonzero(after["state"][:, RETIMED, 0] > 0.5)[0][0]
 
 
+@pytest.mark.quick
 def test_the_add_on_works_out_the_same_rows(street):
     """The two implementations, in their two languages, from the same files."""
     bake = load_bake(str(street / "street"))

@@ -84,6 +84,7 @@ def crossings(bake, manifest):
 
 
 @pytest.mark.parametrize("name, arrived, people", [("circle", 0.99, 256), ("bidirectional", 0.95, 2048), ("intersection", 0.95, 1024), ("station", 0.95, 88)])
+@pytest.mark.slow
 def test_the_examples_arrive_and_nobody_sinks_into_anybody(bakes, manifest_of, name, arrived, people):
     bake = bakes(name)
     account = manifest_of(bake)["account"]
@@ -158,6 +159,7 @@ def digest(bake):
     return {name: hashlib.sha256((bake / "streams" / name).read_bytes()).hexdigest() for name in ("pos.npy", "dir.pc2", "state.npy")}
 
 
+@pytest.mark.quick
 def test_the_same_layout_and_seed_give_the_same_bytes(throng, tmp_path):
     layout = write(tmp_path / "small.json", SMALL)
     for name, seed in (("a", 1), ("b", 1), ("c", 2)):
@@ -184,6 +186,7 @@ def test_fields_solved_on_the_device_lead_the_same_ways(throng, tmp_path, manife
     assert inputs["cpu"] != inputs["gpu"] and inputs["auto"] == inputs["cpu" if software else "gpu"]
 
 
+@pytest.mark.quick
 def test_coordinates_of_utm_size_bake_as_exactly_as_small_ones(throng, tmp_path, manifest_of):
     moved = json.loads(json.dumps(SMALL))
     dx, dy = 395131, 5268347
@@ -241,6 +244,7 @@ def test_ctrl_c_keeps_what_there_is(throng, tmp_path, manifest_of):
     throng("info", tmp_path / "out.partial", "--verify")
 
 
+@pytest.mark.quick
 def test_info_says_what_is_wrong_with_a_damaged_bake(throng, tmp_path):
     throng("bake", write(tmp_path / "small.json", SMALL), "-o", tmp_path / "out", "-q", "--no-gltf")
     assert "verified" in throng("info", tmp_path / "out", "--verify").stdout
@@ -249,6 +253,7 @@ def test_info_says_what_is_wrong_with_a_damaged_bake(throng, tmp_path):
     assert "pos.pc2" in throng("info", tmp_path / "out", "--verify", expect=3).stderr
 
 
+@pytest.mark.quick
 def test_the_command_line_speaks_clearly(throng, tmp_path):
     assert "did you mean `bake`?" in throng("bkae", expect=2).stderr
     assert "--second requires --diagrams" in throng("bake", "x.json", "--second", expect=2).stderr

@@ -3,7 +3,6 @@
 import csv
 import json
 import os
-import struct
 
 import numpy
 import pytest
@@ -37,6 +36,7 @@ def test_the_grid_and_everybody_compared_give_the_same_bytes(throng, tmp_path):
     assert digest(tmp_path / "grid") == digest(tmp_path / "brute")
 
 
+@pytest.mark.quick
 def test_images_and_stream_agree_on_areas_densities_and_second_owners(throng, tmp_path, manifest_of):
     OpenEXR = pytest.importorskip("OpenEXR")
     layout = write(tmp_path / "small.json", SMALL)
@@ -96,11 +96,9 @@ def test_calibration_is_kept_and_changes_no_byte(throng, tmp_path):
     assert "passed over" in throng("bake", layout, "-o", tmp_path / "broken", "-q", "--no-gltf", env=environment).stderr
 
 
-def test_benchmarks_write_their_three_files(throng, tmp_path):
+def test_benchmarks_write_markdown_and_csv(throng, tmp_path):
     for kind in ("diagrams", "proximity"):
         throng("bench", kind, "-o", tmp_path, "--most", "256", "--rounds", "1")
-        assert (tmp_path / f"{kind}.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
-        assert struct.unpack(">I", (tmp_path / f"{kind}.png").read_bytes()[16:20])[0] == 1200
         assert f"`throng bench {kind}`" in (tmp_path / f"{kind}.md").read_text()
         with open(tmp_path / f"{kind}.csv", newline="") as file:
             rows = list(csv.DictReader(file))

@@ -43,6 +43,7 @@ def seconds(pos, start, end):
     return abs(numpy.interp(order * end, order * pos[:, 0], times) - numpy.interp(order * start, order * pos[:, 0], times))
 
 
+@pytest.mark.quick
 def test_a_ramp_is_stood_on_exactly_and_climbed_slowly(walk, throng):
     content = terrain_files.glb(*terrain_files.surface(ramp, (-20, -6), (60, 6), 4.0))
     bake, up = walk("up", content, [-10, 1.3], [50, -2.2], "--no-gltf")

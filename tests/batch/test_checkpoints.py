@@ -31,12 +31,13 @@ def files_of(bake):
 
 
 @pytest.fixture(scope="module")
-def whole(throng, tmp_path_factory):
-    folder = tmp_path_factory.mktemp("whole")
-    layout = folder / "layout.json"
-    layout.write_text(json.dumps(LAYOUT))
-    throng("bake", layout, "-o", folder / "bake", *OPTIONS)
-    return layout, files_of(folder / "bake")
+def whole(throng, once):
+    def make(folder):
+        (folder / "layout.json").write_text(json.dumps(LAYOUT))
+        throng("bake", folder / "layout.json", "-o", folder / "bake", *OPTIONS)
+
+    folder = once("whole", make)
+    return folder / "layout.json", files_of(folder / "bake")
 
 
 def start(throng, layout, output, *more, minutes="0.002"):
@@ -44,6 +45,7 @@ def start(throng, layout, output, *more, minutes="0.002"):
                             stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
 
+@pytest.mark.slow
 def test_killed_a_hundred_times_at_random_moments_a_bake_ends_as_the_same_bytes(throng, whole, tmp_path):
     layout, expected = whole
     chance = random.Random(5)
@@ -67,6 +69,7 @@ def test_killed_a_hundred_times_at_random_moments_a_bake_ends_as_the_same_bytes(
     assert bakes < kills, "most runs were killed"
 
 
+@pytest.mark.quick
 def test_sigterm_leaves_a_checkpoint_and_85(throng, whole, tmp_path):
     layout, expected = whole
     process = start(throng, layout, tmp_path / "bake")

@@ -158,7 +158,10 @@ void SampleCrowd::writeTo(io::BakeWriter& writer, std::uint32_t count) const {
         }
         for (int i = 0; i < 10; ++i)
             sites.push_back(glm::vec2(glm::dvec2(-5.2, 5.2 + i) + to_scene));
-        Frame out{frame, positions, directions, states, {}, nullptr};
+        Frame out{frame};
+        out[Stream::pos] = positions;
+        out[Stream::dir] = directions;
+        out[Stream::state] = states;
         const SampleDiagram diagram(options_.diagram_every > 0 ? sites : std::vector<glm::vec2>{},
                                     options_.rows, glm::vec2(glm::dvec2(-16.0, -16.0) + to_scene), 128, 96,
                                     4.0f, 0.6f);

@@ -59,18 +59,20 @@ def visit(browser):
 
 
 @pytest.fixture(scope="module")
-def bake(throng, tmp_path_factory):
-    folder = tmp_path_factory.mktemp("report")
-    (folder / "layout.json").write_text(json.dumps(LAYOUT))
-    throng("bake", folder / "layout.json", "-o", folder / "bake", "-q", "--no-gltf")
-    throng("report", folder / "bake", "-o", folder / "bake.html")
-    return folder
+def bake(throng, once):
+    def make(folder):
+        (folder / "layout.json").write_text(json.dumps(LAYOUT))
+        throng("bake", folder / "layout.json", "-o", folder / "bake", "-q", "--no-gltf")
+        throng("report", folder / "bake", "-o", folder / "bake.html")
+
+    return once("report-bake", make)
 
 
 def clock(page):
     return float(re.match(r"([\d.]+) s", page.inner_text("#clock")).group(1))
 
 
+@pytest.mark.quick
 def test_the_page_says_who_and_what(visit, bake):
     page = visit(bake / "bake.html")
     assert page.inner_text("h1") == LAYOUT["name"] == page.title()
@@ -215,17 +217,20 @@ def test_sixteen_thousand_people_play_smoothly(throng, visit, tmp_path):
 
 
 @pytest.fixture(scope="module")
-def batch(throng, tmp_path_factory):
-    folder = tmp_path_factory.mktemp("batch")
+def batch(throng, once):
     shut = LAYOUT["walls"] + [{"id": "cage", "points": [[-1, -1], [3, -1], [3, 5], [-1, 5], [-1, -1]]}]
     base = {**LAYOUT, "simulation": {"duration": 4}, "walls": LAYOUT["walls"][:2], "events": []}
-    (folder / "family.json").write_text(json.dumps({
-        "throng_family": 1, "name": "streams", "base": base,
-        "axes": [{"name": "walls", "set": "/walls", "values": [base["walls"], shut[:2] + shut[3:]]}, {"name": "rate", "set": ["/flows/0/rate", "/flows/1/rate"], "values": [1, 3]},
-                 {"name": "seed", "set": "/simulation/seed", "range": [1, 3]}]}))
-    throng("batch", folder / "family.json", "-o", folder / "out", "-q", expect=1)
-    throng("report", folder / "out", "--each")
-    return folder / "out"
+    family = {"throng_family": 1, "name": "streams", "base": base,
+              "axes": [{"name": "walls", "set": "/walls", "values": [base["walls"], shut[:2] + shut[3:]]},
+                       {"name": "rate", "set": ["/flows/0/rate", "/flows/1/rate"], "values": [1, 3]},
+                       {"name": "seed", "set": "/simulation/seed", "range": [1, 3]}]}
+
+    def make(folder):
+        (folder / "family.json").write_text(json.dumps(family))
+        throng("batch", folder / "family.json", "-o", folder / "out", "-q", expect=1)
+        throng("report", folder / "out", "--each")
+
+    return once("report-batch", make) / "out"
 
 
 def cells(page, column):

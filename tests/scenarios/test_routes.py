@@ -17,6 +17,7 @@ HALL = {
 
 
 @pytest.mark.parametrize("heeds, door, seed", [(True, 5.0, 1), (True, 5.0, 2), (True, 5.0, 3), (False, 0.0, 1)])
+@pytest.mark.quick
 def test_a_door_full_of_people_is_avoided(throng, tmp_path, heeds, door, seed):
     """Also a test of two rules that keep people going past others who stand: docs/motion.md says how it ends without them."""
     layout = {**HALL, "simulation": {**HALL["simulation"], "avoid_congestion": heeds, "seed": seed}}

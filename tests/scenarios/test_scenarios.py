@@ -18,17 +18,16 @@ HOLD_ALL_BARS = [
 
 
 @pytest.fixture(scope="module")
-def scenario(throng, tmp_path_factory):
+def scenario(throng, once):
     """scenario("ring") is what `throng scenarios --json` prints of it, baked once; `expect` is its exit status."""
-    folder = tmp_path_factory.mktemp("scenarios")
-    known = {}
 
     def run(name, expect=0):
-        if name not in known:
+        def make(folder):
             done = throng("scenarios", "--run", name, "--json", "-o", folder, expect=None)
             shutil.rmtree(folder / name)  # thousands of people for minutes are gigabytes
-            known[name] = done.returncode, json.loads(done.stdout)
-        status, figures = known[name]
+            (folder / "figures.json").write_text(json.dumps([done.returncode, json.loads(done.stdout)]))
+
+        status, figures = json.loads((once(f"scenario-{name}", make) / "figures.json").read_text())
         assert expect is None or status == expect, figures
         return figures
 
@@ -41,6 +40,7 @@ def test_the_bars_of_the_layout_hold(scenario, name):
 
 
 @pytest.mark.parametrize("name", ["crossing", "corridor"])
+@pytest.mark.slow
 def test_streams_of_thousands_get_through_each_other(scenario, name):
     """Jams are chaotic, and another device may add in another order: the last few are not held against it here."""
     figures = scenario(name, expect=None)
@@ -74,6 +74,7 @@ def test_everybody_takes_the_exit_they_were_given(throng, tmp_path):
         assert (end[0] < -3) == (int(row["group"][-2:]) <= 8), row["group"]
 
 
+@pytest.mark.slow
 def test_most_take_the_nearer_exit_and_some_the_other(throng, tmp_path):
     """RiMEA test 11."""
     figures = json.loads(throng("scenarios", "--run", "rimea-11", "--json", "-o", tmp_path).stdout)
@@ -107,6 +108,7 @@ def test_groups_stay_together_through_a_counterflow(throng, tmp_path):
     assert max(late) < 4.0
 
 
+@pytest.mark.slow
 def test_a_hundred_destinations_and_a_hundred_thousand_people(throng, tmp_path):
     """A district of 100 blocks; 1,000 people walk from each to another one."""
     blocks = [(40 * column, 40 * line) for line in range(10) for column in range(10)]
@@ -127,6 +129,7 @@ def test_a_hundred_destinations_and_a_hundred_thousand_people(throng, tmp_path):
             assert straight - 45 < float(row["shortest_way"]) < along_streets + 75
 
 
+@pytest.mark.slow
 def test_a_counterflow_slows_a_corridor_down(scenario):
     """IMO test 8: the more come the other way, the longer it takes."""
     seconds = [scenario(f"imo-8-{others}")["seconds"] for others in (0, 10, 50, 100)]
@@ -166,6 +169,7 @@ def test_wider_doors_let_more_people_through(scenario):
     assert flows[-1] > 1.5 * flows[0]
 
 
+@pytest.mark.slow
 def test_twice_the_exits_take_about_half_the_time(scenario):
     """RiMEA test 9."""
     two, four = scenario("rimea-9-two-exits", expect=None), scenario("rimea-9-four-exits", expect=None)

@@ -21,9 +21,9 @@ TEST_F(FramePumpTest, DeliversEveryFrameInOrderWithWhatTheSimulationHolds) {
         {
             sim::FramePump pump(simulation, {}, [&](const Frame& frame) {
                 EXPECT_EQ(frame.index, received.size());
-                EXPECT_EQ(frame.states.size(), count * 3u);
-                EXPECT_EQ(frame.states[0], 1.0f) << "under way";
-                received.emplace_back(frame.positions.begin(), frame.positions.end());
+                EXPECT_EQ(frame[Stream::state].size(), count * 3u);
+                EXPECT_EQ(frame[Stream::state][0], 1.0f) << "under way";
+                received.emplace_back(frame[Stream::pos].begin(), frame[Stream::pos].end());
             });
             for (std::uint32_t frame = 0; frame < 20; ++frame) {
                 simulation.step();
@@ -47,12 +47,13 @@ TEST_F(FramePumpTest, DiagramsAgreeWithTheFramesPositions) {
         addWall(scene, {1, 1}, {12, 9});
         sim::Simulation simulation(scene, library);
         int looked = 0;
-        sim::FramePump pump(simulation, {true, false, false}, [&](const Frame& frame) {
+        sim::FramePump pump(simulation, {true, false, {}}, [&](const Frame& frame) {
             ASSERT_EQ(frame.diagram != nullptr, frame.index % 2 == 0);
             if (!frame.diagram) return;
             const DiagramImage& image = *frame.diagram;
             for (std::uint32_t row = 0; row < 63; ++row) {
-                const glm::vec2 position(frame.positions[3 * row], frame.positions[3 * row + 1]);
+                const auto at_row = rowOf(frame[Stream::pos], row);
+                const glm::vec2 position(at_row[0], at_row[1]);
                 const glm::uvec2 pixel((position - image.minimum) * image.pixels_per_metre);
                 const std::size_t at = std::size_t{pixel.y} * image.width + pixel.x;
                 ASSERT_NE(image.site[at], kNone);

@@ -52,7 +52,7 @@ def motion_of(layout):
     if "motion" not in layout.document["properties"]:
         return ()
     rules = layout.entries(layout.named("motion"))
-    return tuple((name, label_of(name), schema.description_of(rule), rows_of(rule, layout=layout))
+    return tuple((name, rule.get("title") or label_of(name), schema.description_of(rule), rows_of(rule, layout=layout))
                  for name, rule in ((name, layout.followed(rule)) for name, rule in rules.items()))
 
 

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/streams.h"
+
+#include <algorithm>
+
+namespace throng {
+namespace {
+
+constexpr bool isInOrder() {
+    for (std::size_t i = 0; i < kStreams.size(); ++i)
+        if (kStreams[i].id != static_cast<Stream>(i)) return false;
+    return true;
+}
+static_assert(isInOrder(), "kStreams has a row for each stream, in their order");
+
+}  // namespace
+
+StreamChoice streamsOf(bool has_terrain, const StreamChoice& asked) {
+    StreamChoice streams;
+    for (const StreamInfo& info : kStreams)
+        streams[info.id] = info.source == StreamSource::motion ||
+                           (info.source == StreamSource::terrain && has_terrain) ||
+                           (info.source == StreamSource::device && asked[info.id]);
+    return streams;
+}
+
+std::size_t countOf(const StreamChoice& streams) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(kStreams, [&](const StreamInfo& info) { return streams[info.id]; }));
+}
+
+std::string identityOf(const StreamChoice& asked) {
+    std::string names;
+    for (const StreamInfo& info : kStreams)
+        if (asked[info.id]) names.append(names.empty() ? "" : "+").append(info.name);
+    return names.empty() ? "false" : names == infoOf(Stream::density).name ? "true" : names;
+}
+
+}  // namespace throng

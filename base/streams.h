@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+
+/// The streams of a bake, each told once.
+///
+/// The device's frames, the recorder, the writers and readers, the manifest, `throng apply` and the options
+/// that ask for streams all follow kStreams; nothing else lists streams. All hold float32, three for each
+/// row.
+namespace throng {
+
+inline constexpr std::size_t kComponents = 3;  ///< point caches know no other number
+
+/// In the order of kStreams.
+enum class Stream { pos, dir, state, density, ground };
+
+/// What a row holds in the frames before it is first alive.
+enum class BackFill {
+    keep,         ///< what was written; it is zero for whoever is not there
+    first_alive,  ///< the value of the first frame in which the row is alive
+    zero,
+};
+
+/// What a row holds between two frames.
+enum class Between {
+    nearest,  ///< the value of the nearer frame
+    linear,
+    heading,  ///< the first two components are a direction, which turns the shorter way round
+};
+
+struct StreamComponent {
+    std::string_view name;
+    std::string_view unit;  ///< "1": none
+    BackFill before_entry;
+    Between between;
+    bool is_rate = false;  ///< grows with the pace of whoever lives faster, and is zero where time stands
+};
+
+/// What the first two components are in the plane.
+enum class InPlane {
+    nothing,
+    place,      ///< moves with its person, and with the origin
+    direction,  ///< turns with its person
+};
+
+/// Where the values come from, and so which bakes have the stream.
+enum class StreamSource {
+    motion,   ///< made of the simulated motion by recording/motion_recorder.h: every bake
+    terrain,  ///< likewise: every bake with a terrain
+    device,   ///< packed by a shader of its own and written as it is: bakes that are asked for it
+};
+
+/// One row of the table.
+struct StreamInfo {
+    Stream id;
+    std::string_view name;   ///< of its files, its entry in bake.json and the option that asks for it
+    std::string_view about;  ///< in words
+    std::array<StreamComponent, kComponents> components;
+    StreamSource source = StreamSource::motion;
+    InPlane in_plane = InPlane::nothing;
+    std::string_view shader = {};  ///< of a stream from the device: fills the block StreamBlock, row by row
+    bool needs_diagram = false;    ///< that shader reads the frame's diagram: how many pixels each row owns
+};
+
+inline constexpr std::array kStreams = {
+    StreamInfo{.id = Stream::pos,
+               .name = "pos",
+               .about = "where everybody is",
+               .components = {{{"x", "m", BackFill::first_alive, Between::linear},
+                               {"y", "m", BackFill::first_alive, Between::linear},
+                               {"z", "m", BackFill::first_alive, Between::linear}}},
+               .in_plane = InPlane::place},
+    StreamInfo{.id = Stream::dir,
+               .name = "dir",
+               .about = "which way everybody faces, and how fast it goes",
+               .components = {{{"cos_heading", "1", BackFill::first_alive, Between::heading},
+                               {"sin_heading", "1", BackFill::first_alive, Between::heading},
+                               {"speed", "m/s", BackFill::zero, Between::linear, true}}},
+               .in_plane = InPlane::direction},
+    StreamInfo{.id = Stream::state,
+               .name = "state",
+               .about = "what everybody does, its looks, and its pose",
+               .components = {{{"activity", "1", BackFill::keep, Between::nearest},
+                               {"variation", "1", BackFill::first_alive, Between::nearest},
+                               {"phase", "cycles", BackFill::first_alive, Between::linear}}}},
+    StreamInfo{.id = Stream::density,
+               .name = "density",
+               .about = "persons per square metre by the area of each person's cell",
+               .components = {{{"density", "1/m^2", BackFill::keep, Between::linear},
+                               {"area", "m^2", BackFill::keep, Between::linear},
+                               {"share", "1", BackFill::keep, Between::linear}}},
+               .source = StreamSource::device,
+               .shader = "shaders/frame/pack_density.comp",
+               .needs_diagram = true},
+    StreamInfo{.id = Stream::ground,
+               .name = "ground",
+               .about = "how the ground under everybody's feet slopes, and how high it is",
+               .components = {{{"slope_along", "1", BackFill::first_alive, Between::linear},
+                               {"slope_across", "1", BackFill::first_alive, Between::linear},
+                               {"height", "m", BackFill::first_alive, Between::linear}}},
+               .source = StreamSource::terrain},
+};
+
+/// Something for each stream.
+template <class T>
+class PerStream {
+  public:
+    T& operator[](Stream stream) { return values_[static_cast<std::size_t>(stream)]; }
+    const T& operator[](Stream stream) const { return values_[static_cast<std::size_t>(stream)]; }
+    bool operator==(const PerStream&) const = default;
+
+  private:
+    std::array<T, kStreams.size()> values_{};
+};
+
+/// Some of the streams.
+using StreamChoice = PerStream<bool>;
+
+constexpr const StreamInfo& infoOf(Stream stream) {
+    return kStreams[static_cast<std::size_t>(stream)];
+}
+
+/// The streams of a bake.
+/// @param asked of those from the device
+StreamChoice streamsOf(bool has_terrain, const StreamChoice& asked);
+
+std::size_t countOf(const StreamChoice& streams);
+
+/// What hashes of inputs take of the streams asked for: the same as before there was another than `density`.
+std::string identityOf(const StreamChoice& asked);
+
+/// The values of one row.
+template <class Value>
+std::span<Value, kComponents> rowOf(std::span<Value> values, std::size_t row) {
+    return values.subspan(row * kComponents).template first<kComponents>();
+}
+
+}  // namespace throng
