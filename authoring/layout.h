@@ -36,6 +36,7 @@ struct Distribution {
     double standard_deviation = 0.0;  ///< normal; of the logarithm for log_normal
     double minimum = 0.0;
     double maximum = 0.0;
+    bool operator==(const Distribution&) const = default;
 };
 
 /// How a person differs from the next. Speeds in m/s, lengths in metres.

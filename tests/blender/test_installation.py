@@ -2,16 +2,21 @@
 """The add-on as it is installed: as a zip, and as an extension."""
 import subprocess
 import sys
+import zipfile
 
 import pytest
 
 from conftest import ROOT
-from results import ADDON
 
 
-def test_the_zip_installs(blender, tmp_path):
-    archive = tmp_path / "throng.zip"
-    subprocess.run([sys.executable, str(ROOT / "scripts" / "build_addon.py"), str(archive)], check=True)
+@pytest.fixture
+def archive(tmp_path):
+    packed = tmp_path / "throng.zip"
+    subprocess.run([sys.executable, str(ROOT / "scripts" / "build_addon.py"), str(packed)], check=True)
+    return packed
+
+
+def test_the_zip_installs(blender, archive, tmp_path):
     script = tmp_path / "install.py"
     script.write_text("""
 import bpy, sys
@@ -23,16 +28,24 @@ assert hasattr(bpy.types, 'IMPORT_SCENE_OT_throng')
                                           "BLENDER_USER_CONFIG": str(tmp_path / "config")})
 
 
-def test_the_extension_builds_and_is_valid(tmp_path):
-    """With the tool of the current Blender's own distribution."""
+def test_the_zip_is_an_extension(archive, tmp_path):
+    """By the tool of the current Blender's own distribution; what it builds from the zip's folder is one, too."""
     python = ROOT / "build" / "bpy" / "bin" / "python"
     tools = sorted(python.parent.parent.glob(
         "lib/python*/site-packages/bpy/*/scripts/addons_core/bl_pkg/cli/blender_ext.py"))
     if not tools:
         pytest.skip("the Python module bpy is not installed (scripts/test does)")
-    run = lambda *words: subprocess.run([python, tools[-1], *words], capture_output=True, text=True)
-    built = run("build", "--source-dir", ADDON / "throng", "--output-dir", tmp_path)
-    assert built.returncode == 0, built.stdout + built.stderr
-    packed = next(tmp_path.glob("throng-*.zip"))
-    checked = run("validate", packed)
-    assert checked.returncode == 0 and "Success" in checked.stdout, checked.stdout + checked.stderr
+
+    def run(*words):
+        done = subprocess.run([python, tools[-1], *words], capture_output=True, text=True)
+        assert done.returncode == 0 and "rror" not in done.stdout, done.stdout + done.stderr
+        return done.stdout
+
+    assert "Success" in run("validate", archive)
+    with zipfile.ZipFile(archive) as packed:
+        packed.extractall(tmp_path)
+    run("build", "--source-dir", tmp_path / "throng", "--output-dir", tmp_path)
+    built = next(tmp_path.glob("throng-*.zip"))
+    assert "Success" in run("validate", built)
+    with zipfile.ZipFile(built) as extension:
+        assert "authoring/throng-layout.schema.json" in extension.namelist()

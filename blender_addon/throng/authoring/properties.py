@@ -10,6 +10,7 @@ from bpy.props import (BoolProperty, CollectionProperty, EnumProperty, FloatProp
 
 from . import display, fields
 from .codecs import GROUPS, MIX, PROFILES, UNSET, Flag, Whole
+from .fields import limits
 
 KINDS = (("NONE", "None", "No part of the layout"), ("ROAD", "Road", "A curve with a width, on which people walk"),
          ("AREA", "Area", "A cyclic curve or a mesh: a plaza, an entry, an exit"),
@@ -64,9 +65,9 @@ class ThrongPeople(bpy.types.PropertyGroup):
     radius: PointerProperty(type=ThrongDistribution, name="Radius", description="Body radius, m")
     reaction: PointerProperty(type=ThrongDistribution, name="Reaction",
                               description="How long people take to set off when an event sends them away, s")
-    maximum_speed_factor: FloatProperty(name="Hurry", default=1.4, soft_min=1.0, soft_max=3.0,
+    maximum_speed_factor: FloatProperty(name="Hurry", **limits("people", "maximum_speed_factor"),
                                         description="Highest speed as a multiple of the preferred one")
-    headway: FloatProperty(name="Headway", default=0.0, soft_min=0.0, soft_max=5.0,
+    headway: FloatProperty(name="Headway", **limits("people", "headway"),
                            description="Free way kept to those walked behind, s")
     profile: EnumProperty(name="Profile", items=_words(PROFILES, "Default") + [(MIX, "Mix", "Several, by weight")])
     profile_weights: FloatVectorProperty(name="Weights", size=4, default=(1.0, 0.0, 0.0, 0.0), soft_min=0.0,
@@ -105,7 +106,7 @@ class ThrongStop(bpy.types.PropertyGroup):
                             description="What people look at")
     line: PointerProperty(type=bpy.types.Object, name="Line", poll=_is_kind("LINE"),
                           description="Where people queue, from the front on")
-    spacing: FloatProperty(name="Spacing", default=0.8, soft_min=0.4, soft_max=10.0,
+    spacing: FloatProperty(name="Spacing", **limits("stop", "spacing"),
                            description="Queue: metres from one to the next")
 
 
@@ -131,11 +132,11 @@ class ThrongFlow(bpy.types.PropertyGroup):
     active_stop: IntProperty()
     amount: EnumProperty(name="How Many", items=[("COUNT", "Count", "People in all, spread evenly"),
                                                  ("RATE", "Rate", "People a second, at random moments")])
-    count: IntProperty(name="People", default=100, soft_min=0, soft_max=4000000)
-    rate: FloatProperty(name="People/s", default=1.0, soft_min=0.0, soft_max=1000.0)
-    start: FloatProperty(name="Start", soft_min=0.0, description="When the first come, s")
+    count: IntProperty(name="People", **limits("flow", "count"))
+    rate: FloatProperty(name="People/s", **limits("flow", "rate", soft_max=1000.0))
+    start: FloatProperty(name="Start", **limits("flow", "start"), description="When the first come, s")
     use_end: BoolProperty(name="End", description="Otherwise people come until the shot ends")
-    end: FloatProperty(name="End", default=60.0, soft_min=0.0, description="When the last come, s")
+    end: FloatProperty(name="End", **limits("flow", "end"), description="When the last come, s")
     people: PointerProperty(type=ThrongPeople)
     arrival: EnumProperty(name="Arrival", items=_ARRIVAL)
 
@@ -150,14 +151,14 @@ class ThrongEvent(bpy.types.PropertyGroup):
                                            ("close", "Close", "A wall is there from now on"),
                                            ("go_to", "Go to", "People leave what they do and go there"),
                                            ("flow", "Flow", "A flow changes its rate")])
-    time: FloatProperty(name="At", soft_min=0.0, description="When, s")
+    time: FloatProperty(name="At", **limits("event", "at"), description="When, s")
     wall: PointerProperty(type=bpy.types.Object, name="Wall", poll=_is_kind("WALL"))
     text: StringProperty(name="By Name", description="A wall that is no object of this scene")
     destination: PointerProperty(type=ThrongDestination)
     who: CollectionProperty(type=ThrongMember)
     arrival: EnumProperty(name="Arrival", items=_ARRIVAL)
     flow: StringProperty(name="Flow")
-    rate: FloatProperty(name="People/s", default=1.0, soft_min=0.0)
+    rate: FloatProperty(name="People/s", **limits("event", "rate", soft_max=1000.0))
 
 
 class ThrongBar(bpy.types.PropertyGroup):
@@ -173,21 +174,25 @@ class ThrongFormation(bpy.types.PropertyGroup):
                        items=[("circle", "Circle", "Evenly on a circle, everybody's goal the opposite point"),
                               ("grid", "Grid", "Rows and columns"),
                               ("agents", "List", "An edge for each person, from where they stand to their goal")])
-    radius: FloatProperty(name="Radius", default=10.0, soft_min=0.1, subtype="DISTANCE", update=_refresh)
-    count: IntProperty(name="People", default=64, soft_min=1, update=_refresh)
+    radius: FloatProperty(name="Radius", **limits("formation", "radius", soft_min=0.1), subtype="DISTANCE",
+                          update=_refresh)
+    count: IntProperty(name="People", **limits("formation", "count"), update=_refresh)
     use_ring_spacing: BoolProperty(name="Rings", update=_refresh)
-    ring_spacing: FloatProperty(name="Ring Spacing", default=1.5, soft_min=0.1, subtype="DISTANCE", update=_refresh,
+    ring_spacing: FloatProperty(name="Ring Spacing", **limits("formation", "ring_spacing", soft_min=0.1),
+                                subtype="DISTANCE", update=_refresh,
                                 description="Further rings outside the first, this far apart")
     use_along: BoolProperty(name="Along", update=_refresh)
-    along: FloatProperty(name="Along", default=1.5, soft_min=0.1, subtype="DISTANCE", update=_refresh,
+    along: FloatProperty(name="Along", **limits("formation", "along", soft_min=0.1), subtype="DISTANCE",
+                         update=_refresh,
                          description="Between neighbours on a ring")
-    rows: IntProperty(name="Rows", default=8, soft_min=1, update=_refresh)
-    columns: IntProperty(name="Columns", default=8, soft_min=1, update=_refresh)
+    rows: IntProperty(name="Rows", **limits("formation", "rows"), update=_refresh)
+    columns: IntProperty(name="Columns", **limits("formation", "columns"), update=_refresh)
     use_people_count: BoolProperty(name="Fewer", update=_refresh)
-    people_count: IntProperty(name="People", default=64, soft_min=1, update=_refresh,
+    people_count: IntProperty(name="People", **limits("formation", "count"), update=_refresh,
                               description="At most this many, column by column")
-    spacing: FloatProperty(name="Spacing", default=1.0, soft_min=0.1, subtype="DISTANCE", update=_refresh)
-    jitter: FloatProperty(name="Jitter", soft_min=0.0, subtype="DISTANCE",
+    spacing: FloatProperty(name="Spacing", **limits("formation", "spacing", soft_min=0.1), subtype="DISTANCE",
+                           update=_refresh)
+    jitter: FloatProperty(name="Jitter", **limits("formation", "jitter"), subtype="DISTANCE",
                           description="Each coordinate moves by up to this much (not shown)")
     goal_kind: EnumProperty(name="Goal", items=[("PLACE", "Places", "One place, the nearest, or a choice"),
                                                 ("OFFSET", "Offset", "Everybody's position plus this"),
@@ -196,12 +201,12 @@ class ThrongFormation(bpy.types.PropertyGroup):
     goal: PointerProperty(type=ThrongDestination)
     goal_offset: FloatVectorProperty(name="Offset", size=2, subtype="XYZ")
     goal_line: PointerProperty(type=bpy.types.Object, name="Line", poll=_is_kind("LINE"))
-    start: FloatProperty(name="Start", soft_min=0.0, description="When they appear, s")
+    start: FloatProperty(name="Start", **limits("formation", "start"), description="When they appear, s")
     wait: PointerProperty(type=ThrongDistribution, name="Wait",
                           description="How long people stand before they set off, s")
     people: PointerProperty(type=ThrongPeople)
     arrival: EnumProperty(name="Arrival", items=_ARRIVAL, default="stay")
-    goal_tolerance: FloatProperty(name="Goal Tolerance", default=0.3, soft_min=0.01,
+    goal_tolerance: FloatProperty(name="Goal Tolerance", **limits("formation", "goal_tolerance"),
                                   description="This near to a point goal is arrived, m")
 
 
@@ -212,12 +217,10 @@ class ThrongObject(bpy.types.PropertyGroup):
     raw: StringProperty(options={"HIDDEN"})
     imported_name: StringProperty(options={"HIDDEN"})
     order: IntProperty(options={"HIDDEN"}, default=2**30)
-    width: FloatProperty(name="Width", default=3.0, soft_min=0.5, soft_max=1000.0, subtype="DISTANCE", update=_refresh)
+    width: FloatProperty(name="Width", **limits("road", "width"), subtype="DISTANCE", update=_refresh)
     one_way: BoolProperty(name="One Way", update=_refresh, description="Walked from the first point to the last only")
-    thickness: FloatProperty(name="Thickness", default=0.2, soft_min=0.0, soft_max=100.0, subtype="DISTANCE",
-                             update=_refresh)
-    height: FloatProperty(name="Height", default=3.0, soft_min=0.01, soft_max=1000.0, subtype="DISTANCE",
-                          update=_refresh)
+    thickness: FloatProperty(name="Thickness", **limits("wall", "thickness"), subtype="DISTANCE", update=_refresh)
+    height: FloatProperty(name="Height", **limits("wall", "height"), subtype="DISTANCE", update=_refresh)
     formation: PointerProperty(type=ThrongFormation)
 
 
