@@ -6,7 +6,8 @@
 
 namespace throng::authoring {
 
-/// A bar that a layout sets itself: what `throng measure` finds has to lie within. The schema has the figures.
+/// A bar that a layout sets itself: what `throng measure` finds has to lie within. The schema has the
+/// figures.
 struct Expectation {
     std::string figure;
     std::optional<double> minimum;
