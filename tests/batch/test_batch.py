@@ -358,12 +358,12 @@ def test_parts_of_a_batch_make_the_whole(throng, tmp_path):
 
 
 def test_nothing_is_begun_that_would_not_end_in_time(throng, tmp_path):
-    plan = family(tmp_path, base=LONGER, axes=[{"set": "/simulation/seed", "range": [1, 60]}])
+    plan = family(tmp_path, base=LONGER, axes=[{"set": "/simulation/seed", "range": [1, 200]}])
     started = time.time()
-    throng("batch", plan, "-o", tmp_path / "out", "-q", "--time-limit", "0.05", expect=85)
-    assert time.time() - started < 12
+    throng("batch", plan, "-o", tmp_path / "out", "-q", "--time-limit", "0.1", expect=85)
+    assert time.time() - started < 15
     done = rows(tmp_path / "out", "SELECT * FROM scenarios WHERE status = 'ok'")
-    assert 0 < len(done) < 60
+    assert 0 < len(done) < 200
 
 
 def test_a_folder_of_something_else_is_left_alone(throng, tmp_path):
