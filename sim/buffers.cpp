@@ -178,7 +178,7 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
     row_cells = gl::Buffer("row cells", kWord * rows);
     row_cells.fill(gpu::NO_INDEX);
     loose_rows = gl::Buffer("loose rows", kWord * rows);
-    live_dispatch = gl::Buffer("live dispatch", kWord * 4);
+    live_dispatch = zeros("live dispatch", 4);
 
     site_slots = gl::makeBuffer("site slots", initialSiteSlots(scene));
     bodies = gl::Buffer("bodies", sizeof(gpu::Body) * rows);
