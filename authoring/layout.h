@@ -13,6 +13,7 @@
 
 #include "authoring/diagram_method.h"
 #include "authoring/expectation.h"
+#include "base/motion_settings.h"
 
 /// What a layout file says, checked but not yet interpreted. World coordinates: metres, double precision,
 /// X east, Y north, Z up. Angles in degrees, counter-clockwise from +X. Times in seconds from the first
@@ -35,6 +36,7 @@ struct Distribution {
     double standard_deviation = 0.0;  ///< normal; of the logarithm for log_normal
     double minimum = 0.0;
     double maximum = 0.0;
+    bool operator==(const Distribution&) const = default;
 };
 
 /// How a person differs from the next. Speeds in m/s, lengths in metres.
@@ -102,11 +104,12 @@ struct SimulationSettings {
     double wall_time_horizon = 0.6;            ///< s, [0.05, 20]: how far ahead people avoid walls
     double contact_range = 1.0;  ///< m, [0.5, 3]: those nearer than this are felt whatever the field of view
     int contact_iterations = 8;  ///< [1, 32]: rounds per step that keep bodies apart
-    /// s, [0, 1]: what is recorded is averaged over nearly as much before and after (io/motion); 0: not at
+    /// s, [0, 1]: what is recorded is averaged over nearly as much before and after (recording/); 0: not at
     /// all
     double smoothing = 0.25;
     bool avoid_congestion = true;       ///< routes lead round jams, as far as people could see them coming
     double maximum_acceleration = 4.0;  ///< m/s^2, [0.1, 100]
+    MotionSettings motion;              ///< the layout's `motion`
 };
 
 struct Road {

@@ -4,16 +4,13 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
 
-#include "analysis/plot/line_plot.h"
 #include "base/files/output_file.h"
 
 namespace throng::cli {
 namespace {
 
-/// Table 1 of De Gyves, Toledo and Rudomin 2013: ms per diagram of 1,024 x 1,024 on a GeForce GT 540M. Empty:
-/// not given.
+/// Table 1 of De Gyves, Toledo and Rudomin 2013: ms per diagram of 1,024 x 1,024 on a GeForce GT 540M.
 struct PaperRow {
     const char* method;
     std::array<double, 5> milliseconds;  // 2^8, 2^12, 2^14, 2^16, 2^20 sites
@@ -99,7 +96,7 @@ std::string diagramMarkdown(const DiagramReport& report) {
         "Made by `throng bench diagrams`. Sites thrown at random over 1,024 x 1,024 px; r is the tile radius "
         "in px. All methods\n"
         "of a column ran in turn, round by round. A dash: left out, because it would have taken minutes.\n\n"
-        "![time over sites](diagrams.png)\n\n## Milliseconds: median (10th to 90th percentile)\n\n";
+        "## Milliseconds: median (10th to 90th percentile)\n\n";
     text += table("method", columns, methods, cellOf([](const sim::DiagramTiming& timing) {
                       return fmt::format("{} ({}-{})", milliseconds(timing.median_ms),
                                          milliseconds(timing.low_ms), milliseconds(timing.high_ms));
@@ -152,44 +149,6 @@ std::string diagramCsv(const DiagramReport& report) {
     return text;
 }
 
-analysis::LinePlot diagramPlot(const DiagramReport& report) {
-    analysis::LinePlot plot;
-    plot.title = "Truncated Voronoi diagram, 1,024 x 1,024 pixels";
-    plot.note =
-        report.machine.device.name + "; median. Dashed: the figures of De Gyves et al. 2013 (GT 540M)";
-    plot.x = {"sites", true, 0.0, 0.0};
-    plot.y = {"milliseconds", true, 0.0, 0.0};
-    plot.height = 860;
-    // A line a method; what differs little from it, or is made of it, stands in the tables.
-    const std::array shown = {"cones",    "gradient1", "gradient2", "per-pixel",
-                              "per-site", "jfa",       "jfa-r",     "binned"};
-    for (std::size_t k = 0; k < shown.size(); ++k)
-        for (std::size_t j = 0; j < report.contestants.size(); ++j) {
-            const std::string& name = report.contestants[j].name;
-            if (name.substr(0, name.find(", 16")) != shown[k]) continue;
-            analysis::PlotSeries series;
-            series.name = name;
-            series.colour = static_cast<int>(k);
-            for (std::size_t i = 0; i < report.cases.size(); ++i)
-                if (report.timings[i][j])
-                    series.points.emplace_back(report.cases[i].sites, report.timings[i][j]->median_ms);
-            plot.series.push_back(std::move(series));
-        }
-    for (const PaperRow& row : kPaper) {
-        analysis::PlotSeries series;
-        series.name = std::string(row.method) + " (2013)";
-        series.dashed = true;
-        series.markers = false;
-        for (std::size_t k = 0; k < shown.size(); ++k)
-            if (std::string_view(row.method) == shown[k]) series.colour = static_cast<int>(k);
-        for (std::size_t i = 0; i < kPaperSites.size(); ++i)
-            if (row.milliseconds[i] != kNotGiven)
-                series.points.emplace_back(kPaperSites[i], row.milliseconds[i]);
-        plot.series.push_back(std::move(series));
-    }
-    return plot;
-}
-
 struct ProximityWay {
     const char* name;
     std::optional<sim::ProximityTiming> sim::ProximityRow::*timing;
@@ -221,7 +180,7 @@ std::string proximityMarkdown(const ProximityReport& report) {
         "person (as Bleiweiss\n"
         "2009), `brute` compares all with all. Sorting people into cells, which all need for contact, is not "
         "counted.\n\n"
-        "![time over people](proximity.png)\n\n## Finding neighbours, ms a step (median)\n\n",
+        "## Finding neighbours, ms a step (median)\n\n",
         s.spacing * s.spacing, s.body_radius, s.tile_radius, s.field_of_view, s.samples_per_ray,
         s.neighbours);
     text += table("way", columns, ways,
@@ -251,26 +210,11 @@ std::string proximityCsv(const ProximityReport& report) {
 void writeDiagramReport(const std::filesystem::path& folder, const DiagramReport& report) {
     writeText(folder / "diagrams.md", diagramMarkdown(report));
     writeText(folder / "diagrams.csv", diagramCsv(report));
-    analysis::writeLinePlot(folder / "diagrams.png", diagramPlot(report));
 }
 
 void writeProximityReport(const std::filesystem::path& folder, const ProximityReport& report) {
     writeText(folder / "proximity.md", proximityMarkdown(report));
     writeText(folder / "proximity.csv", proximityCsv(report));
-    analysis::LinePlot plot;
-    plot.title = "Finding neighbours";
-    plot.note = report.machine.device.name + "; milliseconds a step, median; sorting into cells not counted";
-    plot.x = {"people", true, 0.0, 0.0};
-    plot.y = {"milliseconds", true, 0.0, 0.0};
-    for (const ProximityWay& way : kWays) {
-        analysis::PlotSeries series;
-        series.name = way.name;
-        for (const sim::ProximityRow& row : report.rows)
-            if (const auto& timing = row.*way.timing)
-                series.points.emplace_back(row.people, timing->search_ms);
-        plot.series.push_back(std::move(series));
-    }
-    analysis::writeLinePlot(folder / "proximity.png", plot);
 }
 
 }  // namespace throng::cli

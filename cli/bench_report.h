@@ -29,7 +29,7 @@ struct DiagramReport {
     std::size_t yardstick = 0;  ///< among the contestants
 };
 
-/// diagrams.md, diagrams.csv and diagrams.png. Throws OutputError.
+/// diagrams.md and diagrams.csv. Throws OutputError.
 void writeDiagramReport(const std::filesystem::path& folder, const DiagramReport& report);
 
 struct ProximityReport {
@@ -38,7 +38,7 @@ struct ProximityReport {
     std::vector<sim::ProximityRow> rows;
 };
 
-/// proximity.md, proximity.csv and proximity.png. Throws OutputError.
+/// proximity.md and proximity.csv. Throws OutputError.
 void writeProximityReport(const std::filesystem::path& folder, const ProximityReport& report);
 
 }  // namespace throng::cli

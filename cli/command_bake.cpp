@@ -69,12 +69,10 @@ void printResult(const io::BakeResult& result, const Account& account, const io:
     if (result.diagrams) fmt::print("{} diagram images\n", result.diagrams);
 }
 
-}  // namespace
-
-namespace {
 std::string outputOf(const LoadedLayout& loaded, const BakeRequest& options) {
     return options.bake.output.empty() ? loaded.layout.name : options.bake.output;
 }
+
 }  // namespace
 
 void bakeLayout(const BakeRequest& options) {

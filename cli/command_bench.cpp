@@ -78,7 +78,7 @@ void runDiagrams(const Options& options) {
     }
     context.check("timing diagrams");
     writeDiagramReport(options.output, report);
-    fmt::print("{}/diagrams.md, .csv, .png\n", options.output);
+    fmt::print("{}/diagrams.md, .csv\n", options.output);
 }
 
 void runProximity(const Options& options) {
@@ -101,7 +101,7 @@ void runProximity(const Options& options) {
     }
     context.check("timing sensing");
     writeProximityReport(options.output, report);
-    fmt::print("{}/proximity.md, .csv, .png\n", options.output);
+    fmt::print("{}/proximity.md, .csv\n", options.output);
 }
 
 struct StepOptions {
@@ -177,7 +177,7 @@ CLI::App* addKind(CLI::App& bench, const char* name, const char* what, void (*ru
 }  // namespace
 
 void addBench(CLI::App& app) {
-    CLI::App* bench = app.add_subcommand("bench", "Time this device: Markdown, CSV and a plot");
+    CLI::App* bench = app.add_subcommand("bench", "Time this device: Markdown and CSV");
     bench->require_subcommand(1);
     addKind(*bench, "diagrams", "Every way to build the diagram, beside the paper's Table 1", runDiagrams);
     addKind(*bench, "proximity", "Finding neighbours by the diagram, by a grid, and by comparing everybody",

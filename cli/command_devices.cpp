@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "cli/passes_table.h"
 #include "cli/terminal/exit_codes.h"
 #include "sim/gl/context.h"
 
@@ -45,8 +46,21 @@ void addDevices(CLI::App& app) {
     CLI::App* command = app.add_subcommand("devices", "List the devices that can run a bake (see --device)");
     auto as_json = std::make_shared<bool>(false);
     command->add_flag("--json", *as_json, "Print a JSON document");
-    command->footer("Example:\n  throng devices");
-    command->callback([as_json] { run(*as_json); });
+    auto layout = std::make_shared<std::string>();
+    CLI::Option* passes =
+        command
+            ->add_option(
+                "--passes", *layout,
+                "Instead: what the passes of a step read and write, for this layout or a small crowd")
+            ->type_name("[LAYOUT]")
+            ->expected(0, 1);
+    command->footer("Example:\n  throng devices\n  throng devices --passes examples/station.json");
+    command->callback([as_json, layout, passes] {
+        if (passes->count() > 0)
+            printPasses(*layout, *as_json);
+        else
+            run(*as_json);
+    });
 }
 
 }  // namespace throng::cli

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# throng_cut_text(TEXT TAG OUT): TEXT as raw string literals with the delimiter TAG, cut below the compilers' limit for one.
+# throng_cut_text(TEXT TAG OUT): TEXT as raw string literals with the delimiter TAG, none too long for compilers.
 function(throng_cut_text text tag out)
     string(LENGTH "${text}" length)
     set(pieces "")

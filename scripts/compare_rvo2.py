@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Times whole steps of Throng and of RVO2 (pyrvo) in turn, over the same crowd, and writes a table.
+"""Times whole steps of Throng and of RVO2 (pyrvo) in turn, over the same crowd, and prints tables.
 
-Usage: compare_rvo2.py THRONG -o FOLDER [--people 4096 16384 ...] [--rounds 15]   (needs numpy and pyrvo)
+Usage: compare_rvo2.py THRONG [--people 4096 16384 ...] [--rounds 15]   (needs pyrvo; `scripts/figures rvo2` runs it)
 """
 import argparse
 import csv
 import os
-import pathlib
 import statistics
 import subprocess
 import tempfile
@@ -31,7 +30,8 @@ class Throng:
 
     def __init__(self, program, people, proximity, crowd=None):
         command = [program, "bench", "step", "--people", str(people), "--proximity", proximity]
-        self.process = subprocess.Popen(command + (["--crowd", crowd] if crowd else []), stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        command += ["--crowd", crowd] if crowd else []
+        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         self.device = self.process.stdout.readline().strip()
 
     def step(self):
@@ -101,9 +101,9 @@ def compare(program, people, rounds, folder):
 
 
 def flatness(program, counts, rounds):
-    """What a person costs in crowds of several sizes, taken in turn, as the machine is now faster and now slower: {proximity: {count: (us, ratio)}}.
+    """What a person costs in crowds of several sizes, taken in turn, as the machine is now faster and now slower.
 
-    The ratio to the smallest crowd's is the median over the rounds.
+    @returns {proximity: {count: (us, ratio)}}; the ratio to the smallest crowd's is the median over the rounds
     """
     result = {}
     for name, proximity in (("diagram", "voronoi"), ("grid", "grid")):
@@ -117,7 +117,8 @@ def flatness(program, counts, rounds):
         for crowd in crowds.values():
             crowd.close()
         base = costs[counts[0]]
-        result[name] = {people: (statistics.median(costs[people]), statistics.median(cost / least for cost, least in zip(costs[people], base)))
+        ratios = {people: [cost / least for cost, least in zip(costs[people], base)] for people in counts}
+        result[name] = {people: (statistics.median(costs[people]), statistics.median(ratios[people]))
                         for people in counts}
     return result
 
@@ -127,19 +128,23 @@ def flatness_table(found):
     lines = ["| people | " + " | ".join(f"{people:,}" for people in counts) + " |", "| --- |" + " --- |" * len(counts)]
     for name, costs in found.items():
         lines.append(f"| {name}, us a person | " + " | ".join(f"{costs[people][0]:.3f}" for people in counts) + " |")
-        lines.append(f"| {name}, beside {counts[0]:,} | " + " | ".join(f"{100.0 * (costs[people][1] - 1.0):+.0f} %" for people in counts) + " |")
+        beside = [f"{100.0 * (costs[people][1] - 1.0):+.0f} %" for people in counts]
+        lines.append(f"| {name}, beside {counts[0]:,} | " + " | ".join(beside) + " |")
     return "\n".join(lines)
 
 
 def table(results, base_memory):
-    lines = ["| people | Throng, diagram | Throng, grid | RVO2 | diagram / RVO2 | grid / RVO2 | us a person: diagram | grid | RVO2 | KiB a person: diagram | grid | RVO2 |",
+    lines = ["| people | Throng, diagram | Throng, grid | RVO2 | diagram / RVO2 | grid / RVO2 | "
+             "us a person: diagram | grid | RVO2 | KiB a person: diagram | grid | RVO2 |",
              "| --- |" + " --- |" * 11]
     for r in results:
         ms, n = r["ms"], r["people"]
         each = [f"{1000 * ms[k] / n:.3f}" for k in ("diagram", "grid", "RVO2")]
-        kib = [f"{(r['memory'][k] - base_memory[k]) / n:.2f}" for k in ("diagram", "grid")] + [f"{r['memory']['RVO2'] / n:.2f}"]
-        lines.append(f"| {n:,} | {ms['diagram']:.2f} | {ms['grid']:.2f} | {ms['RVO2']:.2f} | {ms['diagram'] / ms['RVO2']:.2f} | {ms['grid'] / ms['RVO2']:.2f} | "
-                     + " | ".join(each) + " | " + " | ".join(kib) + " |")
+        kib = [f"{(r['memory'][k] - base_memory[k]) / n:.2f}" for k in ("diagram", "grid")]
+        kib.append(f"{r['memory']['RVO2'] / n:.2f}")
+        whole = [f"{ms[k]:.2f}" for k in ("diagram", "grid", "RVO2")]
+        ratios = [f"{ms[k] / ms['RVO2']:.2f}" for k in ("diagram", "grid")]
+        lines.append(f"| {n:,} | " + " | ".join(whole + ratios + each + kib) + " |")
     return "\n".join(lines)
 
 
@@ -154,32 +159,30 @@ def base_memory_of(program):
     return base
 
 
+def tables(results, base_memory, flat, rounds):
+    """What docs/benchmarks/llvmpipe/rvo2.md holds."""
+    version, threads = pyrvo_version(), results[0]["threads"]
+    return f"""RVO2 through pyrvo {version}, threads in its process: {threads}. Medians of {rounds} rounds, ms a step.
+
+{table(results, base_memory)}
+
+**How flat it is.** Whole steps of crowds of several sizes in turn, {rounds} rounds; ratios are medians over the rounds.
+
+{flatness_table(flat)}"""
+
+
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
-    parser.add_argument("-o", "--output", type=pathlib.Path, required=True)
     parser.add_argument("--people", type=int, nargs="+", default=[4096, 16384, 65536, 262144, 1048576])
     parser.add_argument("--rounds", type=int, default=15)
     options = parser.parse_args()
     base_memory_of(options.program)  # fills the driver's cache of shaders: compiling takes memory, too
     with tempfile.TemporaryDirectory() as folder:
         results = [compare(options.program, people, options.rounds, folder) for people in options.people]
-    text = f"""# Whole steps beside RVO2
-
-{results[0]["device"]}, {os.cpu_count()} processor cores; RVO2 through pyrvo {pyrvo_version()}, {results[0]["threads"]} threads in its process. Made by `scripts/compare_rvo2.py`.
-The same crowd for all: one person per 4 m^2 on its way to a random goal, body radius 0.3 m, {NEIGHBOURS} neighbours within {SIGHT} m, horizon {HORIZON:g} s. Medians of
-{options.rounds} rounds, all three in turn, ms a step. Throng's step is everything from sorting to contact; RVO2's is `do_step` alone, without setting preferred velocities.
-Memory is the resident set of the process less that of the same program with one person (RVO2: what its agents added).
-
-{table(results, base_memory_of(options.program))}
-
-**How flat it is.** Whole steps of crowds of several sizes in turn, {options.rounds} rounds; ratios are medians over the rounds.
-
-{flatness_table(flatness(options.program, [people for people in options.people if people >= 16384] or options.people[:1], options.rounds))}
-"""
-    options.output.mkdir(parents=True, exist_ok=True)
-    (options.output / "rvo2.md").write_text(text)
-    print(text)
+    large = [people for people in options.people if people >= 16384] or options.people[:1]
+    flat = flatness(options.program, large, options.rounds)
+    print(tables(results, base_memory_of(options.program), flat, options.rounds))
 
 
 def pyrvo_version():
@@ -187,4 +190,5 @@ def pyrvo_version():
     return version("pyrvo")
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -1,6 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes a batch's results as Parquet or Arrow. Usage: export_batch.py BATCH FILE.parquet|FILE.arrow   (needs pyarrow)"""
+"""Writes a batch's results as Parquet or Arrow.
+
+Usage: export_batch.py BATCH FILE.parquet|FILE.arrow   (needs pyarrow)
+"""
 import pathlib
 import sqlite3
 import sys

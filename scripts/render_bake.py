@@ -2,7 +2,8 @@
 """Imports a bake with the add-on of this checkout and renders a still, without a display.
 
 blender -b --factory-startup --python-exit-code 1 -P scripts/render_bake.py -- BAKE OUT.png [--frame N] [--samples N]
-        [--width W] [--height H] [--engine cycles|eevee|workbench] [--shot crane|street|wide] [--light day|night] [--levels] [--save FILE.blend]
+        [--width W] [--height H] [--engine cycles|eevee|workbench] [--shot crane|street|wide] [--light day|night]
+        [--levels] [--save FILE.blend]
 """
 import argparse
 import os
@@ -30,11 +31,15 @@ def arguments():
     return parser.parse_args(sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else [])
 
 
+ENGINES = {"cycles": ("CYCLES",), "eevee": ("BLENDER_EEVEE_NEXT", "BLENDER_EEVEE"), "workbench": ("BLENDER_WORKBENCH",)}
+
+
 def set_up_render(scene, options):
-    engines = {"cycles": ("CYCLES",), "eevee": ("BLENDER_EEVEE_NEXT", "BLENDER_EEVEE"), "workbench": ("BLENDER_WORKBENCH",)}[options.engine]
+    engines = ENGINES[options.engine]
     known = bpy.types.RenderSettings.bl_rna.properties["engine"].enum_items.keys()
     scene.render.engine = next((name for name in engines if name in known), engines[-1])
-    scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = options.width, options.height, 100
+    scene.render.resolution_x, scene.render.resolution_y = options.width, options.height
+    scene.render.resolution_percentage = 100
     scene.render.image_settings.file_format = "PNG"
     scene.render.use_persistent_data = False
     for flag in [name for name in dir(scene.render) if name.startswith("use_stamp_")]:
@@ -54,7 +59,8 @@ def main():
     scene = bpy.context.scene
     if options.save:  # first, so that the import can store relative paths
         bpy.ops.wm.save_as_mainfile(filepath=os.path.abspath(options.save))
-    bpy.ops.import_scene.throng(filepath=os.path.abspath(options.bake if options.bake.endswith(".json") else os.path.join(options.bake, "bake.json")))
+    bake = options.bake if options.bake.endswith(".json") else os.path.join(options.bake, "bake.json")
+    bpy.ops.import_scene.throng(filepath=os.path.abspath(bake))
     set_up_render(scene, options)
     if options.shot != "crane":
         bpy.ops.throng.shot(kind=options.shot)

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Renders the shipped cast in a row, at its levels of detail.
 
-blender -b --factory-startup --python-exit-code 1 -P scripts/render_cast.py -- OUT.png [--width W] [--height H] [--samples N] [--gait N] [--phase P]
+blender -b --factory-startup --python-exit-code 1 -P scripts/render_cast.py -- OUT.png [--width W] [--height H]
+        [--samples N] [--gait N] [--phase P]
 """
 import argparse
 import os
@@ -61,7 +62,8 @@ def main():
     mesh.from_pydata([(-90, -40, 0), (90, -40, 0), (90, 140, 0), (-90, 140, 0)], [], [(0, 1, 2, 3)])
     stone = bpy.data.materials.new("ground")
     stone.use_nodes = True
-    next(node for node in stone.node_tree.nodes if node.type == "BSDF_PRINCIPLED").inputs["Base Color"].default_value = (0.16, 0.155, 0.15, 1.0)
+    surface = next(node for node in stone.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
+    surface.inputs["Base Color"].default_value = (0.16, 0.155, 0.15, 1.0)
     mesh.materials.append(stone)
     scene.collection.objects.link(bpy.data.objects.new("ground", mesh))
     lights.build_light(scene, scene.collection)
@@ -72,7 +74,8 @@ def main():
     scene.camera = camera
     scene.render.engine = "CYCLES"
     scene.cycles.samples, scene.cycles.use_denoising = options.samples, False
-    scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = options.width, options.height, 100
+    scene.render.resolution_x, scene.render.resolution_y = options.width, options.height
+    scene.render.resolution_percentage = 100
     scene.render.filepath = os.path.abspath(options.picture)
     bpy.ops.render.render(write_still=True)
 

@@ -4,9 +4,10 @@
 
 Usage: rvo2_motion.py THRONG -o FOLDER [--scenario ring corridor ...] [--seconds S]   (needs numpy and pyrvo)
 
-`throng bake` says who is where at first, with what goal, radius and speed; RVO2 then moves everybody straight to the goal, and its motion is
-written over the bake's. RVO2's settings: a step of 1/30 s, horizon 2 s, 10 neighbours within 3 m, at most 2 m/s. What prefers to go
-straight is turned by a random 0.0001 rad at most, as RVO2's own examples do, so that nobody is stuck by mere symmetry.
+`throng bake` says who is where at first, with what goal, radius and speed; RVO2 then moves everybody straight to the
+goal, and its motion is written over the bake's. RVO2's settings: a step of 1/30 s, horizon 2 s, 10 neighbours within
+3 m, at most 2 m/s. What prefers to go straight is turned by a random 0.0001 rad at most, as RVO2's own examples do, so
+that nobody is stuck by mere symmetry.
 """
 import argparse
 import csv
@@ -31,7 +32,8 @@ def first_places(program, layout, folder, seconds):
     described = json.loads(layout.read_text())
     simulation = described["simulation"]
     frames = round((seconds or simulation["duration"]) * simulation["fps"])
-    command = [program, "bake", layout, "-o", folder, "--force", "--no-gltf", "--quiet", "--set", f"simulation.duration={1.0 / simulation['fps']}"]
+    one_frame = f"simulation.duration={1.0 / simulation['fps']}"
+    command = [program, "bake", layout, "-o", folder, "--force", "--no-gltf", "--quiet", "--set", one_frame]
     subprocess.run(command, check=True)
     return frames, 1.0 / (simulation["fps"] * simulation["substeps"]), simulation["substeps"]
 
@@ -108,7 +110,8 @@ def move(folder, frames, step, substeps):
         heading[frame] = numpy.stack([numpy.cos(angle), numpy.sin(angle), speed], axis=1)
         state[frame, :, 0] = ~crowd.there
         if frame % 300 == 0:
-            print(f"{manifest['name']}: frame {frame} of {frames}, {int(crowd.there.sum())} of {len(people)} there", file=sys.stderr, flush=True)
+            there = f"{int(crowd.there.sum())} of {len(people)} there"
+            print(f"{manifest['name']}: frame {frame} of {frames}, {there}", file=sys.stderr, flush=True)
         if crowd.there.all():
             pos[frame:], heading[frame:] = pos[frame], heading[frame]
             break
@@ -124,7 +127,8 @@ def _describe(folder, manifest, people, frames, arrived):
     manifest |= {"generator": "RVO2", "frames": frames, "duration": frames / manifest["fps"], "files": [], "gltf": None}
     manifest["account"] |= {"arrived": there, "walking": len(people) - there}
     for person, frame in zip(people, arrived):
-        person |= {"arrival_frame": frame + manifest["frame_start"] if frame >= 0 else "", "outcome": "arrived" if frame >= 0 else "walking"}
+        person["arrival_frame"] = frame + manifest["frame_start"] if frame >= 0 else ""
+        person["outcome"] = "arrived" if frame >= 0 else "walking"
     with open(folder / "agents.csv", "w", newline="") as file:
         table = csv.DictWriter(file, people[0].keys())
         table.writeheader()
@@ -142,9 +146,11 @@ def main():
     options.output.mkdir(parents=True, exist_ok=True)
     for scenario in options.scenario:
         folder = options.output / scenario
-        frames, step, substeps = first_places(options.program, ROOT / "scenarios" / f"{scenario}.json", folder, options.seconds)
+        layout = ROOT / "scenarios" / f"{scenario}.json"
+        frames, step, substeps = first_places(options.program, layout, folder, options.seconds)
         move(folder, frames, step, substeps)
-        measured = subprocess.run([options.program, "measure", folder, "--json"], stdout=subprocess.PIPE, text=True).stdout  # exits with 1 where bars are missed
+        measure = [options.program, "measure", folder, "--json"]  # exits with 1 where bars are missed
+        measured = subprocess.run(measure, stdout=subprocess.PIPE, text=True).stdout
         (options.output / f"{scenario}.json").write_text(measured)
         found = json.loads(measured)
         keys = ("agents", "arrived", "deepest_overlap_percent", "overlapping_percent", "wall_crossings")

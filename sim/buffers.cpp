@@ -132,73 +132,87 @@ std::vector<gpu::DiagramSite> wallSites(const authoring::Scene& scene, const gpu
 
 Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter_values)
     : parameters(gl::makeBuffer("parameters", std::vector{parameter_values})),
-      people(gl::makeBuffer("people", scene.people)),
-      states(gl::makeBuffer("states", initialStates(scene))),
-      stages(gl::makeBuffer("stages", scene.stages)),
-      plan_changes(gl::makeBuffer("plan changes", scene.plan_changes)),
-      fields(gl::makeBuffer("distance fields", scene.fields, gl::Buffer::Use::in_ranges)),
+      people(gl::makeBuffer("people", scene.people, kPerson)),
+      states(gl::makeBuffer("states", initialStates(scene), kPerson)),
+      stages(gl::makeBuffer("stages", scene.stages, "stage")),
+      plan_changes(gl::makeBuffer("plan changes", scene.plan_changes, "change of plans")),
+      fields(gl::makeBuffer("distance fields", scene.fields, "cell of a field", gl::Buffer::Use::in_ranges)),
       field_cells(fields, gl::WordTexture::Texel::two_words),
-      road_distances(gl::makeBuffer("road distances", scene.road_distance)),
-      lines(gl::makeBuffer("waiting lines", scene.lines)),
-      line_points(gl::makeBuffer("line points", scene.line_points)),
-      tickets("tickets", kWord * scene.ticket_count),
-      detour_slopes("detour slopes", sizeof(glm::vec2) * scene.detours.distances.size()),
-      queues(gl::makeBuffer("queues", scene.queues)),
-      queue_heads("queue heads", kWord * scene.queues.size()),
-      entries(gl::makeBuffer("entries", scene.entries)),
-      entry_points(gl::makeBuffer("entry points", scene.entry_points)),
-      proposals("spawn proposals", sizeof(gpu::SpawnProposal) * gpu::SPAWN_GROUP_SIZE * scene.queues.size()),
-      wall_segments(gl::makeBuffer("wall segments", scene.wall_segments)),
-      wall_tiles(gl::makeBuffer("wall tiles", scene.wall_tiles)) {
+      road_distances(gl::makeBuffer("road distances", scene.road_distance, "cell of the fields")),
+      lines(gl::makeBuffer("waiting lines", scene.lines, "line")),
+      line_points(gl::makeBuffer("line points", scene.line_points, "point of a line")),
+      tickets("tickets", {scene.ticket_count, kWord, "ticket"}),
+      detour_slopes("detour slopes",
+                    {scene.detours.distances.size(), sizeof(glm::vec2), "cell of a detour field"}),
+      queues(gl::makeBuffer("queues", scene.queues, "queue")),
+      queue_heads("queue heads", {scene.queues.size(), kWord, "queue"}),
+      entries(gl::makeBuffer("entries", scene.entries, "entry")),
+      entry_points(gl::makeBuffer("entry points", scene.entry_points, "point of an entry")),
+      proposals("spawn proposals",
+                {scene.queues.size(), sizeof(gpu::SpawnProposal) * gpu::SPAWN_GROUP_SIZE, "queue"}),
+      wall_segments(gl::makeBuffer("wall segments", scene.wall_segments, "wall segment")),
+      wall_tiles(gl::makeBuffer("wall tiles", scene.wall_tiles, "wall tile")) {
     const std::size_t rows = scene.people.size();
     const std::size_t cells = std::size_t{parameter_values.cells_width} * parameter_values.cells_height;
     const WallIndex walls = indexWalls(scene.wall_segments, parameter_values,
                                        parameter_values.contact_range + scene.largest_radius);
-    wall_starts = gl::makeBuffer("wall starts", walls.starts);
-    wall_items = gl::makeBuffer("wall items", walls.items);
+    wall_starts = gl::makeBuffer("wall starts", walls.starts, "cell");
+    wall_items = gl::makeBuffer("wall items", walls.items, "wall near a cell");
 
     // One cell more than there are belongs to the last strip: where it starts is how many people there are.
     const std::size_t strips = cells / gpu::CELLS_PER_STRIP + 1;
-    const auto zeros = [](const char* name, std::size_t words) {
-        gl::Buffer buffer(name, kWord * words);
+    const auto zeros = [](const char* name, std::size_t words, const char* per) {
+        gl::Buffer buffer(name, {words, kWord, per});
         buffer.fill(0);
         return buffer;
     };
-    cell_counts = zeros("cell counts", gpu::CELLS_PER_STRIP * strips);
-    cell_offsets = zeros("cell offsets", gpu::CELLS_PER_STRIP * strips);
-    cell_cursors = zeros("cell cursors", gpu::CELLS_PER_STRIP * strips);
-    strip_counts = zeros("strip counts", strips);
-    strip_marks = zeros("strip marks", strips);
-    strip_starts = zeros("strip starts", strips);
+    cell_counts = zeros("cell counts", gpu::CELLS_PER_STRIP * strips, "cell");
+    cell_offsets = zeros("cell offsets", gpu::CELLS_PER_STRIP * strips, "cell");
+    cell_cursors = zeros("cell cursors", gpu::CELLS_PER_STRIP * strips, "cell");
+    strip_counts = zeros("strip counts", strips, "strip");
+    strip_marks = zeros("strip marks", strips, "strip");
+    strip_starts = zeros("strip starts", strips, "strip");
     const std::size_t strips_per_group = std::size_t{gpu::SCAN_GROUP_SIZE} * gpu::COUNTS_PER_THREAD;
-    strip_group_sums = gl::Buffer("strip group sums", kWord * (strips / strips_per_group + 1));
-    strip_list = gl::Buffer("listed strips", kWord * std::min(strips, 2 * rows));
+    strip_group_sums =
+        gl::Buffer("strip group sums", {strips / strips_per_group + 1, kWord, "group of strips"});
+    strip_list = gl::Buffer("listed strips", {std::min(strips, 2 * rows), kWord, "strip"});
     strip_list_end = gl::makeBuffer("end of listed strips", std::vector<std::uint32_t>{0});
     fill_dispatch = gl::Buffer("fill dispatch", kWord * 4);
-    row_cells = gl::Buffer("row cells", kWord * rows);
+    row_cells = gl::Buffer("row cells", {rows, kWord, kPerson});
     row_cells.fill(gpu::NO_INDEX);
-    loose_rows = gl::Buffer("loose rows", kWord * rows);
-    live_dispatch = zeros("live dispatch", 4);
+    loose_rows = gl::Buffer("loose rows", {rows, kWord, kPerson});
+    live_dispatch = gl::Buffer("live dispatch", kWord * 4);
+    live_dispatch.fill(0);
 
-    site_slots = gl::makeBuffer("site slots", initialSiteSlots(scene));
-    bodies = gl::Buffer("bodies", sizeof(gpu::Body) * rows);
-    walkers = gl::Buffer("walkers", sizeof(gpu::Walker) * rows);
-    sites = gl::Buffer("sites", sizeof(gpu::DiagramSite) * (rows + scene.wall_tiles.size()));
+    site_slots = gl::makeBuffer("site slots", initialSiteSlots(scene), kSite);
+    bodies = gl::Buffer("bodies", {rows, sizeof(gpu::Body), kPerson});
+    walkers = gl::Buffer("walkers", {rows, sizeof(gpu::Walker), kPerson});
+    sites = gl::Buffer("sites", {rows + scene.wall_tiles.size(), sizeof(gpu::DiagramSite), kSite});
     const std::vector<gpu::DiagramSite> fixed = wallSites(scene, parameter_values);
     if (!fixed.empty()) sites.upload(std::span<const gpu::DiagramSite>(fixed), rows);
 
-    neighbours = gl::Buffer("neighbours", kWord * rows * static_cast<std::size_t>(scene.settings.neighbours));
-    neighbour_counts = gl::Buffer("neighbour counts", kWord * rows);
-    touch_words = gl::Buffer("touch words", kWord * rows);
-    touch_lists = gl::Buffer("touch lists", kWord * rows * gpu::TOUCH_CAPACITY);
-    touch_slots = gl::Buffer("touch slots", kWord * rows);
+    neighbours = gl::Buffer("neighbours",
+                            {rows, kWord * static_cast<std::size_t>(scene.settings.neighbours), kPerson});
+    neighbour_counts = gl::Buffer("neighbour counts", {rows, kWord, kPerson});
+    touch_words = gl::Buffer("touch words", {rows, kWord, kPerson});
+    touch_lists = gl::Buffer("touch lists", {rows, kWord * gpu::TOUCH_CAPACITY, kPerson});
+    touch_slots = gl::Buffer("touch slots", {rows, kWord, kPerson});
     touch_dispatch = gl::Buffer("touch dispatch", kWord * 4);
-    preferred_velocities = gl::Buffer("preferred velocities", sizeof(glm::vec2) * rows);
-    paces = gl::Buffer("paces", sizeof(float) * rows);
-    targets = gl::Buffer("targets", sizeof(glm::vec2) * rows);
-    targets_after = gl::Buffer("targets after contact", sizeof(glm::vec2) * rows);
+    preferred_velocities = gl::Buffer("preferred velocities", {rows, sizeof(glm::vec2), kPerson});
+    paces = gl::Buffer("paces", {rows, sizeof(float), kPerson});
+    targets = gl::Buffer("targets", {rows, sizeof(glm::vec2), kPerson});
+    targets_after = gl::Buffer("targets after contact", {rows, sizeof(glm::vec2), kPerson});
     queue_heads.fill(0);
+    tickets.fill(0);
     detour_slopes.fill(0);
+}
+
+gl::ComputeProgram Buffers::connect(const gl::ShaderLibrary& library, const gl::Declaration& declaration,
+                                    const gl::Definitions& definitions) const {
+    gl::ComputeProgram program(library, declaration, definitions);
+    program.bindAll(named());
+    if (program.hasUniform("field_cells")) program.bind("field_cells", field_cells);
+    return program;
 }
 
 std::vector<std::pair<std::string, const gl::Buffer*>> Buffers::named() const {

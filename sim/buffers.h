@@ -7,9 +7,14 @@
 
 #include "authoring/scene.h"
 #include "shaders/shared/simulation_types.h"
+#include "sim/diagram/site_bins.h"
 #include "sim/gl/buffer.h"
+#include "sim/gl/program.h"
 
 namespace throng::sim {
+
+/// What buffers by row and by slot have an element for.
+inline constexpr const char* kPerson = "person";
 
 /// Everything of a simulation that lives on the device. A buffer serves the storage block named beside it in
 /// named().
@@ -38,6 +43,9 @@ struct Buffers {
     gl::Buffer neighbours, neighbour_counts, touch_words, touch_lists, touch_slots, touch_dispatch;
     gl::Buffer preferred_velocities, paces, targets, targets_after;
 
+    /// A program with all of these buffers that it declares.
+    gl::ComputeProgram connect(const gl::ShaderLibrary& library, const gl::Declaration& declaration,
+                               const gl::Definitions& definitions = {}) const;
     std::vector<std::pair<std::string, const gl::Buffer*>> named() const;
     /// Slots that per-slot lists are laid out for.
     std::uint32_t slotCapacity() const {

@@ -8,14 +8,38 @@ namespace throng::sim {
 namespace {
 
 constexpr std::uint32_t kStepsPerLook = 4;   // the crowd is looked at this often
-constexpr float kMemory = 1.0f;              // s: and remembered with this time constant
 constexpr std::uint32_t kStepsPerRound = 4;  // every field is relaxed once within this many steps
+
+const gl::Declaration kFlow = {
+    "routes",
+    {"shaders/routes/detour_flow.comp"},
+    {"ParametersBlock", "Ground", "Bodies", "StripStarts", "CellOffsets", "CrowdFlows"},
+    {"CrowdFlows", "DenseBlocks"}};
+const gl::Declaration kList = {"routes",
+                               {"shaders/routes/detour_list.comp"},
+                               {"ParametersBlock", "ChangedBlocks", "DenseBlocks", "BlockDispatch"},
+                               {"BlockDispatch", "ListedBlocks"}};
+const gl::Declaration kRelax = {"routes",
+                                {"shaders/routes/detour_relax.comp"},
+                                {"ParametersBlock", "CrowdFlows", "Ground", "DetourDistances",
+                                 "FreeDistances", "ListedBlocks", "FieldMaps"},
+                                {"ChangedBlocks", "NextDistances"}};
+const gl::Declaration kKeep = {"routes",
+                               {"shaders/routes/detour_keep.comp"},
+                               {"ParametersBlock", "ListedBlocks", "NextDistances"},
+                               {"DetourDistances"}};
+const gl::Declaration kSlope = {
+    "routes",
+    {"shaders/routes/detour_slope.comp"},
+    {"ParametersBlock", "FreeDistances", "Ground", "DetourDistances", "FieldMaps", "ListedBlocks"},
+    {"DetourSlopes"}};
 
 }  // namespace
 
 Congestion::Congestion(const gl::ShaderLibrary& library, Buffers& buffers, const authoring::Scene& scene,
                        const gpu::Parameters& parameters) {
     const authoring::Detours& detours = scene.detours;
+    const MotionSettings& rules = scene.settings.motion;
     if (detours.distances.empty()) return;
     cells_ = parameters.detour_width * parameters.detour_height;
     fields_ = static_cast<std::uint32_t>(detours.ground_of_field.size());
@@ -25,44 +49,45 @@ Congestion::Congestion(const gl::ShaderLibrary& library, Buffers& buffers, const
     for (std::uint32_t field = 0; field < fields_; ++field)
         maps.push_back({detours.ground_of_field[field],
                         field < detours.has_choice.size() && detours.has_choice[field] ? 1u : 0u});
-    field_maps_ = gl::makeBuffer("field maps", maps);
-    ground_ = gl::makeBuffer("ground", detours.ground);
-    free_distances_ = gl::makeBuffer("free distances", detours.distances);
-    distances_ = gl::makeBuffer("detour distances", detours.distances);
-    next_distances_ = gl::Buffer("next distances", sizeof(float) * cells_ * fields_per_step_);
-    flows_ = gl::Buffer("crowd flows", sizeof(gpu::CrowdFlow) * cells_);
+    field_maps_ = gl::makeBuffer("field maps", maps, "detour field");
+    ground_ = gl::makeBuffer("ground", detours.ground, "cell of a ground");
+    free_distances_ = gl::makeBuffer("free distances", detours.distances, "cell of a detour field");
+    distances_ = gl::makeBuffer("detour distances", detours.distances, "cell of a detour field");
+    next_distances_ = gl::Buffer(
+        "next distances", {std::size_t{cells_} * fields_per_step_, sizeof(float), "cell of a detour field"});
+    flows_ = gl::Buffer("crowd flows", {cells_, sizeof(gpu::CrowdFlow), "detour cell"});
     flows_.fill(0);
-    dense_blocks_ = gl::Buffer("dense blocks", sizeof(std::uint32_t) * blocks_);
+    dense_blocks_ = gl::Buffer("dense blocks", {blocks_, sizeof(std::uint32_t), "block of detour cells"});
     dense_blocks_.fill(0);
-    for (gl::Buffer* marks : {&changed_before_, &changed_now_})
-        *marks = gl::Buffer("changed blocks", sizeof(std::uint32_t) * fields_ * blocks_);
+    const gl::Room marks{std::size_t{fields_} * blocks_, sizeof(std::uint32_t), "block of a detour field"};
+    changed_before_ = gl::Buffer("blocks changed before", marks);
+    changed_now_ = gl::Buffer("blocks changed now", marks);
     changed_before_.fill(1);  // nothing is known to have settled
     changed_now_.fill(0);
-    listed_ = gl::Buffer("listed blocks", sizeof(std::uint32_t) * fields_per_step_ * blocks_);
+    listed_ = gl::Buffer("listed blocks", {std::size_t{fields_per_step_} * blocks_, sizeof(std::uint32_t),
+                                           "block of a detour field"});
     no_blocks_ = gl::makeBuffer("no blocks", std::vector<std::uint32_t>{0, 1, 1});
     block_dispatch_ = gl::Buffer("block dispatch", no_blocks_.bytes());
 
-    std::vector<std::pair<std::string, const gl::Buffer*>> named = buffers.named();
-    named.insert(named.end(), {{"Ground", &ground_},
-                               {"FreeDistances", &free_distances_},
-                               {"DetourDistances", &distances_},
-                               {"NextDistances", &next_distances_},
-                               {"CrowdFlows", &flows_},
-                               {"FieldMaps", &field_maps_},
-                               {"DenseBlocks", &dense_blocks_},
-                               {"ListedBlocks", &listed_},
-                               {"BlockDispatch", &block_dispatch_}});
-    for (const auto& [program, path] : {std::pair{&flow_, "shaders/routes/detour_flow.comp"},
-                                        std::pair{&list_, "shaders/routes/detour_list.comp"},
-                                        std::pair{&relax_, "shaders/routes/detour_relax.comp"},
-                                        std::pair{&keep_, "shaders/routes/detour_keep.comp"},
-                                        std::pair{&slope_, "shaders/routes/detour_slope.comp"}}) {
-        *program = gl::ComputeProgram(library, path);
-        program->bindAll(named);
+    const std::vector<std::pair<std::string, const gl::Buffer*>> own = {{"Ground", &ground_},
+                                                                        {"FreeDistances", &free_distances_},
+                                                                        {"DetourDistances", &distances_},
+                                                                        {"NextDistances", &next_distances_},
+                                                                        {"CrowdFlows", &flows_},
+                                                                        {"FieldMaps", &field_maps_},
+                                                                        {"DenseBlocks", &dense_blocks_},
+                                                                        {"ListedBlocks", &listed_},
+                                                                        {"BlockDispatch", &block_dispatch_}};
+    for (const auto& [program, declaration] :
+         {std::pair{&flow_, &kFlow}, std::pair{&list_, &kList}, std::pair{&relax_, &kRelax},
+          std::pair{&keep_, &kKeep}, std::pair{&slope_, &kSlope}}) {
+        *program = buffers.connect(library, *declaration, rules.definitions());
+        program->bindAll(own);
     }
     relax_.bind("ChangedBlocks", changed_now_);
+    const auto memory = static_cast<float>(rules.number("routes_round_jams", "memory"));
     flow_.set("fading",
-              1.0f - std::exp(-static_cast<float>(kStepsPerLook) * parameters.step_seconds / kMemory));
+              1.0f - std::exp(-static_cast<float>(kStepsPerLook) * parameters.step_seconds / memory));
 }
 
 void Congestion::run() {

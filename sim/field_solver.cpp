@@ -9,6 +9,17 @@
 namespace throng::sim {
 namespace {
 
+const gl::Declaration kRelax = {"fields",
+                                {"shaders/routes/field_relax.comp"},
+                                {"Distances", "CellSteps", "ListedBlocks", "OpenSides", "OneWay"},
+                                {"NextDistances", "ChangedBlocks"}};
+const gl::Declaration kKeep = {
+    "fields", {"shaders/routes/field_keep.comp"}, {"ListedBlocks", "NextDistances"}, {"Distances"}};
+const gl::Declaration kList = {"fields",
+                               {"shaders/routes/field_list.comp"},
+                               {"ChangedBlocks", "BlockDispatch"},
+                               {"BlockDispatch", "ListedBlocks"}};
+
 /// Rounds between two questions whether anything is left: asking waits for the device.
 constexpr int kRoundsAtATime = 8;
 
@@ -44,9 +55,8 @@ FieldSolver::FieldSolver(const gl::ShaderLibrary& library)
 
 FieldSolver::Programs FieldSolver::programsFor(const authoring::WalkMap& map) const {
     const gl::Definitions definitions = map.isBound() ? gl::Definitions{{"BOUND", "1"}} : gl::Definitions{};
-    Programs programs{gl::ComputeProgram(library_, "shaders/routes/field_relax.comp", definitions),
-                      gl::ComputeProgram(library_, "shaders/routes/field_keep.comp"),
-                      gl::ComputeProgram(library_, "shaders/routes/field_list.comp")};
+    Programs programs{gl::ComputeProgram(library_, kRelax, definitions), gl::ComputeProgram(library_, kKeep),
+                      gl::ComputeProgram(library_, kList)};
     for (gl::ComputeProgram* program : {&programs.relax, &programs.keep, &programs.list}) {
         program->bindAll({{"CellSteps", &steps_},
                           {"OpenSides", &open_sides_},
@@ -58,7 +68,6 @@ FieldSolver::Programs FieldSolver::programsFor(const authoring::WalkMap& map) co
                           {"BlockDispatch", &block_dispatch_}});
         program->set("grid_size", glm::uvec2(map.grid.width, map.grid.height));
     }
-    if (map.isBound()) programs.relax.set("against_one_way", authoring::kAgainstOneWay);
     return programs;
 }
 

@@ -1,57 +1,64 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/passes.h"
 
-#include <utility>
-
-#include "sim/wall_index.h"
+#include <string>
 
 namespace throng::sim {
 namespace {
 
-gl::ComputeProgram connected(const gl::ShaderLibrary& library, const std::string& path,
-                             const Buffers& buffers, const gl::Definitions& definitions = {}) {
-    gl::ComputeProgram program(library, path, definitions);
-    program.bindAll(buffers.named());
-    if (program.hasUniform("field_cells")) program.bind("field_cells", buffers.field_cells);
-    return program;
-}
+const gl::Declaration kPropose = {
+    "spawn",
+    {"shaders/motion/spawn_propose.comp"},
+    {"ParametersBlock", "LiveDispatch", "People", "PlanChanges", "Queues", "Entries", "EntryPoints", "Bodies",
+     "StripStarts", "CellOffsets", "States", "QueueHeads"},
+    {"States", "QueueHeads", "Proposals"}};
+const gl::Declaration kAccept = {"spawn",
+                                 {"shaders/motion/spawn_accept.comp"},
+                                 {"ParametersBlock", "People", "Stages", "field_cells", "DetourSlopes",
+                                  "WaitingLines", "LinePoints", "Proposals", "States"},
+                                 {"States"}};
+const gl::Declaration kLines = {"motion",
+                                {"shaders/motion/lines.comp"},
+                                {"Stages", "WaitingLines", "Tickets", "States"},
+                                {"WaitingLines", "Tickets", "States"}};
+const gl::Declaration kSteer = {
+    "avoidance",
+    {"shaders/motion/steer.comp"},
+    {"ParametersBlock", "LiveDispatch", "States", "Bodies", "Walkers", "Stages", "field_cells",
+     "DetourSlopes", "WaitingLines", "LinePoints", "TouchWords", "TerrainNodes"},
+    {"PreferredVelocities"}};
+const gl::Declaration kAvoid = {
+    "avoidance",
+    {"shaders/motion/avoid.comp"},
+    {"ParametersBlock", "LiveDispatch", "States", "Bodies", "Walkers", "PreferredVelocities", "Neighbours",
+     "NeighbourCounts", "TouchWords", "WallSegments", "WallStarts", "WallItems", "RoadDistances"},
+    {"Targets", "TargetsAfter", "Paces"}};
+const gl::Declaration kContact = {
+    "contacts",
+    {"shaders/motion/contact.comp"},
+    {"ParametersBlock", "TouchDispatch", "TouchSlots", "Bodies", "PreferredVelocities", "TouchWords",
+     "TouchLists", "WallSegments", "WallStarts", "WallItems", "StripStarts", "CellOffsets", "TargetsBefore",
+     "TargetsAfter"},
+    {"TargetsAfter"}};
+const gl::Declaration kMove = {"motion",
+                               {"shaders/motion/move.comp"},
+                               {"ParametersBlock", "LiveDispatch", "People", "Bodies", "Walkers",
+                                "PreferredVelocities", "Paces", "Targets", "Stages", "field_cells",
+                                "DetourSlopes", "PlanChanges", "WaitingLines", "LinePoints", "States"},
+                               {"WaitingLines", "States"}};
 
-gl::Definitions listLength(int neighbours) {
-    return {{"NEIGHBOURS", std::to_string(neighbours)}};
+gl::Definitions together(gl::Definitions some, const gl::Definitions& others) {
+    some.insert(some.end(), others.begin(), others.end());
+    return some;
 }
 
 }  // namespace
 
-CellSort::CellSort(const gl::ShaderLibrary& library, Buffers& buffers, const gpu::Parameters& parameters)
-    : buffers_(buffers),
-      rows_(parameters.row_count),
-      count_(connected(library, "shaders/cells/cells_count.comp", buffers)),
-      sum_(connected(library, "shaders/cells/counts_sum.comp", buffers)),
-      scan_(connected(library, "shaders/cells/strips_scan.comp", buffers)),
-      fill_(connected(library, "shaders/cells/strips_fill.comp", buffers)),
-      scatter_(connected(library, "shaders/cells/cells_scatter.comp", buffers)),
-      gather_(connected(library, "shaders/cells/bodies_gather.comp", buffers)) {
-    const auto strips = static_cast<std::uint32_t>(buffers.strip_counts.bytes() / sizeof(std::uint32_t));
-    sum_.set("count_total", strips);
-    scan_.set("count_total", strips);
-    scan_threads_ = (strips + gpu::COUNTS_PER_THREAD - 1) / gpu::COUNTS_PER_THREAD;
-}
-
-void CellSort::run(SiteIds ids) {
-    for (gl::ComputeProgram* program : {&scatter_, &gather_})
-        program->set("ids_are_rows", ids == SiteIds::rows ? 1u : 0u);
-    count_.dispatch(rows_);
-    sum_.dispatch(scan_threads_);
-    scan_.dispatch(scan_threads_);
-    fill_.dispatchIndirect(buffers_.fill_dispatch);
-    scatter_.dispatch(rows_);
-    gather_.dispatchIndirect(buffers_.live_dispatch);
-}
-
-Spawner::Spawner(const gl::ShaderLibrary& library, Buffers& buffers, const gpu::Parameters& parameters)
+Spawner::Spawner(const gl::ShaderLibrary& library, Buffers& buffers, const gpu::Parameters& parameters,
+                 const MotionSettings& rules)
     : invocations_(std::uint64_t{parameters.queue_count} * gpu::SPAWN_GROUP_SIZE),
-      propose_(connected(library, "shaders/motion/spawn_propose.comp", buffers)),
-      accept_(connected(library, "shaders/motion/spawn_accept.comp", buffers)) {}
+      propose_(buffers.connect(library, kPropose, rules.definitions())),
+      accept_(buffers.connect(library, kAccept, rules.definitions())) {}
 
 void Spawner::run(float now, std::uint32_t steps_done) {
     propose_.set("now", now);
@@ -62,7 +69,7 @@ void Spawner::run(float now, std::uint32_t steps_done) {
 }
 
 WaitingLines::WaitingLines(const gl::ShaderLibrary& library, Buffers& buffers, std::uint32_t count)
-    : count_(count), program_(connected(library, "shaders/motion/lines.comp", buffers)) {
+    : count_(count), program_(buffers.connect(library, kLines)) {
     program_.set("line_count", count);
 }
 
@@ -70,74 +77,34 @@ void WaitingLines::run() {
     if (count_ > 0) program_.dispatch(count_);
 }
 
-Sensing::Sensing(const gl::ShaderLibrary& library, Buffers& buffers, const Diagram& diagram,
-                 const SensingOptions& options, const authoring::Scene& scene,
-                 const gpu::Parameters& parameters)
-    : buffers_(buffers), proximity_(options.proximity) {
-    if (needsDiagram())
-        marchRays(library, diagram, options);
-    else
-        compareExactly(library, options, scene, parameters);
-    program_.set("slot_capacity", buffers.slotCapacity());
-}
-
-void Sensing::marchRays(const gl::ShaderLibrary& library, const Diagram& diagram,
-                        const SensingOptions& options) {
-    const std::vector<glm::vec2> pattern = thinnedPattern(options.geometry, options.felt_range);
-    gl::Definitions definitions = listLength(options.neighbours);
-    definitions.emplace_back("SENSING_SAMPLES", std::to_string(pattern.size()));
-    for (const auto& definition : diagram.lookupDefinitions())
-        definitions.push_back(definition);
-    program_ = connected(library, "shaders/sensing/sense.comp", buffers_, definitions);
-    diagram.describeTo(program_);
-    program_.set("pattern", pattern);
-}
-
-void Sensing::compareExactly(const gl::ShaderLibrary& library, const SensingOptions& options,
-                             const authoring::Scene& scene, const gpu::Parameters& parameters) {
-    const float reach = sensingReach(options.geometry);
-    const bool everybody = proximity_ == authoring::Proximity::brute;
-    gl::Definitions definitions = listLength(options.neighbours);
-    if (everybody) definitions.emplace_back("EVERYBODY", "1");
-    program_ = connected(library, "shaders/sensing/sense_exact.comp", buffers_, definitions);
-    program_.set("reach", reach);
-    program_.set("half_view", 0.5f * options.geometry.field_of_view);
-    if (everybody) {
-        program_.set("wall_count", static_cast<std::uint32_t>(scene.wall_segments.size()));
-        return;
-    }
-    const WallIndex walls = indexWalls(scene.wall_segments, parameters, reach);
-    far_wall_starts_ = gl::makeBuffer("walls within reach, starts", walls.starts);
-    far_wall_items_ = gl::makeBuffer("walls within reach", walls.items);
-    program_.bind("FarWallStarts", far_wall_starts_);
-    program_.bind("FarWallItems", far_wall_items_);
-}
-
-void Sensing::run() {
-    program_.dispatchIndirect(buffers_.live_dispatch);
-}
-
 Avoidance::Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, int neighbours,
-                     const TerrainSlopes* ground)
+                     const TerrainSlopes* ground, const MotionSettings& rules)
     : buffers_(buffers),
-      steer_(connected(library, "shaders/motion/steer.comp", buffers,
-                       ground ? gl::Definitions{{"TERRAIN", "1"}} : gl::Definitions{})),
-      avoid_(connected(library, "shaders/motion/avoid.comp", buffers, listLength(neighbours))) {
+      steer_(buffers.connect(
+          library, kSteer,
+          together(rules.definitions(), ground ? gl::Definitions{{"TERRAIN", "1"}} : gl::Definitions{}))),
+      avoid_(buffers.connect(library, kAvoid,
+                             together(rules.definitions(), {{"NEIGHBOURS", std::to_string(neighbours)}}))) {
     avoid_.set("slot_capacity", buffers.slotCapacity());
     if (ground) ground->describeTo(steer_);
 }
 
 void Avoidance::run(std::uint32_t steps_done) {
-    steer_.set("steps_done", steps_done);
+    steer_.setIfUsed("steps_done", steps_done);
     steer_.dispatchIndirect(buffers_.live_dispatch);
     avoid_.dispatchIndirect(buffers_.live_dispatch);
 }
 
-Contacts::Contacts(const gl::ShaderLibrary& library, Buffers& buffers, int iterations)
+Contacts::Contacts(const gl::ShaderLibrary& library, Buffers& buffers, int iterations,
+                   const MotionSettings& rules)
     : buffers_(buffers),
       iterations_(iterations),
-      forth_(connected(library, "shaders/motion/contact.comp", buffers)),
-      back_(connected(library, "shaders/motion/contact.comp", buffers)) {
+      braced_(static_cast<int>(iterations * rules.number("standing_fast", "rounds"))),
+      spectral_radius_(rules.isOn("contact_momentum")
+                           ? static_cast<float>(rules.number("contact_momentum", "spectral_radius"))
+                           : 0.0f),
+      forth_(buffers.connect(library, kContact, rules.definitions())),
+      back_(buffers.connect(library, kContact, rules.definitions())) {
     forth_.bind("TargetsBefore", buffers.targets);
     forth_.bind("TargetsAfter", buffers.targets_after);
     back_.bind("TargetsBefore", buffers.targets_after);
@@ -145,24 +112,22 @@ Contacts::Contacts(const gl::ShaderLibrary& library, Buffers& buffers, int itera
 }
 
 void Contacts::run() {
-    // An estimate of how much of an error survives a plain round; too high and bodies begin to ring.
-    constexpr float kSpectralRadius = 0.985f;
-    constexpr float kSquared = kSpectralRadius * kSpectralRadius;
+    const float squared = spectral_radius_ * spectral_radius_;
     float momentum = 1.0f;
     for (int iteration = 0; iteration < iterations_; ++iteration) {
         // Two plain rounds first: momentum needs something to go on.
-        if (iteration == 2) momentum = 2.0f / (2.0f - kSquared);
-        if (iteration > 2) momentum = 4.0f / (4.0f - kSquared * momentum);
+        if (iteration == 2) momentum = 2.0f / (2.0f - squared);
+        if (iteration > 2) momentum = 4.0f / (4.0f - squared * momentum);
         gl::ComputeProgram& round = iteration % 2 ? back_ : forth_;
         round.set("momentum", momentum);
-        // Unequal weights settle slowly: the later rounds know none, so that no overlap is left.
-        round.set("bracing", iteration < iterations_ / 4 ? 1.0f : 0.0f);
+        round.setIfUsed("bracing", iteration < braced_ ? 1.0f : 0.0f);
         round.dispatchIndirect(buffers_.touch_dispatch);
     }
 }
 
-Motion::Motion(const gl::ShaderLibrary& library, Buffers& buffers, const gl::Buffer& targets)
-    : buffers_(buffers), program_(connected(library, "shaders/motion/move.comp", buffers)) {
+Motion::Motion(const gl::ShaderLibrary& library, Buffers& buffers, const gl::Buffer& targets,
+               const MotionSettings& rules)
+    : buffers_(buffers), program_(buffers.connect(library, kMove, rules.definitions())) {
     program_.bind("Targets", targets);
 }
 

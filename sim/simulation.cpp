@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
-#include <numbers>
 #include <span>
 #include <stdexcept>
 
@@ -16,54 +15,22 @@
 namespace throng::sim {
 namespace {
 
-SensingOptions sensingFor(const authoring::Scene& scene, const gpu::Parameters& parameters) {
-    SensingOptions options;
-    options.proximity = scene.settings.proximity;
-    options.geometry.body_radius = scene.smallest_radius;
-    options.geometry.tile_radius = static_cast<float>(scene.settings.tile_radius);
-    options.geometry.samples_per_ray = scene.settings.samples_per_ray;
-    options.geometry.field_of_view =
-        static_cast<float>(scene.settings.field_of_view * std::numbers::pi / 180.0);
-    options.neighbours = scene.settings.neighbours;
-    options.felt_range = parameters.contact_range;
-    return options;
-}
+constexpr const char* kStreamBlock = "StreamBlock";
 
-/// Pages where one buffer or texture cannot hold the window, and where most of a large window is empty: then
-/// clearing and gathering only what exists makes up for looking up where it is.
-bool isBestPaged(const DiagramOptions& options, std::size_t wall_sites) {
-    constexpr double kMostWholePixels = 33'554'432.0;  // 128 MiB: what every device's storage blocks hold
-    constexpr std::uint32_t kMostWholeSide = 16'384;
-    constexpr double kWorthwhilePixels = 4'194'304.0;
-    const double pixels = static_cast<double>(options.width) * options.height;
-    if (pixels > kMostWholePixels || std::max(options.width, options.height) > kMostWholeSide) return true;
-    if (pixels < kWorthwhilePixels || options.method != DiagramMethod::binned) return false;
-    const double paged_pixels =
-        static_cast<double>(Pages::pagesNeeded(options.width, options.height, options.largest_radius,
-                                               options.live_capacity + wall_sites)) *
-        gpu::PAGE_SIDE * gpu::PAGE_SIDE;
-    return paged_pixels < 0.25 * pixels;
+/// A stream may look at everything, and writes nothing but itself.
+gl::Declaration packingOf(const StreamInfo& info, const gl::ShaderLibrary& library) {
+    gl::Declaration declaration = {
+        "stream " + std::string(info.name), {std::string(info.shader)}, {}, {kStreamBlock}};
+    std::vector<std::string> files;
+    for (const gl::Access& access : gl::accessIn(library.load(declaration.shaders.front(), {}, files)))
+        if (access.name != kStreamBlock) declaration.reads.push_back(access.name);
+    return declaration;
 }
 
 std::uint32_t presentAtStart(const authoring::Scene& scene) {
     return static_cast<std::uint32_t>(std::count_if(
         scene.people.begin(), scene.people.end(),
         [](const gpu::Person& person) { return (person.flags & gpu::PERSON_PRESENT_AT_START) != 0; }));
-}
-
-Diagram diagramFor(const authoring::Scene& scene, const gpu::Parameters& parameters,
-                   const gl::ShaderLibrary& library) {
-    DiagramOptions options;
-    options.method = scene.settings.method;
-    if (options.method == DiagramMethod::automatic) options.method = DiagramMethod::binned;
-    options.cone_sides = static_cast<std::uint32_t>(scene.settings.cone_sides);
-    options.width = parameters.diagram_width;
-    options.height = parameters.diagram_height;
-    options.live_capacity = parameters.row_count;
-    options.largest_radius =
-        std::max(parameters.tile_radius, scene.largest_radius) * parameters.pixels_per_metre;
-    options.paged = isBestPaged(options, scene.wall_tiles.size());
-    return Diagram(library, options, wallSites(scene, parameters));
 }
 
 /// The first frame that shows what was so after `steps` steps.
@@ -99,55 +66,6 @@ std::uint32_t warmupSteps(const authoring::SimulationSettings& settings) {
            static_cast<std::uint32_t>(settings.substeps);
 }
 
-Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary& shader_library,
-                         const CostModel& cost_model)
-    : library(shader_library),
-      settings(scene.settings),
-      parameters(makeParameters(scene)),
-      buffers(scene, parameters),
-      diagram(diagramFor(scene, parameters, library)),
-      cells(library, buffers, parameters),
-      congestion(library, buffers, scene, parameters),
-      spawner(library, buffers, parameters),
-      sensing(library, buffers, diagram, sensingFor(scene, parameters), scene, parameters),
-      slopes(scene.terrain ? std::optional<TerrainSlopes>(scene.terrain) : std::nullopt),
-      avoidance(library, buffers, settings.neighbours, slopes ? &*slopes : nullptr),
-      contacts(library, buffers, settings.contact_iterations),
-      motion(library, buffers, contacts.result()),
-      lines(library, buffers, static_cast<std::uint32_t>(scene.lines.size())),
-      gates(scene, buffers, diagram, parameters),
-      pack(library, "shaders/frame/pack_frame.comp"),
-      costs(cost_model),
-      fixed_sites(static_cast<std::uint32_t>(scene.wall_tiles.size())),
-      rows(parameters.row_count) {
-    // Slots are in the order of the cells, and cells and diagram have one origin.
-    const BinGrid cell_grid(parameters.cell_size * parameters.pixels_per_metre,
-                            {parameters.cells_width, parameters.cells_height});
-    diagram.connect({&buffers.sites, &buffers.live_dispatch, &buffers.site_slots,
-                     DiagramInput::Sorted{&buffers.strip_starts, &buffers.cell_offsets, cell_grid}});
-    pack.bindAll(buffers.named());
-    anybody_enters_later = std::any_of(
-        scene.people.begin(), scene.people.end(),
-        [](const gpu::Person& person) { return (person.flags & gpu::PERSON_PRESENT_AT_START) == 0; });
-}
-
-float Simulation::Parts::now() const {
-    const auto warmup = static_cast<double>(warmupSteps(settings));
-    return static_cast<float>((static_cast<double>(steps_done) - warmup) /
-                              (settings.fps * settings.substeps));
-}
-
-std::vector<std::pair<std::string, gl::Buffer*>> Simulation::Parts::remembered() {
-    std::vector<std::pair<std::string, gl::Buffer*>> found = {{"states", &buffers.states},
-                                                              {"waiting lines", &buffers.lines},
-                                                              {"tickets", &buffers.tickets},
-                                                              {"queue heads", &buffers.queue_heads},
-                                                              {"detour slopes", &buffers.detour_slopes}};
-    for (const auto& each : congestion.remembered())
-        found.push_back(each);
-    return found;
-}
-
 Simulation::Simulation(const authoring::Scene& scene, const gl::ShaderLibrary& library,
                        const CostModel& costs)
     : parts_(std::make_unique<Parts>(scene, library, costs)) {
@@ -161,19 +79,9 @@ Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 
 void Simulation::step() {
-    Parts& p = *parts_;
-    const float now = p.now();
-    ++p.steps_done;
-    p.gates.move(now);
-    p.cells.run();
-    p.congestion.run();
-    if (p.anybody_enters_later) p.spawner.run(now, p.steps_done);
-    if (p.sensing.needsDiagram()) p.diagram.build();
-    p.sensing.run();
-    p.avoidance.run(p.steps_done);
-    p.contacts.run();
-    p.motion.run(p.steps_done);
-    p.lines.run();
+    parts_->beginStep();
+    for (const Pass& pass : parts_->passes)
+        pass.run();
 }
 
 namespace {
@@ -229,36 +137,18 @@ bool Simulation::diagramIsPaged() const {
 }
 
 std::vector<std::pair<std::string, double>> Simulation::profile(int steps) {
-    Parts& p = *parts_;
+    using Milliseconds = std::chrono::duration<double, std::milli>;
     std::vector<std::pair<std::string, double>> times;
-    const auto timed = [&](std::size_t index, const char* name, auto&& pass) {
-        if (index == times.size()) times.emplace_back(name, 0.0);
-        const auto start = std::chrono::steady_clock::now();
-        pass();
-        glFinish();
-        times[index].second +=
-            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count() /
-            steps;
-    };
+    for (const Pass& pass : parts_->passes)
+        times.emplace_back(pass.name, 0.0);
     for (int i = 0; i < steps; ++i) {
-        const float now = p.now();
-        ++p.steps_done;
-        p.gates.move(now);
-        timed(0, "cells", [&] { p.cells.run(); });
-        timed(1, "routes", [&] { p.congestion.run(); });
-        timed(2, "spawn", [&] {
-            if (p.anybody_enters_later) p.spawner.run(now, p.steps_done);
-        });
-        timed(3, "diagram", [&] {
-            if (p.sensing.needsDiagram()) p.diagram.build();
-        });
-        timed(4, "sensing", [&] { p.sensing.run(); });
-        timed(5, "avoidance", [&] { p.avoidance.run(p.steps_done); });
-        timed(6, "contacts", [&] { p.contacts.run(); });
-        timed(7, "motion", [&] {
-            p.motion.run(p.steps_done);
-            p.lines.run();
-        });
+        parts_->beginStep();
+        for (std::size_t pass = 0; pass < times.size(); ++pass) {
+            const auto start = std::chrono::steady_clock::now();
+            parts_->passes[pass].run();
+            glFinish();
+            times[pass].second += Milliseconds(std::chrono::steady_clock::now() - start).count() / steps;
+        }
     }
     return times;
 }
@@ -294,12 +184,9 @@ void Simulation::packStream(Stream stream, const gl::Buffer& buffer) {
     Parts& p = *parts_;
     const StreamInfo& info = infoOf(stream);
     std::optional<gl::ComputeProgram>& program = p.pack_streams[stream];
-    if (!program) {
-        program.emplace(p.library, std::string(info.shader));
-        program->bindAll(p.buffers.named());
-    }
+    if (!program) program = p.buffers.connect(p.library, packingOf(info, p.library));
     if (info.needs_diagram) program->bind("PixelCounts", p.diagram.countPixels());
-    program->bind("StreamBlock", buffer);
+    program->bind(kStreamBlock, buffer);
     program->dispatch(p.rows);
 }
 

@@ -1,19 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "sim/buffers.h"
+#include "sim/cell_sort.h"
 #include "sim/congestion.h"
 #include "sim/diagram/diagram.h"
 #include "sim/gates.h"
 #include "sim/passes.h"
+#include "sim/sensing.h"
 #include "sim/simulation.h"
 
 namespace throng::sim {
+
+/// One pass of a step: its name, as its programs declare it, and what runs it.
+struct Pass {
+    std::string name;
+    std::function<void()> run;
+};
 
 struct Simulation::Parts {
     Parts(const authoring::Scene& scene, const gl::ShaderLibrary& shader_library,
@@ -44,7 +53,16 @@ struct Simulation::Parts {
 
     std::uint32_t rows = 0;
     std::uint32_t steps_done = 0;
+    float step_start = 0.0f;  // s, simulation time
     bool anybody_enters_later = false;
+    std::vector<Pass> passes;  // of a step, in order; they refer to this
+
+    Parts(const Parts&) = delete;
+    Parts& operator=(const Parts&) = delete;
+
+    /// What the CPU does before the passes of a step.
+    void beginStep();
+    std::vector<Pass> passesOfStep();
 
     /// What lives from one step to the next; everything else is worked out anew in each.
     std::vector<std::pair<std::string, gl::Buffer*>> remembered();

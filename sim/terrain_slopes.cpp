@@ -4,7 +4,8 @@
 namespace throng::sim {
 
 TerrainSlopes::TerrainSlopes(std::shared_ptr<const authoring::Terrain> terrain)
-    : terrain_(std::move(terrain)), nodes_(gl::makeBuffer("terrain nodes", terrain_->nodes())) {}
+    : terrain_(std::move(terrain)),
+      nodes_(gl::makeBuffer("terrain nodes", terrain_->nodes(), "terrain node")) {}
 
 void TerrainSlopes::describeTo(gl::Program& program) const {
     program.bind("TerrainNodes", nodes_);

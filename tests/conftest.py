@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What all Python tests share: the binary, bakes of the examples (each made once), and where other tools are."""
+"""What all Python tests share: the binary, bakes (each made once), and where other tools are."""
 import json
 import os
 import pathlib
 import shutil
 import subprocess
 
+import filelock
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -30,17 +31,36 @@ def throng():
 
 
 @pytest.fixture(scope="session")
-def bakes(throng, tmp_path_factory):
+def once(tmp_path_factory):
+    """once("street", make) is a folder that make(folder) has filled, once for all processes that tests run in. Tests
+    only read it."""
+    folder = tmp_path_factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        folder = folder.parent  # which the processes share
+    folder /= "shared"
+    folder.mkdir(exist_ok=True)
+
+    def folder_of(name, make):
+        made = folder / f"{name}.made"
+        with filelock.FileLock(folder / f"{name}.lock"):
+            if not made.exists():
+                shutil.rmtree(folder / name, ignore_errors=True)  # of one that failed
+                (folder / name).mkdir()
+                make(folder / name)
+                made.touch()
+        return folder / name
+
+    return folder_of
+
+
+@pytest.fixture(scope="session")
+def bakes(throng, once):
     """bakes("intersection") is the folder of that example's bake."""
-    folder = tmp_path_factory.mktemp("bakes")
-    made = {}
 
     def bake(name):
-        if name not in made:
-            extra = ["--diagrams", "480"] if name == "intersection" else ["--no-gltf"]
-            throng("bake", EXAMPLES / f"{name}.json", "-o", folder / name, "-q", *extra)
-            made[name] = folder / name
-        return made[name]
+        extra = ["--diagrams", "480"] if name == "intersection" else ["--no-gltf"]
+        make = lambda folder: throng("bake", EXAMPLES / f"{name}.json", "-o", folder / name, "-q", *extra)
+        return once(f"example-{name}", make) / name
 
     return bake
 
@@ -65,7 +85,8 @@ def blender_module(folder="bpy"):
         pytest.skip(f"the Python module bpy is not installed in build/{folder} (scripts/test does)")
 
     def command(script, arguments, blend, factory):
-        return [str(python), str(ROOT / "tests" / "blender" / "run_in_bpy.py"), str(blend or ""), str(script), *arguments]
+        return [str(python), str(ROOT / "tests" / "blender" / "run_in_bpy.py"), str(blend or ""), str(script),
+                *arguments]
 
     return command
 
@@ -75,13 +96,15 @@ def blender_module_lts():
     return blender_module("bpy-lts")
 
 
-@pytest.fixture(scope="session", params=[blender_program, blender_module_lts, blender_module], ids=["blender", "lts", "bpy"])
+@pytest.fixture(scope="session", params=[blender_program, blender_module_lts, blender_module],
+                ids=["blender", "lts", "bpy"])
 def blender(request):
     """Runs a Python script in a Blender, in an empty scene: in Debian's, in the last 4.x, and in a current one."""
     command = request.param()
 
     def run(script, *arguments, blend=None, factory=True, environment=None):
-        process = subprocess.run(command(script, [str(argument) for argument in arguments], blend, factory), capture_output=True, text=True,
+        process = subprocess.run(command(script, [str(argument) for argument in arguments], blend, factory),
+                                 capture_output=True, text=True,
                                  env={**os.environ, **(environment or {})})
         assert process.returncode == 0, process.stdout[-4000:] + process.stderr[-4000:]
         return process.stdout
@@ -94,8 +117,21 @@ def manifest_of():
     return lambda bake: json.loads((pathlib.Path(bake) / "bake.json").read_text())
 
 
+def pytest_configure(config):
+    config.addinivalue_line("markers", "slow: takes ten seconds or more of a processor, and begins before all others")
+    config.addinivalue_line("markers", "quick: one of those that `scripts/test quick` passes")
+
+
+@pytest.hookimpl(tryfirst=True)  # before the processes are told of the groups
 def pytest_collection_modifyitems(items):
-    """The longest first, so that no processor is idle at the end."""
-    first = ("scenarios", "slurm", "batch", "blender")
+    """The longest first, so that no processor is idle at the end; what only one process can make stays in one."""
+    first = ("slurm", "scenarios", "blender", "batch")
     place = {name: i for i, name in enumerate(first)}
-    items.sort(key=lambda item: place.get(pathlib.Path(item.fspath).parent.name, len(first)))
+    for item in items:
+        if "slurm" in item.fixturenames:
+            item.add_marker(pytest.mark.xdist_group("slurm"))
+        if "found" in item.fixturenames:
+            item.add_marker(pytest.mark.xdist_group(f"overrides in {item.callspec.id}"))
+        if item.path.parent.name == "house":
+            item.add_marker(pytest.mark.quick)
+    items.sort(key=lambda item: (item.get_closest_marker("slow") is None, place.get(item.path.parent.name, len(first))))

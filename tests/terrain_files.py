@@ -12,8 +12,10 @@ def glb(positions, triangles, node=None, nodes=None):
                 "nodes": nodes or [{"mesh": 0, **(node or {})}],
                 "meshes": [{"name": "ground", "primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
                 "accessors": [{"bufferView": 0, "componentType": 5126, "count": len(positions), "type": "VEC3",
-                               "min": [min(p[0] for p in positions), min(p[2] for p in positions), min(-p[1] for p in positions)],
-                               "max": [max(p[0] for p in positions), max(p[2] for p in positions), max(-p[1] for p in positions)]},
+                               "min": [min(p[0] for p in positions), min(p[2] for p in positions),
+                                       min(-p[1] for p in positions)],
+                               "max": [max(p[0] for p in positions), max(p[2] for p in positions),
+                                       max(-p[1] for p in positions)]},
                               {"bufferView": 1, "componentType": 5125, "count": 3 * len(triangles), "type": "SCALAR"}],
                 "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": len(points)},
                                 {"buffer": 0, "byteOffset": len(points), "byteLength": len(corners)}],
@@ -24,14 +26,15 @@ def glb(positions, triangles, node=None, nodes=None):
 def pack(document, binary):
     text = json.dumps(document).encode()
     text += b" " * (-len(text) % 4)
-    return struct.pack("<4sII", b"glTF", 2, 28 + len(text) + len(binary)) + struct.pack("<I4s", len(text), b"JSON") + text + \
-        struct.pack("<I4s", len(binary), b"BIN\0") + binary
+    return struct.pack("<4sII", b"glTF", 2, 28 + len(text) + len(binary)) + \
+        struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(binary), b"BIN\0") + binary
 
 
 def surface(height, low, high, cell):
     """Positions and triangles of a surface z = height(x, y)."""
     columns, rows = (round((b - a) / cell) + 1 for a, b in zip(low, high))
-    positions = [(low[0] + i * cell, low[1] + j * cell, height(low[0] + i * cell, low[1] + j * cell)) for j in range(rows) for i in range(columns)]
+    positions = [(low[0] + i * cell, low[1] + j * cell, height(low[0] + i * cell, low[1] + j * cell))
+                 for j in range(rows) for i in range(columns)]
     triangles = []
     for j in range(rows - 1):
         for i in range(columns - 1):
@@ -41,8 +44,8 @@ def surface(height, low, high, cell):
 
 
 def stairs(count, tread, rise, landing, half_width, flat=False):
-    """Up along +x from x = 0: a landing before it (at height 0), `count` treads each `rise` above the one before, and a landing at the
-    top. Risers are upright faces."""
+    """Up along +x from x = 0: a landing before it (at height 0), `count` treads each `rise` above the one before, and a
+    landing at the top. Risers are upright faces."""
     positions, triangles = [], []
 
     def quad(a, b, c, d):

@@ -61,9 +61,9 @@ LinePlot plotOf(const std::string& title, const std::string& note, const std::st
     LinePlot plot;
     plot.title = title;
     plot.note = note;
-    plot.x.label = x;
-    plot.y.label = y;
-    plot.series.push_back({"", points, false, markers, -1});
+    plot.x = x;
+    plot.y = y;
+    plot.series.push_back({"", points, false, markers});
     return plot;
 }
 
@@ -140,7 +140,7 @@ void writeMeasurementPlots(const std::filesystem::path& folder, const Measuremen
     LinePlot speeds = plotOf("Speed by density", name + "; dashed: Weidmann 1993", "persons per square metre",
                              "metres per second", m.speed_by_density, true);
     speeds.series.front().name = "measured";
-    PlotSeries weidmann{"Weidmann", {}, true, false, -1};
+    PlotSeries weidmann{"Weidmann", {}, true, false};
     for (int i = 1; i <= 50; ++i) {
         const double density = 0.1 * i;
         weidmann.points.emplace_back(density, 1.34 * (1.0 - std::exp(-1.913 * (1.0 / density - 1.0 / 5.4))));

@@ -18,70 +18,25 @@ struct Colour {
     double r, g, b;
 };
 
-/// Told apart by those who do not see red or green, too (after Okabe and Ito 2008), and again in darker
-/// tones.
-constexpr std::array kColours = {
-    Colour{0.00, 0.45, 0.70}, Colour{0.84, 0.37, 0.00}, Colour{0.00, 0.62, 0.45}, Colour{0.80, 0.47, 0.65},
-    Colour{0.90, 0.62, 0.00}, Colour{0.34, 0.71, 0.91}, Colour{0.25, 0.25, 0.25}, Colour{0.55, 0.33, 0.16},
-    Colour{0.45, 0.20, 0.55}, Colour{0.55, 0.60, 0.10}, Colour{0.75, 0.10, 0.25}, Colour{0.40, 0.50, 0.60}};
+/// Told apart by those who do not see red or green, too (after Okabe and Ito 2008).
+constexpr std::array kColours = {Colour{0.00, 0.45, 0.70}, Colour{0.84, 0.37, 0.00}, Colour{0.00, 0.62, 0.45},
+                                 Colour{0.80, 0.47, 0.65}};
 
+constexpr int kWidth = 1200, kHeight = 760;  // px
 constexpr double kLeft = 86, kRight = 210, kTop = 74, kBottom = 64;
 
-bool isShown(const PlotAxis& axis, double value) {
-    return std::isfinite(value) && (!axis.logarithmic || value > 0.0);
+bool isShown(glm::dvec2 point) {
+    return std::isfinite(point.x) && std::isfinite(point.y);
 }
 
 /// One axis: from values to positions between 0 and 1.
 class Scale {
   public:
-    Scale(const PlotAxis& axis, const std::vector<double>& values) : logarithmic_(axis.logarithmic) {
-        low_ = axis.minimum;
-        high_ = axis.maximum;
-        if (low_ == high_) {
+    explicit Scale(const std::vector<double>& values) {
+        if (!values.empty()) {
             const auto [least, most] = std::minmax_element(values.begin(), values.end());
-            low_ = values.empty() ? (logarithmic_ ? 1.0 : 0.0) : *least;
-            high_ = values.empty() ? 10.0 : *most;
-            widen();
-        }
-    }
-    double at(double value) const {
-        if (logarithmic_) return std::log(value / low_) / std::log(high_ / low_);
-        return (value - low_) / (high_ - low_);
-    }
-    std::vector<double> ticks() const {
-        std::vector<double> result;
-        if (logarithmic_) {
-            const bool binary = high_ / low_ > 16 && std::abs(std::remainder(std::log2(low_), 1.0)) < 1e-9 &&
-                                std::abs(std::remainder(std::log2(high_), 1.0)) < 1e-9;
-            const double factor = binary ? 4.0 : 10.0;
-            const double first = binary ? low_ : std::pow(10.0, std::ceil(std::log10(low_) - 1e-9));
-            const auto count = static_cast<int>(std::log(high_ * 1.0001 / first) / std::log(factor));
-            for (int i = 0; i <= count; ++i)
-                result.push_back(first * std::pow(factor, i));
-            return result;
-        }
-        const double raw = (high_ - low_) / 6.0;
-        const double power = std::pow(10.0, std::floor(std::log10(raw)));
-        double step = power;
-        for (const double factor : {1.0, 2.0, 5.0, 10.0})
-            if (power * factor <= raw * 1.5) step = power * factor;
-        const auto first = static_cast<int>(std::ceil(low_ / step - 1e-9));
-        const auto last = static_cast<int>(std::floor(high_ / step + 1e-9));
-        for (int i = first; i <= last; ++i)
-            result.push_back(i * step);
-        return result;
-    }
-
-  private:
-    void widen() {
-        if (logarithmic_) {
-            const bool binary = std::abs(std::remainder(std::log2(low_), 1.0)) < 1e-9 &&
-                                std::abs(std::remainder(std::log2(high_), 1.0)) < 1e-9 && high_ > low_;
-            if (binary) return;  // counts that are powers of two
-            low_ = std::pow(10.0, std::floor(std::log10(low_)));
-            high_ = std::pow(10.0, std::ceil(std::log10(high_) + 1e-9));
-            if (high_ <= low_) high_ = low_ * 10.0;
-            return;
+            low_ = *least;
+            high_ = *most;
         }
         const double margin = high_ > low_ ? 0.05 * (high_ - low_) : 1.0;
         if (low_ < 0.0 || low_ > 0.5 * high_)
@@ -90,9 +45,23 @@ class Scale {
             low_ = 0.0;
         high_ += margin;
     }
+    double at(double value) const { return (value - low_) / (high_ - low_); }
+    std::vector<double> ticks() const {
+        const double raw = (high_ - low_) / 6.0;
+        const double power = std::pow(10.0, std::floor(std::log10(raw)));
+        double step = power;
+        for (const double factor : {1.0, 2.0, 5.0, 10.0})
+            if (power * factor <= raw * 1.5) step = power * factor;
+        const auto first = static_cast<int>(std::ceil(low_ / step - 1e-9));
+        const auto last = static_cast<int>(std::floor(high_ / step + 1e-9));
+        std::vector<double> result;
+        for (int i = first; i <= last; ++i)
+            result.push_back(i * step);
+        return result;
+    }
 
-    bool logarithmic_;
-    double low_ = 0.0, high_ = 1.0;
+  private:
+    double low_ = 0.0, high_ = 10.0;
 };
 
 class Canvas {
@@ -138,12 +107,11 @@ std::string tickText(double value) {
     return digits;
 }
 
-std::vector<double> shownValues(const LinePlot& plot, bool of_x) {
+std::vector<double> shownValues(const LinePlot& plot, double glm::dvec2::*coordinate) {
     std::vector<double> values;
     for (const PlotSeries& series : plot.series)
         for (const glm::dvec2 point : series.points)
-            if (isShown(plot.x, point.x) && isShown(plot.y, point.y))
-                values.push_back(of_x ? point.x : point.y);
+            if (isShown(point)) values.push_back(point.*coordinate);
     return values;
 }
 
@@ -168,9 +136,9 @@ class Drawing {
   public:
     explicit Drawing(const LinePlot& plot)
         : plot_(plot),
-          canvas_(plot.width, plot.height),
-          x_(plot.x, shownValues(plot, true)),
-          y_(plot.y, shownValues(plot, false)) {}
+          canvas_(kWidth, kHeight),
+          x_(shownValues(plot, &glm::dvec2::x)),
+          y_(shownValues(plot, &glm::dvec2::y)) {}
 
     void draw() {
         grid();
@@ -180,7 +148,7 @@ class Drawing {
         spread(labels, 19.0);
         for (const Label& label : labels) {
             colour(label.series);
-            canvas_.text(plot_.width - kRight + 12, label.y + 5, 14, plot_.series[label.series].name);
+            canvas_.text(kWidth - kRight + 12, label.y + 5, 14, plot_.series[label.series].name);
         }
         cairo_set_source_rgb(canvas_.get(), 0.1, 0.1, 0.1);
         canvas_.text(kLeft, 32, 19, plot_.title, 0.0, true);
@@ -191,12 +159,11 @@ class Drawing {
 
   private:
     glm::dvec2 place(glm::dvec2 point) const {
-        return {kLeft + x_.at(point.x) * (plot_.width - kLeft - kRight),
-                plot_.height - kBottom - y_.at(point.y) * (plot_.height - kTop - kBottom)};
+        return {kLeft + x_.at(point.x) * (kWidth - kLeft - kRight),
+                kHeight - kBottom - y_.at(point.y) * (kHeight - kTop - kBottom)};
     }
     void colour(std::size_t index) const {
-        const int chosen = plot_.series[index].colour;
-        const Colour& c = kColours[(chosen < 0 ? index : static_cast<std::size_t>(chosen)) % kColours.size()];
+        const Colour& c = kColours[index % kColours.size()];
         cairo_set_source_rgb(canvas_.get(), c.r, c.g, c.b);
     }
     void rule(double x0, double y0, double x1, double y1) const {
@@ -206,7 +173,7 @@ class Drawing {
     }
     void grid() const {
         cairo_t* c = canvas_.get();
-        const double right = plot_.width - kRight, bottom = plot_.height - kBottom;
+        const double right = kWidth - kRight, bottom = kHeight - kBottom;
         cairo_set_line_width(c, 1.0);
         for (const double tick : x_.ticks()) {
             const double x = kLeft + x_.at(tick) * (right - kLeft);
@@ -225,11 +192,11 @@ class Drawing {
         cairo_set_source_rgb(c, 0.25, 0.25, 0.25);
         rule(kLeft, bottom, right, bottom);
         rule(kLeft, kTop, kLeft, bottom);
-        canvas_.text(0.5 * (kLeft + right), bottom + 46, 14, plot_.x.label, 0.5);
+        canvas_.text(0.5 * (kLeft + right), bottom + 46, 14, plot_.x, 0.5);
         cairo_save(c);
         cairo_translate(c, 22, 0.5 * (kTop + bottom));
         cairo_rotate(c, -1.5707963);
-        canvas_.text(0, 0, 14, plot_.y.label, 0.5);
+        canvas_.text(0, 0, 14, plot_.y, 0.5);
         cairo_restore(c);
     }
     void line(std::size_t index, std::vector<Label>& labels) const {
@@ -240,11 +207,11 @@ class Drawing {
         const double dashes[] = {7.0, 5.0};
         cairo_set_dash(c, dashes, series.dashed ? 2 : 0, 0);
         cairo_save(c);
-        cairo_rectangle(c, kLeft, kTop, plot_.width - kLeft - kRight, plot_.height - kTop - kBottom);
+        cairo_rectangle(c, kLeft, kTop, kWidth - kLeft - kRight, kHeight - kTop - kBottom);
         cairo_clip(c);
         std::vector<glm::dvec2> places;
         for (const glm::dvec2 point : series.points)
-            if (isShown(plot_.x, point.x) && isShown(plot_.y, point.y)) places.push_back(place(point));
+            if (isShown(point)) places.push_back(place(point));
         for (const glm::dvec2 at : places)
             cairo_line_to(c, at.x, at.y);
         cairo_stroke(c);

@@ -3,31 +3,18 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <csignal>
-#include <cstdio>
-#include <cstdlib>
-#include <memory>
+#include <optional>
 #include <string>
+#include <system_error>
+#include <vector>
 
 #include "analysis/preview/plate.h"
+#include "base/process.h"
 
 namespace throng::analysis {
 namespace {
 
-std::string quoted(const std::string& text) {
-    std::string result;
-    for (const char letter : text) {
-        if (letter == '\'')
-            result.append("'\\''");
-        else
-            result.push_back(letter);
-    }
-    return fmt::format("'{}'", result);
-}
-
-/// Other file than the final one until it is complete, so that a failure leaves nothing that looks like a
-/// picture.
+/// Where a picture is made until it is complete, so that a failure leaves nothing that looks like one.
 std::filesystem::path unfinished(const std::filesystem::path& path) {
     std::filesystem::path result = path;
     result.replace_filename(fmt::format(".{}.unfinished{}", path.stem().string(), path.extension().string()));
@@ -42,46 +29,41 @@ void publish(const std::filesystem::path& from, const std::filesystem::path& to)
     throw OutputError(to, "write", error.value());
 }
 
-/// A pipe to ffmpeg that takes raw frames.
+/// ffmpeg, which takes raw frames.
 class Encoder {
   public:
     Encoder(const Plate& plate, const std::filesystem::path& path) : path_(path) {
-        if (std::system("ffmpeg -version >/dev/null 2>&1") != 0)
+        std::vector<std::string> words = {"ffmpeg", "-loglevel", "error", "-nostdin", "-y"};
+        const auto add = [&](std::initializer_list<std::string> more) { words.insert(words.end(), more); };
+        add({"-f", "rawvideo", "-pix_fmt", "bgr0", "-s",
+             fmt::format("{}x{}", plate.width(), plate.height())});
+        add({"-r", fmt::format("{}", plate.fps()), "-i", "-"});
+        add({"-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "20", "-f", "mp4", path.string()});
+        try {
+            process_.emplace(words, ProcessOptions{.input = StandardStream::pipe});
+        } catch (const std::system_error& error) {
+            if (error.code() != std::errc::no_such_file_or_directory)
+                throw OutputError(path, "start ffmpeg for", error.code().value());
             throw OutputError(path,
                               "films need the program ffmpeg, which is not here: apt-get install ffmpeg");
-        old_handler_ =
-            std::signal(SIGPIPE, SIG_IGN);  // a dying encoder is an error of ours to tell, not our death
-        const std::string command = fmt::format(
-            "ffmpeg -loglevel error -nostdin -y -f rawvideo -pix_fmt bgr0 -s {}x{} -r {} -i - -c:v libx264 "
-            "-pix_fmt yuv420p -crf 20 -f mp4 {}",
-            plate.width(), plate.height(), plate.fps(), quoted(path.string()));
-        pipe_ = popen(command.c_str(), "w");
-        if (!pipe_) throw OutputError(path, "start ffmpeg for", errno);
+        }
     }
-    ~Encoder() {
-        if (pipe_) pclose(pipe_);
-        std::signal(SIGPIPE, old_handler_);
-    }
-    Encoder(const Encoder&) = delete;
-    Encoder& operator=(const Encoder&) = delete;
 
     void add(cairo_surface_t* surface, int height) {
         const auto bytes = static_cast<std::size_t>(cairo_image_surface_get_stride(surface)) *
                            static_cast<std::size_t>(height);
-        if (std::fwrite(cairo_image_surface_get_data(surface), 1, bytes, pipe_) != bytes)
-            throw OutputError(path_, "write the film", errno);
+        const auto* pixels = reinterpret_cast<const char*>(cairo_image_surface_get_data(surface));
+        if (const std::error_code error = process_->write({pixels, bytes}))
+            throw OutputError(path_, "write the film", error.value());
     }
     void finish() {
-        const int status = pclose(pipe_);
-        pipe_ = nullptr;
-        if (status != 0)
-            throw OutputError(path_, fmt::format("ffmpeg could not make the film (status {})", status));
+        const ProgramEnd end = process_->wait();
+        if (!end.isGood()) throw OutputError(path_, "ffmpeg could not make the film: it " + end.text());
     }
 
   private:
     std::filesystem::path path_;
-    FILE* pipe_ = nullptr;
-    void (*old_handler_)(int) = nullptr;
+    std::optional<Process> process_;
 };
 
 }  // namespace

@@ -8,8 +8,7 @@
 
 namespace throng::analysis {
 
-/// A picture of a bake from above: the layout, where people came from (trails), where it is crowded, and who
-/// stands where.
+/// A picture of a bake from above: the layout, who stands where and came from where, where it is crowded.
 struct PreviewOptions {
     std::optional<std::uint32_t> frame;  ///< from 0; by default the one with most people
     int width = 1400;                    ///< px, [200, 8000]; the height follows from the layout

@@ -8,8 +8,8 @@
 
 namespace throng::analysis {
 
-/// A file of io/report/web, put into the binary by the build. @throws std::logic_error for one that is not
-/// there
+/// A file of analysis/report/web, put into the binary by the build.
+/// @throws std::logic_error for one that is not there
 std::string_view webFile(std::string_view name);
 
 /// An HTML page that needs no network: styles, scripts and data are inside.

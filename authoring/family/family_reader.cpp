@@ -16,8 +16,6 @@
 namespace throng::authoring {
 namespace {
 
-constexpr double kMostScenarios = 1'000'000.0;
-constexpr Limits kAnyNumber{-1.0e15, 1.0e15};
 constexpr const char* kAxisHint =
     R"(for example {"set": "/flows/0/rate", "values": [0.5, 1, 2]} or {"set": "/simulation/seed", "range": [1, 10]})";
 
@@ -51,11 +49,11 @@ Json valueOf(const JsonNode& node) {
 
 class Reader {
   public:
-    Reader(const JsonNode& root, std::filesystem::path folder, Diagnostics& diagnostics)
-        : root_(root), folder_(std::move(folder)), diagnostics_(diagnostics) {}
+    Reader(const JsonNode& root, std::filesystem::path folder, Diagnostics& diagnostics, const Schema& schema)
+        : root_(root), folder_(std::move(folder)), diagnostics_(diagnostics), schema_(schema) {}
 
     Family read() {
-        ObjectReader reader(root_, "the family", diagnostics_);
+        ObjectReader reader(root_, schema_.rule(), "the family", diagnostics_);
         if (!reader.isObject()) return {};
         family_.where = root_.where;
         reader.get("$schema");
@@ -138,22 +136,21 @@ class Reader {
     }
 
     void readGenerator(const JsonNode& node) {
-        ObjectReader reader(node, "`generate`", diagnostics_);
+        ObjectReader reader(node, schema_.rule().property("generate"), "`generate`", diagnostics_);
         if (!reader.isObject()) return;
         family_.generator_where = node.where;
-        std::vector<std::string> names;
+        Meanings<const Generator*> kinds;
         for (const Generator& generator : generators())
-            names.emplace_back(generator.name);
+            kinds.emplace_back(generator.name, &generator);
         reader.require("kind", "which generator: crossing, corridor, streets, plaza or stadium");
-        const auto chosen = reader.choice("kind", names);
-        if (!chosen) return;
-        family_.generator = &generators()[*chosen];
-        family_.base_name = names[*chosen];
+        reader.choice("kind", kinds, family_.generator);
+        if (!family_.generator) return;
+        family_.base_name = family_.generator->name;
         for (const GeneratorParameter& parameter : family_.generator->parameters) {
             const std::string name(parameter.name);
             const JsonNode* value = reader.get(name);
             if (!value) continue;
-            const auto number = reader.numberOf(*value, {parameter.least, parameter.most});
+            const auto number = numberOf(*value, {parameter.least, parameter.most}, diagnostics_);
             if (!number) continue;
             if (parameter.whole && *number != std::floor(*number))
                 diagnostics_.error(value->where, fmt::format("`{}` is a whole number", name));
@@ -164,10 +161,11 @@ class Reader {
     }
 
     void readSampling(ObjectReader& reader) {
-        if (const auto sampling = reader.choice("sampling", {"grid", "random", "latin"}))
-            family_.sampling = static_cast<Sampling>(*sampling);
-        reader.integer("count", {1, kMostScenarios}, family_.count);
-        reader.integer("seed", {0, 9007199254740992.0}, family_.seed);
+        reader.choice("sampling",
+                      {{"grid", Sampling::grid}, {"random", Sampling::random}, {"latin", Sampling::latin}},
+                      family_.sampling);
+        reader.integer("count", family_.count);
+        reader.integer("seed", family_.seed);
     }
 
     void readTargets(ObjectReader& reader, const JsonNode& node, Axis& axis) {
@@ -205,7 +203,7 @@ class Reader {
     }
 
     void readAxis(const JsonNode& node) {
-        ObjectReader reader(node, "an axis", diagnostics_);
+        ObjectReader reader(node, schema_.definition("axis"), "an axis", diagnostics_);
         if (!reader.isObject()) return;
         Axis axis;
         axis.where = node.where;
@@ -240,8 +238,9 @@ class Reader {
             axis.values.push_back(valueOf(value));
         const JsonNode* weights = reader.get("weights");
         if (!weights || !isList(*weights, "weights")) return;
+        const Limits limits = reader.rule("weights").item().limits();
         for (const JsonNode& weight : weights->items)
-            axis.weights.push_back(reader.numberOf(weight, {0.0, 1.0e9, true}).value_or(1.0));
+            axis.weights.push_back(numberOf(weight, limits, diagnostics_).value_or(1.0));
         if (axis.weights.size() != axis.values.size())
             diagnostics_.error(weights->where, fmt::format("there are {} weights for {} values",
                                                            axis.weights.size(), axis.values.size()));
@@ -250,22 +249,28 @@ class Reader {
                                R"(add "sampling": "random", "count": 100)");
     }
 
-    std::vector<double> numbersOf(ObjectReader& reader, const JsonNode& node, std::size_t least,
-                                  std::size_t most, const char* meaning) {
+    std::vector<double> numbersOf(ObjectReader& reader, const std::string& key, const char* meaning) {
+        const SchemaRule rule = reader.rule(key);
+        const std::size_t least = rule.leastItems();
+        const Limits limits = rule.item().limits();
+        const JsonNode& node = *reader.get(key);
         std::vector<double> numbers;
-        if (node.kind == JsonNode::Kind::array && node.items.size() >= least && node.items.size() <= most)
+        if (node.kind == JsonNode::Kind::array && node.items.size() >= least &&
+            node.items.size() <= rule.mostItems())
             for (const JsonNode& item : node.items)
-                if (const auto number = reader.numberOf(item, kAnyNumber)) numbers.push_back(*number);
+                if (const auto number = numberOf(item, limits, diagnostics_)) numbers.push_back(*number);
         if (numbers.size() < least) diagnostics_.error(node.where, fmt::format("expected {}", meaning));
         return numbers;
     }
 
+    double mostScenarios() const { return schema_.rule().property("count").limits().most; }
+
     void readRange(ObjectReader& reader, const JsonNode& node, Axis& axis) {
-        const std::vector<double> range = numbersOf(reader, node, 2, 3, "[from, to] or [from, to, step]");
+        const std::vector<double> range = numbersOf(reader, "range", "[from, to] or [from, to, step]");
         if (range.size() < 2) return;
         const double step = range.size() == 3 ? range[2] : 1.0;
         const double steps = std::floor((range[1] - range[0]) / step + 1.0e-9);
-        if (step <= 0.0 || steps < 0.0 || steps >= kMostScenarios) {
+        if (step <= 0.0 || steps < 0.0 || steps >= mostScenarios()) {
             diagnostics_.error(node.where,
                                "a range goes from the smaller number to the larger one, in steps above zero");
             return;
@@ -285,7 +290,7 @@ class Reader {
                     : kind == "normal" ? Axis::Kind::normal
                                        : Axis::Kind::log_normal;
         const std::vector<double> numbers =
-            numbersOf(reader, node, 2, 2, kind == "uniform" ? "[least, most]" : "[mean, deviation]");
+            numbersOf(reader, kind, kind == "uniform" ? "[least, most]" : "[mean, deviation]");
         if (numbers.size() < 2) return;
         axis.a = numbers[0];
         axis.b = numbers[1];
@@ -295,8 +300,8 @@ class Reader {
                 diagnostics_.error(node.where, "the least is above the most", "swap the two");
         } else {
             if (axis.b <= 0.0) diagnostics_.error(node.where, "a deviation is more than zero");
-            reader.number("min", kAnyNumber, axis.minimum);
-            reader.number("max", kAnyNumber, axis.maximum);
+            reader.number("min", axis.minimum);
+            reader.number("max", axis.maximum);
             if (axis.minimum >= axis.maximum) diagnostics_.error(node.where, "`min` is not below `max`");
         }
         if (family_.sampling == Sampling::grid)
@@ -306,14 +311,14 @@ class Reader {
     }
 
     void readBake(const JsonNode& node) {
-        ObjectReader reader(node, "`bake`", diagnostics_);
+        ObjectReader reader(node, schema_.rule().property("bake"), "`bake`", diagnostics_);
         if (!reader.isObject()) return;
         reader.boolean("gltf", family_.bake.gltf);
         reader.boolean("keep", family_.bake.keep);
         for (const StreamInfo& info : kStreams)
             if (info.source == StreamSource::device)
                 reader.boolean(std::string(info.name), family_.bake.streams[info.id]);
-        reader.integer("diagrams", {0, 1.0e9}, family_.bake.diagrams);
+        reader.integer("diagrams", family_.bake.diagrams);
         reader.finish();
     }
 
@@ -339,10 +344,10 @@ class Reader {
                 family_.where,
                 "a grid has as many scenarios as its axes have combinations: `count` means nothing",
                 R"(leave it out, or add "sampling": "random")");
-        if (countOf(family_) > kMostScenarios)
+        if (countOf(family_) > mostScenarios())
             diagnostics_.error(family_.where,
                                fmt::format("{:.3g} scenarios are too many (at most {:.0f})", countOf(family_),
-                                           kMostScenarios),
+                                           mostScenarios()),
                                R"(draw from it: "sampling": "latin", "count": 1000)");
     }
 
@@ -358,16 +363,22 @@ class Reader {
     const JsonNode& root_;
     std::filesystem::path folder_;
     Diagnostics& diagnostics_;
+    const Schema& schema_;
     Family family_;
 };
 
 }  // namespace
 
+const Schema& familyRules() {
+    static const Schema schema(familySchema());
+    return schema;
+}
+
 std::optional<Family> readFamily(std::string_view text, const std::filesystem::path& folder,
-                                 Diagnostics& diagnostics) {
+                                 Diagnostics& diagnostics, const Schema& schema) {
     const JsonNode root = parseJson(text, diagnostics);
     if (diagnostics.hasErrors()) return std::nullopt;
-    Family family = Reader(root, folder, diagnostics).read();
+    Family family = Reader(root, folder, diagnostics, schema).read();
     if (diagnostics.hasErrors()) return std::nullopt;
     return family;
 }

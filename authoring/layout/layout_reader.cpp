@@ -16,20 +16,19 @@
 namespace throng::authoring {
 namespace {
 
-constexpr double kMostPeople = 4'000'000.0;
-constexpr Limits kAnyLength{0.0, 1.0e6, true};
-
 class Reader {
   public:
-    Reader(const JsonNode& root, Diagnostics& diagnostics) : root_(root), diagnostics_(diagnostics) {}
+    Reader(const JsonNode& root, const Schema& schema, Diagnostics& diagnostics)
+        : root_(root), schema_(schema), diagnostics_(diagnostics) {}
 
     Layout read() {
-        ObjectReader reader(root_, "the layout", diagnostics_);
+        ObjectReader reader(root_, schema_.rule(), "the layout", diagnostics_);
         if (!reader.isObject()) return {};
         reader.get("$schema");
         readVersion(reader);
         reader.text("name", layout_.name);
-        if (const JsonNode* node = reader.get("simulation")) readSimulation(*node);
+        if (const JsonNode* node = reader.get("simulation")) readSimulation(*node, reader.rule("simulation"));
+        if (const JsonNode* node = reader.get("motion")) readMotion(*node, reader.rule("motion"));
         eachOf(reader, "roads", [this](const JsonNode& node) { readRoad(node); });
         eachOf(reader, "areas", [this](const JsonNode& node) { readArea(node); });
         eachOf(reader, "walls", [this](const JsonNode& node) { readWall(node); });
@@ -65,54 +64,89 @@ class Reader {
             read(item);
     }
 
-    void readSimulation(const JsonNode& node) {
+    void readSimulation(const JsonNode& node, SchemaRule rule) {
         SimulationSettings& s = layout_.simulation;
-        ObjectReader reader(node, "`simulation`", diagnostics_);
-        reader.number("duration", {0.0, 86400.0, true}, s.duration);
-        reader.number("warmup", {0.0, 3600.0}, s.warmup);
-        reader.number("fps", {1.0, 240.0}, s.fps);
-        reader.integer("substeps", {1, 64}, s.substeps);
-        reader.integer("seed", {0, 9007199254740992.0}, s.seed);
-        reader.number("tile_radius", {0.05, 10.0}, s.tile_radius);
-        reader.number("field_of_view", {0.0, 360.0, true}, s.field_of_view);
-        reader.integer("samples_per_ray", {1, 64}, s.samples_per_ray);
-        reader.number("pixels_per_metre", {0.0, 100.0}, s.pixels_per_metre);
+        ObjectReader reader(node, rule, "`simulation`", diagnostics_);
+        reader.number("duration", s.duration);
+        reader.number("warmup", s.warmup);
+        reader.number("fps", s.fps);
+        reader.integer("substeps", s.substeps);
+        reader.integer("seed", s.seed);
+        reader.number("tile_radius", s.tile_radius);
+        reader.number("field_of_view", s.field_of_view);
+        reader.integer("samples_per_ray", s.samples_per_ray);
+        reader.number("pixels_per_metre", s.pixels_per_metre);
         if (const JsonNode* resolution = node.find("pixels_per_metre"))
             s.pixels_per_metre_where = resolution->where;
-        std::vector<std::string> methods = {"auto"};
+        Meanings<DiagramMethod> methods = {{"auto", DiagramMethod::automatic}};
         for (const DiagramMethodEntry& entry : kDiagramMethods)
-            methods.emplace_back(entry.word);
-        if (const auto method = reader.choice("method", methods))
-            s.method = *diagramMethodNamed(methods[*method]);
-        reader.integer("cone_sides", {3, 256}, s.cone_sides);
-        if (const auto proximity = reader.choice("proximity", {"voronoi", "grid", "brute"}))
-            s.proximity = static_cast<Proximity>(*proximity);
-        reader.integer("neighbours", {1, 32}, s.neighbours);
-        reader.number("time_horizon", {0.1, 20.0}, s.time_horizon);
-        reader.number("wall_time_horizon", {0.05, 20.0}, s.wall_time_horizon);
-        reader.number("contact_range", {0.5, 3.0}, s.contact_range);
-        reader.integer("contact_iterations", {1, 32}, s.contact_iterations);
-        reader.number("smoothing", {0.0, 1.0}, s.smoothing);
+            methods.emplace_back(entry.word, entry.method);
+        reader.choice("method", methods, s.method);
+        reader.integer("cone_sides", s.cone_sides);
+        reader.choice(
+            "proximity",
+            {{"voronoi", Proximity::voronoi}, {"grid", Proximity::grid}, {"brute", Proximity::brute}},
+            s.proximity);
+        reader.integer("neighbours", s.neighbours);
+        reader.number("time_horizon", s.time_horizon);
+        reader.number("wall_time_horizon", s.wall_time_horizon);
+        reader.number("contact_range", s.contact_range);
+        reader.integer("contact_iterations", s.contact_iterations);
+        reader.number("smoothing", s.smoothing);
         reader.boolean("avoid_congestion", s.avoid_congestion);
-        reader.number("maximum_acceleration", {0.1, 100.0}, s.maximum_acceleration);
+        reader.number("maximum_acceleration", s.maximum_acceleration);
         reader.finish();
         simulation_where_ = node.where;
     }
 
+    void readMotion(const JsonNode& node, SchemaRule schema_rule) {
+        ObjectReader motion(node, schema_rule, "`motion`", diagnostics_);
+        if (!motion.isObject()) return;
+        const auto rows = motionParameters();
+        for (std::size_t first = 0, end = 0; first < rows.size(); first = end) {
+            while (end < rows.size() && rows[end].rule == rows[first].rule)
+                ++end;
+            const std::string rule(rows[first].rule);
+            if (const JsonNode* told = motion.get(rule)) readRule(*told, motion.rule(rule), rule, first, end);
+        }
+        motion.finish();
+    }
+
+    /// Its parameters are the rows from `first` to before `end`.
+    void readRule(const JsonNode& node, SchemaRule schema_rule, const std::string& rule, std::size_t first,
+                  std::size_t end) {
+        ObjectReader reader(node, schema_rule, fmt::format("the rule `{}`", rule), diagnostics_);
+        if (!reader.isObject()) return;
+        MotionSettings& settings = layout_.simulation.motion;
+        for (std::size_t row = first; row < end; ++row) {
+            const MotionParameter& parameter = motionParameters()[row];
+            const std::string name(parameter.name);
+            double value = settings.number(rule, name);
+            bool on = value != 0.0;
+            if (parameter.is_switch)
+                reader.boolean(name, on);
+            else
+                reader.number(name, value);
+            settings.set(row, parameter.is_switch ? (on ? 1.0 : 0.0) : value);
+        }
+        reader.finish();
+    }
+
     void readExpectations(const JsonNode& node) {
-        ObjectReader reader(node, "`expect`", diagnostics_);
+        const SchemaRule rule = schema_.definition("expect");
+        ObjectReader reader(node, rule, "`expect`", diagnostics_);
         if (!reader.isObject()) return;
         if (const JsonNode* line = node.find("line")) layout_.flow_line = lineOf(reader, "line", *line);
-        for (const std::string_view figure : kExpectableFigures) {
-            const JsonNode* bar = reader.get(std::string(figure));
+        for (const std::string& figure : rule.keys()) {
+            if (!rule.property(figure).refersTo("bar")) continue;
+            const JsonNode* bar = reader.get(figure);
             if (!bar) continue;
-            ObjectReader limits(*bar, fmt::format("the bar on `{}`", figure), diagnostics_);
+            ObjectReader limits(*bar, rule.property(figure), fmt::format("the bar on `{}`", figure),
+                                diagnostics_);
             if (!limits.isObject()) continue;
-            Expectation expectation{std::string(figure), {}, {}};
-            for (const auto& [key, value] :
-                 {std::pair{"min", &expectation.minimum}, std::pair{"max", &expectation.maximum}})
-                if (const JsonNode* limit = limits.get(key))
-                    *value = limits.numberOf(*limit, {-1.0e9, 1.0e9});
+            Expectation expectation{figure, {}, {}};
+            limits.number("min", expectation.minimum);
+            limits.number("max", expectation.maximum);
             limits.finish();
             if (!expectation.minimum && !expectation.maximum)
                 diagnostics_.error(bar->where,
@@ -128,7 +162,7 @@ class Reader {
 
     /// A line of exactly two points; more are an error at `blamed`.
     std::optional<Line> lineOf(ObjectReader& reader, const std::string& key, const JsonNode& blamed) {
-        const std::vector<glm::dvec2> points = reader.points(key, 2);
+        const std::vector<glm::dvec2> points = reader.points(key);
         if (points.size() == 2) return Line{points[0], points[1]};
         if (points.size() > 2)
             diagnostics_.error(blamed.where, fmt::format("`{}` is a line of two points", key));
@@ -147,11 +181,11 @@ class Reader {
     void readRoad(const JsonNode& node) {
         Road road;
         road.where = node.where;
-        ObjectReader reader(node, "a road", diagnostics_);
+        ObjectReader reader(node, schema_.definition("road"), "a road", diagnostics_);
         if (!reader.isObject()) return;
         reader.requiredText("id", "the name that flows use", road.id);
-        road.centreline = reader.points("centreline", 2);
-        reader.number("width", {0.5, 1000.0}, road.width);
+        road.centreline = reader.points("centreline");
+        reader.number("width", road.width);
         reader.boolean("one_way", road.one_way);
         reader.finish();
         claimId(node, road.id, roads_, layout_.roads.size(), "a road");
@@ -161,10 +195,10 @@ class Reader {
     void readArea(const JsonNode& node) {
         Area area;
         area.where = node.where;
-        ObjectReader reader(node, "an area", diagnostics_);
+        ObjectReader reader(node, schema_.definition("area"), "an area", diagnostics_);
         if (!reader.isObject()) return;
         reader.requiredText("id", "the name that flows use", area.id);
-        area.polygon = reader.points("polygon", 3);
+        area.polygon = reader.points("polygon");
         reader.finish();
         checkPolygon(area.polygon, node.find("polygon"));
         claimId(node, area.id, areas_, layout_.areas.size(), "an area");
@@ -174,18 +208,18 @@ class Reader {
     void readWall(const JsonNode& node) {
         Wall wall;
         wall.where = node.where;
-        ObjectReader reader(node, "a wall", diagnostics_);
+        ObjectReader reader(node, schema_.definition("wall"), "a wall", diagnostics_);
         if (!reader.isObject()) return;
         reader.text("id", wall.id);
         if (const JsonNode* id = node.find("id"); id && id->kind == JsonNode::Kind::text && wall.id.empty())
             diagnostics_.error(id->where, "`id` is empty", "name the wall, or leave `id` out");
         reader.boolean("closed", wall.closed);
-        wall.points = reader.points("points", wall.closed ? 3 : 2);
+        wall.points = reader.points("points", wall.closed ? 3 : 0);
         const JsonNode* thickness = reader.get("thickness");
-        reader.number("thickness", {0.0, 100.0}, wall.thickness);
+        reader.number("thickness", wall.thickness);
         if (thickness && wall.closed)
             diagnostics_.warning(thickness->where, "a closed wall is solid: its thickness has no effect");
-        reader.number("height", {0.01, 1000.0}, wall.height);
+        reader.number("height", wall.height);
         reader.finish();
         if (wall.closed) checkPolygon(wall.points, node.find("points"));
         claimId(node, wall.id, walls_, layout_.walls.size(), "a wall");
@@ -206,7 +240,7 @@ class Reader {
     void readTerrain(const JsonNode& node) {
         TerrainSettings terrain;
         terrain.where = node.where;
-        ObjectReader reader(node, "`terrain`", diagnostics_);
+        ObjectReader reader(node, schema_.definition("terrain"), "`terrain`", diagnostics_);
         if (!reader.isObject()) return;
         reader.requiredText("file", "a .glb or .gltf file, relative to the layout", terrain.file);
         if (const JsonNode* file = node.find("file")) terrain.file_where = file->where;
@@ -216,25 +250,11 @@ class Reader {
             if (name->kind == JsonNode::Kind::text && name->text.empty())
                 diagnostics_.error(name->where, "`node` is empty", "name a node, or leave `node` out");
         }
-        if (const JsonNode* offset = reader.get("offset")) readOffset(reader, *offset, terrain.offset);
-        reader.number("scale", {0.0, 1.0e6, true}, terrain.scale);
-        if (const auto surface = reader.choice("surface", {"highest", "lowest"}))
-            terrain.highest = *surface == 0;
+        reader.offset("offset", terrain.offset);
+        reader.number("scale", terrain.scale);
+        reader.choice("surface", {{"highest", true}, {"lowest", false}}, terrain.highest);
         reader.finish();
         layout_.terrain = std::move(terrain);
-    }
-
-    void readOffset(ObjectReader& reader, const JsonNode& node, glm::dvec3& offset) {
-        if (node.kind != JsonNode::Kind::array || node.items.size() != 3) {
-            diagnostics_.error(node.where, fmt::format("expected an offset [x, y, z] in metres, found {}",
-                                                       node.kind == JsonNode::Kind::array
-                                                           ? fmt::format("an array of {}", node.items.size())
-                                                           : std::string(node.kindName())));
-            return;
-        }
-        for (int i = 0; i < 3; ++i)
-            offset[i] =
-                reader.numberOf(node.items[static_cast<std::size_t>(i)], {-1.0e8, 1.0e8}).value_or(0.0);
     }
 
     void checkPolygon(std::vector<glm::dvec2>& polygon, const JsonNode* node) {
@@ -251,15 +271,14 @@ class Reader {
     }
 
     void readArrival(ObjectReader& reader, Arrival& arrival) {
-        if (const auto choice = reader.choice("arrival", {"leave", "stay"}))
-            arrival = *choice == 0 ? Arrival::leave : Arrival::stay;
+        reader.choice("arrival", {{"leave", Arrival::leave}, {"stay", Arrival::stay}}, arrival);
     }
 
     void readFlow(const JsonNode& node) {
         Flow flow;
         flow.where = node.where;
         flow.end = layout_.simulation.duration;
-        ObjectReader reader(node, "a flow", diagnostics_);
+        ObjectReader reader(node, schema_.definition("flow"), "a flow", diagnostics_);
         if (!reader.isObject()) return;
         reader.requiredText("id", "its name in the account", flow.id);
         const JsonNode* from = reader.require("from", "where people come from");
@@ -270,8 +289,8 @@ class Reader {
             if (auto stop = places_.stop(item)) flow.via.push_back(std::move(*stop));
         });
         readAmount(reader, node, flow);
-        reader.number("start", {0.0, 86400.0}, flow.start);
-        reader.number("end", {0.0, 86400.0}, flow.end);
+        reader.number("start", flow.start);
+        reader.number("end", flow.end);
         if (flow.end <= flow.start)
             diagnostics_.error(node.find("end") ? node.find("end")->where : node.where,
                                fmt::format("the flow ends ({:.6g} s) {} it starts ({:.6g} s)", flow.end,
@@ -296,8 +315,8 @@ class Reader {
                                                        count ? "both" : "neither"));
         std::uint64_t people = 0;
         double per_second = 0.0;
-        reader.integer("count", {0, kMostPeople}, people);
-        reader.number("rate", {0.0, 1.0e5}, per_second);
+        reader.integer("count", people);
+        reader.number("rate", per_second);
         if (count) flow.count = people;
         if (rate) flow.rate = per_second;
     }
@@ -320,10 +339,10 @@ class Reader {
     void readEvent(const JsonNode& node) {
         Event event;
         event.where = node.where;
-        ObjectReader reader(node, "an event", diagnostics_);
+        ObjectReader reader(node, schema_.definition("event"), "an event", diagnostics_);
         if (!reader.isObject()) return;
         reader.require("at", "when, in seconds");
-        reader.number("at", {0.0, 86400.0}, event.at);
+        reader.number("at", event.at);
         const std::vector<std::string> kinds = {"open", "close", "go_to", "flow"};
         const JsonNode* what = nullptr;
         int found = 0;
@@ -342,7 +361,7 @@ class Reader {
         if (event.kind == Event::Kind::go_to) readSending(reader, *what, event);
         if (event.kind == Event::Kind::rate) {
             reader.require("rate", "people per second from now on");
-            reader.number("rate", {0.0, 1.0e5}, event.rate);
+            reader.number("rate", event.rate);
         }
         reader.finish();
         if (event.kind != Event::Kind::go_to && !findSubject(*what, event)) return;
@@ -410,24 +429,26 @@ class Reader {
         }
     }
 
+    enum class Shape { circle, grid, agents };
+
     void readFormation(const JsonNode& node) {
         Formation formation;
         formation.where = node.where;
-        ObjectReader reader(node, "a formation", diagnostics_);
+        ObjectReader reader(node, schema_.definition("formation"), "a formation", diagnostics_);
         if (!reader.isObject()) return;
         reader.requiredText("id", "its name in the account", formation.id);
         reader.require("type", "circle, grid or agents");
-        const auto type = reader.choice("type", {"circle", "grid", "agents"});
-        if (type) {
-            if (*type == 0) formation.shape = readCircle(reader);
-            if (*type == 1) formation.shape = readGrid(reader);
-            if (*type == 2) formation.shape = readList(reader);
-        }
-        reader.number("start", {0.0, 86400.0}, formation.start);
-        formation.wait = readDistribution(reader, "wait", {0.0, 86400.0}, formation.wait, diagnostics_);
+        std::optional<Shape> type;
+        reader.choice("type", {{"circle", Shape::circle}, {"grid", Shape::grid}, {"agents", Shape::agents}},
+                      type);
+        if (type == Shape::circle) formation.shape = readCircle(reader);
+        if (type == Shape::grid) formation.shape = readGrid(reader);
+        if (type == Shape::agents) formation.shape = readList(reader);
+        reader.number("start", formation.start);
+        formation.wait = readDistribution(reader, "wait", formation.wait, diagnostics_);
         formation.people = readPeople(reader, diagnostics_);
         readArrival(reader, formation.arrival);
-        reader.number("goal_tolerance", {0.01, 100.0}, formation.goal_tolerance);
+        reader.number("goal_tolerance", formation.goal_tolerance);
         if (type) reader.finish();
         claimId(node, formation.id, groups_, std::string::npos, "a flow or formation");
         layout_.formations.push_back(std::move(formation));
@@ -437,11 +458,11 @@ class Reader {
         CircleFormation circle;
         reader.point("centre", "the middle, [x, y] in metres", circle.centre);
         reader.require("radius", "metres");
-        reader.number("radius", kAnyLength, circle.radius);
+        reader.number("radius", circle.radius);
         reader.require("count", "people");
-        reader.integer("count", {1, kMostPeople}, circle.count);
-        reader.number("ring_spacing", kAnyLength, circle.ring_spacing);
-        reader.number("along", kAnyLength, circle.along);
+        reader.integer("count", circle.count);
+        reader.number("ring_spacing", circle.ring_spacing);
+        reader.number("along", circle.along);
         if ((circle.ring_spacing > 0.0) != (circle.along > 0.0))
             diagnostics_.error(
                 reader.where(), "`ring_spacing` and `along` go together",
@@ -453,27 +474,27 @@ class Reader {
         GridFormation grid;
         reader.point("origin", "the first person, [x, y] in metres", grid.origin);
         reader.require("rows", "people along the grid's +Y");
-        reader.integer("rows", {1, kMostPeople}, grid.rows);
+        reader.integer("rows", grid.rows);
         reader.require("columns", "people along the grid's +X");
-        reader.integer("columns", {1, kMostPeople}, grid.columns);
-        reader.number("spacing", kAnyLength, grid.spacing);
-        reader.integer("count", {1, kMostPeople}, grid.count);
+        reader.integer("columns", grid.columns);
+        reader.number("spacing", grid.spacing);
+        reader.integer("count", grid.count);
         if (grid.count > grid.rows * grid.columns)
             diagnostics_.error(reader.where(), fmt::format("`count` ({}) is more than {} rows of {} hold",
                                                            grid.count, grid.rows, grid.columns));
-        reader.number("jitter", {0.0, 1000.0}, grid.jitter);
-        reader.number("rotation", {-3600.0, 3600.0}, grid.rotation);
+        reader.number("jitter", grid.jitter);
+        reader.number("rotation", grid.rotation);
         const JsonNode* goal = reader.require("goal", "{\"offset\": [dx, dy]} or a place");
         if (!goal) return grid;
         if (goal->kind != JsonNode::Kind::object || goal->find("nearest") || goal->find("choose")) {
             if (auto destination = places_.destination(*goal)) grid.goal = std::move(*destination);
             return grid;
         }
-        ObjectReader inner(*goal, "`goal`", diagnostics_);
+        ObjectReader inner(*goal, reader.rule("goal"), "`goal`", diagnostics_);
         if (goal->find("mirror")) {
             if (const auto line = lineOf(inner, "mirror", *goal)) grid.goal = *line;
         } else if (const JsonNode* box = goal->find("anywhere")) {
-            const std::vector<glm::dvec2> corners = inner.points("anywhere", 2);
+            const std::vector<glm::dvec2> corners = inner.points("anywhere");
             if (corners.size() == 2)
                 grid.goal = Extent{corners[0], corners[1]};
             else if (corners.size() > 2)
@@ -490,19 +511,17 @@ class Reader {
     ListFormation readList(ObjectReader& reader) {
         ListFormation list;
         reader.require("agents", "an array of people");
+        const SchemaRule rule = reader.rule("agents").item();
         eachOf(reader, "agents", [&](const JsonNode& node) {
             ListedAgent agent;
             agent.where = node.where;
-            ObjectReader inner(node, "a person", diagnostics_);
+            ObjectReader inner(node, rule, "a person", diagnostics_);
             if (!inner.isObject()) return;
             inner.point("position", "[x, y] in metres", agent.position);
             inner.point("goal", "[x, y] in metres", agent.goal);
-            if (const JsonNode* speed = inner.get("speed"))
-                agent.speed = inner.numberOf(*speed, {0.05, 10.0});
-            if (const JsonNode* radius = inner.get("radius"))
-                agent.radius = inner.numberOf(*radius, {0.1, 1.0});
-            if (const JsonNode* heading = inner.get("heading"))
-                agent.heading = inner.numberOf(*heading, {-3600.0, 3600.0});
+            inner.number("speed", agent.speed);
+            inner.number("radius", agent.radius);
+            inner.number("heading", agent.heading);
             inner.finish();
             list.agents.push_back(agent);
         });
@@ -524,11 +543,12 @@ class Reader {
                 for (const ListedAgent& agent : list->agents)
                     largest = std::max(largest, agent.radius.value_or(0.0));
         }
-        if (people > kMostPeople)
+        const double most = schema_.definition("flow").property("count").limits().most;
+        if (people > most)
             diagnostics_.error(
                 root_.where,
                 fmt::format("about {:.0f} people are more than the {:.0f} that one bake can hold", people,
-                            kMostPeople));
+                            most));
         if (people == 0.0 && !diagnostics_.hasErrors())
             diagnostics_.warning(root_.where, "there is nobody in this layout", "add a flow or a formation");
         const double tile = layout_.simulation.tile_radius;
@@ -550,22 +570,28 @@ class Reader {
     }
 
     const JsonNode& root_;
+    const Schema& schema_;
     Diagnostics& diagnostics_;
     Layout layout_;
     std::optional<SourcePosition> simulation_where_;
     std::map<std::string, std::size_t> roads_, areas_, walls_, groups_;  // groups: flows by index, formations
-    PlaceReader places_{roads_, areas_, diagnostics_};
+    PlaceReader places_{schema_, roads_, areas_, diagnostics_};
 };
 
 }  // namespace
 
+const Schema& layoutRules() {
+    static const Schema schema(layoutSchema());
+    return schema;
+}
+
 std::optional<Layout> readLayout(std::string_view text, std::span<const std::string> overrides,
-                                 Diagnostics& diagnostics) {
+                                 Diagnostics& diagnostics, const Schema& schema) {
     JsonNode root = parseJson(text, diagnostics);
     if (diagnostics.hasErrors()) return std::nullopt;
     for (const std::string& change : overrides)
         applyOverride(root, change, diagnostics);
-    Layout layout = Reader(root, diagnostics).read();
+    Layout layout = Reader(root, schema, diagnostics).read();
     std::stable_sort(
         diagnostics.entries.begin(), diagnostics.entries.end(), [](const Diagnostic& a, const Diagnostic& b) {
             return std::pair(a.where.line, a.where.column) < std::pair(b.where.line, b.where.column);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace throng::authoring {
 namespace {
@@ -22,8 +23,24 @@ bool within(double value, Limits limits) {
 
 }  // namespace
 
-ObjectReader::ObjectReader(const JsonNode& node, std::string what, Diagnostics& diagnostics)
+std::optional<double> numberOf(const JsonNode& node, Limits limits, Diagnostics& diagnostics) {
+    if (node.kind != JsonNode::Kind::number) {
+        diagnostics.error(node.where, fmt::format("expected a number, found {}", node.kindName()),
+                          node.kind == JsonNode::Kind::text ? "numbers are written without quotes" : "");
+        return std::nullopt;
+    }
+    if (!std::isfinite(node.number)) return std::nullopt;  // already told
+    if (!within(node.number, limits)) {
+        diagnostics.error(
+            node.where, fmt::format("{:.15g} is out of range: expected {}", node.number, rangeText(limits)));
+        return std::nullopt;
+    }
+    return node.number;
+}
+
+ObjectReader::ObjectReader(const JsonNode& node, SchemaRule rule, std::string what, Diagnostics& diagnostics)
     : node_(node),
+      rule_(rule),
       what_(std::move(what)),
       diagnostics_(diagnostics),
       is_object_(node.kind == JsonNode::Kind::object) {
@@ -33,6 +50,7 @@ ObjectReader::ObjectReader(const JsonNode& node, std::string what, Diagnostics& 
 }
 
 const JsonNode* ObjectReader::get(const std::string& key) {
+    static_cast<void>(rule(key));  // which there has to be
     if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
     return node_.find(key);
 }
@@ -44,29 +62,34 @@ const JsonNode* ObjectReader::require(const std::string& key, const char* meanin
     return found;
 }
 
-std::optional<double> ObjectReader::numberOf(const JsonNode& node, Limits limits) {
-    if (node.kind != JsonNode::Kind::number) {
-        diagnostics_.error(node.where, fmt::format("expected a number, found {}", node.kindName()),
-                           node.kind == JsonNode::Kind::text ? "numbers are written without quotes" : "");
-        return std::nullopt;
-    }
-    if (!std::isfinite(node.number)) return std::nullopt;  // already told
-    if (!within(node.number, limits)) {
-        diagnostics_.error(
-            node.where, fmt::format("{:.15g} is out of range: expected {}", node.number, rangeText(limits)));
-        return std::nullopt;
-    }
-    return node.number;
+void ObjectReader::expectSame(const std::string& key, bool same) const {
+    if (!same)
+        throw std::logic_error(fmt::format("the default of `{}` of {} is not the schema's", key, what_));
 }
 
-void ObjectReader::number(const std::string& key, Limits limits, double& value) {
-    if (const JsonNode* node = get(key)) value = numberOf(*node, limits).value_or(value);
+void ObjectReader::expectWords(const std::string& key, const std::vector<std::string_view>& words) const {
+    const std::vector<std::string> known = rule(key).words();
+    if (!std::is_permutation(known.begin(), known.end(), words.begin(), words.end()))
+        throw std::logic_error(fmt::format("the words of `{}` of {} are not the schema's", key, what_));
 }
 
-void ObjectReader::integer(const std::string& key, Limits limits, std::uint64_t& value) {
+void ObjectReader::number(const std::string& key, double& value) {
+    if (const JsonNode* standard = standardOf(key)) expectSame(key, standard->number == value);
+    if (const JsonNode* node = get(key))
+        value = numberOf(*node, rule(key).limits(), diagnostics_).value_or(value);
+}
+
+void ObjectReader::number(const std::string& key, std::optional<double>& value) {
+    const Limits limits = rule(key).limits();
+    if (const JsonNode* node = get(key)) value = numberOf(*node, limits, diagnostics_);
+}
+
+void ObjectReader::integer(const std::string& key, std::uint64_t& value) {
+    if (const JsonNode* standard = standardOf(key))
+        expectSame(key, standard->number == static_cast<double>(value));
     const JsonNode* node = get(key);
     if (!node) return;
-    const std::optional<double> found = numberOf(*node, limits);
+    const std::optional<double> found = numberOf(*node, rule(key).limits(), diagnostics_);
     if (!found) return;
     if (*found != std::floor(*found)) {
         diagnostics_.error(node->where, fmt::format("expected a whole number, found {:.15g}", *found));
@@ -75,13 +98,14 @@ void ObjectReader::integer(const std::string& key, Limits limits, std::uint64_t&
     value = static_cast<std::uint64_t>(*found);
 }
 
-void ObjectReader::integer(const std::string& key, Limits limits, int& value) {
+void ObjectReader::integer(const std::string& key, int& value) {
     auto wide = static_cast<std::uint64_t>(value);
-    integer(key, limits, wide);
+    integer(key, wide);
     value = static_cast<int>(wide);
 }
 
 void ObjectReader::boolean(const std::string& key, bool& value) {
+    if (const JsonNode* standard = standardOf(key)) expectSame(key, standard->boolean == value);
     const JsonNode* node = get(key);
     if (!node) return;
     if (node->kind != JsonNode::Kind::boolean)
@@ -106,7 +130,7 @@ void ObjectReader::requiredText(const std::string& key, const char* meaning, std
         diagnostics_.error(node->where, fmt::format("`{}` is empty", key));
 }
 
-std::optional<glm::dvec2> ObjectReader::pointOf(const JsonNode& node) {
+std::optional<glm::dvec2> ObjectReader::pointOf(const JsonNode& node, SchemaRule rule) {
     if (node.kind != JsonNode::Kind::array || node.items.size() != 2) {
         diagnostics_.error(node.where, fmt::format("expected a point [x, y] in metres, found {}",
                                                    node.kind == JsonNode::Kind::array
@@ -114,17 +138,45 @@ std::optional<glm::dvec2> ObjectReader::pointOf(const JsonNode& node) {
                                                        : std::string(node.kindName())));
         return std::nullopt;
     }
-    const std::optional<double> x = numberOf(node.items[0], {-1.0e8, 1.0e8});
-    const std::optional<double> y = numberOf(node.items[1], {-1.0e8, 1.0e8});
+    const Limits limits = rule.item().limits();
+    const std::optional<double> x = numberOf(node.items[0], limits, diagnostics_);
+    const std::optional<double> y = numberOf(node.items[1], limits, diagnostics_);
     if (!x || !y) return std::nullopt;
     return glm::dvec2(*x, *y);
 }
 
 void ObjectReader::point(const std::string& key, const char* meaning, glm::dvec2& value) {
-    if (const JsonNode* node = require(key, meaning)) value = pointOf(*node).value_or(value);
+    const SchemaRule rule_of_key = rule(key);
+    if (const JsonNode* node = require(key, meaning)) value = pointOf(*node, rule_of_key).value_or(value);
+}
+
+void ObjectReader::point(const std::string& key, std::optional<glm::dvec2>& value) {
+    const SchemaRule rule_of_key = rule(key);
+    if (const JsonNode* node = get(key)) value = pointOf(*node, rule_of_key);
+}
+
+void ObjectReader::offset(const std::string& key, glm::dvec3& value) {
+    if (const JsonNode* standard = standardOf(key))
+        for (int i = 0; i < 3; ++i)
+            expectSame(key, standard->items.at(static_cast<std::size_t>(i)).number == value[i]);
+    const JsonNode* node = get(key);
+    if (!node) return;
+    if (node->kind != JsonNode::Kind::array || node->items.size() != 3) {
+        diagnostics_.error(node->where, fmt::format("expected an offset [x, y, z] in metres, found {}",
+                                                    node->kind == JsonNode::Kind::array
+                                                        ? fmt::format("an array of {}", node->items.size())
+                                                        : std::string(node->kindName())));
+        return;
+    }
+    const Limits limits = rule(key).item().limits();
+    for (int i = 0; i < 3; ++i)
+        value[i] = numberOf(node->items[static_cast<std::size_t>(i)], limits, diagnostics_).value_or(0.0);
 }
 
 std::vector<glm::dvec2> ObjectReader::points(const std::string& key, std::size_t least) {
+    const SchemaRule rule_of_key = rule(key);
+    const SchemaRule rule_of_item = rule_of_key.item();
+    least = std::max(least, rule_of_key.leastItems());
     std::vector<glm::dvec2> result;
     const JsonNode* node = require(key, "points [x, y] in metres");
     if (!node) return result;
@@ -137,7 +189,7 @@ std::vector<glm::dvec2> ObjectReader::points(const std::string& key, std::size_t
         diagnostics_.error(node->where,
                            fmt::format("expected at least {} points, found {}", least, node->items.size()));
     for (const JsonNode& item : node->items) {
-        const std::optional<glm::dvec2> point = pointOf(item);
+        const std::optional<glm::dvec2> point = pointOf(item, rule_of_item);
         if (!point) continue;
         if (!result.empty() && result.back() == *point)
             diagnostics_.error(item.where,
@@ -148,18 +200,16 @@ std::vector<glm::dvec2> ObjectReader::points(const std::string& key, std::size_t
     return result;
 }
 
-std::optional<std::size_t> ObjectReader::choice(const std::string& key,
-                                                const std::vector<std::string>& choices) {
+std::optional<std::string> ObjectReader::word(const std::string& key) {
+    const std::vector<std::string> words = rule(key).words();
     const JsonNode* node = get(key);
     if (!node) return std::nullopt;
-    if (node->kind == JsonNode::Kind::text)
-        for (std::size_t i = 0; i < choices.size(); ++i)
-            if (choices[i] == node->text) return i;
-    diagnostics_.error(
-        node->where,
-        fmt::format("expected one of {}, found {}", fmt::join(choices, ", "),
-                    node->kind == JsonNode::Kind::text ? "`" + node->text + "`" : node->kindName()),
-        node->kind == JsonNode::Kind::text ? hintFor(node->text, choices) : "");
+    const bool is_text = node->kind == JsonNode::Kind::text;
+    if (is_text && std::find(words.begin(), words.end(), node->text) != words.end()) return node->text;
+    diagnostics_.error(node->where,
+                       fmt::format("expected one of {}, found {}", fmt::join(words, ", "),
+                                   is_text ? "`" + node->text + "`" : node->kindName()),
+                       is_text ? hintFor(node->text, words) : "");
     return std::nullopt;
 }
 

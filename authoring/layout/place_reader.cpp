@@ -59,10 +59,10 @@ Destination PlaceReader::choiceOf(const JsonNode& shares) const {
                            R"(for example {"gate-a": 2, "gate-b": 1})");
         return result;
     }
-    ObjectReader reader(shares, "`choose`", diagnostics_);
+    ObjectReader reader(shares, rule().property("choose"), "`choose`", diagnostics_);
     for (const JsonNode::Member& member : shares.members) {
         const auto found = placeNamed(member.key, member.key_where);
-        const auto weight = reader.numberOf(*reader.get(member.key), {0.0, 1.0e6, true});
+        const auto weight = numberOf(*reader.get(member.key), reader.rule(member.key).limits(), diagnostics_);
         if (!found || !weight) continue;
         result.places.push_back(*found);
         result.weights.push_back(*weight);
@@ -82,7 +82,7 @@ std::optional<Destination> PlaceReader::destination(const JsonNode& node) const 
                            kDestinationHint);
         return std::nullopt;
     }
-    ObjectReader reader(node, "a destination", diagnostics_);
+    ObjectReader reader(node, rule(), "a destination", diagnostics_);
     const JsonNode* nearest = reader.get("nearest");
     const JsonNode* choose = reader.get("choose");
     Destination result = nearest ? nearestOf(*nearest) : choiceOf(*choose);
@@ -100,7 +100,7 @@ std::optional<Stop> PlaceReader::stop(const JsonNode& node) const {
         stop.at = *at;
         return stop;
     }
-    ObjectReader reader(node, "a stop", diagnostics_);
+    ObjectReader reader(node, schema_.definition("stop"), "a stop", diagnostics_);
     const auto at = destination(*reader.get("at"));
     readWhatHappens(reader, node, stop);
     reader.finish();
@@ -115,18 +115,19 @@ std::optional<Stop> PlaceReader::stop(const JsonNode& node) const {
 }
 
 void PlaceReader::readWhatHappens(ObjectReader& reader, const JsonNode& node, Stop& stop) const {
-    stop.wait = readDistribution(reader, "wait", {0.0, 86400.0}, stop.wait, diagnostics_);
-    if (const auto activity = reader.choice("activity", {"gather", "look", "queue"}))
-        stop.activity = static_cast<Activity>(*activity);
-    if (const JsonNode* facing = reader.get("facing")) stop.facing = reader.pointOf(*facing);
+    stop.wait = readDistribution(reader, "wait", stop.wait, diagnostics_);
+    reader.choice("activity",
+                  {{"gather", Activity::gather}, {"look", Activity::look}, {"queue", Activity::queue}},
+                  stop.activity);
+    reader.point("facing", stop.facing);
     const bool queues = stop.activity == Activity::queue;
     if (const JsonNode* line = reader.get("line")) {
-        stop.line = reader.points("line", 2);
+        stop.line = reader.points("line");
         if (!queues)
             diagnostics_.error(line->where, "only a queue has a `line`", R"(write "activity": "queue")");
     }
     const JsonNode* spacing = reader.get("spacing");
-    reader.number("spacing", {0.4, 10.0}, stop.spacing);
+    reader.number("spacing", stop.spacing);
     if (spacing && !queues)
         diagnostics_.error(spacing->where, "only a queue has a `spacing`", R"(write "activity": "queue")");
     if (queues && !node.find("line"))

@@ -15,8 +15,8 @@ namespace throng::authoring {
 class PlaceReader {
   public:
     using Indices = std::map<std::string, std::size_t>;  // by id
-    PlaceReader(const Indices& roads, const Indices& areas, Diagnostics& diagnostics)
-        : roads_(roads), areas_(areas), diagnostics_(diagnostics) {}
+    PlaceReader(const Schema& schema, const Indices& roads, const Indices& areas, Diagnostics& diagnostics)
+        : schema_(schema), roads_(roads), areas_(areas), diagnostics_(diagnostics) {}
 
     std::optional<Place> place(const JsonNode& node) const;
     /// A place, {"nearest": [places]} or {"choose": {place: weight}}.
@@ -25,11 +25,13 @@ class PlaceReader {
     std::optional<Stop> stop(const JsonNode& node) const;
 
   private:
+    SchemaRule rule() const { return schema_.definition("destination"); }
     std::optional<Place> placeNamed(const std::string& name, const SourcePosition& where) const;
     Destination nearestOf(const JsonNode& list) const;
     Destination choiceOf(const JsonNode& shares) const;
     void readWhatHappens(ObjectReader& reader, const JsonNode& node, Stop& stop) const;
 
+    const Schema& schema_;
     const Indices& roads_;
     const Indices& areas_;
     Diagnostics& diagnostics_;

@@ -13,21 +13,12 @@
 namespace throng::authoring {
 namespace {
 
-constexpr Limits kPlace{-1.0e8, 1.0e8};
-constexpr Limits kRow{0.0, 4294967294.0};
-constexpr Limits kCharacter{0.0, 65535.0};
-constexpr Limits kScale{0.1, 10.0};
-constexpr Limits kTurn{-360.0, 360.0};
-constexpr Limits kDelay{-1.0e6, 1.0e6};
-constexpr Limits kSpeed{0.05, 20.0};
-constexpr Limits kDraw{0.0, 1.0};
-
 class Reader {
   public:
-    explicit Reader(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+    Reader(Diagnostics& diagnostics, const Schema& schema) : diagnostics_(diagnostics), schema_(schema) {}
 
     std::vector<Override> read(const JsonNode& root) {
-        ObjectReader reader(root, "the override file", diagnostics_);
+        ObjectReader reader(root, schema_.rule(), "the override file", diagnostics_);
         if (!reader.isObject()) return {};
         reader.get("$schema");
         const JsonNode* version = reader.require("throng_overrides", "the format's version, 1");
@@ -47,7 +38,7 @@ class Reader {
 
   private:
     void readOverride(const JsonNode& node) {
-        ObjectReader reader(node, "an override", diagnostics_);
+        ObjectReader reader(node, schema_.definition("override"), "an override", diagnostics_);
         if (!reader.isObject()) return;
         Override entry;
         entry.where = node.where;
@@ -55,11 +46,11 @@ class Reader {
         PersonChange& change = entry.change;
         reader.boolean("hide", change.hide);
         if (const JsonNode* character = reader.get("character"))
-            change.character = wholeOf(reader, *character, kCharacter);
-        if (const JsonNode* tint = reader.get("tint")) change.tint = tintOf(reader, *tint);
-        if (const JsonNode* scale = reader.get("scale")) change.scale = reader.numberOf(*scale, kScale);
-        if (const JsonNode* move = reader.get("move")) readMove(*move, change);
-        if (const JsonNode* retime = reader.get("retime")) readRetime(*retime, change);
+            change.character = wholeOf(*character, reader.rule("character"));
+        if (const JsonNode* tint = reader.get("tint")) change.tint = tintOf(*tint, reader.rule("tint"));
+        reader.number("scale", change.scale);
+        if (const JsonNode* move = reader.get("move")) readMove(*move, reader.rule("move"), change);
+        if (const JsonNode* retime = reader.get("retime")) readRetime(*retime, reader.rule("retime"), change);
         if (const JsonNode* hero = reader.get("hero")) {
             reader.text("hero", change.hero);
             if (hero->kind == JsonNode::Kind::text && change.hero.empty())
@@ -73,16 +64,16 @@ class Reader {
 
     void readPerson(ObjectReader& reader, Override& entry) {
         const JsonNode* id = reader.require("id", "the person's row in the bake");
-        if (id) entry.id = wholeOf(reader, *id, kRow).value_or(0);
+        if (id) entry.id = wholeOf(*id, reader.rule("id")).value_or(0);
         reader.requiredText("group", "the id of its flow or formation", entry.group);
         const JsonNode* spawn = reader.require("spawn", "frame and position of its entry");
         if (!spawn) return;
-        ObjectReader inner(*spawn, "`spawn`", diagnostics_);
+        ObjectReader inner(*spawn, reader.rule("spawn"), "`spawn`", diagnostics_);
         if (!inner.isObject()) return;
         if (const JsonNode* frame = inner.require("frame", "the bake's frame, from 0"))
-            entry.spawn_frame = wholeOf(inner, *frame, kRow).value_or(0);
+            entry.spawn_frame = wholeOf(*frame, inner.rule("frame")).value_or(0);
         if (const JsonNode* position = inner.require("position", "[x, y, z] in metres"))
-            if (const auto place = threeOf(inner, *position, kPlace, "[x, y, z] in metres"))
+            if (const auto place = threeOf(*position, inner.rule("position"), "[x, y, z] in metres"))
                 entry.spawn_place = {(*place)[0], (*place)[1], (*place)[2]};
         inner.finish();
         if (id) refuseTwice(entry, *id);
@@ -99,26 +90,26 @@ class Reader {
                 "put both into one");
     }
 
-    void readMove(const JsonNode& node, PersonChange& change) {
-        ObjectReader reader(node, "`move`", diagnostics_);
+    void readMove(const JsonNode& node, SchemaRule rule, PersonChange& change) {
+        ObjectReader reader(node, rule, "`move`", diagnostics_);
         if (!reader.isObject()) return;
         if (const JsonNode* by = reader.get("by"))
-            if (const auto offset = threeOf(reader, *by, kPlace, "[dx, dy, dz] in metres"))
+            if (const auto offset = threeOf(*by, reader.rule("by"), "[dx, dy, dz] in metres"))
                 change.move = {(*offset)[0], (*offset)[1], (*offset)[2]};
-        reader.number("turn", kTurn, change.turn);
+        reader.number("turn", change.turn);
         reader.finish();
     }
 
-    void readRetime(const JsonNode& node, PersonChange& change) {
-        ObjectReader reader(node, "`retime`", diagnostics_);
+    void readRetime(const JsonNode& node, SchemaRule rule, PersonChange& change) {
+        ObjectReader reader(node, rule, "`retime`", diagnostics_);
         if (!reader.isObject()) return;
-        reader.number("offset", kDelay, change.delay);
-        reader.number("speed", kSpeed, change.speed);
+        reader.number("offset", change.delay);
+        reader.number("speed", change.speed);
         reader.finish();
     }
 
-    std::optional<std::uint32_t> wholeOf(ObjectReader& reader, const JsonNode& node, Limits limits) {
-        const std::optional<double> number = reader.numberOf(node, limits);
+    std::optional<std::uint32_t> wholeOf(const JsonNode& node, SchemaRule rule) {
+        const std::optional<double> number = numberOf(node, rule.limits(), diagnostics_);
         if (!number) return std::nullopt;
         if (*number != static_cast<double>(static_cast<std::uint32_t>(*number))) {
             diagnostics_.error(node.where, fmt::format("expected a whole number, found {:.15g}", *number));
@@ -127,8 +118,7 @@ class Reader {
         return static_cast<std::uint32_t>(*number);
     }
 
-    std::optional<std::array<double, 3>> threeOf(ObjectReader& reader, const JsonNode& node, Limits limits,
-                                                 const char* meaning) {
+    std::optional<std::array<double, 3>> threeOf(const JsonNode& node, SchemaRule rule, const char* meaning) {
         if (node.kind != JsonNode::Kind::array || node.items.size() != 3) {
             diagnostics_.error(node.where, fmt::format("expected {}, found {}", meaning,
                                                        node.kind == JsonNode::Kind::array
@@ -136,19 +126,20 @@ class Reader {
                                                            : std::string(node.kindName())));
             return std::nullopt;
         }
+        const Limits limits = rule.item().limits();
         std::array<double, 3> result{};
         for (std::size_t i = 0; i < 3; ++i) {
-            const std::optional<double> number = reader.numberOf(node.items[i], limits);
+            const std::optional<double> number = numberOf(node.items[i], limits, diagnostics_);
             if (!number) return std::nullopt;
             result[i] = *number;
         }
         return result;
     }
 
-    std::optional<Tint> tintOf(ObjectReader& reader, const JsonNode& node) {
+    std::optional<Tint> tintOf(const JsonNode& node, SchemaRule rule) {
         if (node.kind != JsonNode::Kind::text) {
             const auto draws =
-                threeOf(reader, node, kDraw, R"(three numbers from 0 to 1 or a colour such as "#a01020")");
+                threeOf(node, rule, R"(three numbers from 0 to 1 or a colour such as "#a01020")");
             if (!draws) return std::nullopt;
             return Tint{fmt::format("{} {} {}", (*draws)[0], (*draws)[1], (*draws)[2]), *draws, {}};
         }
@@ -166,16 +157,23 @@ class Reader {
     }
 
     Diagnostics& diagnostics_;
+    const Schema& schema_;
     std::vector<Override> overrides_;
     std::map<std::tuple<std::uint32_t, std::string, std::uint32_t>, int> lines_;  // by id, group and frame
 };
 
 }  // namespace
 
-std::optional<std::vector<Override>> readOverrides(std::string_view text, Diagnostics& diagnostics) {
+const Schema& overridesRules() {
+    static const Schema schema(overridesSchema());
+    return schema;
+}
+
+std::optional<std::vector<Override>> readOverrides(std::string_view text, Diagnostics& diagnostics,
+                                                   const Schema& schema) {
     const JsonNode root = parseJson(text, diagnostics);
     if (diagnostics.hasErrors()) return std::nullopt;
-    std::vector<Override> overrides = Reader(diagnostics).read(root);
+    std::vector<Override> overrides = Reader(diagnostics, schema).read(root);
     if (diagnostics.hasErrors()) return std::nullopt;
     for (const Override& entry : overrides)
         if (entry.change.changesNothing())

@@ -27,9 +27,6 @@ struct WalkMap {
 /// Marks a distance that no path leads to, before blocked cells are filled in.
 inline constexpr float kUnreachable = std::numeric_limits<float>::infinity();
 
-/// Walking more than this (cosine) against a one-way road is not allowed.
-inline constexpr float kAgainstOneWay = -0.1f;
-
 /// Something else that solves the Eikonal equation: a device. Not for several threads at once.
 class DistanceSolver {
   public:

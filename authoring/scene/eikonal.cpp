@@ -183,7 +183,7 @@ class Marcher {
                 const std::uint8_t side = step.x != 0.0f ? gpu::OPEN_TO_X : gpu::OPEN_TO_Y;
                 if (!(map_.open_sides[std::min(here, unpadded(neighbour))] & side)) return kUnreachable;
             }
-            if (!map_.one_way.empty() && glm::dot(map_.one_way[here], step) < kAgainstOneWay)
+            if (!map_.one_way.empty() && glm::dot(map_.one_way[here], step) < gpu::AGAINST_ONE_WAY)
                 return kUnreachable;
         }
         return settled_[neighbour];

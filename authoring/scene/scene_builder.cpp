@@ -469,7 +469,8 @@ class Builder {
 
     void finish(Routes& routes) {
         scene_.field_count = routes.fieldCount();
-        if (layout_.simulation.avoid_congestion) scene_.detours = routes.detours();
+        if (layout_.simulation.avoid_congestion && layout_.simulation.motion.isOn("routes_round_jams"))
+            scene_.detours = routes.detours();
         scene_.fields = routes.cells();
         scene_.road_distance = ground_->roadDistances();
     }

@@ -12,29 +12,12 @@
 #include <iterator>
 #include <system_error>
 
+#include "base/files/descriptor.h"
 #include "base/files/errors.h"
 
 namespace throng {
 namespace fs = std::filesystem;
 namespace {
-
-class Descriptor {
-  public:
-    explicit Descriptor(int number) : number_(number) {}
-    ~Descriptor() {
-        if (number_ >= 0) ::close(number_);
-    }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    int get() const { return number_; }
-    void reset(int number) {
-        if (number_ >= 0) ::close(number_);
-        number_ = number;
-    }
-
-  private:
-    int number_;
-};
 
 // Without O_NONBLOCK, a named pipe would wait for a writer for ever.
 constexpr int kReading = O_RDONLY | O_CLOEXEC | O_NONBLOCK;

@@ -11,20 +11,26 @@ bl_info = {
     "category": "Import-Export",
 }
 
+try:
+    import bpy  # noqa: F401
+except ImportError:  # what needs no Blender is of use without it, too
+    _PARTS = ()
+else:
+    from .authoring import bake_operator, operators as authoring_operators, overlay, panels, preferences, properties
+    from .characters import operators as characters_operators
+    from .overrides import operators as overrides_operators
+    from .tools import cells, ground, levels, operators, staging
 
-def _parts():
-    """The modules that register classes of their own, in order."""
-    from . import authoring, cells, ground, levels, operators, overrides, preferences, staging
-    from .characters import operators as characters
-
-    return (preferences, operators, staging, cells, levels, ground, authoring, characters, overrides)
+    # What registers classes of its own, in order: panels appear in it.
+    _PARTS = (preferences, operators, staging, cells, levels, ground, properties, authoring_operators, bake_operator,
+              overlay, panels, characters_operators, overrides_operators)
 
 
 def register():
-    for part in _parts():
+    for part in _PARTS:
         part.register()
 
 
 def unregister():
-    for part in reversed(_parts()):
+    for part in reversed(_PARTS):
         part.unregister()

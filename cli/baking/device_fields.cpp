@@ -37,8 +37,7 @@ class DeviceFields : public authoring::DistanceSolver {
 std::unique_ptr<authoring::DistanceSolver> makeDeviceFields(FieldsBy by, int device,
                                                             const std::string& shader_dir) {
     if (by == FieldsBy::cpu) return nullptr;
-    // Asked first, because Mesa's renderer takes its settings from the environment when its first context is
-    // made.
+    // Asked first: Mesa's renderer takes its settings from the environment when its first context is made.
     if (by == FieldsBy::automatic && !gl::hasRealDevice()) return nullptr;
     auto fields = std::make_unique<DeviceFields>(device, shader_dir);
     if (by == FieldsBy::automatic && fields->device().software) return nullptr;

@@ -10,8 +10,7 @@ namespace throng::cli {
 
 /// Where distance fields are solved.
 enum class FieldsBy {
-    automatic,  ///< on the device if that is a real one: here, a software renderer would only do the same
-                ///< slower
+    automatic,  ///< on the device if that is a real one: a software renderer would only take longer
     cpu,
     device,
 };

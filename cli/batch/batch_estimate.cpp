@@ -28,7 +28,7 @@ double secondsPerStep(Baker& baker, std::uint32_t people) {
     return secondsSince(start) / kSteps;
 }
 
-/// Mean s of the scenarios that are done, or nothing.
+/// Mean s of the scenarios that are done; 0 where none is.
 double meanSeconds(const BatchPlan& plan, const BatchFolder& folder) {
     double sum = 0.0;
     double count = 0.0;

@@ -1,23 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/batch/batch_local.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <signal.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstring>
+#include <csignal>
+#include <cstdlib>
 #include <deque>
 #include <fstream>
 #include <map>
 #include <optional>
-#include <system_error>
 #include <thread>
 
+#include "base/process.h"
 #include "base/stopwatch.h"
 #include "cli/batch/batch_worker.h"
 #include "sim/gl/context.h"
@@ -42,73 +38,42 @@ std::vector<int> realGpus() {
     return found;
 }
 
-/// A child process that bakes, and two pipes to talk to it.
+ProcessOptions workerOptions(std::size_t render_threads, double people) {
+    ProcessOptions options;
+    options.file = "/proc/self/exe";
+    options.input = options.output = StandardStream::pipe;
+    options.ends_with_us = true;
+    // Small crowds do better without, as Baker has it.
+    if (people >= kWorthThreads && !std::getenv("LP_NUM_THREADS"))
+        options.environment.emplace_back("LP_NUM_THREADS", std::to_string(render_threads));
+    return options;
+}
+
+/// A child process that bakes: it is told scenarios, a line each, and answers with a line each.
 class Worker {
   public:
     Worker(const BatchFolder& folder, int device, std::size_t render_threads, double people,
-           double checkpoint_seconds) {
-        int to_child[2], from_child[2];
-        if (::pipe2(to_child, O_CLOEXEC) != 0 || ::pipe2(from_child, O_CLOEXEC) != 0)
-            throw std::system_error(errno, std::generic_category(), "cannot make a pipe");
-        // Everything that needs memory is made before the fork.
-        const std::string family = folder.familyFile().string();
-        const std::string root = folder.root().string();
-        const std::string device_text = std::to_string(device);
-        const std::string checkpoint = std::to_string(checkpoint_seconds / 60.0);
-        const std::string threads = std::to_string(render_threads);
-        const std::string people_text = fmt::format("{:.0f}", people);
-        const pid_t parent = ::getpid();
-        pid_ = ::fork();
-        if (pid_ < 0) throw std::system_error(errno, std::generic_category(), "cannot start a worker");
-        if (pid_ == 0) {
-            ::prctl(PR_SET_PDEATHSIG, SIGTERM);
-            if (::getppid() != parent) ::_exit(1);  // it died in between
-            ::setpgid(0, 0);  // Ctrl-C is the parent's, which tells its children in time
-            ::dup2(to_child[0], STDIN_FILENO);
-            ::dup2(from_child[1], STDOUT_FILENO);
-            // Small crowds do better without, as Baker has it.
-            if (people >= kWorthThreads) ::setenv("LP_NUM_THREADS", threads.c_str(), 0);
-            ::execl("/proc/self/exe", "throng", "batch", family.c_str(), "-o", root.c_str(), "--worker",
-                    "--device", device_text.c_str(), "--checkpoint", checkpoint.c_str(), "--people",
-                    people_text.c_str(), static_cast<char*>(nullptr));
-            ::_exit(127);
-        }
-        ::close(to_child[0]);
-        ::close(from_child[1]);
-        input_ = to_child[1];
-        output_ = from_child[0];
-    }
-    ~Worker() {
-        closeInput();
-        ::close(output_);
-        if (pid_ > 0) {
-            ::kill(pid_, SIGKILL);
-            ::waitpid(pid_, nullptr, 0);
-        }
-    }
-    Worker(const Worker&) = delete;
-    Worker& operator=(const Worker&) = delete;
+           double checkpoint_seconds)
+        : process_({"throng", "batch", folder.familyFile().string(), "-o", folder.root().string(), "--worker",
+                    "--device", std::to_string(device), "--checkpoint",
+                    std::to_string(checkpoint_seconds / 60.0), "--people", fmt::format("{:.0f}", people)},
+                   workerOptions(render_threads, people)) {}
 
-    int output() const { return output_; }
-    bool idle() const { return !current; }
+    int output() const { return process_.output(); }
     void give(std::size_t index) {
-        const std::string line = fmt::format("{}\n", index);
         // A worker that is dead already is noticed when its output ends.
-        [[maybe_unused]] const ssize_t written = ::write(input_, line.data(), line.size());
+        process_.write(fmt::format("{}\n", index));
         current = index;
         begun = Clock::now();
     }
-    void closeInput() {
-        if (input_ >= 0) ::close(std::exchange(input_, -1));
-    }
-    void tell(int signal) const { ::kill(pid_, signal); }
+    void closeInput() { process_.closeInput(); }
+    void tell(int signal) const { process_.tell(signal); }
 
     /// Whole lines that have come. @returns nothing at the end of the output
     std::optional<std::vector<std::string>> readLines() {
-        char piece[256];
-        const ssize_t got = ::read(output_, piece, sizeof piece);
-        if (got <= 0) return std::nullopt;
-        text_.append(piece, static_cast<std::size_t>(got));
+        const std::optional<std::string> piece = process_.read();
+        if (!piece) return std::nullopt;
+        text_ += *piece;
         std::vector<std::string> lines;
         for (std::size_t end = text_.find('\n'); end != std::string::npos; end = text_.find('\n')) {
             lines.push_back(text_.substr(0, end));
@@ -118,21 +83,13 @@ class Worker {
     }
 
     /// Why it ended, in words; waits for it.
-    std::string farewell() {
-        int status = 0;
-        ::waitpid(std::exchange(pid_, -1), &status, 0);
-        if (WIFSIGNALED(status))
-            return fmt::format("its process was killed by signal {} ({})", WTERMSIG(status),
-                               ::strsignal(WTERMSIG(status)));
-        return fmt::format("its process ended with code {}", WEXITSTATUS(status));
-    }
+    std::string farewell() { return "its process " + process_.wait().text(); }
 
     std::optional<std::size_t> current;  ///< scenario
     Clock::time_point begun;
 
   private:
-    pid_t pid_ = -1;
-    int input_ = -1, output_ = -1;
+    Process process_;
     std::string text_;
 };
 
@@ -151,10 +108,6 @@ class Dispatcher {
           workers_(workersFor(plan, options, scenarios.size())) {}
 
     LocalOutcome run() {
-        struct Guard {  // writing to a worker that has just died must not end us
-            void (*before)(int) = ::signal(SIGPIPE, SIG_IGN);
-            ~Guard() { ::signal(SIGPIPE, before); }
-        } const guard;
         for (std::unique_ptr<Worker>& worker : workers_)
             feed(worker);
         while (anybodyAtWork()) {

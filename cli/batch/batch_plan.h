@@ -32,8 +32,7 @@ class BatchPlan {
     /// @throws Exit with kInvalidInput when something is wrong, which has been printed then
     explicit BatchPlan(const std::string& path);
     /// Tries every scenario's layout (up to some thousands, evenly chosen: the others' mistakes become
-    /// failures of their own) and adds up the load. Takes seconds for large layouts: not for every worker to
-    /// do.
+    /// failures of their own) and adds up the load. Takes seconds for large layouts: no work for a worker.
     /// @throws Exit as above
     void tryLayouts();
 

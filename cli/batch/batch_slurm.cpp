@@ -10,8 +10,8 @@
 #include "base/files/errors.h"
 #include "base/files/input_file.h"
 #include "base/files/output_file.h"
+#include "base/process.h"
 #include "cli/batch/farm_job.h"
-#include "cli/batch/subprocess.h"
 
 namespace throng::cli {
 namespace fs = std::filesystem;
@@ -27,6 +27,13 @@ std::string quoted(const std::string& word) {
 
 std::string thisProgram() {
     return fs::read_symlink("/proc/self/exe").string();
+}
+
+ProgramRun runSlurm(const std::vector<std::string>& words) try {
+    return runProgram(words);
+} catch (const std::system_error& error) {
+    if (error.code() != std::errc::no_such_file_or_directory) throw;
+    throw InputError(words.front(), "is not there: --executor slurm needs Slurm's commands on this machine");
 }
 
 class Array {
@@ -52,23 +59,21 @@ class Array {
         std::vector<std::string> words = {"sbatch", "--parsable"};
         words.insert(words.end(), options_.extra.begin(), options_.extra.end());
         words.push_back(script.string());
-        const ProgramOutput answer = runProgram(words);
-        if (answer.status == 127)
-            throw InputError("sbatch",
-                             "is not there: --executor slurm needs Slurm's commands on this machine");
-        if (answer.status != 0) throw InputError("sbatch", answer.errors.empty() ? "failed" : answer.errors);
+        const ProgramRun answer = runSlurm(words);
+        if (!answer.end.isGood())
+            throw InputError("sbatch", answer.errors.empty() ? "failed" : answer.errors);
         job_ = answer.output.substr(0, answer.output.find_first_of(";\n"));
         replaceFile(folder_ / "job", job_);
     }
 
     bool isInQueue() const {
-        const ProgramOutput answer = runProgram({"squeue", "-h", "-j", job_, "-o", "%T"});
+        const ProgramRun answer = runSlurm({"squeue", "-h", "-j", job_, "-o", "%T"});
         // A controller that is away for a moment is no reason to submit everything again.
-        if (answer.status != 0) return answer.errors.find("Invalid job id") == std::string::npos;
+        if (!answer.end.isGood()) return answer.errors.find("Invalid job id") == std::string::npos;
         return !answer.output.empty();
     }
 
-    void cancel() const { runProgram({"scancel", job_}); }
+    void cancel() const { runSlurm({"scancel", job_}); }
     const std::string& job() const { return job_; }
 
   private:

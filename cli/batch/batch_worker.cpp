@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <ctime>
 #include <iostream>
@@ -186,6 +187,7 @@ ScenarioEnd ScenarioBaker::tryBake(std::size_t index, const InterruptGuard& inte
 
 void runWorker(const BatchPlan& plan, const BatchFolder& folder, const ScenarioBaker::Options& options) {
     const InterruptGuard interrupt;
+    std::signal(SIGPIPE, SIG_IGN);  // where nobody hears of a scenario any more, it is ended all the same
     ScenarioBaker baker(plan, folder, options);
     std::size_t index = 0;
     while (!interrupt.signal() && std::cin >> index) {

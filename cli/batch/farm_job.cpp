@@ -59,10 +59,14 @@ std::string flamencoJobType(const BatchPlan& plan, const std::string& family, co
 const JOB_TYPE = {{
     label: {label},
     settings: [
-        {{ key: "throng", type: "string", required: true, default: "throng", description: "The program, as the workers find it" }},
-        {{ key: "family", type: "string", required: true, default: {family}, description: "The family file, on shared storage" }},
-        {{ key: "output", type: "string", required: true, default: {output}, description: "The batch's folder, on shared storage" }},
-        {{ key: "parts", type: "int32", required: true, default: {parts}, description: "Tasks to cut the batch into" }},
+        {{ key: "throng", type: "string", required: true, default: "throng",
+           description: "The program, as the workers find it" }},
+        {{ key: "family", type: "string", required: true, default: {family},
+           description: "The family file, on shared storage" }},
+        {{ key: "output", type: "string", required: true, default: {output},
+           description: "The batch's folder, on shared storage" }},
+        {{ key: "parts", type: "int32", required: true, default: {parts},
+           description: "Tasks to cut the batch into" }},
     ]
 }};
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/batch/results_database.h"
 
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
-#include <sqlite3.h>
+#include <strings.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -20,70 +21,23 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// A connection; errors come out as exceptions with what SQLite says.
-class Connection {
-  public:
-    Connection(fs::path path, int flags) : path_(std::move(path)) {
-        if (sqlite3_open_v2(path_.c_str(), &handle_, flags, nullptr) != SQLITE_OK) {
-            const std::string reason = sqlite3_errmsg(handle_);
-            sqlite3_close(handle_);
-            throw InputError(path_, reason);
-        }
-    }
-    ~Connection() { sqlite3_close(handle_); }
-    Connection(const Connection&) = delete;
-    Connection& operator=(const Connection&) = delete;
+void put(SQLite::Statement& statement, int place, const ordered_json& value) {
+    if (value.is_null())
+        statement.bind(place);
+    else if (value.is_boolean())
+        statement.bind(place, value.get<bool>() ? 1 : 0);
+    else if (value.is_number_integer())
+        statement.bind(place, value.get<std::int64_t>());
+    else if (value.is_number())
+        statement.bind(place, value.get<double>());
+    else
+        statement.bind(place, value.is_string() ? value.get<std::string>() : value.dump());
+}
 
-    void execute(const std::string& sql) {
-        if (sqlite3_exec(handle_, sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) fail();
-    }
-    [[noreturn]] void fail() const { throw InputError(path_, sqlite3_errmsg(handle_)); }
-    sqlite3* handle() const { return handle_; }
-
-  private:
-    fs::path path_;
-    sqlite3* handle_ = nullptr;
-};
-
-class Statement {
-  public:
-    Statement(Connection& connection, const std::string& sql) : connection_(connection) {
-        if (sqlite3_prepare_v2(connection.handle(), sql.c_str(), -1, &handle_, nullptr) != SQLITE_OK)
-            connection.fail();
-    }
-    ~Statement() { sqlite3_finalize(handle_); }
-    Statement(const Statement&) = delete;
-    Statement& operator=(const Statement&) = delete;
-
-    void bind(int place, const ordered_json& value) {
-        int status = SQLITE_OK;
-        if (value.is_null())
-            status = sqlite3_bind_null(handle_, place);
-        else if (value.is_boolean())
-            status = sqlite3_bind_int(handle_, place, value.get<bool>() ? 1 : 0);
-        else if (value.is_number_integer())
-            status = sqlite3_bind_int64(handle_, place, value.get<std::int64_t>());
-        else if (value.is_number())
-            status = sqlite3_bind_double(handle_, place, value.get<double>());
-        else {
-            const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
-            status = sqlite3_bind_text(handle_, place, text.data(), static_cast<int>(text.size()),
-                                       SQLITE_TRANSIENT);
-        }
-        if (status != SQLITE_OK) connection_.fail();
-    }
-    bool step() {
-        const int status = sqlite3_step(handle_);
-        if (status != SQLITE_ROW && status != SQLITE_DONE) connection_.fail();
-        return status == SQLITE_ROW;
-    }
-    void reset() { sqlite3_reset(handle_); }
-    sqlite3_stmt* handle() const { return handle_; }
-
-  private:
-    Connection& connection_;
-    sqlite3_stmt* handle_ = nullptr;
-};
+void insert(SQLite::Statement& statement) {
+    statement.exec();
+    statement.reset();
+}
 
 /// A column of the table `scenarios` and where its value is in a result.
 struct Column {
@@ -149,7 +103,7 @@ std::string createScenarios() {
 bool isColumn(const std::string& name) {
     return name == "id" || name == "number" ||
            std::any_of(std::begin(kColumns), std::end(kColumns),
-                       [&](const Column& column) { return sqlite3_stricmp(column.name, name.c_str()) == 0; });
+                       [&](const Column& column) { return ::strcasecmp(column.name, name.c_str()) == 0; });
 }
 
 /// The columns of `results`: a parameter of the name of a figure stays apart from it.
@@ -168,63 +122,61 @@ std::string questionMarks(std::size_t count) {
     return text;
 }
 
-void fill(Connection& database, const BatchPlan& plan, const BatchFolder& folder) {
+void fill(SQLite::Database& database, const BatchPlan& plan, const BatchFolder& folder) {
     const std::vector<authoring::Axis>& axes = plan.family().axes;
     std::string parameters = "CREATE TABLE parameters (id TEXT PRIMARY KEY";
     for (const authoring::Axis& axis : axes)
         parameters += ", " + quotedName(axis.name);
-    database.execute(createScenarios());
-    database.execute(parameters + ") WITHOUT ROWID");
-    database.execute(createView(plan.family()));
-    database.execute("CREATE TABLE batch (key TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID");
-    Statement about(database, "INSERT INTO batch VALUES (?, ?)");
+    database.exec(createScenarios());
+    database.exec(parameters + ") WITHOUT ROWID");
+    database.exec(createView(plan.family()));
+    database.exec("CREATE TABLE batch (key TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID");
+    SQLite::Statement about(database, "INSERT INTO batch VALUES (?, ?)");
     for (const auto& [key, value] :
          {std::pair{"name", plan.family().name}, std::pair{"base", plan.family().base_name},
           std::pair{"version", std::string(THRONG_VERSION)}, std::pair{"family", plan.selfContained()}}) {
-        about.bind(1, key);
-        about.bind(2, value);
-        about.step();
-        about.reset();
+        put(about, 1, key);
+        put(about, 2, value);
+        insert(about);
     }
-    Statement row(database,
-                  fmt::format("INSERT INTO scenarios VALUES ({})", questionMarks(2 + std::size(kColumns))));
-    Statement values(database,
-                     fmt::format("INSERT INTO parameters VALUES ({})", questionMarks(1 + axes.size())));
+    SQLite::Statement row(
+        database, fmt::format("INSERT INTO scenarios VALUES ({})", questionMarks(2 + std::size(kColumns))));
+    SQLite::Statement values(
+        database, fmt::format("INSERT INTO parameters VALUES ({})", questionMarks(1 + axes.size())));
     for (std::size_t i = 0; i < plan.scenarios().size(); ++i) {
         const PlannedScenario& planned = plan.scenarios()[i];
         const ordered_json result =
             folder.readResult(planned.id).value_or(ordered_json{{"status", "missing"}});
-        row.bind(1, planned.id);
-        row.bind(2, i + 1);
+        put(row, 1, planned.id);
+        put(row, 2, i + 1);
         for (std::size_t column = 0; column < std::size(kColumns); ++column) {
             const ordered_json::json_pointer pointer(kColumns[column].pointer);
-            row.bind(static_cast<int>(column) + 3,
-                     result.contains(pointer) ? result.at(pointer) : ordered_json());
+            put(row, static_cast<int>(column) + 3,
+                result.contains(pointer) ? result.at(pointer) : ordered_json());
         }
-        row.step();
-        row.reset();
-        values.bind(1, planned.id);
+        insert(row);
+        put(values, 1, planned.id);
         for (std::size_t axis = 0; axis < axes.size(); ++axis)
-            values.bind(static_cast<int>(axis) + 2, planned.scenario.parameters[axis].second);
-        values.step();
-        values.reset();
+            put(values, static_cast<int>(axis) + 2, planned.scenario.parameters[axis].second);
+        insert(values);
     }
 }
 
-ordered_json valueAt(sqlite3_stmt* statement, int column) {
-    switch (sqlite3_column_type(statement, column)) {
-        case SQLITE_INTEGER:
-            return static_cast<std::int64_t>(sqlite3_column_int64(statement, column));
-        case SQLITE_FLOAT:
-            return sqlite3_column_double(statement, column);
-        case SQLITE_NULL:
-            return nullptr;
-        default: {
-            const auto* text = reinterpret_cast<const char*>(sqlite3_column_blob(statement, column));
-            return std::string(text ? text : "",
-                               static_cast<std::size_t>(sqlite3_column_bytes(statement, column)));
-        }
-    }
+ordered_json valueOf(const SQLite::Column& column) {
+    if (column.isNull()) return nullptr;
+    if (column.isInteger()) return column.getInt64();
+    if (column.isFloat()) return column.getDouble();
+    return column.getString();
+}
+
+void write(const fs::path& file, const BatchPlan& plan, const BatchFolder& folder) try {
+    SQLite::Database database(file, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    database.exec("PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF");  // nobody sees it yet
+    SQLite::Transaction transaction(database);
+    fill(database, plan, folder);
+    transaction.commit();
+} catch (const SQLite::Exception& error) {
+    throw InputError(file, error.what());
 }
 
 std::string plainText(const ordered_json& value) {
@@ -248,10 +200,7 @@ void collectResults(const BatchPlan& plan, const BatchFolder& folder) {
     std::error_code ignored;
     fs::remove(fresh, ignored);
     try {
-        Connection database(fresh, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
-        database.execute("PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF; BEGIN");  // nobody sees it yet
-        fill(database, plan, folder);
-        database.execute("COMMIT");
+        write(fresh, plan, folder);
     } catch (const InputError& error) {
         fs::remove(fresh, ignored);
         throw OutputError(folder.database(), std::string("cannot be written: ") + error.what());
@@ -260,19 +209,20 @@ void collectResults(const BatchPlan& plan, const BatchFolder& folder) {
         throw OutputError(folder.database(), "replace", errno);
 }
 
-QueryResult queryResults(const fs::path& database_path, const std::string& sql) {
-    Connection database(database_path, SQLITE_OPEN_READONLY);
-    Statement statement(database, sql);
+QueryResult queryResults(const fs::path& database_path, const std::string& sql) try {
+    SQLite::Database database(database_path, SQLite::OPEN_READONLY);
+    SQLite::Statement statement(database, sql);
     QueryResult result;
-    const int columns = sqlite3_column_count(statement.handle());
-    for (int column = 0; column < columns; ++column)
-        result.columns.emplace_back(sqlite3_column_name(statement.handle(), column));
-    while (statement.step()) {
+    for (int column = 0; column < statement.getColumnCount(); ++column)
+        result.columns.emplace_back(statement.getColumnName(column));
+    while (statement.executeStep()) {
         result.rows.emplace_back();
-        for (int column = 0; column < columns; ++column)
-            result.rows.back().push_back(valueAt(statement.handle(), column));
+        for (int column = 0; column < statement.getColumnCount(); ++column)
+            result.rows.back().push_back(valueOf(statement.getColumn(column)));
     }
     return result;
+} catch (const SQLite::Exception& error) {
+    throw InputError(database_path, error.what());
 }
 
 std::string csvOf(const QueryResult& result) {

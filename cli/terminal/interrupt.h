@@ -3,8 +3,7 @@
 
 namespace throng::cli {
 
-/// While it lives, Ctrl-C and SIGTERM are noted instead of ending the process; a second Ctrl-C ends it at
-/// once.
+/// While it lives, Ctrl-C and SIGTERM are noted instead of ending the process, as only a second one does.
 class InterruptGuard {
   public:
     InterruptGuard();

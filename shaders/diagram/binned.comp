@@ -8,7 +8,7 @@
 //
 // What it costs: blocks x candidates loads and pixels x candidates comparisons. Small blocks waste no comparisons,
 // large ones save loads; small bins bring fewer candidates that cannot reach, but more lines to look up. The best sizes
-// depend on the device and the density, and are chosen by measurement (sim/diagram/calibration.h).
+// depend on the device and the density, and are chosen by measurement (sim/benchmarks/calibration.h).
 //
 // With PAGED, blocks are those of the pages in the list of this build (sim/diagram/pages.h).
 #include "shaders/shared/simulation_types.h"
@@ -69,7 +69,7 @@ bool placeBlock(out uvec2 corner, out uint first_word, out uint words_per_line, 
 #endif
 }
 
-/// The same arithmetic as diagram_distance.glsl, with the square of each line and column taken once.
+/// The same arithmetic as distance.glsl, with the square of each line and column taken once.
 void offer(vec2 corner, uvec4 words) {
     vec3 site = uintBitsToFloat(words.xyz);
     uint id = words.w;
@@ -134,8 +134,8 @@ void main() {
 #ifdef STORE_BY_FOUR
         for (uint x = 0u; x < BLOCK_WIDTH; x += 4u) {
             if (block_corner.x + x >= words_in_line) break;
-            owners[(word + x) / 4u] = uvec4(nearest_id[pixel + x], nearest_id[pixel + x + 1u], nearest_id[pixel + x + 2u],
-                                            nearest_id[pixel + x + 3u]);
+            owners[(word + x) / 4u] = uvec4(nearest_id[pixel + x], nearest_id[pixel + x + 1u],
+                                            nearest_id[pixel + x + 2u], nearest_id[pixel + x + 3u]);
         }
 #else
         for (uint x = 0u; x < BLOCK_WIDTH; ++x)

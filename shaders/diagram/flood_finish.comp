@@ -18,7 +18,8 @@ void main() {
     uint seed = seeds[index];
     if (seed != NO_INDEX) {
         uvec4 words = texelFetch(sites, int(seed));
-        float squared = squaredDistance(uintBitsToFloat(words.xy), ivec2(index % diagram_size.x, index / diagram_size.x));
+        float squared = squaredDistance(uintBitsToFloat(words.xy),
+                                        ivec2(index % diagram_size.x, index / diagram_size.x));
         if (squared <= squaredRadius(uintBitsToFloat(words.z))) owner = words.w;
     }
     owners[index] = owner;

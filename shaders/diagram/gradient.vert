@@ -6,7 +6,8 @@
 layout(std430) readonly buffer Sites { DiagramSite sites[]; };
 layout(std430) readonly buffer SiteSlots { uint site_slots[]; };
 uniform vec2 target_size;  // px, the window and its margin on all sides
-uniform float margin;      // px: a sprite is clipped by its centre, so centres outside the window must still be inside the target
+// px: a sprite is clipped by its centre, so centres outside the window must still be inside the target.
+uniform float margin;
 
 flat out vec2 site_position;
 flat out float site_radius;

@@ -18,6 +18,7 @@ void main() {
     uint owner = owners[index];
     float squared = uintBitsToFloat(0x7f800000u);
     if (owner != NO_INDEX)
-        squared = squaredDistance(sites[site_slots[owner]].position, ivec2(index % diagram_size.x, index / diagram_size.x));
+        squared = squaredDistance(sites[site_slots[owner]].position,
+                                  ivec2(index % diagram_size.x, index / diagram_size.x));
     distances[index] = squared;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The second-nearest site of every pixel, of those whose tile reaches it: with the owner, the second-order diagram
-// (Sud, Andersen, Curtis, Lin and Manocha 2007). Gathers from the bins like diagram_binned.comp, leaving the owner out.
+// (Sud, Andersen, Curtis, Lin and Manocha 2007). Gathers from the bins like binned.comp, leaving the owner out.
 #include "shaders/shared/simulation_types.h"
 
 layout(local_size_x = PIXEL_GROUP_SIZE) in;
@@ -42,7 +42,8 @@ void main() {
         for (uint line = lower.y; line <= upper.y; ++line) {
             uint bins = line * uint(bin_count.x);
             uint last = bin_starts[bins + upper.x + 1u];
-            for (uint i = bin_starts[bins + lower.x]; i < last; ++i) compare(pixel, owner, texelFetch(binned_sites, int(i)));
+            for (uint i = bin_starts[bins + lower.x]; i < last; ++i)
+                compare(pixel, owner, texelFetch(binned_sites, int(i)));
 #ifdef FIXED_SITES
             last = fixed_bin_starts[bins + upper.x + 1u];
             for (uint i = fixed_bin_starts[bins + lower.x]; i < last; ++i)

@@ -21,7 +21,8 @@ void main() {
         int line = y * int(diagram_size.x);
         for (int x = box.x; x < box.z; ++x) {
             float squared = squaredDistance(site.position, ivec2(x, y));
-            if (squared <= limit && floatBitsToUint(squared) == distances[line + x]) atomicMin(owners[line + x], site.id);
+            if (squared <= limit && floatBitsToUint(squared) == distances[line + x])
+                atomicMin(owners[line + x], site.id);
         }
     }
 }

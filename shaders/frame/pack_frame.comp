@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lays out one frame as the streams hold it: all rows, dead or alive. Strides are added when it is written (recording/gaits.h).
+// Lays out one frame as the streams hold it: all rows, dead or alive. Strides are added when it is written
+// (recording/gaits.h).
 #include "shaders/shared/simulation_types.h"
 
 layout(local_size_x = AGENT_GROUP_SIZE) in;

@@ -14,7 +14,8 @@ void main() {
     if (index >= line_count) return;
     WaitingLine line = waiting_lines[index];
     // Whoever was served, or was called away, has given its ticket back.
-    while (line.served < line.given && states[tickets[line.first_ticket + line.served]].ticket != line.served) ++line.served;
+    while (line.served < line.given && states[tickets[line.first_ticket + line.served]].ticket != line.served)
+        ++line.served;
     // One joins per step. Who was called away in this very step does not.
     uint row = line.candidate;
     line.candidate = NO_INDEX;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of those who found room, the ones that would stand in each other's way give way to the smaller row, and the rest enter.
+// Of those who found room, the ones that would stand in each other's way give way to the smaller row, and the rest
+// enter.
 #include "shaders/shared/simulation_types.h"
 
 layout(local_size_x = SPAWN_GROUP_SIZE) in;
@@ -17,16 +18,14 @@ uniform uint steps_done;  // counted with this one
 #include "shaders/routes/route.glsl"
 #include "shaders/motion/waiting_line.glsl"
 
-const float NEWCOMER_MARGIN = 0.05;  // m
-
 void main() {
     SpawnProposal mine = proposals[gl_GlobalInvocationID.x];
     if (mine.row == NO_INDEX) return;
     uint count = parameters.queue_count * SPAWN_GROUP_SIZE;
     for (uint i = 0u; i < count; ++i) {
         SpawnProposal other = proposals[i];
-        if (other.row < mine.row && distance(other.position, mine.position) < other.radius + mine.radius + NEWCOMER_MARGIN)
-            return;
+        float apart = other.radius + mine.radius + ENTERING_BESIDE;
+        if (other.row < mine.row && distance(other.position, mine.position) < apart) return;
     }
     Person person = people[mine.row];
     AgentState state = states[mine.row];
@@ -35,7 +34,7 @@ void main() {
     state.heading = turned ? atan(ahead.direction.y, ahead.direction.x) : person.heading;
     state.position = mine.position;
     // People walk in rather than start from a stand.
-    state.velocity = turned ? ahead.direction * person.preferred_speed * 0.8 : vec2(0.0);
+    state.velocity = turned ? ahead.direction * person.preferred_speed * ENTERING_PACE : vec2(0.0);
     state.status = STATUS_WALKING;
     state.spawn_step = steps_done;
     states[mine.row] = state;

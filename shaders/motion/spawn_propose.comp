@@ -21,8 +21,6 @@ uniform uint steps_done;  // counted with this one
 #include "shaders/cells/cells.glsl"
 #include "shaders/cells/cell_runs.glsl"
 
-/// Room to leave around a newcomer (m): those already there do not know of it before the next step.
-const float SPAWN_MARGIN = 0.1;
 const uint PURPOSE_ENTRY = 0xe7u;
 
 /// Of so many points, those who belong to somebody who is there already take the nearest to it.
@@ -35,7 +33,7 @@ bool hasRoom(vec2 position, float radius) {
     for (int y = cell.y - 1; y <= cell.y + 1; ++y) {
         uvec2 run = slotRun(cell.x, y);
         for (uint slot = run.x; slot < run.y; ++slot)
-            if (distance(bodies[slot].position, position) < radius + bodies[slot].radius + SPAWN_MARGIN) return false;
+            if (distance(bodies[slot].position, position) < radius + bodies[slot].radius + ENTERING_ROOM) return false;
     }
     return true;
 }
@@ -66,7 +64,7 @@ vec2 chooseEntry(uint row, Person person) {
         for (uint i = 1u; i < TRIES_TO_JOIN; ++i) {
             vec2 point = entryPoint(entry, row, attempt * TRIES_TO_JOIN + i);
             if (distance(point, states[other].position) < distance(best, states[other].position) &&
-                distance(point, states[other].position) > person.radius + people[other].radius + SPAWN_MARGIN)
+                distance(point, states[other].position) > person.radius + people[other].radius + ENTERING_ROOM)
                 best = point;
         }
         return best;
@@ -84,7 +82,8 @@ void main() {
     if (lane == 0u) head = rows;
     barrier();
     uint candidate = queue_heads[queue] + lane;
-    if (candidate < rows && states[queues[queue].first_row + candidate].status == STATUS_WAITING) atomicMin(head, candidate);
+    if (candidate < rows && states[queues[queue].first_row + candidate].status == STATUS_WAITING)
+        atomicMin(head, candidate);
     barrier();
     if (lane == 0u) queue_heads[queue] = head == rows ? min(queue_heads[queue] + SPAWN_GROUP_SIZE, rows) : head;
 

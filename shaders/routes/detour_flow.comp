@@ -14,11 +14,8 @@ uniform float fading;  // 0 to 1: how much of what was known is replaced
 #include "shaders/cells/cell_starts.glsl"
 #include "shaders/shared/flat_index.glsl"
 
-/// Walls take part of some cells, and people crowd in the rest: at least this share of it.
-const float LEAST_SHARE = 0.2;
-
-/// Everybody within one coarse cell of the middle counts, the nearer the more (a tent, whose integral is the area of
-/// one coarse cell).
+/// Walls take part of some cells, and people crowd in the rest. Everybody within one coarse cell of the middle counts,
+/// the nearer the more (a tent, whose integral is the area of one coarse cell).
 CrowdFlow flowAround(vec2 middle, float free_share) {
     ivec2 low = cellOf(middle - parameters.detour_cell);
     ivec2 high = cellOf(middle + parameters.detour_cell);
@@ -30,7 +27,7 @@ CrowdFlow flowAround(vec2 middle, float free_share) {
             sum += near.x * near.y * vec3(bodies[slot].velocity, 1.0);
         }
     }
-    float area = parameters.detour_cell * parameters.detour_cell * max(free_share, LEAST_SHARE);
+    float area = parameters.detour_cell * parameters.detour_cell * max(free_share, ROUTES_ROUND_JAMS_LEAST_SHARE);
     return CrowdFlow(sum.z > 1.0e-3 ? sum.xy / sum.z : vec2(0.0), sum.z / area, 0.0);
 }
 
@@ -39,7 +36,8 @@ float look(uint cell) {
     vec2 at = vec2(cell % parameters.detour_width, cell / parameters.detour_width) + 0.5;
     CrowdFlow now = flowAround(parameters.grid_minimum + at * parameters.detour_cell, ground[cell].free_share);
     CrowdFlow known = crowd_flows[cell];
-    CrowdFlow mixed = CrowdFlow(mix(known.velocity, now.velocity, fading), mix(known.density, now.density, fading), 0.0);
+    CrowdFlow mixed = CrowdFlow(mix(known.velocity, now.velocity, fading),
+                                mix(known.density, now.density, fading), 0.0);
     crowd_flows[cell] = mixed;
     return mixed.density;
 }
@@ -48,5 +46,5 @@ void main() {
     uint cell = flatIndex();
     if (cell >= parameters.detour_width * parameters.detour_height) return;
     // A little below what matters, so that routes learn that it does not any more. Several may write, all the same.
-    if (look(cell) > 0.9 * CROWD_THIN) dense_blocks[cell / PIXEL_GROUP_SIZE] = 1u;
+    if (look(cell) > 0.9 * ROUTES_ROUND_JAMS_THIN) dense_blocks[cell / PIXEL_GROUP_SIZE] = 1u;
 }

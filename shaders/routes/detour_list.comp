@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists the blocks of this round's fields that have to be worked on: those with a crowd, and those with changes round about.
+// Lists the blocks of this round's fields that have to be worked on: with a crowd, or with changes round about.
 #include "shaders/shared/simulation_types.h"
 
 layout(local_size_x = PIXEL_GROUP_SIZE) in;
@@ -22,7 +22,8 @@ bool hasChanged(uint field, int cell) {
 
 /// Whether the block or one beside it has changed.
 bool hasChangedAround(uint field, uint block) {
-    int first = int(block * PIXEL_GROUP_SIZE), last = first + int(PIXEL_GROUP_SIZE) - 1, width = int(parameters.detour_width);
+    int first = int(block * PIXEL_GROUP_SIZE), last = first + int(PIXEL_GROUP_SIZE) - 1,
+        width = int(parameters.detour_width);
     return hasChanged(field, first) || hasChanged(field, first - 1) || hasChanged(field, last + 1) ||
            hasChanged(field, first - width) || hasChanged(field, last - width) ||
            hasChanged(field, first + width) || hasChanged(field, last + width);
@@ -33,5 +34,6 @@ void main() {
     if (index >= field_count * blocks) return;
     uint field = first_field + index / blocks, block = index % blocks;
     if ((dense_too != 0u && dense_blocks[block] != 0u) || hasChangedAround(field, block))
-        listed_blocks[atomicAdd(block_groups[0], 1u)] = field * blocks + block;  // in whatever order: blocks do not meet
+        // In whatever order: blocks do not meet.
+        listed_blocks[atomicAdd(block_groups[0], 1u)] = field * blocks + block;
 }

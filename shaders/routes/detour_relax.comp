@@ -2,9 +2,9 @@
 // One round of bringing one field's walking distances up to date with the crowd.
 //
 // Who can see that the crowd ahead stands, or comes the other way, walks round it. The way costs as many metres as one
-// could have walked in the same time without a crowd: where it is dense, one gets on as fast as the crowd moves in one's
-// own direction, and next to not at all against it (Treuille, Cooper and Popovic 2006, equations 4, 7 and 8). Walking with a
-// stream is therefore cheap, and lanes attract those who go the same way.
+// could have walked in the same time without a crowd: where it is dense, one gets on as fast as the crowd moves in
+// one's own direction, and next to not at all against it (Treuille, Cooper and Popovic 2006, equations 4, 7 and 8).
+// Walking with a stream is therefore cheap, and lanes attract those who go the same way.
 //
 // The distances obey the Eikonal equation with these costs. Every round recomputes each cell from its neighbours' last
 // values (Jacobi), so news of a jam spreads by one cell a round, and no order of invocations shows in the result.
@@ -24,15 +24,6 @@ uniform uint first_field;     // of this round
 
 #include "shaders/routes/detour_blocks.glsl"
 
-const float THICK = 3.0;         // persons/m^2: from here on nobody walks faster than the crowd
-const float FREE_SPEED = 1.34;   // m/s (Weidmann 1993)
-/// Of the free speed: even through a jam that stands, one gets some time. Who may choose between several places takes a jam
-/// for what it is: a door that hundreds wait for is worth a walk to the next one. What counts then is how fast the crowd gets
-/// nearer to any of the places; or people would circle with those who circle.
-const float SLOWEST = 0.2;
-const float SLOWEST_WITH_CHOICE = 0.05;
-const float AGAINST_ONE_WAY = -0.1;
-
 float detourOr(uint field, uint cell, bool exists, float otherwise) {
     float distance = exists ? detour_distances[field * cellsOfMap() + cell] : otherwise;
     return distance < BLOCKED_COST ? distance : otherwise;
@@ -40,23 +31,27 @@ float detourOr(uint field, uint cell, bool exists, float otherwise) {
 
 /// Which way the nearest of the places is, by the last distances; a unit vector or zero.
 vec2 downhill(uint field, uint cell) {
-    uint x = cell % parameters.detour_width;
+    uint width = parameters.detour_width, x = cell % width;
     float here = detour_distances[field * cellsOfMap() + cell];
-    vec2 slope = vec2(detourOr(field, cell - 1u, x > 0u, here) - detourOr(field, cell + 1u, x + 1u < parameters.detour_width, here),
-                      detourOr(field, cell - parameters.detour_width, cell >= parameters.detour_width, here) -
-                      detourOr(field, cell + parameters.detour_width, cell + parameters.detour_width < cellsOfMap(), here));
+    vec2 slope = vec2(detourOr(field, cell - 1u, x > 0u, here) - detourOr(field, cell + 1u, x + 1u < width, here),
+                      detourOr(field, cell - width, cell >= width, here) -
+                          detourOr(field, cell + width, cell + width < cellsOfMap(), here));
     float size = length(slope);
     return size > 1.0e-6 ? slope / size : vec2(0.0);
 }
 
-/// Metres of free walking that leaving a cell in this direction is worth.
+/// Metres of free walking that leaving a cell in this direction is worth. Even through a jam that stands, one gets some
+/// time. Who may choose between several places takes a jam for what it is: a door that hundreds wait for is worth a
+/// walk to the next one. What counts then is how fast the crowd gets nearer to any of the places; or people would
+/// circle with those who circle.
 float costTowards(uint field, uint cell, GroundCell here, vec2 direction) {
     if (dot(unpackSnorm2x16(here.one_way), direction) < AGAINST_ONE_WAY) return BLOCKED_COST;
     CrowdFlow crowd = crowd_flows[cell];
-    float with_crowd = field_maps[field].has_choice != 0u
-                           ? clamp(dot(crowd.velocity, downhill(field, cell)) / FREE_SPEED, SLOWEST_WITH_CHOICE, 1.0)
-                           : clamp(dot(crowd.velocity, direction) / FREE_SPEED, SLOWEST, 1.0);
-    float speed = mix(1.0, with_crowd, smoothstep(CROWD_THIN, THICK, crowd.density));
+    bool choice = field_maps[field].has_choice != 0u;
+    float along = dot(crowd.velocity, choice ? downhill(field, cell) : direction);
+    float slowest = choice ? ROUTES_ROUND_JAMS_SLOWEST_WITH_CHOICE : ROUTES_ROUND_JAMS_SLOWEST;
+    float with_crowd = clamp(along / ROUTES_ROUND_JAMS_FREE_SPEED, slowest, 1.0);
+    float speed = mix(1.0, with_crowd, smoothstep(ROUTES_ROUND_JAMS_THIN, ROUTES_ROUND_JAMS_THICK, crowd.density));
     return here.cost * parameters.detour_cell / speed;
 }
 
@@ -90,12 +85,14 @@ float relaxed(uint field, uint cell) {
     // Targets and what nobody reaches stay as they are.
     if (free <= 0.0 || free >= BLOCKED_COST || here.cost >= BLOCKED_COST) return free;
     uvec2 at = uvec2(cell % parameters.detour_width, cell / parameters.detour_width);
-    vec2 x = betterSide(field, cell, here, at.x > 0u, at.x + 1u < parameters.detour_width, 1u, vec2(1.0, 0.0));
-    vec2 y = betterSide(field, cell, here, at.y > 0u, at.y + 1u < parameters.detour_height, parameters.detour_width, vec2(0.0, 1.0));
+    uint width = parameters.detour_width;
+    vec2 x = betterSide(field, cell, here, at.x > 0u, at.x + 1u < width, 1u, vec2(1.0, 0.0));
+    vec2 y = betterSide(field, cell, here, at.y > 0u, at.y + 1u < parameters.detour_height, width, vec2(0.0, 1.0));
     return min(eikonal(x, y), BLOCKED_COST);
 }
 
-/// m: smaller changes are none. Rounding and the first solution's own small errors would keep whole maps busy otherwise.
+/// m: smaller changes are none. Rounding and the first solution's own small errors would keep whole maps busy
+/// otherwise.
 const float SETTLED = 1.0e-3;
 
 void main() {

@@ -14,8 +14,6 @@ layout(std430) readonly buffer ListedBlocks { uint listed_blocks[]; };
 #include "shaders/routes/detour_blocks.glsl"
 #include "shaders/shared/at_most.glsl"
 
-const float MOST_SLOPE = 4.0;  // enough to turn anybody round; more would only make them flicker
-
 float delay(uint field, uint cell) {
     float free = free_distances[field * cellsOfMap() + cell];
     return free >= BLOCKED_COST ? -1.0 : max(detour_distances[field * cellsOfMap() + cell] - free, 0.0);
@@ -47,5 +45,5 @@ void main() {
         result.y = slope(delayBeyond(field, cell, cell - width, cell >= width, OPEN_TO_Y), here,
                          delayBeyond(field, cell, cell + width, cell + width < cellsOfMap(), OPEN_TO_Y));
     }
-    detour_slopes[field * cellsOfMap() + cell] = atMost(result / parameters.detour_cell, MOST_SLOPE);
+    detour_slopes[field * cellsOfMap() + cell] = atMost(result / parameters.detour_cell, ROUTES_ROUND_JAMS_MOST_SLOPE);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists the blocks that the next round of field_relax.comp has to look at: those that have changed, and those beside them.
+// Lists the blocks that the next round of field_relax.comp has to look at: those that changed, and those beside them.
 #include "shaders/shared/simulation_types.h"
 
 layout(local_size_x = AGENT_GROUP_SIZE) in;
@@ -20,7 +20,7 @@ void main() {
     uvec2 blocks = blockGrid();
     if (index >= blocks.x * blocks.y) return;
     ivec2 block = ivec2(index % blocks.x, index / blocks.x);
-    if (hasChanged(block) || hasChanged(block + ivec2(1, 0)) || hasChanged(block - ivec2(1, 0)) || hasChanged(block + ivec2(0, 1)) ||
-        hasChanged(block - ivec2(0, 1)))
+    if (hasChanged(block) || hasChanged(block + ivec2(1, 0)) || hasChanged(block - ivec2(1, 0)) ||
+        hasChanged(block + ivec2(0, 1)) || hasChanged(block - ivec2(0, 1)))
         listed_blocks[atomicAdd(block_groups[0], 1u)] = index;  // in whatever order: blocks do not meet
 }

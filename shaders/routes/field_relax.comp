@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Brings the listed blocks of a distance field nearer to |grad T| = cost: the fast iterative method of Jeong and Whitaker
-// (2008), block by block. A cell takes its value from its better neighbours on the two axes, exactly as fast marching
-// does (authoring/scene/eikonal.cpp), so both end in the same distances; but here all cells of a block go at once, round
-// after round, until none of them changes, and blocks beside one that has changed come next. Values only ever fall.
+// Brings the listed blocks of a distance field nearer to |grad T| = cost: the fast iterative method of Jeong and
+// Whitaker (2008), block by block. A cell takes its value from its better neighbours on the two axes, exactly as fast
+// marching does (authoring/scene/eikonal.cpp), so both end in the same distances; but here all cells of a block go at
+// once, round after round, until none of them changes, and blocks beside one that has changed come next. Values only
+// ever fall.
 //
 // All blocks read what the last round left and write beside it, so no order of groups shows in the result.
 #include "shaders/shared/simulation_types.h"
 
 layout(local_size_x = FIELD_BLOCK_CELLS) in;
 layout(std430) readonly buffer Distances { float distances[]; };
-layout(std430) readonly buffer CellSteps { float cell_steps[]; };  // m that crossing a cell costs; FIELD_FAR: nobody can
+layout(std430) readonly buffer CellSteps { float cell_steps[]; };  // m, what crossing costs; FIELD_FAR: nobody can
 layout(std430) readonly buffer ListedBlocks { uint listed_blocks[]; };
 layout(std430) writeonly buffer NextDistances { float next_distances[]; };
 layout(std430) writeonly buffer ChangedBlocks { uint changed_blocks[]; };
 #ifdef BOUND
 layout(std430) readonly buffer OpenSides { uint open_sides[]; };
 layout(std430) readonly buffer OneWay { vec2 one_way[]; };
-uniform float against_one_way;  // cosine
 #endif
 
 #include "shaders/routes/field_blocks.glsl"
@@ -48,10 +48,10 @@ bvec4 waysFrom(uvec2 cell, uint index) {
     if (!isInGrid(cell)) return bvec4(false);
     uint left = cell.x > 0u ? open_sides[index - 1u] : 0u;
     uint below = cell.y > 0u ? open_sides[index - grid_size.x] : 0u;
-    bvec4 open = bvec4((open_sides[index] & OPEN_TO_X) != 0u, (left & OPEN_TO_X) != 0u, (open_sides[index] & OPEN_TO_Y) != 0u,
-                       (below & OPEN_TO_Y) != 0u);
+    bvec4 open = bvec4((open_sides[index] & OPEN_TO_X) != 0u, (left & OPEN_TO_X) != 0u,
+                       (open_sides[index] & OPEN_TO_Y) != 0u, (below & OPEN_TO_Y) != 0u);
     vec2 along = one_way[index];
-    bvec4 allowed = greaterThanEqual(vec4(along.x, -along.x, along.y, -along.y), vec4(against_one_way));
+    bvec4 allowed = greaterThanEqual(vec4(along.x, -along.x, along.y, -along.y), vec4(AGAINST_ONE_WAY));
     return bvec4(open.x && allowed.x, open.y && allowed.y, open.z && allowed.z, open.w && allowed.w);
 #else
     return bvec4(true);

@@ -19,7 +19,8 @@ void gridPosition(vec2 position, float cell_size, uvec2 size, out uvec2 cell, ou
 vec2 detourSlope(uint field, vec2 position) {
     uvec2 cell;
     vec2 fraction;
-    gridPosition(position, parameters.detour_cell, uvec2(parameters.detour_width, parameters.detour_height), cell, fraction);
+    gridPosition(position, parameters.detour_cell, uvec2(parameters.detour_width, parameters.detour_height), cell,
+                 fraction);
     uint first = (field * parameters.detour_height + cell.y) * parameters.detour_width + cell.x;
     uint above = first + parameters.detour_width;
     return mix(mix(detour_slopes[first], detour_slopes[first + 1u], fraction.x),

@@ -3,9 +3,9 @@
 // (De Gyves, Toledo and Rudomin 2013, equations (1) and (2)).
 //
 // A pixel's owner is the nearest site, so any site whose cell is wider than the gap between samples is met by one of
-// them. The samples lie on the rays r_j = a + j b inside the field of view. Inner circles need fewer rays than the outermost
-// one for the same gap, so the pattern (sim/sensing_pattern.h) thins them out. Samples only say who is there; distances
-// are then taken from the exact positions, and the k nearest are kept.
+// them. The samples lie on the rays r_j = a + j b inside the field of view. Inner circles need fewer rays than the
+// outermost one for the same gap, so the pattern (sim/sensing_pattern.h) thins them out. Samples only say who is there;
+// distances are then taken from the exact positions, and the k nearest are kept.
 //
 // Crowding cuts cells until samples miss some of them, and nobody sees behind; people still feel who touches them. So
 // everybody within the contact range is asked for exactly, whatever the field of view, through the cells.
@@ -20,8 +20,8 @@
 layout(std430) readonly buffer WallTiles { WallTile wall_tiles[]; };
 uniform vec2 pattern[SENSING_SAMPLES];  // m, in the person's own frame: where it looks
 
-/// Site ids met by the samples, without those met among the last three; at most one per sample. The samples come in the order
-/// of their angle, so what lies in one direction is met in one go and few ids come twice.
+/// Site ids met by the samples, without those met among the last three; at most one per sample. The samples come in the
+/// order of their angle, so what lies in one direction is met in one go and few ids come twice.
 uint candidates[SENSING_SAMPLES];
 
 int marchRays(Body self, uint self_slot) {
@@ -32,10 +32,12 @@ int marchRays(Body self, uint self_slot) {
     uvec3 recent = uvec3(self_slot);
     for (int i = 0; i < SENSING_SAMPLES; ++i) {
         vec2 local = pattern[i];
-        vec2 pixel = centre + vec2(forward.x * local.x - forward.y * local.y, forward.y * local.x + forward.x * local.y);
+        vec2 pixel = centre + vec2(forward.x * local.x - forward.y * local.y,
+                                   forward.y * local.x + forward.x * local.y);
         uvec2 at = uvec2(clamp(pixel, vec2(0.0), upper));
         uint owner = ownerAt(at);
-        bool fresh = owner != NO_INDEX && owner != self_slot && owner != recent.x && owner != recent.y && owner != recent.z;
+        bool fresh = owner != NO_INDEX && owner != self_slot && owner != recent.x && owner != recent.y &&
+                     owner != recent.z;
         candidates[count] = owner;
         count += fresh ? 1 : 0;
         recent = fresh ? uvec3(owner, recent.xy) : recent;

@@ -42,7 +42,8 @@ bool isWallInView(vec2 position, vec2 forward, uint segment) {
     vec2 turn = vec2(cos(half_view), sin(half_view));
     vec2 left = reach * vec2(forward.x * turn.x - forward.y * turn.y, forward.x * turn.y + forward.y * turn.x);
     vec2 right = reach * vec2(forward.x * turn.x + forward.y * turn.y, forward.y * turn.x - forward.x * turn.y);
-    return edgeMeets(left, wall.a - position, wall.b - position) || edgeMeets(right, wall.a - position, wall.b - position);
+    return edgeMeets(left, wall.a - position, wall.b - position) ||
+           edgeMeets(right, wall.a - position, wall.b - position);
 }
 
 void weighSlots(Body self, vec2 forward, uint first, uint last) {
@@ -50,7 +51,7 @@ void weighSlots(Body self, vec2 forward, uint first, uint last) {
     for (uint slot = first; slot < last; ++slot) {
         vec2 offset = bodies[slot].position - self.position;
         float distance_squared = dot(offset, offset);
-        // Those within the contact range are listed already, and nobody is farther than the list's last when it is full.
+        // Those within the contact range are listed already, and nobody is farther than the last of a full list.
         if (distance_squared <= felt || distance_squared > reach * reach) continue;
         if (distance_squared > nearest_distance[NEIGHBOURS - 1] || !isInView(forward, offset)) continue;
         keepNearest(distance_squared, slot);

@@ -129,6 +129,9 @@ const uint OPEN_TO_X = 1u;
 const uint OPEN_TO_Y = 2u;
 const float BLOCKED_COST = 1.0e9f;
 
+/// Walking more than this (cosine) against a one-way road is not allowed.
+const float AGAINST_ONE_WAY = -0.1f;
+
 THRONG_SHARED_END
 
 #endif

@@ -104,9 +104,6 @@ struct SpawnProposal {
     uint row;  // NO_INDEX = does not ask, or there is no room
 };
 
-/// persons/m^2: up to here everybody walks as fast as they like, and routes need not heed the crowd.
-const float CROWD_THIN = 1.3f;
-
 /// How the crowd moves in one cell of the coarse map, smoothed over space and time.
 struct CrowdFlow {
     vec2 velocity;  // m/s, mean

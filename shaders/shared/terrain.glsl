@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights and slopes of the ground (authoring/scene/terrain.h).
+// Heights and slopes of the ground (authoring/terrain/terrain.h).
 #include "shaders/shared/terrain_types.h"
 
 layout(std430) readonly buffer TerrainNodes { TerrainNode terrain_nodes[]; };
@@ -14,12 +14,14 @@ vec2 smoothGround(vec2 position) {
     vec2 f = at - vec2(cell);
     uint low = cell.y * lattice_size.x + cell.x;
     uint high = low + lattice_size.x;
-    TerrainNode n00 = terrain_nodes[low], n10 = terrain_nodes[low + 1u], n01 = terrain_nodes[high], n11 = terrain_nodes[high + 1u];
+    TerrainNode n00 = terrain_nodes[low], n10 = terrain_nodes[low + 1u],
+                n01 = terrain_nodes[high], n11 = terrain_nodes[high + 1u];
     return mix(mix(vec2(n00.height, n00.steps), vec2(n10.height, n10.steps), f.x),
                mix(vec2(n01.height, n01.steps), vec2(n11.height, n11.steps), f.x), f.y);
 }
 
 /// Rise over run in a direction, from `reach` behind to `reach` ahead (m).
 float smoothSlope(vec2 position, vec2 direction, float reach) {
-    return (smoothGround(position + reach * direction).x - smoothGround(position - reach * direction).x) / (2.0 * reach);
+    return (smoothGround(position + reach * direction).x - smoothGround(position - reach * direction).x) /
+           (2.0 * reach);
 }

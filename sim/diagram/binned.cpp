@@ -11,6 +11,14 @@ namespace {
 
 constexpr std::size_t kPageBytes = std::size_t{4} * gpu::PAGE_SIDE * gpu::PAGE_SIDE;
 
+const gl::Declaration kGather = {"diagram",
+                                 {"shaders/diagram/binned.comp"},
+                                 {"binned_sites", "StripStarts", "CellOffsets", "FixedBinStarts",
+                                  "fixed_binned_sites", "PageList", "PageCount"},
+                                 {"Owners"}};
+const gl::Declaration kCountGroups = {
+    "diagram", {"shaders/diagram/page_dispatch.comp"}, {"PageCount"}, {"PageDispatch"}};
+
 gl::Definitions definitionsFor(const DiagramSetup& setup, const Pages* pages) {
     gl::Definitions definitions = {{"BLOCK_WIDTH", fmt::format("{}u", setup.options.gather.block_width)},
                                    {"BLOCK_HEIGHT", fmt::format("{}u", setup.options.gather.block_height)}};
@@ -47,7 +55,7 @@ BinnedDiagram::BinnedDiagram(const DiagramSetup& setup, Pages* pages)
       fixed_sites_(setup.fixed_sites),
       blocks_(blocksAcross(setup.options.width, setup.options.gather.block_width) *
               blocksAcross(setup.options.height, setup.options.gather.block_height)),
-      gather_(setup.library, "shaders/diagram/binned.comp", definitionsFor(setup, pages)),
+      gather_(setup.library, kGather, definitionsFor(setup, pages)),
       pages_(pages),
       owners_(setup.owners) {
     gather_.set("largest_radius", setup.options.largest_radius);
@@ -60,8 +68,8 @@ BinnedDiagram::BinnedDiagram(const DiagramSetup& setup, Pages* pages)
                                           (gpu::PAGE_SIDE / setup.options.gather.block_height);
     pages_per_range_ = pagesPerRange(blocks_per_page);
     ranges_ = (pages_->capacity() + pages_per_range_ - 1) / pages_per_range_;
-    page_dispatch_ = gl::Buffer("diagram page dispatch", std::size_t{12} * ranges_);
-    count_groups_ = gl::ComputeProgram(setup.library, "shaders/diagram/page_dispatch.comp");
+    page_dispatch_ = gl::Buffer("diagram page dispatch", {ranges_, 12, "range of pages"});
+    count_groups_ = gl::ComputeProgram(setup.library, kCountGroups);
     count_groups_.bind("PageCount", pages_->count());
     count_groups_.bind("PageDispatch", page_dispatch_);
     count_groups_.set("ranges", ranges_);
@@ -90,8 +98,8 @@ void BinnedDiagram::connect(const DiagramInput& input) {
         bins_.emplace(library_, grid, options_.live_capacity);
         bins_->connect(*input.sites, *input.live_dispatch);
         // All its bins start where they say, whatever the strip.
-        no_strips_ =
-            gl::makeBuffer("no strips", std::vector<std::uint32_t>(grid.count() / gpu::CELLS_PER_STRIP + 1));
+        no_strips_ = gl::makeBuffer(
+            "no strips", std::vector<std::uint32_t>(grid.count() / gpu::CELLS_PER_STRIP + 1), "strip");
         gather_.bind("StripStarts", no_strips_);
         gather_.bind("CellOffsets", bins_->starts());
         gather_.bind("binned_sites", bins_->sites());

@@ -13,8 +13,23 @@
 namespace throng::sim {
 namespace {
 
-std::size_t pixelBytes(const DiagramOptions& options) {
-    return std::size_t{4} * options.width * options.height;
+const gl::Declaration kFlatten = {
+    "pictures", {"shaders/diagram/flatten.comp"}, {"owners", "page_table"}, {"WholeOwners"}};
+const gl::Declaration kMeasure = {
+    "pictures", {"shaders/diagram/measure.comp"}, {"Owners", "Sites", "SiteSlots"}, {"Distances"}};
+const gl::Declaration kFindSeconds = {
+    "pictures",
+    {"shaders/diagram/second.comp"},
+    {"Owners", "BinStarts", "binned_sites", "FixedBinStarts", "fixed_binned_sites"},
+    {"Seconds"}};
+const gl::Declaration kCount = {"densities",
+                                {"shaders/diagram/count.comp"},
+                                {"LiveDispatch", "Sites", "owners", "page_table"},
+                                {"PixelCounts"}};
+
+/// One word a pixel.
+gl::Room picture(const DiagramOptions& options) {
+    return {std::size_t{options.width} * options.height, 4, "pixel"};
 }
 
 glm::uvec2 sizeOf(const DiagramOptions& options) {
@@ -64,11 +79,10 @@ Diagram::Diagram(const gl::ShaderLibrary& library, const DiagramOptions& options
                 authoring::wordFor(options_.method), options_.width, options_.height));
         pages_ = std::make_unique<Pages>(library, options_.width, options_.height, options_.largest_radius,
                                          options_.live_capacity, fixed_sites_);
-        owners_ =
-            std::make_unique<gl::Buffer>("diagram pages", pages_->storeBytes(), gl::Buffer::Use::in_ranges);
+        owners_ = std::make_unique<gl::Buffer>("diagram pages", pages_->store(), gl::Buffer::Use::in_ranges);
         table_texture_ = gl::WordTexture(pages_->table());
     } else {
-        owners_ = std::make_unique<gl::Buffer>("diagram owners", pixelBytes(options_));
+        owners_ = std::make_unique<gl::Buffer>("diagram owners", picture(options_));
     }
     owners_->fill(gpu::NO_INDEX);
     owner_texture_ = gl::WordTexture(*owners_);
@@ -160,9 +174,9 @@ const gl::Buffer& Diagram::wholeOwners() {
     if (!options_.paged) return *owners_;
     if (!extras_->whole) {
         extras_->whole.emplace();
-        extras_->whole->owners = gl::Buffer("diagram owners, whole", pixelBytes(options_));
+        extras_->whole->owners = gl::Buffer("diagram owners, whole", picture(options_));
         gl::ComputeProgram& flatten = extras_->whole->flatten;
-        flatten = gl::ComputeProgram(library_, "shaders/diagram/flatten.comp", lookupDefinitions());
+        flatten = gl::ComputeProgram(library_, kFlatten, lookupDefinitions());
         flatten.bind("WholeOwners", extras_->whole->owners);
         flatten.set("diagram_size", sizeOf(options_));
         describeTo(flatten);
@@ -175,9 +189,9 @@ const gl::Buffer& Diagram::measureDistances() {
     const gl::Buffer& owners = wholeOwners();
     if (!extras_->distances) {
         extras_->distances.emplace();
-        extras_->distances->distances = gl::Buffer("diagram distances", pixelBytes(options_));
+        extras_->distances->distances = gl::Buffer("diagram distances", picture(options_));
         gl::ComputeProgram& measure = extras_->distances->measure;
-        measure = gl::ComputeProgram(library_, "shaders/diagram/measure.comp");
+        measure = gl::ComputeProgram(library_, kMeasure);
         measure.bind("Owners", owners);
         measure.bind("Sites", *input_.sites);
         measure.bind("SiteSlots", *input_.site_slots);
@@ -196,13 +210,13 @@ const gl::Buffer& Diagram::findSeconds() {
             Extras::Seconds{grid, SiteBins(library_, grid, options_.live_capacity), {}, {}, {}});
         Extras::Seconds& seconds = *extras_->seconds;
         seconds.bins.connect(*input_.sites, *input_.live_dispatch);
-        seconds.seconds = gl::Buffer("second owners", pixelBytes(options_));
+        seconds.seconds = gl::Buffer("second owners", picture(options_));
         gl::Definitions definitions;
         if (!fixed_sites_.empty()) {
             seconds.fixed_bins.emplace(library_, grid, fixed_sites_);
             definitions.emplace_back("FIXED_SITES", "1");
         }
-        seconds.find = gl::ComputeProgram(library_, "shaders/diagram/second.comp", definitions);
+        seconds.find = gl::ComputeProgram(library_, kFindSeconds, definitions);
         grid.describeTo(seconds.find);
         seconds.find.bind("Owners", owners);
         seconds.find.bind("Seconds", seconds.seconds);
@@ -223,9 +237,9 @@ const gl::Buffer& Diagram::findSeconds() {
 const gl::Buffer& Diagram::countPixels() {
     if (!extras_->counts) {
         extras_->counts.emplace();
-        extras_->counts->counts = gl::Buffer("pixels of each site", std::size_t{4} * options_.live_capacity);
+        extras_->counts->counts = gl::Buffer("pixels of each site", {options_.live_capacity, 4, kSite});
         gl::ComputeProgram& count = extras_->counts->count;
-        count = gl::ComputeProgram(library_, "shaders/diagram/count.comp", lookupDefinitions());
+        count = gl::ComputeProgram(library_, kCount, lookupDefinitions());
         count.bind("Sites", *input_.sites);
         count.bind("LiveDispatch", *input_.live_dispatch);
         count.bind("PixelCounts", extras_->counts->counts);

@@ -8,6 +8,13 @@
 namespace throng::sim {
 namespace {
 
+const gl::Declaration kSeed = {
+    "diagram", {"shaders/diagram/flood_seed.comp"}, {"LiveDispatch", "Sites", "Seeds"}, {"Seeds"}};
+const gl::Declaration kJump = {
+    "diagram", {"shaders/diagram/flood_jump.comp"}, {"Seeds", "sites"}, {"SeedsAfter"}};
+const gl::Declaration kFinish = {
+    "diagram", {"shaders/diagram/flood_finish.comp"}, {"Seeds", "sites"}, {"Owners"}};
+
 std::vector<std::uint32_t> floodSteps(const DiagramOptions& options, const FloodVariant& variant) {
     const std::uint32_t longest = std::bit_ceil(std::max({options.width, options.height, 2u})) / 2;
     const auto radius = static_cast<std::uint32_t>(std::ceil(options.largest_radius));
@@ -26,12 +33,12 @@ FloodDiagram::FloodDiagram(const DiagramSetup& setup, const FloodVariant& varian
     : steps_(floodSteps(setup.options, variant)),
       pixels_(std::uint64_t{setup.options.width} * setup.options.height),
       site_count_(setup.siteCount()),
-      seeds_("flood seeds", pixels_ * 4),
-      other_seeds_("flood seeds, other", pixels_ * 4),
-      seed_(setup.library, "shaders/diagram/flood_seed.comp"),
-      forth_(setup.library, "shaders/diagram/flood_jump.comp"),
-      back_(setup.library, "shaders/diagram/flood_jump.comp"),
-      finish_(setup.library, "shaders/diagram/flood_finish.comp") {
+      seeds_("flood seeds", {pixels_, 4, "pixel"}),
+      other_seeds_("flood seeds, other", {pixels_, 4, "pixel"}),
+      seed_(setup.library, kSeed),
+      forth_(setup.library, kJump),
+      back_(setup.library, kJump),
+      finish_(setup.library, kFinish) {
     for (gl::ComputeProgram* program : {&seed_, &forth_, &back_, &finish_})
         program->set("diagram_size", glm::uvec2(setup.options.width, setup.options.height));
     seed_.set("fixed_first", setup.options.live_capacity);

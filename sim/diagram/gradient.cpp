@@ -6,6 +6,18 @@
 namespace throng::sim {
 namespace {
 
+const gl::Declaration kNearest = {"diagram",
+                                  {"shaders/diagram/gradient.vert", "shaders/diagram/gradient.frag"},
+                                  {"Sites", "SiteSlots"},
+                                  {}};
+const gl::Declaration kBlend = {"diagram",
+                                {"shaders/diagram/gradient.vert", "shaders/diagram/blend.frag"},
+                                {"Sites", "SiteSlots", "smallest_distance"},
+                                {}};
+const gl::Declaration kDecode = {"diagram", {"shaders/diagram/blend_decode.comp"}, {"Keys"}, {"Owners"}};
+const gl::Declaration kCones = {
+    "diagram", {"shaders/diagram/cones.vert", "shaders/diagram/cones.frag"}, {"Sites", "SiteSlots"}, {}};
+
 std::uint32_t marginFor(float radius) {
     return static_cast<std::uint32_t>(std::ceil(radius)) + 2;
 }
@@ -19,7 +31,7 @@ float spriteSize(float radius) {
 GradientDiagram::GradientDiagram(const DiagramSetup& setup)
     : target_("gradient1", gl::RasterTarget::Kind::unsigned_nearest, setup.options.width,
               setup.options.height, marginFor(setup.options.largest_radius)),
-      program_(setup.library, {"shaders/diagram/gradient.vert", "shaders/diagram/gradient.frag"}, {}),
+      program_(setup.library, kNearest),
       draw_count_(setup.siteCount()),
       owners_(setup.owners) {
     const float radius = setup.options.largest_radius;
@@ -48,8 +60,7 @@ void GradientDiagram::build() {
 namespace {
 
 gl::Program blendProgram(const DiagramSetup& setup, const gl::RasterTarget& target, const char* pass) {
-    gl::Program program(setup.library, {"shaders/diagram/gradient.vert", "shaders/diagram/blend.frag"},
-                        {{pass, "1"}});
+    gl::Program program(setup.library, kBlend, {{pass, "1"}});
     program.set("target_size", target.size());
     program.set("margin", static_cast<float>(target.margin()));
     return program;
@@ -74,8 +85,8 @@ BlendedDiagram::BlendedDiagram(const DiagramSetup& setup, bool packed)
       first_(blendProgram(setup, first_target_, packed ? "BLEND_PACKED" : "BLEND_DISTANCE")),
       draw_count_(setup.siteCount()),
       pixels_(std::uint64_t{setup.options.width} * setup.options.height),
-      keys_("blended keys", pixels_ * 4),
-      decode_(setup.library, "shaders/diagram/blend_decode.comp") {
+      keys_("blended keys", {pixels_, 4, "pixel"}),
+      decode_(setup.library, kDecode) {
     const float radius = setup.options.largest_radius;
     gl::RasterTarget::requirePointSize("gradient2", spriteSize(radius));
     const std::uint32_t id_bits = bitsFor(setup.siteCount());
@@ -88,7 +99,7 @@ BlendedDiagram::BlendedDiagram(const DiagramSetup& setup, bool packed)
     } else {
         second_target_.emplace(blendTarget(setup));
         second_.emplace(blendProgram(setup, *second_target_, "BLEND_SITE"));
-        second_->bindTexture("smallest_distance", first_target_.texture());
+        second_->bindTexture("smallest_distance", first_target_.texture(), first_target_.contents());
     }
     decode_.bind("Keys", keys_);
     decode_.bind("Owners", setup.owners);
@@ -119,7 +130,7 @@ void BlendedDiagram::build() {
 ConesDiagram::ConesDiagram(const DiagramSetup& setup)
     : target_("cones", gl::RasterTarget::Kind::unsigned_nearest, setup.options.width, setup.options.height,
               marginFor(setup.options.largest_radius)),
-      program_(setup.library, {"shaders/diagram/cones.vert", "shaders/diagram/cones.frag"}, {}),
+      program_(setup.library, kCones),
       sides_(setup.options.cone_sides),
       draw_count_(setup.siteCount()),
       owners_(setup.owners) {

@@ -18,6 +18,8 @@ struct DiagramSetup {
     const DiagramOptions& options;
     std::span<const gpu::DiagramSite> fixed_sites;
     gl::Buffer& owners;
+    /// One word a pixel.
+    gl::Room picture() const { return {std::size_t{options.width} * options.height, 4, "pixel"}; }
     std::uint32_t siteCount() const {
         return options.live_capacity + static_cast<std::uint32_t>(fixed_sites.size());
     }

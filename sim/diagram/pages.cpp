@@ -15,12 +15,17 @@ namespace {
 constexpr std::size_t kWord = sizeof(std::uint32_t);
 constexpr std::size_t kPagePixels = std::size_t{gpu::PAGE_SIDE} * gpu::PAGE_SIDE;
 
+const gl::Declaration kPlace = {"diagram",
+                                {"shaders/diagram/pages.comp"},
+                                {"LiveDispatch", "Sites", "PageTable", "PageCount"},
+                                {"PageTable", "PageCount", "PageList"}};
+
 std::uint32_t pagesAcross(std::uint32_t pixels) {
     return (pixels + gpu::PAGE_SIDE - 1) / gpu::PAGE_SIDE;
 }
 
 /// The table, too, has to fit a storage block.
-std::size_t checkedTableBytes(std::uint32_t width, std::uint32_t height) {
+gl::Room checkedTable(std::uint32_t width, std::uint32_t height) {
     constexpr std::size_t kMostSquares = std::size_t{1} << 25;
     const std::size_t squares = std::size_t{pagesAcross(width)} * pagesAcross(height);
     if (squares > kMostSquares)
@@ -28,7 +33,7 @@ std::size_t checkedTableBytes(std::uint32_t width, std::uint32_t height) {
             "the diagram of {} x {} pixels is too large even in pages. Set "
             "simulation.pixels_per_metre to at most {:.2g} times what it is, or split the layout.",
             width, height, std::sqrt(static_cast<double>(kMostSquares) / static_cast<double>(squares))));
-    return kWord * squares;
+    return {squares, kWord, "page of the window"};
 }
 
 }  // namespace
@@ -46,11 +51,11 @@ std::uint64_t Pages::pagesNeeded(std::uint32_t width, std::uint32_t height, floa
 Pages::Pages(const gl::ShaderLibrary& library, std::uint32_t width, std::uint32_t height,
              float largest_radius, std::uint32_t live_capacity, std::span<const gpu::DiagramSite> fixed_sites)
     : per_line_(pagesAcross(width)),
-      table_("diagram page table", checkedTableBytes(width, height)),
-      fixed_table_("diagram page table, fixed sites", table_.bytes()),
+      table_("diagram page table", checkedTable(width, height)),
+      fixed_table_("diagram page table, fixed sites", checkedTable(width, height)),
       count_("diagram page count", kWord),
       fixed_count_("diagram page count, fixed sites", kWord),
-      place_(library, "shaders/diagram/pages.comp") {
+      place_(library, kPlace) {
     place_.set("diagram_size", glm::vec2(width, height));
     place_.set("pages_per_line", per_line_);
     place_.bind("PageTable", table_);
@@ -61,9 +66,9 @@ Pages::Pages(const gl::ShaderLibrary& library, std::uint32_t width, std::uint32_
     // The fixed sites are placed once, in a list that is long enough for them, to learn how many pages they
     // take.
     const std::uint64_t fixed_bound = pagesNeeded(width, height, largest_radius, fixed_sites.size());
-    gl::Buffer fixed_list("diagram pages, fixed sites", kWord * fixed_bound);
-    const gl::Buffer sites =
-        gl::makeBuffer("fixed sites", std::vector<gpu::DiagramSite>(fixed_sites.begin(), fixed_sites.end()));
+    gl::Buffer fixed_list("diagram pages, fixed sites", {fixed_bound, kWord, "page"});
+    const gl::Buffer sites = gl::makeBuffer(
+        "fixed sites", std::vector<gpu::DiagramSite>(fixed_sites.begin(), fixed_sites.end()), "fixed site");
     const gl::Buffer dispatch = gl::makeBuffer("fixed dispatch", dispatchOf(fixed_sites.size()));
     place_.set("page_capacity", static_cast<std::uint32_t>(fixed_bound));
     place_.bind("PageList", fixed_list);
@@ -86,15 +91,15 @@ Pages::Pages(const gl::ShaderLibrary& library, std::uint32_t width, std::uint32_
             width, height, static_cast<double>(needed * kPagePixels) / 1e6,
             static_cast<double>(kMostPages * kPagePixels) / 1e6));
     capacity_ = static_cast<std::uint32_t>(needed);
-    list_ = gl::Buffer("diagram pages", kWord * capacity_);
+    list_ = gl::Buffer("diagram pages", {capacity_, kWord, "page"});
     list_.copyFrom(fixed_list);
     place_.set("page_capacity", capacity_);
     place_.bind("PageList", list_);
     live_dispatch_ = nullptr;
 }
 
-std::size_t Pages::storeBytes() const {
-    return kWord * kPagePixels * capacity_;
+gl::Room Pages::store() const {
+    return {kPagePixels * capacity_, kWord, "pixel"};
 }
 
 void Pages::connect(const gl::Buffer& sites, const gl::Buffer& live_dispatch) {

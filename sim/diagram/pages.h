@@ -37,8 +37,8 @@ class Pages {
     const gl::Buffer& table() const { return table_; }
     const gl::Buffer& list() const { return list_; }
     const gl::Buffer& count() const { return count_; }
-    /// Bytes of a store for all pages.
-    std::size_t storeBytes() const;
+    /// Room for the pixels of all pages.
+    gl::Room store() const;
 
   private:
     std::uint32_t per_line_;

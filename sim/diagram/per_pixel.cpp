@@ -2,10 +2,16 @@
 #include "sim/diagram/methods.h"
 
 namespace throng::sim {
+namespace {
+
+const gl::Declaration kCompareAll = {
+    "diagram", {"shaders/diagram/per_pixel.comp"}, {"LiveDispatch", "sites"}, {"Owners"}};
+
+}  // namespace
 
 PerPixelDiagram::PerPixelDiagram(const DiagramSetup& setup)
     : pixels_(std::uint64_t{setup.options.width} * setup.options.height),
-      program_(setup.library, "shaders/diagram/per_pixel.comp") {
+      program_(setup.library, kCompareAll) {
     program_.bind("Owners", setup.owners);
     program_.set("diagram_size", glm::uvec2(setup.options.width, setup.options.height));
     program_.set("fixed_first", setup.options.live_capacity);

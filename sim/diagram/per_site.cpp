@@ -2,14 +2,22 @@
 #include "sim/diagram/methods.h"
 
 namespace throng::sim {
+namespace {
+
+const gl::Declaration kDistances = {
+    "diagram", {"shaders/diagram/distance.comp"}, {"LiveDispatch", "Sites", "Distances"}, {"Distances"}};
+const gl::Declaration kSites = {
+    "diagram", {"shaders/diagram/site.comp"}, {"LiveDispatch", "Sites", "Distances", "Owners"}, {"Owners"}};
+
+}  // namespace
 
 PerSiteDiagram::PerSiteDiagram(const DiagramSetup& setup)
     : owners_(setup.owners),
-      distance_pass_(setup.library, "shaders/diagram/distance.comp"),
-      site_pass_(setup.library, "shaders/diagram/site.comp"),
-      distances_("diagram distances", owners_.bytes()),
-      fixed_owners_("diagram owners, fixed sites", owners_.bytes()),
-      fixed_distances_("diagram distances, fixed sites", owners_.bytes()) {
+      distance_pass_(setup.library, kDistances),
+      site_pass_(setup.library, kSites),
+      distances_("diagram distances", setup.picture()),
+      fixed_owners_("diagram owners, fixed sites", setup.picture()),
+      fixed_distances_("diagram distances, fixed sites", setup.picture()) {
     const glm::vec2 size(setup.options.width, setup.options.height);
     for (gl::ComputeProgram* program : {&distance_pass_, &site_pass_}) {
         program->bind("Distances", distances_);

@@ -9,6 +9,18 @@ namespace {
 
 constexpr std::size_t kWord = sizeof(std::uint32_t);
 
+const gl::Declaration kCount = {"diagram",
+                                {"shaders/diagram/bins_count.comp"},
+                                {"LiveDispatch", "Sites", "Counts"},
+                                {"Counts", "SitePlaces"}};
+const gl::Declaration kSum = {"diagram", {"shaders/cells/counts_sum.comp"}, {"Counts"}, {"GroupSums"}};
+const gl::Declaration kFindStarts = {
+    "diagram", {"shaders/diagram/bins_starts.comp"}, {"Counts", "GroupSums"}, {"BinStarts"}};
+const gl::Declaration kScatter = {"diagram",
+                                  {"shaders/diagram/bins_scatter.comp"},
+                                  {"LiveDispatch", "Sites", "BinStarts", "SitePlaces"},
+                                  {"BinnedSites"}};
+
 std::uint32_t binsAcross(std::uint32_t pixels, float side) {
     return std::max(1u, static_cast<std::uint32_t>(std::ceil(static_cast<float>(pixels) / side)));
 }
@@ -37,16 +49,16 @@ void BinGrid::describeTo(gl::Program& program) const {
 
 SiteBins::SiteBins(const gl::ShaderLibrary& library, const BinGrid& grid, std::uint32_t capacity)
     : grid_(grid),
-      counts_("bin counts", kWord * grid.count()),
-      group_sums_("bin group sums", kWord * (scanThreads(grid) / gpu::SCAN_GROUP_SIZE + 1)),
-      starts_("bin starts", kWord * (std::size_t{grid.count()} + 1)),
-      places_("places in bins", 2 * kWord * capacity),
-      sites_("binned sites", std::max<std::size_t>(1, capacity) * sizeof(gpu::DiagramSite)),
+      counts_("bin counts", {grid.count(), kWord, "bin"}),
+      group_sums_("bin group sums", {scanThreads(grid) / gpu::SCAN_GROUP_SIZE + 1, kWord, "group of bins"}),
+      starts_("bin starts", {std::size_t{grid.count()} + 1, kWord, "bin"}),
+      places_("places in bins", {capacity, 2 * kWord, kSite}),
+      sites_("binned sites", {std::max<std::size_t>(1, capacity), sizeof(gpu::DiagramSite), kSite}),
       site_texture_(sites_, gl::WordTexture::Texel::four_words),
-      count_(library, "shaders/diagram/bins_count.comp"),
-      sum_(library, "shaders/cells/counts_sum.comp"),
-      find_starts_(library, "shaders/diagram/bins_starts.comp"),
-      scatter_(library, "shaders/diagram/bins_scatter.comp") {
+      count_(library, kCount),
+      sum_(library, kSum),
+      find_starts_(library, kFindStarts),
+      scatter_(library, kScatter) {
     count_.bind("Counts", counts_);
     count_.bind("SitePlaces", places_);
     grid.describeTo(count_);

@@ -11,6 +11,10 @@
 
 namespace throng::sim {
 
+/// What buffers have an element for that hold something of every site: of all people, and of wall tiles where
+/// they are sites, too.
+inline constexpr const char* kSite = "site";
+
 /// Squares over a window that sites are sorted into, one line of bins after the other.
 struct BinGrid {
     /// @param side px; the last bins of a line or column may reach beyond the window

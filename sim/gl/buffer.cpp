@@ -11,9 +11,25 @@
 #include "sim/gl/context.h"
 
 namespace throng::gl {
+namespace {
 
-Buffer::Buffer(const std::string& name, std::size_t bytes, Use use)
-    : bytes_(std::max<std::size_t>(bytes, 4)) {
+/// A transfer: from what, if from a buffer, and to what.
+void note(const char* what, const Buffer* read, const Buffer* written) {
+    Journal* journal = Journal::kept();
+    if (!journal) return;
+    std::vector<Touch> touches;
+    if (read) touches.push_back({read->contents(), true, false});
+    if (written) touches.push_back({written->contents(), false, true});
+    journal->note(what, std::move(touches));
+}
+
+}  // namespace
+
+Buffer::Buffer(const std::string& name, std::size_t bytes, Use use) : Buffer(name, Room{1, bytes, ""}, use) {}
+
+Buffer::Buffer(const std::string& name, const Room& room, Use use)
+    : bytes_(std::max<std::size_t>(room.count * room.element_bytes, 4)),
+      contents_(std::make_shared<const Contents>(Contents{name, room.per, room.element_bytes})) {
     GLint64 block_limit = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &block_limit);
     if (use != Use::in_ranges && bytes_ > static_cast<std::size_t>(block_limit))
@@ -32,7 +48,8 @@ Buffer::Buffer(const std::string& name, std::size_t bytes, Use use)
             glMapNamedBufferRange(handle_, 0, static_cast<GLsizeiptr>(bytes_), mapping));
     if (glGetError() != GL_NO_ERROR || (use == Use::read_back && !mapped_)) {
         release();
-        throw GraphicsError(fmt::format("the device has no room for `{}` ({} bytes)", name, bytes));
+        throw GraphicsError(
+            fmt::format("the device has no room for `{}` ({} bytes)", name, room.count * room.element_bytes));
     }
     glObjectLabel(GL_BUFFER, handle_, static_cast<GLsizei>(name.size()), name.c_str());
 }
@@ -44,6 +61,7 @@ Buffer::~Buffer() {
 Buffer::Buffer(Buffer&& other) noexcept
     : handle_(std::exchange(other.handle_, 0)),
       bytes_(std::exchange(other.bytes_, 0)),
+      contents_(std::move(other.contents_)),
       mapped_(std::exchange(other.mapped_, nullptr)) {}
 
 Buffer& Buffer::operator=(Buffer&& other) noexcept {
@@ -51,28 +69,33 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
         release();
         handle_ = std::exchange(other.handle_, 0);
         bytes_ = std::exchange(other.bytes_, 0);
+        contents_ = std::move(other.contents_);
         mapped_ = std::exchange(other.mapped_, nullptr);
     }
     return *this;
 }
 
 void Buffer::fill(std::uint32_t word) {
+    note("fill", nullptr, this);
     glClearNamedBufferData(handle_, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &word);
 }
 
 void Buffer::copyFrom(const Buffer& source) {
+    note("copy", &source, this);
     glCopyNamedBufferSubData(source.handle_, handle_, 0, 0,
                              static_cast<GLsizeiptr>(std::min(bytes_, source.bytes_)));
 }
 
 void Buffer::uploadBytes(std::span<const std::byte> bytes, std::size_t offset) {
     if (offset + bytes.size() > bytes_) throw std::out_of_range("upload past the end of a buffer");
+    note("upload", nullptr, this);
     glNamedBufferSubData(handle_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes.size()),
                          bytes.data());
 }
 
 void Buffer::downloadBytes(std::span<std::byte> bytes, std::size_t offset) const {
     if (offset + bytes.size() > bytes_) throw std::out_of_range("download past the end of a buffer");
+    note("download", this, nullptr);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     glGetNamedBufferSubData(handle_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes.size()),
                             bytes.data());
@@ -84,7 +107,7 @@ void Buffer::release() {
     mapped_ = nullptr;
 }
 
-WordTexture::WordTexture(const Buffer& buffer, Texel texel) {
+WordTexture::WordTexture(const Buffer& buffer, Texel texel) : contents_(buffer.contents()) {
     const std::size_t bytes = texel == Texel::one_word ? 4 : texel == Texel::two_words ? 8 : 16;
     GLint limit = 0;
     glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
@@ -103,10 +126,12 @@ WordTexture::~WordTexture() {
     if (handle_) glDeleteTextures(1, &handle_);
 }
 
-WordTexture::WordTexture(WordTexture&& other) noexcept : handle_(std::exchange(other.handle_, 0)) {}
+WordTexture::WordTexture(WordTexture&& other) noexcept
+    : handle_(std::exchange(other.handle_, 0)), contents_(std::move(other.contents_)) {}
 
 WordTexture& WordTexture::operator=(WordTexture&& other) noexcept {
     std::swap(handle_, other.handle_);
+    std::swap(contents_, other.contents_);
     return *this;
 }
 

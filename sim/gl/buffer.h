@@ -3,11 +3,21 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "sim/gl/journal.h"
+
 namespace throng::gl {
+
+/// Room for so many elements, of so many bytes each.
+struct Room {
+    std::size_t count = 0;
+    std::size_t element_bytes = 0;
+    std::string per;  ///< what there is one element for, e.g. "person"
+};
 
 /// A buffer in the device's memory. Moves, never copies.
 class Buffer {
@@ -22,6 +32,8 @@ class Buffer {
     /// @param bytes at least 4 are allocated, so that an empty scene still has something to bind
     /// @throws GraphicsError when the device has no memory left; `name` goes in the message and into
     /// debuggers
+    Buffer(const std::string& name, const Room& room, Use use = Use::device);
+    /// The same for one thing of so many bytes.
     Buffer(const std::string& name, std::size_t bytes, Use use = Use::device);
     ~Buffer();
     Buffer(Buffer&& other) noexcept;
@@ -29,6 +41,7 @@ class Buffer {
 
     std::uint32_t handle() const { return handle_; }
     std::size_t bytes() const { return bytes_; }
+    const std::shared_ptr<const Contents>& contents() const { return contents_; }
 
     /// Mapped memory of a read_back buffer. Valid contents need a fence after the commands that wrote it.
     const std::byte* mapped() const { return mapped_; }
@@ -59,6 +72,7 @@ class Buffer {
 
     std::uint32_t handle_ = 0;
     std::size_t bytes_ = 0;
+    std::shared_ptr<const Contents> contents_;
     const std::byte* mapped_ = nullptr;
 };
 
@@ -75,17 +89,24 @@ class WordTexture {
     WordTexture(WordTexture&& other) noexcept;
     WordTexture& operator=(WordTexture&& other) noexcept;
     std::uint32_t handle() const { return handle_; }
+    /// The buffer's.
+    const std::shared_ptr<const Contents>& contents() const { return contents_; }
 
   private:
     std::uint32_t handle_ = 0;
+    std::shared_ptr<const Contents> contents_;
 };
 
 /// A buffer that holds `items` from the start.
+/// @param per what there is one of them for
 template <class T>
-Buffer makeBuffer(const std::string& name, const std::vector<T>& items,
+Buffer makeBuffer(const std::string& name, const std::vector<T>& items, const std::string& per = "",
                   Buffer::Use use = Buffer::Use::device) {
-    Buffer buffer(name, items.size() * sizeof(T), use);
-    if (!items.empty()) buffer.upload(items);
+    Buffer buffer(name, Room{items.size(), sizeof(T), per}, use);
+    if (items.empty())
+        buffer.fill(0);  // there is room for one word all the same
+    else
+        buffer.upload(items);
     return buffer;
 }
 

@@ -34,9 +34,13 @@ std::string infoLog(GLuint object, bool is_program) {
     return log.c_str();
 }
 
-GLuint compile(const ShaderLibrary& library, const std::string& path, const Definitions& definitions) {
+/// @param allowed gets what the text lets the program do
+GLuint compile(const ShaderLibrary& library, const std::string& path, const Definitions& definitions,
+               std::vector<Access>& allowed) {
     std::vector<std::string> files;
     const std::string source = library.load(path, definitions, files);
+    for (const Access& access : accessIn(source))
+        addAccess(allowed, access);
     const GLuint shader = glCreateShader(stageOf(path));
     const char* text = source.c_str();
     glShaderSource(shader, 1, &text, nullptr);
@@ -60,91 +64,104 @@ std::string resourceName(GLuint program, GLenum interface, GLuint index) {
 }  // namespace
 
 ProgramPool::~ProgramPool() {
-    for (const auto& [key, handles] : idle_)
-        for (const std::uint32_t handle : handles)
-            glDeleteProgram(handle);
+    for (const auto& [key, programs] : idle_)
+        for (const LinkedProgram& program : programs)
+            glDeleteProgram(program.handle);
 }
 
-std::uint32_t ProgramPool::take(const std::string& key) {
+LinkedProgram ProgramPool::take(const std::string& key) {
     const auto found = idle_.find(key);
-    if (found == idle_.end() || found->second.empty()) return 0;
-    const std::uint32_t handle = found->second.back();
+    if (found == idle_.end() || found->second.empty()) return {};
+    LinkedProgram program = std::move(found->second.back());
     found->second.pop_back();
-    return handle;
+    return program;
 }
 
-void ProgramPool::giveBack(const std::string& key, std::uint32_t handle) {
-    idle_[key].push_back(handle);
+void ProgramPool::giveBack(const std::string& key, LinkedProgram program) {
+    idle_[key].push_back(std::move(program));
 }
 
 void ShaderLibrary::keepPrograms() {
     pool_ = std::make_shared<ProgramPool>();
 }
 
-Program::Program(const ShaderLibrary& library, const std::vector<std::string>& paths,
-                 const Definitions& definitions)
-    : pool_(library.pool()) {
-    for (const std::string& path : paths)
+Program::Program(const ShaderLibrary& library, const Declaration& declaration, const Definitions& definitions)
+    : declaration_(declaration), pool_(library.pool()) {
+    for (const std::string& path : declaration.shaders)
         name_ += (name_.empty() ? "" : " + ") + path;
     key_ = name_;
     for (const auto& [word, value] : definitions)
         key_ += fmt::format("\n{}={}", word, value);
-    if (pool_) handle_ = pool_->take(key_);
-    if (!handle_) link(library, paths, definitions);
+    if (pool_) linked_ = pool_->take(key_);
+    if (!linked_.handle) link(library, definitions);
     // Bindings and uniforms of an earlier life do not count: reflection forgets them.
     reflect();
+    declaration_.check(linked_.allowed, active());
 }
 
-void Program::link(const ShaderLibrary& library, const std::vector<std::string>& paths,
-                   const Definitions& definitions) {
-    handle_ = glCreateProgram();
+void Program::link(const ShaderLibrary& library, const Definitions& definitions) {
+    const GLuint handle = linked_.handle = glCreateProgram();
     std::vector<GLuint> shaders;
-    for (const std::string& path : paths) {
-        shaders.push_back(compile(library, path, definitions));
-        glAttachShader(handle_, shaders.back());
+    for (const std::string& path : declaration_.shaders) {
+        shaders.push_back(compile(library, path, definitions, linked_.allowed));
+        glAttachShader(handle, shaders.back());
     }
-    glLinkProgram(handle_);
+    glLinkProgram(handle);
     for (GLuint shader : shaders) {
-        glDetachShader(handle_, shader);
+        glDetachShader(handle, shader);
         glDeleteShader(shader);
     }
     GLint linked = 0;
-    glGetProgramiv(handle_, GL_LINK_STATUS, &linked);
+    glGetProgramiv(handle, GL_LINK_STATUS, &linked);
     if (!linked)
-        throw GraphicsError(fmt::format("the driver cannot link {}:\n{}", name_, infoLog(handle_, true)));
-    glObjectLabel(GL_PROGRAM, handle_, static_cast<GLsizei>(name_.size()), name_.c_str());
+        throw GraphicsError(fmt::format("the driver cannot link {}:\n{}", name_, infoLog(handle, true)));
+    glObjectLabel(GL_PROGRAM, handle, static_cast<GLsizei>(name_.size()), name_.c_str());
 }
 
 void Program::reflect() {
     const auto active = [this](GLenum interface) {
         GLint count = 0;
-        glGetProgramInterfaceiv(handle_, interface, GL_ACTIVE_RESOURCES, &count);
+        glGetProgramInterfaceiv(handle(), interface, GL_ACTIVE_RESOURCES, &count);
         return static_cast<GLuint>(count);
     };
+    const auto add = [this](GLenum interface, GLenum target, GLuint index) {
+        Block found;
+        found.name = resourceName(handle(), interface, index);
+        found.target = target;
+        found.binding = index;
+        blocks_.push_back(std::move(found));
+    };
     for (GLuint index = 0; index < active(GL_SHADER_STORAGE_BLOCK); ++index) {
-        blocks_.push_back({resourceName(handle_, GL_SHADER_STORAGE_BLOCK, index), GL_SHADER_STORAGE_BUFFER,
-                           index, 0, 0, 0});
-        glShaderStorageBlockBinding(handle_, index, index);
+        add(GL_SHADER_STORAGE_BLOCK, GL_SHADER_STORAGE_BUFFER, index);
+        glShaderStorageBlockBinding(handle(), index, index);
     }
     for (GLuint index = 0; index < active(GL_UNIFORM_BLOCK); ++index) {
-        blocks_.push_back(
-            {resourceName(handle_, GL_UNIFORM_BLOCK, index), GL_UNIFORM_BUFFER, index, 0, 0, 0});
-        glUniformBlockBinding(handle_, index, index);
+        add(GL_UNIFORM_BLOCK, GL_UNIFORM_BUFFER, index);
+        glUniformBlockBinding(handle(), index, index);
     }
     for (GLuint index = 0; index < active(GL_UNIFORM); ++index) {
-        const std::string uniform_name = resourceName(handle_, GL_UNIFORM, index);
-        const GLint location = glGetUniformLocation(handle_, uniform_name.c_str());
+        const std::string uniform_name = resourceName(handle(), GL_UNIFORM, index);
+        const GLint location = glGetUniformLocation(handle(), uniform_name.c_str());
         if (location >= 0)
             uniforms_.push_back({uniform_name, location, false});  // members of blocks have none
     }
 }
 
+std::vector<std::string> Program::active() const {
+    std::vector<std::string> names;
+    for (const Block& each : blocks_)
+        names.push_back(each.name);
+    for (const Access& access : linked_.allowed)
+        if (hasUniform(access.name)) names.push_back(access.name);
+    return names;
+}
+
 Program::~Program() {
-    if (!handle_) return;
+    if (!linked_.handle) return;
     if (pool_)
-        pool_->giveBack(key_, handle_);
+        pool_->giveBack(key_, std::move(linked_));
     else
-        glDeleteProgram(handle_);
+        glDeleteProgram(linked_.handle);
 }
 
 Program::Program(Program&& other) noexcept {
@@ -152,7 +169,8 @@ Program::Program(Program&& other) noexcept {
 }
 
 Program& Program::operator=(Program&& other) noexcept {
-    std::swap(handle_, other.handle_);
+    std::swap(linked_, other.linked_);
+    std::swap(declaration_, other.declaration_);
     std::swap(name_, other.name_);
     std::swap(pool_, other.pool_);
     std::swap(key_, other.key_);
@@ -179,6 +197,7 @@ void Program::bind(const std::string& name, const Buffer& buffer) {
     Block& found = block(name);
     found.buffer = buffer.handle();
     found.bytes = 0;
+    found.contents = buffer.contents();
 }
 
 void Program::bindRange(const std::string& name, const Buffer& buffer, std::size_t first, std::size_t bytes) {
@@ -186,6 +205,7 @@ void Program::bindRange(const std::string& name, const Buffer& buffer, std::size
     found.buffer = buffer.handle();
     found.first = first;
     found.bytes = bytes;
+    found.contents = buffer.contents();
 }
 
 void Program::bindAll(const std::vector<std::pair<std::string, const Buffer*>>& buffers) {
@@ -194,18 +214,20 @@ void Program::bindAll(const std::vector<std::pair<std::string, const Buffer*>>& 
 }
 
 void Program::bind(const std::string& sampler, const WordTexture& texture) {
-    bindTexture(sampler, texture.handle());
+    bindTexture(sampler, texture.handle(), texture.contents());
 }
 
-void Program::bindTexture(const std::string& sampler, std::uint32_t texture) {
+void Program::bindTexture(const std::string& sampler, std::uint32_t texture,
+                          std::shared_ptr<const Contents> contents) {
     for (Sampler& known : samplers_) {
         if (known.name != sampler) continue;
         known.texture = texture;
+        known.contents = std::move(contents);
         return;
     }
     const auto unit = static_cast<std::uint32_t>(samplers_.size());
-    glProgramUniform1i(handle_, uniform(sampler).location, static_cast<GLint>(unit));
-    samplers_.push_back({sampler, unit, texture});
+    glProgramUniform1i(handle(), uniform(sampler).location, static_cast<GLint>(unit));
+    samplers_.push_back({sampler, unit, texture, std::move(contents)});
 }
 
 bool Program::hasUniform(const std::string& name) const {
@@ -223,20 +245,20 @@ Program::Uniform& Program::uniform(const std::string& name) {
 }
 
 void Program::set(const std::string& name, std::uint32_t value) {
-    glProgramUniform1ui(handle_, uniform(name).location, value);
+    glProgramUniform1ui(handle(), uniform(name).location, value);
 }
 void Program::set(const std::string& name, float value) {
-    glProgramUniform1f(handle_, uniform(name).location, value);
+    glProgramUniform1f(handle(), uniform(name).location, value);
 }
 void Program::set(const std::string& name, glm::vec2 value) {
-    glProgramUniform2f(handle_, uniform(name).location, value.x, value.y);
+    glProgramUniform2f(handle(), uniform(name).location, value.x, value.y);
 }
 void Program::set(const std::string& name, glm::uvec2 value) {
-    glProgramUniform2ui(handle_, uniform(name).location, value.x, value.y);
+    glProgramUniform2ui(handle(), uniform(name).location, value.x, value.y);
 }
 void Program::set(const std::string& name, const std::vector<glm::vec2>& values) {
     if (values.empty()) return;
-    glProgramUniform2fv(handle_, uniform(name + "[0]").location, static_cast<GLsizei>(values.size()),
+    glProgramUniform2fv(handle(), uniform(name + "[0]").location, static_cast<GLsizei>(values.size()),
                         &values.front().x);
 }
 
@@ -255,12 +277,23 @@ void Program::use() const {
             throw std::logic_error(fmt::format("{}: uniform `{}` was never set", name_, candidate.name));
     for (const Sampler& sampler : samplers_)
         glBindTextureUnit(sampler.unit, sampler.texture);
-    glUseProgram(handle_);
+    glUseProgram(handle());
+    if (Journal* journal = Journal::kept()) journal->note(name_, touches(), declaration_.pass);
 }
 
-ComputeProgram::ComputeProgram(const ShaderLibrary& library, const std::string& path,
+std::vector<Touch> Program::touches() const {
+    std::vector<Touch> touches;
+    for (const Block& each : blocks_)
+        touches.push_back(
+            {each.contents, declaration_.readsFrom(each.name), declaration_.writesTo(each.name)});
+    for (const Sampler& sampler : samplers_)
+        touches.push_back({sampler.contents, true, false});
+    return touches;
+}
+
+ComputeProgram::ComputeProgram(const ShaderLibrary& library, const Declaration& declaration,
                                const Definitions& definitions)
-    : Program(library, {path}, definitions) {
+    : Program(library, declaration, definitions) {
     GLint size[3] = {1, 1, 1};
     glGetProgramiv(handle(), GL_COMPUTE_WORK_GROUP_SIZE, size);
     if (size[1] != 1 || size[2] != 1)
@@ -280,6 +313,7 @@ void ComputeProgram::dispatch(std::uint64_t invocations) const {
 
 void ComputeProgram::dispatchIndirect(const Buffer& arguments, std::size_t offset) const {
     use();
+    if (Journal* journal = Journal::kept()) journal->noteAlso({arguments.contents(), true, false});
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, arguments.handle());
     glDispatchComputeIndirect(static_cast<GLintptr>(offset));
     glMemoryBarrier(kWritesVisible);

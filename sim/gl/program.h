@@ -9,9 +9,16 @@
 #include <vector>
 
 #include "sim/gl/buffer.h"
+#include "sim/gl/declaration.h"
 #include "sim/gl/shader_source.h"
 
 namespace throng::gl {
+
+/// What linking shaders gives.
+struct LinkedProgram {
+    std::uint32_t handle = 0;
+    std::vector<Access> allowed;  ///< by the shaders' text
+};
 
 /// Linked programs that nobody uses at the moment, by what they were made from. Compiling takes tens of
 /// milliseconds for a simulation's programs: whoever makes one simulation after the other does it once.
@@ -22,12 +29,12 @@ class ProgramPool {
     ProgramPool(const ProgramPool&) = delete;
     ProgramPool& operator=(const ProgramPool&) = delete;
 
-    /// @returns 0 where there is none
-    std::uint32_t take(const std::string& key);
-    void giveBack(const std::string& key, std::uint32_t handle);
+    /// @returns handle 0 where there is none
+    LinkedProgram take(const std::string& key);
+    void giveBack(const std::string& key, LinkedProgram program);
 
   private:
-    std::unordered_map<std::string, std::vector<std::uint32_t>> idle_;
+    std::unordered_map<std::string, std::vector<LinkedProgram>> idle_;
 };
 
 /// A linked program and what reflection says it needs. Buffers are bound to block names, uniforms set by
@@ -35,8 +42,10 @@ class ProgramPool {
 class Program {
   public:
     Program() = default;
-    Program(const ShaderLibrary& library, const std::vector<std::string>& paths,
-            const Definitions& definitions);
+    /// @throws GraphicsError when the driver does not take the shaders
+    /// @throws std::logic_error when the program touches anything in a way that is not declared
+    Program(const ShaderLibrary& library, const Declaration& declaration,
+            const Definitions& definitions = {});
     ~Program();
     Program(Program&& other) noexcept;
     Program& operator=(Program&& other) noexcept;
@@ -47,11 +56,12 @@ class Program {
     /// The same for a part of a buffer, in bytes; `first` has to suit the device's alignment (256 always
     /// does).
     void bindRange(const std::string& block, const Buffer& buffer, std::size_t first, std::size_t bytes);
-    /// The same for several blocks; blocks that the compiler removed as unused are passed over.
+    /// The same for those of several blocks that the program uses.
     void bindAll(const std::vector<std::pair<std::string, const Buffer*>>& buffers);
     /// Remembers which texture serves a sampler.
     void bind(const std::string& sampler, const WordTexture& texture);
-    void bindTexture(const std::string& sampler, std::uint32_t texture);
+    void bindTexture(const std::string& sampler, std::uint32_t texture,
+                     std::shared_ptr<const Contents> contents);
     bool hasBlock(const std::string& block) const;
     bool hasUniform(const std::string& uniform) const;
 
@@ -61,12 +71,17 @@ class Program {
     void set(const std::string& uniform, glm::vec2 value);
     void set(const std::string& uniform, glm::uvec2 value);
     void set(const std::string& uniform, const std::vector<glm::vec2>& values);
+    /// The same where the compiler has found a use for the uniform.
+    template <class Value>
+    void setIfUsed(const std::string& uniform, Value value) {
+        if (hasUniform(uniform)) set(uniform, value);
+    }
 
     /// Makes the program and its buffers current.
     /// @throws std::logic_error when a block has no buffer or a uniform no value
     void use() const;
 
-    std::uint32_t handle() const { return handle_; }
+    std::uint32_t handle() const { return linked_.handle; }
     const std::string& name() const { return name_; }
 
   private:
@@ -77,6 +92,7 @@ class Program {
         std::uint32_t buffer = 0;
         std::size_t first = 0;  // bytes; of a part of the buffer
         std::size_t bytes = 0;  // 0 = the whole buffer
+        std::shared_ptr<const Contents> contents;
     };
     struct Uniform {
         std::string name;
@@ -87,14 +103,17 @@ class Program {
         std::string name;
         std::uint32_t unit = 0;
         std::uint32_t texture = 0;
+        std::shared_ptr<const Contents> contents;
     };
     Uniform& uniform(const std::string& name);
     Block& block(const std::string& name);
-    void link(const ShaderLibrary& library, const std::vector<std::string>& paths,
-              const Definitions& definitions);
+    void link(const ShaderLibrary& library, const Definitions& definitions);
     void reflect();
+    std::vector<std::string> active() const;
+    std::vector<Touch> touches() const;
 
-    std::uint32_t handle_ = 0;
+    LinkedProgram linked_;
+    Declaration declaration_;
     std::string name_;
     std::shared_ptr<ProgramPool> pool_;  // where it goes in the end
     std::string key_;                    // in the pool
@@ -107,7 +126,7 @@ class Program {
 class ComputeProgram : public Program {
   public:
     ComputeProgram() = default;
-    ComputeProgram(const ShaderLibrary& library, const std::string& path,
+    ComputeProgram(const ShaderLibrary& library, const Declaration& declaration,
                    const Definitions& definitions = {});
 
     std::uint32_t groupSize() const { return group_size_; }

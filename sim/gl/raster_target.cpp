@@ -24,7 +24,11 @@ GLuint makeTexture(GLenum format, std::uint32_t width, std::uint32_t height) {
 
 RasterTarget::RasterTarget(const std::string& what, Kind kind, std::uint32_t width, std::uint32_t height,
                            std::uint32_t margin)
-    : kind_(kind), width_(width), height_(height), margin_(margin) {
+    : kind_(kind),
+      width_(width),
+      height_(height),
+      margin_(margin),
+      contents_(std::make_shared<const Contents>(Contents{"drawing of " + what, "pixel", 4})) {
     const std::uint32_t full_width = width + 2 * margin;
     const std::uint32_t full_height = height + 2 * margin;
     GLint limit = 0;
@@ -61,6 +65,7 @@ RasterTarget::RasterTarget(RasterTarget&& other) noexcept
       width_(other.width_),
       height_(other.height_),
       margin_(other.margin_),
+      contents_(std::move(other.contents_)),
       texture_(std::exchange(other.texture_, 0)),
       depth_texture_(std::exchange(other.depth_texture_, 0)),
       framebuffer_(std::exchange(other.framebuffer_, 0)),
@@ -81,6 +86,7 @@ void RasterTarget::requirePointSize(const std::string& what, float pixels) {
 }
 
 void RasterTarget::clear() {
+    if (Journal* journal = Journal::kept()) journal->note("fill", {{contents_, false, true}});
     const GLuint nobody = gpu::NO_INDEX;
     const GLfloat largest[4] = {3.0e38f, 0.0f, 0.0f, 0.0f};
     const GLfloat far_depth = 1.0f;
@@ -108,6 +114,7 @@ void RasterTarget::begin(const Program& program) {
     }
     glBindVertexArray(vertex_array_);
     program.use();
+    if (Journal* journal = Journal::kept()) journal->noteAlso({contents_, true, true});
 }
 
 void RasterTarget::drawPoints(const Program& program, std::uint32_t count) {
@@ -124,6 +131,8 @@ void RasterTarget::drawTriangles(const Program& program, std::uint32_t vertices,
 }
 
 void RasterTarget::readInto(const Buffer& buffer) const {
+    if (Journal* journal = Journal::kept())
+        journal->note("copy", {{contents_, true, false}, {buffer.contents(), false, true}});
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
     glBindBuffer(GL_PIXEL_PACK_BUFFER, buffer.handle());

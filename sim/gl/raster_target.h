@@ -29,6 +29,7 @@ class RasterTarget {
     std::uint32_t margin() const { return margin_; }
     glm::vec2 size() const;  ///< px, with the margins
     std::uint32_t texture() const { return texture_; }
+    const std::shared_ptr<const Contents>& contents() const { return contents_; }
 
     /// Everywhere "nobody": NO_INDEX and the farthest depth, or a float above all others.
     void clear();
@@ -45,6 +46,7 @@ class RasterTarget {
 
     Kind kind_;
     std::uint32_t width_, height_, margin_;
+    std::shared_ptr<const Contents> contents_;
     std::uint32_t texture_ = 0;
     std::uint32_t depth_texture_ = 0;
     std::uint32_t framebuffer_ = 0;

@@ -60,7 +60,8 @@ TEST(Family, RangesIncludeBothEndsAndStayWhole) {
 
 TEST(Family, RandomNormalsAreTruncatedAndNotPiledUpAtTheirLimits) {
     const auto scenarios = plan(
-        R"("sampling": "random", "count": 4000, "axes": [{"set": "/flows/0/rate", "normal": [2, 1], "min": 1, "max": 4}])");
+        R"("sampling": "random", "count": 4000,
+ "axes": [{"set": "/flows/0/rate", "normal": [2, 1], "min": 1, "max": 4}])");
     std::vector<double> values = column(scenarios, 0);
     ASSERT_GT(values.size(), 3900u);
     std::sort(values.begin(), values.end());

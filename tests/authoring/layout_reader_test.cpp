@@ -62,7 +62,8 @@ TEST(LayoutReader, ReadsWhatIsWritten) {
     const Layout layout =
         read(kTwoAreas + R"("simulation": {"duration": 12.5, "method": "gradient1", "seed": 9007199254740992},
  "walls": [{"points": [[10,-5],[10,5]], "thickness": 0.4, "height": 2}],
- "flows": [{"id": "f", "from": "a", "to": "b", "rate": 2.5, "start": 1, "people": {"speed": {"normal": [1.3, 0.2], "min": 1}, "radius": 0.2}}]})");
+ "flows": [{"id": "f", "from": "a", "to": "b", "rate": 2.5, "start": 1,
+   "people": {"speed": {"normal": [1.3, 0.2], "min": 1}, "radius": 0.2}}]})");
     EXPECT_EQ(layout.simulation.duration, 12.5);
     EXPECT_EQ(layout.simulation.method, DiagramMethod::gradient1);
     EXPECT_EQ(layout.simulation.seed, 9007199254740992u);
@@ -150,7 +151,8 @@ TEST(LayoutReader, NamesThePlaceWhereAPolygonCrossesItself) {
 
 TEST(LayoutReader, AcceptsEitherWindingAndPolygonsClosedByHand) {
     read(
-        R"({"throng": 1, "areas": [{"id": "a", "polygon": [[0,0],[0,4],[4,4],[4,0]]}, {"id": "b", "polygon": [[0,0],[4,0],[4,4],[0,4],[0,0]]}],
+        R"({"throng": 1, "areas": [{"id": "a", "polygon": [[0,0],[0,4],[4,4],[4,0]]},
+ {"id": "b", "polygon": [[0,0],[4,0],[4,4],[0,4],[0,0]]}],
             "formations": [{"id": "c", "type": "circle", "centre": [0, 0], "radius": 5, "count": 6}]})");
 }
 
@@ -169,8 +171,10 @@ TEST(LayoutReader, KnowsPlacesAndGuessesThoseMeant) {
 TEST(LayoutReader, ReadsStopsDestinationsAndEvents) {
     const Layout layout = read(kTwoAreas + R"("walls": [{"id": "gate", "points": [[10,0],[10,4]]}],
  "flows": [{"id": "f", "from": "a", "to": {"choose": {"a": 1, "b": 3}}, "rate": 1,
-   "via": ["b", {"at": {"nearest": ["a", "b"]}}, {"at": "b", "wait": {"log_normal": [1, 0.5], "max": 9}, "activity": "look", "facing": [1, 2]}]}],
- "events": [{"at": 9, "flow": "f", "rate": 0}, {"at": 4, "close": "gate"}, {"at": 8, "open": "gate"}, {"at": 20, "go_to": "a", "who": ["f"], "arrival": "stay"}]})");
+   "via": ["b", {"at": {"nearest": ["a", "b"]}},
+    {"at": "b", "wait": {"log_normal": [1, 0.5], "max": 9}, "activity": "look", "facing": [1, 2]}]}],
+ "events": [{"at": 9, "flow": "f", "rate": 0}, {"at": 4, "close": "gate"}, {"at": 8, "open": "gate"},
+   {"at": 20, "go_to": "a", "who": ["f"], "arrival": "stay"}]})");
     const Flow& flow = layout.flows.at(0);
     EXPECT_EQ(flow.to.kind, Destination::Kind::choose);
     EXPECT_EQ(flow.to.weights, (std::vector{1.0, 3.0}));
@@ -263,7 +267,8 @@ TEST(LayoutReader, TellsWhereTheSyntaxBreaks) {
 
 TEST(LayoutReader, TilesHaveToCoverBodies) {
     expectError(
-        R"({"throng": 1, "simulation": {"tile_radius": 0.2}, "formations": [{"id": "c", "type": "circle", "centre": [0, 0], "radius": 5, "count": 6}]})",
+        R"({"throng": 1, "simulation": {"tile_radius": 0.2},
+ "formations": [{"id": "c", "type": "circle", "centre": [0, 0], "radius": 5, "count": 6}]})",
         1, 29, "/simulation", "smaller than the largest body");
 }
 
@@ -301,7 +306,8 @@ TEST(LayoutReader, OverridesValuesAndNamesTheOverrideThatIsWrong) {
     EXPECT_EQ(std::get<CircleFormation>(read(text, {"formations.0.count=12"}).formations[0].shape).count,
               12u);
     const std::string choice =
-        R"({"throng": 1, "areas": [{"id": "x/y~", "polygon": [[0,0],[4,0],[4,4]]}, {"id": "b", "polygon": [[9,0],[12,0],[12,4]]}],
+        R"({"throng": 1, "areas": [{"id": "x/y~", "polygon": [[0,0],[4,0],[4,4]]},
+ {"id": "b", "polygon": [[9,0],[12,0],[12,4]]}],
  "flows": [{"id": "f", "from": "b", "to": {"choose": {"x/y~": 1}}, "count": 1}]})";
     EXPECT_EQ(read(choice, {"/flows/0/to/choose/x~1y~0=5"}).flows.at(0).to.weights.at(0), 5.0);
     for (const std::string wrong :

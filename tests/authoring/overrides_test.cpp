@@ -22,8 +22,8 @@ std::string entryWith(const std::string& change) {
 }
 
 /// An error in that place, with words in the message and the hint.
-void expectError(const std::string& text, int line, int column, const std::string& pointer,
-                 const std::string& message, const std::string& hint = "") {
+void expectMistake(const std::string& text, int line, int column, const std::string& pointer,
+                   const std::string& message, const std::string& hint = "") {
     Diagnostics diagnostics;
     EXPECT_FALSE(readOverrides(text, diagnostics)) << text;
     ASSERT_EQ(diagnostics.entries.size(), 1u) << text;
@@ -42,7 +42,8 @@ TEST(OverridesReader, ReadsEveryKindOfChange) {
             entryWith(
                 R"("hide": true, "character": 5, "tint": [0.25, 0.5, 1], "scale": 1.25, "note": "seen in dailies")") +
             R"(, {"id": 4, "group": "g", "spawn": {"frame": 0, "position": [0, 0, 0]}, "tint": "#A01020",
-                      "move": {"by": [1, 2, 3], "turn": -90}, "retime": {"offset": -12.5, "speed": 1.5}, "hero": "Anna"})"),
+                      "move": {"by": [1, 2, 3], "turn": -90}, "retime": {"offset": -12.5, "speed": 1.5},
+                      "hero": "Anna"})"),
         diagnostics);
     ASSERT_TRUE(read);
     EXPECT_TRUE(diagnostics.entries.empty());
@@ -67,27 +68,29 @@ TEST(OverridesReader, ReadsEveryKindOfChange) {
 }
 
 TEST(OverridesReader, SaysWhereAMistakeIsAndHowToMendIt) {
-    expectError("{\"throng_overrides\": 2, \"overrides\": []}", 1, 22, "/throng_overrides", "version 1",
-                "\"throng_overrides\": 1");
-    expectError("{\"throng_overrides\": 1,\n \"overrides\": {}}", 2, 15, "/overrides", "expected an array");
-    expectError(fileWith(entryWith("\"hidden\": true")), 2, 77, "/overrides/0/hidden", "no key `hidden`",
-                "did you mean `hide`?");
-    expectError(fileWith(entryWith("\"scale\": 11")), 2, 86, "/overrides/0/scale", "out of range");
-    expectError(fileWith(entryWith("\"tint\": \"red\"")), 2, 85, "/overrides/0/tint", "`red` is not a colour",
-                "#a01020");
-    expectError(fileWith(entryWith("\"tint\": \"#12 456\"")), 2, 85, "/overrides/0/tint", "is not a colour");
-    expectError(fileWith(entryWith("\"tint\": \"\"")), 2, 85, "/overrides/0/tint", "is not a colour");
-    expectError(fileWith(entryWith("\"tint\": [0, 1]")), 2, 85, "/overrides/0/tint", "found an array of 2");
-    expectError(fileWith(entryWith("\"move\": {\"by\": [0, 0]}")), 2, 92, "/overrides/0/move/by",
-                "found an array of 2");
-    expectError(fileWith(entryWith("\"retime\": {\"speed\": 0}")), 2, 97, "/overrides/0/retime/speed",
-                "out of range");
-    expectError(fileWith(entryWith("\"character\": 1.5")), 2, 90, "/overrides/0/character", "whole number");
-    expectError(fileWith(entryWith("\"hero\": \"\"")), 2, 85, "/overrides/0/hero", "empty");
-    expectError(fileWith(R"({"id": 1, "group": "f", "hide": true})"), 2, 1, "/overrides/0", "needs `spawn`");
-    expectError(fileWith(entryWith("\"hide\": true") + ",\n" + entryWith("\"scale\": 2")), 3, 8,
-                "/overrides/1/id", "in line 2 already", "into one");
-    expectError("{\"throng_overrides\": 1, \"overrides\": [}", 1, 39, "", "syntax error");
+    expectMistake("{\"throng_overrides\": 2, \"overrides\": []}", 1, 22, "/throng_overrides", "version 1",
+                  "\"throng_overrides\": 1");
+    expectMistake("{\"throng_overrides\": 1,\n \"overrides\": {}}", 2, 15, "/overrides", "expected an array");
+    expectMistake(fileWith(entryWith("\"hidden\": true")), 2, 77, "/overrides/0/hidden", "no key `hidden`",
+                  "did you mean `hide`?");
+    expectMistake(fileWith(entryWith("\"scale\": 11")), 2, 86, "/overrides/0/scale", "out of range");
+    expectMistake(fileWith(entryWith("\"tint\": \"red\"")), 2, 85, "/overrides/0/tint",
+                  "`red` is not a colour", "#a01020");
+    expectMistake(fileWith(entryWith("\"tint\": \"#12 456\"")), 2, 85, "/overrides/0/tint",
+                  "is not a colour");
+    expectMistake(fileWith(entryWith("\"tint\": \"\"")), 2, 85, "/overrides/0/tint", "is not a colour");
+    expectMistake(fileWith(entryWith("\"tint\": [0, 1]")), 2, 85, "/overrides/0/tint", "found an array of 2");
+    expectMistake(fileWith(entryWith("\"move\": {\"by\": [0, 0]}")), 2, 92, "/overrides/0/move/by",
+                  "found an array of 2");
+    expectMistake(fileWith(entryWith("\"retime\": {\"speed\": 0}")), 2, 97, "/overrides/0/retime/speed",
+                  "out of range");
+    expectMistake(fileWith(entryWith("\"character\": 1.5")), 2, 90, "/overrides/0/character", "whole number");
+    expectMistake(fileWith(entryWith("\"hero\": \"\"")), 2, 85, "/overrides/0/hero", "empty");
+    expectMistake(fileWith(R"({"id": 1, "group": "f", "hide": true})"), 2, 1, "/overrides/0",
+                  "needs `spawn`");
+    expectMistake(fileWith(entryWith("\"hide\": true") + ",\n" + entryWith("\"scale\": 2")), 3, 8,
+                  "/overrides/1/id", "in line 2 already", "into one");
+    expectMistake("{\"throng_overrides\": 1, \"overrides\": [}", 1, 39, "", "syntax error");
 }
 
 TEST(OverridesReader, WarnsOfEntriesThatChangeNothing) {

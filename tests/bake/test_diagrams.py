@@ -3,7 +3,6 @@
 import csv
 import json
 import os
-import struct
 
 import numpy
 import pytest
@@ -37,6 +36,7 @@ def test_the_grid_and_everybody_compared_give_the_same_bytes(throng, tmp_path):
     assert digest(tmp_path / "grid") == digest(tmp_path / "brute")
 
 
+@pytest.mark.quick
 def test_images_and_stream_agree_on_areas_densities_and_second_owners(throng, tmp_path, manifest_of):
     OpenEXR = pytest.importorskip("OpenEXR")
     layout = write(tmp_path / "small.json", SMALL)
@@ -96,11 +96,9 @@ def test_calibration_is_kept_and_changes_no_byte(throng, tmp_path):
     assert "passed over" in throng("bake", layout, "-o", tmp_path / "broken", "-q", "--no-gltf", env=environment).stderr
 
 
-def test_benchmarks_write_their_three_files(throng, tmp_path):
+def test_benchmarks_write_markdown_and_csv(throng, tmp_path):
     for kind in ("diagrams", "proximity"):
         throng("bench", kind, "-o", tmp_path, "--most", "256", "--rounds", "1")
-        assert (tmp_path / f"{kind}.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
-        assert struct.unpack(">I", (tmp_path / f"{kind}.png").read_bytes()[16:20])[0] == 1200
         assert f"`throng bench {kind}`" in (tmp_path / f"{kind}.md").read_text()
         with open(tmp_path / f"{kind}.csv", newline="") as file:
             rows = list(csv.DictReader(file))
@@ -116,7 +114,8 @@ def test_benchmarks_write_their_three_files(throng, tmp_path):
 
 def far_apart(shift):
     """Two small crowds, the second `shift` metres away."""
-    people = [{"id": f"ring{i}", "type": "circle", "centre": [x, x], "radius": 5, "count": 31} for i, x in enumerate((0.0, shift))]
+    people = [{"id": f"ring{i}", "type": "circle", "centre": [x, x], "radius": 5, "count": 31} for i,
+              x in enumerate((0.0, shift))]
     return {"throng": 1, "simulation": {"duration": 3, "pixels_per_metre": 8}, "formations": people,
             "walls": [{"points": [[-3, 5.8], [3, 6]]}, {"points": [[shift - 3, shift + 5.8], [shift + 3, shift + 6]]}]}
 
@@ -126,7 +125,8 @@ def test_a_world_larger_than_any_texture_bakes_like_a_small_one(throng, tmp_path
     for name, shift in (("near", 40.0), ("far", 2500.0)):
         layout = write(tmp_path / f"{name}.json", far_apart(shift))
         throng("bake", layout, "-o", tmp_path / name, "-q", "--no-gltf")
-    near, far = (numpy.load(tmp_path / name / "streams" / "pos.npy") + numpy.array(manifest_of(tmp_path / name)["origin"])
+    near, far = (numpy.load(tmp_path / name / "streams" / "pos.npy")
+                 + numpy.array(manifest_of(tmp_path / name)["origin"])
                  for name in ("near", "far"))
     # The first ring sees the same, so it sets out the same; a ring is symmetric, and roundings at 1,250 m from the
     # origin soon decide who passes on which side.

@@ -13,7 +13,8 @@ from conftest import ROOT
 VALIDATE = """
 const fs = require('fs'), path = require('path');
 const validator = require(path.join(process.env.THRONG_NODE_MODULES, 'gltf-validator'));
-validator.validateBytes(new Uint8Array(fs.readFileSync(process.argv[1]))).then(report => console.log(JSON.stringify(report.issues)));
+validator.validateBytes(new Uint8Array(fs.readFileSync(process.argv[1])))
+    .then(report => console.log(JSON.stringify(report.issues)));
 """
 
 
@@ -22,7 +23,8 @@ def test_crowd_glb_has_no_errors_in_the_khronos_validator(bakes):
     if not os.path.isdir(os.path.join(modules, "gltf-validator")):
         pytest.skip("the npm package gltf-validator is not installed")
     glb = bakes("intersection") / "crowd.glb"
-    result = subprocess.run(["node", "-e", VALIDATE, str(glb)], capture_output=True, text=True, env={**os.environ, "THRONG_NODE_MODULES": modules})
+    result = subprocess.run(["node", "-e", VALIDATE, str(glb)], capture_output=True, text=True,
+                            env={**os.environ, "THRONG_NODE_MODULES": modules})
     issues = json.loads(result.stdout)
     assert issues["numErrors"] == 0, issues["messages"][:5]
     assert issues["numWarnings"] == 0, issues["messages"][:5]
@@ -73,7 +75,8 @@ def test_diagrams_read_by_the_openexr_library_show_who_stands_where(throng, tmp_
     OpenEXR = pytest.importorskip("OpenEXR")
     bake = tmp_path / "bake"
     # Images show what is simulated: here the streams do, too.
-    throng("bake", ROOT / "examples" / "intersection.json", "-o", bake, "-q", "--no-gltf", "--diagrams", "480", "--set", "simulation.smoothing=0",
+    throng("bake", ROOT / "examples" / "intersection.json", "-o", bake, "-q", "--no-gltf", "--diagrams", "480", "--set",
+           "simulation.smoothing=0",
            "--set", "simulation.duration=42")
     manifest = manifest_of(bake)
     position = numpy.load(bake / "streams" / "pos.npy", mmap_mode="r")
@@ -84,7 +87,8 @@ def test_diagrams_read_by_the_openexr_library_show_who_stands_where(throng, tmp_
             channels = {name: channel.pixels for name, channel in file.channels().items()}
         ids, kind, distance = channels["id"], channels["kind"], channels["distance"]
         assert ids.dtype == numpy.uint32 and kind.dtype == numpy.uint32 and distance.dtype == numpy.float32
-        assert set(numpy.unique(kind)) <= {0, 1, 2} and (ids[kind == 0] == 0xFFFFFFFF).all() and (distance[kind == 0] == -1).all()
+        assert set(numpy.unique(kind)) <= {0, 1, 2} and (ids[kind == 0] == 0xFFFFFFFF).all() \
+            and (distance[kind == 0] == -1).all()
         height = ids.shape[0]
         low, scale = numpy.array(manifest["diagrams"]["min"]), manifest["diagrams"]["pixels_per_metre"]
         # Every owned pixel: its distance is that of its centre from its owner, who is the nearest person alive.

@@ -28,10 +28,12 @@ def crossing(bakes, throng):
 def test_the_account_is_that_of_the_bake(crossing, manifest_of):
     bake, figures = crossing
     account = manifest_of(bake)["account"]
-    assert [figures[key] for key in ("agents", "arrived", "walking", "refused")] == [account[key] for key in ("agents", "arrived", "walking", "refused")]
+    for key in ("agents", "arrived", "walking", "refused"):
+        assert figures[key] == account[key]
     last = max(int(row["arrival_frame"]) for row in rows(bake) if row["arrival_frame"])
     fps = manifest_of(bake)["fps"]
-    assert figures["seconds"] == pytest.approx(last / fps if figures["arrived"] == figures["agents"] else figures["duration"], rel=1e-5)
+    assert figures["seconds"] == pytest.approx(last / fps if figures["arrived"] == figures["agents"]
+                                               else figures["duration"], rel=1e-5)
 
 
 def test_overlaps_and_walls_agree_with_an_independent_look(crossing, manifest_of):
@@ -48,7 +50,7 @@ def test_motion_agrees_with_numpy(throng, bakes, manifest_of):
     figures = measured(throng, bake)
     fps = manifest_of(bake)["fps"]
     data = streams(bake)
-    position, facing = numpy.asarray(data["pos"][:, :, :2], dtype=float), numpy.asarray(data["dir"][:, :, :2], dtype=float)
+    position, facing = (numpy.asarray(data[name][:, :, :2], dtype=float) for name in ("pos", "dir"))
     arrival = numpy.array([int(row["arrival_frame"] or 10**9) for row in rows(bake)])
     frames = numpy.arange(len(position))[:, None]
     velocity = numpy.diff(position, axis=0) * fps
@@ -64,7 +66,8 @@ def test_motion_agrees_with_numpy(throng, bakes, manifest_of):
     backward = ((velocity * facing[1:]).sum(axis=2) < -0.05) & walking
     assert figures["backward_percent"] == pytest.approx(100 * backward.sum() / walking.sum(), rel=1e-3)
     way = (numpy.hypot(*numpy.moveaxis(numpy.diff(position, axis=0), 2, 0)) * (frames[1:] < arrival)).sum(axis=0)
-    straight = numpy.linalg.norm(position[numpy.minimum(arrival, len(position) - 1), numpy.arange(len(arrival))] - position[0], axis=1)
+    straight = numpy.linalg.norm(position[numpy.minimum(arrival, len(position) - 1),
+                                          numpy.arange(len(arrival))] - position[0], axis=1)
     arrived = arrival < len(position)
     shortest = numpy.maximum(straight, [float(row["shortest_way"]) for row in rows(bake)])
     assert figures["detour_ratio"] == pytest.approx(numpy.median((way / shortest)[arrived]), rel=1e-3)
@@ -74,7 +77,8 @@ def test_motion_agrees_with_numpy(throng, bakes, manifest_of):
 def test_the_shortest_way_leads_round_walls(throng, tmp_path):
     layout = {"throng": 1, "simulation": {"duration": 30}, "walls": [{"points": [[10, -5], [10, 5]], "thickness": 0.2}],
               "areas": [{"id": "goal", "polygon": [[20, -1], [22, -1], [22, 1], [20, 1]]}],
-              "formations": [{"id": "one", "type": "grid", "origin": [0, 0], "rows": 1, "columns": 1, "goal": "goal", "arrival": "leave",
+              "formations": [{"id": "one", "type": "grid", "origin": [0, 0], "rows": 1, "columns": 1, "goal": "goal",
+                              "arrival": "leave",
                               "people": {"speed": 1.3, "radius": 0.25}}]}
     throng("bake", write(tmp_path / "detour.json", layout), "-o", tmp_path / "bake", "-q", "--no-gltf")
     corner = 5.0 + 0.1 + 0.25  # the end of the wall, and half a body
@@ -86,21 +90,24 @@ def test_the_shortest_way_leads_round_walls(throng, tmp_path):
 
 
 def test_a_line_counts_those_who_cross_it(throng, tmp_path, manifest_of):
-    lane = {"throng": 1, "simulation": {"duration": 40}, "roads": [{"id": "r", "centreline": [[0, 0], [30, 0]], "width": 4}],
+    lane = {"throng": 1, "simulation": {"duration": 40},
+            "roads": [{"id": "r", "centreline": [[0, 0], [30, 0]], "width": 4}],
             "flows": [{"id": "f", "from": "r:start", "to": "r:end", "count": 40, "end": 20}]}
     throng("bake", write(tmp_path / "lane.json", lane), "-o", tmp_path / "bake", "-q", "--no-gltf")
     figures = measured(throng, tmp_path / "bake", "--line", "15", "-2", "15", "2")
     position = streams(tmp_path / "bake")["pos"][:, :, 0] + manifest_of(tmp_path / "bake")["origin"][0]
     passed = numpy.nonzero((position[:-1] < 15) & (position[1:] >= 15))[0]
     fps = manifest_of(tmp_path / "bake")["fps"]
-    assert figures["specific_flow"] == pytest.approx((len(passed) - 1) / ((passed.max() - passed.min()) / fps) / 4.0, rel=1e-3)
+    flow = (len(passed) - 1) / ((passed.max() - passed.min()) / fps) / 4.0
+    assert figures["specific_flow"] == pytest.approx(flow, rel=1e-3)
     assert "flow over the line" in throng("measure", tmp_path / "bake", "--line", "15", "-2", "15", "2").stdout
 
 
 def test_density_is_known_for_people_on_a_grid(throng, tmp_path):
     # Bodies that stay where they are, 0.8 m apart: a cell of 0.64 m^2 inside the grid.
     block = {"throng": 1, "simulation": {"duration": 1},
-             "formations": [{"id": "b", "type": "grid", "origin": [0, 0], "rows": 30, "columns": 30, "spacing": 0.8, "goal": {"offset": [0, 0]}}]}
+             "formations": [{"id": "b", "type": "grid", "origin": [0, 0], "rows": 30, "columns": 30, "spacing": 0.8,
+                             "goal": {"offset": [0, 0]}}]}
     throng("bake", write(tmp_path / "block.json", block), "-o", tmp_path / "bake", "-q", "--no-gltf")
     figures = measured(throng, tmp_path / "bake")
     assert figures["high_density"] == pytest.approx(1 / 0.64, rel=0.06)
@@ -143,8 +150,10 @@ def test_scenarios_bake_and_measure_themselves(throng, tmp_path):
 
 def test_formations_of_rings_and_counted_grids_stand_where_they_should(throng, tmp_path, manifest_of):
     layout = {"throng": 1, "simulation": {"duration": 0.2},
-              "formations": [{"id": "r", "type": "circle", "centre": [0, 0], "radius": 10, "count": 100, "ring_spacing": 2, "along": 2},
-                             {"id": "g", "type": "grid", "origin": [40, 0], "rows": 4, "columns": 3, "count": 10, "goal": {"mirror": [[50, 0], [50, 1]]}}]}
+              "formations": [{"id": "r", "type": "circle", "centre": [0, 0], "radius": 10, "count": 100,
+                              "ring_spacing": 2, "along": 2},
+                             {"id": "g", "type": "grid", "origin": [40, 0], "rows": 4, "columns": 3, "count": 10,
+                              "goal": {"mirror": [[50, 0], [50, 1]]}}]}
     throng("bake", write(tmp_path / "f.json", layout), "-o", tmp_path / "bake", "-q", "--no-gltf")
     start = streams(tmp_path / "bake")["pos"][0, :, :2] + numpy.array(manifest_of(tmp_path / "bake")["origin"][:2])
     radii = numpy.hypot(*start[:100].T)
@@ -154,4 +163,5 @@ def test_formations_of_rings_and_counted_grids_stand_where_they_should(throng, t
     goals = [(float(row["goal_x"]), float(row["goal_y"])) for row in rows(tmp_path / "bake")][100:]
     assert numpy.allclose(goals, [[60 - i // 4, i % 4] for i in range(10)], atol=1e-3)
     wrong = {**layout, "formations": [{**layout["formations"][1], "count": 13}]}
-    assert "`count` (13) is more than 4 rows of 3 hold" in throng("check", write(tmp_path / "w.json", wrong), expect=3).stderr
+    told = throng("check", write(tmp_path / "w.json", wrong), expect=3).stderr
+    assert "`count` (13) is more than 4 rows of 3 hold" in told

@@ -26,10 +26,12 @@ def walk(throng, tmp_path_factory):
         (folder / f"{name}.glb").write_bytes(content)
         person = {"position": start, "goal": goal, "speed": speed}
         (folder / f"{name}.json").write_text(json.dumps({
-            "throng": 1, "simulation": {"duration": 60, "avoid_congestion": False}, "terrain": {"file": f"{name}.glb", **terrain},
+            "throng": 1, "simulation": {"duration": 60, "avoid_congestion": False},
+            "terrain": {"file": f"{name}.glb", **terrain},
             "formations": [{"id": "one", "type": "agents", "agents": [person], "arrival": "leave"}]}))
         throng("bake", folder / f"{name}.json", "-o", folder / "bakes" / name, "-q", *options)
-        streams = {stream: numpy.load(folder / "bakes" / name / "streams" / f"{stream}.npy")[:, 0] for stream in ("pos", "dir", "state", "ground")}
+        streams = {stream: numpy.load(folder / "bakes" / name / "streams" / f"{stream}.npy")[:, 0]
+                   for stream in ("pos", "dir", "state", "ground")}
         there = streams["state"][:, 0] > 0.5
         return folder / "bakes" / name, {stream: values[there].astype(float) for stream, values in streams.items()}
 
@@ -40,9 +42,11 @@ def seconds(pos, start, end):
     """How long it takes from one x to another."""
     times = numpy.arange(len(pos)) / 24.0
     order = 1 if pos[-1, 0] > pos[0, 0] else -1
-    return abs(numpy.interp(order * end, order * pos[:, 0], times) - numpy.interp(order * start, order * pos[:, 0], times))
+    at = lambda x: numpy.interp(order * x, order * pos[:, 0], times)
+    return abs(at(end) - at(start))
 
 
+@pytest.mark.quick
 def test_a_ramp_is_stood_on_exactly_and_climbed_slowly(walk, throng):
     content = terrain_files.glb(*terrain_files.surface(ramp, (-20, -6), (60, 6), 4.0))
     bake, up = walk("up", content, [-10, 1.3], [50, -2.2], "--no-gltf")
@@ -54,7 +58,8 @@ def test_a_ramp_is_stood_on_exactly_and_climbed_slowly(walk, throng):
     slope = 0.1 * up["dir"][:, 0], -0.1 * up["dir"][:, 1]
     for column in (0, 1):
         assert numpy.abs(up["ground"][:, column] - slope[column])[middle].max() < 1e-3
-    # Tobler's hiking function: exp(-3.5 x 0.1) uphill, exp(+3.5 x 0) at 10 % down, which is as far from 5 % down as flat ground is.
+    # Tobler's hiking function: exp(-3.5 x 0.1) uphill, exp(+3.5 x 0) at 10 % down, which is as far from 5 % down as
+    # flat ground is.
     flat = 5.0 / seconds(up["pos"], -7.0, -2.0)
     assert 30.0 / seconds(up["pos"], 5.0, 35.0) / flat == pytest.approx(math.exp(-0.35), rel=0.01)
     _, down = walk("down", content, [50, 0], [-10, 0], "--no-gltf")
@@ -62,16 +67,19 @@ def test_a_ramp_is_stood_on_exactly_and_climbed_slowly(walk, throng):
     throng("measure", bake)
     with open(bake / "agents.csv", newline="") as file:
         walked = float(next(csv.DictReader(file))["distance_walked"])
-    assert numpy.hypot(*numpy.diff(up["pos"][:, :2], axis=0).T).sum() == pytest.approx(walked, abs=0.1), "ways are measured in plan"
+    assert numpy.hypot(*numpy.diff(up["pos"][:, :2], axis=0).T).sum() == pytest.approx(walked, abs=0.1), \
+        "ways are measured in plan"
 
 
-@pytest.mark.parametrize("name, start, goal, pace", [("up", [-10, 0], [16, 0], 0.610), ("down", [16, 0], [-10, 0], 0.694)])
+@pytest.mark.parametrize("name, start, goal, pace",
+                         [("up", [-10, 0], [16, 0], 0.610), ("down", [16, 0], [-10, 0], 0.694)])
 def test_stairs_are_climbed_at_the_pace_of_stairs_with_feet_on_the_treads(walk, name, start, goal, pace):
     content = terrain_files.glb(*terrain_files.stairs(TREADS, TREAD, RISE, 12, 4))
     _, seen = walk(f"stairs {name}", content, start, goal, "--no-gltf")
     x, z, slope, phase = seen["pos"][:, 0], seen["pos"][:, 2], seen["ground"][:, 0], seen["state"][:, 2]
     order = 1 if goal > start else -1
-    assert 4.0 / seconds(seen["pos"], *((1.0, 5.0) if order > 0 else (5.0, 1.0))) == pytest.approx(1.3 * pace / 1.34, rel=0.06), "Weidmann 1993"
+    took = seconds(seen["pos"], *((1.0, 5.0) if order > 0 else (5.0, 1.0)))
+    assert 4.0 / took == pytest.approx(1.3 * pace / 1.34, rel=0.06), "Weidmann 1993"
     assert numpy.abs(numpy.diff(z)).max() < 0.05, "bodies go up and down without jerks"
     half_cycles = 2.0 * (phase - 0.28)
     errors = []
@@ -88,7 +96,8 @@ def test_far_from_the_origin_it_is_the_same(walk, manifest_of):
     hill = lambda x, y: 2.0 * math.sin(0.1 * x) + 0.02 * y * y
     content = terrain_files.glb(*terrain_files.surface(hill, (-20, -8), (20, 8), 0.5))
     near_bake, near = walk("near", content, [-15, 3], [15, -3])
-    far_bake, far = walk("far", content, [500_000 - 15, 4_200_003], [500_015, 4_200_000 - 3], offset=[500_000, 4_200_000, 812.5])
+    far_bake, far = walk("far", content, [500_000 - 15, 4_200_003], [500_015, 4_200_000 - 3],
+                         offset=[500_000, 4_200_000, 812.5])
     assert manifest_of(far_bake)["origin"][:2] == [500_000.0, 4_200_000.0]
     assert numpy.abs(near["pos"][:, :2] - far["pos"][:, :2]).max() < 1e-3, "people walk the same way"
     assert numpy.abs(near["pos"][:, 2] + 812.5 - far["pos"][:, 2]).max() < 1e-3
@@ -107,7 +116,8 @@ def test_a_bake_holds_its_terrain(walk, throng, manifest_of):
     throng("info", bake, "--verify")
     pc2 = numpy.fromfile(bake / "streams" / "ground.pc2", "<f4", offset=32).reshape(-1, 3)
     assert numpy.array_equal(pc2, numpy.load(bake / "streams" / "ground.npy")[:, 0])
-    for command in (["measure"], ["preview", "-o", bake.parent / "plate.png"], ["report", "-o", bake.parent / "report.html"]):
+    for command in (["measure"], ["preview", "-o", bake.parent / "plate.png"],
+                    ["report", "-o", bake.parent / "report.html"]):
         throng(command[0], bake, *command[1:])
 
 
@@ -117,21 +127,25 @@ def test_checkpoints_and_other_terrains_do_not_mix(walk, throng, tmp_path):
     sloped = terrain_files.glb(*terrain_files.surface(ramp, (-20, -6), (60, 6), 4.0))
     bakes = [walk("mixed", content, [-10, 0], [12, 0], "--no-gltf", "--force")[0] / "bake.json" for content in (flat,)]
     first = json.loads(bakes[0].read_text())["inputs"]
-    second = json.loads((walk("mixed", sloped, [-10, 0], [12, 0], "--no-gltf", "--force")[0] / "bake.json").read_text())["inputs"]
+    second = json.loads((walk("mixed", sloped, [-10, 0], [12, 0], "--no-gltf",
+                              "--force")[0] / "bake.json").read_text())["inputs"]
     assert first != second
 
 
 @pytest.mark.parametrize("terrain, words", [
     ({"file": "absent.glb"}, ["3:22: error: /terrain/file:", "cannot open", "relative to the layout"]),
     ({"file": "hill.glb", "node": "lawn"}, ["3:42: error: /terrain/node:", "no node or mesh named `lawn`"]),
-    ({"file": "hill.glb", "offset": [900, 0, 0]}, ["/terrain/file: no face of `hill.glb`", "x from 880.00 to 920.00", "offset"]),
+    ({"file": "hill.glb", "offset": [900, 0, 0]}, ["/terrain/file: no face of `hill.glb`", "x from 880.00 to 920.00",
+                                                   "offset"]),
     ({"file": "junk.glb"}, ["/terrain/file:", "is not glTF"]),
     ({"file": ""}, ["/terrain/file: `file` is empty"])])
 def test_terrains_that_cannot_be_used_are_told_where_they_are_named(throng, tmp_path, terrain, words):
     (tmp_path / "hill.glb").write_bytes(terrain_files.glb(*terrain_files.surface(ramp, (-20, -20), (20, 20), 4.0)))
     (tmp_path / "junk.glb").write_bytes(b"junk")
     layout = tmp_path / "layout.json"
-    layout.write_text('{"throng": 1,\n "formations": [{"id": "f", "type": "circle", "centre": [0, 0], "radius": 5, "count": 9}],\n "terrain": ' +
+    layout.write_text('{"throng": 1,\n'
+                      ' "formations": [{"id": "f", "type": "circle", "centre": [0, 0], "radius": 5, "count": 9}],\n'
+                      ' "terrain": ' +
                       json.dumps(terrain) + "}\n")
     for command in (["check", layout], ["bake", layout, "-o", tmp_path / "bake"]):
         refused = throng(*command, expect=3)
@@ -147,7 +161,8 @@ def test_overrides_set_people_on_the_ground_anew(throng, tmp_path, manifest_of):
               "formations": [{"id": "three", "type": "agents", "agents": agents, "arrival": "leave"}]}
     (tmp_path / "ramp.json").write_text(json.dumps(layout))
     throng("bake", tmp_path / "ramp.json", "-o", tmp_path / "bake", "-q", "--no-gltf")
-    entry = lambda row, y, **change: {"id": row, "group": "three", "spawn": {"frame": 0, "position": [2, y, 0.2]}, **change}
+    entry = lambda row, y, **change: {"id": row, "group": "three", "spawn": {"frame": 0, "position": [2, y, 0.2]},
+                                      **change}
     (tmp_path / "changes.json").write_text(json.dumps({"throng_overrides": 1, "overrides": [
         entry(0, -3, move={"by": [8, 0, 0]}), entry(1, 0, retime={"offset": 30, "speed": 1.2})]}))
     throng("apply", tmp_path / "bake", "--overrides", tmp_path / "changes.json", "-o", tmp_path / "changed", "--strict")

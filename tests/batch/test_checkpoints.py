@@ -31,19 +31,22 @@ def files_of(bake):
 
 
 @pytest.fixture(scope="module")
-def whole(throng, tmp_path_factory):
-    folder = tmp_path_factory.mktemp("whole")
-    layout = folder / "layout.json"
-    layout.write_text(json.dumps(LAYOUT))
-    throng("bake", layout, "-o", folder / "bake", *OPTIONS)
-    return layout, files_of(folder / "bake")
+def whole(throng, once):
+    def make(folder):
+        (folder / "layout.json").write_text(json.dumps(LAYOUT))
+        throng("bake", folder / "layout.json", "-o", folder / "bake", *OPTIONS)
+
+    folder = once("whole", make)
+    return folder / "layout.json", files_of(folder / "bake")
 
 
 def start(throng, layout, output, *more, minutes="0.002"):
-    return subprocess.Popen([throng.binary, "bake", str(layout), "-o", str(output), *OPTIONS, "--checkpoint", minutes, *more],
+    return subprocess.Popen([throng.binary, "bake", str(layout), "-o", str(output), *OPTIONS, "--checkpoint", minutes,
+                             *more],
                             stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
 
+@pytest.mark.slow
 def test_killed_a_hundred_times_at_random_moments_a_bake_ends_as_the_same_bytes(throng, whole, tmp_path):
     layout, expected = whole
     chance = random.Random(5)
@@ -67,6 +70,7 @@ def test_killed_a_hundred_times_at_random_moments_a_bake_ends_as_the_same_bytes(
     assert bakes < kills, "most runs were killed"
 
 
+@pytest.mark.quick
 def test_sigterm_leaves_a_checkpoint_and_85(throng, whole, tmp_path):
     layout, expected = whole
     process = start(throng, layout, tmp_path / "bake")
@@ -79,7 +83,8 @@ def test_sigterm_leaves_a_checkpoint_and_85(throng, whole, tmp_path):
     assert not (tmp_path / "bake").exists()
     again = throng("bake", layout, "-o", tmp_path / "bake", *OPTIONS, expect=5)
     assert "--resume" in again.stderr
-    other = throng("bake", layout, "-o", tmp_path / "bake", *OPTIONS, "--set", "simulation.seed=12", "--resume", expect=5)
+    other = throng("bake", layout, "-o", tmp_path / "bake", *OPTIONS, "--set", "simulation.seed=12", "--resume",
+                   expect=5)
     assert "another layout" in other.stderr
     throng("bake", layout, "-o", tmp_path / "bake", *OPTIONS, "--resume")
     assert files_of(tmp_path / "bake") == expected
@@ -104,7 +109,8 @@ def test_a_torn_checkpoint_is_passed_over_for_the_one_before(throng, whole, tmp_
 
 
 def frames_at(checkpoint):
-    """How many frames had been written (io/checkpoint.cpp: a head of 24 bytes, the identity and its length, then this)."""
+    """How many frames had been written (io/checkpoint.cpp: a head of 24 bytes, the identity and its length, then
+    this)."""
     content = checkpoint.read_bytes()
     return struct.unpack_from("<Q", content, 32 + struct.unpack_from("<Q", content, 24)[0])[0]
 

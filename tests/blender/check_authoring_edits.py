@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs inside Blender: one change after another, each to a layout that was just imported, and the layout that comes of it. ADDON LAYOUT FOLDER"""
+"""Runs inside Blender: one change after another, each to a layout that was just imported, and the layout that comes of
+it. ADDON LAYOUT FOLDER"""
 import json
 import math
 import os
 import sys
 
+import bmesh
 import bpy
 
 addon, layout, folder = sys.argv[-3:]
@@ -109,8 +111,6 @@ def move_a_person():
 
 
 def remove_a_person():
-    import bmesh
-
     mesh = things["list"].data
     edit = bmesh.new()
     edit.from_mesh(mesh)
@@ -154,7 +154,9 @@ def nothing():
     pass
 
 
-EDITS = [each for each in dict(globals()).values() if callable(each) and getattr(each, "__module__", "") == "__main__" and each.__name__ not in ("flow", "<lambda>")]
+EDITS = [each for each in dict(globals()).values()
+         if callable(each) and getattr(each, "__module__", "") == "__main__"
+         and each.__name__ not in ("flow", "<lambda>")]
 result = {}
 for edit in EDITS:
     assert bpy.ops.import_scene.throng_layout(filepath=layout, replace=True) == {"FINISHED"}

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs inside Blender: cells on the ground as an overlay and as a mask, rendered from straight above, with and without the add-on."""
+"""Runs inside Blender: cells on the ground as an overlay and as a mask, from above, with and without the add-on."""
+import importlib
 import json
 import os
 import shutil
@@ -35,93 +36,144 @@ def render(scene, frame, path):
 
 
 def only_ground_is_seen(crowd):
+    ground = ("Throng ground", "Throng road", "Throng area", "Throng cells")
     for thing in bpy.context.scene.objects:
-        if thing.type == "MESH" and not thing.name.startswith(("Throng ground", "Throng road", "Throng area", "Throng cells")):
+        if thing.type == "MESH" and not thing.name.startswith(ground):
             thing.hide_render = True
     crowd.hide_render = True
     for light in [thing for thing in bpy.context.scene.objects if thing.type == "LIGHT"]:
         light.hide_render = True
     world = bpy.data.worlds.new("white")
     world.use_nodes = True
-    next(node for node in world.node_tree.nodes if node.type == "BACKGROUND").inputs[0].default_value = (1.0, 1.0, 1.0, 1.0)
+    background = next(node for node in world.node_tree.nodes if node.type == "BACKGROUND")
+    background.inputs[0].default_value = (1.0, 1.0, 1.0, 1.0)
     bpy.context.scene.world = world
 
 
-def with_the_add_on(addon, bake, folder):
-    sys.path.insert(0, addon)
-    import throng
+def cells(kind, **settings):
+    assert bpy.ops.throng.cells(kind=kind, **settings) == {"FINISHED"}
 
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    throng.register()
-    bpy.ops.wm.save_as_mainfile(filepath=os.path.join(folder, "overlay.blend"))
-    assert bpy.ops.import_scene.throng(filepath=os.path.join(bake, "bake.json")) == {"FINISHED"}
-    scene = bpy.context.scene
-    crowd = next(thing for thing in scene.objects if "throng pos" in thing.modifiers)
-    manifest = json.load(open(os.path.join(bake, "bake.json")))
-    only_ground_is_seen(crowd)
-    look_from_above(scene, manifest["bounds"]["min"], manifest["bounds"]["max"])
-    result = {"objects": len(scene.objects)}
-    render(scene, 25, os.path.join(folder, "bare.exr"))
-    assert bpy.ops.throng.cells(kind="overlay", strength=1.0) == {"FINISHED"}
-    assert bpy.ops.throng.cells(kind="overlay", strength=1.0) == {"FINISHED"}
-    result["with overlay"] = len(scene.objects)
-    bpy.ops.wm.save_mainfile()
-    assert sum(material.name.startswith("throng cells") for material in bpy.data.materials) == 1
-    assert bpy.ops.throng.cells(kind="mask", strength=1.0) == {"FINISHED"}
-    assert not any(thing.name.startswith(("throng cells", "Throng cells")) for things in (bpy.data.materials, bpy.data.meshes) for thing in things)
-    result["with mask"] = len(scene.objects)
-    render(scene, 25, os.path.join(folder, "mask.exr"))
-    assert bpy.ops.throng.cells(kind="mask", strength=1.0) == {"FINISHED"}
-    render(scene, 25, os.path.join(folder, "mask-again.exr"))
-    # Cells go where their crowd goes: in time, and to the bake that it plays.
-    assert bpy.ops.throng.show(offset=10) == {"FINISHED"}
-    render(scene, 35, os.path.join(folder, "mask-later.exr"))
-    assert bpy.ops.throng.show(offset=0) == {"FINISHED"}
-    shutil.copytree(bake, bake + "-retake")
-    shutil.copy(os.path.join(bake, "diagrams", "diagram.0001.exr"), os.path.join(bake + "-retake", "diagrams", "diagram.0021.exr"))
-    assert bpy.ops.throng.relink(filepath=os.path.join(bake + "-retake", "bake.json")) == {"FINISHED"}
-    render(scene, 25, os.path.join(folder, "mask-of-retake.exr"))
+
+def play(bake):
     assert bpy.ops.throng.relink(filepath=os.path.join(bake, "bake.json")) == {"FINISHED"}
-    render(scene, 25, os.path.join(folder, "mask-back.exr"))
-    # Streets that are built anew, with the materials that they had, are not darkened twice.
-    roads = [thing for thing in scene.objects if thing.name.startswith("Throng road")]
-    worn = {thing: thing.material_slots[0].material for thing in roads}
-    for thing in roads:
-        thing.material_slots[0].material = bpy.data.materials[worn[thing]["throng_of"]]
-    assert bpy.ops.throng.cells(kind="mask", strength=1.0) == {"FINISHED"}
-    assert all(thing.material_slots[0].material == worn[thing] for thing in roads)
-    render(scene, 25, os.path.join(folder, "mask-anew.exr"))
-    # Without images the cells go; shown in part only, nothing is asked for; when the images are back, so are the cells.
-    shutil.rmtree(os.path.join(bake + "-retake", "diagrams"))
-    assert bpy.ops.throng.relink(filepath=os.path.join(bake + "-retake", "bake.json")) == {"FINISHED"}
-    render(scene, 25, os.path.join(folder, "mask-lost.exr"))
-    assert bpy.ops.throng.show(percent=50.0, offset=0) == {"FINISHED"}
-    assert bpy.ops.throng.relink(filepath=os.path.join(bake, "bake.json")) == {"FINISHED"}
-    render(scene, 25, os.path.join(folder, "mask-found.exr"))
-    assert bpy.ops.throng.cells(kind="overlay") == {"FINISHED"}
-    bpy.data.objects.remove(next(thing for thing in scene.objects if "throng_cells" in thing))
-    assert bpy.ops.throng.reload() == {"FINISHED"}
-    result["removed by hand"] = not any("throng_cells" in thing for thing in scene.objects)
-    assert bpy.ops.throng.cells(kind="mask", strength=1.0) == {"FINISHED"}
-    assert bpy.ops.throng.cells(kind="none") == {"FINISHED"}
-    result["left"] = sorted(thing.name for things in (bpy.data.node_groups, bpy.data.images, bpy.data.actions) for thing in things if "cells" in thing.name or "diagram" in thing.name)
-    own = bpy.data.materials.new("artist's")
-    own.use_nodes = True
-    assert bpy.ops.throng.cells(kind="overlay") == {"FINISHED"}
-    tree = next(group for group in bpy.data.node_groups if group.name.endswith(" cells"))
-    own.node_tree.nodes.new("ShaderNodeGroup").node_tree = tree
-    assert bpy.ops.throng.cells(kind="none") == {"FINISHED"}
-    result["kept"] = tree.name in bpy.data.node_groups and any(node.type == "TEX_IMAGE" and node.image for node in tree.nodes)
-    render(scene, 25, os.path.join(folder, "none.exr"))
-    diagrams = os.path.join(bake, "diagrams")
-    os.rename(diagrams, diagrams + "-away")
-    try:
-        bpy.ops.throng.cells(kind="overlay")
-        result["missing"] = "accepted"
-    except RuntimeError as error:
-        result["missing"] = str(error)
-    os.rename(diagrams + "-away", diagrams)
-    print("RESULT " + json.dumps(result))
+
+
+def own_names():
+    """Of all that cells have brought, but for objects."""
+    data = bpy.data
+    return sorted(thing.name for things in (data.node_groups, data.images, data.actions) for thing in things
+                  if "cells" in thing.name or "diagram" in thing.name)
+
+
+class Check:
+    """One scene, and what was seen in it."""
+
+    def __init__(self, addon, bake, folder):
+        sys.path.insert(0, addon)
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        importlib.import_module("throng").register()
+        bpy.ops.wm.save_as_mainfile(filepath=os.path.join(folder, "overlay.blend"))
+        assert bpy.ops.import_scene.throng(filepath=os.path.join(bake, "bake.json")) == {"FINISHED"}
+        self.scene, self.bake, self.retake, self.folder = bpy.context.scene, bake, bake + "-retake", folder
+        with open(os.path.join(bake, "bake.json"), encoding="utf-8") as file:
+            bounds = json.load(file)["bounds"]
+        only_ground_is_seen(next(thing for thing in self.scene.objects if "throng pos" in thing.modifiers))
+        look_from_above(self.scene, bounds["min"], bounds["max"])
+        self.result = {"objects": len(self.scene.objects)}
+        self.render("bare")
+
+    def render(self, name, frame=25):
+        render(self.scene, frame, os.path.join(self.folder, f"{name}.exr"))
+
+    def has_overlay(self):
+        return any("throng_cells" in thing for thing in self.scene.objects)
+
+    def overlay(self):
+        """Put there twice, it is there once. It stays in the file that a farm renders."""
+        cells("overlay", strength=1.0)
+        cells("overlay", strength=1.0)
+        self.result["with overlay"] = len(self.scene.objects)
+        bpy.ops.wm.save_mainfile()
+        assert sum(material.name.startswith("throng cells") for material in bpy.data.materials) == 1
+
+    def mask(self):
+        cells("mask", strength=1.0)
+        names = [thing.name for things in (bpy.data.materials, bpy.data.meshes) for thing in things]
+        assert not any(name.lower().startswith("throng cells") for name in names)
+        self.result["with mask"] = len(self.scene.objects)
+        self.render("mask")
+        cells("mask", strength=1.0)
+        self.render("mask-again")
+
+    def follow(self):
+        """Cells go where their crowd goes: in time, and to the bake that it plays."""
+        assert bpy.ops.throng.show(offset=10) == {"FINISHED"}
+        self.render("mask-later", 35)
+        assert bpy.ops.throng.show(offset=0) == {"FINISHED"}
+        shutil.copytree(self.bake, self.retake)
+        shutil.copy(os.path.join(self.bake, "diagrams", "diagram.0001.exr"),
+                    os.path.join(self.retake, "diagrams", "diagram.0021.exr"))
+        play(self.retake)
+        self.render("mask-of-retake")
+        play(self.bake)
+        self.render("mask-back")
+
+    def rebuild_streets(self):
+        """Streets that are built anew, with the materials that they had, are not darkened twice."""
+        roads = [thing for thing in self.scene.objects if thing.name.startswith("Throng road")]
+        worn = {thing: thing.material_slots[0].material for thing in roads}
+        for thing in roads:
+            thing.material_slots[0].material = bpy.data.materials[worn[thing]["throng_of"]]
+        cells("mask", strength=1.0)
+        assert all(thing.material_slots[0].material == worn[thing] for thing in roads)
+        self.render("mask-anew")
+
+    def lose_images(self):
+        """Without images the cells go; shown in part only, nothing is asked for; with the images they come back."""
+        shutil.rmtree(os.path.join(self.retake, "diagrams"))
+        play(self.retake)
+        self.render("mask-lost")
+        assert bpy.ops.throng.show(percent=50.0, offset=0) == {"FINISHED"}
+        play(self.bake)
+        self.render("mask-found")
+
+    def take_away(self):
+        cells("overlay")
+        bpy.data.objects.remove(next(thing for thing in self.scene.objects if "throng_cells" in thing))
+        assert bpy.ops.throng.reload() == {"FINISHED"}
+        self.result["removed by hand"] = not self.has_overlay()
+        cells("mask", strength=1.0)
+        cells("none")
+        self.result["left"] = own_names()
+
+    def keep_what_an_artist_uses(self):
+        own = bpy.data.materials.new("artist's")
+        own.use_nodes = True
+        cells("overlay")
+        tree = next(group for group in bpy.data.node_groups if group.name.endswith(" cells"))
+        own.node_tree.nodes.new("ShaderNodeGroup").node_tree = tree
+        cells("none")
+        is_whole = any(node.type == "TEX_IMAGE" and node.image for node in tree.nodes)
+        self.result["kept"] = tree.name in bpy.data.node_groups and is_whole
+        self.render("none")
+
+    def ask_for_missing_images(self):
+        diagrams = os.path.join(self.bake, "diagrams")
+        os.rename(diagrams, diagrams + "-away")
+        try:
+            bpy.ops.throng.cells(kind="overlay")
+            self.result["missing"] = "accepted"
+        except RuntimeError as error:
+            self.result["missing"] = str(error)
+        os.rename(diagrams + "-away", diagrams)
+
+
+def with_the_add_on(addon, bake, folder):
+    check = Check(addon, bake, folder)
+    for step in (check.overlay, check.mask, check.follow, check.rebuild_streets, check.lose_images, check.take_away,
+                 check.keep_what_an_artist_uses, check.ask_for_missing_images):
+        step()
+    print("RESULT " + json.dumps(check.result))
 
 
 def on_a_farm(folder):

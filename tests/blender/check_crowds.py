@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs inside Blender: two crowds, verified, damaged, moved, re-loaded, shown in part and later; then saved and opened again."""
+"""Runs inside Blender: two crowds, verified, damaged, moved, re-loaded, shown in part and later; saved and opened."""
 import json
 import os
 import shutil
@@ -10,12 +10,14 @@ import bpy
 addon, first, second, folder = sys.argv[-4:]
 sys.path.insert(0, addon)
 import throng  # noqa: E402
-from throng import crowds  # noqa: E402
+from throng.crowd.queries import crowd_objects  # noqa: E402
+from throng.crowd.verify import verify  # noqa: E402
 
 bpy.ops.wm.read_factory_settings(use_empty=True)
 throng.register()
 bpy.ops.wm.save_as_mainfile(filepath=os.path.join(folder, "scene.blend"))
-load = lambda path, **options: bpy.ops.import_scene.throng(filepath=os.path.join(path, "bake.json"), scenery=False, camera=False, **options)
+load = lambda path, **options: bpy.ops.import_scene.throng(filepath=os.path.join(path, "bake.json"),
+                                                           scenery=False, camera=False, **options)
 assert load(first) == {"FINISHED"} and load(second, frame_start=11) == {"FINISHED"}
 scene = bpy.context.scene
 
@@ -26,8 +28,8 @@ def people_of(crowd):
             for i in graph.object_instances if i.is_instance and i.parent and i.parent.original == crowd}
 
 
-a, b = crowds.crowd_objects(scene)
-result = {"sound": [crowds.verify(each, scene) for each in (a, b)], "counts": [len(a.data.vertices), len(b.data.vertices)]}
+a, b = crowd_objects(scene)
+result = {"sound": [verify(each, scene) for each in (a, b)], "counts": [len(a.data.vertices), len(b.data.vertices)]}
 
 # Later: what was at a frame is there so many frames on.
 scene.frame_set(20)
@@ -50,16 +52,16 @@ material = bpy.data.materials[0]
 material.diffuse_color = (1.0, 0.0, 0.0, 1.0)
 stream = os.path.join(second, "streams", "dir.pc2")
 shutil.move(stream, stream + ".aside")
-result["missing"] = crowds.verify(b, scene)
+result["missing"] = verify(b, scene)
 shutil.move(stream + ".aside", stream)
 scene.render.fps = 30
-result["fps"] = crowds.verify(a, scene)
+result["fps"] = verify(a, scene)
 b.data.vertices.add(3)
-result["rows"] = crowds.verify(b, scene)
+result["rows"] = verify(b, scene)
 for each in (a, b):
     each.select_set(True)
 assert bpy.ops.throng.reload() == {"FINISHED"}
-result["mended"] = [crowds.verify(each, scene) for each in (a, b)]
+result["mended"] = [verify(each, scene) for each in (a, b)]
 result["look"] = tuple(material.diffuse_color)
 
 # Another bake in the place of the first; then a broken one, which changes nothing.
@@ -78,8 +80,8 @@ assert bpy.ops.throng.verify() == {"FINISHED"}
 bpy.ops.wm.save_mainfile()
 bpy.ops.wm.open_mainfile(filepath=os.path.join(folder, "scene.blend"))
 scene = bpy.context.scene
-reopened = crowds.crowd_objects(scene)
-result["reopened"] = [crowds.verify(each, scene) for each in reopened]
+reopened = crowd_objects(scene)
+result["reopened"] = [verify(each, scene) for each in reopened]
 scene.frame_set(20)
 result["people"] = [len(people_of(each)) for each in reopened]
 throng.unregister()

@@ -11,13 +11,13 @@ addon, bake = sys.argv[-2:]
 sys.path[:0] = [addon, os.path.dirname(os.path.abspath(__file__))]
 import throng  # noqa: E402
 from pose_names import Names  # noqa: E402
-from throng import crowds  # noqa: E402
+from throng.crowd.queries import crowd_objects  # noqa: E402
 
 bpy.ops.wm.read_factory_settings(use_empty=True)
 throng.register()
 bpy.ops.import_scene.throng(filepath=os.path.join(bake, "bake.json"), scenery=False)
 scene = bpy.context.scene
-crowd = crowds.crowd_objects(scene)[0]
+crowd = crowd_objects(scene)[0]
 names = Names()
 
 
@@ -47,7 +47,8 @@ def in_box(place):
 
 
 left = people()
-result["box"] = [len(left), set(left) == {row for row, place in everybody.items() if in_box(place)}, all(everybody[row] == left[row] for row in left)]
+result["box"] = [len(left), set(left) == {row for row, place in everybody.items() if in_box(place)},
+                 all(everybody[row] == left[row] for row in left)]
 
 camera = scene.camera
 camera.location, camera.rotation_euler = (-16.0, -6.0, 3.0), (1.35, 0.0, -1.2)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs inside Blender: a scene is drawn with the operators, checked, baked, broken, mended, baked again, cancelled, undone, saved. ADDON FOLDER"""
+"""Runs inside Blender: a scene is drawn with the operators, checked, baked, broken, mended, baked again, cancelled,
+undone, saved. ADDON FOLDER"""
 import json
 import os
 import sys
@@ -10,8 +11,9 @@ import bpy
 addon, folder = sys.argv[-2:]
 sys.path.insert(0, addon)
 import throng  # noqa: E402
-from throng import crowds  # noqa: E402
 from throng.authoring import bake_operator  # noqa: E402
+from throng.crowd.queries import crowd_objects  # noqa: E402
+from throng.crowd.verify import verify  # noqa: E402
 
 bpy.ops.wm.read_factory_settings(use_empty=True)
 throng.register()
@@ -81,7 +83,9 @@ people = thing("Grid").throng_layout.formation
 people.rows, people.columns, people.goal.place.target = 3, 4, thing("Area")
 mesh = bpy.data.meshes.new("kiosk")  # an L of two boxes that lean on each other, subdivided where they meet
 floor = [(0, 0), (4, 0), (4, 2), (2, 2), (2, 4), (0, 4)]
-mesh.from_pydata([(x, y, z) for z in (0.0, 4.0) for x, y in floor], [], [[5, 4, 3, 2, 1, 0], [6, 7, 8, 9, 10, 11]] + [[i, (i + 1) % 6, 6 + (i + 1) % 6, 6 + i] for i in range(6)])
+mesh.from_pydata([(x, y, z) for z in (0.0, 4.0) for x, y in floor], [],
+                 [[5, 4, 3, 2, 1, 0], [6, 7, 8, 9, 10, 11]]
+                 + [[i, (i + 1) % 6, 6 + (i + 1) % 6, 6 + i] for i in range(6)])
 kiosk = bpy.data.objects.new("Kiosk", mesh)
 kiosk.location = (-2.0, -14.0, 0.0)
 bpy.context.scene.collection.objects.link(kiosk)
@@ -105,9 +109,10 @@ assert ops.check() == {"FINISHED"}
 assert ops.bake() == {"FINISHED"}
 crowd = data().crowd
 names = [each.name for each in data().built.objects]
-result["first"] = {"people": len(crowd.data.vertices), "crowds": len(crowds.crowd_objects(bpy.context.scene)), "bake": os.listdir(os.path.join(folder, "throng")),
-                   "streets": "Throng road Road" in names, "kiosk": sum("Kiosk" in name for name in names)}
-assert crowds.verify(crowd, bpy.context.scene) == []
+result["first"] = {"people": len(crowd.data.vertices), "crowds": len(crowd_objects(bpy.context.scene)),
+                   "bake": os.listdir(os.path.join(folder, "throng")), "streets": "Throng road Road" in names,
+                   "kiosk": sum("Kiosk" in name for name in names)}
+assert verify(crowd, bpy.context.scene) == []
 
 # What is wrong is shown at what is wrong.
 result["errors"], result["words"] = {}, {}
@@ -140,8 +145,9 @@ thing("Road").throng_layout.width = 6.0
 assert ops.bake() == {"FINISHED"}
 assert not any(each.is_error for each in data().problems)
 road = bpy.data.objects["Throng road Road"]
-result["second"] = {"people": len(crowd.data.vertices), "crowds": len(crowds.crowd_objects(bpy.context.scene)), "same": data().crowd == crowd,
-                    "width": sorted({round(abs(v.co.y), 2) for v in road.data.vertices if abs(v.co.z) < 1e-3})[-1] * 2.0}
+half = max(round(abs(vertex.co.y), 2) for vertex in road.data.vertices if abs(vertex.co.z) < 1e-3)
+result["second"] = {"people": len(crowd.data.vertices), "crowds": len(crowd_objects(bpy.context.scene)),
+                    "same": data().crowd == crowd, "width": half * 2.0}
 thing("Road").throng_layout.width = 11.0
 bpy.context.view_layer.update()
 result["boxes"]["wider"] = box("Road")
@@ -155,7 +161,7 @@ for name, path in (("program", os.path.join(folder, "absent")), ("other", "/bin/
 addon_entry.preferences.program = ""
 manifest = os.path.join(folder, "throng", "shot", "bake.json")
 before = open(manifest, "rb").read()
-result["kept"] = [len(crowd.data.vertices), crowds.verify(crowd, bpy.context.scene) == []]
+result["kept"] = [len(crowd.data.vertices), verify(crowd, bpy.context.scene) == []]
 
 # Cancelled from another thread, as a button would.
 data().simulation.duration = 3000.0
@@ -173,7 +179,8 @@ threading.Timer(0.2, press).start()
 files = set(os.listdir(os.path.join(folder, "throng")))
 assert ops.bake() == {"CANCELLED"}
 left = sorted(set(os.listdir(os.path.join(folder, "throng"))) - files)
-result["cancelled"] = ["cancelled" if bake_operator.running() is None else "running", open(manifest, "rb").read() == before, len(crowd.data.vertices), left]
+result["cancelled"] = ["cancelled" if bake_operator.running() is None else "running",
+                       open(manifest, "rb").read() == before, len(crowd.data.vertices), left]
 data().simulation.duration = 2.0
 
 # Undo of what adds.
@@ -201,12 +208,14 @@ assert ops.bake() == {"FINISHED"}
 bpy.context.view_layer.update()
 road, built = thing("far road"), next(each for each in data().built.objects if each.name.startswith("Throng road"))
 xs = [(built.matrix_world @ v.co).x for v in built.data.vertices]
-result["far"] = [road.location.x, 0.5 * (min(xs) + max(xs)), [round(value, 6) for value in json.loads(data().origin)], len(crowds.crowd_objects(bpy.context.scene))]
+result["far"] = [road.location.x, 0.5 * (min(xs) + max(xs)), [round(value, 6) for value in json.loads(data().origin)],
+                 len(crowd_objects(bpy.context.scene))]
 bpy.context.scene.frame_set(bpy.context.scene.frame_end)
 graph = bpy.context.evaluated_depsgraph_get()
 where = [each.matrix_world.translation.copy() for each in graph.object_instances
          if each.is_instance and each.parent and each.parent.original == data().crowd]
-result["far people"] = [len(where), max(abs(each.y) for each in where), min(each.x for each in where), max(each.x for each in where)]
+result["far people"] = [len(where), max(abs(each.y) for each in where), min(each.x for each in where),
+                        max(each.x for each in where)]
 throng.unregister()
 result["types"] = [name for name in dir(bpy.types) if "throng" in name.lower()]
 assert not hasattr(bpy.types.Object, "throng_layout")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs inside Blender: crowds that come from other files by link and append, copies that share a cast, an artist's own use of a figure."""
+"""Runs inside Blender: crowds that come from other files by link and append, copies that share a cast, an
+artist's own use of a figure."""
 import json
 import os
 import shutil
@@ -11,8 +12,7 @@ addon, bake, folder = sys.argv[-3:]
 sys.path[:0] = [addon, os.path.dirname(os.path.abspath(__file__))]
 import throng  # noqa: E402
 from pose_names import Names  # noqa: E402
-from throng import crowds  # noqa: E402
-from throng.characters import members  # noqa: E402
+from throng.crowd.queries import collection_of, crowd_objects, earlier_crowds, figure  # noqa: E402
 
 LIBRARY = os.path.join(folder, "library.blend")
 result = {}
@@ -25,9 +25,10 @@ def fresh():
 
 
 def imported():
-    assert bpy.ops.import_scene.throng(filepath=os.path.join(bake, "bake.json"), scenery=False, walls=False, roads=False, relative=False) == {"FINISHED"}
+    assert bpy.ops.import_scene.throng(filepath=os.path.join(bake, "bake.json"), scenery=False, walls=False,
+                                       roads=False, relative=False) == {"FINISHED"}
     bpy.context.scene.frame_set(20)
-    return crowds.crowd_objects(bpy.context.scene)[-1]
+    return crowd_objects(bpy.context.scene)[-1]
 
 
 def shown(crowd=None):
@@ -40,15 +41,17 @@ def shown(crowd=None):
 fresh()
 crowd = imported()
 result["alone"] = shown()
-name = crowds.collection_of(crowd).name
+name = collection_of(crowd).name
 bpy.ops.wm.save_as_mainfile(filepath=LIBRARY)
 
 # Appended by hand, the cast does not come into the picture.
 fresh()
-bpy.ops.wm.append(filepath=os.path.join(LIBRARY, "Collection", name), directory=os.path.join(LIBRARY, "Collection"), filename=name)
+bpy.ops.wm.append(filepath=os.path.join(LIBRARY, "Collection", name), directory=os.path.join(LIBRARY, "Collection"),
+                  filename=name)
 bpy.context.scene.frame_set(20)
 graph = bpy.context.evaluated_depsgraph_get()
-result["appended"] = [shown(), sum(i.is_instance for i in graph.object_instances), sum("throng_member" in i.object for i in graph.object_instances if not i.is_instance)]
+result["appended"] = [shown(), sum(i.is_instance for i in graph.object_instances),
+                      sum("throng_member" in i.object for i in graph.object_instances if not i.is_instance)]
 bpy.ops.wm.save_as_mainfile(filepath=os.path.join(folder, "appended.blend"))
 bpy.ops.wm.open_mainfile(filepath=os.path.join(folder, "appended.blend"))
 bpy.context.scene.frame_set(20)
@@ -75,17 +78,20 @@ other = crowd.copy()
 bpy.context.scene.collection.objects.link(other)
 far = {"by": "camera", "near": 1.0, "far": 2.0}
 
-for step, (chosen, options) in enumerate((((crowd, other), far), ((crowd,), {"by": "none"}), ((crowd,), far), ((crowd, other), {"by": "none"}))):
+for step, (chosen, options) in enumerate((((crowd, other), far), ((crowd,), {"by": "none"}), ((crowd,), far),
+                                          ((crowd, other), {"by": "none"}))):
     for thing in (crowd, other):
         thing.select_set(thing in chosen)
     assert bpy.ops.throng.levels(**options) == {"FINISHED"}
-    result[f"copies {step}"] = [shown(crowd), shown(other), len([thing for thing in bpy.data.objects if "throng_member" in thing])]
+    result[f"copies {step}"] = [shown(crowd), shown(other),
+                                len([thing for thing in bpy.data.objects if "throng_member" in thing])]
     if step == 0:  # somebody takes a coarse mesh for a thing of their own
-        mine = bpy.data.objects.new("mine", members.figure(crowd, 3, 2).data)
+        mine = bpy.data.objects.new("mine", figure(crowd, 3, 2).data)
         bpy.context.scene.collection.objects.link(mine)
 result["mine"] = "mine" in bpy.data.objects and len(bpy.data.objects["mine"].data.vertices) > 0
 
 # A crowd of an earlier version plays on; nothing works on it, and the panel says why.
 del crowd["throng_cast"]["throng_levels"]
-result["earlier"] = [shown(crowd), len(crowds.crowd_objects(bpy.context.scene)), len(crowds.earlier_crowds(bpy.context.scene)), bpy.ops.throng.levels.poll()]
+result["earlier"] = [shown(crowd), len(crowd_objects(bpy.context.scene)), len(earlier_crowds(bpy.context.scene)),
+                     bpy.ops.throng.levels.poll()]
 print("RESULT " + json.dumps(result))

@@ -22,10 +22,11 @@ for preset in ("preview", "plate", "final"):
     start = list(scene.camera.matrix_world.translation)
     scene.frame_set(scene.frame_end)
     end = list(scene.camera.matrix_world.translation)
-    result[preset] = {"engine": scene.render.engine, "size": [scene.render.resolution_x, scene.render.resolution_y], "samples": scene.cycles.samples,
-                      "format": scene.render.image_settings.file_format, "blur": [scene.render.use_motion_blur, scene.render.motion_blur_shutter],
-                      "transform": scene.view_settings.view_transform, "focus": scene.camera.data.dof.use_dof, "start": start, "end": end,
-                      "denoising": scene.cycles.use_denoising}
+    result[preset] = {"engine": scene.render.engine, "size": [scene.render.resolution_x, scene.render.resolution_y],
+                      "samples": scene.cycles.samples, "format": scene.render.image_settings.file_format,
+                      "blur": [scene.render.use_motion_blur, scene.render.motion_blur_shutter],
+                      "transform": scene.view_settings.view_transform, "focus": scene.camera.data.dof.use_dof,
+                      "start": start, "end": end, "denoising": scene.cycles.use_denoising}
 assert bpy.ops.throng.film_look(preset="plate") == {"FINISHED"}
 scene.render.resolution_x, scene.render.resolution_y = 160, 90
 scene.cycles.samples, scene.cycles.use_denoising = 2, False

@@ -12,6 +12,9 @@ import bpy
 addon, bake, flat, times, out = sys.argv[-5:]
 sys.path.insert(0, addon)
 import throng  # noqa: E402
+from throng.crowd.verify import verify  # noqa: E402
+from throng.formats import BakeError  # noqa: E402
+from throng.tools.update import reload, set_offset  # noqa: E402
 
 
 def people(crowd):
@@ -40,8 +43,10 @@ def crowd_of(path):
 
 result = {}
 crowd = crowd_of(flat)
-result["flat"] = [modifier.name for modifier in crowd.modifiers if "ground" in modifier.name or "conform" in modifier.name]
-result["flat"] += [node.bl_idname for tree in bpy.data.node_groups for node in tree.nodes if node.bl_idname == "GeometryNodeRotateInstances"]
+result["flat"] = [modifier.name for modifier in crowd.modifiers
+                  if "ground" in modifier.name or "conform" in modifier.name]
+result["flat"] += [node.bl_idname for tree in bpy.data.node_groups for node in tree.nodes
+                   if node.bl_idname == "GeometryNodeRotateInstances"]
 
 crowd = crowd_of(bake)
 scene = bpy.context.scene
@@ -49,20 +54,20 @@ result["baked"] = shots(crowd)
 terrain = bpy.data.objects["Throng terrain"]
 result["terrain"] = {"corners": [list(v.co) for v in terrain.data.vertices], "faces": len(terrain.data.polygons),
                      "road": [item.value for item in terrain.data.attributes["throng_road"].data]}
-result["ground"] = "Throng ground" in bpy.data.objects or any(name.startswith("Throng road") for name in bpy.data.objects.keys())
-result["walls"] = {thing.name: [thing.location.z, max(v.co.z for v in thing.data.vertices)] for thing in scene.objects if thing.name.startswith("Throng wall")}
+result["ground"] = any(name == "Throng ground" or name.startswith("Throng road") for name in bpy.data.objects.keys())
+result["walls"] = {thing.name: [thing.location.z, max(v.co.z for v in thing.data.vertices)] for thing in scene.objects
+                   if thing.name.startswith("Throng wall")}
 result["camera"] = scene.camera.location.z
-from throng import crowds  # noqa: E402
 
-result["problems"] = crowds.verify(crowd, scene)
-crowds.set_offset(crowd, 3)
+result["problems"] = verify(crowd, scene)
+set_offset(crowd, 3)
 result["starts"] = sorted({modifier.frame_start for modifier in crowd.modifiers if modifier.type == "MESH_CACHE"})
-crowds.set_offset(crowd, 0)
-crowds.reload(crowd, scene)
+set_offset(crowd, 0)
+reload(crowd, scene)
 try:
-    crowds.reload(crowd, scene, os.path.join(flat, "bake.json"))
+    reload(crowd, scene, os.path.join(flat, "bake.json"))
     result["relinked"] = ""
-except throng.operators.BakeError as error:
+except BakeError as error:
     result["relinked"] = str(error)
 
 # The flat bake on the terrain's mesh.

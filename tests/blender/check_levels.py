@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs inside Blender: which level of detail everybody has, by a camera that moves; then off again, and from a saved file without the add-on."""
+"""Runs inside Blender: which level of detail everybody has, by a camera that moves; then off again, and from a saved
+file without the add-on."""
 import json
 import os
 import sys
@@ -10,29 +11,33 @@ addon, bake, folder = sys.argv[-3:]
 sys.path[:0] = [addon, os.path.dirname(os.path.abspath(__file__))]
 import throng  # noqa: E402
 from pose_names import Names  # noqa: E402
-from throng import crowds, levels  # noqa: E402
+from throng.crowd.queries import crowd_objects  # noqa: E402
+from throng.tools.levels import default_distances  # noqa: E402
 
 bpy.ops.wm.read_factory_settings(use_empty=True)
 throng.register()
-bpy.ops.import_scene.throng(filepath=os.path.join(bake, "bake.json"), scenery=False, walls=False, roads=False, relative=False)
+bpy.ops.import_scene.throng(filepath=os.path.join(bake, "bake.json"), scenery=False, walls=False, roads=False,
+                            relative=False)
 scene = bpy.context.scene
-crowd = crowds.crowd_objects(scene)[0]
+crowd = crowd_objects(scene)[0]
 camera = scene.camera
 
 
 def people():
     graph, names = bpy.context.evaluated_depsgraph_get(), Names()
-    return {i.persistent_id[1]: names.of(i.object.data) for i in graph.object_instances if i.is_instance and i.parent and i.parent.original.name == "Throng sample crowd"}
+    return {i.persistent_id[1]: names.of(i.object.data) for i in graph.object_instances
+            if i.is_instance and i.parent and i.parent.original.name == "Throng sample crowd"}
 
 
 def sizes():
-    return [sum(thing.name.startswith("Throng person") for thing in things) for things in (bpy.data.objects, bpy.data.meshes)]
+    return [sum(thing.name.startswith("Throng person") for thing in things)
+            for things in (bpy.data.objects, bpy.data.meshes)]
 
 
 scene.frame_set(20)
 result = {"before": people(), "sizes": [sizes()], "lens": camera.data.lens}
 scene.render.resolution_x, scene.render.resolution_y = 1920, 1080
-result["defaults"] = levels.default_distances(camera, scene)
+result["defaults"] = default_distances(camera, scene)
 camera.data.type = "ORTHO"
 for options, key in (({"by": "camera"}, "ortho"), ({"by": "camera", "near": 30.0, "far": 20.0}, "order")):
     try:

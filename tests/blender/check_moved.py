@@ -26,7 +26,8 @@ armature = next(thing for thing in scene.objects if thing.name not in before and
 result = []
 for frame in json.loads(frames):
     scene.frame_set(frame)
-    people = {i.persistent_id[1]: [list(row) for row in i.matrix_world] for i in bpy.context.evaluated_depsgraph_get().object_instances
+    people = {i.persistent_id[1]: [list(row) for row in i.matrix_world]
+              for i in bpy.context.evaluated_depsgraph_get().object_instances
               if i.is_instance and i.parent and i.parent.original == crowd}
     result.append({"people": people, "hero": list(armature.matrix_world.translation)})
 print("RESULT " + json.dumps(result))

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs inside Blender: how much processor time a change of frame takes for a crowd as it is and with overrides of each kind, in turn."""
+"""Runs inside Blender: how much processor time a change of frame takes for a crowd as it is and with overrides
+of each kind, in turn."""
 import json
 import os
 import sys
@@ -10,7 +11,7 @@ import bpy
 addon, bake = sys.argv[-2:]
 sys.path.insert(0, addon)
 import throng  # noqa: E402
-from throng import crowds  # noqa: E402
+from throng.crowd.queries import crowd_objects  # noqa: E402
 from throng.overrides import layer, native  # noqa: E402
 from throng.overrides.override_file import Change  # noqa: E402
 
@@ -18,10 +19,10 @@ bpy.ops.wm.read_factory_settings(use_empty=True)
 throng.register()
 bpy.ops.import_scene.throng(filepath=os.path.join(bake, "bake.json"), scenery=False, camera=False)
 scene = bpy.context.scene
-crowd = crowds.crowd_objects(scene)[0]
+crowd = crowd_objects(scene)[0]
 loaded = layer.bake_of(crowd)
-KINDS = {"none": {}, "state": {5: Change(hide=True), 6: Change(character=1)}, "move": {7: Change(move=(1.0, 0.0, 0.0))}, "turn": {9: Change(turn=20.0)},
-         "scale": {8: Change(scale=1.1)}}
+KINDS = {"none": {}, "state": {5: Change(hide=True), 6: Change(character=1)}, "move": {7: Change(move=(1.0, 0.0, 0.0))},
+         "turn": {9: Change(turn=20.0)}, "scale": {8: Change(scale=1.1)}}
 KINDS["all"] = {**KINDS["state"], **KINDS["move"], **KINDS["turn"], **KINDS["scale"],
                 **{row: Change(delay=3.0, speed=1.1, tint=(0.1, 0.2, 0.3)) for row in range(20, 40)}}
 times = {kind: [] for kind in KINDS}
@@ -36,4 +37,5 @@ with layer.Rows(loaded) as rows:
                 times[kind].append(time.process_time() - start)
 ops_start = time.process_time()
 assert bpy.ops.throng.hide_people(rows="100 200 300") == {"FINISHED"}
-print("RESULT " + json.dumps({**{kind: 1000.0 * min(values) for kind, values in times.items()}, "operator": time.process_time() - ops_start}))
+result = {kind: 1000.0 * min(values) for kind, values in times.items()}
+print("RESULT " + json.dumps({**result, "operator": time.process_time() - ops_start}))

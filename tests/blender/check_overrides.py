@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs inside Blender: people are hidden, swapped, tinted, scaled, moved, retimed and promoted; undone, saved, cleared, and kept over a retake."""
+"""Runs inside Blender: people are hidden, swapped, tinted, scaled, moved, retimed and promoted; undone, saved, cleared,
+and kept over a retake."""
 import json
 import math
 import os
@@ -11,8 +12,10 @@ import bpy
 addon, folder = sys.argv[-2:]
 sys.path[:0] = [addon, os.path.dirname(os.path.abspath(__file__))]
 import throng  # noqa: E402
+from throng.cast import gait, people as cast_people  # noqa: E402
 from pose_names import Names  # noqa: E402
-from throng import crowds  # noqa: E402
+from throng.crowd.queries import crowd_objects, figure  # noqa: E402
+from throng.crowd.verify import verify  # noqa: E402
 from throng.overrides import hero, layer, native, picking, skeleton  # noqa: E402
 
 BAKE, FILE = os.path.join(folder, "street"), os.path.join(folder, "street.overrides.json")
@@ -23,7 +26,7 @@ bpy.ops.wm.save_as_mainfile(filepath=os.path.join(folder, "scene.blend"))
 load = lambda path: bpy.ops.import_scene.throng(filepath=os.path.join(path, "bake.json"), scenery=False, camera=False)
 assert load(BAKE) == {"FINISHED"}
 scene = bpy.context.scene
-crowd = crowds.crowd_objects(scene)[0]
+crowd = crowd_objects(scene)[0]
 result = {"version": list(bpy.app.version), "modifiers": [m.name for m in crowd.modifiers]}
 entries = lambda: json.load(open(FILE, encoding="utf-8"))["overrides"] if os.path.exists(FILE) else None
 
@@ -32,8 +35,8 @@ def people(of=None):
     """{row: [pose, x, y, z, heading, scale]} as the scene shows them now."""
     of = of or crowd
     graph, names = bpy.context.evaluated_depsgraph_get(), Names()
-    return {i.persistent_id[1]: [names.of(i.object.data), *i.matrix_world.translation, math.atan2(i.matrix_world[1][0], i.matrix_world[0][0]),
-                                 i.matrix_world.to_scale().x]
+    return {i.persistent_id[1]: [names.of(i.object.data), *i.matrix_world.translation,
+                                 math.atan2(i.matrix_world[1][0], i.matrix_world[0][0]), i.matrix_world.to_scale().x]
             for i in graph.object_instances if i.is_instance and i.parent and i.parent.original == of}
 
 
@@ -59,14 +62,15 @@ result["tints_before"] = tints()
 ops = bpy.ops.throng
 bpy.ops.ed.undo_push(message="imported")
 
-# --- who is meant -------------------------------------------------------------------------------------------------
+# --- who is meant ----------------------------------------------------------------------------------------------------
 scene.frame_set(100)
 now, graph = people(), bpy.context.evaluated_depsgraph_get()
 row = max(now, key=lambda r: now[r][1])  # the foremost: nobody is in front of it
 x, y = now[row][1:3]
 at = lambda origin, direction: picking.person_at_ray(crowd, graph, origin, direction)
 result["ray"] = {"row": row, "ahead": at((x + 20.0, y, 1.2), (-1, 0, 0)), "above": at((x + 0.05, y, 9), (0, 0, -1)),
-                 "beside": at((x + 1.2, y, 9), (0, 0, -1)), "nobody": at((x, y, 500.0), (0, 0, 1)), "far": at((x + 60.0, y, 9), (0, 0, -1))}
+                 "beside": at((x + 1.2, y, 9), (0, 0, -1)), "nobody": at((x, y, 500.0), (0, 0, 1)),
+                 "far": at((x + 60.0, y, 9), (0, 0, -1))}
 picking.pick_at(bpy.context, (x, y, 9), (0, 0, -1))
 other = next(r for r in now if r != row)
 picking.pick_at(bpy.context, (now[other][1], now[other][2], 9), (0, 0, -1), extend=True)
@@ -75,7 +79,8 @@ picking.pick(crowd, [])
 result["nobody"] = refused(ops.hide_people)
 result["stranger"] = refused(ops.hide_people, rows="999")
 result["words"] = refused(ops.hide_people, rows="three")
-assert entries() is None and len(crowd.throng_overrides) == 0 and [m.name for m in crowd.modifiers] == result["modifiers"]
+assert entries() is None and len(crowd.throng_overrides) == 0
+assert [m.name for m in crowd.modifiers] == result["modifiers"]
 bpy.context.view_layer.objects.active = crowd
 bpy.ops.object.mode_set(mode="OBJECT")
 for vertex in crowd.data.vertices:
@@ -85,23 +90,24 @@ assert ops.hide_people() == {"FINISHED"} and crowd.mode == "EDIT"
 bpy.ops.object.mode_set(mode="OBJECT")
 result["by_points"] = [entry["id"] for entry in entries()]
 assert ops.clear_people(rows="12") == {"FINISHED"}
-result["cleared"] = [entries(), [m.name for m in crowd.modifiers], shots() == result["before"], tints() == result["tints_before"]]
+result["cleared"] = [entries(), [m.name for m in crowd.modifiers], shots() == result["before"],
+                     tints() == result["tints_before"]]
 
-# --- undo ---------------------------------------------------------------------------------------------------------
+# --- undo ------------------------------------------------------------------------------------------------------------
 bpy.ops.ed.undo_push(message="before")
 ops.hide_people(rows="4")
 bpy.ops.ed.undo_push(message="hidden")
 hidden = [len(entries()), 4 in people()]
 bpy.ops.ed.undo()
-crowd = crowds.crowd_objects(bpy.context.scene)[0]
+crowd = crowd_objects(bpy.context.scene)[0]
 scene = bpy.context.scene
 result["undo"] = [hidden, [len(entries()), 4 in people(), len(crowd.throng_overrides)]]
 bpy.ops.ed.redo()
-crowd, scene = crowds.crowd_objects(bpy.context.scene)[0], bpy.context.scene
+crowd, scene = crowd_objects(bpy.context.scene)[0], bpy.context.scene
 result["redo"] = [len(entries()), 4 in people(), len(crowd.throng_overrides)]
 ops.clear_override(index=0)
 
-# --- every kind of change, and the same as `throng apply` has it ----------------------------------------------------
+# --- every kind of change, and the same as `throng apply` has it -----------------------------------------------------
 ops.hide_people(rows="3")
 ops.move_people(rows="6", by=(1.5, -2.0, 0.25), turn=math.radians(30.0))
 ops.retime_people(rows="7", offset=-9.5, speed=1.3)
@@ -117,9 +123,10 @@ result["at_cursor"] = people()[11][1:4]
 result["after"], result["entries"], result["tints"] = shots(), entries(), tints()
 dyed = crowd.data.attributes["throng_dyed"].data
 result["dye"] = [list(crowd.data.attributes["throng_dye"].data[15].vector), dyed[15].value, dyed[14].value]
-result["dyed_materials"] = sorted(m.name for m in bpy.data.materials if m.use_nodes and "Throng dye" in m.node_tree.nodes)
+result["dyed_materials"] = sorted(m.name for m in bpy.data.materials
+                                  if m.use_nodes and "Throng dye" in m.node_tree.nodes)
 result["list"] = [[item.name, item.status] for item in crowd.throng_overrides]
-result["verify"] = crowds.verify(crowd, scene)
+result["verify"] = verify(crowd, scene)
 retimed = native.retimed_object(crowd)
 result["sidecar"] = [retimed.modifiers["throng retimed pos"].filepath, len(retimed.data.vertices)]
 ops.show(percent=100.0, offset=5)
@@ -128,7 +135,7 @@ late = people()
 ops.show(percent=100.0, offset=0)
 result["later"] = max(abs(a - b) for r in (6, 7) for a, b in zip(late[r][1:], result["after"][100][r][1:]))
 
-# --- somebody else's file is never lost -------------------------------------------------------------------------------
+# --- somebody else's file is never lost ------------------------------------------------------------------------------
 content = open(FILE, encoding="utf-8").read()
 theirs = json.loads(content)
 theirs["overrides"] = theirs["overrides"][1:]
@@ -140,22 +147,19 @@ ops.reload_overrides()
 result["theirs"] = 3 in people()
 ops.hide_people(rows="3")
 
-# --- heroes ------------------------------------------------------------------------------------------------------------
+# --- heroes ----------------------------------------------------------------------------------------------------------
 ops.promote_person(rows="10", hero="Anna")
 crowd.name = "Somebody's crowd"
 result["twice"] = refused(ops.promote_person, rows="11", hero="Anna")
 ops.promote_person(rows="16")  # enters later
-from throng.characters import members  # noqa: E402
 
-holder = members.figure(crowd, layer.variation_of(crowd, 18))
+holder = figure(crowd, layer.variation_of(crowd, 18))
 number = holder["throng_person"]
 del holder["throng_person"]  # as if somebody had brought this member along
 result["brought"] = refused(ops.promote_person, rows="18")
 holder["throng_person"] = number
 anna, late_hero = hero.heroes_of(crowd)["Anna"], hero.heroes_of(crowd)["Hero 16"]
 body = next(thing for thing in bpy.data.objects if thing.parent == anna)
-from throng import cast  # noqa: E402
-from throng.cast import gait, people as cast_people  # noqa: E402
 with layer.Rows(layer.bake_of(crowd)) as rows:
     bake = layer.bake_of(crowd)
     first = layer.Table(bake, rows).people[10].frame
@@ -165,15 +169,20 @@ with layer.Rows(layer.bake_of(crowd)) as rows:
         sample = rows.whole(10, frame - 1)
         matrix = anna.matrix_world
         worst_root = max(worst_root, *(abs(a - b) for a, b in zip(matrix.translation, sample.position)),
-                         abs(math.remainder(math.atan2(matrix[1][0], matrix[0][0]) - math.atan2(sample.direction[1], sample.direction[0]), 2 * math.pi)))
+                         abs(math.remainder(math.atan2(matrix[1][0], matrix[0][0])
+                                            - math.atan2(sample.direction[1], sample.direction[0]), 2 * math.pi)))
         person = cast_people.CAST[int(sample.state[1]) % crowd["throng_cast"]["throng_variations"]]
         stride = gait.gait_of(bake.strides[round((sample.state[0] % 1.0) * 16)])
-        figure = skeleton.vertices_of(person, gait.walk_pose(sample.state[2] % 1.0, cast_people.build_of(person), stride))
+        pose = gait.walk_pose(sample.state[2] % 1.0, cast_people.build_of(person), stride)
+        expected = skeleton.vertices_of(person, pose)
         mesh = body.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
-        off = sorted(math.dist(vertex.co, place) for vertex, place in zip(mesh.vertices, figure))
-        errors.append([sum(off) / len(off), off[int(0.99 * len(off))], off[-1], sample.direction[2], len(figure) == len(mesh.vertices)])
-result["hero"] = {"root": worst_root, "errors": errors, "in_crowd": [10 in people(), 16 in people()], "bones": len(anna.data.bones),
-                  "materials": all(material for material in body.data.materials) and len(body.data.materials) == len(cast_people.MATERIALS), "tint": list(body["tint"])}
+        off = sorted(math.dist(vertex.co, place) for vertex, place in zip(mesh.vertices, expected))
+        errors.append([sum(off) / len(off), off[int(0.99 * len(off))], off[-1], sample.direction[2],
+                       len(expected) == len(mesh.vertices)])
+materials = list(body.data.materials)
+result["hero"] = {"root": worst_root, "errors": errors, "in_crowd": [10 in people(), 16 in people()],
+                  "bones": len(anna.data.bones), "tint": list(body["tint"]),
+                  "materials": all(materials) and len(materials) == len(cast_people.MATERIALS)}
 late_body = next(thing for thing in bpy.data.objects if thing.parent == late_hero)
 presence = {}
 for frame in (1, 120):
@@ -181,27 +190,28 @@ for frame in (1, 120):
     presence[frame] = [late_body.hide_render, body.hide_render]
 result["presence"] = presence
 
-# --- saved and opened again ----------------------------------------------------------------------------------------------
+# --- saved and opened again ------------------------------------------------------------------------------------------
 final = shots()
 bpy.ops.wm.save_mainfile()
 bpy.ops.wm.open_mainfile(filepath=os.path.join(folder, "scene.blend"))
 scene = bpy.context.scene
-crowd = crowds.crowd_objects(scene)[0]
+crowd = crowd_objects(scene)[0]
 result["reopened"] = [shots() == final, len(crowd.throng_overrides) == len(entries()), sorted(hero.heroes_of(crowd))]
 result["final"] = final
 shutil.copy(os.path.join(folder, "scene.blend"), os.path.join(folder, "farm.blend"))
 
-# --- a retake in the bake's place, then one that lacks people -------------------------------------------------------------
+# --- a retake in the bake's place, then one that lacks people --------------------------------------------------------
 for take in ("take2", "take3"):
     shutil.rmtree(BAKE)
     shutil.copytree(os.path.join(folder, take), BAKE)
     assert ops.reload() == {"FINISHED"}
     scene.frame_set(100)
-    result[take] = {"matches": [[json.loads(item.text)["id"], item.status, item.row] for item in crowd.throng_overrides], "people": people(),
-                    "details": [item.detail for item in crowd.throng_overrides], "entries": entries(), "heroes": sorted(hero.heroes_of(crowd)),
-                    "frame": 99, "verify": crowds.verify(crowd, scene)}
+    items = crowd.throng_overrides
+    result[take] = {"matches": [[json.loads(item.text)["id"], item.status, item.row] for item in items],
+                    "details": [item.detail for item in items], "entries": entries(), "people": people(),
+                    "heroes": sorted(hero.heroes_of(crowd)), "frame": 99, "verify": verify(crowd, scene)}
 
-# --- an import finds the file, damage is told before anything changes --------------------------------------------------------
+# --- an import finds the file, damage is told before anything changes ------------------------------------------------
 shutil.rmtree(BAKE)
 shutil.copytree(os.path.join(folder, "take1"), BAKE)
 count = len(bpy.data.objects)
@@ -214,12 +224,13 @@ with open(FILE, "w", encoding="utf-8") as file:
 bpy.ops.wm.read_factory_settings(use_empty=True)
 assert load(BAKE) == {"FINISHED"}
 scene = bpy.context.scene
-crowd = crowds.crowd_objects(scene)[0]
+crowd = crowd_objects(scene)[0]
 result["imported"] = [shots() == {f: result["final"][f] for f in FRAMES}, sorted(hero.heroes_of(crowd))]
 for name in ("Anna", "Hero 16"):
     index = next(i for i, item in enumerate(crowd.throng_overrides) if json.loads(item.text).get("hero") == name)
     assert bpy.ops.throng.clear_override(index=index) == {"FINISHED"}
-result["demoted"] = [sorted(hero.heroes_of(crowd)), len(bpy.data.armatures), len(bpy.data.actions), [r in people() for r in (10, 16)]]
+result["demoted"] = [sorted(hero.heroes_of(crowd)), len(bpy.data.armatures), len(bpy.data.actions),
+                     [r in people() for r in (10, 16)]]
 
 content = open(FILE, encoding="utf-8").read()
 with open(FILE, "w", encoding="utf-8") as file:
@@ -228,18 +239,19 @@ assert bpy.ops.throng.reload_overrides() == {"FINISHED"}
 result["emptied"] = [len(crowd.throng_overrides), [m.name for m in crowd.modifiers], shots() == result["before"]]
 picking.pick(crowd, [6, 7])
 graph = bpy.context.evaluated_depsgraph_get()
-result["rings"] = [len(picking._rings_of(crowd, 120, graph)), picking._rings_of(crowd, 120, graph) is picking._rings_of(crowd, 120, graph)]
+result["rings"] = [len(picking._rings_of(crowd, 120, graph)),
+                   picking._rings_of(crowd, 120, graph) is picking._rings_of(crowd, 120, graph)]
 with open(FILE, "w", encoding="utf-8") as file:
     file.write(content)
 assert bpy.ops.throng.reload_overrides() == {"FINISHED"}
 
-# --- the command line's bake of the same overrides, beside the natively changed crowd ------------------------------------------
+# --- the command line's bake of the same overrides, beside the natively changed crowd --------------------------------
 native_shots = shots()
 native_tints = tints()
 for thing in list(bpy.data.objects):
     bpy.data.objects.remove(thing)
 assert load(os.path.join(folder, "applied")) == {"FINISHED"}
-crowd = crowds.crowd_objects(bpy.context.scene)[0]
+crowd = crowd_objects(bpy.context.scene)[0]
 scene = bpy.context.scene
 result["native"], result["applied"] = native_shots, shots()
 result["applied_tints"] = max(abs(a - b) for one, two in zip(native_tints, tints()) for a, b in zip(one, two))

@@ -14,11 +14,13 @@ from pose_names import Names  # noqa: E402
 
 bpy.ops.wm.read_factory_settings(use_empty=True)
 throng.register()
-assert bpy.ops.import_scene.throng(filepath=os.path.join(bake, "bake.json"), scenery=False, camera=False) == {"FINISHED"}
+assert bpy.ops.import_scene.throng(filepath=os.path.join(bake, "bake.json"), scenery=False,
+                                   camera=False) == {"FINISHED"}
 scene = bpy.context.scene
 crowd = bpy.data.objects["Throng sample crowd"]
 names = Names()
-result = {"fps": scene.render.fps / scene.render.fps_base, "range": [scene.frame_start, scene.frame_end], "shots": [], "gate": []}
+result = {"fps": scene.render.fps / scene.render.fps_base, "range": [scene.frame_start, scene.frame_end], "shots": [],
+          "gate": []}
 for frame, sub in json.loads(times):
     scene.frame_set(frame, subframe=sub)
     result["gate"].append([frame, bpy.data.objects["Throng wall gate"].hide_render])

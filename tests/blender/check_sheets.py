@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs inside Blender: whether figures bring an instance of every pose, in the repertoire's order, as the cast's own reckoning has them."""
+"""Runs inside Blender: whether figures bring an instance of every pose, in the repertoire's order, as the cast's
+own reckoning has them."""
 import json
 import sys
 
@@ -9,6 +10,7 @@ import numpy
 sys.path.insert(0, sys.argv[-1])
 from throng import cast  # noqa: E402
 from throng.cast import gait, library, people, sheets  # noqa: E402
+from throng.cast.figure import build_figure  # noqa: E402
 
 bpy.ops.wm.read_factory_settings(use_empty=True)
 STRIDES = (1.1, 1.446)
@@ -24,7 +26,7 @@ for member, level in ((0, 0), (3, 1), (8, 0), (11, 2)):
     layer = scene.view_layers[0]
     layer.update()
     person = people.CAST[member]
-    figures = [people.build_figure(person, pose) for pose in cast.poses_of(person, repertoire)]
+    figures = [build_figure(person, pose) for pose in cast.poses_of(person, repertoire)]
     plan = cast.plan_of(figures, repertoire, level)
     flat = [numpy.array(plan.vertices(figures[source].rings), numpy.float32) for source in repertoire.sources(level)]
     shown = []
@@ -39,7 +41,8 @@ for member, level in ((0, 0), (3, 1), (8, 0), (11, 2)):
         if velocity:
             speeds = numpy.empty(points.size, numpy.float32)
             velocity.data.foreach_get("vector", speeds)
-        shown.append((instance.persistent_id[1], points, speeds, [material.name for material in mesh.materials], len(mesh.polygons)))
+        shown.append((instance.persistent_id[1], points, speeds, [material.name for material in mesh.materials],
+                      len(mesh.polygons)))
     shown.sort(key=lambda each: each[0])
     seconds = [2.0 * gait.gait_of(stride).seconds / cast.POSES for stride in STRIDES]
     walking = repertoire.walking(level)
@@ -47,10 +50,12 @@ for member, level in ((0, 0), (3, 1), (8, 0), (11, 2)):
     worst = 0.0
     for index, (_, _, speeds, _, _) in enumerate(shown[:walking] if level < 2 else ()):
         which, pose = divmod(index, cast.POSES)
-        wanted = (flat[which * cast.POSES + (pose + 1) % cast.POSES] - flat[which * cast.POSES + (pose - 1) % cast.POSES]) / seconds[which]
+        later, earlier = (flat[which * cast.POSES + near % cast.POSES] for near in (pose + 1, pose - 1))
+        wanted = (later - earlier) / seconds[which]
         worst = max(worst, float(abs(speeds - wanted).max()))
-    result.append({"count": len(shown), "expected": repertoire.poses(level), "off": max(off), "velocity_off": worst, "blurring": sum(s is not None for _, _, s, _, _ in shown),
-                   "walking": walking, "level": level, "materials": sorted({tuple(materials) for _, _, _, materials, _ in shown}),
+    result.append({"count": len(shown), "expected": repertoire.poses(level), "off": max(off), "velocity_off": worst,
+                   "blurring": sum(s is not None for _, _, s, _, _ in shown), "walking": walking, "level": level,
+                   "materials": sorted({tuple(materials) for _, _, _, materials, _ in shown}),
                    "faces": sorted({faces for *_, faces in shown}) == [len(plan.faces)]})
     bpy.data.scenes.remove(scene)
 sheets.remove_figures(list(library.figures_of(made).values()))

@@ -23,4 +23,5 @@ for back in 5 * (2, 4, 3, 5, 1, 4, 2, 5, 3, 1, 5, 2):  # near the end: people ha
     scene.frame_set(scene.frame_end - back)
     times.append(time.perf_counter() - start)
 people = sum(1 for i in bpy.context.evaluated_depsgraph_get().object_instances if i.is_instance)
-print("RESULT " + json.dumps({"import": imported, "frame": min(times), "median": sorted(times)[len(times) // 2], "people": people}))
+result = {"import": imported, "frame": min(times), "median": sorted(times)[len(times) // 2], "people": people}
+print("RESULT " + json.dumps(result))

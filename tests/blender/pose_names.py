@@ -17,8 +17,9 @@ def _points(mesh):
 
 
 def _nodes():
-    """The add-on's helpers over modifiers' inputs, which every version keeps elsewhere; they need nothing else of it."""
-    described = importlib.util.spec_from_file_location("helpers_over_nodes", pathlib.Path(__file__).resolve().parents[2] / "blender_addon/throng/nodes.py")
+    """The add-on's helpers over modifiers' inputs, which versions keep elsewhere; they need nothing else of it."""
+    path = pathlib.Path(__file__).resolve().parents[2] / "blender_addon/throng/blender/nodes.py"
+    described = importlib.util.spec_from_file_location("helpers_over_nodes", path)
     module = importlib.util.module_from_spec(described)
     described.loader.exec_module(module)
     return module
@@ -28,17 +29,19 @@ class Names:
     """Of all figures in the file, as they are when this is made."""
 
     def __init__(self):
-        import bpy
+        import bpy  # pose_name() is for tests without a Blender, too
 
         self.names = {}
         for figure in bpy.data.objects:
             if "throng_member" in figure:
-                sheet = _points(_nodes().get_input(figure.modifiers["throng poses"], "Sheet").data).reshape(-1, 3 * len(figure.data.vertices))
-                for pose, points in enumerate(sheet):
-                    self.names.setdefault(points.tobytes(), []).append(pose_name(figure["throng_member"], pose, figure["throng_level"]))
+                sheet = _points(_nodes().get_input(figure.modifiers["throng poses"], "Sheet").data)
+                for pose, points in enumerate(sheet.reshape(-1, 3 * len(figure.data.vertices))):
+                    name = pose_name(figure["throng_member"], pose, figure["throng_level"])
+                    self.names.setdefault(points.tobytes(), []).append(name)
 
     def of(self, mesh):
         """The names of all poses that look like this one, | between them: who stands is twice the same in a round."""
         found = self.names.get(_points(mesh).tobytes())
-        assert found, f"{mesh.name}: {len(mesh.vertices)} vertices, no figure's pose; the first at {mesh.vertices[0].co[:]}"
+        first = mesh.vertices[0].co[:]
+        assert found, f"{mesh.name}: {len(mesh.vertices)} vertices, no figure's pose; the first at {first}"
         return "|".join(found)

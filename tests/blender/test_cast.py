@@ -1,16 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """The walkers, without Blender: planted feet, sane bodies, different people."""
 import math
-import pathlib
-import sys
 
 import pytest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "blender_addon"))
-from throng import cast  # noqa: E402
-from throng.cast import gait, people  # noqa: E402
-from throng.cast.figure import Figure  # noqa: E402
-from throng.cast.mesh_builder import Plan, add, cross, mix, scale, sub, unit  # noqa: E402
+import results  # noqa: F401  it puts the add-on on the path
+from throng import cast
+from throng.cast import gait, people
+from throng.cast.figure import Figure, build_figure
+from throng.cast.mesh_builder import MeshBuilder, Plan, add, cross, mix, ring, scale, sub, unit
 
 STRIDES = tuple(1.446 * 1.28 ** k for k in range(-3, 3))  # as of `throng bake`
 GAITS = [gait.gait_of(stride) for stride in STRIDES]
@@ -21,7 +19,7 @@ LEVELS = range(cast.LEVELS)
 @pytest.fixture(scope="module")
 def figures():
     """All poses of everybody."""
-    return [[people.build_figure(person, pose) for pose in cast.poses_of(person, REPERTOIRE)] for person in people.CAST]
+    return [[build_figure(person, pose) for pose in cast.poses_of(person, REPERTOIRE)] for person in people.CAST]
 
 
 @pytest.fixture(scope="module")
@@ -53,7 +51,8 @@ def test_planted_feet_do_not_slide(person, walked):
             continue
         x, z = contact_point(foot, build)
         assert abs(z) < 1e-6, "on the ground"
-        anchors.setdefault(foot.planted, []).append(x + phase * walked.stride)  # where it is in the world while the body walks on
+        # where it is in the world while the body walks on
+        anchors.setdefault(foot.planted, []).append(x + phase * walked.stride)
     assert set(anchors) == {"heel", "flat", "ball"}
     for part, places in anchors.items():
         assert max(places) - min(places) < 0.02, f"{part} slides"
@@ -148,13 +147,20 @@ def test_coarser_levels_have_a_third_and_an_eighth_of_the_triangles(plans):
 
 @pytest.mark.parametrize("level, most", [(1, 0.03), (2, 0.06)])
 def test_silhouettes_hardly_change_between_levels(figures, plans, level, most):
-    """How far the finest skin's points lie outside of the bounds of a coarser one, and the other way round, part by part of the body."""
+    """How far the finest skin's points lie outside of the bounds of a coarser one, and the other way round,
+    part by part of the body."""
     for poses, levels in zip(figures, plans):
         for index in (1, 2 * cast.POSES + 7, 3 * cast.POSES + 13, REPERTOIRE.walking()):
             fine, coarse = points_of(levels[0], poses[index]), points_of(levels[level], poses[index])
             for axis in range(3):
                 for end in (min, max):
                     assert abs(end(p[axis] for p in fine) - end(p[axis] for p in coarse)) < most
+
+
+def beyond(point, a, b):
+    """How far a point is to the right of a line, m."""
+    away = (point[0] - a[0]) * (b[1] - a[1]) - (point[1] - a[1]) * (b[0] - a[0])
+    return away / (math.dist(a[:2], b[:2]) or 1.0)
 
 
 def outside(cloth, point):
@@ -164,7 +170,7 @@ def outside(cloth, point):
         if low + 0.01 < point[2] <= high:
             polygon = [mix(a, b, (point[2] - low) / (high - low)) for a, b in zip(lower, upper)]
             edges = zip(polygon, polygon[1:] + polygon[:1])
-            return max(((point[0] - a[0]) * (b[1] - a[1]) - (point[1] - a[1]) * (b[0] - a[0])) / (math.dist(a[:2], b[:2]) or 1.0) for a, b in edges)
+            return max(beyond(point, a, b) for a, b in edges)
     return None
 
 
@@ -176,7 +182,8 @@ def skin_of(upper, lower, radii):
     for share, radius in radii:
         for step in range(12):
             angle = step * math.pi / 6.0
-            yield add(mix(upper, lower, share), add(scale(across, radius * math.cos(angle)), scale(other, radius * math.sin(angle))))
+            yield add(mix(upper, lower, share),
+                      add(scale(across, radius * math.cos(angle)), scale(other, radius * math.sin(angle))))
 
 
 def along(profile, step=0.04):
@@ -187,48 +194,59 @@ def along(profile, step=0.04):
     yield profile[-1]
 
 
-@pytest.mark.parametrize("index", [index for index, person in enumerate(people.CAST) if person.top != "shirt" or person.bottom == "skirt"])
+DRAPED = [index for index, person in enumerate(people.CAST) if person.top != "shirt" or person.bottom == "skirt"]
+
+
+def gaps(cloth, points):
+    """How far those of some points stick out of a cloth that are beside it, m."""
+    return [gap for gap in (outside(cloth, point) for point in points) if gap is not None]
+
+
+@pytest.mark.parametrize("index", DRAPED)
 def test_legs_stay_inside_of_skirts_coats_and_hems_and_hands_outside(index):
     person = people.CAST[index]
     legs, hands = {False: -1.0, True: -1.0}, 1.0
     for number, pose in enumerate(cast.poses_of(person, REPERTOIRE)):
         figure = Figure(person, pose, people.build_of(person))
+        assert figure.skirts
         runs = 4 * cast.POSES <= number < REPERTOIRE.walking()
+        palms = [add(wrist, scale(unit(sub(wrist, elbow)), 0.09 * figure.s)) for _, elbow, wrist in figure.arms]
         for cloth in figure.skirts:
             for upper, lower, profile in figure.leg_limbs:
-                gaps = [outside(cloth, point) for point in skin_of(upper, lower, list(along(profile)))]
-                legs[runs] = max([legs[runs], *(gap for gap in gaps if gap is not None)])
+                legs[runs] = max([legs[runs], *gaps(cloth, skin_of(upper, lower, list(along(profile))))])
             if not runs:
-                palms = [add(wrist, scale(unit(sub(wrist, elbow)), 0.09 * figure.s)) for _, elbow, wrist in figure.arms]
-                hands = min([hands, *(gap for palm in palms for gap in [outside(cloth, palm)] if gap is not None)])
-    assert figure.skirts and legs[False] < 0.006 and legs[True] < 0.025, legs
+                hands = min([hands, *gaps(cloth, palms)])
+    assert legs[False] < 0.006 and legs[True] < 0.025, legs
     assert hands > 0.008, hands  # half as thick as they are
 
 
 def test_a_levels_rings_keep_to_the_tolerance(figures):
     """Known answer: a straight tube needs its ends only, a bent one its bend."""
-    from throng.cast.mesh_builder import MeshBuilder, ring
-
     builder = MeshBuilder()
-    builder.loft([ring((0.0, 0.0, z), (1, 0, 0), (0, 1, 0), 0.1, 0.1) for z in (0.0, 0.3, 0.6, 1.0)], 0, 8, caps=(False, False))
-    builder.loft([ring((x, 0.0, z), (1, 0, 0), (0, 1, 0), 0.1, 0.1) for x, z in ((0.0, 0.0), (0.2, 0.5), (0.0, 1.0))], 0, 8, caps=(False, False))
+    builder.loft([ring((0.0, 0.0, z), (1, 0, 0), (0, 1, 0), 0.1, 0.1) for z in (0.0, 0.3, 0.6, 1.0)], 0, 8,
+                 caps=(False, False))
+    builder.loft([ring((x, 0.0, z), (1, 0, 0), (0, 1, 0), 0.1, 0.1) for x, z in ((0.0, 0.0), (0.2, 0.5), (0.0, 1.0))],
+                 0, 8, caps=(False, False))
     plan = Plan(builder.parts, [builder.rings], 1)
     assert plan.count == 2 * 5 + 3 * 5 and plan.triangles == 2 * 5 * 3
 
 
 @pytest.mark.parametrize("level", LEVELS)
 def test_soles_do_not_slide_within_a_gait_at_any_level(figures, plans, level):
-    """From the meshes: while a foot is flat, its sole's lowest points stay where they are on the ground while the body walks on."""
+    """From the meshes: while a foot is flat, its sole's lowest points stay where they are on the ground
+    while the body walks on."""
     for person, poses, levels in zip(people.CAST, figures, plans):
         build = people.build_of(person)
         for which, walked in enumerate(GAITS):
             places = []
-            for position, index in enumerate(REPERTOIRE.sources(level)[which * cast.LEVEL_POSES[level]:(which + 1) * cast.LEVEL_POSES[level]]):
+            first = which * cast.LEVEL_POSES[level]
+            for position, index in enumerate(REPERTOIRE.sources(level)[first:first + cast.LEVEL_POSES[level]]):
                 phase = (index % cast.POSES) / cast.POSES
                 if gait.foot_at(phase, build, walked).planted != "flat":
                     continue
-                assert REPERTOIRE.walking_pose(which, phase, level) == which * cast.LEVEL_POSES[level] + position
-                sole = [p for p in points_of(levels[level], poses[index]) if p[2] < 0.012 and p[1] < 0.0 and abs(p[1]) < 0.16]
+                assert REPERTOIRE.walking_pose(which, phase, level) == first + position
+                sole = [p for p in points_of(levels[level], poses[index])
+                        if p[2] < 0.012 and p[1] < 0.0 and abs(p[1]) < 0.16]
                 places.append(max(x for x, _, _ in sole) + phase * walked.stride)
             assert places or level == 2
             assert not places or max(places) - min(places) < 0.012, (person, walked.stride)
@@ -272,7 +290,8 @@ def test_standing_clips_differ_and_come_round():
     for clip in gait.STANDING_CLIPS:
         beats = [gait.standing_pose(clip, beat / 4.0, build) for beat in range(4)]
         assert len({str(pose) for pose in beats}) >= 3
-    assert len({str(gait.standing_pose(clip, 0.0, build).arms) for clip in gait.STANDING_CLIPS}) == len(gait.STANDING_CLIPS)
+    arms = {str(gait.standing_pose(clip, 0.0, build).arms) for clip in gait.STANDING_CLIPS}
+    assert len(arms) == len(gait.STANDING_CLIPS)
 
 
 def test_a_repertoire_numbers_gaits_first_and_standing_clips_after():

@@ -1,21 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Overrides in a real Blender: every operator against the instances' transforms, undo, files, farms, retakes, and the same as `throng apply`."""
+"""Overrides in a real Blender: every operator against the instances' transforms, undo, files, farms, retakes, and the
+same as `throng apply`."""
+import csv
 import json
 import math
-import pathlib
 import shutil
-import sys
 
 import numpy
 import pytest
 
-from conftest import ROOT
+from results import ADDON, HERE, result_of
+from sample_bake import write_bake
 
-sys.path.insert(0, str(pathlib.Path(__file__).parent))
-from sample_bake import write_bake  # noqa: E402
-from test_import import ADDON, result_of  # noqa: E402
-
-HERE = pathlib.Path(__file__).parent
 STREET = {"throng": 1, "name": "street", "simulation": {"duration": 5, "seed": 7},
           "roads": [{"id": "road", "centreline": [[0, 0], [24, 0]], "width": 6}],
           "flows": [{"id": "f", "from": "road:start", "to": "road:end", "count": 30, "end": 4}],
@@ -32,10 +28,9 @@ def takes(throng, tmp_path_factory):
     """Three takes of a street: as it was, with another seed, with fewer people."""
     folder = tmp_path_factory.mktemp("takes")
     (folder / "street.json").write_text(json.dumps(STREET))
-    bake = lambda name, *options: throng("bake", folder / "street.json", "-o", folder / name, "-q", "--no-gltf", *options)
-    bake("take1")
-    bake("take2", "--set", "simulation.seed=8")
-    bake("take3", "--set", "flows.0.count=2", "--set", "flows.0.end=0.2")
+    fewer = ("--set", "flows.0.count=2", "--set", "flows.0.end=0.2")
+    for name, options in (("take1", ()), ("take2", ("--set", "simulation.seed=8")), ("take3", fewer)):
+        throng("bake", folder / "street.json", "-o", folder / name, "-q", "--no-gltf", *options)
     return folder
 
 
@@ -46,30 +41,32 @@ def found(blender, throng, takes, tmp_path_factory):
     for take in ("take1", "take2", "take3"):
         shutil.copytree(takes / take, folder / take)
     shutil.copytree(takes / "take1", folder / "street")
-    (folder / "expected.overrides.json").write_text(json.dumps({"throng_overrides": 1, "overrides": entries_of(folder / "street")}))
-    throng("apply", folder / "street", "--overrides", folder / "expected.overrides.json", "-o", folder / "applied", "-q")
+    document = {"throng_overrides": 1, "overrides": entries_of(folder / "street")}
+    (folder / "expected.overrides.json").write_text(json.dumps(document))
+    throng("apply", folder / "street", "--overrides", folder / "expected.overrides.json", "-o", folder / "applied",
+           "-q")
     return result_of(blender(HERE / "check_overrides.py", ADDON, folder)), folder
 
 
 def entries_of(bake):
     """What the check does by operators, written by hand."""
-    import csv
-
     with open(bake / "agents.csv", newline="") as file:
         table = list(csv.DictReader(file))
     places = pos(bake)
 
     def entry(row, **change):
         frame = int(table[row]["spawn_frame"])
-        return {"id": row, "group": table[row]["group"], "spawn": {"frame": frame, "position": places[frame, row].astype(float).tolist()}, **change}
+        return {"id": row, "group": table[row]["group"],
+                "spawn": {"frame": frame, "position": places[frame, row].astype(float).tolist()}, **change}
 
     frame, turn = int(table[11]["spawn_frame"]), 28.64789
     flat = lambda at: complex(*places[at, 11, :2].astype(float))
     away = (flat(99) - flat(frame)) * numpy.exp(1j * math.radians(turn)) + flat(frame)
     to_cursor = {"move": {"by": [round(-3.0 - away.real, 6), round(4.0 - away.imag, 6), 0.5], "turn": turn}}
+    look = {"character": 5, "tint": [0.1, 0.2, 0.3], "scale": 1.2}
     return [entry(3, hide=True), entry(6, move={"by": [1.5, -2.0, 0.25], "turn": 30.0}),
-            entry(7, retime={"offset": -9.5, "speed": 1.3}, move={"by": [0, 1, 0]}, character=5, tint=[0.1, 0.2, 0.3], scale=1.2),
-            entry(9, character=5, tint=[0.1, 0.2, 0.3], scale=1.2), entry(15, tint="#a01020"), entry(11, **to_cursor), entry(13, **to_cursor)]
+            entry(7, retime={"offset": -9.5, "speed": 1.3}, move={"by": [0, 1, 0]}, **look), entry(9, **look),
+            entry(15, tint="#a01020"), entry(11, **to_cursor), entry(13, **to_cursor)]
 
 
 def test_people_are_found_by_the_ray_through_the_mouse(found):
@@ -79,10 +76,13 @@ def test_people_are_found_by_the_ray_through_the_mouse(found):
 
 
 def test_mistakes_are_reported_and_change_nothing(found):
-    assert "Nobody is picked" in found[0]["nobody"] and "no person 999" in found[0]["stranger"] and "found `three`" in found[0]["words"]
-    assert "changed by somebody else" in found[0]["conflict"] and found[0]["theirs"], "what they have taken back is back"
-    assert "`Anna` already" in found[0]["twice"] and "person 18 is a character that was brought along" in found[0]["brought"]
-    imported, reloaded, more = found[0]["damaged"]
+    found = found[0]
+    assert "Nobody is picked" in found["nobody"] and "no person 999" in found["stranger"]
+    assert "found `three`" in found["words"]
+    assert "changed by somebody else" in found["conflict"] and found["theirs"], "what they have taken back is back"
+    assert "`Anna` already" in found["twice"]
+    assert "person 18 is a character that was brought along" in found["brought"]
+    imported, reloaded, more = found["damaged"]
     assert "/hide: expected true or false" in imported and "/hide: expected true or false" in reloaded and more == 0
 
 
@@ -97,27 +97,41 @@ def test_undo_and_redo_take_the_file_along(found):
     assert found[0]["undo"] == [[1, False], [0, True, 0]] and found[0]["redo"] == [1, False, 1]
 
 
-def test_every_operator_does_what_it_says(found):
-    found, folder = found
-    before, after = found["before"], found["after"]
+def test_nobody_else_is_touched(found):
+    before, after = found[0]["before"], found[0]["after"]
     changed = {"3", "6", "7", "9", "11", "13"}
-    stored = pos(folder / "take1")
     for frame in FRAMES:
         assert "3" not in after[frame]
         for row in set(before[frame]) - changed:
-            assert after[frame][row] == before[frame][row], "nobody else is touched"
+            assert after[frame][row] == before[frame][row]
+
+
+def test_people_are_moved_turned_swapped_and_scaled(found):
+    found, folder = found
+    entry = next(entry for entry in found["entries"] if entry["id"] == 6)
+    pivot = pos(folder / "take1")[int(entry["spawn"]["frame"]), 6]
     for frame in ("63", "100", "120"):
-        was, now = before[frame]["6"], after[frame]["6"]
-        pivot = stored[int(next(e for e in found["entries"] if e["id"] == 6)["spawn"]["frame"]), 6]
-        turned = (complex(*was[1:3]) - complex(*pivot[:2])) * numpy.exp(1j * math.radians(30)) + complex(*pivot[:2]) + (1.5 - 2.0j)
-        assert abs(complex(*now[1:3]) - turned) < 1e-4 and now[3] == pytest.approx(0.25, abs=1e-5)
+        before, after = found["before"][frame], found["after"][frame]
+        was, now = before["6"], after["6"]
+        away = (complex(*was[1:3]) - complex(*pivot[:2])) * numpy.exp(1j * math.radians(30))
+        assert abs(complex(*now[1:3]) - (away + complex(*pivot[:2]) + (1.5 - 2.0j))) < 1e-4
+        assert now[3] == pytest.approx(0.25, abs=1e-5)
         assert math.remainder(now[4] - was[4] - math.radians(30), math.tau) == pytest.approx(0.0, abs=1e-4)
-        assert after[frame]["9"][0].startswith("m05") and after[frame]["9"][5] == pytest.approx(1.2, abs=1e-5)
-        assert after[frame]["9"][0][3:] == before[frame]["9"][0][3:], "the same pose of another character"
+        assert after["9"][0].startswith("m05") and after["9"][5] == pytest.approx(1.2, abs=1e-5)
+        assert after["9"][0][3:] == before["9"][0][3:], "the same pose of another character"
     assert found["at_cursor"] == pytest.approx([-3.0, 4.0, 0.5], abs=1e-4)
+
+
+def test_people_are_tinted(found):
+    found = found[0]
     for row, (was, now) in enumerate(zip(found["tints_before"], found["tints"])):
         assert now == pytest.approx([0.1, 0.2, 0.3] if row in (7, 9) else was, abs=1e-6)
-    assert found["dye"] == [pytest.approx([0.3515, 0.0052, 0.0144], abs=1e-3), 1.0, 0.0] and len(found["dyed_materials"]) >= 1
+    assert found["dye"] == [pytest.approx([0.3515, 0.0052, 0.0144], abs=1e-3), 1.0, 0.0]
+    assert len(found["dyed_materials"]) >= 1
+
+
+def test_retimed_people_have_caches_beside_the_bake(found):
+    found = found[0]
     path, count = found["sidecar"]
     assert path.startswith("//street.overrides/") and path.endswith(".pos.pc2") and count == 1
     assert found["verify"] == [] and found["later"] < 1e-5
@@ -126,7 +140,8 @@ def test_every_operator_does_what_it_says(found):
 
 def test_entries_are_those_that_a_person_would_write(found):
     found, folder = found
-    expected = {entry["id"]: entry for entry in json.loads((folder / "expected.overrides.json").read_text())["overrides"]}
+    document = json.loads((folder / "expected.overrides.json").read_text())
+    expected = {entry["id"]: entry for entry in document["overrides"]}
     assert {entry["id"] for entry in found["entries"]} == set(expected)
     for entry in found["entries"]:
         hand = expected[entry["id"]]
@@ -143,7 +158,8 @@ def test_the_command_lines_bake_is_the_same_crowd(found):
         assert set(one) == set(two) and len(one) > 5
         for row in one:
             assert one[row][0].split(".")[0] == two[row][0].split(".")[0], (frame, row)
-            assert max(abs(a - b) for a, b in zip(one[row][1:4] + one[row][5:], two[row][1:4] + two[row][5:])) < 1e-4, (frame, row)
+            pairs = zip(one[row][1:4] + one[row][5:], two[row][1:4] + two[row][5:])
+            assert max(abs(a - b) for a, b in pairs) < 1e-4, (frame, row)
             assert abs(math.remainder(one[row][4] - two[row][4], math.tau)) < 1e-4
     assert found["applied_tints"] < 1e-5 and found["applied_dye"] == 1.0
 
@@ -164,33 +180,41 @@ def test_scenes_are_the_same_when_opened_again_and_imports_find_the_file(found):
     assert found[0]["imported"] == [True, ["Anna", "Hero 16"]]
 
 
-def test_a_retake_keeps_approved_work_and_tells_orphans(found, throng):
+@pytest.mark.parametrize("take", ["take2", "take3"])
+def test_a_retake_keeps_approved_work(found, throng, take):
     found, folder = found
-    for take in ("take2", "take3"):
-        seen = found[take]
-        assert seen["verify"] == [] and seen["entries"] == found["take2"]["entries"], "the file stays as it was"
-        (folder / "now.overrides.json").write_text(json.dumps({"throng_overrides": 1, "overrides": seen["entries"]}))
-        told = json.loads(throng("apply", folder / take, "--overrides", folder / "now.overrides.json", "--dry-run", "--json").stdout)
-        assert seen["matches"] == [[entry["id"], entry["match"], entry.get("row", -1)] for entry in told], "as the command line finds them"
-        assert all(bool(detail) == (entry["match"] != "sure") for detail, entry in zip(seen["details"], told))
-        assert seen["heroes"] == ["Anna", "Hero 16"], "an animator's work is never removed by a retake"
-        stored = pos(folder / take)[99]
-        by_id = {entry["id"]: entry for entry in seen["entries"]}
-        shown = {int(row): values for row, values in seen["people"].items()}
-        for id, _, row in seen["matches"]:
-            if row < 0:
-                continue
-            change = by_id[id]
-            assert (row in shown) == (not change.get("hide") and "hero" not in change)
-            if "character" in change:
-                assert shown[row][0].startswith("m05") and shown[row][5] == pytest.approx(1.2, abs=1e-5)
-        changed = {row for _, _, row in seen["matches"]}
-        for row, values in shown.items():
-            if row not in changed:
-                assert values[1:4] == pytest.approx(list(stored[row]), abs=1e-5) and values[5] == pytest.approx(1.0, abs=1e-6)
-    assert sum(kind != "orphaned" for _, kind, _ in found["take2"]["matches"]) >= 3
-    orphans = [kind for _, kind, _ in found["take3"]["matches"]].count("orphaned")
-    assert orphans >= 5 and any("nobody else of `f`" in detail for detail in found["take3"]["details"])
+    seen = found[take]
+    assert seen["verify"] == [] and seen["entries"] == found["take2"]["entries"], "the file stays as it was"
+    (folder / "now.overrides.json").write_text(json.dumps({"throng_overrides": 1, "overrides": seen["entries"]}))
+    told = json.loads(throng("apply", folder / take, "--overrides", folder / "now.overrides.json", "--dry-run",
+                             "--json").stdout)
+    matches = [[entry["id"], entry["match"], entry.get("row", -1)] for entry in told]
+    assert seen["matches"] == matches, "as the command line finds them"
+    assert all(bool(detail) == (entry["match"] != "sure") for detail, entry in zip(seen["details"], told))
+    assert seen["heroes"] == ["Anna", "Hero 16"], "an animator's work is never removed by a retake"
+
+
+@pytest.mark.parametrize("take", ["take2", "take3"])
+def test_a_retake_changes_whom_entries_mean_and_nobody_else(found, take):
+    found, folder = found
+    seen, stored = found[take], pos(folder / take)[99]
+    by_id = {entry["id"]: entry for entry in seen["entries"]}
+    shown = {int(row): values for row, values in seen["people"].items()}
+    changed = {row: by_id[id] for id, _, row in seen["matches"] if row >= 0}
+    for row, change in changed.items():
+        assert (row in shown) == (not change.get("hide") and "hero" not in change)
+        if "character" in change:
+            assert shown[row][0].startswith("m05") and shown[row][5] == pytest.approx(1.2, abs=1e-5)
+    for row in shown.keys() - changed.keys():
+        assert shown[row][1:4] == pytest.approx(list(stored[row]), abs=1e-5)
+        assert shown[row][5] == pytest.approx(1.0, abs=1e-6)
+
+
+def test_a_retake_tells_orphans(found):
+    kinds = {take: [kind for _, kind, _ in found[0][take]["matches"]] for take in ("take2", "take3")}
+    assert sum(kind != "orphaned" for kind in kinds["take2"]) >= 3
+    assert kinds["take3"].count("orphaned") >= 5
+    assert any("nobody else of `f`" in detail for detail in found[0]["take3"]["details"])
 
 
 def test_a_farm_without_the_add_on_shows_the_same(blender, found, tmp_path):
@@ -210,7 +234,8 @@ result = {}
 for frame in (1, 30, 63, 100, 120):
     bpy.context.scene.frame_set(frame)
     graph, names = bpy.context.evaluated_depsgraph_get(), Names()
-    result[frame] = {i.persistent_id[1]: [names.of(i.object.data), *i.matrix_world.translation, math.atan2(i.matrix_world[1][0], i.matrix_world[0][0]),
+    result[frame] = {i.persistent_id[1]: [names.of(i.object.data), *i.matrix_world.translation,
+                                          math.atan2(i.matrix_world[1][0], i.matrix_world[0][0]),
                                           i.matrix_world.to_scale().x]
                      for i in graph.object_instances if i.is_instance and i.parent and i.parent.original in crowds}
 anna = bpy.data.objects['Anna']
@@ -229,7 +254,8 @@ print('RESULT ' + json.dumps(result))
     for frame in FRAMES:
         assert set(seen[frame]) == set(found["final"][frame])
         for row, values in seen[frame].items():
-            assert values[0] == found["final"][frame][row][0] and values[1:] == pytest.approx(found["final"][frame][row][1:], abs=1e-5)
+            name, *numbers = found["final"][frame][row]
+            assert values[0] == name and values[1:] == pytest.approx(numbers, abs=1e-5)
     assert seen["anna"] == pytest.approx(list(pos(folder / "take1")[119, 10]), abs=1e-4)
     assert (tmp_path / "frame.png").stat().st_size > 2000
 

@@ -1,42 +1,51 @@
 # SPDX-License-Identifier: Apache-2.0
 """Shots and lights of a crowd in a real Blender."""
-import json
-import pathlib
+import pytest
 
-from conftest import ROOT
-
-ADDON = ROOT / "blender_addon"
+from results import ADDON, HERE, result_of
 
 
-def test_shots_show_the_crowd_and_nights_have_lamps_beside_the_roads(blender, bakes, manifest_of):
-    bake = bakes("intersection")
-    output = blender(pathlib.Path(__file__).parent / "check_staging.py", ADDON, bake)
-    result = json.loads(next(line for line in output.splitlines() if line.startswith("RESULT "))[7:])
-    shots = result["shots"]
+@pytest.fixture(scope="module")
+def staged(blender, bakes):
+    """What check_staging.py has seen at the intersection."""
+    return result_of(blender(HERE / "check_staging.py", ADDON, bakes("intersection")))
+
+
+def test_shots_show_the_crowd(staged):
+    shots = staged["shots"]
     assert shots["wide"]["seen"] == shots["wide"]["people"] > 200, "everybody"
     assert shots["street"]["height"] < 2.1 and shots["street"]["seen"] > 20 and shots["street"]["nearest"] > 0.5
     assert shots["crane"]["height"] > 4.0 and shots["crane"]["seen"] > 50
     assert {shot["cameras"] for shot in shots.values()} == {1}
-    day, = result["lights"]["day"]
-    assert day["clamp"] > 1.0 > result["lights"]["night"][0]["clamp"] and day["heads_light"] == [], "fireflies are clamped at night only"
-    assert result["lights"]["night"][0]["heads_light"] == [False]
+
+
+def test_days_have_a_sun_and_nights_the_same_lamps_again(staged):
+    day, = staged["lights"]["day"]
+    first, again = staged["lights"]["night"]
+    assert day["clamp"] > 1.0 > first["clamp"] and day["heads_light"] == [], "fireflies are clamped at night only"
     assert day["kinds"] == ["SUN"] and day["world"] == "Throng sky"
-    roads = manifest_of(bake)["geometry"]["roads"]
-    first, again = result["lights"]["night"]
-    assert first == again and first["world"] == "Throng night" and first["kinds"].count("POINT") >= 4
-    for x, y in first["lamps"]:
-        gaps = []
-        for road in roads:
-            for (ax, ay, *_), (bx, by, *_) in zip(road["centreline"], road["centreline"][1:]):
-                length = ((bx - ax) ** 2 + (by - ay) ** 2) ** 0.5
-                along = ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / length
-                if 0.0 <= along <= length:
-                    gaps.append(abs((x - ax) * (by - ay) - (y - ay) * (bx - ax)) / length - 0.5 * road["width"])
-        assert 0.0 <= min(gaps) < 1.0, (x, y)
+    assert first["heads_light"] == [False] and first["world"] == "Throng night" and first["kinds"].count("POINT") >= 4
+    assert first == again
+
+
+def gaps_to(roads, x, y):
+    """Metres from the edges of the roads that a place is beside; below zero on them."""
+    for road in roads:
+        for (ax, ay, *_), (bx, by, *_) in zip(road["centreline"], road["centreline"][1:]):
+            length = ((bx - ax) ** 2 + (by - ay) ** 2) ** 0.5
+            if 0.0 <= ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / length <= length:
+                yield abs((x - ax) * (by - ay) - (y - ay) * (bx - ax)) / length - 0.5 * road["width"]
+
+
+def test_lamps_stand_beside_the_roads(staged, bakes, manifest_of):
+    roads = manifest_of(bakes("intersection"))["geometry"]["roads"]
+    for x, y in staged["lights"]["night"][0]["lamps"]:
+        assert 0.0 <= min(gaps_to(roads, x, y)) < 1.0, (x, y)
 
 
 def test_low_walls_round_much_ground_are_the_rim_of_a_lawn_and_a_pitch_has_lines_that_fit(blender, throng, tmp_path):
-    throng("generate", "stadium", "--set", "people=12", "--set", "radius=62", "--set", "duration=1", "-o", tmp_path / "stadium.json")
+    throng("generate", "stadium", "--set", "people=12", "--set", "radius=62", "--set", "duration=1", "-o",
+           tmp_path / "stadium.json")
     throng("bake", tmp_path / "stadium.json", "-o", tmp_path / "bake", "-q", "--no-gltf")
     script = tmp_path / "lawn.py"
     script.write_text(f"""

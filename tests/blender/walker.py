@@ -13,7 +13,8 @@ HEIGHT = 1.7
 def _bones(turn):
     """{name: (head, tail, parent)}; the character looks along x before it is turned."""
     hip = ANKLE + THIGH + SHIN
-    bones = {"pelvis": ((0, 0, hip), (0, 0, hip + 0.2), None), "torso": ((0, 0, hip + 0.2), (0, 0, 1.5), "pelvis"), "head": ((0, 0, 1.5), (0, 0, HEIGHT), "torso")}
+    bones = {"pelvis": ((0, 0, hip), (0, 0, hip + 0.2), None), "torso": ((0, 0, hip + 0.2), (0, 0, 1.5), "pelvis"),
+             "head": ((0, 0, 1.5), (0, 0, HEIGHT), "torso")}
     for side, y in (("R", -HALF_WIDTH), ("L", HALF_WIDTH)):
         knee = ANKLE + SHIN
         bones[f"thigh.{side}"] = ((0, y, hip), (0, y, knee), "pelvis")
@@ -27,8 +28,8 @@ def _bones(turn):
 def _boxes():
     """Of each bone, the box (low, high) that it moves."""
     hip, w = ANKLE + THIGH + SHIN, 0.05
-    boxes = {"pelvis": ((-0.09, -0.16, hip - 0.05), (0.09, 0.16, hip + 0.2)), "torso": ((-0.1, -0.18, hip + 0.2), (0.1, 0.18, 1.5)),
-             "head": ((-0.09, -0.08, 1.5), (0.11, 0.08, HEIGHT))}
+    boxes = {"pelvis": ((-0.09, -0.16, hip - 0.05), (0.09, 0.16, hip + 0.2)),
+             "torso": ((-0.1, -0.18, hip + 0.2), (0.1, 0.18, 1.5)), "head": ((-0.09, -0.08, 1.5), (0.11, 0.08, HEIGHT))}
     for side, y in (("R", -HALF_WIDTH), ("L", HALF_WIDTH)):
         boxes[f"thigh.{side}"] = ((-w, y - w, ANKLE + SHIN), (w, y + w, hip))
         boxes[f"shin.{side}"] = ((-w, y - w, ANKLE), (w, y + w, ANKLE + SHIN))
@@ -60,7 +61,8 @@ def _box(low, high, turn, parts=4):
 
 
 def make(heading=180.0, name="Walker", scale=1.0):
-    """The armature, its mesh (smooth, with a texture), and a stick in its hand; no clips yet. Looks that way, in degrees."""
+    """The armature, its mesh (smooth, with a texture), and a stick in its hand; no clips yet.
+    Looks that way, degrees."""
     turn = Matrix.Rotation(math.radians(heading), 3, "Z")
     data = bpy.data.armatures.new(name)
     armature = bpy.data.objects.new(name, data)
@@ -91,7 +93,9 @@ def make(heading=180.0, name="Walker", scale=1.0):
     body.parent = armature
     body.modifiers.new("Armature", "ARMATURE").object = armature
     stick = bpy.data.objects.new(f"{name} stick", bpy.data.meshes.new("stick"))
-    stick.data.from_pydata(*[list(part) for part in (_box((-0.01, -0.01, 0), (0.01, 0.01, 1.0), turn)[0], [], _box((-0.01, -0.01, 0), (0.01, 0.01, 1.0), turn)[1])])
+    stick.data.from_pydata(*[list(part)
+                             for part in (_box((-0.01, -0.01, 0), (0.01, 0.01, 1.0), turn)[0], [],
+                                          _box((-0.01, -0.01, 0), (0.01, 0.01, 1.0), turn)[1])])
     bpy.context.scene.collection.objects.link(stick)
     stick.parent, stick.parent_type, stick.parent_bone = armature, "BONE", "hand.R"
     return armature
@@ -111,7 +115,7 @@ def _material(name):
 
 
 def _foot(phase, stride, stance):
-    """(x, z) of an ankle at a phase of its own cycle: planted from 0, flat; under the hip in the middle of the stance."""
+    """(x, z) of an ankle at a phase of its own cycle: planted from 0, flat; under the hip in mid-stance."""
     reach = 0.5 * stance * stride
     if phase < stance:
         return reach - phase * stride, ANKLE
@@ -130,8 +134,9 @@ def _leg(ankle, hip_height):
     return thigh, shin
 
 
-def add_clip(armature, name, stride=0.0, stance=0.6, frames=24, cycles=1, offset=0.25, travels=False, backwards=False, heading=180.0, closed=True):
-    """An action on an NLA track of its own. The right foot comes down at `offset` of the cycle; stride 0 stands and nods."""
+def add_clip(armature, name, stride=0.0, stance=0.6, frames=24, cycles=1, offset=0.25, travels=False, backwards=False,
+             heading=180.0, closed=True):
+    """An action on an NLA track of its own. The right foot comes down at `offset` of the cycle; stride 0 nods."""
     scale = armature.data.bones["thigh.R"].length / THIGH
     data = armature.animation_data_create()
     action = bpy.data.actions.new(name)

@@ -15,8 +15,9 @@ LONGEST_LINE = 120
 
 
 def tracked(*suffixes):
-    listed = subprocess.run(["git", "ls-files"], cwd=ROOT, stdout=subprocess.PIPE, text=True, check=True).stdout
-    return [path for path in listed.splitlines() if path.endswith(suffixes) and (ROOT / path).exists()]
+    listed = subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard"], cwd=ROOT,
+                            stdout=subprocess.PIPE, text=True, check=True).stdout
+    return [path for path in sorted(set(listed.splitlines())) if path.endswith(suffixes) and (ROOT / path).exists()]
 
 
 def includes(path):

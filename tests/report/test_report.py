@@ -17,10 +17,12 @@ LAYOUT = {
     "throng": 1,
     "name": "two <streams> & \"quotes\" @TITLE@",
     "simulation": {"duration": 12, "seed": 4},
-    "areas": [{"id": "west", "polygon": [[0, 0], [2, 0], [2, 4], [0, 4]]}, {"id": "east", "polygon": [[22, 0], [24, 0], [24, 4], [22, 4]]}],
+    "areas": [{"id": "west", "polygon": [[0, 0], [2, 0], [2, 4], [0, 4]]},
+              {"id": "east", "polygon": [[22, 0], [24, 0], [24, 4], [22, 4]]}],
     "walls": [{"id": "south", "points": [[-1, -0.2], [25, -0.2]]}, {"id": "north", "points": [[-1, 4.2], [25, 4.2]]},
               {"id": "gate", "points": [[12, -0.2], [12, 4.2]]}],
-    "flows": [{"id": "forth", "from": "west", "to": "east", "rate": 3}, {"id": "back", "from": "east", "to": "west", "rate": 3}],
+    "flows": [{"id": "forth", "from": "west", "to": "east", "rate": 3},
+              {"id": "back", "from": "east", "to": "west", "rate": 3}],
     "events": [{"at": 3600, "open": "gate"}],
     "expect": {"arrived": {"min": 0.99}},
 }
@@ -47,7 +49,8 @@ def visit(browser):
         pages.append(page)
         page.on("pageerror", lambda error: problems.append(str(error)))
         page.on("console", lambda message: problems.append(message.text) if message.type == "error" else None)
-        page.on("request", lambda request: problems.append(request.url) if not request.url.startswith(("file:", "blob:", "data:")) else None)
+        page.on("request", lambda request: problems.append(request.url)
+                if not request.url.startswith(("file:", "blob:", "data:")) else None)
         page.goto(path.as_uri())
         page.wait_for_selector("body[data-ready=yes]", timeout=30000)
         return page
@@ -59,18 +62,20 @@ def visit(browser):
 
 
 @pytest.fixture(scope="module")
-def bake(throng, tmp_path_factory):
-    folder = tmp_path_factory.mktemp("report")
-    (folder / "layout.json").write_text(json.dumps(LAYOUT))
-    throng("bake", folder / "layout.json", "-o", folder / "bake", "-q", "--no-gltf")
-    throng("report", folder / "bake", "-o", folder / "bake.html")
-    return folder
+def bake(throng, once):
+    def make(folder):
+        (folder / "layout.json").write_text(json.dumps(LAYOUT))
+        throng("bake", folder / "layout.json", "-o", folder / "bake", "-q", "--no-gltf")
+        throng("report", folder / "bake", "-o", folder / "bake.html")
+
+    return once("report-bake", make)
 
 
 def clock(page):
     return float(re.match(r"([\d.]+) s", page.inner_text("#clock")).group(1))
 
 
+@pytest.mark.quick
 def test_the_page_says_who_and_what(visit, bake):
     page = visit(bake / "bake.html")
     assert page.inner_text("h1") == LAYOUT["name"] == page.title()
@@ -92,7 +97,9 @@ def test_places_in_the_page_are_those_of_the_streams_within_the_stated_error(vis
     worst = 0.0
     for frame in [0, 1, 2, 47, 100, 101, 203, 286, 287]:
         got = numpy.array(page.evaluate(f"""(() => {{ const {{m, share}} = momentAt({frame} / data.fps);
-            return Array.from({{length: count}}, (_, row) => {{ const p = placeOf(row, m, share); return [p.x, p.y]; }}); }})()"""))
+            return Array.from({{length: count}}, (_, row) => {{
+                const p = placeOf(row, m, share);
+                return [p.x, p.y]; }}); }})()"""))
         there = states[frame, :, 0] > 0.5
         if there.any():
             worst = max(worst, numpy.abs(got[there] - positions[frame, there, :2]).max())
@@ -135,10 +142,17 @@ def test_scrubbing_playing_and_the_keyboard(visit, bake):
     assert {"scrub", "rate", "colour", "density", "trails", "fit", "stage"} <= reached
 
 
+INK = """const ink = canvas => {  // pixels that are drawn on
+    const d = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;
+    let n = 0;
+    for (let i = 3; i < d.length; i += 4) n += d[i] > 0;
+    return n; };"""
+
+
 def test_densities_colours_and_closed_gates_are_drawn(visit, bake):
     page = visit(bake / "bake.html")
     page.evaluate("seek(8)")
-    ink = lambda name: page.evaluate(f"(() => {{ draw(); const c = document.getElementById('{name}'), d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data; let n = 0; for (let i = 3; i < d.length; i += 4) n += d[i] > 0; return n; }})()")
+    ink = lambda name: page.evaluate(f"(() => {{ draw(); {INK} return ink(document.getElementById('{name}')); }})()")
     assert ink("heat") == 0
     for kind in ("now", "mean", "most"):
         page.select_option("#density", kind)
@@ -158,7 +172,8 @@ def test_whoever_is_stuck_is_linked_to_the_moment(visit, bake):
     assert stuck, "people wait before the closed gate"
     positions = numpy.load(bake / "bake" / "streams" / "pos.npy")
     for each in stuck:
-        moved = numpy.linalg.norm(positions[-1, each["agent"], :2] - positions[each["frame"]:, each["agent"], :2], axis=1)
+        moved = numpy.linalg.norm(positions[-1, each["agent"], :2] - positions[each["frame"]:, each["agent"], :2],
+                                  axis=1)
         assert moved[12:max(13, len(moved) - 5 * 24)].max() < 0.75
     button = page.locator("#moments button").first
     button.click()
@@ -172,7 +187,8 @@ def test_whoever_is_stuck_is_linked_to_the_moment(visit, bake):
 def test_overlaps_are_those_of_the_bake(throng, visit, tmp_path):
     # One round of contact is not enough for a hundred people who all want to the same square metre.
     layout = {"throng": 1, "name": "pairs", "simulation": {"duration": 2, "contact_iterations": 1},
-              "formations": [{"id": "people", "type": "grid", "origin": [0, 0], "rows": 12, "columns": 12, "spacing": 0.46, "people": {"radius": 0.22},
+              "formations": [{"id": "people", "type": "grid", "origin": [0, 0], "rows": 12, "columns": 12,
+                              "spacing": 0.46, "people": {"radius": 0.22},
                               "goal": {"anywhere": [[0, 0], [1, 1]]}}]}
     (tmp_path / "layout.json").write_text(json.dumps(layout))
     throng("bake", tmp_path / "layout.json", "-o", tmp_path / "bake", "-q", "--no-gltf")
@@ -196,7 +212,8 @@ def test_pages_print(visit, bake, tmp_path):
 
 def test_sixteen_thousand_people_play_smoothly(throng, visit, tmp_path):
     layout = {"throng": 1, "name": "many", "simulation": {"duration": 3, "seed": 2},
-              "formations": [{"id": "everybody", "type": "grid", "origin": [0, 0], "rows": 128, "columns": 128, "spacing": 2, "jitter": 0.3,
+              "formations": [{"id": "everybody", "type": "grid", "origin": [0, 0], "rows": 128, "columns": 128,
+                              "spacing": 2, "jitter": 0.3,
                               "goal": {"anywhere": [[0, 0], [254, 254]]}}]}
     (tmp_path / "layout.json").write_text(json.dumps(layout))
     throng("bake", tmp_path / "layout.json", "-o", tmp_path / "bake", "-q", "--no-gltf")
@@ -215,17 +232,20 @@ def test_sixteen_thousand_people_play_smoothly(throng, visit, tmp_path):
 
 
 @pytest.fixture(scope="module")
-def batch(throng, tmp_path_factory):
-    folder = tmp_path_factory.mktemp("batch")
+def batch(throng, once):
     shut = LAYOUT["walls"] + [{"id": "cage", "points": [[-1, -1], [3, -1], [3, 5], [-1, 5], [-1, -1]]}]
     base = {**LAYOUT, "simulation": {"duration": 4}, "walls": LAYOUT["walls"][:2], "events": []}
-    (folder / "family.json").write_text(json.dumps({
-        "throng_family": 1, "name": "streams", "base": base,
-        "axes": [{"name": "walls", "set": "/walls", "values": [base["walls"], shut[:2] + shut[3:]]}, {"name": "rate", "set": ["/flows/0/rate", "/flows/1/rate"], "values": [1, 3]},
-                 {"name": "seed", "set": "/simulation/seed", "range": [1, 3]}]}))
-    throng("batch", folder / "family.json", "-o", folder / "out", "-q", expect=1)
-    throng("report", folder / "out", "--each")
-    return folder / "out"
+    family = {"throng_family": 1, "name": "streams", "base": base,
+              "axes": [{"name": "walls", "set": "/walls", "values": [base["walls"], shut[:2] + shut[3:]]},
+                       {"name": "rate", "set": ["/flows/0/rate", "/flows/1/rate"], "values": [1, 3]},
+                       {"name": "seed", "set": "/simulation/seed", "range": [1, 3]}]}
+
+    def make(folder):
+        (folder / "family.json").write_text(json.dumps(family))
+        throng("batch", folder / "family.json", "-o", folder / "out", "-q", expect=1)
+        throng("report", folder / "out", "--each")
+
+    return once("report-batch", make) / "out"
 
 
 def cells(page, column):
@@ -265,8 +285,8 @@ def test_thumbnails_scatter_and_one_scenario_with_keys(visit, batch):
     page.fill("#filter", "status = ok")
     page.wait_for_function("document.querySelectorAll('#table tbody tr').length === 6")
     page.wait_for_timeout(300)
-    assert page.evaluate("""[...document.querySelectorAll('canvas.thumbnail')].slice(0, 3).every(canvas => {
-        const d = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data; let n = 0; for (let i = 3; i < d.length; i += 4) n += d[i] > 0; return n > 50; })""")
+    assert page.evaluate(f"""(() => {{ {INK}
+        return [...document.querySelectorAll('canvas.thumbnail')].slice(0, 3).every(canvas => ink(canvas) > 50); }})()""")
     assert page.locator("#scatter circle").count() == 6
     page.select_option("#x", "agents")
     page.select_option("#y", "mean_speed")

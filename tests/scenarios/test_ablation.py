@@ -1,28 +1,58 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The script that takes rules out one by one."""
+"""Every rule of motion can be switched off, and does something."""
+import importlib.util
 import json
 import os
 import pathlib
 import subprocess
 import sys
 
+import pytest
+
 SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "ablate.py"
+FIGURES = ("arrived", "seconds", "deepest_overlap_percent", "acceleration_p99", "backward_percent", "way")
+# Where rules are looked at, one place after the other until each has been seen at work, and for how many seconds.
+PLACES = {"imo-4": 25, "trap-head-on": 10, "trap-narrow-door": 20, "company": 20, "bidirectional": 8, "hill": 10,
+          "station": 40}
 
 
-def test_every_rule_is_found_in_the_shaders():
-    subprocess.run([sys.executable, SCRIPT, "--check"], check=True)
+def ablate_module():
+    spec = importlib.util.spec_from_file_location("ablate", SCRIPT)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
 
 
-def test_every_rule_can_be_taken_out_which_changes_what_people_do_and_nothing_is_measured_twice(tmp_path):
-    command = [sys.executable, SCRIPT, os.environ["THRONG_BINARY"], "-o", tmp_path, "--scenario", "trap-narrow-door", "imo-4"]
-    first = subprocess.run(command, check=True, capture_output=True, text=True)
-    rows = [json.loads(line) for line in (tmp_path / "results.jsonl").read_text().splitlines()]
-    assert len(rows) == 2 * 15 and all(row["agents"] == (20 if row["scenario"] == "trap-narrow-door" else 100) for row in rows)
-    figures = {}
-    for row in rows:
-        figures.setdefault(row["variant"], []).extend(row[key] for key in ("seconds", "deepest_overlap_percent", "acceleration_p99", "backward_percent"))
-    whole = figures.pop("all rules")
-    assert [variant for variant, row in figures.items() if row == whole] == [], figures
-    again = subprocess.run(command, check=True, capture_output=True, text=True)
+def ablate(folder, *words):
+    return subprocess.run([sys.executable, SCRIPT, os.environ["THRONG_BINARY"], "-o", folder, *words], check=True,
+                          capture_output=True, text=True)
+
+
+def seen_at_work(folder, scenario, seconds, names):
+    """Those whose switch changes any figure there."""
+    ablate(folder, "--scenario", scenario, "--set", f"simulation.duration={seconds}", "--only", "all", *names)
+    rows = [json.loads(line) for line in (folder / "results.jsonl").read_text().splitlines()]
+    assert sorted(row["name"] for row in rows) == sorted(["all", *names])
+    figures = {row["name"]: [row[figure] for figure in FIGURES] for row in rows}
+    return {name for name in names if figures[name] != figures["all"]}
+
+
+@pytest.mark.slow
+def test_every_switch_of_a_rule_changes_what_people_do_somewhere(tmp_path):
+    module = ablate_module()
+    left = set(module.variants()) - {"all"}
+    for scenario, seconds in PLACES.items():
+        names = sorted(left & set(module.chosen(module.layout_of(scenario), [])))
+        if names:
+            left -= seen_at_work(tmp_path / scenario, scenario, seconds, names)
+    assert left == set()
+
+
+def test_nothing_is_measured_twice(tmp_path):
+    words = ["--scenario", "trap-head-on", "--seed", "1", "2", "--set", "simulation.duration=5", "--only", "all",
+             "cushion"]
+    first = ablate(tmp_path, *words)
+    assert first.stderr.count("...") == 4
+    again = ablate(tmp_path, *words)
     assert again.stdout == first.stdout == (tmp_path / "table.md").read_text()
     assert not again.stderr

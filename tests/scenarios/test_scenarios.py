@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The scenarios that motion is judged by, as users run them. Those of thousands of people are left to `throng scenarios`,
-but for the two that crowds are known to jam in."""
+"""The scenarios that motion is judged by, as users run them. Those of thousands of people are left to
+`throng scenarios`, but for the two that crowds are known to jam in."""
 import csv
 import json
 import shutil
@@ -13,22 +13,22 @@ from conftest import ROOT
 HOLD_ALL_BARS = [
     "ring", "rimea-1", "rimea-4-050", "rimea-4-100", "rimea-4-200", "rimea-4-300", "rimea-6", "rimea-10",
     "bottleneck-080", "bottleneck-100", "bottleneck-120",
-    "trap-head-on", "trap-four-way", "trap-pocket", "trap-dense-start", "trap-reversed-winding", "trap-narrow-door", "trap-fast-thin-wall",
+    "trap-head-on", "trap-four-way", "trap-pocket", "trap-dense-start", "trap-reversed-winding", "trap-narrow-door",
+    "trap-fast-thin-wall",
 ]
 
 
 @pytest.fixture(scope="module")
-def scenario(throng, tmp_path_factory):
+def scenario(throng, once):
     """scenario("ring") is what `throng scenarios --json` prints of it, baked once; `expect` is its exit status."""
-    folder = tmp_path_factory.mktemp("scenarios")
-    known = {}
 
     def run(name, expect=0):
-        if name not in known:
+        def make(folder):
             done = throng("scenarios", "--run", name, "--json", "-o", folder, expect=None)
             shutil.rmtree(folder / name)  # thousands of people for minutes are gigabytes
-            known[name] = done.returncode, json.loads(done.stdout)
-        status, figures = known[name]
+            (folder / "figures.json").write_text(json.dumps([done.returncode, json.loads(done.stdout)]))
+
+        status, figures = json.loads((once(f"scenario-{name}", make) / "figures.json").read_text())
         assert expect is None or status == expect, figures
         return figures
 
@@ -41,6 +41,7 @@ def test_the_bars_of_the_layout_hold(scenario, name):
 
 
 @pytest.mark.parametrize("name", ["crossing", "corridor"])
+@pytest.mark.slow
 def test_streams_of_thousands_get_through_each_other(scenario, name):
     """Jams are chaotic, and another device may add in another order: the last few are not held against it here."""
     figures = scenario(name, expect=None)
@@ -53,7 +54,8 @@ def test_streams_of_thousands_get_through_each_other(scenario, name):
 
 def test_a_crowd_at_random_holds_the_bars_of_the_large_one(throng, tmp_path):
     """`uniform` with 4,096 people as close together: what is recorded may not overlap where the simulation does not."""
-    throng("bake", ROOT / "scenarios" / "uniform.json", "--no-gltf", "-o", tmp_path / "bake", "--set", "formations.0.rows=64", "--set", "formations.0.columns=64",
+    throng("bake", ROOT / "scenarios" / "uniform.json", "--no-gltf", "-o", tmp_path / "bake", "--set",
+           "formations.0.rows=64", "--set", "formations.0.columns=64",
            "--set", "formations.0.goal.anywhere=[[0, 0], [128, 128]]")
     figures = json.loads(throng("measure", tmp_path / "bake", "--json").stdout)
     assert figures["agents"] == 4096 and figures["missed"] == [] and figures["deepest_overlap_percent"] > 0.0
@@ -74,6 +76,7 @@ def test_everybody_takes_the_exit_they_were_given(throng, tmp_path):
         assert (end[0] < -3) == (int(row["group"][-2:]) <= 8), row["group"]
 
 
+@pytest.mark.slow
 def test_most_take_the_nearer_exit_and_some_the_other(throng, tmp_path):
     """RiMEA test 11."""
     figures = json.loads(throng("scenarios", "--run", "rimea-11", "--json", "-o", tmp_path).stdout)
@@ -100,20 +103,26 @@ def test_groups_stay_together_through_a_counterflow(throng, tmp_path):
             furthest.append(numpy.linalg.norm(places - places.mean(axis=1, keepdims=True), axis=2).max(axis=1))
             late.append((arrival[members].max() - arrival[members].min()) / 24)
     furthest = numpy.concatenate(furthest)
-    print(f"{len(late)} groups; from their middle {numpy.median(furthest):.2f} m (median), {furthest.max():.2f} m (worst); "
+    print(f"{len(late)} groups; from their middle {numpy.median(furthest):.2f} m (median), "
+          f"{furthest.max():.2f} m (worst); "
           f"at most {max(late):.1f} s from the first to the last of a group")
     assert len(late) > 40
     assert numpy.percentile(furthest, 99) < 2.0 and furthest.max() < 4.0
     assert max(late) < 4.0
 
 
+@pytest.mark.slow
 def test_a_hundred_destinations_and_a_hundred_thousand_people(throng, tmp_path):
     """A district of 100 blocks; 1,000 people walk from each to another one."""
     blocks = [(40 * column, 40 * line) for line in range(10) for column in range(10)]
     layout = {"throng": 1, "simulation": {"duration": 1, "fps": 24},
-              "walls": [{"closed": True, "points": [[x + 6, y + 6], [x + 34, y + 6], [x + 34, y + 30], [x + 6, y + 30]]} for x, y in blocks],
-              "areas": [{"id": f"d{i}", "polygon": [[x + 6, y + 31], [x + 34, y + 31], [x + 34, y + 39], [x + 6, y + 39]]} for i, (x, y) in enumerate(blocks)],
-              "flows": [{"id": f"f{i}", "from": f"d{i}", "to": f"d{(37 * i + 50) % 100}", "count": 1000, "end": 100} for i in range(100)]}
+              "walls": [{"closed": True, "points": [[x + 6, y + 6], [x + 34, y + 6], [x + 34, y + 30], [x + 6, y + 30]]}
+                        for x, y in blocks],
+              "areas": [{"id": f"d{i}",
+                         "polygon": [[x + 6, y + 31], [x + 34, y + 31], [x + 34, y + 39], [x + 6, y + 39]]}
+                        for i, (x, y) in enumerate(blocks)],
+              "flows": [{"id": f"f{i}", "from": f"d{i}", "to": f"d{(37 * i + 50) % 100}", "count": 1000, "end": 100}
+                        for i in range(100)]}
     (tmp_path / "district.json").write_text(json.dumps(layout))
     told = throng("bake", tmp_path / "district.json", "-o", tmp_path / "bake", "--no-gltf", "--json").stdout
     assert json.loads((tmp_path / "bake" / "bake.json").read_text())["account"]["agents"] == 100_000, told
@@ -127,6 +136,7 @@ def test_a_hundred_destinations_and_a_hundred_thousand_people(throng, tmp_path):
             assert straight - 45 < float(row["shortest_way"]) < along_streets + 75
 
 
+@pytest.mark.slow
 def test_a_counterflow_slows_a_corridor_down(scenario):
     """IMO test 8: the more come the other way, the longer it takes."""
     seconds = [scenario(f"imo-8-{others}")["seconds"] for others in (0, 10, 50, 100)]
@@ -134,14 +144,18 @@ def test_a_counterflow_slows_a_corridor_down(scenario):
     assert seconds[-1] > 1.5 * seconds[0]
 
 
-@pytest.mark.parametrize("name, width, start", [("imo-4", 1.0, [4, 2]), ("rimea-9-four-exits", 1.0, [15, 10]), ("rimea-9-two-exits", 1.0, [15, 10]), ("rimea-11", 1.0, [15, 10]),
-                                                ("bottleneck-080", 0.8, [-5, 1]), ("bottleneck-100", 1.0, [-5, 1]), ("bottleneck-120", 1.2, [-5, 1])])
+@pytest.mark.parametrize("name, width, start", [("imo-4", 1.0, [4, 2]), ("rimea-9-four-exits", 1.0, [15, 10]),
+                                                ("rimea-9-two-exits", 1.0, [15, 10]), ("rimea-11", 1.0, [15, 10]),
+                                                ("bottleneck-080", 0.8, [-5, 1]), ("bottleneck-100", 1.0, [-5, 1]),
+                                                ("bottleneck-120", 1.2, [-5, 1])])
 def test_doors_are_as_wide_as_they_are_said_to_be(throng, tmp_path, name, width, start):
     """Between the round ends of walls, too: a body a little narrower gets through, one a little wider does not."""
     def outcome(radius):
         # Whom no door lets through is told of at once, or left where it is.
-        done = throng("bake", ROOT / "scenarios" / f"{name}.json", "-o", tmp_path / f"{radius}", "--no-gltf", "--set", "simulation.duration=60",
-                      "--set", "formations.0.rows=1", "--set", "formations.0.columns=1", "--set", "formations.0.count=1", "--set", f"formations.0.origin={start}",
+        done = throng("bake", ROOT / "scenarios" / f"{name}.json", "-o", tmp_path / f"{radius}", "--no-gltf", "--set",
+                      "simulation.duration=60",
+                      "--set", "formations.0.rows=1", "--set", "formations.0.columns=1", "--set",
+                      "formations.0.count=1", "--set", f"formations.0.origin={start}",
                       "--set", f"formations.0.people.radius={radius}", expect=None)
         return done.returncode == 0 and [row["outcome"] for row in ends_of(tmp_path / f"{radius}")[0]] == ["arrived"]
 
@@ -153,7 +167,8 @@ def test_a_door_of_a_metre_lets_at_most_four_in_three_seconds_through(throng, tm
     """IMO test 4: 1.33 per second at most, on average over three crowds; single ones are above it now and then."""
     flows = []
     for seed in (1, 2, 3):
-        figures = json.loads(throng("scenarios", "--run", "imo-4", "--json", "-o", tmp_path, "--set", f"simulation.seed={seed}", expect=None).stdout)
+        figures = json.loads(throng("scenarios", "--run", "imo-4", "--json", "-o", tmp_path, "--set",
+                                    f"simulation.seed={seed}", expect=None).stdout)
         assert figures["arrived"] == 100
         flows.append(figures["flow"])
     assert sum(flows) / 3 <= 1.33, flows
@@ -166,6 +181,7 @@ def test_wider_doors_let_more_people_through(scenario):
     assert flows[-1] > 1.5 * flows[0]
 
 
+@pytest.mark.slow
 def test_twice_the_exits_take_about_half_the_time(scenario):
     """RiMEA test 9."""
     two, four = scenario("rimea-9-two-exits", expect=None), scenario("rimea-9-four-exits", expect=None)

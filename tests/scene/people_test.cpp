@@ -47,7 +47,8 @@ TEST(Parties, HaveTheObservedSizes) {
 
 TEST(Parties, ComeTogetherAtOneSpeedAndGoToOnePlace) {
     const Scene scene = sceneOf(
-        R"("flows": [{"id": "f", "from": "a", "to": {"choose": {"b": 3, "c": 1}}, "rate": 20, "people": {"groups": [0, 1, 1, 1]}}]})");
+        R"("flows": [{"id": "f", "from": "a", "to": {"choose": {"b": 3, "c": 1}}, "rate": 20,
+ "people": {"groups": [0, 1, 1, 1]}}]})");
     double to_b = 0.0;
     for (const gpu::Person& person : scene.people) {
         const gpu::Person& first = scene.people[person.party_first];
@@ -92,7 +93,8 @@ TEST(Destinations, TheNearestOfSeveralIsOneField) {
 
 TEST(Stops, EverybodyHasASpotAndAWaitOfTheirOwn) {
     const Scene scene = sceneOf(
-        R"("flows": [{"id": "f", "from": "a", "to": "c", "count": 40, "via": [{"at": "b", "wait": {"uniform": [5, 9]}}]}]})");
+        R"("flows": [{"id": "f", "from": "a", "to": "c", "count": 40,
+ "via": [{"at": "b", "wait": {"uniform": [5, 9]}}]}]})");
     std::set<std::pair<float, float>> spots;
     double least = 100.0, most = 0.0;
     for (const gpu::Person& person : scene.people) {
@@ -110,7 +112,8 @@ TEST(Stops, EverybodyHasASpotAndAWaitOfTheirOwn) {
 
 TEST(Events, ChangeARate) {
     const Scene scene = sceneOf(
-        R"("flows": [{"id": "f", "from": "a", "to": "b", "rate": 40}], "events": [{"at": 20, "flow": "f", "rate": 0}, {"at": 50, "flow": "f", "rate": 10}]})");
+        R"("flows": [{"id": "f", "from": "a", "to": "b", "rate": 40}],
+ "events": [{"at": 20, "flow": "f", "rate": 0}, {"at": 50, "flow": "f", "rate": 10}]})");
     double early = 0, none = 0, late = 0;
     for (const gpu::Person& person : scene.people)
         (person.spawn_time < 20 ? early : person.spawn_time < 50 ? none : late)++;
@@ -121,7 +124,8 @@ TEST(Events, ChangeARate) {
 
 TEST(Events, SendPeopleAwayWithinTheirReactions) {
     const Scene scene = sceneOf(
-        R"("flows": [{"id": "f", "from": "a", "to": "b", "rate": 5, "people": {"reaction": {"log_normal": [1, 0.5], "max": 20}}},
+        R"("flows": [{"id": "f", "from": "a", "to": "b", "rate": 5,
+ "people": {"reaction": {"log_normal": [1, 0.5], "max": 20}}},
  {"id": "later", "from": "a", "to": "b", "start": 60, "count": 7}],
  "events": [{"at": 50, "go_to": {"nearest": ["a", "c"]}}]})");
     double sum_of_logarithms = 0.0;
@@ -144,8 +148,10 @@ TEST(Events, SendPeopleAwayWithinTheirReactions) {
 
 TEST(Gates, DoNotStandInTheWayOfRoutes) {
     const std::string walls =
-        R"("walls": [{"points": [[20,-40],[20,10]]}, {"id": "gate", "points": [[20,10],[20,20]]}, {"points": [[20,20],[20,70]]},
- {"points": [[-20,-40],[60,-40],[60,70],[-20,70],[-20,-40]]}], "flows": [{"id": "f", "from": "a", "to": "b", "count": 5}])";
+        R"("walls": [{"points": [[20,-40],[20,10]]}, {"id": "gate", "points": [[20,10],[20,20]]},
+ {"points": [[20,20],[20,70]]},
+ {"points": [[-20,-40],[60,-40],[60,70],[-20,70],[-20,-40]]}],
+ "flows": [{"id": "f", "from": "a", "to": "b", "count": 5}])";
     const Scene scene =
         sceneOf(walls + R"(, "events": [{"at": 5, "open": "gate"}, {"at": 9, "close": "gate"}]})");
     EXPECT_TRUE(scene.open_at_start.empty());
@@ -160,10 +166,10 @@ TEST(Gates, DoNotStandInTheWayOfRoutes) {
 
 TEST(Stops, LinesHaveToLieInTheirArea) {
     Diagnostics diagnostics;
-    const auto layout = readLayout(
-        kPlaces +
-            R"("flows": [{"id": "f", "from": "a", "to": "c", "count": 4, "via": [{"at": "b", "wait": 2, "activity": "queue", "line": [[42, 2], [30, 2]]}]}]})",
-        {}, diagnostics);
+    const auto layout = readLayout(kPlaces +
+                                       R"("flows": [{"id": "f", "from": "a", "to": "c", "count": 4,
+ "via": [{"at": "b", "wait": 2, "activity": "queue", "line": [[42, 2], [30, 2]]}]}]})",
+                                   {}, diagnostics);
     ASSERT_TRUE(layout);
     EXPECT_FALSE(buildScene(*layout, diagnostics));
     ASSERT_FALSE(diagnostics.entries.empty());

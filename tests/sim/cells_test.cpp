@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <random>
 
-#include "sim/passes.h"
+#include "sim/cell_sort.h"
 #include "tests/sim/gpu_test.h"
 #include "tests/sim/scenes.h"
 

@@ -10,6 +10,10 @@ namespace {
 
 class GlTest : public GpuTest {};
 
+const gl::Declaration kSum = {"test", {"shaders/cells/counts_sum.comp"}, {"Counts"}, {"GroupSums"}};
+const gl::Declaration kBinStarts = {
+    "test", {"shaders/diagram/bins_starts.comp"}, {"Counts", "GroupSums"}, {"BinStarts"}};
+
 TEST(Devices, ListsAtLeastOneUsableDeviceWithItsName) {
     const std::vector<gl::Device> devices = gl::listDevices();
     ASSERT_FALSE(devices.empty());
@@ -50,7 +54,7 @@ TEST_F(GlTest, RefusesABufferLargerThanTheDeviceGives) {
 }
 
 TEST_F(GlTest, RefusesToRunAProgramWithAnUnboundBlockOrUnsetUniform) {
-    gl::ComputeProgram program(library, "shaders/cells/counts_sum.comp");
+    gl::ComputeProgram program(library, kSum);
     const gl::Buffer counts("counts", 4096);
     const gl::Buffer sums("sums", 4096);
     program.bind("Counts", counts);
@@ -67,18 +71,18 @@ TEST_F(GlTest, RefusesToRunAProgramWithAnUnboundBlockOrUnsetUniform) {
 TEST(Shaders, AreReadFromAFolderBeforeTheBinary) {
     const gl::Context context({});
     const std::filesystem::path folder = std::filesystem::temp_directory_path() / "throng_shader_folder_test";
-    std::filesystem::create_directories(folder);
-    std::ofstream(folder / "counts_sum.comp") << "this is not GLSL\n";
+    std::filesystem::create_directories(folder / "cells");
+    std::ofstream(folder / "cells" / "counts_sum.comp") << "this is not GLSL\n";
     const gl::ShaderLibrary edited(folder);
     try {
-        gl::ComputeProgram program(edited, "shaders/cells/counts_sum.comp");
+        gl::ComputeProgram program(edited, kSum);
         FAIL() << "compiled nonsense";
     } catch (const gl::GraphicsError& error) {
         EXPECT_NE(std::string(error.what()).find("shaders/cells/counts_sum.comp"), std::string::npos)
             << error.what();
     }
-    EXPECT_NO_THROW(gl::ComputeProgram(edited, "shaders/cells/strips_scan.comp"));
-    EXPECT_THROW(gl::ComputeProgram(edited, "shaders/none.comp"), gl::GraphicsError);
+    EXPECT_NO_THROW(gl::ComputeProgram(edited, kBinStarts));
+    EXPECT_THROW(gl::ComputeProgram(edited, {"test", {"shaders/none.comp"}, {}, {}}), gl::GraphicsError);
     std::filesystem::remove_all(folder);
 }
 

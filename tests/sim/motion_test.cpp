@@ -90,6 +90,28 @@ TEST_F(MotionTest, TwoPeopleHeadOnSwerveWithoutSlowingDown) {
     EXPECT_GT(furthest_aside, 0.15f) << "they pass, so somebody has to give way";
 }
 
+TEST_F(MotionTest, TwoPeopleHeadOnPassOnTheirSideWhereTheyHaveOne) {
+    for (const double to_the_right : {0.5, -0.5}) {
+        for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
+            authoring::Scene scene = emptyScene({-10, -5}, {10, 5});
+            scene.settings.seed = seed;
+            setRule(scene, "passing_side", "enabled", 1.0);
+            setRule(scene, "passing_side", "to_the_right", to_the_right);
+            addPerson(scene, {-8, 0}, {8, 0}, 1.3f);
+            addPerson(scene, {8, 0}, {-8, 0}, 1.3f);
+            sim::Simulation simulation(scene, library);
+            float left_when_they_met = 0.0f;
+            for (int step = 0; step < 360 && left_when_they_met == 0.0f; ++step) {
+                simulation.step();
+                const auto states = simulation.parts().buffers.states.download<gpu::AgentState>(2);
+                if (states[0].position.x >= states[1].position.x)
+                    left_when_they_met = states[0].position.y - states[1].position.y;
+            }
+            EXPECT_LT(left_when_they_met * to_the_right, -0.1) << to_the_right << ", seed " << seed;
+        }
+    }
+}
+
 TEST_F(MotionTest, OpposingStreamsInACorridorFormLanesAndAllGetThrough) {
     authoring::Scene scene = emptyScene({-30, -4}, {30, 4});
     addWall(scene, {-30, -3.35f}, {30, -3.35f});

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "authoring/scene.h"
+#include "base/motion_settings.h"
 #include "sim/benchmarks/open_crowd.h"
 
 /// Small scenes made by hand, so that the simulation is tested without reading layouts.
@@ -19,6 +20,15 @@ using sim::emptyScene;
 
 inline authoring::Scene uniformScene(std::uint32_t count, float spacing, std::uint32_t seed) {
     return sim::openCrowd(count, spacing, seed);
+}
+
+/// As a layout's `motion` does.
+inline void setRule(authoring::Scene& scene, std::string_view rule, std::string_view name, double value) {
+    const auto rows = motionParameters();
+    const auto row = std::find_if(rows.begin(), rows.end(), [&](const MotionParameter& parameter) {
+        return parameter.rule == rule && parameter.name == name;
+    });
+    scene.settings.motion.set(static_cast<std::size_t>(row - rows.begin()), value);
 }
 
 /// A straight wall with tiles every 0.2 m.

@@ -1,156 +1,262 @@
 // SPDX-License-Identifier: Apache-2.0
-// The structures that C++ and GLSL share: a shader is asked, through reflection, where it puts each member.
+// The structures that C++ and GLSL share: every one in the headers has its members where both compilers say
+// they are.
 #include <epoxy/gl.h>
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
+#include <regex>
+#include <set>
 
 #include "shaders/shared/simulation_types.h"
-#include "sim/gl/program.h"
+#include "shaders/shared/terrain_types.h"
+#include "sim/gl/embedded_shaders.h"
 #include "tests/sim/gpu_test.h"
 
 namespace throng::test {
 namespace {
 
+/// A structure as one of the two compilers lays it out.
+struct Layout {
+    std::size_t stride;
+    std::vector<std::pair<std::string, std::size_t>> members;  // and their offsets, in order
+    bool operator==(const Layout&) const = default;
+};
+
+void PrintTo(const Layout& layout, std::ostream* out) {
+    for (const auto& [member, offset] : layout.members)
+        *out << member << " at " << offset << ", ";
+    *out << "every " << layout.stride << " bytes";
+}
+
+#define MEMBER(name) \
+    { #name, offsetof(T, name) }
+
+/// What the C++ compiler says. Whoever adds a structure or a member adds it here: the test misses it
+/// otherwise.
+std::map<std::string, Layout> layoutsInCpp() {
+    std::map<std::string, Layout> result;
+    {
+        using T = gpu::Person;
+        result["Person"] = {
+            sizeof(T),
+            {MEMBER(spawn_position), MEMBER(radius), MEMBER(preferred_speed), MEMBER(maximum_speed),
+             MEMBER(spawn_time), MEMBER(heading), MEMBER(phase), MEMBER(variation), MEMBER(entry),
+             MEMBER(flags), MEMBER(first_stage), MEMBER(stage_count), MEMBER(first_change),
+             MEMBER(change_count), MEMBER(party_first), MEMBER(party_size), MEMBER(group), MEMBER(headway),
+             MEMBER(reserved)}};
+    }
+    {
+        using T = gpu::Stage;
+        result["Stage"] = {sizeof(T),
+                           {MEMBER(point), MEMBER(facing), MEMBER(tolerance), MEMBER(field), MEMBER(dwell),
+                            MEMBER(line), MEMBER(activity), MEMBER(flags), MEMBER(beyond), MEMBER(reserved)}};
+    }
+    {
+        using T = gpu::PlanChange;
+        result["PlanChange"] = {
+            sizeof(T), {MEMBER(start_step), MEMBER(first_stage), MEMBER(stage_count), MEMBER(reserved)}};
+    }
+    {
+        using T = gpu::WaitingLine;
+        result["WaitingLine"] = {
+            sizeof(T),
+            {MEMBER(first_point), MEMBER(point_count), MEMBER(first_ticket), MEMBER(ticket_count),
+             MEMBER(spacing), MEMBER(given), MEMBER(served), MEMBER(candidate)}};
+    }
+    {
+        using T = gpu::Entry;
+        result["Entry"] = {sizeof(T), {MEMBER(first_point), MEMBER(point_count)}};
+    }
+    {
+        using T = gpu::SpawnQueue;
+        result["SpawnQueue"] = {sizeof(T), {MEMBER(first_row), MEMBER(row_count)}};
+    }
+    {
+        using T = gpu::WallSegment;
+        result["WallSegment"] = {sizeof(T), {MEMBER(a), MEMBER(b), MEMBER(half_thickness), MEMBER(wall)}};
+    }
+    {
+        using T = gpu::WallTile;
+        result["WallTile"] = {sizeof(T), {MEMBER(position), MEMBER(tile_radius), MEMBER(segment)}};
+    }
+    {
+        using T = gpu::FieldCell;
+        result["FieldCell"] = {sizeof(T), {MEMBER(distance), MEMBER(direction)}};
+    }
+    {
+        using T = gpu::GroundCell;
+        result["GroundCell"] = {sizeof(T),
+                                {MEMBER(cost), MEMBER(one_way), MEMBER(open_sides), MEMBER(free_share)}};
+    }
+    {
+        using T = gpu::AgentState;
+        result["AgentState"] = {
+            sizeof(T),
+            {MEMBER(position), MEMBER(velocity), MEMBER(heading), MEMBER(walked), MEMBER(status),
+             MEMBER(stage), MEMBER(stage_end), MEMBER(changes), MEMBER(leave_step), MEMBER(ticket),
+             MEMBER(spawn_step), MEMBER(arrival_step), MEMBER(attempts), MEMBER(nervousness),
+             MEMBER(shortest_way), MEMBER(reserved)}};
+    }
+    {
+        using T = gpu::Body;
+        result["Body"] = {sizeof(T),
+                          {MEMBER(position), MEMBER(velocity), MEMBER(radius), MEMBER(heading), MEMBER(row),
+                           MEMBER(maximum_speed)}};
+    }
+    {
+        using T = gpu::Walker;
+        result["Walker"] = {sizeof(T),
+                            {MEMBER(preferred_speed), MEMBER(headway), MEMBER(flags), MEMBER(party_first),
+                             MEMBER(party_size), MEMBER(change_count), MEMBER(status), MEMBER(stage),
+                             MEMBER(stage_end), MEMBER(leave_step), MEMBER(ticket), MEMBER(nervousness)}};
+    }
+    {
+        using T = gpu::DiagramSite;
+        result["DiagramSite"] = {sizeof(T), {MEMBER(position), MEMBER(radius), MEMBER(id)}};
+    }
+    {
+        using T = gpu::SpawnProposal;
+        result["SpawnProposal"] = {sizeof(T), {MEMBER(position), MEMBER(radius), MEMBER(row)}};
+    }
+    {
+        using T = gpu::CrowdFlow;
+        result["CrowdFlow"] = {sizeof(T), {MEMBER(velocity), MEMBER(density), MEMBER(reserved)}};
+    }
+    {
+        using T = gpu::FieldMap;
+        result["FieldMap"] = {sizeof(T), {MEMBER(ground_map), MEMBER(has_choice)}};
+    }
+    {
+        using T = gpu::TerrainNode;
+        result["TerrainNode"] = {sizeof(T), {MEMBER(height), MEMBER(steps)}};
+    }
+    {
+        using T = gpu::Parameters;
+        result["Parameters"] = {
+            sizeof(T), {MEMBER(cells_minimum),    MEMBER(diagram_minimum), MEMBER(grid_minimum),
+                        MEMBER(cell_size),        MEMBER(cells_width),     MEMBER(cells_height),
+                        MEMBER(pixels_per_metre), MEMBER(diagram_width),   MEMBER(diagram_height),
+                        MEMBER(grid_cell),        MEMBER(grid_width),      MEMBER(grid_height),
+                        MEMBER(detour_cell),      MEMBER(detour_width),    MEMBER(detour_height),
+                        MEMBER(row_count),        MEMBER(queue_count),     MEMBER(seed),
+                        MEMBER(has_roads),        MEMBER(tile_radius),     MEMBER(largest_radius),
+                        MEMBER(step_seconds),     MEMBER(time_horizon),    MEMBER(wall_time_horizon),
+                        MEMBER(contact_range),    MEMBER(contact_slack),   MEMBER(maximum_acceleration)}};
+    }
+    return result;
+}
+
+/// The structures of the headers, and the header of each.
+std::map<std::string, std::string> structuresOfHeaders() {
+    static const std::regex structure(R"(\bstruct\s+(\w+))");
+    std::map<std::string, std::string> result;
+    for (const gl::EmbeddedShader& header : gl::embeddedShaders()) {
+        if (!header.path.starts_with("shaders/shared/")) continue;
+        const std::string text(header.text);
+        for (std::sregex_iterator found(text.begin(), text.end(), structure), end; found != end; ++found)
+            result[(*found)[1]] = header.path;
+    }
+    return result;
+}
+
+/// What a struct is laid out by: everything in storage buffers, and the parameters as uniforms.
+bool isUniform(const std::string& structure) {
+    return structure == "Parameters";
+}
+
 class SharedTypesTest : public GpuTest {
   protected:
-    /// Offsets by member name, e.g. "people[0].radius", of one interface of a program.
-    std::map<std::string, GLint> offsets(const gl::Program& program, GLenum interface) {
-        std::map<std::string, GLint> result;
+    /// A program that does nothing but have a block of that structure.
+    GLuint probe(const std::string& structure, const std::string& header) {
+        std::vector<std::string> files;
+        const std::string source =
+            library.load(header, {}, files) + "layout(local_size_x = 1) in;\n" +
+            (isUniform(structure) ? fmt::format("layout(std140) uniform Block {{ {0} item; }};\n"
+                                                "layout(std430) buffer Copies {{ {0} copies[]; }};\n"
+                                                "void main() {{ copies[0] = item; }}\n",
+                                                structure)
+                                  : fmt::format("layout(std430) buffer Block {{ {} item[]; }};\nvoid main() "
+                                                "{{ item[0] = item[1]; }}\n",
+                                                structure));
+        const char* text = source.c_str();
+        const GLuint program = glCreateShaderProgramv(GL_COMPUTE_SHADER, 1, &text);
+        GLint linked = 0;
+        glGetProgramiv(program, GL_LINK_STATUS, &linked);
+        char log[4096] = {};
+        if (!linked) glGetProgramInfoLog(program, sizeof log, nullptr, log);
+        EXPECT_TRUE(linked) << structure << ": " << log;
+        return program;
+    }
+    /// What the GLSL compiler says: all members of a block with such a layout are there, used or not.
+    Layout reflect(GLuint program, const std::string& structure) {
+        const GLenum interface = isUniform(structure) ? GL_UNIFORM : GL_BUFFER_VARIABLE;
+        const std::string prefix = isUniform(structure) ? "item." : "item[0].";
+        Layout result{};
         GLint count = 0;
-        glGetProgramInterfaceiv(program.handle(), interface, GL_ACTIVE_RESOURCES, &count);
+        glGetProgramInterfaceiv(program, interface, GL_ACTIVE_RESOURCES, &count);
         for (GLint i = 0; i < count; ++i) {
             char name[256] = {};
+            const auto index = static_cast<GLuint>(i);
+            glGetProgramResourceName(program, interface, index, sizeof name, nullptr, name);
+            if (!std::string(name).starts_with(prefix)) continue;
             const GLenum property = GL_OFFSET;
             const GLenum stride_property = GL_TOP_LEVEL_ARRAY_STRIDE;
             GLint offset = -1;
             GLint stride = 0;
-            glGetProgramResourceName(program.handle(), interface, static_cast<GLuint>(i), sizeof name,
-                                     nullptr, name);
-            glGetProgramResourceiv(program.handle(), interface, static_cast<GLuint>(i), 1, &property, 1,
-                                   nullptr, &offset);
-            if (interface == GL_BUFFER_VARIABLE) {
-                glGetProgramResourceiv(program.handle(), interface, static_cast<GLuint>(i), 1,
-                                       &stride_property, 1, nullptr, &stride);
-                strides_[name] = stride;
-            }
-            result[name] = offset;
+            glGetProgramResourceiv(program, interface, index, 1, &property, 1, nullptr, &offset);
+            if (interface == GL_BUFFER_VARIABLE)
+                glGetProgramResourceiv(program, interface, index, 1, &stride_property, 1, nullptr, &stride);
+            result.stride = static_cast<std::size_t>(stride);
+            result.members.emplace_back(std::string(name).substr(prefix.size()), offset);
         }
+        std::ranges::sort(result.members, {}, &decltype(result.members)::value_type::second);
         return result;
     }
-    void expectOffset(const std::map<std::string, GLint>& found, const std::string& name, std::size_t offset,
-                      std::size_t stride) {
-        const auto entry = found.find(name);
-        ASSERT_NE(entry, found.end()) << name;
-        EXPECT_EQ(static_cast<std::size_t>(entry->second), offset) << name;
-        if (stride) {
-            EXPECT_EQ(static_cast<std::size_t>(strides_.at(name)), stride) << name;
-        }
-    }
-
-    std::map<std::string, GLint> strides_;
 };
 
-#define EXPECT_MEMBER(found, block, type, member) \
-    expectOffset(found, block "[0]." #member, offsetof(gpu::type, member), sizeof(gpu::type))
-
-TEST_F(SharedTypesTest, PersonAndStateAgree) {
-    const gl::Program move(library, {"shaders/motion/move.comp"}, {});
-    const auto found = offsets(move, GL_BUFFER_VARIABLE);
-    EXPECT_MEMBER(found, "people", Person, spawn_position);
-    EXPECT_MEMBER(found, "people", Person, radius);
-    EXPECT_MEMBER(found, "people", Person, preferred_speed);
-    EXPECT_MEMBER(found, "people", Person, maximum_speed);
-    EXPECT_MEMBER(found, "people", Person, entry);
-    EXPECT_MEMBER(found, "people", Person, flags);
-    EXPECT_MEMBER(found, "people", Person, first_stage);
-    EXPECT_MEMBER(found, "people", Person, stage_count);
-    EXPECT_MEMBER(found, "people", Person, headway);
-    EXPECT_MEMBER(found, "states", AgentState, position);
-    EXPECT_MEMBER(found, "states", AgentState, velocity);
-    EXPECT_MEMBER(found, "states", AgentState, heading);
-    EXPECT_MEMBER(found, "states", AgentState, status);
-    EXPECT_MEMBER(found, "states", AgentState, spawn_step);
-    EXPECT_MEMBER(found, "states", AgentState, attempts);
-    EXPECT_MEMBER(found, "states", AgentState, nervousness);
-    EXPECT_MEMBER(found, "bodies", Body, position);
-    EXPECT_MEMBER(found, "bodies", Body, radius);
-    EXPECT_MEMBER(found, "bodies", Body, row);
-    EXPECT_MEMBER(found, "bodies", Body, maximum_speed);
-    EXPECT_MEMBER(found, "walkers", Walker, preferred_speed);
-    EXPECT_MEMBER(found, "walkers", Walker, flags);
-    EXPECT_MEMBER(found, "walkers", Walker, party_size);
-    EXPECT_MEMBER(found, "walkers", Walker, change_count);
-    EXPECT_MEMBER(found, "walkers", Walker, stage);
-    EXPECT_MEMBER(found, "walkers", Walker, ticket);
-    EXPECT_MEMBER(found, "walkers", Walker, nervousness);
-    EXPECT_MEMBER(found, "stages", Stage, point);
-    EXPECT_MEMBER(found, "stages", Stage, tolerance);
-    EXPECT_MEMBER(found, "stages", Stage, field);
-    EXPECT_MEMBER(found, "stages", Stage, dwell);
-    EXPECT_MEMBER(found, "stages", Stage, facing);
-    EXPECT_MEMBER(found, "stages", Stage, line);
-    EXPECT_MEMBER(found, "stages", Stage, flags);
-    EXPECT_MEMBER(found, "states", AgentState, stage_end);
-    EXPECT_MEMBER(found, "states", AgentState, ticket);
-    EXPECT_MEMBER(found, "plan_changes", PlanChange, start_step);
-    EXPECT_MEMBER(found, "plan_changes", PlanChange, stage_count);
-    EXPECT_MEMBER(found, "waiting_lines", WaitingLine, spacing);
-    EXPECT_MEMBER(found, "waiting_lines", WaitingLine, candidate);
-}
-
-TEST_F(SharedTypesTest, WallsSitesAndQueuesAgree) {
-    const gl::Program sense(library, {"shaders/sensing/sense.comp"},
-                            {{"NEIGHBOURS", "4"}, {"SENSING_SAMPLES", "4"}});
-    const auto sensed = offsets(sense, GL_BUFFER_VARIABLE);
-    EXPECT_MEMBER(sensed, "wall_tiles", WallTile, position);
-    EXPECT_MEMBER(sensed, "wall_tiles", WallTile, tile_radius);
-    EXPECT_MEMBER(sensed, "wall_tiles", WallTile, segment);
-    EXPECT_MEMBER(sensed, "wall_segments", WallSegment, a);
-    EXPECT_MEMBER(sensed, "wall_segments", WallSegment, b);
-    EXPECT_MEMBER(sensed, "wall_segments", WallSegment, half_thickness);
-    EXPECT_MEMBER(sensed, "wall_segments", WallSegment, wall);
-    const gl::Program propose(library, {"shaders/motion/spawn_propose.comp"}, {});
-    const auto proposed = offsets(propose, GL_BUFFER_VARIABLE);
-    EXPECT_MEMBER(proposed, "queues", SpawnQueue, first_row);
-    EXPECT_MEMBER(proposed, "queues", SpawnQueue, row_count);
-    EXPECT_MEMBER(proposed, "entries", Entry, first_point);
-    EXPECT_MEMBER(proposed, "entries", Entry, point_count);
-    EXPECT_MEMBER(proposed, "proposals", SpawnProposal, position);
-    EXPECT_MEMBER(proposed, "proposals", SpawnProposal, radius);
-    EXPECT_MEMBER(proposed, "proposals", SpawnProposal, row);
-    const gl::Program splat(library, {"shaders/diagram/site.comp"}, {});
-    const auto splatted = offsets(splat, GL_BUFFER_VARIABLE);
-    EXPECT_MEMBER(splatted, "sites", DiagramSite, position);
-    EXPECT_MEMBER(splatted, "sites", DiagramSite, radius);
-    EXPECT_MEMBER(splatted, "sites", DiagramSite, id);
-}
-
-TEST_F(SharedTypesTest, ParametersAgree) {
-    const gl::Program avoid(library, {"shaders/motion/avoid.comp"}, {{"NEIGHBOURS", "4"}});
-    const auto found = offsets(avoid, GL_UNIFORM);
-    const auto expectParameter = [&](const std::string& member, std::size_t offset) {
-        const std::string suffix = "." + member;
-        for (const auto& [name, at] : found) {
-            if (!name.ends_with(suffix)) continue;
-            EXPECT_EQ(static_cast<std::size_t>(at), offset) << name;
-            return;
+TEST_F(SharedTypesTest, EveryMemberOfEveryStructureIsWhereBothCompilersSay) {
+    const std::map<std::string, Layout> in_cpp = layoutsInCpp();
+    const std::map<std::string, std::string> structures = structuresOfHeaders();
+    EXPECT_EQ(in_cpp.size(), structures.size());
+    for (const auto& [structure, header] : structures) {
+        const auto known = in_cpp.find(structure);
+        if (known == in_cpp.end()) {
+            ADD_FAILURE() << structure << " of " << header << " is not in this test";
+            continue;
         }
-        ADD_FAILURE() << "no parameter " << member;
-    };
-#define EXPECT_PARAMETER(member) expectParameter(#member, offsetof(gpu::Parameters, member))
-    EXPECT_PARAMETER(cells_minimum);
-    EXPECT_PARAMETER(cell_size);
-    EXPECT_PARAMETER(row_count);
-    EXPECT_PARAMETER(diagram_minimum);
-    EXPECT_PARAMETER(pixels_per_metre);
-    EXPECT_PARAMETER(step_seconds);
-    EXPECT_PARAMETER(contact_range);
-    EXPECT_PARAMETER(contact_slack);
-    EXPECT_PARAMETER(maximum_acceleration);
-    EXPECT_PARAMETER(grid_minimum);
-    EXPECT_PARAMETER(grid_cell);
-    EXPECT_PARAMETER(has_roads);
+        const GLuint program = probe(structure, header);
+        Layout in_glsl = reflect(program, structure);
+        glDeleteProgram(program);
+        if (isUniform(structure)) in_glsl.stride = known->second.stride;  // there is one
+        EXPECT_EQ(in_glsl, known->second) << structure;
+    }
+}
+
+TEST_F(SharedTypesTest, EveryShaderDeclaresItsBlocksInTheLayoutThatIsShared) {
+    static const std::regex block(R"((layout\(([^)]*)\)[^;{}()]*)?\b(buffer|uniform)\s+\w+\s*\{([^}]*)\})");
+    const std::map<std::string, std::string> structures = structuresOfHeaders();
+    std::set<std::string> seen;
+    for (const gl::EmbeddedShader& shader : gl::embeddedShaders()) {
+        const std::string text(shader.text);
+        for (std::sregex_iterator found(text.begin(), text.end(), block), end; found != end; ++found) {
+            std::istringstream words((*found)[4].str());
+            for (std::string word; words >> word;) {
+                if (!structures.contains(word)) continue;
+                seen.insert(word);
+                const bool uniform = (*found)[3] == "uniform";
+                EXPECT_EQ((*found)[2].str(), std::string(uniform ? "std140" : "std430"))
+                    << shader.path << ": " << found->str();
+                EXPECT_EQ(uniform, isUniform(word)) << shader.path << ": " << found->str();
+            }
+        }
+    }
+    for (const auto& [structure, header] : structures) {
+        if (structure == "FieldCell") continue;  // shaders read its words, through a texture
+        EXPECT_TRUE(seen.contains(structure)) << structure << " is in no block of a shader";
+    }
 }
 
 }  // namespace

@@ -17,7 +17,8 @@ HERE = pathlib.Path(__file__).resolve().parent
 BASE = {
     "throng": 1,
     "simulation": {"duration": 4},
-    "areas": [{"id": "west", "polygon": [[0, 0], [2, 0], [2, 4], [0, 4]]}, {"id": "east", "polygon": [[10, 0], [12, 0], [12, 4], [10, 4]]}],
+    "areas": [{"id": "west", "polygon": [[0, 0], [2, 0], [2, 4], [0, 4]]},
+              {"id": "east", "polygon": [[10, 0], [12, 0], [12, 4], [10, 4]]}],
     "walls": [{"points": [[-1, -0.5], [13, -0.5]]}],
     "flows": [{"id": "walkers", "from": "west", "to": "east", "rate": 5}],
 }
@@ -64,7 +65,8 @@ def slurm(tmp_path_factory):
         servers.append(subprocess.Popen(words, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL))
 
     try:
-        start("munged", "--force", "--foreground", f"--key-file={key}", f"--socket={munge}/socket", f"--pid-file={munge}/pid", f"--log-file={munge}/log",
+        start("munged", "--force", "--foreground", f"--key-file={key}", f"--socket={munge}/socket",
+              f"--pid-file={munge}/pid", f"--log-file={munge}/log",
               f"--seed-file={munge}/seed", "--num-threads=2")
         wait_for(lambda: run("munge", "-S", f"{munge}/socket", "-n").returncode == 0, 20, "munged")
         start("slurmctld", "-D", "-c")
@@ -84,7 +86,8 @@ def slurm(tmp_path_factory):
 def family(folder, scenarios, **changes):
     path = folder / "family.json"
     path.write_text(json.dumps({"throng_family": 1, "name": "on slurm", "base": BASE,
-                                "axes": [{"name": "seed", "set": "/simulation/seed", "range": [1, scenarios]}], **changes}))
+                                "axes": [{"name": "seed", "set": "/simulation/seed", "range": [1, scenarios]}],
+                                **changes}))
     return path
 
 
@@ -109,7 +112,8 @@ def tasks_at_work(output):
 def test_killed_jobs_and_a_drained_node_leave_a_complete_batch(throng, slurm, tmp_path):
     output = tmp_path / "out"
     plan = family(tmp_path, 200, base={**BASE, "simulation": {"duration": 20}})
-    process = subprocess.Popen([throng.binary, "batch", str(plan), "-o", str(output), "--executor", "slurm", "--tasks", "20"],
+    process = subprocess.Popen([throng.binary, "batch", str(plan), "-o", str(output), "--executor", "slurm", "--tasks",
+                                "20"],
                                env=slurm["environment"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     done = lambda: len(list((output / "results").glob("*.json")))
     kills = 0
@@ -122,7 +126,8 @@ def test_killed_jobs_and_a_drained_node_leave_a_complete_batch(throng, slurm, tm
     assert kills >= 2 and process.poll() is None
     node = f"nodename={slurm['host']}"
     assert run("scontrol", "update", node, "state=drain", "reason=test", env=slurm["environment"]).returncode == 0
-    wait_for(lambda: "drained" in run("sinfo", "-h", "-o", "%T", env=slurm["environment"]).stdout, 60, "the drained node")
+    wait_for(lambda: "drained" in run("sinfo", "-h", "-o", "%T", env=slurm["environment"]).stdout, 60,
+             "the drained node")
     held = done()
     time.sleep(3)
     assert done() == held < 200 and process.poll() is None, "nothing runs on a drained node, and the batch waits"
@@ -146,21 +151,26 @@ def test_a_submitted_batch_is_joined_later(throng, slurm, tmp_path):
 def test_ctrl_c_takes_the_job_out_of_the_queue(throng, slurm, tmp_path):
     output = tmp_path / "out"
     plan = family(tmp_path, 60, base={**BASE, "simulation": {"duration": 60}})
-    process = subprocess.Popen([throng.binary, "batch", str(plan), "-o", str(output), "--executor", "slurm", "--tasks", "3", "-q"], env=slurm["environment"])
+    process = subprocess.Popen([throng.binary, "batch", str(plan), "-o", str(output), "--executor", "slurm", "--tasks",
+                                "3", "-q"], env=slurm["environment"])
     wait_for(lambda: len(list((output / "results").glob("*.json"))) > 0, 60, "the first result")
     process.send_signal(signal.SIGINT)
     assert process.wait(timeout=10) == 130
     wait_for(lambda: run("squeue", "-h", env=slurm["environment"]).stdout.strip() == "", 30, "the empty queue")
     wait_for(lambda: not tasks_at_work(output), 15, "the end of the tasks")
-    assert {path.name for path in (output / "bakes").iterdir()} == {path.stem for path in (output / "results").glob("*.json")}
+    assert {path.name for path in (output / "bakes").iterdir()} == \
+        {path.stem for path in (output / "results").glob("*.json")}
 
 
 def test_tasks_that_run_out_of_time_are_gone_on_with(throng, slurm, tmp_path):
     # Each scenario takes longer than the limit that its task works under: checkpoints carry it over.
     output = tmp_path / "out"
-    crowd = {**BASE, "simulation": {"duration": 3600}, "flows": [{"id": "walkers", "from": "west", "to": "east", "rate": 2}]}
-    process = subprocess.Popen([throng.binary, "batch", str(family(tmp_path, 1, base=crowd)), "-o", str(output), "--executor", "slurm", "--tasks", "1",
-                                "--checkpoint", "0.01", "--time-limit", "0.6", "--retries", "30"], env=slurm["environment"], stderr=subprocess.PIPE, text=True)
+    crowd = {**BASE, "simulation": {"duration": 3600},
+             "flows": [{"id": "walkers", "from": "west", "to": "east", "rate": 2}]}
+    process = subprocess.Popen([throng.binary, "batch", str(family(tmp_path, 1, base=crowd)), "-o", str(output),
+                                "--executor", "slurm", "--tasks", "1",
+                                "--checkpoint", "0.01", "--time-limit", "0.6", "--retries", "30"],
+                               env=slurm["environment"], stderr=subprocess.PIPE, text=True)
     wait_for(lambda: list(output.glob("bakes/*.unfinished/checkpoint.a")), 60, "a checkpoint")
     wait_for(lambda: "submitted" in (process.stderr.readline() + process.stderr.readline()), 120, "the second array")
     process.send_signal(signal.SIGINT)
@@ -169,11 +179,13 @@ def test_tasks_that_run_out_of_time_are_gone_on_with(throng, slurm, tmp_path):
 
 
 def test_what_sbatch_complains_of_is_told(throng, slurm, tmp_path):
-    process = throng("batch", family(tmp_path, 2), "-o", tmp_path / "out", "--executor", "slurm", "--sbatch", "--partition=nowhere",
+    process = throng("batch", family(tmp_path, 2), "-o", tmp_path / "out", "--executor", "slurm", "--sbatch",
+                     "--partition=nowhere",
                      env=slurm["environment"], expect=3)
     assert "nowhere" in process.stderr or "partition" in process.stderr
 
 
 def test_without_slurm_the_error_says_so(throng, tmp_path):
-    process = throng("batch", family(tmp_path, 2), "-o", tmp_path / "out", "--executor", "slurm", env={**os.environ, "PATH": "/nowhere"}, expect=3)
+    process = throng("batch", family(tmp_path, 2), "-o", tmp_path / "out", "--executor", "slurm",
+                     env={**os.environ, "PATH": "/nowhere"}, expect=3)
     assert "needs Slurm's commands" in process.stderr

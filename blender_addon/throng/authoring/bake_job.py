@@ -11,7 +11,8 @@ import subprocess
 import threading
 import time
 
-_DIAGNOSTIC = re.compile(r"(?P<file>.*?)(?::(?P<line>\d+):(?P<column>\d+))?: (?P<severity>error|warning): (?:(?P<pointer>/.*?): )?(?P<message>.*)")
+_DIAGNOSTIC = re.compile(r"(?P<file>.*?)(?::(?P<line>\d+):(?P<column>\d+))?: (?P<severity>error|warning): "
+                         r"(?:(?P<pointer>/.*?): )?(?P<message>.*)")
 _PATIENCE = 20.0  # s from SIGINT to SIGKILL
 _AGAIN = 4.0      # s from one SIGINT to the next
 INVALID = 3       # exit code
@@ -20,14 +21,16 @@ Diagnostic = collections.namedtuple("Diagnostic", "severity pointer message hint
 
 
 def parse_diagnostics(text):
-    """What the program says about a layout: [Diagnostic], from its lines `file:line:column: error: /pointer: message` and their hints."""
+    """What the program says about a layout: [Diagnostic], from its lines `file:line:column: error: /pointer:
+    message` and their hints."""
     result = []
     for line in text.splitlines():
         if line.startswith("  hint: ") and result:
             result[-1] = result[-1]._replace(hint=line[8:])
         found = None if line.startswith(" ") else _DIAGNOSTIC.fullmatch(line)
         if found:
-            result.append(Diagnostic(found["severity"], found["pointer"] or "", found["message"], "", int(found["line"] or 0), int(found["column"] or 0)))
+            result.append(Diagnostic(found["severity"], found["pointer"] or "", found["message"], "",
+                                     int(found["line"] or 0), int(found["column"] or 0)))
     return result
 
 
@@ -38,10 +41,11 @@ def check_layout(executable, path):
 
 
 class BakeJob:
-    """One bake. `poll()` never waits. The bake appears at `output` complete or not at all; a cancelled one leaves nothing behind.
+    """One bake. `poll()` never waits. The bake appears at `output` complete or not at all; a cancelled
+    one leaves nothing behind.
 
-    state: new, running, done, cancelled or failed; percent, frame, frames, people, seconds_left as the program tells them;
-    result, the manifest of a bake that is done; diagnostics and message when there is something to say.
+    state: new, running, done, cancelled or failed; percent, frame, frames, people, seconds_left as the program tells
+    them; result, the manifest of a bake that is done; diagnostics and message when there is something to say.
     """
 
     def __init__(self, executable, layout, output, options=()):
@@ -58,8 +62,8 @@ class BakeJob:
     def start(self):
         self._before = frozenset(self._leftovers())
         try:
-            self._process = subprocess.Popen(self.command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                                             errors="replace")
+            self._process = subprocess.Popen(self.command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                             stderr=subprocess.PIPE, text=True, errors="replace")
         except OSError as error:
             self.state, self.message = "failed", f"{self.command[0]} does not run: {error.strerror}"
             return
@@ -110,15 +114,16 @@ class BakeJob:
         return self.poll()
 
     def cancel(self):
-        """Asks the program to stop; poll() says `cancelled` once it has. A bake that ends before it hears of it counts as done."""
+        """Asks the program to stop; poll() says `cancelled` once it has. A bake that ends before it hears
+        of it counts as done."""
         if self.state == "running" and self._cancelled_at is None:
             self._cancelled_at = self._told_at = time.monotonic()
             if self._process.poll() is None:
                 self._process.send_signal(signal.SIGINT)
 
     def _insist(self):
-        """A program that has only just begun may not have heard: where interrupts are ignored (in background jobs of a shell, say), it
-        begins to listen only when it has begun."""
+        """A program that has only just begun may not have heard: where interrupts are ignored (in background jobs of a
+        shell, say), it begins to listen only when it has begun."""
         now = time.monotonic()
         if self._cancelled_at is None:
             return
@@ -149,7 +154,8 @@ class BakeJob:
             try:
                 self.result = json.loads("".join(self._said["stdout"]))
             except ValueError:
-                self.state, self.message = "failed", f"{self.command[0]} did not describe its bake: is it of another version?"
+                self.state = "failed"
+                self.message = f"{self.command[0]} did not describe its bake: is it of another version?"
                 return
             self.state, self.percent = "done", 100.0
             return
@@ -173,7 +179,8 @@ class BakeJob:
         """What an unfinished bake leaves beside its output, by name and identity."""
         folder, name = os.path.split(os.path.abspath(self.output))
         try:
-            entries = [entry for entry in os.scandir(folder) if re.fullmatch(re.escape(name) + r"\.(partial(-\d+)?|unfinished|tmp-\w+)", entry.name)]
+            entries = [entry for entry in os.scandir(folder)
+                       if re.fullmatch(re.escape(name) + r"\.(partial(-\d+)?|unfinished|tmp-\w+)", entry.name)]
         except OSError:
             return []
         return [(entry.path, entry.inode()) for entry in entries]

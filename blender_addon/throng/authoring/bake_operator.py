@@ -9,13 +9,13 @@ import bpy
 from bpy.props import IntProperty
 
 from ..formats import BakeError
-from ..preferences import program
 from .bake_job import BakeJob, Diagnostic, check_layout
 from .executable import ExecutableError, check_version, find_executable
 from .exporter import default_name, export_layout, folder_of_files, layout_text, write_text
 from .geometry import AuthoringError
 from .load import load
 from .operators import refused, select_only
+from .preferences import program
 
 _running = {}  # the bake under way, if there is one: "bake"
 
@@ -41,7 +41,8 @@ def show_problems(context, diagnostics, sources):
     layout.problems.clear()
     for entry in diagnostics:
         problem = layout.problems.add()
-        problem.message, problem.hint, problem.pointer, problem.is_error = entry.message, entry.hint, entry.pointer, entry.severity == "error"
+        problem.message, problem.hint, problem.pointer = entry.message, entry.hint, entry.pointer
+        problem.is_error = entry.severity == "error"
         name, problem.where, problem.index = sources.get(_section(entry.pointer), ("", "", -1))
         problem.target = bpy.data.objects.get(name) if name else None
     first = next((problem for problem in layout.problems if problem.is_error), None)
@@ -51,8 +52,11 @@ def show_problems(context, diagnostics, sources):
 
 def described(layout, problem):
     """A problem with the name of what it is about."""
-    group = getattr(layout, problem.where) if problem.where else ()
-    owner = problem.target.name if problem.target else group[problem.index].name if problem.where == "flows" and problem.index < len(group) else ""
+    owner = ""
+    if problem.target:
+        owner = problem.target.name
+    elif problem.where == "flows" and problem.index < len(layout.flows):
+        owner = layout.flows[problem.index].name
     about = " ".join([owner] + problem.pointer.split("/")[3:]).strip()
     return f"{about}: {problem.message}" if about else problem.message
 
@@ -81,11 +85,13 @@ _UNCHOSEN = (("from", "choose where people come from"), ("to", "choose where peo
 def _unchosen(document):
     """Flows without a place: what an artist forgets, said in the panel's words."""
     return [Diagnostic("error", f"/flows/{index}/{key}", message, "a road's end or an area", 0, 0)
-            for index, flow in enumerate(document.get("flows", [])) for key, message in _UNCHOSEN if flow.get(key) == ""]
+            for index, flow in enumerate(document.get("flows", [])) for key, message in _UNCHOSEN
+            if flow.get(key) == ""]
 
 
 class LayoutFile:
-    """The scene's layout in a file that is gone afterwards: beside the files that it names, if it names any. Raises AuthoringError.
+    """The scene's layout in a file that is gone afterwards: beside the files that it names, if it names
+    any. Raises AuthoringError.
 
     diagnostics: what is wrong with it already.
     """
@@ -136,7 +142,8 @@ def _executable(context):
 
 
 class Bake:
-    """One bake of a scene: from its layout's file to its crowd. Raises AuthoringError or ExecutableError when it cannot begin."""
+    """One bake of a scene: from its layout's file to its crowd. Raises AuthoringError or ExecutableError
+    when it cannot begin."""
 
     def __init__(self, context, file):
         scene = context.scene
@@ -157,9 +164,15 @@ class Bake:
         state = self.job.poll()
         layout = context.scene.throng_layout
         layout.progress = self.job.percent
-        left = "" if self.job.seconds_left is None or self.job.frame < 2 else f", {self.job.seconds_left:.0f} s left"
-        layout.status = f"Frame {self.job.frame} of {self.job.frames}: {self.job.people} people{left}" if self.job.frames else "Setting up"
+        layout.status = self._status()
         return state == "running"
+
+    def _status(self):
+        job = self.job
+        if not job.frames:
+            return "Setting up"
+        left = "" if job.seconds_left is None or job.frame < 2 else f", {job.seconds_left:.0f} s left"
+        return f"Frame {job.frame} of {job.frames}: {job.people} people{left}"
 
     def cancel(self):
         self.job.cancel()
@@ -205,7 +218,8 @@ class Bake:
         account = job.result["account"]
         refused = account.get("refused_reasons", {}).items()
         self._warn(layout, [f"{count} people are not in the crowd: {reason}" for reason, count in refused] + lost)
-        return "INFO", f"{account['agents']} people, {job.result['frames']} frames in {time.monotonic() - self.start:.1f} s"
+        seconds = time.monotonic() - self.start
+        return "INFO", f"{account['agents']} people, {job.result['frames']} frames in {seconds:.1f} s"
 
     def _first_error(self, layout):
         errors = [problem for problem in layout.problems if problem.is_error]
@@ -273,7 +287,8 @@ class THRONG_OT_bake(bpy.types.Operator):
         going_on = self.bake.tick(context)
         context.window_manager.progress_update(self.bake.job.percent)
         if context.workspace:
-            context.workspace.status_text_set(f"Throng: {context.scene.throng_layout.status} ({self.bake.job.percent:.0f} %)   Esc: cancel" if going_on else None)
+            status = f"Throng: {context.scene.throng_layout.status} ({self.bake.job.percent:.0f} %)   Esc: cancel"
+            context.workspace.status_text_set(status if going_on else None)
         for area in context.screen.areas if context.screen else ():
             if area.type == "VIEW_3D":
                 area.tag_redraw()

@@ -1,17 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How values of a layout become properties and properties become values. Pure Python: a group is anything with attributes.
+"""How values of a layout become properties and properties become values. Pure Python: a group is anything with
+attributes.
 
-A codec puts a value (or MISSING) into a group, and takes it out again, given the value that was put in. A property that still shows
-what that value looks like gives the value itself, with all its digits, or its absence; so a layout that went through Blender differs
-only where somebody changed something, and what has no property of its own survives.
+A codec puts a value (or MISSING) into a group, and takes it out again, given the value that was put in. A property that
+still shows what that value looks like gives the value itself, with all its digits, or its absence; so a layout that
+went through Blender differs only where somebody changed something, and what has no property of its own survives.
 """
+from .schema import LAYOUT, words_of
 from .values import MISSING, is_number, keep_digits, short, single, whole
 
 UNSET = "UNSET"
 
 
 class Codec:
-    """A key whose value is one property. `shown` is what the property holds for a value, `written` the other way round."""
+    """A key whose value is one property. `shown` is what the property holds for a value, `written` the way back."""
 
     required = False
 
@@ -140,12 +142,13 @@ class Distribution(Codec):
         return result
 
 
-PROFILES = ("adult", "child", "elderly", "runner")
+PROFILES = words_of(LAYOUT.entry("people", "profile"))
 MIX = "MIX"
 
 
 class _WordOrWeights(Codec):
-    """A word (an enum), or weights of several kinds for MIX. `weights_of` tells the weights in a value, None where it has none."""
+    """A word (an enum), or weights of several kinds for MIX. `weights_of` tells the weights in a value; None: it has
+    none."""
 
     words = ()
 
@@ -188,7 +191,7 @@ class Profile(_WordOrWeights):
         return {word: short(weight) for word, weight in zip(PROFILES, weights) if weight > 0.0}
 
 
-GROUPS = ("alone", "weekday", "leisure")
+GROUPS = words_of(LAYOUT.entry("people", "groups"))
 
 
 class Groups(_WordOrWeights):

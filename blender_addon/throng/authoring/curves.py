@@ -15,7 +15,7 @@ def _middle(p, q):
 
 
 def flatten(a, b, c, d, tolerance, depth=12):
-    """Points on a cubic from a to d, without a: no further off than the tolerance. The control points bound the curve."""
+    """Points on a cubic from a to d, without a: no further off than the tolerance. Its control points bound it."""
     if depth == 0 or max(_distance_to_chord(b, a, d), _distance_to_chord(c, a, d)) <= tolerance:
         return [d]
     ab, bc, cd = _middle(a, b), _middle(b, c), _middle(c, d)
@@ -40,6 +40,10 @@ def without_straight(outline):
     return result
 
 
+def _turns_left(a, b, c):
+    return (b[0] - a[0]) * (c[1] - a[1]) > (b[1] - a[1]) * (c[0] - a[0])
+
+
 def hull(points):
     """The convex hull, counter-clockwise."""
     points = sorted(set(points))
@@ -49,7 +53,7 @@ def hull(points):
     def half(points):
         chain = []
         for p in points:
-            while len(chain) > 1 and (chain[-1][0] - chain[-2][0]) * (p[1] - chain[-2][1]) <= (chain[-1][1] - chain[-2][1]) * (p[0] - chain[-2][0]):
+            while len(chain) > 1 and not _turns_left(chain[-2], chain[-1], p):
                 chain.pop()
             chain.append(p)
         return chain[:-1]
@@ -58,7 +62,8 @@ def hull(points):
 
 
 def footprint(positions, faces, normals_z):
-    """Outlines of a mesh seen from above: of the faces that look down (a solid's floor), else of those that look up, else the hull of its points.
+    """Outlines of a mesh seen from above: of the faces that look down (a solid's floor), else of those that look up,
+    else the hull of its points.
 
     Holes are left out: what is inside an outline is solid. Faces are lists of indices into positions, which are (x, y).
     """

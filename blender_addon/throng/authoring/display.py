@@ -1,17 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How parts of a layout look in the viewport: roads as bands of their width, walls as solids, people as dots. Geometry nodes do it, so that
-it follows while curves are edited; nothing of it is rendered."""
+"""How parts of a layout look in the viewport: roads as bands of their width, walls as solids, people as dots. Geometry
+nodes do it, so that it follows while curves are edited; nothing of it is rendered."""
 import contextlib
 import math
 
 import bpy
 
-from ..nodes import Maths, new_tree, own_tree, set_input, socket
+from ..blender.nodes import Maths, new_tree, own_tree, set_input, socket
 
 MODIFIER = "Throng drawing"
 _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
-COLOURS = {"ROAD": (0.16, 0.20, 0.26, 1.0), "ARROW": (0.85, 0.85, 0.80, 1.0), "AREA": (0.16, 0.42, 0.36, 1.0), "WALL": (0.62, 0.55, 0.45, 1.0),
-           "FORMATION": (0.85, 0.45, 0.10, 1.0)}
+COLOURS = {"ROAD": (0.16, 0.20, 0.26, 1.0), "ARROW": (0.85, 0.85, 0.80, 1.0), "AREA": (0.16, 0.42, 0.36, 1.0),
+           "WALL": (0.62, 0.55, 0.45, 1.0), "FORMATION": (0.85, 0.45, 0.10, 1.0)}
 _HEIGHTS = {"AREA": 0.005, "ROAD": 0.01, "ARROW": 0.02}
 _MOST_SHOWN = 20000  # people of a formation
 _state = {"quiet": False}
@@ -51,7 +51,8 @@ class _Drawing(Maths):
 
     def finish(self, geometry, kind):
         coloured = self.made("GeometryNodeSetMaterial", [("Geometry", geometry), ("Material", _material(kind))])
-        lifted = self.made("GeometryNodeTransform", [("Geometry", coloured.outputs[0]), ("Translation", (0.0, 0.0, _HEIGHTS.get(kind, 0.0)))])
+        lifted = self.made("GeometryNodeTransform",
+                           [("Geometry", coloured.outputs[0]), ("Translation", (0.0, 0.0, _HEIGHTS.get(kind, 0.0)))])
         return lifted.outputs[0]
 
     def sweep(self, curve, profile):
@@ -74,7 +75,9 @@ class _Drawing(Maths):
 
 
 def _road_tree():
-    tree, inputs, outputs = new_tree("Throng drawing road", _GEOMETRY + [("Width", "NodeSocketFloat"), ("One Way", "NodeSocketFloat")], _GEOMETRY)
+    tree, inputs, outputs = new_tree("Throng drawing road",
+                                     _GEOMETRY + [("Width", "NodeSocketFloat"), ("One Way", "NodeSocketFloat")],
+                                     _GEOMETRY)
     draw = _Drawing(tree)
     curve, width, one_way = inputs.outputs[0], inputs.outputs["Width"], inputs.outputs["One Way"]
     band = draw.finish(draw.sweep(curve, draw.across(width)), "ROAD")
@@ -84,15 +87,20 @@ def _road_tree():
     draw.link(draw.node("GeometryNodeInputIndex").outputs[0], next(s for s in first.inputs if s.enabled))
     chosen = draw.math("MAXIMUM", first.outputs[0], one_way)
     arrow = draw.made("GeometryNodeMeshCircle", [("Vertices", 3), ("Radius", 0.7)], fill_type="NGON")
-    arrows = draw.made("GeometryNodeInstanceOnPoints", [("Points", spots.outputs["Points"]), ("Selection", draw.greater(chosen, 0.5)), ("Instance", arrow.outputs[0])])
-    heading = draw.made("FunctionNodeAlignEulerToVector", [("Vector", spots.outputs["Tangent"])], axis="X", pivot_axis="Z")
+    arrows = draw.made("GeometryNodeInstanceOnPoints",
+                       [("Points", spots.outputs["Points"]), ("Selection", draw.greater(chosen, 0.5)),
+                        ("Instance", arrow.outputs[0])])
+    heading = draw.made("FunctionNodeAlignEulerToVector", [("Vector", spots.outputs["Tangent"])], axis="X",
+                        pivot_axis="Z")
     draw.link(heading.outputs[0], arrows.inputs["Rotation"])
     draw.link(draw.joined(band, draw.finish(arrows.outputs[0], "ARROW")), outputs.inputs[0])
     return tree
 
 
 def _wall_tree():
-    tree, inputs, outputs = new_tree("Throng drawing wall", _GEOMETRY + [("Thickness", "NodeSocketFloat"), ("Height", "NodeSocketFloat")], _GEOMETRY)
+    tree, inputs, outputs = new_tree("Throng drawing wall",
+                                     _GEOMETRY + [("Thickness", "NodeSocketFloat"), ("Height", "NodeSocketFloat")],
+                                     _GEOMETRY)
     draw = _Drawing(tree)
     height = inputs.outputs["Height"]
     split = draw.made("GeometryNodeSeparateGeometry", [("Geometry", inputs.outputs[0])], domain="CURVE")
@@ -102,7 +110,8 @@ def _wall_tree():
     floor = draw.joined(solid.outputs[0], bands)
     up = draw.node("ShaderNodeCombineXYZ")
     draw.link(height, up.inputs[2])
-    top = draw.made("GeometryNodeExtrudeMesh", [("Mesh", floor), ("Offset", up.outputs[0]), ("Individual", False)], mode="FACES")
+    top = draw.made("GeometryNodeExtrudeMesh", [("Mesh", floor), ("Offset", up.outputs[0]), ("Individual", False)],
+                    mode="FACES")
     flat = draw.made("GeometryNodeSetShadeSmooth", [("Shade Smooth", False)])
     draw.link(top.outputs["Mesh"], flat.inputs[0])  # `Geometry`, later `Mesh`
     draw.link(draw.finish(flat.outputs[0], "WALL"), outputs.inputs[0])
@@ -112,7 +121,8 @@ def _wall_tree():
 def _area_tree():
     tree, inputs, outputs = new_tree("Throng drawing area", _GEOMETRY, _GEOMETRY)
     draw = _Drawing(tree)
-    draw.link(draw.finish(draw.made("GeometryNodeFillCurve", [("Curve", inputs.outputs[0])]).outputs[0], "AREA"), outputs.inputs[0])
+    draw.link(draw.finish(draw.made("GeometryNodeFillCurve", [("Curve", inputs.outputs[0])]).outputs[0], "AREA"),
+              outputs.inputs[0])
     return tree
 
 
@@ -124,13 +134,16 @@ def _people_tree():
     role.inputs["Name"].default_value = "throng_role"
     stands = draw.made("FunctionNodeCompare", data_type="INT", operation="EQUAL")
     draw.link(socket(role.outputs, "Attribute"), next(s for s in stands.inputs if s.enabled))
-    dot = draw.made("GeometryNodeMeshCone", [("Vertices", 8), ("Radius Bottom", 0.25), ("Radius Top", 0.12), ("Depth", 1.7)])
-    dots = draw.made("GeometryNodeInstanceOnPoints", [("Points", inputs.outputs[0]), ("Selection", stands.outputs[0]), ("Instance", dot.outputs[0])])
+    dot = draw.made("GeometryNodeMeshCone",
+                    [("Vertices", 8), ("Radius Bottom", 0.25), ("Radius Top", 0.12), ("Depth", 1.7)])
+    dots = draw.made("GeometryNodeInstanceOnPoints",
+                     [("Points", inputs.outputs[0]), ("Selection", stands.outputs[0]), ("Instance", dot.outputs[0])])
     draw.link(draw.joined(inputs.outputs[0], draw.finish(dots.outputs[0], "FORMATION")), outputs.inputs[0])
     return tree
 
 
-_TREES = {"Throng drawing road": _road_tree, "Throng drawing wall": _wall_tree, "Throng drawing area": _area_tree, "Throng drawing people": _people_tree}
+_TREES = {"Throng drawing road": _road_tree, "Throng drawing wall": _wall_tree, "Throng drawing area": _area_tree,
+          "Throng drawing people": _people_tree}
 
 
 def _tree(name):
@@ -182,7 +195,8 @@ def formation_places(formation):
     places = []
     if formation.type == "circle":
         radius, left = formation.radius, min(formation.count, _MOST_SHOWN)
-        rings = formation.use_ring_spacing and formation.use_along and formation.ring_spacing > 0.0 and formation.along > 0.0
+        are_apart = formation.ring_spacing > 0.0 and formation.along > 0.0
+        rings = formation.use_ring_spacing and formation.use_along and are_apart
         while left > 0:
             on_ring = max(1, int(2.0 * math.pi * radius / formation.along)) if rings else formation.count
             for i in range(min(on_ring, left)):
@@ -194,6 +208,6 @@ def formation_places(formation):
     rows, columns = max(1, formation.rows), max(1, formation.columns)
     count = formation.people_count if formation.use_people_count else rows * columns
     for person in range(min(count, _MOST_SHOWN)):
-        column, row = (person // rows, person % rows) if formation.use_people_count else (person % columns, person // columns)
+        column, row = divmod(person, rows) if formation.use_people_count else divmod(person, columns)[::-1]
         places.append((column * formation.spacing, row * formation.spacing))
     return places

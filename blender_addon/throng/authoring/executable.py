@@ -14,7 +14,7 @@ class ExecutableError(Exception):
 
 
 def find_executable(chosen=""):
-    """The program's path: the one chosen in the preferences, or of the environment, or on the PATH. Raises ExecutableError."""
+    """The program's path: chosen in the preferences, or of the environment, or on the PATH. Raises ExecutableError."""
     wanted = chosen or os.environ.get(ENVIRONMENT) or "throng"
     path = shutil.which(os.path.expanduser(wanted))
     if path:
@@ -23,7 +23,8 @@ def find_executable(chosen=""):
         reason = "is a folder: choose the program in it" if os.path.isdir(wanted) else \
             "is no program that can be run" if os.path.exists(wanted) else "does not exist"
         raise ExecutableError(f"{wanted} {reason} (Edit > Preferences > Add-ons > Throng > Program)")
-    raise ExecutableError("the program `throng` is not on the PATH: install it, or choose it in Edit > Preferences > Add-ons > Throng > Program")
+    raise ExecutableError("the program `throng` is not on the PATH: install it, or choose it in Edit > Preferences > "
+                          "Add-ons > Throng > Program")
 
 
 def check_version(path):
@@ -36,5 +37,6 @@ def check_version(path):
     if not found:
         raise ExecutableError(f"{path} is not Throng: `--version` says {(done.stdout or done.stderr).strip()[:80]!r}")
     if tuple(int(part) for part in found.groups()[:2]) != VERSION:
-        raise ExecutableError(f"{path} is version {'.'.join(found.groups())}, this add-on needs {VERSION[0]}.{VERSION[1]}: install both from one release")
+        raise ExecutableError(f"{path} is version {'.'.join(found.groups())}, this add-on needs "
+                              f"{VERSION[0]}.{VERSION[1]}: install both from one release")
     return ".".join(found.groups())

@@ -22,11 +22,13 @@ def origin_of(scene):
 
 def parts_of(scene, kind):
     """A scene's objects of a kind, in the layout's order; new ones come last, by name."""
-    return sorted((thing for thing in scene.objects if thing.throng_layout.kind == kind), key=lambda thing: (thing.throng_layout.order, thing.name))
+    return sorted((thing for thing in scene.objects if thing.throng_layout.kind == kind),
+                  key=lambda thing: (thing.throng_layout.order, thing.name))
 
 
 def id_of(thing):
-    """An object's name, or what the layout called it as long as it keeps the name that it was given for that. None: the layout gave none."""
+    """An object's name, or what the layout called it as long as it keeps the name that it was given for that. None:
+    the layout gave none."""
     part = thing.throng_layout
     if part.raw and thing.name == part.imported_name:
         return json.loads(part.raw).get("id")
@@ -77,7 +79,8 @@ def _road(thing, world):
         raise AuthoringError(f"{thing.name} is a {thing.type.lower()}: a road is a curve", thing)
     splines = splines_of(thing, world.tolerance)
     if len(splines) > 1 or splines[0][1]:
-        raise AuthoringError(f"{thing.name}: a road is one open curve; separate its splines, or mark it as an area", thing)
+        raise AuthoringError(f"{thing.name}: a road is one open curve; separate its splines, or mark it as an area",
+                             thing)
     result = take_all(fields.ROAD, thing.throng_layout, _named(thing, raw))
     result["centreline"] = world.kept(splines[0][0], raw.get("centreline"))
     return [result]
@@ -85,9 +88,13 @@ def _road(thing, world):
 
 def _area(thing, world):
     raw = _raw(thing)
-    outlines = [points for points, _ in splines_of(thing, world.tolerance)] if thing.type == "CURVE" else _mesh(thing)[0]
+    if thing.type == "CURVE":
+        outlines = [points for points, _ in splines_of(thing, world.tolerance)]
+    else:
+        outlines = _mesh(thing)[0]
     if len(outlines) != 1:
-        raise AuthoringError(f"{thing.name} has {len(outlines)} outlines: an area is one polygon; separate its parts", thing)
+        raise AuthoringError(f"{thing.name} has {len(outlines)} outlines: an area is one polygon; separate its parts",
+                             thing)
     return [{**_named(thing, raw), "polygon": world.kept(outlines[0], raw.get("polygon"))}]
 
 
@@ -143,7 +150,8 @@ def _formation(thing, world):
         _scaled(result, thing, ("radius", "ring_spacing", "along"))
     elif part.type == "grid":
         result["origin"] = world.point_of(thing, old.get("origin"))
-        values = {"rotation": _turn(thing, old.get("rotation", MISSING)), "goal": places.take_goal(part, old.get("goal", MISSING), world)}
+        values = {"rotation": _turn(thing, old.get("rotation", MISSING)),
+                  "goal": places.take_goal(part, old.get("goal", MISSING), world)}
         result.update({key: value for key, value in values.items() if value is not MISSING})
         scale = thing.matrix_world.to_scale().x
         if abs(scale - 1.0) > 1e-5:
@@ -177,7 +185,8 @@ def _simulation(layout, raw):
 
 
 def export_layout(context):
-    """The scene as (layout, sources). `sources` says what each part of the layout came from: a JSON pointer -> (object, list, index)."""
+    """The scene as (layout, sources). `sources` says what each part of the layout came from: a JSON pointer ->
+    (object, list, index)."""
     scene = context.scene
     context.view_layer.update()
     layout, world = scene.throng_layout, ExportWorld(scene)
@@ -195,7 +204,8 @@ def export_layout(context):
         for index, item in enumerate(group):
             sources[f"/{key}/{index}"] = (None, key, index)
             lists[key].append(take(item, world))
-    values = {"simulation": _simulation(layout, raw), "expect": places.take_expect(layout, raw.get("expect", MISSING), world)}
+    values = {"simulation": _simulation(layout, raw),
+              "expect": places.take_expect(layout, raw.get("expect", MISSING), world)}
     values.update({key: entries for key, entries in lists.items() if entries or key in raw})
     result.update({key: value for key, value in values.items() if value is not MISSING})
     return result, sources
@@ -245,4 +255,5 @@ def folder_of_files(scene, document):
 def default_name(scene):
     """What a bake of this scene is called."""
     name = scene.throng_layout.name or os.path.splitext(os.path.basename(bpy.data.filepath))[0] or "crowd"
-    return "".join(character if character.isalnum() or character in "-_. " else "-" for character in name).strip(" .") or "crowd"
+    plain = "".join(character if character.isalnum() or character in "-_. " else "-" for character in name)
+    return plain.strip(" .") or "crowd"

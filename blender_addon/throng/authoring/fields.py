@@ -1,57 +1,103 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a layout's objects hold, as codecs. Pure Python; a test compares the table of the simulation with the schema."""
-from .codecs import Choice, Distribution, Flag, Groups, Nested, Number, Optional, Profile, Whole
+"""What a layout's objects hold, as codecs. Limits, defaults, words and what they mean are the schema's; labels, order
+and what something new begins with, where the schema has no default, are ours. Pure Python."""
+from . import schema
+from .codecs import UNSET, Choice, Distribution, Flag, Groups, Nested, Number, Optional, Profile, Whole
 
-METHODS = ("auto", "cones", "gradient1", "gradient2", "gradient2-packed", "per-pixel", "per-site", "jfa", "1+jfa", "jfa+1", "jfa-r", "binned")
-
-# (codec, label, least, most, what it is)
-SIMULATION = (
-    (Number("duration", 10.0), "Duration", 0.0, 86400.0, "Length of the shot, s"),
-    (Number("warmup", 0.0), "Warm-up", 0.0, 3600.0, "Simulated before the first frame and not recorded, s: the shot opens on a crowd that is under way"),
-    (Number("fps", 24.0), "Frame Rate", 1.0, 240.0, "Frames a second of the bake"),
-    (Whole("substeps", 2), "Substeps", 1, 64, "Simulation steps a frame. More are slower, and keep dense crowds apart more exactly"),
-    (Whole("seed", 1), "Seed", 0, 2**31 - 1, "Another seed gives another crowd"),
-    (Flag("avoid_congestion", True), "Avoid Congestion", None, None, "Routes lead round jams and prefer streams that go the same way"),
-    (Number("smoothing", 0.25), "Smoothing", 0.0, 1.0, "Seconds before and after a frame over which recorded motion is averaged; 0: as simulated"),
-    (Number("tile_radius", 0.6), "Tile Radius", 0.05, 10.0, "Radius of a person's tile in the diagram, m: at least the largest body"),
-    (Number("field_of_view", 200.0), "Field of View", 0.0, 360.0, "What people see ahead, degrees"),
-    (Whole("samples_per_ray", 6), "Samples per Ray", 1, 64, "People see as far as body radius + (samples - 1) x tile radius"),
-    (Number("pixels_per_metre", 0.0), "Pixels per Metre", 0.0, 100.0, "Resolution of the diagram; 0: as the smallest tile and body need"),
-    (Choice("method", METHODS, "auto"), "Method", None, None, "How the diagram is built; auto takes the fastest exact one"),
-    (Whole("cone_sides", 16), "Cone Sides", 3, 256, "Of the method cones"),
-    (Choice("proximity", ("voronoi", "grid", "brute"), "voronoi"), "Proximity", None, None, "What finds a person's neighbours"),
-    (Whole("neighbours", 10), "Neighbours", 1, 32, "How many nearest people and walls each person heeds"),
-    (Number("time_horizon", 2.0), "Time Horizon", 0.1, 20.0, "How far ahead people avoid each other, s"),
-    (Number("wall_time_horizon", 0.6), "Wall Time Horizon", 0.05, 20.0, "How far ahead people avoid walls, s"),
-    (Number("contact_range", 1.0), "Contact Range", 0.5, 3.0, "People nearer than this are felt whatever the field of view, m"),
-    (Whole("contact_iterations", 8), "Contact Iterations", 1, 32, "Rounds a step of keeping bodies out of each other"),
-    (Number("maximum_acceleration", 4.0), "Maximum Acceleration", 0.1, 100.0, "Highest change of velocity that a person wants, m/s^2"),
-)
-
-BARS = ("arrived", "stuck", "refused", "seconds", "overlapping_percent", "deepest_overlap_percent", "wall_crossings", "deepest_wall_penetration",
-        "time_ratio", "detour_ratio", "heading_rate_p99", "acceleration_p99", "backward_percent", "effort", "lane_order", "mean_speed", "high_density",
-        "flow")
-
-BAR = (Optional(Number("min", 0.0, "least")), Optional(Number("max", 0.0, "most")))
-
-PEOPLE = (Distribution("speed"), Distribution("radius"), Number("maximum_speed_factor", 1.4), Number("headway", 0.0), Profile("profile", "profile_weights"),
-          Distribution("reaction"), Groups("groups", "group_weights"))
-
-ROAD = (Number("width", 3.0), Flag("one_way"))
-OPEN_WALL = (Number("thickness", 0.2), Number("height", 3.0))
-CLOSED_WALL = (Number("height", 3.0),)
-
-FLOW = (Number("start", 0.0), Optional(Number("end", 60.0)), Nested("people", PEOPLE), Choice("arrival", ("leave", "stay"), "leave"))
-
-STOP = (Distribution("wait"), Choice("activity", ("gather", "look", "queue"), "gather"), Number("spacing", 0.8))
-
-_STANDING = (Number("start", 0.0), Distribution("wait"), Nested("people", PEOPLE), Choice("arrival", ("leave", "stay"), "stay"),
-             Number("goal_tolerance", 0.3))
-FORMATION = {
-    "circle": (Number("radius", 10.0, required=True), Whole("count", 64, required=True), Optional(Number("ring_spacing", 1.5)),
-               Optional(Number("along", 1.5))) + _STANDING,
-    "grid": (Whole("rows", 8, required=True), Whole("columns", 8, required=True), Optional(Whole("count", 64, "people_count")), Number("spacing", 1.0),
-             Number("jitter", 0.0)) + _STANDING,
-    "agents": _STANDING,
+_LABELS = {"warmup": "Warm-up", "fps": "Frame Rate"}
+_SMALL_WORDS = ("of", "per")
+# The settings of the simulation that come first; the others follow in the schema's order.
+_FIRST = ("duration", "warmup", "fps", "substeps", "seed", "avoid_congestion", "smoothing")
+# What something new begins with where the schema has no default.
+_BEGINNINGS = {
+    "flow": {"count": 100, "rate": 1.0, "end": 60.0}, "event": {"at": 0.0, "rate": 1.0},
+    "formation": {"radius": 10.0, "count": 64, "ring_spacing": 1.5, "along": 1.5, "rows": 8, "columns": 8},
+    "bar": {"min": 0.0, "max": 0.0},
 }
 
+
+def label_of(key):
+    words = key.split("_")
+    return _LABELS.get(key) or " ".join(word if word in _SMALL_WORDS else word.capitalize() for word in words)
+
+
+def codec_of(key, entry, beginning=None, attribute=None, required=False):
+    """How a key becomes a property."""
+    if schema.is_distribution(entry):
+        return Distribution(key, attribute)
+    default = entry.get("default", beginning)
+    if entry.get("type") == "boolean":
+        return Flag(key, default, attribute)
+    if "enum" in entry:
+        return Choice(key, schema.words_of(entry), UNSET if default is None else default, attribute, required)
+    if entry.get("type") == "integer":
+        return Whole(key, default, attribute, required)
+    return Number(key, float(default), attribute, required)
+
+
+def row_of(key, entry):
+    """(codec, label, least, most, what it is)"""
+    return (codec_of(key, entry), label_of(key), *schema.limits_of(entry), schema.description_of(entry))
+
+
+def rows_of(owner, first=(), layout=schema.LAYOUT):
+    """The rows of all keys of an object, some of them first."""
+    entries = layout.entries(owner)
+    return tuple(row_of(key, layout.followed(entries[key]))
+                 for key in (*first, *(key for key in entries if key not in first)))
+
+
+def motion_of(layout):
+    """(rule, label, what it is, rows) for each rule of motion that the schema knows, each an object of its own."""
+    if "motion" not in layout.document["properties"]:
+        return ()
+    rules = layout.entries(layout.named("motion"))
+    return tuple((name, rule.get("title") or label_of(name), schema.description_of(rule), rows_of(rule, layout=layout))
+                 for name, rule in ((name, layout.followed(rule)) for name, rule in rules.items()))
+
+
+def _codec(name, key, attribute=None, required=False):
+    beginning = _BEGINNINGS.get(name, {}).get(key)
+    return codec_of(key, schema.LAYOUT.entry(name, key), beginning, attribute, required)
+
+
+def _codecs(name, *keys):
+    return tuple(_codec(name, key) for key in keys)
+
+
+def limits(name, key, **ours):
+    """What a number's property in Blender is made with: where it begins, and how far it is dragged. What is given here
+    goes before what the schema says."""
+    least, most = schema.limits_of(schema.LAYOUT.entry(name, key))
+    return {"default": _codec(name, key).default, "soft_min": least, "soft_max": most, **ours}
+
+
+SIMULATION = rows_of(schema.LAYOUT.named("simulation"), _FIRST)
+MOTION = motion_of(schema.LAYOUT)
+
+METHODS = schema.words_of(schema.LAYOUT.entry("simulation", "method"))
+
+BARS = tuple(key for key, entry in schema.LAYOUT.entries(schema.LAYOUT.named("expect")).items() if "$ref" in entry)
+BAR = (Optional(_codec("bar", "min", "least")), Optional(_codec("bar", "max", "most")))
+
+PEOPLE = (*_codecs("people", "speed", "radius", "maximum_speed_factor", "headway"),
+          Profile("profile", "profile_weights"), _codec("people", "reaction"), Groups("groups", "group_weights"))
+
+ROAD = _codecs("road", "width", "one_way")
+OPEN_WALL = _codecs("wall", "thickness", "height")
+CLOSED_WALL = _codecs("wall", "height")
+
+FLOW = (_codec("flow", "start"), Optional(_codec("flow", "end")), Nested("people", PEOPLE), _codec("flow", "arrival"))
+
+STOP = _codecs("stop", "wait", "activity", "spacing")
+
+_STANDING = (*_codecs("formation", "start", "wait"), Nested("people", PEOPLE),
+             *_codecs("formation", "arrival", "goal_tolerance"))
+FORMATION = {
+    "circle": (_codec("formation", "radius", required=True), _codec("formation", "count", required=True),
+               Optional(_codec("formation", "ring_spacing")), Optional(_codec("formation", "along"))) + _STANDING,
+    "grid": (_codec("formation", "rows", required=True), _codec("formation", "columns", required=True),
+             Optional(_codec("formation", "count", "people_count")),
+             *_codecs("formation", "spacing", "jitter")) + _STANDING,
+    "agents": _STANDING,
+}

@@ -16,7 +16,8 @@ class AuthoringError(Exception):
 def _mapped(matrix, flat, stride):
     """(x, y) in the world of a flat list of positions."""
     (a, b, c, d), (e, f, g, h) = matrix[0], matrix[1]
-    return [(a * x + b * y + c * z + d, e * x + f * y + g * z + h) for x, y, z in zip(flat[::stride], flat[1::stride], flat[2::stride])]
+    return [(a * x + b * y + c * z + d, e * x + f * y + g * z + h)
+            for x, y, z in zip(flat[::stride], flat[1::stride], flat[2::stride])]
 
 
 def _values(collection, name, stride):
@@ -26,7 +27,8 @@ def _values(collection, name, stride):
 
 
 def _bezier(spline, matrix, tolerance):
-    knots, left, right = (_mapped(matrix, _values(spline.bezier_points, name, 3), 3) for name in ("co", "handle_left", "handle_right"))
+    knots, left, right = (_mapped(matrix, _values(spline.bezier_points, name, 3), 3)
+                          for name in ("co", "handle_left", "handle_right"))
     points = [knots[0]]
     count = len(knots)
     for i in range(count if spline.use_cyclic_u else count - 1):
@@ -44,7 +46,8 @@ def splines_of(thing, tolerance):
         elif spline.type == "POLY":
             result.append((_mapped(thing.matrix_world, _values(spline.points, "co", 4), 4), spline.use_cyclic_u))
         else:
-            raise AuthoringError(f"{thing.name} is a NURBS curve: convert it to Bezier or Poly (Curve > Set Spline Type)", thing)
+            raise AuthoringError(f"{thing.name} is a NURBS curve: convert it to Bezier or Poly "
+                                 "(Curve > Set Spline Type)", thing)
     if not result:
         raise AuthoringError(f"{thing.name} has no points: draw its curve, or unmark it", thing)
     return result
@@ -129,7 +132,8 @@ def people_of(thing):
     ends = [0] * (2 * len(mesh.edges))
     mesh.edges.foreach_get("vertices", ends)
     if 2 * len(mesh.edges) != len(set(ends)) or len(set(ends)) != len(positions):
-        raise AuthoringError(f"{thing.name} is a list of people: an edge for each, from where they stand to their goal, and nothing else", thing)
+        raise AuthoringError(f"{thing.name} is a list of people: an edge for each, from where they stand to "
+                             "their goal, and nothing else", thing)
     pairs = [(b, a) if roles[a] > roles[b] else (a, b) for a, b in zip(ends[::2], ends[1::2])]
     result = [(positions[a], positions[b], agents[a] - 1) for a, b in pairs]
     return sorted(result, key=lambda each: each[2] if each[2] >= 0 else len(result))

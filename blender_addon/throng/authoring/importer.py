@@ -26,8 +26,9 @@ def read_layout(path):
     except ValueError as error:
         raise AuthoringError(f"{path} is not JSON: {error}") from None
     if not isinstance(document, dict) or document.get("throng") != 1:
-        hint = "this is a family of layouts: `throng batch` bakes it" if isinstance(document, dict) and "throng_family" in document else \
-            'a layout begins with {"throng": 1}'
+        hint = 'a layout begins with {"throng": 1}'
+        if isinstance(document, dict) and "throng_family" in document:
+            hint = "this is a family of layouts: `throng batch` bakes it"
         raise AuthoringError(f"{path} is no Throng layout: {hint}")
     for pointer, problem in _problems(document):
         raise AuthoringError(f"{path}: {pointer}: {problem}; `throng check` says everything that is wrong with it")
@@ -49,13 +50,17 @@ def _problems(document):
                 yield from _formation_problems(entry, f"/{key}/{i}")
 
 
+def _is_person(entry):
+    return isinstance(entry, dict) and is_point(entry.get("position")) and is_point(entry.get("goal"))
+
+
 def _formation_problems(entry, pointer):
     kind = entry.get("type")
     if kind not in fields.FORMATION:
         yield f"{pointer}/type", "expected circle, grid or agents"
     elif kind == "agents":
         people = entry.get("agents")
-        if not isinstance(people, list) or not all(isinstance(each, dict) and is_point(each.get("position")) and is_point(each.get("goal")) for each in people):
+        if not isinstance(people, list) or not all(_is_person(each) for each in people):
             yield f"{pointer}/agents", "expected people with a position and a goal [x, y]"
     elif not is_point(entry.get("centre" if kind == "circle" else "origin")):
         yield f"{pointer}/{'centre' if kind == 'circle' else 'origin'}", "expected a point [x, y]"
@@ -129,7 +134,8 @@ def _shaped(world, key, kind, entry):
     if kind == "FORMATION":
         thing = bpy.data.objects.new(name, bpy.data.meshes.new("Throng formation"))
         if entry["type"] == "agents":
-            geometry.fill_people(thing.data, [world.local([each["position"], each["goal"]]) for each in entry["agents"]])
+            geometry.fill_people(thing.data,
+                                 [world.local([each["position"], each["goal"]]) for each in entry["agents"]])
         else:
             thing.location = (*world.local([entry["centre" if entry["type"] == "circle" else "origin"]])[0], 0.0)
             turn = entry.get("rotation") if entry["type"] == "grid" else None
@@ -214,7 +220,8 @@ def import_layout(context, path, replace=False):
     layout.name = document["name"] if isinstance(document.get("name"), str) else ""
     with display.quietly():
         things = _add_objects(world, document)
-        codecs.Nested("simulation", [row[0] for row in fields.SIMULATION]).put(layout, document.get("simulation", MISSING))
+        simulation = codecs.Nested("simulation", [row[0] for row in fields.SIMULATION])
+        simulation.put(layout, document.get("simulation", MISSING))
         for flow in document.get("flows", []):
             places.put_flow(layout.flows.add(), flow, world)
         for event in document.get("events", []):
@@ -227,4 +234,5 @@ def import_layout(context, path, replace=False):
 
 
 def next_order(scene):
-    return max([part.throng_layout.order for kind in LISTS for part in parts_of(scene, kind) if part.throng_layout.order < 2**30], default=-1) + 1
+    orders = [part.throng_layout.order for kind in LISTS for part in parts_of(scene, kind)]
+    return max((order for order in orders if order < 2**30), default=-1) + 1

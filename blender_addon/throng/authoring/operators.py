@@ -84,7 +84,8 @@ class THRONG_OT_add_road(_Adds, bpy.types.Operator):
 
     def execute(self, context):
         half = 0.5 * self.length
-        self.add_curve(context, "Road", [(-half, 0.0), (half, 0.0)], False, "ROAD", width=self.width, one_way=self.one_way)
+        self.add_curve(context, "Road", [(-half, 0.0), (half, 0.0)], False, "ROAD", width=self.width,
+                       one_way=self.one_way)
         return {"FINISHED"}
 
 
@@ -101,7 +102,8 @@ class THRONG_OT_add_wall(_Adds, bpy.types.Operator):
     angle: FloatProperty(name="Angle", subtype="ANGLE")
 
     def execute(self, context):
-        corners = _rectangle(self.length, self.depth) if self.closed else [(-0.5 * self.length, 0.0), (0.5 * self.length, 0.0)]
+        half = 0.5 * self.length
+        corners = _rectangle(self.length, self.depth) if self.closed else [(-half, 0.0), (half, 0.0)]
         self.add_curve(context, "Wall", corners, self.closed, "WALL", thickness=self.thickness, height=self.height)
         return {"FINISHED"}
 
@@ -138,8 +140,10 @@ class THRONG_OT_add_formation(_Adds, bpy.types.Operator):
 
     bl_idname = "throng.add_formation"
     bl_label = "Add Formation"
-    type: EnumProperty(name="Type", items=[("circle", "Circle", "Everybody's goal is the opposite point"), ("grid", "Grid", "Rows and columns"),
-                                           ("agents", "List", "An edge for each person, from where they stand to their goal")])
+    type: EnumProperty(name="Type",
+                       items=[("circle", "Circle", "Everybody's goal is the opposite point"),
+                              ("grid", "Grid", "Rows and columns"),
+                              ("agents", "List", "An edge for each person, from where they stand to their goal")])
 
     def execute(self, context):
         thing = bpy.data.objects.new(self.type.capitalize(), bpy.data.meshes.new("Throng formation"))
@@ -165,8 +169,8 @@ class THRONG_OT_mark(bpy.types.Operator):
         return context.mode == "OBJECT" and bool(context.selected_objects)
 
     def execute(self, context):
-        fitting = {"NONE": None, "ROAD": ("CURVE",), "LINE": ("CURVE",), "AREA": ("CURVE", "MESH"), "WALL": ("CURVE", "MESH"),
-                   "FORMATION": ("MESH",), "POINT": ("EMPTY",)}[self.kind]
+        fitting = {"NONE": None, "ROAD": ("CURVE",), "LINE": ("CURVE",), "AREA": ("CURVE", "MESH"),
+                   "WALL": ("CURVE", "MESH"), "FORMATION": ("MESH",), "POINT": ("EMPTY",)}[self.kind]
         unfit = [thing.name for thing in context.selected_objects if fitting and thing.type not in fitting]
         if unfit:
             words = " or ".join(word.lower() for word in fitting)
@@ -188,10 +192,10 @@ _PLACE_KINDS = ("ROAD", "AREA")
 
 
 class THRONG_OT_add_flow(bpy.types.Operator):
-    """Add a flow of people. Of two selected places, it goes from the other one to the active one; of one road, from its start to its end"""
-
     bl_idname = "throng.add_flow"
     bl_label = "Add Flow"
+    bl_description = ("Add a flow of people. Of two selected places, it goes from the other one to the active one; "
+                      "of one road, from its start to its end")
     bl_options = {"REGISTER", "UNDO"}
     count: IntProperty(name="People", default=100, min=0)
 
@@ -199,7 +203,8 @@ class THRONG_OT_add_flow(bpy.types.Operator):
         layout = context.scene.throng_layout
         names = {flow.name for flow in layout.flows}
         flow = layout.flows.add()
-        flow.name = next(name for name in (f"Flow {number}" for number in range(len(layout.flows), 2**30)) if name not in names)
+        flow.name = next(name for name in (f"Flow {number}" for number in range(len(layout.flows), 2**30))
+                         if name not in names)
         flow.count = self.count
         chosen = [thing for thing in context.selected_objects if thing.throng_layout.kind in _PLACE_KINDS]
         last = context.view_layer.objects.active
@@ -292,8 +297,9 @@ class IMPORT_SCENE_OT_throng_layout(bpy.types.Operator, ImportHelper):
         return {"FINISHED"}
 
 
-CLASSES = (THRONG_OT_add_road, THRONG_OT_add_wall, THRONG_OT_add_area, THRONG_OT_add_line, THRONG_OT_add_formation, THRONG_OT_mark, THRONG_OT_add_flow,
-           THRONG_OT_list, THRONG_OT_settings_from_scene, EXPORT_SCENE_OT_throng_layout, IMPORT_SCENE_OT_throng_layout)
+CLASSES = (THRONG_OT_add_road, THRONG_OT_add_wall, THRONG_OT_add_area, THRONG_OT_add_line, THRONG_OT_add_formation,
+           THRONG_OT_mark, THRONG_OT_add_flow, THRONG_OT_list, THRONG_OT_settings_from_scene,
+           EXPORT_SCENE_OT_throng_layout, IMPORT_SCENE_OT_throng_layout)
 
 
 def _import_menu(self, _context):

@@ -3,11 +3,14 @@
 import math
 
 import bpy
+import gpu
+from gpu_extras.batch import batch_for_shader
 
 from .geometry import AuthoringError, outlines_of, splines_of
 
 _HEIGHT = 0.3   # m above the ground
-COLOURS = ((0.95, 0.60, 0.10), (0.20, 0.65, 0.95), (0.90, 0.30, 0.55), (0.40, 0.80, 0.35), (0.75, 0.55, 0.95), (0.95, 0.90, 0.35))
+COLOURS = ((0.95, 0.60, 0.10), (0.20, 0.65, 0.95), (0.90, 0.30, 0.55), (0.40, 0.80, 0.35), (0.75, 0.55, 0.95),
+           (0.95, 0.90, 0.35))
 _handle = {}
 
 
@@ -39,12 +42,13 @@ def flow_lines(flow, tolerance):
 
 
 def arrow(a, b, side=0.0):
-    """The strokes of an arrow from a to b, bowed a little to the left, so that flows to and fro do not hide each other."""
+    """The strokes of an arrow from a to b, bowed a little to the left, so that to and fro do not hide each other."""
     dx, dy = b[0] - a[0], b[1] - a[1]
     size = math.hypot(dx, dy) or 1.0
     ux, uy = dx / size, dy / size
     bow = 0.06 * size + side
-    points = [(a[0] + dx * t - uy * bow * 4.0 * t * (1.0 - t), a[1] + dy * t + ux * bow * 4.0 * t * (1.0 - t)) for t in (i / 16 for i in range(17))]
+    points = [(a[0] + dx * t - uy * bow * 4.0 * t * (1.0 - t), a[1] + dy * t + ux * bow * 4.0 * t * (1.0 - t))
+              for t in (i / 16 for i in range(17))]
     tip, before = points[-1], points[-2]
     angle = math.atan2(tip[1] - before[1], tip[0] - before[0])
     head = min(1.5, 0.2 * size)
@@ -61,7 +65,8 @@ def strokes(scene):
             lines = flow_lines(flow, layout.tolerance)
         except AuthoringError:  # a curve without points: export says so
             continue
-        result.append((COLOURS[index % len(COLOURS)], [stroke for a, b in lines for stroke in arrow(a, b, 0.15 * index)]))
+        result.append((COLOURS[index % len(COLOURS)],
+                       [stroke for a, b in lines for stroke in arrow(a, b, 0.15 * index)]))
     return result
 
 
@@ -69,9 +74,6 @@ def _draw():
     scene = bpy.context.scene
     if not scene.throng_layout.show_flows or not len(scene.throng_layout.flows):
         return
-    import gpu
-    from gpu_extras.batch import batch_for_shader
-
     shader = gpu.shader.from_builtin("UNIFORM_COLOR" if bpy.app.version >= (3, 6, 0) else "3D_UNIFORM_COLOR")
     gpu.state.line_width_set(2.0)
     for colour, lines in strokes(scene):

@@ -4,12 +4,13 @@ import textwrap
 
 import bpy
 
-from ..panels import InSidebar
+from ..blender.panels import InSidebar
 from . import fields
 from .bake_operator import described, running
 from .codecs import MIX, UNSET
 
-_A = {"NUMBER": ("Value",), "uniform": ("From", "To"), "normal": ("Mean", "Deviation"), "log_normal": ("Mean of log", "Deviation of log")}
+_A = {"NUMBER": ("Value",), "uniform": ("From", "To"), "normal": ("Mean", "Deviation"),
+      "log_normal": ("Mean of log", "Deviation of log")}
 
 
 def _distribution(layout, owner, name):
@@ -82,8 +83,8 @@ def _problems_of(context, layout, chosen):
         column = layout.box().column(align=True)
         column.alert = problem.is_error
         row = column.row()
-        row.label(text=described(context.scene.throng_layout, problem).removesuffix(problem.message).rstrip(": ") or "Layout",
-                  icon="ERROR" if problem.is_error else "INFO")
+        about = described(context.scene.throng_layout, problem).removesuffix(problem.message).rstrip(": ")
+        row.label(text=about or "Layout", icon="ERROR" if problem.is_error else "INFO")
         if problem.target or problem.where:
             row.operator("throng.show_problem", text="", icon="RESTRICT_SELECT_OFF").index = index
         for text in (problem.message, problem.hint):
@@ -103,7 +104,8 @@ class VIEW3D_PT_throng_layout(InSidebar, bpy.types.Panel):
     def draw(self, context):
         layout = self.layout
         grid = layout.grid_flow(columns=2, align=True)
-        for part, icon in (("road", "CURVE_PATH"), ("wall", "MOD_SOLIDIFY"), ("area", "MESH_PLANE"), ("formation", "COMMUNITY"), ("line", "IPO_LINEAR")):
+        for part, icon in (("road", "CURVE_PATH"), ("wall", "MOD_SOLIDIFY"), ("area", "MESH_PLANE"),
+                           ("formation", "COMMUNITY"), ("line", "IPO_LINEAR")):
             grid.operator(f"throng.add_{part}", icon=icon)
         layout.operator_menu_enum("throng.mark", "kind")
         if context.object:
@@ -128,8 +130,8 @@ class VIEW3D_PT_throng_layout(InSidebar, bpy.types.Panel):
     @staticmethod
     def _formation(box, formation):
         box.prop(formation, "type")
-        names = {"circle": ("radius", "count"), "grid": ("rows", "columns", "spacing", "jitter"), "agents": ()}[formation.type]
-        for name in names:
+        names = {"circle": ("radius", "count"), "grid": ("rows", "columns", "spacing", "jitter")}
+        for name in names.get(formation.type, ()):
             box.prop(formation, name)
         for name in {"circle": ("ring_spacing", "along"), "grid": ("people_count",)}.get(formation.type, ()):
             _optional(box, formation, name)
@@ -160,7 +162,8 @@ class THRONG_UL_events(bpy.types.UIList):
     def draw_item(self, context, layout, _data, item, _icon, _active, _property, index):
         problems = context.scene.throng_layout.problems
         wrong = any(problem.where == "events" and problem.index == index and problem.is_error for problem in problems)
-        what = {"open": item.wall.name if item.wall else item.text, "close": item.wall.name if item.wall else item.text, "flow": item.flow}.get(item.kind, "")
+        wall = item.wall.name if item.wall else item.text
+        what = {"open": wall, "close": wall, "flow": item.flow}.get(item.kind, "")
         layout.label(text=f"{item.time:g} s: {item.kind.replace('_', ' ')} {what}", icon="ERROR" if wrong else "TIME")
 
 
@@ -319,7 +322,7 @@ class VIEW3D_PT_throng_bake(InSidebar, bpy.types.Panel):
         layout.label(text=data.status)
 
 
-CLASSES = (VIEW3D_PT_throng_layout, VIEW3D_PT_throng_bake, THRONG_UL_flows, THRONG_UL_events, VIEW3D_PT_throng_flows, VIEW3D_PT_throng_events,
-           VIEW3D_PT_throng_simulation, VIEW3D_PT_throng_bars)
+CLASSES = (VIEW3D_PT_throng_layout, VIEW3D_PT_throng_bake, THRONG_UL_flows, THRONG_UL_events, VIEW3D_PT_throng_flows,
+           VIEW3D_PT_throng_events, VIEW3D_PT_throng_simulation, VIEW3D_PT_throng_bars)
 
 register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Places, destinations, stops and events: values that speak of other things of the layout. Pure Python.
 
-A world stands between names and objects. On import it has find(text) -> (object, end) or None, wall(text), member(text), point(raw) and
-line(raw), which make objects; on export place(object, end) -> text, name(object), point_of(object, raw) and line_of(object, raw).
+A world stands between names and objects. On import it has find(text) -> (object, end) or None, wall(text),
+member(text), point(raw) and line(raw), which make objects; on export place(object, end) -> text, name(object),
+point_of(object, raw) and line_of(object, raw).
 """
 import json
 
@@ -63,7 +64,8 @@ class Destination(Codec):
             return {"nearest": [place_of(ref, world) for ref in part.places]}
         old = raw.get("choose") if isinstance(raw, dict) else None
         old = old if isinstance(old, dict) else {}
-        return {"choose": {text: _WEIGHT.take(ref, old.get(text, 1.0)) for ref in part.places for text in (place_of(ref, world),)}}
+        return {"choose": {text: _WEIGHT.take(ref, old.get(text, 1.0)) for ref in part.places
+                           for text in (place_of(ref, world),)}}
 
 
 class Target(Codec):

@@ -1,18 +1,22 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the artist edits: properties of objects (roads, areas, walls, formations) and of the scene (flows, events, simulation, bars).
+"""What the artist edits: properties of objects (roads, areas, walls, formations) and of the scene (flows,
+events, simulation, bars).
 
 Limits are soft: a layout may hold anything, and `throng check` says what is wrong with it, at the thing that is wrong.
 """
 import bpy
-from bpy.props import (BoolProperty, CollectionProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, PointerProperty,
-                       StringProperty)
+from bpy.props import (BoolProperty, CollectionProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty,
+                       PointerProperty, StringProperty)
 
 from . import display, fields
 from .codecs import GROUPS, MIX, PROFILES, UNSET, Flag, Whole
+from .fields import limits
 
 KINDS = (("NONE", "None", "No part of the layout"), ("ROAD", "Road", "A curve with a width, on which people walk"),
-         ("AREA", "Area", "A cyclic curve or a mesh: a plaza, an entry, an exit"), ("WALL", "Wall", "An open curve with a thickness, a cyclic one, or a mesh"),
-         ("FORMATION", "Formation", "People who stand here at a given moment"), ("LINE", "Line", "A queue, a mirror, the corners of a box, or where people are counted"),
+         ("AREA", "Area", "A cyclic curve or a mesh: a plaza, an entry, an exit"),
+         ("WALL", "Wall", "An open curve with a thickness, a cyclic one, or a mesh"),
+         ("FORMATION", "Formation", "People who stand here at a given moment"),
+         ("LINE", "Line", "A queue, a mirror, the corners of a box, or where people are counted"),
          ("POINT", "Point", "Something to look at"))
 
 
@@ -44,8 +48,10 @@ _ARRIVAL = [("leave", "Leave", "People leave the scene at their goal"), ("stay",
 
 
 class ThrongDistribution(bpy.types.PropertyGroup):
-    kind: EnumProperty(name="Kind", items=[(UNSET, "Default", "As Throng has it"), ("NUMBER", "Number", "The same for all"), ("uniform", "Uniform", "From a to b"),
-                                           ("normal", "Normal", "Mean a, deviation b"), ("log_normal", "Log-normal", "Mean a and deviation b of the logarithm")])
+    kind: EnumProperty(name="Kind",
+                       items=[(UNSET, "Default", "As Throng has it"), ("NUMBER", "Number", "The same for all"),
+                              ("uniform", "Uniform", "From a to b"), ("normal", "Normal", "Mean a, deviation b"),
+                              ("log_normal", "Log-normal", "Mean a and deviation b of the logarithm")])
     a: FloatProperty(name="A")
     b: FloatProperty(name="B")
     use_least: BoolProperty(name="At Least")
@@ -57,13 +63,19 @@ class ThrongDistribution(bpy.types.PropertyGroup):
 class ThrongPeople(bpy.types.PropertyGroup):
     speed: PointerProperty(type=ThrongDistribution, name="Speed", description="Preferred walking speed, m/s")
     radius: PointerProperty(type=ThrongDistribution, name="Radius", description="Body radius, m")
-    reaction: PointerProperty(type=ThrongDistribution, name="Reaction", description="How long people take to set off when an event sends them away, s")
-    maximum_speed_factor: FloatProperty(name="Hurry", default=1.4, soft_min=1.0, soft_max=3.0, description="Highest speed as a multiple of the preferred one")
-    headway: FloatProperty(name="Headway", default=0.0, soft_min=0.0, soft_max=5.0, description="Free way kept to those walked behind, s")
+    reaction: PointerProperty(type=ThrongDistribution, name="Reaction",
+                              description="How long people take to set off when an event sends them away, s")
+    maximum_speed_factor: FloatProperty(name="Hurry", **limits("people", "maximum_speed_factor"),
+                                        description="Highest speed as a multiple of the preferred one")
+    headway: FloatProperty(name="Headway", **limits("people", "headway"),
+                           description="Free way kept to those walked behind, s")
     profile: EnumProperty(name="Profile", items=_words(PROFILES, "Default") + [(MIX, "Mix", "Several, by weight")])
-    profile_weights: FloatVectorProperty(name="Weights", size=4, default=(1.0, 0.0, 0.0, 0.0), soft_min=0.0, description="Adults, children, elderly, runners")
-    groups: EnumProperty(name="Groups", items=_words(GROUPS, "Default") + [(MIX, "Weights", "Of those who walk alone, in twos, threes and fours")])
-    group_weights: FloatVectorProperty(name="Weights", size=4, default=(1.0, 0.0, 0.0, 0.0), soft_min=0.0, description="Alone, twos, threes, fours")
+    profile_weights: FloatVectorProperty(name="Weights", size=4, default=(1.0, 0.0, 0.0, 0.0), soft_min=0.0,
+                                         description="Adults, children, elderly, runners")
+    groups: EnumProperty(name="Groups", items=_words(GROUPS, "Default")
+                                        + [(MIX, "Weights", "Of those who walk alone, in twos, threes and fours")])
+    group_weights: FloatVectorProperty(name="Weights", size=4, default=(1.0, 0.0, 0.0, 0.0), soft_min=0.0,
+                                       description="Alone, twos, threes, fours")
 
 
 class ThrongPlace(bpy.types.PropertyGroup):
@@ -74,7 +86,8 @@ class ThrongPlace(bpy.types.PropertyGroup):
 
 
 class ThrongDestination(bpy.types.PropertyGroup):
-    mode: EnumProperty(name="To", items=[("PLACE", "Place", "One place"), ("NEAREST", "Nearest", "Whichever is nearest, jams considered"),
+    mode: EnumProperty(name="To", items=[("PLACE", "Place", "One place"),
+                                         ("NEAREST", "Nearest", "Whichever is nearest, jams considered"),
                                          ("CHOOSE", "Choose", "One of these, by weight")])
     place: PointerProperty(type=ThrongPlace)
     places: CollectionProperty(type=ThrongPlace)
@@ -83,12 +96,18 @@ class ThrongDestination(bpy.types.PropertyGroup):
 class ThrongStop(bpy.types.PropertyGroup):
     raw: StringProperty(options={"HIDDEN"})
     at: PointerProperty(type=ThrongDestination)
-    wait: PointerProperty(type=ThrongDistribution, name="Wait", description="How long people stop, s; in a queue, how long one is served")
-    activity: EnumProperty(name="Activity", items=[("gather", "Gather", "Everybody stands at a spot of their own"), ("look", "Look", "The same, looking at something"),
-                                                   ("queue", "Queue", "People stand in line, and the first one is served")])
-    facing: PointerProperty(type=bpy.types.Object, name="Facing", poll=_is_kind("POINT"), description="What people look at")
-    line: PointerProperty(type=bpy.types.Object, name="Line", poll=_is_kind("LINE"), description="Where people queue, from the front on")
-    spacing: FloatProperty(name="Spacing", default=0.8, soft_min=0.4, soft_max=10.0, description="Queue: metres from one to the next")
+    wait: PointerProperty(type=ThrongDistribution, name="Wait",
+                          description="How long people stop, s; in a queue, how long one is served")
+    activity: EnumProperty(name="Activity",
+                           items=[("gather", "Gather", "Everybody stands at a spot of their own"),
+                                  ("look", "Look", "The same, looking at something"),
+                                  ("queue", "Queue", "People stand in line, and the first one is served")])
+    facing: PointerProperty(type=bpy.types.Object, name="Facing", poll=_is_kind("POINT"),
+                            description="What people look at")
+    line: PointerProperty(type=bpy.types.Object, name="Line", poll=_is_kind("LINE"),
+                          description="Where people queue, from the front on")
+    spacing: FloatProperty(name="Spacing", **limits("stop", "spacing"),
+                           description="Queue: metres from one to the next")
 
 
 def _renamed(flow, context):
@@ -111,12 +130,13 @@ class ThrongFlow(bpy.types.PropertyGroup):
     to: PointerProperty(type=ThrongDestination, name="To")
     via: CollectionProperty(type=ThrongStop)
     active_stop: IntProperty()
-    amount: EnumProperty(name="How Many", items=[("COUNT", "Count", "People in all, spread evenly"), ("RATE", "Rate", "People a second, at random moments")])
-    count: IntProperty(name="People", default=100, soft_min=0, soft_max=4000000)
-    rate: FloatProperty(name="People/s", default=1.0, soft_min=0.0, soft_max=1000.0)
-    start: FloatProperty(name="Start", soft_min=0.0, description="When the first come, s")
+    amount: EnumProperty(name="How Many", items=[("COUNT", "Count", "People in all, spread evenly"),
+                                                 ("RATE", "Rate", "People a second, at random moments")])
+    count: IntProperty(name="People", **limits("flow", "count"))
+    rate: FloatProperty(name="People/s", **limits("flow", "rate", soft_max=1000.0))
+    start: FloatProperty(name="Start", **limits("flow", "start"), description="When the first come, s")
     use_end: BoolProperty(name="End", description="Otherwise people come until the shot ends")
-    end: FloatProperty(name="End", default=60.0, soft_min=0.0, description="When the last come, s")
+    end: FloatProperty(name="End", **limits("flow", "end"), description="When the last come, s")
     people: PointerProperty(type=ThrongPeople)
     arrival: EnumProperty(name="Arrival", items=_ARRIVAL)
 
@@ -127,16 +147,18 @@ class ThrongMember(bpy.types.PropertyGroup):
 
 class ThrongEvent(bpy.types.PropertyGroup):
     raw: StringProperty(options={"HIDDEN"})
-    kind: EnumProperty(name="What", items=[("open", "Open", "A wall is gone from now on"), ("close", "Close", "A wall is there from now on"),
-                                           ("go_to", "Go to", "People leave what they do and go there"), ("flow", "Flow", "A flow changes its rate")])
-    time: FloatProperty(name="At", soft_min=0.0, description="When, s")
+    kind: EnumProperty(name="What", items=[("open", "Open", "A wall is gone from now on"),
+                                           ("close", "Close", "A wall is there from now on"),
+                                           ("go_to", "Go to", "People leave what they do and go there"),
+                                           ("flow", "Flow", "A flow changes its rate")])
+    time: FloatProperty(name="At", **limits("event", "at"), description="When, s")
     wall: PointerProperty(type=bpy.types.Object, name="Wall", poll=_is_kind("WALL"))
     text: StringProperty(name="By Name", description="A wall that is no object of this scene")
     destination: PointerProperty(type=ThrongDestination)
     who: CollectionProperty(type=ThrongMember)
     arrival: EnumProperty(name="Arrival", items=_ARRIVAL)
     flow: StringProperty(name="Flow")
-    rate: FloatProperty(name="People/s", default=1.0, soft_min=0.0)
+    rate: FloatProperty(name="People/s", **limits("event", "rate", soft_max=1000.0))
 
 
 class ThrongBar(bpy.types.PropertyGroup):
@@ -148,30 +170,44 @@ class ThrongBar(bpy.types.PropertyGroup):
 
 
 class ThrongFormation(bpy.types.PropertyGroup):
-    type: EnumProperty(name="Type", update=_refresh, items=[("circle", "Circle", "Evenly on a circle, everybody's goal the opposite point"),
-                                                            ("grid", "Grid", "Rows and columns"), ("agents", "List", "An edge for each person, from where they stand to their goal")])
-    radius: FloatProperty(name="Radius", default=10.0, soft_min=0.1, subtype="DISTANCE", update=_refresh)
-    count: IntProperty(name="People", default=64, soft_min=1, update=_refresh)
+    type: EnumProperty(name="Type", update=_refresh,
+                       items=[("circle", "Circle", "Evenly on a circle, everybody's goal the opposite point"),
+                              ("grid", "Grid", "Rows and columns"),
+                              ("agents", "List", "An edge for each person, from where they stand to their goal")])
+    radius: FloatProperty(name="Radius", **limits("formation", "radius", soft_min=0.1), subtype="DISTANCE",
+                          update=_refresh)
+    count: IntProperty(name="People", **limits("formation", "count"), update=_refresh)
     use_ring_spacing: BoolProperty(name="Rings", update=_refresh)
-    ring_spacing: FloatProperty(name="Ring Spacing", default=1.5, soft_min=0.1, subtype="DISTANCE", update=_refresh, description="Further rings outside the first, this far apart")
+    ring_spacing: FloatProperty(name="Ring Spacing", **limits("formation", "ring_spacing", soft_min=0.1),
+                                subtype="DISTANCE", update=_refresh,
+                                description="Further rings outside the first, this far apart")
     use_along: BoolProperty(name="Along", update=_refresh)
-    along: FloatProperty(name="Along", default=1.5, soft_min=0.1, subtype="DISTANCE", update=_refresh, description="Between neighbours on a ring")
-    rows: IntProperty(name="Rows", default=8, soft_min=1, update=_refresh)
-    columns: IntProperty(name="Columns", default=8, soft_min=1, update=_refresh)
+    along: FloatProperty(name="Along", **limits("formation", "along", soft_min=0.1), subtype="DISTANCE",
+                         update=_refresh,
+                         description="Between neighbours on a ring")
+    rows: IntProperty(name="Rows", **limits("formation", "rows"), update=_refresh)
+    columns: IntProperty(name="Columns", **limits("formation", "columns"), update=_refresh)
     use_people_count: BoolProperty(name="Fewer", update=_refresh)
-    people_count: IntProperty(name="People", default=64, soft_min=1, update=_refresh, description="At most this many, column by column")
-    spacing: FloatProperty(name="Spacing", default=1.0, soft_min=0.1, subtype="DISTANCE", update=_refresh)
-    jitter: FloatProperty(name="Jitter", soft_min=0.0, subtype="DISTANCE", description="Each coordinate moves by up to this much (not shown)")
-    goal_kind: EnumProperty(name="Goal", items=[("PLACE", "Places", "One place, the nearest, or a choice"), ("OFFSET", "Offset", "Everybody's position plus this"),
-                                                ("MIRROR", "Mirror", "Mirrored at a line of two points"), ("ANYWHERE", "Anywhere", "In a box between the two ends of a line")])
+    people_count: IntProperty(name="People", **limits("formation", "count"), update=_refresh,
+                              description="At most this many, column by column")
+    spacing: FloatProperty(name="Spacing", **limits("formation", "spacing", soft_min=0.1), subtype="DISTANCE",
+                           update=_refresh)
+    jitter: FloatProperty(name="Jitter", **limits("formation", "jitter"), subtype="DISTANCE",
+                          description="Each coordinate moves by up to this much (not shown)")
+    goal_kind: EnumProperty(name="Goal", items=[("PLACE", "Places", "One place, the nearest, or a choice"),
+                                                ("OFFSET", "Offset", "Everybody's position plus this"),
+                                                ("MIRROR", "Mirror", "Mirrored at a line of two points"),
+                                                ("ANYWHERE", "Anywhere", "In a box between the two ends of a line")])
     goal: PointerProperty(type=ThrongDestination)
     goal_offset: FloatVectorProperty(name="Offset", size=2, subtype="XYZ")
     goal_line: PointerProperty(type=bpy.types.Object, name="Line", poll=_is_kind("LINE"))
-    start: FloatProperty(name="Start", soft_min=0.0, description="When they appear, s")
-    wait: PointerProperty(type=ThrongDistribution, name="Wait", description="How long people stand before they set off, s")
+    start: FloatProperty(name="Start", **limits("formation", "start"), description="When they appear, s")
+    wait: PointerProperty(type=ThrongDistribution, name="Wait",
+                          description="How long people stand before they set off, s")
     people: PointerProperty(type=ThrongPeople)
     arrival: EnumProperty(name="Arrival", items=_ARRIVAL, default="stay")
-    goal_tolerance: FloatProperty(name="Goal Tolerance", default=0.3, soft_min=0.01, description="This near to a point goal is arrived, m")
+    goal_tolerance: FloatProperty(name="Goal Tolerance", **limits("formation", "goal_tolerance"),
+                                  description="This near to a point goal is arrived, m")
 
 
 class ThrongObject(bpy.types.PropertyGroup):
@@ -181,10 +217,10 @@ class ThrongObject(bpy.types.PropertyGroup):
     raw: StringProperty(options={"HIDDEN"})
     imported_name: StringProperty(options={"HIDDEN"})
     order: IntProperty(options={"HIDDEN"}, default=2**30)
-    width: FloatProperty(name="Width", default=3.0, soft_min=0.5, soft_max=1000.0, subtype="DISTANCE", update=_refresh)
+    width: FloatProperty(name="Width", **limits("road", "width"), subtype="DISTANCE", update=_refresh)
     one_way: BoolProperty(name="One Way", update=_refresh, description="Walked from the first point to the last only")
-    thickness: FloatProperty(name="Thickness", default=0.2, soft_min=0.0, soft_max=100.0, subtype="DISTANCE", update=_refresh)
-    height: FloatProperty(name="Height", default=3.0, soft_min=0.01, soft_max=1000.0, subtype="DISTANCE", update=_refresh)
+    thickness: FloatProperty(name="Thickness", **limits("wall", "thickness"), subtype="DISTANCE", update=_refresh)
+    height: FloatProperty(name="Height", **limits("wall", "height"), subtype="DISTANCE", update=_refresh)
     formation: PointerProperty(type=ThrongFormation)
 
 
@@ -194,7 +230,8 @@ class ThrongSimulation(bpy.types.PropertyGroup):
 
 def _simulation_property(codec, label, least, most, description):
     if isinstance(codec, fields.Choice):
-        return EnumProperty(name=label, items=[(word, word, "") for word in codec.words], default=codec.default, description=description)
+        return EnumProperty(name=label, items=[(word, word, "") for word in codec.words], default=codec.default,
+                            description=description)
     if isinstance(codec, Flag):
         return BoolProperty(name=label, default=codec.default, description=description)
     make = IntProperty if isinstance(codec, Whole) else FloatProperty
@@ -218,7 +255,8 @@ class ThrongProblem(bpy.types.PropertyGroup):
 
 class ThrongScene(bpy.types.PropertyGroup):
     raw: StringProperty(options={"HIDDEN"})
-    source: StringProperty(options={"HIDDEN"}, subtype="FILE_PATH")  # the layout file that was imported: files that it names lie beside it
+    # the layout file that was imported: files that it names lie beside it
+    source: StringProperty(options={"HIDDEN"}, subtype="FILE_PATH")
     origin: StringProperty(options={"HIDDEN"})  # [x, y] in doubles: what was taken off the layout's coordinates
     name: StringProperty(name="Name", description="Of the layout and its bakes; by default the .blend's")
     simulation: PointerProperty(type=ThrongSimulation)
@@ -227,25 +265,34 @@ class ThrongScene(bpy.types.PropertyGroup):
     events: CollectionProperty(type=ThrongEvent)
     active_event: IntProperty()
     bars: CollectionProperty(type=ThrongBar)
-    expect_line: PointerProperty(type=bpy.types.Object, name="Line", poll=_is_kind("LINE"), description="Where people are counted for the bar on flow")
-    tolerance: FloatProperty(name="Curve Tolerance", default=0.02, min=0.001, max=10.0, subtype="DISTANCE", description="How far points on a Bezier curve may be off")
-    show_flows: BoolProperty(name="Show Flows", default=True, description="Draw flows in the viewport, from place to place")
+    expect_line: PointerProperty(type=bpy.types.Object, name="Line", poll=_is_kind("LINE"),
+                                 description="Where people are counted for the bar on flow")
+    tolerance: FloatProperty(name="Curve Tolerance", default=0.02, min=0.001, max=10.0, subtype="DISTANCE",
+                             description="How far points on a Bezier curve may be off")
+    show_flows: BoolProperty(name="Show Flows", default=True,
+                             description="Draw flows in the viewport, from place to place")
     show_solid: BoolProperty(name="Show Drawing Solid", default=True, update=_show_solid,
-                             description="Otherwise as wires: where streets and buildings were built, they show what was drawn")
+                             description="Otherwise as wires: where streets and buildings were built, "
+                                         "they show what was drawn")
     folder: StringProperty(name="Folder", default="//throng", subtype="DIR_PATH", description="Where bakes are written")
     crowd: PointerProperty(type=bpy.types.Object, description="The crowd that was baked from this layout")
-    built: PointerProperty(type=bpy.types.Collection, description="Streets and buildings that were built from this layout")
+    built: PointerProperty(type=bpy.types.Collection,
+                           description="Streets and buildings that were built from this layout")
     build_streets: BoolProperty(name="Streets", default=True, description="Build roads and areas anew after each bake")
-    build_walls: BoolProperty(name="Buildings", default=True, description="Build walls anew after each bake; walls that are meshes are left as they are")
-    build_scenery: BoolProperty(name="Ground and Light", default=True, description="Add a ground, a sun and a sky with the first bake")
-    build_camera: BoolProperty(name="Camera", default=True, description="Add a camera with the first bake, if the scene has none")
+    build_walls: BoolProperty(name="Buildings", default=True,
+                              description="Build walls anew after each bake; walls that are "
+                                          "meshes are left as they are")
+    build_scenery: BoolProperty(name="Ground and Light", default=True,
+                                description="Add a ground, a sun and a sky with the first bake")
+    build_camera: BoolProperty(name="Camera", default=True,
+                               description="Add a camera with the first bake, if the scene has none")
     problems: CollectionProperty(type=ThrongProblem)
     progress: FloatProperty(subtype="PERCENTAGE", min=0.0, max=100.0, options={"SKIP_SAVE"})
     status: StringProperty(options={"SKIP_SAVE"})
 
 
-CLASSES = (ThrongDistribution, ThrongPeople, ThrongPlace, ThrongDestination, ThrongStop, ThrongFlow, ThrongMember, ThrongEvent, ThrongBar, ThrongFormation,
-           ThrongObject, ThrongSimulation, ThrongProblem, ThrongScene)
+CLASSES = (ThrongDistribution, ThrongPeople, ThrongPlace, ThrongDestination, ThrongStop, ThrongFlow, ThrongMember,
+           ThrongEvent, ThrongBar, ThrongFormation, ThrongObject, ThrongSimulation, ThrongProblem, ThrongScene)
 
 _register_classes, _unregister_classes = bpy.utils.register_classes_factory(CLASSES)
 

@@ -56,7 +56,8 @@ def are_points(value, least):
 
 
 def _kept(point, raw, origin, reach):
-    """[x, y] of the layout's point, each where the position in Blender is what it became there: a few roundings apart. None: was moved."""
+    """[x, y] of the layout's point, each where the position in Blender is what it became there: a few roundings
+    apart. None: was moved."""
     tolerance = 2.0**-21 * reach + 1e-7
     return [old if abs(part + offset - old) <= tolerance else None for part, old, offset in zip(point, raw, origin)]
 
@@ -80,8 +81,11 @@ def keep_points(points, raw, origin):
         while last <= shorter - first and None not in _kept(points[-last], raw[-last], origin, reach):
             result[-last] = raw[-last]
             last += 1
-    return [[now if old is None else old for old, now in zip(kept, world_point(point, origin))] if None in kept else list(kept)
-            for kept, point in zip(result, points)]
+    return [_filled(kept, point, origin) if None in kept else list(kept) for kept, point in zip(result, points)]
+
+
+def _filled(kept, point, origin):
+    return [now if old is None else old for old, now in zip(kept, world_point(point, origin))]
 
 
 def world_point(point, origin):

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The people that the add-on ships, and the order that they are kept in.
 
-A cast is a collection that is not in the scene, of figures (sheets.py): one object for each member at each level of detail, with the custom
-properties `throng_member`, its number as the bake has them (variations), and `throng_level` (0 is the finest). A figure brings an instance of each
-of its poses, in order: the gaits first, each a cycle from the right heel's strike on, then the beats of the standing clips (Repertoire numbers
-them). The collection's `throng_variations` says how many members there are, `throng_levels` how many levels the crowd shows. `throng_person` is there
-where the add-on's own cast made a figure, `throng_character` where it was brought along. Figures look along +x and stand on z = 0; all take
-the bake's strides.
+A cast is a collection that is not in the scene, of figures (sheets.py): one object for each member at each level of
+detail, with the custom properties `throng_member`, its number as the bake has them (variations), and `throng_level` (0
+is the finest). A figure brings an instance of each of its poses, in order: the gaits first, each a cycle from the right
+heel's strike on, then the beats of the standing clips (Repertoire numbers them). The collection's `throng_variations`
+says how many members there are, `throng_levels` how many levels the crowd shows. `throng_person` is there where the
+add-on's own cast made a figure, `throng_character` where it was brought along. Figures look along +x and stand on
+z = 0; all take the bake's strides.
 """
 from dataclasses import dataclass
 
@@ -53,10 +54,11 @@ class Repertoire:
 
     def standing_pose(self, clip, beat, level=0):
         """@param beat one of BEATS, whatever the level"""
-        return self.walking(level) + gait.STANDING_CLIPS.index(clip) * LEVEL_BEATS[level] + beat * LEVEL_BEATS[level] // BEATS
+        beats = LEVEL_BEATS[level]
+        return self.walking(level) + gait.STANDING_CLIPS.index(clip) * beats + beat * beats // BEATS
 
     def sources(self, level):
-        """For each pose of a level, the one of level 0 that it is: of those that it stands for, the one in the middle."""
+        """For each pose of a level, the one of level 0 that it is: the middle one of those that it stands for."""
         share, beats = POSES // LEVEL_POSES[level], BEATS // LEVEL_BEATS[level]
         return (list(range(share // 2, self.walking(), share)) + list(range(self.walking(), self.poses(), beats)))
 
@@ -70,11 +72,12 @@ def poses_of(person, repertoire):
 
 
 def plan_of(figures, repertoire, level):
-    """The mesh of a person at a level of detail; what it leaves out is told from a stand and from quarters of every gait."""
+    """The mesh of a person at a level of detail; what it leaves out is told from a stand and quarters of each gait."""
     samples = [figures[index].rings for index in (*range(0, repertoire.walking(), POSES // 4), repertoire.walking())]
     return Plan(figures[0].parts, samples, level)
 
 
 def limb_velocities(before, after, seconds):
-    """m/s of every vertex in the walker's own frame, from the vertices of the poses before and after, so many seconds apart."""
+    """m/s of every vertex in the walker's own frame, from those of the poses before and after,
+    so many seconds apart."""
     return (numpy.asarray(after) - numpy.asarray(before)) / seconds

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What hangs over hips and legs: skirts, coats, dresses, hems. Pure Python.
 
-Nothing is simulated: in every pose, the rings of the cloth are made just deep and wide enough for the legs that are within them, so that
-legs do not show through and cloth rests on a thigh that comes forward.
+Nothing is simulated: in every pose, the rings of the cloth are made just deep and wide enough for the legs that are
+within them, so that legs do not show through and cloth rests on a thigh that comes forward.
 """
 import math
 
@@ -37,13 +37,15 @@ def hem(person):
     """Half the width of what hangs over the hips, for somebody of standard height, m: arms swing outside of it."""
     hips = 0.176 * BULK.get(person.top, 1.0) * person.hips
     legs = 0.093 * person.hips + 0.091 * person.girth ** 0.7 + _off_legs(person)
-    if person.top in _FLARE or person.bottom == "skirt":  # which is wider than the legs where these are not beside its middle
+    # What hangs is wider than the legs where these are not beside its middle.
+    if person.top in _FLARE or person.bottom == "skirt":
         return max(hips, 0.198 * person.hips * _FLARE.get(person.top, 1.0), 1.1 * legs)
     return max(hips, legs) if person.top in _LOOSE else hips
 
 
 def _surfaces(figure, off):
-    """The foremost and the hindmost points of the legs' skin, `off` metres off it, and the outermost y: [(x, z of the front, x, z of the back, y)]."""
+    """The foremost and the hindmost points of the legs' skin, `off` metres off it, and the outermost y: [(x, z of the
+    front, x, z of the back, y)]."""
     points = []
     for start, end, profile in figure.leg_limbs:
         dx, dz = end[0] - start[0], end[2] - start[2]
@@ -53,19 +55,22 @@ def _surfaces(figure, off):
             for part in (0.0, 0.33, 0.67, 1.0) if later == profile[-1][0] else (0.0, 0.33, 0.67):
                 x, y, z = mix(start, end, share + (later - share) * part)
                 away = radius + (wider - radius) * part + off
-                points.append((x + nx * away, z + nz * away, x - nx * away, z - nz * away, y + math.copysign(away, start[1] - figure.pelvis[1])))
+                points.append((x + nx * away, z + nz * away, x - nx * away, z - nz * away,
+                               y + math.copysign(away, start[1] - figure.pelvis[1])))
     return points
 
 
 def _give(upper, lower, which, share, missing):
-    """Moves two rings so that the cloth at a share of the way up from one to the other gets what it misses; what is nearer gives more."""
+    """Moves two rings so that the cloth at a share of the way up from one to the other gets what it misses; what
+    is nearer gives more."""
     weight = share * share + (1.0 - share) * (1.0 - share)
     upper[which] += missing * share / weight
     lower[which] += missing * (1.0 - share) / weight
 
 
 def _cover(spans, x, z, side):
-    """Widens rings [front, back, y, z, half width] until the cloth between them is outside of a point; `side` is 0 in front and 1 behind."""
+    """Widens rings [front, back, y, z, half width] until the cloth between them is outside of a point; `side` is 0
+    in front and 1 behind."""
     sign = 1.0 if side == 0 else -1.0
     if spans[-1][3] - 0.05 < z:  # what is just below the hem is at the hem a little higher
         z = max(z, spans[-1][3])
@@ -108,16 +113,19 @@ def _widen(spans, points):
 
 
 def _skirt(figure, hips, knees, ankles, length, material, flare, off):
-    """Cloth from the waist down to a share of the legs: 1 is the knees, 2 the ankles. It hangs as tight as both legs let it."""
+    """Cloth from the waist down to a share of the legs: 1 is the knees, 2 the ankles. It hangs as
+    tight as legs let it."""
     p, g, s = figure.person, figure.g, figure.s
     waist = [figure.trunk_ring(0.08, 0.114 * g * flare, 0.156 * (0.5 + 0.5 * p.hips) * flare, 0.0)]
     if material == TOP:  # of one piece with what is above
         waist.insert(0, _flush(figure, 0.16, 1.01))
     below = figure.at(-0.02, -0.01, 0.0, 0.0)
-    spans = [[below[0] + 0.135 * g * flare * s, below[0] - 0.135 * g * flare * s, below[1], below[2], 0.185 * p.hips * flare * s]]
+    spans = [[below[0] + 0.135 * g * flare * s, below[0] - 0.135 * g * flare * s, below[1], below[2],
+              0.185 * p.hips * flare * s]]
     for share in (0.2, 0.55, 1.0) if length <= 1.0 else (0.12, 0.33, 0.62, 1.0):
         t = share * length
-        points = [mix(hip, knee, t) if t <= 1.0 else mix(knee, ankle, t - 1.0) for hip, knee, ankle in zip(hips, knees, ankles)]
+        points = [mix(hip, knee, t) if t <= 1.0 else mix(knee, ankle, t - 1.0)
+                  for hip, knee, ankle in zip(hips, knees, ankles)]
         centre = mix(points[0], points[1], 0.5)
         least = (0.125 if t <= 1.0 else 0.10) * s * g * flare
         spans.append([centre[0] + least, centre[0] - least, centre[1], min(centre[2], spans[-1][3] - 0.02 * s),
@@ -132,9 +140,12 @@ def _hang(figure, rings, spans, material, caps):
     """Cloth from rings down through spans. @param caps of its upper and its lower end"""
     turn = 0.5 * figure.pose.pelvis_yaw
     x, y = turn_z((1, 0, 0), turn), turn_z((0, 1, 0), turn)
-    rings = rings + [ring((0.5 * (front + back), across, z), x, y, 0.5 * (front - back), width) for front, back, across, z, width in spans]
-    figure.mesh.loft(rings[::-1], material, _SKIRT_POINTS, _SKIRT_SQUARE, caps=caps[::-1], drapes=True)  # upwards, as all faces look outwards then
-    figure.skirts.append([[add(r[:3], add(scale(r[3:6], c), scale(r[6:9], n))) for c, n in outline(_SKIRT_POINTS, _SKIRT_SQUARE)] for r in rings])
+    rings = rings + [ring((0.5 * (front + back), across, z), x, y, 0.5 * (front - back), width)
+                     for front, back, across, z, width in spans]
+    # upwards, as all faces look outwards then
+    figure.mesh.loft(rings[::-1], material, _SKIRT_POINTS, _SKIRT_SQUARE, caps=caps[::-1], drapes=True)
+    figure.skirts.append([[add(r[:3], add(scale(r[3:6], c), scale(r[6:9], n)))
+                           for c, n in outline(_SKIRT_POINTS, _SKIRT_SQUARE)] for r in rings])
 
 
 def add_hem(figure):

@@ -2,16 +2,18 @@
 """A person's body in one pose, as lofts. Pure Python."""
 import math
 
-from . import cloth, gait, outfit
+from . import cloth, gait, hair, outfit
 from .mesh_builder import MeshBuilder, add, extent_at, mix, ring, scale, turn_y, turn_z, unit
-from .people import EYES, BOTTOM, GREY, HAIR, SHOES, SKIN, STANDARD_HEIGHT, TOP
+from .people import EYES, BOTTOM, GREY, HAIR, SHOES, SKIN, STANDARD_HEIGHT, TOP, build_of
 
 _SHOE = (  # along the foot from the ankle, height of the sole and of the upper, half width
-    (-0.072, 0.018, 0.055, 0.020), (-0.060, 0.0, 0.085, 0.032), (-0.010, 0.004, 0.105, 0.036), (0.050, 0.006, 0.082, 0.039),
-    (0.115, 0.0, 0.058, 0.046), (0.165, 0.002, 0.044, 0.043), (0.195, 0.010, 0.030, 0.024))
+    (-0.072, 0.018, 0.055, 0.020), (-0.060, 0.0, 0.085, 0.032), (-0.010, 0.004, 0.105, 0.036),
+    (0.050, 0.006, 0.082, 0.039), (0.115, 0.0, 0.058, 0.046), (0.165, 0.002, 0.044, 0.043),
+    (0.195, 0.010, 0.030, 0.024))
 _SKULL = (  # height over the ears, forward shift, half depth, half width, from chin to crown
-    (-0.118, 0.030, 0.030, 0.026), (-0.100, 0.026, 0.056, 0.046), (-0.066, 0.020, 0.076, 0.060), (-0.020, 0.014, 0.088, 0.070),
-    (0.030, 0.006, 0.095, 0.076), (0.070, 0.000, 0.092, 0.073), (0.100, -0.004, 0.073, 0.060), (0.118, -0.006, 0.038, 0.032))
+    (-0.118, 0.030, 0.030, 0.026), (-0.100, 0.026, 0.056, 0.046), (-0.066, 0.020, 0.076, 0.060),
+    (-0.020, 0.014, 0.088, 0.070), (0.030, 0.006, 0.095, 0.076), (0.070, 0.000, 0.092, 0.073),
+    (0.100, -0.004, 0.073, 0.060), (0.118, -0.006, 0.038, 0.032))
 # Of those who carry something: how far the arm swings, which way it is held, and how much the elbow bends besides.
 _CARRYING = {("case", 1): (0.30, 0.0, 0.10), ("stick", -1): (0.75, 0.10, 0.45)}
 
@@ -58,7 +60,8 @@ class Figure:
         turn = self.yaw(min(1.0, max(0.0, height / 0.45)))
         centre = add(self.along(height), turn_z((forward * self.s, 0.0, 0.0), turn))
         lean = self.lean + (self.person.stoop if height > _WAIST else 0.0)
-        return ring(centre, turn_z(turn_y((1.0, 0.0, 0.0), lean), turn), turn_z((0.0, 1.0, 0.0), turn), rx * self.s, ry * self.s)
+        return ring(centre, turn_z(turn_y((1.0, 0.0, 0.0), lean), turn), turn_z((0.0, 1.0, 0.0), turn), rx * self.s,
+                    ry * self.s)
 
     def trunk_at(self, height):
         """(fore-aft, half width, forward) of the trunk at a height, clothes included."""
@@ -72,7 +75,8 @@ class Figure:
         deep, wide, forward = self.trunk_at(height)
         deep, wide = deep * wider, wide * wider
         share = extent_at(min(1.0, abs(aside) / wide), _TRUNK_SQUARE)
-        return self.at(height, forward + (1.0 if front else -1.0) * (deep * share + off), aside, min(1.0, max(0.0, height / 0.45)))
+        return self.at(height, forward + (1.0 if front else -1.0) * (deep * share + off), aside,
+                       min(1.0, max(0.0, height / 0.45)))
 
     def _trunk(self):
         p, mesh = self.person, self.mesh
@@ -80,7 +84,8 @@ class Figure:
         split = 2 if p.top in ("shirt", "tee") else 1
         mesh.loft(rings[:split + 1], BOTTOM, 12, _TRUNK_SQUARE, caps=(True, False))
         mesh.loft(rings[split:], TOP, 12, _TRUNK_SQUARE, caps=(False, True))
-        mesh.limb(self.along(0.47), self.at(0.575, 0.018), [(0.0, 0.066 * self.s), (0.4, 0.056 * self.s), (1.0, 0.053 * self.s)], SKIN, 8)
+        mesh.limb(self.along(0.47), self.at(0.575, 0.018),
+                  [(0.0, 0.066 * self.s), (0.4, 0.056 * self.s), (1.0, 0.053 * self.s)], SKIN, 8)
         outfit.add_collar(self)
 
     def _head(self):
@@ -94,14 +99,17 @@ class Figure:
 
         x, y = turn_z((1.0, 0.0, 0.0), turn), turn_z((0.0, 1.0, 0.0), turn)
         self.mesh.loft([ring(at(f, 0.0, z), x, y, rx * s, ry * s) for z, f, rx, ry in _SKULL], SKIN, 12)
-        self.mesh.limb(at(0.088, 0, 0.028), at(0.118, 0, -0.022), [(0, 0.008 * s), (0.75, 0.015 * s), (1, 0.010 * s)], SKIN, 6, caps=(False, True), until=0)  # nose
+        # nose
+        self.mesh.limb(at(0.088, 0, 0.028), at(0.118, 0, -0.022), [(0, 0.008 * s), (0.75, 0.015 * s), (1, 0.010 * s)],
+                       SKIN, 6, caps=(False, True), until=0)
         for side in (-1, 1):  # eyes and brows
             self.mesh.ball(at(0.0895, side * 0.031, 0.020), (0.009 * s, 0.0125 * s, 0.0075 * s), EYES, 6, 3, until=0)
-            self.mesh.limb(at(0.0945, side * 0.013, 0.041), at(0.084, side * 0.049, 0.039), [(0, 0.0055 * s), (1, 0.0045 * s)], HAIR, 4, until=0)
+            self.mesh.limb(at(0.0945, side * 0.013, 0.041), at(0.084, side * 0.049, 0.039),
+                           [(0, 0.0055 * s), (1, 0.0045 * s)], HAIR, 4, until=0)
         if p.hair != "headscarf":
             for side in (-1, 1):
                 self.mesh.ball(at(0.0, side * 0.074, -0.005), (0.020 * s, 0.009 * s, 0.030 * s), SKIN, 6, 3, until=0)
-        outfit.add_hair(self, at, x, y, s)
+        hair.add_hair(hair.Head(self, at, x, y, s))
 
     def _arm(self, side, swing, elbow):
         p, s, mesh = self.person, self.s, self.mesh
@@ -125,17 +133,23 @@ class Figure:
         self.arms.append((shoulder, elbow_at, wrist))
         mesh.ball(shoulder, (0.0485 * s * bulk, 0.0485 * s * bulk, 0.052 * s * bulk), TOP, 8, 4, until=1)
         if p.top == "tee":
-            mesh.limb(shoulder, mix(shoulder, elbow_at, 0.52), [(0, 0.056 * s * bulk), (1, 0.056 * s * bulk)], TOP, caps=(True, True))
-            mesh.limb(mix(shoulder, elbow_at, 0.4), elbow_at, [(0, 0.044 * s * bulk), (0.6, 0.042 * s * bulk), (1, 0.037 * s * bulk)], SKIN)
+            mesh.limb(shoulder, mix(shoulder, elbow_at, 0.52), [(0, 0.056 * s * bulk), (1, 0.056 * s * bulk)], TOP,
+                      caps=(True, True))
+            mesh.limb(mix(shoulder, elbow_at, 0.4), elbow_at,
+                      [(0, 0.044 * s * bulk), (0.6, 0.042 * s * bulk), (1, 0.037 * s * bulk)], SKIN)
             mesh.ball(elbow_at, (0.037 * s * bulk,) * 3, SKIN, 8, 4, until=0)
-            mesh.limb(elbow_at, wrist, [(0, 0.037 * s * bulk), (0.3, 0.039 * s * bulk), (1, 0.026 * s * bulk)], SKIN, caps=(False, True))
+            mesh.limb(elbow_at, wrist, [(0, 0.037 * s * bulk), (0.3, 0.039 * s * bulk), (1, 0.026 * s * bulk)], SKIN,
+                      caps=(False, True))
         else:
-            mesh.limb(shoulder, elbow_at, [(0, 0.0485 * s * bulk), (0.5, 0.045 * s * bulk), (1.0, 0.0395 * s * bulk)], TOP, caps=(True, False))
+            mesh.limb(shoulder, elbow_at, [(0, 0.0485 * s * bulk), (0.5, 0.045 * s * bulk), (1.0, 0.0395 * s * bulk)],
+                      TOP, caps=(True, False))
             mesh.ball(elbow_at, (0.0395 * s * bulk,) * 3, TOP, 8, 4, until=0)
-            mesh.limb(elbow_at, wrist, [(0, 0.0395 * s * bulk), (0.35, 0.039 * s * bulk), (1, 0.030 * s * bulk)], TOP, caps=(False, True))
+            mesh.limb(elbow_at, wrist, [(0, 0.0395 * s * bulk), (0.35, 0.039 * s * bulk), (1, 0.030 * s * bulk)], TOP,
+                      caps=(False, True))
         hand = unit(add(fore, (0.0, 0.0, -0.25)))
         mesh.limb(add(wrist, scale(fore, -0.015 * s)), add(wrist, scale(hand, 0.165 * s)),
-                  [(0, 0.024 * s), (0.25, 0.030 * s), (0.6, 0.035 * s), (0.85, 0.027 * s), (1, 0.012 * s)], SKIN, 8, 0.55, side=(1, 0, 0), caps=(False, True))
+                  [(0, 0.024 * s), (0.25, 0.030 * s), (0.6, 0.035 * s), (0.85, 0.027 * s), (1, 0.012 * s)], SKIN, 8,
+                  0.55, side=(1, 0, 0), caps=(False, True))
         return add(wrist, scale(hand, 0.09 * s))
 
     def _leg(self, side, foot):
@@ -194,13 +208,23 @@ _TROUSERS = ((0.0, 0.0575), (0.25, 0.060), (0.6, 0.051), (0.93, 0.046), (1.0, 0.
 
 
 def _profile(person):
-    """The trunk with its clothes: [(height above the hips, fore-aft, half width, forward)], in m for somebody of standard height."""
+    """The trunk with its clothes: [(height above the hips, fore-aft, half width, forward)], in m for
+    somebody of standard height."""
     p, g, wide = person, person.girth, person.shoulders * 0.5
     bulk = cloth.BULK.get(p.top, 1.0)
     belly = 0.012 * max(0.0, g - 0.95) / 0.1
-    profile = (
-        (-0.07, 0.100 * g, 0.150 * p.hips, -0.010), (0.00, 0.118 * g, 0.168 * p.hips, -0.010),
-        (0.08, 0.110 * g, 0.152 * (0.5 + 0.5 * p.hips), 0.0), (0.17, 0.106 * g + belly, 0.138 * g, 0.008 + belly),
-        (0.27, 0.116 * g + 0.5 * belly, wide * 0.80 * g ** 0.5, 0.010), (0.37, 0.124 * g, wide * 0.93, 0.006),
-        (0.43, 0.108 * g, wide * 0.99, -0.004), (0.468, 0.090, wide * 0.80, -0.010), (0.495, 0.074, wide * 0.52, -0.012), (0.52, 0.060, 0.070, -0.010))
+    profile = ((-0.07, 0.100 * g, 0.150 * p.hips, -0.010), (0.00, 0.118 * g, 0.168 * p.hips, -0.010),
+               (0.08, 0.110 * g, 0.152 * (0.5 + 0.5 * p.hips), 0.0),
+               (0.17, 0.106 * g + belly, 0.138 * g, 0.008 + belly),
+               (0.27, 0.116 * g + 0.5 * belly, wide * 0.80 * g ** 0.5, 0.010), (0.37, 0.124 * g, wide * 0.93, 0.006),
+               (0.43, 0.108 * g, wide * 0.99, -0.004), (0.468, 0.090, wide * 0.80, -0.010),
+               (0.495, 0.074, wide * 0.52, -0.012), (0.52, 0.060, 0.070, -0.010))
     return [(h, a * (bulk if h > 0.05 else 1.0), b * (bulk if h > 0.05 else 1.0), f) for h, a, b, f in profile]
+
+
+def build_figure(person, pose):
+    """The rings and parts of one person in one pose (gait.walk_pose or gait.standing_pose with build_of(person)).
+
+    Figures look along +x and stand on z = 0.
+    """
+    return Figure(person, pose, build_of(person)).mesh

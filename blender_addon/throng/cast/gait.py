@@ -1,15 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """A person's joints, walking, running or standing, from where the feet are planted. Pure Python: no Blender here.
 
-Feet must not slide, so the feet are the input and the joints follow: during stance the planted point (the heel, then the whole
-foot, then the ball) stays where it is on the ground, which in the walker's own frame is a straight line backwards at one stride
-length per cycle. Hip and knee come from the ankle by two-bone inverse kinematics. Timing and amplitudes are those of healthy
-adults: at comfortable speed stance is 62 % of the cycle, the foot flat from 10 % to 40 %, pelvis rotation about 4 degrees to each
-side, arm swing about 20 degrees (Winter, Biomechanics and Motor Control of Human Movement; Murray, Drought and Kory 1964).
-With longer strides the stance gets shorter and all amplitudes larger (Murray 1967); runners have a phase of flight (Novacheck 1998).
+Feet must not slide, so the feet are the input and the joints follow: during stance the planted point (the heel, then
+the whole foot, then the ball) stays where it is on the ground, which in the walker's own frame is a straight line
+backwards at one stride length per cycle. Hip and knee come from the ankle by two-bone inverse kinematics. Timing and
+amplitudes are those of healthy adults: at comfortable speed stance is 62 % of the cycle, the foot flat from 10 to 40 %,
+pelvis rotation about 4 degrees to each side, arm swing about 20 degrees (Winter, Biomechanics and Motor Control of
+Human Movement; Murray, Drought and Kory 1964). With longer strides the stance gets shorter and all amplitudes larger
+(Murray 1967); runners have a phase of flight (Novacheck 1998).
 
-Frame: x forward, y left, z up, metres; phase 0 is the right heel's strike, the left foot is half a cycle later. Whatever the stride,
-the planted foot is under the body at phase UNDER_BODY of its own cycle: the simulation changes strides there, and nowhere else.
+Frame: x forward, y left, z up, metres; phase 0 is the right heel's strike, the left foot is half a cycle later.
+Whatever the stride, the planted foot is under the body at phase UNDER_BODY of its own cycle: the simulation changes
+strides there, and nowhere else.
 """
 import math
 from dataclasses import dataclass
@@ -52,10 +54,12 @@ class Gait:
 def gait_of(stride):
     """The gait of a stride length (m)."""
     if stride >= RUNNING_STRIDE:
-        return Gait(stride, 0.15, 0.04, 0.17, 0.33, math.radians(6.0), math.radians(-58.0), 0.20, 0.026, 0.11, 0.62, 1.35, 0.11)
+        return Gait(stride, 0.15, 0.04, 0.17, 0.33, math.radians(6.0), math.radians(-58.0), 0.20, 0.026, 0.11, 0.62,
+                    1.35, 0.11)
     a = stride / NORMAL_STRIDE
-    return Gait(stride, 0.0, 0.10, 0.40, 0.62 - 0.09 * (a - 1.0), math.radians(18.0) * min(a, 1.2), math.radians(-52.0) * min(a ** 0.8, 1.15),
-                0.055 * (0.6 + 0.4 * a), 0.018 * a ** 1.5, 0.075 * a, min(0.36 * a ** 1.3, 0.55), 0.30 * (0.7 + 0.3 * a), 0.045 + 0.03 * (a - 1.0))
+    return Gait(stride, 0.0, 0.10, 0.40, 0.62 - 0.09 * (a - 1.0), math.radians(18.0) * min(a, 1.2),
+                math.radians(-52.0) * min(a ** 0.8, 1.15), 0.055 * (0.6 + 0.4 * a), 0.018 * a ** 1.5, 0.075 * a,
+                min(0.36 * a ** 1.3, 0.55), 0.30 * (0.7 + 0.3 * a), 0.045 + 0.03 * (a - 1.0))
 
 
 @dataclass(frozen=True)
@@ -133,12 +137,14 @@ def foot_at(phase, build, gait):
 
 def _reach(feet, leg):
     """How high the pelvis may be so that the legs still reach the feet that are planted."""
-    return min((foot.ankle[1] + math.sqrt(max(0.2, (0.995 * leg) ** 2 - foot.ankle[0] ** 2)) for foot in feet if foot.planted), default=math.inf)
+    return min((foot.ankle[1] + math.sqrt(max(0.2, (0.995 * leg) ** 2 - foot.ankle[0] ** 2)) for foot in feet
+                if foot.planted), default=math.inf)
 
 
 @lru_cache(maxsize=None)
 def _lowest_reach(build, gait):
-    return min(_reach((foot_at(i / 48.0, build, gait), foot_at(i / 48.0 + 0.5, build, gait)), build.thigh + build.shank) for i in range(48))
+    return min(_reach((foot_at(i / 48.0, build, gait), foot_at(i / 48.0 + 0.5, build, gait)), build.thigh + build.shank)
+               for i in range(48))
 
 
 @lru_cache(maxsize=None)
@@ -160,11 +166,13 @@ def walk_pose(phase, build, gait):
     if gait.runs:  # lowest over the standing leg, highest in flight
         height = _running_height(build, gait) - gait.bob * math.cos(2.0 * tau * (phase - UNDER_BODY))
     else:  # highest over the standing leg, lowest in double support: the vault of an inverted pendulum
-        top = min(0.958 * leg + build.ankle + gait.bob, _lowest_reach(build, gait) + 2.5 * gait.bob)  # long strides bend the knees
+        # long strides bend the knees
+        top = min(0.958 * leg + build.ankle + gait.bob, _lowest_reach(build, gait) + 2.5 * gait.bob)
         height = min(top - gait.bob - gait.bob * math.cos(2.0 * tau * (phase - 0.02)), _reach((right, left), leg))
     sway = -0.022 * math.sin(tau * phase + 0.3)  # towards the standing leg (right leg stands in the first half)
     turn = math.cos(tau * (phase - gait.down))   # the right hip is ahead when the right foot comes down
-    arms = ((-gait.swing * turn + 0.03, gait.elbow + 0.22 * max(0.0, -turn)), (gait.swing * turn + 0.03, gait.elbow + 0.22 * max(0.0, turn)))
+    arms = ((-gait.swing * turn + 0.03, gait.elbow + 0.22 * max(0.0, -turn)),
+            (gait.swing * turn + 0.03, gait.elbow + 0.22 * max(0.0, turn)))
     return Pose((0.0, sway, height), gait.yaw * turn, -1.15 * gait.yaw * turn, gait.lean, (right, left), arms)
 
 
@@ -176,10 +184,12 @@ def standing_pose(clip, beat, build):
     wave = math.sin(2.0 * math.pi * beat)
     if clip == "shift":  # weight on the left leg, thumbs in the pockets
         pose = idle_pose(build, -1.0, 0.010 * wave)
-        return Pose(pose.pelvis, pose.pelvis_yaw, -0.10 + 0.05 * wave, 0.02, pose.feet, ((-0.14, 0.62 + 0.04 * wave), (-0.16, 0.66)))
+        return Pose(pose.pelvis, pose.pelvis_yaw, -0.10 + 0.05 * wave, 0.02, pose.feet,
+                    ((-0.14, 0.62 + 0.04 * wave), (-0.16, 0.66)))
     if clip == "talk":  # one hand speaks
         pose = idle_pose(build, 1.0, 0.008 * wave)
-        return Pose(pose.pelvis, pose.pelvis_yaw, 0.08 * wave, 0.03 + 0.02 * wave, pose.feet, ((0.42 + 0.16 * wave, 1.35 - 0.30 * wave), (0.05, 0.28)))
+        return Pose(pose.pelvis, pose.pelvis_yaw, 0.08 * wave, 0.03 + 0.02 * wave, pose.feet,
+                    ((0.42 + 0.16 * wave, 1.35 - 0.30 * wave), (0.05, 0.28)))
     if clip == "phone":  # looks at what it holds
         pose = idle_pose(build, -1.0, 0.004 * wave)
         return Pose(pose.pelvis, pose.pelvis_yaw, 0.0, 0.07, pose.feet, ((0.40, 1.95 + 0.03 * wave), (0.04, 0.25)))
@@ -191,7 +201,8 @@ def idle_pose(build, side=1.0, sway=0.0):
     right = Foot((0.01 if side > 0.0 else 0.05, build.ankle), 0.0, "flat")
     left = Foot((0.05 if side > 0.0 else 0.01, build.ankle), 0.0, "flat")
     height = 0.985 * (build.thigh + build.shank) + build.ankle
-    return Pose((0.0, -0.02 * side + sway, height), 0.06 * side, 0.0, 0.01, (right, left), ((0.04 + sway, 0.22), (0.06 - sway, 0.30)))
+    return Pose((0.0, -0.02 * side + sway, height), 0.06 * side, 0.0, 0.01, (right, left),
+                ((0.04 + sway, 0.22), (0.06 - sway, 0.30)))
 
 
 def knee_of(hip, ankle, build):

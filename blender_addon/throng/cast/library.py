@@ -4,6 +4,7 @@ import bpy
 import numpy
 
 from . import LEVELS, POSES, VARIATIONS, limb_velocities, people, plan_of, poses_of
+from .figure import build_figure
 from .gait import gait_of
 from .materials import cast_materials
 from .sheets import Posed, drop_spare_attributes, make_figure, remove_figures, sheet_of
@@ -13,12 +14,14 @@ BLURS_UNTIL = 1  # the last level whose limbs blur: further away they move by le
 
 def figures_of(cast):
     """{(level, member): figure}, whoever made them; also of levels that nobody shows now."""
-    return {(thing["throng_level"], thing["throng_member"]): thing for thing in cast.objects if "throng_member" in thing}
+    return {(thing["throng_level"], thing["throng_member"]): thing for thing in cast.objects
+            if "throng_member" in thing}
 
 
 def shown_figures(cast):
     """Those of figures_of() that the crowd shows."""
-    return {(level, member): figure for (level, member), figure in sorted(figures_of(cast).items()) if level < cast["throng_levels"]}
+    return {(level, member): figure for (level, member), figure in sorted(figures_of(cast).items())
+            if level < cast["throng_levels"]}
 
 
 def add_figure(cast, level, member, name, posed):
@@ -43,9 +46,10 @@ def build_cast(variations, repertoire, name="Throng cast"):
 def add_person(cast, member, repertoire, materials, levels=None):
     """The shipped person of a number, at the levels that the cast shows unless told."""
     person = member % VARIATIONS
-    bodies = [people.build_figure(people.CAST[person], pose) for pose in poses_of(people.CAST[person], repertoire)]
+    bodies = [build_figure(people.CAST[person], pose) for pose in poses_of(people.CAST[person], repertoire)]
     for level in range(cast["throng_levels"]) if levels is None else levels:
-        figure = add_figure(cast, level, member, f"Throng person {member:02d}", _posed(bodies, level, repertoire, materials))
+        figure = add_figure(cast, level, member, f"Throng person {member:02d}",
+                            _posed(bodies, level, repertoire, materials))
         figure["throng_person"] = person
 
 
@@ -65,7 +69,8 @@ def add_levels(cast, repertoire):
 def remove_levels(cast):
     """Shows the finest level alone, and throws the others of the shipped people away."""
     cast["throng_levels"] = 1
-    remove_figures([figure for (level, _), figure in figures_of(cast).items() if level > 0 and "throng_person" in figure])
+    remove_figures([figure for (level, _), figure in figures_of(cast).items()
+                    if level > 0 and "throng_person" in figure])
 
 
 def _posed(bodies, level, repertoire, materials):
@@ -94,5 +99,6 @@ def walking_velocities(points, repertoire):
     @param points (P, V, 3) of a level that blurs: these have all poses of a cycle
     """
     cycles = points[:repertoire.walking()].reshape(-1, POSES, *points.shape[1:])
-    return numpy.concatenate([limb_velocities(numpy.roll(cycle, 1, axis=0), numpy.roll(cycle, -1, axis=0), 2.0 * gait_of(stride).seconds / POSES)
+    return numpy.concatenate([limb_velocities(numpy.roll(cycle, 1, axis=0), numpy.roll(cycle, -1, axis=0),
+                                              2.0 * gait_of(stride).seconds / POSES)
                               for stride, cycle in zip(repertoire.strides, cycles)])

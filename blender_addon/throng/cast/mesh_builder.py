@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Lofts: rings of points joined into skins, at several levels of detail. Pure Python.
 
-A ring is a flat tuple of nine numbers: its centre and two half axes, of which every point is a sum; the points are worked out last, and
-only those that a level of detail keeps. What a figure is made of (its parts, their faces and materials) is the same in all poses.
+A ring is a flat tuple of nine numbers: its centre and two half axes, of which every point is a sum; the points are
+worked out last, and only those that a level of detail keeps. What a figure is made of (its parts, their faces and
+materials) is the same in all poses.
 """
 import math
 from dataclasses import dataclass
@@ -70,7 +71,7 @@ def extent_at(share, square):
 
 @lru_cache(maxsize=None)
 def outline(count, square=0.0):
-    """The points of a ring of half axes 1: a circle, blended towards a box with rounded corners; boxes begin at a corner."""
+    """The points of a ring of half axes 1: a circle, blended towards a box with round corners; boxes begin at one."""
     power, first = _power(square), 0.5 if square >= 1.0 else 0.0
     if square > 1.0:
         power = 0.25
@@ -88,10 +89,11 @@ def _area(points):
 
 @lru_cache(maxsize=None)
 def outline_at(count, square, level, stands=False, drapes=False):
-    """The same with the points of a level of detail, grown so that it covers the same area: silhouettes stay as wide."""
+    """That with the points of a level of detail, grown so that it covers the same area: silhouettes stay as wide."""
     if drapes:  # it stays outside of what it covers, which is angular, too
         points = min(count, _CLOTH_POINTS[level])
-        grown = (math.cos(math.pi / count) / math.cos(math.pi / points)) ** (1.0 if level < 2 else 0.5)  # the coarsest, half so
+        # the coarsest, half so
+        grown = (math.cos(math.pi / count) / math.cos(math.pi / points)) ** (1.0 if level < 2 else 0.5)
         return tuple((c * grown, s * grown) for c, s in outline(points, square))
     if stands:
         return outline(max(4, _POINTS[level].get(count, count)), square)
@@ -125,15 +127,16 @@ class MeshBuilder:
         self.parts.append(Part(len(self.rings), len(rings), count, square, material, caps, until, stands, drapes))
         self.rings += rings
 
-    def limb(self, start, end, profile, material, count=8, flat=1.0, side=(0.0, 1.0, 0.0), caps=(False, False), until=2):
+    def limb(self, start, end, profile, material, count=8, flat=1.0, side=(0.0, 1.0, 0.0), caps=(False, False),
+             until=2):
         """A tube from start to end; profile is [(share of the length, radius)], `flat` narrows it fore and aft."""
         along = sub(end, start)
         axis = unit(along)
         across = unit(cross(side, axis))
         (ax, ay, az), (bx, by, bz) = across, cross(axis, across)
         (x, y, z), (dx, dy, dz) = start, along
-        self.loft([(x + dx * t, y + dy * t, z + dz * t, ax * r * flat, ay * r * flat, az * r * flat, bx * r, by * r, bz * r) for t, r in profile],
-                  material, count, caps=caps, until=until)
+        self.loft([(x + dx * t, y + dy * t, z + dz * t, ax * r * flat, ay * r * flat, az * r * flat, bx * r, by * r,
+                    bz * r) for t, r in profile], material, count, caps=caps, until=until)
 
     def ball(self, centre, radii, material, count=10, levels=6, tilt=0.0, until=2):
         x, up = turn_y((1.0, 0.0, 0.0), tilt), turn_y((0.0, 0.0, radii[2]), tilt)
@@ -145,10 +148,11 @@ class MeshBuilder:
         self.loft(rings, material, count, until=until)
 
     def box(self, centre, half, yaw, material, taper=1.0, count=8, square=1.0, tilt=0.0):
-        """A box with soft edges; `half` are its half sizes, `taper` how much narrower its top is, `tilt` its forward lean."""
+        """A box with soft edges; `half` are its half sizes, `taper` how much narrower its top is, `tilt` its lean."""
         x, y, up = (turn_z(turn_y(axis, tilt), yaw) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)))
         self.loft([ring(add(centre, scale(up, half[2] * z)), x, y, half[0] * f, half[1] * f)
-                   for z, f in ((-1.0, 0.86), (-0.84, 1.0), (0.80, taper), (1.0, 0.82 * taper))], material, count, square)
+                   for z, f in ((-1.0, 0.86), (-0.84, 1.0), (0.80, taper), (1.0, 0.82 * taper))], material, count,
+                  square)
 
 
 def _off(rings, i, j, k):
@@ -156,7 +160,10 @@ def _off(rings, i, j, k):
     a, b, c = rings[i], rings[j], rings[k]
     along = sub(c, a)
     square = along[0] ** 2 + along[1] ** 2 + along[2] ** 2
-    t = min(1.0, max(0.0, sum(along[n] * (b[n] - a[n]) for n in range(3)) / square)) if square > 1e-12 else (j - i) / (k - i)
+    if square > 1e-12:
+        t = min(1.0, max(0.0, sum(along[n] * (b[n] - a[n]) for n in range(3)) / square))
+    else:
+        t = (j - i) / (k - i)
     return max(math.dist(b[n:n + 3], mix(a[n:n + 3], c[n:n + 3], t)) for n in (0, 3, 6))
 
 
@@ -164,7 +171,8 @@ def _kept(part, samples, tolerance):
     """The rings of a part that a level keeps: without the others no sample's skin is off by more than the tolerance."""
     kept = list(range(part.first, part.first + part.rings))
     while len(kept) > 2 and tolerance > 0.0:
-        costs = [max(_off(rings, i, j, k) for rings in samples for j in range(i + 1, k)) for i, k in zip(kept, kept[2:])]
+        costs = [max(_off(rings, i, j, k) for rings in samples for j in range(i + 1, k))
+                 for i, k in zip(kept, kept[2:])]
         least = min(costs)
         if least > tolerance:
             break

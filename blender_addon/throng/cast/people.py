@@ -44,13 +44,3 @@ CAST = (
 
 def build_of(person):
     return gait.Build().scaled(person.height / STANDARD_HEIGHT)
-
-
-def build_figure(person, pose):
-    """The rings and parts of one person in one pose (gait.walk_pose or gait.standing_pose with build_of(person)).
-
-    Figures look along +x and stand on z = 0.
-    """
-    from .figure import Figure  # which needs this module
-
-    return Figure(person, pose, build_of(person)).mesh

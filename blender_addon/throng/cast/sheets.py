@@ -1,20 +1,23 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How a cast keeps its poses: a figure is somebody's mesh at a level of detail, and a sheet is where its vertices are in every pose.
+"""How a cast keeps its poses: a figure is somebody's mesh at a level of detail, and a sheet is where its
+vertices are in every pose.
 
-The sheet is a mesh of loose points: all vertices of the figure in the first pose, then all in the second, and so on; its attribute `velocity`
-says how fast they move in the poses that walk. The figure's one modifier makes an instance of each pose from the two, in order, and a
-crowd's instancer picks among them. Figure and sheet are in no scene and are worked out once, when a file is opened.
+The sheet is a mesh of loose points: all vertices of the figure in the first pose, then all in the second, and so on;
+its attribute `velocity` says how fast they move in the poses that walk. The figure's one modifier makes an instance of
+each pose from the two, in order, and a crowd's instancer picks among them. Figure and sheet are in no scene and are
+worked out once, when a file is opened.
 
-Why a pose is no object of its own: a crowd has more than a thousand, and Blender's dependency graph goes over all operations of every object
-that something refers to in every frame, whether anything has changed or not. With objects that took as long as all people together. The
-price: people are geometry of one object, the crowd, so mattes go by crowd and by material, and exports want Realize Instances (docs/blender.md).
+Why a pose is no object of its own: a crowd has more than a thousand, and Blender's dependency graph goes over all
+operations of every object that something refers to in every frame, whether anything has changed or not. With objects
+that took as long as all people together. The price: people are geometry of one object, the crowd, so mattes go by crowd
+and by material, and exports want Realize Instances (docs/blender.md).
 """
 from dataclasses import dataclass
 
 import bpy
 import numpy
 
-from ..nodes import Maths, drop_tree, get_input, new_tree, own_tree, set_input, socket
+from ..blender.nodes import Maths, drop_tree, get_input, new_tree, own_tree, set_input, socket
 
 MODIFIER = "throng poses"
 MOST_POINTS = 1 << 24  # numbers of points go through nodes as floats, which count no further
@@ -30,8 +33,11 @@ class Posed:
 
 
 def drop_spare_attributes(mesh, keep_sharp=False):
-    """What editing left in a mesh, and marks of sharp faces where there are none: Blender goes over the attributes of all poses in every frame."""
-    for name in [each.name for each in mesh.attributes if each.name.startswith((".select_", ".uv_select_")) or (each.name == "sharp_face" and not keep_sharp)]:
+    """What editing left in a mesh, and marks of sharp faces where there are none: Blender goes over the attributes of
+    all poses in every frame."""
+    for name in [each.name for each in mesh.attributes
+                 if each.name.startswith((".select_", ".uv_select_"))
+                 or (each.name == "sharp_face" and not keep_sharp)]:
         mesh.attributes.remove(mesh.attributes[name])
 
 
@@ -96,7 +102,8 @@ def _pose_tree(blurs):
     found = own_tree(name)
     if found:
         return found
-    tree, inputs, outputs = new_tree(name, [("Figure", "NodeSocketGeometry"), ("Sheet", "NodeSocketGeometry"), ("First", "NodeSocketInt")], _GEOMETRY)
+    tree, inputs, outputs = new_tree(name, [("Figure", "NodeSocketGeometry"), ("Sheet", "NodeSocketGeometry"),
+                                            ("First", "NodeSocketInt")], _GEOMETRY)
     maths = Maths(tree)
     place = maths.math("ADD", maths.node("GeometryNodeInputIndex").outputs[0], inputs.outputs["First"])
 

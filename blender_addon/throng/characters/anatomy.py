@@ -3,6 +3,7 @@
 
 The feet are what reaches the ground; a leg is the chain of bones from where both feet's chains part down to a foot.
 """
+import itertools
 from dataclasses import dataclass
 
 import numpy
@@ -46,7 +47,8 @@ def _lowest(points, main, count):
 def find_legs(names, parents, heads, points, main, feet=()):
     """Both legs.
 
-    @param heads (B, 3), the bones' joints in a pose that stands; points (V, 3), the vertices; main (V,), the bone that moves each most
+    @param heads (B, 3), the bones' joints in a pose that stands; points (V, 3), the vertices; main (V,), the
+    bone that moves each most
     @param feet the names of both feet's bones, where they are known
     """
     lowest = _lowest(points, main, len(names))
@@ -56,7 +58,8 @@ def find_legs(names, parents, heads, points, main, feet=()):
     if feet:
         missing = [name for name in feet if name not in names]
         if missing or len(feet) != 2:
-            raise CharacterError(f"the feet should be the names of two bones, found {', '.join(feet)}: there are {', '.join(names[:12])} ...")
+            raise CharacterError(f"the feet should be the names of two bones, found {', '.join(feet)}: there are "
+                                 f"{', '.join(names[:12])} ...")
         ends = [names.index(name) for name in feet]
     else:
         ends = _feet_of(names, parents, lowest, ground + 0.06 * height, heads, height)
@@ -72,31 +75,41 @@ def find_legs(names, parents, heads, points, main, feet=()):
     return legs
 
 
+def _is_foot(name):
+    return bool(_FOOT_WORDS & set(words_of(name)))
+
+
+def _foot_above(bone, names, parents, lowest, near, heads, height):
+    """The foot that a bone near the ground belongs to.
+
+    Without a name, it is the uppermost bone that reaches the ground and begins near it: a shin reaches down, too.
+    """
+    chain = _chain(bone, parents)
+    named = [each for each in chain if _is_foot(names[each])]
+    starts = [each for each in chain if lowest[each] < near and heads[each][2] < near + 0.05 * height]
+    return (named or starts or [bone])[0]
+
+
+def _unlikeness(a, b, names, parents, lowest, heads):
+    """How little two bones are like a pair of feet: as high and as deep as each other, on the ground; those with a
+    foot's name come first."""
+    depths = len(_chain(a, parents)) - len(_chain(b, parents))
+    unlike = abs(heads[a][2] - heads[b][2]) + 0.05 * abs(depths) + abs(lowest[a] - lowest[b])
+    unlike += min(lowest[a], lowest[b])
+    return unlike - (10.0 if _is_foot(names[a]) and _is_foot(names[b]) else 0.0)
+
+
 def _feet_of(names, parents, lowest, near, heads, height):
     """The bones of the two feet: on different branches, near the ground, as high and as deep as each other."""
-    branches = []
-    for bone in range(len(names)):
-        if lowest[bone] < near:
-            chain = _chain(bone, parents)
-            named = [each for each in chain if _FOOT_WORDS & set(words_of(names[each]))]
-            # without a name, it is the uppermost bone that reaches the ground and begins near it: a shin reaches down, too
-            starts = [each for each in chain if lowest[each] < near and heads[each][2] < near + 0.05 * height]
-            foot = (named or starts or [bone])[0]
-            if foot not in branches:
-                branches.append(foot)
-    best, pair = numpy.inf, None
-    for place, a in enumerate(branches):
-        for b in branches[place + 1:]:
-            chains = _chain(a, parents), _chain(b, parents)
-            if a in chains[1] or b in chains[0]:
-                continue
-            unlike = abs(heads[a][2] - heads[b][2]) + 0.05 * abs(len(chains[0]) - len(chains[1])) + abs(lowest[a] - lowest[b]) + min(lowest[a], lowest[b])
-            named = all(_FOOT_WORDS & set(words_of(names[each])) for each in (a, b))
-            if unlike - (10.0 if named else 0.0) < best:
-                best, pair = unlike - (10.0 if named else 0.0), (a, b)
-    if pair is None:
-        raise CharacterError("no two feet were found: no two bones on branches of their own move vertices near the ground. Name the bones of both feet")
-    return pair
+    branches = dict.fromkeys(_foot_above(bone, names, parents, lowest, near, heads, height)
+                             for bone in range(len(names)) if lowest[bone] < near)
+    unlike = {(a, b): _unlikeness(a, b, names, parents, lowest, heads) for a, b in itertools.combinations(branches, 2)
+              if a not in _chain(b, parents) and b not in _chain(a, parents)}
+    pairs = [pair for pair, much in unlike.items() if much < numpy.inf]  # bones that move nothing are no feet
+    if not pairs:
+        raise CharacterError("no two feet were found: no two bones on branches of their own move vertices near the "
+                             "ground. Name the bones of both feet")
+    return min(pairs, key=unlike.get)
 
 
 def _joints(leg, heads):
@@ -111,7 +124,8 @@ def _joints(leg, heads):
 
 def _soles(points, main, bones):
     """The vertices of a foot that can be its lowest, however it is turned: its corners, of each bone on its own."""
-    directions = [(numpy.cos(a) * c, numpy.sin(a) * c, -s) for a in numpy.arange(16) * numpy.pi / 8 for c, s in ((0.97, 0.24), (0.7, 0.7), (0.3, 0.95))]
+    directions = [(numpy.cos(a) * c, numpy.sin(a) * c, -s) for a in numpy.arange(16) * numpy.pi / 8
+                  for c, s in ((0.97, 0.24), (0.7, 0.7), (0.3, 0.95))]
     chosen = set()
     for bone in bones:
         mine = numpy.nonzero(main == bone)[0]

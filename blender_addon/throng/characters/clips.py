@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads clips: which is the cycle, where the feet go, which way it walks. Works on a rig.Stage; the maths is in feet and motion."""
+"""Reads clips: which is the cycle, where the feet go, which way it walks. Works on a rig.Stage; the maths
+is in feet and motion."""
 from dataclasses import dataclass
 
 import numpy
@@ -55,7 +56,8 @@ class Reader:
         offspring = []
         for leg in self.legs:
             foot = anatomy.below(leg.foot, self.stage.parents)
-            shin = [b for b in anatomy.below(leg.knee, self.stage.parents) if b not in foot] if leg.knee is not None else []
+            knee = [] if leg.knee is None else anatomy.below(leg.knee, self.stage.parents)
+            shin = [b for b in knee if b not in foot]
             thigh = [b for b in anatomy.below(leg.hip, self.stage.parents) if b not in foot and b not in shin]
             offspring.append((thigh, shin, foot))
         return motion.Body(self.stage.parents, self.legs, offspring, self.tolerance)
@@ -126,7 +128,8 @@ class Reader:
                 if cost < least:
                     least, best = cost, (i, j)
         i, j = best
-        return first + length * i / count, length * (j - i) / count, float(numpy.sqrt(((shape[j] - shape[i]) ** 2).mean()))
+        seam = float(numpy.sqrt(((shape[j] - shape[i]) ** 2).mean()))
+        return first + length * i / count, length * (j - i) / count, seam
 
     def soles(self, bones):
         """The points of both soles over bones (N, B, 4, 4)."""
@@ -217,33 +220,46 @@ class Reader:
         rest = self.placement @ self.stage.rest_pose()
         ankles, high = motion.joints(bones, [leg.foot for leg in self.legs]), []
         for pose in (bones, rest):
-            high.append(motion.joints(pose, self.hips)[..., 2].mean() - motion.joints(pose, [leg.foot for leg in self.legs])[..., 2].mean())
+            high.append(motion.joints(pose, self.hips)[..., 2].mean()
+                        - motion.joints(pose, [leg.foot for leg in self.legs])[..., 2].mean())
         upright = high[0] / max(1e-6, high[1])
         moves = bones[..., :3, 3] - bones[0, :, :3, 3]
-        return bool(numpy.ptp(ankles, axis=0).max() < 0.03 * self.height and upright > 0.85 and numpy.abs(moves).max() > 1e-4 * self.height)
+        return bool(numpy.ptp(ankles, axis=0).max() < 0.03 * self.height and upright > 0.85
+                    and numpy.abs(moves).max() > 1e-4 * self.height)
+
+
+def _clip_named(name, role, by_name):
+    if name in by_name:
+        return by_name[name]
+    near = [each for each in by_name if name.lower() in each.lower()] or by_name
+    known = ", ".join(sorted(near)[:12])
+    raise CharacterError(f"there is no clip {name} (asked for as {role}): there are "
+                         f"{known}{' ...' if len(near) > 12 else ''}")
+
+
+def _asked_for(asked, by_name):
+    """({role: [clips]}, {clip's name: stride}) of what the user says."""
+    chosen, strides = {}, {}
+    for role, entries in asked.items():
+        for name, stride in entries:
+            chosen.setdefault(role, []).append(_clip_named(name, role, by_name))
+            if stride:
+                strides[name] = stride
+    return chosen, strides
 
 
 def choose(reader, clips):
     """({role: [clips]}, {clip's name: stride that the user said}): by the user, by name, by motion."""
     by_name = {clip.name: clip for clip in clips}
-    chosen, strides = {}, {}
-    for role, entries in (reader.options.roles or {}).items():
-        for name, stride in entries:
-            if name not in by_name:
-                near = [each for each in by_name if name.lower() in each.lower()]
-                known = ", ".join(sorted(near or by_name)[:12])
-                raise CharacterError(f"there is no clip {name} (asked for as {role}): there are {known}{' ...' if len(near or by_name) > 12 else ''}")
-            chosen.setdefault(role, []).append(by_name[name])
-            if stride:
-                strides[name] = stride
-    named = roles.clips_by_role(list(by_name))
-    for role, names in named.items():
+    chosen, strides = _asked_for(reader.options.roles or {}, by_name)
+    for role, names in roles.clips_by_role(list(by_name)).items():
         chosen.setdefault(role, [by_name[name] for name in names])
+    everyday = [clip for clip in clips if not roles.says_otherwise(clip.name)]
     if roles.WALK not in chosen and roles.RUN not in chosen:
-        chosen[roles.WALK] = [clip for clip in clips if not roles.says_otherwise(clip.name)]
+        chosen[roles.WALK] = everyday
         reader.notes.append("no clip's name says that it walks: their feet were asked")
     if roles.IDLE not in chosen:
-        still = [clip for clip in clips if not roles.says_otherwise(clip.name) and reader.stands_still(clip)]
+        still = [clip for clip in everyday if reader.stands_still(clip)]
         if still:
             chosen[roles.IDLE] = still
     return chosen, strides
@@ -264,6 +280,7 @@ def walks(reader, chosen, strides):
             cycles.append(found)
     if not cycles:
         why = "; ".join(refused[:4]) or "no clip's name says that it walks"
-        raise CharacterError(f"no clip walks ({why}). Name one: a walk on the spot or with root motion, forwards, that comes round")
+        raise CharacterError(f"no clip walks ({why}). Name one: a walk on the spot or with root motion, "
+                             "forwards, that comes round")
     reader.notes.extend(f"not used: {each}" for each in refused if len(chosen.get(roles.WALK, [])) < 8)
     return cycles

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the feet of a clip tell, and where they have to be instead. Pure maths on numpy arrays: no Blender here.
 
-A clip is sampled at N moments, evenly over its length. Where "points" are asked for, they are the points of one foot's sole, (N, V, 3):
-x forward, y left, z up. All times are shares of the cycle, and the cycle comes round: sample N is sample 0.
+A clip is sampled at N moments, evenly over its length. Where "points" are asked for, they are the points of
+one foot's sole, (N, V, 3): x forward, y left, z up. All times are shares of the cycle, and the cycle comes
+round: sample N is sample 0.
 """
 from dataclasses import dataclass
 
@@ -22,11 +23,13 @@ def contact_steps(points, tolerance):
 
 def smooth(values, width):
     """A circular moving average over so many samples."""
-    return sum(numpy.roll(values, shift, axis=0) for shift in range(-(width // 2), width // 2 + 1)) / (width // 2 * 2 + 1)
+    return sum(numpy.roll(values, shift, axis=0)
+               for shift in range(-(width // 2), width // 2 + 1)) / (width // 2 * 2 + 1)
 
 
 def cycles_in(motion, limit=0.2):
-    """How many times a clip does the same: `motion` (N, D) is where things are, root motion taken out. N should divide by 2, 3 and 4."""
+    """How many times a clip does the same: `motion` (N, D) is where things are, root motion taken out. N should
+    divide by 2, 3 and 4."""
     still = numpy.sqrt(((motion - motion.mean(axis=0)) ** 2).mean())
     if still < 1e-9:
         return 1
@@ -39,7 +42,8 @@ def cycles_in(motion, limit=0.2):
 
 
 def heading_of(pair, tolerance):
-    """The direction (x, y) that two feet walk: against the way of what is on the ground; its length says how sure that is, 0 to 1."""
+    """The direction (x, y) that two feet walk: against the way of what is on the ground; its length says how
+    sure that is, 0 to 1."""
     pushed, way = numpy.zeros(2), 0.0
     for points in pair:
         low = points[..., 2].min(axis=1)
@@ -125,8 +129,8 @@ def _warp(foot, phase, down, share):
 def fit(foot, stride, share, turned=None, lift=1.0, clearance=0.02, samples=240):
     """The path of a foot for a stride: planted for `share` of the cycle, under the body at UNDER_BODY.
 
-    While it is planted it rolls: each moment, what touches the ground stays where it is. In the air it follows the clip, from where it
-    leaves the ground to where it comes down.
+    While it is planted it rolls: each moment, what touches the ground stays where it is. In the air it follows the
+    clip, from where it leaves the ground to where it comes down.
     @param turned extra rotations (T, 3, 3) of the foot about its ankle, a function of times of the clip, or None
     @param lift how much of the clip's height in the air remains
     @param clearance metres that the sole is above the ground in the air at least, but for its first and last tenth

@@ -10,8 +10,8 @@ import numpy
 
 from . import CharacterError
 
-_KINDS = ("objects", "actions", "armatures", "meshes", "collections", "cameras", "lights", "curves", "scenes", "worlds", "shape_keys",
-          "materials", "images", "node_groups", "textures")
+_KINDS = ("objects", "actions", "armatures", "meshes", "collections", "cameras", "lights", "curves", "scenes", "worlds",
+          "shape_keys", "materials", "images", "node_groups", "textures")
 
 
 def check(path):
@@ -23,7 +23,8 @@ def check(path):
             if head[:4] == b"glTF":
                 length = struct.unpack("<I", head[8:12])[0] if len(head) >= 12 else 0
                 if length != os.path.getsize(path):
-                    raise CharacterError(f"{name} is truncated: it should have {length} bytes, and has {os.path.getsize(path)}")
+                    raise CharacterError(f"{name} is truncated: it should have {length} bytes, and "
+                                         f"has {os.path.getsize(path)}")
                 return
             document = json.loads(head + file.read())
     except OSError as error:
@@ -40,15 +41,18 @@ def _everything():
 
 @contextmanager
 def imported(context, path):
-    """The armature of a glTF file. What the file brought is gone afterwards, but for materials and images that something else uses by then."""
+    """The armature of a glTF file. What the file brought is gone afterwards, but for materials and images that
+    something else uses by then."""
     check(path)
     if not hasattr(bpy.types, "IMPORT_SCENE_OT_gltf"):
         raise CharacterError("Blender's own add-on for glTF 2.0 is switched off: enable it in the preferences")
     if "bool" not in vars(numpy):
         numpy.bool = bool  # Blender 3.4's importer asks for it, NumPy from 1.24 has it no more
     scene, before = context.scene, _everything()
-    kept = (scene.frame_start, scene.frame_end, scene.frame_current, scene.render.fps, scene.render.fps_base, scene.camera, scene.world)
-    active, selected = context.view_layer.objects.active, [thing for thing in context.view_layer.objects if thing.select_get()]
+    kept = (scene.frame_start, scene.frame_end, scene.frame_current, scene.render.fps, scene.render.fps_base,
+            scene.camera, scene.world)
+    active = context.view_layer.objects.active
+    selected = [thing for thing in context.view_layer.objects if thing.select_get()]
     brought = {}
     try:
         try:
@@ -63,7 +67,8 @@ def imported(context, path):
             raise CharacterError(f"{os.path.basename(path)} has no skeleton: a character needs a skin with joints")
         yield max(armatures, key=_weight)
     finally:
-        (scene.frame_start, scene.frame_end, scene.frame_current, scene.render.fps, scene.render.fps_base, scene.camera, scene.world) = kept
+        (scene.frame_start, scene.frame_end, scene.frame_current, scene.render.fps, scene.render.fps_base, scene.camera,
+         scene.world) = kept
         _take_out(brought)
         for thing in selected:
             thing.select_set(True)
@@ -76,7 +81,8 @@ def _weight(armature):
 
 def _take_out(brought):
     """Removes what a file brought, except meshes' materials and their images where pose meshes use them by now."""
-    for kind in ("scenes", "objects", "collections", "cameras", "lights", "curves", "worlds", "actions", "meshes", "armatures"):
+    for kind in ("scenes", "objects", "collections", "cameras", "lights", "curves", "worlds", "actions", "meshes",
+                 "armatures"):
         bpy.data.batch_remove(list(brought.get(kind, ())))
     for kind in ("materials", "node_groups", "textures", "images"):
         for each in brought.get(kind, ()):
@@ -86,7 +92,8 @@ def _take_out(brought):
 
 def pack_images(meshes):
     """Images of these meshes go into the .blend, unless they lie beside it."""
-    seen, queue = set(), [material.node_tree for mesh in meshes for material in mesh.materials if material and material.node_tree]
+    seen = set()
+    queue = [material.node_tree for mesh in meshes for material in mesh.materials if material and material.node_tree]
     while queue:
         tree = queue.pop()
         if tree in seen:

@@ -48,9 +48,11 @@ def about(rotation, centre, to=None):
 
 
 def bend(hip, knee, ankle, target, sideways=numpy.array([0.0, 1.0, 0.0])):
-    """How thigh and shin move so that the ankle comes to the target, the knee bent as it was, or forwards where it was straight.
+    """How thigh and shin move so that the ankle comes to the target, the knee bent as it was, or
+    forwards where it was straight.
 
-    @return (4 x 4 of the thigh, 4 x 4 of the shin, where the ankle comes to: short of the target where the leg is too short)
+    @return (4 x 4 of the thigh, 4 x 4 of the shin, where the ankle comes to: short of the target
+    where the leg is too short)
     """
     thigh, shin = float(numpy.linalg.norm(knee - hip)), float(numpy.linalg.norm(ankle - knee))
     way = target - hip

@@ -122,14 +122,16 @@ def body_at(cycle, body, phase, amplitude):
 
 
 def plan(cycle, body, stride):
-    """How feet and hips go for a stride. A foot is planted as long as the clip says, or for less where the leg could not reach."""
+    """How feet and hips go for a stride. A foot is planted as long as the clip says, or for less where
+    the leg could not reach."""
     amplitude = amplitude_of(stride, cycle.stride)
     poses = body_at(cycle, body, numpy.arange(48) / 48.0, amplitude)
     reach = [_reach(poses[0], leg) for leg in body.legs]
     turners = [_turner(cycle, side, leg, amplitude) for side, leg in enumerate(body.legs)]
     share = min(cycle.stance, 0.75)
     while True:
-        paths = [feet.fit(foot, stride, share, turned, min(1.0, 0.4 + 0.6 * amplitude), 3.0 * body.tolerance, FINE) for foot, turned in zip(cycle.feet, turners)]
+        paths = [feet.fit(foot, stride, share, turned, min(1.0, 0.4 + 0.6 * amplitude), 3.0 * body.tolerance, FINE)
+                 for foot, turned in zip(cycle.feet, turners)]
         needs = []
         for side, (path, leg, length) in enumerate(zip(paths, body.legs, reach)):
             wide = feet.at(poses[:, leg.hip, :3, 3], numpy.arange(FINE) / FINE + 0.5 * side)
@@ -137,7 +139,8 @@ def plan(cycle, body, stride):
             needs.append(numpy.roll(need, side * (FINE // 2)))
         need = numpy.maximum(*needs)
         most = max(reach) * LOWERING
-        best = Plan(stride, cycle, share, amplitude, paths, _eased(numpy.minimum(need, most)), float(max(0.0, need.max() - most)))
+        best = Plan(stride, cycle, share, amplitude, paths, _eased(numpy.minimum(need, most)),
+                    float(max(0.0, need.max() - most)))
         if best.short == 0.0 or share <= SHORTEST_STANCE:
             return best
         share = max(SHORTEST_STANCE, share - 0.02)

@@ -5,18 +5,18 @@ import bpy
 from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
-from ..panels import Below
-from . import CharacterError
+from ..blender.panels import Below
+from ..crowd.queries import chosen_crowds, members_of, repertoire_of
+from . import CharacterError, character, files, members
 from .clips import HEADINGS, Options
 from .roles import ROLES
 
 
 def _one_crowd(context):
-    from ..crowds import chosen_crowds
-
     chosen = chosen_crowds(context)
     if len(chosen) != 1:
-        raise CharacterError("Select one crowd: each has a cast of its own" if chosen else "There is no crowd: import a bake first")
+        raise CharacterError("Select one crowd: each has a cast of its own" if chosen
+                             else "There is no crowd: import a bake first")
     return chosen[0]
 
 
@@ -30,7 +30,8 @@ def parse_clips(text, role):
         except ValueError:
             name, metres = part, 0.0  # a name may hold a colon
         if metres < 0.0 or metres > 10.0:
-            raise CharacterError(f"{role}: a stride of {metres:g} m: it should be between 0 (found automatically) and 10")
+            raise CharacterError(f"{role}: a stride of {metres:g} m: it should be between 0 "
+                                 "(found automatically) and 10")
         found.append((name.strip(), metres))
     return found
 
@@ -39,15 +40,20 @@ class _AddsCharacter:
     bl_options = {"REGISTER", "UNDO"}
 
     character_name: StringProperty(name="Name", description="Of the character; by default the file's or the armature's")
-    replace: IntProperty(name="Replace", default=-1, min=-1, description="The number of the cast's member whom it replaces; -1: it joins them")
+    replace: IntProperty(name="Replace", default=-1, min=-1,
+                         description="The number of the cast's member whom it replaces; -1: it joins them")
     height: FloatProperty(name="Height", default=0.0, min=0.0, max=100.0, unit="LENGTH",
                           description="0: as it is, or 1.75 m where that is not between 1.3 and 2.1 m")
-    heading: EnumProperty(name="Looks Along", default="AUTO", items=[("AUTO", "Automatic", "Where its feet walk to")] + [(axis, axis, "") for axis in HEADINGS])
-    leave_out: StringProperty(name="Leave Out", description="Meshes that shall not be there, by comma; * stands for anything")
+    heading: EnumProperty(name="Looks Along", default="AUTO", items=[("AUTO", "Automatic", "Where its feet walk to")]
+                                                              + [(axis, axis, "") for axis in HEADINGS])
+    leave_out: StringProperty(name="Leave Out",
+                              description="Meshes that shall not be there, by comma; * stands for anything")
     keep: StringProperty(name="Keep", description="Meshes that shall be there although hands hold them, by comma")
     feet: StringProperty(name="Feet", description="The bones of both feet, by comma, where they are not found")
     idle: StringProperty(name="Idle", description="Clips to stand with, by comma; empty: found by name, then by motion")
-    walk: StringProperty(name="Walk", description="Clips to walk with; a stride in metres can follow a colon: Stroll: 1.1, March: 1.6")
+    walk: StringProperty(name="Walk",
+                         description="Clips to walk with; a stride in metres can follow a "
+                                     "colon: Stroll: 1.1, March: 1.6")
     run: StringProperty(name="Run", description="Clips to run with")
     talk: StringProperty(name="Talk", description="Clips to talk with")
     phone: StringProperty(name="Phone", description="Clips to look at a phone with")
@@ -61,11 +67,9 @@ class _AddsCharacter:
                        feet=tuple(part.strip() for part in self.feet.split(",") if part.strip()))
 
     def _add(self, crowd, armature, name):
-        from . import character, files, members
-
         number = members.number_for(crowd, None if self.replace < 0 else self.replace)
         members.widen(crowd)
-        made = character.make(armature, members.repertoire_of(crowd), name, self._options())
+        made = character.make(armature, repertoire_of(crowd), name, self._options())
         try:
             files.pack_images([posed.mesh for posed in made.levels])
         except CharacterError:
@@ -97,9 +101,7 @@ class THRONG_OT_add_character(_AddsCharacter, bpy.types.Operator, ImportHelper):
     filter_glob: StringProperty(default="*.glb;*.gltf", options={"HIDDEN"})
 
     def _run(self, context, crowd):
-        from .files import imported
-
-        with imported(context, self.filepath) as armature:
+        with files.imported(context, self.filepath) as armature:
             self._add(crowd, armature, self.character_name or os.path.splitext(os.path.basename(self.filepath))[0])
 
 
@@ -133,8 +135,6 @@ class THRONG_OT_remove_character(bpy.types.Operator):
     member: IntProperty(name="Member", min=0, description="Its number in the cast")
 
     def execute(self, context):
-        from . import members
-
         try:
             members.remove(_one_crowd(context), self.member)
         except CharacterError as error:
@@ -147,8 +147,6 @@ class VIEW3D_PT_throng_characters(Below, bpy.types.Panel):
     bl_label = "Characters"
 
     def draw(self, context):
-        from . import members
-
         layout = self.layout
         layout.operator(THRONG_OT_add_character.bl_idname, icon="IMPORT")
         layout.operator(THRONG_OT_add_armature.bl_idname, icon="ARMATURE_DATA")
@@ -157,7 +155,7 @@ class VIEW3D_PT_throng_characters(Below, bpy.types.Panel):
         except CharacterError as error:
             layout.label(text=str(error))
             return
-        for number, (name, own) in enumerate(members.members(crowd)):
+        for number, (name, own) in enumerate(members_of(crowd)):
             row = layout.row()
             row.label(text=f"{number}  {name}", icon="ARMATURE_DATA" if own else "COMMUNITY")
             if own:

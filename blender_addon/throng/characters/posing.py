@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Pose meshes: what a character's meshes look like when its bones are where a pose wants them.
 
-A puppet (a copy of the armature without constraints and drivers, with copies of the meshes) takes the poses, so that all modifiers work as they
-do in the original, and each pose is one mesh of everything. Coarser levels of detail are decimated before they are posed: all poses
-of a level have the same vertices and faces, so nothing crawls.
+A puppet (a copy of the armature without constraints and drivers, with copies of the meshes) takes the poses, so that
+all modifiers work as they do in the original, and each pose is one mesh of everything. Coarser levels of detail are
+decimated before they are posed: all poses of a level have the same vertices and faces, so nothing crawls.
 """
 import bmesh
 import bpy
@@ -43,8 +43,8 @@ class Puppet:
         self.templates = [None] * len(LEVELS)
         self.inverse = numpy.linalg.inv(self.world)
         self.rest = stage.rest
-        self.above = numpy.array([numpy.linalg.inv(self.rest[parent]) @ self.rest[bone] if parent >= 0 else self.rest[bone]
-                                  for bone, parent in enumerate(stage.parents)])
+        self.above = numpy.array([numpy.linalg.inv(self.rest[parent]) @ self.rest[bone] if parent >= 0
+                                  else self.rest[bone] for bone, parent in enumerate(stage.parents)])
 
     def _copy(self, thing, armature, share):
         twin = thing.copy()
@@ -81,7 +81,8 @@ class Puppet:
         self.scene.collection.objects.link(helper)
         layer = self.scene.view_layers[0]
         layer.update()
-        mesh = bpy.data.meshes.new_from_object(helper.evaluated_get(layer.depsgraph), preserve_all_data_layers=True, depsgraph=layer.depsgraph)
+        mesh = bpy.data.meshes.new_from_object(helper.evaluated_get(layer.depsgraph), preserve_all_data_layers=True,
+                                               depsgraph=layer.depsgraph)
         spare = helper.data
         bpy.data.objects.remove(helper)
         bpy.data.meshes.remove(spare)
@@ -135,7 +136,8 @@ class Puppet:
             places = [materials.index(material.original if material else None) for material in slots]
             flat = numpy.zeros(len(part.polygons), numpy.int32)
             part.polygons.foreach_get("material_index", flat)
-            part.polygons.foreach_set("material_index", numpy.array(places, numpy.int32)[numpy.minimum(flat, len(places) - 1)])
+            part.polygons.foreach_set("material_index",
+                                      numpy.array(places, numpy.int32)[numpy.minimum(flat, len(places) - 1)])
             whole.from_mesh(part)
             bpy.data.meshes.remove(part)
         for layers in (whole.verts.layers.deform, whole.verts.layers.shape):  # of no use any more, and large

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 import bpy
 import numpy
 
+from ..blender.actions import curves_of
 from . import CharacterError
 from .roles import words_of
 
@@ -32,30 +33,30 @@ class Rig:
     held: list = field(default_factory=list)  # names of what hands hold, left out
 
 
-def _action_curves(action):
-    if hasattr(action, "fcurves"):
-        return list(action.fcurves)
-    return [curve for layer in action.layers for strip in layer.strips for bag in strip.channelbags for curve in bag.fcurves]
-
-
 def _moves_bones(action, armature):
     """Whether an action was made for such bones."""
-    bones = {curve.data_path.split('"')[1] for curve in _action_curves(action) if curve.data_path.startswith('pose.bones["')}
+    bones = {curve.data_path.split('"')[1] for curve in curves_of(action) if curve.data_path.startswith('pose.bones["')}
     return bool(bones) and len(bones & set(armature.data.bones.keys())) * 2 > len(bones)
 
 
+def _own_clips(data):
+    """Those on NLA tracks, and the one in the armature's hand."""
+    for track in data.nla_tracks:
+        for strip in track.strips:
+            if strip.action:
+                named = len(track.strips) == 1 and not track.name.startswith("NlaTrack")
+                yield Clip(track.name if named else strip.action.name, strip.action,
+                           getattr(strip, "action_slot", None))
+    if data.action:
+        yield Clip(data.action.name, data.action, getattr(data, "action_slot", None))
+
+
 def clips_of(armature):
-    """Clips on the armature's NLA tracks and in its hand; where there are none, every action in the file that moves such bones."""
+    """Clips on the armature's NLA tracks and in its hand; where there are none, every action in the file
+    that moves such bones."""
     found = {}
-    data = armature.animation_data
-    if data:
-        for track in data.nla_tracks:
-            for strip in track.strips:
-                if strip.action and strip.action.name not in found:
-                    name = track.name if len(track.strips) == 1 and not track.name.startswith("NlaTrack") else strip.action.name
-                    found[strip.action.name] = Clip(name, strip.action, getattr(strip, "action_slot", None))
-        if data.action and data.action.name not in found:
-            found[data.action.name] = Clip(data.action.name, data.action, getattr(data, "action_slot", None))
+    for clip in _own_clips(armature.animation_data) if armature.animation_data else ():
+        found.setdefault(clip.action.name, clip)
     if len(found) < 2:
         for action in bpy.data.actions:
             if action.name not in found and _moves_bones(action, armature):
@@ -105,8 +106,8 @@ def patterns_of(text):
 
 
 def rig_of(armature, leave_out="", keep=""):
-    """The character that hangs on an armature. `leave_out` and `keep` are names of meshes, by comma, with * and ?; what hands hold
-    is left out unless it is kept."""
+    """The character that hangs on an armature. `leave_out` and `keep` are names of meshes, by comma, with * and ?; what
+    hands hold is left out unless it is kept."""
     out, kept = patterns_of(leave_out), patterns_of(keep)
     meshes, held = [], []
     for thing in bpy.data.objects:
@@ -122,10 +123,12 @@ def rig_of(armature, leave_out="", keep=""):
             meshes.append(thing)
     meshes.sort(key=lambda thing: thing.name)
     if not meshes:
-        raise CharacterError(f"no mesh hangs on the armature {armature.name}: a character needs meshes with an Armature modifier, or parented to bones")
+        raise CharacterError(f"no mesh hangs on the armature {armature.name}: a character needs meshes with an "
+                             "Armature modifier, or parented to bones")
     clips = clips_of(armature)
     if not clips:
-        raise CharacterError(f"the armature {armature.name} has no clips: a character needs at least one that walks (an action on its bones)")
+        raise CharacterError(f"the armature {armature.name} has no clips: a character needs at least one that walks "
+                             "(an action on its bones)")
     return Rig(armature, meshes, clips, held)
 
 
@@ -153,7 +156,8 @@ class Stage:
         self.rest = numpy.array([bone.matrix_local for bone in self.bones])
         data = armature.animation_data or armature.animation_data_create()
         self._before = (data.action, getattr(data, "action_slot", None), data.use_nla, armature.data.pose_position,
-                        {bone.name: bone.matrix_basis.copy() for bone in armature.pose.bones}, armature.matrix_basis.copy())
+                        {bone.name: bone.matrix_basis.copy() for bone in armature.pose.bones},
+                        armature.matrix_basis.copy())
         armature.data.pose_position = "POSE"
 
     def __enter__(self):
@@ -184,7 +188,8 @@ class Stage:
         return numpy.array(self.rig.armature.matrix_world) @ self.rest
 
     def sample(self, clip, frames):
-        """(len(frames), B, 4, 4): where the bones are in the world at those frames of a clip, which may lie between whole ones."""
+        """(len(frames), B, 4, 4): where the bones are in the world at those frames of a clip, which may
+        lie between whole ones."""
         data = self.rig.armature.animation_data
         data.use_nla = False
         for bone in self.rig.armature.pose.bones:
@@ -200,7 +205,8 @@ class Stage:
     def _resting(self):
         """{mesh object: where it is relative to the armature when that rests}."""
         armature = self.rig.armature
-        things = {each for thing in self.rig.meshes for each in (thing, *_parents(thing))} - {armature, *_parents(armature)}
+        things = {each for thing in self.rig.meshes for each in (thing, *_parents(thing))}
+        things -= {armature, *_parents(armature)}
         for thing in things:
             self.scene.collection.objects.link(thing)
         armature.data.pose_position = "REST"
@@ -234,7 +240,8 @@ class Stage:
             weights.append(much)
         skin = Skin(numpy.concatenate(rests), numpy.concatenate(bones), numpy.concatenate(weights))
         if skin.weights.sum() < 1e-6:
-            raise CharacterError("no vertex follows a bone: meshes need an Armature modifier and vertex groups with the bones' names, or bones as parents")
+            raise CharacterError("no vertex follows a bone: meshes need an Armature modifier and vertex groups with "
+                                 "the bones' names, or bones as parents")
         return skin
 
 
@@ -244,7 +251,8 @@ def skinned(skin, chosen, matrices, rest):
     points = numpy.concatenate([skin.rest[chosen], numpy.ones((len(chosen), 1))], axis=1)
     total = numpy.zeros(matrices.shape[:-3] + (len(chosen), 4))
     for slot in range(skin.bones.shape[1]):
-        total += skin.weights[chosen, slot][:, None] * numpy.einsum("...vij,vj->...vi", moves[..., skin.bones[chosen, slot], :, :], points)
+        moved = numpy.einsum("...vij,vj->...vi", moves[..., skin.bones[chosen, slot], :, :], points)
+        total += skin.weights[chosen, slot][:, None] * moved
     return total[..., :3] / numpy.maximum(1e-9, skin.weights[chosen].sum(axis=1))[:, None]
 
 
@@ -252,7 +260,8 @@ def _weights_of(thing, index):
     names = {group.index: index.get(group.name, -1) for group in thing.vertex_groups}
     which, much = numpy.zeros((len(thing.data.vertices), 4), int), numpy.zeros((len(thing.data.vertices), 4))
     for vertex in thing.data.vertices:
-        known = sorted(((g.weight, names[g.group]) for g in vertex.groups if names.get(g.group, -1) >= 0), reverse=True)[:4]
+        known = sorted(((g.weight, names[g.group]) for g in vertex.groups if names.get(g.group, -1) >= 0),
+                       reverse=True)[:4]
         for slot, (weight, bone) in enumerate(known):
             which[vertex.index, slot], much[vertex.index, slot] = bone, weight
     return which, much

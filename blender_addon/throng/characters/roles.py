@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a clip is for, by its name. Pure Python: no Blender here.
 
-Names are taken apart into words ("Walking_A", "rig|walk-cycle", "SitChairIdle"), a word says what is done, and other words say that it is
-something else after all: nobody in a street walks with a raised axe because a clip is called "2H_Melee_Walk".
+Names are taken apart into words ("Walking_A", "rig|walk-cycle", "SitChairIdle"), a word says what is done, and
+other words say that it is something else after all: nobody in a street walks with a raised axe because a clip
+is called "2H_Melee_Walk".
 """
 import re
 
-WALK, RUN, IDLE, TALK, PHONE, CHEER, SIT, LOOK = ROLES = ("walk", "run", "idle", "talk", "phone", "cheer", "sit", "look")
+ROLES = ("walk", "run", "idle", "talk", "phone", "cheer", "sit", "look")
+WALK, RUN, IDLE, TALK, PHONE, CHEER, SIT, LOOK = ROLES
 
 _WORDS = {
     WALK: "walk walking walks walkcycle stroll strolling march marching locomotion gehen marche",
@@ -20,11 +22,13 @@ _WORDS = {
 }
 _ROLE_OF = {word: role for role, words in _WORDS.items() for word in words.split()}
 # A clip that has one of these is no everyday one, whatever else it says.
-_NEVER = set("back backward backwards strafe strafing left right turn turning jump jumping fall falling death die dying dead attack melee ranged aim "
-             "aiming shoot shooting reload sword bow crouch crouching crawl swim climb injured zombie drunk combat fight block blocking dodge hit "
-             "lie lying down up standup pose tpose roll carry carrying sneak stairs stop start begin end".split())
+_NEVER = set("back backward backwards strafe strafing left right turn turning jump jumping fall falling death die "
+             "dying dead attack melee ranged aim aiming shoot shooting reload sword bow crouch crouching crawl swim "
+             "climb injured zombie drunk combat fight block blocking dodge hit lie lying down up standup pose tpose "
+             "roll carry carrying sneak stairs stop start begin end".split())
 # A clip of these is as good as another, but where there is a plain one, that is taken.
-_SPECIAL = set("chair floor bench unarmed female male girl boy old sad happy angry tired crazy funny short long alternative alt".split())
+_SPECIAL = set("chair floor bench unarmed female male girl boy old sad happy angry tired crazy funny "
+               "short long alternative alt".split())
 SLOW = set("slow slowly casual lazy relaxed".split())
 FAST = set("fast brisk quick hurry power".split())
 
@@ -43,7 +47,7 @@ def role_of(name):
     roles = [_ROLE_OF[word] for word in words if word in _ROLE_OF]
     if not roles:
         return None, 0
-    # "Sit_Chair_Idle" sits, "Idle_Look_Around" looks, "Standing_Talking" talks: idling is the least that a clip can say.
+    # "Sit_Chair_Idle" sits, "Idle_Look_Around" looks, "Standing_Talking" talks: idling is the least of all.
     role = next((each for each in (SIT, PHONE, TALK, CHEER, LOOK, RUN, WALK) if each in roles), IDLE)
     if any(word in _NEVER for word in words) or (role in (WALK, RUN) and SIT in roles):
         return None, 0

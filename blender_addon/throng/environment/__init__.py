@@ -1,17 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the crowd walks among: walls, roads, ground, light and a camera, all from the bake's manifest."""
-from .. import terrain_mesh
+from ..formats.terrain_mesh import read_mesh
 from . import camera as camera_module
 from . import lights, streets, terrain as terrain_module, walls as walls_module
 
 
 def read_terrain(bake):
     """The terrain's mesh for build_environment(), or None where the ground is flat. Raises formats.BakeError."""
-    return terrain_mesh.read_mesh(bake.terrain_path) if bake.terrain_path else None
+    return read_mesh(bake.terrain_path) if bake.terrain_path else None
 
 
-def build_environment(context, manifest, collection, *, walls=True, roads=True, ground=True, light=True, camera=True, frame_start=1, terrain=None):
-    """Everything in the bake's own frame (metres from its origin). A terrain takes the place of the flat ground, and of roads and areas."""
+def build_environment(context, manifest, collection, *, walls=True, roads=True, ground=True, light=True, camera=True,
+                      frame_start=1, terrain=None):
+    """Everything in the bake's own frame (metres from its origin). A terrain takes the place of the flat ground,
+    and of roads and areas."""
     geometry = manifest.get("geometry") or {}
     if walls:
         for wall in geometry.get("walls", []):
@@ -22,7 +24,8 @@ def build_environment(context, manifest, collection, *, walls=True, roads=True, 
         for thing in streets.build_streets(geometry):
             collection.objects.link(thing)
     if ground:
-        collection.objects.link(terrain_module.build_terrain(*terrain, manifest) if terrain else streets.build_ground(manifest))
+        collection.objects.link(terrain_module.build_terrain(*terrain, manifest) if terrain
+                                else streets.build_ground(manifest))
     if light:
         lights.build_light(context.scene, collection, manifest=manifest)
     if camera:

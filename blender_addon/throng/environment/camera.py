@@ -7,7 +7,7 @@ import os
 import bpy
 
 from ..formats import BakeError, load_bake
-from ..terrain_mesh import read_mesh
+from ..formats.terrain_mesh import read_mesh
 from .lights import expose
 from .shapes import direction, inside
 
@@ -23,7 +23,8 @@ def positions_at(bake, frame):
             file.seek(_HEADER + frame * bake.agents * 12)
             data.frombytes(file.read(bake.agents * 12))
         values[stream] = data
-    return [(values["pos"][3 * i], values["pos"][3 * i + 1]) for i in range(bake.agents) if values["state"][3 * i] > 0.5]
+    return [(values["pos"][3 * i], values["pos"][3 * i + 1]) for i in range(bake.agents)
+            if values["state"][3 * i] > 0.5]
 
 
 def _densest(people, radius=6.0):
@@ -69,7 +70,8 @@ def build_camera(scene, manifest, collection, shot="crane"):
     people = positions_at(bake, frame) if bake else []
     target = _densest(people) if people else (0.0, 0.0)
     way = _clear_way(manifest.get("geometry") or {}, target)
-    place, aim = {"crane": _crane, "street": _street, "wide": _wide}[shot](manifest.get("geometry") or {}, people, target, way)
+    take = {"crane": _crane, "street": _street, "wide": _wide}[shot]
+    place, aim = take(manifest.get("geometry") or {}, people, target, way)
     terrain = read_mesh(bake.terrain_path) if bake and bake.terrain_path else None
     below = _ground_at(terrain, *aim[:2])
     place = (*place[:2], place[2] + max(below, _ground_at(terrain, *place[:2])))
@@ -106,7 +108,8 @@ def _clear_way(geometry, target, reach=24.0):
     """A way to look from that does not begin in a building."""
     solids = [[tuple(p[:2]) for p in wall["points"]] for wall in geometry.get("walls", []) if wall.get("closed")]
     ways = _directions(geometry)
-    clear = [u for u in ways if not any(inside(s, (target[0] + u[0] * reach, target[1] + u[1] * reach)) for s in solids)]
+    clear = [u for u in ways
+             if not any(inside(s, (target[0] + u[0] * reach, target[1] + u[1] * reach)) for s in solids)]
     return (clear or ways)[0]
 
 
@@ -135,9 +138,11 @@ def _wide(_geometry, people, _target, u):
     xs, ys = sorted(p[0] for p in people) or [0.0], sorted(p[1] for p in people) or [0.0]
     middle = (0.5 * (xs[0] + xs[-1]), 0.5 * (ys[0] + ys[-1]))
     distance = 20.0
-    while not all(_fits((x - middle[0]) * -u[1] + (y - middle[1]) * u[0], (x - middle[0]) * u[0] + (y - middle[1]) * u[1], distance) for x, y in people):
+    while not all(_fits((x - middle[0]) * -u[1] + (y - middle[1]) * u[0],
+                        (x - middle[0]) * u[0] + (y - middle[1]) * u[1], distance) for x, y in people):
         distance *= 1.03
-    place = (middle[0] + u[0] * distance * math.cos(_HIGH), middle[1] + u[1] * distance * math.cos(_HIGH), distance * math.sin(_HIGH))
+    place = (middle[0] + u[0] * distance * math.cos(_HIGH), middle[1] + u[1] * distance * math.cos(_HIGH),
+             distance * math.sin(_HIGH))
     return place, (*middle, 0.0)
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Light: a late-afternoon sun and its sky, or a night with street lamps and lit windows; and the view transform that photographs it well."""
+"""Light: a late-afternoon sun and its sky, or a night with street lamps and lit windows; and the view transform
+that photographs it well."""
 import math
 
 import bpy
@@ -11,7 +12,8 @@ ELEVATION, AZIMUTH = math.radians(31.0), math.radians(128.0)
 
 
 TIMES = ("day", "night")
-_CLAMP = {"day": 4.0, "night": 0.4}  # of indirect light: what lies next to a lamp is so bright that the few rays that find it would be fireflies
+# of indirect light: what lies next to a lamp is so bright that the few rays that find it would be fireflies
+_CLAMP = {"day": 4.0, "night": 0.4}
 _EXPOSURE = {"day": 0.6, "night": 1.7}  # stops, for people in streets; from afar all the ground is in the sun
 _LESS_FROM_AFAR = 0.5
 _LAMP_HEIGHT, _LAMPS_APART, _MOST_LAMPS, _HUNG_HEIGHT = 5.4, 16.0, 40, 8.5
@@ -45,7 +47,8 @@ def expose(scene, collection):
 
 def tame_fireflies(scene):
     """How much of indirect light to keep, by the time of the day that the scene's crowds are lit for."""
-    times = {collection["throng_light_time"] for collection in scene.collection.children_recursive if "throng_light_time" in collection}
+    times = {collection["throng_light_time"] for collection in scene.collection.children_recursive
+             if "throng_light_time" in collection}
     if hasattr(scene, "cycles"):  # which may be disabled
         scene.cycles.sample_clamp_indirect = _CLAMP["night" if "night" in times else "day"]
 
@@ -77,7 +80,8 @@ def _world(name, fill, strength):
 def _day_sky(nodes):
     sky = nodes.new("ShaderNodeTexSky")
     kinds = sky.bl_rna.properties["sky_type"].enum_items.keys()
-    sky.sky_type = next(kind for kind in ("NISHITA", "MULTIPLE_SCATTERING", "SINGLE_SCATTERING", "HOSEK_WILKIE") if kind in kinds)
+    sky.sky_type = next(kind for kind in ("NISHITA", "MULTIPLE_SCATTERING", "SINGLE_SCATTERING", "HOSEK_WILKIE")
+                        if kind in kinds)
     if hasattr(sky, "sun_disc"):
         sky.sun_disc = False
         sky.sun_elevation = ELEVATION
@@ -122,7 +126,8 @@ def _light_streets(collection, manifest):
     lamp = bpy.data.lights.new("Throng lamp", "POINT")
     lamp.energy, lamp.color, lamp.shadow_soft_size = 520.0, _WARM, 0.16
     posts, heads = Shape("Throng lamp posts"), Shape("Throng lamp heads")
-    post, head = plain("lamp post", (0.03, 0.03, 0.035), 0.5), glow(plain("lamp head", (0.9, 0.8, 0.6), 0.4).copy(), 25.0, varied=False)
+    post = plain("lamp post", (0.03, 0.03, 0.035), 0.5)
+    head = glow(plain("lamp head", (0.9, 0.8, 0.6), 0.4).copy(), 25.0, varied=False)
     for x, y in places:
         holder = bpy.data.objects.new("Throng lamp", lamp)
         holder.location = (x, y, _LAMP_HEIGHT - 0.25)
@@ -130,7 +135,8 @@ def _light_streets(collection, manifest):
         posts.strip((x - 0.05, y), (x + 0.05, y), 0.05, 0.0, _LAMP_HEIGHT, post)
         heads.strip((x - 0.16, y), (x + 0.16, y), 0.16, _LAMP_HEIGHT, _LAMP_HEIGHT + 0.12, head)
     hung = bpy.data.lights.new("Throng hung lamp", "SPOT")  # over junctions, from cables
-    hung.energy, hung.color, hung.shadow_soft_size, hung.spot_size, hung.spot_blend = 2600.0, _WARM, 0.25, math.radians(150.0), 0.8
+    hung.energy, hung.color, hung.shadow_soft_size = 2600.0, _WARM, 0.25
+    hung.spot_size, hung.spot_blend = math.radians(150.0), 0.8
     for x, y in junctions(manifest):
         holder = bpy.data.objects.new("Throng hung lamp", hung)
         holder.location = (x, y, _HUNG_HEIGHT - 0.15)
@@ -138,7 +144,8 @@ def _light_streets(collection, manifest):
         heads.strip((x - 0.25, y), (x + 0.25, y), 0.25, _HUNG_HEIGHT, _HUNG_HEIGHT + 0.12, head)
     _add(collection, posts.to_object())
     shining = heads.to_object()
-    shining.visible_diffuse = shining.visible_glossy = False  # the lamps light; rays that found so small a head by chance would be fireflies
+    # the lamps light; rays that found so small a head by chance would be fireflies
+    shining.visible_diffuse = shining.visible_glossy = False
     _add(collection, shining)
 
 
@@ -163,16 +170,19 @@ def junctions(manifest):
 def _flood(collection, manifest):
     """Floodlights round what has no streets: a stadium, a square."""
     bounds = manifest.get("bounds") or {}
-    (x0, y0), (x1, y1) = (tuple(bounds.get(key, fallback))[:2] for key, fallback in (("min", (-20.0, -20.0)), ("max", (20.0, 20.0))))
+    (x0, y0), (x1, y1) = (tuple(bounds.get(key, fallback))[:2]
+                          for key, fallback in (("min", (-20.0, -20.0)), ("max", (20.0, 20.0))))
     middle, radius = (0.5 * (x0 + x1), 0.5 * (y0 + y1)), 0.5 * math.hypot(x1 - x0, y1 - y0)
     light = bpy.data.lights.new("Throng floodlight", "SPOT")
-    light.energy, light.color, light.spot_size, light.spot_blend = 13.0 * radius * radius, (1.0, 0.94, 0.84), math.radians(95.0), 0.6
+    light.energy, light.color = 13.0 * radius * radius, (1.0, 0.94, 0.84)
+    light.spot_size, light.spot_blend = math.radians(95.0), 0.6
     light.shadow_soft_size = 1.2
     for i in range(4):
         angle = math.pi * (0.25 + 0.5 * i)
         holder = bpy.data.objects.new("Throng floodlight", light)
         high = 0.5 * radius
-        holder.location = (middle[0] + 1.05 * radius * math.cos(angle), middle[1] + 1.05 * radius * math.sin(angle), high)
+        holder.location = (middle[0] + 1.05 * radius * math.cos(angle), middle[1] + 1.05 * radius * math.sin(angle),
+                           high)
         holder.rotation_euler = (math.atan2(1.05 * radius, high), 0.0, angle + math.pi / 2)
         _add(collection, holder)
 

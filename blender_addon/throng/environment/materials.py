@@ -87,7 +87,8 @@ def slabs(name, colour, joint, size):
 
 
 def outskirts(paving, low, high, beyond):
-    """A copy of `paving` that goes over into fields `beyond` metres outside a rectangle, with rounded corners and a ragged edge."""
+    """A copy of `paving` that goes over into fields `beyond` metres outside a rectangle, with rounded
+    corners and a ragged edge."""
     material = paving.copy()
     material.name = "throng ground"
     nodes, links, shader = _nodes_of(material)
@@ -111,15 +112,18 @@ def outskirts(paving, low, high, beyond):
 
     half = tuple(0.5 * (b - a) for a, b in zip(low, high))
     corner = 0.7 * min(half)
-    from_middle = vector("ABSOLUTE", vector("SUBTRACT", vector("MULTIPLY", place, (1.0, 1.0, 0.0)), (0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]), 0.0)))
-    out = vector("LENGTH", vector("MAXIMUM", vector("SUBTRACT", from_middle, (half[0] - corner, half[1] - corner, 0.0)), (0.0, 0.0, 0.0)))
+    from_middle = vector("ABSOLUTE", vector("SUBTRACT", vector("MULTIPLY", place, (1.0, 1.0, 0.0)),
+                                            (0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]), 0.0)))
+    out = vector("LENGTH", vector("MAXIMUM", vector("SUBTRACT", from_middle, (half[0] - corner, half[1] - corner, 0.0)),
+                                  (0.0, 0.0, 0.0)))
     ragged = nodes.new("ShaderNodeMath")
     ragged.operation = "MULTIPLY_ADD"
     ragged.inputs[1].default_value = 22.0
     links.new(noise(0.09, 6.0), ragged.inputs[0])
     links.new(out, ragged.inputs[2])
     edge = nodes.new("ShaderNodeMapRange")
-    edge.inputs["From Min"].default_value, edge.inputs["From Max"].default_value = corner + beyond + 9.0, corner + beyond + 13.0
+    edge.inputs["From Min"].default_value = corner + beyond + 9.0
+    edge.inputs["From Max"].default_value = corner + beyond + 13.0
     links.new(ragged.outputs[0], edge.inputs["Value"])
     # Parcels of crops, meadow and bare earth, each a little uneven.
     parcels = nodes.new("ShaderNodeTexVoronoi")
@@ -129,8 +133,9 @@ def outskirts(paving, low, high, beyond):
     crops.color_ramp.interpolation = "CONSTANT"
     while len(crops.color_ramp.elements) < 5:
         crops.color_ramp.elements.new(0.5)
-    for element, (position, colour) in zip(crops.color_ramp.elements, ((0.0, (0.030, 0.045, 0.012)), (0.28, (0.055, 0.062, 0.020)), (0.48, (0.085, 0.066, 0.032)),
-                                                                       (0.66, (0.022, 0.034, 0.010)), (0.82, (0.115, 0.095, 0.040)))):
+    for element, (position, colour) in zip(crops.color_ramp.elements, (
+        (0.0, (0.030, 0.045, 0.012)), (0.28, (0.055, 0.062, 0.020)), (0.48, (0.085, 0.066, 0.032)),
+        (0.66, (0.022, 0.034, 0.010)), (0.82, (0.115, 0.095, 0.040)))):
         element.position, element.color = position, (*colour, 1.0)
     links.new(parcels.outputs["Color"], crops.inputs[0])
     fields = nodes.new("ShaderNodeHueSaturation")
@@ -141,7 +146,8 @@ def outskirts(paving, low, high, beyond):
     links.new(crops.outputs[0], fields.inputs["Color"])
     _set_specular(shader, 0.12)  # or ground far away mirrors the sky like a lake
     mix = nodes.new("ShaderNodeMixRGB")
-    for source, slot in ((edge.outputs[0], "Fac"), (shader.inputs["Base Color"].links[0].from_socket, "Color1"), (fields.outputs[0], "Color2")):
+    for source, slot in ((edge.outputs[0], "Fac"), (shader.inputs["Base Color"].links[0].from_socket, "Color1"),
+                         (fields.outputs[0], "Color2")):
         links.new(source, mix.inputs[slot])
     links.new(mix.outputs[0], shader.inputs["Base Color"])
     return material
@@ -161,7 +167,8 @@ def mown(name, dark, light, width):
     stripe[1].operation, stripe[1].inputs[1].default_value = "GREATER_THAN", 0.5 * width
     shade = nodes.new("ShaderNodeHueSaturation")
     shade.inputs["Value"].default_value = 0.72
-    for a, b in ((ways.outputs[0], stripe[0].inputs[0]), (stripe[0].outputs[0], stripe[1].inputs[0]), (stripe[1].outputs[0], shade.inputs["Fac"]),
+    for a, b in ((ways.outputs[0], stripe[0].inputs[0]), (stripe[0].outputs[0], stripe[1].inputs[0]),
+                 (stripe[1].outputs[0], shade.inputs["Fac"]),
                  (shader.inputs["Base Color"].links[0].from_socket, shade.inputs["Color"])):
         links.new(a, b)
     links.new(shade.outputs[0], shader.inputs["Base Color"])

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Flat polygons and boxes, gathered into one mesh. Pure Python except for to_object()."""
+"""Flat polygons and boxes, gathered into one mesh."""
 import math
+
+import bpy
 
 
 def signed_area(polygon):
@@ -22,8 +24,8 @@ def direction(a, b):
 def inside(polygon, point):
     hit = False
     for a, b in zip(polygon, polygon[1:] + polygon[:1]):
-        if (a[1] > point[1]) != (b[1] > point[1]) and point[0] < (b[0] - a[0]) * (point[1] - a[1]) / (b[1] - a[1]) + a[0]:
-            hit = not hit
+        if (a[1] > point[1]) != (b[1] > point[1]):
+            hit ^= point[0] < (b[0] - a[0]) * (point[1] - a[1]) / (b[1] - a[1]) + a[0]
     return hit
 
 
@@ -82,12 +84,10 @@ class Shape:
         """A box along a line, ends flat."""
         along, _ = direction(a, b)
         side = (-along[1] * half_width, along[0] * half_width)
-        self.prism([(a[0] - side[0], a[1] - side[1]), (b[0] - side[0], b[1] - side[1]), (b[0] + side[0], b[1] + side[1]), (a[0] + side[0], a[1] + side[1])],
-                   low, high, material)
+        self.prism([(a[0] - side[0], a[1] - side[1]), (b[0] - side[0], b[1] - side[1]),
+                    (b[0] + side[0], b[1] + side[1]), (a[0] + side[0], a[1] + side[1])], low, high, material)
 
     def to_object(self):
-        import bpy
-
         mesh = bpy.data.meshes.new(self.name)
         mesh.from_pydata(self.vertices, [], self.faces)
         for material in self.materials:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Ground, roads and areas. Flat things lie a few millimetres above each other, in this order: ground, areas, roads, markings."""
+"""Ground, roads and areas. Flat things lie millimetres apart: ground, areas, roads, markings, from below."""
 from . import materials
 from .shapes import Shape, counter_clockwise, direction
 
@@ -12,11 +12,13 @@ _PAVED = 26.0  # m round everything; fields begin beyond
 
 def build_ground(manifest):
     bounds = manifest.get("bounds") or {}
-    low, high = (tuple(bounds.get(key, fallback))[:2] for key, fallback in (("min", (-50.0, -50.0)), ("max", (50.0, 50.0))))
+    low, high = (tuple(bounds.get(key, fallback))[:2]
+                 for key, fallback in (("min", (-50.0, -50.0)), ("max", (50.0, 50.0))))
     far = 3.0 * max(high[0] - low[0], high[1] - low[1], 100.0)
     shape = Shape("Throng ground")
-    shape.flat([(low[0] - far, low[1] - far), (high[0] + far, low[1] - far), (high[0] + far, high[1] + far), (low[0] - far, high[1] + far)], GROUND_Z,
-               materials.outskirts(materials.slabs("pavement", (0.185, 0.180, 0.168), (0.105, 0.102, 0.097), 0.9), low, high, _PAVED))
+    paving = materials.slabs("pavement", (0.185, 0.180, 0.168), (0.105, 0.102, 0.097), 0.9)
+    shape.flat([(low[0] - far, low[1] - far), (high[0] + far, low[1] - far), (high[0] + far, high[1] + far),
+                (low[0] - far, high[1] + far)], GROUND_Z, materials.outskirts(paving, low, high, _PAVED))
     return shape.to_object()
 
 
@@ -27,15 +29,18 @@ def _pieces(road):
 
 
 def _rectangle(a, along, start, end, low, high):
-    """Corners of a box in a road piece's own frame: from start to end along it, from low to high across it (left is positive)."""
+    """Corners of a box in a road piece's own frame: from start to end along it, low to high across it, to the left."""
     side = (-along[1], along[0])
-    return [(a[0] + along[0] * s + side[0] * t, a[1] + along[1] * s + side[1] * t) for s, t in ((start, low), (end, low), (end, high), (start, high))]
+    return [(a[0] + along[0] * s + side[0] * t, a[1] + along[1] * s + side[1] * t)
+            for s, t in ((start, low), (end, low), (end, high), (start, high))]
 
 
 def _junctions(roads):
-    """Where pieces of different roads cross: (road index, piece index) -> [(distance along the piece, half width of the gap)]."""
+    """Where pieces of different roads cross: (road index, piece index) -> [(distance along the piece,
+    half width of the gap)]."""
     found = {}
-    pieces = [(i, j, piece, 0.5 * float(road["width"])) for i, road in enumerate(roads) for j, piece in enumerate(_pieces(road))]
+    pieces = [(i, j, piece, 0.5 * float(road["width"])) for i, road in enumerate(roads)
+              for j, piece in enumerate(_pieces(road))]
     for i, j, (a, _, u, size), _ in pieces:
         for k, _, (c, _, v, other_size), half in pieces:
             turn = u[0] * v[1] - u[1] * v[0]
@@ -56,7 +61,8 @@ def build_streets(geometry):
     objects = []
     for area in geometry.get("areas", []):
         shape = Shape(f"Throng area {area.get('id', '')}")
-        shape.flat(counter_clockwise(area["polygon"]), AREA_Z, materials.slabs("plaza", (0.190, 0.175, 0.153), (0.115, 0.107, 0.096), 0.6))
+        shape.flat(counter_clockwise(area["polygon"]), AREA_Z,
+                   materials.slabs("plaza", (0.190, 0.175, 0.153), (0.115, 0.107, 0.096), 0.6))
         objects.append(shape.to_object())
     junctions = _junctions(roads)
     for i, road in enumerate(roads):
@@ -105,7 +111,8 @@ def _markings(shape, a, along, size, half, gaps, paint, one_way):
                 shape.flat(_rectangle(a, along, stop, stop + 0.35, -half + 0.3, half - 0.3), MARK_Z, paint)
     for start, end in _free(size, gaps, 6.5):
         for side in (-1.0, 1.0):  # edge lines
-            shape.flat(_rectangle(a, along, start, end, side * (half - 0.35) - 0.06, side * (half - 0.35) + 0.06), MARK_Z, paint)
+            shape.flat(_rectangle(a, along, start, end, side * (half - 0.35) - 0.06, side * (half - 0.35) + 0.06),
+                       MARK_Z, paint)
         if one_way or half < 2.5:
             continue
         at = start + 1.0

@@ -22,9 +22,11 @@ def _on_road(pieces, x, y):
 
 def _shares(positions, geometry):
     """Per corner, 1 on roads and areas and 0 beside them."""
-    pieces = [(a, along, size, 0.5 * float(road["width"])) for road in geometry.get("roads", []) for a, _, along, size in _pieces(road)]
+    pieces = [(a, along, size, 0.5 * float(road["width"])) for road in geometry.get("roads", [])
+              for a, _, along, size in _pieces(road)]
     areas = [[tuple(point) for point in area["polygon"]] for area in geometry.get("areas", [])]
-    return [max(_on_road(pieces, x, y), 1.0 if any(inside(area, (x, y)) for area in areas) else 0.0) for x, y in zip(positions[0::3], positions[1::3])]
+    return [max(_on_road(pieces, x, y), 1.0 if any(inside(area, (x, y)) for area in areas) else 0.0)
+            for x, y in zip(positions[0::3], positions[1::3])]
 
 
 def build_terrain(positions, corners, manifest):
@@ -40,7 +42,8 @@ def build_terrain(positions, corners, manifest):
     if bpy.app.version < (4, 1, 0):
         mesh.polygons.foreach_set("loop_total", [3] * faces)
     mesh.polygons.foreach_set("use_smooth", [True] * faces)
-    mesh.attributes.new(ROAD, "FLOAT", "POINT").data.foreach_set("value", _shares(positions, manifest.get("geometry") or {}))
+    shares = _shares(positions, manifest.get("geometry") or {})
+    mesh.attributes.new(ROAD, "FLOAT", "POINT").data.foreach_set("value", shares)
     mesh.materials.append(_material())
     mesh.validate()
     mesh.update()

@@ -12,8 +12,9 @@ BAY = 2.7           # m from window to window
 BUILDING = 6.0      # m: closed walls at least this high are buildings
 BED, LAWN = 1.5, 60.0  # m and m^2: closed walls lower than this round more than this are the rim of a lawn
 
-_FACADES = [((0.36, 0.24, 0.17), (0.44, 0.31, 0.22)), ((0.42, 0.39, 0.33), (0.52, 0.48, 0.41)), ((0.25, 0.105, 0.075), (0.32, 0.145, 0.105)),
-            ((0.30, 0.31, 0.31), (0.38, 0.38, 0.37)), ((0.47, 0.40, 0.28), (0.56, 0.48, 0.35))]
+_FACADES = [((0.36, 0.24, 0.17), (0.44, 0.31, 0.22)), ((0.42, 0.39, 0.33), (0.52, 0.48, 0.41)),
+            ((0.25, 0.105, 0.075), (0.32, 0.145, 0.105)), ((0.30, 0.31, 0.31), (0.38, 0.38, 0.37)),
+            ((0.47, 0.40, 0.28), (0.56, 0.48, 0.35))]
 _AWNINGS = [(0.20, 0.030, 0.030), (0.030, 0.085, 0.065), (0.040, 0.060, 0.130), (0.32, 0.25, 0.13)]
 
 
@@ -44,7 +45,8 @@ def build_wall(wall):
 
 
 _RIM = 0.35    # m
-_PITCH = (52.5, 34.0, 9.15, 16.5, 20.16)  # m: half a football pitch's length and width, its circle, the depth and half the width of its boxes
+# m: half a football pitch's length and width, its circle, the depth and half the width of its boxes
+_PITCH = (52.5, 34.0, 9.15, 16.5, 20.16)
 _LINE = 0.06   # m, half of a line's width
 
 
@@ -73,14 +75,16 @@ def _pitch_lines(shape, outline, z):
         for a, b in zip(points, points[1:]):
             (ux, uy), _ = direction(a, b)
             sx, sy, ex, ey = -uy * _LINE, ux * _LINE, ux * _LINE, uy * _LINE
-            shape.flat([(middle[0] + x, middle[1] + y) for x, y in ((a[0] - ex - sx, a[1] - ey - sy), (b[0] + ex - sx, b[1] + ey - sy),
-                                                                    (b[0] + ex + sx, b[1] + ey + sy), (a[0] - ex + sx, a[1] - ey + sy))], z, paint)
+            shape.flat([(middle[0] + x, middle[1] + y)
+                        for x, y in ((a[0] - ex - sx, a[1] - ey - sy), (b[0] + ex - sx, b[1] + ey - sy),
+                                     (b[0] + ex + sx, b[1] + ey + sy), (a[0] - ex + sx, a[1] - ey + sy))], z, paint)
 
     way([(-length, -width), (length, -width), (length, width), (-length, width), (-length, -width)])
     way([(0.0, -width), (0.0, width)])
     way([(circle * math.cos(math.tau * i / 64), circle * math.sin(math.tau * i / 64)) for i in range(65)])
     for side in (-1.0, 1.0):
-        way([(side * length, -box), (side * (length - depth), -box), (side * (length - depth), box), (side * length, box)])
+        way([(side * length, -box), (side * (length - depth), -box), (side * (length - depth), box),
+             (side * length, box)])
 
 
 def key_gate(thing, wall, fps, frame_start):
@@ -138,7 +142,8 @@ def _facade(shape, a, b, height, trim, number):
             shape.panel(a, along, outward, start + 0.72, BAY - 1.44, floor + 0.85, floor + 2.65, 0.030, frame)
             for half in (0, 1):
                 width = 0.5 * (BAY - 1.44) - 0.09
-                shape.panel(a, along, outward, start + 0.78 + half * (width + 0.06), width, floor + 0.91, floor + 2.59, 0.036, pane)
+                shape.panel(a, along, outward, start + 0.78 + half * (width + 0.06), width, floor + 0.91, floor + 2.59,
+                            0.036, pane)
             _ledge(shape, a, along, outward, start + 0.52, BAY - 1.04, floor + 0.62, floor + 0.76, 0.14, trim)
             floor += STOREY
 
@@ -153,7 +158,8 @@ def _shopfront(shape, a, along, outward, start, pane, frame, awning):
 
         near, far, high, low = start + 0.1, start + BAY - 0.1, GROUND_FLOOR - 0.55, GROUND_FLOOR - 1.05
         shape.face([at(near, 0.06, high), at(near, 0.75, low), at(far, 0.75, low), at(far, 0.06, high)], awning)
-        shape.face([at(near, 0.75, low), at(near, 0.75, low - 0.18), at(far, 0.75, low - 0.18), at(far, 0.75, low)], awning)
+        shape.face([at(near, 0.75, low), at(near, 0.75, low - 0.18), at(far, 0.75, low - 0.18), at(far, 0.75, low)],
+                   awning)
 
 
 def _ledge(shape, a, along, outward, start, width, low, high, out, material):

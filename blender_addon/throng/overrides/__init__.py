@@ -1,14 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
 """Overrides: changes to single people of a crowd, as a layer over the bake that a bake made again keeps."""
-
-
-def register():
-    from . import operators
-
-    operators.register()
-
-
-def unregister():
-    from . import operators
-
-    operators.unregister()

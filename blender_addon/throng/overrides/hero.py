@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Heroes: single people outside the crowd, as armatures with keys, who walk just as they did in it, for an animator to change."""
+"""Heroes: single people outside the crowd, as armatures with keys, who walk as they did in it, for
+an animator to change."""
 import math
 from dataclasses import replace
 
@@ -9,20 +10,25 @@ from mathutils import Matrix, Vector
 from .. import cast
 from ..cast import gait, library, people
 from ..cast.materials import cast_materials
-from ..ground import HIGH, REACH
-from ..playback import FRAMES_A_ROUND, NATURE, STANDING_SPEED
-from . import native, skeleton
+from ..crowd.footing import HIGH, REACH
+from ..crowd.names import NATURE
+from ..crowd.poses import FRAMES_A_ROUND, STANDING_SPEED
+from ..crowd.queries import terrain_of
+from . import skeleton
+from .dyes import linear
 
 HERO, HERO_OF, HERO_ROW = "throng_hero", "throng_hero_of", "throng_hero_row"
 
 
 def heroes_of(crowd):
     """The armatures of a crowd's heroes by name."""
-    return {thing[HERO]: thing for thing in bpy.data.objects if thing.get(HERO_OF) == crowd and thing.type == "ARMATURE"}
+    return {thing[HERO]: thing for thing in bpy.data.objects
+            if thing.get(HERO_OF) == crowd and thing.type == "ARMATURE"}
 
 
 def _matrix(bone):
-    return Matrix([(*row, place) for row, place in zip(zip(bone.left, bone.along, bone.ahead), bone.head)] + [(0.0, 0.0, 0.0, 1.0)])
+    return Matrix([(*row, place) for row, place in zip(zip(bone.left, bone.along, bone.ahead), bone.head)]
+                  + [(0.0, 0.0, 0.0, 1.0)])
 
 
 class _Curves:
@@ -34,7 +40,8 @@ class _Curves:
         data.action = self.action
         if hasattr(self.action, "slots"):
             slot = self.action.slots.new(id_type="OBJECT", name=thing.name)
-            self.curves = self.action.layers.new("Layer").strips.new(type="KEYFRAME").channelbag(slot, ensure=True).fcurves
+            strip = self.action.layers.new("Layer").strips.new(type="KEYFRAME")
+            self.curves = strip.channelbag(slot, ensure=True).fcurves
             data.action_slot = slot
         else:
             self.curves = self.action.fcurves
@@ -44,7 +51,8 @@ class _Curves:
         curve.keyframe_points.add(len(frames))
         curve.keyframe_points.foreach_set("co", [v for pair in zip(frames, values) for v in pair])
         kinds = bpy.types.Keyframe.bl_rna.properties["interpolation"].enum_items
-        curve.keyframe_points.foreach_set("interpolation", [kinds["CONSTANT" if stepped else "LINEAR"].value] * len(frames))
+        curve.keyframe_points.foreach_set("interpolation",
+                                          [kinds["CONSTANT" if stepped else "LINEAR"].value] * len(frames))
         curve.update()
 
 
@@ -101,7 +109,7 @@ def _build_body(name, person, strides, armature, collection):
 
 
 def shipped_person(crowd, variation):
-    """(person, materials) of the shipped cast whom a variation shows as; None where it is a character that was brought along."""
+    """(person, materials) of the shipped cast whom a variation shows as; None where somebody brought it along."""
     shown = crowd["throng_cast"]
     figure = library.figures_of(shown).get((0, variation % shown["throng_variations"]))
     if figure is None or "throng_person" not in figure:
@@ -116,18 +124,19 @@ def _dress(crowd, body, person, materials, row, change):
     body.data.polygons.foreach_set("material_index", skeleton.plan_of(person).materials)
     body["tint"] = list(crowd.data.attributes["tint"].data[row].vector)
     if isinstance(change.tint, str):
-        body["throng_dyed"], body["throng_dye"] = 1.0, list(native.linear(change.tint))
+        body["throng_dyed"], body["throng_dye"] = 1.0, list(linear(change.tint))
 
 
 def _on_terrain(crowd, samples, over):
     """Who is moved or comes at another time stands on the scene's terrain anew, as native.py has it for the crowd."""
-    terrain = native.terrain_of(crowd)
+    terrain = terrain_of(crowd)
     if not terrain:
         return samples
     to_terrain = terrain.matrix_world.inverted() @ crowd.matrix_world
 
     def height(x, y, z):
-        hit, place, _, _ = terrain.ray_cast(to_terrain @ Vector((x, y, z + HIGH)), to_terrain.to_3x3() @ Vector((0.0, 0.0, -1.0)))
+        hit, place, _, _ = terrain.ray_cast(to_terrain @ Vector((x, y, z + HIGH)),
+                                            to_terrain.to_3x3() @ Vector((0.0, 0.0, -1.0)))
         return (to_terrain.inverted() @ place).z if hit else None
 
     result = []
@@ -184,7 +193,7 @@ def _key_presence(thing, name, frames, alive):
 
 
 def promote(crowd, bake, rows, people_of_bake, row, change):
-    """Makes somebody a hero; `change` is its override. The crowd's instance is not hidden here. Returns the armature."""
+    """Makes somebody a hero; `change` is its override. The crowd's instance is not hidden. Returns the armature."""
     collection = crowd.users_collection[0] if crowd.users_collection else bpy.context.scene.collection
     first = people_of_bake[row].frame
     start = crowd.modifiers["throng pos"].frame_start
@@ -194,7 +203,8 @@ def promote(crowd, bake, rows, people_of_bake, row, change):
     frames = [start + frame for frame in range(rows.frames)]
     alive = [sample.state[0] > 0.5 for sample in samples]
     variation = int(samples[0].state[1])
-    person, materials = shipped_person(crowd, variation) or (people.CAST[variation % cast.VARIATIONS], cast_materials(people.MATERIALS))
+    shipped = shipped_person(crowd, variation)
+    person, materials = shipped or (people.CAST[variation % cast.VARIATIONS], cast_materials(people.MATERIALS))
     strides = tuple(crowd.get("throng_strides", bake.strides))
     nature = crowd.data.attributes[NATURE].data[row].vector
 

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The overrides of a crowd in a scene: kept in the scene (so undo and saving have them) and, on each change, in the file beside the bake.
+"""The overrides of a crowd in a scene: kept in the scene (so undo and saving have them) and, on each change, in
+the file beside the bake.
 
-`Object.throng_overrides` holds an item for each entry; its `text` is the entry as the file has it, the rest is what matching it has found.
+`Object.throng_overrides` holds an item for each entry; its `text` is the entry as the file has it, the rest is
+what matching it has found.
 """
 import json
 import os
@@ -9,13 +11,15 @@ from dataclasses import replace
 
 import bpy
 
+from ..crowd.queries import bake_path, crowd_objects
 from ..formats import BakeError, load_bake
 from . import hero, native
 from .matching import match, orphan_reason
 from .override_file import Change, OverrideError, change_of, path_beside, person_of, read, read_beside, text_of, write
 from .rows import Rows, Table
 
-_seen = {}  # what this session has read from or written to each file, by path: whoever else changes it must not lose that
+# what this session has read from or written to each file, by path: whoever else changes it must not lose that
+_seen = {}
 
 
 def entries_of(crowd):
@@ -24,14 +28,10 @@ def entries_of(crowd):
 
 
 def bake_of(crowd):
-    from ..crowds import bake_path
-
     return load_bake(bake_path(crowd))
 
 
 def file_of(crowd):
-    from ..crowds import bake_path
-
     return path_beside(os.path.dirname(bake_path(crowd)))
 
 
@@ -39,7 +39,8 @@ def _look_of(base, change):
     """What `throng apply` has written into the bake, under what is changed here."""
     if base is None:
         return change
-    return replace(change, tint=base.tint if change.tint is None else change.tint, scale=base.scale if change.scale is None else change.scale)
+    return replace(change, tint=base.tint if change.tint is None else change.tint,
+                   scale=base.scale if change.scale is None else change.scale)
 
 
 class Matched:
@@ -50,12 +51,14 @@ class Matched:
         with Rows(bake) as rows:
             self.table = Table(bake, rows)
         self.matches = match(entries, self.table.people)
-        self.changes = {found.row: change_of(entry) for entry, found in zip(entries, self.matches) if found.kind != "orphaned"}
+        self.changes = {found.row: change_of(entry) for entry, found in zip(entries, self.matches)
+                        if found.kind != "orphaned"}
 
     @property
     def orphans(self):
-        return [f"person {entry['id']} ({', '.join(change_of(entry).words())}): {orphan_reason(entry, self.table.people)}"
-                for entry, found in zip(self.entries, self.matches) if found.kind == "orphaned"]
+        return [f"person {entry['id']} ({', '.join(change_of(entry).words())}): "
+                f"{orphan_reason(entry, self.table.people)}" for entry, found in zip(self.entries, self.matches)
+                if found.kind == "orphaned"]
 
     def looks(self):
         base = self.table.looks
@@ -65,7 +68,8 @@ class Matched:
 def show(crowd, matched):
     """Plays the entries in the scene and makes the heroes that it lacks."""
     with Rows(matched.bake) as rows:
-        native.play(crowd, rows, matched.table.people, matched.looks(), native.folder_for(path_beside(matched.bake.folder)))
+        native.play(crowd, rows, matched.table.people, matched.looks(),
+                    native.folder_for(path_beside(matched.bake.folder)))
         standing = hero.heroes_of(crowd)
         for row, change in matched.changes.items():
             if change.hero and change.hero not in standing:
@@ -82,7 +86,8 @@ def _list(crowd, matched):
     for entry, found in zip(matched.entries, matched.matches):
         item = items.add()
         item.name = f"{entry['id']} {entry['group']}: {', '.join(change_of(entry).words())}"
-        item.text, item.status, item.row = json.dumps(entry, ensure_ascii=False), found.kind, -1 if found.row is None else found.row
+        item.text, item.status = json.dumps(entry, ensure_ascii=False), found.kind
+        item.row = -1 if found.row is None else found.row
         if found.kind == "nearest":
             item.detail = f"now {found.row}, {found.metres:.2f} m and {found.frames:+.0f} frames away"
         elif found.kind == "orphaned":
@@ -100,8 +105,8 @@ def _content(path):
 
 def _save(crowd, path, entries):
     """Writes the file, unless somebody else has changed it since this scene last saw it."""
-    there = _content(path)
-    known = there is None or there == _seen.get(path) or there == text_of(entries_of(crowd)) or read(path) == entries_of(crowd)
+    there, shown = _content(path), entries_of(crowd)
+    known = there in (None, _seen.get(path), text_of(shown)) or read(path) == shown
     if not known:
         raise OverrideError(f"{path} has been changed by somebody else: Re-load Overrides first")
     write(path, entries)
@@ -109,7 +114,8 @@ def _save(crowd, path, entries):
 
 
 def change(crowd, edit):
-    """Changes the entries by `edit(entries, matched)`, which returns the new ones; then file and scene. Raises BakeError, nothing changed."""
+    """Changes the entries by `edit(entries, matched)`, which returns the new ones; then file and scene. Raises
+    BakeError, nothing changed."""
     bake = bake_of(crowd)
     before = Matched(bake, entries_of(crowd))
     after = Matched(bake, edit([dict(entry) for entry in before.entries], before))
@@ -123,7 +129,8 @@ def entry_for(matched, row):
     """A fresh entry for somebody, with nothing changed."""
     person = matched.table.people[row] if 0 <= row < len(matched.table.people) else None
     if person is None or person.frame is None:
-        raise OverrideError(f"person {row} never enters this bake" if person else f"there is no person {row} in this bake")
+        raise OverrideError(f"person {row} never enters this bake" if person
+                            else f"there is no person {row} in this bake")
     return {"id": row, "group": person.group, "spawn": {"frame": person.frame, "position": list(person.place)}}
 
 
@@ -156,7 +163,8 @@ def place_at(crowd, row, scene_frame, turn):
     frame = min(max(scene_frame - int(crowd.modifiers["throng pos"].frame_start), 0), matched.bake.frames - 1)
     now = matched.changes.get(row, Change())
     with Rows(matched.bake) as rows:
-        return rows.changed(row, matched.table.people[row].frame, replace(now, move=(0.0, 0.0, 0.0), turn=turn), frame).position
+        return rows.changed(row, matched.table.people[row].frame, replace(now, move=(0.0, 0.0, 0.0), turn=turn),
+                            frame).position
 
 
 def variation_of(crowd, row):
@@ -211,8 +219,6 @@ def load(crowd):
 @bpy.app.handlers.persistent
 def write_after_undo(scene, *_):
     """Undo brings back the scene's entries; the file follows, where this session wrote it."""
-    from ..crowds import crowd_objects
-
     for crowd in crowd_objects(scene):
         try:
             path = file_of(crowd)

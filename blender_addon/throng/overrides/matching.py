@@ -3,6 +3,7 @@
 
 authoring/overrides/matching.h has the same rule; tests/shared/override_matching.json holds both to the same answers.
 """
+import itertools
 import math
 from collections import defaultdict
 from dataclasses import dataclass
@@ -35,44 +36,64 @@ def _compare(entry, person):
 def match(entries, people):
     """One Match for each entry, in their order; each person has at most one.
 
-    First whoever is sure; then, nearest first, by (metres / MOST_METRES)^2 + (frames / MOST_FRAMES)^2, and among equals by the order of the
-    entries and then the rows.
+    First whoever is sure; then, nearest first, by (metres / MOST_METRES)^2 + (frames / MOST_FRAMES)^2, and among equals
+    by the order of the entries and then the rows.
     """
     matches, taken = [Match("orphaned")] * len(entries), set()
     for index, entry in enumerate(entries):
-        row = entry["id"]
-        if row >= len(people) or row in taken or people[row].frame is None or people[row].group != entry["group"]:
-            continue
-        metres, frames = _compare(entry, people[row])
-        if metres <= SURE_METRES and abs(frames) <= SURE_FRAMES:
-            matches[index] = Match("sure", row, metres, frames)
-            taken.add(row)
-    if all(each.kind == "sure" for each in matches):
-        return matches
+        found = _sure(entry, people)
+        if found and found.row not in taken:
+            matches[index] = found
+            taken.add(found.row)
+    left = [index for index, each in enumerate(matches) if each.kind != "sure"]
+    for index, found in _nearest_first(entries, left, people, taken):
+        if found.row not in taken and matches[index].kind == "orphaned":
+            matches[index] = found
+            taken.add(found.row)
+    return matches
 
-    left = defaultdict(list)  # by group and square
+
+def _sure(entry, people):
+    """The Match of whoever has an entry's id, if that is who was meant."""
+    row = entry["id"]
+    if row >= len(people) or people[row].frame is None or people[row].group != entry["group"]:
+        return None
+    metres, frames = _compare(entry, people[row])
+    return Match("sure", row, metres, frames) if metres <= SURE_METRES and abs(frames) <= SURE_FRAMES else None
+
+
+def _square(place):
+    return math.floor(place[0] / MOST_METRES), math.floor(place[1] / MOST_METRES)
+
+
+def _nearest_first(entries, left, people, taken):
+    """[(index of the entry, Match)] of all pairs of the entries that are left with people who are not taken,
+    the nearest pair first."""
+    if not left:
+        return []
+    free = defaultdict(list)  # by group and square
     for row, person in enumerate(people):
         if person.frame is not None and row not in taken:
-            left[(person.group, math.floor(person.place[0] / MOST_METRES), math.floor(person.place[1] / MOST_METRES))].append(row)
-    pairs = []
-    for index, entry in enumerate(entries):
-        if matches[index].kind == "sure":
-            continue
-        column, line = (math.floor(v / MOST_METRES) for v in entry["spawn"]["position"][:2])
-        for row in (row for x in (-1, 0, 1) for y in (-1, 0, 1) for row in left.get((entry["group"], column + x, line + y), ())):
+            free[(person.group, *_square(person.place))].append(row)
+    pairs = [(distance, index, found.row, found) for index in left
+             for distance, found in _near(entries[index], people, free)]
+    return [(index, found) for _, index, _, found in sorted(pairs, key=lambda pair: pair[:3])]
+
+
+def _near(entry, people, free):
+    """(distance, Match) of everybody who is near enough to be meant."""
+    column, line = _square(entry["spawn"]["position"])
+    for x, y in itertools.product((-1, 0, 1), repeat=2):
+        for row in free.get((entry["group"], column + x, line + y), ()):
             metres, frames = _compare(entry, people[row])
             if metres <= MOST_METRES and abs(frames) <= MOST_FRAMES:
                 by_place, by_time = metres / MOST_METRES, frames / MOST_FRAMES
-                pairs.append((by_place * by_place + by_time * by_time, index, row, Match("nearest", row, metres, frames)))
-    for _, index, row, found in sorted(pairs, key=lambda pair: pair[:3]):
-        if row not in taken and matches[index].kind == "orphaned":
-            matches[index] = found
-            taken.add(row)
-    return matches
+                yield by_place * by_place + by_time * by_time, Match("nearest", row, metres, frames)
 
 
 def orphan_reason(entry, people):
     """Why an entry has nobody, for its user."""
     if all(person.group != entry["group"] for person in people):
         return f"there is no group `{entry['group']}` in this bake"
-    return f"nobody else of `{entry['group']}` enters within {MOST_METRES:g} m and {MOST_FRAMES:g} frames of its place and time"
+    return (f"nobody else of `{entry['group']}` enters within {MOST_METRES:g} m and {MOST_FRAMES:g} frames "
+            "of its place and time")

@@ -3,10 +3,12 @@
 import math
 
 import bpy
-from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, StringProperty
+from bpy.props import (BoolProperty, CollectionProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty,
+                       StringProperty)
 
+from ..crowd.queries import crowd_objects
 from ..formats import BakeError
-from ..panels import InSidebar
+from ..blender.panels import InSidebar
 from . import hero, layer, picking
 
 
@@ -21,8 +23,6 @@ class ThrongOverride(bpy.types.PropertyGroup):
 
 def _crowd(context):
     """The crowd that is meant: the active one, else one with people picked, else the only one."""
-    from ..crowds import crowd_objects
-
     crowds = crowd_objects(context.scene)
     active = context.view_layer.objects.active
     if active in crowds:
@@ -35,7 +35,8 @@ class _OnPeople:
     """Changes whoever is picked, or the rows that a script names."""
 
     bl_options = {"REGISTER", "UNDO"}
-    rows: StringProperty(name="People", description="Rows between blanks; whoever is picked where this is empty", options={"SKIP_SAVE"})
+    rows: StringProperty(name="People", description="Rows between blanks; whoever is picked where this is empty",
+                         options={"SKIP_SAVE"})
 
     @classmethod
     def poll(cls, context):
@@ -87,7 +88,8 @@ class THRONG_OT_swap_people(_OnPeople, bpy.types.Operator):
     bl_idname = "throng.swap_people"
     bl_label = "Swap Character"
 
-    character: IntProperty(name="Character", default=0, min=0, max=65535, description="The variation; casts with fewer go round")
+    character: IntProperty(name="Character", default=0, min=0, max=65535,
+                           description="The variation; casts with fewer go round")
 
     def invoke(self, context, _event):
         return context.window_manager.invoke_props_dialog(self)
@@ -102,8 +104,10 @@ class THRONG_OT_tint_people(_OnPeople, bpy.types.Operator):
     bl_idname = "throng.tint_people"
     bl_label = "Tint"
 
-    by: EnumProperty(name="By", items=[("colour", "Colour", "The colour of the top garment"), ("draws", "Numbers", "What the cast picks all colours by")])
-    colour: FloatVectorProperty(name="Colour", subtype="COLOR_GAMMA", default=(0.63, 0.06, 0.13), min=0.0, max=1.0, size=3)
+    by: EnumProperty(name="By", items=[("colour", "Colour", "The colour of the top garment"),
+                                       ("draws", "Numbers", "What the cast picks all colours by")])
+    colour: FloatVectorProperty(name="Colour", subtype="COLOR_GAMMA", default=(0.63, 0.06, 0.13), min=0.0, max=1.0,
+                                size=3)
     draws: FloatVectorProperty(name="Numbers", default=(0.5, 0.5, 0.5), min=0.0, max=1.0, size=3)
 
     def invoke(self, context, _event):
@@ -137,9 +141,11 @@ class THRONG_OT_move_people(_OnPeople, bpy.types.Operator):
     bl_label = "Move"
 
     by: FloatVectorProperty(name="By", subtype="TRANSLATION", size=3, default=(0.0, 0.0, 0.0))
-    turn: FloatProperty(name="Turn", subtype="ANGLE", min=-2.0 * math.pi, max=2.0 * math.pi, description="About the place of entry, counter-clockwise")
+    turn: FloatProperty(name="Turn", subtype="ANGLE", min=-2.0 * math.pi, max=2.0 * math.pi,
+                        description="About the place of entry, counter-clockwise")
     to_cursor: BoolProperty(name="To the 3D Cursor",
-                            description="The first who is picked stands at the cursor in this frame; the others keep their places by it")
+                            description="The first who is picked stands at the cursor in this frame; the "
+                                        "others keep their places by it")
 
     def invoke(self, context, _event):
         return context.window_manager.invoke_props_dialog(self)
@@ -172,10 +178,10 @@ class THRONG_OT_retime_people(_OnPeople, bpy.types.Operator):
 
 
 class THRONG_OT_promote_person(_OnPeople, bpy.types.Operator):
-    """Make a hero of each person who is picked: an armature with keys, for an animator to change, in the place of the crowd's"""
-
     bl_idname = "throng.promote_person"
     bl_label = "Promote to Hero"
+    bl_description = ("Make a hero of each person who is picked: an armature with keys, for an animator to change, "
+                      "in the place of the crowd's")
 
     hero: StringProperty(name="Name", description="By default Hero and the row", options={"SKIP_SAVE"})
 
@@ -191,7 +197,8 @@ class THRONG_OT_promote_person(_OnPeople, bpy.types.Operator):
             if name in taken:
                 raise BakeError(f"there is a hero `{name}` already")
             if not hero.shipped_person(crowd, layer.variation_of(crowd, row)):
-                raise BakeError(f"person {row} is a character that was brought along: heroes are made of the shipped cast only")
+                raise BakeError(f"person {row} is a character that was brought along: heroes are made "
+                                "of the shipped cast only")
             layer.set_for(crowd, [row], {"hero": name})
 
 
@@ -277,11 +284,13 @@ class VIEW3D_PT_throng_overrides(InSidebar, bpy.types.Panel):
         crowd, layout = _crowd(context), self.layout
         rows = crowd.get(picking.PICKED, "").split()
         layout.operator(picking.THRONG_OT_pick_people.bl_idname, icon="EYEDROPPER")
-        layout.label(text=f"Picked: {', '.join(rows[:8])}{' ...' if len(rows) > 8 else ''}" if rows else "Nobody is picked")
+        layout.label(text=f"Picked: {', '.join(rows[:8])}{' ...' if len(rows) > 8 else ''}" if rows
+                     else "Nobody is picked")
         grid = layout.grid_flow(columns=2, align=True, even_columns=True)
         for operator in ON_PEOPLE:
             grid.operator(operator.bl_idname)
-        layout.template_list("THRONG_UL_overrides", "", crowd, "throng_overrides", crowd, "throng_override_index", rows=3)
+        layout.template_list("THRONG_UL_overrides", "", crowd, "throng_overrides", crowd, "throng_override_index",
+                             rows=3)
         if crowd.throng_override_index < len(crowd.throng_overrides):
             item = crowd.throng_overrides[crowd.throng_override_index]
             if item.detail:
@@ -289,10 +298,10 @@ class VIEW3D_PT_throng_overrides(InSidebar, bpy.types.Panel):
         layout.operator(THRONG_OT_reload_overrides.bl_idname, icon="FILE_REFRESH")
 
 
-ON_PEOPLE = (THRONG_OT_hide_people, THRONG_OT_swap_people, THRONG_OT_tint_people, THRONG_OT_scale_people, THRONG_OT_move_people,
-             THRONG_OT_retime_people, THRONG_OT_promote_person, THRONG_OT_clear_people)
-CLASSES = (ThrongOverride, picking.THRONG_OT_pick_people, *ON_PEOPLE, THRONG_OT_clear_override, THRONG_OT_reload_overrides, THRONG_UL_overrides,
-           VIEW3D_PT_throng_overrides)
+ON_PEOPLE = (THRONG_OT_hide_people, THRONG_OT_swap_people, THRONG_OT_tint_people, THRONG_OT_scale_people,
+             THRONG_OT_move_people, THRONG_OT_retime_people, THRONG_OT_promote_person, THRONG_OT_clear_people)
+CLASSES = (ThrongOverride, picking.THRONG_OT_pick_people, *ON_PEOPLE, THRONG_OT_clear_override,
+           THRONG_OT_reload_overrides, THRONG_UL_overrides, VIEW3D_PT_throng_overrides)
 
 _register_classes, _unregister_classes = bpy.utils.register_classes_factory(CLASSES)
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Files of overrides (`NAME.overrides.json` beside the bake `NAME`): reading, checking, writing. Pure Python, as `throng apply` reads them."""
+"""Files of overrides (`NAME.overrides.json` beside the bake `NAME`): reading, checking, writing. Pure Python, as
+`throng apply` reads them."""
 import json
 import math
 import os
@@ -45,17 +46,19 @@ class Change:
 
     def words(self):
         """What is changed, in words."""
-        given = (("hide", self.hide), ("character", self.character is not None), ("tint", self.tint is not None), ("scale", self.scale is not None),
-                 ("move", self.moves), ("retime", self.retimes), ("hero", self.hero))
+        given = (("hide", self.hide), ("character", self.character is not None), ("tint", self.tint is not None),
+                 ("scale", self.scale is not None), ("move", self.moves), ("retime", self.retimes), ("hero", self.hero))
         return [word for word, there in given if there]
 
 
 def change_of(entry):
-    move, retime, tint, character = entry.get("move", {}), entry.get("retime", {}), entry.get("tint"), entry.get("character")
+    move, retime = entry.get("move", {}), entry.get("retime", {})
+    tint, character = entry.get("tint"), entry.get("character")
     return Change(hide=entry.get("hide", False), character=None if character is None else int(character),
                   tint=tuple(tint) if isinstance(tint, (list, tuple)) else tint, scale=entry.get("scale"),
                   move=tuple(float(v) for v in move.get("by", (0.0, 0.0, 0.0))), turn=float(move.get("turn", 0.0)),
-                  delay=float(retime.get("offset", 0.0)), speed=float(retime.get("speed", 1.0)), hero=entry.get("hero", ""))
+                  delay=float(retime.get("offset", 0.0)), speed=float(retime.get("speed", 1.0)),
+                  hero=entry.get("hero", ""))
 
 
 def path_beside(folder):
@@ -84,7 +87,8 @@ class _Checker:
         return value
 
     def number(self, value, pointer, least, most):
-        if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value) or not least <= value <= most:
+        is_number = isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+        if not is_number or not least <= value <= most:
             self.fail(pointer, f"expected a number from {least:g} to {most:g}, found {value!r}")
 
     def whole(self, value, pointer, least, most):
@@ -103,7 +107,8 @@ class _Checker:
             self.fail(pointer, f"expected a text, found {value!r}")
 
     def entry(self, entry, at):
-        self.members(entry, at, ("id", "group", "spawn"), ("hide", "character", "tint", "scale", "move", "retime", "hero", "note"))
+        self.members(entry, at, ("id", "group", "spawn"),
+                     ("hide", "character", "tint", "scale", "move", "retime", "hero", "note"))
         self.whole(entry["id"], f"{at}/id", *_ROW)
         self.text(entry["group"], f"{at}/group")
         spawn = self.members(entry["spawn"], f"{at}/spawn", ("frame", "position"))
@@ -142,7 +147,8 @@ def check(document, path):
     checker = _Checker(path)
     checker.members(document, "", ("throng_overrides", "overrides"), ("$schema",))
     if document["throng_overrides"] != VERSION:
-        checker.fail("/throng_overrides", f"this add-on reads version {VERSION}, found {document['throng_overrides']!r}")
+        checker.fail("/throng_overrides",
+                     f"this add-on reads version {VERSION}, found {document['throng_overrides']!r}")
     entries = document["overrides"]
     if not isinstance(entries, list):
         checker.fail("/overrides", f"expected a list, found {entries!r}")
@@ -152,7 +158,8 @@ def check(document, path):
         entry["id"], entry["spawn"]["frame"] = int(entry["id"]), int(entry["spawn"]["frame"])  # JSON knows 3.0, too
         first = seen.setdefault(person_of(entry), index)
         if first != index:
-            checker.fail(f"/overrides/{index}/id", f"person {entry['id']} has an override already, /overrides/{first}: put both into one")
+            checker.fail(f"/overrides/{index}/id",
+                         f"person {entry['id']} has an override already, /overrides/{first}: put both into one")
     return entries
 
 

@@ -3,7 +3,12 @@
 import math
 
 import bpy
+import gpu
+from bpy_extras import view3d_utils
+from gpu_extras.batch import batch_for_shader
 from mathutils import Vector
+
+from ..crowd.queries import crowd_objects
 
 PICKED = "throng_picked"  # rows, as a text: numbers between blanks
 BODY_HEIGHT, BODY_REACH = 1.75, 0.45  # m: a click this near to somebody's middle line is on them
@@ -39,7 +44,10 @@ def person_at_ray(crowd, depsgraph, origin, direction):
         head = matrix @ Vector((0.0, 0.0, BODY_HEIGHT))
         distance, along = _ray_to_body(origin, direction, feet, head)
         size = (head - feet).length / BODY_HEIGHT
-        (hits if distance <= BODY_REACH * size else misses).append((along, row) if distance <= BODY_REACH * size else (distance, row))
+        if distance <= BODY_REACH * size:
+            hits.append((along, row))
+        else:
+            misses.append((distance, row))
     if hits:
         return min(hits)[1]
     nearest = min(misses, default=None)
@@ -59,6 +67,9 @@ def pick(crowd, rows):
     crowd[PICKED] = " ".join(str(row) for row in sorted(set(rows)))
 
 
+_OTHERS = {"MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "MOUSEMOVE", "TIMER"}  # what the view has to hear of
+
+
 class THRONG_OT_pick_people(bpy.types.Operator):
     """Click people to pick them; Shift adds or takes away. Enter or the right button ends"""
 
@@ -73,7 +84,8 @@ class THRONG_OT_pick_people(bpy.types.Operator):
     def invoke(self, context, _event):
         context.window_manager.modal_handler_add(self)
         context.window.cursor_modal_set("EYEDROPPER")
-        context.workspace.status_text_set("Click people to pick them, with Shift to add; Enter or the right button ends")
+        context.workspace.status_text_set("Click people to pick them, with Shift to add; Enter "
+                                          "or the right button ends")
         return {"RUNNING_MODAL"}
 
     def modal(self, context, event):
@@ -85,18 +97,17 @@ class THRONG_OT_pick_people(bpy.types.Operator):
             if not self._click(context, event):
                 return {"PASS_THROUGH"}
             return {"RUNNING_MODAL"}
-        return {"PASS_THROUGH"} if event.type in {"MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "MOUSEMOVE", "TIMER"} or event.ctrl else {"RUNNING_MODAL"}
+        return {"PASS_THROUGH"} if event.type in _OTHERS or event.ctrl else {"RUNNING_MODAL"}
 
     @staticmethod
     def _click(context, event):
-        from bpy_extras import view3d_utils
-
         region = next((r for r in context.area.regions if r.type == "WINDOW"), None)
-        if not region or not (0 <= event.mouse_x - region.x < region.width and 0 <= event.mouse_y - region.y < region.height):
+        at = (event.mouse_x - region.x, event.mouse_y - region.y) if region else (-1, -1)
+        if not region or not (0 <= at[0] < region.width and 0 <= at[1] < region.height):
             return False
-        at = (event.mouse_x - region.x, event.mouse_y - region.y)
         view = context.space_data.region_3d
-        origin, direction = view3d_utils.region_2d_to_origin_3d(region, view, at), view3d_utils.region_2d_to_vector_3d(region, view, at)
+        origin = view3d_utils.region_2d_to_origin_3d(region, view, at)
+        direction = view3d_utils.region_2d_to_vector_3d(region, view, at)
         pick_at(context, origin, direction, extend=event.shift)
         context.area.tag_redraw()
         return True
@@ -104,8 +115,6 @@ class THRONG_OT_pick_people(bpy.types.Operator):
 
 def pick_at(context, origin, direction, extend=False):
     """Picks whoever a ray meets in any crowd of the scene; returns (crowd, row) or None."""
-    from ..crowds import crowd_objects
-
     depsgraph = context.evaluated_depsgraph_get()
     found = None
     for crowd in crowd_objects(context.scene):
@@ -136,18 +145,14 @@ def _rings_of(crowd, frame, depsgraph):
     points = []
     for row, matrix in instances_of(crowd, depsgraph):
         if row in rows:
-            ring = [matrix @ Vector((0.45 * math.cos(a), 0.45 * math.sin(a), 0.05)) for a in (math.tau * i / 24 for i in range(25))]
+            ring = [matrix @ Vector((0.45 * math.cos(a), 0.45 * math.sin(a), 0.05))
+                    for a in (math.tau * i / 24 for i in range(25))]
             points += [tuple(point) for pair in zip(ring, ring[1:]) for point in pair]
     _rings[crowd.name] = wanted, points
     return points
 
 
 def _draw():
-    import gpu
-    from gpu_extras.batch import batch_for_shader
-
-    from ..crowds import crowd_objects
-
     context = bpy.context
     points = []
     for crowd in crowd_objects(context.scene):

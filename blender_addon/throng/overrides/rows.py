@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Single people of a bake: who they are (agents.csv), and what they do frame by frame (PC2), with changes. Pure Python, as `throng apply` has it."""
+"""Single people of a bake: who they are (agents.csv), and what they do frame by frame (PC2), with changes. Pure Python,
+as `throng apply` has it."""
 import csv
 import hashlib
 import math
@@ -53,8 +54,9 @@ class Rows:
         return Sample(*(self._three(STREAMS.index(stream), row, frame) for stream in ("pos", "dir", "state")))
 
     def at(self, row, frame, pace=1.0):
-        """Somebody at a time between the frames. Positions, speed and phase are interpolated linearly, the heading by its angle; activity and
-        variation are the nearest frame's. Beyond the bake's ends people stand as they did there. Speeds are scaled by the pace."""
+        """Somebody at a time between the frames. Positions, speed and phase are interpolated linearly, the heading by
+        its angle; activity and variation are the nearest frame's. Beyond the bake's ends people stand as they did
+        there. Speeds are scaled by the pace."""
         inside = min(max(frame, 0.0), self.frames - 1.0)
         low = int(math.floor(inside))
         share = inside - low
@@ -66,7 +68,8 @@ class Rows:
         heading = start + turn * share
         speed = 0.0 if inside != frame else between(before.direction[2], after.direction[2]) * pace
         nearest = before if share < 0.5 else after
-        return Sample(tuple(between(a, b) for a, b in zip(before.position, after.position)), (math.cos(heading), math.sin(heading), speed),
+        return Sample(tuple(between(a, b) for a, b in zip(before.position, after.position)),
+                      (math.cos(heading), math.sin(heading), speed),
                       (nearest.state[0], nearest.state[1], between(before.state[2], after.state[2])))
 
     def changed(self, row, first, change, frame, hides=True):
@@ -80,7 +83,8 @@ class Rows:
             pivot = self.place(row, first)
             c, s = math.cos(math.radians(change.turn)), math.sin(math.radians(change.turn))
             x, y = position[0] - pivot[0], position[1] - pivot[1]
-            position = (pivot[0] + c * x - s * y + change.move[0], pivot[1] + s * x + c * y + change.move[1], position[2] + change.move[2])
+            position = (pivot[0] + c * x - s * y + change.move[0], pivot[1] + s * x + c * y + change.move[1],
+                        position[2] + change.move[2])
             direction = (c * direction[0] - s * direction[1], s * direction[0] + c * direction[1], direction[2])
         if change.character is not None:
             state[1] = float(change.character)
@@ -98,16 +102,20 @@ class Table:
             with open(path, encoding="utf-8", newline="") as file:
                 lines = list(csv.DictReader(file))
             frames = [int(line["spawn_frame"]) if line["spawn_frame"] else None for line in lines]
-            self.people = [Entrant(line["group"]) if frame is None or frame >= bake.frames else
-                           Entrant(line["group"], frame, tuple(a + b for a, b in zip(rows.place(row, frame), bake.origin)))
+            self.people = [Entrant(line["group"]) if frame is None or frame >= bake.frames
+                           else Entrant(line["group"], frame,
+                                        tuple(a + b for a, b in zip(rows.place(row, frame), bake.origin)))
                            for row, (line, frame) in enumerate(zip(lines, frames))]
-            self.looks = {row: _look(line) for row, line in enumerate(lines) if line.get("tint") or line.get("scale", "1") not in ("", "1")}
+            self.looks = {row: _look(line) for row, line in enumerate(lines)
+                          if line.get("tint") or line.get("scale", "1") not in ("", "1")}
         except OSError as error:
-            raise BakeError(f"{path} cannot be read: {error.strerror}. Copy the whole bake folder, not only bake.json") from None
+            raise BakeError(f"{path} cannot be read: {error.strerror}. Copy the whole bake "
+                            "folder, not only bake.json") from None
         except (KeyError, ValueError, TypeError, csv.Error, struct.error) as error:
             raise BakeError(f"{path} is not the table of this bake ({error}): bake again") from None
         if len(self.people) != bake.agents:
-            raise BakeError(f"{path} has {len(self.people)} people where bake.json has {bake.agents}: the files are of different bakes")
+            raise BakeError(f"{path} has {len(self.people)} people where bake.json has {bake.agents}: the "
+                            "files are of different bakes")
 
 
 def _look(line):

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A simple skeleton of the cast's people: where its bones are in a pose, and how a person's mesh hangs on them. Pure Python.
+"""A simple skeleton of the cast's people: where its bones are in a pose, and how a person's mesh
+hangs on them. Pure Python.
 
-Bones are frames (head, axes) in the walker's own frame; each bone's y axis points along it, x to the left. Weights are found rather than
-painted: a vertex hangs on the one or two bones that best explain where it goes over a set of poses.
+Bones are frames (head, axes) in the walker's own frame; each bone's y axis points along it, x to the left. Weights are
+found rather than painted: a vertex hangs on the one or two bones that best explain where it goes over a set of poses.
 """
 from dataclasses import dataclass
 from functools import lru_cache
@@ -12,8 +13,9 @@ from ..cast.figure import Figure
 from ..cast.mesh_builder import Plan, add, cross, scale, sub, turn_y, turn_z, unit
 
 PARENTS = {"hips": None, "spine": "hips", "head": "spine",
-           **{f"{part}.{side}": parent.format(side) for side in "RL" for part, parent in
-              (("upper_arm", "spine"), ("forearm", "upper_arm.{}"), ("thigh", "hips"), ("shank", "thigh.{}"), ("foot", "shank.{}"))}}
+           **{f"{part}.{side}": parent.format(side) for side in "RL"
+              for part, parent in (("upper_arm", "spine"), ("forearm", "upper_arm.{}"), ("thigh", "hips"),
+                                   ("shank", "thigh.{}"), ("foot", "shank.{}"))}}
 BONES = tuple(PARENTS)
 
 
@@ -27,7 +29,8 @@ class Bone:
 
     def place(self, local):
         """A point of the bone's own frame."""
-        return add(self.head, add(scale(self.left, local[0]), add(scale(self.along, local[1]), scale(self.ahead, local[2]))))
+        return add(self.head,
+                   add(scale(self.left, local[0]), add(scale(self.along, local[1]), scale(self.ahead, local[2]))))
 
     def local(self, point):
         away = sub(point, self.head)
@@ -56,7 +59,8 @@ def bones_of(person, pose):
         bones[f"forearm.{side}"] = _bone(elbow, wrist, across(1.0))
         bones[f"thigh.{side}"] = _bone(hip, knee, (0.0, 1.0, 0.0))
         bones[f"shank.{side}"] = _bone(knee, ankle, (0.0, 1.0, 0.0))
-        bones[f"foot.{side}"] = _bone(ankle, add(ankle, turn_y((0.16 * figure.s, 0.0, 0.0), -foot.pitch)), (0.0, 1.0, 0.0))
+        bones[f"foot.{side}"] = _bone(ankle, add(ankle, turn_y((0.16 * figure.s, 0.0, 0.0), -foot.pitch)),
+                                      (0.0, 1.0, 0.0))
     return bones
 
 
@@ -91,29 +95,40 @@ def _error(a, b):
 
 @lru_cache(maxsize=8)
 def weights_of(person, strides):
-    """For each vertex of the person's mesh [(bone, weight)], one or two; weights add up to one. `strides` is a tuple."""
+    """For each vertex of the person's mesh [(bone, weight)], one or two; weights add up to one. `strides`: a tuple."""
     rest = bones_of(person, rest_pose(person))
     poses = _training_poses(person, strides)
     skeletons = [bones_of(person, pose) for pose in poses]
     figures = [vertices_of(person, pose) for pose in poses]
     result = []
     for index, vertex in enumerate(vertices_of(person, rest_pose(person))):
-        goes = [figure[index] for figure in figures]
-        taken = {}
+        taken = {}  # where each bone would take it
         for name in BONES:
             local = rest[name].local(vertex)
             taken[name] = [bones[name].place(local) for bones in skeletons]
-        best = min(BONES, key=lambda name: _error(taken[name], goes))
-        least, blend = _error(taken[best], goes), [(best, 1.0)]
-        for other in BONES:
-            apart = _error(taken[other], taken[best])
-            if other == best or apart < 1e-12:
-                continue
-            share = sum((g - b) * (o - b) for gs, bs, os in zip(goes, taken[best], taken[other]) for g, b, o in zip(gs, bs, os)) / apart
-            share = min(1.0, max(0.0, share))
-            mixed = [tuple(b + (o - b) * share for b, o in zip(bs, os)) for bs, os in zip(taken[best], taken[other])]
-            error = _error(mixed, goes)
-            if error < 0.8 * least and share > 0.02:
-                least, blend = error, [(best, 1.0 - share), (other, share)]
-        result.append(blend)
+        result.append(_blend([figure[index] for figure in figures], taken))
     return result
+
+
+def _blend(goes, taken):
+    """The bone that takes a vertex nearest to where it goes, and another where that helps: [(bone, weight)]."""
+    best = min(BONES, key=lambda name: _error(taken[name], goes))
+    least, blend = _error(taken[best], goes), [(best, 1.0)]
+    for other in BONES:
+        share = _share(goes, taken[best], taken[other]) if other != best else 0.0
+        if share <= 0.02:
+            continue
+        mixed = [tuple(b + (o - b) * share for b, o in zip(bs, os)) for bs, os in zip(taken[best], taken[other])]
+        error = _error(mixed, goes)
+        if error < 0.8 * least:
+            least, blend = error, [(best, 1.0 - share), (other, share)]
+    return blend
+
+
+def _share(goes, best, other):
+    """Of another bone, beside the best: the one with which both together come nearest."""
+    apart = _error(other, best)
+    if apart < 1e-12:
+        return 0.0
+    share = sum((g - b) * (o - b) for gs, bs, os in zip(goes, best, other) for g, b, o in zip(gs, bs, os)) / apart
+    return min(1.0, max(0.0, share))

@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Small helpers over node trees, whose interface changed in Blender 4.0."""
+import bpy
+
+
+def new_tree(name, inputs=(), outputs=()):
+    """A geometry node tree with sockets [(name, type)]; returns (tree, input node, output node)."""
+    tree = bpy.data.node_groups.new(name, "GeometryNodeTree")
+    for direction, sockets in (("INPUT", inputs), ("OUTPUT", outputs)):
+        for socket_name, kind in sockets:
+            if hasattr(tree, "interface"):
+                tree.interface.new_socket(name=socket_name, in_out=direction, socket_type=kind)
+            else:
+                (tree.inputs if direction == "INPUT" else tree.outputs).new(kind, socket_name)
+    return tree, tree.nodes.new("NodeGroupInput"), tree.nodes.new("NodeGroupOutput")
+
+
+def own_tree(name):
+    """The node tree of a name that is in this file, and not one of a library that it links: those may go away."""
+    return bpy.data.node_groups.get((name, None))
+
+
+def drop_tree(tree):
+    """Removes a node tree that nobody uses any more, with the groups in it that nobody else does."""
+    if tree is None or tree.users:
+        return
+    inner = {node.node_tree for node in tree.nodes if node.type == "GROUP" and node.node_tree}
+    bpy.data.node_groups.remove(tree)
+    bpy.data.batch_remove([group for group in inner if group.users == 0])
+
+
+def _identifier(modifier, name):
+    tree = modifier.node_group
+    sockets = tree.interface.items_tree if hasattr(tree, "interface") else tree.inputs
+    return next(s for s in sockets if s.name == name and getattr(s, "in_out", "INPUT") == "INPUT").identifier
+
+
+def _slot(modifier, name):
+    """From 5.2 on a modifier's inputs are properties of their own; custom properties before."""
+    return getattr(modifier.properties.inputs, _identifier(modifier, name)) if hasattr(modifier, "properties") else None
+
+
+def set_input(modifier, name, value):
+    """Sets an input of a node modifier by its socket's name."""
+    slot = _slot(modifier, name)
+    if slot is None:
+        modifier[_identifier(modifier, name)] = value
+    else:
+        slot.value = value
+
+
+def get_input(modifier, name):
+    slot = _slot(modifier, name)
+    return modifier[_identifier(modifier, name)] if slot is None else slot.value
+
+
+def socket(sockets, name=None):
+    """The enabled socket of a name: nodes keep hidden twins for other data types."""
+    return next(s for s in sockets if s.enabled and (name is None or s.name == name))
+
+
+class Maths:
+    """Writes arithmetic as nodes."""
+
+    def __init__(self, tree):
+        self.tree = tree
+
+    def node(self, kind, **settings):
+        node = self.tree.nodes.new(kind)
+        for name, value in settings.items():
+            setattr(node, name, value)
+        return node
+
+    def link(self, source, target):
+        self.tree.links.new(source, target)
+
+    def attribute(self, name, kind="FLOAT"):
+        """A named attribute's value."""
+        node = self.node("GeometryNodeInputNamedAttribute", data_type=kind)
+        node.inputs["Name"].default_value = name
+        return socket(node.outputs, "Attribute")
+
+    def components(self, name):
+        """The three numbers of a vector attribute."""
+        separate = self.node("ShaderNodeSeparateXYZ")
+        self.link(self.attribute(name, "FLOAT_VECTOR"), separate.inputs[0])
+        return separate.outputs
+
+    def store(self, geometry, name, value, kind="FLOAT", only=None):
+        """Files a value away as an attribute of points; returns the geometry that has it.
+
+        @param only a boolean attribute: where it is false nothing changes, if the version can do so (3.5); it saves
+        work, results must not need it
+        """
+        node = self.node("GeometryNodeStoreNamedAttribute", data_type=kind, domain="POINT")
+        node.inputs["Name"].default_value = name
+        self.link(geometry, node.inputs["Geometry"])
+        self.link(value, socket(node.inputs, "Value"))
+        if only and "Selection" in node.inputs:
+            self.link(self.attribute(only, "BOOLEAN"), node.inputs["Selection"])
+        return node.outputs[0]
+
+    def math(self, operation, *values):
+        node = self.node("ShaderNodeMath", operation=operation)
+        for slot, value in zip(node.inputs, values):
+            if isinstance(value, (int, float)):
+                slot.default_value = value
+            else:
+                self.link(value, slot)
+        return node.outputs[0]
+
+    def greater(self, value, threshold):
+        node = self.node("FunctionNodeCompare", data_type="FLOAT", operation="GREATER_THAN")
+        enabled = [s for s in node.inputs if s.enabled]
+        self.link(value, enabled[0])
+        enabled[1].default_value = threshold
+        return socket(node.outputs)
+
+    def equal(self, value, number):
+        node = self.node("FunctionNodeCompare", data_type="INT", operation="EQUAL")
+        enabled = [s for s in node.inputs if s.enabled]
+        self.link(value, enabled[0])
+        enabled[1].default_value = number
+        return socket(node.outputs)

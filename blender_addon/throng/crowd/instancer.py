@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The instancer: nodes that put a pose of their figure on every vertex that is alive."""
+import bpy
+
+from ..blender.nodes import Maths, new_tree, socket
+from ..cast.library import shown_figures
+from . import footing
+from .names import BIGGER, FIGURE, HIDDEN, LEVEL, NATURE
+from .poses import member_of, pose_index
+
+_GEOMETRY = [("Geometry", "NodeSocketGeometry")]
+
+
+def _present(maths, alive, nature, share):
+    """1 for whoever is there, shown and not culled."""
+    # HIDDEN is zero where nothing is culled
+    seen = maths.math("SUBTRACT", maths.math("LESS_THAN", nature[2], share), maths.attribute(HIDDEN))
+    return maths.math("GREATER_THAN", maths.math("MULTIPLY", maths.math("GREATER_THAN", alive, 0.5), seen), 0.5)
+
+
+def _chosen(maths, levels, values):
+    """Of values by level those of everybody's own level."""
+    if len(levels) == 1:
+        return values[0]
+    level, total = maths.attribute(LEVEL), 0.0
+    for number, value in zip(levels, values):
+        total = maths.math("MULTIPLY_ADD", value, maths.math("COMPARE", level, float(number), 0.5), total)
+    return total
+
+
+def _figure_number(level, member):
+    """How points say which figure they show. 0 is nobody."""
+    return 1 + 1000 * level + member
+
+
+def _figures_and_poses(maths, state, phase, speed, variation, nature, repertoire, levels):
+    """Everybody's figure (_figure_number), and which of its poses."""
+    poses = [pose_index(maths, speed, state, phase, nature, repertoire, level) for level in levels]
+    figures = [maths.math("ADD", variation, float(_figure_number(level, 0))) for level in levels]
+    return _chosen(maths, levels, figures), _chosen(maths, levels, poses)
+
+
+def instancer_tree(cast, repertoire, leans):
+    """One Instance on Points for each figure of the cast. What it needs is filed away on the points: worked out for all
+    at once, not by every figure.
+
+    While a crowd is on screen, Blender notes down all attributes of what goes through a socket, those of every pose
+    included, which takes longer than the work itself. From 4.0 on it does so for sockets outside of groups only, so
+    there the figures are in a group; before for all, so there should be few. And later versions look up every pose
+    among those before it, in time that grows with their square: there each figure's people are handed on as one
+    instance.
+    """
+    figures = shown_figures(cast)
+    levels = sorted({level for level, _ in figures})
+    tree, inputs, outputs = new_tree("Throng instancer", _GEOMETRY + [("Share", "NodeSocketFloat")], _GEOMETRY)
+    maths = Maths(tree)
+    cosine, sine, speed = maths.components("throng_dir")
+    state, variation, phase = maths.components("throng_state")
+    nature = maths.components(NATURE)
+    variation = member_of(maths, variation, cast["throng_drawn"], cast["throng_variations"])
+    rotation = maths.node("ShaderNodeCombineXYZ")
+    maths.link(maths.math("ARCTAN2", sine, cosine), rotation.inputs[2])
+    figure, pose = _figures_and_poses(maths, state, phase, speed, variation, nature, repertoire, levels)
+    there = _present(maths, state, nature, inputs.outputs["Share"])
+    points = maths.store(inputs.outputs[0], FIGURE, maths.math("MULTIPLY", figure, there), "INT")
+    points = maths.store(points, "throng_pose", pose, "INT")
+    points = maths.store(points, "throng_turn", rotation.outputs[0], "FLOAT_VECTOR")
+    for spare in ("throng_dir", "throng_state", NATURE):  # instances need not carry them along
+        remove = maths.node("GeometryNodeRemoveAttribute")
+        remove.inputs["Name"].default_value = spare
+        maths.link(points, remove.inputs[0])
+        points = remove.outputs[0]
+
+    if bpy.app.version < (4, 0, 0):
+        maths.link(_instances(maths, points, figures, leans, apart=False), outputs.inputs[0])
+        return tree
+    inside = maths.node("GeometryNodeGroup")
+    inside.node_tree, inner_inputs, inner_outputs = new_tree("Throng figures", _GEOMETRY, _GEOMETRY)
+    within = Maths(inside.node_tree)
+    within.link(_instances(within, inner_inputs.outputs[0], figures, leans, apart=True), inner_outputs.inputs[0])
+    maths.link(points, inside.inputs[0])
+    maths.link(inside.outputs[0], outputs.inputs[0])
+    return tree
+
+
+def _instances(maths, points, figures, leans, apart):
+    """Everybody's pose. @param apart whether the people of each figure are one instance"""
+    figure, pose, turn = (maths.attribute(name, kind)
+                          for name, kind in ((FIGURE, "INT"), ("throng_pose", "INT"), ("throng_turn", "FLOAT_VECTOR")))
+    size = maths.math("ADD", maths.attribute(BIGGER), 1.0)
+    everybody = maths.node("GeometryNodeJoinGeometry")
+    for (level, member), thing in figures.items():
+        poses = maths.node("GeometryNodeObjectInfo", transform_space="ORIGINAL")
+        poses.inputs["Object"].default_value = thing
+        place = maths.node("GeometryNodeInstanceOnPoints")
+        place.inputs["Pick Instance"].default_value = True
+        maths.link(points, place.inputs["Points"])
+        maths.link(maths.equal(figure, _figure_number(level, member)), place.inputs["Selection"])
+        maths.link(socket(poses.outputs, "Geometry"), place.inputs["Instance"])
+        maths.link(pose, place.inputs["Instance Index"])
+        maths.link(size, place.inputs["Scale"])
+        maths.link(turn, place.inputs["Rotation"])  # the points' other attributes go along: id, tint
+        people = footing.leaning(maths, place.outputs[0]) if leans else place.outputs[0]
+        if apart:
+            one = maths.node("GeometryNodeGeometryToInstance")
+            maths.link(people, one.inputs[0])
+            people = one.outputs[0]
+        maths.link(people, everybody.inputs[0])
+    return everybody.outputs[0]

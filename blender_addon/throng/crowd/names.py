@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Names that scenes have in them: of a crowd's modifiers, and of the attributes of its points. Saved files keep them,
+so they stay as they are."""
+from ..formats import STREAMS
+
+CACHES = tuple(f"throng {stream}" for stream in STREAMS)
+INSTANCERS = ("throng people", "throng people (viewport)")
+CONFORM = "throng conform"  # the modifier that looks for the ground
+
+NATURE = "throng_nature"
+LEVEL = "throng_level"    # of detail, of each person; see tools/levels.py
+FIGURE = "throng_figure"
+BIGGER = "throng_bigger"  # how much larger than 1 somebody's scale is; nobody's where there is no such attribute
+HIDDEN = "throng_hidden"  # 1 for those who are left out; see tools/culling.py
+GROUND = "throng_ground"  # slopes along the heading and to the left of it, and the height; see footing.py

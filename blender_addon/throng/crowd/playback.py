@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Native playback: one object of loose vertices, a stack of modifiers, no Python at render time.
+
+Each Mesh Cache modifier overwrites the vertices with one stream, and a node group behind it files them away as an
+attribute; the last one leaves the positions. The instancer then puts a pose on every vertex that is alive. `state` is
+read without interpolation, because a pose index between two others would be a third one, and must not change while the
+shutter is open.
+"""
+import random
+
+import bpy
+
+from ..blender.nodes import Maths, drop_tree, get_input, new_tree, set_input
+from ..formats import STREAMS
+from . import footing
+from .instancer import instancer_tree
+from .names import INSTANCERS, NATURE
+from .queries import cast_of, crowds_of, repertoire_of
+
+_GEOMETRY = [("Geometry", "NodeSocketGeometry")]
+
+
+def _store_tree(attribute):
+    tree, inputs, outputs = new_tree(f"Throng store {attribute}", _GEOMETRY, _GEOMETRY)
+    maths = Maths(tree)
+    position = maths.node("GeometryNodeInputPosition").outputs[0]
+    maths.link(maths.store(inputs.outputs[0], attribute, position, "FLOAT_VECTOR"), outputs.inputs[0])
+    return tree
+
+
+def set_cast(crowd, cast):
+    """Lets a crowd show the figures of a cast as they are now: call it again after some have come or gone."""
+    crowd["throng_cast"] = cast
+    modifiers = [crowd.modifiers[name] for name in INSTANCERS]
+    before = modifiers[0].node_group
+    shares = [get_input(modifier, "Share") if modifier.node_group else 2.0 for modifier in modifiers]  # 2: everybody
+    tree = instancer_tree(cast, repertoire_of(crowd), footing.slopes(crowd))
+    for modifier, share in zip(modifiers, shares):
+        modifier.node_group = tree
+        set_input(modifier, "Share", share)
+    drop_tree(before)
+    crowd.update_tag()
+
+
+def cast_changed(crowd):
+    """To be called when figures of a crowd's cast have come or gone."""
+    shown = cast_of(crowd)
+    for each in crowds_of(shown):
+        set_cast(each, shown)
+
+
+def add_cache(target, name, path, interpolation, frame_start):
+    cache = target.modifiers.new(name, "MESH_CACHE")
+    cache.cache_format = "PC2"
+    cache.filepath = path
+    cache.interpolation = interpolation
+    cache.time_mode, cache.play_mode = "FRAME", "SCENE"
+    cache.frame_start, cache.frame_scale = frame_start, 1.0
+    cache.forward_axis, cache.up_axis = "POS_Y", "POS_Z"
+    cache.deform_mode = "OVERWRITE"
+    return cache
+
+
+def give_natures(mesh):
+    """What never changes about people, as attributes of their points: it need not be worked out in every frame.
+
+    `id`, so that instances keep theirs when others come and go; `tint`, three random numbers for colours;
+    NATURE: which standing clip they take (0 to 3), when its beats fall (0 to 1), and a draw that decides who
+    is shown when not all are.
+    """
+    count = len(mesh.vertices)
+    draw = random.Random(7)
+    for name, kind in (("id", "INT"), ("tint", "FLOAT_VECTOR"), (NATURE, "FLOAT_VECTOR")):
+        if name in mesh.attributes:
+            mesh.attributes.remove(mesh.attributes[name])
+        mesh.attributes.new(name, kind, "POINT")
+    mesh.attributes["id"].data.foreach_set("value", range(count))
+    mesh.attributes["tint"].data.foreach_set("vector", [draw.random() for _ in range(3 * count)])
+    mesh.attributes[NATURE].data.foreach_set("vector", [value for row in range(count)
+                                                        for value in (row % 4, row * 0.618034 % 1.0, draw.random())])
+
+
+def build_crowd(bake, name, cast, frame_start, paths):
+    """The crowd's object. `paths` are the streams' files as Blender shall store them, by stream."""
+    mesh = bpy.data.meshes.new(name)
+    mesh.vertices.add(bake.agents)
+    give_natures(mesh)
+    crowd = bpy.data.objects.new(name, mesh)
+    for stream in (each for each in ("state", "dir", "ground") if each in paths):
+        add_cache(crowd, f"throng {stream}", paths[stream], "NONE" if stream == "state" else "LINEAR", frame_start)
+        modifier = crowd.modifiers.new(f"throng {stream} to attribute", "NODES")
+        modifier.node_group = _store_tree(f"throng_{stream}")
+    add_cache(crowd, "throng pos", paths["pos"], "LINEAR", frame_start)
+    for name, hidden in zip(INSTANCERS, ("show_viewport", "show_render")):
+        setattr(crowd.modifiers.new(name, "NODES"), hidden, False)
+    crowd["throng_strides"], cast["throng_gaits"] = list(bake.strides), list(bake.gaits)
+    cast["throng_drawn"], cast["throng_shipped"] = bake.variations, cast["throng_variations"]
+    crowd["throng_frame_start"], crowd["throng_offset"], crowd["throng_percent"] = frame_start, 0, 100.0
+    set_cast(crowd, cast)
+    return crowd
+
+
+assert set(STREAMS) == {"pos", "dir", "state"}

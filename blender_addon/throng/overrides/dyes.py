@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Somebody's own colour on the materials of the cast."""
+from ..blender.nodes import socket
+
+
+def linear(colour):
+    """"#rrggbb" (sRGB) as three linear numbers."""
+    parts = (int(colour[at:at + 2], 16) / 255.0 for at in (1, 3, 5))
+    return tuple(v / 12.92 if v <= 0.04045 else ((v + 0.055) / 1.055) ** 2.4 for v in parts)
+
+
+def _cast_materials(crowd):
+    """Materials of all whom the crowd can show."""
+    return {slot.material for thing in crowd["throng_cast"].all_objects for slot in thing.material_slots
+            if slot.material}
+
+
+def allow_dyes(crowd):
+    """Lets the materials of top garments take somebody's own colour: the instance attributes `throng_dyed` (0
+    or 1) and `throng_dye`."""
+    for material in _cast_materials(crowd):
+        if not material.name.startswith("throng top") or not material.use_nodes:
+            continue
+        nodes, links = material.node_tree.nodes, material.node_tree.links
+        shader = next((node for node in nodes if node.type == "BSDF_PRINCIPLED"), None)
+        if not shader or "Throng dye" in nodes:
+            continue
+        base = shader.inputs["Base Color"]
+        mix = nodes.new("ShaderNodeMix")
+        mix.name, mix.data_type = "Throng dye", "RGBA"
+        own, factor, dyed = socket(mix.inputs, "A"), socket(mix.inputs, "Factor"), socket(mix.inputs, "B")
+        if base.is_linked:
+            links.new(base.links[0].from_socket, own)
+        else:
+            own.default_value = base.default_value
+        for name, output, target in (("throng_dyed", "Fac", factor), ("throng_dye", "Color", dyed)):
+            attribute = nodes.new("ShaderNodeAttribute")
+            attribute.attribute_type, attribute.attribute_name = "INSTANCER", name
+            links.new(attribute.outputs[output], target)
+        links.new(socket(mix.outputs, "Result"), base)

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Puts a bake into the scene: the crowd, its cast, and what it walks among."""
+import os
+
+import bpy
+
+from .. import cast, environment
+from ..blender.paths import stored_path
+from ..cast import library
+from ..crowd import playback
+from ..formats import load_bake
+from ..overrides.layer import Arrival
+
+
+def set_frame_rate(scene, fps):
+    whole = round(fps)
+    scene.render.fps, scene.render.fps_base = whole, whole / fps
+
+
+def set_up_scene(scene, bake, frame_start):
+    """The bake's frame rate and range, and a shutter that is centred on the frame: poses change between shutters."""
+    set_frame_rate(scene, bake.fps)
+    scene.frame_start, scene.frame_end = frame_start, frame_start + bake.frames - 1
+    scene.frame_set(frame_start)
+    scene.render.use_motion_blur = True
+    scene.render.motion_blur_shutter = 0.5
+    if hasattr(scene.render, "motion_blur_position"):
+        scene.render.motion_blur_position = "CENTER"
+    elif hasattr(scene, "cycles"):  # not where that add-on is disabled
+        scene.cycles.motion_blur_position = "CENTER"
+
+
+def import_bake(context, path, *, frame_start=1, walls=True, roads=True, scenery=True, camera=True, relative=True):
+    """Imports a bake and returns the crowd's object. Raises formats.BakeError before anything is changed."""
+    bake = load_bake(path)
+    overrides = Arrival(bake)
+    terrain = environment.read_terrain(bake) if scenery else None
+    scene = context.scene
+    collection = bpy.data.collections.new(f"Throng {bake.name}")
+    scene.collection.children.link(collection)
+    collection["throng_bake"] = os.path.join(bake.folder, "bake.json")
+    collection["throng_origin"] = bake.origin
+
+    variations = min(bake.variations, cast.VARIATIONS)
+    repertoire = cast.Repertoire.of(bake.strides, bake.gaits)
+    people = library.build_cast(variations, repertoire, f"Throng {bake.name} cast")
+    paths = {stream: stored_path(bake.stream_path(stream), relative) for stream in bake.streams}
+    crowd = playback.build_crowd(bake, f"Throng {bake.name} crowd", people, frame_start, paths)
+    collection.objects.link(crowd)
+    set_up_scene(scene, bake, frame_start)
+    environment.build_environment(context, bake.manifest, collection, walls=walls, roads=roads, ground=scenery,
+                                  light=scenery, camera=camera, frame_start=frame_start, terrain=terrain)
+    overrides.place(crowd)
+    return crowd

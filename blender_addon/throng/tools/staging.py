@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: Apache-2.0
+"""From where a crowd is seen, and in what light."""
+import bpy
+from bpy.props import EnumProperty
+
+from ..blender.panels import Below
+from ..crowd.queries import OnCrowds, chosen_crowds, collection_of
+from ..environment import camera, lights
+from ..formats import BakeError, read_manifest
+
+
+def _staged(context):
+    """The chosen crowd's collection and manifest. Raises BakeError."""
+    collection = collection_of(chosen_crowds(context)[0])
+    if not collection:
+        raise BakeError("this crowd's collection is not its import's any more: import the bake again")
+    return collection, read_manifest(collection["throng_bake"])
+
+
+class _Stages(OnCrowds):
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context):
+        try:
+            self.stage(context.scene, *_staged(context))
+        except BakeError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        return {"FINISHED"}
+
+
+class THRONG_OT_shot(_Stages, bpy.types.Operator):
+    """Put the crowd's camera somewhere else"""
+
+    bl_idname = "throng.shot"
+    bl_label = "Shot"
+    kind: EnumProperty(name="From", items=[("crane", "A Crane", "Above the street, along it"),
+                                           ("street", "The Street", "At eye level, in the crowd"),
+                                           ("wide", "Afar", "Everybody is in the picture")])
+
+    def stage(self, scene, collection, manifest):
+        camera.build_camera(scene, manifest, collection, self.kind)
+
+
+class THRONG_OT_light(_Stages, bpy.types.Operator):
+    """Light the crowd's place"""
+
+    bl_idname = "throng.light"
+    bl_label = "Light"
+    time: EnumProperty(name="Time", items=[("day", "Day", "A late-afternoon sun"),
+                                           ("night", "Night", "The moon, street lamps or floodlights, lit windows")])
+
+    def stage(self, scene, collection, manifest):
+        lights.build_light(scene, collection, self.time, manifest)
+
+
+class VIEW3D_PT_throng_staging(OnCrowds, Below, bpy.types.Panel):
+    bl_label = "Shot and Light"
+
+    def draw(self, _context):
+        for operator, key, choices in ((THRONG_OT_shot, "kind", camera.SHOTS), (THRONG_OT_light, "time", lights.TIMES)):
+            row = self.layout.row(align=True)
+            for choice in choices:
+                setattr(row.operator(operator.bl_idname, text=choice.capitalize()), key, choice)
+
+
+CLASSES = (THRONG_OT_shot, THRONG_OT_light, VIEW3D_PT_throng_staging)
+
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

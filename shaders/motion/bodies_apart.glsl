@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bodies apart: those that overlap are pushed away from each other, each by its share.
+// Needs the blocks Bodies, TouchLists and TargetsBefore, shaders/cells/cells.glsl and cell_runs.glsl, and
+// shaders/motion/standing_fast.glsl.
+
+vec2 apartDirection(vec2 offset, float size, uint row, uint other_row) {
+    if (size > 1.0e-6) return offset / size;
+    // Two bodies in exactly the same place part along a direction that both agree on.
+    float angle = float((row ^ other_row) % 64u) * 0.098174770;
+    return (row < other_row ? 1.0 : -1.0) * vec2(cos(angle), sin(angle));
+}
+
+/// What one neighbour adds to the push: direction and depth, and one more to average over.
+void addPush(Body self, uint self_slot, float weight, uint slot, vec2 position, inout vec3 push) {
+    vec2 offset = position - targets_before[slot];
+    float reach = self.radius + bodies[slot].radius + CONTACT_SKIN;
+    float size_squared = dot(offset, offset);
+    if (size_squared >= reach * reach || slot == self_slot) return;
+    float size = sqrt(size_squared);
+    float its_weight = weightOf(slot, bracing);
+    vec2 apart = apartDirection(offset, size, self.row, bodies[slot].row);
+    push += vec3(apart * (reach - size) * its_weight / (weight + its_weight), 1.0);
+}
+
+vec2 pushFromNeighbours(Body self, uint self_slot, uint touching, vec2 position) {
+    vec3 push = vec3(0.0);
+    float weight = weightOf(self_slot, bracing);
+    if (touching <= TOUCH_CAPACITY) {
+        for (uint i = 0u; i < touching; ++i)
+            addPush(self, self_slot, weight, touch_lists[self_slot * TOUCH_CAPACITY + i], position, push);
+    } else {
+        ivec2 cell = cellOf(self.position);
+        for (int y = cell.y - 1; y <= cell.y + 1; ++y) {
+            uvec2 run = slotRun(cell.x, y);
+            for (uint slot = run.x; slot < run.y; ++slot) addPush(self, self_slot, weight, slot, position, push);
+        }
+    }
+    // Plain sums overshoot where many push: a mildly over-relaxed average converges and does not ring.
+    return push.z > 1.0 ? push.xy * (CONTACT_RELAXATION / push.z) : push.xy;
+}

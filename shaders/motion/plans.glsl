@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Plans: routes advance stage by stage, with stops and lines on the way, until somebody arrives; and events change
+// them.
+// Needs the blocks ParametersBlock, People, PlanChanges and WaitingLines, the uniform steps_done,
+// shaders/routes/route.glsl and shaders/motion/waiting_line.glsl.
+
+/// Whether somebody is where its stage leads. Where there are too many for a place, near by will do in the end.
+bool isThere(AgentState state, Stage stage) {
+    RouteAhead ahead = routeAhead(stage, state.position);
+    if (stage.line != NO_INDEX && (state.ticket == NO_INDEX || state.ticket != waiting_lines[stage.line].served))
+        return false;
+    if (ahead.remaining <= stage.tolerance) return true;
+    bool in_area = (stage.flags & STAGE_IN_AREA) != 0u && ahead.straight;
+    return (stage.flags & STAGE_ANYWHERE) != 0u && (in_area || ahead.remaining < ARRIVING_NEAR_BY) &&
+           state.nervousness > ARRIVING_GIVES_UP;
+}
+
+/// Who comes to the end of a line joins it at the end of the step; of several, the smallest row.
+void askToJoin(AgentState state, Stage stage, uint row) {
+    if (stage.line == NO_INDEX || state.ticket != NO_INDEX || state.leave_step != 0u) return;
+    if (distance(stage.point, state.position) < ARRIVING_JOINS_LINE)
+        atomicMin(waiting_lines[stage.line].candidate, row);
+}
+
+void goOn(inout AgentState state) {
+    state.stage += 1u;
+    state.leave_step = 0u;
+    state.ticket = NO_INDEX;
+    if (state.stage < state.stage_end) return;
+    state.stage = state.stage_end - 1u;
+    state.status = STATUS_GONE;
+    state.arrival_step = steps_done;
+}
+
+/// Stops, waits, goes on, arrives.
+void followRoute(inout AgentState state, Stage stage, uint row) {
+    if (state.status != STATUS_WALKING) return;
+    askToJoin(state, stage, row);
+    if (state.leave_step != 0u) {
+        if (steps_done >= state.leave_step) goOn(state);
+        return;
+    }
+    if (!isThere(state, stage)) return;
+    if (stage.dwell <= 0.0) {
+        goOn(state);
+    } else if (stage.dwell >= DWELL_FOR_GOOD) {
+        state.status = STATUS_ARRIVED;
+        state.arrival_step = steps_done;
+    } else {
+        state.leave_step = steps_done + max(uint(stage.dwell / parameters.step_seconds), 1u);
+    }
+}
+
+/// @returns whether plans have changed
+bool changePlans(inout AgentState state, uint change_count, uint row) {
+    if (state.changes >= change_count) return false;
+    PlanChange change = plan_changes[people[row].first_change + state.changes];
+    if (change.start_step > steps_done) return false;
+    state.changes += 1u;
+    state.stage = change.first_stage;
+    state.stage_end = change.first_stage + change.stage_count;
+    state.status = STATUS_WALKING;
+    state.arrival_step = NO_INDEX;
+    state.leave_step = 0u;
+    state.ticket = NO_INDEX;
+    return true;
+}

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Turning: who walks looks where it goes, who has stopped at what there is to see, and who cannot get on turns on the
+// spot to where it wants to go before it walks there.
+// Needs the blocks ParametersBlock and WaitingLines, and shaders/motion/waiting_line.glsl and under_way.glsl.
+
+const float PI = 3.14159265358979;
+
+float wrapAngle(float angle) { return angle - 2.0 * PI * floor((angle + PI) / (2.0 * PI)); }
+
+float turnTowards(float heading, vec2 direction) {
+    float turn = wrapAngle(atan(direction.y, direction.x) - heading);
+    float most = TURNING_FASTEST * parameters.step_seconds;
+    return wrapAngle(heading + clamp(turn * (1.0 - exp(-parameters.step_seconds / TURNING_TIME)), -most, most));
+}
+
+/// What somebody in a line looks at: the place before its own, and in front what the stop is about.
+vec2 nextInLine(AgentState state, Stage stage) {
+    WaitingLine line = waiting_lines[stage.line];
+    if (state.ticket == NO_INDEX || state.ticket == line.served) return stage.facing;
+    return placeInLine(line, state.ticket - line.served - 1u);
+}
+
+/// The heading after one more step.
+float turned(AgentState state, Stage stage, Walker walker, vec2 wish, float speed) {
+    bool stops = !isUnderWay(walker);
+    if (speed >= (stops ? TURNING_STEPPING_ASIDE : STANDING_SPEED)) return turnTowards(state.heading, state.velocity);
+    if (TURNING_ON_THE_SPOT && !stops && length(wish) > STANDING_SPEED) return turnTowards(state.heading, wish);
+    vec2 sight = (stage.line != NO_INDEX ? nextInLine(state, stage) : stage.facing) - state.position;
+    return stops && length(sight) > TURNING_SIGHT ? turnTowards(state.heading, sight) : state.heading;
+}

@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: Apache-2.0
+
+/// Neither stands somewhere nor waits in a line.
+bool isUnderWay(Walker walker) {
+    return walker.status == STATUS_WALKING && walker.leave_step == 0u && walker.ticket == NO_INDEX;
+}

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/simulation_parts.h"
+
+#include <algorithm>
+#include <numbers>
+
+namespace throng::sim {
+namespace {
+
+const gl::Declaration kPack = {"frame",
+                               {"shaders/frame/pack_frame.comp"},
+                               {"ParametersBlock", "People", "States", "Stages"},
+                               {"FrameBlock"}};
+
+SensingOptions sensingFor(const authoring::Scene& scene, const gpu::Parameters& parameters) {
+    SensingOptions options;
+    options.proximity = scene.settings.proximity;
+    options.geometry.body_radius = scene.smallest_radius;
+    options.geometry.tile_radius = static_cast<float>(scene.settings.tile_radius);
+    options.geometry.samples_per_ray = scene.settings.samples_per_ray;
+    options.geometry.field_of_view =
+        static_cast<float>(scene.settings.field_of_view * std::numbers::pi / 180.0);
+    options.neighbours = scene.settings.neighbours;
+    options.felt_range = parameters.contact_range;
+    return options;
+}
+
+/// Pages where one buffer or texture cannot hold the window, and where most of a large window is empty: then
+/// clearing and gathering only what exists makes up for looking up where it is.
+bool isBestPaged(const DiagramOptions& options, std::size_t wall_sites) {
+    constexpr double kMostWholePixels = 33'554'432.0;  // 128 MiB: what every device's storage blocks hold
+    constexpr std::uint32_t kMostWholeSide = 16'384;
+    constexpr double kWorthwhilePixels = 4'194'304.0;
+    const double pixels = static_cast<double>(options.width) * options.height;
+    if (pixels > kMostWholePixels || std::max(options.width, options.height) > kMostWholeSide) return true;
+    if (pixels < kWorthwhilePixels || options.method != DiagramMethod::binned) return false;
+    const double paged_pixels =
+        static_cast<double>(Pages::pagesNeeded(options.width, options.height, options.largest_radius,
+                                               options.live_capacity + wall_sites)) *
+        gpu::PAGE_SIDE * gpu::PAGE_SIDE;
+    return paged_pixels < 0.25 * pixels;
+}
+
+Diagram diagramFor(const authoring::Scene& scene, const gpu::Parameters& parameters,
+                   const gl::ShaderLibrary& library) {
+    DiagramOptions options;
+    options.method = scene.settings.method;
+    if (options.method == DiagramMethod::automatic) options.method = DiagramMethod::binned;
+    options.cone_sides = static_cast<std::uint32_t>(scene.settings.cone_sides);
+    options.width = parameters.diagram_width;
+    options.height = parameters.diagram_height;
+    options.live_capacity = parameters.row_count;
+    options.largest_radius =
+        std::max(parameters.tile_radius, scene.largest_radius) * parameters.pixels_per_metre;
+    options.paged = isBestPaged(options, scene.wall_tiles.size());
+    return Diagram(library, options, wallSites(scene, parameters));
+}
+
+}  // namespace
+
+Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary& shader_library,
+                         const CostModel& cost_model)
+    : library(shader_library),
+      settings(scene.settings),
+      parameters(makeParameters(scene)),
+      buffers(scene, parameters),
+      diagram(diagramFor(scene, parameters, library)),
+      cells(library, buffers, parameters),
+      congestion(library, buffers, scene, parameters),
+      spawner(library, buffers, parameters, settings.motion),
+      sensing(library, buffers, diagram, sensingFor(scene, parameters), scene, parameters),
+      slopes(scene.terrain && settings.motion.isOn("slope_pace") ? std::optional<TerrainSlopes>(scene.terrain)
+                                                                 : std::nullopt),
+      avoidance(library, buffers, settings.neighbours, slopes ? &*slopes : nullptr, settings.motion),
+      contacts(library, buffers, settings.contact_iterations, settings.motion),
+      motion(library, buffers, contacts.result(), settings.motion),
+      lines(library, buffers, static_cast<std::uint32_t>(scene.lines.size())),
+      gates(scene, buffers, diagram, parameters),
+      pack(buffers.connect(library, kPack)),
+      costs(cost_model),
+      fixed_sites(static_cast<std::uint32_t>(scene.wall_tiles.size())),
+      rows(parameters.row_count),
+      passes(passesOfStep()) {
+    // Slots are in the order of the cells, and cells and diagram have one origin.
+    const BinGrid cell_grid(parameters.cell_size * parameters.pixels_per_metre,
+                            {parameters.cells_width, parameters.cells_height});
+    diagram.connect({&buffers.sites, &buffers.live_dispatch, &buffers.site_slots,
+                     DiagramInput::Sorted{&buffers.strip_starts, &buffers.cell_offsets, cell_grid}});
+    anybody_enters_later = std::any_of(
+        scene.people.begin(), scene.people.end(),
+        [](const gpu::Person& person) { return (person.flags & gpu::PERSON_PRESENT_AT_START) == 0; });
+}
+
+std::vector<Pass> Simulation::Parts::passesOfStep() {
+    const auto enter = [this] {
+        if (anybody_enters_later) spawner.run(step_start, steps_done);
+    };
+    const auto build = [this] {
+        if (sensing.needsDiagram()) diagram.build();
+    };
+    const auto move = [this] {
+        motion.run(steps_done);
+        lines.run();
+    };
+    return {{"cells", [this] { cells.run(); }},
+            {"routes", [this] { congestion.run(); }},
+            {"spawn", enter},
+            {"diagram", build},
+            {"sensing", [this] { sensing.run(); }},
+            {"avoidance", [this] { avoidance.run(steps_done); }},
+            {"contacts", [this] { contacts.run(); }},
+            {"motion", move}};
+}
+
+void Simulation::Parts::beginStep() {
+    step_start = now();
+    ++steps_done;
+    gates.move(step_start);
+}
+
+float Simulation::Parts::now() const {
+    const auto warmup = static_cast<double>(warmupSteps(settings));
+    return static_cast<float>((static_cast<double>(steps_done) - warmup) /
+                              (settings.fps * settings.substeps));
+}
+
+std::vector<std::pair<std::string, gl::Buffer*>> Simulation::Parts::remembered() {
+    std::vector<std::pair<std::string, gl::Buffer*>> found = {{"states", &buffers.states},
+                                                              {"waiting lines", &buffers.lines},
+                                                              {"tickets", &buffers.tickets},
+                                                              {"queue heads", &buffers.queue_heads},
+                                                              {"detour slopes", &buffers.detour_slopes}};
+    for (const auto& each : congestion.remembered())
+        found.push_back(each);
+    return found;
+}
+
+}  // namespace throng::sim
