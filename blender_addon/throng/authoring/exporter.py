@@ -177,6 +177,10 @@ def _agents(thing, raw, world):
 _WRITERS = {"ROAD": _road, "AREA": _area, "WALL": _walls, "FORMATION": _formation}
 
 
+def _settings(layout, raw):
+    return {codec.key: codec.take(layout, raw.get(codec.key, MISSING)) for codec in fields.SETTINGS}
+
+
 def export_layout(context):
     """The scene as (layout, sources). `sources` says what each part of the layout came from: a JSON pointer ->
     (object, list, index)."""
@@ -197,8 +201,7 @@ def export_layout(context):
         for index, item in enumerate(group):
             sources[f"/{key}/{index}"] = (None, key, index)
             lists[key].append(take(item, world))
-    values = {**{codec.key: codec.take(layout, raw.get(codec.key, MISSING)) for codec in fields.SETTINGS},
-              "expect": places.take_expect(layout, raw.get("expect", MISSING), world)}
+    values = {**_settings(layout, raw), "expect": places.take_expect(layout, raw.get("expect", MISSING), world)}
     values.update({key: entries for key, entries in lists.items() if entries or key in raw})
     result.update({key: value for key, value in values.items() if value is not MISSING})
     return result, sources
