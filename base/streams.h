@@ -17,7 +17,7 @@ namespace throng {
 inline constexpr std::size_t kComponents = 3;  ///< point caches know no other number
 
 /// In the order of kStreams.
-enum class Stream { pos, dir, state, density, ground };
+enum class Stream { pos, dir, state, density, ground, wish };
 
 /// What a row holds in the frames before it is first alive.
 enum class BackFill {
@@ -104,6 +104,15 @@ inline constexpr std::array kStreams = {
                                {"slope_across", "1", BackFill::first_alive, Between::linear},
                                {"height", "m", BackFill::first_alive, Between::linear}}},
                .source = StreamSource::terrain},
+    StreamInfo{.id = Stream::wish,
+               .name = "wish",
+               .about = "the velocity that everybody would like, and how much it has been held up lately",
+               .components = {{{"x", "m/s", BackFill::keep, Between::linear, true},
+                               {"y", "m/s", BackFill::keep, Between::linear, true},
+                               {"held_up", "1", BackFill::keep, Between::linear}}},
+               .source = StreamSource::device,
+               .in_plane = InPlane::direction,
+               .shader = "shaders/frame/pack_wish.comp"},
 };
 
 /// Something for each stream.

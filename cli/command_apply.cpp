@@ -60,9 +60,9 @@ struct Layer {
     }
 };
 
-Layer readLayer(const Options& options, const io::Bake& bake) {
+Layer readLayer(const Options& options, const io::CrowdReader& crowd) {
     Layer layer;
-    layer.path = options.file.empty() ? overridesBeside(bake) : fs::path(options.file);
+    layer.path = options.file.empty() ? overridesBeside(crowd.bake()) : fs::path(options.file);
     layer.text = readFile(layer.path);
     authoring::Diagnostics diagnostics;
     diagnostics.file = layer.path.string();
@@ -71,7 +71,7 @@ Layer readLayer(const Options& options, const io::Bake& bake) {
         fmt::print(stderr, "{}\n", authoring::formatDiagnostic(entry, diagnostics.file, layer.text));
     if (!overrides) throw Exit(kInvalidInput);
     layer.overrides = *overrides;
-    layer.people = io::loadEntrants(bake);
+    layer.people = io::loadEntrants(crowd);
     layer.matches = authoring::matchOverrides(layer.overrides, layer.people);
     return layer;
 }
@@ -149,7 +149,8 @@ void printResult(const Options& options, const Layer& layer, const io::ApplyResu
         fmt::print("{} retimed people stand still where the bake has no frames for them\n", result.held);
 }
 
-void write(const Options& options, const io::Bake& bake, const Layer& layer) {
+void write(const Options& options, io::CrowdReader& crowd, const Layer& layer) {
+    const io::Bake& bake = crowd.bake();
     std::error_code absent;
     if (fs::equivalent(bake.folder, options.output, absent))
         throw OutputError(options.output, "is the bake that is read; give another name");
@@ -175,7 +176,7 @@ void write(const Options& options, const io::Bake& bake, const Layer& layer) {
         progress.update(frames, bake.agents, frames);
         return interrupt.signal() == 0;
     };
-    const std::optional<io::ApplyResult> result = io::applyOverrides(bake, changes, apply);
+    const std::optional<io::ApplyResult> result = io::applyOverrides(crowd, changes, apply);
     if (!result) {
         fmt::print(stderr, "throng: stopped; nothing was written\n");
         throw Exit(128 + interrupt.signal());
@@ -184,8 +185,8 @@ void write(const Options& options, const io::Bake& bake, const Layer& layer) {
 }
 
 void run(const Options& options) {
-    const io::Bake bake = io::loadBake(options.bake);
-    const Layer layer = readLayer(options, bake);
+    io::CrowdReader crowd(io::loadBake(options.bake));
+    const Layer layer = readLayer(options, crowd);
     const bool missed = options.strict && layer.count(Match::Kind::orphaned) > 0;
     if (options.dry_run) {
         if (options.json)
@@ -194,7 +195,7 @@ void run(const Options& options) {
             printListing(layer);
     } else {
         tellOrphans(layer);
-        if (!missed) write(options, bake, layer);
+        if (!missed) write(options, crowd, layer);
     }
     if (!missed) return;
     fmt::print(stderr, "throng: {} of {} overrides are orphaned (--strict)\n",

@@ -21,11 +21,11 @@ struct Options {
 };
 
 void run(const Options& options) {
-    const io::Bake bake = io::loadBake(options.bake);
+    io::CrowdReader crowd(io::loadBake(options.bake));
     analysis::MeasureOptions measure;
     if (!options.line.empty())
         measure.line = {{options.line[0], options.line[1]}, {options.line[2], options.line[3]}};
-    const auto [measured, missed] = judgeBake(bake, measure);
+    const auto [measured, missed] = judgeBake(crowd, measure);
     if (options.json) {
         nlohmann::ordered_json json = analysis::measurementJson(measured);
         json["missed"] = missed;
@@ -35,10 +35,10 @@ void run(const Options& options) {
     }
     if (!options.plots.empty()) {
         makeFolder(options.plots);
-        analysis::writeMeasurementPlots(options.plots, measured, bake.name);
+        analysis::writeMeasurementPlots(options.plots, measured, crowd.bake().name);
     }
     for (const std::string& bar : missed)
-        fmt::print(stderr, "throng: {}: {}\n", bake.name, bar);
+        fmt::print(stderr, "throng: {}: {}\n", crowd.bake().name, bar);
     if (!missed.empty()) throw Exit(kExpectationMissed);
 }
 

@@ -27,9 +27,9 @@ struct Options {
 };
 
 std::string pageOf(const fs::path& folder) {
-    const io::Bake bake = io::loadBake(folder);
-    const auto [measured, missed] = judgeBake(bake, {});
-    return analysis::bakeReport(bake, measured, missed);
+    io::CrowdReader crowd(io::loadBake(folder));
+    const auto [measured, missed] = judgeBake(crowd, {});
+    return analysis::bakeReport(crowd, measured, missed);
 }
 
 std::string keyed(const QueryResult& about, const std::string& key) {
@@ -40,7 +40,8 @@ std::string keyed(const QueryResult& about, const std::string& key) {
 
 /// Bakes that are damaged have no picture; the page is about the others, too.
 ordered_json thumbnailOrNull(const fs::path& bake) try {
-    return analysis::thumbnailOf(io::loadBake(bake));
+    io::CrowdReader crowd(io::loadBake(bake));
+    return analysis::thumbnailOf(crowd);
 } catch (const InputError&) {
     return nullptr;
 }

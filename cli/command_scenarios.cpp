@@ -52,8 +52,8 @@ std::vector<std::string> runOne(const Scenario& scenario, const Options& options
     request.announce = false;
     bakeLayout(request);
 
-    const io::Bake bake = io::loadBake(request.bake.output);
-    const auto [measured, missed] = judgeBake(bake, {});
+    io::CrowdReader crowd(io::loadBake(request.bake.output));
+    const auto [measured, missed] = judgeBake(crowd, {});
     nlohmann::ordered_json json = analysis::measurementJson(measured);
     json["missed"] = missed;
     report[std::string(scenario.name)] = json;

@@ -89,4 +89,14 @@ std::vector<AgentRow> loadAgentRows(const Bake& bake) {
     return rows;
 }
 
+GroupTable groupsOf(const std::vector<AgentRow>& rows) {
+    GroupTable groups;
+    for (const AgentRow& row : rows) {
+        const auto known = std::ranges::find(groups.names, row.group);
+        groups.group_of.push_back(static_cast<std::uint32_t>(known - groups.names.begin()));
+        if (known == groups.names.end()) groups.names.push_back(row.group);
+    }
+    return groups;
+}
+
 }  // namespace throng::io

@@ -24,4 +24,11 @@ struct AgentRow {
 /// Reads agents.csv. Throws InputError, with the line, when a field is missing or not what it should be.
 std::vector<AgentRow> loadAgentRows(const Bake& bake);
 
+/// Which group each row belongs to.
+struct GroupTable {
+    std::vector<std::string> names;       ///< in the order in which they first appear
+    std::vector<std::uint32_t> group_of;  ///< per row, index into names
+};
+GroupTable groupsOf(const std::vector<AgentRow>& rows);
+
 }  // namespace throng::io

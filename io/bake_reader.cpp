@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/files/csv.h"
 #include "base/files/input_file.h"
 
 namespace throng::io {
@@ -167,27 +166,6 @@ Bake loadBake(const fs::path& path) {
     bake.streams = readStreams(reader);
     readFiles(reader, bake);
     return bake;
-}
-
-GroupTable loadGroups(const Bake& bake) {
-    const fs::path path = bake.folder / "agents.csv";
-    CsvReader table(readFile(path));
-    std::vector<std::string> fields;
-    table.next(fields);
-    const auto column = static_cast<std::size_t>(std::ranges::find(fields, "group") - fields.begin());
-    if (column == fields.size()) throw InputError(path, "has no column `group`");
-    GroupTable groups;
-    while (table.next(fields)) {
-        if (column >= fields.size())
-            throw InputError(path, fmt::format("line {} is short of fields", groups.group_of.size() + 2));
-        const auto found = std::ranges::find(groups.names, fields[column]);
-        groups.group_of.push_back(static_cast<std::uint32_t>(found - groups.names.begin()));
-        if (found == groups.names.end()) groups.names.push_back(fields[column]);
-    }
-    if (groups.group_of.size() != bake.agents)
-        throw InputError(
-            path, fmt::format("has {} people where bake.json has {}", groups.group_of.size(), bake.agents));
-    return groups;
 }
 
 }  // namespace throng::io

@@ -57,13 +57,4 @@ struct Bake {
 /// missing or wrong; reads no other file.
 Bake loadBake(const std::filesystem::path& path);
 
-/// Which group each row belongs to.
-struct GroupTable {
-    std::vector<std::string> names;       ///< in the order in which they first appear
-    std::vector<std::uint32_t> group_of;  ///< per row, index into names
-};
-
-/// Reads agents.csv. Throws InputError, also when the rows are not as many as the manifest says.
-GroupTable loadGroups(const Bake& bake);
-
 }  // namespace throng::io

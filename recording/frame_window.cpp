@@ -45,8 +45,10 @@ std::vector<double> hann(std::uint32_t reach) {
 }  // namespace
 
 KeptFrame::KeptFrame(const Frame& frame) : index(frame.index) {
-    for (const StreamInfo& info : kStreams)
+    for (const StreamInfo& info : kStreams) {
+        if (info.source == StreamSource::terrain) continue;  // made of the motion once that is steady
         streams[info.id].assign(frame[info.id].begin(), frame[info.id].end());
+    }
 }
 
 Frame KeptFrame::view() const {

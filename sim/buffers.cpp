@@ -182,6 +182,7 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
     row_cells.fill(gpu::NO_INDEX);
     loose_rows = gl::Buffer("loose rows", {rows, kWord, kPerson});
     live_dispatch = gl::Buffer("live dispatch", kWord * 4);
+    live_dispatch.fill(0);
 
     site_slots = gl::makeBuffer("site slots", initialSiteSlots(scene), kSite);
     bodies = gl::Buffer("bodies", {rows, sizeof(gpu::Body), kPerson});

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/measure/measure.h"
 
+#include <deque>
 #include <glm/geometric.hpp>
 #include <map>
 #include <numbers>
 
 #include "analysis/measure/histogram.h"
 #include "base/plane_grid.h"
-#include "io/agent_rows.h"
-#include "io/streams/stream_reader.h"
 #include "recording/wall_watch.h"
 #include "shaders/shared/walking.h"
 
@@ -18,50 +17,7 @@ namespace {
 constexpr double kOverlap = 0.01;       // share of the sum of radii from which a pair counts
 constexpr double kStuckSeconds = 5.0;   // s
 constexpr double kStuckDistance = 0.5;  // m
-
-/// Somebody in one frame.
-struct Body {
-    glm::dvec2 position{0.0};
-    glm::dvec2 facing{1.0, 0.0};
-    bool alive = false;
-    bool under_way = false;  ///< neither at a stop nor in a line
-};
-
-/// Everybody in one frame.
-class FrameReader {
-  public:
-    explicit FrameReader(const io::Bake& bake)
-        : positions_(bake.streamPath(Stream::pos)),
-          directions_(bake.streamPath(Stream::dir)),
-          states_(bake.streamPath(Stream::state)),
-          values_(std::size_t{bake.agents} * 3) {
-        for (const io::StreamReader* stream : {&positions_, &directions_, &states_})
-            if (stream->rows() != bake.agents || stream->frames() != bake.frames)
-                throw InputError(bake.folder / "streams",
-                                 "the streams have other numbers of people or frames than bake.json");
-    }
-    void read(std::uint32_t frame, std::vector<Body>& bodies) {
-        bodies.resize(values_.size() / 3);
-        positions_.readFrame(frame, values_);
-        each(bodies, [](Body& body, const float* v) { body.position = {v[0], v[1]}; });
-        directions_.readFrame(frame, values_);
-        each(bodies, [](Body& body, const float* v) { body.facing = {v[0], v[1]}; });
-        states_.readFrame(frame, values_);
-        each(bodies, [](Body& body, const float* v) {
-            body.alive = v[0] > 0.5f;
-            body.under_way = body.alive && v[0] < 1.5f;
-        });
-    }
-
-  private:
-    template <class Take>
-    void each(std::vector<Body>& bodies, Take take) const {
-        for (std::size_t row = 0; row < bodies.size(); ++row)
-            take(bodies[row], &values_[row * 3]);
-    }
-    io::StreamReader positions_, directions_, states_;
-    std::vector<float> values_;
-};
+constexpr std::size_t kHistory = 4;     // frames, for the jerk
 
 double median(std::vector<double> values) {
     if (values.empty()) return 0.0;
@@ -77,14 +33,14 @@ Spread spreadOf(const Histogram& histogram) {
 /// Goes through a bake frame by frame; each observe...() is one family of figures.
 class Measurer {
   public:
-    Measurer(const io::Bake& bake, const MeasureOptions& options)
-        : bake_(bake),
+    Measurer(io::CrowdReader& crowd, const MeasureOptions& options)
+        : crowd_(crowd),
+          bake_(crowd.bake()),
           options_(options),
-          rows_(io::loadAgentRows(bake)),
-          reader_(bake),
-          walls_(bake.walls, bake.minimum, bake.maximum),
-          grid_(bake.minimum, bake.maximum, 1.0),
-          dt_(1.0 / bake.fps),
+          rows_(crowd.people()),
+          walls_(bake_.walls, bake_.minimum, bake_.maximum),
+          grid_(bake_.minimum, bake_.maximum, 1.0),
+          dt_(1.0 / bake_.fps),
           way_(rows_.size(), 0.0),
           effort_(rows_.size(), 0.0),
           start_(rows_.size()),
@@ -95,9 +51,8 @@ class Measurer {
 
     Measurement run() {
         for (std::uint32_t frame = 0; frame < bake_.frames; ++frame) {
-            std::rotate(history_.begin(), history_.end() - 1, history_.end());
-            reader_.read(frame, history_.front());
-            seen_ = std::min<std::size_t>(frame + 1, history_.size());
+            history_.push_front(crowd_.frame(frame));
+            if (history_.size() > kHistory) history_.pop_back();
             gatherPresent();
             observeEnds(frame);
             observeOverlaps(frame);
@@ -114,25 +69,25 @@ class Measurer {
     }
 
   private:
-    const std::vector<Body>& now() const { return history_[0]; }
-    const std::vector<Body>& before(std::size_t frames) const { return history_[frames]; }
+    const io::CrowdFrame& now() const { return history_[0]; }
+    const io::CrowdFrame& before(std::size_t frames) const { return history_[frames]; }
     bool aliveSince(std::size_t row, std::size_t frames) const {
-        if (seen_ <= frames) return false;
+        if (history_.size() <= frames) return false;
         for (std::size_t i = 0; i <= frames; ++i)
-            if (!history_[i][row].alive) return false;
+            if (!history_[i].isThere(row)) return false;
         return true;
     }
     glm::dvec2 velocity(std::size_t row, std::size_t frames_ago) const {
-        return (before(frames_ago)[row].position - before(frames_ago + 1)[row].position) / dt_;
+        return (before(frames_ago).place(row) - before(frames_ago + 1).place(row)) / dt_;
     }
 
     void gatherPresent() {
         present_.clear();
         places_.clear();
         for (std::uint32_t row = 0; row < rows_.size(); ++row)
-            if (now()[row].alive) {
+            if (now().isThere(row)) {
                 present_.push_back(row);
-                places_.push_back(now()[row].position);
+                places_.push_back(now().place(row));
             }
         grid_.sort(places_);
     }
@@ -159,9 +114,9 @@ class Measurer {
 
     void observeEnds(std::uint32_t frame) {
         for (std::size_t row = 0; row < rows_.size(); ++row) {
-            if (!start_[row] && now()[row].alive) start_[row] = now()[row].position;
+            if (!start_[row] && now().isThere(row)) start_[row] = now().place(row);
             if (start_[row] && frame == rows_[row].arrival_frame)
-                straight_[row] = glm::distance(*start_[row], now()[row].position);
+                straight_[row] = glm::distance(*start_[row], now().place(row));
         }
     }
 
@@ -171,10 +126,10 @@ class Measurer {
         for (const std::uint32_t row : present_) {
             result_.deepest_wall_penetration =
                 std::max(result_.deepest_wall_penetration,
-                         walls_.empty() ? 0.0 : walls_.penetration(now()[row].position, rows_[row].radius));
+                         walls_.empty() ? 0.0 : walls_.penetration(now().place(row), rows_[row].radius));
             if (!aliveSince(row, 1)) continue;
-            const glm::dvec2 from = before(1)[row].position;
-            const glm::dvec2 to = now()[row].position;
+            const glm::dvec2 from = before(1).place(row);
+            const glm::dvec2 to = now().place(row);
             const double step = glm::distance(from, to);
             const double speed = step / dt_;
             if (!walls_.empty() && walls_.crosses(from, to)) ++result_.wall_crossings;
@@ -199,9 +154,9 @@ class Measurer {
         if (speed < gpu::STANDING_SPEED) return;
         ++walked_frames_;
         const glm::dvec2 v = velocity(row, 0);
-        if (glm::dot(v, now()[row].facing) < -0.05) ++backward_frames_;
-        const glm::dvec2 a = now()[row].facing;
-        const glm::dvec2 b = before(1)[row].facing;
+        if (glm::dot(v, now().facing(row)) < -0.05) ++backward_frames_;
+        const glm::dvec2 a = now().facing(row);
+        const glm::dvec2 b = before(1).facing(row);
         const double turn = std::abs(std::atan2(b.x * a.y - b.y * a.x, glm::dot(a, b)));
         heading_rate_.add(turn * 180.0 / std::numbers::pi / dt_);
         if (!aliveSince(row, 2)) return;
@@ -232,14 +187,14 @@ class Measurer {
         for (std::uint32_t i = 0; i < present_.size(); ++i) {
             if (!aliveSince(present_[i], 1) || glm::length(velocity(present_[i], 0)) < gpu::STANDING_SPEED)
                 continue;
-            const glm::dvec2 way = now()[present_[i]].facing;
+            const glm::dvec2 way = now().facing(present_[i]);
             int same = 0, opposite = 0;
             grid_.near(places_[i], kAlong, [&](std::uint32_t j) {
                 const glm::dvec2 offset = places_[j] - places_[i];
                 if (j == i || std::abs(way.x * offset.y - way.y * offset.x) > kHalfLane ||
                     std::abs(glm::dot(way, offset)) > kAlong)
                     return;
-                const double agreement = glm::dot(way, now()[present_[j]].facing);
+                const double agreement = glm::dot(way, now().facing(present_[j]));
                 same += agreement > 0.5 ? 1 : 0;
                 opposite += agreement < -0.5 ? 1 : 0;
             });
@@ -289,11 +244,14 @@ class Measurer {
 
     void rememberForStuck(std::uint32_t frame) {
         const auto wait = static_cast<std::uint32_t>(kStuckSeconds * bake_.fps);
-        if (bake_.frames > wait && frame == bake_.frames - 1 - wait) {
-            long_before_.resize(rows_.size());
-            for (std::size_t row = 0; row < rows_.size(); ++row)
-                long_before_[row] = now()[row];
-        }
+        if (bake_.frames > wait && frame == bake_.frames - 1 - wait) long_before_ = now();
+    }
+
+    /// Who is under way, neither at a stop nor in a line, and does not get on.
+    bool isStuck(std::size_t row) const {
+        return rows_[row].outcome == "walking" && long_before_ && long_before_->isThere(row) &&
+               now().isThere(row) && now().activity(row) < 1.5f &&
+               glm::distance(long_before_->place(row), now().place(row)) < kStuckDistance;
     }
 
     void account() {
@@ -308,10 +266,7 @@ class Measurer {
             result_.walking += agent.outcome == "walking" ? 1 : 0;
             result_.refused += agent.outcome == "refused" ? 1 : 0;
             if (way_[row] > 1.0) efforts.push_back(effort_[row] / way_[row]);
-            if (agent.outcome == "walking" && now()[row].under_way && !long_before_.empty() &&
-                long_before_[row].alive &&
-                glm::distance(long_before_[row].position, now()[row].position) < kStuckDistance)
-                ++result_.stuck;
+            result_.stuck += isStuck(row) ? 1 : 0;
             if (agent.outcome != "arrived") continue;
             arrival_frames.push_back(agent.arrival_frame);
             last = std::max(last, agent.arrival_frame);
@@ -358,19 +313,18 @@ class Measurer {
                 *result_.flow / glm::distance(options_.line->first, options_.line->second);
     }
 
+    io::CrowdReader& crowd_;
     const io::Bake& bake_;
     const MeasureOptions& options_;
-    std::vector<io::AgentRow> rows_;
-    FrameReader reader_;
+    const std::vector<io::AgentRow>& rows_;
     recording::WallWatch walls_;
     PlaneGrid grid_;
     double dt_;
     double largest_radius_ = 0.0;
-    std::vector<std::vector<Body>> history_ = std::vector<std::vector<Body>>(4);  // newest first
-    std::size_t seen_ = 0;
+    std::deque<io::CrowdFrame> history_;  // newest first
     std::vector<std::uint32_t> present_;  // rows alive now
     std::vector<glm::dvec2> places_;      // of those
-    std::vector<Body> long_before_;
+    std::optional<io::CrowdFrame> long_before_;
     std::vector<double> way_, effort_;
     std::vector<std::optional<glm::dvec2>> start_;  // where somebody was first seen
     std::vector<double> straight_;                  // m, from there to where it arrived
@@ -387,8 +341,8 @@ class Measurer {
 
 }  // namespace
 
-Measurement measureBake(const io::Bake& bake, const MeasureOptions& options) {
-    return Measurer(bake, options).run();
+Measurement measureBake(io::CrowdReader& crowd, const MeasureOptions& options) {
+    return Measurer(crowd, options).run();
 }
 
 }  // namespace throng::analysis

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/bake_reader.h"
+#include "io/crowd_reader.h"
 
 namespace throng::analysis {
 
@@ -55,7 +55,7 @@ struct Measurement {
 };
 
 /// Throws InputError when the bake's files are not what they should be.
-Measurement measureBake(const io::Bake& bake, const MeasureOptions& options);
+Measurement measureBake(io::CrowdReader& crowd, const MeasureOptions& options);
 
 nlohmann::ordered_json measurementJson(const Measurement& m);
 std::string measurementText(const Measurement& m);

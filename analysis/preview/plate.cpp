@@ -38,21 +38,36 @@ struct Context {
     cairo_t* context;
 };
 
+std::uint32_t presentIn(const io::CrowdFrame& frame) {
+    std::uint32_t present = 0;
+    for (std::size_t row = 0; row < frame.rows(); ++row)
+        present += frame.isThere(row);
+    return present;
+}
+
+std::uint32_t trailFrames(const io::Bake& bake, const PreviewOptions& options) {
+    return static_cast<std::uint32_t>(options.trail_seconds * bake.fps);
+}
+
+/// A film needs a frame for as long as trails are; of large crowds, no more than memory is worth.
+std::size_t framesToKeep(const io::Bake& bake, const PreviewOptions& options) {
+    constexpr std::size_t kMostBytes = std::size_t{256} << 20, kStreamsDrawn = 3;
+    const std::size_t bytes = (bake.agents + std::size_t{1}) * kStreamsDrawn * kComponents * sizeof(float);
+    return std::min<std::size_t>(trailFrames(bake, options) + 1, kMostBytes / bytes);
+}
+
 }  // namespace
 
 Plate::Plate(const std::filesystem::path& bake, const PreviewOptions& options)
-    : bake_(io::loadBake(bake)),
-      groups_(io::loadGroups(bake_)),
-      positions_(bake_.streamPath(Stream::pos)),
-      directions_(bake_.streamPath(Stream::dir)),
-      states_(bake_.streamPath(Stream::state)),
+    : crowd_(io::loadBake(bake)),
+      bake_(crowd_.bake()),
+      groups_(io::groupsOf(crowd_.people())),
       options_(options) {
+    crowd_.keep(framesToKeep(bake_, options));
     const glm::dvec2 extent = bake_.maximum - bake_.minimum;
     width_ = options.width / 2 * 2;  // video encoders want even sizes
     scale_ = (width_ - 2.0 * kMargin) / std::max(extent.x, 1.0);
     height_ = static_cast<int>(std::ceil(extent.y * scale_ + kHeader + kFooter)) / 2 * 2;
-    for (std::vector<float>* values : {&position_, &direction_, &state_, &trail_, &trail_state_})
-        values->resize(std::size_t{3} * bake_.agents);
     layout_.reset(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_, height_));
     canvas_.reset(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_, height_));
     if (cairo_surface_status(canvas_.get()) != CAIRO_STATUS_SUCCESS)
@@ -136,7 +151,7 @@ void Plate::drawScaleBar(cairo_t* context) const {
     text(context, left + 112.0, y + 14.0, 11.0, fmt::format("{:.0f}+", kMostDensity));
 }
 
-void Plate::drawDensity(cairo_t* context) const {
+void Plate::drawDensity(cairo_t* context, const io::CrowdFrame& now) const {
     const glm::dvec2 extent = bake_.maximum - bake_.minimum;
     const auto columns = static_cast<std::size_t>(std::ceil(extent.x / kDensityCell)) + 1;
     const auto rows = static_cast<std::size_t>(std::ceil(extent.y / kDensityCell)) + 1;
@@ -144,11 +159,10 @@ void Plate::drawDensity(cairo_t* context) const {
     // layer.
     std::vector<double> density(columns * rows, 0.0), smooth(columns * rows, 0.0);
     for (std::size_t row = 0; row < bake_.agents; ++row) {
-        if (state_[3 * row] < 0.5f) continue;
-        const auto x =
-            static_cast<std::size_t>(std::max(0.0, (position_[3 * row] - bake_.minimum.x) / kDensityCell));
-        const auto y = static_cast<std::size_t>(
-            std::max(0.0, (position_[3 * row + 1] - bake_.minimum.y) / kDensityCell));
+        if (!now.isThere(row)) continue;
+        const glm::dvec2 at = (now.place(row) - bake_.minimum) / kDensityCell;
+        const auto x = static_cast<std::size_t>(std::max(0.0, at.x));
+        const auto y = static_cast<std::size_t>(std::max(0.0, at.y));
         if (x < columns && y < rows) density[y * columns + x] += 1.0 / (kDensityCell * kDensityCell);
     }
     constexpr double kKernel[3] = {0.25, 0.5, 0.25};
@@ -170,29 +184,26 @@ void Plate::drawDensity(cairo_t* context) const {
         }
 }
 
-void Plate::drawTrails(cairo_t* context, std::uint32_t frame) {
-    const auto length = static_cast<std::uint32_t>(options_.trail_seconds * bake_.fps);
+void Plate::drawTrails(cairo_t* context, const io::CrowdFrame& now) {
+    const std::uint32_t length = trailFrames(bake_, options_);
     const std::uint32_t stride = std::max(1u, length / 24);
     if (length == 0) return;
-    std::vector<float> later = position_;
-    std::vector<float> later_state = state_;
+    io::CrowdFrame later = now;
     cairo_set_line_width(context, std::max(1.0, 0.10 * scale_));
     cairo_set_line_cap(context, CAIRO_LINE_CAP_ROUND);
-    for (std::uint32_t back = stride; back <= length && back <= frame; back += stride) {
-        positions_.readFrame(frame - back, trail_);
-        states_.readFrame(frame - back, trail_state_);
+    for (std::uint32_t back = stride; back <= length && back <= now.index(); back += stride) {
+        const io::CrowdFrame earlier = crowd_.frame(now.index() - back);
         const double alpha = 0.42 * (1.0 - static_cast<double>(back) / length);
         for (std::size_t row = 0; row < bake_.agents; ++row) {
-            if (later_state[3 * row] < 0.5f || trail_state_[3 * row] < 0.5f) continue;
-            const glm::dvec2 a = toPixel(later[3 * row], later[3 * row + 1]);
-            const glm::dvec2 b = toPixel(trail_[3 * row], trail_[3 * row + 1]);
+            if (!later.isThere(row) || !earlier.isThere(row)) continue;
+            const glm::dvec2 a = toPixel(later.place(row).x, later.place(row).y);
+            const glm::dvec2 b = toPixel(earlier.place(row).x, earlier.place(row).y);
             setColour(context, groupColour(groups_.group_of[row]), alpha);
             cairo_move_to(context, a.x, a.y);
             cairo_line_to(context, b.x, b.y);
             cairo_stroke(context);
         }
-        later.swap(trail_);
-        later_state.swap(trail_state_);
+        later = earlier;
     }
 }
 
@@ -226,12 +237,12 @@ void Plate::drawGates(cairo_t* context, std::uint32_t frame) const {
     }
 }
 
-void Plate::drawPeople(cairo_t* context) const {
+void Plate::drawPeople(cairo_t* context, const io::CrowdFrame& now) const {
     const double radius = std::max(1.6, 0.25 * scale_);
     for (std::size_t row = 0; row < bake_.agents; ++row) {
-        if (state_[3 * row] < 0.5f) continue;
-        const glm::dvec2 at = toPixel(position_[3 * row], position_[3 * row + 1]);
-        const glm::dvec2 ahead(direction_[3 * row], -direction_[3 * row + 1]);
+        if (!now.isThere(row)) continue;
+        const glm::dvec2 at = toPixel(now.place(row).x, now.place(row).y);
+        const glm::dvec2 ahead(now.facing(row).x, -now.facing(row).y);
         setColour(context, groupColour(groups_.group_of[row]));
         cairo_arc(context, at.x, at.y, radius, 0.0, 2.0 * std::numbers::pi);
         cairo_fill(context);
@@ -244,14 +255,11 @@ void Plate::drawPeople(cairo_t* context) const {
     }
 }
 
-void Plate::drawCaption(cairo_t* context, std::uint32_t frame) const {
-    std::uint32_t alive = 0;
-    for (std::size_t row = 0; row < bake_.agents; ++row)
-        alive += state_[3 * row] > 0.5f;
+void Plate::drawCaption(cairo_t* context, const io::CrowdFrame& now) const {
     setColour(context, kInk, 0.75);
     text(context, kMargin, 56.0, 13.0,
-         fmt::format("{:.2f} s, frame {} of {} at {:.4g} frames/s, {} people in the scene", frame / bake_.fps,
-                     frame + 1, bake_.frames, bake_.fps, alive));
+         fmt::format("{:.2f} s, frame {} of {} at {:.4g} frames/s, {} people in the scene",
+                     now.index() / bake_.fps, now.index() + 1, bake_.frames, bake_.fps, presentIn(now)));
     text(context, kMargin, height_ - 34.0, 13.0,
          fmt::format("whole bake: {} people, {} arrived, {} walking at the end, {} refused",
                      bake_.account.agents, bake_.account.arrived, bake_.account.walking,
@@ -269,36 +277,29 @@ void Plate::drawCaption(cairo_t* context, std::uint32_t frame) const {
     }
 }
 
-std::uint32_t Plate::busiestFrame() const {
+std::uint32_t Plate::busiestFrame() {
     const auto stride = std::max(1u, static_cast<std::uint32_t>(bake_.fps));
-    std::vector<float> values(std::size_t{3} * bake_.agents);
     std::uint32_t best = 0, most = 0;
     for (std::uint32_t frame = 0; frame < bake_.frames; frame += stride) {
-        states_.readFrame(frame, values);
-        std::uint32_t alive = 0;
-        for (std::size_t row = 0; row < bake_.agents; ++row)
-            alive += values[3 * row] > 0.5f;
-        if (alive > most) {
-            most = alive;
-            best = frame;
-        }
+        const std::uint32_t present = presentIn(crowd_.frame(frame));
+        if (present <= most) continue;
+        most = present;
+        best = frame;
     }
     return best;
 }
 
 cairo_surface_t* Plate::draw(std::uint32_t frame) {
-    positions_.readFrame(frame, position_);
-    directions_.readFrame(frame, direction_);
-    states_.readFrame(frame, state_);
+    const io::CrowdFrame now = crowd_.frame(frame);
     const Context scope(canvas_.get());
     cairo_t* context = scope.context;
     cairo_set_source_surface(context, layout_.get(), 0.0, 0.0);
     cairo_paint(context);
-    if (options_.density) drawDensity(context);
-    drawTrails(context, frame);
+    if (options_.density) drawDensity(context, now);
+    drawTrails(context, now);
     drawGates(context, frame);
-    drawPeople(context);
-    drawCaption(context, frame);
+    drawPeople(context, now);
+    drawCaption(context, now);
     cairo_surface_flush(canvas_.get());
     return canvas_.get();
 }

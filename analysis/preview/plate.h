@@ -10,8 +10,7 @@
 
 #include "analysis/preview/preview.h"
 #include "base/palette.h"
-#include "io/bake_reader.h"
-#include "io/streams/stream_reader.h"
+#include "io/crowd_reader.h"
 
 namespace throng::analysis {
 
@@ -26,7 +25,7 @@ class Plate {
     int height() const { return height_; }
 
     /// The frame with the most people (looked for in steps of a second).
-    std::uint32_t busiestFrame() const;
+    std::uint32_t busiestFrame();
 
     /// The surface stays valid until the next call.
     cairo_surface_t* draw(std::uint32_t frame);
@@ -41,23 +40,22 @@ class Plate {
     void drawLayout();
     void drawWall(cairo_t* context, const authoring::Wall& wall) const;
     void drawGates(cairo_t* context, std::uint32_t frame) const;
-    void drawDensity(cairo_t* context) const;
-    void drawTrails(cairo_t* context, std::uint32_t frame);
-    void drawPeople(cairo_t* context) const;
-    void drawCaption(cairo_t* context, std::uint32_t frame) const;
+    void drawDensity(cairo_t* context, const io::CrowdFrame& now) const;
+    void drawTrails(cairo_t* context, const io::CrowdFrame& now);
+    void drawPeople(cairo_t* context, const io::CrowdFrame& now) const;
+    void drawCaption(cairo_t* context, const io::CrowdFrame& now) const;
     void drawScaleBar(cairo_t* context) const;
     void path(cairo_t* context, const std::vector<glm::dvec2>& points, bool close) const;
     void text(cairo_t* context, double x, double y, double size, const std::string& what,
               bool bold = false) const;
 
-    io::Bake bake_;
+    io::CrowdReader crowd_;
+    const io::Bake& bake_;
     io::GroupTable groups_;
-    io::StreamReader positions_, directions_, states_;
     PreviewOptions options_;
     int width_ = 0, height_ = 0;
     double scale_ = 1.0;  // px per m
     Surface layout_, canvas_;
-    std::vector<float> position_, direction_, state_, trail_, trail_state_;
 };
 
 }  // namespace throng::analysis

@@ -11,8 +11,6 @@
 #include "analysis/report/page.h"
 #include "base/palette.h"
 #include "base/plane_grid.h"
-#include "io/agent_rows.h"
-#include "io/streams/stream_reader.h"
 
 namespace throng::analysis {
 namespace {
@@ -60,27 +58,19 @@ class Watch {
     Watch(const io::Bake& bake, const std::vector<io::AgentRow>& rows)
         : bake_(bake),
           rows_(rows),
-          positions_(bake.streamPath(Stream::pos)),
-          directions_(bake.streamPath(Stream::dir)),
-          states_(bake.streamPath(Stream::state)),
-          values_(std::size_t{bake.agents} * 3),
-          places_(bake.agents),
-          alive_(bake.agents),
+          per_second_(static_cast<std::uint32_t>(std::max(1.0, std::round(bake.fps)))),
           grid_(bake.minimum, bake.maximum, 1.0) {
         for (const io::AgentRow& row : rows)
             largest_radius_ = std::max(largest_radius_, static_cast<double>(row.radius));
     }
 
-    void run() {
-        const auto per_second = static_cast<std::uint32_t>(std::max(1.0, std::round(bake_.fps)));
-        const std::uint32_t for_overlaps = std::max(1u, per_second / 6);
-        for (std::uint32_t frame = 0; frame < bake_.frames; ++frame) {
-            const bool whole_second = frame % per_second == 0 || frame + 1 == bake_.frames;
-            if (!whole_second && frame % for_overlaps != 0) continue;
-            read(frame);
-            if (whole_second) tally(frame);
-            findOverlaps(frame);
-        }
+    void look(const io::CrowdFrame& frame) {
+        const std::uint32_t for_overlaps = std::max(1u, per_second_ / 6);
+        const bool whole_second = frame.index() % per_second_ == 0 || frame.index() + 1 == bake_.frames;
+        if (!whole_second && frame.index() % for_overlaps != 0) return;
+        gatherPresent(frame);
+        if (whole_second) tally(frame);
+        findOverlaps(frame.index());
     }
 
     Json series = {{"time", Json::array()}, {"present", Json::array()}, {"speed", Json::array()}};
@@ -105,27 +95,21 @@ class Watch {
     std::size_t overlapCount() const { return overlaps_.size(); }
 
   private:
-    void read(std::uint32_t frame) {
-        positions_.readFrame(frame, values_);
-        for (std::size_t row = 0; row < places_.size(); ++row)
-            places_[row] = {values_[3 * row], values_[3 * row + 1]};
-        states_.readFrame(frame, values_);
+    void gatherPresent(const io::CrowdFrame& frame) {
         present_.clear();
         bodies_.clear();
-        for (std::uint32_t row = 0; row < places_.size(); ++row) {
-            alive_[row] = values_[3 * std::size_t{row}] > 0.5f;
-            if (!alive_[row]) continue;
+        for (std::uint32_t row = 0; row < frame.rows(); ++row) {
+            if (!frame.isThere(row)) continue;
             present_.push_back(row);
-            bodies_.push_back(places_[row]);
+            bodies_.push_back(frame.place(row));
         }
     }
 
-    void tally(std::uint32_t frame) {
-        directions_.readFrame(frame, values_);
+    void tally(const io::CrowdFrame& frame) {
         double speeds = 0.0;
         for (const std::uint32_t row : present_)
-            speeds += values_[3 * std::size_t{row} + 2];
-        series["time"].push_back(rounded(frame / bake_.fps, 0.001));
+            speeds += frame.speed(row);
+        series["time"].push_back(rounded(frame.index() / bake_.fps, 0.001));
         series["present"].push_back(present_.size());
         series["speed"].push_back(
             present_.empty() ? Json() : Json(rounded(speeds / static_cast<double>(present_.size()), 0.001)));
@@ -151,24 +135,23 @@ class Watch {
 
     const io::Bake& bake_;
     const std::vector<io::AgentRow>& rows_;
-    io::StreamReader positions_, directions_, states_;
-    std::vector<float> values_;
-    std::vector<glm::dvec2> places_, bodies_;
-    std::vector<bool> alive_;
+    std::uint32_t per_second_;
     std::vector<std::uint32_t> present_;
+    std::vector<glm::dvec2> bodies_;  // of those present
     PlaneGrid grid_;
     double largest_radius_ = 0.0;
     std::map<std::uint64_t, std::pair<double, std::uint32_t>> overlaps_;
 };
 
 /// Who walks at the end and has not come half a metre further in five seconds, and since when.
-Json stuckOnes(const io::Bake& bake, const std::vector<io::AgentRow>& rows) {
+Json stuckOnes(io::CrowdReader& crowd) {
     constexpr double kSeconds = 5.0, kMetres = 0.5;
+    const io::Bake& bake = crowd.bake();
+    const std::vector<io::AgentRow>& rows = crowd.people();
     Json list = Json::array();
     if (bake.frames / bake.fps < kSeconds) return list;
-    const io::StreamReader positions(bake.streamPath(Stream::pos));
-    std::vector<float> end(std::size_t{bake.agents} * 3), then(end.size());
-    positions.readFrame(bake.frames - 1, end);
+    const io::CrowdFrame last = crowd.frame(bake.frames - 1);
+    const std::span<const float> end = last[Stream::pos];
     std::vector<std::uint32_t> waiting;
     for (std::uint32_t row = 0; row < rows.size(); ++row)
         if (rows[row].outcome == "walking") waiting.push_back(row);
@@ -176,7 +159,8 @@ Json stuckOnes(const io::Bake& bake, const std::vector<io::AgentRow>& rows) {
     const auto needed = static_cast<std::uint32_t>(std::ceil(kSeconds * bake.fps));
     for (std::uint32_t back = needed; !waiting.empty(); back += step) {
         const bool at_start = back + 1 >= bake.frames;
-        positions.readFrame(at_start ? 0 : bake.frames - 1 - back, then);
+        const io::CrowdFrame earlier = crowd.frame(at_start ? 0 : bake.frames - 1 - back);
+        const std::span<const float> then = earlier[Stream::pos];
         std::vector<std::uint32_t> still;
         for (const std::uint32_t row : waiting) {
             const std::size_t i = 3 * std::size_t{row};
@@ -184,7 +168,7 @@ Json stuckOnes(const io::Bake& bake, const std::vector<io::AgentRow>& rows) {
             if (near && !at_start)
                 still.push_back(row);
             else if (back > needed || (near && at_start))
-                list.push_back({{"agent", row}, {"frame", at_start ? 0 : bake.frames - 1 - back}});
+                list.push_back({{"agent", row}, {"frame", earlier.index()}});
         }
         waiting = std::move(still);
     }
@@ -205,22 +189,12 @@ Json measuredJson(const Measurement& measured) {
     return json;
 }
 
-}  // namespace
-
-std::string bakeReport(const io::Bake& bake, const Measurement& measured,
-                       const std::vector<std::string>& missed) {
-    const std::vector<io::AgentRow> rows = io::loadAgentRows(bake);
-    const PackedWays ways = packWays(bake);
-    Watch watch(bake, rows);
-    watch.run();
-
-    std::vector<std::string> groups;
+/// Everybody, column by column.
+Json agentsJson(const std::vector<io::AgentRow>& rows, const io::GroupTable& groups, const PackedWays& ways) {
     Json agents = {{"group", Json::array()},   {"radius", Json::array()}, {"outcome", Json::array()},
                    {"arrival", Json::array()}, {"first", Json::array()},  {"last", Json::array()}};
     for (std::size_t row = 0; row < rows.size(); ++row) {
-        const auto known = std::find(groups.begin(), groups.end(), rows[row].group);
-        agents["group"].push_back(known - groups.begin());
-        if (known == groups.end()) groups.push_back(rows[row].group);
+        agents["group"].push_back(groups.group_of[row]);
         agents["radius"].push_back(rounded(rows[row].radius, 0.001));
         agents["outcome"].push_back(rows[row].outcome == "arrived"   ? 1
                                     : rows[row].outcome == "walking" ? 0
@@ -231,8 +205,24 @@ std::string bakeReport(const io::Bake& bake, const Measurement& measured,
         agents["first"].push_back(never ? Json() : Json(ways.first[row]));
         agents["last"].push_back(never ? Json() : Json(ways.last[row]));
     }
+    return agents;
+}
+
+}  // namespace
+
+std::string bakeReport(io::CrowdReader& crowd, const Measurement& measured,
+                       const std::vector<std::string>& missed) {
+    const io::Bake& bake = crowd.bake();
+    WayPacker packer(bake);
+    Watch watch(bake, crowd.people());
+    for (std::uint32_t frame = 0; frame < crowd.frames(); ++frame) {
+        packer.add(crowd.frame(frame));
+        watch.look(crowd.frame(frame));
+    }
+    const PackedWays ways = packer.finish();
+    const io::GroupTable groups = io::groupsOf(crowd.people());
     Json colours = Json::array();
-    for (std::size_t group = 0; group < groups.size(); ++group)
+    for (std::size_t group = 0; group < groups.names.size(); ++group)
         colours.push_back(hexOf(groupColour(group)));
 
     Json data;
@@ -244,9 +234,9 @@ std::string bakeReport(const io::Bake& bake, const Measurement& measured,
     data["minimum"] = {bake.minimum.x, bake.minimum.y};
     data["maximum"] = {bake.maximum.x, bake.maximum.y};
     data["geometry"] = geometryOf(bake);
-    data["groups"] = groups;
+    data["groups"] = groups.names;
     data["colours"] = colours;
-    data["agents"] = agents;
+    data["agents"] = agentsJson(crowd.people(), groups, ways);
     data["measured"] = measuredJson(measured);
     data["missed"] = missed;
     data["refused"] = bake.manifest.contains("/account/refused_reasons"_json_pointer)
@@ -257,7 +247,7 @@ std::string bakeReport(const io::Bake& bake, const Measurement& measured,
     data["series"] = watch.series;
     data["overlaps"] = watch.overlaps();
     data["overlap_pairs"] = watch.overlapCount();
-    data["stuck"] = stuckOnes(bake, rows);
+    data["stuck"] = stuckOnes(crowd);
     data["ways"] = {{"every", ways.every},
                     {"moments", ways.moments},
                     {"quantum", ways.quantum},
@@ -267,8 +257,9 @@ std::string bakeReport(const io::Bake& bake, const Measurement& measured,
     return makePage("bake", bake.name, data);
 }
 
-nlohmann::ordered_json thumbnailOf(const io::Bake& bake) {
+nlohmann::ordered_json thumbnailOf(io::CrowdReader& crowd) {
     constexpr std::uint32_t kPeople = 60, kPoints = 14;
+    const io::Bake& bake = crowd.bake();
     const glm::dvec2 extent = bake.maximum - bake.minimum;
     const double scale = 255.0 / std::max({extent.x, extent.y, 1.0});
     const auto put = [&](Json& list, double x, double y) {
@@ -285,17 +276,15 @@ nlohmann::ordered_json thumbnailOf(const io::Bake& bake) {
         thumbnail["walls"].push_back(outline);
     }
     const std::uint32_t step = std::max(1u, bake.agents / kPeople);
-    const io::StreamReader positions(bake.streamPath(Stream::pos));
-    const io::GroupTable groups = io::loadGroups(bake);
+    const io::GroupTable groups = io::groupsOf(crowd.people());
     std::vector<Json> ways;
     for (std::uint32_t row = 0; row < bake.agents; row += step)
         ways.push_back(Json::array({groups.group_of[row]}));
-    std::vector<float> values(std::size_t{bake.agents} * 3);
     for (std::uint32_t point = 0; point < kPoints && bake.frames > 0; ++point) {
-        positions.readFrame(
-            static_cast<std::uint32_t>(std::uint64_t{point} * (bake.frames - 1) / (kPoints - 1)), values);
+        const io::CrowdFrame frame =
+            crowd.frame(static_cast<std::uint32_t>(std::uint64_t{point} * (bake.frames - 1) / (kPoints - 1)));
         for (std::size_t way = 0; way < ways.size(); ++way)
-            put(ways[way], values[3 * way * step], values[3 * way * step + 1]);
+            put(ways[way], frame.place(way * step).x, frame.place(way * step).y);
     }
     for (Json& way : ways)
         thumbnail["ways"].push_back(std::move(way));

@@ -8,8 +8,6 @@
 #include <new>
 #include <stdexcept>
 
-#include "io/streams/stream_reader.h"
-
 namespace throng::analysis {
 namespace {
 
@@ -74,34 +72,6 @@ class Packer {
     Deflater deflater_;
 };
 
-/// Reads positions, and who is there.
-class Ways {
-  public:
-    explicit Ways(const io::Bake& bake)
-        : positions_(bake.streamPath(Stream::pos)),
-          states_(bake.streamPath(Stream::state)),
-          values_(std::size_t{bake.agents} * 3) {
-        for (const io::StreamReader* stream : {&positions_, &states_})
-            if (stream->rows() != bake.agents || stream->frames() != bake.frames)
-                throw InputError(bake.folder / "streams",
-                                 "the streams have other numbers of people or frames than bake.json");
-    }
-    void read(std::uint32_t frame, std::vector<glm::vec2>& places, std::vector<bool>& present) {
-        places.resize(values_.size() / 3);
-        present.resize(places.size());
-        positions_.readFrame(frame, values_);
-        for (std::size_t row = 0; row < places.size(); ++row)
-            places[row] = {values_[3 * row], values_[3 * row + 1]};
-        states_.readFrame(frame, values_);
-        for (std::size_t row = 0; row < places.size(); ++row)
-            present[row] = values_[3 * row] > 0.5f;
-    }
-
-  private:
-    io::StreamReader positions_, states_;
-    std::vector<float> values_;
-};
-
 std::uint32_t framesBetween(const io::Bake& bake) {
     const double by_time = std::max(1.0, std::round(bake.fps / kMomentsPerSecond));
     const double by_size = std::ceil(2.0 * bake.agents * bake.frames / kMostNumbers);
@@ -110,70 +80,91 @@ std::uint32_t framesBetween(const io::Bake& bake) {
 
 }  // namespace
 
-PackedWays packWays(const io::Bake& bake) {
-    PackedWays packed;
-    packed.every = framesBetween(bake);
-    const glm::dvec2 extent = bake.maximum - bake.minimum;
-    packed.quantum = std::max(extent.x, extent.y) / 65535.0;
-    packed.first.assign(bake.agents, 0xffffffffu);
-    packed.last.assign(bake.agents, 0);
-    Ways ways(bake);
-    Packer packer(std::size_t{bake.agents} * 2);
-    const auto rounded = [&](const std::vector<glm::vec2>& places) {
-        std::vector<std::uint16_t> numbers;
-        numbers.reserve(2 * places.size());
-        for (const glm::vec2 place : places)
-            for (const double offset : {place.x - bake.minimum.x, place.y - bake.minimum.y})
-                numbers.push_back(static_cast<std::uint16_t>(
-                    std::clamp(std::round(offset / packed.quantum), 0.0, 65535.0)));
-        return numbers;
-    };
-    struct Held {
-        std::vector<glm::vec2> places;
-        std::vector<bool> present;
-    };
-    std::vector<Held> held;  // frames since the last moment, it included
-    std::vector<std::uint16_t> from;
-    double squares = 0.0;
-    std::uint64_t seen = 0;
-    const auto compare = [&](const Held& frame, const std::vector<std::uint16_t>& a,
-                             const std::vector<std::uint16_t>& b, double share) {
-        for (std::size_t row = 0; row < frame.places.size(); ++row) {
-            if (!frame.present[row]) continue;
-            const double x =
-                bake.minimum.x + packed.quantum * (a[2 * row] + share * (b[2 * row] - a[2 * row]));
-            const double y = bake.minimum.y +
-                             packed.quantum * (a[2 * row + 1] + share * (b[2 * row + 1] - a[2 * row + 1]));
-            const double error = std::hypot(frame.places[row].x - x, frame.places[row].y - y);
-            packed.largest_error = std::max(packed.largest_error, error);
-            squares += error * error;
-            ++seen;
-        }
-    };
-    for (std::uint32_t frame = 0; frame < bake.frames; ++frame) {
-        Held now;
-        ways.read(frame, now.places, now.present);
-        for (std::size_t row = 0; row < now.places.size(); ++row)
-            if (now.present[row]) {
-                packed.first[row] = std::min(packed.first[row], frame);
-                packed.last[row] = frame;
-            }
-        held.push_back(std::move(now));
-        if (frame % packed.every != 0 && frame + 1 < bake.frames) continue;
-        const std::vector<std::uint16_t> to = rounded(held.back().places);
-        if (from.empty()) from = to;
-        // The first of those held is the moment before; it has been compared as the last of the ones then.
-        const double span = std::max<double>(1.0, static_cast<double>(held.size() - 1));
-        for (std::size_t i = packed.moments ? 1 : 0; i < held.size(); ++i)
-            compare(held[i], from, to, held.size() == 1 ? 1.0 : static_cast<double>(i) / span);
-        packer.add(to);
-        ++packed.moments;
-        from = to;
-        held.erase(held.begin(), held.end() - 1);
+class WayPacker::State {
+  public:
+    explicit State(const io::Bake& bake) : bake_(bake), packer_(std::size_t{bake.agents} * 2) {
+        packed_.every = framesBetween(bake);
+        const glm::dvec2 extent = bake.maximum - bake.minimum;
+        packed_.quantum = std::max(extent.x, extent.y) / 65535.0;
+        packed_.first.assign(bake.agents, 0xffffffffu);
+        packed_.last.assign(bake.agents, 0);
     }
-    packed.deflated = packer.finish();
-    packed.usual_error = seen ? std::sqrt(squares / static_cast<double>(seen)) : 0.0;
-    return packed;
+
+    void add(const io::CrowdFrame& frame) {
+        for (std::size_t row = 0; row < frame.rows(); ++row)
+            if (frame.isThere(row)) {
+                packed_.first[row] = std::min(packed_.first[row], frame.index());
+                packed_.last[row] = frame.index();
+            }
+        held_.push_back(frame);
+        if (frame.index() % packed_.every == 0 || frame.index() + 1 == bake_.frames) addMoment();
+    }
+
+    PackedWays finish() {
+        packed_.deflated = packer_.finish();
+        packed_.usual_error = seen_ ? std::sqrt(squares_ / static_cast<double>(seen_)) : 0.0;
+        return std::move(packed_);
+    }
+
+  private:
+    void addMoment() {
+        const std::vector<std::uint16_t> to = rounded(held_.back());
+        if (from_.empty()) from_ = to;
+        // The first of those held is the moment before; it has been compared as the last of the ones then.
+        const double span = std::max<double>(1.0, static_cast<double>(held_.size() - 1));
+        for (std::size_t i = packed_.moments ? 1 : 0; i < held_.size(); ++i)
+            compare(held_[i], to, held_.size() == 1 ? 1.0 : static_cast<double>(i) / span);
+        packer_.add(to);
+        ++packed_.moments;
+        from_ = to;
+        held_.erase(held_.begin(), held_.end() - 1);
+    }
+
+    std::vector<std::uint16_t> rounded(const io::CrowdFrame& frame) const {
+        std::vector<std::uint16_t> numbers;
+        numbers.reserve(2 * frame.rows());
+        for (std::size_t row = 0; row < frame.rows(); ++row) {
+            const glm::dvec2 offset = frame.place(row) - bake_.minimum;
+            for (const double along : {offset.x, offset.y})
+                numbers.push_back(static_cast<std::uint16_t>(
+                    std::clamp(std::round(along / packed_.quantum), 0.0, 65535.0)));
+        }
+        return numbers;
+    }
+
+    /// With what is shown of a frame: a share of the way from the last moment to the next.
+    void compare(const io::CrowdFrame& frame, const std::vector<std::uint16_t>& to, double share) {
+        for (std::size_t row = 0; row < frame.rows(); ++row) {
+            if (!frame.isThere(row)) continue;
+            const auto shown = [&](double minimum, std::size_t i) {
+                return minimum + packed_.quantum * (from_[i] + share * (to[i] - from_[i]));
+            };
+            const double error = std::hypot(frame.place(row).x - shown(bake_.minimum.x, 2 * row),
+                                            frame.place(row).y - shown(bake_.minimum.y, 2 * row + 1));
+            packed_.largest_error = std::max(packed_.largest_error, error);
+            squares_ += error * error;
+            ++seen_;
+        }
+    }
+
+    const io::Bake& bake_;
+    Packer packer_;
+    PackedWays packed_;
+    std::vector<io::CrowdFrame> held_;  // since the last moment, it included
+    std::vector<std::uint16_t> from_;
+    double squares_ = 0.0;
+    std::uint64_t seen_ = 0;
+};
+
+WayPacker::WayPacker(const io::Bake& bake) : state_(std::make_unique<State>(bake)) {}
+WayPacker::~WayPacker() = default;
+
+void WayPacker::add(const io::CrowdFrame& frame) {
+    state_->add(frame);
+}
+
+PackedWays WayPacker::finish() {
+    return state_->finish();
 }
 
 }  // namespace throng::analysis

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
-#include "io/bake_reader.h"
+#include "io/crowd_reader.h"
 
 namespace throng::analysis {
 
@@ -24,6 +25,18 @@ struct PackedWays {
     std::vector<std::uint32_t> first, last;  ///< frames in which each row is there; first > last: never
 };
 
-PackedWays packWays(const io::Bake& bake);
+/// Packs the ways of a bake, frame by frame.
+class WayPacker {
+  public:
+    explicit WayPacker(const io::Bake& bake);
+    ~WayPacker();
+    /// All frames, in order.
+    void add(const io::CrowdFrame& frame);
+    PackedWays finish();
+
+  private:
+    class State;
+    std::unique_ptr<State> state_;
+};
 
 }  // namespace throng::analysis

@@ -6,12 +6,12 @@
 
 namespace throng::cli {
 
-Judgement judgeBake(const io::Bake& bake, analysis::MeasureOptions options) {
+Judgement judgeBake(io::CrowdReader& crowd, analysis::MeasureOptions options) {
     authoring::Diagnostics diagnostics;
-    const auto layout = authoring::readLayout(readFile(bake.folder / "layout.json"), {}, diagnostics);
+    const auto layout = authoring::readLayout(readFile(crowd.bake().folder / "layout.json"), {}, diagnostics);
     if (layout && layout->flow_line && !options.line)
         options.line = {layout->flow_line->a, layout->flow_line->b};
-    Judgement judgement{analysis::measureBake(bake, options), {}};
+    Judgement judgement{analysis::measureBake(crowd, options), {}};
     if (layout) judgement.missed = analysis::missedExpectations(judgement.measured, layout->expectations);
     return judgement;
 }

@@ -15,6 +15,6 @@ struct Judgement {
 };
 
 /// Counts people across `options.line`, or else across the line that the layout's bars name.
-Judgement judgeBake(const io::Bake& bake, analysis::MeasureOptions options);
+Judgement judgeBake(io::CrowdReader& crowd, analysis::MeasureOptions options);
 
 }  // namespace throng::cli

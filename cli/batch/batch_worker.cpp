@@ -160,8 +160,8 @@ ScenarioEnd ScenarioBaker::tryBake(std::size_t index, const InterruptGuard& inte
     // Complete already where an earlier process was killed between its bake and its result.
     if (run.end != BakeRun::End::complete && run.end != BakeRun::End::was_complete)
         return ScenarioEnd::stopped;
-    const io::Bake bake = io::loadBake(folder_.bake(id));
-    const auto [measured, missed] = judgeBake(bake, {});
+    io::CrowdReader crowd(io::loadBake(folder_.bake(id)));
+    const auto [measured, missed] = judgeBake(crowd, {});
     laps.end("measure");
 
     ordered_json result = headOf(plan_, index, plan_.inputHash(text));

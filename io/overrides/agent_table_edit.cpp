@@ -9,7 +9,6 @@
 
 #include "base/files/csv.h"
 #include "base/files/input_file.h"
-#include "io/streams/stream_set.h"
 
 namespace throng::io {
 
@@ -80,9 +79,9 @@ std::string AgentTableEdit::text() const {
     return text;
 }
 
-std::vector<authoring::Entrant> loadEntrants(const Bake& bake) {
+std::vector<authoring::Entrant> loadEntrants(const CrowdReader& crowd) {
+    const Bake& bake = crowd.bake();
     const AgentTableEdit table(bake);
-    const StreamSet streams(bake.folder, bake.streams, bake.frames, bake.agents);
     const double height = bake.manifest.value("/origin/2"_json_pointer, 0.0);
     std::vector<authoring::Entrant> people(table.rows());
     for (std::uint32_t row = 0; row < table.rows(); ++row) {
@@ -91,7 +90,7 @@ std::vector<authoring::Entrant> loadEntrants(const Bake& bake) {
         const std::optional<std::uint32_t> frame = table.frame(row, "spawn_frame");
         if (!frame || *frame >= bake.frames) continue;
         std::array<float, kComponents> place{};
-        streams[Stream::pos].readRows(*frame, row, place);
+        crowd.streams()[Stream::pos].readRows(*frame, row, place);
         person.enters = true;
         person.frame = *frame;
         person.place = {bake.origin.x + static_cast<double>(place[0]),

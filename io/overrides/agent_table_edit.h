@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "authoring/overrides/matching.h"
-#include "io/bake_reader.h"
+#include "io/crowd_reader.h"
 
 namespace throng::io {
 
@@ -40,6 +40,6 @@ class AgentTableEdit {
 
 /// Where and when everybody of a bake enters: what overrides are matched with. Reads agents.csv and single
 /// rows of the stream `pos`.
-std::vector<authoring::Entrant> loadEntrants(const Bake& bake);
+std::vector<authoring::Entrant> loadEntrants(const CrowdReader& crowd);
 
 }  // namespace throng::io

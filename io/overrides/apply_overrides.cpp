@@ -54,31 +54,28 @@ std::optional<std::uint32_t> colourOf(const std::string& tint) {
 
 class Application {
   public:
-    Application(const Bake& source, std::span<const RowChange> changes, const ApplyOptions& options)
-        : source_(source),
+    Application(CrowdReader& crowd, std::span<const RowChange> changes, const ApplyOptions& options)
+        : crowd_(crowd),
+          source_(crowd.bake()),
           options_(options),
           folder_(options.output, options.force),
-          table_(source),
-          streams_(source.folder, source.streams, source.frames, source.agents),
-          sampler_(streams_),
-          minimum_(source.minimum),
-          maximum_(source.maximum) {
+          table_(source_),
+          sampler_(crowd.streams()),
+          minimum_(source_.minimum),
+          maximum_(source_.maximum) {
         folder_.addFolder("streams");
-        for (const StreamInfo& info : kStreams) {
-            if (!streams_.has(info.id)) continue;
-            files_.emplace_back(folder_.path(), info, source.agents, source.frames);
-            frame_[info.id].resize(std::size_t{source.agents} * kComponents);
-        }
+        for (const StreamInfo& info : kStreams)
+            if (source_.streams[info.id])
+                files_.emplace_back(folder_.path(), info, source_.agents, source_.frames);
         for (const RowChange& each : changes)
             rows_.push_back(prepared(each));
-        if (source.manifest.contains("terrain")) readTerrainBack();
+        if (source_.manifest.contains("terrain")) readTerrainBack();
     }
 
     /// False when it was stopped.
     bool writeStreams() {
         for (std::uint32_t frame = 0; frame < source_.frames; ++frame) {
-            for (const StreamFiles& stream : files_)
-                streams_[stream.info().id].readFrame(frame, frame_[stream.info().id]);
+            read(crowd_.frame(frame));
             for (ChangedRow& each : rows_)
                 change(each, frame);
             for (StreamFiles& stream : files_)
@@ -100,6 +97,13 @@ class Application {
     }
 
   private:
+    void read(const CrowdFrame& frame) {
+        for (const StreamFiles& stream : files_) {
+            const std::span<const float> values = frame[stream.info().id];
+            frame_[stream.info().id].assign(values.begin(), values.end());
+        }
+    }
+
     std::span<float, kComponents> row(Stream stream, std::uint32_t index) {
         return rowOf(std::span(frame_[stream]), index);
     }
@@ -150,7 +154,7 @@ class Application {
         ChangedRow changed{each.row, each.change};
         changed.first = table_.frame(each.row, "spawn_frame");
         if (changed.first && *changed.first >= source_.frames) changed.first.reset();
-        if (changed.first) streams_[Stream::pos].readRows(*changed.first, each.row, changed.pivot);
+        if (changed.first) crowd_.streams()[Stream::pos].readRows(*changed.first, each.row, changed.pivot);
         return changed;
     }
 
@@ -350,11 +354,11 @@ class Application {
                   manifest.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
     }
 
+    CrowdReader& crowd_;
     const Bake& source_;
     const ApplyOptions& options_;
     BakeFolder folder_;
     AgentTableEdit table_;
-    StreamSet streams_;
     RowSampler sampler_;
     std::vector<StreamFiles> files_;
     PerStream<std::vector<float>> frame_;            ///< the one under way
@@ -368,7 +372,7 @@ class Application {
 
 }  // namespace
 
-std::optional<ApplyResult> applyOverrides(const Bake& source, std::span<const RowChange> changes,
+std::optional<ApplyResult> applyOverrides(CrowdReader& source, std::span<const RowChange> changes,
                                           const ApplyOptions& options) {
     Application application(source, changes, options);
     if (!application.writeStreams()) return std::nullopt;

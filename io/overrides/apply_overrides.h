@@ -9,7 +9,7 @@
 #include <string>
 
 #include "authoring/overrides/overrides.h"
-#include "io/bake_reader.h"
+#include "io/crowd_reader.h"
 
 namespace throng::io {
 
@@ -39,7 +39,7 @@ struct ApplyResult {
 /// Writes a bake with some rows changed: streams, agents.csv, crowd.glb and manifest anew, everything else as
 /// it is in the source; diagrams are left out, as they show people where they were. The new bake appears when
 /// it is complete. @returns nothing when `go_on` said no. Throws InputError and OutputError.
-std::optional<ApplyResult> applyOverrides(const Bake& source, std::span<const RowChange> changes,
+std::optional<ApplyResult> applyOverrides(CrowdReader& source, std::span<const RowChange> changes,
                                           const ApplyOptions& options);
 
 }  // namespace throng::io

@@ -27,6 +27,21 @@ std::vector<Scenario> plan(const std::string& rest) {
     return family ? planFamily(*family) : std::vector<Scenario>{};
 }
 
+TEST(Family, BakesMayBeAskedForEveryStreamFromTheDevice) {
+    const auto schema = Json::parse(familySchema());
+    for (const StreamInfo& info : kStreams) {
+        if (info.source != StreamSource::device) continue;
+        const std::string name(info.name);
+        EXPECT_EQ(schema["properties"]["bake"]["properties"][name]["type"], "boolean") << name;
+        Diagnostics diagnostics;
+        const auto family = familyOf(
+            R"("axes": [{"set": "/simulation/seed", "range": [1, 2, 1]}], "bake": {")" + name + R"(": true})",
+            diagnostics);
+        ASSERT_TRUE(family) << name;
+        EXPECT_TRUE(family->bake.streams[info.id]);
+    }
+}
+
 std::vector<double> column(const std::vector<Scenario>& scenarios, std::size_t axis) {
     std::vector<double> values;
     for (const Scenario& scenario : scenarios)

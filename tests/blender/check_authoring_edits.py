@@ -129,6 +129,12 @@ def change_seed():
     data().simulation.seed = 5
 
 
+def change_motion():
+    data().motion.headway.enabled = False
+    data().motion.passing_side.enabled = True
+    data().motion.planted_feet.slip = 1.25
+
+
 def delete_wall():
     things.remove(things["house"])
 

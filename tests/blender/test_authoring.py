@@ -101,6 +101,7 @@ EDITS = {
     "remove_a_person": None,
     "change_event": {"/events/0/at", "/events/1/close", "/events/1/open"},
     "change_seed": {"/simulation/seed"},
+    "change_motion": {"/motion/headway/enabled", "/motion/passing_side", "/motion/planted_feet/slip"},
     "delete_wall": None,
     "duplicate_wall": None,
     "close_wall": {"/walls/3/closed", "/walls/3/points/2"},

@@ -28,6 +28,15 @@ def test_the_simulations_settings_are_the_schemas():
     assert set(fields.BARS) == set(schema["definitions"]["expect"]["properties"]) - {"line"}
 
 
+def test_every_number_of_every_rule_of_motion_has_a_property():
+    schema = json.loads((ROOT / "authoring" / "layout" / "throng-layout.schema.json").read_text())
+    rules = schema["properties"]["motion"]["properties"]
+    assert {name: [row[0].key for row in rows] for name, _, _, rows in fields.MOTION} == \
+        {name: list(rule["properties"]) for name, rule in rules.items()}
+    about = {row[0].key: row[4] for name, _, _, rows in fields.MOTION if name == "drive" for row in rows}
+    assert about["relaxation"] == "Time constant, s"
+
+
 def test_numbers_keep_their_digits():
     for value in (0.1, 1.0 / 3.0, 123456.789, 1e-7, -0.3, 16777216.0, 3.0):
         assert single(short(single(value))) == single(value)

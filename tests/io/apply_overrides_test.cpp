@@ -34,15 +34,15 @@ struct Applied {
         apply.output = folder / "applied";
         apply.gltf = true;
         apply.applied = {{"overrides", "x"}};
-        result = applyOverrides(source, changes, apply);
+        CrowdReader reader(source);
+        result = applyOverrides(reader, changes, apply);
         made = loadBake(folder / "applied");
         problems = verifyBake(made);
     }
-    std::vector<float> frame(const Bake& bake, Stream stream, std::uint32_t index) const {
-        const StreamReader reader(bake.streamPath(stream));
-        std::vector<float> values(std::size_t{reader.rows()} * 3);
-        reader.readFrame(index, values);
-        return values;
+    static std::vector<float> frame(const Bake& bake, Stream stream, std::uint32_t index) {
+        CrowdReader reader(bake);
+        const CrowdFrame frame = reader.frame(index);
+        return {frame[stream].begin(), frame[stream].end()};
     }
     std::vector<float> row(Stream stream, std::uint32_t index, std::uint32_t person) const {
         const std::vector<float> values = frame(made, stream, index);
@@ -202,11 +202,13 @@ TEST(ApplyOverrides, WhatStopsItLeavesNothingBehind) {
     ApplyOptions apply;
     apply.output = folder / "applied";
     apply.go_on = [](std::uint32_t frames) { return frames < 5; };
-    EXPECT_FALSE(applyOverrides(source, {}, apply));
+    CrowdReader whole(source);
+    EXPECT_FALSE(applyOverrides(whole, {}, apply));
     EXPECT_EQ(folder.names(), std::vector<std::string>{"bake"});
     std::filesystem::resize_file(source.streamPath(Stream::dir), 4000);
     apply.go_on = [](std::uint32_t) { return true; };
-    EXPECT_THROW(applyOverrides(source, {}, apply), InputError);
+    CrowdReader truncated(source);
+    EXPECT_THROW(applyOverrides(truncated, {}, apply), InputError);
     EXPECT_EQ(folder.names(), std::vector<std::string>{"bake"});
 }
 
@@ -216,7 +218,7 @@ TEST(ApplyOverrides, EntrantsAreWhereTheBakeSaysTheyEnter) {
     options.origin = {500000.0, 5600000.0};
     const SampleCrowd crowd(options);
     crowd.bake(folder / "bake");
-    const auto people = loadEntrants(loadBake(folder / "bake"));
+    const auto people = loadEntrants(CrowdReader(loadBake(folder / "bake")));
     ASSERT_EQ(people.size(), 64u);
     EXPECT_EQ(people[14].frame, 15u);
     EXPECT_EQ(people[14].group, "eastbound");

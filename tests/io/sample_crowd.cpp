@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <glm/geometric.hpp>
 #include <iterator>
+#include <memory>
 #include <numbers>
 #include <stdexcept>
 
@@ -20,6 +22,7 @@ constexpr double kSway = 0.2;         // m
 constexpr double kStride = 1.4;       // m
 constexpr float kNotYet = -999.0f;
 constexpr std::uint32_t kVariations = 4;
+const glm::dvec2 kToScene(-3.0, 2.0);  // the scene's origin is not the output's
 
 double laneOffset(std::uint32_t row) {
     return (static_cast<int>(row / 2 % 9) - 4) * 0.9;
@@ -65,6 +68,35 @@ double SampleCrowd::phase(std::uint32_t row, std::uint32_t frame) const {
     return 0.1 * (row % 10) + distance(row, frame) / kStride;
 }
 
+float SampleCrowd::extra(const StreamInfo& info, std::uint32_t row, std::uint32_t frame,
+                         std::size_t component) const {
+    if (info.source == StreamSource::device && !isAlive(row, frame)) return 0.0f;
+    return static_cast<float>(static_cast<std::size_t>(info.id) * 100 + component * 10 + row % 8) +
+           static_cast<float>(frame) / 512.0f;
+}
+
+namespace {
+
+/// A square that rises by a tenth along x.
+recording::BakeTerrain slope(glm::dvec2 centre, glm::dvec2 scene_origin, std::size_t walls) {
+    constexpr double kHalf = 40.0;
+    auto mesh = std::make_shared<authoring::TerrainMesh>();
+    for (const glm::dvec2 corner :
+         {glm::dvec2(-kHalf, -kHalf), {kHalf, -kHalf}, {kHalf, kHalf}, {-kHalf, kHalf}})
+        mesh->positions.emplace_back(centre + corner, 0.1 * corner.x);
+    mesh->normals.assign(4, glm::normalize(glm::vec3(-0.1f, 0.0f, 1.0f)));
+    mesh->indices = {0, 1, 2, 0, 2, 3};
+    recording::BakeTerrain terrain;
+    terrain.surface =
+        std::make_shared<authoring::Terrain>(*mesh, true, scene_origin, glm::vec2(-kHalf), glm::vec2(kHalf));
+    terrain.mesh = mesh;
+    terrain.source = "slope.glb";
+    terrain.along_walls.resize(walls);
+    return terrain;
+}
+
+}  // namespace
+
 recording::BakeDescription SampleCrowd::description(const std::filesystem::path& output) const {
     recording::BakeDescription description;
     description.output = output;
@@ -100,6 +132,10 @@ recording::BakeDescription SampleCrowd::description(const std::filesystem::path&
     description.gltf = options_.gltf;
     description.gltf_agents = options_.gltf_agents;
     description.diagram_every = options_.diagram_every;
+    if (!options_.every_stream) return description;
+    description.terrain = slope(options_.origin, description.scene_origin, description.walls.size());
+    for (const StreamInfo& info : kStreams)
+        description.asked[info.id] = info.source == StreamSource::device;
     return description;
 }
 
@@ -125,50 +161,60 @@ Account SampleCrowd::account() const {
     return account;
 }
 
-void SampleCrowd::writeTo(io::BakeWriter& writer, std::uint32_t count) const {
-    const glm::dvec2 to_scene(-3.0, 2.0);  // the scene's origin is not the output's
-    std::vector<float> positions(options_.rows * 3);
-    std::vector<float> directions(options_.rows * 3);
-    std::vector<float> states(options_.rows * 3);
-    for (std::uint32_t frame = 0; frame < count; ++frame) {
-        std::vector<glm::vec2> sites;
-        for (std::uint32_t row = 0; row < options_.rows; ++row) {
-            const bool entered = !isRefused(row) && frame >= spawnFrame(row);
-            const bool alive = isAlive(row, frame);
-            const glm::dvec2 p = position(row, frame) + to_scene;
-            const double turn = heading(row, frame);
-            const std::array<double, 9> now{p.x,
-                                            p.y,
-                                            0.0,
-                                            std::cos(turn),
-                                            std::sin(turn),
-                                            alive ? speed(row) : 0.0,
-                                            alive ? 1.0 : 0.0,
-                                            row % kVariations * 1.0,
-                                            phase(row, frame)};
-            for (std::size_t i = 0; i < 3; ++i) {
-                positions[row * 3 + i] = entered || isRefused(row) ? static_cast<float>(now[i]) : kNotYet;
-                directions[row * 3 + i] =
-                    entered || isRefused(row) ? static_cast<float>(now[i + 3]) : kNotYet;
-                states[row * 3 + i] = entered || isRefused(row) ? static_cast<float>(now[i + 6]) : kNotYet;
+PerStream<std::vector<float>> SampleCrowd::valuesOf(std::uint32_t frame) const {
+    PerStream<std::vector<float>> values;
+    for (std::uint32_t row = 0; row < options_.rows; ++row) {
+        const bool has_values = isRefused(row) || frame >= spawnFrame(row);
+        const bool alive = isAlive(row, frame);
+        const glm::dvec2 p = position(row, frame) + kToScene;
+        const double turn = heading(row, frame);
+        const std::array<std::array<double, kComponents>, 3> moving{
+            {{p.x, p.y, 0.0},
+             {std::cos(turn), std::sin(turn), alive ? speed(row) : 0.0},
+             {alive ? 1.0 : 0.0, row % kVariations * 1.0, phase(row, frame)}}};
+        for (const StreamInfo& info : kStreams)
+            for (std::size_t i = 0; i < kComponents; ++i) {
+                const bool is_motion = info.source == StreamSource::motion;
+                const double value =
+                    is_motion ? moving[static_cast<std::size_t>(info.id)][i] : extra(info, row, frame, i);
+                const bool is_known = has_values || info.source == StreamSource::device;
+                values[info.id].push_back(is_known ? static_cast<float>(value) : kNotYet);
             }
-            if (!alive) states[row * 3] = 0.0f;
-            // A site out of sight stands for somebody who is not there.
-            sites.push_back(alive ? glm::vec2(p) : glm::vec2(1e6f));
-        }
-        for (int i = 0; i < 10; ++i)
-            sites.push_back(glm::vec2(glm::dvec2(-5.2, 5.2 + i) + to_scene));
-        Frame out{frame};
-        out[Stream::pos] = positions;
-        out[Stream::dir] = directions;
-        out[Stream::state] = states;
-        const SampleDiagram diagram(options_.diagram_every > 0 ? sites : std::vector<glm::vec2>{},
-                                    options_.rows, glm::vec2(glm::dvec2(-16.0, -16.0) + to_scene), 128, 96,
-                                    4.0f, 0.6f);
-        if (options_.diagram_every > 0) out.diagram = &diagram.image;
-        writer.writeDiagram(out);
-        writer.write(out);
+        if (!alive) values[Stream::state][row * kComponents] = 0.0f;
     }
+    return values;
+}
+
+Frame SampleCrowd::frameOf(std::uint32_t index, const PerStream<std::vector<float>>& values) const {
+    Frame frame{index};
+    for (const StreamInfo& info : kStreams)
+        if (info.source == StreamSource::motion || options_.every_stream) frame[info.id] = values[info.id];
+    return frame;
+}
+
+void SampleCrowd::makeFrames(std::uint32_t count, const std::function<void(const Frame&)>& take) const {
+    for (std::uint32_t index = 0; index < count; ++index) {
+        const PerStream<std::vector<float>> values = valuesOf(index);
+        Frame frame = frameOf(index, values);
+        std::vector<glm::vec2> sites;
+        // A site out of sight stands for somebody who is not there.
+        for (std::uint32_t row = 0; row < options_.rows && options_.diagram_every > 0; ++row)
+            sites.push_back(isAlive(row, index) ? glm::vec2(position(row, index) + kToScene)
+                                                : glm::vec2(1e6f));
+        for (int i = 0; i < 10 && options_.diagram_every > 0; ++i)
+            sites.push_back(glm::vec2(glm::dvec2(-5.2, 5.2 + i) + kToScene));
+        const SampleDiagram diagram(sites, options_.rows, glm::vec2(glm::dvec2(-16.0, -16.0) + kToScene), 128,
+                                    96, 4.0f, 0.6f);
+        if (options_.diagram_every > 0) frame.diagram = &diagram.image;
+        take(frame);
+    }
+}
+
+void SampleCrowd::writeTo(io::BakeWriter& writer, std::uint32_t count) const {
+    makeFrames(count, [&](const Frame& frame) {
+        writer.writeDiagram(frame);
+        writer.write(frame);
+    });
 }
 
 io::BakeResult SampleCrowd::bake(const std::filesystem::path& output) const {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <glm/vec2.hpp>
 #include <string>
 #include <vector>
@@ -21,6 +22,7 @@ struct SampleOptions {
     std::uint32_t gltf_agents = 2000;
     bool gltf = true;
     bool force = false;
+    bool every_stream = false;  ///< on a slope, with all streams from the device
 };
 
 /// A crowd that needs no simulation: two flows cross at right angles, each person swaying along a straight
@@ -33,7 +35,9 @@ class SampleCrowd {
 
     recording::BakeDescription description(const std::filesystem::path& output) const;
     Account account() const;
-    /// Calls writer.write() for the frames [0, count).
+    /// Makes the frames [0, count).
+    void makeFrames(std::uint32_t count, const std::function<void(const Frame&)>& take) const;
+    /// Writes them, and their diagrams.
     void writeTo(io::BakeWriter& writer, std::uint32_t count) const;
     /// A whole bake; returns what the writer returns.
     io::BakeResult bake(const std::filesystem::path& output) const;
@@ -48,10 +52,15 @@ class SampleCrowd {
     glm::dvec2 position(std::uint32_t row, std::uint32_t frame) const;
     double heading(std::uint32_t row, std::uint32_t frame) const;  ///< rad
     double phase(std::uint32_t row, std::uint32_t frame) const;    ///< cycles
+    /// Of a stream that not every bake has: something that tells its own place; 0 where nobody is, if the
+    /// stream comes from the device.
+    float extra(const StreamInfo& info, std::uint32_t row, std::uint32_t frame, std::size_t component) const;
 
   private:
     double distance(std::uint32_t row, std::uint32_t frame) const;
     double speed(std::uint32_t row) const { return 1.1 + 0.1 * (row % 4); }
+    PerStream<std::vector<float>> valuesOf(std::uint32_t frame) const;
+    Frame frameOf(std::uint32_t index, const PerStream<std::vector<float>>& values) const;
 
     SampleOptions options_;
 };

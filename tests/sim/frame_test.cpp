@@ -72,6 +72,52 @@ TEST_F(FramePumpTest, DiagramsAgreeWithTheFramesPositions) {
     }
 }
 
+/// Positions frame by frame, with what comes along looked at.
+std::vector<float> positionsWith(const sim::FramePump::Cargo& cargo, std::uint32_t count,
+                                 const gl::ShaderLibrary& library) {
+    sim::Simulation simulation(uniformScene(count, 2.0f, count), library);
+    std::vector<float> positions;
+    PerStream<bool> tells;
+    sim::FramePump pump(simulation, cargo, [&](const Frame& frame) {
+        positions.insert(positions.end(), frame[Stream::pos].begin(), frame[Stream::pos].end());
+        for (const StreamInfo& info : kStreams) {
+            if (info.source != StreamSource::device) continue;
+            ASSERT_EQ(frame[info.id].size(), cargo.streams[info.id] ? count * kComponents : 0u) << info.name;
+            for (std::size_t at = 0; at < frame[info.id].size(); ++at) {
+                ASSERT_TRUE(std::isfinite(frame[info.id][at])) << info.name;
+                const bool is_there = frame[Stream::state][at / kComponents * kComponents] > 0.5f;
+                if (!is_there) {
+                    ASSERT_EQ(frame[info.id][at], 0.0f) << info.name;
+                }
+                tells[info.id] = tells[info.id] || frame[info.id][at] != 0.0f;
+            }
+        }
+    });
+    for (std::uint32_t frame = 0; frame < 8; ++frame) {
+        if (frame > 0) simulation.step();
+        pump.submit(frame, cargo.diagrams && frame % 3 == 0);
+    }
+    pump.finish();
+    EXPECT_EQ(tells, cargo.streams) << "a stream of zeros only";
+    return positions;
+}
+
+TEST_F(FramePumpTest, CarriesTheStreamsFromTheDeviceThatItIsAskedForAndChangesNothingElse) {
+    StreamChoice all;
+    for (const StreamInfo& info : kStreams)
+        all[info.id] = info.source == StreamSource::device;
+    for (const std::uint32_t count : {1u, 63u, 1234u}) {
+        const std::vector<float> alone = positionsWith({}, count, library);
+        EXPECT_EQ(positionsWith({false, false, all}, count, library), alone);
+        EXPECT_EQ(positionsWith({true, true, all}, count, library), alone);
+        for (const StreamInfo& info : kStreams) {
+            StreamChoice one;
+            one[info.id] = all[info.id];
+            EXPECT_EQ(positionsWith({false, false, one}, count, library), alone);
+        }
+    }
+}
+
 TEST_F(FramePumpTest, AFailingReceiverStopsTheBake) {
     sim::Simulation simulation(uniformScene(5, 2.0f, 1), library);
     sim::FramePump pump(simulation, {}, [](const Frame& frame) {

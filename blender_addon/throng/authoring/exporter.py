@@ -177,11 +177,8 @@ def _agents(thing, raw, world):
 _WRITERS = {"ROAD": _road, "AREA": _area, "WALL": _walls, "FORMATION": _formation}
 
 
-def _simulation(layout, raw):
-    old = raw.get("simulation", MISSING)
-    inner = old if isinstance(old, dict) else {}
-    value = take_all([row[0] for row in fields.SIMULATION], layout.simulation, inner)
-    return old if value == inner else value
+def _settings(layout, raw):
+    return {codec.key: codec.take(layout, raw.get(codec.key, MISSING)) for codec in fields.SETTINGS}
 
 
 def export_layout(context):
@@ -204,8 +201,7 @@ def export_layout(context):
         for index, item in enumerate(group):
             sources[f"/{key}/{index}"] = (None, key, index)
             lists[key].append(take(item, world))
-    values = {"simulation": _simulation(layout, raw),
-              "expect": places.take_expect(layout, raw.get("expect", MISSING), world)}
+    values = {**_settings(layout, raw), "expect": places.take_expect(layout, raw.get("expect", MISSING), world)}
     values.update({key: entries for key, entries in lists.items() if entries or key in raw})
     result.update({key: value for key, value in values.items() if value is not MISSING})
     return result, sources

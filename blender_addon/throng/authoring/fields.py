@@ -37,7 +37,8 @@ def codec_of(key, entry, beginning=None, attribute=None, required=False):
 
 def row_of(key, entry):
     """(codec, label, least, most, what it is)"""
-    return (codec_of(key, entry), label_of(key), *schema.limits_of(entry), schema.description_of(entry))
+    about = ", ".join(part for part in (schema.description_of(entry), schema.unit_of(entry)) if part)
+    return (codec_of(key, entry), label_of(key), *schema.limits_of(entry), about)
 
 
 def rows_of(owner, first=(), layout=schema.LAYOUT):
@@ -74,6 +75,9 @@ def limits(name, key, **ours):
 
 SIMULATION = rows_of(schema.LAYOUT.named("simulation"), _FIRST)
 MOTION = motion_of(schema.LAYOUT)
+# The two as keys of the layout.
+SETTINGS = (Nested("simulation", [row[0] for row in SIMULATION]),
+            Nested("motion", [Nested(name, [row[0] for row in rows]) for name, _, _, rows in MOTION]))
 
 METHODS = schema.words_of(schema.LAYOUT.entry("simulation", "method"))
 

@@ -220,8 +220,8 @@ def import_layout(context, path, replace=False):
     layout.name = document["name"] if isinstance(document.get("name"), str) else ""
     with display.quietly():
         things = _add_objects(world, document)
-        simulation = codecs.Nested("simulation", [row[0] for row in fields.SIMULATION])
-        simulation.put(layout, document.get("simulation", MISSING))
+        for codec in fields.SETTINGS:
+            codec.put(layout, document.get(codec.key, MISSING))
         for flow in document.get("flows", []):
             places.put_flow(layout.flows.add(), flow, world)
         for event in document.get("events", []):

@@ -8,6 +8,7 @@ from ..blender.panels import InSidebar
 from . import fields
 from .bake_operator import described, running
 from .codecs import MIX, UNSET
+from .values import MISSING
 
 _A = {"NUMBER": ("Value",), "uniform": ("From", "To"), "normal": ("Mean", "Deviation"),
       "log_normal": ("Mean of log", "Deviation of log")}
@@ -273,6 +274,38 @@ class VIEW3D_PT_throng_simulation(InSidebar, bpy.types.Panel):
         _problems_of(context, column, lambda problem: problem.pointer.startswith("/simulation"))
 
 
+class VIEW3D_PT_throng_motion(InSidebar, bpy.types.Panel):
+    bl_label = "Motion"
+    bl_parent_id = "VIEW3D_PT_throng"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        column, motion = self.layout.column(), context.scene.throng_layout.motion
+        column.prop(motion, "shown")
+        for name, label, about, rows in fields.MOTION:
+            rule = getattr(motion, name)
+            if name == motion.shown:
+                self._rule(context, column.box().column(), rule, about, rows)
+            elif any(codec.present(rule) != codec.shown(MISSING) for codec, *_ in rows):
+                self._changed(column, name, label)
+        _problems_of(context, column, lambda problem: problem.pointer.startswith("/motion"))
+
+    @staticmethod
+    def _rule(context, column, rule, about, rows):
+        for line in textwrap.wrap(about, _letters(context)):
+            column.label(text=line)
+        for codec, *_ in rows:
+            part = column.row()
+            part.active = codec.key == "enabled" or getattr(rule, "enabled", True)
+            part.prop(rule, codec.key)
+
+    @staticmethod
+    def _changed(column, name, label):
+        """Rules whose numbers are not Throng's own are not to be forgotten."""
+        operator = column.operator("wm.context_set_enum", text=f"Changed: {label}", icon="MODIFIER")
+        operator.data_path, operator.value = "scene.throng_layout.motion.shown", name
+
+
 class VIEW3D_PT_throng_bars(InSidebar, bpy.types.Panel):
     bl_label = "Expectations"
     bl_parent_id = "VIEW3D_PT_throng"
@@ -323,6 +356,7 @@ class VIEW3D_PT_throng_bake(InSidebar, bpy.types.Panel):
 
 
 CLASSES = (VIEW3D_PT_throng_layout, VIEW3D_PT_throng_bake, THRONG_UL_flows, THRONG_UL_events, VIEW3D_PT_throng_flows,
-           VIEW3D_PT_throng_events, VIEW3D_PT_throng_simulation, VIEW3D_PT_throng_bars)
+           VIEW3D_PT_throng_events, VIEW3D_PT_throng_simulation, VIEW3D_PT_throng_motion,
+           VIEW3D_PT_throng_bars)
 
 register, unregister = bpy.utils.register_classes_factory(CLASSES)

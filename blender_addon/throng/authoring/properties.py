@@ -228,7 +228,7 @@ class ThrongSimulation(bpy.types.PropertyGroup):
     """Filled from the table of the simulation's settings."""
 
 
-def _simulation_property(codec, label, least, most, description):
+def _setting(codec, label, least, most, description):
     if isinstance(codec, fields.Choice):
         return EnumProperty(name=label, items=[(word, word, "") for word in codec.words], default=codec.default,
                             description=description)
@@ -238,7 +238,25 @@ def _simulation_property(codec, label, least, most, description):
     return make(name=label, default=codec.default, soft_min=least, soft_max=most, description=description)
 
 
-ThrongSimulation.__annotations__ = {row[0].key: _simulation_property(*row) for row in fields.SIMULATION}
+ThrongSimulation.__annotations__ = {row[0].key: _setting(*row) for row in fields.SIMULATION}
+
+
+def _rule(name, rows):
+    """The numbers of one rule of motion."""
+    settings = {row[0].key: _setting(*row) for row in rows}
+    return type(f"ThrongRule_{name}", (bpy.types.PropertyGroup,), {"__annotations__": settings})
+
+
+_RULES = {name: _rule(name, rows) for name, _, _, rows in fields.MOTION}
+
+
+class ThrongMotion(bpy.types.PropertyGroup):
+    """A group of numbers for each rule, and which one is shown."""
+
+    shown: EnumProperty(name="Rule", items=[(name, label, about) for name, label, about, _ in fields.MOTION])
+
+
+ThrongMotion.__annotations__.update({name: PointerProperty(type=rule) for name, rule in _RULES.items()})
 
 
 class ThrongProblem(bpy.types.PropertyGroup):
@@ -260,6 +278,7 @@ class ThrongScene(bpy.types.PropertyGroup):
     origin: StringProperty(options={"HIDDEN"})  # [x, y] in doubles: what was taken off the layout's coordinates
     name: StringProperty(name="Name", description="Of the layout and its bakes; by default the .blend's")
     simulation: PointerProperty(type=ThrongSimulation)
+    motion: PointerProperty(type=ThrongMotion)
     flows: CollectionProperty(type=ThrongFlow)
     active_flow: IntProperty()
     events: CollectionProperty(type=ThrongEvent)
@@ -292,7 +311,8 @@ class ThrongScene(bpy.types.PropertyGroup):
 
 
 CLASSES = (ThrongDistribution, ThrongPeople, ThrongPlace, ThrongDestination, ThrongStop, ThrongFlow, ThrongMember,
-           ThrongEvent, ThrongBar, ThrongFormation, ThrongObject, ThrongSimulation, ThrongProblem, ThrongScene)
+           ThrongEvent, ThrongBar, ThrongFormation, ThrongObject, ThrongSimulation, *_RULES.values(), ThrongMotion,
+           ThrongProblem, ThrongScene)
 
 _register_classes, _unregister_classes = bpy.utils.register_classes_factory(CLASSES)
 

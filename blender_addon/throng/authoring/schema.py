@@ -68,4 +68,10 @@ def description_of(entry):
     return entry.get("description", "").removesuffix(".")
 
 
+def unit_of(entry):
+    """Of a number; empty where it has none."""
+    unit = entry.get("x-unit", "")
+    return "" if unit == "1" else unit
+
+
 LAYOUT = Schema(_read())

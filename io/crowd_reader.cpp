@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/crowd_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace throng::io {
+
+std::span<const float> CrowdFrame::operator[](Stream stream) const {
+    std::vector<float>& values = held_->values[stream];
+    if (values.empty()) {
+        std::vector<float> read(rows() * kComponents);
+        held_->streams[stream].readFrame(held_->index, read);
+        values = std::move(read);
+    }
+    return values;
+}
+
+CrowdReader::CrowdReader(Bake bake)
+    : bake_(std::move(bake)), streams_(bake_.folder, bake_.streams, bake_.frames, bake_.agents) {}
+
+CrowdFrame CrowdReader::frame(std::uint32_t index) {
+    if (index >= bake_.frames)
+        throw std::out_of_range(fmt::format("there is no frame {} in a bake of {}", index, bake_.frames));
+    const auto known = std::ranges::find(kept_, index, [](const auto& held) { return held->index; });
+    if (known != kept_.end()) {
+        std::rotate(known, known + 1, kept_.end());
+        return CrowdFrame(kept_.back());
+    }
+    if (kept_.size() >= most_kept_) kept_.erase(kept_.begin());
+    kept_.push_back(std::make_shared<CrowdFrame::Held>(CrowdFrame::Held{streams_, index, {}}));
+    return CrowdFrame(kept_.back());
+}
+
+const std::vector<AgentRow>& CrowdReader::people() {
+    if (!people_) people_ = loadAgentRows(bake_);
+    return *people_;
+}
+
+}  // namespace throng::io
