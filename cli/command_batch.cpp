@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <charconv>
 #include <memory>
 #include <sstream>
 
@@ -49,10 +50,12 @@ struct Shard {
 Shard shardOf(const std::string& text) {
     if (text.empty()) return {};
     Shard shard;
-    char more = 0;
-    if (std::sscanf(text.c_str(), "%zu/%zu%c", &shard.number, &shard.of, &more) == 2 && shard.of > 0 &&
-        shard.number < shard.of)
-        return shard;
+    const char* const end = text.data() + text.size();
+    const auto [slash, wrong] = std::from_chars(text.data(), end, shard.number);
+    if (wrong == std::errc() && slash != end && *slash == '/') {
+        const auto [last, also_wrong] = std::from_chars(slash + 1, end, shard.of);
+        if (also_wrong == std::errc() && last == end && shard.number < shard.of) return shard;
+    }
     throw CLI::ValidationError("--shard", fmt::format("expects I/N with I from 0 to N - 1, not `{}`", text));
 }
 

@@ -79,6 +79,7 @@ class Watch {
     Json overlaps() const {
         constexpr std::size_t kMost = 200;
         std::vector<std::pair<double, std::pair<std::uint64_t, std::uint32_t>>> worst;
+        worst.reserve(overlaps_.size());
         for (const auto& [pair, found] : overlaps_)
             worst.push_back({found.first, {pair, found.second}});
         std::sort(worst.begin(), worst.end(), [](const auto& a, const auto& b) {

@@ -23,6 +23,7 @@ std::vector<double> armAngles(const GeneratorValues& values) {
     constexpr double kMostShare = 0.25;  // of the even angle, so that two arms keep half of it between them
     const GroupRandom random(values.whole("seed"), "arms");
     std::vector<double> angles;
+    angles.reserve(arms);
     for (std::uint64_t arm = 0; arm < arms; ++arm)
         angles.push_back(even *
                          (static_cast<double>(arm) + kMostShare * values["irregularity"] *

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 namespace throng::authoring {
 namespace {
@@ -153,7 +154,7 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
             diagnostics_.error(where, fmt::format("the key `{}` is here for the second time", name),
                                "keep one of them");
         key_ = name;
-        key_where_ = where;
+        key_where_ = std::move(where);
         return true;
     }
     bool parse_error(std::size_t, const std::string& token,
@@ -189,7 +190,7 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
             }
         }
         node->kind = kind;
-        node->where = where;
+        node->where = std::move(where);
         return node;
     }
     bool numeric(double number, bool integral) {

@@ -62,7 +62,7 @@ class Worker {
     int output() const { return process_.output(); }
     void give(std::size_t index) {
         // A worker that is dead already is noticed when its output ends.
-        process_.write(fmt::format("{}\n", index));
+        (void)process_.write(fmt::format("{}\n", index));
         current = index;
         begun = Clock::now();
     }
