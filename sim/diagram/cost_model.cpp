@@ -8,9 +8,10 @@ namespace throng::sim {
 
 namespace {
 
-// What listing the pages that people look at takes, on two cores of a CPU.
-constexpr double kListingMs = 0.1;
+// What listing a page that somebody looks at takes, on two cores of a CPU.
 constexpr double kListedPageNs = 10.0;
+// Of what the gathering method takes at least: the rest is sorting, and people come sorted.
+constexpr double kGatheringShare = 0.25;
 
 /// Walls are worked out once, but for the methods that draw every site in every build.
 bool drawsFixedSites(DiagramMethod method) {
@@ -53,10 +54,10 @@ const MethodCost& CostModel::choose(const DiagramLoad& load, const MethodCost* p
 
 DiagramPlan CostModel::plan(const DiagramLoad& load, double look, const DiagramPlan& present) const {
     const DiagramLoad near = load.nearPeople(look);
-    const double listing = kListingMs + 1.0e-6 * kListedPageNs * load.sites * pagesLookedAt(look);
+    const double listing = 1.0e-6 * kListedPageNs * load.sites * pagesLookedAt(look);
     const auto milliseconds = [&](const DiagramPlan& plan) {
-        return plan.extent == Extent::everywhere ? plan.cost->milliseconds(load)
-                                                 : plan.cost->milliseconds(near) + listing;
+        if (plan.extent == Extent::everywhere) return plan.cost->milliseconds(load);
+        return plan.cost->milliseconds(near) - (1.0 - kGatheringShare) * plan.cost->base_ms + listing;
     };
     DiagramPlan best{&choose(load), Extent::everywhere};
     for (const MethodCost& candidate : costs) {
