@@ -26,17 +26,16 @@ const gl::Declaration kListPages = {"diagram",
 
 enum class Gathering { whole, near_people, pages };
 
-gl::Definitions definitionsFor(const DiagramSetup& setup, Gathering gathering) {
+gl::Definitions definitionsFor(const DiagramOptions& options, bool fixed_sites, Gathering gathering) {
     const bool paged = gathering == Gathering::pages;
-    gl::Definitions definitions = {{"BLOCK_WIDTH", fmt::format("{}u", setup.options.gather.block_width)},
-                                   {"BLOCK_HEIGHT", fmt::format("{}u", setup.options.gather.block_height)}};
-    if (!setup.fixed_sites.empty()) definitions.emplace_back(paged ? "FIXED_SITES" : "FIXED_LAYERS", "1");
+    gl::Definitions definitions = {{"BLOCK_WIDTH", fmt::format("{}u", options.gather.block_width)},
+                                   {"BLOCK_HEIGHT", fmt::format("{}u", options.gather.block_height)}};
+    if (fixed_sites) definitions.emplace_back(paged ? "FIXED_SITES" : "FIXED_LAYERS", "1");
     if (paged) definitions.emplace_back("PAGED", "1");
     if (gathering == Gathering::near_people) definitions.emplace_back("LISTED", "1");
     if (gathering == Gathering::whole) definitions.emplace_back("CLEARED_BEFORE", "1");
-    const bool lines_of_fours = paged || setup.options.width % 4 == 0;
-    if (lines_of_fours && setup.options.gather.block_width % 4 == 0)
-        definitions.emplace_back("STORE_BY_FOUR", "1");
+    const bool lines_of_fours = paged || options.width % 4 == 0;
+    if (lines_of_fours && options.gather.block_width % 4 == 0) definitions.emplace_back("STORE_BY_FOUR", "1");
     return definitions;
 }
 
@@ -46,6 +45,11 @@ std::uint64_t blocksAcross(std::uint32_t pixels, std::uint32_t block) {
 
 std::uint32_t blocksPerPage(const GatherShape& shape) {
     return (gpu::PAGE_SIDE / shape.block_width) * (gpu::PAGE_SIDE / shape.block_height);
+}
+
+/// Whose blocks one group of a pass works on.
+std::uint32_t pagesPerGroup(const GatherShape& shape) {
+    return std::max(1u, gpu::PIXEL_GROUP_SIZE / blocksPerPage(shape));
 }
 
 /// Pages that one binding of a storage block can show.
@@ -68,7 +72,9 @@ BinnedDiagram::BinnedDiagram(const DiagramSetup& setup, Pages* pages)
       fixed_sites_(setup.fixed_sites),
       blocks_(blocksAcross(setup.options.width, setup.options.gather.block_width) *
               blocksAcross(setup.options.height, setup.options.gather.block_height)),
-      gather_(setup.library, kGather, definitionsFor(setup, pages ? Gathering::pages : Gathering::whole)),
+      gather_(setup.library, kGather,
+              definitionsFor(setup.options, !setup.fixed_sites.empty(),
+                             pages ? Gathering::pages : Gathering::whole)),
       pages_(pages),
       owners_(setup.owners) {
     if (pages_) {
@@ -76,7 +82,6 @@ BinnedDiagram::BinnedDiagram(const DiagramSetup& setup, Pages* pages)
         return;
     }
     if (!fixed_sites_.empty()) fixed_ = &setup.fixed();
-    if (options_.look > 0.0f) setUpNear(setup);
 }
 
 void BinnedDiagram::setUpPages(const DiagramSetup& setup) {
@@ -95,68 +100,73 @@ void BinnedDiagram::setUpPages(const DiagramSetup& setup) {
     gather_.set("pages_per_line", pages_->perLine());
 }
 
-void BinnedDiagram::setUpNear(const DiagramSetup& setup) {
-    const auto across = [](std::uint32_t pixels) {
-        return static_cast<std::uint32_t>(blocksAcross(pixels, gpu::PAGE_SIDE));
-    };
-    const std::size_t pages = std::size_t{across(options_.width)} * across(options_.height);
-    const std::uint32_t pages_per_group =
-        std::max(1u, gpu::PIXEL_GROUP_SIZE / blocksPerPage(options_.gather));
-    constexpr std::size_t kMostGroups = 65535;  // on one axis
-    if (pages > kMostGroups * pages_per_group) return;
+bool BinnedDiagram::canBuildNear() const {
+    const std::uint64_t pages =
+        blocksAcross(options_.width, gpu::PAGE_SIDE) * blocksAcross(options_.height, gpu::PAGE_SIDE);
+    constexpr std::uint64_t kMostGroups = 65535;  // on one axis
+    return options_.look > 0.0f && pages <= kMostGroups * pagesPerGroup(options_.gather);
+}
+
+void BinnedDiagram::setUpNear() {
+    const auto across = static_cast<std::uint32_t>(blocksAcross(options_.width, gpu::PAGE_SIDE));
+    const std::size_t pages = across * blocksAcross(options_.height, gpu::PAGE_SIDE);
     near_.emplace();
     near_->stamps = gl::Buffer("diagram pages, last listed", {pages, 4, "page of the window"});
     near_->stamps.fill(0);
     near_->list = gl::Buffer("diagram pages looked at", {pages, 4, "page of the window"});
     near_->count = gl::Buffer("diagram pages looked at, count", 16);
     near_->none = gl::makeBuffer("no diagram pages", std::vector<std::uint32_t>{0, 1, 1, 0});
-    near_->list_pages = gl::ComputeProgram(setup.library, kListPages);
+    near_->list_pages = gl::ComputeProgram(library_, kListPages);
     near_->list_pages.bind("PageStamps", near_->stamps);
     near_->list_pages.set("diagram_size", glm::vec2(options_.width, options_.height));
     near_->list_pages.set("look", options_.look);
-    near_->list_pages.set("pages_per_group", pages_per_group);
-    near_->gather = gl::ComputeProgram(setup.library, kGather, definitionsFor(setup, Gathering::near_people));
+    near_->list_pages.set("pages_per_group", pagesPerGroup(options_.gather));
+    near_->gather = gl::ComputeProgram(
+        library_, kGather, definitionsFor(options_, !fixed_sites_.empty(), Gathering::near_people));
     for (gl::ComputeProgram* program : {&near_->list_pages, &near_->gather}) {
         program->bind("PageList", near_->list);
         program->bind("PageCount", near_->count);
-        program->set("pages_per_line", across(options_.width));
+        program->set("pages_per_line", across);
     }
+    connectNear();
 }
 
 void BinnedDiagram::connect(const DiagramInput& input) {
-    live_dispatch_ = input.live_dispatch;
+    input_ = input;
     if (pages_) pages_->connect(*input.sites, *input.live_dispatch);
     const float radius = std::max(1.0f, options_.largest_radius);
     const bool sorted = input.sorted && input.sorted->grid.side <= kMostBinRadii * radius;
-    const BinGrid grid =
+    grid_ =
         sorted ? input.sorted->grid
                : BinGrid(options_.width, options_.height, std::max(1.0f, options_.gather.bin_radii * radius));
     bins_.reset();
     if (sorted) {
         sorted_sites_ = gl::WordTexture(*input.sites, gl::WordTexture::Texel::four_words);
     } else {
-        bins_.emplace(library_, grid, options_.live_capacity);
+        bins_.emplace(library_, *grid_, options_.live_capacity);
         bins_->connect(*input.sites, *input.live_dispatch);
         // All its bins start where they say, whatever the strip.
         no_strips_ = gl::makeBuffer(
-            "no strips", std::vector<std::uint32_t>(grid.count() / gpu::CELLS_PER_STRIP + 1), "strip");
+            "no strips", std::vector<std::uint32_t>(grid_->count() / gpu::CELLS_PER_STRIP + 1), "strip");
     }
-    if (pages_ && !fixed_sites_.empty()) fixed_bins_.emplace(library_, grid, fixed_sites_);
-    connectGather(gather_, input, grid);
-    if (!near_) return;
-    connectGather(near_->gather, input, grid);
-    near_->list_pages.bind("Sites", *input.sites);
-    near_->list_pages.bind("LiveDispatch", *input.live_dispatch);
+    if (pages_ && !fixed_sites_.empty()) fixed_bins_.emplace(library_, *grid_, fixed_sites_);
+    connectGather(gather_);
+    if (near_) connectNear();
 }
 
-void BinnedDiagram::connectGather(gl::ComputeProgram& gather, const DiagramInput& input,
-                                  const BinGrid& grid) {
+void BinnedDiagram::connectNear() {
+    connectGather(near_->gather);
+    near_->list_pages.bind("Sites", *input_.sites);
+    near_->list_pages.bind("LiveDispatch", *input_.live_dispatch);
+}
+
+void BinnedDiagram::connectGather(gl::ComputeProgram& gather) {
     gather.set("largest_radius", options_.largest_radius);
     gather.bind("Owners", owners_);
     if (!pages_) gather.set("diagram_size", glm::vec2(options_.width, options_.height));
-    grid.describeTo(gather);
-    gather.bind("StripStarts", bins_ ? no_strips_ : *input.sorted->strip_starts);
-    gather.bind("CellOffsets", bins_ ? bins_->starts() : *input.sorted->starts);
+    grid_->describeTo(gather);
+    gather.bind("StripStarts", bins_ ? no_strips_ : *input_.sorted->strip_starts);
+    gather.bind("CellOffsets", bins_ ? bins_->starts() : *input_.sorted->starts);
     gather.bind("binned_sites", bins_ ? bins_->sites() : sorted_sites_);
     if (fixed_bins_) {
         gather.bind("FixedBinStarts", fixed_bins_->starts());
@@ -172,7 +182,7 @@ void BinnedDiagram::build(Extent extent) {
     if (bins_) bins_->sort();
     if (pages_) {
         buildPages(extent);
-    } else if (near_ && extent == Extent::near_people) {
+    } else if (extent == Extent::near_people && canBuildNear()) {
         buildNear();
     } else {
         // Blocks out of reach of all that move are not even written.
@@ -185,9 +195,10 @@ void BinnedDiagram::build(Extent extent) {
 }
 
 void BinnedDiagram::buildNear() {
+    if (!near_) setUpNear();
     near_->count.copyFrom(near_->none);
     near_->list_pages.set("stamp", ++near_->stamp);
-    near_->list_pages.dispatchIndirect(*live_dispatch_);
+    near_->list_pages.dispatchIndirect(*input_.live_dispatch);
     near_->gather.dispatchIndirect(near_->count);
 }
 

@@ -76,8 +76,10 @@ class BinnedDiagram final : public Diagram::Implementation {
         std::uint32_t stamp = 0;
     };
     void setUpPages(const DiagramSetup& setup);
-    void setUpNear(const DiagramSetup& setup);
-    void connectGather(gl::ComputeProgram& gather, const DiagramInput& input, const BinGrid& grid);
+    bool canBuildNear() const;
+    void setUpNear();
+    void connectNear();
+    void connectGather(gl::ComputeProgram& gather);
     void buildPages(Extent extent);
     void buildNear();
 
@@ -90,8 +92,9 @@ class BinnedDiagram final : public Diagram::Implementation {
     std::optional<FixedBins> fixed_bins_;
     std::uint64_t blocks_;
     gl::ComputeProgram gather_;
-    std::optional<Near> near_;  // where somebody looks at the picture
-    const gl::Buffer* live_dispatch_ = nullptr;
+    std::optional<Near> near_;  // made at the first asking
+    DiagramInput input_;
+    std::optional<BinGrid> grid_;
 
     Pages* pages_;
     gl::Buffer& owners_;
