@@ -166,6 +166,7 @@ def test_walls_out_of_reach_cost_a_step_little(throng, tmp_path, manifest_of):
     assert digest(tmp_path / "auto") == digest(tmp_path / "per-site")
 
 
+@pytest.mark.slow
 def test_comparing_all_pixels_with_all_walls_can_be_stopped_within_a_step(throng, tmp_path):
     # One step takes tens of seconds.
     layout = write(tmp_path / "obstacles.json", obstacles(44, 6.7))
@@ -182,16 +183,17 @@ def test_comparing_all_pixels_with_all_walls_can_be_stopped_within_a_step(throng
     assert bake.returncode == 85 and "--resume" in said
 
 
+@pytest.mark.slow
 def test_a_bake_that_was_stopped_within_a_step_goes_on_to_the_same_bytes(throng, tmp_path):
-    # A few seconds a step: the checkpoint is of the last whole frame.
-    layout = write(tmp_path / "obstacles.json", obstacles(16, 6.7))
-    options = ["-q", "--no-gltf", "--set", "simulation.duration=0.2"]
+    # A second or so a step: the checkpoint is of the last whole frame.
+    layout = write(tmp_path / "obstacles.json", obstacles(12, 6.7))
+    options = ["-q", "--no-gltf", "--set", "simulation.duration=0.15"]
     bake = subprocess.Popen([throng.binary, "bake", layout, "-o", tmp_path / "stopped", *options,
                              "--method", "per-pixel"], stderr=subprocess.PIPE, text=True)
     while not (tmp_path / "stopped.unfinished").exists():
         assert bake.poll() is None
         time.sleep(0.05)
-    time.sleep(2.0)
+    time.sleep(1.5)
     bake.send_signal(signal.SIGTERM)
     bake.communicate(timeout=100)
     assert bake.returncode == 85
