@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/wide_site.h"
+
 namespace throng::recording {
 namespace {
 
@@ -28,6 +30,8 @@ std::vector<authoring::Wall> localWalls(const BakeDescription& description) {
 
 MotionRecorder::MotionRecorder(const BakeDescription& description, Sink sink)
     : fps_(description.fps),
+      wide_(isWideSite(description.minimum - description.scene_origin,
+                       description.maximum - description.scene_origin)),
       sink_(std::move(sink)),
       window_(description.smoothing, description.fps),
       apart_(localWalls(description), description.minimum - description.scene_origin,
@@ -112,8 +116,9 @@ void MotionRecorder::record(const KeptFrame& frame) {
         }
         const glm::vec2 moved = walker.walks ? place - walker.place : glm::vec2(0.0f);
         if (walker.walks) {
-            const double way = glm::distance(glm::dvec2(walker.place), glm::dvec2(place));
-            if (window_.reach() > 0) directions_[at + 2] = static_cast<float>(way * fps_);
+            const double way = wide_ ? directions_[at + 2] / fps_
+                                     : glm::distance(glm::dvec2(walker.place), glm::dvec2(place));
+            if (window_.reach() > 0 && !wide_) directions_[at + 2] = static_cast<float>(way * fps_);
             walker.gait.advance(way, way * fps_);
         } else {
             walker.gait = {states_[at + 2], gaitFor(speeds_[row])};

@@ -49,6 +49,7 @@ class MotionRecorder {
     void putStance(std::size_t at, const Stance& stance);
 
     double fps_;
+    bool wide_;  ///< places are too coarse for speeds: these follow from the velocities
     std::vector<float> radii_, speeds_;  ///< by row: m; preferred, m/s
     Sink sink_;
     FrameWindow window_;

@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 #include <stdexcept>
 
+#include "base/wide_site.h"
 #include "sim/wall_index.h"
 
 namespace throng::sim {
@@ -113,6 +114,7 @@ gpu::Parameters makeParameters(const authoring::Scene& scene) {
     parameters.detour_cell = scene.detours.grid.cell_size;
     parameters.detour_width = scene.detours.grid.width;
     parameters.detour_height = scene.detours.grid.height;
+    parameters.is_wide = isWideSite(scene.minimum, scene.maximum) ? 1 : 0;
     parameters.has_roads = scene.road_distance.empty() ? 0 : 1;
     return parameters;
 }
@@ -200,6 +202,7 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
     touch_dispatch = gl::Buffer("touch dispatch", kWord * 4);
     preferred_velocities = gl::Buffer("preferred velocities", {rows, sizeof(glm::vec2), kPerson});
     paces = gl::Buffer("paces", {rows, sizeof(float), kPerson});
+    ways = gl::Buffer("ways", {rows, sizeof(glm::vec2), kPerson});
     targets = gl::Buffer("targets", {rows, sizeof(glm::vec2), kPerson});
     targets_after = gl::Buffer("targets after contact", {rows, sizeof(glm::vec2), kPerson});
     queue_heads.fill(0);
@@ -261,6 +264,7 @@ std::vector<std::pair<std::string, const gl::Buffer*>> Buffers::named() const {
             {"TouchDispatch", &touch_dispatch},
             {"PreferredVelocities", &preferred_velocities},
             {"Paces", &paces},
+            {"Ways", &ways},
             {"Targets", &targets},
             {"TargetsAfter", &targets_after}};
 }

@@ -123,7 +123,7 @@ FramePump::~FramePump() {
         if (slot.fence) glDeleteSync(slot.fence);
 }
 
-void FramePump::submit(std::uint32_t index, bool with_diagram) {
+bool FramePump::submit(std::uint32_t index, bool with_diagram) {
     State& state = *state_;
     Slot& slot = state.slots[state.next];
     state.next = (state.next + 1) % kSlots;
@@ -139,7 +139,11 @@ void FramePump::submit(std::uint32_t index, bool with_diagram) {
     slot.has_diagram = with_diagram;
     state.simulation.packFrame(slot.frame);
     state.packStreams(slot, false);
-    if (with_diagram || state.asksForDiagram()) state.simulation.buildDiagramNow();
+    const Extent extent = with_diagram ? Extent::everywhere : Extent::near_people;
+    if ((with_diagram || state.asksForDiagram()) && !state.simulation.buildDiagramNow(extent)) {
+        state.next = (state.next + kSlots - 1) % kSlots;
+        return false;
+    }
     state.packStreams(slot, true);
     if (with_diagram) {
         Diagram& diagram = state.simulation.diagram();
@@ -155,6 +159,7 @@ void FramePump::submit(std::uint32_t index, bool with_diagram) {
     }
     state.in_flight.push_back(&slot);
     state.handOver(false);
+    return true;
 }
 
 void FramePump::finish() {

@@ -32,7 +32,8 @@ class FramePump {
     ~FramePump();
 
     /// Captures the present state as frame `index`. Waits only when all buffers are still being read.
-    void submit(std::uint32_t index, bool with_diagram);
+    /// @returns false where its diagram was stopped: there is no such frame then
+    bool submit(std::uint32_t index, bool with_diagram);
     /// Waits until the receiver has had every frame.
     void finish();
 

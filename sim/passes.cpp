@@ -32,7 +32,7 @@ const gl::Declaration kAvoid = {
     {"shaders/motion/avoid.comp"},
     {"ParametersBlock", "LiveDispatch", "States", "Bodies", "Walkers", "PreferredVelocities", "Neighbours",
      "NeighbourCounts", "TouchWords", "WallSegments", "WallStarts", "WallItems", "RoadDistances"},
-    {"Targets", "TargetsAfter", "Paces"}};
+    {"Targets", "TargetsAfter", "Paces", "Ways"}};
 const gl::Declaration kContact = {
     "contacts",
     {"shaders/motion/contact.comp"},
@@ -43,7 +43,7 @@ const gl::Declaration kContact = {
 const gl::Declaration kMove = {"motion",
                                {"shaders/motion/move.comp"},
                                {"ParametersBlock", "LiveDispatch", "People", "Bodies", "Walkers",
-                                "PreferredVelocities", "Paces", "Targets", "Stages", "field_cells",
+                                "PreferredVelocities", "Paces", "Ways", "Targets", "Stages", "field_cells",
                                 "DetourSlopes", "PlanChanges", "WaitingLines", "LinePoints", "States"},
                                {"WaitingLines", "States"}};
 

@@ -69,19 +69,27 @@ std::uint32_t warmupSteps(const authoring::SimulationSettings& settings) {
 Simulation::Simulation(const authoring::Scene& scene, const gl::ShaderLibrary& library,
                        const CostModel& costs)
     : parts_(std::make_unique<Parts>(scene, library, costs)) {
-    const gpu::Parameters& parameters = parts_->parameters;
-    parts_->load.radius =
-        double{std::max(parameters.tile_radius, parameters.largest_radius)} * parameters.pixels_per_metre;
-    parts_->load.pixels = static_cast<double>(parameters.diagram_width) * parameters.diagram_height;
     adaptTo(presentAtStart(scene));
 }
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 
-void Simulation::step() {
+bool Simulation::step() {
+    parts_->stopped = false;
     parts_->beginStep();
-    for (const Pass& pass : parts_->passes)
+    for (const Pass& pass : parts_->passes) {
         pass.run();
+        if (parts_->stopped) return false;
+    }
+    return true;
+}
+
+void Simulation::stopWhen(std::function<bool()> stop) {
+    parts_->diagram.stopWhen(std::move(stop));
+}
+
+bool Simulation::canStopWithinStep() const {
+    return parts_->diagram.buildsInPieces();
 }
 
 namespace {
@@ -121,12 +129,18 @@ void Simulation::restore(const State& state) {
 
 void Simulation::adaptTo(std::uint32_t people_present) {
     Parts& p = *parts_;
-    if (p.settings.method != DiagramMethod::automatic || p.diagram.paged()) return;
-    p.load.sites = static_cast<double>(people_present) + p.fixed_sites;
-    const MethodCost& best = p.costs.choose(p.load, p.chosen);
-    if (&best == p.chosen) return;
-    p.chosen = &best;
-    p.diagram.use(best.method, best.gather);
+    p.load.sites = people_present;
+    if (p.diagram.paged() || p.settings.method == DiagramMethod::binned) {
+        const bool listed = p.diagram.paged() || isWorthListing(p.load, p.look);
+        p.extent = listed ? Extent::near_people : Extent::everywhere;
+        return;
+    }
+    if (p.settings.method != DiagramMethod::automatic) return;
+    const DiagramPlan best = p.costs.plan(p.load, p.look, p.chosen);
+    if (best == p.chosen) return;
+    p.chosen = best;
+    p.extent = best.extent;
+    p.diagram.use(best.cost->method, best.cost->gather);
 }
 
 DiagramMethod Simulation::diagramMethod() const {
@@ -170,10 +184,9 @@ void Simulation::packFrame(const gl::Buffer& buffer) {
     parts_->pack.dispatch(parts_->rows);
 }
 
-Diagram& Simulation::buildDiagramNow() {
+bool Simulation::buildDiagramNow(Extent extent) {
     parts_->cells.run(CellSort::SiteIds::rows);
-    parts_->diagram.build();
-    return parts_->diagram;
+    return parts_->diagram.build(extent);
 }
 
 Diagram& Simulation::diagram() {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -37,7 +38,11 @@ class Simulation {
     Simulation(Simulation&&) noexcept;
 
     /// Advances by 1 / (fps * substeps) seconds.
-    void step();
+    /// @returns false where it was stopped in its middle: nothing but an earlier state is then of use
+    bool step();
+    /// @param stop tells whether to stop: asked within steps, too, where one of them takes long
+    void stopWhen(std::function<bool()> stop);
+    bool canStopWithinStep() const;
     std::uint32_t stepsDone() const;
     /// Where the layout leaves the diagram's method open: the best one for so many people from here on. All
     /// that it chooses from give the same diagram, so it matters to nothing but speed.
@@ -46,7 +51,7 @@ class Simulation {
     bool diagramIsPaged() const;
 
     /// Waits for the device. Another simulation of the same scene on the same driver that is given this state
-    /// goes on to the very same bytes.
+    /// goes on to the very same bytes. An earlier state of a simulation's own is for saving again only.
     State save() const;
     /// @throws std::runtime_error for the state of another scene
     void restore(const State& state);
@@ -59,7 +64,8 @@ class Simulation {
     std::size_t frameBytes() const;
 
     /// Brings the diagram up to the present positions; the next step builds its own.
-    Diagram& buildDiagramNow();
+    /// @returns false where that was stopped
+    bool buildDiagramNow(Extent extent = Extent::everywhere);
     Diagram& diagram();
     /// Puts a stream from the device into `buffer`, three floats a row. Some streams are of the last step and
     /// have to be packed before buildDiagramNow(), others need it: see StreamInfo::needs_diagram.

@@ -41,6 +41,13 @@ bool isBestPaged(const DiagramOptions& options, std::size_t wall_sites) {
     return paged_pixels < 0.25 * pixels;
 }
 
+/// How far people look at the diagram, px: as far as their rays go, and themselves.
+float lookOf(const authoring::Scene& scene, const gpu::Parameters& parameters) {
+    const float tile = std::max(parameters.tile_radius, scene.largest_radius);
+    const float reach = sensingReach(sensingFor(scene, parameters).geometry);
+    return std::max(reach, tile) * parameters.pixels_per_metre;
+}
+
 Diagram diagramFor(const authoring::Scene& scene, const gpu::Parameters& parameters,
                    const gl::ShaderLibrary& library) {
     DiagramOptions options;
@@ -52,6 +59,7 @@ Diagram diagramFor(const authoring::Scene& scene, const gpu::Parameters& paramet
     options.live_capacity = parameters.row_count;
     options.largest_radius =
         std::max(parameters.tile_radius, scene.largest_radius) * parameters.pixels_per_metre;
+    options.look = lookOf(scene, parameters);
     options.paged = isBestPaged(options, scene.wall_tiles.size());
     return Diagram(library, options, wallSites(scene, parameters));
 }
@@ -78,7 +86,7 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
       gates(scene, buffers, diagram, parameters),
       pack(buffers.connect(library, kPack)),
       costs(cost_model),
-      fixed_sites(static_cast<std::uint32_t>(scene.wall_tiles.size())),
+      look(double{lookOf(scene, parameters)}),
       rows(parameters.row_count),
       passes(passesOfStep()) {
     // Slots are in the order of the cells, and cells and diagram have one origin.
@@ -86,6 +94,10 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
                             {parameters.cells_width, parameters.cells_height});
     diagram.connect({&buffers.sites, &buffers.live_dispatch, &buffers.site_slots,
                      DiagramInput::Sorted{&buffers.strip_starts, &buffers.cell_offsets, cell_grid}});
+    load.radius =
+        double{std::max(parameters.tile_radius, parameters.largest_radius)} * parameters.pixels_per_metre;
+    load.pixels = static_cast<double>(parameters.diagram_width) * parameters.diagram_height;
+    load.fixed_sites = static_cast<double>(scene.wall_tiles.size());
     anybody_enters_later = std::any_of(
         scene.people.begin(), scene.people.end(),
         [](const gpu::Person& person) { return (person.flags & gpu::PERSON_PRESENT_AT_START) == 0; });
@@ -96,7 +108,7 @@ std::vector<Pass> Simulation::Parts::passesOfStep() {
         if (anybody_enters_later) spawner.run(step_start, steps_done);
     };
     const auto build = [this] {
-        if (sensing.needsDiagram()) diagram.build();
+        if (sensing.needsDiagram()) stopped = !diagram.build(extent);
     };
     const auto move = [this] {
         motion.run(steps_done);

@@ -48,8 +48,10 @@ struct Simulation::Parts {
 
     CostModel costs;
     DiagramLoad load;                    // of the present population
-    std::uint32_t fixed_sites = 0;       // of the diagram
-    const MethodCost* chosen = nullptr;  // among costs, where the layout leaves it open
+    double look = 0.0;                   // px: how far people look at the diagram
+    DiagramPlan chosen;                  // among costs, where the layout leaves it open
+    Extent extent = Extent::everywhere;  // of the diagram that people sense with
+    bool stopped = false;                // a step was, in its middle
 
     std::uint32_t rows = 0;
     std::uint32_t steps_done = 0;

@@ -96,17 +96,15 @@ class Run {
     /// @returns the signal that stopped it early, or 0
     int simulate(const InterruptGuard& interrupt, Progress& progress) {
         start_ = last_checkpoint_ = Clock::now();
+        simulation_.stopWhen([&] { return interrupt.signal() != 0; });
         for (std::uint32_t step = simulation_.stepsDone(); step < warmup_ && !interrupt.signal(); ++step) {
-            simulation_.step();
+            if (!simulation_.step()) break;
             if (step % substeps_ != 0) continue;
             simulation_.wait();
             progress.update(0, 0, simulation_.stepsDone());
         }
         for (std::uint32_t frame = recorder_.framesTaken(); frame < frames_ && !interrupt.signal(); ++frame) {
-            if (frame > 0)
-                for (std::uint32_t step = 0; step < substeps_; ++step)
-                    simulation_.step();
-            pump_.submit(frame, job_.diagram_every > 0 && frame % job_.diagram_every == 0);
+            if (!makeFrame(frame)) break;
             simulation_.adaptTo(present_);
             progress.update(frame + 1, present_, simulation_.stepsDone());
             if (job_.checkpoint_seconds > 0.0 && frame + 1 < frames_ &&
@@ -141,6 +139,20 @@ class Run {
     double seconds() const { return seconds_before_ + secondsSince(start_); }
 
   private:
+    /// @returns false where it was stopped; what there is to save is then the frame before
+    bool makeFrame(std::uint32_t frame) {
+        std::optional<sim::Simulation::State> before;
+        if (simulation_.canStopWithinStep()) before = simulation_.save();
+        const auto make = [&] {
+            for (std::uint32_t step = 0; frame > 0 && step < substeps_; ++step)
+                if (!simulation_.step()) return false;
+            return pump_.submit(frame, job_.diagram_every > 0 && frame % job_.diagram_every == 0);
+        };
+        const bool made = make();
+        if (!made && before) simulation_.restore(*before);
+        return made;
+    }
+
     void receive(const Frame& frame) {
         std::uint32_t alive = 0;
         const std::span<const float> states = frame[Stream::state];

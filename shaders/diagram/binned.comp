@@ -10,7 +10,9 @@
 // large ones save loads; small bins bring fewer candidates that cannot reach, but more lines to look up. The best sizes
 // depend on the device and the density, and are chosen by measurement (sim/benchmarks/calibration.h).
 //
-// With PAGED, blocks are those of the pages in the list of this build (sim/diagram/pages.h).
+// With PAGED, blocks are those of the pages in the list of this build (sim/diagram/pages.h); with LISTED, too, but the
+// owners are one picture, and what lies outside the listed pages stays as it is. Sites that never move are offered like
+// the others (FIXED_SITES), or their diagram has been worked out before (FIXED_LAYERS).
 #include "shaders/shared/simulation_types.h"
 
 layout(local_size_x = PIXEL_GROUP_SIZE) in;
@@ -21,17 +23,24 @@ layout(std430) writeonly buffer Owners { uint owners[]; };
 #endif
 uniform usamplerBuffer binned_sites;  // a DiagramSite each, as bits
 uniform float largest_radius;  // px
-#ifdef PAGED
+#if defined(PAGED) || defined(LISTED)
 layout(std430) readonly buffer PageList { uint page_list[]; };
-layout(std430) readonly buffer PageCount { uint page_count; };
-uniform uint first_page;  // of the range that Owners shows
+layout(std430) readonly buffer PageCount { uint page_groups[3]; uint page_count; };
 uniform uint pages_per_line;
+#endif
+#ifdef PAGED
+uniform uint first_page;  // of the range that Owners shows
 #else
 uniform vec2 diagram_size;  // whole pixels
 #endif
 #ifdef FIXED_SITES
 layout(std430) readonly buffer FixedBinStarts { uint fixed_bin_starts[]; };
 uniform usamplerBuffer fixed_binned_sites;
+#endif
+
+#ifdef FIXED_LAYERS
+layout(std430) readonly buffer FixedOwners { uint fixed_owners[]; };
+layout(std430) readonly buffer FixedDistances { uint fixed_distances[]; };  // float bits
 #endif
 
 #include "shaders/diagram/bins.glsl"
@@ -45,23 +54,31 @@ uint nearest_id[BLOCK_PIXELS];
 /// Where this invocation's block is; false where there is none.
 bool placeBlock(out uvec2 corner, out uint first_word, out uint words_per_line, out uint words_in_line) {
     uint block = flatIndex();
-#ifdef PAGED
+#if defined(PAGED) || defined(LISTED)
     const uint blocks_per_line = PAGE_SIDE / BLOCK_WIDTH;
     const uint blocks_per_page = blocks_per_line * (PAGE_SIDE / BLOCK_HEIGHT);
-    uint page = first_page + block / blocks_per_page;
-    if (page == 0u || page >= page_count) return false;  // page 0 stays empty
+    uint page = block / blocks_per_page;
+#ifdef PAGED
+    page += first_page;
+    if (page == 0u) return false;  // stays empty
+#endif
+    if (page >= page_count) return false;
     block %= blocks_per_page;
     uvec2 within = uvec2(block % blocks_per_line, block / blocks_per_line) * uvec2(BLOCK_WIDTH, BLOCK_HEIGHT);
     uint number = page_list[page];
     corner = uvec2(number % pages_per_line, number / pages_per_line) * PAGE_SIDE + within;
+#endif
+#ifdef PAGED
     first_word = (page - first_page) * PAGE_SIDE * PAGE_SIDE + within.y * PAGE_SIDE + within.x;
     words_per_line = PAGE_SIDE;
     words_in_line = 0xffffffffu;  // pages go on beyond the edge of the window
     return true;
 #else
     uint width = uint(diagram_size.x);
+#ifndef LISTED
     uint blocks_per_line = (width + BLOCK_WIDTH - 1u) / BLOCK_WIDTH;
     corner = uvec2(block % blocks_per_line, block / blocks_per_line) * uvec2(BLOCK_WIDTH, BLOCK_HEIGHT);
+#endif
     first_word = corner.y * width + corner.x;
     words_per_line = width;
     words_in_line = width;
@@ -91,6 +108,15 @@ void offer(vec2 corner, uvec4 words) {
             nearest_id[pixel] = wins ? id : nearest_id[pixel];
         }
     }
+}
+
+/// The owner, once all that move have been offered. Ids of fixed sites are above all others: they lose ties.
+uint ownerOf(uint pixel, uint word) {
+#ifdef FIXED_LAYERS
+    uint id = fixed_owners[word];
+    if (id != NO_INDEX && uintBitsToFloat(fixed_distances[word]) < nearest[pixel]) return id;
+#endif
+    return nearest_id[pixel];
 }
 
 void main() {
@@ -134,12 +160,13 @@ void main() {
 #ifdef STORE_BY_FOUR
         for (uint x = 0u; x < BLOCK_WIDTH; x += 4u) {
             if (block_corner.x + x >= words_in_line) break;
-            owners[(word + x) / 4u] = uvec4(nearest_id[pixel + x], nearest_id[pixel + x + 1u],
-                                            nearest_id[pixel + x + 2u], nearest_id[pixel + x + 3u]);
+            owners[(word + x) / 4u] =
+                uvec4(ownerOf(pixel + x, word + x), ownerOf(pixel + x + 1u, word + x + 1u),
+                      ownerOf(pixel + x + 2u, word + x + 2u), ownerOf(pixel + x + 3u, word + x + 3u));
         }
 #else
         for (uint x = 0u; x < BLOCK_WIDTH; ++x)
-            if (block_corner.x + x < words_in_line) owners[word + x] = nearest_id[pixel + x];
+            if (block_corner.x + x < words_in_line) owners[word + x] = ownerOf(pixel + x, word + x);
 #endif
     }
 }

@@ -3,7 +3,7 @@
 #include "shaders/shared/simulation_types.h"
 
 layout(local_size_x = 1) in;
-layout(std430) readonly buffer PageCount { uint page_count; };
+layout(std430) readonly buffer PageCount { uint listed_groups[3]; uint page_count; };
 layout(std430) writeonly buffer PageDispatch { uint page_groups[]; };  // three words a range
 uniform uint ranges;
 uniform uint pages_per_range;

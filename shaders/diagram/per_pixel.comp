@@ -7,6 +7,7 @@ layout(std430) readonly buffer LiveDispatch { uint live_groups[3]; uint live_cou
 layout(std430) writeonly buffer Owners { uint owners[]; };
 uniform usamplerBuffer sites;  // a DiagramSite each, as bits
 uniform uvec2 diagram_size;
+uniform uint first_pixel;  // of this piece
 uniform uint fixed_first;
 uniform uint fixed_end;
 
@@ -26,7 +27,7 @@ void compare(ivec2 pixel, uint index) {
 }
 
 void main() {
-    uint index = flatIndex();
+    uint index = first_pixel + flatIndex();
     if (index >= diagram_size.x * diagram_size.y) return;
     ivec2 pixel = ivec2(index % diagram_size.x, index / diagram_size.x);
     for (uint i = 0u; i < live_count; ++i) compare(pixel, i);

@@ -20,6 +20,7 @@ layout(std430) readonly buffer WallItems { uint wall_items[]; };
 layout(std430) readonly buffer RoadDistances { float road_distances[]; };
 layout(std430) writeonly buffer Targets { vec2 targets[]; };  // where each person will be unless bodies touch
 layout(std430) writeonly buffer TargetsAfter { vec2 targets_after[]; };  // the same, for those whom contact passes over
+layout(std430) writeonly buffer Ways { vec2 ways[]; };  // m: what is meant to be added to places; on wide sites
 layout(std430) writeonly buffer Paces { float paces[]; };  // m/s: how fast each person wants to walk behind others
 uniform uint slot_capacity;
 
@@ -37,6 +38,7 @@ uniform uint slot_capacity;
 #include "shaders/motion/company.glsl"
 #include "shaders/motion/under_way.glsl"
 #include "shaders/motion/planted_feet.glsl"
+#include "shaders/motion/wide_site.glsl"
 
 void main() {
     uint slot = gl_GlobalInvocationID.x;
@@ -69,6 +71,11 @@ void main() {
     vec2 velocity = nearestAllowed(hard, count, self.maximum_speed, wanted);
     velocity = limitChange(legs, velocity, parameters.maximum_acceleration * parameters.step_seconds);
     vec2 target = self.position + velocity * parameters.step_seconds;
+    if (parameters.is_wide != 0u) {
+        vec2 way = velocity * parameters.step_seconds + states[self.row].rest;
+        ways[slot] = way;
+        target = placeAfter(self.position, way);
+    }
     targets[slot] = target;
     targets_after[slot] = target;
 }

@@ -10,6 +10,7 @@ layout(std430) readonly buffer Bodies { Body bodies[]; };
 layout(std430) readonly buffer Walkers { Walker walkers[]; };
 layout(std430) readonly buffer PreferredVelocities { vec2 preferred_velocities[]; };
 layout(std430) readonly buffer Paces { float paces[]; };
+layout(std430) readonly buffer Ways { vec2 ways[]; };
 layout(std430) readonly buffer Targets { vec2 targets[]; };
 layout(std430) readonly buffer Stages { Stage stages[]; };
 uniform usamplerBuffer field_cells;  // FieldCell
@@ -26,6 +27,7 @@ uniform uint steps_done;  // counted with this one
 #include "shaders/motion/impatience.glsl"
 #include "shaders/motion/turning.glsl"
 #include "shaders/motion/plans.glsl"
+#include "shaders/motion/wide_site.glsl"
 
 void main() {
     uint slot = gl_GlobalInvocationID.x;
@@ -35,8 +37,9 @@ void main() {
     Stage stage = stageOf(state.stage, state.ticket);
 
     vec2 moved = targets[slot] - self.position;
-    float distance_moved = length(moved);
     state.position = targets[slot];
+    if (parameters.is_wide != 0u) moved = goFinely(state, self.position, ways[slot], targets[slot]);
+    float distance_moved = length(moved);
     state.velocity = moved / parameters.step_seconds;
     float speed = length(state.velocity);
     // A push may be faster than legs are; the next step does not build on it.
@@ -44,7 +47,10 @@ void main() {
     float held_up = heldUp(preferred_velocities[slot], paces[slot], state.velocity);
     state.nervousness = grownNervous(state.nervousness, held_up, parameters.step_seconds);
     state.heading = turned(state, stage, walkers[slot], preferred_velocities[slot], speed);
-    state.walked += distance_moved;
+    if (parameters.is_wide != 0u)
+        addFinely(state.walked, state.walked_rest, distance_moved);
+    else
+        state.walked += distance_moved;
     if (state.shortest_way <= 0.0) state.shortest_way = routeAhead(stage, self.position).remaining + stage.beyond;
     if (changePlans(state, walkers[slot].change_count, self.row)) {
         stage = stageOf(state.stage, state.ticket);

@@ -60,7 +60,8 @@ struct AgentState {
     uint attempts;       // how often it asked for room at its entry
     float nervousness;   // 0 to 1: how much it has been held up lately
     float shortest_way;  // m from where it began to its goal, round walls; 0 = not known yet
-    uint reserved;
+    float walked_rest;   // m that rounding has dropped from `walked`; wide sites only, as the next
+    vec2 rest;           // m that rounding has dropped from the position
 };
 
 /// A person in the scene, in the order of the cells ("slot") so that neighbours lie together in memory.
@@ -148,6 +149,7 @@ struct Parameters {
     float
         contact_slack;  // m: two people further apart than their radii and this cannot touch within one step
     float maximum_acceleration;  // m/s^2
+    uint is_wide;                // 1 = places are too coarse for steps (base/wide_site.h)
 };
 
 THRONG_SHARED_END

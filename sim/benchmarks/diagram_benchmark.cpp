@@ -97,12 +97,18 @@ std::vector<std::optional<DiagramTiming>> DiagramBenchmark::run(
         std::unique_ptr<Diagram> diagram;
         std::unique_ptr<gl::Buffer> owners;
         std::unique_ptr<GradientDiagram> yardstick;  // instead of a diagram
+        std::unique_ptr<LongWork> long_work = std::make_unique<LongWork>();
         std::vector<double> times;
         DiagramTiming timing;
         bool once = false;
 
         bool present() const { return diagram || yardstick; }
-        void build() { diagram ? diagram->build() : yardstick->draw(); }
+        void build() {
+            if (diagram)
+                diagram->build();
+            else
+                yardstick->draw();
+        }
     };
     std::vector<Runner> runners(contestants.size());
     for (std::size_t i = 0; i < contestants.size(); ++i) {
@@ -119,8 +125,13 @@ std::vector<std::optional<DiagramTiming>> DiagramBenchmark::run(
         const DiagramInput input{&buffers.sites, &buffers.dispatch, &buffers.slots};
         if (contestant.draw_only) {
             runner.owners = std::make_unique<gl::Buffer>("owners", std::size_t{4} * setup.side * setup.side);
-            runner.yardstick = std::make_unique<GradientDiagram>(
-                DiagramSetup{library, options, std::span<const gpu::DiagramSite>(), *runner.owners});
+            runner.yardstick =
+                std::make_unique<GradientDiagram>(DiagramSetup{library,
+                                                               options,
+                                                               std::span<const gpu::DiagramSite>(),
+                                                               *runner.owners,
+                                                               *runner.long_work,
+                                                               {}});
             runner.yardstick->connect(input);
         } else {
             runner.diagram = std::make_unique<Diagram>(library, options, std::span<const gpu::DiagramSite>());

@@ -58,7 +58,7 @@ void timeOneStep(Runner& runner) {
 Lists senseNow(Simulation& simulation) {
     Simulation::Parts& parts = simulation.parts();
     parts.cells.run();
-    if (parts.sensing.needsDiagram()) parts.diagram.build();
+    if (parts.sensing.needsDiagram()) parts.diagram.build(parts.extent);
     parts.sensing.run();
     const std::uint32_t capacity = parts.buffers.slotCapacity();
     const auto bodies = parts.buffers.bodies.download<gpu::Body>(parts.rows);

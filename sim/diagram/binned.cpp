@@ -11,28 +11,45 @@ namespace {
 
 constexpr std::size_t kPageBytes = std::size_t{4} * gpu::PAGE_SIDE * gpu::PAGE_SIDE;
 
-const gl::Declaration kGather = {"diagram",
-                                 {"shaders/diagram/binned.comp"},
-                                 {"binned_sites", "StripStarts", "CellOffsets", "FixedBinStarts",
-                                  "fixed_binned_sites", "PageList", "PageCount"},
-                                 {"Owners"}};
+const gl::Declaration kGather = {
+    "diagram",
+    {"shaders/diagram/binned.comp"},
+    {"binned_sites", "StripStarts", "CellOffsets", "FixedBinStarts", "fixed_binned_sites", "FixedOwners",
+     "FixedDistances", "PageList", "PageCount"},
+    {"Owners"}};
 const gl::Declaration kCountGroups = {
     "diagram", {"shaders/diagram/page_dispatch.comp"}, {"PageCount"}, {"PageDispatch"}};
+const gl::Declaration kListPages = {"diagram",
+                                    {"shaders/diagram/pages_near.comp"},
+                                    {"LiveDispatch", "Sites", "PageStamps", "PageCount"},
+                                    {"PageStamps", "PageCount", "PageList"}};
 
-gl::Definitions definitionsFor(const DiagramSetup& setup, const Pages* pages) {
-    gl::Definitions definitions = {{"BLOCK_WIDTH", fmt::format("{}u", setup.options.gather.block_width)},
-                                   {"BLOCK_HEIGHT", fmt::format("{}u", setup.options.gather.block_height)}};
-    if (!setup.fixed_sites.empty()) definitions.emplace_back("FIXED_SITES", "1");
-    if (pages) definitions.emplace_back("PAGED", "1");
-    if (!pages) definitions.emplace_back("CLEARED_BEFORE", "1");
-    const bool lines_of_fours = pages || setup.options.width % 4 == 0;
-    if (lines_of_fours && setup.options.gather.block_width % 4 == 0)
-        definitions.emplace_back("STORE_BY_FOUR", "1");
+enum class Gathering { whole, near_people, pages };
+
+gl::Definitions definitionsFor(const DiagramOptions& options, bool fixed_sites, Gathering gathering) {
+    const bool paged = gathering == Gathering::pages;
+    gl::Definitions definitions = {{"BLOCK_WIDTH", fmt::format("{}u", options.gather.block_width)},
+                                   {"BLOCK_HEIGHT", fmt::format("{}u", options.gather.block_height)}};
+    if (fixed_sites) definitions.emplace_back(paged ? "FIXED_SITES" : "FIXED_LAYERS", "1");
+    if (paged) definitions.emplace_back("PAGED", "1");
+    if (gathering == Gathering::near_people) definitions.emplace_back("LISTED", "1");
+    if (gathering == Gathering::whole) definitions.emplace_back("CLEARED_BEFORE", "1");
+    const bool lines_of_fours = paged || options.width % 4 == 0;
+    if (lines_of_fours && options.gather.block_width % 4 == 0) definitions.emplace_back("STORE_BY_FOUR", "1");
     return definitions;
 }
 
 std::uint64_t blocksAcross(std::uint32_t pixels, std::uint32_t block) {
     return (pixels + block - 1) / block;
+}
+
+std::uint32_t blocksPerPage(const GatherShape& shape) {
+    return (gpu::PAGE_SIDE / shape.block_width) * (gpu::PAGE_SIDE / shape.block_height);
+}
+
+/// Whose blocks one group of a pass works on.
+std::uint32_t pagesPerGroup(const GatherShape& shape) {
+    return std::max(1u, gpu::PIXEL_GROUP_SIZE / blocksPerPage(shape));
 }
 
 /// Pages that one binding of a storage block can show.
@@ -55,17 +72,20 @@ BinnedDiagram::BinnedDiagram(const DiagramSetup& setup, Pages* pages)
       fixed_sites_(setup.fixed_sites),
       blocks_(blocksAcross(setup.options.width, setup.options.gather.block_width) *
               blocksAcross(setup.options.height, setup.options.gather.block_height)),
-      gather_(setup.library, kGather, definitionsFor(setup, pages)),
+      gather_(setup.library, kGather,
+              definitionsFor(setup.options, !setup.fixed_sites.empty(),
+                             pages ? Gathering::pages : Gathering::whole)),
       pages_(pages),
       owners_(setup.owners) {
-    gather_.set("largest_radius", setup.options.largest_radius);
-    gather_.bind("Owners", owners_);
-    if (!pages_) {
-        gather_.set("diagram_size", glm::vec2(setup.options.width, setup.options.height));
+    if (pages_) {
+        setUpPages(setup);
         return;
     }
-    const std::uint32_t blocks_per_page = (gpu::PAGE_SIDE / setup.options.gather.block_width) *
-                                          (gpu::PAGE_SIDE / setup.options.gather.block_height);
+    if (!fixed_sites_.empty()) fixed_ = &setup.fixed();
+}
+
+void BinnedDiagram::setUpPages(const DiagramSetup& setup) {
+    const std::uint32_t blocks_per_page = blocksPerPage(options_.gather);
     pages_per_range_ = pagesPerRange(blocks_per_page);
     ranges_ = (pages_->capacity() + pages_per_range_ - 1) / pages_per_range_;
     page_dispatch_ = gl::Buffer("diagram page dispatch", {ranges_, 12, "range of pages"});
@@ -80,48 +100,110 @@ BinnedDiagram::BinnedDiagram(const DiagramSetup& setup, Pages* pages)
     gather_.set("pages_per_line", pages_->perLine());
 }
 
+bool BinnedDiagram::canBuildNear() const {
+    const std::uint64_t pages =
+        blocksAcross(options_.width, gpu::PAGE_SIDE) * blocksAcross(options_.height, gpu::PAGE_SIDE);
+    constexpr std::uint64_t kMostGroups = 65535;  // on one axis
+    return options_.look > 0.0f && pages <= kMostGroups * pagesPerGroup(options_.gather);
+}
+
+void BinnedDiagram::setUpNear() {
+    const auto across = static_cast<std::uint32_t>(blocksAcross(options_.width, gpu::PAGE_SIDE));
+    const std::size_t pages = across * blocksAcross(options_.height, gpu::PAGE_SIDE);
+    near_.emplace();
+    near_->stamps = gl::Buffer("diagram pages, last listed", {pages, 4, "page of the window"});
+    near_->stamps.fill(0);
+    near_->list = gl::Buffer("diagram pages looked at", {pages, 4, "page of the window"});
+    near_->count = gl::Buffer("diagram pages looked at, count", 16);
+    near_->none = gl::makeBuffer("no diagram pages", std::vector<std::uint32_t>{0, 1, 1, 0});
+    near_->list_pages = gl::ComputeProgram(library_, kListPages);
+    near_->list_pages.bind("PageStamps", near_->stamps);
+    near_->list_pages.set("diagram_size", glm::vec2(options_.width, options_.height));
+    near_->list_pages.set("look", options_.look);
+    near_->list_pages.set("pages_per_group", pagesPerGroup(options_.gather));
+    near_->gather = gl::ComputeProgram(
+        library_, kGather, definitionsFor(options_, !fixed_sites_.empty(), Gathering::near_people));
+    for (gl::ComputeProgram* program : {&near_->list_pages, &near_->gather}) {
+        program->bind("PageList", near_->list);
+        program->bind("PageCount", near_->count);
+        program->set("pages_per_line", across);
+    }
+    connectNear();
+}
+
 void BinnedDiagram::connect(const DiagramInput& input) {
+    input_ = input;
     if (pages_) pages_->connect(*input.sites, *input.live_dispatch);
     const float radius = std::max(1.0f, options_.largest_radius);
     const bool sorted = input.sorted && input.sorted->grid.side <= kMostBinRadii * radius;
-    const BinGrid grid =
+    grid_ =
         sorted ? input.sorted->grid
                : BinGrid(options_.width, options_.height, std::max(1.0f, options_.gather.bin_radii * radius));
-    grid.describeTo(gather_);
     bins_.reset();
     if (sorted) {
         sorted_sites_ = gl::WordTexture(*input.sites, gl::WordTexture::Texel::four_words);
-        gather_.bind("StripStarts", *input.sorted->strip_starts);
-        gather_.bind("CellOffsets", *input.sorted->starts);
-        gather_.bind("binned_sites", sorted_sites_);
     } else {
-        bins_.emplace(library_, grid, options_.live_capacity);
+        bins_.emplace(library_, *grid_, options_.live_capacity);
         bins_->connect(*input.sites, *input.live_dispatch);
         // All its bins start where they say, whatever the strip.
         no_strips_ = gl::makeBuffer(
-            "no strips", std::vector<std::uint32_t>(grid.count() / gpu::CELLS_PER_STRIP + 1), "strip");
-        gather_.bind("StripStarts", no_strips_);
-        gather_.bind("CellOffsets", bins_->starts());
-        gather_.bind("binned_sites", bins_->sites());
+            "no strips", std::vector<std::uint32_t>(grid_->count() / gpu::CELLS_PER_STRIP + 1), "strip");
     }
-    if (fixed_sites_.empty()) return;
-    fixed_bins_.emplace(library_, grid, fixed_sites_);
-    gather_.bind("FixedBinStarts", fixed_bins_->starts());
-    gather_.bind("fixed_binned_sites", fixed_bins_->sites());
+    if (pages_ && !fixed_sites_.empty()) fixed_bins_.emplace(library_, *grid_, fixed_sites_);
+    connectGather(gather_);
+    if (near_) connectNear();
 }
 
-void BinnedDiagram::build() {
+void BinnedDiagram::connectNear() {
+    connectGather(near_->gather);
+    near_->list_pages.bind("Sites", *input_.sites);
+    near_->list_pages.bind("LiveDispatch", *input_.live_dispatch);
+}
+
+void BinnedDiagram::connectGather(gl::ComputeProgram& gather) {
+    gather.set("largest_radius", options_.largest_radius);
+    gather.bind("Owners", owners_);
+    if (!pages_) gather.set("diagram_size", glm::vec2(options_.width, options_.height));
+    grid_->describeTo(gather);
+    gather.bind("StripStarts", bins_ ? no_strips_ : *input_.sorted->strip_starts);
+    gather.bind("CellOffsets", bins_ ? bins_->starts() : *input_.sorted->starts);
+    gather.bind("binned_sites", bins_ ? bins_->sites() : sorted_sites_);
+    if (fixed_bins_) {
+        gather.bind("FixedBinStarts", fixed_bins_->starts());
+        gather.bind("fixed_binned_sites", fixed_bins_->sites());
+    }
+    if (fixed_) {
+        gather.bind("FixedOwners", fixed_->owners());
+        gather.bind("FixedDistances", fixed_->distances());
+    }
+}
+
+void BinnedDiagram::build(Extent extent) {
     if (bins_) bins_->sort();
     if (pages_) {
-        buildPages();
+        buildPages(extent);
+    } else if (extent == Extent::near_people && canBuildNear()) {
+        buildNear();
     } else {
-        owners_.fill(gpu::NO_INDEX);  // blocks out of reach are not even written
+        // Blocks out of reach of all that move are not even written.
+        if (fixed_)
+            owners_.copyFrom(fixed_->owners());
+        else
+            owners_.fill(gpu::NO_INDEX);
         gather_.dispatch(blocks_);
     }
 }
 
-void BinnedDiagram::buildPages() {
-    pages_->place();
+void BinnedDiagram::buildNear() {
+    if (!near_) setUpNear();
+    near_->count.copyFrom(near_->none);
+    near_->list_pages.set("stamp", ++near_->stamp);
+    near_->list_pages.dispatchIndirect(*input_.live_dispatch);
+    near_->gather.dispatchIndirect(near_->count);
+}
+
+void BinnedDiagram::buildPages(Extent extent) {
+    pages_->place(extent);
     count_groups_.dispatch(1);
     for (std::uint32_t range = 0; range < ranges_; ++range) {
         const std::size_t first = std::size_t{range} * pages_per_range_ * kPageBytes;

@@ -1,13 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/diagram/cost_model.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace throng::sim {
 
+namespace {
+
+// What listing a page that somebody looks at takes, on two cores of a CPU.
+constexpr double kListedPageNs = 10.0;
+// Of what the gathering method takes at least: the rest is sorting, and people come sorted.
+constexpr double kGatheringShare = 0.25;
+
+/// Walls are worked out once, but for the methods that draw every site in every build.
+bool drawsFixedSites(DiagramMethod method) {
+    return method != DiagramMethod::binned && method != DiagramMethod::per_site;
+}
+
+double pagesLookedAt(double look) {
+    const double across = 2.0 * look / gpu::PAGE_SIDE + 1.0;
+    return across * across;
+}
+
+}  // namespace
+
+DiagramLoad DiagramLoad::nearPeople(double look) const {
+    constexpr double kPagePixels = double{gpu::PAGE_SIDE} * gpu::PAGE_SIDE;
+    DiagramLoad near = *this;
+    near.pixels = std::min(pixels, sites * pagesLookedAt(look) * kPagePixels);
+    return near;
+}
+
+bool isWorthListing(const DiagramLoad& load, double look) {
+    return load.nearPeople(look).pixels < 0.5 * load.pixels;
+}
+
 double MethodCost::milliseconds(const DiagramLoad& load) const {
+    const double sites = load.sites + (drawsFixedSites(method) ? load.fixed_sites : 0.0);
     const double nanoseconds =
-        pixel_ns * load.pixels + site_ns * load.sites + covered_ns * load.sites * load.radius * load.radius;
+        pixel_ns * load.pixels + site_ns * sites + covered_ns * sites * load.radius * load.radius;
     return base_ms + nanoseconds * 1.0e-6;
 }
 
@@ -18,6 +50,23 @@ const MethodCost& CostModel::choose(const DiagramLoad& load, const MethodCost* p
         if (candidate.milliseconds(load) < best->milliseconds(load)) best = &candidate;
     if (present && present->milliseconds(load) <= 1.1 * best->milliseconds(load)) return *present;
     return *best;
+}
+
+DiagramPlan CostModel::plan(const DiagramLoad& load, double look, const DiagramPlan& present) const {
+    const DiagramLoad near = load.nearPeople(look);
+    const double listing = 1.0e-6 * kListedPageNs * load.sites * pagesLookedAt(look);
+    const auto milliseconds = [&](const DiagramPlan& plan) {
+        if (plan.extent == Extent::everywhere) return plan.cost->milliseconds(load);
+        return plan.cost->milliseconds(near) - (1.0 - kGatheringShare) * plan.cost->base_ms + listing;
+    };
+    DiagramPlan best{&choose(load), Extent::everywhere};
+    for (const MethodCost& candidate : costs) {
+        const DiagramPlan listed{&candidate, Extent::near_people};
+        const bool possible = candidate.method == DiagramMethod::binned && isWorthListing(load, look);
+        if (possible && milliseconds(listed) < milliseconds(best)) best = listed;
+    }
+    if (present.cost && milliseconds(present) <= 1.1 * milliseconds(best)) return present;
+    return best;
 }
 
 CostModel CostModel::builtIn() {

@@ -11,9 +11,14 @@ namespace throng::sim {
 
 /// What the level of detail is chosen by.
 struct DiagramLoad {
-    double sites = 0.0;
+    double sites = 0.0;   ///< that move
     double radius = 1.0;  ///< px, the largest tile
-    double pixels = 0.0;  ///< of the window
+    double pixels = 0.0;  ///< of the window, or as many as are brought up to date
+    double fixed_sites = 0.0;
+
+    /// What is left of it where only what people look at is built.
+    /// @param look px: how far they do
+    DiagramLoad nearPeople(double look) const;
 };
 
 /// What one method takes on one device: a sum over what it has to do, each term measured.
@@ -28,6 +33,16 @@ struct MethodCost {
     double milliseconds(const DiagramLoad& load) const;
 };
 
+/// One of the ways to build a diagram that CostModel knows, and how much of it.
+struct DiagramPlan {
+    const MethodCost* cost = nullptr;
+    Extent extent = Extent::everywhere;
+    bool operator==(const DiagramPlan&) const = default;
+};
+
+/// Whether only what people look at is to be built, by a method that can do so.
+bool isWorthListing(const DiagramLoad& load, double look);
+
 /// The paper's level of detail, by measurement: which exact method is fastest for a load on this device.
 struct CostModel {
     std::string device;  ///< GL_RENDERER and GL_VERSION, or "built in"
@@ -35,6 +50,8 @@ struct CostModel {
 
     /// @param present keeps to this one unless another is at least a tenth faster: changing costs, too
     const MethodCost& choose(const DiagramLoad& load, const MethodCost* present = nullptr) const;
+    /// The same where building what people look at, `look` px around them, is enough.
+    DiagramPlan plan(const DiagramLoad& load, double look, const DiagramPlan& present = {}) const;
 
     /// Measured on Mesa llvmpipe, two cores: what is used where nobody has calibrated.
     static CostModel builtIn();

@@ -70,6 +70,7 @@ Diagram::Diagram(const gl::ShaderLibrary& library, const DiagramOptions& options
     : library_(library),
       options_(options),
       fixed_sites_(fixed_sites.begin(), fixed_sites.end()),
+      long_work_(std::make_unique<LongWork>()),
       extras_(std::make_unique<Extras>()) {
     if (options_.paged) {
         if (options_.method != DiagramMethod::binned)
@@ -78,7 +79,7 @@ Diagram::Diagram(const gl::ShaderLibrary& library, const DiagramOptions& options
                 "Use the method binned, which keeps only the parts with people or walls.",
                 authoring::wordFor(options_.method), options_.width, options_.height));
         pages_ = std::make_unique<Pages>(library, options_.width, options_.height, options_.largest_radius,
-                                         options_.live_capacity, fixed_sites_);
+                                         options_.look, options_.live_capacity, fixed_sites_);
         owners_ = std::make_unique<gl::Buffer>("diagram pages", pages_->store(), gl::Buffer::Use::in_ranges);
         table_texture_ = gl::WordTexture(pages_->table());
     } else {
@@ -93,8 +94,12 @@ Diagram::~Diagram() = default;
 Diagram::Diagram(Diagram&&) noexcept = default;
 Diagram& Diagram::operator=(Diagram&&) noexcept = default;
 
-std::unique_ptr<Diagram::Implementation> Diagram::make() const {
-    const DiagramSetup setup{library_, options_, fixed_sites_, *owners_};
+std::unique_ptr<Diagram::Implementation> Diagram::make() {
+    DiagramSetup setup{library_, options_, fixed_sites_, *owners_, *long_work_, {}};
+    setup.fixed = [&]() -> const FixedLayers& {
+        if (!fixed_layers_) fixed_layers_ = std::make_unique<FixedLayers>(setup);
+        return *fixed_layers_;
+    };
     switch (options_.method) {
         case DiagramMethod::cones:
             return std::make_unique<ConesDiagram>(setup);
@@ -152,12 +157,15 @@ void Diagram::changeFixedSites(std::span<const gpu::DiagramSite> fixed_sites) {
         throw std::logic_error("the number of fixed sites cannot change");
     fixed_sites_.assign(fixed_sites.begin(), fixed_sites.end());
     made_.clear();
+    fixed_layers_.reset();
     use(options_.method, options_.gather);
     extras_ = std::make_unique<Extras>();
 }
 
-void Diagram::build() {
-    current_->build();
+bool Diagram::build(Extent extent) {
+    long_work_->stopped = false;
+    current_->build(extent);
+    return !long_work_->stopped;
 }
 
 gl::Definitions Diagram::lookupDefinitions() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -37,6 +38,7 @@ struct DiagramOptions {
     std::uint32_t live_capacity = 0;               ///< sites that move, at most
     std::uint32_t cone_sides = 16;                 ///< [3, 256], cones only
     GatherShape gather;                            ///< binned only
+    float look = 0.0f;                             ///< px: how far from moving sites owners are looked up
     bool paged = false;                            ///< kept page by page (sim/diagram/pages.h); binned only
 };
 
@@ -58,6 +60,15 @@ struct DiagramInput {
     };
     std::optional<Sorted> sorted = {};
 };
+
+/// Builds that take seconds are cut into pieces, so that somebody may put an end to them.
+struct LongWork {
+    std::function<bool()> stop;  ///< asked between two pieces, if there is anything to ask
+    bool in_pieces = false;      ///< whether there is more than one
+    bool stopped = false;        ///< the last build: its result is not complete
+};
+
+class FixedLayers;
 
 /// The truncated Voronoi diagram of De Gyves, Toledo and Rudomin 2013: every pixel's owner is the nearest
 /// site whose tile radius reaches the pixel's centre, ties going to the smallest id, and no other.
@@ -82,7 +93,12 @@ class Diagram {
     void use(DiagramMethod method, const GatherShape& gather = {});
     DiagramMethod method() const { return options_.method; }
 
-    void build();
+    /// @returns false where the build was stopped: the owners are then of no use
+    bool build(Extent extent = Extent::everywhere);
+    /// @param stop tells whether to put an end to a build that takes long; null: nobody does
+    void stopWhen(std::function<bool()> stop) { long_work_->stop = std::move(stop); }
+
+    bool buildsInPieces() const { return long_work_->in_pieces; }
 
     /// The owners' ids, NO_INDEX where there is none: per pixel, bottom row first, or a store of pages.
     const gl::Buffer& owners() const { return *owners_; }
@@ -110,17 +126,19 @@ class Diagram {
     struct Implementation {
         virtual ~Implementation() = default;
         virtual void connect(const DiagramInput& input) = 0;
-        virtual void build() = 0;
+        virtual void build(Extent extent) = 0;
     };
 
   private:
     struct Extras;
-    std::unique_ptr<Implementation> make() const;
+    std::unique_ptr<Implementation> make();
 
     gl::ShaderLibrary library_;
     DiagramOptions options_;
     std::vector<gpu::DiagramSite> fixed_sites_;
+    std::unique_ptr<LongWork> long_work_;
     std::unique_ptr<Pages> pages_;
+    std::unique_ptr<FixedLayers> fixed_layers_;
     std::unique_ptr<gl::Buffer> owners_;  // in one place for good: others bind it
     gl::WordTexture owner_texture_, table_texture_;
     struct Made {

@@ -60,7 +60,7 @@ void FloodDiagram::connect(const DiagramInput& input) {
         program->bind("sites", site_texture_);
 }
 
-void FloodDiagram::build() {
+void FloodDiagram::build(Extent) {
     seeds_.fill(gpu::NO_INDEX);
     seed_.dispatch(site_count_);
     for (std::size_t round = 0; round < steps_.size(); ++round) {

@@ -52,7 +52,7 @@ void GradientDiagram::draw() {
     target_.drawPoints(program_, draw_count_);
 }
 
-void GradientDiagram::build() {
+void GradientDiagram::build(Extent) {
     draw();
     target_.readInto(owners_);
 }
@@ -116,7 +116,7 @@ void BlendedDiagram::connect(const DiagramInput& input) {
     }
 }
 
-void BlendedDiagram::build() {
+void BlendedDiagram::build(Extent) {
     first_target_.clear();
     first_target_.drawPoints(first_, draw_count_);
     if (second_) {
@@ -147,7 +147,7 @@ void ConesDiagram::connect(const DiagramInput& input) {
     program_.bind("SiteSlots", *input.site_slots);
 }
 
-void ConesDiagram::build() {
+void ConesDiagram::build(Extent) {
     target_.clear();
     target_.drawTriangles(program_, 3 * sides_, draw_count_);
     target_.readInto(owners_);

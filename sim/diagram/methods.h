@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "sim/diagram/diagram.h"
+#include "sim/diagram/fixed_layers.h"
 #include "sim/diagram/pages.h"
 #include "sim/gl/raster_target.h"
 
@@ -18,6 +20,9 @@ struct DiagramSetup {
     const DiagramOptions& options;
     std::span<const gpu::DiagramSite> fixed_sites;
     gl::Buffer& owners;
+    LongWork& long_work;
+    /// What the fixed sites alone give; made at the first asking.
+    std::function<const FixedLayers&()> fixed;
     /// One word a pixel.
     gl::Room picture() const { return {std::size_t{options.width} * options.height, 4, "pixel"}; }
     std::uint32_t siteCount() const {
@@ -30,18 +35,13 @@ class PerSiteDiagram final : public Diagram::Implementation {
   public:
     explicit PerSiteDiagram(const DiagramSetup& setup);
     void connect(const DiagramInput& input) override;
-    void build() override;
+    void build(Extent extent) override;
 
   private:
-    void bindSites(const gl::Buffer& sites, const gl::Buffer& live_dispatch);
-
     gl::Buffer& owners_;
-    gl::ComputeProgram distance_pass_;
-    gl::ComputeProgram site_pass_;
     gl::Buffer distances_;
-    gl::Buffer fixed_owners_;  // the diagram of the sites that never move, which every build starts from
-    gl::Buffer fixed_distances_;
-    const gl::Buffer* live_dispatch_ = nullptr;
+    const FixedLayers& fixed_;  // which every build starts from
+    Splat splat_;
 };
 
 /// Every pixel compares all sites, see shaders/diagram/per_pixel.comp.
@@ -49,10 +49,12 @@ class PerPixelDiagram final : public Diagram::Implementation {
   public:
     explicit PerPixelDiagram(const DiagramSetup& setup);
     void connect(const DiagramInput& input) override;
-    void build() override;
+    void build(Extent extent) override;
 
   private:
     std::uint64_t pixels_;
+    std::uint64_t pixels_at_a_time_;
+    LongWork& long_work_;
     gl::ComputeProgram program_;
     gl::WordTexture sites_;
 };
@@ -63,10 +65,23 @@ class BinnedDiagram final : public Diagram::Implementation {
     /// @param pages where the owners are kept page by page; they then hold a store of pages
     BinnedDiagram(const DiagramSetup& setup, Pages* pages);
     void connect(const DiagramInput& input) override;
-    void build() override;
+    void build(Extent extent) override;
 
   private:
-    void buildPages();
+    /// What gathers where people look in a picture that is kept whole.
+    struct Near {
+        gl::Buffer stamps, list, count;
+        gl::Buffer none;  // what count starts as
+        gl::ComputeProgram list_pages, gather;
+        std::uint32_t stamp = 0;
+    };
+    void setUpPages(const DiagramSetup& setup);
+    bool canBuildNear() const;
+    void setUpNear();
+    void connectNear();
+    void connectGather(gl::ComputeProgram& gather);
+    void buildPages(Extent extent);
+    void buildNear();
 
     gl::ShaderLibrary library_;
     DiagramOptions options_;
@@ -77,9 +92,13 @@ class BinnedDiagram final : public Diagram::Implementation {
     std::optional<FixedBins> fixed_bins_;
     std::uint64_t blocks_;
     gl::ComputeProgram gather_;
+    std::optional<Near> near_;  // made at the first asking
+    DiagramInput input_;
+    std::optional<BinGrid> grid_;
 
     Pages* pages_;
     gl::Buffer& owners_;
+    const FixedLayers* fixed_ = nullptr;  // where there are fixed sites and the picture is whole
     std::uint32_t ranges_ = 0;
     std::uint32_t pages_per_range_ = 0;
     gl::ComputeProgram count_groups_;
@@ -91,7 +110,7 @@ class GradientDiagram final : public Diagram::Implementation {
   public:
     explicit GradientDiagram(const DiagramSetup& setup);
     void connect(const DiagramInput& input) override;
-    void build() override;
+    void build(Extent extent) override;
 
     /// Draws, and leaves the result in the textures: what benchmarks time as "one gradient1 diagram".
     void draw();
@@ -109,7 +128,7 @@ class BlendedDiagram final : public Diagram::Implementation {
     /// @param packed one pass over a quantised distance and the id, instead of two exact ones
     BlendedDiagram(const DiagramSetup& setup, bool packed);
     void connect(const DiagramInput& input) override;
-    void build() override;
+    void build(Extent extent) override;
 
   private:
     gl::RasterTarget first_target_;
@@ -127,7 +146,7 @@ class ConesDiagram final : public Diagram::Implementation {
   public:
     explicit ConesDiagram(const DiagramSetup& setup);
     void connect(const DiagramInput& input) override;
-    void build() override;
+    void build(Extent extent) override;
 
   private:
     gl::RasterTarget target_;
@@ -148,7 +167,7 @@ class FloodDiagram final : public Diagram::Implementation {
   public:
     FloodDiagram(const DiagramSetup& setup, const FloodVariant& variant);
     void connect(const DiagramInput& input) override;
-    void build() override;
+    void build(Extent extent) override;
 
   private:
     std::vector<std::uint32_t> steps_;  // px, in the order of the rounds

@@ -17,8 +17,11 @@ constexpr std::size_t kPagePixels = std::size_t{gpu::PAGE_SIDE} * gpu::PAGE_SIDE
 
 const gl::Declaration kPlace = {"diagram",
                                 {"shaders/diagram/pages.comp"},
-                                {"LiveDispatch", "Sites", "PageTable", "PageCount"},
+                                {"LiveDispatch", "Sites", "FixedTable", "PageTable", "PageCount"},
                                 {"PageTable", "PageCount", "PageList"}};
+const gl::Declaration kForget = {
+    "diagram", {"shaders/diagram/pages_forget.comp"}, {"PageCount", "PageList"}, {"PageTable"}};
+constexpr float kNobodyLooks = -1.0f;
 
 std::uint32_t pagesAcross(std::uint32_t pixels) {
     return (pixels + gpu::PAGE_SIDE - 1) / gpu::PAGE_SIDE;
@@ -49,34 +52,44 @@ std::uint64_t Pages::pagesNeeded(std::uint32_t width, std::uint32_t height, floa
 }
 
 Pages::Pages(const gl::ShaderLibrary& library, std::uint32_t width, std::uint32_t height,
-             float largest_radius, std::uint32_t live_capacity, std::span<const gpu::DiagramSite> fixed_sites)
+             float largest_radius, float look, std::uint32_t live_capacity,
+             std::span<const gpu::DiagramSite> fixed_sites)
     : per_line_(pagesAcross(width)),
+      look_(look),
       table_("diagram page table", checkedTable(width, height)),
       fixed_table_("diagram page table, fixed sites", checkedTable(width, height)),
-      count_("diagram page count", kWord),
-      fixed_count_("diagram page count, fixed sites", kWord),
-      place_(library, kPlace) {
+      count_("diagram page count", 4 * kWord),
+      fixed_count_("diagram page count, fixed sites", 4 * kWord),
+      // The empty page, and the group of a pass over all pages that it is in.
+      empty_count_(gl::makeBuffer("no diagram pages", std::vector<std::uint32_t>{1, 1, 1, 1})),
+      place_(library, kPlace),
+      forget_(library, kForget) {
     place_.set("diagram_size", glm::vec2(width, height));
     place_.set("pages_per_line", per_line_);
     place_.bind("PageTable", table_);
     place_.bind("PageCount", count_);
+    place_.bind("FixedTable", fixed_table_);
+    forget_.bind("PageTable", table_);
+    forget_.bind("PageCount", count_);
     fixed_table_.fill(0);
-    fixed_count_.fill(1);  // the empty page
+    fixed_count_.copyFrom(empty_count_);
 
     // The fixed sites are placed once, in a list that is long enough for them, to learn how many pages they
     // take.
     const std::uint64_t fixed_bound = pagesNeeded(width, height, largest_radius, fixed_sites.size());
-    gl::Buffer fixed_list("diagram pages, fixed sites", {fixed_bound, kWord, "page"});
+    gl::Buffer fixed_list("diagram pages, fixed sites at most", {fixed_bound, kWord, "page"});
     const gl::Buffer sites = gl::makeBuffer(
         "fixed sites", std::vector<gpu::DiagramSite>(fixed_sites.begin(), fixed_sites.end()), "fixed site");
     const gl::Buffer dispatch = gl::makeBuffer("fixed dispatch", dispatchOf(fixed_sites.size()));
     place_.set("page_capacity", static_cast<std::uint32_t>(fixed_bound));
     place_.bind("PageList", fixed_list);
     connect(sites, dispatch);
-    place();
+    place(Extent::everywhere);
     fixed_table_.copyFrom(table_);
     fixed_count_.copyFrom(count_);
-    const std::uint64_t fixed_pages = count_.download<std::uint32_t>(1).front();
+    const std::uint64_t fixed_pages = count_.download<std::uint32_t>(4).back();
+    fixed_list_ = gl::Buffer("diagram pages, fixed sites", {fixed_pages, kWord, "page"});
+    fixed_list_.copyFrom(fixed_list);
 
     const std::uint64_t all = std::uint64_t{per_line_} * pagesAcross(height) + 1;
     const std::uint64_t needed =
@@ -92,9 +105,10 @@ Pages::Pages(const gl::ShaderLibrary& library, std::uint32_t width, std::uint32_
             static_cast<double>(kMostPages * kPagePixels) / 1e6));
     capacity_ = static_cast<std::uint32_t>(needed);
     list_ = gl::Buffer("diagram pages", {capacity_, kWord, "page"});
-    list_.copyFrom(fixed_list);
+    list_.copyFrom(fixed_list_);
     place_.set("page_capacity", capacity_);
     place_.bind("PageList", list_);
+    forget_.bind("PageList", list_);
     live_dispatch_ = nullptr;
 }
 
@@ -108,9 +122,17 @@ void Pages::connect(const gl::Buffer& sites, const gl::Buffer& live_dispatch) {
     live_dispatch_ = &live_dispatch;
 }
 
-void Pages::place() {
-    table_.copyFrom(fixed_table_);
-    count_.copyFrom(fixed_count_);
+void Pages::place(Extent extent) {
+    const bool everywhere = extent == Extent::everywhere;
+    if (everywhere) {
+        table_.copyFrom(fixed_table_);
+        count_.copyFrom(fixed_count_);
+        if (capacity_) list_.copyFrom(fixed_list_);
+    } else {
+        forget_.dispatchIndirect(count_);
+        count_.copyFrom(empty_count_);
+    }
+    place_.set("look", everywhere ? kNobodyLooks : look_);
     place_.dispatchIndirect(*live_dispatch_);
 }
 

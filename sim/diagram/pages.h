@@ -10,19 +10,25 @@
 
 namespace throng::sim {
 
+/// How much of the window a build has to bring up to date.
+enum class Extent {
+    everywhere,
+    near_people,  ///< at least what lies under the tiles of moving sites and as far as people look
+};
+
 /// Room for a diagram larger than any texture: squares of PAGE_SIDE px that exist only where a tile reaches.
 ///
 /// A table says for every square of the window where its page stands in the store; place 0 is a page that is
-/// always empty and stands for all squares without one, so that a look-up never branches. Pages of fixed
-/// sites keep their places; those of moving sites are placed anew in every build, on the device. There are
-/// always enough: the store is sized for the most pages that the given number of tiles can touch, or for the
-/// whole window where that is less.
+/// always empty and stands for all squares without one, so that a look-up never branches. Pages are placed
+/// anew in every build, on the device: all under the tiles of moving sites, and those under fixed ones that
+/// somebody looks at, or, for pictures, all of these, too. There are always enough: the store is sized for
+/// the most pages that the given number of tiles can touch, or for the whole window where that is less.
 class Pages {
   public:
-    /// @param live_capacity moving sites; @param largest_radius px
+    /// @param live_capacity moving sites; @param largest_radius, @param look px
     /// @throws GraphicsError where the store would be larger than the device can address, saying so
     Pages(const gl::ShaderLibrary& library, std::uint32_t width, std::uint32_t height, float largest_radius,
-          std::uint32_t live_capacity, std::span<const gpu::DiagramSite> fixed_sites);
+          float look, std::uint32_t live_capacity, std::span<const gpu::DiagramSite> fixed_sites);
     void connect(const gl::Buffer& sites, const gl::Buffer& live_dispatch);
 
     /// The most pages that so many tiles touch, plus the empty one.
@@ -30,7 +36,7 @@ class Pages {
                                      std::uint64_t sites);
 
     /// Places the pages for where the sites are now.
-    void place();
+    void place(Extent extent);
 
     std::uint32_t perLine() const { return per_line_; }
     std::uint32_t capacity() const { return capacity_; }
@@ -42,13 +48,15 @@ class Pages {
 
   private:
     std::uint32_t per_line_;
-    std::uint32_t capacity_;
+    std::uint32_t capacity_ = 0;
+    float look_;
     gl::Buffer table_;        // per square of the window: the place of its page
-    gl::Buffer fixed_table_;  // the same with the pages of fixed sites only, which every build starts from
+    gl::Buffer fixed_table_;  // the same with the pages of fixed sites only
     gl::Buffer list_;         // per place: the number of the square
-    gl::Buffer count_;        // places taken
-    gl::Buffer fixed_count_;
-    gl::ComputeProgram place_;
+    gl::Buffer fixed_list_;
+    gl::Buffer count_;  // places taken, after the groups for a pass over them
+    gl::Buffer fixed_count_, empty_count_;
+    gl::ComputeProgram place_, forget_;
     const gl::Buffer* live_dispatch_ = nullptr;
 };
 

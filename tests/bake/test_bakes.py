@@ -305,3 +305,25 @@ def test_previews_are_drawn(throng, bakes, tmp_path):
     throng("bake", small, "-o", tmp_path / "small", "-q", "--no-gltf")
     throng("preview", tmp_path / "small", "-o", tmp_path / "film.mp4", "--width", "320")
     assert (tmp_path / "film.mp4").read_bytes()[4:8] == b"ftyp"
+
+
+@pytest.mark.parametrize("kilometres", [1, 4, 16, 20])
+def test_people_walk_at_their_speed_on_sites_however_wide(throng, tmp_path, kilometres):
+    far = 1000.0 * kilometres
+    layout = write(tmp_path / "far.json", {"throng": 1, "simulation": {"duration": 20}, "formations": [
+        {"id": "two", "type": "agents", "agents": [{"position": [0, 0], "goal": [far, 0], "speed": 1.3},
+                                                   {"position": [far, 5], "goal": [0, 5], "speed": 1.3}]}]})
+    throng("bake", layout, "-o", tmp_path / "bake", "-q", "--no-gltf")
+    data = streams(tmp_path / "bake")
+    seconds = (len(data["pos"]) - 1) / 24.0
+    # They start from standing: what that costs is known from a small site.
+    near = write(tmp_path / "near.json", {"throng": 1, "simulation": {"duration": 20}, "formations": [
+        {"id": "one", "type": "agents", "agents": [{"position": [0, 0], "goal": [50, 0], "speed": 1.3}]}]})
+    throng("bake", near, "-o", tmp_path / "small", "-q", "--no-gltf")
+    small = streams(tmp_path / "small")
+    expected = small["pos"][-1, 0, 0] - small["pos"][0, 0, 0]
+    assert expected > 1.3 * seconds - 1.0
+    walked = numpy.abs(data["pos"][-1, :, 0] - data["pos"][0, :, 0])
+    assert walked == pytest.approx([expected] * 2, rel=1e-3)
+    # What is shown is the speed, and no rounding of places.
+    assert data["dir"][120:, :, 2] == pytest.approx(numpy.full_like(data["dir"][120:, :, 2], 1.3), rel=1e-3)

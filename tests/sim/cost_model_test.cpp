@@ -63,6 +63,22 @@ TEST(CostModel, TakesTheCheapestAndStaysWhereLittleIsToBeGained) {
     EXPECT_EQ(model.choose({20000, 4, 1e6}, &few).method, DiagramMethod::binned);
 }
 
+TEST(CostModel, BuildsWhatPeopleLookAtWhereThatIsLittle) {
+    const CostModel model = CostModel::builtIn();
+    const double look = 12.0;
+    const sim::DiagramLoad few{4, 3, 1.4e6};
+    EXPECT_EQ(model.plan(few, look).extent, sim::Extent::near_people);
+    EXPECT_EQ(model.plan(few, look).cost->method, DiagramMethod::binned);
+    EXPECT_EQ(model.plan({100000, 3, 1.4e6}, look).extent, sim::Extent::everywhere);
+    // Walls change nothing about that.
+    sim::DiagramLoad walls = few;
+    walls.fixed_sites = 20000;
+    EXPECT_EQ(model.plan(walls, look), model.plan(few, look));
+    // And the better one has to promise a tenth.
+    const sim::DiagramPlan far{model.plan(few, look)};
+    EXPECT_EQ(model.plan(few, look, far), far);
+}
+
 class AdaptTest : public GpuTest {};
 
 TEST_F(AdaptTest, ChangingTheMethodOnTheWayChangesNothingElse) {

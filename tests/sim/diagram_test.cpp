@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <glm/common.hpp>
 #include <random>
 
 #include "tests/sim/gpu_test.h"
@@ -318,6 +319,75 @@ TEST_F(DiagramExtrasTest, PagesFollowTheSitesAndLeaveNothingBehind) {
         const auto expected = bruteForce(window, sites).owners;
         EXPECT_EQ(diagram.wholeOwners().download<std::uint32_t>(expected.size()), expected) << step;
     }
+}
+
+/// Whether some moving site may look at a pixel: it is within the square around it.
+bool isLookedAt(std::size_t pixel, const sim::DiagramOptions& options,
+                const std::vector<gpu::DiagramSite>& sites) {
+    const glm::vec2 centre(static_cast<float>(pixel % options.width) + 0.5f,
+                           static_cast<float>(pixel / options.width) + 0.5f);
+    for (std::size_t i = 0; i < options.live_capacity; ++i) {
+        const glm::vec2 away = glm::abs(sites[i].position - centre);
+        if (std::max(away.x, away.y) <= options.look) return true;
+    }
+    return false;
+}
+
+TEST_F(DiagramExtrasTest, WhatPeopleLookAtIsRightWhereverElseNothingIsBuilt) {
+    for (const bool paged : {false, true}) {
+        std::mt19937 random(14);
+        const Window window{1003, 700};
+        constexpr std::size_t kMoving = 9;
+        auto sites = randomSites(random, window, 400, 5.0f, 9.0f);
+        sim::DiagramOptions options = optionsFor(DiagramMethod::binned, window, sites, 400 - kMoving);
+        options.look = 31.0f;
+        options.paged = paged;
+        Diagram diagram(library, options, std::span(sites).subspan(kMoving));
+        const DiagramInputs inputs(sites, kMoving);
+        diagram.connect(inputs.input());
+        for (int step = 0; step < 9; ++step) {
+            for (std::size_t i = 0; i < kMoving; ++i)
+                sites[i].position += glm::vec2(27.3f, -11.7f);
+            std::vector<gpu::DiagramSite> stored(sites);
+            std::reverse(stored.begin(), stored.begin() + kMoving);
+            const_cast<gl::Buffer&>(inputs.site_buffer).upload(stored);
+            // Pictures in between leave nothing behind either.
+            const bool picture = step % 4 == 3;
+            EXPECT_TRUE(diagram.build(picture ? sim::Extent::everywhere : sim::Extent::near_people));
+            const auto expected = bruteForce(window, sites).owners;
+            const auto owners = diagram.wholeOwners().download<std::uint32_t>(expected.size());
+            std::size_t looked_at = 0, wrong = 0, elsewhere = 0;
+            for (std::size_t pixel = 0; pixel < owners.size(); ++pixel) {
+                if (picture || isLookedAt(pixel, options, sites)) {
+                    ++looked_at;
+                    wrong += owners[pixel] != expected[pixel];
+                } else {
+                    elsewhere += owners[pixel] != expected[pixel];
+                }
+            }
+            EXPECT_EQ(wrong, 0u) << (paged ? "paged, step " : "step ") << step << ", of " << looked_at;
+            EXPECT_TRUE(picture || step > 0 || elsewhere > 0u) << "everything was built";
+        }
+    }
+}
+
+TEST_F(DiagramExtrasTest, ComparingEverythingCanBeStoppedOnTheWay) {
+    std::mt19937 random(15);
+    const Window window{512, 512};
+    const auto sites = randomSites(random, window, 1800, 2.0f, 11.0f);
+    Diagram diagram(library, optionsFor(DiagramMethod::per_pixel, window, sites, 0), {});
+    const DiagramInputs inputs(sites, sites.size());
+    diagram.connect(inputs.input());
+    ASSERT_TRUE(diagram.buildsInPieces());
+    diagram.stopWhen([] { return true; });
+    EXPECT_FALSE(diagram.build());
+    const auto expected = bruteForce(window, sites).owners;
+    EXPECT_NE(diagram.owners().download<std::uint32_t>(expected.size()), expected);
+    int asked = 0;
+    diagram.stopWhen([&] { return ++asked < 0; });
+    EXPECT_TRUE(diagram.build());
+    EXPECT_GT(asked, 0);
+    EXPECT_EQ(diagram.owners().download<std::uint32_t>(expected.size()), expected);
 }
 
 /// Methods with errors: how large a share of wrong pixels each is allowed, a little above what was measured

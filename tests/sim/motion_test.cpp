@@ -33,6 +33,48 @@ TEST_F(MotionTest, OnePersonWalksStraightToItsGoalAtItsSpeed) {
     EXPECT_NEAR(seen.seconds, 20.0f / 1.33f, 1.0f);
 }
 
+TEST_F(MotionTest, PeopleWalkAtTheirSpeedHoweverWideTheSite) {
+    for (const float kilometres : {0.1f, 0.5f, 1.0f, 4.0f, 16.0f, 20.0f}) {
+        const float edge = 500.0f * kilometres;
+        authoring::Scene scene = emptyScene({-edge, -5.0f}, {edge, 5.0f});
+        addPerson(scene, {4.3f - edge, 0.1f}, {edge, -0.3f}, 1.3f);
+        addPerson(scene, {edge - 4.7f, 3.1f}, {-edge, 2.7f}, 1.3f);
+        sim::Simulation simulation(scene, library);
+        const auto after = [&](float seconds) {
+            const auto steps = static_cast<int>(std::lround(seconds / simulation.parameters().step_seconds));
+            for (int step = 0; step < steps; ++step)
+                simulation.step();
+            return simulation.parts().buffers.states.download<gpu::AgentState>(2);
+        };
+        const auto early = after(5.0f);
+        const auto late = after(20.0f);
+        const float bar = kilometres < 1.0f ? 0.007f : 0.001f;  // below 520 m, nothing is kept
+        for (std::size_t row = 0; row < 2; ++row) {
+            const float way = glm::distance(early[row].position, late[row].position);
+            EXPECT_NEAR(way / 26.0f, 1.0f, bar) << kilometres << " km";
+            EXPECT_NEAR((late[row].walked - early[row].walked) / 26.0f, 1.0f, bar) << kilometres << " km";
+            EXPECT_NEAR(glm::length(late[row].velocity) / 1.3f, 1.0f, bar) << kilometres << " km";
+        }
+    }
+}
+
+TEST_F(MotionTest, PeoplePassAndWallsHoldFarFromTheOriginToo) {
+    authoring::Scene scene = emptyScene({-10000.0f, -6.0f}, {10000.0f, 6.0f});
+    for (int i = 0; i < 12; ++i) {
+        const float side = i % 2 ? 1.0f : -1.0f;
+        addPerson(scene,
+                  {9950.0f + side * (8.0f + static_cast<float>(i)), 0.4f * static_cast<float>(i % 5) - 0.8f},
+                  {9950.0f - 25.0f * side, 0.0f});
+    }
+    addWall(scene, {9900.0f, 2.0f}, {9999.0f, 2.0f}, 0.1f);
+    addWall(scene, {9900.0f, -2.0f}, {9999.0f, -2.0f}, 0.1f);
+    const Observation seen = run(scene, 60.0f);
+    EXPECT_EQ(seen.arrived, 12u);
+    EXPECT_EQ(seen.wall_crossings, 0u);
+    EXPECT_LT(seen.deepest_percent, 6.0f);
+    EXPECT_LT(seen.deepest_wall_percent, 2.0f);
+}
+
 TEST_F(MotionTest, HeadingFollowsTheVelocitySmoothly) {
     authoring::Scene scene = emptyScene({-10, -10}, {10, 10});
     addPerson(scene, {0, 0}, {8, 0}).heading = std::numbers::pi_v<float>;  // looks away from where it goes

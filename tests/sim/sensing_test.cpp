@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -188,6 +189,35 @@ TEST_F(SensingTest, EveryExactDiagramGivesTheSameNeighbours) {
         sim::Simulation other(scene, library);
         EXPECT_EQ(senseNow(other), expected) << entry.word;
     }
+}
+
+TEST_F(SensingTest, FewPeopleAmongManyWallsSenseWhatTheWholeDiagramShows) {
+    authoring::Scene scene = emptyScene({-2, -2}, {102, 102});
+    for (int i = 0; i < 40; ++i)
+        for (int j = 0; j < 40; ++j) {
+            const glm::vec2 corner(2.5f * static_cast<float>(i) + 0.5f, 2.5f * static_cast<float>(j) + 0.5f);
+            addWall(scene, corner, corner + glm::vec2(0.8f, 0.1f * static_cast<float>((i + j) % 7)));
+        }
+    for (int i = 0; i < 9; ++i)
+        addPerson(scene, {11.0f * static_cast<float>(i) + 1.7f, 9.0f * static_cast<float>(i * i % 11) + 2.2f},
+                  {50, 50});
+    addPerson(scene, {1.7f, 3.1f}, {50, 50});
+    addPerson(scene, {-1.9f, 101.9f}, {50, 50});  // in a corner of the window
+    scene.settings.method = authoring::DiagramMethod::per_site;
+    sim::Simulation whole(scene, library);
+    scene.settings.method = authoring::DiagramMethod::automatic;
+    sim::Simulation chosen(scene, library);
+    EXPECT_EQ(whole.parts().extent, sim::Extent::everywhere);
+    ASSERT_EQ(chosen.parts().extent, sim::Extent::near_people);
+    for (int step = 0; step < 60; ++step) {
+        whole.step();
+        chosen.step();
+    }
+    EXPECT_EQ(senseNow(chosen), senseNow(whole));
+    std::size_t walls = 0;
+    for (const auto& list : senseNow(chosen))
+        walls += std::ranges::count_if(list, [](std::uint32_t key) { return key & gpu::NEIGHBOUR_IS_WALL; });
+    EXPECT_GT(walls, 20u);
 }
 
 TEST_F(SensingTest, CrossesTheBordersOfPagesWithoutASeam) {

@@ -98,7 +98,7 @@ std::map<std::string, Layout> layoutsInCpp() {
             {MEMBER(position), MEMBER(velocity), MEMBER(heading), MEMBER(walked), MEMBER(status),
              MEMBER(stage), MEMBER(stage_end), MEMBER(changes), MEMBER(leave_step), MEMBER(ticket),
              MEMBER(spawn_step), MEMBER(arrival_step), MEMBER(attempts), MEMBER(nervousness),
-             MEMBER(shortest_way), MEMBER(reserved)}};
+             MEMBER(shortest_way), MEMBER(walked_rest), MEMBER(rest)}};
     }
     {
         using T = gpu::Body;
@@ -144,7 +144,8 @@ std::map<std::string, Layout> layoutsInCpp() {
                         MEMBER(row_count),        MEMBER(queue_count),     MEMBER(seed),
                         MEMBER(has_roads),        MEMBER(tile_radius),     MEMBER(largest_radius),
                         MEMBER(step_seconds),     MEMBER(time_horizon),    MEMBER(wall_time_horizon),
-                        MEMBER(contact_range),    MEMBER(contact_slack),   MEMBER(maximum_acceleration)}};
+                        MEMBER(contact_range),    MEMBER(contact_slack),   MEMBER(maximum_acceleration),
+                        MEMBER(is_wide)}};
     }
     return result;
 }

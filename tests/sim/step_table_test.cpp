@@ -93,7 +93,8 @@ class StepTableTest : public GpuTest {
         gl::Buffer frame("frame", simulation.frameBytes());
         simulation.packFrame(frame);
         frame.download<float>(1);
-        sim::Diagram& diagram = simulation.buildDiagramNow();
+        simulation.buildDiagramNow();
+        sim::Diagram& diagram = simulation.diagram();
         gl::Buffer stream("stream", std::size_t{12} * simulation.parameters().row_count);
         for (const StreamInfo& info : kStreams) {
             if (info.source != StreamSource::device) continue;
