@@ -12,13 +12,24 @@
 
 namespace throng::authoring {
 
-/// The raster that all distance fields and the road distance share. Cell (i, j) has its centre at
+/// The raster of the road distance, and on small sites of the distance fields. Cell (i, j) has its centre at
 /// minimum + (i + 0.5, j + 0.5) * cell_size and the index j * width + i.
 struct FieldGrid {
     glm::vec2 minimum{0.0f};  ///< m, scene frame
     float cell_size = 1.0f;   ///< m
     std::uint32_t width = 0;
     std::uint32_t height = 0;
+};
+
+/// All distance fields, as the device holds them: a table of blocks, if there are any, and field after field.
+struct FieldStore {
+    std::vector<std::shared_ptr<const std::vector<gpu::FieldCell>>> fields;
+    std::size_t cells_per_field = 0;
+    float block_cell = 0.0f;          ///< m, the cells of fine blocks
+    std::uint32_t blocks_across = 0;  ///< 0: the cells are those of the scene's grid
+    std::uint32_t blocks_up = 0;
+    std::vector<gpu::FieldCell>
+        block_table;  ///< words: where a block's cells begin in a field, and whether it is fine
 };
 
 /// A wall opens or closes.
@@ -74,7 +85,7 @@ struct Scene {
     std::vector<std::uint32_t> open_at_start;  ///< walls
 
     FieldGrid grid;
-    std::vector<gpu::FieldCell> fields;  ///< field f holds cells [f * cells, (f + 1) * cells)
+    FieldStore fields;
     std::uint32_t field_count = 0;
     Detours detours;
     std::vector<float> road_distance;  ///< m, per grid cell: positive on roads and areas, negative off them;

@@ -77,6 +77,21 @@ void checkCells(glm::vec2 extent, float cell_size) {
         extent.x / 1000.0, extent.y / 1000.0, kMostCells * double{cell_size} * double{cell_size} / 1e6));
 }
 
+/// Field by field: together they may be large.
+gl::Buffer makeFields(const authoring::FieldStore& store) {
+    const std::size_t count = store.block_table.size() + store.fields.size() * store.cells_per_field;
+    gl::Buffer buffer("distance fields", gl::Room{count, sizeof(gpu::FieldCell), "cell of a field"},
+                      gl::Buffer::Use::in_ranges);
+    if (count == 0) buffer.fill(0);
+    if (!store.block_table.empty()) buffer.upload(store.block_table);
+    std::size_t first = store.block_table.size();
+    for (const auto& field : store.fields) {
+        buffer.upload(std::span<const gpu::FieldCell>(*field), first);
+        first += store.cells_per_field;
+    }
+    return buffer;
+}
+
 }  // namespace
 
 gpu::Parameters makeParameters(const authoring::Scene& scene) {
@@ -111,6 +126,10 @@ gpu::Parameters makeParameters(const authoring::Scene& scene) {
     parameters.grid_cell = scene.grid.cell_size;
     parameters.grid_width = scene.grid.width;
     parameters.grid_height = scene.grid.height;
+    parameters.field_cell = scene.fields.block_cell;
+    parameters.field_blocks_across = scene.fields.blocks_across;
+    parameters.field_blocks_up = scene.fields.blocks_up;
+    parameters.cells_per_field = static_cast<std::uint32_t>(scene.fields.cells_per_field);
     parameters.detour_cell = scene.detours.grid.cell_size;
     parameters.detour_width = scene.detours.grid.width;
     parameters.detour_height = scene.detours.grid.height;
@@ -138,7 +157,7 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
       states(gl::makeBuffer("states", initialStates(scene), kPerson)),
       stages(gl::makeBuffer("stages", scene.stages, "stage")),
       plan_changes(gl::makeBuffer("plan changes", scene.plan_changes, "change of plans")),
-      fields(gl::makeBuffer("distance fields", scene.fields, "cell of a field", gl::Buffer::Use::in_ranges)),
+      fields(makeFields(scene.fields)),
       field_cells(fields, gl::WordTexture::Texel::two_words),
       road_distances(gl::makeBuffer("road distances", scene.road_distance, "cell of the fields")),
       lines(gl::makeBuffer("waiting lines", scene.lines, "line")),

@@ -221,7 +221,7 @@ class Reader {
             diagnostics_.warning(thickness->where, "a closed wall is solid: its thickness has no effect");
         reader.number("height", wall.height);
         reader.finish();
-        if (wall.closed) checkPolygon(wall.points, node.find("points"));
+        if (wall.closed) mendObstacle(wall, node.find("points"));
         claimId(node, wall.id, walls_, layout_.walls.size(), "a wall");
         layout_.walls.push_back(std::move(wall));
     }
@@ -255,6 +255,37 @@ class Reader {
         reader.choice("surface", {{"highest", true}, {"lowest", false}}, terrain.highest);
         reader.finish();
         layout_.terrain = std::move(terrain);
+    }
+
+    /// Obstacles that other tools export now and then: what bounds nothing has no effect, so it does no harm.
+    void mendObstacle(Wall& wall, const JsonNode* node) {
+        if (!node || wall.points.size() < 3) return;
+        if (wall.points.front() == wall.points.back()) wall.points.pop_back();
+        std::vector<glm::dvec2> mended = wall.points;
+        const std::size_t removed = removeSpikes(mended);
+        if (mended.size() < 3 || std::abs(signedArea(mended)) < 1.0e-6) {
+            if (selfCrossing(wall.points, false)) return checkPolygon(wall.points, node);
+            wall.closed = false;
+            wall.thickness = 0.0;
+            wall.points.push_back(wall.points.front());
+            diagnostics_.warning(node->where,
+                                 "the obstacle has no area: it is taken for a wall without thickness");
+            return;
+        }
+        wall.points = std::move(mended);
+        if (removed > 0)
+            diagnostics_.warning(node->where,
+                                 fmt::format("the outline stays in place or runs back over itself: {} of its "
+                                             "points are left out",
+                                             removed));
+        if (selfCrossing(wall.points, false)) return checkPolygon(wall.points, node);
+        if (const auto touching = selfCrossing(wall.points))
+            diagnostics_.warning(
+                node->where,
+                fmt::format("the outline touches itself at [{:.6g}, {:.6g}] (edges {} and {})",
+                            touching->point.x, touching->point.y, touching->first_edge,
+                            touching->second_edge),
+                "what lies between is solid all the same, but may not be what was meant");
     }
 
     void checkPolygon(std::vector<glm::dvec2>& polygon, const JsonNode* node) {

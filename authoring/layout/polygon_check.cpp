@@ -34,6 +34,18 @@ std::optional<glm::dvec2> meeting(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm:
     return std::nullopt;
 }
 
+/// Two segments that cross within both of them.
+bool isCrossing(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm::dvec2 d) {
+    return cross(b - a, c - a) * cross(b - a, d - a) < 0.0 && cross(d - c, a - c) * cross(d - c, b - c) < 0.0;
+}
+
+/// Whether the outline runs back over itself at a point, or stays there.
+bool isSpike(glm::dvec2 before, glm::dvec2 point, glm::dvec2 after) {
+    const glm::dvec2 incoming = point - before, outgoing = after - point;
+    return incoming == glm::dvec2(0.0) ||
+           (cross(incoming, outgoing) == 0.0 && incoming.x * outgoing.x + incoming.y * outgoing.y <= 0.0);
+}
+
 }  // namespace
 
 double signedArea(const std::vector<glm::dvec2>& polygon) {
@@ -45,7 +57,21 @@ double signedArea(const std::vector<glm::dvec2>& polygon) {
     return 0.5 * twice;
 }
 
-std::optional<Crossing> selfCrossing(const std::vector<glm::dvec2>& polygon) {
+std::size_t removeSpikes(std::vector<glm::dvec2>& polygon) {
+    const std::size_t before = polygon.size();
+    for (std::size_t i = 0; i < polygon.size() && polygon.size() >= 3;) {
+        const std::size_t count = polygon.size();
+        if (isSpike(polygon[(i + count - 1) % count], polygon[i], polygon[(i + 1) % count])) {
+            polygon.erase(polygon.begin() + static_cast<std::ptrdiff_t>(i));
+            i = i > 0 ? i - 1 : 0;  // the points before it may be one now
+        } else {
+            ++i;
+        }
+    }
+    return before - polygon.size();
+}
+
+std::optional<Crossing> selfCrossing(const std::vector<glm::dvec2>& polygon, bool touching_counts) {
     const std::size_t count = polygon.size();
     const auto end = [&](std::size_t edge) { return polygon[(edge + 1) % count]; };
     std::vector<std::size_t> order(count);
@@ -59,6 +85,8 @@ std::optional<Crossing> selfCrossing(const std::vector<glm::dvec2>& polygon) {
         for (std::size_t j = i + 1; j < count; ++j) {
             const std::size_t other = order[j];
             if (std::min(polygon[other].x, end(other).x) > right) break;
+            if (!touching_counts && !isCrossing(polygon[edge], end(edge), polygon[other], end(other)))
+                continue;
             const bool adjacent = (edge + 1) % count == other || (other + 1) % count == edge;
             if (adjacent && count > 3) {
                 // Neighbours share a point; they are wrong only when one runs back over the other.

@@ -14,8 +14,13 @@ struct Crossing {
     std::size_t second_edge = 0;
 };
 
-/// The first place where a polygon's outline crosses or touches itself. Sweeps over the edges sorted by x.
-std::optional<Crossing> selfCrossing(const std::vector<glm::dvec2>& polygon);
+/// The first place where a polygon's outline crosses itself, or, if that counts, only touches itself. Sweeps
+/// over the edges sorted by x.
+std::optional<Crossing> selfCrossing(const std::vector<glm::dvec2>& polygon, bool touching_counts = true);
+
+/// Takes points out that are there twice in a row, and those at which the outline runs back over itself: they
+/// bound nothing. @returns how many
+std::size_t removeSpikes(std::vector<glm::dvec2>& polygon);
 
 /// Positive for counter-clockwise polygons, m^2.
 double signedArea(const std::vector<glm::dvec2>& polygon);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <functional>
-#include <utility>
 #include <vector>
 
+#include "authoring/scene/front_queue.h"
 #include "authoring/scene/raster.h"
 
 // How far is it to the target, everywhere at once?
@@ -20,62 +19,6 @@ constexpr float kFillCost = 10.0f;  // per metre into what is blocked, so that "
 constexpr float kFillDepth = 4.0f;  // m
 constexpr int kExactCells =
     12;  // around small targets, where fitted planes are poor, distances are taken exactly
-
-constexpr float kBucketCells = 0.06f;  // width of the queue's buckets
-
-struct Front {
-    float distance;
-    std::uint32_t cell;
-    std::uint32_t depth = 0;  // cells into what is blocked
-    bool operator>(const Front& other) const {
-        return distance > other.distance || (distance == other.distance && cell > other.cell);
-    }
-};
-
-/// A priority queue for fronts, the nearest first and equal ones by their cells: as one heap would have them,
-/// but in buckets of nearly equal distances, each a heap of its own when its turn comes. Small heaps stay in
-/// the processor's cache: three times as fast as one for all.
-class FrontQueue {
-  public:
-    /// @param width of a bucket, m
-    explicit FrontQueue(float width) : per_metre_(1.0f / width) {}
-
-    /// Nothing may be nearer than what was popped last.
-    void push(const Front& front) {
-        const auto bucket = static_cast<std::size_t>(front.distance * per_metre_);
-        if (bucket >= buckets_.size()) buckets_.resize(bucket + 1 + bucket / 2);
-        buckets_[bucket].push_back(front);
-        if (bucket == current_)
-            std::push_heap(buckets_[bucket].begin(), buckets_[bucket].end(), std::greater<>());
-        ++count_;
-    }
-    bool empty() const { return count_ == 0; }
-    Front pop() {
-        if (buckets_[current_].empty()) advance();
-        std::vector<Front>& bucket = buckets_[current_];
-        std::pop_heap(bucket.begin(), bucket.end(), std::greater<>());
-        const Front front = bucket.back();
-        bucket.pop_back();
-        --count_;
-        return front;
-    }
-
-  private:
-    void advance() {
-        std::vector<Front> spare = std::move(buckets_[current_]);
-        while (buckets_[current_].empty())
-            ++current_;
-        std::make_heap(buckets_[current_].begin(), buckets_[current_].end(), std::greater<>());
-        // The memory of a bucket that is done serves one that is just beginning.
-        const std::size_t ahead = current_ + 2;
-        if (ahead < buckets_.size() && buckets_[ahead].empty()) buckets_[ahead] = std::move(spare);
-    }
-
-    float per_metre_;
-    std::vector<std::vector<Front>> buckets_;
-    std::size_t current_ = 0;
-    std::size_t count_ = 0;
-};
 
 /// Exact distances around a point target, where no obstacle or bad ground is near.
 void startAround(const WalkMap& map, std::uint32_t target, std::vector<float>& start) {
@@ -102,9 +45,16 @@ void startAround(const WalkMap& map, std::uint32_t target, std::vector<float>& s
     });
 }
 
-/// Distances at the target, and around small ones.
-std::vector<float> startOf(const WalkMap& map, std::span<const std::uint32_t> targets) {
+/// Distances at the target, and around small ones. From where the way is straight they are known; where walls
+/// are near, it is not the distance alone that counts.
+std::vector<float> startOf(const WalkMap& map, std::span<const std::uint32_t> targets,
+                           const StraightWays* straight) {
     std::vector<float> start(map.cost.size(), kUnreachable);
+    if (straight)
+        for (std::uint32_t cell = 0; cell < start.size(); ++cell)
+            if (straight->from[cell] && map.cost[cell] == 1.0f)
+                start[cell] = glm::distance(
+                    straight->to, cellCentre(map.grid, cell % map.grid.width, cell / map.grid.width));
     for (const std::uint32_t cell : targets)
         if (map.cost[cell] < kUnreachable) start[cell] = 0.0f;
     if (targets.size() <= 4 && !map.isBound())
@@ -126,7 +76,7 @@ class Marcher {
           steps_(std::size_t{width_} * (grid_.height + 2), kUnreachable),
           settled_(steps_.size(), kUnreachable),
           tentative_(steps_.size(), kUnreachable),
-          fronts_(kBucketCells * map.grid.cell_size) {
+          fronts_(map.grid.cell_size) {
         for (std::uint32_t y = 0; y < grid_.height; ++y)
             for (std::uint32_t x = 0; x < grid_.width; ++x)
                 steps_[padded(x, y)] = map.cost[std::size_t{y} * grid_.width + x] * grid_.cell_size;
@@ -247,30 +197,46 @@ glm::vec2 downhill(const FieldGrid& grid, const std::vector<float>& distance, st
     return size > 1.0e-6f ? -gradient / size : glm::vec2(0.0f);
 }
 
+/// What becomes a field's cells.
+struct Solved {
+    std::vector<float> distance;  // what people minimise
+    std::vector<float> length;    // of that way
+    std::vector<glm::vec2> direction;
+    std::vector<std::uint8_t> straight;  // empty: nowhere
+};
+
 /// Gives the cells that no path leads from, as far inside as anybody could ever be pushed, a distance and a
-/// direction towards the nearest cell that has one.
-void fillBlocked(const FieldGrid& grid, std::vector<float>& distance, std::vector<glm::vec2>& direction) {
+/// direction: towards the neighbour from which the target is nearest, or, where some know that the way is
+/// straight, towards the nearest neighbour, because they do not see through walls.
+void fillBlocked(const FieldGrid& grid, Solved& field) {
+    std::vector<float>& distance = field.distance;
     std::vector<std::uint8_t> original(distance.size());
-    for (std::size_t cell = 0; cell < distance.size(); ++cell)
+    std::vector<float> level = distance;  // what is filled first
+    for (std::size_t cell = 0; cell < distance.size(); ++cell) {
         original[cell] = distance[cell] < kUnreachable;
+        if (original[cell] && !field.straight.empty()) level[cell] = 0.0f;
+    }
     const auto deepest = static_cast<std::uint32_t>(std::ceil(kFillDepth / grid.cell_size));
-    FrontQueue fronts(kBucketCells * grid.cell_size);
+    FrontQueue fronts(grid.cell_size);
     for (std::uint32_t cell = 0; cell < distance.size(); ++cell) {
         if (!original[cell]) continue;
         bool at_the_edge = false;
         visitNeighbours(grid, cell,
                         [&](std::uint32_t next) { at_the_edge = at_the_edge || !original[next]; });
-        if (at_the_edge) fronts.push({distance[cell], cell});
+        if (at_the_edge) fronts.push({level[cell], cell});
     }
     while (!fronts.empty()) {
         const Front front = fronts.pop();
-        if (front.distance > distance[front.cell]) continue;
+        if (front.distance > level[front.cell]) continue;
         const std::uint32_t x = front.cell % grid.width;
         const auto spread = [&](std::uint32_t cell, glm::vec2 towards) {
-            const float found = front.distance + kFillCost * grid.cell_size;
-            if (original[cell] || found >= distance[cell] || front.depth >= deepest) return;
-            distance[cell] = found;
-            direction[cell] = towards;
+            const float step = kFillCost * grid.cell_size, found = front.distance + step;
+            if (original[cell] || found >= level[cell] || front.depth >= deepest) return;
+            level[cell] = found;
+            distance[cell] = distance[front.cell] + step;
+            field.length[cell] = field.length[front.cell] + step;
+            field.direction[cell] = towards;
+            if (!field.straight.empty()) field.straight[cell] = field.straight[front.cell];
             fronts.push({found, cell, front.depth + 1});
         };
         if (x > 0) spread(front.cell - 1, {1.0f, 0.0f});
@@ -280,34 +246,51 @@ void fillBlocked(const FieldGrid& grid, std::vector<float>& distance, std::vecto
     }
 }
 
-}  // namespace
-
-Field solveField(const WalkMap& map, std::span<const std::uint32_t> targets, DistanceSolver* solver) {
-    Field field;
-    const std::vector<float> start = startOf(map, targets);
-    field.reachable = solver          ? solver->solve(map, start)
-                      : map.isBound() ? marchFrom<true>(map, start)
-                                      : marchFrom<false>(map, start);
-
-    // Inside a wide target all is zero: point at its middle.
+/// Downhill everywhere. Inside a wide target all is zero: there it points at its middle.
+std::vector<glm::vec2> directionsOf(const FieldGrid& grid, const std::vector<float>& distance,
+                                    std::span<const std::uint32_t> targets) {
     glm::vec2 middle(0.0f);
     for (const std::uint32_t cell : targets)
-        middle += cellCentre(map.grid, cell % map.grid.width, cell / map.grid.width) /
-                  static_cast<float>(targets.size());
-    std::vector<glm::vec2> direction(field.reachable.size(), glm::vec2(0.0f));
+        middle += cellCentre(grid, cell % grid.width, cell / grid.width) / static_cast<float>(targets.size());
+    std::vector<glm::vec2> direction(distance.size(), glm::vec2(0.0f));
     for (std::uint32_t cell = 0; cell < direction.size(); ++cell) {
-        if (field.reachable[cell] == kUnreachable) continue;
-        direction[cell] = downhill(map.grid, field.reachable, cell);
+        if (distance[cell] == kUnreachable) continue;
+        direction[cell] = downhill(grid, distance, cell);
         if (direction[cell] != glm::vec2(0.0f)) continue;
-        const glm::vec2 inward = middle - cellCentre(map.grid, cell % map.grid.width, cell / map.grid.width);
+        const glm::vec2 inward = middle - cellCentre(grid, cell % grid.width, cell / grid.width);
         if (glm::length(inward) > 1.0e-4f) direction[cell] = glm::normalize(inward);
     }
-    std::vector<float> distance = field.reachable;
-    fillBlocked(map.grid, distance, direction);
-    field.cells.resize(distance.size());
-    for (std::size_t cell = 0; cell < distance.size(); ++cell)
-        field.cells[cell] = {distance[cell] < kUnreachable ? distance[cell] : 1.0e9f,
-                             packDirection(direction[cell])};
+    return direction;
+}
+
+}  // namespace
+
+gpu::FieldCell packFieldCell(float length, glm::vec2 direction, bool straight) {
+    constexpr float kLeast = 1.0e-6f;  // zero has no sign to tell
+    const float distance = length < kUnreachable ? length : 1.0e9f;
+    return {straight ? -std::max(distance, kLeast) : distance, packDirection(direction)};
+}
+
+Field solveField(const WalkMap& map, std::span<const std::uint32_t> targets, DistanceSolver* solver,
+                 const StraightWays* straight) {
+    const std::vector<float> start = startOf(map, targets, straight);
+    Solved solved;
+    solved.distance = solver          ? solver->solve(map, start)
+                      : map.isBound() ? marchFrom<true>(map, start)
+                                      : marchFrom<false>(map, start);
+    solved.length = wayLengths(map, solved.distance, start);
+    solved.direction = directionsOf(map.grid, solved.distance, targets);
+    if (straight) solved.straight = straight->from;
+    Field field;
+    field.reachable = solved.distance;
+    fillBlocked(map.grid, solved);
+    field.cells.resize(field.reachable.size());
+    field.is_reached.resize(field.reachable.size());
+    for (std::size_t cell = 0; cell < field.cells.size(); ++cell) {
+        field.is_reached[cell] = field.reachable[cell] < kUnreachable;
+        field.cells[cell] = packFieldCell(solved.length[cell], solved.direction[cell],
+                                          straight && solved.straight[cell] != 0);
+    }
     return field;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <span>
@@ -19,6 +21,8 @@ struct LocalRoad {
 };
 using LocalPolygon = std::vector<glm::vec2>;
 
+inline constexpr float kWallComfort = 0.2f;  // m
+
 /// What the rasters are made from, all in the scene frame.
 struct WalkGeometry {
     glm::vec2 minimum{0.0f};
@@ -29,12 +33,31 @@ struct WalkGeometry {
     std::vector<LocalPolygon> areas;
     float smallest_radius = 0.25f;  ///< of all people, m
     float largest_radius = 0.25f;
+    float wall_comfort = kWallComfort;  ///< m beyond the largest radius: nearer to a wall, walking costs more
 };
 
-/// The grid for a scene: cells of 0.1 to 1 m, at most about 1.5 million of them.
-FieldGrid makeGrid(const WalkGeometry& geometry);
-/// The same with cells of at least `smallest_cell` (m), at most `most_cells` of them.
-FieldGrid makeGrid(const WalkGeometry& geometry, float smallest_cell, double most_cells);
+inline constexpr float kSmallestCell = 0.1f;     ///< m
+inline constexpr double kMostCells = 400'000.0;  ///< about
+
+/// A grid over all the ground: cells of at least `smallest_cell` (m), at most `most_cells` of them.
+FieldGrid makeGrid(const WalkGeometry& geometry, float smallest_cell = kSmallestCell,
+                   double most_cells = kMostCells);
+
+inline constexpr float kOffRoadCost = 6.0f;  ///< per metre off the roads, for those who keep to them
+
+/// What walking near a wall costs more, per metre.
+class WallCost {
+  public:
+    WallCost(const WalkGeometry& geometry, float cell_size);
+    /// @param distance from a cell's middle to the wall's surface, m
+    float operator()(float distance) const;
+    /// Walls further away cost nothing, m.
+    float reach() const { return std::max(comfort_, clearance_); }
+
+  private:
+    float comfort_;
+    float clearance_;
+};
 
 /// @param keep_to_roads whether ground outside roads and areas costs several times more, and one-way roads
 /// bind
@@ -59,14 +82,36 @@ std::vector<float> roadDistance(const WalkGeometry& geometry, const FieldGrid& g
 /// One solved distance field.
 struct Field {
     std::vector<gpu::FieldCell> cells;  ///< finite everywhere, as the GPU wants them
-    std::vector<float> reachable;  ///< the same distances, kUnreachable where no path leads to the target
+    std::vector<bool> is_reached;       ///< of each cell, whether a path leads from it to the target
+    std::vector<float>
+        reachable;  ///< what that path costs, kUnreachable where there is none; may be left out
+
+    /// Metres from there to the target, kUnreachable where no path leads.
+    float lengthFrom(std::uint32_t cell) const {
+        return is_reached[cell] ? std::abs(cells[cell].distance) : kUnreachable;
+    }
+};
+
+/// From where a body can walk straight to a point.
+struct StraightWays {
+    glm::vec2 to{0.0f};
+    std::vector<std::uint8_t> from;  ///< of each cell, 0 or 1
 };
 
 /// Walking distance to the nearest target cell (Eikonal equation) and the way downhill.
 /// @param targets cell indices; blocked ones among them are ignored
 /// @param solver null: fast marching (Sethian 1996), here
-Field solveField(const WalkMap& map, std::span<const std::uint32_t> targets,
-                 DistanceSolver* solver = nullptr);
+/// @param straight to the target's middle, null: not asked for
+Field solveField(const WalkMap& map, std::span<const std::uint32_t> targets, DistanceSolver* solver = nullptr,
+                 const StraightWays* straight = nullptr);
+
+/// The lengths (m) of the ways that lead downhill on `distance`, which counts bad ground several times.
+/// @param start where it began
+std::vector<float> wayLengths(const WalkMap& map, const std::vector<float>& distance,
+                              const std::vector<float>& start);
+
+/// @param straight whether the rest of the way is
+gpu::FieldCell packFieldCell(float length, glm::vec2 direction, bool straight);
 
 /// Cells whose centre lies in the polygon, and for thin polygons at least the cell of its middle.
 std::vector<std::uint32_t> cellsInPolygon(const FieldGrid& grid, const LocalPolygon& polygon);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <list>
 #include <map>
@@ -10,27 +11,63 @@
 #include <string>
 #include <vector>
 
-#include "authoring/scene/fields.h"
+#include "authoring/scene/field_blocks.h"
+#include "authoring/scene/raster.h"
+#include "authoring/scene/sight.h"
 
 namespace throng::authoring {
 
+/// How fine ground is worked out.
+struct GroundResolution {
+    FieldGrid grid;           ///< of the distances to roads, of the coarse map, and of fields without blocks
+    float block_cell = 0.0f;  ///< m, of fields in blocks; 0: there are no blocks
+
+    bool operator==(const GroundResolution& other) const {
+        return grid.cell_size == other.grid.cell_size && block_cell == other.block_cell;
+    }
+};
+
+/// What suits a site. @param fields that will be asked for: many have to be less fine
+GroundResolution resolutionFor(const WalkGeometry& geometry, std::size_t fields);
+
+/// Goals that share a field: their bounds, with nothing but room in them.
+using GoalBox = Box;
+
 /// Ground to walk on, and everything worked out from it, once each. Solving may go on in several threads.
+///
+/// A field has a value for each spot: a cell of the grid, or a node of the blocks.
 class Ground {
   public:
-    Ground(WalkGeometry geometry, const FieldGrid& grid);
+    Ground(WalkGeometry geometry, const GroundResolution& resolution);
 
     const FieldGrid& grid() const { return grid_; }
-    const WalkMap& map(bool keep_to_roads);
+    const FieldBlocks& blocks() const { return blocks_; }  ///< empty on small sites
+    std::size_t cellsPerField() const { return blocks_.empty() ? cellCount(grid_) : blocks_.cell_count; }
+    const WalkMap& map(bool keep_to_roads) { return mapFor(keep_to_roads ? kOnRoads : kAnywhere); }
     const CoarseMap& coarse(bool keep_to_roads);
     FieldGrid coarseGrid() const;
     const std::vector<float>& roadDistances();
+    const Sight& sight();
 
     /// From now on fields are solved by it, in the thread that asks; null: here, by any thread.
-    void solveWith(DistanceSolver* solver) { solver_ = solver; }
+    void solveWith(DistanceSolver* solver) { solver_ = blocks_.empty() ? solver : nullptr; }
     DistanceSolver* solver() const { return solver_; }
 
-    using Targets = std::vector<std::uint32_t>;  // cells
+    /// Where somebody at this place is, even if too near to a wall for a spot; gpu::NO_INDEX in the middle of
+    /// one.
+    std::uint32_t spotAt(glm::vec2 point);
+    /// All spots in it, at least the one of its middle.
+    std::vector<std::uint32_t> spotsIn(const LocalPolygon& polygon);
+    /// Metres of walking, kUnreachable where no path leads.
+    float lengthFrom(const Field& field, std::uint32_t spot) const;
+    /// A rectangle with nothing but free ground in it, but for the point's own spot: of a square of `side` m
+    /// that holds the point, what is left when it is cut at the nearest obstacle until there is none.
+    GoalBox clearBox(glm::vec2 point, float side);
+
+    using Targets = std::vector<std::uint32_t>;  // spots
     std::shared_ptr<const Field> solve(bool keep_to_roads, const Targets& targets);
+    /// To the middle of a box, and from where all of it can be walked to straight on, straight.
+    std::shared_ptr<const Field> solveTo(const GoalBox& goals);
     /// Distances on the coarse map.
     std::shared_ptr<const Field> solveCoarse(bool keep_to_roads, const Targets& targets);
 
@@ -39,24 +76,40 @@ class Ground {
 
   private:
     using Solved = std::map<Targets, std::shared_ptr<const Field>>;
-    std::shared_ptr<const Field> solveOnce(Solved& solved, const WalkMap& map, const Targets& targets);
+    template <class Key, class Solve>
+    std::shared_ptr<const Field> once(std::map<Key, std::shared_ptr<const Field>>& solved, const Key& key,
+                                      Solve solve);
+    enum Purpose { kAnywhere, kOnRoads, kToPoints, kPurposes };
+    WalkGeometry geometryFor(Purpose purpose) const;
+    const WalkMap& mapFor(Purpose purpose);
+    const BlockMap& blockMapFor(Purpose purpose);
+    const std::vector<float>& costFor(Purpose purpose);
+    Field solveFine(Purpose purpose, const Targets& targets, const StraightWays* straight);
+    std::optional<glm::vec2> freeCellNear(glm::vec2 point);
+    StraightWays straightTo(const GoalBox& goals, glm::vec2 middle);
+    template <class Visit>
+    void visitSpots(glm::vec2 lower, glm::vec2 upper, Visit visit) const;
 
     WalkGeometry geometry_;
     FieldGrid grid_;
     DistanceSolver* solver_ = nullptr;
     std::recursive_mutex making_;  // maps and distances
-    std::optional<WalkMap> maps_[2];
+    FieldBlocks blocks_;
+    std::optional<WalkMap> maps_[kPurposes];
+    std::optional<BlockMap> block_maps_[kPurposes];
+    std::optional<Sight> sight_;
     std::optional<CoarseMap> coarse_[2];
     std::optional<std::vector<float>> road_distances_;
     mutable std::mutex solving_;
     Solved solved_[2], solved_coarse_[2];
+    std::map<std::array<float, 4>, std::shared_ptr<const Field>> solved_to_;
 };
 
 /// Keeps the ground of the last few scenes: many scenarios differ in everything but their ground, and working
 /// it out takes longer than all else that makes a scene.
 class GroundCache {
   public:
-    std::shared_ptr<Ground> groundFor(const WalkGeometry& geometry, const FieldGrid& grid);
+    std::shared_ptr<Ground> groundFor(const WalkGeometry& geometry, const GroundResolution& resolution);
 
   private:
     struct Entry {

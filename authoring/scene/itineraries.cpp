@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <set>
+#include <utility>
 
 #include "authoring/scene/raster.h"
 #include "authoring/scene/walls.h"
@@ -75,25 +77,46 @@ Itineraries::Itineraries(const Layout& layout, const Rebase& rebase, const WalkG
       diagnostics_(diagnostics),
       scene_(scene) {}
 
-void Itineraries::prepare() {
-    std::vector<std::vector<Place>> wanted[2];
+/// What people who do not keep to roads, and who do, go to.
+std::array<Itineraries::Destinations, 2> Itineraries::wanted(const Layout& layout) {
+    std::array<Destinations, 2> wanted;
     const auto want = [&](const Destination& to, bool keep_to_roads) {
-        std::vector<std::vector<Place>>& list = wanted[keep_to_roads ? 1 : 0];
+        Destinations& list = wanted[keep_to_roads ? 1 : 0];
         if (to.kind == Destination::Kind::nearest) list.push_back(to.places);
         if (to.kind != Destination::Kind::nearest)
             for (const Place& place : to.places)
                 list.push_back({place});
     };
-    for (const Flow& flow : layout_.flows) {
+    for (const Flow& flow : layout.flows) {
         for (const Stop& stop : flow.via)
-            want(stop.at, !layout_.roads.empty());
-        want(flow.to, !layout_.roads.empty());
+            want(stop.at, !layout.roads.empty());
+        want(flow.to, !layout.roads.empty());
     }
-    for (const Formation& formation : layout_.formations)
+    for (const Formation& formation : layout.formations)
         if (const auto* grid = std::get_if<GridFormation>(&formation.shape))
             if (const auto* to = std::get_if<Destination>(&grid->goal)) want(*to, false);
+    return wanted;
+}
+
+std::size_t Itineraries::destinationCount(const Layout& layout) {
+    std::size_t count = 0;
+    for (const Destinations& list : wanted(layout)) {
+        std::set<std::vector<std::pair<Place::Kind, std::size_t>>> different;
+        for (const std::vector<Place>& places : list) {
+            std::vector<std::pair<Place::Kind, std::size_t>> key;
+            for (const Place& place : places)
+                key.emplace_back(place.kind, place.index);
+            different.insert(key);
+        }
+        count += different.size();
+    }
+    return count;
+}
+
+void Itineraries::prepare() {
+    const std::array<Destinations, 2> lists = wanted(layout_);
     for (const bool keep_to_roads : {false, true})
-        routes_.solveAll(wanted[keep_to_roads ? 1 : 0], keep_to_roads);
+        routes_.solveAll(lists[keep_to_roads ? 1 : 0], keep_to_roads);
 }
 
 bool Itineraries::isShared(const Journey& journey) {

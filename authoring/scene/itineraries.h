@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
@@ -51,6 +52,8 @@ class Itineraries {
 
     /// Solves what journeys of flows and formations will ask for, at once.
     void prepare();
+    /// How many fields these are.
+    static std::size_t destinationCount(const Layout& layout);
     /// The field of a destination. @param choice which of its places, where one is chosen
     std::uint32_t fieldTo(const Destination& to, bool keep_to_roads, std::size_t choice = 0);
 
@@ -75,6 +78,8 @@ class Itineraries {
                          const Traveller& traveller);
     glm::vec2 spotFor(const Place& place, const Traveller& traveller, glm::vec2& middle);
     std::uint32_t lineFor(const Stop& stop);
+    using Destinations = std::vector<std::vector<Place>>;
+    static std::array<Destinations, 2> wanted(const Layout& layout);
     std::size_t chosen(const Destination& to, const GroupRandom& random, std::uint64_t leader,
                        std::uint64_t draw) const;
 

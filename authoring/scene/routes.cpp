@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstdlib>
+#include <bit>
+#include <glm/common.hpp>
 #include <glm/packing.hpp>
-#include <limits>
 #include <set>
 #include <thread>
 
@@ -18,6 +18,8 @@ namespace {
 
 /// All fields together stay below this, on the device and here: what every device samples as one buffer.
 constexpr std::size_t kMostFieldBytes = std::size_t{1} << 30;
+/// Goals get fields of their own up to this many cells: about half a second's work.
+constexpr std::size_t kMostPointCells = 6'000'000;
 
 void appendGround(const CoarseMap& coarse, std::vector<gpu::GroundCell>& ground) {
     const WalkMap& map = coarse.map;
@@ -30,7 +32,7 @@ void appendGround(const CoarseMap& coarse, std::vector<gpu::GroundCell>& ground)
 }  // namespace
 
 Routes::Routes(const Layout& layout, const Rebase& rebase, Ground& ground)
-    : layout_(layout), rebase_(rebase), ground_(ground), grid_(ground.grid()) {}
+    : layout_(layout), rebase_(rebase), ground_(ground) {}
 
 LocalPolygon Routes::outline(const Place& place, float depth) const {
     if (place.kind == Place::Kind::area) return rebase_.local(layout_.areas[place.index].polygon);
@@ -51,52 +53,65 @@ std::string Routes::name(const Place& place) const {
 }
 
 bool Routes::hasRoom() const {
-    return (fields_.size() + 1) * cellCount(grid_) * sizeof(gpu::FieldCell) <= kMostFieldBytes;
+    return (fields_.size() + 1) * ground_.cellsPerField() * sizeof(gpu::FieldCell) <= kMostFieldBytes;
+}
+
+std::uint32_t Routes::add(Entry entry) {
+    fields_.push_back(std::move(entry));
+    return static_cast<std::uint32_t>(fields_.size() - 1);
+}
+
+Routes::Entry Routes::entryOf(const std::vector<Place>& places, bool keep_to_roads) const {
+    Entry entry;
+    entry.has_choice = places.size() > 1;
+    entry.on_roads = keep_to_roads;
+    for (const Place& place : places) {
+        const std::vector<std::uint32_t> cells = cellsInPolygon(ground_.grid(), outline(place, kTargetDepth));
+        entry.targets.insert(entry.targets.end(), cells.begin(), cells.end());
+    }
+    return entry;
+}
+
+std::shared_ptr<const Field> Routes::solve(const std::vector<Place>& places, bool keep_to_roads) {
+    Ground::Targets targets;
+    for (const Place& place : places) {
+        const Ground::Targets spots = ground_.spotsIn(outline(place, kTargetDepth));
+        targets.insert(targets.end(), spots.begin(), spots.end());
+    }
+    return ground_.solve(keep_to_roads, targets);
+}
+
+void Routes::solveEach(const std::vector<std::uint32_t>& fields,
+                       const std::function<void(std::uint32_t)>& solve) {
+    std::atomic<std::size_t> next = 0;
+    const auto work = [&] {
+        for (std::size_t i = next++; i < fields.size(); i = next++)
+            solve(fields[i]);
+    };
+    if (ground_.solver()) return work();  // a device works for this thread only
+    std::vector<std::jthread> workers;
+    for (std::size_t i = 0; i < std::min<std::size_t>(std::thread::hardware_concurrency(), fields.size());
+         ++i)
+        workers.emplace_back(work);
 }
 
 void Routes::solveAll(const std::vector<std::vector<Place>>& destinations, bool keep_to_roads) {
-    struct Task {
-        std::vector<std::uint32_t> targets;
-        std::uint32_t field;
-    };
-    std::vector<Task> tasks;
+    std::vector<std::uint32_t> fields;
+    std::map<std::uint32_t, const std::vector<Place>*> places_of;
     for (const std::vector<Place>& places : destinations) {
         const auto [entry, is_new] = known_.try_emplace(keyOf(places, keep_to_roads), 0);
         if (!is_new) continue;
         if (!hasRoom()) {
             too_many_ = true;
-            return;
+            break;
         }
-        std::vector<std::uint32_t> targets = cellsOf(places);
-        entry->second = addField({}, targets, keep_to_roads, places.size() > 1);
-        tasks.push_back({std::move(targets), entry->second});
+        entry->second = add(entryOf(places, keep_to_roads));
+        fields.push_back(entry->second);
+        places_of[entry->second] = &places;
     }
-    std::atomic<std::size_t> next = 0;
-    const auto work = [&] {
-        for (std::size_t task = next++; task < tasks.size(); task = next++)
-            fields_[tasks[task].field] = ground_.solve(keep_to_roads, tasks[task].targets);
-    };
-    if (ground_.solver()) return work();  // a device works for this thread only
-    std::vector<std::jthread> workers;
-    for (std::size_t i = 0; i < std::min<std::size_t>(std::thread::hardware_concurrency(), tasks.size()); ++i)
-        workers.emplace_back(work);
-}
-
-std::uint32_t Routes::addField(std::shared_ptr<const Field> field, std::vector<std::uint32_t> targets,
-                               bool keep_to_roads, bool has_choice) {
-    fields_.push_back(std::move(field));
-    targets_.push_back(std::move(targets));
-    on_roads_.push_back(keep_to_roads);
-    has_choice_.push_back(has_choice);
-    return static_cast<std::uint32_t>(fields_.size() - 1);
-}
-
-std::uint32_t Routes::solve(const std::vector<std::uint32_t>& targets, bool keep_to_roads, bool has_choice) {
-    if (!hasRoom()) {
-        too_many_ = true;
-        return 0;
-    }
-    return addField(ground_.solve(keep_to_roads, targets), targets, keep_to_roads, has_choice);
+    solveEach(fields, [&](std::uint32_t field) {
+        fields_[field].field = solve(*places_of.at(field), keep_to_roads);
+    });
 }
 
 std::uint32_t Routes::fieldTo(const Place& place, bool keep_to_roads) {
@@ -104,9 +119,15 @@ std::uint32_t Routes::fieldTo(const Place& place, bool keep_to_roads) {
 }
 
 std::uint32_t Routes::fieldTo(const std::vector<Place>& places, bool keep_to_roads) {
-    const auto [entry, is_new] = known_.try_emplace(keyOf(places, keep_to_roads), 0);
-    if (is_new) entry->second = solve(cellsOf(places), keep_to_roads, places.size() > 1);
-    return entry->second;
+    const auto [known, is_new] = known_.try_emplace(keyOf(places, keep_to_roads), 0);
+    if (!is_new) return known->second;
+    if (!hasRoom()) {
+        too_many_ = true;
+        return known->second;
+    }
+    Entry entry = entryOf(places, keep_to_roads);
+    entry.field = solve(places, keep_to_roads);
+    return known->second = add(std::move(entry));
 }
 
 std::string Routes::keyOf(const std::vector<Place>& places, bool keep_to_roads) const {
@@ -116,101 +137,119 @@ std::string Routes::keyOf(const std::vector<Place>& places, bool keep_to_roads) 
     return key;
 }
 
-std::vector<std::uint32_t> Routes::cellsOf(const std::vector<Place>& places) const {
-    std::vector<std::uint32_t> targets;
-    for (const Place& place : places) {
-        const std::vector<std::uint32_t> cells = cellsInPolygon(grid_, outline(place, kTargetDepth));
-        targets.insert(targets.end(), cells.begin(), cells.end());
+/// Points that share a clear rectangle of up to `side` metres; by themselves for 0.
+/// @returns one group more than `most` where they are more than that
+Routes::Groups Routes::groupsOf(float side, std::size_t most) const {
+    Groups groups;
+    std::vector<GoalBox> rooms;
+    for (std::size_t point = 0; point < points_.size() && groups.size() <= most; ++point) {
+        const glm::vec2 at = points_[point];
+        std::size_t group = groups.size();
+        for (std::size_t i = 0; side > 0.0f && i < rooms.size() && group == groups.size(); ++i)
+            if (at.x >= rooms[i].lower.x && at.x < rooms[i].upper.x && at.y >= rooms[i].lower.y &&
+                at.y < rooms[i].upper.y)
+                group = i;
+        if (group == groups.size()) {
+            if (side > 0.0f) rooms.push_back(ground_.clearBox(at, side));
+            groups.push_back({{at, at}, {}});
+        }
+        groups[group].first = {glm::min(groups[group].first.lower, at),
+                               glm::max(groups[group].first.upper, at)};
+        groups[group].second.push_back(point);
     }
-    return targets;
+    return groups;
 }
 
-/// A rectangle without a blocked cell that holds the point's cell: a square of kSurroundings, cut at the
-/// nearest blocked cell until none is left. A straight wall takes one cut, and the rest is the same rectangle
-/// for all points near it.
-std::vector<std::uint32_t> Routes::clearRectangle(glm::vec2 point) {
-    const WalkMap& map = ground_.map(false);
-    const auto width = static_cast<int>(grid_.width);
-    const auto cell = static_cast<int>(cellAt(grid_, point));
-    const int x = cell % width, y = cell / width;
-    const int side = std::max(1, static_cast<int>(kSurroundings / grid_.cell_size));
-    int x0 = x / side * side, x1 = std::min(x0 + side, width);
-    int y0 = y / side * side, y1 = std::min(y0 + side, static_cast<int>(grid_.height));
-    for (;;) {
-        int nearest = std::numeric_limits<int>::max(), blocked_x = x, blocked_y = y;
-        for (int line = y0; line < y1; ++line)
-            for (int column = x0; column < x1; ++column) {
-                const int away = std::max(std::abs(column - x), std::abs(line - y));
-                if (away == 0 || away >= nearest ||
-                    map.cost[static_cast<std::size_t>(line) * grid_.width +
-                             static_cast<std::size_t>(column)] < kUnreachable)
-                    continue;
-                nearest = away;
-                blocked_x = column;
-                blocked_y = line;
-            }
-        if (blocked_x == x && blocked_y == y) break;
-        if (std::abs(blocked_x - x) >= std::abs(blocked_y - y))
-            (blocked_x < x ? x0 : x1) = blocked_x < x ? blocked_x + 1 : blocked_x;
-        else
-            (blocked_y < y ? y0 : y1) = blocked_y < y ? blocked_y + 1 : blocked_y;
+std::size_t Routes::plan(const std::vector<glm::vec2>& points) {
+    std::set<std::pair<float, float>> different;
+    points_.clear();
+    for (const glm::vec2 point : points)
+        if (different.emplace(point.x, point.y).second) points_.push_back(point);
+    // At least as many as there are rooms, at most as many as do not take long.
+    constexpr float kWidest = 32.0f;  // m
+    const std::size_t affordable = std::max<std::size_t>(1, kMostPointCells / ground_.cellsPerField());
+    groups_ = groupsOf(0.0f, affordable);
+    if (groups_.size() > affordable) {
+        const Groups fewest = groupsOf(kWidest, points_.size());
+        const std::size_t most = std::max(affordable, fewest.size());
+        groups_ = groupsOf(0.0f, most);
+        for (float side = 1.0f; groups_.size() > most && side < kWidest; side *= 2.0f)
+            groups_ = groupsOf(side, most);
+        if (groups_.size() > most) groups_ = fewest;
     }
-    std::vector<std::uint32_t> cells;
-    for (int line = y0; line < y1; ++line)
-        for (int column = x0; column < x1; ++column)
-            cells.push_back(static_cast<std::uint32_t>(line * width + column));
-    return cells;
+    return groups_.size();
+}
+
+void Routes::solvePlanned() {
+    std::vector<std::uint32_t> fields;
+    std::map<std::uint32_t, const GoalBox*> box_of;
+    for (const auto& [box, members] : groups_) {
+        if (!hasRoom()) break;
+        Entry entry;
+        const glm::vec2 middle = 0.5f * (box.lower + box.upper);
+        entry.targets = {ground_.blocks().empty() ? ground_.spotAt(middle) : cellAt(ground_.grid(), middle)};
+        const std::uint32_t field = add(std::move(entry));
+        fields.push_back(field);
+        box_of[field] = &box;
+        for (const std::size_t point : members)
+            field_of_point_[{points_[point].x, points_[point].y}] = field;
+    }
+    ground_.sight();  // for all of them
+    solveEach(fields,
+              [&](std::uint32_t field) { fields_[field].field = ground_.solveTo(*box_of.at(field)); });
 }
 
 std::uint32_t Routes::fieldTo(glm::vec2 point) {
-    // A rectangle holds the cell that it was made for, so one that is known is found by any of its cells.
-    const std::uint32_t cell = cellAt(grid_, point);
-    if (const auto known = field_of_cell_.find(cell); known != field_of_cell_.end()) return known->second;
-    if (!hasRoom()) return gpu::NO_INDEX;
-    const std::vector<std::uint32_t> targets = clearRectangle(point);
-    const std::uint32_t field = solve(targets, false, false);
-    for (const std::uint32_t target : targets)
-        field_of_cell_.try_emplace(target, field);
-    return field;
+    const auto known = field_of_point_.find({point.x, point.y});
+    return known == field_of_point_.end() ? gpu::NO_INDEX : known->second;
 }
 
 float Routes::reachable(std::uint32_t field, glm::vec2 from) const {
-    return fields_.empty() ? 0.0f : fields_[field]->reachable[cellAt(grid_, from)];
+    if (fields_.empty()) return 0.0f;
+    return ground_.lengthFrom(*fields_[field].field, ground_.spotAt(from));
 }
 
 float Routes::reachable(std::uint32_t field, const LocalPolygon& from) const {
     if (fields_.empty()) return 0.0f;
     float least = kUnreachable;
-    for (const std::uint32_t cell : cellsInPolygon(grid_, from))
-        least = std::min(least, fields_[field]->reachable[cell]);
+    for (const std::uint32_t spot : ground_.spotsIn(from))
+        least = std::min(least, ground_.lengthFrom(*fields_[field].field, spot));
     return least;
 }
 
-std::vector<gpu::FieldCell> Routes::cells() const {
-    std::vector<gpu::FieldCell> cells;
-    cells.reserve(fields_.size() * cellCount(grid_));
-    for (const std::shared_ptr<const Field>& field : fields_)
-        cells.insert(cells.end(), field->cells.begin(), field->cells.end());
-    return cells;
+FieldStore Routes::store() const {
+    FieldStore store;
+    store.cells_per_field = ground_.cellsPerField();
+    for (const Entry& entry : fields_)
+        store.fields.emplace_back(entry.field, &entry.field->cells);
+    const FieldBlocks& blocks = ground_.blocks();
+    if (blocks.empty()) return store;
+    store.block_cell = blocks.cells.cell_size;
+    store.blocks_across = blocks.across;
+    store.blocks_up = blocks.up;
+    for (std::size_t block = 0; block < blocks.kinds.size(); ++block)
+        store.block_table.push_back({std::bit_cast<float>(blocks.first_cells[block]),
+                                     blocks.kinds[block] == FieldBlocks::Kind::fine ? 1u : 0u});
+    return store;
 }
 
 Detours Routes::detours() {
     Detours detours;
     detours.grid = ground_.coarseGrid();
-    detours.has_choice = has_choice_;
     std::optional<std::uint32_t> map_index[2];
     for (std::size_t field = 0; field < fields_.size(); ++field) {
-        const CoarseMap& coarse = ground_.coarse(on_roads_[field]);
-        std::optional<std::uint32_t>& index = map_index[on_roads_[field] ? 1 : 0];
+        detours.has_choice.push_back(fields_[field].has_choice);
+        const CoarseMap& coarse = ground_.coarse(fields_[field].on_roads);
+        std::optional<std::uint32_t>& index = map_index[fields_[field].on_roads ? 1 : 0];
         if (!index) {
             index = static_cast<std::uint32_t>(detours.ground.size() / cellCount(detours.grid));
             appendGround(coarse, detours.ground);
         }
         detours.ground_of_field.push_back(*index);
         std::set<std::uint32_t> cells;
-        for (const std::uint32_t cell : targets_[field])
+        for (const std::uint32_t cell : fields_[field].targets)
             if (coarse.cell_of[cell] != gpu::NO_INDEX) cells.insert(coarse.cell_of[cell]);
-        const auto solved = ground_.solveCoarse(on_roads_[field], {cells.begin(), cells.end()});
+        const auto solved = ground_.solveCoarse(fields_[field].on_roads, {cells.begin(), cells.end()});
         for (const float distance : solved->reachable)
             detours.distances.push_back(std::min(distance, gpu::BLOCKED_COST));
     }

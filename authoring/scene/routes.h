@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "authoring/diagnostics.h"
@@ -32,11 +33,14 @@ class Routes {
     std::uint32_t fieldTo(const Place& place, bool keep_to_roads);
     /// The field that leads to whichever of the places is nearest.
     std::uint32_t fieldTo(const std::vector<Place>& places, bool keep_to_roads);
-    /// The field that leads to the surroundings of a point: a rectangle of up to kSurroundings metres without
-    /// a wall in it, so that the rest of the way is straight. Points near each other share it.
-    /// @returns NO_INDEX where it would be one field too many
+    /// Decides which points get fields of their own, and which share one with those beside them because they
+    /// are too many. @returns how many fields that takes
+    std::size_t plan(const std::vector<glm::vec2>& points);
+    /// Solves the fields of all points of the plan, on all processors.
+    void solvePlanned();
+    /// The field that leads to a point of the plan, or to its surroundings, all clear, from where the rest of
+    /// the way is straight. @returns NO_INDEX where it would be one field too many
     std::uint32_t fieldTo(glm::vec2 point);
-    static constexpr float kSurroundings = 32.0f;  // m
 
     /// Metres of walking, kUnreachable where no path leads.
     float reachable(std::uint32_t field, glm::vec2 from) const;
@@ -46,8 +50,7 @@ class Routes {
     /// Somebody needs a field for which there is no room.
     void lackField() { too_many_ = true; }
     std::uint32_t fieldCount() const { return static_cast<std::uint32_t>(fields_.size()); }
-    /// All cells, field after field.
-    std::vector<gpu::FieldCell> cells() const;
+    FieldStore store() const;
 
     /// The coarse map and every field's distances on it, for routes that heed jams.
     Detours detours();
@@ -56,24 +59,32 @@ class Routes {
     std::string name(const Place& place) const;
 
   private:
-    std::vector<std::uint32_t> clearRectangle(glm::vec2 point);
+    /// A field and what it leads to.
+    struct Entry {
+        std::shared_ptr<const Field> field;
+        std::vector<std::uint32_t> targets;  // cells of the grid
+        bool has_choice = false;             // leads to one of several places
+        bool on_roads = false;               // for those who keep to them
+    };
+    using Groups = std::vector<std::pair<GoalBox, std::vector<std::size_t>>>;  // with their points
+
     bool hasRoom() const;
-    std::uint32_t solve(const std::vector<std::uint32_t>& targets, bool keep_to_roads, bool has_choice);
-    std::uint32_t addField(std::shared_ptr<const Field> field, std::vector<std::uint32_t> targets,
-                           bool keep_to_roads, bool has_choice);
+    Groups groupsOf(float side, std::size_t most) const;
+    std::uint32_t add(Entry entry);
+    /// solve(i) fills the entry of a field in.
+    void solveEach(const std::vector<std::uint32_t>& fields, const std::function<void(std::uint32_t)>& solve);
+    std::shared_ptr<const Field> solve(const std::vector<Place>& places, bool keep_to_roads);
+    Entry entryOf(const std::vector<Place>& places, bool keep_to_roads) const;
     std::string keyOf(const std::vector<Place>& places, bool keep_to_roads) const;
-    std::vector<std::uint32_t> cellsOf(const std::vector<Place>& places) const;
 
     const Layout& layout_;
     const Rebase& rebase_;
     Ground& ground_;
-    FieldGrid grid_;
     std::map<std::string, std::uint32_t> known_;
-    std::unordered_map<std::uint32_t, std::uint32_t> field_of_cell_;  // for points
-    std::vector<std::shared_ptr<const Field>> fields_;
-    std::vector<std::vector<std::uint32_t>> targets_;  // of each field: cells
-    std::vector<bool> has_choice_;                     // of each field: leads to one of several places
-    std::vector<bool> on_roads_;                       // of each field: for those who keep to the roads
+    std::vector<glm::vec2> points_;  // different ones
+    Groups groups_;                  // of these
+    std::map<std::pair<float, float>, std::uint32_t> field_of_point_;
+    std::vector<Entry> fields_;
     bool too_many_ = false;
 };
 

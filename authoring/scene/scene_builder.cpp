@@ -72,12 +72,10 @@ class Builder {
         drawPeople();
         buildGeometry();
         buildTerrain();
-        scene_.grid = makeGrid(geometry_);
-        ground_ = cache_.groundFor(geometry_, scene_.grid);
-        ground_->solveWith(solver_);
-        Routes routes(layout_, rebase_, *ground_);
+        Routes routes = planRoutes();
         Itineraries itineraries(layout_, rebase_, geometry_, routes, diagnostics_, scene_);
         itineraries.prepare();
+        routes.solvePlanned();
         for (std::size_t i = 0; i < layout_.flows.size(); ++i)
             routeFlow(layout_.flows[i], i, routes, itineraries);
         for (std::size_t i = 0; i < layout_.formations.size(); ++i)
@@ -95,6 +93,42 @@ class Builder {
     }
 
   private:
+    /// How fine the ground is depends on how many fields there will be, and how many points share a field on
+    /// the ground.
+    Routes planRoutes() {
+        const std::vector<glm::vec2> points = pointGoals();
+        std::size_t fields = 1;
+        for (;;) {
+            ground_ = cache_.groundFor(geometry_, resolutionFor(geometry_, fields));
+            Routes routes(layout_, rebase_, *ground_);
+            const std::size_t needed =
+                std::max<std::size_t>(1, routes.plan(points) + Itineraries::destinationCount(layout_));
+            if (fields > 1 || resolutionFor(geometry_, needed) == resolutionFor(geometry_, 1)) {
+                ground_->solveWith(solver_);
+                scene_.grid = ground_->grid();
+                return routes;
+            }
+            fields = needed;
+        }
+    }
+
+    /// Without walls, the straight way is all there is to know.
+    std::vector<glm::vec2> pointGoals() {
+        std::vector<glm::vec2> points;
+        if (geometry_.walls.empty()) return points;
+        for (std::size_t index = 0; index < layout_.formations.size(); ++index) {
+            const Formation& formation = layout_.formations[index];
+            const FormationPlaces places = formationPlaces(formation, layout_.simulation.seed);
+            if (places.goals.empty()) continue;
+            std::uint64_t i = 0;
+            forEachRow(layout_.flows.size() + index, [&](const gpu::Person& person) {
+                const Traveller traveller = travellerOf(person, layout_.flows.size() + index, i);
+                points.push_back(rebase_.local(goalOf(formation, places, i++, traveller.leader)));
+            });
+        }
+        return points;
+    }
+
     /// Bodies and times of everybody, because the walls' clearance depends on the smallest and the largest
     /// body.
     void drawPeople() {
@@ -231,6 +265,11 @@ class Builder {
         const auto is_gate = [this](const gpu::WallSegment& segment) {
             return !layout_.walls[segment.wall].toggles.empty();
         };
+        std::vector<bool> open(layout_.walls.size(), false);
+        for (std::uint32_t i = 0; i < layout_.walls.size(); ++i)
+            open[i] = layout_.walls[i].open_at_start;
+        for (const gpu::WallSegment& segment : geometry_.walls)
+            if (is_gate(segment) && !open[segment.wall]) closed_gates_.push_back(segment);
         std::erase_if(geometry_.walls, is_gate);
         for (std::uint32_t i = 0; i < layout_.walls.size(); ++i)
             if (layout_.walls[i].open_at_start) scene_.open_at_start.push_back(i);
@@ -358,6 +397,8 @@ class Builder {
         const auto* destination = grid ? std::get_if<Destination>(&grid->goal) : nullptr;
         Journey journey{fmt::format("formation `{}`", formation.id), formation.where};
         if (destination) journey.stops.push_back(Journey::goalStop(*destination, formation.arrival));
+        PlacedBodies later;  // who comes in when the formation does
+        PlacedBodies& bodies = formation.start == 0.0 ? bodies_ : later;
         std::uint64_t i = 0;
         forEachRow(index, [&](gpu::Person& person) {
             const Traveller traveller = travellerOf(person, index, i);
@@ -373,21 +414,41 @@ class Builder {
                 const glm::vec2 goal = rebase_.local(goalOf(formation, places, i, traveller.leader));
                 scene_.stages.push_back(stageOf(formation, i, person, goal, routes));
             }
-            if (const float depth = wallDepth(geometry_, person.spawn_position, person.radius); depth > 0.0f)
-                complain(formation, i, fmt::format("stands in a wall ({:.2f} m deep)", depth),
-                         "move it, or the wall");
+            checkStart(formation, i, person, bodies);
             const glm::vec2 goal = scene_.stages.back().point;
             scene_.goals.push_back(goal);
             turn(formation, i, goal, person);
             addChanges(formation.id, formation.people, formation.where,
                        {{person.spawn_position, person.spawn_position, person.spawn_position}}, random, i,
                        index, person, itineraries);
-            if (formation.start == 0.0 && bodies_.hasRoom(person.spawn_position, person.radius)) {
-                person.flags |= gpu::PERSON_PRESENT_AT_START;
-                bodies_.add(person.spawn_position, person.radius);
+            if (bodies.hasRoom(person.spawn_position, person.radius)) {
+                if (formation.start == 0.0) person.flags |= gpu::PERSON_PRESENT_AT_START;
+                bodies.add(person.spawn_position, person.radius);
             }
             ++i;
         });
+        reportComplaints(formation);
+    }
+
+    void checkStart(const Formation& formation, std::uint64_t i, const gpu::Person& person,
+                    const PlacedBodies& bodies) {
+        if (const float depth = wallDepth(geometry_, person.spawn_position, person.radius); depth > 0.0f)
+            complain(formation, i, "stands in a wall", "move it, or the wall",
+                     fmt::format(" ({:.2f} m deep)", depth));
+        if (formation.start == 0.0)
+            for (const gpu::WallSegment& gate : closed_gates_)
+                if (segmentDistance(person.spawn_position, gate.a, gate.b) <
+                    person.radius + gate.half_thickness) {
+                    complain(formation, i,
+                             fmt::format("stands in the closed gate `{}`", layout_.walls[gate.wall].id),
+                             "move it, or open the gate at the start");
+                    break;
+                }
+        if (!bodies.hasRoom(person.spawn_position, person.radius))
+            complain(
+                formation, i,
+                "starts where somebody else stands: it comes in once there is room, or is refused in the end",
+                "move it, by both bodies' radii or more", "", Severity::warning);
     }
 
     /// Who walks together ends together: no further from the first one's goal than standing side by side
@@ -436,42 +497,89 @@ class Builder {
         if (formation.arrival == Arrival::stay) straight.dwell = gpu::DWELL_FOR_GOOD;
         const auto* grid = std::get_if<GridFormation>(&formation.shape);
         if (grid && std::holds_alternative<Extent>(grid->goal)) straight.flags |= gpu::STAGE_ANYWHERE;
-        if (wallDepth(geometry_, goal, person.radius) > 0.0f) {
-            complain(formation, i, "has its goal in a wall", "move the goal, or the wall");
-            return straight;
-        }
-        // Even where the straight way is clear, others may push somebody round a corner on the way. But cells
-        // coarser than a body close gaps that are open: then the straight way is what can be trusted.
         if (geometry_.walls.empty()) return straight;
-        const bool clear = straightIsClear(geometry_, person.spawn_position, goal, person.radius);
-        if (clear && scene_.grid.cell_size > 0.5f) return straight;
-        const std::uint32_t field = routes.fieldTo(goal);
-        if (clear &&
-            (field == gpu::NO_INDEX || routes.reachable(field, person.spawn_position) == kUnreachable))
-            return straight;
-        if (field == gpu::NO_INDEX) {
-            routes.lackField();
+        if (const std::string why = whyUnattainable(formation, person, goal); !why.empty()) {
+            complain(formation, i, "has its goal in a wall",
+                     "move the goal, or the wall, or raise `goal_tolerance`", why);
             return straight;
         }
-        if (routes.reachable(field, person.spawn_position) == kUnreachable)
-            complain(formation, i, "cannot reach its goal", "there is a wall all round one of the two");
+        // Even where the straight way is clear, others may push somebody round a corner on the way.
+        const bool clear = straightIsClear(geometry_, person.spawn_position, goal, person.radius);
+        const std::uint32_t field = routes.fieldTo(goal);
+        if (field == gpu::NO_INDEX) {
+            if (!clear) routes.lackField();
+            return straight;
+        }
+        if (routes.reachable(field, person.spawn_position) == kUnreachable) {
+            if (!clear)
+                complain(formation, i, "cannot reach its goal", "there is a wall all round one of the two");
+            return straight;
+        }
         gpu::Stage routed = straight;
         routed.field = field | gpu::FIELD_THEN_POINT;
         return routed;
     }
 
-    void complain(const Formation& formation, std::size_t i, const std::string& what,
-                  const std::string& hint) {
-        SourcePosition where = formation.where;
-        if (const auto* list = std::get_if<ListFormation>(&formation.shape)) where = list->agents[i].where;
-        diagnostics_.error(where, fmt::format("formation `{}`: person {} {}", formation.id, i, what), hint);
+    /// A goal may be nearer to a wall than a body gets to it, as long as it gets near enough.
+    /// @returns nothing for goals that will do
+    std::string whyUnattainable(const Formation& formation, const gpu::Person& person, glm::vec2 goal) const {
+        constexpr float kHair = 1.0e-4f;  // m, of rounding
+        const float depth = wallDepth(geometry_, goal, person.radius);
+        if (depth <= static_cast<float>(formation.goal_tolerance) + kHair &&
+            wallDepth(geometry_, goal, 0.0f) <= 0.0f && !isInSolid(goal))
+            return {};
+        const float apart = person.radius - depth;  // from the wall
+        if (apart > 0.0f && !isInSolid(goal))
+            return fmt::format(
+                ", or nearer to one than its body can come: {:.2f} m from it, with a radius of {:.2f} m and "
+                "a `goal_tolerance` of {:.2f} m",
+                apart, person.radius, formation.goal_tolerance);
+        return " ";
+    }
+
+    bool isInSolid(glm::vec2 point) const {
+        return std::any_of(geometry_.solids.begin(), geometry_.solids.end(),
+                           [&](const LocalPolygon& solid) { return insidePolygon(solid, point); });
+    }
+
+    /// What is wrong with people of a formation, once for all of them.
+    struct Complaint {
+        std::string what, hint, detail;
+        Severity severity = Severity::error;
+        std::uint64_t first = 0, count = 0;
+    };
+
+    void complain(const Formation&, std::uint64_t i, const std::string& what, const std::string& hint,
+                  const std::string& detail = "", Severity severity = Severity::error) {
+        const auto known = std::find_if(complaints_.begin(), complaints_.end(),
+                                        [&](const Complaint& complaint) { return complaint.what == what; });
+        if (known == complaints_.end())
+            complaints_.push_back({what, hint, detail, severity, i, 1});
+        else
+            ++known->count;
+    }
+
+    void reportComplaints(const Formation& formation) {
+        const auto* list = std::get_if<ListFormation>(&formation.shape);
+        for (const Complaint& complaint : complaints_) {
+            const SourcePosition& where = list ? list->agents[complaint.first].where : formation.where;
+            std::string text = fmt::format("formation `{}`: person {} {}{}", formation.id, complaint.first,
+                                           complaint.what, complaint.detail);
+            if (complaint.count > 1)
+                text += fmt::format(", and {} more of the formation likewise", complaint.count - 1);
+            if (complaint.severity == Severity::error)
+                diagnostics_.error(where, text, complaint.hint);
+            else
+                diagnostics_.warning(where, text, complaint.hint);
+        }
+        complaints_.clear();
     }
 
     void finish(Routes& routes) {
         scene_.field_count = routes.fieldCount();
         if (layout_.simulation.avoid_congestion && layout_.simulation.motion.isOn("routes_round_jams"))
             scene_.detours = routes.detours();
-        scene_.fields = routes.cells();
+        scene_.fields = routes.store();
         scene_.road_distance = ground_->roadDistances();
     }
 
@@ -483,7 +591,9 @@ class Builder {
     Rebase rebase_;
     WalkGeometry geometry_;
     std::shared_ptr<Ground> ground_;
+    std::vector<gpu::WallSegment> closed_gates_;  // at the start
     PlacedBodies bodies_;
+    std::vector<Complaint> complaints_;  // about the formation at hand
     Scene scene_;
 };
 

@@ -4,11 +4,7 @@
 namespace throng::authoring {
 namespace {
 
-constexpr double kMostCells = 400'000.0;
-constexpr float kSmallestCell = 0.1f;  // m
-constexpr float kWallComfort = 0.2f;   // m beyond the largest radius: nearer to a wall, walking costs more
-constexpr float kWallCost = 4.0f;      // added at the wall itself
-constexpr float kOffRoadCost = 6.0f;   // per metre off the roads, for those who keep to them
+constexpr float kWallCost = 4.0f;  // added at the wall itself
 
 /// Distance from every cell's centre to the nearest wall surface, as far as `reach`; infinity beyond.
 std::vector<float> wallDistance(const WalkGeometry& geometry, const FieldGrid& grid, float reach) {
@@ -24,25 +20,11 @@ std::vector<float> wallDistance(const WalkGeometry& geometry, const FieldGrid& g
     return distance;
 }
 
-/// How near to a wall a cell's centre may be. At least so that walls without thickness leave no gap between
-/// cells, and less than the smallest body needs by half a cell, so that rasterising never closes a door that
-/// a body fits through.
-float wallClearance(const WalkGeometry& geometry, const FieldGrid& grid) {
-    return std::max(0.6f * grid.cell_size, 0.9f * geometry.smallest_radius - 0.5f * grid.cell_size);
-}
-
 void blockWalls(const WalkGeometry& geometry, WalkMap& map) {
-    const float comfort = geometry.largest_radius + kWallComfort;
-    const float clearance = wallClearance(geometry, map.grid);
-    const std::vector<float> distance = wallDistance(geometry, map.grid, std::max(comfort, clearance));
-    for (std::size_t cell = 0; cell < distance.size(); ++cell) {
-        if (distance[cell] < clearance) {
-            map.cost[cell] = kUnreachable;
-        } else if (distance[cell] < comfort) {
-            const float nearness = 1.0f - distance[cell] / comfort;
-            map.cost[cell] += kWallCost * nearness * nearness;
-        }
-    }
+    const WallCost wall_cost(geometry, map.grid.cell_size);
+    const std::vector<float> distance = wallDistance(geometry, map.grid, wall_cost.reach());
+    for (std::size_t cell = 0; cell < distance.size(); ++cell)
+        map.cost[cell] += wall_cost(distance[cell]);
     for (const LocalPolygon& solid : geometry.solids) {
         const Box box = boundsOf(solid, 0.0f);
         visitBox(map.grid, box.lower, box.upper, [&](std::uint32_t cell, glm::vec2 centre) {
@@ -83,8 +65,18 @@ void markOneWays(const WalkGeometry& geometry, WalkMap& map) {
 
 }  // namespace
 
-FieldGrid makeGrid(const WalkGeometry& geometry) {
-    return makeGrid(geometry, kSmallestCell, kMostCells);
+// How near to a wall a cell's centre may be: at least so that walls without thickness leave no gap between
+// cells, and less than the smallest body needs by half a cell, so that rasterising never closes a door that
+// a body fits through.
+WallCost::WallCost(const WalkGeometry& geometry, float cell_size)
+    : comfort_(geometry.largest_radius + geometry.wall_comfort),
+      clearance_(std::max(0.6f * cell_size, 0.9f * geometry.smallest_radius - 0.5f * cell_size)) {}
+
+float WallCost::operator()(float distance) const {
+    if (distance < clearance_) return kUnreachable;
+    if (distance >= comfort_) return 0.0f;
+    const float nearness = 1.0f - distance / comfort_;
+    return kWallCost * nearness * nearness;
 }
 
 FieldGrid makeGrid(const WalkGeometry& geometry, float smallest_cell, double most_cells) {

@@ -32,29 +32,68 @@ FieldCell fieldCell(uint index) {
     return FieldCell(uintBitsToFloat(words.x), words.y);
 }
 
-RouteAhead sampleField(uint field, vec2 position) {
+/// Four cells of a field round a position, in the order of mix(): the first of them, how many a row has, and where
+/// between them the position is.
+struct FieldCorners {
+    uint first;
+    uint row;
+    vec2 fraction;
+};
+
+/// On large sites a field has fine cells only in the blocks where walls or kerbs are near, in rows of ten: eight, and
+/// the neighbours' next ones on both sides. Any other block has its four corners. The fields' own cells come after a
+/// table that says where each block's begin.
+FieldCorners cornersInBlocks(uint field, vec2 position) {
+    uvec2 blocks = uvec2(parameters.field_blocks_across, parameters.field_blocks_up);
+    vec2 at = clamp((position - parameters.grid_minimum) / parameters.field_cell, vec2(0.0),
+                    vec2(blocks * FIELD_BLOCK_CELLS_ACROSS) - 1.0e-3);
+    uvec2 block = uvec2(at) / FIELD_BLOCK_CELLS_ACROSS;
+    uvec2 entry = texelFetch(field_cells, int(block.y * blocks.x + block.x)).xy;
+    uint first = blocks.x * blocks.y + field * parameters.cells_per_field + entry.x;
+    vec2 local = at - vec2(block * FIELD_BLOCK_CELLS_ACROSS);
+    if (entry.y == 0u) return FieldCorners(first, 2u, local / float(FIELD_BLOCK_CELLS_ACROSS));
+    vec2 cell = floor(local + 0.5);
+    return FieldCorners(first + uint(cell.y) * FIELD_BLOCK_ROW + uint(cell.x), FIELD_BLOCK_ROW, local + 0.5 - cell);
+}
+
+FieldCorners cornersOf(uint field, vec2 position) {
+    if (parameters.field_blocks_across > 0u) return cornersInBlocks(field, position);
     uvec2 cell;
     vec2 fraction;
     gridPosition(position, parameters.grid_cell, uvec2(parameters.grid_width, parameters.grid_height), cell, fraction);
-    uint base = field * parameters.grid_width * parameters.grid_height + cell.y * parameters.grid_width + cell.x;
-    FieldCell corner[4] = FieldCell[4](fieldCell(base), fieldCell(base + 1u), fieldCell(base + parameters.grid_width),
-                                       fieldCell(base + parameters.grid_width + 1u));
+    return FieldCorners(field * parameters.cells_per_field + cell.y * parameters.grid_width + cell.x,
+                        parameters.grid_width, fraction);
+}
+
+/// Straight where most of the cells round about say so.
+RouteAhead sampleField(uint field, vec2 position) {
+    FieldCorners corners = cornersOf(field, position);
+    FieldCell corner[4] = FieldCell[4](fieldCell(corners.first), fieldCell(corners.first + 1u),
+                                       fieldCell(corners.first + corners.row),
+                                       fieldCell(corners.first + corners.row + 1u));
+    vec2 fraction = corners.fraction;
     vec4 weight = vec4((1.0 - fraction.x) * (1.0 - fraction.y), fraction.x * (1.0 - fraction.y),
                        (1.0 - fraction.x) * fraction.y, fraction.x * fraction.y);
     RouteAhead ahead = RouteAhead(vec2(0.0), 0.0, false);
+    float straight = 0.0;
     for (int i = 0; i < 4; ++i) {
         ahead.direction += weight[i] * unpackSnorm2x16(corner[i].direction);
-        ahead.remaining += weight[i] * corner[i].distance;
+        ahead.remaining += weight[i] * abs(corner[i].distance);
+        if (corner[i].distance < 0.0) straight += weight[i];
     }
+    ahead.straight = straight > 0.5;
     float size = length(ahead.direction);
     // Where routes part (behind an obstacle) the corners cancel out: take one side, always the same.
     ahead.direction = size > 0.05 ? ahead.direction / size : unpackSnorm2x16(corner[0].direction);
-    if (parameters.detour_width == 0u) return ahead;
-    // Without jams the distance falls by one per metre; jams add their slope.
-    vec2 downhill = ahead.direction - detourSlope(field, position);
-    size = length(downhill);
-    if (size > 0.05) ahead.direction = downhill / size;
     return ahead;
+}
+
+/// Without jams the distance falls by one per metre in this direction; jams add their slope.
+vec2 roundJams(uint field, vec2 position, vec2 direction) {
+    if (parameters.detour_width == 0u) return direction;
+    vec2 downhill = direction - detourSlope(field, position);
+    float size = length(downhill);
+    return size > 0.05 ? downhill / size : direction;
 }
 
 RouteAhead routeAhead(Stage stage, vec2 position) {
@@ -62,10 +101,14 @@ RouteAhead routeAhead(Stage stage, vec2 position) {
     float remaining = length(offset);
     RouteAhead straight = RouteAhead(remaining > 1.0e-6 ? offset / remaining : vec2(0.0), remaining, true);
     if (stage.field == NO_INDEX) return straight;
-    RouteAhead ahead = sampleField(stage.field & ~FIELD_THEN_POINT, position);
-    if ((stage.field & FIELD_THEN_POINT) == 0u) return ahead;
-    if (ahead.remaining <= 0.0) return straight;
-    // Still on the way to the surroundings: at least as far as in a straight line.
-    ahead.remaining = max(ahead.remaining, remaining);
+    uint field = stage.field & ~FIELD_THEN_POINT;
+    RouteAhead ahead = sampleField(field, position);
+    if ((stage.field & FIELD_THEN_POINT) != 0u) {
+        // What is near, the coarse map of jams does not know.
+        if (ahead.remaining <= 0.0 || (ahead.straight && remaining <= parameters.detour_cell)) return straight;
+        if (ahead.straight) ahead.direction = straight.direction;
+        ahead.remaining = ahead.straight ? remaining : max(ahead.remaining, remaining);
+    }
+    ahead.direction = roundJams(field, position, ahead.direction);
     return ahead;
 }

@@ -82,7 +82,7 @@ struct WaitingLine {
     uint candidate;  // row that joins at the end of the step, or NO_INDEX
 };
 
-/// The field leads to the surroundings of the point, all clear; from there the way to the point is straight.
+/// The field leads to the surroundings of the point; from where it says so, the way to the point is straight.
 const uint FIELD_THEN_POINT = 0x80000000u;
 
 /// Points where people of a flow may appear, all clear of walls.
@@ -114,9 +114,14 @@ struct WallTile {
 
 /// One cell of a distance field: how far it is to the target, and which way to walk.
 struct FieldCell {
-    float distance;  // m of walking left (cost-weighted off the roads and near walls); finite everywhere
+    float distance;  // m of walking left, finite everywhere; negative: from here the way to the point is
+                     // straight
     uint direction;  // unit vector, packSnorm2x16 / glm::packSnorm2x16
 };
+
+/// Fields in blocks: cells along a block's side, and along a row of it as it is stored.
+const uint FIELD_BLOCK_CELLS_ACROSS = 8u;
+const uint FIELD_BLOCK_ROW = 10u;
 
 /// One cell of the coarse map on which detours round jams are worked out.
 struct GroundCell {

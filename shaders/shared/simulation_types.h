@@ -133,6 +133,10 @@ struct Parameters {
     float grid_cell;  // m
     uint grid_width;
     uint grid_height;
+    float field_cell;          // m, of fields in blocks
+    uint field_blocks_across;  // 0 = the cells of fields are those of the grid
+    uint field_blocks_up;
+    uint cells_per_field;
     float detour_cell;  // m, of the coarse map, which begins where the fields' grid does
     uint detour_width;  // cells; 0 = routes do not heed jams
     uint detour_height;

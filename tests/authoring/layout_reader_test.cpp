@@ -149,6 +149,31 @@ TEST(LayoutReader, NamesThePlaceWhereAPolygonCrossesItself) {
                 "/areas/0/polygon", "no area");
 }
 
+TEST(LayoutReader, MendsObstaclesThatBoundNothingOrTouchThemselves) {
+    const auto mended = [](const std::string& points, const std::string& warning) {
+        Diagnostics diagnostics;
+        const auto layout = readLayout(
+            R"({"throng": 1, "walls": [{"closed": true, "points": )" + points + "}]}", {}, diagnostics);
+        EXPECT_TRUE(layout.has_value()) << points;
+        EXPECT_EQ(diagnostics.entries.size(), 1u) << points;
+        for (const Diagnostic& entry : diagnostics.entries) {
+            EXPECT_EQ(entry.severity, Severity::warning);
+            EXPECT_NE(entry.message.find(warning), std::string::npos) << entry.message;
+        }
+        return layout ? layout->walls.front() : Wall{};
+    };
+    const Wall line = mended("[[0,0],[4,0],[8,0]]", "no area");
+    EXPECT_FALSE(line.closed);
+    EXPECT_EQ(line.thickness, 0.0);
+    EXPECT_EQ(line.points.size(), 4u);
+    const Wall spiked = mended("[[0,0],[4,0],[4,4],[9,4],[4,4],[0,4]]", "2 of its points");
+    EXPECT_TRUE(spiked.closed);
+    EXPECT_EQ(spiked.points.size(), 4u);
+    EXPECT_EQ(mended("[[0,0],[4,0],[4,0],[4,4],[0,4]]", "1 of its points").points.size(), 4u);
+    // Two triangles that share a corner.
+    EXPECT_TRUE(mended("[[0,0],[4,0],[2,2],[4,4],[0,4],[2,2]]", "touches itself at [2, 2]").closed);
+}
+
 TEST(LayoutReader, AcceptsEitherWindingAndPolygonsClosedByHand) {
     read(
         R"({"throng": 1, "areas": [{"id": "a", "polygon": [[0,0],[0,4],[4,4],[4,0]]},

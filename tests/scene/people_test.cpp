@@ -83,8 +83,8 @@ TEST(Destinations, TheNearestOfSeveralIsOneField) {
     EXPECT_EQ(scene.field_count, 1u);
     const auto distanceAt = [&](glm::dvec2 world) {
         const glm::vec2 at = (glm::vec2(world - scene.origin) - scene.grid.minimum) / scene.grid.cell_size;
-        return scene
-            .fields[static_cast<std::uint32_t>(at.y) * scene.grid.width + static_cast<std::uint32_t>(at.x)]
+        return (*scene.fields.fields.front())[static_cast<std::uint32_t>(at.y) * scene.grid.width +
+                                              static_cast<std::uint32_t>(at.x)]
             .distance;
     };
     EXPECT_NEAR(distanceAt({30, 6}), 10.0f, 0.3f);

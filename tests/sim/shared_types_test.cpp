@@ -135,17 +135,39 @@ std::map<std::string, Layout> layoutsInCpp() {
     }
     {
         using T = gpu::Parameters;
-        result["Parameters"] = {
-            sizeof(T), {MEMBER(cells_minimum),    MEMBER(diagram_minimum), MEMBER(grid_minimum),
-                        MEMBER(cell_size),        MEMBER(cells_width),     MEMBER(cells_height),
-                        MEMBER(pixels_per_metre), MEMBER(diagram_width),   MEMBER(diagram_height),
-                        MEMBER(grid_cell),        MEMBER(grid_width),      MEMBER(grid_height),
-                        MEMBER(detour_cell),      MEMBER(detour_width),    MEMBER(detour_height),
-                        MEMBER(row_count),        MEMBER(queue_count),     MEMBER(seed),
-                        MEMBER(has_roads),        MEMBER(tile_radius),     MEMBER(largest_radius),
-                        MEMBER(step_seconds),     MEMBER(time_horizon),    MEMBER(wall_time_horizon),
-                        MEMBER(contact_range),    MEMBER(contact_slack),   MEMBER(maximum_acceleration),
-                        MEMBER(is_wide)}};
+        result["Parameters"] = {sizeof(T),
+                                {MEMBER(cells_minimum),
+                                 MEMBER(diagram_minimum),
+                                 MEMBER(grid_minimum),
+                                 MEMBER(cell_size),
+                                 MEMBER(cells_width),
+                                 MEMBER(cells_height),
+                                 MEMBER(pixels_per_metre),
+                                 MEMBER(diagram_width),
+                                 MEMBER(diagram_height),
+                                 MEMBER(grid_cell),
+                                 MEMBER(grid_width),
+                                 MEMBER(grid_height),
+                                 MEMBER(field_cell),
+                                 MEMBER(field_blocks_across),
+                                 MEMBER(field_blocks_up),
+                                 MEMBER(cells_per_field),
+                                 MEMBER(detour_cell),
+                                 MEMBER(detour_width),
+                                 MEMBER(detour_height),
+                                 MEMBER(row_count),
+                                 MEMBER(queue_count),
+                                 MEMBER(seed),
+                                 MEMBER(has_roads),
+                                 MEMBER(tile_radius),
+                                 MEMBER(largest_radius),
+                                 MEMBER(step_seconds),
+                                 MEMBER(time_horizon),
+                                 MEMBER(wall_time_horizon),
+                                 MEMBER(contact_range),
+                                 MEMBER(contact_slack),
+                                 MEMBER(maximum_acceleration),
+                                 MEMBER(is_wide)}};
     }
     return result;
 }
