@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,8 @@
 #include "authoring/scene/distance_solver.h"
 
 namespace throng::authoring {
+
+class WallGrid;
 
 /// A road or an area in the scene frame (m).
 struct LocalRoad {
@@ -29,6 +32,11 @@ struct WalkGeometry {
     std::vector<LocalPolygon> areas;
     float smallest_radius = 0.25f;  ///< of all people, m
     float largest_radius = 0.25f;
+    std::shared_ptr<const WallGrid> wall_grid = {};  ///< where there are very many walls
+    struct Box {
+        glm::vec2 lower, upper;
+    };
+    std::vector<Box> solid_boxes = {};  ///< of each solid, if sortWalls() has made them
 };
 
 /// The grid for a scene: cells of 0.1 to 1 m, at most about 1.5 million of them.
