@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -18,22 +19,27 @@ struct Diagnostic {
     std::string hint;     ///< how to mend it, e.g. "did you mean `width`?"; may be empty
 };
 
-/// All that was found in one file, in the order of the file.
+/// As much of a text as one reads in a message.
+std::string shortened(std::string text);
+
+/// All that was found in one file, in the order of the file. Of very many mistakes only the first are kept,
+/// and whatever names from the file are in them can be shown on a terminal.
 struct Diagnostics {
+    static constexpr std::size_t kMost = 300;
+
     std::string file;
     std::vector<Diagnostic> entries;
+    std::size_t left_out = 0;
 
-    void error(const SourcePosition& where, std::string message, std::string hint = {}) {
-        entries.push_back({Severity::error, where, std::move(message), std::move(hint)});
-    }
-    void warning(const SourcePosition& where, std::string message, std::string hint = {}) {
-        entries.push_back({Severity::warning, where, std::move(message), std::move(hint)});
-    }
-    bool hasErrors() const {
-        for (const Diagnostic& entry : entries)
-            if (entry.severity == Severity::error) return true;
-        return false;
-    }
+    void error(const SourcePosition& where, std::string message, std::string hint = {});
+    void warning(const SourcePosition& where, std::string message, std::string hint = {});
+    /// Of another file, told within this one's.
+    void add(Diagnostic entry);
+    bool hasErrors() const { return has_errors_; }
+    bool isFull() const { return entries.size() >= kMost; }
+
+  private:
+    bool has_errors_ = false;
 };
 
 }  // namespace throng::authoring

@@ -13,19 +13,13 @@
 
 #include "authoring/diagram_method.h"
 #include "authoring/expectation.h"
+#include "authoring/source_position.h"
 #include "base/motion_settings.h"
 
 /// What a layout file says, checked but not yet interpreted. World coordinates: metres, double precision,
 /// X east, Y north, Z up. Angles in degrees, counter-clockwise from +X. Times in seconds from the first
 /// frame.
 namespace throng::authoring {
-
-/// Where a value stands in its file, so that errors found long after parsing still point at it.
-struct SourcePosition {
-    int line = 0;         ///< from 1; 0 when the value was not written in the file
-    int column = 0;       ///< from 1
-    std::string pointer;  ///< JSON pointer (RFC 6901), e.g. "/roads/0/width"
-};
 
 /// A per-person quantity. Every draw is clamped to [minimum, maximum].
 struct Distribution {

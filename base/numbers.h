@@ -2,10 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 
 /// Numbers as people read them.
 namespace throng {
+
+/// A number that is all of a text, and finite.
+std::optional<double> finiteNumber(std::string_view text);
 
 /// 1234567 -> "1,234,567"
 std::string grouped(std::uint64_t number);

@@ -9,14 +9,21 @@
 
 namespace throng {
 
+/// Cells for so many things: emptying them all for every frame must not be most of the work.
+inline double cellsFor(std::size_t things) {
+    return std::min(4.0e6, 4096.0 + 16.0 * static_cast<double>(things));
+}
+
 /// Things with a place in the plane, sorted into square cells, so that those near a place are found fast.
 class PlaneGrid {
   public:
-    /// @param cell m; enlarged where the bounds would need more than some millions of cells
-    PlaneGrid(glm::dvec2 minimum, glm::dvec2 maximum, double cell) : minimum_(minimum) {
+    /// @param cell m; enlarged where the bounds would need more cells than `most`
+    PlaneGrid(glm::dvec2 minimum, glm::dvec2 maximum, double cell, double most = 4.0e6) : minimum_(minimum) {
         const glm::dvec2 extent =
             glm::dvec2(std::max(maximum.x - minimum.x, 1.0), std::max(maximum.y - minimum.y, 1.0));
-        cell_ = std::max(cell, std::sqrt(extent.x * extent.y / 4.0e6));
+        // Of bounds that are long and thin, their length alone may make too many.
+        cell_ = std::max(
+            {cell, std::sqrt(extent.x * extent.y / most), 4.0 * std::max(extent.x, extent.y) / most});
         width_ = static_cast<int>(extent.x / cell_) + 1;
         height_ = static_cast<int>(extent.y / cell_) + 1;
         starts_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) + 1);
@@ -35,6 +42,12 @@ class PlaneGrid {
             items_[cursors_[cellOf(places[i])]++] = i;
     }
 
+    /// How many cells near() looks at.
+    std::size_t cellsNear(glm::dvec2 place, double reach) const {
+        return static_cast<std::size_t>(column(place.x + reach) - column(place.x - reach) + 1) *
+               static_cast<std::size_t>(line(place.y + reach) - line(place.y - reach) + 1);
+    }
+
     /// Calls visit(index) for all within `reach` of `place`, and for some further away.
     template <class Visit>
     void near(glm::dvec2 place, double reach, Visit&& visit) const {
@@ -48,11 +61,11 @@ class PlaneGrid {
     }
 
   private:
-    int column(double x) const {
-        return std::clamp(static_cast<int>(std::floor((x - minimum_.x) / cell_)), 0, width_ - 1);
-    }
-    int line(double y) const {
-        return std::clamp(static_cast<int>(std::floor((y - minimum_.y) / cell_)), 0, height_ - 1);
+    int column(double x) const { return clamped((x - minimum_.x) / cell_, width_); }
+    int line(double y) const { return clamped((y - minimum_.y) / cell_, height_); }
+    /// What lies outside, however far, belongs to the cells at the edge.
+    static int clamped(double at, int count) {
+        return at > 0.0 ? static_cast<int>(std::min(at, static_cast<double>(count - 1))) : 0;
     }
     std::size_t cellOf(glm::dvec2 place) const {
         return static_cast<std::size_t>(line(place.y)) * static_cast<std::size_t>(width_) +

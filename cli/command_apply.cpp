@@ -13,6 +13,7 @@
 #include "cli/terminal/exit_codes.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/progress.h"
+#include "cli/terminal/say.h"
 #include "io/bake_info.h"
 #include "io/overrides/agent_table_edit.h"
 #include "io/overrides/apply_overrides.h"
@@ -68,7 +69,7 @@ Layer readLayer(const Options& options, const io::CrowdReader& crowd) {
     diagnostics.file = layer.path.string();
     const auto overrides = authoring::readOverrides(layer.text, diagnostics);
     for (const authoring::Diagnostic& entry : diagnostics.entries)
-        fmt::print(stderr, "{}\n", authoring::formatDiagnostic(entry, diagnostics.file, layer.text));
+        say(stderr, "{}\n", authoring::formatDiagnostic(entry, diagnostics.file, layer.text));
     if (!overrides) throw Exit(kInvalidInput);
     layer.overrides = *overrides;
     layer.people = io::loadEntrants(crowd);
@@ -93,7 +94,7 @@ void printListing(const Layer& layer) {
             who += fmt::format(" is now {}, {:.2f} m and {:+.0f} frames away", match.row, match.metres,
                                match.frames);
         if (match.kind == Match::Kind::orphaned) who += ": " + authoring::orphanReason(entry, layer.people);
-        fmt::print("{}: {}\n", who, changesOf(entry));
+        say(stdout, "{}: {}\n", who, changesOf(entry));
     }
 }
 
@@ -131,22 +132,22 @@ Json appliedJson(const Layer& layer, const io::Bake& bake) {
 void tellOrphans(const Layer& layer) {
     for (std::size_t i = 0; i < layer.matches.size(); ++i)
         if (layer.matches[i].kind == Match::Kind::orphaned)
-            fmt::print(stderr, "throng: {}:{}: the override of person {} is orphaned: {}\n",
-                       layer.path.string(), layer.overrides[i].where.line, layer.overrides[i].id,
-                       authoring::orphanReason(layer.overrides[i], layer.people));
+            say(stderr, "throng: {}:{}: the override of person {} is orphaned: {}\n", layer.path.string(),
+                layer.overrides[i].where.line, layer.overrides[i].id,
+                authoring::orphanReason(layer.overrides[i], layer.people));
 }
 
 void printResult(const Options& options, const Layer& layer, const io::ApplyResult& result) {
     if (options.json) {
-        fmt::print("{}\n", io::infoJson(io::loadBake(result.path)).dump(2));
+        sayJson(io::infoJson(io::loadBake(result.path)));
         return;
     }
-    fmt::print("{}: {} overrides applied ({} sure, {} by the nearest entry), {} orphaned\n",
-               result.path.string(), layer.matches.size() - layer.count(Match::Kind::orphaned),
-               layer.count(Match::Kind::sure), layer.count(Match::Kind::nearest),
-               layer.count(Match::Kind::orphaned));
+    say(stdout, "{}: {} overrides applied ({} sure, {} by the nearest entry), {} orphaned\n",
+        result.path.string(), layer.matches.size() - layer.count(Match::Kind::orphaned),
+        layer.count(Match::Kind::sure), layer.count(Match::Kind::nearest),
+        layer.count(Match::Kind::orphaned));
     if (result.held)
-        fmt::print("{} retimed people stand still where the bake has no frames for them\n", result.held);
+        say(stdout, "{} retimed people stand still where the bake has no frames for them\n", result.held);
 }
 
 void write(const Options& options, io::CrowdReader& crowd, const Layer& layer) {
@@ -178,7 +179,7 @@ void write(const Options& options, io::CrowdReader& crowd, const Layer& layer) {
     };
     const std::optional<io::ApplyResult> result = io::applyOverrides(crowd, changes, apply);
     if (!result) {
-        fmt::print(stderr, "throng: stopped; nothing was written\n");
+        say(stderr, "throng: stopped; nothing was written\n");
         throw Exit(128 + interrupt.signal());
     }
     printResult(options, layer, *result);
@@ -190,7 +191,7 @@ void run(const Options& options) {
     const bool missed = options.strict && layer.count(Match::Kind::orphaned) > 0;
     if (options.dry_run) {
         if (options.json)
-            fmt::print("{}\n", matchesJson(layer).dump(2));
+            sayJson(matchesJson(layer));
         else
             printListing(layer);
     } else {
@@ -198,8 +199,8 @@ void run(const Options& options) {
         if (!missed) write(options, crowd, layer);
     }
     if (!missed) return;
-    fmt::print(stderr, "throng: {} of {} overrides are orphaned (--strict)\n",
-               layer.count(Match::Kind::orphaned), layer.matches.size());
+    say(stderr, "throng: {} of {} overrides are orphaned (--strict)\n", layer.count(Match::Kind::orphaned),
+        layer.matches.size());
     throw Exit(kInvalidInput);
 }
 

@@ -8,11 +8,13 @@
 #include <memory>
 
 #include "cli/bake_run.h"
+#include "cli/baking/bake_description.h"
 #include "cli/baking/baker.h"
 #include "cli/baking/device_fields.h"
 #include "cli/commands.h"
 #include "cli/terminal/exit_codes.h"
 #include "cli/terminal/interrupt.h"
+#include "cli/terminal/say.h"
 #include "io/bake_info.h"
 
 namespace throng::cli {
@@ -52,25 +54,21 @@ std::vector<std::string> overridesOf(const BakeRequest& options) {
 void printResult(const io::BakeResult& result, const Account& account, const io::BakeTiming& timing,
                  bool as_json) {
     if (as_json) {
-        fmt::print("{}\n", io::infoJson(io::loadBake(result.path)).dump(2));
+        sayJson(io::infoJson(io::loadBake(result.path)));
         return;
     }
-    fmt::print("{}: {} frames, {} people: {} arrived, {} still walking, {} refused\n", result.path.string(),
-               result.frames, account.agents.size(), account.arrived, account.walking, account.refused);
-    fmt::print("{} steps in {:.1f} s, {:.0f} steps/s\n", timing.steps, timing.wall_seconds,
-               static_cast<double>(timing.steps) / std::max(timing.wall_seconds, 1.0e-9));
+    say(stdout, "{}: {} frames, {} people: {} arrived, {} still walking, {} refused\n", result.path.string(),
+        result.frames, account.agents.size(), account.arrived, account.walking, account.refused);
+    say(stdout, "{} steps in {:.1f} s, {:.0f} steps/s\n", timing.steps, timing.wall_seconds,
+        static_cast<double>(timing.steps) / std::max(timing.wall_seconds, 1.0e-9));
     for (const auto& [reason, count] : refusals(account))
-        fmt::print("refused: {} people: {}\n", count, reason);
+        say(stdout, "refused: {} people: {}\n", count, reason);
     if (result.gltf && result.gltf->agents < result.gltf->of)
-        fmt::print(
+        say(stdout,
             "crowd.glb holds {} of {} people, evenly chosen (--gltf-agents raises the limit; the streams "
             "hold all)\n",
             result.gltf->agents, result.gltf->of);
-    if (result.diagrams) fmt::print("{} diagram images\n", result.diagrams);
-}
-
-std::string outputOf(const LoadedLayout& loaded, const BakeRequest& options) {
-    return options.bake.output.empty() ? loaded.layout.name : options.bake.output;
+    if (result.diagrams) say(stdout, "{} diagram images\n", result.diagrams);
 }
 
 }  // namespace
@@ -103,20 +101,20 @@ void bakeLayout(const BakeRequest& options) {
             return;
         case BakeRun::End::was_complete:
             if (options.json)
-                fmt::print("{}\n", io::infoJson(io::loadBake(outputOf(loaded, options))).dump(2));
+                sayJson(io::infoJson(io::loadBake(outputOf(loaded, options.bake))));
             else if (options.announce)
-                fmt::print("{}: is complete already\n", outputOf(loaded, options));
+                say(stdout, "{}: is complete already\n", outputOf(loaded, options.bake));
             return;
         case BakeRun::End::checkpointed:
-            fmt::print(stderr, "throng: stopped after frame {}; the same command with --resume goes on\n",
-                       run.frames);
+            say(stderr, "throng: stopped after frame {}; the same command with --resume goes on\n",
+                run.frames);
             throw Exit(kCheckpointed);
         case BakeRun::End::partial:
-            fmt::print(stderr, "throng: stopped after frame {}; what there is is in {}\n", run.frames,
-                       run.result.path.string());
+            say(stderr, "throng: stopped after frame {}; what there is is in {}\n", run.frames,
+                run.result.path.string());
             throw Exit(128 + run.signal);
         case BakeRun::End::discarded:
-            fmt::print(stderr, "throng: stopped before the first frame; nothing was written\n");
+            say(stderr, "throng: stopped before the first frame; nothing was written\n");
             throw Exit(128 + run.signal);
     }
 }

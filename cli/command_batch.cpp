@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/files/output_file.h"
+#include "base/printable.h"
 #include "base/stopwatch.h"
 #include "cli/batch/batch_estimate.h"
 #include "cli/batch/batch_folder.h"
@@ -17,6 +18,7 @@
 #include "cli/batch/results_database.h"
 #include "cli/commands.h"
 #include "cli/terminal/exit_codes.h"
+#include "cli/terminal/say.h"
 
 namespace throng::cli {
 namespace {
@@ -64,13 +66,16 @@ void keepShard(std::vector<std::size_t>& scenarios, const Shard& shard) {
     std::erase_if(scenarios, [&](std::size_t index) { return index % shard.of != shard.number; });
 }
 
+std::string plural(std::size_t count, const char* one, const std::string& several) {
+    return fmt::format("{} {}", count, count == 1 ? one : several);
+}
 std::string plural(std::size_t count, const char* word) {
-    return fmt::format("{} {}{}", count, word, count == 1 ? "" : "s");
+    return plural(count, word, word + std::string("s"));
 }
 
 void printStanding(const BatchPlan& plan, const BatchStanding& standing) {
-    fmt::print("{}: {} of `{}`\n", plan.family().name, plural(plan.scenarios().size(), "scenario"),
-               plan.family().base_name);
+    say(stdout, "{}: {} of `{}`\n", plan.family().name, plural(plan.scenarios().size(), "scenario"),
+        plan.family().base_name);
     for (const authoring::Axis& axis : plan.family().axes) {
         std::string values;
         for (const authoring::Json& value : axis.values)
@@ -79,17 +84,17 @@ void printStanding(const BatchPlan& plan, const BatchStanding& standing) {
         const char* words[] = {"", "uniform", "normal", "log-normal"};
         if (axis.kind != authoring::Axis::Kind::values)
             values = fmt::format("{} {:g}, {:g}", words[static_cast<int>(axis.kind)], axis.a, axis.b);
-        fmt::print("  {}: {}\n", axis.name, values);
+        say(stdout, "  {}: {}\n", axis.name, values);
     }
-    if (standing.done) fmt::print("{} are done\n", standing.done);
-    if (standing.failed_before) fmt::print("{} failed before and are tried again\n", standing.failed_before);
+    if (standing.done) say(stdout, "{} are done\n", standing.done);
+    if (standing.failed_before) say(stdout, "{} failed before and are tried again\n", standing.failed_before);
     if (standing.out_of_date)
-        fmt::print(
+        say(stdout,
             "{} are out of date (the base layout or what is to be written has changed) and are baked again\n",
             standing.out_of_date);
     if (!standing.foreign.empty())
-        fmt::print("{} belong to no scenario of the family any more; --prune removes them\n",
-                   plural(standing.foreign.size(), "result"));
+        say(stdout, "{} belong to no scenario of the family any more; --prune removes them\n",
+            plural(standing.foreign.size(), "result"));
 }
 
 void prune(const BatchFolder& folder, const BatchStanding& standing) {
@@ -98,7 +103,7 @@ void prune(const BatchFolder& folder, const BatchStanding& standing) {
         std::filesystem::remove(folder.log(id));
         std::filesystem::remove(folder.result(id));
     }
-    if (!standing.foreign.empty()) fmt::print("removed {}\n", plural(standing.foreign.size(), "result"));
+    if (!standing.foreign.empty()) say(stdout, "removed {}\n", plural(standing.foreign.size(), "result"));
 }
 
 nlohmann::ordered_json summaryOf(const BatchPlan& plan, const BatchFolder& folder,
@@ -159,22 +164,38 @@ void bakeAll(const Options& options, const BatchPlan& plan, const BatchFolder& f
     // Parts of a batch leave gathering to whoever runs the whole.
     if (shard.of == 1) collectResults(plan, folder);
     if (options.json)
-        fmt::print("{}\n", summaryOf(plan, folder, standing, outcome, seconds).dump(2));
+        sayJson(summaryOf(plan, folder, standing, outcome, seconds));
     else if (!options.quiet)
-        fmt::print("{}: {} baked in {:.1f} s, {} failed, {} left{}\n", folder.root().string(), outcome.done,
-                   seconds, outcome.failed, standing.open.size() - outcome.done - outcome.failed,
-                   outcome.failed
-                       ? fmt::format(" (`throng batch query {} --failed` tells why)", folder.root().string())
-                       : "");
+        say(stdout, "{}: {} baked in {:.1f} s, {} failed, {} left{}\n", folder.root().string(), outcome.done,
+            seconds, outcome.failed, standing.open.size() - outcome.done - outcome.failed,
+            outcome.failed
+                ? fmt::format(" (`throng batch query {} --failed` tells why)", folder.root().string())
+                : "");
     if (outcome.signal) throw Exit(128 + outcome.signal);
-    if (outcome.out_of_time) throw Exit(kCheckpointed);
+    if (outcome.out_of_time) {
+        say(stderr, "throng: the time is over; the same command goes on\n");
+        throw Exit(kCheckpointed);
+    }
+    if (outcome.failed) say(stderr, "throng: {} failed\n", plural(outcome.failed, "scenario"));
+    if (options.collect_only && all_open)
+        say(stderr, "throng: {} not baked, or out of date\n",
+            plural(all_open, "scenario is", "scenarios are"));
     if (outcome.failed || (options.collect_only && all_open)) throw Exit(kExpectationMissed);
+}
+
+/// Without -o, the name that a file gives is the name of a folder here, and leads nowhere else.
+std::string folderOf(const Options& options, const std::string& name) {
+    if (!options.output.empty()) return options.output;
+    if (isFileName(name)) return name;
+    throw InputError(options.family,
+                     fmt::format("its `name`, `{}`, is no name for a folder: change it, or give one with -o",
+                                 printable(name)));
 }
 
 void run(const Options& options) {
     if (options.family.empty()) throw CLI::RequiredError("family");
     BatchPlan plan(options.family);
-    const BatchFolder folder(options.output.empty() ? plan.family().name : options.output);
+    const BatchFolder folder(folderOf(options, plan.family().name));
     if (options.worker)
         return runWorker(plan, folder,
                          {options.local.device, 60.0 * options.checkpoint_minutes, options.worker_people});

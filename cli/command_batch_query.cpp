@@ -4,7 +4,9 @@
 #include <memory>
 
 #include "base/files/output_file.h"
+#include "base/printable.h"
 #include "cli/batch/results_database.h"
+#include "cli/batch/results_query.h"
 #include "cli/commands.h"
 
 namespace throng::cli {
@@ -22,17 +24,30 @@ struct Options {
 
 /// What fits a terminal: the parameters and the figures that one looks at first.
 std::string usualColumns(const std::filesystem::path& database) {
+    // Beside what they are asked for, `results` has the figures' names first and the parameters' after them.
+    const auto namesOf = [&](const char* table) {
+        return queryResults(database, fmt::format("SELECT * FROM {} LIMIT 0", table)).columns;
+    };
     std::string columns = "number, id, status";
-    for (const std::string& name : queryResults(database, "SELECT * FROM parameters LIMIT 0").columns)
-        if (name != "id") columns += ", parameters." + quotedName(name);
+    const std::vector<std::string> all = namesOf("results");
+    for (std::size_t i = namesOf("scenarios").size(); i < all.size(); ++i)
+        columns += ", " + quotedName(all[i]);
     return columns + ", agents, arrived, stuck, deepest_overlap_percent, mean_speed, total_seconds";
+}
+
+/// Pieces of SQL from the command line end with a line of their own, so that a comment in one ends with it.
+std::string piece(const char* option, const std::string& sql) {
+    if (!isWholePiece(sql))
+        throw CLI::ValidationError(option, "a bracket, quote or comment in it has no other end");
+    return sql + "\n";
 }
 
 std::string sqlOf(const Options& options, const std::filesystem::path& database) {
     if (!options.sql.empty()) return options.sql;
-    std::string columns = options.columns.empty() ? usualColumns(database) : options.columns;
-    std::string from = options.columns.empty() ? "scenarios JOIN parameters USING (id)" : "results";
-    std::string where = options.where.empty() ? "" : "(" + options.where + ")";
+    std::string columns =
+        options.columns.empty() ? usualColumns(database) : piece("--columns", options.columns);
+    std::string from = "results";
+    std::string where = options.where.empty() ? "" : "(" + piece("--where", options.where) + ")";
     if (options.failed) {
         columns = "number, id, reason, log";
         from = "scenarios";
@@ -40,8 +55,8 @@ std::string sqlOf(const Options& options, const std::filesystem::path& database)
     }
     std::string sql = fmt::format("SELECT {} FROM {}", columns, from);
     if (!where.empty()) sql += " WHERE " + where;
-    sql +=
-        " ORDER BY " + (options.sort.empty() ? "number" : options.sort) + (options.descending ? " DESC" : "");
+    sql += " ORDER BY " + (options.sort.empty() ? "number" : piece("--sort", options.sort)) +
+           (options.descending ? " DESC" : "");
     return options.limit ? sql + fmt::format(" LIMIT {}", options.limit) : sql;
 }
 
@@ -51,9 +66,7 @@ void run(const Options& options) {
         std::filesystem::is_directory(given) ? given / "results.sqlite" : given;
     const QueryResult result = queryResults(database, sqlOf(options, database));
     const bool as_csv = options.csv || options.output.ends_with(".csv");
-    const std::string text = options.json ? jsonOf(result).dump(2) + "\n"
-                             : as_csv     ? csvOf(result)
-                                          : tableOf(result);
+    const std::string text = options.json ? jsonOf(result) : as_csv ? csvOf(result) : tableOf(result);
     if (options.output.empty())
         fmt::print("{}", text);
     else

@@ -12,6 +12,7 @@
 #include "cli/baking/calibration_file.h"
 #include "cli/bench_report.h"
 #include "cli/commands.h"
+#include "cli/terminal/say.h"
 #include "sim/gl/context.h"
 #include "sim/gl/timer.h"
 
@@ -59,7 +60,7 @@ void runDiagrams(const Options& options) {
     benchmark.rounds = options.rounds;
     benchmark.reference = report.yardstick;
     for (const sim::DiagramCase& setup : report.cases) {
-        fmt::print(stderr, "{} sites of radius {} px\n", setup.sites, setup.radius);
+        say(stderr, "{} sites of radius {} px\n", setup.sites, setup.radius);
         std::vector<sim::DiagramContestant> contestants = report.contestants;
         const sim::MethodCost& best = costs.choose(
             {static_cast<double>(setup.sites), setup.radius, static_cast<double>(setup.side) * setup.side});
@@ -90,7 +91,7 @@ void runProximity(const Options& options) {
     report.settings.rounds = options.rounds;
     for (const std::uint32_t people : {256u, 4096u, 16384u, 65536u, 262144u}) {
         if (options.most != 0 && people > options.most) continue;
-        fmt::print(stderr, "{} people\n", people);
+        say(stderr, "{} people\n", people);
         report.rows.push_back(report.settings.run(gl::ShaderLibrary(), people));
         const sim::ProximityRow& row = report.rows.back();
         for (const auto& [name, result] : {std::pair{"voronoi", &row.voronoi}, std::pair{"grid", &row.grid},

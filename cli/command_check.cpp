@@ -7,6 +7,7 @@
 #include "cli/baking/load_layout.h"
 #include "cli/commands.h"
 #include "cli/terminal/exit_codes.h"
+#include "cli/terminal/say.h"
 
 namespace throng::cli {
 namespace {
@@ -24,7 +25,7 @@ nlohmann::ordered_json toJson(const LoadAttempt& attempt) {
             {{"severity", entry.severity == authoring::Severity::error ? "error" : "warning"},
              {"line", entry.where.line},
              {"column", entry.where.column},
-             {"pointer", entry.where.pointer},
+             {"pointer", entry.where.pointer()},
              {"message", entry.message},
              {"hint", entry.hint}});
     nlohmann::ordered_json result = {{"file", attempt.loaded.diagnostics.file}, {"valid", attempt.valid}};
@@ -35,7 +36,7 @@ nlohmann::ordered_json toJson(const LoadAttempt& attempt) {
 
 void printSummary(const LoadedLayout& loaded) {
     const authoring::Scene& scene = loaded.scene;
-    fmt::print(
+    say(stdout,
         "{}: ok: {} people in {} groups, {} wall segments, {:.0f} x {:.0f} m, {:.4g} s at {:.4g} frames/s\n",
         loaded.diagnostics.file, scene.people.size(), scene.groups.size(), scene.wall_segments.size(),
         scene.maximum.x - scene.minimum.x, scene.maximum.y - scene.minimum.y, scene.settings.duration,
@@ -55,7 +56,7 @@ void run(const Options& options) {
         printDiagnostics(attempt.loaded);
         if (attempt.valid) printSummary(attempt.loaded);
     }
-    if (options.json) fmt::print("{}\n", list.dump(2));
+    if (options.json) sayJson(list);
     if (!all_valid) throw Exit(kInvalidInput);
 }
 

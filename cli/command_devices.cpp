@@ -7,6 +7,7 @@
 #include "cli/commands.h"
 #include "cli/passes_table.h"
 #include "cli/terminal/exit_codes.h"
+#include "cli/terminal/say.h"
 #include "sim/gl/context.h"
 
 namespace throng::cli {
@@ -32,11 +33,11 @@ void run(bool as_json) {
         else
             fmt::print("{}: not usable: {}\n", device.index, device.problem);
     }
-    if (as_json) fmt::print("{}\n", list.dump(2));
+    if (as_json) sayJson(list);
     if (any_usable) return;
-    fmt::print(stderr,
-               "throng: none of these devices can be used. On Debian, install the Mesa drivers: "
-               "apt-get install libegl1 libgl1-mesa-dri (or the GPU vendor's driver with EGL).\n");
+    say(stderr,
+        "throng: none of these devices can be used. On Debian, install the Mesa drivers: "
+        "apt-get install libegl1 libgl1-mesa-dri (or the GPU vendor's driver with EGL).\n");
     throw Exit(kNoGraphics);
 }
 

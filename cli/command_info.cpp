@@ -5,6 +5,7 @@
 
 #include "cli/commands.h"
 #include "cli/terminal/exit_codes.h"
+#include "cli/terminal/say.h"
 #include "io/bake_info.h"
 
 namespace throng::cli {
@@ -27,13 +28,13 @@ void run(const Options& options) {
             for (const io::BakeProblem& problem : problems)
                 document["problems"].push_back({{"path", problem.path}, {"message", problem.message}});
         }
-        fmt::print("{}\n", document.dump(2));
+        sayJson(document);
     } else {
-        fmt::print("{}", io::infoText(bake));
+        say(stdout, "{}", io::infoText(bake));
         for (const io::BakeProblem& problem : problems)
-            fmt::print(stderr, "{}: {}\n", problem.path, problem.message);
+            say(stderr, "{}: {}\n", problem.path, problem.message);
         if (options.verify && problems.empty())
-            fmt::print("verified: all {} files are as they were written\n", bake.files.size());
+            say(stdout, "verified: all {} files are as they were written\n", bake.files.size());
     }
     if (!problems.empty()) throw Exit(kInvalidInput);
 }

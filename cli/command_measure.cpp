@@ -9,6 +9,7 @@
 #include "cli/baking/judge.h"
 #include "cli/commands.h"
 #include "cli/terminal/exit_codes.h"
+#include "cli/terminal/say.h"
 
 namespace throng::cli {
 namespace {
@@ -29,7 +30,7 @@ void run(const Options& options) {
     if (options.json) {
         nlohmann::ordered_json json = analysis::measurementJson(measured);
         json["missed"] = missed;
-        fmt::print("{}\n", json.dump(2));
+        sayJson(json);
     } else {
         fmt::print("{}", analysis::measurementText(measured));
     }
@@ -38,7 +39,7 @@ void run(const Options& options) {
         analysis::writeMeasurementPlots(options.plots, measured, crowd.bake().name);
     }
     for (const std::string& bar : missed)
-        fmt::print(stderr, "throng: {}: {}\n", crowd.bake().name, bar);
+        say(stderr, "throng: {}: {}\n", crowd.bake().name, bar);
     if (!missed.empty()) throw Exit(kExpectationMissed);
 }
 

@@ -6,6 +6,7 @@
 
 #include "analysis/preview/preview.h"
 #include "cli/commands.h"
+#include "cli/terminal/say.h"
 
 namespace throng::cli {
 namespace {
@@ -28,7 +29,7 @@ void run(const Options& options) {
     preview.frame = options.frame;
     if (!video) {
         const std::uint32_t frame = analysis::drawPreview(bake, output, preview);
-        fmt::print("{}: frame {}\n", output, frame);
+        say(stdout, "{}: frame {}\n", output, frame);
         return;
     }
     const bool terminal = isatty(STDERR_FILENO);
@@ -36,7 +37,7 @@ void run(const Options& options) {
         if (terminal) fmt::print(stderr, "\r{:3.0f} %\x1b[K", 100.0 * share);
     });
     if (terminal) fmt::print(stderr, "\n");
-    fmt::print("{}\n", output);
+    say(stdout, "{}\n", output);
 }
 
 }  // namespace

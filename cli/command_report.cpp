@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
 
 #include "analysis/report/bake_report.h"
 #include "analysis/report/page.h"
@@ -11,8 +12,10 @@
 #include "base/numbers.h"
 #include "base/palette.h"
 #include "cli/baking/judge.h"
-#include "cli/batch/results_database.h"
+#include "cli/batch/batch_plan.h"
+#include "cli/batch/results_query.h"
 #include "cli/commands.h"
+#include "cli/terminal/say.h"
 
 namespace throng::cli {
 namespace fs = std::filesystem;
@@ -34,9 +37,37 @@ std::string pageOf(const fs::path& folder) {
 
 std::string keyed(const QueryResult& about, const std::string& key) {
     for (const auto& row : about.rows)
-        if (row[0] == key) return row[1].get<std::string>();
+        if (row[0] == key && row[1].is_string()) return row[1].get<std::string>();
     return {};
 }
+
+/// The results of a batch, whose database may come from anywhere.
+struct Results {
+    fs::path database;
+    QueryResult table, about;
+    std::size_t figures = 0;  ///< columns of the table before the parameters
+
+    explicit Results(const fs::path& folder)
+        : database(folder / "results.sqlite"),
+          table(queryResults(database, "SELECT * FROM results ORDER BY number")),
+          about(queryResults(database, "SELECT key, value FROM batch")),
+          figures(queryResults(database, "SELECT * FROM scenarios LIMIT 0").columns.size()) {
+        if (figures > table.columns.size())
+            throw InputError(database, "is no batch's: `results` has fewer columns than `scenarios`");
+    }
+    std::size_t column(const char* name) const try {
+        return table.column(name);
+    } catch (const std::out_of_range& error) {
+        throw InputError(database, error.what());
+    }
+    /// The scenario of a row. Pages and bakes have its name: no other than ours makes one.
+    std::string id(const std::vector<ordered_json>& row) const {
+        const ordered_json& value = row[column("id")];
+        if (!value.is_string() || !isScenarioId(value.get<std::string>()))
+            throw InputError(database, "holds a scenario whose `id` is not one that a batch makes");
+        return value.get<std::string>();
+    }
+};
 
 /// Bakes that are damaged have no picture; the page is about the others, too.
 ordered_json thumbnailOrNull(const fs::path& bake) try {
@@ -47,22 +78,15 @@ ordered_json thumbnailOrNull(const fs::path& bake) try {
 }
 
 void reportBatch(const fs::path& folder, const fs::path& output, bool each) {
-    const fs::path database = folder / "results.sqlite";
-    const QueryResult table = queryResults(database, "SELECT * FROM results ORDER BY number");
-    const QueryResult about = queryResults(database, "SELECT key, value FROM batch");
-    const QueryResult figures = queryResults(database, "SELECT * FROM scenarios LIMIT 0");
-    const auto column = [&](const char* name) {
-        return static_cast<std::size_t>(std::find(table.columns.begin(), table.columns.end(), name) -
-                                        table.columns.begin());
-    };
-    const std::size_t id = column("id"), bake = column("bake");
+    const Results results(folder);
+    const QueryResult& table = results.table;
+    const std::size_t bake = results.column("bake");
     ordered_json data;
-    data["name"] = keyed(about, "name");
-    data["base"] = keyed(about, "base");
-    data["version"] = keyed(about, "version");
+    for (const char* key : {"name", "base", "version"})
+        data[key] = keyed(results.about, key);
     data["columns"] = table.columns;
     data["parameters"] = std::vector<std::string>(
-        table.columns.begin() + static_cast<std::ptrdiff_t>(figures.columns.size()), table.columns.end());
+        table.columns.begin() + static_cast<std::ptrdiff_t>(results.figures), table.columns.end());
     data["rows"] = table.rows;
     data["colours"] = ordered_json::array();
     for (const Colour& colour : kGroupColours)
@@ -80,13 +104,13 @@ void reportBatch(const fs::path& folder, const fs::path& output, bool each) {
     }
     data["thumbnails"] = ordered_json::object();
     for (const auto& row : table.rows) {
+        const std::string name = results.id(row);
         if (row[bake].is_null()) continue;
-        const fs::path path = folder / row[bake].get<std::string>();
-        const std::string name = row[id].get<std::string>();
+        const fs::path path = folder / "bakes" / name;
         data["thumbnails"][name] = thumbnailOrNull(path);
         if (each) replaceFile(pages / (name + ".html"), pageOf(path));
     }
-    replaceFile(output, analysis::makePage("batch", keyed(about, "name"), data));
+    replaceFile(output, analysis::makePage("batch", keyed(results.about, "name"), data));
 }
 
 void run(const Options& options) {
@@ -103,7 +127,7 @@ void run(const Options& options) {
         reportBatch(input, output, options.each);
     else
         replaceFile(output, pageOf(input));
-    fmt::print("{}: {}\n", output.string(), readableBytes(fs::file_size(output)));
+    say(stdout, "{}: {}\n", output.string(), readableBytes(fs::file_size(output)));
 }
 
 }  // namespace

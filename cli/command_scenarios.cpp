@@ -12,6 +12,7 @@
 #include "cli/commands.h"
 #include "cli/scenarios.h"
 #include "cli/terminal/exit_codes.h"
+#include "cli/terminal/say.h"
 
 namespace throng::cli {
 namespace {
@@ -58,9 +59,9 @@ std::vector<std::string> runOne(const Scenario& scenario, const Options& options
     json["missed"] = missed;
     report[std::string(scenario.name)] = json;
     if (!options.json) {
-        fmt::print("== {}\n{}", scenario.name, analysis::measurementText(measured));
+        say(stdout, "== {}\n{}", scenario.name, analysis::measurementText(measured));
         for (const std::string& bar : missed)
-            fmt::print("MISSED               {}\n", bar);
+            say(stdout, "MISSED               {}\n", bar);
     }
     return missed;
 }
@@ -68,7 +69,7 @@ std::vector<std::string> runOne(const Scenario& scenario, const Options& options
 void run(const Options& options) {
     if (options.list) {
         for (const Scenario& scenario : scenarios())
-            fmt::print("{}\n", scenario.name);
+            say(stdout, "{}\n", scenario.name);
         return;
     }
     std::vector<const Scenario*> chosen;
@@ -83,7 +84,7 @@ void run(const Options& options) {
     bool all_held = true;
     for (const Scenario* scenario : chosen)
         all_held = runOne(*scenario, options, report).empty() && all_held;
-    if (options.json) fmt::print("{}\n", (chosen.size() == 1 ? report.front() : report).dump(2));
+    if (options.json) sayJson((chosen.size() == 1 ? report.front() : report));
     if (!all_held) throw Exit(kExpectationMissed);
 }
 

@@ -3,8 +3,11 @@
 
 #include <cstdio>
 #include <exception>
+#include <new>
+#include <string>
 
 #include "base/files/errors.h"
+#include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/terminal/exit_codes.h"
 #include "cli/terminal/suggestions.h"
@@ -30,9 +33,9 @@ int parseAndRun(CLI::App& app, int argc, char** argv) {
         return app.exit(success);
     } catch (const CLI::ParseError& error) {
         if (argc > 1 && argv[1][0] != '-' && !cli::isCommand(app, argv[1]))
-            fmt::print(stderr, "throng: there is no command `{}`\n", argv[1]);
+            fmt::print(stderr, "throng: there is no command `{}`\n", printable(argv[1]));
         else
-            fmt::print(stderr, "throng: {}\n", error.what());
+            fmt::print(stderr, "throng: {}\n", printable(error.what(), true));
         const std::string hint = cli::suggestFor(app, argc, argv);
         if (!hint.empty()) fmt::print(stderr, "  hint: {}\n", hint);
         fmt::print(stderr,
@@ -41,8 +44,8 @@ int parseAndRun(CLI::App& app, int argc, char** argv) {
     }
 }
 
-int fail(int code, const std::exception& error) {
-    fmt::print(stderr, "throng: {}\n", error.what());
+int fail(int code, const std::string& what) {
+    fmt::print(stderr, "throng: {}\n", printable(what, true));
     return code;
 }
 
@@ -74,10 +77,12 @@ int main(int argc, char** argv) {
     } catch (const cli::Exit& exit) {
         return exit.code;
     } catch (const gl::GraphicsError& error) {
-        return fail(cli::kNoGraphics, error);
+        return fail(cli::kNoGraphics, error.what());
     } catch (const OutputError& error) {
-        return fail(cli::kOutputFailed, error);
+        return fail(cli::kOutputFailed, error.what());
+    } catch (const std::bad_alloc&) {
+        return fail(cli::kInvalidInput, "there is not enough memory for this");
     } catch (const std::exception& error) {
-        return fail(cli::kInvalidInput, error);
+        return fail(cli::kInvalidInput, error.what());
     }
 }

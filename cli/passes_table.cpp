@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/baking/baker.h"
+#include "cli/terminal/say.h"
 #include "sim/step_table.h"
 
 namespace throng::cli {
@@ -122,7 +123,7 @@ void printPasses(const std::string& layout, bool as_json) {
                                                  {"people", people},
                                                  {"device", baker.device().name},
                                                  {"passes", toJson(passes)}};
-        fmt::print("{}\n", document.dump(2));
+        sayJson(document);
         return;
     }
     fmt::print(kHeader, name, people);

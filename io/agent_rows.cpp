@@ -5,13 +5,17 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
+#include <optional>
+#include <unordered_map>
 
 #include "base/files/csv.h"
 #include "base/files/input_file.h"
+#include "base/numbers.h"
 
 namespace throng::io {
 namespace {
+
+constexpr double kLargest = 1000.0;  // m: radius, of whatever stands for a person
 
 class Columns {
   public:
@@ -37,14 +41,18 @@ class Columns {
     AgentRow row(const std::vector<std::string>& fields, std::size_t line, glm::dvec2 origin) const {
         AgentRow result;
         result.group = text(fields, group, line);
-        result.radius = static_cast<float>(number(fields, radius, line));
+        const double size = number(fields, radius, line);
+        if (size < 0.0 || size > kLargest)
+            throw InputError(path_, fmt::format("line {}: {} m is no radius of a body", line, size));
+        result.radius = static_cast<float>(size);
         result.preferred_speed = static_cast<float>(number(fields, preferred_speed, line));
         result.outcome = text(fields, outcome, line);
         result.shortest_way = number(fields, shortest_way, line);
         for (const auto& [name, frame] :
              {std::pair{spawn_frame, &result.spawn_frame}, std::pair{arrival_frame, &result.arrival_frame}})
             if (!text(fields, name, line).empty())
-                *frame = static_cast<std::uint32_t>(number(fields, name, line));
+                *frame =
+                    static_cast<std::uint32_t>(std::clamp(number(fields, name, line), 0.0, 4294967295.0));
         result.goal = glm::dvec2(number(fields, goal_x, line), number(fields, goal_y, line)) - origin;
         return result;
     }
@@ -61,12 +69,11 @@ class Columns {
     }
     double number(const std::vector<std::string>& fields, Name name, std::size_t line) const {
         const std::string& field = text(fields, name, line);
-        double value = 0.0;
-        const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-        if (error != std::errc() || end != field.data() + field.size())
+        const std::optional<double> value = finiteNumber(field);
+        if (!value)
             throw InputError(path_,
                              fmt::format("line {}: `{}` is not a number ({})", line, field, kNames[name]));
-        return value;
+        return *value;
     }
 
     const std::filesystem::path& path_;
@@ -77,7 +84,7 @@ class Columns {
 
 std::vector<AgentRow> loadAgentRows(const Bake& bake) {
     const std::filesystem::path path = bake.folder / "agents.csv";
-    CsvReader table(readFile(path));
+    CsvReader table(readFile(path, kMostTable));
     std::vector<std::string> fields;
     table.next(fields);
     const Columns columns(path, fields);
@@ -91,10 +98,11 @@ std::vector<AgentRow> loadAgentRows(const Bake& bake) {
 
 GroupTable groupsOf(const std::vector<AgentRow>& rows) {
     GroupTable groups;
+    std::unordered_map<std::string_view, std::uint32_t> known;
     for (const AgentRow& row : rows) {
-        const auto known = std::ranges::find(groups.names, row.group);
-        groups.group_of.push_back(static_cast<std::uint32_t>(known - groups.names.begin()));
-        if (known == groups.names.end()) groups.names.push_back(row.group);
+        const auto [entry, is_new] = known.try_emplace(row.group, static_cast<std::uint32_t>(known.size()));
+        groups.group_of.push_back(entry->second);
+        if (is_new) groups.names.push_back(row.group);
     }
     return groups;
 }

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/files/input_file.h"
+#include "base/json_shape.h"
 
 namespace throng::io {
 namespace fs = std::filesystem;
@@ -14,100 +16,158 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Reads members of the manifest; every error names the file and the member.
+constexpr std::uint64_t kMostBytes = std::uint64_t{32} << 20;  // of bake.json
+constexpr double kFurthest = 4.0e9;                            // m from the origin, of anything
+constexpr double kLeastRate = 1.0, kMostRate = 1000.0;         // frames/s
+constexpr double kLongest = 100'000.0;                         // s
+
+/// Reads members of the manifest, or of an object in it; every error names the file and the member.
 class ManifestReader {
   public:
-    ManifestReader(const fs::path& path, const Json& json) : path_(path), json_(json) {}
+    ManifestReader(const fs::path& path, const Json& json, std::string pointer = {})
+        : path_(path), json_(json), pointer_(std::move(pointer)) {}
 
-    [[noreturn]] void fail(const std::string& pointer, const char* expected) const {
-        throw InputError(path_, fmt::format("`{}` is missing or not {}", pointer, expected));
+    [[noreturn]] void fail(const std::string& member, const std::string& expected) const {
+        throw InputError(path_, fmt::format("`{}{}` is missing or not {}", pointer_, member, expected));
     }
 
-    bool has(const std::string& pointer) const { return json_.contains(Json::json_pointer(pointer)); }
-    const Json& at(const std::string& pointer) const {
-        const Json::json_pointer where(pointer);
-        if (!json_.contains(where)) fail(pointer, "what it should be");
+    bool has(const std::string& member) const { return json_.contains(Json::json_pointer(member)); }
+    const Json& at(const std::string& member) const {
+        const Json::json_pointer where(member);
+        if (!json_.contains(where)) fail(member, "what it should be");
         return json_.at(where);
     }
-    const Json& list(const std::string& pointer) const {
-        const Json& value = at(pointer);
-        if (!value.is_array()) fail(pointer, "a list");
+    const Json& list(const std::string& member) const {
+        const Json& value = at(member);
+        if (!value.is_array()) fail(member, "a list");
         return value;
     }
-    std::string text(const std::string& pointer) const {
-        const Json& value = at(pointer);
-        if (!value.is_string()) fail(pointer, "a text");
+    /// Calls read(reader) for each item of a list.
+    template <class Read>
+    void each(const std::string& member, Read read) const {
+        const Json& items = list(member);
+        for (std::size_t i = 0; i < items.size(); ++i)
+            read(ManifestReader(path_, items[i], fmt::format("{}{}/{}", pointer_, member, i)));
+    }
+    std::string text(const std::string& member) const {
+        const Json& value = at(member);
+        if (!value.is_string()) fail(member, "a text");
         return value.get<std::string>();
     }
-    bool flag(const std::string& pointer) const {
-        const Json& value = at(pointer);
-        if (!value.is_boolean()) fail(pointer, "true or false");
+    bool flag(const std::string& member) const {
+        const Json& value = at(member);
+        if (!value.is_boolean()) fail(member, "true or false");
         return value.get<bool>();
     }
-    double number(const std::string& pointer) const {
-        const Json& value = at(pointer);
-        if (!value.is_number() || !std::isfinite(value.get<double>())) fail(pointer, "a number");
-        return value.get<double>();
+    double number(const std::string& member, double least = -1.0e300, double most = 1.0e300) const {
+        return numberOf(at(member), member, least, most);
     }
-    std::uint64_t count(const std::string& pointer, std::uint64_t largest) const {
-        const Json& value = at(pointer);
-        if (!value.is_number_unsigned() || value.get<std::uint64_t>() > largest) fail(pointer, "a count");
+    /// m.
+    double length(const std::string& member) const { return number(member, 0.0, kFurthest); }
+    std::uint64_t count(const std::string& member, std::uint64_t largest) const {
+        const Json& value = at(member);
+        if (!value.is_number_unsigned() || value.get<std::uint64_t>() > largest) fail(member, "a count");
         return value.get<std::uint64_t>();
     }
-    std::uint32_t count(const std::string& pointer) const {
-        return static_cast<std::uint32_t>(count(pointer, 0xffffffffu));
+    std::uint32_t count(const std::string& member) const {
+        return static_cast<std::uint32_t>(count(member, 0xffffffffu));
     }
-    glm::dvec2 point(const std::string& pointer) const {
-        return {number(pointer + "/0"), number(pointer + "/1")};
-    }
-    std::vector<glm::dvec2> points(const std::string& pointer) const {
+    glm::dvec2 point(const std::string& member) const { return pointOf(at(member), member); }
+    std::vector<glm::dvec2> points(const std::string& member, std::size_t least) const {
         std::vector<glm::dvec2> result;
-        for (std::size_t i = 0; i < list(pointer).size(); ++i)
-            result.push_back(point(fmt::format("{}/{}", pointer, i)));
+        for (const Json& item : list(member))
+            result.push_back(pointOf(item, fmt::format("{}/{}", member, result.size())));
+        if (result.size() < least) fail(member, fmt::format("a list of {} points or more", least));
+        return result;
+    }
+    std::vector<double> numbers(const std::string& member) const {
+        std::vector<double> result;
+        for (const Json& item : list(member))
+            result.push_back(numberOf(item, fmt::format("{}/{}", member, result.size()), -1.0e300, 1.0e300));
         return result;
     }
 
   private:
+    double numberOf(const Json& value, const std::string& member, double least, double most) const {
+        const double found = value.is_number() ? value.get<double>() : HUGE_VAL;
+        if (!std::isfinite(found)) fail(member, "a number");
+        if (found < least || found > most) fail(member, fmt::format("a number from {} to {}", least, most));
+        return found;
+    }
+    glm::dvec2 pointOf(const Json& value, const std::string& member) const {
+        if (!value.is_array() || value.size() < 2) fail(member, "a point");
+        return {numberOf(value[0], member + "/0", -kFurthest, kFurthest),
+                numberOf(value[1], member + "/1", -kFurthest, kFurthest)};
+    }
+
     const fs::path& path_;
     const Json& json_;
+    std::string pointer_;
 };
 
 Json parseManifest(const fs::path& path) {
+    const std::string text = readFile(path, kMostBytes);
+    if (const char* problem = tooMuchIn(text))
+        throw InputError(path, std::string("not a manifest: it ") + problem);
     try {
-        return Json::parse(readFile(path));
+        return Json::parse(text);
     } catch (const nlohmann::json::exception& error) {
         throw InputError(path, std::string("not a manifest: ") + error.what());
     }
 }
 
+authoring::Wall wallOf(const ManifestReader& reader) {
+    authoring::Wall wall;
+    wall.id = reader.text("/id");
+    wall.points = reader.points("/points", 2);
+    wall.closed = reader.flag("/closed");
+    wall.thickness = reader.length("/thickness");
+    wall.height = reader.length("/height");
+    if (reader.has("/gate")) {
+        wall.open_at_start = reader.flag("/gate/open_at_start");
+        wall.toggles = reader.numbers("/gate/toggles");
+    }
+    if (reader.has("/ground")) reader.point("/ground");
+    return wall;
+}
+
 void readGeometry(const ManifestReader& reader, Bake& bake) {
-    for (std::size_t i = 0; i < reader.list("/geometry/roads").size(); ++i) {
-        const std::string at = fmt::format("/geometry/roads/{}", i);
-        bake.roads.push_back({reader.text(at + "/id"),
-                              reader.points(at + "/centreline"),
-                              reader.number(at + "/width"),
-                              reader.flag(at + "/one_way"),
+    reader.each("/geometry/roads", [&](const ManifestReader& road) {
+        bake.roads.push_back({road.text("/id"),
+                              road.points("/centreline", 2),
+                              road.length("/width"),
+                              road.flag("/one_way"),
                               {}});
-    }
-    for (std::size_t i = 0; i < reader.list("/geometry/areas").size(); ++i) {
-        const std::string at = fmt::format("/geometry/areas/{}", i);
-        bake.areas.push_back({reader.text(at + "/id"), reader.points(at + "/polygon"), {}});
-    }
-    for (std::size_t i = 0; i < reader.list("/geometry/walls").size(); ++i) {
-        const std::string at = fmt::format("/geometry/walls/{}", i);
-        authoring::Wall wall;
-        wall.id = reader.text(at + "/id");
-        wall.points = reader.points(at + "/points");
-        wall.closed = reader.flag(at + "/closed");
-        wall.thickness = reader.number(at + "/thickness");
-        wall.height = reader.number(at + "/height");
-        if (reader.has(at + "/gate")) {
-            wall.open_at_start = reader.flag(at + "/gate/open_at_start");
-            for (std::size_t k = 0; k < reader.list(at + "/gate/toggles").size(); ++k)
-                wall.toggles.push_back(reader.number(fmt::format("{}/gate/toggles/{}", at, k)));
-        }
-        bake.walls.push_back(std::move(wall));
-    }
+    });
+    reader.each("/geometry/areas", [&](const ManifestReader& area) {
+        bake.areas.push_back({area.text("/id"), area.points("/polygon", 3), {}});
+    });
+    reader.each("/geometry/walls", [&](const ManifestReader& wall) { bake.walls.push_back(wallOf(wall)); });
+}
+
+void readExtent(const ManifestReader& reader, Bake& bake) {
+    bake.fps = reader.number("/fps", kLeastRate, kMostRate);
+    bake.frames = reader.count("/frames");
+    if (bake.frames > kLongest * bake.fps)
+        reader.fail("/frames", fmt::format("the frames of at most {:.0f} s", kLongest));
+    bake.agents = reader.count("/agents");
+    bake.origin = reader.point("/origin");
+    bake.minimum = reader.point("/bounds/min");
+    bake.maximum = reader.point("/bounds/max");
+    if (bake.minimum.x >= bake.maximum.x || bake.minimum.y >= bake.maximum.y)
+        reader.fail("/bounds", "a rectangle with an area");
+}
+
+/// What only some read, and take for what it should be where it is there.
+void checkTheRest(const ManifestReader& reader) {
+    for (const char* text : {"/inputs", "/generator", "/terrain/surface", "/terrain/source"})
+        if (reader.has(text)) reader.text(text);
+    for (const char* number : {"/origin/2", "/terrain/lowest", "/terrain/highest", "/timing/wall_seconds"})
+        if (reader.has(number)) reader.number(number, -kFurthest, kFurthest);
+    if (reader.has("/variations")) reader.count("/variations");
+    if (reader.has("/timing/steps")) reader.count("/timing/steps", ~std::uint64_t{0});
+    for (const char* object : {"/terrain", "/device", "/account/refused_reasons"})
+        if (reader.has(object) && !reader.at(object).is_object()) reader.fail(object, "an object");
 }
 
 /// A manifest may come from anywhere: nothing outside its folder is read because of what it says.
@@ -126,13 +186,11 @@ StreamChoice readStreams(const ManifestReader& reader) {
 }
 
 void readFiles(const ManifestReader& reader, Bake& bake) {
-    for (std::size_t i = 0; i < reader.list("/files").size(); ++i) {
-        const std::string at = fmt::format("/files/{}", i);
-        Bake::File file{reader.text(at + "/path"), reader.count(at + "/bytes", ~std::uint64_t{0}),
-                        reader.text(at + "/xxh3")};
-        if (!staysInside(file.path)) reader.fail(at + "/path", "a path inside the bake");
-        bake.files.push_back(std::move(file));
-    }
+    reader.each("/files", [&](const ManifestReader& file) {
+        bake.files.push_back(
+            {file.text("/path"), file.count("/bytes", ~std::uint64_t{0}), file.text("/xxh3")});
+        if (!staysInside(bake.files.back().path)) file.fail("/path", "a path inside the bake");
+    });
 }
 
 }  // namespace
@@ -149,22 +207,15 @@ Bake loadBake(const fs::path& path) {
         throw InputError(manifest_path, "written by a newer version of Throng: its `version` is not 1");
     bake.name = reader.text("/name");
     bake.complete = reader.flag("/complete");
-    bake.fps = reader.number("/fps");
-    if (bake.fps <= 0.0) reader.fail("/fps", "more than 0");
-    bake.frames = reader.count("/frames");
-    bake.agents = reader.count("/agents");
+    readExtent(reader, bake);
     bake.seed = reader.count("/seed", ~std::uint64_t{0});
-    bake.origin = reader.point("/origin");
-    bake.minimum = reader.point("/bounds/min");
-    bake.maximum = reader.point("/bounds/max");
-    if (bake.minimum.x >= bake.maximum.x || bake.minimum.y >= bake.maximum.y)
-        reader.fail("/bounds", "a rectangle with an area");
     readGeometry(reader, bake);
     bake.account = {reader.count("/account/agents"), reader.count("/account/spawned"),
                     reader.count("/account/walking"), reader.count("/account/arrived"),
                     reader.count("/account/refused")};
     bake.streams = readStreams(reader);
     readFiles(reader, bake);
+    checkTheRest(reader);
     return bake;
 }
 

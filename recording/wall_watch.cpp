@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recording/wall_watch.h"
 
+#include <algorithm>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <utility>
@@ -8,8 +9,10 @@
 namespace throng::recording {
 namespace {
 
-constexpr double kSpacing = 1.0;   // m
-constexpr double kThickest = 2.0;  // m: half thicknesses above this are looked for further away
+constexpr double kSpacing = 1.0;  // m, where there are not more
+constexpr double kMostSamples = 1.0e6;
+constexpr std::size_t kFewCells = 1000;  // to look through rather than at all walls
+constexpr double kThickest = 2.0;        // m: half thicknesses above this are looked for further away
 
 double cross(glm::dvec2 a, glm::dvec2 b) {
     return a.x * b.y - a.y * b.x;
@@ -26,8 +29,12 @@ WallWatch::WallWatch(std::vector<authoring::Wall> walls, glm::dvec2 minimum, glm
             segments_.push_back({wall.points[i], wall.points[(i + 1) % wall.points.size()],
                                  wall.closed ? 0.0 : 0.5 * wall.thickness, index});
     }
+    double length = 0.0;
+    for (const Segment& each : segments_)
+        length += glm::distance(each.a, each.b);
+    spacing_ = std::max(kSpacing, length / kMostSamples);
     for (std::uint32_t i = 0; i < segments_.size(); ++i) {
-        const int pieces = 1 + static_cast<int>(glm::distance(segments_[i].a, segments_[i].b) / kSpacing);
+        const int pieces = 1 + static_cast<int>(glm::distance(segments_[i].a, segments_[i].b) / spacing_);
         for (int k = 0; k <= pieces; ++k) {
             samples_.push_back(glm::mix(segments_[i].a, segments_[i].b, static_cast<double>(k) / pieces));
             sample_segment_.push_back(i);
@@ -38,8 +45,14 @@ WallWatch::WallWatch(std::vector<authoring::Wall> walls, glm::dvec2 minimum, glm
 
 template <class Visit>
 void WallWatch::near(glm::dvec2 place, double reach, Visit&& visit) const {
+    const double around = reach + spacing_ + kThickest;
+    if (grid_.cellsNear(place, around) > segments_.size() + kFewCells) {
+        for (const Segment& each : segments_)
+            if (!open_[each.wall]) visit(each);
+        return;
+    }
     std::uint32_t last = ~0u;
-    grid_.near(place, reach + kSpacing + kThickest, [&](std::uint32_t sample) {
+    grid_.near(place, around, [&](std::uint32_t sample) {
         const std::uint32_t segment = sample_segment_[sample];
         if (segment != last && !open_[segments_[segment].wall]) visit(segments_[segment]);
         last = segment;

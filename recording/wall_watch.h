@@ -34,7 +34,8 @@ class WallWatch {
     std::vector<authoring::Wall> walls_;
     std::vector<bool> open_;  // by wall
     std::vector<Segment> segments_;
-    std::vector<glm::dvec2> samples_;  // along the segments, at most kSpacing apart
+    double spacing_ = 1.0;             // m
+    std::vector<glm::dvec2> samples_;  // along the segments, at most spacing_ apart
     std::vector<std::uint32_t> sample_segment_;
     PlaneGrid grid_;
 };

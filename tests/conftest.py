@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import resource
 import shutil
 import subprocess
 
@@ -27,6 +28,22 @@ def throng():
         return process
 
     run.binary = binary
+    return run
+
+
+@pytest.fixture(scope="session")
+def confined(throng):
+    """Like throng(), but with an end to its memory and to its time on a processor: it has to end by itself."""
+
+    def run(*arguments, megabytes=2000, seconds=10, expect=0, **options):
+        def limit():
+            resource.setrlimit(resource.RLIMIT_DATA, (megabytes << 20, megabytes << 20))
+            resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))
+
+        finished = throng(*arguments, expect=expect, preexec_fn=limit, timeout=60 * seconds, **options)
+        assert "not enough memory" not in finished.stderr
+        return finished
+
     return run
 
 

@@ -39,7 +39,7 @@ class Measurer {
           options_(options),
           rows_(crowd.people()),
           walls_(bake_.walls, bake_.minimum, bake_.maximum),
-          grid_(bake_.minimum, bake_.maximum, 1.0),
+          grid_(bake_.minimum, bake_.maximum, 1.0, cellsFor(rows_.size())),
           dt_(1.0 / bake_.fps),
           way_(rows_.size(), 0.0),
           effort_(rows_.size(), 0.0),
@@ -50,7 +50,7 @@ class Measurer {
     }
 
     Measurement run() {
-        for (std::uint32_t frame = 0; frame < bake_.frames; ++frame) {
+        for (std::uint32_t frame = 0; frame < bake_.frames && !rows_.empty(); ++frame) {
             history_.push_front(crowd_.frame(frame));
             if (history_.size() > kHistory) history_.pop_back();
             gatherPresent();
@@ -342,6 +342,8 @@ class Measurer {
 }  // namespace
 
 Measurement measureBake(io::CrowdReader& crowd, const MeasureOptions& options) {
+    if (crowd.frames() == 0)
+        throw InputError(crowd.bake().folder, "has no frames: there is nothing to measure");
     return Measurer(crowd, options).run();
 }
 

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <memory>
 
+#include "analysis/plot/png.h"
 #include "base/files/errors.h"
 
 namespace throng::analysis {
@@ -86,12 +87,7 @@ class Canvas {
         cairo_move_to(c, x - across * extents.x_advance, y);
         cairo_show_text(c, what.c_str());
     }
-    void write(const std::filesystem::path& path) const {
-        cairo_surface_flush(surface_.get());
-        const cairo_status_t status = cairo_surface_write_to_png(surface_.get(), path.c_str());
-        if (status != CAIRO_STATUS_SUCCESS)
-            throw OutputError(path, fmt::format("cannot be written: {}", cairo_status_to_string(status)));
-    }
+    void write(const std::filesystem::path& path) const { writePng(surface_.get(), path); }
 
   private:
     std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface_;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <numbers>
 
 namespace throng::analysis {
@@ -14,6 +15,8 @@ constexpr double kMargin = 28.0;      // px
 constexpr double kHeader = 64.0;      // px, above the drawing
 constexpr double kFooter = 58.0;      // px, below it
 constexpr double kDensityCell = 1.0;  // m
+constexpr double kTallest = 32767.0;  // px that Cairo can draw
+constexpr double kMostCells = 4.0e6;  // of the density layer
 constexpr double kMostDensity = 3.0;  // persons per m^2 at the warm end of the scale
 constexpr Colour kPaper = colourFromHex(0xf6f4ef), kInk = colourFromHex(0x22252b),
                  kRoad = colourFromHex(0xe2dfd6), kArea = colourFromHex(0xece6d3),
@@ -65,9 +68,15 @@ Plate::Plate(const std::filesystem::path& bake, const PreviewOptions& options)
       options_(options) {
     crowd_.keep(framesToKeep(bake_, options));
     const glm::dvec2 extent = bake_.maximum - bake_.minimum;
+    if (bake_.frames == 0) throw InputError(bake, "has no frames: there is nothing to draw");
     width_ = options.width / 2 * 2;  // video encoders want even sizes
     scale_ = (width_ - 2.0 * kMargin) / std::max(extent.x, 1.0);
-    height_ = static_cast<int>(std::ceil(extent.y * scale_ + kHeader + kFooter)) / 2 * 2;
+    const double height = std::ceil(extent.y * scale_ + kHeader + kFooter);
+    if (height > kTallest)
+        throw InputError(bake,
+                         fmt::format("its site is {:.6g} m wide and {:.6g} m high: no picture is so narrow",
+                                     extent.x, extent.y));
+    height_ = static_cast<int>(height) / 2 * 2;
     layout_.reset(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_, height_));
     canvas_.reset(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_, height_));
     if (cairo_surface_status(canvas_.get()) != CAIRO_STATUS_SUCCESS)
@@ -153,17 +162,19 @@ void Plate::drawScaleBar(cairo_t* context) const {
 
 void Plate::drawDensity(cairo_t* context, const io::CrowdFrame& now) const {
     const glm::dvec2 extent = bake_.maximum - bake_.minimum;
-    const auto columns = static_cast<std::size_t>(std::ceil(extent.x / kDensityCell)) + 1;
-    const auto rows = static_cast<std::size_t>(std::ceil(extent.y / kDensityCell)) + 1;
+    const double cell = std::max({kDensityCell, std::sqrt(extent.x * extent.y / kMostCells),
+                                  4.0 * std::max(extent.x, extent.y) / kMostCells});
+    const auto columns = static_cast<std::size_t>(std::ceil(extent.x / cell)) + 1;
+    const auto rows = static_cast<std::size_t>(std::ceil(extent.y / cell)) + 1;
     // Everybody's mark is spread over the four nearest cells, and the cells over their neighbours: a smooth
     // layer.
     std::vector<double> density(columns * rows, 0.0), smooth(columns * rows, 0.0);
     for (std::size_t row = 0; row < bake_.agents; ++row) {
         if (!now.isThere(row)) continue;
-        const glm::dvec2 at = (now.place(row) - bake_.minimum) / kDensityCell;
-        const auto x = static_cast<std::size_t>(std::max(0.0, at.x));
-        const auto y = static_cast<std::size_t>(std::max(0.0, at.y));
-        if (x < columns && y < rows) density[y * columns + x] += 1.0 / (kDensityCell * kDensityCell);
+        const glm::dvec2 at = glm::max((now.place(row) - bake_.minimum) / cell, glm::dvec2(0.0));
+        if (at.x >= static_cast<double>(columns) || at.y >= static_cast<double>(rows)) continue;
+        density[static_cast<std::size_t>(at.y) * columns + static_cast<std::size_t>(at.x)] +=
+            1.0 / (cell * cell);
     }
     constexpr double kKernel[3] = {0.25, 0.5, 0.25};
     for (std::size_t y = 1; y + 1 < rows; ++y)
@@ -176,10 +187,10 @@ void Plate::drawDensity(cairo_t* context, const io::CrowdFrame& now) const {
         for (std::size_t x = 0; x < columns; ++x) {
             const double here = smooth[y * columns + x];
             if (here < 0.15) continue;
-            const glm::dvec2 at = toPixel(bake_.minimum.x + static_cast<double>(x) * kDensityCell,
-                                          bake_.minimum.y + static_cast<double>(y + 1) * kDensityCell);
+            const glm::dvec2 at = toPixel(bake_.minimum.x + static_cast<double>(x) * cell,
+                                          bake_.minimum.y + static_cast<double>(y + 1) * cell);
             setHeat(context, here / kMostDensity);
-            cairo_rectangle(context, at.x, at.y, kDensityCell * scale_ + 0.5, kDensityCell * scale_ + 0.5);
+            cairo_rectangle(context, at.x, at.y, cell * scale_ + 0.5, cell * scale_ + 0.5);
             cairo_fill(context);
         }
 }

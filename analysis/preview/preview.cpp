@@ -8,6 +8,7 @@
 #include <system_error>
 #include <vector>
 
+#include "analysis/plot/png.h"
 #include "analysis/preview/plate.h"
 #include "base/process.h"
 
@@ -75,15 +76,7 @@ std::uint32_t drawPreview(const std::filesystem::path& bake, const std::filesyst
     if (frame >= plate.frames())
         throw InputError(bake, fmt::format("there is no frame {}: the bake has {}, counted from 0", frame,
                                            plate.frames()));
-    const std::filesystem::path temporary = unfinished(png);
-    const cairo_status_t status = cairo_surface_write_to_png(plate.draw(frame), temporary.c_str());
-    if (status != CAIRO_STATUS_SUCCESS) {
-        std::error_code ignored;
-        std::filesystem::remove(temporary, ignored);
-        throw OutputError(png,
-                          fmt::format("the picture cannot be written: {}", cairo_status_to_string(status)));
-    }
-    publish(temporary, png);
+    writePng(plate.draw(frame), png);
     return frame;
 }
 

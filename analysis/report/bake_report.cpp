@@ -59,7 +59,7 @@ class Watch {
         : bake_(bake),
           rows_(rows),
           per_second_(static_cast<std::uint32_t>(std::max(1.0, std::round(bake.fps)))),
-          grid_(bake.minimum, bake.maximum, 1.0) {
+          grid_(bake.minimum, bake.maximum, 1.0, cellsFor(rows.size())) {
         for (const io::AgentRow& row : rows)
             largest_radius_ = std::max(largest_radius_, static_cast<double>(row.radius));
     }

@@ -5,13 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <set>
-#include <sstream>
 
 #include "authoring/layout/json_document.h"
 #include "authoring/layout/layout_reader.h"
 #include "authoring/layout/object_reader.h"
+#include "base/files/input_file.h"
+#include "base/json_shape.h"
+#include "base/printable.h"
 
 namespace throng::authoring {
 namespace {
@@ -46,6 +47,9 @@ Json valueOf(const JsonNode& node) {
     }
     return nullptr;
 }
+
+constexpr std::size_t kLongestName = 200;
+constexpr double kMostAxes = 3.0;  // of as many scenarios as there can be
 
 class Reader {
   public:
@@ -106,21 +110,25 @@ class Reader {
 
     void readBaseFile(const JsonNode& base) {
         const std::filesystem::path path = folder_ / base.text;
-        std::ifstream stream(path, std::ios::binary);
-        std::ostringstream text;
-        if (!stream || std::filesystem::is_directory(path) || !(text << stream.rdbuf())) {
-            diagnostics_.error(base.where, fmt::format("the base layout {} cannot be read", path.string()),
+        std::string text;
+        try {
+            text = readFile(path);
+        } catch (const InputError& error) {
+            diagnostics_.error(base.where, fmt::format("the base layout cannot be read: {}", error.what()),
                                "the path starts from the family's folder");
             return;
         }
         family_.base_name = base.text;
         Diagnostics of_layout;
-        const auto layout = readLayout(text.str(), {}, of_layout);
+        const auto layout = readLayout(text, {}, of_layout);
         for (const Diagnostic& entry : of_layout.entries)
             if (entry.severity == Severity::error)
-                diagnostics_.error(base.where, "the base layout is wrong:\n  " +
-                                                   formatDiagnostic(entry, path.string(), text.str()));
-        if (layout) family_.base = Json::parse(text.str());
+                diagnostics_.add(
+                    {Severity::error,
+                     base.where,
+                     "the base layout is wrong:\n  " + formatDiagnostic(entry, path.string(), text),
+                     {}});
+        if (layout) family_.base = Json::parse(text);
         if (family_.base.is_object()) family_.base.erase("$schema");  // its path would lead nowhere
         placeTerrain(path.parent_path());
     }
@@ -199,6 +207,16 @@ class Reader {
                                "for example \"/flows/0/rate\"");
             return;
         }
+        if (static_cast<std::size_t>(std::ranges::count(node.text, '/')) > kMostDepth) {
+            diagnostics_.error(node.where, fmt::format("this pointer is more than {} deep", kMostDepth));
+            return;
+        }
+        for (std::size_t at = node.text.find('~'); at != std::string::npos; at = node.text.find('~', at + 1))
+            if (at + 1 == node.text.size() || (node.text[at + 1] != '0' && node.text[at + 1] != '1')) {
+                diagnostics_.error(node.where, "this is no JSON pointer: a `~` stands before 0 or 1",
+                                   "`~0` is a `~` in a key, `~1` a `/`");
+                return;
+            }
         axis.pointers.push_back(node.text);
     }
 
@@ -326,7 +344,13 @@ class Reader {
         if (diagnostics_.hasErrors()) return;
         std::set<std::string> names;
         for (const Axis& axis : family_.axes) {
-            if (!names.insert(axis.name).second)
+            std::string name = axis.name;
+            for (char& letter : name)
+                letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+            if (axis.name != printable(axis.name) || axis.name.empty() || axis.name.size() > kLongestName)
+                diagnostics_.error(axis.where, fmt::format("`{}` is no name for an axis", axis.name),
+                                   "a few letters, without control characters");
+            if (!names.insert(name).second)
                 diagnostics_.error(axis.where, fmt::format("there are two axes of the name `{}`", axis.name),
                                    "give one of them another `name`");
             if (axis.parameter.empty()) continue;
@@ -344,6 +368,14 @@ class Reader {
                 family_.where,
                 "a grid has as many scenarios as its axes have combinations: `count` means nothing",
                 R"(leave it out, or add "sampling": "random")");
+        // Every scenario knows its value on every axis.
+        const double most_values = kMostAxes * mostScenarios();
+        if (countOf(family_) <= mostScenarios() &&
+            countOf(family_) * static_cast<double>(family_.axes.size()) > most_values)
+            diagnostics_.error(family_.where,
+                               fmt::format("{:.3g} scenarios of {} axes are too many (at most {:.0f} values)",
+                                           countOf(family_), family_.axes.size(), most_values),
+                               R"(give fewer, or draw from it: "sampling": "latin", "count": 1000)");
         if (countOf(family_) > mostScenarios())
             diagnostics_.error(family_.where,
                                fmt::format("{:.3g} scenarios are too many (at most {:.0f})", countOf(family_),

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "authoring/layout/layout_reader.h"
+#include "base/printable.h"
 
 namespace throng::authoring {
 namespace {
@@ -26,12 +27,14 @@ std::string_view lineOf(std::string_view text, int line) {
 std::string formatDiagnostic(const Diagnostic& diagnostic, std::string_view file, std::string_view text) {
     const SourcePosition& where = diagnostic.where;
     const char* severity = diagnostic.severity == Severity::error ? "error" : "warning";
+    const std::string name = printable(file);
     std::string result = where.line > 0
-                             ? fmt::format("{}:{}:{}: {}: ", file, where.line, where.column, severity)
-                             : fmt::format("{}: {}: ", file, severity);
+                             ? fmt::format("{}:{}:{}: {}: ", name, where.line, where.column, severity)
+                             : fmt::format("{}: {}: ", name, severity);
     // Only values that came from the command line have a pointer and no line.
-    if (where.line == 0 && where.pointer.starts_with('/')) result += "--set ";
-    if (!where.pointer.empty()) result += where.pointer + ": ";
+    const std::string pointer = where.pointer();
+    if (where.line == 0 && pointer.starts_with('/')) result += "--set ";
+    if (!pointer.empty()) result += shortened(printable(pointer)) + ": ";
     result += diagnostic.message;
     if (where.line > 0) {
         const std::string_view line = lineOf(text, where.line);
@@ -44,7 +47,7 @@ std::string formatDiagnostic(const Diagnostic& diagnostic, std::string_view file
                 caret += byte == '\t' ? '\t' : ' ';
                 ++column;
             }
-            result += fmt::format("\n  {}\n  {}^", line, caret);
+            result += fmt::format("\n  {}\n  {}^", printable(line, true), caret);
         }
     }
     if (!diagnostic.hint.empty()) result += fmt::format("\n  hint: {}", diagnostic.hint);

@@ -9,10 +9,12 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "base/json_shape.h"
+
 namespace throng::authoring {
 namespace {
 
-constexpr std::size_t kMostDepth = 64;
+constexpr std::size_t kMostValues = 1'000'000;
 
 /// Where the parser has read to: where a syntax error is.
 struct Cursor {
@@ -121,10 +123,10 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
 
     JsonNode root;
 
-    bool null() override { return value(JsonNode::Kind::null) != nullptr; }
+    bool null() override { return value(JsonNode::Kind::null) && !isTooMuch(); }
     bool boolean(bool flag) override {
         value(JsonNode::Kind::boolean)->boolean = flag;
-        return true;
+        return !isTooMuch();
     }
     bool number_integer(number_integer_t number) override {
         return numeric(static_cast<double>(number), true);
@@ -139,7 +141,7 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
     bool number_float(number_float_t number, const string_t&) override { return numeric(number, false); }
     bool string(string_t& text) override {
         value(JsonNode::Kind::text)->text = text;
-        return true;
+        return !isTooMuch();
     }
     bool binary(binary_t&) override { return false; }
     bool start_object(std::size_t) override { return open(JsonNode::Kind::object); }
@@ -149,7 +151,11 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
     bool key(string_t& name) override {
         SourcePosition where = scanner_.next();
         JsonNode& parent = *open_.back();
-        where.pointer = appendPointer(parent.where.pointer, name);
+        where.path = parent.where.path.member(name);
+        if (parent.members.size() >= kMostKeys) {
+            diagnostics_.error(where, fmt::format("an object has more than {} keys", kMostKeys));
+            return false;
+        }
         if (parent.find(name))
             diagnostics_.error(where, fmt::format("the key `{}` is here for the second time", name),
                                "keep one of them");
@@ -181,11 +187,11 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
         if (!open_.empty()) {
             JsonNode& parent = *open_.back();
             if (parent.kind == JsonNode::Kind::object) {
-                where.pointer = appendPointer(parent.where.pointer, key_);
+                where.path = key_where_.path;
                 parent.members.push_back({key_, key_where_, {}});
                 node = &parent.members.back().value;
             } else {
-                where.pointer = fmt::format("{}/{}", parent.where.pointer, parent.items.size());
+                where.path = parent.where.path.item(parent.items.size());
                 node = &parent.items.emplace_back();
             }
         }
@@ -193,12 +199,18 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
         node->where = std::move(where);
         return node;
     }
+    /// Every value takes a hundred times as much memory as it has letters.
+    bool isTooMuch() {
+        if (++values_ <= kMostValues) return false;
+        diagnostics_.error(scanner_.next(), fmt::format("this file holds more than {} values", kMostValues));
+        return true;
+    }
     bool numeric(double number, bool integral) {
         JsonNode* node = value(JsonNode::Kind::number);
         node->number = number;
         node->integral = integral;
         if (!std::isfinite(number)) diagnostics_.error(node->where, "this number is not finite");
-        return true;
+        return !isTooMuch();
     }
     bool open(JsonNode::Kind kind) {
         if (open_.size() >= kMostDepth) {
@@ -207,7 +219,8 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
             return false;
         }
         open_.push_back(value(kind));
-        return true;
+        open_.back()->where.path = open_.back()->where.path.opened();
+        return !isTooMuch();
     }
     bool close() {
         scanner_.close();
@@ -222,6 +235,7 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
     std::vector<JsonNode*> open_;
     std::string key_;
     SourcePosition key_where_;
+    std::size_t values_ = 0;
 };
 
 }  // namespace
@@ -292,7 +306,7 @@ std::string unescaped(const std::string& word) {
 
 void applyOverride(JsonNode& root, const std::string& text, Diagnostics& diagnostics) {
     const std::size_t equals = text.find('=');
-    const SourcePosition where{0, 0, fmt::format("--set {}", text)};
+    const SourcePosition where{0, 0, SourcePath(fmt::format("--set {}", text))};
     if (equals == std::string::npos || equals == 0) {
         diagnostics.error(where, "an override has the form path=value",
                           "for example --set simulation.seed=7");
@@ -303,20 +317,20 @@ void applyOverride(JsonNode& root, const std::string& text, Diagnostics& diagnos
     if (path.front() == '/') path.erase(0, 1);
 
     JsonNode* node = &root;
-    std::string pointer;
+    SourcePath pointer;
     std::size_t from = 0;
     while (from <= path.size()) {
         const std::size_t end = std::min(path.find(separator, from), path.size());
         const std::string word = path.substr(from, end - from);
         const std::string key = separator == '/' ? unescaped(word) : word;
         from = end + 1;
-        pointer = appendPointer(pointer, key);
+        pointer = pointer.member(key);
         if (node->kind == JsonNode::Kind::array) {
             std::size_t index = 0;
             const auto [stop, error] = std::from_chars(key.data(), key.data() + key.size(), index);
             if (error != std::errc() || stop != key.data() + key.size() || index >= node->items.size()) {
                 diagnostics.error(where, fmt::format("`{}` is not one of the {} items at {}", key,
-                                                     node->items.size(), node->where.pointer));
+                                                     node->items.size(), node->where.pointer()));
                 return;
             }
             node = &node->items[index];
@@ -330,8 +344,8 @@ void applyOverride(JsonNode& root, const std::string& text, Diagnostics& diagnos
             }
             node = member;
         } else {
-            diagnostics.error(where, fmt::format("{} is {}: there is nothing inside it", node->where.pointer,
-                                                 node->kindName()));
+            diagnostics.error(where, fmt::format("{} is {}: there is nothing inside it",
+                                                 node->where.pointer(), node->kindName()));
             return;
         }
     }
@@ -344,13 +358,13 @@ void applyOverride(JsonNode& root, const std::string& text, Diagnostics& diagnos
         value.text = value_text;
     }
     // Positions inside the value would be those of the command line: only the pointer tells.
-    const auto relocate = [](auto&& self, JsonNode& at, const std::string& to) -> void {
+    const auto relocate = [](auto&& self, JsonNode& at, const SourcePath& to) -> void {
         at.where = {0, 0, to};
         for (std::size_t i = 0; i < at.items.size(); ++i)
-            self(self, at.items[i], fmt::format("{}/{}", to, i));
+            self(self, at.items[i], to.item(i).opened());
         for (JsonNode::Member& member : at.members) {
-            member.key_where = {0, 0, appendPointer(to, member.key)};
-            self(self, member.value, member.key_where.pointer);
+            member.key_where = {0, 0, to.member(member.key)};
+            self(self, member.value, member.key_where.path);
         }
     };
     relocate(relocate, value, pointer);

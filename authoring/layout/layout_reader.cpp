@@ -60,6 +60,11 @@ class Reader {
                                fmt::format("expected an array of {}, found {}", key, list->kindName()));
             return;
         }
+        if (const std::size_t most = reader.rule(key).mostOf("maxItems"); list->items.size() > most) {
+            diagnostics_.error(list->where, fmt::format("there are {} {}, more than the {} that can be",
+                                                        list->items.size(), key, most));
+            return;
+        }
         for (const JsonNode& item : list->items)
             read(item);
     }
@@ -580,6 +585,7 @@ class Reader {
                 root_.where,
                 fmt::format("about {:.0f} people are more than the {:.0f} that one bake can hold", people,
                             most));
+        checkPlans();
         if (people == 0.0 && !diagnostics_.hasErrors())
             diagnostics_.warning(root_.where, "there is nobody in this layout", "add a flow or a formation");
         const double tile = layout_.simulation.tile_radius;
@@ -589,6 +595,34 @@ class Reader {
                 fmt::format("simulation.tile_radius is {:.6g} m, smaller than the largest body ({:.6g} m)",
                             tile, largest),
                 "a tile has to cover the body");
+    }
+
+    /// Everybody keeps each of their stops, and where events will send them.
+    void checkPlans() {
+        const auto sentBy = [](const Event& event, const std::string& id) {
+            return event.kind == Event::Kind::go_to &&
+                   (event.who.empty() || std::ranges::find(event.who, id) != event.who.end());
+        };
+        const auto sent = [&](const std::string& id) {
+            return static_cast<double>(
+                std::ranges::count_if(layout_.events, [&](const Event& event) { return sentBy(event, id); }));
+        };
+        double plans = 0.0;
+        for (const Flow& flow : layout_.flows)
+            plans += (1.0 + static_cast<double>(flow.via.size()) + sent(flow.id)) *
+                     (flow.count ? static_cast<double>(*flow.count)
+                                 : flow.rate.value_or(0.0) * (flow.end - flow.start));
+        for (const Formation& formation : layout_.formations)
+            plans += (1.0 + sent(formation.id)) * countOf(formation);
+        const double most = schema_.rule().remark("x-most-plans").number;
+        if (plans > most)
+            diagnostics_.error(
+                root_.where,
+                fmt::format(
+                    "people make about {:.0f} stops and changes of mind together: more than the {:.0f} "
+                    "that one bake can hold",
+                    plans, most),
+                "let fewer people make so many");
     }
 
     static double countOf(const Formation& formation) {

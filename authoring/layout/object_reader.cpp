@@ -17,6 +17,11 @@ std::string rangeText(Limits limits) {
                        limits.least, limits.most);
 }
 
+std::size_t lettersOf(std::string_view text) {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        text, [](char byte) { return (static_cast<unsigned char>(byte) & 0xc0u) != 0x80u; }));
+}
+
 bool within(double value, Limits limits) {
     return value <= limits.most && (limits.above_least ? value > limits.least : value >= limits.least);
 }
@@ -119,6 +124,8 @@ void ObjectReader::text(const std::string& key, std::string& value) {
     if (!node) return;
     if (node->kind != JsonNode::Kind::text)
         diagnostics_.error(node->where, fmt::format("expected a string, found {}", node->kindName()));
+    else if (const std::size_t most = rule(key).mostOf("maxLength"); lettersOf(node->text) > most)
+        diagnostics_.error(node->where, fmt::format("`{}` is longer than {} letters", key, most));
     else
         value = node->text;
 }
@@ -126,7 +133,7 @@ void ObjectReader::text(const std::string& key, std::string& value) {
 void ObjectReader::requiredText(const std::string& key, const char* meaning, std::string& value) {
     const JsonNode* node = require(key, meaning);
     text(key, value);
-    if (node && node->kind == JsonNode::Kind::text && value.empty())
+    if (node && node->kind == JsonNode::Kind::text && node->text.empty())
         diagnostics_.error(node->where, fmt::format("`{}` is empty", key));
 }
 
@@ -183,6 +190,13 @@ std::vector<glm::dvec2> ObjectReader::points(const std::string& key, std::size_t
     if (node->kind != JsonNode::Kind::array) {
         diagnostics_.error(node->where,
                            fmt::format("expected an array of points, found {}", node->kindName()));
+        return result;
+    }
+    // Of lines of two points and the like, the readers say in their own words what they are.
+    if (const std::size_t most = rule_of_key.mostOf("maxItems"); most > 4 && node->items.size() > most) {
+        diagnostics_.error(node->where,
+                           fmt::format("expected at most {} points, found {}", most, node->items.size()),
+                           "leave out points that nobody sees, or cut it into several");
         return result;
     }
     if (node->items.size() < least)

@@ -47,6 +47,11 @@ Destination PlaceReader::nearestOf(const JsonNode& list) const {
     Destination result{Destination::Kind::nearest, {}, {}, list.where};
     if (list.kind != JsonNode::Kind::array || list.items.empty())
         diagnostics_.error(list.where, "expected a list of places", R"(for example ["gate-a", "gate-b"])");
+    if (const std::size_t most = rule().property("nearest").mostOf("maxItems"); list.items.size() > most) {
+        diagnostics_.error(list.where, fmt::format("there are {} places, more than the {} that can be",
+                                                   list.items.size(), most));
+        return result;
+    }
     for (const JsonNode& item : list.items)
         if (const auto found = place(item)) result.places.push_back(*found);
     return result;

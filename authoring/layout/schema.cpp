@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <stdexcept>
 
 namespace throng::authoring {
@@ -42,7 +43,7 @@ const JsonNode* SchemaRule::keyword(std::string_view name) const {
 const JsonNode& SchemaRule::needed(std::string_view name) const {
     const JsonNode* found = keyword(name);
     if (!found)
-        throw std::logic_error(fmt::format("the schema has no `{}` at {}", name, node_->where.pointer));
+        throw std::logic_error(fmt::format("the schema has no `{}` at {}", name, node_->where.pointer()));
     return *found;
 }
 
@@ -54,7 +55,7 @@ SchemaRule SchemaRule::property(std::string_view key) const {
         return property || !others || others->kind != JsonNode::Kind::object ? property : others;
     });
     if (!found)
-        throw std::logic_error(fmt::format("the schema has no key `{}` at {}", key, node_->where.pointer));
+        throw std::logic_error(fmt::format("the schema has no key `{}` at {}", key, node_->where.pointer()));
     return {*found, *root_};
 }
 
@@ -69,7 +70,7 @@ SchemaRule SchemaRule::item(std::size_t index) const {
     const JsonNode& items = needed("items");
     if (items.kind != JsonNode::Kind::array) return {items, *root_};
     if (index >= items.items.size())
-        throw std::logic_error(fmt::format("the schema has no item {} at {}", index, node_->where.pointer));
+        throw std::logic_error(fmt::format("the schema has no item {} at {}", index, node_->where.pointer()));
     return {items.items[index], *root_};
 }
 
@@ -79,6 +80,11 @@ std::size_t SchemaRule::leastItems() const {
 
 std::size_t SchemaRule::mostItems() const {
     return static_cast<std::size_t>(needed("maxItems").number);
+}
+
+std::size_t SchemaRule::mostOf(std::string_view name) const {
+    const JsonNode* found = keyword(name);
+    return found ? static_cast<std::size_t>(found->number) : std::numeric_limits<std::size_t>::max();
 }
 
 Limits SchemaRule::limits() const {

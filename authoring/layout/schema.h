@@ -30,6 +30,9 @@ class SchemaRule {
     SchemaRule item(std::size_t index = 0) const;
     std::size_t leastItems() const;
     std::size_t mostItems() const;
+    /// Items of an array or letters of a text, as `maxItems` or `maxLength` say; as many as one likes
+    /// without.
+    std::size_t mostOf(std::string_view name) const;
     /// Of a number.
     Limits limits() const;
     /// The words that a string may be.

@@ -28,9 +28,13 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string nearestWord(std::string_view word, const std::vector<std::string>& known) {
+    constexpr std::size_t kLongest = 80;  // what is longer than a word has no nearest one
     std::string best;
+    if (word.size() > kLongest) return best;
     std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
     for (const std::string& candidate : known) {
+        const auto [shorter, longer] = std::minmax(word.size(), candidate.size());
+        if (longer - shorter >= least) continue;
         const std::size_t distance = editDistance(word, candidate);
         if (distance < least) {
             least = distance;
@@ -44,7 +48,10 @@ std::string hintFor(std::string_view word, const std::vector<std::string>& known
     if (const std::string meant = nearestWord(word, known); !meant.empty())
         return fmt::format("did you mean `{}`?", meant);
     if (known.empty()) return "there are none";
-    return fmt::format("known here: {}", fmt::join(known, ", "));
+    constexpr std::size_t kMostTold = 40;
+    const bool all = known.size() <= kMostTold;
+    const auto end = all ? known.end() : known.begin() + kMostTold;
+    return fmt::format("known here: {}{}", fmt::join(known.begin(), end, ", "), all ? "" : ", ...");
 }
 
 }  // namespace throng::authoring

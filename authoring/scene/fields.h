@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -12,6 +13,8 @@
 #include "authoring/scene/distance_solver.h"
 
 namespace throng::authoring {
+
+class WallGrid;
 
 /// A road or an area in the scene frame (m).
 struct LocalRoad {
@@ -34,6 +37,11 @@ struct WalkGeometry {
     float smallest_radius = 0.25f;  ///< of all people, m
     float largest_radius = 0.25f;
     float wall_comfort = kWallComfort;  ///< m beyond the largest radius: nearer to a wall, walking costs more
+    std::shared_ptr<const WallGrid> wall_grid = {};  ///< where there are very many walls
+    struct Box {
+        glm::vec2 lower, upper;
+    };
+    std::vector<Box> solid_boxes = {};  ///< of each solid, if sortWalls() has made them
 };
 
 inline constexpr float kSmallestCell = 0.1f;     ///< m

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <span>
+#include <vector>
 
 #include "authoring/scene/fields.h"
 
@@ -41,12 +42,26 @@ void visitNeighbours(const FieldGrid& grid, std::uint32_t cell, Visit visit) {
     if (cell + grid.width < cellCount(grid)) visit(cell + grid.width);
 }
 
-/// Calls visit(index, centre) for the cells whose centre may lie in the box.
+/// Calls visit(index, centre) for the cells whose centre may lie within `reach` of a segment: of long
+/// slanting ones, not for all in its box.
 template <class Visit>
-void visitBox(const FieldGrid& grid, glm::vec2 lower, glm::vec2 upper, Visit visit) {
-    for (std::uint32_t y = row(grid, lower.y); y <= row(grid, upper.y); ++y)
-        for (std::uint32_t x = column(grid, lower.x); x <= column(grid, upper.x); ++x)
+void visitAlong(const FieldGrid& grid, glm::vec2 a, glm::vec2 b, float reach, Visit visit) {
+    const float hair = 0.01f * grid.cell_size;
+    const glm::vec2 d = b - a;
+    for (std::uint32_t y = row(grid, std::min(a.y, b.y) - reach); y <= row(grid, std::max(a.y, b.y) + reach);
+         ++y) {
+        const float centre = cellCentre(grid, 0, y).y;
+        float first = 0.0f, last = 1.0f;  // the part of the segment that comes so near to the row's centres
+        if (std::abs(d.y) > reach) {
+            const float near = (centre - reach - hair - a.y) / d.y, far = (centre + reach + hair - a.y) / d.y;
+            first = std::clamp(std::min(near, far), 0.0f, 1.0f);
+            last = std::clamp(std::max(near, far), 0.0f, 1.0f);
+        }
+        const float from = a.x + first * d.x, to = a.x + last * d.x;
+        const std::uint32_t end = column(grid, std::max(from, to) + reach + hair);
+        for (std::uint32_t x = column(grid, std::min(from, to) - reach - hair); x <= end; ++x)
             visit(y * grid.width + x, cellCentre(grid, x, y));
+    }
 }
 
 inline float segmentDistance(glm::vec2 point, glm::vec2 a, glm::vec2 b) {
@@ -68,23 +83,60 @@ inline bool insidePolygon(std::span<const glm::vec2> polygon, glm::vec2 point) {
     return inside;
 }
 
-/// On a road: beside one of its pieces (flat ends), or within half its width of an inner corner (round
-/// joins).
-inline bool onRoad(const LocalRoad& road, glm::vec2 point, float margin = 0.0f) {
-    const float half = 0.5f * road.width + margin;
-    for (std::size_t i = 0; i + 1 < road.centreline.size(); ++i) {
-        const glm::vec2 a = road.centreline[i];
-        const glm::vec2 b = road.centreline[i + 1];
-        const float length = glm::distance(a, b);
-        if (length <= 0.0f) continue;
-        const glm::vec2 along = (b - a) / length;
-        const glm::vec2 offset = point - a;
-        const float forward = glm::dot(offset, along);
-        const float aside = std::abs(along.x * offset.y - along.y * offset.x);
-        if (forward >= -margin && forward <= length + margin && aside <= half) return true;
-        if (i > 0 && glm::dot(offset, offset) <= half * half) return true;
+/// Calls visit(index, centre) for the cells whose centre lies in the polygon, as insidePolygon() has it. All
+/// edges are gone through once for a row, not for a cell.
+template <class Visit>
+void visitInside(const FieldGrid& grid, std::span<const glm::vec2> polygon, Visit visit) {
+    glm::vec2 lower = polygon.front(), upper = polygon.front();
+    for (const glm::vec2 point : polygon) {
+        lower = {std::min(lower.x, point.x), std::min(lower.y, point.y)};
+        upper = {std::max(upper.x, point.x), std::max(upper.y, point.y)};
     }
-    return false;
+    std::vector<float> crossings;
+    for (std::uint32_t y = row(grid, lower.y); y <= row(grid, upper.y); ++y) {
+        const float at = cellCentre(grid, 0, y).y;
+        crossings.clear();
+        for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+            const glm::vec2 a = polygon[i];
+            const glm::vec2 b = polygon[j];
+            if ((a.y > at) != (b.y > at)) crossings.push_back((b.x - a.x) * (at - a.y) / (b.y - a.y) + a.x);
+        }
+        std::sort(crossings.begin(), crossings.end());
+        std::size_t passed = 0;
+        for (std::uint32_t x = column(grid, lower.x); x <= column(grid, upper.x); ++x) {
+            const glm::vec2 centre = cellCentre(grid, x, y);
+            while (passed < crossings.size() && crossings[passed] <= centre.x)
+                ++passed;
+            if ((crossings.size() - passed) % 2 == 1) visit(y * grid.width + x, centre);
+        }
+    }
+}
+
+/// On one of a road's pieces: beside it (flat ends), or within half the width of the inner corner at which it
+/// begins (round joins).
+inline bool onPiece(const LocalRoad& road, std::size_t i, glm::vec2 point, float margin) {
+    const float half = 0.5f * road.width + margin;
+    const glm::vec2 a = road.centreline[i];
+    const glm::vec2 b = road.centreline[i + 1];
+    const float length = glm::distance(a, b);
+    if (length <= 0.0f) return false;
+    const glm::vec2 along = (b - a) / length;
+    const glm::vec2 offset = point - a;
+    const float forward = glm::dot(offset, along);
+    const float aside = std::abs(along.x * offset.y - along.y * offset.x);
+    if (forward >= -margin && forward <= length + margin && aside <= half) return true;
+    return i > 0 && glm::dot(offset, offset) <= half * half;
+}
+
+/// Calls visit(index, centre) for the cells whose centre lies on a road.
+template <class Visit>
+void visitRoad(const FieldGrid& grid, const LocalRoad& road, float margin, Visit visit) {
+    const float reach = 0.5f * road.width + 1.5f * margin;
+    for (std::size_t i = 0; i + 1 < road.centreline.size(); ++i)
+        visitAlong(grid, road.centreline[i], road.centreline[i + 1], reach,
+                   [&](std::uint32_t cell, glm::vec2 centre) {
+                       if (onPiece(road, i, centre, margin)) visit(cell, centre);
+                   });
 }
 
 struct Box {

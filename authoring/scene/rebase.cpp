@@ -2,6 +2,7 @@
 #include "authoring/scene/rebase.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -17,37 +18,56 @@ constexpr double kNearTheOrigin = 2048.0;  // m: up to here float32 keeps a quar
 
 class Bounds {
   public:
-    void add(glm::dvec2 point, double around = 0.0) {
-        lower = {std::min(lower.x, point.x - around), std::min(lower.y, point.y - around)};
-        upper = {std::max(upper.x, point.x + around), std::max(upper.y, point.y + around)};
+    void add(glm::dvec2 point, const SourcePosition& where, double around = 0.0) {
+        for (int axis = 0; axis < 2; ++axis) {
+            if (point[axis] - around < lower[axis]) {
+                lower[axis] = point[axis] - around;
+                lowest_[axis] = &where;
+            }
+            if (point[axis] + around > upper[axis]) {
+                upper[axis] = point[axis] + around;
+                highest_[axis] = &where;
+            }
+        }
+    }
+    /// Of what reaches furthest along the longer side.
+    SourcePosition outermost() const {
+        const int axis = upper.x - lower.x > upper.y - lower.y ? 0 : 1;
+        const SourcePosition* found =
+            std::abs(upper[axis]) > std::abs(lower[axis]) ? highest_[axis] : lowest_[axis];
+        return found ? *found : SourcePosition{};
     }
     glm::dvec2 lower{1.0e300};
     glm::dvec2 upper{-1.0e300};
+
+  private:
+    std::array<const SourcePosition*, 2> lowest_{}, highest_{};
 };
 
 Bounds boundsOf(const Layout& layout) {
     Bounds bounds;
     for (const Road& road : layout.roads)
         for (const glm::dvec2 point : road.centreline)
-            bounds.add(point, 0.5 * road.width);
+            bounds.add(point, road.where, 0.5 * road.width);
     for (const Area& area : layout.areas)
         for (const glm::dvec2 point : area.polygon)
-            bounds.add(point);
+            bounds.add(point, area.where);
     for (const Wall& wall : layout.walls)
         for (const glm::dvec2 point : wall.points)
-            bounds.add(point, wall.closed ? 0.0 : 0.5 * wall.thickness);
+            bounds.add(point, wall.where, wall.closed ? 0.0 : 0.5 * wall.thickness);
     for (const Flow& flow : layout.flows)
         for (const Stop& stop : flow.via)
             for (const glm::dvec2 point : stop.line)
-                bounds.add(point);
+                bounds.add(point, stop.where);
     for (const Formation& formation : layout.formations) {
         const FormationPlaces places = formationPlaces(formation, layout.simulation.seed);
         for (const glm::dvec2 point : places.positions)
-            bounds.add(point, 1.0);
+            bounds.add(point, formation.where, 1.0);
         for (const glm::dvec2 point : places.goals)
-            bounds.add(point, 1.0);
+            bounds.add(point, formation.where, 1.0);
     }
-    if (bounds.lower.x > bounds.upper.x) bounds.add({0.0, 0.0}, 1.0);
+    static const SourcePosition nowhere;
+    if (bounds.lower.x > bounds.upper.x) bounds.add({0.0, 0.0}, nowhere, 1.0);
     return bounds;
 }
 
@@ -56,8 +76,8 @@ void placeCircle(const CircleFormation& circle, FormationPlaces& places) {
     for (std::uint64_t placed = 0; placed < circle.count; radius += circle.ring_spacing) {
         std::uint64_t on_ring = circle.count;
         if (circle.ring_spacing > 0.0)
-            on_ring = std::max<std::uint64_t>(
-                1, static_cast<std::uint64_t>(2.0 * std::numbers::pi * radius / circle.along));
+            on_ring = static_cast<std::uint64_t>(std::clamp(2.0 * std::numbers::pi * radius / circle.along,
+                                                            1.0, static_cast<double>(circle.count)));
         for (std::uint64_t i = 0; i < on_ring && placed < circle.count; ++i, ++placed) {
             const double angle =
                 2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(on_ring);
@@ -123,6 +143,9 @@ Rebase::Rebase(const Layout& layout) {
     const double furthest = std::max({std::abs(bounds.lower.x), std::abs(bounds.lower.y),
                                       std::abs(bounds.upper.x), std::abs(bounds.upper.y)});
     output_origin_ = furthest < kNearTheOrigin ? glm::dvec2(0.0) : origin_;
+    const glm::dvec2 size = bounds.upper - bounds.lower;
+    extent_ = std::max(size.x, size.y);
+    outermost_ = bounds.outermost();
     minimum_ = local(bounds.lower - kMargin);
     maximum_ = local(bounds.upper + kMargin);
 }

@@ -22,12 +22,18 @@ class Rebase {
     glm::dvec2 outputOrigin() const { return output_origin_; }
     glm::vec2 minimum() const { return minimum_; }
     glm::vec2 maximum() const { return maximum_; }
+    /// Of the longer side, m.
+    double extent() const { return extent_; }
+    /// Where what reaches furthest along it stands in the file.
+    const SourcePosition& outermost() const { return outermost_; }
 
   private:
     glm::dvec2 origin_{0.0};
     glm::dvec2 output_origin_{0.0};
     glm::vec2 minimum_{0.0f};
     glm::vec2 maximum_{0.0f};
+    double extent_ = 0.0;
+    SourcePosition outermost_;
 };
 
 /// A formation's people in world coordinates, and their goals where these are points.

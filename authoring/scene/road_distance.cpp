@@ -73,12 +73,8 @@ std::vector<float> roadDistance(const WalkGeometry& geometry, const FieldGrid& g
     if (geometry.roads.empty()) return {};
     const float seam = 0.25f * grid.cell_size;
     std::vector<bool> inside(cellCount(grid), false);
-    for (const LocalRoad& road : geometry.roads) {
-        const Box box = boundsOf(road.centreline, 0.5f * road.width + seam);
-        visitBox(grid, box.lower, box.upper, [&](std::uint32_t cell, glm::vec2 centre) {
-            if (!inside[cell]) inside[cell] = onRoad(road, centre, seam);
-        });
-    }
+    for (const LocalRoad& road : geometry.roads)
+        visitRoad(grid, road, seam, [&](std::uint32_t cell, glm::vec2) { inside[cell] = true; });
     for (const LocalPolygon& area : geometry.areas)
         for (const std::uint32_t cell : cellsInPolygon(grid, area))
             inside[cell] = true;

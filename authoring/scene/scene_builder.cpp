@@ -9,6 +9,7 @@
 #include <span>
 #include <unordered_map>
 
+#include "authoring/layout/layout_reader.h"
 #include "authoring/scene/itineraries.h"
 #include "authoring/scene/people.h"
 #include "authoring/scene/raster.h"
@@ -69,8 +70,10 @@ class Builder {
     }
 
     std::optional<Scene> build() {
+        if (!isOfSensibleSize()) return std::nullopt;
         drawPeople();
         buildGeometry();
+        if (diagnostics_.hasErrors()) return std::nullopt;
         buildTerrain();
         Routes routes = planRoutes();
         Itineraries itineraries(layout_, rebase_, geometry_, routes, diagnostics_, scene_);
@@ -93,6 +96,17 @@ class Builder {
     }
 
   private:
+    /// Floats keep a centimetre up to here, and everything has as many parts as it is long.
+    bool isOfSensibleSize() {
+        const double most = layoutRules().rule().remark("x-most-extent").number;
+        if (rebase_.extent() <= most) return true;
+        diagnostics_.error(rebase_.outermost(),
+                           fmt::format("with this, the layout is {:.6g} m long or wide: it can be {:.6g}",
+                                       rebase_.extent(), most),
+                           "look for a slip in the coordinates");
+        return false;
+    }
+
     /// How fine the ground is depends on how many fields there will be, and how many points share a field on
     /// the ground.
     Routes planRoutes() {
@@ -249,8 +263,28 @@ class Builder {
             geometry_.areas.push_back(rebase_.local(area.polygon));
         scene_.wall_segments = geometry_.walls;
         openGates();
+        sortWalls(geometry_);
+        if (!hasRoomForTiles()) return;
         scene_.wall_tiles = wallTiles(geometry_.walls, scene_.smallest_radius,
                                       static_cast<float>(layout_.simulation.tile_radius));
+    }
+
+    bool hasRoomForTiles() {
+        constexpr double kMost = 1.0e6;
+        double needed = 0.0;
+        for (const gpu::WallSegment& segment : scene_.wall_segments) {
+            needed += tilesNeeded(segment, scene_.smallest_radius);
+            if (needed <= kMost) continue;
+            const double length = kMost * static_cast<double>(scene_.smallest_radius);
+            diagnostics_.error(
+                layout_.walls[segment.wall].where,
+                fmt::format("up to this one, walls are longer than {:.0f} km together: more cannot "
+                            "be simulated",
+                            length / 1000.0),
+                "leave out walls that nobody comes near");
+            return false;
+        }
+        return true;
     }
 
     void buildTerrain() {

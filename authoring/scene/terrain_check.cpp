@@ -149,10 +149,11 @@ class Checker {
         std::size_t samples = 0;
         const FieldGrid grid = makeGrid(geometry_, kSample, kMostSamples);
         const bool anywhere = geometry_.roads.empty() && geometry_.areas.empty();
+        const std::vector<bool> walked = walkedCells(grid);
         for (std::uint32_t y = 0; y < grid.height; ++y)
             for (std::uint32_t x = 0; x < grid.width; ++x) {
                 const glm::vec2 point = cellCentre(grid, x, y);
-                if (!anywhere && !isWalked(point)) continue;
+                if (!anywhere && !walked[std::size_t{y} * grid.width + x]) continue;
                 const std::optional<float> ground = terrain_.groundAt(point);
                 if (anywhere && !ground) continue;
                 ++samples;
@@ -186,12 +187,14 @@ class Checker {
              "people climb it very slowly; put a wall along its edge to keep them off");
     }
 
-    bool isWalked(glm::vec2 point) const {
+    std::vector<bool> walkedCells(const FieldGrid& grid) const {
+        std::vector<bool> walked(cellCount(grid), false);
+        const auto mark = [&](std::uint32_t cell, glm::vec2) { walked[cell] = true; };
         for (const LocalRoad& road : geometry_.roads)
-            if (onRoad(road, point)) return true;
+            visitRoad(grid, road, 0.0f, mark);
         for (const LocalPolygon& area : geometry_.areas)
-            if (insidePolygon(area, point)) return true;
-        return false;
+            visitInside(grid, area, mark);
+        return walked;
     }
 
     const Layout& layout_;

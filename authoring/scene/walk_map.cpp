@@ -10,12 +10,11 @@ constexpr float kWallCost = 4.0f;  // added at the wall itself
 std::vector<float> wallDistance(const WalkGeometry& geometry, const FieldGrid& grid, float reach) {
     std::vector<float> distance(cellCount(grid), kUnreachable);
     for (const gpu::WallSegment& wall : geometry.walls) {
-        const glm::vec2 ends[] = {wall.a, wall.b};
-        const Box box = boundsOf(ends, reach + wall.half_thickness);
-        visitBox(grid, box.lower, box.upper, [&](std::uint32_t cell, glm::vec2 centre) {
-            const float here = segmentDistance(centre, wall.a, wall.b) - wall.half_thickness;
-            if (here < reach) distance[cell] = std::min(distance[cell], here);
-        });
+        visitAlong(grid, wall.a, wall.b, reach + wall.half_thickness,
+                   [&](std::uint32_t cell, glm::vec2 centre) {
+                       const float here = segmentDistance(centre, wall.a, wall.b) - wall.half_thickness;
+                       if (here < reach) distance[cell] = std::min(distance[cell], here);
+                   });
     }
     return distance;
 }
@@ -25,12 +24,8 @@ void blockWalls(const WalkGeometry& geometry, WalkMap& map) {
     const std::vector<float> distance = wallDistance(geometry, map.grid, wall_cost.reach());
     for (std::size_t cell = 0; cell < distance.size(); ++cell)
         map.cost[cell] += wall_cost(distance[cell]);
-    for (const LocalPolygon& solid : geometry.solids) {
-        const Box box = boundsOf(solid, 0.0f);
-        visitBox(map.grid, box.lower, box.upper, [&](std::uint32_t cell, glm::vec2 centre) {
-            if (insidePolygon(solid, centre)) map.cost[cell] = kUnreachable;
-        });
-    }
+    for (const LocalPolygon& solid : geometry.solids)
+        visitInside(map.grid, solid, [&](std::uint32_t cell, glm::vec2) { map.cost[cell] = kUnreachable; });
 }
 
 void markOneWays(const WalkGeometry& geometry, WalkMap& map) {
@@ -43,24 +38,16 @@ void markOneWays(const WalkGeometry& geometry, WalkMap& map) {
         for (std::size_t i = 0; i + 1 < road.centreline.size(); ++i) {
             const LocalRoad piece{{road.centreline[i], road.centreline[i + 1]}, road.width, true};
             const glm::vec2 along = glm::normalize(piece.centreline[1] - piece.centreline[0]);
-            const Box box = boundsOf(piece.centreline, 0.5f * road.width);
-            visitBox(map.grid, box.lower, box.upper, [&](std::uint32_t cell, glm::vec2 centre) {
-                if (onRoad(piece, centre)) map.one_way[cell] = along;
-            });
+            visitRoad(map.grid, piece, 0.0f,
+                      [&](std::uint32_t cell, glm::vec2) { map.one_way[cell] = along; });
         }
     }
     // Where another road or an area lies over it, one may also walk that road's way.
-    const auto release = [&](const Box& box, auto&& covers) {
-        visitBox(map.grid, box.lower, box.upper, [&](std::uint32_t cell, glm::vec2 centre) {
-            if (covers(centre)) map.one_way[cell] = glm::vec2(0.0f);
-        });
-    };
+    const auto release = [&](std::uint32_t cell, glm::vec2) { map.one_way[cell] = glm::vec2(0.0f); };
     for (const LocalRoad& road : geometry.roads)
-        if (!road.one_way)
-            release(boundsOf(road.centreline, 0.5f * road.width),
-                    [&](glm::vec2 centre) { return onRoad(road, centre); });
+        if (!road.one_way) visitRoad(map.grid, road, 0.0f, release);
     for (const LocalPolygon& area : geometry.areas)
-        release(boundsOf(area, 0.0f), [&](glm::vec2 centre) { return insidePolygon(area, centre); });
+        visitInside(map.grid, area, release);
 }
 
 }  // namespace
@@ -85,6 +72,12 @@ FieldGrid makeGrid(const WalkGeometry& geometry, float smallest_cell, double mos
     grid.minimum = geometry.minimum;
     const double area = static_cast<double>(extent.x) * static_cast<double>(extent.y);
     grid.cell_size = std::max(smallest_cell, static_cast<float>(std::sqrt(area / most_cells)));
+    // What is long and thin has more cells along its edges than its area tells.
+    const auto along = [&](float length) {
+        return std::max(2.0, std::ceil(double{length} / double{grid.cell_size}));
+    };
+    while (along(extent.x) * along(extent.y) > 2.0 * most_cells)
+        grid.cell_size *= 1.25f;
     grid.width = std::max(2u, static_cast<std::uint32_t>(std::ceil(extent.x / grid.cell_size)));
     grid.height = std::max(2u, static_cast<std::uint32_t>(std::ceil(extent.y / grid.cell_size)));
     return grid;
@@ -106,10 +99,7 @@ WalkMap makeWalkMap(const WalkGeometry& geometry, const FieldGrid& grid, bool ke
 
 std::vector<std::uint32_t> cellsInPolygon(const FieldGrid& grid, const LocalPolygon& polygon) {
     std::vector<std::uint32_t> cells;
-    const Box box = boundsOf(polygon, 0.0f);
-    visitBox(grid, box.lower, box.upper, [&](std::uint32_t cell, glm::vec2 centre) {
-        if (insidePolygon(polygon, centre)) cells.push_back(cell);
-    });
+    visitInside(grid, polygon, [&](std::uint32_t cell, glm::vec2) { cells.push_back(cell); });
     if (cells.empty()) {
         glm::vec2 middle(0.0f);
         for (const glm::vec2 point : polygon)

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "authoring/scene/walls.h"
 
+#include <algorithm>
+#include <span>
 #include <unordered_map>
 
 #include "authoring/scene/raster.h"
+#include "authoring/scene/wall_grid.h"
 
 namespace throng::authoring {
 namespace {
@@ -71,6 +74,12 @@ void buildWalls(const Layout& layout, const Rebase& rebase, WalkGeometry& geomet
     }
 }
 
+double tilesNeeded(const gpu::WallSegment& segment, float spacing) {
+    const double length = glm::distance(segment.a, segment.b);
+    const double round = segment.half_thickness > kThin ? 6.3 * double{segment.half_thickness} : 0.0;
+    return ((round > 0.0 ? 2.0 : 1.0) * length + round) / double{spacing} + 1.0;
+}
+
 std::vector<gpu::WallTile> wallTiles(const std::vector<gpu::WallSegment>& segments, float spacing,
                                      float tile_radius) {
     std::vector<gpu::WallTile> tiles;
@@ -100,29 +109,63 @@ std::vector<gpu::WallTile> wallTiles(const std::vector<gpu::WallSegment>& segmen
     return tiles;
 }
 
+void sortWalls(WalkGeometry& geometry) {
+    constexpr std::size_t kMany = 256;
+    constexpr float kHair = 0.001f;  // m
+    for (const LocalPolygon& solid : geometry.solids) {
+        const Box box = boundsOf(solid, kHair);
+        geometry.solid_boxes.push_back({box.lower, box.upper});
+    }
+    if (geometry.walls.size() > kMany)
+        geometry.wall_grid =
+            std::make_shared<const WallGrid>(geometry.walls, geometry.minimum, geometry.maximum);
+}
+
 float wallDepth(const WalkGeometry& geometry, glm::vec2 position, float radius) {
     float depth = -kUnreachable;
-    for (const gpu::WallSegment& wall : geometry.walls)
+    const auto look = [&](const gpu::WallSegment& wall) {
         depth = std::max(depth, radius + wall.half_thickness - segmentDistance(position, wall.a, wall.b));
-    for (const LocalPolygon& solid : geometry.solids)
-        if (insidePolygon(solid, position)) depth = std::max(depth, radius);
+    };
+    if (geometry.wall_grid && radius <= WallGrid::kReach) {
+        for (const std::uint32_t index : geometry.wall_grid->near(position))
+            look(geometry.walls[index]);
+    } else {
+        for (const gpu::WallSegment& wall : geometry.walls)
+            look(wall);
+    }
+    for (std::size_t i = 0; i < geometry.solids.size(); ++i) {
+        if (i < geometry.solid_boxes.size()) {
+            const WalkGeometry::Box& box = geometry.solid_boxes[i];
+            if (position.x < box.lower.x || position.y < box.lower.y || position.x > box.upper.x ||
+                position.y > box.upper.y)
+                continue;
+        }
+        if (insidePolygon(geometry.solids[i], position)) depth = std::max(depth, radius);
+    }
     return depth;
 }
 
 bool straightIsClear(const WalkGeometry& geometry, glm::vec2 a, glm::vec2 b, float radius) {
     const glm::vec2 ends[] = {a, b};
     const Box path = boundsOf(ends, radius);
-    for (const gpu::WallSegment& wall : geometry.walls) {
+    const auto blocks = [&](const gpu::WallSegment& wall) {
         const float reach = wall.half_thickness;
         if (std::max(wall.a.x, wall.b.x) + reach < path.lower.x ||
             std::min(wall.a.x, wall.b.x) - reach > path.upper.x)
-            continue;
+            return false;
         if (std::max(wall.a.y, wall.b.y) + reach < path.lower.y ||
             std::min(wall.a.y, wall.b.y) - reach > path.upper.y)
-            continue;
-        if (segmentsApart(a, b, wall.a, wall.b) < radius + reach) return false;
-    }
-    return true;
+            return false;
+        return segmentsApart(a, b, wall.a, wall.b) < radius + reach;
+    };
+    if (!geometry.wall_grid || radius > WallGrid::kReach)
+        return std::none_of(geometry.walls.begin(), geometry.walls.end(), blocks);
+    bool clear = true;
+    geometry.wall_grid->along(a, b, [&](std::span<const std::uint32_t> walls) {
+        clear = clear && std::none_of(walls.begin(), walls.end(),
+                                      [&](std::uint32_t index) { return blocks(geometry.walls[index]); });
+    });
+    return clear;
 }
 
 }  // namespace throng::authoring

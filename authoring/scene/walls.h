@@ -17,6 +17,12 @@ void buildWalls(const Layout& layout, const Rebase& rebase, WalkGeometry& geomet
 std::vector<gpu::WallTile> wallTiles(const std::vector<gpu::WallSegment>& segments, float spacing,
                                      float tile_radius);
 
+/// About as many as one segment needs.
+double tilesNeeded(const gpu::WallSegment& segment, float spacing);
+
+/// Prepares the two below for very many walls, whose answers stay what they are. Afterwards, no wall changes.
+void sortWalls(WalkGeometry& geometry);
+
 /// How deep a body of this radius at this place is in a wall or a solid polygon, m; negative when it is
 /// clear.
 float wallDepth(const WalkGeometry& geometry, glm::vec2 position, float radius);

@@ -34,6 +34,10 @@ glm::vec2 slopeOf(const TerrainTriangle& t) {
 TerrainRaster rasterOf(glm::vec2 extent, float least, double most) {
     TerrainRaster raster;
     raster.cell = std::max(least, static_cast<float>(std::sqrt(double{extent.x} * double{extent.y} / most)));
+    // What is long and thin has more of them along its edges than its area tells.
+    const auto along = [&](float length) { return std::ceil(double{length} / double{raster.cell}) + 1.0; };
+    while (along(extent.x) * along(extent.y) > 1.5 * most + 1024.0)
+        raster.cell *= 1.25f;
     raster.width = static_cast<std::uint32_t>(std::ceil(extent.x / raster.cell)) + 1;
     raster.height = static_cast<std::uint32_t>(std::ceil(extent.y / raster.cell)) + 1;
     return raster;
@@ -281,7 +285,8 @@ float Terrain::smoothAt(glm::vec2 point) const {
     const glm::vec2 most(static_cast<float>(lattice_.width) - 1.001f,
                          static_cast<float>(lattice_.height) - 1.001f);
     const glm::vec2 at = glm::clamp((point - minimum_) / lattice_.cell, glm::vec2(0.0f), most);
-    const glm::uvec2 cell(at);
+    // Of many nodes, floats do not tell the last two apart.
+    const glm::uvec2 cell = glm::min(glm::uvec2(at), glm::uvec2(lattice_.width - 2, lattice_.height - 2));
     const glm::vec2 f = at - glm::vec2(cell);
     const gpu::TerrainNode* low = &nodes_[std::size_t{cell.y} * lattice_.width + cell.x];
     const gpu::TerrainNode* high = low + lattice_.width;

@@ -4,13 +4,14 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <linux/openat2.h>
-#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <iterator>
+#include <span>
 #include <system_error>
+#include <utility>
 
 #include "base/files/descriptor.h"
 #include "base/files/errors.h"
@@ -46,7 +47,7 @@ int openByNames(int folder, const std::string& relative) {
     return -1;
 }
 
-int openBeneath(int folder, const std::string& relative) {
+int descriptorBeneath(int folder, const std::string& relative) {
     struct open_how how {};
     how.flags = kReading;
     how.resolve = RESOLVE_BENEATH | RESOLVE_NO_MAGICLINKS;
@@ -57,31 +58,27 @@ int openBeneath(int folder, const std::string& relative) {
 
 }  // namespace
 
-std::vector<unsigned char> readBeneath(const fs::path& folder, const std::string& relative,
-                                       std::uint64_t limit) {
+InputFile openBeneath(const fs::path& folder, const std::string& relative) {
     const fs::path shown = folder / relative;
     const fs::path where = folder.empty() ? fs::path(".") : folder;
     const Descriptor at(::open(where.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
-    if (at.get() < 0) throw InputError(where, "cannot open: " + std::generic_category().message(errno));
+    if (!at.isOpen()) throw InputError(where, "cannot open: " + std::generic_category().message(errno));
     if (relative.find('\0') != std::string::npos) throw InputError(shown, "is no name of a file");
-    const Descriptor file(openBeneath(at.get(), relative));
-    if (file.get() < 0)
-        throw InputError(shown, errno == EXDEV ? "leads out of the folder of the file that names it"
-                                               : "cannot open: " + std::generic_category().message(errno));
-    struct stat facts {};
-    if (::fstat(file.get(), &facts) != 0 || !S_ISREG(facts.st_mode))
-        throw InputError(shown, "not a regular file");
-    const auto size = static_cast<std::uint64_t>(facts.st_size);
-    if (size > limit)
-        throw InputError(shown, fmt::format("{} bytes is more than the {} that can be read", size, limit));
-    std::vector<unsigned char> bytes(static_cast<std::size_t>(size));
-    for (std::size_t done = 0; done < bytes.size();) {
-        const ssize_t got = ::read(file.get(), bytes.data() + done, bytes.size() - done);
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) throw InputError(shown, "cannot read: " + std::generic_category().message(errno));
-        if (got == 0) throw InputError(shown, "became shorter while it was read");
-        done += static_cast<std::size_t>(got);
-    }
+    Descriptor file(descriptorBeneath(at.get(), relative));
+    if (!file.isOpen() && errno == EXDEV)
+        throw InputError(shown,
+                         "leads out of the folder of the file that names it: only what is in there is read");
+    return {shown, std::move(file)};
+}
+
+std::vector<unsigned char> readBeneath(const fs::path& folder, const std::string& relative,
+                                       std::uint64_t limit) {
+    const InputFile file = openBeneath(folder, relative);
+    if (file.size() > limit)
+        throw InputError(file.path(),
+                         fmt::format("{} bytes is more than the {} that can be read", file.size(), limit));
+    std::vector<unsigned char> bytes(static_cast<std::size_t>(file.size()));
+    file.readAt(0, std::as_writable_bytes(std::span(bytes)));
     return bytes;
 }
 

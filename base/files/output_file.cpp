@@ -92,8 +92,14 @@ void OutputFile::finish() {
 
 void writeFile(const std::filesystem::path& path, std::string_view content) {
     OutputFile file(path);
-    file.write(content);
-    file.finish();
+    try {
+        file.write(content);
+        file.finish();
+    } catch (const OutputError&) {
+        std::error_code ignored;
+        std::filesystem::remove(path, ignored);  // rather none than half of one
+        throw;
+    }
 }
 
 void replaceFile(const std::filesystem::path& path, std::string_view content) {
@@ -101,7 +107,10 @@ void replaceFile(const std::filesystem::path& path, std::string_view content) {
     std::error_code ignored;
     std::filesystem::remove(fresh, ignored);  // of a process that was killed
     writeFile(fresh, content);
-    if (::rename(fresh.c_str(), path.c_str()) != 0) throw OutputError(path, "replace", errno);
+    if (::rename(fresh.c_str(), path.c_str()) == 0) return;
+    const int reason = errno;
+    std::filesystem::remove(fresh, ignored);
+    throw OutputError(path, "replace", reason);
 }
 
 void syncFolder(const std::filesystem::path& folder) {

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/baking/bake_description.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "authoring/scene/terrain_check.h"
+#include "base/files/errors.h"
+#include "base/printable.h"
 #include "recording/gaits.h"
 
 namespace throng::cli {
@@ -23,11 +27,19 @@ std::vector<recording::BakeAgent> describeAgents(const authoring::Scene& scene) 
 
 }  // namespace
 
+std::string outputOf(const LoadedLayout& loaded, const BakeOptions& options) {
+    if (!options.output.empty()) return options.output;
+    if (isFileName(loaded.layout.name)) return loaded.layout.name;
+    throw InputError(loaded.diagnostics.file,
+                     fmt::format("its `name`, `{}`, is no name for a folder: change it, or give one with -o",
+                                 printable(loaded.layout.name)));
+}
+
 recording::BakeDescription describeBake(const LoadedLayout& loaded, const BakeOptions& options,
                                         const gl::Device& device) {
     const authoring::Scene& scene = loaded.scene;
     recording::BakeDescription bake;
-    bake.output = options.output.empty() ? loaded.layout.name : options.output;
+    bake.output = outputOf(loaded, options);
     bake.force = options.force;
     bake.name = loaded.layout.name;
     bake.layout_text = loaded.text;

@@ -19,6 +19,10 @@ struct BakeOptions {
     std::uint32_t gltf_agents = 2000;
 };
 
+/// The folder of a bake. Without -o it has the layout's name, if that is the name of a folder here and leads
+/// nowhere else. @throws InputError
+std::string outputOf(const LoadedLayout& loaded, const BakeOptions& options);
+
 /// All that the writers have to know of a layout and its scene.
 recording::BakeDescription describeBake(const LoadedLayout& loaded, const BakeOptions& options,
                                         const gl::Device& device);

@@ -9,6 +9,9 @@
 
 #include "base/files/errors.h"
 #include "base/files/hash.h"
+#include "base/files/input_file.h"
+#include "base/json_shape.h"
+#include "cli/terminal/say.h"
 
 namespace throng::cli {
 namespace {
@@ -91,10 +94,13 @@ void saveCalibration(const gl::Device& device, const sim::CostModel& model) {
 
 std::optional<sim::CostModel> loadCalibration(const gl::Device& device) {
     const std::filesystem::path path = calibrationPath(device);
-    std::ifstream file(path);
-    if (!file) return std::nullopt;
+    std::error_code none;
+    if (!std::filesystem::exists(path, none)) return std::nullopt;
     try {
-        const nlohmann::json json = nlohmann::json::parse(file);
+        constexpr std::uint64_t kMostBytes = 1 << 20;
+        const std::string text = readFile(path, kMostBytes);
+        if (const char* problem = tooMuchIn(text)) throw std::runtime_error(problem);
+        const nlohmann::json json = nlohmann::json::parse(text);
         if (json.at("throng-calibration") != kFormat || json.at("version") != THRONG_VERSION ||
             json.at("device") != identity(device))
             return std::nullopt;
@@ -105,8 +111,8 @@ std::optional<sim::CostModel> loadCalibration(const gl::Device& device) {
         if (model.costs.empty()) return std::nullopt;
         return model;
     } catch (const std::exception& error) {
-        fmt::print(stderr, "throng: warning: {} is passed over ({}); `throng calibrate` makes a new one\n",
-                   path.string(), error.what());
+        say(stderr, "throng: warning: {} is passed over ({}); `throng calibrate` makes a new one\n",
+            path.string(), error.what());
         return std::nullopt;
     }
 }

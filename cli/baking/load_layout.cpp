@@ -3,19 +3,16 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iostream>
 #include <span>
-#include <sstream>
 
 #include "authoring/layout/layout_reader.h"
 #include "authoring/scene/scene_builder.h"
 #include "base/files/errors.h"
 #include "base/files/hash.h"
+#include "base/files/input_file.h"
 #include "cli/terminal/exit_codes.h"
+#include "cli/terminal/say.h"
 #include "io/gltf/terrain_file.h"
 
 namespace throng::cli {
@@ -39,20 +36,6 @@ void readTerrain(const std::string& name, LoadedLayout& loaded) {
                                  named ? "`node` is the name of a node or a mesh in the file"
                                        : "`file` is a .glb or .gltf file, relative to the layout's folder");
     }
-}
-
-std::string readText(const std::string& path) {
-    std::ostringstream text;
-    if (path == "-") {
-        text << std::cin.rdbuf();
-        return text.str();
-    }
-    if (std::filesystem::is_directory(path))
-        throw InputError(path, "is a folder; a layout file was expected");
-    std::ifstream stream(path, std::ios::binary);
-    if (!stream) throw InputError(path, fmt::format("cannot be read: {}", std::strerror(errno)));
-    text << stream.rdbuf();
-    return text.str();
 }
 
 }  // namespace
@@ -83,13 +66,15 @@ LoadAttempt tryReadLayout(std::string text, const std::string& name, std::vector
 
 LoadAttempt tryLoadLayout(const std::string& path, const std::vector<std::string>& overrides,
                           const SolverMaker& make_solver) {
-    return tryReadLayout(readText(path), path == "-" ? "standard input" : path, overrides, nullptr,
-                         make_solver);
+    return tryReadLayout(path == "-" ? readStandardInput() : readFile(path),
+                         path == "-" ? "standard input" : path, overrides, nullptr, make_solver);
 }
 
 void printDiagnostics(const LoadedLayout& loaded) {
     for (const authoring::Diagnostic& entry : loaded.diagnostics.entries)
-        fmt::print(stderr, "{}\n", authoring::formatDiagnostic(entry, loaded.diagnostics.file, loaded.text));
+        say(stderr, "{}\n", authoring::formatDiagnostic(entry, loaded.diagnostics.file, loaded.text));
+    if (loaded.diagnostics.left_out > 0)
+        say(stderr, "{}: {} more of the kind\n", loaded.diagnostics.file, loaded.diagnostics.left_out);
 }
 
 LoadedLayout loadLayout(const std::string& path, const std::vector<std::string>& overrides,

@@ -5,6 +5,7 @@
 
 #include "base/files/input_file.h"
 #include "base/files/output_file.h"
+#include "base/json_shape.h"
 
 namespace throng::cli {
 namespace fs = std::filesystem;
@@ -23,8 +24,11 @@ void BatchFolder::begin(const BatchPlan& plan) const {
 std::optional<ordered_json> BatchFolder::readResult(const std::string& id) const {
     std::error_code ignored;
     if (!fs::exists(result(id), ignored)) return std::nullopt;
-    ordered_json json = ordered_json::parse(readFile(result(id)), nullptr, false);
-    const bool understood = json.is_object() && json.value("throng_result", 0) == 1 &&
+    constexpr std::uint64_t kMostBytes = std::uint64_t{16} << 20;
+    const std::string text = readFile(result(id), kMostBytes);
+    if (tooMuchIn(text)) return std::nullopt;
+    ordered_json json = ordered_json::parse(text, nullptr, false);
+    const bool understood = json.is_object() && json.value("throng_result", ordered_json()) == 1 &&
                             json.contains("status") && json.contains("input");
     return understood ? std::optional(std::move(json)) : std::nullopt;
 }
@@ -66,8 +70,10 @@ BatchStanding standingOf(const BatchPlan& plan, const BatchFolder& folder, bool 
     std::error_code ignored;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder.root() / "results", ignored)) {
         const std::string name = entry.path().filename().string();
-        if (name.ends_with(".json") && !known.contains(name))
-            standing.foreign.push_back(entry.path().stem().string());
+        if (!name.ends_with(".json") || known.contains(name)) continue;
+        // Whatever else somebody has put there is none of ours.
+        const std::string id = name.substr(0, name.size() - std::string_view(".json").size());
+        if (isScenarioId(id)) standing.foreign.push_back(id);
     }
     return standing;
 }

@@ -11,7 +11,9 @@
 #include "authoring/layout/layout_reader.h"
 #include "base/files/hash.h"
 #include "base/files/input_file.h"
+#include "base/printable.h"
 #include "cli/terminal/exit_codes.h"
+#include "cli/terminal/say.h"
 
 namespace throng::cli {
 namespace {
@@ -48,16 +50,20 @@ double peopleOf(const authoring::Layout& layout) {
 
 }  // namespace
 
+bool isScenarioId(std::string_view text) {
+    return text.size() == 16 && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
 BatchPlan::BatchPlan(const std::string& path) : path_(path) {
     const std::string text = readFile(path);
     authoring::Diagnostics diagnostics;
     diagnostics.file = path;
     auto family = authoring::readFamily(text, std::filesystem::path(path).parent_path(), diagnostics);
     for (const authoring::Diagnostic& entry : diagnostics.entries)
-        fmt::print(stderr, "{}\n", authoring::formatDiagnostic(entry, path, text));
+        say(stderr, "{}\n", authoring::formatDiagnostic(entry, path, text));
     if (!family) throw Exit(kInvalidInput);
     family_ = std::move(*family);
-    if (family_.name.empty()) family_.name = std::filesystem::path(path).stem().string();
+    if (family_.name.empty()) family_.name = printable(std::filesystem::path(path).stem().string());
     for (authoring::Scenario& scenario : authoring::planFamily(family_)) {
         std::string id = idOf(scenario);
         scenarios_.push_back({std::move(id), std::move(scenario)});
@@ -97,8 +103,10 @@ std::string BatchPlan::terrainOf(const std::string& layout_text) const {
 
 void BatchPlan::tryLayouts() {
     constexpr std::size_t kMost = 4000;
+    constexpr std::size_t kMostBytes = std::size_t{20} << 20;  // of them together: they take time
     constexpr std::size_t kMostPrinted = 3;
-    const std::size_t tried = std::min(kMost, scenarios_.size());
+    const std::size_t tried =
+        std::min({kMost, scenarios_.size(), 8 + kMostBytes / (self_contained_.size() + 1)});
     std::size_t wrong = 0;
     for (std::size_t i = 0; i < tried; ++i) {
         const std::size_t index = i * scenarios_.size() / tried;
@@ -110,17 +118,17 @@ void BatchPlan::tryLayouts() {
             if (layout) addLoad(*layout, static_cast<double>(scenarios_.size()) / static_cast<double>(tried));
             for (const authoring::Diagnostic& entry : diagnostics.entries)
                 if (entry.severity == authoring::Severity::error)
-                    problem += fmt::format("\n  {}: {}{}", entry.where.pointer, entry.message,
+                    problem += fmt::format("\n  {}: {}{}", entry.where.pointer(), entry.message,
                                            entry.hint.empty() ? "" : "\n    hint: " + entry.hint);
         } catch (const std::invalid_argument& error) {
             problem = std::string("\n  ") + error.what();
         }
         if (!problem.empty() && ++wrong <= kMostPrinted)
-            fmt::print(stderr, "{}: error: scenario {} ({}) is no valid layout:{}\n", path_, index + 1,
-                       authoring::describe(scenarios_[index].scenario), problem);
+            say(stderr, "{}: error: scenario {} ({}) is no valid layout:{}\n", path_, index + 1,
+                authoring::describe(scenarios_[index].scenario), problem);
     }
     if (wrong > kMostPrinted)
-        fmt::print(stderr, "{}: {} scenarios more are no valid layouts\n", path_, wrong - kMostPrinted);
+        say(stderr, "{}: {} scenarios more are no valid layouts\n", path_, wrong - kMostPrinted);
     if (wrong > 0) throw Exit(kInvalidInput);
 }
 

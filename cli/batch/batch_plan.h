@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "authoring/family/family.h"
@@ -16,6 +17,9 @@ struct PlannedScenario {
     std::string id;  ///< XXH3 of its parameters, 16 hexadecimal digits: also the name of its files
     authoring::Scenario scenario;
 };
+
+/// Whether a text has the form of such an id: only such names are ever removed or written for one.
+bool isScenarioId(std::string_view text);
 
 /// What a batch costs, as far as can be known before.
 struct BatchLoad {

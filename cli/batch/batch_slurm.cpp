@@ -12,6 +12,7 @@
 #include "base/files/output_file.h"
 #include "base/process.h"
 #include "cli/batch/farm_job.h"
+#include "cli/terminal/say.h"
 
 namespace throng::cli {
 namespace fs = std::filesystem;
@@ -135,9 +136,9 @@ LocalOutcome runOnSlurm(const BatchPlan& plan, const BatchFolder& folder, const 
     for (int attempt = 0; attempt <= options.retries; ++attempt) {
         if (waiting.empty()) break;
         if (attempt > 0 || !joins) array.submit(waiting.size());
-        fmt::print(stderr, "slurm: job {} {}\n", array.job(),
-                   attempt == 0 && joins ? "is under way"
-                                         : fmt::format("submitted for {} scenarios", waiting.size()));
+        say(stderr, "slurm: job {} {}\n", array.job(),
+            attempt == 0 && joins ? "is under way"
+                                  : fmt::format("submitted for {} scenarios", waiting.size()));
         if (!options.wait) break;
         bool in_queue = true;
         while (in_queue && !interrupt.signal()) {

@@ -100,7 +100,7 @@ std::pair<std::string, std::string> problemsOf(const LoadedLayout& loaded) {
     for (const authoring::Diagnostic& entry : loaded.diagnostics.entries) {
         if (entry.severity != authoring::Severity::error) continue;
         if (first.empty())
-            first = fmt::format("{}{}{}", entry.where.pointer, entry.where.pointer.empty() ? "" : ": ",
+            first = fmt::format("{}{}{}", entry.where.pointer(), entry.where.path.empty() ? "" : ": ",
                                 entry.message);
         all += authoring::formatDiagnostic(entry, loaded.diagnostics.file, loaded.text) + "\n";
     }

@@ -101,16 +101,21 @@ std::string createScenarios() {
 }
 
 bool isColumn(const std::string& name) {
-    return name == "id" || name == "number" ||
+    return ::strcasecmp(name.c_str(), "id") == 0 || ::strcasecmp(name.c_str(), "number") == 0 ||
            std::any_of(std::begin(kColumns), std::end(kColumns),
                        [&](const Column& column) { return ::strcasecmp(column.name, name.c_str()) == 0; });
+}
+
+/// Names of columns differ in more than in case, and `id` is there already.
+std::string parameterColumn(const std::string& axis) {
+    return ::strcasecmp(axis.c_str(), "id") == 0 ? "parameter " + axis : axis;
 }
 
 /// The columns of `results`: a parameter of the name of a figure stays apart from it.
 std::string createView(const authoring::Family& family) {
     std::string sql = "CREATE VIEW results AS SELECT scenarios.*";
     for (const authoring::Axis& axis : family.axes)
-        sql += fmt::format(", parameters.{} AS {}", quotedName(axis.name),
+        sql += fmt::format(", parameters.{} AS {}", quotedName(parameterColumn(axis.name)),
                            quotedName(isColumn(axis.name) ? "parameter " + axis.name : axis.name));
     return sql + " FROM scenarios JOIN parameters USING (id)";
 }
@@ -126,7 +131,7 @@ void fill(SQLite::Database& database, const BatchPlan& plan, const BatchFolder& 
     const std::vector<authoring::Axis>& axes = plan.family().axes;
     std::string parameters = "CREATE TABLE parameters (id TEXT PRIMARY KEY";
     for (const authoring::Axis& axis : axes)
-        parameters += ", " + quotedName(axis.name);
+        parameters += ", " + quotedName(parameterColumn(axis.name));
     database.exec(createScenarios());
     database.exec(parameters + ") WITHOUT ROWID");
     database.exec(createView(plan.family()));
@@ -162,13 +167,6 @@ void fill(SQLite::Database& database, const BatchPlan& plan, const BatchFolder& 
     }
 }
 
-ordered_json valueOf(const SQLite::Column& column) {
-    if (column.isNull()) return nullptr;
-    if (column.isInteger()) return column.getInt64();
-    if (column.isFloat()) return column.getDouble();
-    return column.getString();
-}
-
 void write(const fs::path& file, const BatchPlan& plan, const BatchFolder& folder) try {
     SQLite::Database database(file, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
     database.exec("PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF");  // nobody sees it yet
@@ -177,16 +175,6 @@ void write(const fs::path& file, const BatchPlan& plan, const BatchFolder& folde
     transaction.commit();
 } catch (const SQLite::Exception& error) {
     throw InputError(file, error.what());
-}
-
-std::string plainText(const ordered_json& value) {
-    if (value.is_null()) return "";
-    if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
-    return value.is_string() ? value.get<std::string>() : value.dump();
-}
-
-std::string textOf(const ordered_json& value) {
-    return value.is_null() ? "" : value.is_string() ? value.get<std::string>() : value.dump();
 }
 
 }  // namespace
@@ -207,73 +195,6 @@ void collectResults(const BatchPlan& plan, const BatchFolder& folder) {
     }
     if (std::rename(fresh.c_str(), folder.database().c_str()) != 0)
         throw OutputError(folder.database(), "replace", errno);
-}
-
-QueryResult queryResults(const fs::path& database_path, const std::string& sql) try {
-    SQLite::Database database(database_path, SQLite::OPEN_READONLY);
-    SQLite::Statement statement(database, sql);
-    QueryResult result;
-    for (int column = 0; column < statement.getColumnCount(); ++column)
-        result.columns.emplace_back(statement.getColumnName(column));
-    while (statement.executeStep()) {
-        result.rows.emplace_back();
-        for (int column = 0; column < statement.getColumnCount(); ++column)
-            result.rows.back().push_back(valueOf(statement.getColumn(column)));
-    }
-    return result;
-} catch (const SQLite::Exception& error) {
-    throw InputError(database_path, error.what());
-}
-
-std::string csvOf(const QueryResult& result) {
-    std::string text;
-    for (std::size_t column = 0; column < result.columns.size(); ++column)
-        text += (column ? "," : "") + csvField(result.columns[column]);
-    text += "\n";
-    for (const auto& row : result.rows) {
-        for (std::size_t column = 0; column < row.size(); ++column)
-            text += (column ? "," : "") + csvField(textOf(row[column]));
-        text += "\n";
-    }
-    return text;
-}
-
-std::string tableOf(const QueryResult& result) {
-    constexpr std::size_t kWidest = 60;
-    std::vector<std::vector<std::string>> lines = {result.columns};
-    for (const auto& row : result.rows) {
-        lines.emplace_back();
-        for (const ordered_json& value : row) {
-            std::string text = plainText(value);
-            if (text.size() > kWidest) text = text.substr(0, kWidest - 3) + "...";
-            std::replace(text.begin(), text.end(), '\n', ' ');
-            lines.back().push_back(text);
-        }
-    }
-    std::vector<std::size_t> widths(result.columns.size());
-    for (const auto& line : lines)
-        for (std::size_t column = 0; column < line.size(); ++column)
-            widths[column] = std::max(widths[column], line[column].size());
-    std::string text;
-    for (const auto& line : lines) {
-        std::string row;
-        for (std::size_t column = 0; column < line.size(); ++column)
-            row += fmt::format("{:<{}}  ", line[column], widths[column]);
-        row.erase(row.find_last_not_of(' ') + 1);
-        text += row + "\n";
-    }
-    return text;
-}
-
-ordered_json jsonOf(const QueryResult& result) {
-    ordered_json list = ordered_json::array();
-    for (const auto& row : result.rows) {
-        ordered_json object = ordered_json::object();
-        for (std::size_t column = 0; column < row.size(); ++column)
-            object[result.columns[column]] = row[column];
-        list.push_back(object);
-    }
-    return list;
 }
 
 }  // namespace throng::cli

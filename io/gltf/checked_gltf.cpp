@@ -14,6 +14,7 @@
 
 #include "base/files/beneath.h"
 #include "base/files/input_file.h"
+#include "base/json_shape.h"
 
 namespace throng::io {
 namespace fs = std::filesystem;
@@ -21,29 +22,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t kDeepest = 64;  // brackets in brackets
 constexpr std::uint32_t kGlb = 0x46546c67, kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
-
-/// Parsers that recurse run out of stack on files that are nothing but brackets, so these are counted before
-/// anything is parsed.
-bool isNestedDeeper(std::string_view text, std::size_t most) {
-    std::size_t depth = 0;
-    bool in_string = false;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if (in_string) {
-            if (c == '\\') ++i;
-            in_string = c != '"';
-        } else if (c == '"') {
-            in_string = true;
-        } else if (c == '[' || c == '{') {
-            if (++depth > most) return true;
-        } else if ((c == ']' || c == '}') && depth > 0) {
-            --depth;
-        }
-    }
-    return false;
-}
 
 std::uint32_t wordAt(std::string_view bytes, std::size_t at) {
     std::uint32_t word = 0;
@@ -69,7 +48,7 @@ class Loader {
     std::unique_ptr<tinygltf::Model> load() {
         const std::string bytes = readFile(path_, limits_.file_bytes);
         const Parts parts = split(bytes);
-        if (isNestedDeeper(parts.json, kDeepest)) fail("its JSON is nested too deeply");
+        if (const char* problem = tooMuchIn(parts.json)) fail(std::string("its JSON ") + problem);
         Json document = Json::parse(parts.json, nullptr, false);
         if (document.is_discarded() || !document.is_object()) fail("is not glTF: its JSON cannot be parsed");
         const Json geometry = onlyGeometry(document);
@@ -224,11 +203,14 @@ class Loader {
 
     Json meshesOf(const Json& document, const Json& accessors) const {
         Json meshes = Json::array();
+        std::size_t primitives = 0;
         for (const Json& item : listOf(document, "meshes", limits_.nodes)) {
             Json mesh = {{"primitives", Json::array()}};
             addName(item, mesh);
             const std::string whose = fmt::format("mesh {}", meshes.size());
-            for (const Json& source : listOf(item, "primitives", limits_.accessors)) {
+            for (const Json& source : listOf(item, "primitives", limits_.primitives)) {
+                if (++primitives > limits_.primitives)
+                    fail(fmt::format("has more than the {} primitives that can be", limits_.primitives));
                 Json primitive = {{"mode", wholeOf(source, "mode", 4, 6, whose)},
                                   {"attributes", Json::object()}};
                 if (const auto extensions = source.find("extensions");
@@ -319,12 +301,16 @@ class Loader {
     Json scenesOf(const Json& document, std::size_t nodes) const {
         Json scenes = Json::array();
         for (const Json& item : listOf(document, "scenes", 1000)) {
+            const std::string whose = fmt::format("scene {}", scenes.size());
             Json scene = {{"nodes", Json::array()}};
             if (const auto roots = item.find("nodes"); roots != item.end()) {
                 if (!roots->is_array()) fail("the nodes of a scene are no array");
-                for (const Json& root : *roots)
-                    scene["nodes"].push_back(
-                        checkedIndex(root, "nodes", nodes, fmt::format("scene {}", scenes.size())));
+                std::set<std::size_t> known;
+                for (const Json& root : *roots) {
+                    const std::size_t node = checkedIndex(root, "nodes", nodes, whose);
+                    if (!known.insert(node).second) fail(fmt::format("{} lists node {} twice", whose, node));
+                    scene["nodes"].push_back(node);
+                }
             }
             scenes.push_back(std::move(scene));
         }

@@ -17,6 +17,7 @@ struct GltfLimits {
     std::uint64_t buffer_bytes = std::uint64_t{512} << 20;  ///< of all buffers beside it, each
     std::size_t nodes = 100'000;
     std::size_t accessors = 200'000;
+    std::size_t primitives = 20'000;    ///< of all meshes
     std::size_t elements = 50'000'000;  ///< of one accessor
 };
 

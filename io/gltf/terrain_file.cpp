@@ -21,7 +21,9 @@ namespace throng::io {
 namespace {
 
 constexpr std::size_t kMostTriangles = 8'000'000;
-constexpr double kFurthest = 1.0e9;  // m
+constexpr std::size_t kLeastPositions = 1'500'000;  // that any file may have
+constexpr std::size_t kMostPieces = 200'000;        // primitives, each time that one is shown
+constexpr double kFurthest = 1.0e9;                 // m
 
 glm::dmat4 transformOf(const tinygltf::Node& node) {
     if (node.matrix.size() == 16) {
@@ -100,8 +102,10 @@ class TerrainReader {
             found_ = found_ || named;
             const bool wanted = current.wanted || named;
             if (wanted && mesh)
-                for (const tinygltf::Primitive& primitive : mesh->primitives)
+                for (const tinygltf::Primitive& primitive : mesh->primitives) {
+                    if (++pieces_ > kMostPieces) tooMuchRepeated();
                     add(primitive, transform);
+                }
             // The last first, so that nodes come in the order of the file.
             for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
                 open.push_back({*child, transform, wanted});
@@ -117,10 +121,12 @@ class TerrainReader {
         const std::vector<glm::dvec3> points = vectors(position->second, "positions");
         const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
         if (mesh_.positions.size() + points.size() > 3 * kMostTriangles) tooMany();
+        if (mesh_.positions.size() + points.size() > mostRepeated()) tooMuchRepeated();
         for (const glm::dvec3& point : points)
             mesh_.positions.push_back(placed(point, transform));
         const std::vector<std::uint32_t> corners = cornersOf(primitive, points.size());
         if (mesh_.indices.size() + corners.size() > 3 * kMostTriangles) tooMany();
+        if (mesh_.indices.size() + corners.size() > 3 * mostRepeated()) tooMuchRepeated();
         // A mirrored node turns its faces inside out, and glTF turns them back.
         const bool mirrored = glm::determinant(glm::dmat3(transform)) < 0.0;
         const std::size_t begin = mesh_.indices.size();
@@ -130,6 +136,17 @@ class TerrainReader {
             mesh_.indices.push_back(first + corners[i + (mirrored ? 1 : 2)]);
         }
         addNormals(primitive, transform, points.size(), first, begin);
+    }
+
+    /// A mesh that many nodes show, or an accessor that many primitives do, takes more memory than its file.
+    std::size_t mostRepeated() const {
+        std::size_t bytes = 0;
+        for (const tinygltf::Buffer& buffer : model_->buffers)
+            bytes += buffer.data.size();
+        return kLeastPositions + bytes / 8;
+    }
+    [[noreturn]] void tooMuchRepeated() const {
+        fail("shows the same geometry over and over: export the ground alone, as one mesh");
     }
 
     [[noreturn]] void tooMany() const {
@@ -259,6 +276,7 @@ class TerrainReader {
     std::unique_ptr<tinygltf::Model> model_;
     authoring::TerrainMesh mesh_;
     bool found_ = false;
+    std::size_t pieces_ = 0;
 };
 
 }  // namespace

@@ -5,15 +5,15 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 
 #include "base/files/csv.h"
 #include "base/files/input_file.h"
+#include "base/numbers.h"
 
 namespace throng::io {
 
 AgentTableEdit::AgentTableEdit(const Bake& bake) : path_(bake.folder / "agents.csv") {
-    CsvReader table(readFile(path_));
+    CsvReader table(readFile(path_, kMostTable));
     table.next(columns_);
     std::vector<std::string> fields;
     while (table.next(fields)) {
@@ -43,11 +43,10 @@ const std::string& AgentTableEdit::at(std::uint32_t row, const std::string& colu
 
 double AgentTableEdit::number(std::uint32_t row, const std::string& column) const {
     const std::string& field = at(row, column);
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-    if (error != std::errc() || end != field.data() + field.size())
+    const std::optional<double> value = finiteNumber(field);
+    if (!value)
         throw InputError(path_, fmt::format("line {}: `{}` is not a number ({})", row + 2, field, column));
-    return value;
+    return *value;
 }
 
 std::optional<std::uint32_t> AgentTableEdit::frame(std::uint32_t row, const std::string& column) const {

@@ -12,6 +12,7 @@
 #include <numbers>
 #include <set>
 
+#include "base/files/beneath.h"
 #include "base/files/hash.h"
 #include "base/files/input_file.h"
 #include "base/files/output_file.h"
@@ -67,6 +68,7 @@ class Application {
         for (const StreamInfo& info : kStreams)
             if (source_.streams[info.id])
                 files_.emplace_back(folder_.path(), info, source_.agents, source_.frames);
+        requireInside();
         for (const RowChange& each : changes)
             rows_.push_back(prepared(each));
         if (source_.manifest.contains("terrain")) readTerrainBack();
@@ -97,6 +99,19 @@ class Application {
     }
 
   private:
+    /// A bake may come from anywhere, and the new one has what this one has: nothing that a link leads to
+    /// outside.
+    void requireInside() const {
+        std::set<std::string> paths = {"agents.csv"};
+        for (const Bake::File& file : source_.files)
+            paths.insert(file.path);
+        for (const StreamInfo& info : kStreams)
+            if (source_.streams[info.id]) paths.insert(streamFile(info, StreamFormat::npy));
+        if (source_.manifest.contains("terrain")) paths.insert("terrain.glb");
+        for (const std::string& path : paths)
+            openBeneath(source_.folder, path);
+    }
+
     void read(const CrowdFrame& frame) {
         for (const StreamFiles& stream : files_) {
             const std::span<const float> values = frame[stream.info().id];
@@ -251,7 +266,7 @@ class Application {
             if (isWrittenAnew(file.path)) continue;
             const fs::path to = folder_.path() / file.path;
             makeFolder(to.parent_path());
-            const InputFile from(source_.folder / file.path);
+            const InputFile from = openBeneath(source_.folder, file.path);
             OutputFile copy(to);
             std::vector<std::byte> piece(std::size_t{1} << 20);
             for (std::uint64_t at = 0; at < from.size(); at += piece.size()) {

@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <optional>
 #include <stdexcept>
@@ -125,6 +127,10 @@ void StreamReader::readRows(std::uint32_t frame, std::uint32_t first_row, std::s
         throw std::out_of_range("no such frame or rows in the stream");
     const std::uint64_t row = std::uint64_t{frame} * rows_ + first_row;
     file_.readAt(data_offset_ + row * kComponents * sizeof(float), std::as_writable_bytes(values));
+    constexpr float kMost = 4.0e9f;  // of metres as of anything else; and what is no number is not within it
+    if (!std::ranges::all_of(values, [](float value) { return std::abs(value) <= kMost; }))
+        throw InputError(file_.path(),
+                         fmt::format("frame {} holds something that is not a number of any use", frame));
 }
 
 }  // namespace throng::io

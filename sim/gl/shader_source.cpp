@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <sstream>
 
+#include "base/files/input_file.h"
 #include "sim/gl/context.h"
 #include "sim/gl/embedded_shaders.h"
 
@@ -16,11 +16,9 @@ std::string ShaderLibrary::readFile(const std::string& path) const {
     if (!folder_.empty()) {
         const std::filesystem::path on_disk =
             folder_ / std::filesystem::path(path).lexically_relative("shaders");
-        if (std::ifstream stream(on_disk, std::ios::binary); stream) {
-            std::ostringstream text;
-            text << stream.rdbuf();
-            return text.str();
-        }
+        constexpr std::uint64_t kMostBytes = std::uint64_t{4} << 20;
+        std::error_code none;
+        if (std::filesystem::exists(on_disk, none)) return throng::readFile(on_disk, kMostBytes);
     }
     for (const EmbeddedShader& shader : embeddedShaders())
         if (shader.path == path) return std::string(shader.text);

@@ -35,7 +35,7 @@ void expectError(std::string_view text, int line, int column, std::string_view p
         if (entry.message.find(message) == std::string::npos) continue;
         EXPECT_EQ(entry.where.line, line) << entry.message;
         EXPECT_EQ(entry.where.column, column) << entry.message;
-        EXPECT_EQ(entry.where.pointer, pointer);
+        EXPECT_EQ(entry.where.pointer(), pointer);
         EXPECT_NE(entry.hint.find(hint), std::string::npos) << entry.hint;
         return;
     }

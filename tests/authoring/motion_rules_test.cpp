@@ -78,7 +78,7 @@ TEST(MotionRules, MistakesAreToldWhereTheyAre) {
         EXPECT_FALSE(found.layout) << text;
         if (found.diagnostics.entries.empty()) return std::string("none");
         const authoring::Diagnostic& first = found.diagnostics.entries.front();
-        return first.where.pointer + ": " + first.message + " " + first.hint;
+        return first.where.pointer() + ": " + first.message + " " + first.hint;
     };
     const std::string unknown = mistake(R"({"throng": 1, "motion": {"cushon": {"enabled": false}}})");
     EXPECT_NE(unknown.find("cushion"), std::string::npos) << unknown;

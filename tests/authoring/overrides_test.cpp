@@ -30,7 +30,7 @@ void expectMistake(const std::string& text, int line, int column, const std::str
     const Diagnostic& found = diagnostics.entries.front();
     EXPECT_EQ(found.where.line, line) << text;
     EXPECT_EQ(found.where.column, column) << text;
-    EXPECT_EQ(found.where.pointer, pointer);
+    EXPECT_EQ(found.where.pointer(), pointer);
     EXPECT_NE(found.message.find(message), std::string::npos) << found.message;
     EXPECT_NE(found.hint.find(hint), std::string::npos) << found.hint;
 }

@@ -267,5 +267,30 @@ TEST(SceneBuilder, ScattersGoalsOverABox) {
     EXPECT_NEAR(mean.y, 35.0, 0.7);
 }
 
+TEST(SceneBuilder, LayoutsThatReachTooFarAreRefusedWhereTheyDo) {
+    Layout layout = simpleLayout();
+    Formation formation;
+    formation.id = "far";
+    formation.where = {7, 3, {}};
+    ListFormation list;
+    list.agents.resize(1);
+    list.agents[0].position = {8589934591.0, 0.0};
+    list.agents[0].goal = {8589934592.0, 0.0};
+    formation.shape = list;
+    layout.formations.push_back(formation);
+    Diagnostics diagnostics;
+    EXPECT_FALSE(buildScene(layout, diagnostics));
+    ASSERT_EQ(diagnostics.entries.size(), 1u);
+    EXPECT_EQ(diagnostics.entries[0].where.line, 7);
+    EXPECT_NE(diagnostics.entries[0].message.find("long or wide"), std::string::npos);
+}
+
+TEST(SceneBuilder, WallsThatNobodyCouldSimulateAreRefused) {
+    Layout layout = simpleLayout();
+    for (int i = 0; i < 8; ++i)
+        layout.walls.push_back({"endless", {{0.0, 20.0 + i}, {90'000.0, 20.0 + i}}, false, 0.2, 3.0, {}});
+    EXPECT_NE(errorOf(layout).find("walls are longer than"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace throng::authoring

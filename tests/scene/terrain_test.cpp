@@ -139,7 +139,7 @@ class TerrainCheckTest : public ::testing::Test {
         if (layout) made_ = buildScene(*layout, diagnostics, nullptr, &mesh).has_value();
         std::string text;
         for (const authoring::Diagnostic& entry : diagnostics.entries)
-            text += entry.where.pointer + ": " + entry.message + " (" + entry.hint + ")\n";
+            text += entry.where.pointer() + ": " + entry.message + " (" + entry.hint + ")\n";
         return text;
     }
     bool made_ = false;
@@ -190,6 +190,19 @@ TEST_F(TerrainCheckTest, LayoutsSayWhatIsWrongWithTheirTerrain) {
         said(mesh, R"(, "surface": "middle")").find("/terrain/surface: expected one of highest, lowest"),
         std::string::npos);
     EXPECT_NE(said(mesh, R"(, "nodes": "x")").find("did you mean `node`"), std::string::npos);
+}
+
+TEST(Terrain, OfAnyWidthAnswersAtItsVeryEdges) {
+    TerrainMesh mesh;
+    addQuad(mesh, {-1.0e9, -1.0e9, 2.0}, {1.0e9, -1.0e9, 2.0}, {1.0e9, 1.0e9, 2.0}, {-1.0e9, 1.0e9, 2.0});
+    for (const glm::vec2 half :
+         {glm::vec2(500'000.0f, 500'000.0f), glm::vec2(4.0e9f, 1.0f), glm::vec2(2.0f, 4.0e9f)}) {
+        const Terrain terrain(mesh, true, {0.0, 0.0}, -half, half);
+        EXPECT_LT(terrain.lattice().count(), 4'000'000u);
+        for (const float x : {-2.0f, -1.0f, 0.0f, 1.0f, 2.0f})
+            for (const float y : {-2.0f, -1.0f, 0.0f, 1.0f, 2.0f})
+                EXPECT_TRUE(std::isfinite(terrain.smoothAt(glm::vec2(x, y) * half)));
+    }
 }
 
 }  // namespace

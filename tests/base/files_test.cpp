@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "base/files/beneath.h"
+#include "base/files/input_file.h"
+#include "base/files/output_file.h"
+#include "base/json_shape.h"
+#include "base/plane_grid.h"
+#include "base/printable.h"
+
+namespace throng {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Files : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        folder = fs::path(::testing::TempDir()) / ("files-" + std::to_string(::getpid()));
+        fs::create_directories(folder / "inner");
+        std::ofstream(folder / "inner" / "text") << "inside";
+        std::ofstream(folder / "outside") << "outside";
+    }
+    void TearDown() override { fs::remove_all(folder); }
+    static std::string errorOf(const fs::path& path, std::uint64_t limit = kMostText) {
+        try {
+            readFile(path, limit);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "";
+    }
+    fs::path folder;
+};
+
+TEST_F(Files, NothingButRegularFilesOfASensibleSizeAreRead) {
+    EXPECT_EQ(readFile(folder / "inner" / "text"), "inside");
+    ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+    EXPECT_NE(errorOf(folder / "pipe").find("not a regular file"), std::string::npos);
+    EXPECT_NE(errorOf("/dev/zero").find("not a regular file"), std::string::npos);
+    EXPECT_NE(errorOf(folder).find("is a folder"), std::string::npos);
+    EXPECT_NE(errorOf(folder / "inner" / "text", 5).find("larger than"), std::string::npos);
+}
+
+TEST_F(Files, LinksLeadNowhereOutside) {
+    fs::create_symlink("../outside", folder / "inner" / "out");
+    fs::create_symlink("text", folder / "inner" / "in");
+    EXPECT_EQ(openBeneath(folder / "inner", "in").size(), 6u);
+    EXPECT_THROW(openBeneath(folder / "inner", "out"), InputError);
+    EXPECT_THROW(openBeneath(folder / "inner", "../outside"), InputError);
+    EXPECT_THROW(openBeneath(folder / "inner", (folder / "outside").string()), InputError);
+}
+
+TEST_F(Files, NothingIsLeftWhereAFileCannotBeReplaced) {
+    fs::create_directories(folder / "taken" / "by");
+    EXPECT_THROW(replaceFile(folder / "taken", "text"), OutputError);
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+        EXPECT_EQ(entry.path().filename().string().find(".new-"), std::string::npos) << entry.path();
+}
+
+TEST(Printable, WritesOutWhatATerminalWouldObey) {
+    EXPECT_EQ(printable("plain \xc3\xa4 \xe2\x82\xac \xf0\x9f\x9a\xb6"),
+              "plain \xc3\xa4 \xe2\x82\xac \xf0\x9f\x9a\xb6");
+    EXPECT_EQ(printable("a\x1b[31m\n\x7f"), "a\\x1b[31m\\x0a\\x7f");
+    EXPECT_EQ(printable("a\n\tb\r", true), "a\n\tb\\x0d");
+    EXPECT_EQ(printable("\xc2\x9b|\xe2\x80\xae"), "\\x9b|\\u202e");
+    EXPECT_EQ(printable("\xff\xc0\xaf\xed\xa0\x80\xe2\x82"), "\\xff\\xc0\\xaf\\xed\\xa0\\x80\\xe2\\x82");
+}
+
+TEST(FileName, IsOneThatStaysInItsFolder) {
+    EXPECT_TRUE(isFileName("two <streams> & \"quotes\""));
+    for (const char* name : {"", ".", "..", "../x", "/tmp/x", "a/b", "a\x1b", "a\nb", "\xff"})
+        EXPECT_FALSE(isFileName(name)) << name;
+    EXPECT_FALSE(isFileName(std::string(300, 'a')));
+}
+
+TEST(JsonShape, IsLookedAtBeforeAnythingIsParsed) {
+    EXPECT_EQ(tooMuchIn(R"({"a": [1, {"b": "[[[[::::{{{{\""}]})"), nullptr);
+    EXPECT_EQ(tooMuchIn(std::string(64, '[')), nullptr);
+    EXPECT_NE(tooMuchIn(std::string(65, '[')), nullptr);
+    std::string keys = "{";
+    for (int i = 0; i < 2000; ++i)
+        keys += "\"\":{},";
+    EXPECT_EQ(tooMuchIn(keys), nullptr);
+    EXPECT_NE(tooMuchIn(keys + "\"\":0"), nullptr);
+}
+
+TEST(PlaneGrid, TakesPlacesAndBoundsHoweverFar) {
+    for (const glm::dvec2 most :
+         {glm::dvec2(10.0, 10.0), glm::dvec2(1.0e12, 1.0), glm::dvec2(1.0e12, 1.0e12)}) {
+        PlaneGrid grid({0.0, 0.0}, most, 1.0);
+        grid.sort({{-1.0e300, 5.0}, {1.0e300, 1.0e300}, {5.0, 5.0}, {NAN, 5.0}});
+        std::vector<std::uint32_t> found;
+        grid.near({5.0, 5.0}, 1.0, [&](std::uint32_t index) { found.push_back(index); });
+        EXPECT_NE(std::find(found.begin(), found.end(), 2u), found.end());
+        grid.near({-1.0e300, NAN}, HUGE_VAL, [&](std::uint32_t) {});
+    }
+}
+
+}  // namespace
+}  // namespace throng
