@@ -49,13 +49,8 @@ class BlockMaker {
   private:
     void markFine(glm::vec2 a, glm::vec2 b, float reach) {
         const float half_diagonal = 0.7072f * raster_.cell_size;
-        forEachPiece(a, b, 2.0f * raster_.cell_size, [&](glm::vec2 from, glm::vec2 to) {
-            const glm::vec2 ends[] = {from, to};
-            const Box box = boundsOf(ends, reach + half_diagonal);
-            visitBox(raster_, box.lower, box.upper, [&](std::uint32_t block, glm::vec2 middle) {
-                if (segmentDistance(middle, from, to) <= reach + half_diagonal)
-                    blocks_.kinds[block] = Kind::fine;
-            });
+        visitAlong(raster_, a, b, reach + half_diagonal, [&](std::uint32_t block, glm::vec2 middle) {
+            if (segmentDistance(middle, a, b) <= reach + half_diagonal) blocks_.kinds[block] = Kind::fine;
         });
     }
 
@@ -73,12 +68,9 @@ class BlockMaker {
     }
 
     void markSolids() {
-        for (const LocalPolygon& solid : geometry_.solids) {
-            const Box box = boundsOf(solid, 0.0f);
-            visitBox(raster_, box.lower, box.upper, [&](std::uint32_t block, glm::vec2 middle) {
-                if (insidePolygon(solid, middle)) blocks_.kinds[block] = Kind::solid;
-            });
-        }
+        for (const LocalPolygon& solid : geometry_.solids)
+            visitInside(raster_, solid,
+                        [&](std::uint32_t block, glm::vec2) { blocks_.kinds[block] = Kind::solid; });
     }
 
     /// All solid blocks share one, of which nothing is known.
@@ -147,8 +139,7 @@ void visitRoad(const FieldBlocks& blocks, const LocalRoad& road, Visit visit) {
         const glm::vec2 along = glm::normalize(piece.centreline[1] - piece.centreline[0]);
         const Box box = boundsOf(piece.centreline, 0.5f * road.width);
         blocks.visitNodes(box.lower, box.upper, [&](std::uint32_t node, glm::vec2 at) {
-            const bool round_joint = i > 0 && glm::distance(at, road.centreline[i]) <= 0.5f * road.width;
-            if (round_joint || onRoad(piece, at)) visit(node, along);
+            if (onPiece(road, i, at, 0.0f)) visit(node, along);
         });
     }
 }

@@ -42,6 +42,14 @@ void visitNeighbours(const FieldGrid& grid, std::uint32_t cell, Visit visit) {
     if (cell + grid.width < cellCount(grid)) visit(cell + grid.width);
 }
 
+/// Calls visit(index, centre) for the cells whose centre may lie in the box.
+template <class Visit>
+void visitBox(const FieldGrid& grid, glm::vec2 lower, glm::vec2 upper, Visit visit) {
+    for (std::uint32_t y = row(grid, lower.y); y <= row(grid, upper.y); ++y)
+        for (std::uint32_t x = column(grid, lower.x); x <= column(grid, upper.x); ++x)
+            visit(y * grid.width + x, cellCentre(grid, x, y));
+}
+
 /// Calls visit(index, centre) for the cells whose centre may lie within `reach` of a segment: of long
 /// slanting ones, not for all in its box.
 template <class Visit>

@@ -6,8 +6,8 @@
 namespace throng::authoring {
 namespace {
 
-constexpr float kSmallestCell = 2.0f;  // m
-constexpr double kMostCells = 250'000.0;
+constexpr float kSmallestGridCell = 2.0f;  // m
+constexpr double kMostGridCells = 250'000.0;
 constexpr std::size_t kMostItems = 8'000'000;
 
 FieldGrid gridOf(glm::vec2 minimum, glm::vec2 maximum, float cell) {
@@ -25,8 +25,8 @@ FieldGrid gridOf(glm::vec2 minimum, glm::vec2 maximum, float cell) {
 WallGrid::WallGrid(std::span<const gpu::WallSegment> walls, glm::vec2 minimum, glm::vec2 maximum) {
     const glm::vec2 extent = maximum - minimum;
     double cell =
-        std::max({double{kSmallestCell}, std::sqrt(double{extent.x} * double{extent.y} / kMostCells),
-                  4.0 * std::max(extent.x, extent.y) / kMostCells});
+        std::max({double{kSmallestGridCell}, std::sqrt(double{extent.x} * double{extent.y} / kMostGridCells),
+                  4.0 * std::max(extent.x, extent.y) / kMostGridCells});
     const auto eachCell = [&](auto&& visit) {
         for (std::uint32_t i = 0; i < walls.size(); ++i)
             visitAlong(grid_, walls[i].a, walls[i].b,
