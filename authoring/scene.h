@@ -28,8 +28,8 @@ struct FieldStore {
     float block_cell = 0.0f;          ///< m, the cells of fine blocks
     std::uint32_t blocks_across = 0;  ///< 0: the cells are those of the scene's grid
     std::uint32_t blocks_up = 0;
-    std::vector<gpu::FieldCell>
-        block_table;  ///< words: where a block's cells begin in a field, and whether it is fine
+    /// Words: where each block's cells begin in a field, 0 where it has none; and another that says nothing.
+    std::vector<gpu::FieldCell> block_table;
 };
 
 /// A wall opens or closes.

@@ -209,9 +209,11 @@ class BlockMarcher {
         while (here < room.count && room.nodes[here] != node)
             ++here;
         if (here == room.count) return;
+        const float reached = values_[node].distance;
         for (const std::size_t beside : {(here + 1) % room.count, (here + room.count - 1) % room.count})
             for (std::size_t i = 0; i < room.count; ++i)
-                if (i != here && i != beside) crossRoom(room, i, here, beside);
+                if (i != here && i != beside && values_[room.nodes[i]].distance > reached)
+                    crossRoom(room, i, here, beside);
         // And along the edge.
         for (const std::size_t beside : {(here + 1) % room.count, (here + room.count - 1) % room.count})
             goStraight(room, beside, here, 0.0f, values_[node]);
@@ -266,6 +268,9 @@ class Storer {
     }
 
     Field run() {
+        for (std::uint32_t crossing = 0; crossing < blocks_.corner_nodes.size(); ++crossing)
+            if (const std::uint32_t node = blocks_.corner_nodes[crossing]; node != gpu::NO_INDEX)
+                store(crossing, values_[node]);
         for (std::uint32_t y = 0; y < blocks_.up; ++y)
             for (std::uint32_t x = 0; x < blocks_.across; ++x)
                 storeBlock(x, y);
@@ -282,11 +287,6 @@ class Storer {
     void storeBlock(std::uint32_t x, std::uint32_t y) {
         const std::size_t block = std::size_t{y} * blocks_.across + x;
         const std::uint32_t first = blocks_.first_cells[block];
-        if (blocks_.kinds[block] == FieldBlocks::Kind::open)
-            for (std::uint32_t corner = 0; corner < 4; ++corner) {
-                const Value& value = values_[blocks_.cornerNode(x + corner % 2, y + corner / 2)];
-                store(first + corner, value);
-            }
         if (blocks_.kinds[block] != FieldBlocks::Kind::fine) return;
         for (std::uint32_t j = 0; j < gpu::FIELD_BLOCK_ROW; ++j)
             for (std::uint32_t i = 0; i < gpu::FIELD_BLOCK_ROW; ++i) {

@@ -73,20 +73,18 @@ class BlockMaker {
                         [&](std::uint32_t block, glm::vec2) { blocks_.kinds[block] = Kind::solid; });
     }
 
-    /// All solid blocks share one, of which nothing is known.
+    /// First the crossings, then the fine blocks' cells.
     void number() {
         const std::size_t count = blocks_.kinds.size();
         blocks_.order.assign(count, gpu::NO_INDEX);
         blocks_.first_cells.assign(count, 0);
-        blocks_.cell_count = 4;
         blocks_.corner_nodes.assign(std::size_t{blocks_.across + 1} * (blocks_.up + 1), gpu::NO_INDEX);
+        blocks_.cell_count = static_cast<std::uint32_t>(blocks_.corner_nodes.size());
         std::uint32_t fine = 0;
         for (std::size_t block = 0; block < count; ++block) {
-            if (blocks_.kinds[block] == Kind::solid) continue;
-            const bool is_fine = blocks_.kinds[block] == Kind::fine;
+            if (blocks_.kinds[block] != Kind::fine) continue;
             blocks_.first_cells[block] = blocks_.cell_count;
-            blocks_.cell_count += is_fine ? gpu::FIELD_BLOCK_ROW * gpu::FIELD_BLOCK_ROW : 4;
-            if (!is_fine) continue;
+            blocks_.cell_count += gpu::FIELD_BLOCK_ROW * gpu::FIELD_BLOCK_ROW;
             blocks_.order[block] = fine++;
             blocks_.fine_blocks.push_back(static_cast<std::uint32_t>(block));
         }
@@ -197,14 +195,7 @@ std::uint32_t FieldBlocks::nodeAt(glm::vec2 point) const {
 }
 
 std::uint32_t FieldBlocks::cellOf(std::uint32_t node) const {
-    if (node >= fine_nodes) {
-        const std::uint32_t crossing = crossings[node - fine_nodes];
-        const std::uint32_t x = crossing % (across + 1), y = crossing / (across + 1);
-        for (std::uint32_t dy = 0; dy < 2; ++dy)
-            for (std::uint32_t dx = 0; dx < 2; ++dx)
-                if (isOpen(x - dx, y - dy))
-                    return first_cells[std::size_t{y - dy} * across + x - dx] + 2 * dy + dx;
-    }
+    if (node >= fine_nodes) return crossings[node - fine_nodes];
     const std::uint32_t block = fine_blocks[node / (kSide * kSide)], local = node % (kSide * kSide);
     return first_cells[block] + (local / kSide + 1) * gpu::FIELD_BLOCK_ROW + local % kSide + 1;
 }

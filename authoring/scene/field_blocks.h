@@ -22,9 +22,10 @@ struct FieldBlocks {
     std::uint32_t across = 0;
     std::uint32_t up = 0;
     std::vector<Kind> kinds;
-    std::vector<std::uint32_t> order;         ///< of each fine block: how many are before it
-    std::vector<std::uint32_t> fine_blocks;   ///< in their order
-    std::vector<std::uint32_t> first_cells;   ///< where each block's cells begin in a field
+    std::vector<std::uint32_t> order;        ///< of each fine block: how many are before it
+    std::vector<std::uint32_t> fine_blocks;  ///< in their order
+    std::vector<std::uint32_t>
+        first_cells;  ///< where each fine block's cells begin in a field, after all crossings
     std::vector<std::uint32_t> corner_nodes;  ///< of each crossing of the blocks' edges, or gpu::NO_INDEX
     std::vector<std::uint32_t> crossings;     ///< of each corner node
     std::uint32_t fine_nodes = 0;             ///< come before the corners

@@ -207,7 +207,7 @@ std::vector<std::uint32_t> Ground::spotsIn(const LocalPolygon& polygon) {
 
 float Ground::lengthFrom(const Field& field, std::uint32_t spot) const {
     if (spot == gpu::NO_INDEX) return kUnreachable;
-    return field.lengthFrom(blocks_.empty() ? spot : blocks_.cellOf(spot));
+    return field.lengthFrom(cellOf(spot));
 }
 
 /// A straight wall takes one cut, and the rest is the same rectangle for all points near it.

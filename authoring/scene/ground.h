@@ -58,6 +58,8 @@ class Ground {
     std::uint32_t spotAt(glm::vec2 point);
     /// All spots in it, at least the one of its middle.
     std::vector<std::uint32_t> spotsIn(const LocalPolygon& polygon);
+    /// Where a spot's value is in a field.
+    std::uint32_t cellOf(std::uint32_t spot) const { return blocks_.empty() ? spot : blocks_.cellOf(spot); }
     /// Metres of walking, kUnreachable where no path leads.
     float lengthFrom(const Field& field, std::uint32_t spot) const;
     /// A rectangle with nothing but free ground in it, but for the point's own spot: of a square of `side` m

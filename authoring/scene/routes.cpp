@@ -217,6 +217,13 @@ float Routes::reachable(std::uint32_t field, const LocalPolygon& from) const {
     return least;
 }
 
+glm::vec2 Routes::directionFrom(std::uint32_t field, glm::vec2 from) const {
+    const std::uint32_t spot = fields_.empty() ? gpu::NO_INDEX : ground_.spotAt(from);
+    if (spot == gpu::NO_INDEX) return glm::vec2(0.0f);
+    const gpu::FieldCell& cell = fields_[field].field->cells[ground_.cellOf(spot)];
+    return cell.distance < 0.0f ? glm::vec2(0.0f) : glm::unpackSnorm2x16(cell.direction);
+}
+
 FieldStore Routes::store() const {
     FieldStore store;
     store.cells_per_field = ground_.cellsPerField();
@@ -227,9 +234,8 @@ FieldStore Routes::store() const {
     store.block_cell = blocks.cells.cell_size;
     store.blocks_across = blocks.across;
     store.blocks_up = blocks.up;
-    for (std::size_t block = 0; block < blocks.kinds.size(); ++block)
-        store.block_table.push_back({std::bit_cast<float>(blocks.first_cells[block]),
-                                     blocks.kinds[block] == FieldBlocks::Kind::fine ? 1u : 0u});
+    for (const std::uint32_t first : blocks.first_cells)
+        store.block_table.push_back({std::bit_cast<float>(first), 0});
     return store;
 }
 

@@ -46,6 +46,9 @@ class Routes {
     float reachable(std::uint32_t field, glm::vec2 from) const;
     float reachable(std::uint32_t field, const LocalPolygon& from) const;
 
+    /// Where the way leads at first; zero where it is straight or unknown.
+    glm::vec2 directionFrom(std::uint32_t field, glm::vec2 from) const;
+
     bool tooManyFields() const { return too_many_; }
     /// Somebody needs a field for which there is no room.
     void lackField() { too_many_ = true; }

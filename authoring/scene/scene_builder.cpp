@@ -451,7 +451,7 @@ class Builder {
             checkStart(formation, i, person, bodies);
             const glm::vec2 goal = scene_.stages.back().point;
             scene_.goals.push_back(goal);
-            turn(formation, i, goal, person);
+            turn(formation, i, goal, routes, person);
             addChanges(formation.id, formation.people, formation.where,
                        {{person.spawn_position, person.spawn_position, person.spawn_position}}, random, i,
                        index, person, itineraries);
@@ -518,8 +518,16 @@ class Builder {
         return stage;
     }
 
-    void turn(const Formation& formation, std::size_t i, glm::vec2 goal, gpu::Person& person) const {
-        const glm::vec2 ahead = goal - person.spawn_position;
+    /// People look where their way leads.
+    void turn(const Formation& formation, std::size_t i, glm::vec2 goal, const Routes& routes,
+              gpu::Person& person) const {
+        glm::vec2 ahead = goal - person.spawn_position;
+        const gpu::Stage& stage = scene_.stages.back();
+        if (stage.field != gpu::NO_INDEX && (stage.field & gpu::FIELD_THEN_POINT) != 0)
+            if (const glm::vec2 way =
+                    routes.directionFrom(stage.field & ~gpu::FIELD_THEN_POINT, person.spawn_position);
+                way != glm::vec2(0.0f))
+                ahead = way;
         person.heading = ahead == glm::vec2(0.0f) ? 0.0f : std::atan2(ahead.y, ahead.x);
         if (const auto* list = std::get_if<ListFormation>(&formation.shape); list && list->agents[i].heading)
             person.heading = static_cast<float>(*list->agents[i].heading * 3.14159265358979 / 180.0);

@@ -40,20 +40,22 @@ struct FieldCorners {
     vec2 fraction;
 };
 
-/// On large sites a field has fine cells only in the blocks where walls or kerbs are near, in rows of ten: eight, and
-/// the neighbours' next ones on both sides. Any other block has its four corners. The fields' own cells come after a
-/// table that says where each block's begin.
+/// On large sites a field first has a value for each crossing of the blocks' edges, and then fine cells for the blocks
+/// where walls or kerbs are near, in rows of ten: eight, and the neighbours' next ones on both sides. All fields come
+/// after a table that says where each block's cells begin, or 0.
 FieldCorners cornersInBlocks(uint field, vec2 position) {
     uvec2 blocks = uvec2(parameters.field_blocks_across, parameters.field_blocks_up);
     vec2 at = clamp((position - parameters.grid_minimum) / parameters.field_cell, vec2(0.0),
                     vec2(blocks * FIELD_BLOCK_CELLS_ACROSS) - 1.0e-3);
     uvec2 block = uvec2(at) / FIELD_BLOCK_CELLS_ACROSS;
-    uvec2 entry = texelFetch(field_cells, int(block.y * blocks.x + block.x)).xy;
-    uint first = blocks.x * blocks.y + field * parameters.cells_per_field + entry.x;
+    uint cells = texelFetch(field_cells, int(block.y * blocks.x + block.x)).x;
+    uint first = blocks.x * blocks.y + field * parameters.cells_per_field;
     vec2 local = at - vec2(block * FIELD_BLOCK_CELLS_ACROSS);
-    if (entry.y == 0u) return FieldCorners(first, 2u, local / float(FIELD_BLOCK_CELLS_ACROSS));
+    if (cells == 0u)
+        return FieldCorners(first + block.y * (blocks.x + 1u) + block.x, blocks.x + 1u,
+                            local / float(FIELD_BLOCK_CELLS_ACROSS));
     vec2 cell = floor(local + 0.5);
-    return FieldCorners(first + uint(cell.y) * FIELD_BLOCK_ROW + uint(cell.x), FIELD_BLOCK_ROW, local + 0.5 - cell);
+    return FieldCorners(first + cells + uint(cell.y) * FIELD_BLOCK_ROW + uint(cell.x), FIELD_BLOCK_ROW, local + 0.5 - cell);
 }
 
 FieldCorners cornersOf(uint field, vec2 position) {

@@ -30,11 +30,13 @@ inline Probe probe(const Scene& scene, std::uint32_t field, glm::vec2 at) {
     if (store.blocks_across > 0) {
         const glm::vec2 cells = (at - scene.grid.minimum) / store.block_cell;
         const auto x = static_cast<std::uint32_t>(cells.x) / 8, y = static_cast<std::uint32_t>(cells.y) / 8;
-        const gpu::FieldCell& entry = store.block_table[std::size_t{y} * store.blocks_across + x];
+        const auto cells_of_block = std::bit_cast<std::uint32_t>(
+            store.block_table[std::size_t{y} * store.blocks_across + x].distance);
         const glm::vec2 local = cells - glm::vec2(8 * x, 8 * y);
-        first = std::bit_cast<std::uint32_t>(entry.distance);
-        row = entry.direction ? 10 : 2;
-        fraction = entry.direction ? local + 0.5f : local / 8.0f;
+        const bool is_fine = cells_of_block > 0;
+        first = is_fine ? cells_of_block : std::size_t{y} * (store.blocks_across + 1) + x;
+        row = is_fine ? 10 : store.blocks_across + 1;
+        fraction = is_fine ? local + 0.5f : local / 8.0f;
     } else {
         fraction = (at - scene.grid.minimum) / scene.grid.cell_size - 0.5f;
         row = scene.grid.width;
