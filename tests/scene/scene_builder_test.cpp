@@ -189,8 +189,9 @@ TEST(SceneBuilder, ComplainsAboutPeopleAndGoalsInWalls) {
     Layout layout = simpleLayout();
     Formation list;
     list.id = "extras";
-    list.shape = ListFormation{{{{15.1, 5.0}, {20, 5}, {}, {}, {}, {7, 3, "/formations/0/agents/0"}},
-                                {{10, 5}, {15, 5}, {}, {}, {}, {8, 3, ""}}}};
+    list.shape =
+        ListFormation{{{{15.1, 5.0}, {20, 5}, {}, {}, {}, {7, 3, SourcePath("/formations/0/agents/0")}},
+                       {{10, 5}, {15, 5}, {}, {}, {}, {8, 3, {}}}}};
     layout.formations.push_back(list);
     const std::string errors = errorOf(layout);
     EXPECT_NE(errors.find("person 0 stands in a wall"), std::string::npos) << errors;
