@@ -51,23 +51,17 @@ class Lattice {
 
     /// Goes on beyond what is known: first as it slopes, then level.
     void fill() {
-        std::vector<std::uint32_t> missing;
+        std::vector<std::uint32_t> edge;
         for (std::uint32_t i = 0; i < values_.size(); ++i)
-            if (std::isnan(values_[i])) missing.push_back(i);
-        for (int round = 0; !missing.empty(); ++round) {
+            if (std::isnan(values_[i])) edge.push_back(i);
+        for (int round = 0; !edge.empty(); ++round) {
             std::vector<std::pair<std::uint32_t, float>> found;
-            std::vector<std::uint32_t> left;
-            for (const std::uint32_t i : missing) {
-                const float value = guess(i, round < kGoesOn);
-                if (std::isnan(value))
-                    left.push_back(i);
-                else
+            for (const std::uint32_t i : edge)
+                if (const float value = guess(i, round < kGoesOn); !std::isnan(value))
                     found.emplace_back(i, value);
-            }
-            if (found.empty()) break;
             for (const auto& [i, value] : found)
                 values_[i] = value;
-            missing = std::move(left);
+            edge = missingBeside(found);
         }
     }
 
@@ -84,6 +78,26 @@ class Lattice {
         if (x < 0 || y < 0 || x >= static_cast<int>(raster_.width) || y >= static_cast<int>(raster_.height))
             return kMissing;
         return values_[static_cast<std::size_t>(y) * raster_.width + static_cast<std::size_t>(x)];
+    }
+
+    std::vector<std::uint32_t> missingBeside(
+        const std::vector<std::pair<std::uint32_t, float>>& nodes) const {
+        std::vector<std::uint32_t> missing;
+        for (const auto& [i, value] : nodes) {
+            const int x = static_cast<int>(i % raster_.width), y = static_cast<int>(i / raster_.width);
+            for (int near_y = std::max(y - 1, 0); near_y <= y + 1; ++near_y)
+                for (int near_x = std::max(x - 1, 0); near_x <= x + 1; ++near_x) {
+                    if (near_x >= static_cast<int>(raster_.width) ||
+                        near_y >= static_cast<int>(raster_.height))
+                        continue;
+                    if (std::isnan(at(near_x, near_y)))
+                        missing.push_back(static_cast<std::uint32_t>(near_y) * raster_.width +
+                                          static_cast<std::uint32_t>(near_x));
+                }
+        }
+        std::sort(missing.begin(), missing.end());
+        missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
+        return missing;
     }
 
     float guess(std::uint32_t i, bool slopes) const {
