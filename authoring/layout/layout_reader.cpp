@@ -219,7 +219,9 @@ class Reader {
         if (const JsonNode* id = node.find("id"); id && id->kind == JsonNode::Kind::text && wall.id.empty())
             diagnostics_.error(id->where, "`id` is empty", "name the wall, or leave `id` out");
         reader.boolean("closed", wall.closed);
-        wall.points = reader.points("points", wall.closed ? 3 : 0);
+        wall.points =
+            reader.points("points", wall.closed ? 3 : 0,
+                          wall.closed ? ObjectReader::Repeated::kept : ObjectReader::Repeated::refused);
         const JsonNode* thickness = reader.get("thickness");
         reader.number("thickness", wall.thickness);
         if (thickness && wall.closed)

@@ -180,7 +180,7 @@ void ObjectReader::offset(const std::string& key, glm::dvec3& value) {
         value[i] = numberOf(node->items[static_cast<std::size_t>(i)], limits, diagnostics_).value_or(0.0);
 }
 
-std::vector<glm::dvec2> ObjectReader::points(const std::string& key, std::size_t least) {
+std::vector<glm::dvec2> ObjectReader::points(const std::string& key, std::size_t least, Repeated repeated) {
     const SchemaRule rule_of_key = rule(key);
     const SchemaRule rule_of_item = rule_of_key.item();
     least = std::max(least, rule_of_key.leastItems());
@@ -205,7 +205,7 @@ std::vector<glm::dvec2> ObjectReader::points(const std::string& key, std::size_t
     for (const JsonNode& item : node->items) {
         const std::optional<glm::dvec2> point = pointOf(item, rule_of_item);
         if (!point) continue;
-        if (!result.empty() && result.back() == *point)
+        if (repeated == Repeated::refused && !result.empty() && result.back() == *point)
             diagnostics_.error(item.where,
                                fmt::format("the point [{:.15g}, {:.15g}] is repeated", point->x, point->y),
                                "remove one of them");

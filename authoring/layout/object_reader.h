@@ -53,9 +53,12 @@ class ObjectReader {
     /// A point that need not be there.
     void point(const std::string& key, std::optional<glm::dvec2>& value);
     void offset(const std::string& key, glm::dvec3& value);
-    /// Points of a line or polygon; repeated neighbours are an error.
+    enum class Repeated { refused, kept };
+    /// Points of a line or polygon.
     /// @param least how many where these are more than the schema asks for
-    std::vector<glm::dvec2> points(const std::string& key, std::size_t least = 0);
+    /// @param repeated what becomes of neighbours at the same place
+    std::vector<glm::dvec2> points(const std::string& key, std::size_t least = 0,
+                                   Repeated repeated = Repeated::refused);
     /// One of the schema's words.
     std::optional<std::string> word(const std::string& key);
     template <class Value>

@@ -29,7 +29,7 @@ SourcePath SourcePath::opened() const {
 std::string SourcePath::text() const {
     std::string text = index_ == kNoIndex ? "" : fmt::format("/{}", index_);
     for (const Step* step = last_.get(); step; step = step->before.get())
-        text = step->words + text;
+        text.insert(0, step->words);
     return text;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <stdexcept>
 #include <unordered_map>
 
 #include "authoring/layout/layout_reader.h"
@@ -75,6 +76,7 @@ class Builder {
         buildGeometry();
         if (diagnostics_.hasErrors()) return std::nullopt;
         buildTerrain();
+        if (terrain_mesh_ && layout_.terrain && !scene_.terrain) return std::nullopt;
         Routes routes = planRoutes();
         Itineraries itineraries(layout_, rebase_, geometry_, routes, diagnostics_, scene_);
         itineraries.prepare();
@@ -289,8 +291,14 @@ class Builder {
 
     void buildTerrain() {
         if (!layout_.terrain || !terrain_mesh_) return;
-        scene_.terrain = std::make_shared<const Terrain>(*terrain_mesh_, layout_.terrain->highest,
-                                                         scene_.origin, scene_.minimum, scene_.maximum);
+        try {
+            scene_.terrain = std::make_shared<const Terrain>(*terrain_mesh_, layout_.terrain->highest,
+                                                             scene_.origin, scene_.minimum, scene_.maximum);
+        } catch (const std::invalid_argument& error) {
+            diagnostics_.error(layout_.terrain->file_where,
+                               fmt::format("the terrain cannot be used: {}", error.what()));
+            return;
+        }
         checkTerrain(layout_, rebase_, geometry_, *terrain_mesh_, *scene_.terrain, diagnostics_);
     }
 

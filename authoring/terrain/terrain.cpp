@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <stdexcept>
 
 namespace throng::authoring {
 namespace {
@@ -14,6 +15,7 @@ constexpr float kSmallestNode = 0.25f;        // m between the lattice's nodes
 constexpr double kMostNodes = 2'000'000.0;    // of the lattice
 constexpr double kMostSamples = 8'000'000.0;  // of the ground, for the lattice
 constexpr double kMostCells = 1'000'000.0;
+constexpr double kMostLooks = 1.0e9;  // at faces, while the lattice is made
 constexpr std::size_t kMostItems = 32'000'000;
 constexpr float kMargin = 1.0f;       // m round the scene
 constexpr float kSteepFace = 1.5f;    // rise over run: steeper faces are risers
@@ -254,6 +256,10 @@ void Terrain::sampleLattice() {
     lattice_ = rasterOf(maximum_ - minimum_, kSmallestNode, kMostNodes);
     const int side =
         std::clamp(static_cast<int>(std::sqrt(kMostSamples / static_cast<double>(lattice_.count()))), 1, 4);
+    const double layers = static_cast<double>(items_.size()) / static_cast<double>(cells_.count());
+    if (static_cast<double>(lattice_.count()) * side * side * layers > kMostLooks)
+        throw std::invalid_argument(
+            "its faces lie above each other in too many layers: export the ground alone");
     std::vector<float> heights(lattice_.count(), kMissing), slopes(lattice_.count(), kMissing);
     std::vector<float> partial = heights;
     for (std::uint32_t y = 0; y < lattice_.height; ++y)

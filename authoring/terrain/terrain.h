@@ -31,6 +31,7 @@ class Terrain {
   public:
     /// @param highest which of several faces above each other counts
     /// @param origin, minimum, maximum as Scene's: only what lies there is kept
+    /// @throws std::invalid_argument for what would take minutes to sample
     Terrain(const TerrainMesh& mesh, bool highest, glm::dvec2 origin, glm::vec2 minimum, glm::vec2 maximum);
 
     /// The very ground (m); nothing where there is none.

@@ -11,13 +11,12 @@
 #include <system_error>
 #include <utility>
 
-#include "base/numbers.h"
 
 namespace throng {
 namespace {
 
 [[noreturn]] void tooLarge(const std::filesystem::path& path, std::uint64_t limit) {
-    throw InputError(path, fmt::format("is larger than the {} that can be read", readableBytes(limit)));
+    throw InputError(path, fmt::format("is larger than the {} that can be read", fmt::format("{} MiB", limit >> 20)));
 }
 
 }  // namespace

@@ -55,7 +55,8 @@ FieldCorners cornersInBlocks(uint field, vec2 position) {
         return FieldCorners(first + block.y * (blocks.x + 1u) + block.x, blocks.x + 1u,
                             local / float(FIELD_BLOCK_CELLS_ACROSS));
     vec2 cell = floor(local + 0.5);
-    return FieldCorners(first + cells + uint(cell.y) * FIELD_BLOCK_ROW + uint(cell.x), FIELD_BLOCK_ROW, local + 0.5 - cell);
+    uint corner = first + cells + uint(cell.y) * FIELD_BLOCK_ROW + uint(cell.x);
+    return FieldCorners(corner, FIELD_BLOCK_ROW, local + 0.5 - cell);
 }
 
 FieldCorners cornersOf(uint field, vec2 position) {

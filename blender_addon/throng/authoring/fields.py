@@ -37,7 +37,9 @@ def codec_of(key, entry, beginning=None, attribute=None, required=False):
 
 def row_of(key, entry):
     """(codec, label, least, most, what it is)"""
-    about = ", ".join(part for part in (schema.description_of(entry), schema.unit_of(entry)) if part)
+    about, unit = schema.description_of(entry), schema.unit_of(entry)
+    if unit and not about.endswith(f", {unit}"):
+        about = f"{about}, {unit}"
     return (codec_of(key, entry), label_of(key), *schema.limits_of(entry), about)
 
 
