@@ -11,12 +11,12 @@
 #include <system_error>
 #include <utility>
 
-
 namespace throng {
 namespace {
 
 [[noreturn]] void tooLarge(const std::filesystem::path& path, std::uint64_t limit) {
-    throw InputError(path, fmt::format("is larger than the {} that can be read", fmt::format("{} MiB", limit >> 20)));
+    throw InputError(
+        path, fmt::format("is larger than the {} that can be read", fmt::format("{} MiB", limit >> 20)));
 }
 
 }  // namespace

@@ -58,8 +58,9 @@ def motion_of(layout):
     if "motion" not in layout.document["properties"]:
         return ()
     rules = layout.entries(layout.named("motion"))
-    return tuple((name, rule.get("title") or label_of(name), schema.description_of(rule), rows_of(rule, layout=layout, row_of=row_of_rule))
-                 for name, rule in ((name, layout.followed(rule)) for name, rule in rules.items()))
+    followed = ((name, layout.followed(rule)) for name, rule in rules.items())
+    return tuple((name, rule.get("title") or label_of(name), schema.description_of(rule),
+                  rows_of(rule, layout=layout, row_of=row_of_rule)) for name, rule in followed)
 
 
 def _codec(name, key, attribute=None, required=False):
