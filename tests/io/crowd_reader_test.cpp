@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "io/crowd_reader.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <stdexcept>
 
-#include "io/crowd_reader.h"
 #include "io/streams/stream_writer.h"
 #include "sample_crowd.h"
 

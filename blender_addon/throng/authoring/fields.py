@@ -37,11 +37,16 @@ def codec_of(key, entry, beginning=None, attribute=None, required=False):
 
 def row_of(key, entry):
     """(codec, label, least, most, what it is)"""
-    about = ", ".join(part for part in (schema.description_of(entry), schema.unit_of(entry)) if part)
-    return (codec_of(key, entry), label_of(key), *schema.limits_of(entry), about)
+    return (codec_of(key, entry), label_of(key), *schema.limits_of(entry), schema.description_of(entry))
 
 
-def rows_of(owner, first=(), layout=schema.LAYOUT):
+def row_of_rule(key, entry):
+    """Numbers of rules have units of their own beside what they are."""
+    *row, about = row_of(key, entry)
+    return (*row, ", ".join(part for part in (about, schema.unit_of(entry)) if part))
+
+
+def rows_of(owner, first=(), layout=schema.LAYOUT, row_of=row_of):
     """The rows of all keys of an object, some of them first."""
     entries = layout.entries(owner)
     return tuple(row_of(key, layout.followed(entries[key]))
@@ -53,8 +58,9 @@ def motion_of(layout):
     if "motion" not in layout.document["properties"]:
         return ()
     rules = layout.entries(layout.named("motion"))
-    return tuple((name, rule.get("title") or label_of(name), schema.description_of(rule), rows_of(rule, layout=layout))
-                 for name, rule in ((name, layout.followed(rule)) for name, rule in rules.items()))
+    followed = ((name, layout.followed(rule)) for name, rule in rules.items())
+    return tuple((name, rule.get("title") or label_of(name), schema.description_of(rule),
+                  rows_of(rule, layout=layout, row_of=row_of_rule)) for name, rule in followed)
 
 
 def _codec(name, key, attribute=None, required=False):
