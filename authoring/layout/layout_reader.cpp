@@ -281,10 +281,9 @@ class Reader {
         }
         wall.points = std::move(mended);
         if (removed > 0)
-            diagnostics_.warning(node->where,
-                                 fmt::format("the outline stays in place or runs back over itself: {} of its "
-                                             "points are left out",
-                                             removed));
+            diagnostics_.warning(node->where, fmt::format("the outline runs back over itself: {} of its "
+                                                          "points are left out",
+                                                          removed));
         if (selfCrossing(wall.points, false)) return checkPolygon(wall.points, node);
         if (const auto touching = selfCrossing(wall.points))
             diagnostics_.warning(

@@ -221,18 +221,22 @@ class BlockMarcher {
 
     /// From a node through the edge between two others, of which the first is reached.
     void crossRoom(const Room& room, std::size_t from, std::size_t a, std::size_t b) {
+        const std::uint32_t node = room.nodes[from];
         const Value& first = values_[room.nodes[a]];
         const Value& second = values_[room.nodes[b]];
-        if (map_.cost[room.nodes[from]] == kUnreachable) return;
+        const float cost = map_.cost[node];
+        if (cost == kUnreachable) return;
         if (second.distance == kUnreachable) return goStraight(room, from, a, 0.0f, first);
         const glm::vec2 edge = room.at[b] - room.at[a], offset = room.at[from] - room.at[a];
-        const float size = glm::length(edge);
-        const float slope = (second.distance - first.distance) / (map_.cost[room.nodes[from]] * size);
+        const float per_metre = 1.0f / glm::length(edge);
+        const float away = std::abs(offset.x * edge.y - offset.y * edge.x) * per_metre;
+        if (std::min(first.distance, second.distance) + cost * away >= values_[node].distance - kBetter)
+            return;  // no way through there is shorter
+        const float slope = (second.distance - first.distance) / cost * per_metre;
         if (std::abs(slope) >= 1.0f) return goStraight(room, from, a, 0.0f, first);
-        const float along = glm::dot(offset, edge) / size;
-        const float away = std::abs(offset.x * edge.y - offset.y * edge.x) / size;
-        const float through = std::clamp(along - slope * away / std::sqrt(1.0f - slope * slope), 0.0f, size);
-        const float share = through / size;
+        const float along = glm::dot(offset, edge) * per_metre;
+        const float through = along - slope * away / std::sqrt(1.0f - slope * slope);
+        const float share = std::clamp(through * per_metre, 0.0f, 1.0f);
         const Value between{first.distance + share * (second.distance - first.distance),
                             first.length + share * (second.length - first.length),
                             {}};
@@ -345,7 +349,7 @@ Field solveField(const BlockMap& map, std::span<const std::uint32_t> targets, co
     BlockMarcher marcher(map);
     const FieldBlocks& blocks = *map.blocks;
     startFrom(marcher, blocks, targets);
-    for (std::uint32_t node = 0; straight && node < straight->from.size(); ++node) {
+    for (std::uint32_t node = 0; straight && straight->is_start && node < straight->from.size(); ++node) {
         if (!straight->from[node] || map.cost[node] != 1.0f) continue;
         const glm::vec2 way = straight->to - blocks.positionOf(node);
         const float metres = glm::length(way);

@@ -50,7 +50,7 @@ void startAround(const WalkMap& map, std::uint32_t target, std::vector<float>& s
 std::vector<float> startOf(const WalkMap& map, std::span<const std::uint32_t> targets,
                            const StraightWays* straight) {
     std::vector<float> start(map.cost.size(), kUnreachable);
-    if (straight)
+    if (straight && straight->is_start)
         for (std::uint32_t cell = 0; cell < start.size(); ++cell)
             if (straight->from[cell] && map.cost[cell] == 1.0f)
                 start[cell] = glm::distance(

@@ -104,6 +104,7 @@ struct Field {
 struct StraightWays {
     glm::vec2 to{0.0f};
     std::vector<std::uint8_t> from;  ///< of each cell, 0 or 1
+    bool is_start = true;            ///< the distance along them is the field's
 };
 
 /// Walking distance to the nearest target cell (Eikonal equation) and the way downhill.

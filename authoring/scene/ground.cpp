@@ -19,7 +19,7 @@ constexpr double kMostDetourCells = 30'000.0;
 /// Doors of 0.8 m at any angle stay open on cells of this size (m): free cells have to be found between two
 /// walls, and walls without thickness take more than half a cell on either side.
 constexpr float kDoorCell = 0.3f;
-constexpr float kBlockCell = 0.2f;
+constexpr float kBlockCell = 0.25f;
 constexpr std::uint32_t kMostBlockCells = 8'000'000;  // of one field
 constexpr double kMostFieldCells = 20.0e6;  // of all fields, where cells of kDoorCell do not need more
 /// Who walks to a point of one's own takes corners more closely than who follows others to a place (m).
@@ -240,7 +240,8 @@ GoalBox Ground::clearBox(glm::vec2 point, float side) {
             cells.minimum + glm::vec2(x1, y1) * cells.cell_size};
 }
 
-StraightWays Ground::straightTo(const GoalBox& goals, glm::vec2 middle) {
+/// @param room clear: from anywhere in it the way is straight
+StraightWays Ground::straightTo(const GoalBox& goals, glm::vec2 middle, const GoalBox& room) {
     StraightWays ways;
     ways.to = middle;
     const std::vector<float>& cost = costFor(kToPoints);
@@ -249,16 +250,15 @@ StraightWays Ground::straightTo(const GoalBox& goals, glm::vec2 middle) {
     std::vector<glm::vec2> corners = {middle};
     if (goals.lower != goals.upper)
         corners = {goals.lower, goals.upper, {goals.lower.x, goals.upper.y}, {goals.upper.x, goals.lower.y}};
-    const float box_radius = 0.5f * glm::distance(goals.lower, goals.upper);
-    const glm::vec2 reach(kStraight + box_radius);
-    visitSpots(middle - reach, middle + reach, [&](std::uint32_t spot, glm::vec2 at) {
+    const glm::vec2 lower = glm::min(goals.lower, room.lower), upper = glm::max(goals.upper, room.upper);
+    visitSpots(lower - kStraight, upper + kStraight, [&](std::uint32_t spot, glm::vec2 at) {
         if (cost[spot] == kUnreachable) return;
-        const bool is_clear = std::all_of(corners.begin(), corners.end(), [&](glm::vec2 corner) {
-            return sight_->isClear(at, corner, close);
-        });
-        const bool is_inside = at.x > goals.lower.x - 1.5f * cell && at.x < goals.upper.x + 1.5f * cell &&
-                               at.y > goals.lower.y - 1.5f * cell && at.y < goals.upper.y + 1.5f * cell;
-        if (is_clear || is_inside || glm::distance(at, middle) < 1.5f * cell) ways.from[spot] = 1;
+        const bool is_inside =
+            at.x > room.lower.x && at.x < room.upper.x && at.y > room.lower.y && at.y < room.upper.y;
+        const bool is_clear = is_inside || std::all_of(corners.begin(), corners.end(), [&](glm::vec2 corner) {
+                                  return sight_->isClear(at, corner, close);
+                              });
+        if (is_clear || glm::distance(at, middle) < 1.5f * cell) ways.from[spot] = 1;
     });
     return ways;
 }
@@ -276,22 +276,38 @@ std::shared_ptr<const Field> Ground::solve(bool keep_to_roads, const Targets& ta
 }
 
 std::shared_ptr<const Field> Ground::solveTo(const GoalBox& goals) {
-    const std::array<float, 4> key = {goals.lower.x, goals.lower.y, goals.upper.x, goals.upper.y};
-    return once(solved_to_, key, [&] {
-        const glm::vec2 middle = 0.5f * (goals.lower + goals.upper);
-        const FieldGrid& cells = sight().grid();
-        glm::vec2 reached = middle;
-        if (!sight().isFree(column(cells, middle.x), row(cells, middle.y)))
-            reached = freeCellNear(middle).value_or(middle);
-        Targets targets;
-        const std::uint32_t x = column(cells, reached.x), y = row(cells, reached.y);
-        if (blocks_.empty())
-            targets = {cellAt(grid_, reached)};
-        else if (const std::uint32_t node = blocks_.fineNode(x, y); node != gpu::NO_INDEX)
-            targets = {node};
-        const StraightWays straight = straightTo(goals, reached);
-        return solveFine(kToPoints, targets, &straight);
-    });
+    return once(
+        solved_to_,
+        std::array{goals.lower.x, goals.lower.y, goals.upper.x, goals.upper.y, 0.0f, 0.0f, 0.0f, 0.0f}, [&] {
+            const glm::vec2 middle = 0.5f * (goals.lower + goals.upper);
+            const FieldGrid& cells = sight().grid();
+            glm::vec2 reached = middle;
+            if (!sight().isFree(column(cells, middle.x), row(cells, middle.y)))
+                reached = freeCellNear(middle).value_or(middle);
+            Targets targets;
+            const std::uint32_t x = column(cells, reached.x), y = row(cells, reached.y);
+            if (blocks_.empty())
+                targets = {cellAt(grid_, reached)};
+            else if (const std::uint32_t node = blocks_.fineNode(x, y); node != gpu::NO_INDEX)
+                targets = {node};
+            const glm::vec2 around(1.5f * cells.cell_size);
+            const StraightWays straight =
+                straightTo(goals, reached, {goals.lower - around, goals.upper + around});
+            return solveFine(kToPoints, targets, &straight);
+        });
+}
+
+std::shared_ptr<const Field> Ground::solveTo(const GoalBox& goals, const GoalBox& room) {
+    return once(solved_to_,
+                std::array{goals.lower.x, goals.lower.y, goals.upper.x, goals.upper.y, room.lower.x,
+                           room.lower.y, room.upper.x, room.upper.y},
+                [&] {
+                    StraightWays straight = straightTo(goals, 0.5f * (goals.lower + goals.upper), room);
+                    straight.is_start = false;
+                    const Targets targets = spotsIn(
+                        {room.lower, {room.upper.x, room.lower.y}, room.upper, {room.lower.x, room.upper.y}});
+                    return solveFine(kAnywhere, targets, &straight);
+                });
 }
 
 std::shared_ptr<const Field> Ground::solveCoarse(bool keep_to_roads, const Targets& targets) {

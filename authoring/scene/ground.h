@@ -70,6 +70,9 @@ class Ground {
     std::shared_ptr<const Field> solve(bool keep_to_roads, const Targets& targets);
     /// To the middle of a box, and from where all of it can be walked to straight on, straight.
     std::shared_ptr<const Field> solveTo(const GoalBox& goals);
+    /// To a room, all clear, with the goals in it: from there, and from where the way to all goals is
+    /// straight anyway, straight.
+    std::shared_ptr<const Field> solveTo(const GoalBox& goals, const GoalBox& room);
     /// Distances on the coarse map.
     std::shared_ptr<const Field> solveCoarse(bool keep_to_roads, const Targets& targets);
 
@@ -88,7 +91,7 @@ class Ground {
     const std::vector<float>& costFor(Purpose purpose);
     Field solveFine(Purpose purpose, const Targets& targets, const StraightWays* straight);
     std::optional<glm::vec2> freeCellNear(glm::vec2 point);
-    StraightWays straightTo(const GoalBox& goals, glm::vec2 middle);
+    StraightWays straightTo(const GoalBox& goals, glm::vec2 middle, const GoalBox& room);
     template <class Visit>
     void visitSpots(glm::vec2 lower, glm::vec2 upper, Visit visit) const;
 
@@ -104,7 +107,7 @@ class Ground {
     std::optional<std::vector<float>> road_distances_;
     mutable std::mutex solving_;
     Solved solved_[2], solved_coarse_[2];
-    std::map<std::array<float, 4>, std::shared_ptr<const Field>> solved_to_;
+    std::map<std::array<float, 8>, std::shared_ptr<const Field>> solved_to_;
 };
 
 /// Keeps the ground of the last few scenes: many scenarios differ in everything but their ground, and working

@@ -139,68 +139,82 @@ std::string Routes::keyOf(const std::vector<Place>& places, bool keep_to_roads) 
 
 /// Points that share a clear rectangle of up to `side` metres; by themselves for 0.
 /// @returns one group more than `most` where they are more than that
-Routes::Groups Routes::groupsOf(float side, std::size_t most) const {
+Routes::Groups Routes::groupsOf(const Points& points, float side, std::size_t most) const {
     Groups groups;
-    std::vector<GoalBox> rooms;
-    for (std::size_t point = 0; point < points_.size() && groups.size() <= most; ++point) {
-        const glm::vec2 at = points_[point];
-        std::size_t group = groups.size();
-        for (std::size_t i = 0; side > 0.0f && i < rooms.size() && group == groups.size(); ++i)
-            if (at.x >= rooms[i].lower.x && at.x < rooms[i].upper.x && at.y >= rooms[i].lower.y &&
-                at.y < rooms[i].upper.y)
-                group = i;
-        if (group == groups.size()) {
-            if (side > 0.0f) rooms.push_back(ground_.clearBox(at, side));
-            groups.push_back({{at, at}, {}});
-        }
-        groups[group].first = {glm::min(groups[group].first.lower, at),
-                               glm::max(groups[group].first.upper, at)};
-        groups[group].second.push_back(point);
+    for (const glm::vec2 at : points) {
+        if (groups.size() > most) break;
+        const auto holds = [&](const Group& group) {
+            return side > 0.0f && at.x >= group.room->lower.x && at.x < group.room->upper.x &&
+                   at.y >= group.room->lower.y && at.y < group.room->upper.y;
+        };
+        auto group = std::find_if(groups.begin(), groups.end(), holds);
+        if (group == groups.end())
+            group = groups.insert(
+                group,
+                {{at, at}, side > 0.0f ? std::optional(ground_.clearBox(at, side)) : std::nullopt, {}});
+        group->bounds = {glm::min(group->bounds.lower, at), glm::max(group->bounds.upper, at)};
+        group->points.push_back(at);
     }
     return groups;
 }
 
-std::size_t Routes::plan(const std::vector<glm::vec2>& points) {
-    std::set<std::pair<float, float>> different;
-    points_.clear();
-    for (const glm::vec2 point : points)
-        if (different.emplace(point.x, point.y).second) points_.push_back(point);
+std::size_t Routes::plan(const std::vector<PointGoal>& goals) {
+    std::set<std::tuple<bool, float, float>> different;
+    Points straight, others;
+    for (const auto& [point, is_straight] : goals)
+        if (different.emplace(is_straight, point.x, point.y).second)
+            (is_straight ? straight : others).push_back(point);
     // At least as many as there are rooms, at most as many as do not take long.
     constexpr float kWidest = 32.0f;  // m
     const std::size_t affordable = std::max<std::size_t>(1, kMostPointCells / ground_.cellsPerField());
-    groups_ = groupsOf(0.0f, affordable);
+    groups_ = groupsOf(others, 0.0f, affordable);
     if (groups_.size() > affordable) {
-        const Groups fewest = groupsOf(kWidest, points_.size());
+        const Groups fewest = groupsOf(others, kWidest, others.size());
         const std::size_t most = std::max(affordable, fewest.size());
-        groups_ = groupsOf(0.0f, most);
+        groups_ = groupsOf(others, 0.0f, most);
         for (float side = 1.0f; groups_.size() > most && side < kWidest; side *= 2.0f)
-            groups_ = groupsOf(side, most);
+            groups_ = groupsOf(others, side, most);
         if (groups_.size() > most) groups_ = fewest;
+        for (Group& group : groups_)
+            group.room.reset();
     }
+    for (Group& group : groupsOf(straight, kWidest, straight.size()))
+        groups_.push_back(std::move(group));
     return groups_.size();
 }
 
 void Routes::solvePlanned() {
     std::vector<std::uint32_t> fields;
-    std::map<std::uint32_t, const GoalBox*> box_of;
-    for (const auto& [box, members] : groups_) {
+    std::map<std::uint32_t, const Group*> group_of;
+    for (const Group& group : groups_) {
         if (!hasRoom()) break;
         Entry entry;
-        const glm::vec2 middle = 0.5f * (box.lower + box.upper);
-        entry.targets = {ground_.blocks().empty() ? ground_.spotAt(middle) : cellAt(ground_.grid(), middle)};
+        const glm::vec2 middle = 0.5f * (group.bounds.lower + group.bounds.upper);
+        if (group.room)
+            entry.targets = cellsInPolygon(ground_.grid(), {group.room->lower,
+                                                            {group.room->upper.x, group.room->lower.y},
+                                                            group.room->upper,
+                                                            {group.room->lower.x, group.room->upper.y}});
+        else
+            entry.targets = {ground_.blocks().empty() ? ground_.spotAt(middle)
+                                                      : cellAt(ground_.grid(), middle)};
         const std::uint32_t field = add(std::move(entry));
         fields.push_back(field);
-        box_of[field] = &box;
-        for (const std::size_t point : members)
-            field_of_point_[{points_[point].x, points_[point].y}] = field;
+        group_of[field] = &group;
+        for (const glm::vec2 point : group.points)
+            field_of_point_[{point.x, point.y, group.room.has_value()}] = field;
     }
+    if (fields.empty()) return;
     ground_.sight();  // for all of them
-    solveEach(fields,
-              [&](std::uint32_t field) { fields_[field].field = ground_.solveTo(*box_of.at(field)); });
+    solveEach(fields, [&](std::uint32_t field) {
+        const Group& group = *group_of.at(field);
+        fields_[field].field =
+            group.room ? ground_.solveTo(group.bounds, *group.room) : ground_.solveTo(group.bounds);
+    });
 }
 
-std::uint32_t Routes::fieldTo(glm::vec2 point) {
-    const auto known = field_of_point_.find({point.x, point.y});
+std::uint32_t Routes::fieldTo(const PointGoal& goal) {
+    const auto known = field_of_point_.find({goal.first.x, goal.first.y, goal.second});
     return known == field_of_point_.end() ? gpu::NO_INDEX : known->second;
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -33,14 +34,17 @@ class Routes {
     std::uint32_t fieldTo(const Place& place, bool keep_to_roads);
     /// The field that leads to whichever of the places is nearest.
     std::uint32_t fieldTo(const std::vector<Place>& places, bool keep_to_roads);
-    /// Decides which points get fields of their own, and which share one with those beside them because they
-    /// are too many. @returns how many fields that takes
-    std::size_t plan(const std::vector<glm::vec2>& points);
+    /// A goal that is a point, and whether somebody can walk straight to it from the start: who does needs a
+    /// field only when pushed out of its way.
+    using PointGoal = std::pair<glm::vec2, bool>;
+    /// Decides which points get fields of their own, and which share one with those beside them: all that are
+    /// walked to straight, and others where they are too many. @returns how many fields that takes
+    std::size_t plan(const std::vector<PointGoal>& goals);
     /// Solves the fields of all points of the plan, on all processors.
     void solvePlanned();
     /// The field that leads to a point of the plan, or to its surroundings, all clear, from where the rest of
     /// the way is straight. @returns NO_INDEX where it would be one field too many
-    std::uint32_t fieldTo(glm::vec2 point);
+    std::uint32_t fieldTo(const PointGoal& goal);
 
     /// Metres of walking, kUnreachable where no path leads.
     float reachable(std::uint32_t field, glm::vec2 from) const;
@@ -69,10 +73,17 @@ class Routes {
         bool has_choice = false;             // leads to one of several places
         bool on_roads = false;               // for those who keep to them
     };
-    using Groups = std::vector<std::pair<GoalBox, std::vector<std::size_t>>>;  // with their points
+    using Points = std::vector<glm::vec2>;
+    /// Points that share a field.
+    struct Group {
+        GoalBox bounds;
+        std::optional<GoalBox> room;  // leads to all of this, and otherwise to the middle of the bounds
+        Points points;
+    };
+    using Groups = std::vector<Group>;
 
     bool hasRoom() const;
-    Groups groupsOf(float side, std::size_t most) const;
+    Groups groupsOf(const Points& points, float side, std::size_t most) const;
     std::uint32_t add(Entry entry);
     /// solve(i) fills the entry of a field in.
     void solveEach(const std::vector<std::uint32_t>& fields, const std::function<void(std::uint32_t)>& solve);
@@ -84,9 +95,8 @@ class Routes {
     const Rebase& rebase_;
     Ground& ground_;
     std::map<std::string, std::uint32_t> known_;
-    std::vector<glm::vec2> points_;  // different ones
-    Groups groups_;                  // of these
-    std::map<std::pair<float, float>, std::uint32_t> field_of_point_;
+    Groups groups_;  // planned
+    std::map<std::tuple<float, float, bool>, std::uint32_t> field_of_point_;
     std::vector<Entry> fields_;
     bool too_many_ = false;
 };

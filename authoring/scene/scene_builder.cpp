@@ -112,13 +112,13 @@ class Builder {
     /// How fine the ground is depends on how many fields there will be, and how many points share a field on
     /// the ground.
     Routes planRoutes() {
-        const std::vector<glm::vec2> points = pointGoals();
+        const std::vector<Routes::PointGoal> goals = pointGoals();
         std::size_t fields = 1;
         for (;;) {
             ground_ = cache_.groundFor(geometry_, resolutionFor(geometry_, fields));
             Routes routes(layout_, rebase_, *ground_);
             const std::size_t needed =
-                std::max<std::size_t>(1, routes.plan(points) + Itineraries::destinationCount(layout_));
+                std::max<std::size_t>(1, routes.plan(goals) + Itineraries::destinationCount(layout_));
             if (fields > 1 || resolutionFor(geometry_, needed) == resolutionFor(geometry_, 1)) {
                 ground_->solveWith(solver_);
                 scene_.grid = ground_->grid();
@@ -129,9 +129,9 @@ class Builder {
     }
 
     /// Without walls, the straight way is all there is to know.
-    std::vector<glm::vec2> pointGoals() {
-        std::vector<glm::vec2> points;
-        if (geometry_.walls.empty()) return points;
+    std::vector<Routes::PointGoal> pointGoals() {
+        std::vector<Routes::PointGoal> goals;
+        if (geometry_.walls.empty()) return goals;
         for (std::size_t index = 0; index < layout_.formations.size(); ++index) {
             const Formation& formation = layout_.formations[index];
             const FormationPlaces places = formationPlaces(formation, layout_.simulation.seed);
@@ -139,10 +139,15 @@ class Builder {
             std::uint64_t i = 0;
             forEachRow(layout_.flows.size() + index, [&](const gpu::Person& person) {
                 const Traveller traveller = travellerOf(person, layout_.flows.size() + index, i);
-                points.push_back(rebase_.local(goalOf(formation, places, i++, traveller.leader)));
+                const glm::vec2 goal = rebase_.local(goalOf(formation, places, i++, traveller.leader));
+                goals.emplace_back(goal, isStraightTo(person, goal));
             });
         }
-        return points;
+        return goals;
+    }
+
+    bool isStraightTo(const gpu::Person& person, glm::vec2 goal) const {
+        return straightIsClear(geometry_, person.spawn_position, goal, person.radius);
     }
 
     /// Bodies and times of everybody, because the walls' clearance depends on the smallest and the largest
@@ -554,8 +559,8 @@ class Builder {
             return straight;
         }
         // Even where the straight way is clear, others may push somebody round a corner on the way.
-        const bool clear = straightIsClear(geometry_, person.spawn_position, goal, person.radius);
-        const std::uint32_t field = routes.fieldTo(goal);
+        const bool clear = isStraightTo(person, goal);
+        const std::uint32_t field = routes.fieldTo({goal, clear});
         if (field == gpu::NO_INDEX) {
             if (!clear) routes.lackField();
             return straight;
