@@ -20,7 +20,9 @@ constexpr double kMostDetourCells = 30'000.0;
 /// walls, and walls without thickness take more than half a cell on either side.
 constexpr float kDoorCell = 0.3f;
 constexpr float kBlockCell = 0.25f;
-constexpr std::uint32_t kMostBlockCells = 8'000'000;  // of one field
+constexpr double kMostBlockCells = 8.0e6;      // of one field
+constexpr double kMostCellsOfBlocks = 48.0e6;  // of all fields
+constexpr double kFewestBlockCells = 0.2e6;
 constexpr double kMostFieldCells = 20.0e6;  // of all fields, where cells of kDoorCell do not need more
 /// Who walks to a point of one's own takes corners more closely than who follows others to a place (m).
 constexpr float kPointComfort = 0.05f;
@@ -80,15 +82,18 @@ GroundResolution resolutionFor(const WalkGeometry& geometry, std::size_t fields)
     GroundResolution resolution;
     resolution.grid = makeGrid(geometry, std::clamp(needed, kSmallestCell, kDoorCell));
     // Without walls there are no doors.
-    if (resolution.grid.cell_size > kDoorCell && !geometry.walls.empty())
+    if (resolution.grid.cell_size > kDoorCell && !geometry.walls.empty()) {
         resolution.block_cell = fields > 16 ? kDoorCell : kBlockCell;
+        resolution.most_block_cells = static_cast<std::uint32_t>(
+            std::clamp(kMostCellsOfBlocks / count, kFewestBlockCells, kMostBlockCells));
+    }
     return resolution;
 }
 
 Ground::Ground(WalkGeometry geometry, const GroundResolution& resolution)
     : geometry_(std::move(geometry)), grid_(resolution.grid) {
     if (resolution.block_cell > 0.0f)
-        blocks_ = makeFieldBlocks(geometry_, resolution.block_cell, kMostBlockCells);
+        blocks_ = makeFieldBlocks(geometry_, resolution.block_cell, resolution.most_block_cells);
 }
 
 WalkGeometry Ground::geometryFor(Purpose purpose) const {

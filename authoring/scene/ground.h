@@ -21,9 +21,11 @@ namespace throng::authoring {
 struct GroundResolution {
     FieldGrid grid;           ///< of the distances to roads, of the coarse map, and of fields without blocks
     float block_cell = 0.0f;  ///< m, of fields in blocks; 0: there are no blocks
+    std::uint32_t most_block_cells = 0;  ///< of one field in blocks: its cells grow until they are no more
 
     bool operator==(const GroundResolution& other) const {
-        return grid.cell_size == other.grid.cell_size && block_cell == other.block_cell;
+        return grid.cell_size == other.grid.cell_size && block_cell == other.block_cell &&
+               most_block_cells == other.most_block_cells;
     }
 };
 

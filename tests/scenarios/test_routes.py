@@ -17,7 +17,7 @@ HALL = {
     "formations": [
         {"id": "walker", "type": "agents", "arrival": "leave",
          "agents": [{"position": [-10, 0], "goal": [10, 0], "speed": 1.3, "radius": 0.25}]},
-        {"id": "waiting", "type": "grid", "origin": [-1.2, -0.65], "rows": 3, "columns": 5, "spacing": 0.6,
+        {"id": "waiting", "type": "grid", "origin": [-2.4, -0.65], "rows": 3, "columns": 9, "spacing": 0.6,
          "goal": {"offset": [0, 0]}, "people": {"radius": 0.25}},
     ],
 }
