@@ -165,20 +165,20 @@ std::size_t Routes::plan(const std::vector<PointGoal>& goals) {
         if (different.emplace(is_straight, point.x, point.y).second)
             (is_straight ? straight : others).push_back(point);
     // At least as many as there are rooms, at most as many as do not take long.
-    constexpr float kWidest = 32.0f;  // m
+    constexpr int kWidest = 32;  // m
     const std::size_t affordable = std::max<std::size_t>(1, kMostPointCells / ground_.cellsPerField());
     groups_ = groupsOf(others, 0.0f, affordable);
     if (groups_.size() > affordable) {
-        const Groups fewest = groupsOf(others, kWidest, others.size());
+        const Groups fewest = groupsOf(others, float{kWidest}, others.size());
         const std::size_t most = std::max(affordable, fewest.size());
         groups_ = groupsOf(others, 0.0f, most);
-        for (float side = 1.0f; groups_.size() > most && side < kWidest; side *= 2.0f)
-            groups_ = groupsOf(others, side, most);
+        for (int side = 1; groups_.size() > most && side < kWidest; side *= 2)
+            groups_ = groupsOf(others, static_cast<float>(side), most);
         if (groups_.size() > most) groups_ = fewest;
         for (Group& group : groups_)
             group.room.reset();
     }
-    for (Group& group : groupsOf(straight, kWidest, straight.size()))
+    for (Group& group : groupsOf(straight, float{kWidest}, straight.size()))
         groups_.push_back(std::move(group));
     return groups_.size();
 }

@@ -146,11 +146,9 @@ bool isWholePiece(std::string_view sql) {
             i = sql.find("*/", i + 2);
             if (i == std::string_view::npos) return false;
             ++i;
-        } else if (c == ';') {
-            return false;
         } else if (c == '(') {
             ++open;
-        } else if (c == ')' && --open < 0) {
+        } else if (c == ';' || (c == ')' && --open < 0)) {
             return false;
         }
     }
