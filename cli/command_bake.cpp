@@ -108,14 +108,14 @@ void bakeLayout(const BakeRequest& options) {
         case BakeRun::End::checkpointed:
             say(stderr, "throng: stopped after frame {}; the same command with --resume goes on\n",
                 run.frames);
-            throw Exit(kCheckpointed);
+            throw Exit(kCheckpointed, "stopped with a checkpoint: the same command with --resume goes on");
         case BakeRun::End::partial:
             say(stderr, "throng: stopped after frame {}; what there is is in {}\n", run.frames,
                 run.result.path.string());
-            throw Exit(128 + run.signal);
+            throw Exit(128 + run.signal, "stopped; what there is is in " + run.result.path.string());
         case BakeRun::End::discarded:
             say(stderr, "throng: stopped before the first frame; nothing was written\n");
-            throw Exit(128 + run.signal);
+            throw Exit(128 + run.signal, "stopped before the first frame; nothing was written");
     }
 }
 
