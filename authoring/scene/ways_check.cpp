@@ -101,7 +101,7 @@ class Checker {
         const auto* grid = std::get_if<GridFormation>(&formation.shape);
         const auto* place = grid ? std::get_if<Destination>(&grid->goal) : nullptr;
         const float body = 0.01f * static_cast<float>(kind.radius) + kNearby;
-        const std::uint32_t stride = 1 + queue.row_count / kMostPoints;
+        const std::uint32_t stride = 1 + queue.row_count / static_cast<std::uint32_t>(kMostPoints);
         for (std::uint32_t i = 0; i < queue.row_count; i += stride) {
             const Cells from = cellsNear(scene_.people[queue.first_row + i].spawn_position, body);
             if (place)
