@@ -11,6 +11,7 @@
 #include "base/files/input_file.h"
 #include "cli/commands.h"
 #include "cli/terminal/exit_codes.h"
+#include "cli/terminal/failure.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/progress.h"
 #include "cli/terminal/say.h"
@@ -70,7 +71,7 @@ Layer readLayer(const Options& options, const io::CrowdReader& crowd) {
     const auto overrides = authoring::readOverrides(layer.text, diagnostics);
     for (const authoring::Diagnostic& entry : diagnostics.entries)
         say(stderr, "{}\n", authoring::formatDiagnostic(entry, diagnostics.file, layer.text));
-    if (!overrides) throw Exit(kInvalidInput);
+    if (!overrides) throw Exit(kInvalidInput, "the overrides are not valid", diagnosticsJson(diagnostics));
     layer.overrides = *overrides;
     layer.people = io::loadEntrants(crowd);
     layer.matches = authoring::matchOverrides(layer.overrides, layer.people);
@@ -180,7 +181,7 @@ void write(const Options& options, io::CrowdReader& crowd, const Layer& layer) {
     const std::optional<io::ApplyResult> result = io::applyOverrides(crowd, changes, apply);
     if (!result) {
         say(stderr, "throng: stopped; nothing was written\n");
-        throw Exit(128 + interrupt.signal());
+        throw Exit(128 + interrupt.signal(), "stopped; nothing was written");
     }
     printResult(options, layer, *result);
 }
@@ -199,9 +200,10 @@ void run(const Options& options) {
         if (!missed) write(options, crowd, layer);
     }
     if (!missed) return;
-    say(stderr, "throng: {} of {} overrides are orphaned (--strict)\n", layer.count(Match::Kind::orphaned),
-        layer.matches.size());
-    throw Exit(kInvalidInput);
+    const std::string why = fmt::format("{} of {} overrides are orphaned (--strict)",
+                                        layer.count(Match::Kind::orphaned), layer.matches.size());
+    say(stderr, "throng: {}\n", why);
+    throw options.dry_run ? Exit(kInvalidInput) : Exit(kInvalidInput, why);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/outcomes.h"
 #include "cli/bake_run.h"
 #include "cli/baking/bake_description.h"
 #include "cli/baking/baker.h"
@@ -57,8 +58,9 @@ void printResult(const io::BakeResult& result, const Account& account, const io:
         sayJson(io::infoJson(io::loadBake(result.path)));
         return;
     }
-    say(stdout, "{}: {} frames, {} people: {} arrived, {} still walking, {} refused\n", result.path.string(),
-        result.frames, account.agents.size(), account.arrived, account.walking, account.refused);
+    say(stdout, "{}: {} frames, {} people: {} {}, {} {}, {} {}\n", result.path.string(), result.frames,
+        account.agents.size(), account.arrived, wordFor(Fate::arrived), account.walking,
+        wordFor(Fate::walking), account.refused, wordFor(Fate::refused));
     say(stdout, "{} steps in {:.1f} s, {:.0f} steps/s\n", timing.steps, timing.wall_seconds,
         static_cast<double>(timing.steps) / std::max(timing.wall_seconds, 1.0e-9));
     for (const auto& [reason, count] : refusals(account))
@@ -108,14 +110,14 @@ void bakeLayout(const BakeRequest& options) {
         case BakeRun::End::checkpointed:
             say(stderr, "throng: stopped after frame {}; the same command with --resume goes on\n",
                 run.frames);
-            throw Exit(kCheckpointed);
+            throw Exit(kCheckpointed, "stopped with a checkpoint: the same command with --resume goes on");
         case BakeRun::End::partial:
             say(stderr, "throng: stopped after frame {}; what there is is in {}\n", run.frames,
                 run.result.path.string());
-            throw Exit(128 + run.signal);
+            throw Exit(128 + run.signal, "stopped; what there is is in " + run.result.path.string());
         case BakeRun::End::discarded:
             say(stderr, "throng: stopped before the first frame; nothing was written\n");
-            throw Exit(128 + run.signal);
+            throw Exit(128 + run.signal, "stopped before the first frame; nothing was written");
     }
 }
 

@@ -2,7 +2,10 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <string_view>
+#include <utility>
 
+#include "authoring/layout/words.h"
 #include "base/files/output_file.h"
 #include "base/printable.h"
 #include "cli/batch/results_database.h"
@@ -35,19 +38,49 @@ std::string usualColumns(const std::filesystem::path& database) {
     return columns + ", agents, arrived, stuck, deepest_overlap_percent, mean_speed, total_seconds";
 }
 
+/// What is wrong with a piece, in the words of whoever wrote it.
+std::string explained(const SqlMistake& mistake, const std::string& sql, std::size_t begin,
+                      const std::filesystem::path& database) {
+    constexpr std::string_view kNoColumn = "no such column: ";
+    if (mistake.message.starts_with(kNoColumn)) {
+        const std::string name = mistake.message.substr(kNoColumn.size());
+        return fmt::format(
+            "in `{}`: there is no column `{}`; {}{}", sql, name,
+            authoring::hintFor(name, queryResults(database, "SELECT * FROM results LIMIT 0").columns),
+            name.find_first_of(". ") == std::string::npos ? fmt::format(", or the text '{}'?", name) : "");
+    }
+    const bool ends_early = mistake.message == "incomplete input" ||
+                            (mistake.at != SqlMistake::kWhole && mistake.at >= begin + sql.size());
+    if (ends_early) return fmt::format("`{}` ends where something is missing", sql);
+    return fmt::format("in `{}`: {}", sql, mistake.message);
+}
+
 /// Pieces of SQL from the command line end with a line of their own, so that a comment in one ends with it.
-std::string piece(const char* option, const std::string& sql) {
+/// @param around what asks for nothing but the piece, which comes between the two
+std::string piece(const char* option, const std::string& sql, const std::filesystem::path& database,
+                  std::pair<std::string, std::string> around) {
     if (!isWholePiece(sql))
-        throw CLI::ValidationError(option, "a bracket, quote or comment in it has no other end");
+        throw CLI::ValidationError(option,
+                                   fmt::format("in `{}`, a bracket, quote or comment has no other end", sql));
+    if (const auto mistake = mistakeIn(database, around.first + sql + "\n" + around.second))
+        throw CLI::ValidationError(option, explained(*mistake, sql, around.first.size(), database));
     return sql + "\n";
 }
 
 std::string sqlOf(const Options& options, const std::filesystem::path& database) {
     if (!options.sql.empty()) return options.sql;
-    std::string columns =
-        options.columns.empty() ? usualColumns(database) : piece("--columns", options.columns);
+    const auto given = [&](const char* option, const std::string& sql, const char* before,
+                           const char* after) {
+        return piece(option, sql, database, {before, after});
+    };
+    std::string columns = options.columns.empty()
+                              ? usualColumns(database)
+                              : given("--columns", options.columns, "SELECT ", "FROM results");
     std::string from = "results";
-    std::string where = options.where.empty() ? "" : "(" + piece("--where", options.where) + ")";
+    std::string where =
+        options.where.empty()
+            ? ""
+            : "(" + given("--where", options.where, "SELECT NULL FROM results WHERE (", ")") + ")";
     if (options.failed) {
         columns = "number, id, reason, log";
         from = "scenarios";
@@ -55,7 +88,9 @@ std::string sqlOf(const Options& options, const std::filesystem::path& database)
     }
     std::string sql = fmt::format("SELECT {} FROM {}", columns, from);
     if (!where.empty()) sql += " WHERE " + where;
-    sql += " ORDER BY " + (options.sort.empty() ? "number" : piece("--sort", options.sort)) +
+    sql += " ORDER BY " +
+           (options.sort.empty() ? "number"
+                                 : given("--sort", options.sort, "SELECT * FROM results ORDER BY ", "")) +
            (options.descending ? " DESC" : "");
     return options.limit ? sql + fmt::format(" LIMIT {}", options.limit) : sql;
 }

@@ -24,6 +24,7 @@ struct Options {
     int device = -1;
     int rounds = 15;
     std::uint32_t most = 0;
+    bool json = false;
 };
 
 BenchMachine machineOf(const gl::Device& device, const gl::Timer& timer) {
@@ -41,6 +42,34 @@ std::vector<sim::DiagramContestant> allContestants(std::size_t& yardstick) {
     contestants.push_back({"gradient1, drawing alone", sim::DiagramMethod::gradient1, 16, {}, true});
     contestants.push_back({"auto", sim::DiagramMethod::binned, 16, {}, false});
     return contestants;
+}
+
+nlohmann::ordered_json timingsJson(const DiagramReport& report) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < report.cases.size(); ++i)
+        for (std::size_t j = 0; j < report.contestants.size(); ++j)
+            if (const auto& timing = report.timings[i][j])
+                list.push_back({{"method", report.contestants[j].name},
+                                {"sites", report.cases[i].sites},
+                                {"radius", report.cases[i].radius},
+                                {"median_ms", timing->median_ms},
+                                {"ratio", timing->ratio},
+                                {"wrong_share", timing->wrong_share}});
+    return list;
+}
+
+nlohmann::ordered_json timingsJson(const ProximityReport& report) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const sim::ProximityRow& row : report.rows)
+        for (const auto& [name, timing] : {std::pair{"voronoi", &row.voronoi}, std::pair{"grid", &row.grid},
+                                           std::pair{"brute", &row.brute}})
+            if (*timing)
+                list.push_back({{"way", name},
+                                {"people", row.people},
+                                {"search_ms", (*timing)->search_ms},
+                                {"step_ms", (*timing)->step_ms},
+                                {"recall", (*timing)->recall}});
+    return list;
 }
 
 void runDiagrams(const Options& options) {
@@ -72,14 +101,17 @@ void runDiagrams(const Options& options) {
                                                      best.gather.bin_radii)
                                        : std::string(authoring::wordFor(best.method)));
         report.timings.push_back(benchmark.run(shaders, timer, setup, contestants));
-        for (std::size_t i = 0; i < contestants.size(); ++i)
+        for (std::size_t i = 0; i < contestants.size() && !options.json; ++i)
             if (const auto& timing = report.timings.back()[i])
                 fmt::print("  {:26} {:9.2f} ms  ratio {:6.2f}  wrong {:.4f} %\n", contestants[i].name,
                            timing->median_ms, timing->ratio, 100.0 * timing->wrong_share);
     }
     context.check("timing diagrams");
     writeDiagramReport(options.output, report);
-    fmt::print("{}/diagrams.md, .csv\n", options.output);
+    if (options.json)
+        sayJson(timingsJson(report));
+    else
+        fmt::print("{}/diagrams.md, .csv\n", options.output);
 }
 
 void runProximity(const Options& options) {
@@ -94,6 +126,7 @@ void runProximity(const Options& options) {
         say(stderr, "{} people\n", people);
         report.rows.push_back(report.settings.run(gl::ShaderLibrary(), people));
         const sim::ProximityRow& row = report.rows.back();
+        if (options.json) continue;
         for (const auto& [name, result] : {std::pair{"voronoi", &row.voronoi}, std::pair{"grid", &row.grid},
                                            std::pair{"brute", &row.brute}})
             if (*result)
@@ -102,7 +135,10 @@ void runProximity(const Options& options) {
     }
     context.check("timing sensing");
     writeProximityReport(options.output, report);
-    fmt::print("{}/proximity.md, .csv\n", options.output);
+    if (options.json)
+        sayJson(timingsJson(report));
+    else
+        fmt::print("{}/proximity.md, .csv\n", options.output);
 }
 
 struct StepOptions {
@@ -171,6 +207,7 @@ CLI::App* addKind(CLI::App& bench, const char* name, const char* what, void (*ru
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
     command->add_option("--most", options->most, "Leave out cases with more sites or people than this");
+    command->add_flag("--json", options->json, "Print a JSON document");
     command->callback([options, run] { run(*options); });
     return command;
 }

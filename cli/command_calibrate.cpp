@@ -3,9 +3,11 @@
 #include <unistd.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "cli/baking/calibration_file.h"
 #include "cli/commands.h"
+#include "cli/terminal/say.h"
 #include "sim/benchmarks/calibration.h"
 
 namespace throng::cli {
@@ -17,7 +19,18 @@ std::string describe(const sim::MethodCost& cost) {
                        cost.gather.block_height, cost.gather.bin_radii);
 }
 
-void run(int device) {
+nlohmann::ordered_json costsJson(const sim::CostModel& model, const gl::Device& device) {
+    nlohmann::ordered_json costs = nlohmann::ordered_json::array();
+    for (const sim::MethodCost& cost : model.costs)
+        costs.push_back({{"method", describe(cost)},
+                         {"base_ms", cost.base_ms},
+                         {"pixel_ns", cost.pixel_ns},
+                         {"site_ns", cost.site_ns},
+                         {"covered_ns", cost.covered_ns}});
+    return {{"device", device.name}, {"output", calibrationPath(device).string()}, {"costs", costs}};
+}
+
+void run(int device, bool as_json) {
     const gl::Context context({device, false});
     const gl::Timer timer(context.device().software);
     const bool terminal = isatty(STDERR_FILENO) != 0;
@@ -29,6 +42,7 @@ void run(int device) {
     if (terminal) fmt::print(stderr, "\n");
     context.check("calibrating");
     saveCalibration(context.device(), model);
+    if (as_json) return sayJson(costsJson(model, context.device()));
     fmt::print("{:48} {:>9} {:>9} {:>9} {:>11}\n", "method", "base ms", "ns/pixel", "ns/site", "ns/covered");
     for (const sim::MethodCost& cost : model.costs)
         fmt::print("{:48} {:9.3f} {:9.3f} {:9.2f} {:11.3f}\n", describe(cost), cost.base_ms, cost.pixel_ns,
@@ -56,7 +70,9 @@ void addCalibrate(CLI::App& app) {
         "Kept in the cache folder ($XDG_CACHE_HOME/throng), one file for each device and driver; without it, "
         "bakes\n"
         "use a built-in table. Bakes have the same bytes either way.\n\nExample:\n  throng calibrate");
-    command->callback([device] { run(*device); });
+    auto as_json = std::make_shared<bool>(false);
+    command->add_flag("--json", *as_json, "Print a JSON document");
+    command->callback([device, as_json] { run(*device, *as_json); });
 }
 
 }  // namespace throng::cli

@@ -4,9 +4,13 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "authoring/layout/layout_reader.h"
+#include "base/files/input_file.h"
+#include "cli/baking/check_family.h"
 #include "cli/baking/load_layout.h"
 #include "cli/commands.h"
 #include "cli/terminal/exit_codes.h"
+#include "cli/terminal/failure.h"
 #include "cli/terminal/say.h"
 
 namespace throng::cli {
@@ -19,19 +23,40 @@ struct Options {
 };
 
 nlohmann::ordered_json toJson(const LoadAttempt& attempt) {
-    nlohmann::ordered_json diagnostics = nlohmann::ordered_json::array();
-    for (const authoring::Diagnostic& entry : attempt.loaded.diagnostics.entries)
-        diagnostics.push_back(
-            {{"severity", entry.severity == authoring::Severity::error ? "error" : "warning"},
-             {"line", entry.where.line},
-             {"column", entry.where.column},
-             {"pointer", entry.where.pointer()},
-             {"message", entry.message},
-             {"hint", entry.hint}});
     nlohmann::ordered_json result = {{"file", attempt.loaded.diagnostics.file}, {"valid", attempt.valid}};
     if (attempt.valid) result["agents"] = attempt.loaded.scene.people.size();
-    result["diagnostics"] = diagnostics;
+    result["diagnostics"] = diagnosticsJson(attempt.loaded.diagnostics);
     return result;
+}
+
+/// @returns whether it is valid
+bool checkFamilyFile(const std::string& path, const Options& options, nlohmann::ordered_json& list) {
+    if (!options.overrides.empty())
+        throw CLI::ValidationError("--set", fmt::format("changes layouts; `{}` is a family of them", path));
+    FamilyCheck check;
+    nlohmann::ordered_json wrong = nlohmann::ordered_json::array();
+    try {
+        check = checkFamily(path);
+    } catch (const Exit& exit) {
+        check.diagnostics.file = path;
+        wrong = exit.diagnostics;
+    }
+    if (options.json) {
+        nlohmann::ordered_json result = {{"file", path},
+                                         {"valid", check.valid},
+                                         {"scenarios", check.scenarios},
+                                         {"layouts_read", check.layouts_read},
+                                         {"scenes_built", check.scenes_built}};
+        result["diagnostics"] = wrong.empty() ? diagnosticsJson(check.diagnostics) : wrong;
+        list.push_back(std::move(result));
+        return check.valid;
+    }
+    for (const authoring::Diagnostic& entry : check.diagnostics.entries)
+        say(stderr, "{}\n", authoring::formatDiagnostic(entry, path, ""));
+    if (check.valid)
+        say(stdout, "{}: ok: {} scenarios of `{}`; {} layouts were read and {} scenes made of them\n", path,
+            check.scenarios, check.base_name, check.layouts_read, check.scenes_built);
+    return check.valid;
 }
 
 void printSummary(const LoadedLayout& loaded) {
@@ -43,18 +68,28 @@ void printSummary(const LoadedLayout& loaded) {
         scene.settings.fps);
 }
 
+bool checkLayoutText(const std::string& path, std::string text, const Options& options,
+                     nlohmann::ordered_json& list) {
+    const LoadAttempt attempt =
+        tryReadLayout(std::move(text), path == "-" ? "standard input" : path, options.overrides);
+    if (options.json) {
+        list.push_back(toJson(attempt));
+        return attempt.valid;
+    }
+    printDiagnostics(attempt.loaded);
+    if (attempt.valid) printSummary(attempt.loaded);
+    return attempt.valid;
+}
+
 void run(const Options& options) {
     bool all_valid = true;
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const std::string& path : options.layouts) {
-        const LoadAttempt attempt = tryLoadLayout(path, options.overrides);
-        all_valid = all_valid && attempt.valid;
-        if (options.json) {
-            list.push_back(toJson(attempt));
-            continue;
-        }
-        printDiagnostics(attempt.loaded);
-        if (attempt.valid) printSummary(attempt.loaded);
+        std::string text = path == "-" ? readStandardInput() : readFile(path);
+        const bool valid = path != "-" && isFamily(text)
+                               ? checkFamilyFile(path, options, list)
+                               : checkLayoutText(path, std::move(text), options, list);
+        all_valid = all_valid && valid;
     }
     if (options.json) sayJson(list);
     if (!all_valid) throw Exit(kInvalidInput);
@@ -63,10 +98,13 @@ void run(const Options& options) {
 }  // namespace
 
 void addCheck(CLI::App& app) {
-    CLI::App* command =
-        app.add_subcommand("check", "Say everything that is wrong with layouts, without baking them");
+    CLI::App* command = app.add_subcommand(
+        "check", "Say everything that is wrong with layouts and families of them, without baking them");
     auto options = std::make_shared<Options>();
-    command->add_option("layout", options->layouts, "Layout files (- for standard input)")->required();
+    command
+        ->add_option("layout", options->layouts,
+                     "Files of layouts or families (- for a layout on standard input)")
+        ->required();
     command
         ->add_option("--set", options->overrides,
                      "Override a value, e.g. --set simulation.seed=7 (repeatable)")

@@ -8,6 +8,7 @@
 #include "authoring/family/generators.h"
 #include "base/files/output_file.h"
 #include "cli/commands.h"
+#include "cli/terminal/say.h"
 
 namespace throng::cli {
 namespace {
@@ -17,9 +18,28 @@ struct Options {
     std::vector<std::string> settings;
     std::string output;
     bool list = false;
+    bool json = false;
 };
 
-void list() {
+nlohmann::ordered_json listJson() {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const authoring::Generator& generator : authoring::generators()) {
+        nlohmann::ordered_json parameters = nlohmann::ordered_json::array();
+        for (const authoring::GeneratorParameter& parameter : generator.parameters)
+            parameters.push_back({{"name", parameter.name},
+                                  {"meaning", parameter.meaning},
+                                  {"default", parameter.standard},
+                                  {"minimum", parameter.least},
+                                  {"maximum", parameter.most},
+                                  {"whole", parameter.whole}});
+        list.push_back(
+            {{"kind", generator.name}, {"meaning", generator.meaning}, {"parameters", parameters}});
+    }
+    return list;
+}
+
+void list(bool as_json) {
+    if (as_json) return sayJson(listJson());
     for (const authoring::Generator& generator : authoring::generators()) {
         fmt::print("{}: {}\n", generator.name, generator.meaning);
         for (const authoring::GeneratorParameter& parameter : generator.parameters)
@@ -40,7 +60,7 @@ std::pair<std::string, double> settingOf(const std::string& text) {
 }
 
 void run(const Options& options) {
-    if (options.list) return list();
+    if (options.list) return list(options.json);
     const authoring::Generator* generator = authoring::generatorNamed(options.kind);
     if (!generator) {
         std::string known;
@@ -63,6 +83,7 @@ void run(const Options& options) {
         fmt::print("{}", text);
     else
         writeFile(options.output, text);
+    if (options.json && !options.output.empty()) sayJson({{"output", options.output}});
 }
 
 }  // namespace
@@ -77,6 +98,8 @@ void addGenerate(CLI::App& app) {
     command->add_option("-o,--output", options->output, "The file to make; by default the layout is printed");
     command->add_flag("--list", options->list,
                       "Tell all generators with their parameters, standard values and ranges");
+    command->add_flag("--json", options->json,
+                      "What --list tells, or which file was made, as JSON; layouts are JSON anyway");
     command->footer("Example:\n  throng generate crossing --set arms=5 --set seed=3 -o crossing.json");
     command->callback([options] { run(*options); });
 }

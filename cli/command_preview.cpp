@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <memory>
 
 #include "analysis/preview/preview.h"
@@ -15,21 +17,40 @@ struct Options {
     std::string bake;
     std::string output;
     bool video = false;
+    bool json = false;
     analysis::PreviewOptions preview;
     std::optional<std::uint32_t> frame;
 };
+
+/// Whether a name's ending asks for a film; other endings than the two that there are would lie.
+bool isFilm(const std::string& output, bool film_asked) {
+    std::string ending = std::filesystem::path(output).extension().string();
+    std::ranges::transform(ending, ending.begin(), [](char c) {
+        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    });
+    const bool picture = ending == ".png", film = ending == ".mp4";
+    if (!picture && !film)
+        throw CLI::ValidationError(
+            "--output", fmt::format("`{}` has to end in .png (a picture) or .mp4 (a film)", output));
+    if (picture && film_asked)
+        throw CLI::ValidationError("--output",
+                                   fmt::format("--mp4 makes a film: `{}` has to end in .mp4", output));
+    return film;
+}
 
 void run(const Options& options) {
     const std::string bake = options.bake;
     const std::string output = !options.output.empty() ? options.output
                                : options.video         ? "preview.mp4"
                                                        : "preview.png";
-    const bool video = options.video || output.ends_with(".mp4");
     analysis::PreviewOptions preview = options.preview;
     preview.frame = options.frame;
-    if (!video) {
+    if (!isFilm(output, options.video)) {
         const std::uint32_t frame = analysis::drawPreview(bake, output, preview);
-        say(stdout, "{}: frame {}\n", output, frame);
+        if (options.json)
+            sayJson({{"output", output}, {"frame", frame}});
+        else
+            say(stdout, "{}: frame {}\n", output, frame);
         return;
     }
     const bool terminal = isatty(STDERR_FILENO);
@@ -37,7 +58,10 @@ void run(const Options& options) {
         if (terminal) fmt::print(stderr, "\r{:3.0f} %\x1b[K", 100.0 * share);
     });
     if (terminal) fmt::print(stderr, "\n");
-    say(stdout, "{}\n", output);
+    if (options.json)
+        sayJson({{"output", output}});
+    else
+        say(stdout, "{}\n", output);
 }
 
 }  // namespace
@@ -48,7 +72,7 @@ void addPreview(CLI::App& app) {
     auto options = std::make_shared<Options>();
     command->add_option("bake", options->bake, "A bake's folder, or its bake.json")->required();
     command->add_option("-o,--output", options->output,
-                        "The picture; a name that ends in .mp4 makes a film (default preview.png)");
+                        "The picture: NAME.png, or NAME.mp4 for a film (default preview.png)");
     command->add_flag("--mp4", options->video, "Make a film of all frames (needs ffmpeg)");
     command->add_option("--frame", options->frame,
                         "The frame to draw, from 0; by default the one with most people");
@@ -61,6 +85,7 @@ void addPreview(CLI::App& app) {
         ->check(CLI::Range(0.0, 600.0))
         ->capture_default_str();
     command->add_flag("!--no-density", options->preview.density, "Leave out the density layer");
+    command->add_flag("--json", options->json, "Print a JSON document");
     command->footer("Example:\n  throng preview bakes/intersection -o intersection.png --frame 800");
     command->callback([options] { run(*options); });
 }

@@ -27,6 +27,7 @@ struct Options {
     std::string input;
     std::string output;
     bool each = false;
+    bool json = false;
 };
 
 std::string pageOf(const fs::path& folder) {
@@ -127,7 +128,12 @@ void run(const Options& options) {
         reportBatch(input, output, options.each);
     else
         replaceFile(output, pageOf(input));
-    say(stdout, "{}: {}\n", output.string(), readableBytes(fs::file_size(output)));
+    if (options.json)
+        sayJson({{"output", output.string()},
+                 {"of", is_batch ? "batch" : "bake"},
+                 {"bytes", fs::file_size(output)}});
+    else
+        say(stdout, "{}: {}\n", output.string(), readableBytes(fs::file_size(output)));
 }
 
 }  // namespace
@@ -141,6 +147,7 @@ void addReport(CLI::App& app) {
                         "The page; by default NAME.html, or report.html in a batch's folder");
     command->add_flag("--each", options->each,
                       "Of a batch: also a page for every bake, linked from the table");
+    command->add_flag("--json", options->json, "Print a JSON document");
     command->footer(
         "One file that needs no network: send it, keep it, print it.\n\n"
         "Example:\n  throng report bakes/intersection -o intersection.html");

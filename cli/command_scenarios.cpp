@@ -67,6 +67,12 @@ std::vector<std::string> runOne(const Scenario& scenario, const Options& options
 }
 
 void run(const Options& options) {
+    if (options.list && options.json) {
+        nlohmann::ordered_json names = nlohmann::ordered_json::array();
+        for (const Scenario& scenario : scenarios())
+            names.push_back(scenario.name);
+        return sayJson(names);
+    }
     if (options.list) {
         for (const Scenario& scenario : scenarios())
             say(stdout, "{}\n", scenario.name);

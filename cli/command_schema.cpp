@@ -18,6 +18,7 @@ void addSchema(CLI::App& app) {
         command->add_flag("--family", *family, "That of families of scenarios (`throng batch`)");
     command->add_flag("--overrides", *overrides, "That of changes to single people (`throng apply`)")
         ->excludes(of_families);
+    command->add_flag("--json")->description("What it prints is JSON anyway");
     command->footer("Example:\n  throng schema > throng-layout.schema.json");
     command->callback([family, overrides] {
         fmt::print("{}", *family      ? authoring::familySchema()

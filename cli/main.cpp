@@ -10,6 +10,7 @@
 #include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/terminal/exit_codes.h"
+#include "cli/terminal/failure.h"
 #include "cli/terminal/suggestions.h"
 #include "sim/gl/context.h"
 
@@ -25,28 +26,29 @@ constexpr const char* kFooter =
     "\nExit codes: 0 ok, 1 a bar was missed, 2 usage, 3 invalid input, 4 no usable OpenGL, 5 output failed, "
     "85 stopped with a checkpoint, 130 interrupted.";
 
-int parseAndRun(CLI::App& app, int argc, char** argv) {
+/// People read standard error, programs that ask for JSON standard output.
+int fail(int code, const std::string& what, bool json, const std::string& hint = {}) {
+    fmt::print(stderr, "throng: {}\n", printable(what, true));
+    if (!hint.empty()) fmt::print(stderr, "  hint: {}\n", hint);
+    if (json) cli::sayFailureJson(code, what, hint);
+    return code;
+}
+
+int parseAndRun(CLI::App& app, int argc, char** argv, bool json) {
     try {
         app.parse(argc, argv);
         return cli::kOk;
     } catch (const CLI::Success& success) {  // --help and --version
         return app.exit(success);
     } catch (const CLI::ParseError& error) {
-        if (argc > 1 && argv[1][0] != '-' && !cli::isCommand(app, argv[1]))
-            fmt::print(stderr, "throng: there is no command `{}`\n", printable(argv[1]));
-        else
-            fmt::print(stderr, "throng: {}\n", printable(error.what(), true));
-        const std::string hint = cli::suggestFor(app, argc, argv);
-        if (!hint.empty()) fmt::print(stderr, "  hint: {}\n", hint);
+        const bool is_unknown = argc > 1 && argv[1][0] != '-' && !cli::isCommand(app, argv[1]);
+        const std::string what = is_unknown ? fmt::format("there is no command `{}`", printable(argv[1]))
+                                            : std::string(error.what());
+        const int code = fail(cli::kUsage, what, json, cli::suggestFor(app, argc, argv));
         fmt::print(stderr,
                    "  `throng --help` lists the commands, `throng COMMAND --help` a command's options.\n");
-        return cli::kUsage;
+        return code;
     }
-}
-
-int fail(int code, const std::string& what) {
-    fmt::print(stderr, "throng: {}\n", printable(what, true));
-    return code;
 }
 
 }  // namespace
@@ -72,17 +74,19 @@ int main(int argc, char** argv) {
     cli::addGenerate(app);
     cli::addBatch(app);
     cli::addReport(app);
+    const bool json = cli::asksForJson(argc, argv);
     try {
-        return parseAndRun(app, argc, argv);
+        return parseAndRun(app, argc, argv, json);
     } catch (const cli::Exit& exit) {
+        if (json && !exit.message.empty()) cli::sayFailureJson(exit.code, exit.message, {}, exit.diagnostics);
         return exit.code;
     } catch (const gl::GraphicsError& error) {
-        return fail(cli::kNoGraphics, error.what());
+        return fail(cli::kNoGraphics, error.what(), json);
     } catch (const OutputError& error) {
-        return fail(cli::kOutputFailed, error.what());
+        return fail(cli::kOutputFailed, error.what(), json);
     } catch (const std::bad_alloc&) {
-        return fail(cli::kInvalidInput, "there is not enough memory for this");
+        return fail(cli::kInvalidInput, "there is not enough memory for this", json);
     } catch (const std::exception& error) {
-        return fail(cli::kInvalidInput, error.what());
+        return fail(cli::kInvalidInput, error.what(), json);
     }
 }

@@ -7,14 +7,15 @@
 #include <stdexcept>
 
 #include "base/files/csv.h"
+#include "base/outcomes.h"
 
 namespace throng::io {
 namespace {
 
-const char* outcomeName(AgentStatus status) {
-    if (status == AgentStatus::walking) return "walking";
-    if (status == AgentStatus::arrived) return "arrived";
-    return "refused";
+std::string_view outcomeName(AgentStatus status) {
+    if (status == AgentStatus::walking) return wordFor(Fate::walking);
+    if (status == AgentStatus::arrived) return wordFor(Fate::arrived);
+    return wordFor(Fate::refused);
 }
 
 std::string reasonOf(const AgentOutcome& outcome) {

@@ -8,6 +8,7 @@
 
 #include "base/files/hash.h"
 #include "base/numbers.h"
+#include "base/outcomes.h"
 #include "io/streams/stream_reader.h"
 
 namespace throng::io {
@@ -107,9 +108,9 @@ std::string infoText(const Bake& bake) {
     text += fmt::format("layout:       {}, seed {}\n", bake.name, bake.seed);
     text += fmt::format("frames:       {} at {} fps = {:.2f} s, {} steps per frame\n", grouped(bake.frames),
                         bake.fps, bake.frames / bake.fps, optionalText(bake.manifest, "/substeps"));
-    text += fmt::format("people:       {}: {} arrived, {} walking, {} refused\n",
-                        grouped(bake.account.agents), grouped(bake.account.arrived),
-                        grouped(bake.account.walking), grouped(bake.account.refused));
+    text += fmt::format("people:       {}: {} {}, {} {}, {} {}\n", grouped(bake.account.agents),
+                        grouped(bake.account.arrived), wordFor(Fate::arrived), grouped(bake.account.walking),
+                        wordFor(Fate::walking), grouped(bake.account.refused), wordFor(Fate::refused));
     text += refusedReasons(bake);
     text += fmt::format(
         "site:         {:.1f} x {:.1f} m, {} roads, {} areas, {} walls, origin {:.3f} {:.3f}\n", size.x,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/outcomes.h"
 #include "io/streams/stream_format.h"
 
 namespace throng::io {
@@ -85,10 +86,10 @@ Json terrainToJson(const recording::BakeTerrain& terrain) {
 
 Json accountToJson(const AccountTotals& account) {
     return {{"agents", account.agents},
-            {"spawned", account.spawned},
-            {"walking", account.walking},
-            {"arrived", account.arrived},
-            {"refused", account.refused},
+            {keyFor(Fate::spawned), account.spawned},
+            {keyFor(Fate::walking), account.walking},
+            {keyFor(Fate::arrived), account.arrived},
+            {keyFor(Fate::refused), account.refused},
             {"refused_reasons",
              account.refused_reasons.empty() ? Json::object() : Json(account.refused_reasons)}};
 }

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "analysis/measure/histogram.h"
+#include "analysis/stuck.h"
 #include "base/plane_grid.h"
 #include "recording/wall_watch.h"
 #include "shaders/shared/walking.h"
@@ -14,10 +15,8 @@
 namespace throng::analysis {
 namespace {
 
-constexpr double kOverlap = 0.01;       // share of the sum of radii from which a pair counts
-constexpr double kStuckSeconds = 5.0;   // s
-constexpr double kStuckDistance = 0.5;  // m
-constexpr std::size_t kHistory = 4;     // frames, for the jerk
+constexpr double kOverlap = 0.01;    // share of the sum of radii from which a pair counts
+constexpr std::size_t kHistory = 4;  // frames, for the jerk
 
 double median(std::vector<double> values) {
     if (values.empty()) return 0.0;
@@ -247,11 +246,8 @@ class Measurer {
         if (bake_.frames > wait && frame == bake_.frames - 1 - wait) long_before_ = now();
     }
 
-    /// Who is under way, neither at a stop nor in a line, and does not get on.
     bool isStuck(std::size_t row) const {
-        return rows_[row].outcome == "walking" && long_before_ && long_before_->isThere(row) &&
-               now().isThere(row) && now().activity(row) < 1.5f &&
-               glm::distance(long_before_->place(row), now().place(row)) < kStuckDistance;
+        return long_before_ && analysis::isStuck(rows_[row], *long_before_, now(), row);
     }
 
     void account() {
@@ -262,12 +258,12 @@ class Measurer {
         std::uint32_t last = 0;
         for (std::size_t row = 0; row < rows_.size(); ++row) {
             const io::AgentRow& agent = rows_[row];
-            result_.arrived += agent.outcome == "arrived" ? 1 : 0;
-            result_.walking += agent.outcome == "walking" ? 1 : 0;
-            result_.refused += agent.outcome == "refused" ? 1 : 0;
+            result_.arrived += agent.outcome == wordFor(Fate::arrived) ? 1 : 0;
+            result_.walking += agent.outcome == wordFor(Fate::walking) ? 1 : 0;
+            result_.refused += agent.outcome == wordFor(Fate::refused) ? 1 : 0;
             if (way_[row] > 1.0) efforts.push_back(effort_[row] / way_[row]);
             result_.stuck += isStuck(row) ? 1 : 0;
-            if (agent.outcome != "arrived") continue;
+            if (agent.outcome != wordFor(Fate::arrived)) continue;
             arrival_frames.push_back(agent.arrival_frame);
             last = std::max(last, agent.arrival_frame);
             // The bake's own shortest way is one to the goal; who was content with less went straight at

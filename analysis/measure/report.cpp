@@ -6,6 +6,7 @@
 
 #include "analysis/measure/measure.h"
 #include "analysis/plot/line_plot.h"
+#include "base/outcomes.h"
 
 namespace throng::analysis {
 namespace {
@@ -31,10 +32,10 @@ std::optional<double> figureNamed(const Measurement& m, const std::string& name)
     const auto share = [&](std::uint32_t count) {
         return m.agents ? static_cast<double>(count) / m.agents : 0.0;
     };
-    const std::pair<const char*, double> figures[] = {
-        {"arrived", share(m.arrived)},
-        {"stuck", share(m.stuck)},
-        {"refused", share(m.refused)},
+    const std::pair<std::string_view, double> figures[] = {
+        {wordFor(Fate::arrived), share(m.arrived)},
+        {wordFor(Fate::stuck), share(m.stuck)},
+        {wordFor(Fate::refused), share(m.refused)},
         {"seconds", m.seconds},
         {"overlapping_percent", m.overlapping_percent},
         {"deepest_overlap_percent", m.deepest_overlap_percent},
@@ -71,10 +72,10 @@ LinePlot plotOf(const std::string& title, const std::string& note, const std::st
 
 Json measurementJson(const Measurement& m) {
     Json json = {{"agents", m.agents},
-                 {"arrived", m.arrived},
-                 {"walking", m.walking},
-                 {"refused", m.refused},
-                 {"stuck", m.stuck},
+                 {keyFor(Fate::arrived), m.arrived},
+                 {keyFor(Fate::walking), m.walking},
+                 {keyFor(Fate::refused), m.refused},
+                 {keyFor(Fate::stuck), m.stuck},
                  {"seconds", rounded(m.seconds)},
                  {"duration", rounded(m.duration)},
                  {"overlapping_percent", rounded(m.overlapping_percent)},
@@ -106,8 +107,9 @@ std::string measurementText(const Measurement& m) {
     const auto line = [&](const char* name, const std::string& value) {
         text += fmt::format("{:20} {}\n", name, value);
     };
-    line("people", fmt::format("{}: {} arrived, {} walking ({} of them stuck), {} refused", m.agents,
-                               m.arrived, m.walking, m.stuck, m.refused));
+    line("people", fmt::format("{}: {} {}, {} {} ({} of them {}), {} {}", m.agents, m.arrived,
+                               wordFor(Fate::arrived), m.walking, wordFor(Fate::walking), m.stuck,
+                               wordFor(Fate::stuck), m.refused, wordFor(Fate::refused)));
     line("time", fmt::format("{:.1f} s{} of {:.1f} s", m.seconds,
                              m.arrived == m.agents ? " until the last arrived," : "", m.duration));
     line("overlaps",

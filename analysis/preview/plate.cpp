@@ -8,12 +8,17 @@
 #include <glm/common.hpp>
 #include <numbers>
 
+#include "base/printable.h"
+
 namespace throng::analysis {
 namespace {
 
 constexpr double kMargin = 28.0;      // px
 constexpr double kHeader = 64.0;      // px, above the drawing
-constexpr double kFooter = 58.0;      // px, below it
+constexpr double kFooter = 58.0;      // px, below it, with a legend of one line
+constexpr double kLegendLine = 18.0;  // px
+constexpr int kMostLegendLines = 60;  // more are no picture
+constexpr double kLegendSize = 12.0;  // px, of its letters
 constexpr double kDensityCell = 1.0;  // m
 constexpr double kTallest = 32767.0;  // px that Cairo can draw
 constexpr double kMostCells = 4.0e6;  // of the density layer
@@ -59,6 +64,21 @@ std::size_t framesToKeep(const io::Bake& bake, const PreviewOptions& options) {
     return std::min<std::size_t>(trailFrames(bake, options) + 1, kMostBytes / bytes);
 }
 
+bool isInside(char byte) {  // of a letter of several bytes
+    return (static_cast<unsigned char>(byte) & 0xc0u) == 0x80u;
+}
+
+std::size_t lettersOf(const std::string& text) {
+    return static_cast<std::size_t>(std::ranges::count_if(text, [](char byte) { return !isInside(byte); }));
+}
+
+std::string firstLetters(const std::string& text, std::size_t count) {
+    std::size_t end = 0;
+    for (; end < text.size() && (count > 0 || isInside(text[end])); ++end)
+        if (!isInside(text[end])) --count;
+    return text.substr(0, end);
+}
+
 }  // namespace
 
 Plate::Plate(const std::filesystem::path& bake, const PreviewOptions& options)
@@ -71,7 +91,9 @@ Plate::Plate(const std::filesystem::path& bake, const PreviewOptions& options)
     if (bake_.frames == 0) throw InputError(bake, "has no frames: there is nothing to draw");
     width_ = options.width / 2 * 2;  // video encoders want even sizes
     scale_ = (width_ - 2.0 * kMargin) / std::max(extent.x, 1.0);
-    const double height = std::ceil(extent.y * scale_ + kHeader + kFooter);
+    placeLegend();
+    const double height =
+        std::ceil(extent.y * scale_ + kHeader + kFooter + kLegendLine * (legend_lines_ - 1));
     if (height > kTallest)
         throw InputError(bake,
                          fmt::format("its site is {:.6g} m wide and {:.6g} m high: no picture is so narrow",
@@ -84,6 +106,39 @@ Plate::Plate(const std::filesystem::path& bake, const PreviewOptions& options)
             bake, fmt::format("a picture of {} x {} px is more than can be drawn: ask for a smaller --width",
                               width_, height_));
     drawLayout();
+}
+
+/// All groups have their place in the legend, in as many lines as it takes; beside the last one is the scale
+/// bar.
+void Plate::placeLegend() {
+    constexpr double kDot = 15.0, kGap = 19.0;  // px, before and after a name
+    const Surface page(cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1));
+    const Context scope(page.get());
+    cairo_select_font_face(scope.context, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+    cairo_set_font_size(scope.context, kLegendSize);
+    const auto widthOf = [&](const std::string& name) {
+        cairo_text_extents_t extents;
+        cairo_text_extents(scope.context, name.c_str(), &extents);
+        return extents.x_advance;
+    };
+    const double most = 0.6 * width_ - kMargin;  // the scale bar and its caption are right of it
+    double x = 0.0;
+    for (const std::string& group : groups_.names) {
+        std::string name = printable(group);
+        while (lettersOf(name) > 8 && kDot + widthOf(name) > most)  // a name that no line holds is cut
+            name = firstLetters(name, 3 * lettersOf(name) / 4) + "…";
+        const double width = kDot + widthOf(name) + kGap;
+        if (x > 0.0 && x + width - kGap > most) {
+            x = 0.0;
+            if (legend_lines_ == kMostLegendLines) {
+                left_out_ = groups_.names.size() - legend_.size();
+                break;
+            }
+            ++legend_lines_;
+        }
+        legend_.push_back({name, x, legend_lines_ - 1});
+        x += width;
+    }
 }
 
 glm::dvec2 Plate::toPixel(double x, double y) const {
@@ -271,20 +326,20 @@ void Plate::drawCaption(cairo_t* context, const io::CrowdFrame& now) const {
     text(context, kMargin, 56.0, 13.0,
          fmt::format("{:.2f} s, frame {} of {} at {:.4g} frames/s, {} people in the scene",
                      now.index() / bake_.fps, now.index() + 1, bake_.frames, bake_.fps, presentIn(now)));
-    text(context, kMargin, height_ - 34.0, 13.0,
+    text(context, kMargin, height_ - 34.0 - kLegendLine * (legend_lines_ - 1), 13.0,
          fmt::format("whole bake: {} people, {} arrived, {} walking at the end, {} refused",
                      bake_.account.agents, bake_.account.arrived, bake_.account.walking,
-                     bake_.account.refused));
-    double x = kMargin;
-    for (std::size_t group = 0; group < groups_.names.size() && x < 0.55 * width_; ++group) {
+                     bake_.account.refused) +
+             (left_out_ ? fmt::format("; {} groups are not named here", left_out_) : ""));
+    for (std::size_t group = 0; group < legend_.size(); ++group) {
+        const LegendEntry& entry = legend_[group];
+        const double x = kMargin + entry.x;
+        const double y = height_ - 17.0 - kLegendLine * (legend_lines_ - 1 - entry.line);
         setColour(context, groupColour(group));
-        cairo_arc(context, x + 5.0, height_ - 17.0, 5.0, 0.0, 2.0 * std::numbers::pi);
+        cairo_arc(context, x + 5.0, y, 5.0, 0.0, 2.0 * std::numbers::pi);
         cairo_fill(context);
         setColour(context, kInk);
-        text(context, x + 15.0, height_ - 13.0, 12.0, groups_.names[group]);
-        cairo_text_extents_t extents;
-        cairo_text_extents(context, groups_.names[group].c_str(), &extents);
-        x += extents.x_advance + 34.0;
+        text(context, x + 15.0, y + 4.0, kLegendSize, entry.name);
     }
 }
 

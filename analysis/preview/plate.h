@@ -45,6 +45,7 @@ class Plate {
     void drawPeople(cairo_t* context, const io::CrowdFrame& now) const;
     void drawCaption(cairo_t* context, const io::CrowdFrame& now) const;
     void drawScaleBar(cairo_t* context) const;
+    void placeLegend();
     void path(cairo_t* context, const std::vector<glm::dvec2>& points, bool close) const;
     void text(cairo_t* context, double x, double y, double size, const std::string& what,
               bool bold = false) const;
@@ -53,6 +54,15 @@ class Plate {
     const io::Bake& bake_;
     io::GroupTable groups_;
     PreviewOptions options_;
+    /// Where a group's colour and name stand, px from the legend's left and upper corner.
+    struct LegendEntry {
+        std::string name;
+        double x = 0.0;
+        int line = 0;
+    };
+    std::vector<LegendEntry> legend_;  // by group
+    int legend_lines_ = 1;
+    std::size_t left_out_ = 0;  // groups, where there are thousands
     int width_ = 0, height_ = 0;
     double scale_ = 1.0;  // px per m
     Surface layout_, canvas_;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 
 namespace throng::analysis {
 namespace {
@@ -42,11 +43,38 @@ void put(std::string& page, std::string_view word, std::string_view content) {
     if (at != std::string::npos) page.replace(at, word.size(), content);
 }
 
+std::vector<unsigned char> bytesOf(std::string_view hexadecimal) {
+    std::vector<unsigned char> bytes;
+    for (std::size_t i = 0; i + 1 < hexadecimal.size(); i += 2) {
+        unsigned char byte = 0;
+        std::from_chars(hexadecimal.data() + i, hexadecimal.data() + i + 2, byte, 16);
+        bytes.push_back(byte);
+    }
+    return bytes;
+}
+
+/// What a browser may do with a page (Content Security Policy): run and show what is ours, by its hash, and
+/// load nothing. Styles of single elements cannot load anything then.
+std::string policyFor(std::string_view kind) {
+    const auto hashes = [&](const char* ending) {
+        return fmt::format("'sha256-{}' 'sha256-{}'",
+                           base64(bytesOf(webFileHash(fmt::format("common.{}", ending)))),
+                           base64(bytesOf(webFileHash(fmt::format("{}.{}", kind, ending)))));
+    };
+    return fmt::format(
+        "default-src 'none'; script-src {}; style-src-elem {}; style-src-attr 'unsafe-inline'; base-uri "
+        "'none'; "
+        "form-action 'none'",
+        hashes("js"), hashes("css"));
+}
+
 }  // namespace
 
 std::string makePage(std::string_view kind, const std::string& title, const nlohmann::ordered_json& data) {
     std::string page(webFile(fmt::format("{}.html", kind)));
+    put(page, "@POLICY@", policyFor(kind));
     put(page, "@STYLE@", webFile("common.css"));
+    put(page, "@LOOK@", webFile(fmt::format("{}.css", kind)));
     put(page, "@COMMON@", webFile("common.js"));
     put(page, "@SCRIPT@", webFile(fmt::format("{}.js", kind)));
     put(page, "@DATA@", scriptSafe(data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)));

@@ -11,6 +11,8 @@ namespace throng::analysis {
 /// A file of analysis/report/web, put into the binary by the build.
 /// @throws std::logic_error for one that is not there
 std::string_view webFile(std::string_view name);
+/// Its SHA-256, in hexadecimal digits.
+std::string_view webFileHash(std::string_view name);
 
 /// An HTML page that needs no network: styles, scripts and data are inside.
 /// @param kind "bake" or "batch": takes KIND.html, common.js and KIND.js; @param data what the scripts read

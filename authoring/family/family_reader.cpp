@@ -288,9 +288,17 @@ class Reader {
         if (range.size() < 2) return;
         const double step = range.size() == 3 ? range[2] : 1.0;
         const double steps = std::floor((range[1] - range[0]) / step + 1.0e-9);
-        if (step <= 0.0 || steps < 0.0 || steps >= mostScenarios()) {
+        if (step <= 0.0 || steps < 0.0) {
             diagnostics_.error(node.where,
                                "a range goes from the smaller number to the larger one, in steps above zero");
+            return;
+        }
+        if (steps >= mostScenarios()) {
+            diagnostics_.error(
+                node.where,
+                fmt::format("this range has {:.0f} values: a family can have at most {:.0f} scenarios",
+                            steps + 1.0, mostScenarios()),
+                R"(give larger steps, or draw from it: "uniform" with "sampling": "latin", "count": 1000)");
             return;
         }
         const bool whole =

@@ -507,6 +507,20 @@ class Reader {
         return circle;
     }
 
+    /// Whether an object says in any of the ways that there are where a grid goes.
+    bool isGoal(const JsonNode& goal) {
+        const std::vector<std::string> ways = {"offset", "mirror", "anywhere", "nearest", "choose"};
+        if (std::ranges::any_of(ways, [&](const std::string& way) { return goal.find(way) != nullptr; }))
+            return true;
+        if (goal.members.empty())
+            diagnostics_.error(goal.where, fmt::format("`goal` needs one of {}", fmt::join(ways, ", ")),
+                               R"(for example {"offset": [10, 0]})");
+        for (const JsonNode::Member& member : goal.members)
+            diagnostics_.error(member.key_where, fmt::format("`goal` has no key `{}`", member.key),
+                               hintFor(member.key, ways));
+        return false;
+    }
+
     GridFormation readGrid(ObjectReader& reader) {
         GridFormation grid;
         reader.point("origin", "the first person, [x, y] in metres", grid.origin);
@@ -527,6 +541,7 @@ class Reader {
             if (auto destination = places_.destination(*goal)) grid.goal = std::move(*destination);
             return grid;
         }
+        if (!isGoal(*goal)) return grid;
         ObjectReader inner(*goal, reader.rule("goal"), "`goal`", diagnostics_);
         if (goal->find("mirror")) {
             if (const auto line = lineOf(inner, "mirror", *goal)) grid.goal = *line;

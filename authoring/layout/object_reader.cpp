@@ -62,9 +62,24 @@ const JsonNode* ObjectReader::get(const std::string& key) {
 
 const JsonNode* ObjectReader::require(const std::string& key, const char* meaning) {
     const JsonNode* found = get(key);
-    if (!found && is_object_)
+    if (!found && is_object_ && !tellMisspelt(key))
         diagnostics_.error(node_.where, fmt::format("{} needs `{}` ({})", what_, key, meaning));
     return found;
+}
+
+/// A key that is there in other letters is one mistake, not one that is missing and one too many.
+bool ObjectReader::tellMisspelt(const std::string& key) {
+    const std::vector<std::string> keys = rule_.keys();
+    for (const JsonNode::Member& member : node_.members) {
+        if (std::ranges::find(keys, member.key) != keys.end()) continue;
+        if (std::ranges::find(known_, member.key) != known_.end()) continue;
+        if (nearestWord(member.key, keys) != key) continue;
+        diagnostics_.error(member.key_where, fmt::format("{} has no key `{}`", what_, member.key),
+                           fmt::format("did you mean `{}`?", key));
+        known_.push_back(member.key);
+        return true;
+    }
+    return false;
 }
 
 void ObjectReader::expectSame(const std::string& key, bool same) const {

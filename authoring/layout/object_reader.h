@@ -71,6 +71,7 @@ class ObjectReader {
     void expectSame(const std::string& key, bool same) const;
 
   private:
+    bool tellMisspelt(const std::string& key);
     std::optional<glm::dvec2> pointOf(const JsonNode& node, SchemaRule rule);
     /// What stands at the key where nothing is written; null where the schema does not say.
     const JsonNode* standardOf(const std::string& key) const { return rule(key).standard(); }

@@ -18,6 +18,7 @@
 #include "authoring/scene/routes.h"
 #include "authoring/scene/terrain_check.h"
 #include "authoring/scene/walls.h"
+#include "authoring/scene/ways_check.h"
 
 namespace throng::authoring {
 namespace {
@@ -92,6 +93,7 @@ class Builder {
                                "more than 1 GiB",
                                "give people areas as goals instead of single points");
         const bool valid = !diagnostics_.hasErrors();
+        if (valid) checkWays(layout_, rebase_, geometry_, routes, scene_, diagnostics_);
         if (valid) finish(routes);
         ground_->solveWith(nullptr);  // ground may be kept for longer than its solver lives
         return valid ? std::optional(std::move(scene_)) : std::nullopt;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <charconv>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -17,9 +20,23 @@ inline std::string inQuotes(const std::string& text) {
     return result + '"';
 }
 
-/// A field of comma-separated text, in quotes where it needs them.
+/// Whether a spreadsheet would take the text, without the apostrophes before it, for a formula.
+inline bool looksLikeFormula(const std::string& text) {
+    const std::size_t first = text.find_first_not_of('\'');
+    if (first == std::string::npos ||
+        std::string_view("=+-@\t\r").find(text[first]) == std::string_view::npos)
+        return false;
+    double number = 0.0;  // numbers are only numbers
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, number);
+    return error != std::errc() || stop != end;
+}
+
+/// A field of comma-separated text, in quotes where it needs them. What a spreadsheet would take for a
+/// formula gets an apostrophe before it, as one types it there to mean text; CsvReader takes it away.
 inline std::string csvField(const std::string& text) {
-    return text.find_first_of(",\"\r\n") == std::string::npos ? text : inQuotes(text);
+    const std::string plain = looksLikeFormula(text) ? "'" + text : text;
+    return plain.find_first_of(",\"\r\n") == std::string::npos ? plain : inQuotes(plain);
 }
 
 /// Splits comma-separated text with quoted fields (RFC 4180) into records.
@@ -54,6 +71,7 @@ class CsvReader {
             else
                 value += c;
         }
+        if (value.starts_with('\'') && looksLikeFormula(value.substr(1))) value.erase(0, 1);
         return value;
     }
 

@@ -12,6 +12,7 @@
 #include "base/files/hash.h"
 #include "base/files/input_file.h"
 #include "cli/terminal/exit_codes.h"
+#include "cli/terminal/failure.h"
 #include "cli/terminal/say.h"
 #include "io/gltf/terrain_file.h"
 
@@ -81,7 +82,8 @@ LoadedLayout loadLayout(const std::string& path, const std::vector<std::string>&
                         const SolverMaker& make_solver) {
     LoadAttempt attempt = tryLoadLayout(path, overrides, make_solver);
     printDiagnostics(attempt.loaded);
-    if (!attempt.valid) throw Exit(kInvalidInput);
+    if (!attempt.valid)
+        throw Exit(kInvalidInput, "the layout is not valid", diagnosticsJson(attempt.loaded.diagnostics));
     return std::move(attempt.loaded);
 }
 

@@ -13,6 +13,7 @@
 #include "base/files/input_file.h"
 #include "base/printable.h"
 #include "cli/terminal/exit_codes.h"
+#include "cli/terminal/failure.h"
 #include "cli/terminal/say.h"
 
 namespace throng::cli {
@@ -61,7 +62,7 @@ BatchPlan::BatchPlan(const std::string& path) : path_(path) {
     auto family = authoring::readFamily(text, std::filesystem::path(path).parent_path(), diagnostics);
     for (const authoring::Diagnostic& entry : diagnostics.entries)
         say(stderr, "{}\n", authoring::formatDiagnostic(entry, path, text));
-    if (!family) throw Exit(kInvalidInput);
+    if (!family) throw Exit(kInvalidInput, "the family is not valid", diagnosticsJson(diagnostics));
     family_ = std::move(*family);
     if (family_.name.empty()) family_.name = printable(std::filesystem::path(path).stem().string());
     for (authoring::Scenario& scenario : authoring::planFamily(family_)) {
@@ -101,13 +102,15 @@ std::string BatchPlan::terrainOf(const std::string& layout_text) const {
     return terrains_[file] = hash;
 }
 
-void BatchPlan::tryLayouts() {
+std::size_t BatchPlan::tryLayouts() {
     constexpr std::size_t kMost = 4000;
     constexpr std::size_t kMostBytes = std::size_t{20} << 20;  // of them together: they take time
     constexpr std::size_t kMostPrinted = 3;
     const std::size_t tried =
         std::min({kMost, scenarios_.size(), 8 + kMostBytes / (self_contained_.size() + 1)});
     std::size_t wrong = 0;
+    authoring::Diagnostics told;  // the same for --json
+    told.file = path_;
     for (std::size_t i = 0; i < tried; ++i) {
         const std::size_t index = i * scenarios_.size() / tried;
         std::string problem;
@@ -126,10 +129,16 @@ void BatchPlan::tryLayouts() {
         if (!problem.empty() && ++wrong <= kMostPrinted)
             say(stderr, "{}: error: scenario {} ({}) is no valid layout:{}\n", path_, index + 1,
                 authoring::describe(scenarios_[index].scenario), problem);
+        if (!problem.empty())
+            told.error({}, fmt::format("scenario {} ({}) is no valid layout:{}", index + 1,
+                                       authoring::describe(scenarios_[index].scenario), problem));
     }
     if (wrong > kMostPrinted)
         say(stderr, "{}: {} scenarios more are no valid layouts\n", path_, wrong - kMostPrinted);
-    if (wrong > 0) throw Exit(kInvalidInput);
+    if (wrong > 0)
+        throw Exit(kInvalidInput, fmt::format("{} of {} scenarios tried are no valid layouts", wrong, tried),
+                   diagnosticsJson(told));
+    return tried;
 }
 
 void BatchPlan::addLoad(const authoring::Layout& layout, double share) {

@@ -37,8 +37,9 @@ class BatchPlan {
     explicit BatchPlan(const std::string& path);
     /// Tries every scenario's layout (up to some thousands, evenly chosen: the others' mistakes become
     /// failures of their own) and adds up the load. Takes seconds for large layouts: no work for a worker.
+    /// @returns how many were tried
     /// @throws Exit as above
-    void tryLayouts();
+    std::size_t tryLayouts();
 
     const authoring::Family& family() const { return family_; }
     const std::vector<PlannedScenario>& scenarios() const { return scenarios_; }

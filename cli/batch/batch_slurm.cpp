@@ -10,6 +10,7 @@
 #include "base/files/errors.h"
 #include "base/files/input_file.h"
 #include "base/files/output_file.h"
+#include "base/printable.h"
 #include "base/process.h"
 #include "cli/batch/farm_job.h"
 #include "cli/terminal/say.h"
@@ -79,6 +80,8 @@ class Array {
 
   private:
     std::string scriptText(std::size_t tasks) const {
+        if (printable(root_.string()) != root_.string())  // a line of the script would end in it
+            throw OutputError(root_, "a job script cannot name a folder with control characters");
         std::string text = fmt::format(
             "#!/bin/sh\n"
             "#SBATCH --job-name={}\n"
@@ -86,7 +89,7 @@ class Array {
             "#SBATCH --output={}\n"
             "#SBATCH --open-mode=append\n"
             "#SBATCH --requeue\n",
-            quoted("throng " + plan_.family().name), tasks - 1, quoted((folder_ / "%A_%a.log").string()));
+            quoted(jobName(plan_.family().name)), tasks - 1, quoted((folder_ / "%A_%a.log").string()));
         std::string limit;
         if (options_.time_limit_minutes > 0.0) {
             // Slurm ends tasks at their limit; ours begin nothing that would not be over before.

@@ -25,7 +25,7 @@ std::string openJobDescription(const BatchPlan& plan, const std::string& family,
     };
     ordered_json job;
     job["specificationVersion"] = "jobtemplate-2023-09";
-    job["name"] = "throng " + plan.family().name;
+    job["name"] = jobName(plan.family().name);
     job["parameterDefinitions"] =
         ordered_json::array({{{"name", "Throng"},
                               {"type", "STRING"},
@@ -49,12 +49,14 @@ std::string openJobDescription(const BatchPlan& plan, const std::string& family,
          {{"name", "Gather"},
           {"dependencies", ordered_json::array({{{"dependsOn", "Bake"}}})},
           {"script", step({"--collect"})}}});
-    return job.dump(2) + "\n";
+    return job.dump(2, ' ', true, ordered_json::error_handler_t::replace) + "\n";
 }
 
 std::string flamencoJobType(const BatchPlan& plan, const std::string& family, const std::string& output,
                             std::size_t parts) {
-    const auto text = [](const std::string& value) { return ordered_json(value).dump(); };
+    const auto text = [](const std::string& value) {
+        return ordered_json(value).dump(-1, ' ', true, ordered_json::error_handler_t::replace);
+    };
     return fmt::format(R"js(// A job type for Flamenco 3: put it into the manager's `scripts` folder.
 const JOB_TYPE = {{
     label: {label},
@@ -87,12 +89,23 @@ function compileJob(job) {{
     job.addTask(gather);
 }}
 )js",
-                       fmt::arg("label", text("Throng: " + plan.family().name)),
-                       fmt::arg("family", text(family)), fmt::arg("output", text(output)),
-                       fmt::arg("parts", parts));
+                       fmt::arg("label", text(jobName(plan.family().name))), fmt::arg("family", text(family)),
+                       fmt::arg("output", text(output)), fmt::arg("parts", parts));
 }
 
 }  // namespace
+
+std::string jobName(std::string_view name) {
+    constexpr std::size_t kLongest = 100;
+    constexpr std::string_view kAlso = " ._-";
+    std::string result = "throng ";
+    for (const char letter : name.substr(0, kLongest)) {
+        const bool plain = (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') ||
+                           (letter >= '0' && letter <= '9') || kAlso.find(letter) != std::string_view::npos;
+        result += plain ? letter : '_';
+    }
+    return result;
+}
 
 std::size_t partsFor(std::size_t scenarios) {
     constexpr std::size_t kEach = 50;  // starting a task takes a second or more

@@ -2,10 +2,15 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "cli/batch/batch_folder.h"
 
 namespace throng::cli {
+
+/// A name of any origin as job managers take it: no quotes, line ends, or what scripts and templates act
+/// upon.
+std::string jobName(std::string_view name);
 
 /// How many parts a farm cuts so many scenarios into by itself.
 std::size_t partsFor(std::size_t scenarios);

@@ -14,6 +14,7 @@
 #include "base/files/csv.h"
 #include "base/files/errors.h"
 #include "base/files/output_file.h"
+#include "base/outcomes.h"
 
 namespace throng::cli {
 namespace fs = std::filesystem;
@@ -51,10 +52,10 @@ constexpr Column kColumns[] = {
     {"reason", "TEXT", "/reason"},
     {"missed", "TEXT", "/missed"},
     {"agents", "INTEGER", "/metrics/agents"},
-    {"arrived", "INTEGER", "/metrics/arrived"},
-    {"walking", "INTEGER", "/metrics/walking"},
-    {"refused", "INTEGER", "/metrics/refused"},
-    {"stuck", "INTEGER", "/metrics/stuck"},
+    {wordFor(Fate::arrived).data(), "INTEGER", "/metrics/arrived"},
+    {wordFor(Fate::walking).data(), "INTEGER", "/metrics/walking"},
+    {wordFor(Fate::refused).data(), "INTEGER", "/metrics/refused"},
+    {wordFor(Fate::stuck).data(), "INTEGER", "/metrics/stuck"},
     {"seconds", "REAL", "/metrics/seconds"},
     {"duration", "REAL", "/metrics/duration"},
     {"overlapping_percent", "REAL", "/metrics/overlapping_percent"},

@@ -132,6 +132,24 @@ QueryResult queryResults(const fs::path& database_path, const std::string& sql) 
     }
 }
 
+std::optional<SqlMistake> mistakeIn(const fs::path& database_path, const std::string& sql) {
+    Deadline deadline{.seconds = kLeastSeconds};
+    static_cast<void>(InputFile(database_path));  // a regular file
+    std::optional<SQLite::Database> database;
+    try {
+        database.emplace(database_path, SQLite::OPEN_READONLY);
+        confine(database->getHandle(), deadline);
+        const SQLite::Statement statement(*database, sql);
+    } catch (const SQLite::Exception& error) {
+        if (!database || (error.getErrorCode() != SQLITE_ERROR && error.getErrorCode() != SQLITE_AUTH))
+            throw InputError(database_path, error.what());
+        if (error.getErrorCode() == SQLITE_AUTH) return std::nullopt;
+        const int at = sqlite3_error_offset(database->getHandle());
+        return SqlMistake{error.what(), at < 0 ? SqlMistake::kWhole : static_cast<std::size_t>(at)};
+    }
+    return std::nullopt;
+}
+
 bool isWholePiece(std::string_view sql) {
     int open = 0;
     for (std::size_t i = 0; i < sql.size(); ++i) {

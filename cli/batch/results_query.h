@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,17 @@ struct QueryResult {
 /// an end: in time, and in what it may hold in memory.
 /// @throws InputError with what SQLite says
 QueryResult queryResults(const std::filesystem::path& database, const std::string& sql);
+
+/// What SQLite cannot understand in a statement.
+struct SqlMistake {
+    std::string message;      ///< as SQLite says it
+    std::size_t at = kWhole;  ///< bytes from the statement's begin to what it means
+    static constexpr std::size_t kWhole = ~std::size_t{0};
+};
+
+/// Looks whether a statement can be understood, without running it; nothing for one that only is not allowed.
+/// @throws InputError for what is no database
+std::optional<SqlMistake> mistakeIn(const std::filesystem::path& database, const std::string& sql);
 
 /// Whether a piece of SQL is whole in itself: it does not close a bracket that it has not opened, and leaves
 /// neither a bracket nor a quote nor a comment open.

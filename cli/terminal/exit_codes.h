@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace throng::cli {
 
@@ -18,10 +21,20 @@ enum ExitCode : int {
     kTerminated = 143,       ///< 128 + SIGTERM
 };
 
-/// Ends a command with a code; what there is to say has been said.
+/// Ends a command with a code; what there is to say to people has been said.
 struct Exit : std::runtime_error {
+    /// Where standard output has all there is to know, with --json, too.
     explicit Exit(int exit_code) : std::runtime_error("exit"), code(exit_code) {}
+    /// @param what_for what --json is to say of it, in a sentence; @param mistakes as diagnosticsJson()
+    Exit(int exit_code, std::string what_for,
+         nlohmann::ordered_json mistakes = nlohmann::ordered_json::array())
+        : std::runtime_error("exit"),
+          code(exit_code),
+          message(std::move(what_for)),
+          diagnostics(std::move(mistakes)) {}
     int code;
+    std::string message;
+    nlohmann::ordered_json diagnostics = nlohmann::ordered_json::array();
 };
 
 }  // namespace throng::cli

@@ -412,7 +412,11 @@ def test_queries_as_table_csv_and_json(throng, tmp_path):
         table = list(csv.DictReader(file))
     assert [int(row["rate"]) for row in table] == [1, 1, 2, 2, 4, 4] and table[0]["device"]
     assert ask("--sql", "SELECT avg(arrived) AS mean FROM scenarios", "--csv").startswith("mean\n")
-    assert "no such column" in throng("batch", "query", tmp_path / "out", "--where", "rats > 1", expect=3).stderr
+    mistake = lambda *words: throng("batch", "query", tmp_path / "out", *words, expect=2).stderr
+    assert "there is no column `rats`" in mistake("--where", "rats > 1")
+    assert "did you mean `arrived`?" in mistake("--where", "arived > 1") and "--where" in mistake("--where", "arived > 1")
+    assert "ends where something is missing" in mistake("--where", "arrived >")
+    assert "--sort" in mistake("--sort", "nothing") and "--columns" in mistake("--columns", "id, nothing")
     throng("batch", "query", tmp_path / "out", "--sql", "DROP TABLE scenarios", expect=3)
     assert len(rows(tmp_path / "out")) == 6
 

@@ -9,6 +9,7 @@ import bpy
 from bpy.props import IntProperty
 
 from ..formats import BakeError
+from ..outcomes import account_text
 from .bake_job import BakeJob, Diagnostic, check_layout
 from .executable import ExecutableError, check_version, find_executable
 from .exporter import default_name, export_layout, folder_of_files, layout_text, write_text
@@ -219,7 +220,7 @@ class Bake:
         refused = account.get("refused_reasons", {}).items()
         self._warn(layout, [f"{count} people are not in the crowd: {reason}" for reason, count in refused] + lost)
         seconds = time.monotonic() - self.start
-        return "INFO", f"{account['agents']} people, {job.result['frames']} frames in {seconds:.1f} s"
+        return "INFO", f"{account_text(account)}; {job.result['frames']} frames in {seconds:.1f} s"
 
     def _first_error(self, layout):
         errors = [problem for problem in layout.problems if problem.is_error]

@@ -93,6 +93,11 @@ class Rows:
         return Sample(position, direction, tuple(state))
 
 
+def _text(field):
+    """A field as it was: what a spreadsheet would take for a formula is written with an apostrophe before it."""
+    return field[1:] if field.startswith("'") and field.lstrip("'")[:1] in tuple("=+-@\t\r") else field
+
+
 class Table:
     """agents.csv: who everybody is."""
 
@@ -102,8 +107,8 @@ class Table:
             with open(path, encoding="utf-8", newline="") as file:
                 lines = list(csv.DictReader(file))
             frames = [int(line["spawn_frame"]) if line["spawn_frame"] else None for line in lines]
-            self.people = [Entrant(line["group"]) if frame is None or frame >= bake.frames
-                           else Entrant(line["group"], frame,
+            self.people = [Entrant(_text(line["group"])) if frame is None or frame >= bake.frames
+                           else Entrant(_text(line["group"]), frame,
                                         tuple(a + b for a, b in zip(rows.place(row, frame), bake.origin)))
                            for row, (line, frame) in enumerate(zip(lines, frames))]
             self.looks = {row: _look(line) for row, line in enumerate(lines)

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+/// What became of people, in words: the account of a bake, its table, measurements, batches, pages and the
+/// Blender add-on all mean this by them (docs/bake.md has the same table, and a test compares the two).
+namespace throng {
+
+enum class Fate { spawned, walking, waiting, arrived, stuck, refused };
+
+struct FateWord {
+    Fate fate;
+    std::string_view word;
+    std::string_view meaning;
+};
+
+inline constexpr std::array kFates = {
+    FateWord{Fate::spawned, "spawned", "Came into the scene: everybody who is walking or arrived."},
+    FateWord{Fate::walking, "walking",
+             "In the scene at the end and not arrived, also who stands at a stop or in a line."},
+    FateWord{Fate::waiting, "waiting", "Not yet in the scene; who still waits when a bake ends is refused."},
+    FateWord{Fate::arrived, "arrived", "Came to its goal, and left there or stayed."},
+    FateWord{Fate::stuck, "stuck",
+             "Walking at the end, at no stop and in no line, and not half a metre on in five seconds."},
+    FateWord{Fate::refused, "refused", "Never came into the scene; the reason is told."},
+};
+
+/// @throws at compile time for a fate without a word
+constexpr std::string_view wordFor(Fate fate) {
+    for (const FateWord& entry : kFates)
+        if (entry.fate == fate) return entry.word;
+    throw "there is no such fate";
+}
+
+/// The same as a key of JSON.
+inline std::string keyFor(Fate fate) {
+    return std::string(wordFor(fate));
+}
+
+inline constexpr double kStuckSeconds = 5.0;  ///< the last of a bake
+inline constexpr double kStuckMetres = 0.5;
+
+}  // namespace throng
