@@ -66,6 +66,7 @@ void JsonMutator::learn(const Json& value) {
     if (value.is_number()) numbers_.push_back(value.get<double>());
     if (value.is_string() && value.get_ref<const std::string&>().size() <= kLongestWord)
         words_.push_back(value.get<std::string>());
+    if (!value.is_structured()) return;  // a scalar would have itself as its one item
     for (const auto& [key, inside] : value.items()) {
         if (value.is_object()) words_.push_back(key);
         learn(inside);
