@@ -105,6 +105,11 @@ std::string mutatedBytes(std::string_view bytes, std::size_t most) {
 
 using namespace throng;
 
+/// Fonts are found once in a process, and what that takes is never given back.
+extern "C" const char* __lsan_default_suppressions() {
+    return "leak:libfontconfig";
+}
+
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
     fuzz::own_errors = ::dup(STDERR_FILENO);
     std::string name = (std::filesystem::temp_directory_path() / "throng-fuzz-XXXXXX").string();
