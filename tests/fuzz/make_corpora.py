@@ -89,7 +89,8 @@ def settings():
 def families():
     yield from (compact(source) for source in sources() if "throng_family" in source)
     base = small(next(layout for layout in layouts() if layout.get("flows")))
-    axes = [{"set": "/simulation/seed", "range": [1, 3]}, {"set": ["/flows/0/count", "/flows/0/people/radius"], "values": [1, 2]},
+    axes = [{"set": "/simulation/seed", "range": [1, 3]},
+            {"set": ["/flows/0/count", "/flows/0/people/radius"], "values": [1, 2]},
             {"set": "/new/key", "values": [{"a": []}, None]}]
     drawn = [{"set": "/simulation/duration", "uniform": [1, 5], "whole": True},
              {"set": "/flows/0/count", "normal": [5, 2], "min": 1, "max": 9},
@@ -106,9 +107,11 @@ def families():
 
 
 def overrides():
-    people = [(0, "eastbound", 0, [-15, -3.6, 0]), (1, "north, \"bound\"", 0, [3.6, -15, 0]), (4, "eastbound", 4, [-15, 0, 0])]
+    people = [(0, "eastbound", 0, [-15, -3.6, 0]),
+              (1, "north, \"bound\"", 0, [3.6, -15, 0]), (4, "eastbound", 4, [-15, 0, 0])]
     changes = [{"hide": True}, {"character": 2, "scale": 1.1}, {"tint": "#a01020"}, {"tint": [0.1, 0.5, 1]},
-               {"move": {"by": [0, 1.5, 0], "turn": 30}}, {"retime": {"offset": -3, "speed": 1.5}}, {"hero": "she", "note": "x"}, {}]
+               {"move": {"by": [0, 1.5, 0], "turn": 30}},
+               {"retime": {"offset": -3, "speed": 1.5}}, {"hero": "she", "note": "x"}, {}]
     for change in changes:
         yield compact({"throng_overrides": 1, "overrides": [
             {"id": row, "group": group, "spawn": {"frame": frame, "position": place}, **change}
@@ -121,7 +124,8 @@ def terrains():
     stairs = terrain_files.stairs(5, 0.3, 0.17, 5, 9)
     for mesh in (flat, hill, stairs):
         yield terrain_files.glb(*mesh)
-    yield terrain_files.glb(*flat, nodes=[{"children": [1, 2]}, {"mesh": 0, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1]},
+    yield terrain_files.glb(*flat, nodes=[{"children": [1, 2]}, 
+                                          {"mesh": 0, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1]},
                                           {"mesh": 0, "scale": [-1, 1, 1], "rotation": [0, 0.7, 0, 0.7], "translation": [1, 0, 0]}])
     whole = terrain_files.glb(*flat)
     length = struct.unpack_from("<I", whole, 12)[0]
@@ -152,7 +156,8 @@ def bakes(build, folder):
     for number, words in enumerate((("agents=0", "frames=2"), ("agents=6", "frames=8"),
                                     ("agents=3", "frames=3", "x=500000.25", "y=5600000"), ("agents=12", "frames=40"))):
         made = folder / f"bake{number}"
-        subprocess.run([build / "tests/fuzz/write_sample_bake", made, *words, "gltf=-1"], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([build / "tests/fuzz/write_sample_bake", made, *words, "gltf=-1"],
+                       check=True, stdout=subprocess.DEVNULL)
         yield made
 
 
@@ -191,7 +196,8 @@ def databases(folder):
                 CREATE TABLE scenarios (id TEXT PRIMARY KEY, number INTEGER NOT NULL, status TEXT, reason TEXT,
                                         agents INTEGER, seconds REAL, bake TEXT, log TEXT) WITHOUT ROWID;
                 CREATE TABLE parameters (id TEXT PRIMARY KEY, "rate", "name") WITHOUT ROWID;
-                CREATE VIEW results AS SELECT scenarios.*, parameters."rate" AS "rate" FROM scenarios JOIN parameters USING (id);
+                CREATE VIEW results AS SELECT scenarios.*, parameters."rate" AS "rate"
+                    FROM scenarios JOIN parameters USING (id);
                 CREATE TABLE batch (key TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID;
                 INSERT INTO batch VALUES ('name', 'some'), ('base', 'street.json');""")
             for i in range(4 * number + 2):
@@ -223,12 +229,16 @@ def words_of(*documents):
 
 
 DICTIONARIES = {
-    "settings": lambda: words_of(schema_of("layout")) | {"=", ".", "/", "~0", "~1", "[0, 1]", "{}", "-1", "1e300", "null"},
-    "streams": lambda: {"POINTCACHE2", "\\x93NUMPY\\x01\\x00", "'descr': '<f4'", "'fortran_order': False", "'shape': (", ", 3), }"},
-    "results": lambda: {"SQLite format 3", "CREATE TABLE", "CREATE VIEW", "WITH RECURSIVE", "SELECT", "randomblob(", "zeroblob(",
+    "settings": lambda: words_of(schema_of("layout")) |
+    {"=", ".", "/", "~0", "~1", "[0, 1]", "{}", "-1", "1e300", "null"},
+    "streams": lambda: {"POINTCACHE2", "\\x93NUMPY\\x01\\x00", "'descr': '<f4'", "'fortran_order': False",
+                         "'shape': (", ", 3), }"},
+    "results": lambda: {"SQLite format 3", "CREATE TABLE", "CREATE VIEW", "WITH RECURSIVE", "SELECT", "randomblob(",
+                        "zeroblob(",
                         "printf('%.*c', 1000000000, 'x')", "scenarios", "results", "batch", "WITHOUT ROWID", "PRIMARY KEY"},
     "checkpoint": lambda: {"THRONGC1", "first alive", "gaits walked", "diagrams", "motion", "seconds"},
-    "bake": lambda: {"id,group,kind,radius,preferred_speed", "spawn_frame", "arrival_frame", "nan", "inf", "1e308", "walking", "arrived",
+    "bake": lambda: {"id,group,kind,radius,preferred_speed", "spawn_frame", "arrival_frame", "nan", "inf", "1e308",
+                     "walking", "arrived",
                      "refused", "\\x93NUMPY\\x01\\x00", "'shape': ("},
 }
 DICTIONARIES["analysis"] = DICTIONARIES["bake"]
@@ -256,8 +266,10 @@ def main(build):
             for number, content in enumerate(inputs):
                 (build / "seeds" / reader / f"{number:04}").write_bytes(content)
     for reader, words in DICTIONARIES.items():
-        lines = [word.replace('"', '\\"') if "\\x" in word else word.replace("\\", "\\\\").replace('"', '\\"') for word in words()]
-        (build / "words" / reader).write_text("".join(f'"{line}"\n' for line in sorted(lines) if line.isascii() and line.isprintable()))
+        lines = [word.replace('"', '\\"') if "\\x" in word else
+                 word.replace("\\", "\\\\").replace('"', '\\"') for word in words()]
+        (build / "words" / reader).write_text(
+            "".join(f'"{line}"\n' for line in sorted(lines) if line.isascii() and line.isprintable()))
 
 
 if __name__ == "__main__":
