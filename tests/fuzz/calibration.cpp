@@ -8,7 +8,8 @@
 using namespace throng;
 
 THRONG_FUZZ_JSON(R"({"throng-calibration": 1, "version": "0.1.0", "device": "any / 1",
-        "words": ["costs", "method", "gradient1", "gradient2", "per-site", "per-pixel", "binned", "flood", "cones", "auto",
+        "words": ["costs", "method", "gradient1", "gradient2", "per-site", "per-pixel", "binned",
+        "flood", "cones", "auto",
         "base_ms", "pixel_ns", "site_ns", "covered_ns", "gather", "block_width", "block_height", "bin_radii"],
         "numbers": [1, 2, 4, 8, 0.25]})")
 

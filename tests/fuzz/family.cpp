@@ -27,7 +27,8 @@ void makeLayout(const authoring::Family& family, const authoring::Scenario& scen
 
 void fuzz::readOne(std::string_view input) {
     static const std::filesystem::path base = put("base.json", R"({"throng": 1,
-        "areas": [{"id": "a", "polygon": [[0, 0], [9, 0], [9, 9]]}, {"id": "b", "polygon": [[20, 0], [29, 0], [29, 9]]}],
+        "areas": [{"id": "a", "polygon": [[0, 0], [9, 0], [9, 9]]}, {"id": "b", "polygon": [[20, 0],
+        [29, 0], [29, 9]]}],
         "flows": [{"id": "all", "from": "a", "to": "b", "count": 3}]})");
     authoring::Diagnostics diagnostics;
     const auto family = authoring::readFamily(input, base.parent_path(), diagnostics);

@@ -24,7 +24,8 @@ sys.path[:0] = [str(ROOT / "tests"), str(ROOT / "tests" / "authoring")]
 import layout_corpus  # noqa: E402
 import terrain_files  # noqa: E402
 
-SCHEMAS = {"layout": "authoring/layout/throng-layout.schema.json", "family": "authoring/family/throng-family.schema.json",
+SCHEMAS = {"layout": "authoring/layout/throng-layout.schema.json",
+           "family": "authoring/family/throng-family.schema.json",
            "overrides": "authoring/overrides/throng-overrides.schema.json"}
 
 
@@ -126,7 +127,8 @@ def terrains():
         yield terrain_files.glb(*mesh)
     yield terrain_files.glb(*flat, nodes=[{"children": [1, 2]}, 
                                           {"mesh": 0, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1]},
-                                          {"mesh": 0, "scale": [-1, 1, 1], "rotation": [0, 0.7, 0, 0.7], "translation": [1, 0, 0]}])
+                                          {"mesh": 0, "scale": [-1, 1, 1], "rotation": [0, 0.7, 0, 0.7],
+                                           "translation": [1, 0, 0]}])
     whole = terrain_files.glb(*flat)
     length = struct.unpack_from("<I", whole, 12)[0]
     document, binary = json.loads(whole[20:20 + length]), whole[28 + length:]
@@ -235,7 +237,8 @@ DICTIONARIES = {
                          "'shape': (", ", 3), }"},
     "results": lambda: {"SQLite format 3", "CREATE TABLE", "CREATE VIEW", "WITH RECURSIVE", "SELECT", "randomblob(",
                         "zeroblob(",
-                        "printf('%.*c', 1000000000, 'x')", "scenarios", "results", "batch", "WITHOUT ROWID", "PRIMARY KEY"},
+                        "printf('%.*c', 1000000000, 'x')", "scenarios", "results", "batch", "WITHOUT ROWID",
+                        "PRIMARY KEY"},
     "checkpoint": lambda: {"THRONGC1", "first alive", "gaits walked", "diagrams", "motion", "seconds"},
     "bake": lambda: {"id,group,kind,radius,preferred_speed", "spawn_frame", "arrival_frame", "nan", "inf", "1e308",
                      "walking", "arrived",

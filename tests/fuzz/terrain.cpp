@@ -45,9 +45,12 @@ std::string glbOf(std::string json, std::string binary) {
 const fuzz::JsonMutator& mutator() {
     static const fuzz::JsonMutator made{
         R"({"words": ["asset", "version", "scene", "scenes", "nodes", "children", "mesh",
-        "meshes", "primitives", "attributes", "POSITION", "NORMAL", "indices", "mode", "accessors", "bufferView",
-        "byteOffset", "componentType", "count", "type", "SCALAR", "VEC2", "VEC3", "VEC4", "MAT4", "min", "max", "sparse",
-        "bufferViews", "buffer", "byteLength", "byteStride", "target", "buffers", "uri", "name", "matrix", "rotation",
+        "meshes", "primitives", "attributes", "POSITION", "NORMAL", "indices", "mode", "accessors",
+        "bufferView",
+        "byteOffset", "componentType", "count", "type", "SCALAR", "VEC2", "VEC3", "VEC4", "MAT4", "min",
+        "max", "sparse",
+        "bufferViews", "buffer", "byteLength", "byteStride", "target", "buffers", "uri", "name",
+        "matrix", "rotation",
         "scale", "translation", "extensions", "extensionsRequired", "KHR_draco_mesh_compression", "extras",
         "data:application/octet-stream;base64,AAAA", "ground.glb", "../ground.glb"],
         "numbers": [1, 2, 3, 4, 5, 6, 5120, 5121, 5122, 5123, 5124, 5125, 5126, 5130, 252, 255]})"};

@@ -16,11 +16,16 @@ inline const char* const kBakeFiles[] = {
 inline std::string mutatedBake(std::string_view input, std::size_t most, unsigned seed) {
     static const JsonMutator mutator{
         R"({"words": ["format", "throng bake", "version", "name", "complete", "fps", "frames",
-        "agents", "origin", "bounds", "min", "max", "seed", "geometry", "roads", "areas", "walls", "id", "centreline",
-        "width", "one_way", "polygon", "points", "closed", "thickness", "height", "gate", "open_at_start", "toggles",
-        "ground", "account", "spawned", "walking", "arrived", "refused", "refused_reasons", "files", "path", "bytes",
-        "xxh3", "streams", "pos", "dir", "state", "density", "wish", "terrain", "surface", "source", "lowest", "highest",
-        "device", "renderer", "timing", "wall_seconds", "steps", "diagrams", "gltf", "variations", "substeps", "expect",
+        "agents", "origin", "bounds", "min", "max", "seed", "geometry", "roads", "areas", "walls", "id",
+        "centreline",
+        "width", "one_way", "polygon", "points", "closed", "thickness", "height", "gate",
+        "open_at_start", "toggles",
+        "ground", "account", "spawned", "walking", "arrived", "refused", "refused_reasons", "files",
+        "path", "bytes",
+        "xxh3", "streams", "pos", "dir", "state", "density", "wish", "terrain", "surface", "source",
+        "lowest", "highest",
+        "device", "renderer", "timing", "wall_seconds", "steps", "diagrams", "gltf", "variations",
+        "substeps", "expect",
         "line", "throng", "flow"], "numbers": [1, 24, 1000, 4e9, 4294967295, 100000, 8, 6]})"};
     return mutatedPart(input, mutator, most, seed);
 }
