@@ -81,11 +81,20 @@ std::uint32_t diagramsIn(const Checkpoint& checkpoint) {
     return summary.count;
 }
 
+/// A checkpoint may say anything, and its frames and images are counted on.
+void checkCounts(const Checkpoint& checkpoint, const recording::BakeDescription& description) {
+    const std::uint32_t every = description.diagram_every, frames = description.frames;
+    const std::uint32_t most_diagrams = every > 0 && frames > 0 ? (frames - 1) / every + 1 : 0;
+    if (checkpoint.frames > frames || diagramsIn(checkpoint) > most_diagrams)
+        throw std::runtime_error("the checkpoint has more frames or images than this bake");
+}
+
 }  // namespace
 
 /// What an earlier run wrote after its last checkpoint, or while it was finishing the bake.
 void BakeWriter::removeLeftovers(const Checkpoint& checkpoint) const {
     namespace fs = std::filesystem;
+    checkCounts(checkpoint, description_);  // before anything goes
     std::vector<fs::path> leftovers;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder_->path()))
         if (!entry.is_directory() && !isCheckpoint(entry.path())) leftovers.push_back(entry.path());

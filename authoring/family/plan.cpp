@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <stdexcept>
 
@@ -105,20 +107,40 @@ std::vector<Scenario> drawn(const Family& family) {
     return scenarios;
 }
 
-/// Members that are missing are added, as `--set` does; the layout's reader judges them.
+std::optional<std::size_t> indexOf(const std::string& key) {
+    std::size_t index = 0;
+    const char* const end = key.data() + key.size();
+    const auto [stop, error] = std::from_chars(key.data(), end, index);
+    return error == std::errc() && stop == end ? std::optional(index) : std::nullopt;
+}
+
+/// Members that are missing are added, as `--set` does; the layout's reader judges them. A list that is
+/// missing begins with its first item: nobody gets a million of them by naming the last.
 void setAt(Json& layout, const std::string& pointer, const Json& value) {
-    const Json::json_pointer where(pointer);
-    Json::json_pointer holder = where.parent_pointer();
-    while (!layout.contains(holder))
-        holder = holder.parent_pointer();
-    const Json& found = layout.at(holder);
-    if (found.is_array() && !layout.contains(where))
-        throw std::invalid_argument(
-            fmt::format("`{}`: `{}` has {} items", pointer, holder.to_string(), found.size()));
-    if (!found.is_array() && !found.is_object())
-        throw std::invalid_argument(fmt::format("`{}`: `{}` is {}: there is nothing inside", pointer,
-                                                holder.to_string(), found.type_name()));
-    layout[where] = value;
+    std::vector<std::string> keys;
+    for (Json::json_pointer left(pointer); !left.empty(); left.pop_back())
+        keys.push_back(left.back());
+    Json* at = &layout;
+    Json::json_pointer holder;
+    bool is_new = false;
+    for (auto key = keys.rbegin(); key != keys.rend(); ++key) {
+        if (is_new) *at = *key == "0" ? Json::array({nullptr}) : Json::object();
+        if (at->is_array()) {
+            const std::optional<std::size_t> index = indexOf(*key);
+            if (!index || *index >= at->size())
+                throw std::invalid_argument(
+                    fmt::format("`{}`: `{}` has {} items", pointer, holder.to_string(), at->size()));
+            at = &(*at)[*index];
+        } else if (at->is_object()) {
+            is_new = !at->contains(*key);
+            at = &(*at)[*key];
+        } else {
+            throw std::invalid_argument(fmt::format("`{}`: `{}` is {}: there is nothing inside", pointer,
+                                                    holder.to_string(), at->type_name()));
+        }
+        holder.push_back(*key);
+    }
+    *at = value;
 }
 
 }  // namespace

@@ -33,7 +33,8 @@ std::string nearestWord(std::string_view word, const std::vector<std::string>& k
     if (word.size() > kLongest) return best;
     std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
     for (const std::string& candidate : known) {
-        const auto [shorter, longer] = std::minmax(word.size(), candidate.size());
+        // By value: of two temporaries, std::minmax() would give references.
+        const auto [shorter, longer] = std::minmax({word.size(), candidate.size()});
         if (longer - shorter >= least) continue;
         const std::size_t distance = editDistance(word, candidate);
         if (distance < least) {

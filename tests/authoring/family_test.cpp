@@ -109,6 +109,22 @@ TEST(Family, PointersMayAddMembersAndSetSeveralAtOnce) {
     EXPECT_FALSE(layout.at("simulation").contains("fps"));
 }
 
+TEST(Family, NumbersAmongMissingMembersMakeNoLongLists) {
+    Diagnostics diagnostics;
+    const auto family = familyOf(
+        R"("axes": [{"set": ["/absent/123456789012/x", "/events/0/at"], "values": [3]}])", diagnostics);
+    ASSERT_TRUE(family);
+    const Json layout = composeLayout(*family, planFamily(*family)[0]);
+    EXPECT_EQ(layout.at("absent"), Json::parse(R"({"123456789012": {"x": 3}})"));
+    EXPECT_EQ(layout.at("events"), Json::parse(R"([{"at": 3}])"));
+    for (const char* pointer : {"/roads/1/width", "/roads/99999999999999999999/width", "/roads/-/width"}) {
+        const auto beyond =
+            familyOf(std::string(R"("axes": [{"values": [3], "set": ")") + pointer + "\"}]", diagnostics);
+        ASSERT_TRUE(beyond) << pointer;
+        EXPECT_THROW(composeLayout(*beyond, planFamily(*beyond)[0]), std::invalid_argument) << pointer;
+    }
+}
+
 TEST(Family, EveryMistakeHasItsPlace) {
     Diagnostics diagnostics;
     EXPECT_FALSE(familyOf(

@@ -115,6 +115,26 @@ TEST_F(CheckpointTest, ABakeGoesOnFromBeforeItsFirstFrame) {
             << name;
 }
 
+TEST_F(CheckpointTest, OneThatCountsBeyondItsBakeIsRefused) {
+    const test::SampleCrowd crowd({.diagram_every = 12});
+    const recording::BakeDescription description = crowd.description(folder / "bake");
+    {
+        BakeWriter writer(description, nullptr);
+        crowd.writeTo(writer, 20);
+        writer.save({});
+    }
+    const auto saved = loadCheckpoint(BakeFolder::unfinishedPath(description.output));
+    ASSERT_TRUE(saved);
+    Checkpoint frames = *saved;
+    frames.frames = description.frames + 1;
+    EXPECT_THROW(BakeWriter(description, &frames), std::runtime_error);
+    Checkpoint images = *saved;
+    for (auto& [name, bytes] : images.sections)
+        if (name == "diagrams") bytes.at(3) = std::byte{0xff};  // of their count
+    EXPECT_THROW(BakeWriter(description, &images), std::runtime_error);
+    EXPECT_NO_THROW(BakeWriter(description, &*saved)) << "nothing was lost";
+}
+
 TEST_F(CheckpointTest, ATornOneIsTheFirstToBeReplaced) {
     saveCheckpoint(folder, checkpointAt(1));
     saveCheckpoint(folder, checkpointAt(2));

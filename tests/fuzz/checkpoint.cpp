@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// Checkpoints, and the bake that goes on from one. An input is a whole file, or what belongs behind its
+// header: most of what is changed by chance would otherwise be known by its checksum.
+#include "io/checkpoint.h"
+
+#include <cstring>
+#include <stdexcept>
+
+#include "base/files/hash.h"
+#include "io/bake_folder.h"
+#include "io/bake_writer.h"
+#include "recording/motion_recorder.h"
+#include "support/harness.h"
+#include "tests/io/sample_crowd.h"
+
+using namespace throng;
+
+namespace {
+
+constexpr std::string_view kMagic = "THRONGC1";
+
+std::string sealed(std::string_view content) {
+    Hasher hasher;
+    hasher.add(std::as_bytes(std::span(content)));
+    const std::uint64_t words[] = {content.size(), hasher.digest()};
+    std::string file(kMagic);
+    file.append(reinterpret_cast<const char*>(words), sizeof words);
+    return file.append(content);
+}
+
+const test::SampleCrowd& crowd() {
+    static const test::SampleCrowd made([] {
+        test::SampleOptions options;
+        options.rows = 6;
+        options.frames = 8;
+        options.gltf = false;
+        options.diagram_every = 4;
+        return options;
+    }());
+    return made;
+}
+
+/// What a bake has written when it leaves its checkpoint.
+void leaveUnfinished(const recording::BakeDescription& description) {
+    std::filesystem::remove_all(io::BakeFolder::unfinishedPath(description.output));
+    std::filesystem::remove_all(description.output);
+    io::BakeWriter writer(description, nullptr);
+    crowd().writeTo(writer, 5);
+    writer.save({});
+}
+
+void goOn(const recording::BakeDescription& description, const io::Checkpoint& checkpoint) {
+    io::BakeWriter writer(description, &checkpoint);
+    recording::MotionRecorder recorder(description, [&](const Frame& frame) { writer.write(frame); });
+    if (const auto* motion = checkpoint.find("motion")) recorder.restore(*motion);
+    const std::uint32_t taken = recorder.framesTaken();
+    crowd().makeFrames(description.frames, [&](const Frame& frame) {
+        if (frame.index < taken) return;
+        writer.writeDiagram(frame);
+        recorder.take(frame);
+    });
+    recorder.finish();
+    writer.finish(crowd().account(), {});
+}
+
+}  // namespace
+
+void fuzz::readOne(std::string_view input) {
+    const recording::BakeDescription description = crowd().description(folder() / "bake");
+    leaveUnfinished(description);
+    const std::filesystem::path unfinished = io::BakeFolder::unfinishedPath(description.output);
+    for (const char* name : {"checkpoint.a", "checkpoint.b"})
+        std::filesystem::remove(unfinished / name);
+    put(unfinished.filename() / "checkpoint.a",
+        input.starts_with(kMagic) ? std::string(input) : sealed(input));
+    const auto checkpoint = io::loadCheckpoint(unfinished);
+    if (!checkpoint) return;
+    try {
+        goOn(description, *checkpoint);
+    } catch (const std::runtime_error&) {
+        // One of another bake, in words.
+    }
+}
