@@ -98,13 +98,13 @@ def test_without_any_room_for_temporary_files_it_bakes(throng, faults, whole, tm
 
 
 def test_a_lost_device_keeps_the_last_checkpoint(throng, faults, whole, tmp_path):
-    lost = run(throng, faults, whole[0], tmp_path / "bake", 85, THRONG_LOSE=30)
+    lost = run(throng, faults, whole[0], tmp_path / "bake", 85, THRONG_LOSE=20)
     assert "the GPU was reset" in lost.stderr and "--resume" in lost.stderr and not (tmp_path / "bake").exists()
     ends_well(throng, whole, tmp_path / "bake")
 
 
-def test_a_lost_device_without_checkpoints_leaves_nothing(throng, faults, whole, tmp_path):
-    lost = run(throng, faults, whole[0], tmp_path / "bake", 4, "--checkpoint", "0", THRONG_LOSE=5)
+def test_a_device_lost_before_the_first_checkpoint_leaves_nothing(throng, faults, whole, tmp_path):
+    lost = run(throng, faults, whole[0], tmp_path / "bake", 4, THRONG_LOSE=1)
     assert "the GPU was reset" in lost.stderr and list(tmp_path.iterdir()) == []
 
 

@@ -120,7 +120,10 @@ def test_what_is_not_what_it_was_at_the_checkpoint_is_refused(throng, whole, tmp
     process.wait()
     damaged = unfinished / name
     content = bytearray(damaged.read_bytes())
-    content[-1 if name.startswith("diagrams") else 128 + 40] ^= 1  # somebody who is there at the first frame
+    row = 12 * 81
+    at = -1 if name.startswith("diagrams") else 128 + 40 * row  # of those who are there by then
+    for byte in range(at, 0 if at == -1 else at + row):
+        content[byte] ^= 1
     damaged.write_bytes(content)
     told = throng("bake", layout, "-o", tmp_path / "bake", *OPTIONS, "--resume", expect=3)
     assert name in told.stderr and "--force" in told.stderr and not (tmp_path / "bake").exists()
