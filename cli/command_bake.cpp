@@ -6,6 +6,7 @@
 #include <csignal>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "base/outcomes.h"
 #include "cli/bake_run.h"
@@ -73,6 +74,19 @@ void printResult(const io::BakeResult& result, const Account& account, const io:
     if (result.diagrams) say(stdout, "{} diagram images\n", result.diagrams);
 }
 
+/// A device that is lost takes nothing along that the last checkpoint has.
+BakeRun bakeOrLeave(Baker& baker, const LoadedLayout& loaded, const BakeJob& job,
+                    const InterruptGuard& interrupt) try {
+    return baker.bake(loaded, job, interrupt);
+} catch (const gl::DeviceLost& error) {
+    const auto unfinished = io::BakeFolder::unfinishedPath(outputOf(loaded, job.options));
+    const std::optional<io::Checkpoint> checkpoint = io::loadCheckpoint(unfinished);
+    if (!checkpoint) throw;
+    say(stderr, "throng: {}; the first {} frames are kept, and the same command with --resume goes on\n",
+        error.what(), checkpoint->frames);
+    throw Exit(kCheckpointed);
+}
+
 }  // namespace
 
 void bakeLayout(const BakeRequest& options) {
@@ -96,7 +110,7 @@ void bakeLayout(const BakeRequest& options) {
     });
     Baker baker(options.device, options.shader_dir, loaded.scene.people.size());
     const InterruptGuard interrupt;
-    const BakeRun run = baker.bake(loaded, job, interrupt);
+    const BakeRun run = bakeOrLeave(baker, loaded, job, interrupt);
     switch (run.end) {
         case BakeRun::End::complete:
             if (options.announce) printResult(run.result, run.account, run.timing, options.json);

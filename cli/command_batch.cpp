@@ -47,6 +47,7 @@ struct Options {
 /// "2/8": the second of eight parts, counted from 0.
 struct Shard {
     std::size_t number = 0, of = 1;
+    bool has(std::size_t index) const { return index % of == number; }
 };
 
 Shard shardOf(const std::string& text) {
@@ -63,7 +64,7 @@ Shard shardOf(const std::string& text) {
 
 /// What of the standing is this process's part.
 void keepShard(std::vector<std::size_t>& scenarios, const Shard& shard) {
-    std::erase_if(scenarios, [&](std::size_t index) { return index % shard.of != shard.number; });
+    std::erase_if(scenarios, [&](std::size_t index) { return !shard.has(index); });
 }
 
 std::string plural(std::size_t count, const char* one, const std::string& several) {
@@ -92,6 +93,8 @@ void printStanding(const BatchPlan& plan, const BatchStanding& standing) {
         say(stdout,
             "{} are out of date (the base layout or what is to be written has changed) and are baked again\n",
             standing.out_of_date);
+    if (!standing.damaged.empty())
+        say(stdout, "{} damaged and baked again\n", plural(standing.damaged.size(), "bake is", "bakes are"));
     if (!standing.foreign.empty())
         say(stdout, "{} belong to no scenario of the family any more; --prune removes them\n",
             plural(standing.foreign.size(), "result"));
@@ -136,13 +139,14 @@ void forget(const BatchPlan& plan, const BatchFolder& folder, const std::vector<
 void bakeAll(const Options& options, const BatchPlan& plan, const BatchFolder& folder) {
     const InterruptGuard interrupt;
     folder.begin(plan);
-    BatchStanding standing = standingOf(plan, folder, options.again);
     const Shard shard = shardOf(options.shard);
+    BatchStanding standing =
+        standingOf(plan, folder, options.again, [&](std::size_t i) { return shard.has(i); });
     if (!options.quiet && !options.json && shard.of == 1) printStanding(plan, standing);
     if (options.prune) prune(folder, standing);
     const std::size_t all_open = standing.open.size();
     keepShard(standing.open, shard);
-    if (options.again && !options.collect_only) forget(plan, folder, standing.open);
+    if (!options.collect_only) forget(plan, folder, options.again ? standing.open : standing.damaged);
 
     LocalOptions local = options.local;
     local.checkpoint_seconds = 60.0 * options.checkpoint_minutes;
@@ -207,7 +211,8 @@ void run(const Options& options) {
         return;
     }
     if (!options.dry_run) return bakeAll(options, plan, folder);
-    const BatchStanding standing = standingOf(plan, folder, options.again);
+    const auto all = [](std::size_t) { return true; };
+    const BatchStanding standing = standingOf(plan, folder, options.again, all);
     printStanding(plan, standing);
     printEstimate(plan, folder, standing, options.local);
 }

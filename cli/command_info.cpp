@@ -7,6 +7,7 @@
 #include "cli/terminal/exit_codes.h"
 #include "cli/terminal/say.h"
 #include "io/bake_info.h"
+#include "io/verify_bake.h"
 
 namespace throng::cli {
 namespace {
@@ -19,24 +20,24 @@ struct Options {
 
 void run(const Options& options) {
     const io::Bake bake = io::loadBake(options.bake);
-    std::vector<io::BakeProblem> problems;
-    if (options.verify) problems = io::verifyBake(bake);
+    io::Verification found;
+    if (options.verify) found = io::verifyBake(options.bake);
     if (options.json) {
         nlohmann::ordered_json document = io::infoJson(bake);
         if (options.verify) {
             document["problems"] = nlohmann::ordered_json::array();
-            for (const io::BakeProblem& problem : problems)
+            for (const io::BakeProblem& problem : found.problems)
                 document["problems"].push_back({{"path", problem.path}, {"message", problem.message}});
         }
         sayJson(document);
     } else {
         say(stdout, "{}", io::infoText(bake));
-        for (const io::BakeProblem& problem : problems)
+        for (const io::BakeProblem& problem : found.problems)
             say(stderr, "{}: {}\n", problem.path, problem.message);
-        if (options.verify && problems.empty())
+        if (options.verify && found.isWhole())
             say(stdout, "verified: all {} files are as they were written\n", bake.files.size());
     }
-    if (!problems.empty()) throw Exit(kInvalidInput);
+    if (!found.problems.empty()) throw Exit(kInvalidInput);
 }
 
 }  // namespace
@@ -45,7 +46,8 @@ void addInfo(CLI::App& app) {
     CLI::App* command = app.add_subcommand("info", "Say what a bake holds and what became of everybody");
     auto options = std::make_shared<Options>();
     command->add_option("bake", options->bake, "A bake's folder, or its bake.json")->required();
-    command->add_flag("--verify", options->verify, "Compare every file with its size and hash");
+    command->add_flag("--verify", options->verify,
+                      "Also compare every file with its checksum, as `throng verify`");
     command->add_flag("--json", options->json, "Print a JSON document");
     command->footer("Example:\n  throng info bakes/intersection --verify");
     command->callback([options] { run(*options); });

@@ -21,6 +21,7 @@ void addScenarios(CLI::App& app);
 void addGenerate(CLI::App& app);
 void addBatch(CLI::App& app);
 void addReport(CLI::App& app);
+void addVerify(CLI::App& app);
 void addBatchQuery(CLI::App& batch);
 
 }  // namespace throng::cli

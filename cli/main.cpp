@@ -64,6 +64,7 @@ int main(int argc, char** argv) {
     cli::addApply(app);
     cli::addCheck(app);
     cli::addInfo(app);
+    cli::addVerify(app);
     cli::addPreview(app);
     cli::addSchema(app);
     cli::addDevices(app);

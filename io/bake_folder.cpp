@@ -128,9 +128,13 @@ BakeFolder::BakeFolder(const fs::path& final_path, bool force, Begun begun)
     : final_(withoutTrailingSlash(final_path)), force_(force) {
     prepare(final_path);
     temporary_ = unfinishedPath(final_path);
-    if (::mkdir(temporary_.c_str(), 0777) != 0 && errno != EEXIST)
-        throw OutputError(temporary_, "create", errno);
-    lock();
+    // Whoever had it before may just have given it its final name: then the lock is on another folder.
+    for (int attempt = 0; !hasLock(); ++attempt) {
+        if (attempt == kAttempts) throw OutputError(temporary_, "is renamed by others again and again");
+        if (::mkdir(temporary_.c_str(), 0777) != 0 && errno != EEXIST)
+            throw OutputError(temporary_, "create", errno);
+        lock();
+    }
     if (begun == Begun::go_on) {
         committed_ = true;  // there is a checkpoint: nothing may be lost
         return;
@@ -146,13 +150,23 @@ fs::path BakeFolder::unfinishedPath(const fs::path& final_path) {
     return withoutTrailingSlash(final_path).string() + ".unfinished";
 }
 
+/// Whether the folder that is locked is the one of that name.
+bool BakeFolder::hasLock() const {
+    struct stat locked {
+    }, named{};
+    return lock_ >= 0 && ::fstat(lock_, &locked) == 0 && ::stat(temporary_.c_str(), &named) == 0 &&
+           locked.st_dev == named.st_dev && locked.st_ino == named.st_ino;
+}
+
 void BakeFolder::lock() {
+    if (lock_ >= 0) ::close(std::exchange(lock_, -1));
     lock_ = ::open(temporary_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (lock_ < 0 && errno == ENOENT) return;
     if (lock_ < 0) throw OutputError(temporary_, "open", errno);
     // Where a file system knows no locks, people have to look out for themselves.
     if (::flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
     ::close(std::exchange(lock_, -1));
-    throw OutputError(temporary_, "another process is at work in it");
+    throw OutputBusy(temporary_, "another process is at work in it");
 }
 
 BakeFolder::~BakeFolder() {

@@ -42,6 +42,7 @@ class BakeFolder {
 
   private:
     void prepare(const std::filesystem::path& final_path);
+    bool hasLock() const;
     void lock();
     void syncAll() const;
     void forget() { committed_ = true; }

@@ -3,46 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <optional>
-
-#include "base/files/hash.h"
 #include "base/numbers.h"
 #include "base/outcomes.h"
-#include "io/streams/stream_reader.h"
 
 namespace throng::io {
-namespace fs = std::filesystem;
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-bool isStream(const std::string& path) {
-    return std::ranges::any_of(kStreamFormats,
-                               [&](StreamFormat format) { return path.ends_with("." + nameOf(format)); });
-}
-
-std::optional<std::string> problemOf(const Bake& bake, const Bake::File& file) {
-    const fs::path path = bake.folder / file.path;
-    std::error_code error;
-    if (!fs::exists(path, error)) return "missing";
-    try {
-        const std::uint64_t size = InputFile(path).size();
-        if (size != file.bytes)
-            return fmt::format("{}: {} of {} bytes", size < file.bytes ? "truncated" : "too long", size,
-                               file.bytes);
-        if (hashFile(path).xxh3 != file.xxh3) return "changed: its hash is not the one in bake.json";
-        if (isStream(file.path)) {
-            const StreamReader stream(path);
-            if (stream.frames() != bake.frames || stream.rows() != bake.agents)
-                return fmt::format("holds {} frames of {} people where bake.json says {} of {}",
-                                   stream.frames(), stream.rows(), bake.frames, bake.agents);
-        }
-    } catch (const InputError& problem) {
-        return problem.what();
-    }
-    return std::nullopt;
-}
 
 std::uint64_t totalBytes(const Bake& bake) {
     std::uint64_t total = 0;
@@ -86,20 +53,6 @@ std::string extras(const Bake& bake) {
 
 }  // namespace
 
-std::vector<BakeProblem> verifyBake(const Bake& bake) {
-    std::vector<BakeProblem> problems;
-    for (const Bake::File& file : bake.files)
-        if (const auto problem = problemOf(bake, file)) problems.push_back({file.path, *problem});
-    for (const StreamInfo& info : kStreams)
-        for (const StreamFormat format : kStreamFormats) {
-            const std::string path = streamFile(info, format);
-            if (bake.streams[info.id] &&
-                std::ranges::none_of(bake.files, [&](const Bake::File& file) { return file.path == path; }))
-                problems.push_back({path, "not listed in bake.json"});
-        }
-    return problems;
-}
-
 std::string infoText(const Bake& bake) {
     const glm::dvec2 size = bake.maximum - bake.minimum;
     std::string text;
@@ -131,6 +84,7 @@ Json infoJson(const Bake& bake) {
     Json json = bake.manifest;
     json.erase("geometry");
     json.erase("files");
+    json.erase("checksum");  // of what is not all here
     json["path"] = bake.folder.string();
     json["file_count"] = bake.files.size();
     json["bytes"] = totalBytes(bake);

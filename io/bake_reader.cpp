@@ -105,8 +105,7 @@ class ManifestReader {
     std::string pointer_;
 };
 
-Json parseManifest(const fs::path& path) {
-    const std::string text = readFile(path, kMostBytes);
+Json parseManifest(const fs::path& path, const std::string& text) {
     if (const char* problem = tooMuchIn(text))
         throw InputError(path, std::string("not a manifest: it ") + problem);
     try {
@@ -195,14 +194,23 @@ void readFiles(const ManifestReader& reader, Bake& bake) {
 
 }  // namespace
 
+ManifestFile readManifest(const fs::path& path) {
+    ManifestFile file;
+    file.path = fs::is_directory(path) ? path / "bake.json" : path;
+    file.text = readFile(file.path, kMostBytes);
+    file.json = parseManifest(file.path, file.text);
+    if (!file.json.is_object() || file.json.value("format", Json()) != "throng bake")
+        throw InputError(file.path, "not the manifest of a bake");
+    return file;
+}
+
 Bake loadBake(const fs::path& path) {
-    const fs::path manifest_path = fs::is_directory(path) ? path / "bake.json" : path;
+    ManifestFile file = readManifest(path);
+    const fs::path& manifest_path = file.path;
     Bake bake;
     bake.folder = manifest_path.has_parent_path() ? manifest_path.parent_path() : fs::path(".");
-    bake.manifest = parseManifest(manifest_path);
+    bake.manifest = std::move(file.json);
     const ManifestReader reader(manifest_path, bake.manifest);
-    if (!bake.manifest.is_object() || bake.manifest.value("format", Json()) != "throng bake")
-        throw InputError(manifest_path, "not the manifest of a bake");
     if (reader.count("/version") != 1)
         throw InputError(manifest_path, "written by a newer version of Throng: its `version` is not 1");
     bake.name = reader.text("/name");

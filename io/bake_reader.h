@@ -53,6 +53,16 @@ struct Bake {
     }
 };
 
+/// bake.json as it lies on the disk.
+struct ManifestFile {
+    std::filesystem::path path;
+    std::string text;
+    nlohmann::ordered_json json;
+};
+
+/// Reads it: `path` is the folder or its bake.json. Throws InputError where it is no manifest of a bake.
+ManifestFile readManifest(const std::filesystem::path& path);
+
 /// Reads the manifest of a bake: `path` is the folder or its bake.json. Throws InputError, which says what is
 /// missing or wrong; reads no other file.
 Bake loadBake(const std::filesystem::path& path);

@@ -14,6 +14,58 @@
 #include "recording/gaits.h"
 
 namespace throng::io {
+namespace {
+
+constexpr const char* kFirstAlive = "first alive";
+constexpr const char* kDiagrams = "diagrams";
+constexpr const char* kDiagramHashes = "diagram hashes";
+constexpr const char* kGaitsWalked = "gaits walked";
+
+/// A file as a checkpoint remembers it.
+struct KnownFile {
+    std::uint64_t bytes = 0;
+    char xxh3[16] = {};
+};
+
+std::string streamSection(const StreamInfo& info) {
+    return fmt::format("hash of {}", info.name);
+}
+
+std::string diagramName(std::uint32_t frame) {
+    return fmt::format("diagrams/diagram.{:04}.exr", frame + 1);
+}
+
+template <class T>
+void readSection(const Checkpoint& checkpoint, const char* name, std::span<T> items) {
+    const std::vector<std::byte>* bytes = checkpoint.find(name);
+    if (!bytes || bytes->size() != items.size_bytes())
+        throw std::runtime_error(fmt::format("the checkpoint's part `{}` does not fit this bake", name));
+    std::copy(bytes->begin(), bytes->end(), std::as_writable_bytes(items).begin());
+}
+
+/// How many diagrams had been written: perhaps of later frames than the streams have.
+std::uint32_t diagramsIn(const Checkpoint& checkpoint) {
+    if (!checkpoint.find(kDiagrams)) return 0;
+    DiagramSummary summary;
+    readSection(checkpoint, kDiagrams, std::span(&summary, 1));
+    return summary.count;
+}
+
+/// A checkpoint may say anything, and its frames and images are counted on.
+void checkCounts(const Checkpoint& checkpoint, const recording::BakeDescription& description) {
+    const std::uint32_t every = description.diagram_every, frames = description.frames;
+    const std::uint32_t most_diagrams = every > 0 && frames > 0 ? (frames - 1) / every + 1 : 0;
+    if (checkpoint.frames > frames || diagramsIn(checkpoint) > most_diagrams)
+        throw std::runtime_error("the checkpoint has more frames or images than this bake");
+}
+
+std::uint64_t streamHashIn(const Checkpoint& checkpoint, const StreamInfo& info) {
+    std::uint64_t hash = 0;
+    readSection(checkpoint, streamSection(info).c_str(), std::span(&hash, 1));
+    return hash;
+}
+
+}  // namespace
 
 BakeWriter::BakeWriter(const recording::BakeDescription& description)
     : BakeWriter(description, std::make_unique<BakeFolder>(description.output, description.force), nullptr) {}
@@ -48,48 +100,14 @@ void BakeWriter::openStreams(const Checkpoint* go_on_from) {
     const auto frames_there = go_on_from ? std::optional(go_on_from->frames) : std::nullopt;
     const StreamChoice streams = description_.streams();
     for (const bool asked : {false, true})
-        for (const StreamInfo& info : kStreams)
-            if (streams[info.id] && (info.source == StreamSource::device) == asked)
-                streams_.emplace_back(folder_->path(), info,
-                                      static_cast<std::uint32_t>(description_.agents.size()),
-                                      description_.frames, frames_there);
+        for (const StreamInfo& info : kStreams) {
+            if (!streams[info.id] || (info.source == StreamSource::device) != asked) continue;
+            streams_.emplace_back(folder_->path(), info,
+                                  static_cast<std::uint32_t>(description_.agents.size()), description_.frames,
+                                  frames_there);
+            hashes_.emplace_back();
+        }
 }
-
-namespace {
-
-constexpr const char* kFirstAlive = "first alive";
-constexpr const char* kDiagrams = "diagrams";
-constexpr const char* kGaitsWalked = "gaits walked";
-
-std::string diagramName(std::uint32_t frame) {
-    return fmt::format("diagrams/diagram.{:04}.exr", frame + 1);
-}
-
-template <class T>
-void readSection(const Checkpoint& checkpoint, const char* name, std::span<T> items) {
-    const std::vector<std::byte>* bytes = checkpoint.find(name);
-    if (!bytes || bytes->size() != items.size_bytes())
-        throw std::runtime_error(fmt::format("the checkpoint's part `{}` does not fit this bake", name));
-    std::copy(bytes->begin(), bytes->end(), std::as_writable_bytes(items).begin());
-}
-
-/// How many diagrams had been written: perhaps of later frames than the streams have.
-std::uint32_t diagramsIn(const Checkpoint& checkpoint) {
-    if (!checkpoint.find(kDiagrams)) return 0;
-    DiagramSummary summary;
-    readSection(checkpoint, kDiagrams, std::span(&summary, 1));
-    return summary.count;
-}
-
-/// A checkpoint may say anything, and its frames and images are counted on.
-void checkCounts(const Checkpoint& checkpoint, const recording::BakeDescription& description) {
-    const std::uint32_t every = description.diagram_every, frames = description.frames;
-    const std::uint32_t most_diagrams = every > 0 && frames > 0 ? (frames - 1) / every + 1 : 0;
-    if (checkpoint.frames > frames || diagramsIn(checkpoint) > most_diagrams)
-        throw std::runtime_error("the checkpoint has more frames or images than this bake");
-}
-
-}  // namespace
 
 /// What an earlier run wrote after its last checkpoint, or while it was finishing the bake.
 void BakeWriter::removeLeftovers(const Checkpoint& checkpoint) const {
@@ -103,18 +121,59 @@ void BakeWriter::removeLeftovers(const Checkpoint& checkpoint) const {
         if (frame >= kept * description_.diagram_every)
             leftovers.push_back(folder_->path() / diagramName(frame));
     for (const fs::path& path : leftovers)
-        fs::remove(path);
+        removeFile(path);
 }
 
 void BakeWriter::goOnFrom(const Checkpoint& checkpoint) {
     frames_ = checkpoint.frames;
     readSection(checkpoint, kFirstAlive, std::span(first_alive_));
     readSection(checkpoint, kGaitsWalked, std::span(&gaits_, 1));
+    for (std::size_t i = 0; i < streams_.size(); ++i)
+        hashAgain(i, streamHashIn(checkpoint, streams_[i].info()));
     if (diagramsIn(checkpoint) == 0) return;
     diagrams_.emplace();
     readSection(checkpoint, kDiagrams, std::span(&*diagrams_, 1));
-    for (std::uint32_t i = 0; i < diagrams_->count; ++i)
-        diagram_files_.push_back(diagramName(i * description_.diagram_every));
+    goOnWithDiagrams(checkpoint);
+}
+
+/// Of the frames that are there already, in every format.
+/// @param then what it was at the checkpoint
+void BakeWriter::hashAgain(std::size_t stream, std::uint64_t then) {
+    std::vector<float> values(description_.agents.size() * kComponents);
+    for (const StreamWriter& writer : streams_[stream].writers()) {
+        EnteredHash& hash = hashes_[stream] = EnteredHash();
+        for (std::uint32_t frame = 0; frame < frames_; ++frame) {
+            writer.readBack(frame, values);
+            hash.add(frame, values, first_alive_);
+        }
+        if (hash.digest() != then) throw InputError(writer.path(), kDoesNotFitCheckpoint);
+    }
+}
+
+void BakeWriter::goOnWithDiagrams(const Checkpoint& checkpoint) {
+    std::vector<KnownFile> known(diagrams_->count);
+    readSection(checkpoint, kDiagramHashes, std::span(known));
+    for (std::uint32_t i = 0; i < diagrams_->count; ++i) {
+        const std::string name = diagramName(i * description_.diagram_every);
+        const FileHash then{known[i].bytes, {std::begin(known[i].xxh3), std::end(known[i].xxh3)}};
+        if (hashFile(folder_->path() / name) != then)
+            throw InputError(folder_->path() / name, kDoesNotFitCheckpoint);
+        diagram_files_.push_back({name, then});
+    }
+}
+
+/// Of what has been written so far: a later run compares it with what it finds.
+void BakeWriter::addHashes(Checkpoint& checkpoint) const {
+    for (std::size_t i = 0; i < streams_.size(); ++i) {
+        const std::uint64_t hash = hashes_[i].digest();
+        checkpoint.add(streamSection(streams_[i].info()), std::as_bytes(std::span(&hash, 1)));
+    }
+    std::vector<KnownFile> known;
+    for (const BakeOutcome::File& file : diagram_files_) {
+        known.push_back({file.hash.bytes, {}});
+        file.hash.xxh3.copy(known.back().xxh3, sizeof known.back().xxh3);
+    }
+    if (!known.empty()) checkpoint.add(kDiagramHashes, std::as_bytes(std::span(known)));
 }
 
 void BakeWriter::save(Checkpoint checkpoint) {
@@ -124,6 +183,7 @@ void BakeWriter::save(Checkpoint checkpoint) {
     checkpoint.add(kFirstAlive, std::as_bytes(std::span(first_alive_)));
     checkpoint.add(kGaitsWalked, std::as_bytes(std::span(&gaits_, 1)));
     if (diagrams_) checkpoint.add(kDiagrams, std::as_bytes(std::span(&*diagrams_, 1)));
+    addHashes(checkpoint);
     saveCheckpoint(folder_->path(), checkpoint);
     folder_->keep();
 }
@@ -135,9 +195,12 @@ void BakeWriter::write(const Frame& frame) {
             throw std::invalid_argument(fmt::format(
                 "a frame of this bake has three values for each person in `{}`", stream.info().name));
     trackPeople(frame);
-    for (StreamFiles& stream : streams_) {
-        const std::span<const float> values = frame[stream.info().id];
-        stream.append(stream.info().in_plane == InPlane::place ? placed(values) : values);
+    for (std::size_t i = 0; i < streams_.size(); ++i) {
+        const StreamInfo& info = streams_[i].info();
+        const std::span<const float> values =
+            info.in_plane == InPlane::place ? placed(frame[info.id]) : frame[info.id];
+        streams_[i].append(values);
+        hashes_[i].add(frame.index, values, first_alive_);
     }
     ++frames_;
 }
@@ -171,7 +234,7 @@ void BakeWriter::writeDiagram(const Frame& frame) {
     const std::string name = diagramName(frame.index);
     writeDiagramExr(folder_->path() / name, image, frame[Stream::density], description_.scene_origin,
                     frame.index, description_.fps);
-    diagram_files_.push_back(name);
+    diagram_files_.push_back({name, hashFile(folder_->path() / name)});
     if (!diagrams_) {
         const glm::dvec2 minimum =
             description_.scene_origin + glm::dvec2(image.minimum) - description_.output_origin;
@@ -207,13 +270,10 @@ BakeOutcome BakeWriter::writeAll(const Account& account, const BakeTiming& timin
                                      {folder_->path(), description_.streams(), frames_,
                                       static_cast<std::uint32_t>(description_.agents.size())});
     }
-    files.insert(files.end(), diagram_files_.begin(), diagram_files_.end());
     for (const std::string& file : files)
         outcome.files.push_back({file, hashFile(folder_->path() / file)});
-    writeFile(
-        folder_->path() / "bake.json",
-        bakeManifest(description_, outcome).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) +
-            "\n");
+    outcome.files.insert(outcome.files.end(), diagram_files_.begin(), diagram_files_.end());
+    writeFile(folder_->path() / "bake.json", manifestText(bakeManifest(description_, outcome)));
     return outcome;
 }
 
@@ -227,7 +287,7 @@ void BakeWriter::tidy(const std::filesystem::path& bake) {
     for (const auto& entry : std::filesystem::directory_iterator(bake))
         if (isCheckpoint(entry.path())) found.push_back(entry.path());
     for (const std::filesystem::path& path : found)
-        std::filesystem::remove(path);
+        removeFile(path);
 }
 
 BakeResult BakeWriter::finish(const Account& account, const BakeTiming& timing) {

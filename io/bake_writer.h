@@ -12,6 +12,7 @@
 #include "io/bake_folder.h"
 #include "io/checkpoint.h"
 #include "io/manifest.h"
+#include "io/streams/entered_hash.h"
 #include "io/streams/stream_files.h"
 #include "recording/bake_description.h"
 
@@ -65,6 +66,9 @@ class BakeWriter {
                const Checkpoint* go_on_from);
     void openStreams(const Checkpoint* go_on_from);
     void goOnFrom(const Checkpoint& checkpoint);
+    void hashAgain(std::size_t stream, std::uint64_t then);
+    void goOnWithDiagrams(const Checkpoint& checkpoint);
+    void addHashes(Checkpoint& checkpoint) const;
     void removeLeftovers(const Checkpoint& checkpoint) const;
     void trackPeople(const Frame& frame);
     std::span<const float> placed(std::span<const float> places);
@@ -74,12 +78,13 @@ class BakeWriter {
     recording::BakeDescription description_;
     std::unique_ptr<BakeFolder> folder_;
     std::vector<StreamFiles> streams_;
+    std::vector<EnteredHash> hashes_;  ///< of each of them, so far
     std::uint32_t frames_ = 0;
     std::vector<std::uint32_t> first_alive_;  ///< per row, the first frame it is alive in, or kNone
     std::uint32_t gaits_ = 0;                 ///< BakeOutcome::gaits, so far
     std::vector<float> placed_;               ///< one frame of places in the output frame of reference
     std::optional<DiagramSummary> diagrams_;
-    std::vector<std::string> diagram_files_;
+    std::vector<BakeOutcome::File> diagram_files_;
 };
 
 }  // namespace throng::io

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/checkpoint.h"
 
+#include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <system_error>
@@ -137,6 +139,13 @@ std::optional<Checkpoint> loadCheckpoint(const fs::path& folder) {
     std::optional<Checkpoint> a = loadOne(folder / kNames[0]);
     std::optional<Checkpoint> b = loadOne(folder / kNames[1]);
     return a && (!b || a->frames > b->frames) ? a : b;
+}
+
+bool hasOnlyTornCheckpoints(const fs::path& folder) {
+    std::error_code unknown;
+    const bool has_any =
+        std::ranges::any_of(kNames, [&](const char* name) { return fs::exists(folder / name, unknown); });
+    return has_any && !loadCheckpoint(folder);
 }
 
 bool isCheckpoint(const fs::path& path) {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/manifest.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cctype>
 
 #include "base/outcomes.h"
 #include "io/streams/stream_format.h"
@@ -132,7 +135,42 @@ Json filesToJson(const std::vector<BakeOutcome::File>& files) {
     return list;
 }
 
+constexpr const char* kChecksum = "checksum";
+constexpr std::string_view kHashName = "xxh3:", kNoDigits = "0000000000000000";
+
+bool isHash(std::string_view text) {
+    return text.size() == kHashName.size() + kNoDigits.size() && text.starts_with(kHashName) &&
+           std::ranges::all_of(text.substr(kHashName.size()),
+                               [](unsigned char c) { return std::isxdigit(c); });
+}
+
+/// Where a text that manifestText() made has its checksum's value: a damaged name of it hides nothing.
+std::string_view hashAtTheEnd(std::string_view text) {
+    constexpr std::string_view kEnd = "\"\n}\n";
+    const std::size_t length = kHashName.size() + kNoDigits.size();
+    if (!text.ends_with(kEnd) || text.size() < length + kEnd.size()) return {};
+    return text.substr(text.size() - kEnd.size() - length, length);
+}
+
 }  // namespace
+
+std::string manifestText(Json manifest) {
+    manifest.erase(kChecksum);
+    manifest[kChecksum] = fmt::format("{}{}", kHashName, kNoDigits);
+    std::string text = manifest.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return text.replace(text.rfind(kNoDigits), kNoDigits.size(), hashText(text));
+}
+
+OwnChecksum checkManifest(std::string text, const Json& manifest) {
+    const bool has_member = manifest.is_object() && manifest.contains(kChecksum);
+    if (!has_member) return isHash(hashAtTheEnd(text)) ? OwnChecksum::wrong : OwnChecksum::absent;
+    const Json& value = manifest[kChecksum];
+    const std::string told = value.is_string() ? value.get<std::string>() : "";
+    const std::size_t at = isHash(told) ? text.rfind(told) : std::string::npos;
+    if (at == std::string::npos) return OwnChecksum::wrong;
+    text.replace(at + kHashName.size(), kNoDigits.size(), kNoDigits);
+    return hashText(text) == told.substr(kHashName.size()) ? OwnChecksum::fits : OwnChecksum::wrong;
+}
 
 Json bakeManifest(const recording::BakeDescription& description, const BakeOutcome& outcome) {
     const glm::dvec2 origin = description.output_origin;

@@ -49,4 +49,12 @@ struct BakeOutcome {
 nlohmann::ordered_json bakeManifest(const recording::BakeDescription& description,
                                     const BakeOutcome& outcome);
 
+/// The text of bake.json, with its own `checksum` as the last member: XXH3 of the text that has zeros in the
+/// place of the checksum's digits.
+std::string manifestText(nlohmann::ordered_json manifest);
+
+/// Whether the text of a bake.json has a checksum of itself, and whether that fits.
+enum class OwnChecksum { absent, fits, wrong };
+OwnChecksum checkManifest(std::string text, const nlohmann::ordered_json& manifest);
+
 }  // namespace throng::io

@@ -35,6 +35,7 @@ BESIDE = {
     "measure": ["../measure.md|what is measured", "../how-to/bars.md|how to hold a bake to bars"],
     "report": ["../report.md|what the pages show"],
     "scenarios": ["../motion-validation.md|what came of them"],
+    "verify": ["../bake.md#checksums|the checksums of a bake", "../how-to/render-on-a-farm.md|rendering on a farm"],
     "schema": ["../layout.md|layouts", "../batch.md|families", "../overrides.md|overrides"],
 }
 

@@ -133,6 +133,7 @@ def _describe(folder, manifest, people, frames, arrived):
         table = csv.DictWriter(file, people[0].keys())
         table.writeheader()
         table.writerows(people)
+    manifest.pop("checksum", None)
     (folder / "bake.json").write_text(json.dumps(manifest))
 
 

@@ -195,7 +195,7 @@ void FramePump::State::handOver(bool wait) {
         const GLuint64 patience = wait ? 1'000'000'000 : 0;
         const GLenum status = glClientWaitSync(slot->fence, GL_SYNC_FLUSH_COMMANDS_BIT, patience);
         if (status == GL_WAIT_FAILED || glGetGraphicsResetStatus() != GL_NO_ERROR)
-            throw gl::GraphicsError("the GPU was lost while a frame was under way");
+            throw gl::DeviceLost("the GPU was reset while a frame was under way, and the work on it is lost");
         if (status == GL_TIMEOUT_EXPIRED) {
             if (wait) continue;
             return;

@@ -24,16 +24,25 @@ class OutputError : public std::runtime_error {
     int error_number_ = 0;
 };
 
+/// Another process writes there.
+class OutputBusy : public OutputError {
+  public:
+    using OutputError::OutputError;
+};
+
 /// A file of a bake could not be read or is not what it claims to be. The message begins with the path.
 class InputError : public std::runtime_error {
   public:
     InputError(const std::filesystem::path& path, const std::string& message)
-        : std::runtime_error(path.string() + ": " + message), path_(path) {}
+        : std::runtime_error(path.string() + ": " + message), path_(path), reason_(message) {}
 
     const std::filesystem::path& path() const { return path_; }
+    /// The message without the path.
+    const std::string& reason() const { return reason_; }
 
   private:
     std::filesystem::path path_;
+    std::string reason_;
 };
 
 }  // namespace throng

@@ -8,8 +8,6 @@
 #include <new>
 #include <vector>
 
-#include "base/files/input_file.h"
-
 namespace throng {
 
 std::string hashText(std::string_view text) {
@@ -25,6 +23,8 @@ Hasher::Hasher() : state_(std::make_unique<State>()) {
     if (!state_->xxh3 || XXH3_64bits_reset(state_->xxh3) == XXH_ERROR) throw std::bad_alloc();
 }
 Hasher::~Hasher() = default;
+Hasher::Hasher(Hasher&&) noexcept = default;
+Hasher& Hasher::operator=(Hasher&&) noexcept = default;
 
 void Hasher::add(std::span<const std::byte> bytes) {
     XXH3_64bits_update(state_->xxh3, bytes.data(), bytes.size());
@@ -35,7 +35,10 @@ std::uint64_t Hasher::digest() const {
 }
 
 FileHash hashFile(const std::filesystem::path& path) {
-    const InputFile file(path);
+    return hashFile(InputFile(path));
+}
+
+FileHash hashFile(const InputFile& file, const std::function<void(std::uint64_t)>& advance) {
     Hasher hasher;
     std::vector<std::byte> piece(std::size_t{1} << 20);
     for (std::uint64_t offset = 0; offset < file.size();) {
@@ -44,6 +47,7 @@ FileHash hashFile(const std::filesystem::path& path) {
         file.readAt(offset, std::span(piece).first(count));
         hasher.add(std::span(piece).first(count));
         offset += count;
+        if (advance) advance(count);
     }
     return {file.size(), fmt::format("{:016x}", hasher.digest())};
 }

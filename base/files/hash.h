@@ -4,10 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+
+#include "base/files/input_file.h"
 
 namespace throng {
 
@@ -19,8 +22,8 @@ class Hasher {
   public:
     Hasher();
     ~Hasher();
-    Hasher(const Hasher&) = delete;
-    Hasher& operator=(const Hasher&) = delete;
+    Hasher(Hasher&&) noexcept;
+    Hasher& operator=(Hasher&&) noexcept;
     void add(std::span<const std::byte> bytes);
     std::uint64_t digest() const;
 
@@ -32,9 +35,12 @@ class Hasher {
 struct FileHash {
     std::uint64_t bytes = 0;
     std::string xxh3;  ///< 16 hexadecimal digits
+    bool operator==(const FileHash&) const = default;
 };
 
-/// Reads the whole file. Throws InputError.
+/// Reads the whole file, in pieces. Throws InputError.
+/// @param advance called after each piece with its bytes
+FileHash hashFile(const InputFile& file, const std::function<void(std::uint64_t bytes)>& advance = {});
 FileHash hashFile(const std::filesystem::path& path);
 
 }  // namespace throng

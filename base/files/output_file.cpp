@@ -11,6 +11,8 @@
 #include <system_error>
 #include <utility>
 
+#include "base/files/descriptor.h"
+
 namespace throng {
 
 static_assert(std::endian::native == std::endian::little, "the streams are written as they lie in memory");
@@ -111,6 +113,18 @@ void replaceFile(const std::filesystem::path& path, std::string_view content) {
     const int reason = errno;
     std::filesystem::remove(fresh, ignored);
     throw OutputError(path, "replace", reason);
+}
+
+void syncFile(const std::filesystem::path& path) {
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    if (!file.isOpen()) throw OutputError(path, "open", errno);
+    if (::fsync(file.get()) != 0) throw OutputError(path, "flush", errno);
+}
+
+void removeFile(const std::filesystem::path& path) {
+    std::error_code error;
+    std::filesystem::remove(path, error);
+    if (error) throw OutputError(path, "remove", error.value());
 }
 
 void syncFolder(const std::filesystem::path& folder) {

@@ -53,6 +53,12 @@ void writeFile(const std::filesystem::path& path, std::string_view content);
 /// The same for a file that may exist: it has its old content or the new one, never something in between.
 void replaceFile(const std::filesystem::path& path, std::string_view content);
 
+/// Puts what somebody else wrote into a file on the disk. Throws OutputError.
+void syncFile(const std::filesystem::path& path);
+
+/// Removes a file, if it is there. Throws OutputError.
+void removeFile(const std::filesystem::path& path);
+
 /// Makes the names inside a folder durable. Throws OutputError.
 void syncFolder(const std::filesystem::path& folder);
 

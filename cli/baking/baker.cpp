@@ -14,6 +14,7 @@
 #include "cli/baking/calibration_file.h"
 #include "io/bake_reader.h"
 #include "io/checkpoint.h"
+#include "io/verify_bake.h"
 #include "recording/motion_recorder.h"
 
 namespace throng::cli {
@@ -35,18 +36,27 @@ std::string identityOf(const LoadedLayout& loaded, const BakeJob& job, const gl:
 }
 
 /// The bake of an earlier run that has come to its end, so that there is nothing left to go on with.
+/// @throws InputError where it has been damaged since, unless it is to be replaced then
 std::optional<io::Bake> findComplete(const recording::BakeDescription& description,
                                      const std::string& identity) {
     const std::filesystem::path bake(description.output);
     if (!std::filesystem::exists(bake / "bake.json")) return std::nullopt;
+    std::optional<io::Bake> found;
     try {
-        io::Bake found = io::loadBake(bake);
-        if (!found.complete || found.manifest.value("inputs", "") != "xxh3:" + identity) return std::nullopt;
-        io::BakeWriter::tidy(bake);
-        return found;
+        found = io::loadBake(bake);
     } catch (const InputError&) {
         return std::nullopt;
     }
+    if (!found->complete || found->manifest.value("inputs", "") != "xxh3:" + identity) return std::nullopt;
+    io::BakeWriter::tidy(bake);
+    const io::Verification verification = io::verifyBake(bake);
+    if (verification.problems.empty()) return found;
+    if (description.force) return std::nullopt;
+    const io::BakeProblem& first = verification.problems.front();
+    throw InputError(
+        bake, fmt::format("is complete, but not as it was written ({}: {}); `throng verify` tells all, "
+                          "--force bakes it anew",
+                          first.path, first.message));
 }
 
 /// From where an earlier run is to be gone on with, if it is.
@@ -55,6 +65,10 @@ std::optional<io::Checkpoint> findCheckpoint(const recording::BakeDescription& d
     if (job.checkpoint_seconds <= 0.0 && !job.resume) return std::nullopt;
     const std::filesystem::path folder = io::BakeFolder::unfinishedPath(description.output);
     std::optional<io::Checkpoint> checkpoint = io::loadCheckpoint(folder);
+    if (job.resume && !job.options.force && io::hasOnlyTornCheckpoints(folder))
+        throw InputError(folder,
+                         "its checkpoints are damaged: their checksums do not fit, so nothing goes on from "
+                         "there; --force starts over");
     if (!checkpoint) return std::nullopt;
     if (job.resume && checkpoint->identity == identity) return checkpoint;
     if (job.options.force) return std::nullopt;
@@ -67,12 +81,27 @@ std::optional<io::Checkpoint> findCheckpoint(const recording::BakeDescription& d
                                           checkpoint->frames, description.frames));
 }
 
+/// @param checkpoint goes where the files beside it do not fit it and everything may be begun anew
+std::unique_ptr<io::BakeWriter> makeWriter(const recording::BakeDescription& description, const BakeJob& job,
+                                           std::optional<io::Checkpoint>& checkpoint) {
+    if (checkpoint) try {
+            return std::make_unique<io::BakeWriter>(description, &*checkpoint);
+        } catch (const InputError&) {
+            if (!job.options.force) throw;
+            checkpoint.reset();
+        }
+    if (job.checkpoint_seconds > 0.0) return std::make_unique<io::BakeWriter>(description, nullptr);
+    return std::make_unique<io::BakeWriter>(description);
+}
+
 /// One bake under way.
 class Run {
   public:
-    Run(sim::Simulation& simulation, const authoring::SimulationSettings& settings, const BakeJob& job,
-        io::BakeWriter& writer, const recording::BakeDescription& description, std::string identity)
-        : simulation_(simulation),
+    Run(const gl::Context& context, sim::Simulation& simulation,
+        const authoring::SimulationSettings& settings, const BakeJob& job, io::BakeWriter& writer,
+        const recording::BakeDescription& description, std::string identity)
+        : context_(context),
+          simulation_(simulation),
           job_(job),
           writer_(writer),
           recorder_(description, [&writer](const Frame& frame) { writer.write(frame); }),
@@ -126,6 +155,7 @@ class Run {
         io::Checkpoint checkpoint;
         checkpoint.identity = identity_;
         sim::Simulation::State state = simulation_.save();
+        context_.check("saving a checkpoint");  // what a lost device gives back is nothing to go on from
         checkpoint.steps = state.steps_done;
         checkpoint.sections = std::move(state.parts);
         const double so_far = seconds();
@@ -163,6 +193,7 @@ class Run {
         recorder_.take(frame);
     }
 
+    const gl::Context& context_;
     sim::Simulation& simulation_;
     const BakeJob& job_;
     io::BakeWriter& writer_;
@@ -225,16 +256,12 @@ BakeRun Baker::bake(const LoadedLayout& loaded, const BakeJob& job, const Interr
                       complete->manifest.value("/timing/steps"_json_pointer, std::uint64_t{0})};
         return run;
     }
-    const std::optional<io::Checkpoint> checkpoint = findCheckpoint(description, job, identity);
-    std::optional<io::BakeWriter> writer;
-    if (job.checkpoint_seconds > 0.0 || checkpoint)
-        writer.emplace(description, checkpoint ? &*checkpoint : nullptr);
-    else
-        writer.emplace(description);
+    std::optional<io::Checkpoint> checkpoint = findCheckpoint(description, job, identity);
+    const std::unique_ptr<io::BakeWriter> writer = makeWriter(description, job, checkpoint);
     sim::Simulation simulation = simulate(loaded.scene);
     context_.check("setting up the simulation");
 
-    Run running(simulation, settings, job, *writer, description, identity);
+    Run running(context_, simulation, settings, job, *writer, description, identity);
     if (checkpoint) running.goOnFrom(*checkpoint);
     const std::uint32_t steps_before = simulation.stepsDone();
     run.setup_seconds = secondsSince(begin);
@@ -248,6 +275,7 @@ BakeRun Baker::bake(const LoadedLayout& loaded, const BakeJob& job, const Interr
     run.timing.steps = simulation.stepsDone();
     run.frames = running.frames();
     run.account = simulation.account();
+    context_.check("reading what became of everybody");
     if (run.signal)
         stop(run, running, *writer, job.when_stopped(run.signal, run.timing.wall_seconds));
     else {

@@ -6,6 +6,7 @@
 #include "base/files/input_file.h"
 #include "base/files/output_file.h"
 #include "base/json_shape.h"
+#include "io/verify_bake.h"
 
 namespace throng::cli {
 namespace fs = std::filesystem;
@@ -41,9 +42,11 @@ void BatchFolder::writeLog(const std::string& id, const std::string& text) const
     replaceFile(log(id), text);
 }
 
-BatchStanding standingOf(const BatchPlan& plan, const BatchFolder& folder, bool again) {
+BatchStanding standingOf(const BatchPlan& plan, const BatchFolder& folder, bool again,
+                         const std::function<bool(std::size_t)>& mine) {
     BatchStanding standing;
     std::set<std::string> known;
+    std::error_code ignored;
     const bool keeps = plan.family().bake.keep;
     for (std::size_t i = 0; i < plan.scenarios().size(); ++i) {
         const std::string& id = plan.scenarios()[i].id;
@@ -58,16 +61,19 @@ BatchStanding standingOf(const BatchPlan& plan, const BatchFolder& folder, bool 
             }
             const bool fits = result->at("input") == input;
             const bool well = result->at("status") == "ok";
-            if (fits && well && (!keeps || fs::exists(folder.bake(id) / "bake.json"))) {
+            const bool has_bake = fs::exists(folder.bake(id), ignored);
+            const bool is_sound =
+                !keeps || (has_bake && (!mine(i) || io::verifyBake(folder.bake(id)).problems.empty()));
+            if (fits && well && is_sound) {
                 ++standing.done;
                 continue;
             }
+            if (fits && well && has_bake) standing.damaged.push_back(i);
             standing.failed_before += !well ? 1 : 0;
             standing.out_of_date += well && !fits ? 1 : 0;
         }
         standing.open.push_back(i);
     }
-    std::error_code ignored;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder.root() / "results", ignored)) {
         const std::string name = entry.path().filename().string();
         if (!name.ends_with(".json") || known.contains(name)) continue;

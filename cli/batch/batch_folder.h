@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -41,10 +42,13 @@ struct BatchStanding {
     std::size_t done = 0;
     std::size_t failed_before = 0;     ///< among the open ones
     std::size_t out_of_date = 0;       ///< among the open ones: made from another layout or other options
+    std::vector<std::size_t> damaged;  ///< among the open ones: their bakes are not as they were written
     std::vector<std::string> foreign;  ///< ids of results that belong to no scenario of the family
 };
 
-/// @param again everything is to be baked anew
-BatchStanding standingOf(const BatchPlan& plan, const BatchFolder& folder, bool again);
+/// Reads the bakes that are there: one that is not as it was written counts for nothing.
+/// @param again everything is to be baked anew; @param mine whose bakes are looked at
+BatchStanding standingOf(const BatchPlan& plan, const BatchFolder& folder, bool again,
+                         const std::function<bool(std::size_t)>& mine);
 
 }  // namespace throng::cli

@@ -123,6 +123,8 @@ ScenarioEnd ScenarioBaker::bake(std::size_t index, const InterruptGuard& interru
     } catch (const gl::GraphicsError& error) {
         recordFailure(plan_, index, folder_, error.what(), error.what());
         throw;
+    } catch (const OutputBusy&) {
+        return ScenarioEnd::failed;  // who bakes it just now writes the result, too
     } catch (const std::exception& error) {
         recordFailure(plan_, index, folder_, error.what(), error.what());
         return ScenarioEnd::failed;

@@ -190,6 +190,7 @@ void collectResults(const BatchPlan& plan, const BatchFolder& folder) {
     fs::remove(fresh, ignored);
     try {
         write(fresh, plan, folder);
+        syncFile(fresh);
     } catch (const InputError& error) {
         fs::remove(fresh, ignored);
         throw OutputError(folder.database(), std::string("cannot be written: ") + error.what());

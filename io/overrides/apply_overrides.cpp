@@ -19,9 +19,11 @@
 #include "io/bake_folder.h"
 #include "io/gltf/crowd_glb.h"
 #include "io/gltf/terrain_file.h"
+#include "io/manifest.h"
 #include "io/overrides/agent_table_edit.h"
 #include "io/overrides/row_sampler.h"
 #include "io/streams/stream_files.h"
+#include "io/verify_bake.h"
 #include "recording/footing.h"
 
 namespace throng::io {
@@ -69,6 +71,7 @@ class Application {
             if (source_.streams[info.id])
                 files_.emplace_back(folder_.path(), info, source_.agents, source_.frames);
         requireInside();
+        requireSound();
         for (const RowChange& each : changes)
             rows_.push_back(prepared(each));
         if (source_.manifest.contains("terrain")) readTerrainBack();
@@ -110,6 +113,17 @@ class Application {
         if (source_.manifest.contains("terrain")) paths.insert("terrain.glb");
         for (const std::string& path : paths)
             openBeneath(source_.folder, path);
+    }
+
+    /// What is read or copied is as it was written: damage would get checksums that fit it.
+    void requireSound() const {
+        for (const Bake::File& file : source_.files) {
+            const bool is_read =
+                !isWrittenAnew(file.path) || file.path == "agents.csv" ||
+                (file.path.starts_with("streams/") && file.path.ends_with(nameOf(StreamFormat::npy)));
+            const std::optional<BakeProblem> problem = is_read ? problemOf(source_, file) : std::nullopt;
+            if (problem) throw InputError(source_.folder / file.path, problem->message);
+        }
     }
 
     void read(const CrowdFrame& frame) {
@@ -365,8 +379,7 @@ class Application {
             const FileHash hash = hashFile(folder_.path() / file);
             manifest["files"].push_back({{"path", file}, {"bytes", hash.bytes}, {"xxh3", hash.xxh3}});
         }
-        writeFile(folder_.path() / "bake.json",
-                  manifest.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+        writeFile(folder_.path() / "bake.json", manifestText(std::move(manifest)));
     }
 
     CrowdReader& crowd_;

@@ -25,6 +25,9 @@ class StreamFiles {
     void backFill(std::span<const std::uint32_t> first_alive_frame);
     void finish();
 
+    /// To read back what was written.
+    const std::vector<StreamWriter>& writers() const { return writers_; }
+
   private:
     const StreamInfo& info_;
     std::vector<StreamWriter> writers_;

@@ -76,6 +76,10 @@ void StreamWriter::append(std::span<const float> frame) {
     ++frames_;
 }
 
+void StreamWriter::readBack(std::uint32_t frame, std::span<float> values) const {
+    file_.readAt(headerSize(format_) + frame * frameBytes(), std::as_writable_bytes(values));
+}
+
 /// A row's spawn point is known only once it has entered, which may be minutes into the shot. Going through
 /// the file backwards meets that frame before all the frames that need its values, so one pass and one
 /// frame's worth of memory beside the chunk are enough, however long the bake.

@@ -25,6 +25,9 @@ class StreamWriter {
     /// Appends one frame: exactly rows x 3 values (std::invalid_argument otherwise).
     void append(std::span<const float> frame);
 
+    /// Reads a frame that has been written.
+    void readBack(std::uint32_t frame, std::span<float> values) const;
+
     /// Rewrites what rows hold in the frames before they are first alive. `first_alive_frame` has one frame
     /// number a row; 0 or a number that was never reached leaves the row as it is.
     void backFill(std::span<const std::uint32_t> first_alive_frame,

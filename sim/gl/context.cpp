@@ -78,6 +78,20 @@ std::vector<Candidate> allCandidates() {
     return candidates;
 }
 
+/// @param robust one that tells of resets, and stays inside its buffers
+EGLContext createContext(EGLDisplay display, bool debug, bool robust) {
+    std::vector<EGLint> attributes = {EGL_CONTEXT_MAJOR_VERSION,       4,
+                                      EGL_CONTEXT_MINOR_VERSION,       5,
+                                      EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
+    if (debug) attributes.insert(attributes.end(), {EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE});
+    if (robust)
+        attributes.insert(attributes.end(),
+                          {EGL_CONTEXT_OPENGL_ROBUST_ACCESS, EGL_TRUE,
+                           EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL_LOSE_CONTEXT_ON_RESET});
+    attributes.push_back(EGL_NONE);
+    return eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
+}
+
 /// @returns EGL_NO_CONTEXT and a filled-in problem when this display cannot do what we need.
 EGLContext makeContext(Candidate& candidate, bool debug) {
     if (candidate.display == EGL_NO_DISPLAY || !eglInitialize(candidate.display, nullptr, nullptr)) {
@@ -92,17 +106,11 @@ EGLContext makeContext(Candidate& candidate, bool debug) {
         return EGL_NO_CONTEXT;
     }
     eglBindAPI(EGL_OPENGL_API);
-    std::vector<EGLint> attributes = {EGL_CONTEXT_MAJOR_VERSION,       4,
-                                      EGL_CONTEXT_MINOR_VERSION,       5,
-                                      EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
-    if (debug) attributes.insert(attributes.end(), {EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE});
+    EGLContext context = EGL_NO_CONTEXT;
     if (hasExtension(extensions, "EGL_EXT_create_context_robustness"))
-        attributes.insert(attributes.end(),
-                          {EGL_CONTEXT_OPENGL_ROBUST_ACCESS, EGL_TRUE,
-                           EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL_LOSE_CONTEXT_ON_RESET});
-    attributes.push_back(EGL_NONE);
-    EGLContext context =
-        eglCreateContext(candidate.display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
+        context = createContext(candidate.display, debug, true);
+    // Some drivers offer the extension and then make no such context.
+    if (context == EGL_NO_CONTEXT) context = createContext(candidate.display, debug, false);
     if (context == EGL_NO_CONTEXT) {
         candidate.problem = "it does not offer OpenGL 4.5 core";
         return EGL_NO_CONTEXT;
@@ -220,7 +228,7 @@ const std::vector<std::string>& Context::debugMessages() const {
 
 void Context::check(const char* where) const {
     if (const GLenum reset = glGetGraphicsResetStatus(); reset != GL_NO_ERROR)
-        throw GraphicsError(
+        throw DeviceLost(
             fmt::format("{}: the GPU was reset and the work on it is lost (status {:#x})", where, reset));
     if (const GLenum error = glGetError(); error != GL_NO_ERROR) {
         const char* name = error == GL_OUT_OF_MEMORY ? "the device is out of memory" : "OpenGL error";

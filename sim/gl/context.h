@@ -13,6 +13,12 @@ struct GraphicsError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// The device was reset or taken away while it worked: what is on it is lost, and a new process may have more
+/// luck.
+struct DeviceLost : GraphicsError {
+    using GraphicsError::GraphicsError;
+};
+
 /// A device that EGL offers. Devices are told apart by what they say of themselves; EGL's order means
 /// nothing.
 struct Device {
@@ -54,8 +60,8 @@ class Context {
     /// Options::debug.
     const std::vector<std::string>& debugMessages() const;
 
-    /// @throws GraphicsError when the driver reports a lost device or any GL error is pending; `where` goes
-    /// in the message.
+    /// @throws DeviceLost when the driver reports that, GraphicsError when any GL error is pending; `where`
+    /// goes in the message.
     void check(const char* where) const;
 
   private:

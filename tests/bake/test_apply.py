@@ -222,6 +222,7 @@ def test_ctrl_c_leaves_nothing(throng, street, tmp_path):
     frames, people = 1_000_000, manifest["agents"]
     manifest["frames"] = frames
     del manifest["streams"]["density"]
+    manifest["files"] = [file for file in manifest["files"] if not file["path"].startswith("streams/")]
     for name in ("pos", "dir", "state"):
         shape = f"{{'descr': '<f4', 'fortran_order': False, 'shape': ({frames}, {people}, 3), }}"
         head = b"\x93NUMPY\x01\x00" + (118).to_bytes(2, "little") + shape.encode().ljust(117) + b"\n"

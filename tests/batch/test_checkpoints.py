@@ -26,7 +26,7 @@ def files_of(bake):
         if path.is_file():
             found[str(path.relative_to(bake))] = path.read_bytes()
     manifest = json.loads(found.pop("bake.json"))
-    del manifest["timing"]
+    del manifest["timing"], manifest["checksum"]
     return found, manifest
 
 
@@ -108,6 +108,29 @@ def test_a_torn_checkpoint_is_passed_over_for_the_one_before(throng, whole, tmp_
     assert files_of(tmp_path / "bake") == expected
 
 
+@pytest.mark.parametrize("name", ["streams/pos.npy", "streams/state.pc2", "diagrams/diagram.0001.exr"])
+def test_what_is_not_what_it_was_at_the_checkpoint_is_refused(throng, whole, tmp_path, name):
+    layout, expected = whole
+    process = start(throng, layout, tmp_path / "bake")
+    unfinished = tmp_path / "bake.unfinished"
+    while not (unfinished / "checkpoint.a").exists() or frames_at(unfinished / "checkpoint.a") < 50:
+        assert process.poll() is None
+        time.sleep(0.01)
+    process.kill()
+    process.wait()
+    damaged = unfinished / name
+    content = bytearray(damaged.read_bytes())
+    row = 12 * 81
+    at = -1 if name.startswith("diagrams") else 128 + 40 * row  # of those who are there by then
+    for byte in range(at, 0 if at == -1 else at + row):
+        content[byte] ^= 1
+    damaged.write_bytes(content)
+    told = throng("bake", layout, "-o", tmp_path / "bake", *OPTIONS, "--resume", expect=3)
+    assert name in told.stderr and "--force" in told.stderr and not (tmp_path / "bake").exists()
+    throng("bake", layout, "-o", tmp_path / "bake", *OPTIONS, "--resume", "--force")
+    assert files_of(tmp_path / "bake") == expected
+
+
 def frames_at(checkpoint):
     """How many frames had been written (io/checkpoint.cpp: a head of 24 bytes, the identity and its length, then
     this)."""
@@ -133,13 +156,16 @@ def test_killed_before_its_first_frame_is_written_a_bake_goes_on(throng, whole, 
     assert files_of(tmp_path / "bake") == expected
 
 
-def test_both_checkpoints_torn_is_a_bake_from_the_start(throng, whole, tmp_path):
+def test_both_checkpoints_torn_are_refused_and_force_starts_over(throng, whole, tmp_path):
     layout, expected = whole
     unfinished = tmp_path / "bake.unfinished"
     unfinished.mkdir()
     (unfinished / "checkpoint.a").write_bytes(b"THRONGC1 and then nothing")
     (unfinished / "checkpoint.b").write_bytes(b"")
-    throng("bake", layout, "-o", tmp_path / "bake", *OPTIONS, "--resume")
+    told = throng("bake", layout, "-o", tmp_path / "bake", *OPTIONS, "--resume", expect=3)
+    assert "checkpoints are damaged" in told.stderr and "--force" in told.stderr
+    assert (unfinished / "checkpoint.a").exists() and not (tmp_path / "bake").exists()
+    throng("bake", layout, "-o", tmp_path / "bake", *OPTIONS, "--resume", "--force")
     assert files_of(tmp_path / "bake") == expected
 
 

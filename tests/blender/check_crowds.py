@@ -51,9 +51,23 @@ assert bpy.ops.throng.show(percent=100.0, offset=0) == {"FINISHED"}
 material = bpy.data.materials[0]
 material.diffuse_color = (1.0, 0.0, 0.0, 1.0)
 stream = os.path.join(second, "streams", "dir.pc2")
-shutil.move(stream, stream + ".aside")
+aside = os.path.join(folder, "aside")
+shutil.move(stream, aside)
 result["missing"] = verify(b, scene)
-shutil.move(stream + ".aside", stream)
+shutil.move(aside, stream)
+table = os.path.join(second, "streams", "pos.npy")  # which playing needs not
+with open(table, "r+b") as file:
+    file.seek(1000)
+    byte = file.read(1)[0]
+    file.seek(1000)
+    file.write(bytes([byte ^ 4]))
+    file.flush()
+    result["flipped"] = verify(b, scene)
+    file.seek(1000)
+    file.write(bytes([byte]))
+with open(os.path.join(second, "notes.txt"), "w", encoding="utf-8"):
+    result["stranger"] = verify(b, scene)
+os.remove(os.path.join(second, "notes.txt"))
 scene.render.fps = 30
 result["fps"] = verify(a, scene)
 b.data.vertices.add(3)

@@ -1,9 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes a small synthetic bake whose every value is known, without the command line."""
 import json
+import pathlib
 import struct
+import sys
 
 import numpy
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent.parent / "blender_addon"))
+from throng.formats.xxh3 import hash_of  # noqa: E402
 
 STRIDES = [0.7, 1.0, 1.4, 1.8]
 
@@ -55,5 +60,7 @@ def write_bake(folder, agents=63, frames=40, fps=24.0, seed=7, variations=8, gai
                      "roads": [{"id": "a", "centreline": [[-20, 0], [20, 0]], "width": 8.0, "one_way": False},
                                {"id": "b", "centreline": [[0, -20], [0, 20]], "width": 8.0, "one_way": False}],
                      "areas": [{"id": "plaza", "polygon": [[-18, -18], [-8, -18], [-8, -8], [-18, -8]]}]}}
+    manifest["files"] = [{"path": path.relative_to(folder).as_posix(), "bytes": path.stat().st_size,
+                          "xxh3": hash_of(path)} for path in sorted(folder.rglob("*.*"))]
     (folder / "bake.json").write_text(json.dumps(manifest))
     return pos, direction, state

@@ -61,6 +61,8 @@ def test_crowds_are_verified_mended_moved_and_shown_in_part(blender, tmp_path):
     shown, of, subset = found["part"]
     assert 0.1 * of < shown < 0.55 * of and subset and found["same"] <= 2
     assert len(found["missing"]) == 1 and "dir.pc2" in found["missing"][0] and "cannot be read" in found["missing"][0]
+    assert len(found["flipped"]) == 1 and "streams/pos.npy has been changed or damaged" in found["flipped"][0]
+    assert found["stranger"] == ["notes.txt is not in the list of bake.json"]
     assert len(found["fps"]) == 1 and "30 frames a second" in found["fps"][0]
     assert any("123 people, the bake 120" in problem for problem in found["rows"])
     assert found["mended"] == [[], []] and found["look"][:3] == [1.0, 0.0, 0.0]

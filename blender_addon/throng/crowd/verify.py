@@ -5,6 +5,7 @@ import os
 import bpy
 
 from ..formats import Bake, BakeError, check_pc2, read_manifest
+from ..formats.listed_files import file_problems
 from .queries import bake_path
 
 
@@ -15,7 +16,10 @@ def verify(crowd, scene):
         bake = Bake(read_manifest(path), os.path.dirname(path))
     except BakeError as error:
         return [str(error)]
-    problems = [problem for stream in bake.streams for problem in _stream_problems(crowd, bake, stream)]
+    by_stream = {stream: list(_stream_problems(crowd, bake, stream)) for stream in bake.streams}
+    problems = [problem for found in by_stream.values() for problem in found]
+    told = [bake.manifest["streams"][stream]["pc2"] for stream, found in by_stream.items() if found]
+    problems += [sentence for _, sentence in file_problems(bake, told)]
     if len(crowd.data.vertices) != bake.agents:
         problems.append(f"the scene has {len(crowd.data.vertices)} people, the bake {bake.agents}: re-load mends it")
     if not bake.complete:
