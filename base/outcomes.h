@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-/// What became of people, in words: the account of a bake, its table, measurements, batches, pages and the
+/// What became of people, in words: the account of a bake, its table, measurements, batches and the
 /// Blender add-on all mean this by them (docs/bake.md has the same table, and a test compares the two).
 namespace throng {
 

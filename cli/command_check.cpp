@@ -6,8 +6,8 @@
 
 #include "authoring/layout/layout_reader.h"
 #include "base/files/input_file.h"
-#include "cli/baking/check_family.h"
 #include "cli/baking/load_layout.h"
+#include "cli/batch/check_family.h"
 #include "cli/commands.h"
 #include "cli/terminal/exit_codes.h"
 #include "cli/terminal/failure.h"

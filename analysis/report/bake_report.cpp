@@ -5,12 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <map>
 
 #include "analysis/report/packed_ways.h"
 #include "analysis/report/page.h"
-#include "analysis/stuck.h"
 #include "base/palette.h"
 #include "base/plane_grid.h"
 
@@ -146,27 +144,34 @@ class Watch {
     std::map<std::uint64_t, std::pair<double, std::uint32_t>> overlaps_;
 };
 
-/// Those who are stuck, and since when.
+/// Who walks at the end and has not come half a metre further in five seconds, and since when.
 Json stuckOnes(io::CrowdReader& crowd) {
+    constexpr double kSeconds = 5.0, kMetres = 0.5;
     const io::Bake& bake = crowd.bake();
+    const std::vector<io::AgentRow>& rows = crowd.people();
     Json list = Json::array();
-    const auto needed = static_cast<std::uint32_t>(kStuckSeconds * bake.fps);
-    if (bake.frames <= needed) return list;
-    const io::CrowdFrame last = crowd.frame(bake.frames - 1), before = crowd.frame(bake.frames - 1 - needed);
-    std::vector<std::uint32_t> still;
-    for (std::uint32_t row = 0; row < crowd.people().size(); ++row)
-        if (isStuck(crowd.people()[row], before, last, row)) still.push_back(row);
+    if (bake.frames / bake.fps < kSeconds) return list;
+    const io::CrowdFrame last = crowd.frame(bake.frames - 1);
+    const std::span<const float> end = last[Stream::pos];
+    std::vector<std::uint32_t> waiting;
+    for (std::uint32_t row = 0; row < rows.size(); ++row)
+        if (rows[row].outcome == "walking") waiting.push_back(row);
     const auto step = static_cast<std::uint32_t>(std::max(1.0, std::round(bake.fps / 4.0)));
-    for (std::uint32_t back = needed + step; !still.empty(); back += step) {
+    const auto needed = static_cast<std::uint32_t>(std::ceil(kSeconds * bake.fps));
+    for (std::uint32_t back = needed; !waiting.empty(); back += step) {
         const bool at_start = back + 1 >= bake.frames;
         const io::CrowdFrame earlier = crowd.frame(at_start ? 0 : bake.frames - 1 - back);
-        std::erase_if(still, [&](std::uint32_t row) {
-            const bool near =
-                earlier.isThere(row) && glm::distance(last.place(row), earlier.place(row)) < kStuckMetres;
-            if (near && !at_start) return false;
-            list.push_back({{"agent", row}, {"frame", earlier.index()}});
-            return true;
-        });
+        const std::span<const float> then = earlier[Stream::pos];
+        std::vector<std::uint32_t> still;
+        for (const std::uint32_t row : waiting) {
+            const std::size_t i = 3 * std::size_t{row};
+            const bool near = std::hypot(end[i] - then[i], end[i + 1] - then[i + 1]) < kMetres;
+            if (near && !at_start)
+                still.push_back(row);
+            else if (back > needed || (near && at_start))
+                list.push_back({{"agent", row}, {"frame", earlier.index()}});
+        }
+        waiting = std::move(still);
     }
     return list;
 }
@@ -192,9 +197,9 @@ Json agentsJson(const std::vector<io::AgentRow>& rows, const io::GroupTable& gro
     for (std::size_t row = 0; row < rows.size(); ++row) {
         agents["group"].push_back(groups.group_of[row]);
         agents["radius"].push_back(rounded(rows[row].radius, 0.001));
-        agents["outcome"].push_back(rows[row].outcome == wordFor(Fate::arrived)   ? 1
-                                    : rows[row].outcome == wordFor(Fate::walking) ? 0
-                                                                                  : 2);
+        agents["outcome"].push_back(rows[row].outcome == "arrived"   ? 1
+                                    : rows[row].outcome == "walking" ? 0
+                                                                     : 2);
         agents["arrival"].push_back(rows[row].arrival_frame == 0xffffffffu ? Json()
                                                                            : Json(rows[row].arrival_frame));
         const bool never = ways.first[row] > ways.last[row];
@@ -235,8 +240,6 @@ std::string bakeReport(io::CrowdReader& crowd, const Measurement& measured,
     data["agents"] = agentsJson(crowd.people(), groups, ways);
     data["measured"] = measuredJson(measured);
     data["missed"] = missed;
-    for (const FateWord& entry : kFates)
-        data["words"][std::string(entry.word)] = entry.meaning;
     data["refused"] = bake.manifest.contains("/account/refused_reasons"_json_pointer)
                           ? bake.manifest.at("/account/refused_reasons"_json_pointer)
                           : Json::object();

@@ -340,7 +340,7 @@ $("figures").append(
   figure("wall crossings", number(measured.wall_crossings), measured.wall_crossings ? "bad" : ""));
 if (data.missed.length) $("missed").append(element("h2", {class: "bad", style: "margin-top:10px"}, "Bars missed"), element("ul", {}, ...data.missed.map(bar => element("li", {}, bar))));
 $("account").append(figure("people", number(measured.agents)), figure("arrived", number(measured.arrived), measured.arrived === measured.agents ? "good" : ""),
-  figure("walking at the end", number(measured.walking)), figure("stuck", number(data.stuck.length), data.stuck.length ? "bad" : ""),
+  figure("still walking", number(measured.walking)), figure("stuck", number(data.stuck.length), data.stuck.length ? "bad" : ""),
   figure("refused", number(measured.refused), measured.refused ? "bad" : ""), figure("overlapping pairs", number(data.overlap_pairs)));
 
 const series = data.series, over = key => series.time.map((t, i) => [t, series[key][i]]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/baking/check_family.h"
+#include "cli/batch/check_family.h"
 
 #include <fmt/format.h>
 
