@@ -9,11 +9,11 @@
 #include <numbers>
 
 #include "io/agent_rows.h"
-#include "io/bake_info.h"
 #include "io/overrides/agent_table_edit.h"
 #include "io/overrides/row_sampler.h"
 #include "io/streams/stream_reader.h"
 #include "io/streams/stream_writer.h"
+#include "io/verify_bake.h"
 #include "sample_crowd.h"
 
 namespace throng::io {
@@ -37,7 +37,7 @@ struct Applied {
         CrowdReader reader(source);
         result = applyOverrides(reader, changes, apply);
         made = loadBake(folder / "applied");
-        problems = verifyBake(made);
+        problems = verifyBake(folder / "applied").problems;
     }
     static std::vector<float> frame(const Bake& bake, Stream stream, std::uint32_t index) {
         CrowdReader reader(bake);
