@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -28,12 +29,14 @@ inline constexpr std::array kFates = {
     FateWord{Fate::refused, "refused", "Never came into the scene; the reason is told."},
 };
 
-/// @throws at compile time for a fate without a word
 constexpr std::string_view wordFor(Fate fate) {
-    for (const FateWord& entry : kFates)
-        if (entry.fate == fate) return entry.word;
-    throw "there is no such fate";
+    return kFates[static_cast<std::size_t>(fate)].word;
 }
+static_assert([] {
+    for (std::size_t i = 0; i < kFates.size(); ++i)
+        if (kFates[i].fate != static_cast<Fate>(i)) return false;
+    return kFates.size() == static_cast<std::size_t>(Fate::refused) + 1;
+}());
 
 /// The same as a key of JSON.
 inline std::string keyFor(Fate fate) {

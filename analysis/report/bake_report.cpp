@@ -9,6 +9,7 @@
 
 #include "analysis/report/packed_ways.h"
 #include "analysis/report/page.h"
+#include "analysis/stuck.h"
 #include "base/palette.h"
 #include "base/plane_grid.h"
 
@@ -144,34 +145,28 @@ class Watch {
     std::map<std::uint64_t, std::pair<double, std::uint32_t>> overlaps_;
 };
 
-/// Who walks at the end and has not come half a metre further in five seconds, and since when.
+/// Who is stuck at the end, and since when: all that time within half a metre of where they are.
 Json stuckOnes(io::CrowdReader& crowd) {
-    constexpr double kSeconds = 5.0, kMetres = 0.5;
     const io::Bake& bake = crowd.bake();
     const std::vector<io::AgentRow>& rows = crowd.people();
     Json list = Json::array();
-    if (bake.frames / bake.fps < kSeconds) return list;
-    const io::CrowdFrame last = crowd.frame(bake.frames - 1);
-    const std::span<const float> end = last[Stream::pos];
-    std::vector<std::uint32_t> waiting;
+    const auto wait = static_cast<std::uint32_t>(kStuckSeconds * bake.fps);
+    if (bake.frames <= wait) return list;
+    const io::CrowdFrame end = crowd.frame(bake.frames - 1), before = crowd.frame(bake.frames - 1 - wait);
+    std::vector<std::uint32_t> still;
     for (std::uint32_t row = 0; row < rows.size(); ++row)
-        if (rows[row].outcome == "walking") waiting.push_back(row);
+        if (isStuck(rows[row], before, end, row)) still.push_back(row);
     const auto step = static_cast<std::uint32_t>(std::max(1.0, std::round(bake.fps / 4.0)));
-    const auto needed = static_cast<std::uint32_t>(std::ceil(kSeconds * bake.fps));
-    for (std::uint32_t back = needed; !waiting.empty(); back += step) {
-        const bool at_start = back + 1 >= bake.frames;
-        const io::CrowdFrame earlier = crowd.frame(at_start ? 0 : bake.frames - 1 - back);
-        const std::span<const float> then = earlier[Stream::pos];
-        std::vector<std::uint32_t> still;
-        for (const std::uint32_t row : waiting) {
-            const std::size_t i = 3 * std::size_t{row};
-            const bool near = std::hypot(end[i] - then[i], end[i + 1] - then[i + 1]) < kMetres;
-            if (near && !at_start)
-                still.push_back(row);
-            else if (back > needed || (near && at_start))
-                list.push_back({{"agent", row}, {"frame", earlier.index()}});
-        }
-        waiting = std::move(still);
+    for (std::uint32_t since = before.index(); !still.empty();) {
+        const std::uint32_t earlier = since - std::min(since, step);
+        const io::CrowdFrame then = crowd.frame(earlier);
+        std::erase_if(still, [&](std::uint32_t row) {
+            const bool was_there = since > 0 && then.isThere(row) &&
+                                   glm::distance(then.place(row), end.place(row)) < kStuckMetres;
+            if (!was_there) list.push_back({{"agent", row}, {"frame", since}});
+            return !was_there;
+        });
+        since = earlier;
     }
     return list;
 }
