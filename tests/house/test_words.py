@@ -19,7 +19,7 @@ def test_the_docs_have_the_words_of_the_code():
 
 def test_the_add_on_has_the_words_of_the_code():
     scope = {}
-    exec((ROOT / "blender_addon" / "throng" / "outcomes.py").read_text(), scope)
+    exec((ROOT / "blender_addon" / "throng" / "formats" / "outcomes.py").read_text(), scope)
     assert {scope[word.upper()] for word in words()} == set(words())
     told = scope["account_text"]({"agents": 12, "walking": 3, "arrived": 8, "refused": 1})
     assert told == "12 people: 8 arrived, 3 walking, 1 refused"

@@ -9,7 +9,7 @@ import bpy
 from bpy.props import IntProperty
 
 from ..formats import BakeError
-from ..outcomes import account_text
+from ..formats.outcomes import account_text
 from .bake_job import BakeJob, Diagnostic, check_layout
 from .executable import ExecutableError, check_version, find_executable
 from .exporter import default_name, export_layout, folder_of_files, layout_text, write_text
