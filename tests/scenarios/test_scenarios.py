@@ -51,13 +51,26 @@ def test_a_dense_stream_flows_as_the_bar_says_on_average(throng, tmp_path):
     assert layout["expect"]["flow"]["min"] < numpy.mean(flows) < layout["expect"]["flow"]["max"], flows
 
 
-@pytest.mark.parametrize("name", ["crossing", "corridor"])
+# Half as many as in the scenarios, as close together: a street as wide with streams half as long, a corridor half as
+# wide. Without impatience 1,997 and 1,572 of 2,048 get through in this time, in the crossing without ways round jams 329.
+HALVED = {
+    "crossing": ["simulation.duration=125", *(f"formations.{i}.{key}" for i in (0, 1)
+                                              for key in ("columns=37", "count=1024"))],
+    "corridor": ["simulation.duration=130", *(f"formations.{i}.{key}" for i in (0, 1)
+                                              for key in ("rows=20", "count=1024")),
+                 "formations.1.origin=[-5, 19]", "walls.1.points=[[-66, 19.75], [66, 19.75]]"],
+}
+
+
+@pytest.mark.parametrize("name", HALVED)
 @pytest.mark.slow
-def test_streams_of_thousands_get_through_each_other(scenario, name):
+def test_streams_of_thousands_get_through_each_other(throng, tmp_path, name):
     """Jams are chaotic, and another device may add in another order: the last few are not held against it here."""
-    figures = scenario(name, expect=None)
-    assert figures["agents"] == 4096
-    assert figures["arrived"] >= 0.99 * 4096
+    settings = [word for setting in HALVED[name] for word in ("--set", setting)]
+    figures = json.loads(throng("scenarios", "--run", name, "--json", "-o", tmp_path, *settings, expect=None).stdout)
+    shutil.rmtree(tmp_path / name)  # gigabytes
+    assert figures["agents"] == 2048
+    assert figures["arrived"] >= 0.99 * 2048
     assert figures["deepest_overlap_percent"] < 2
     assert figures["overlapping_percent"] < 0.1
     assert figures["wall_crossings"] == 0
