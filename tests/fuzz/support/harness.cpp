@@ -2,7 +2,6 @@
 #include "harness.h"
 
 #include <fmt/format.h>
-#include <sanitizer/allocator_interface.h>
 #include <sanitizer/common_interface_defs.h>
 #include <sys/time.h>
 #include <unistd.h>
@@ -17,7 +16,13 @@
 
 #include "base/files/errors.h"
 
-extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
+extern "C" {
+std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
+// As in sanitizer/allocator_interface.h, which GCC does not bring along.
+int __sanitizer_install_malloc_and_free_hooks(void (*allocated)(const volatile void*, std::size_t),
+                                              void (*released)(const volatile void*));
+std::size_t __sanitizer_get_allocated_size(const volatile void* place);
+}
 
 namespace throng::fuzz {
 namespace {

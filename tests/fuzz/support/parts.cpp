@@ -48,7 +48,7 @@ std::string mutatedPart(std::string_view input, const JsonMutator& json, std::si
     auto& [name, content] = parts[random() % parts.size()];
     const std::size_t others = packed(parts).size() - content.size();
     if (others >= most) return mutatedBytes(input, most);
-    const unsigned own_seed = random();
+    const auto own_seed = static_cast<unsigned>(random());
     content = name.ends_with(".json") ? json.mutate(content, most - others, own_seed)
                                       : mutatedBytes(content, most - others);
     return packed(parts);
