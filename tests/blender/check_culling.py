@@ -73,6 +73,19 @@ for frame in (20, 25, 30):
             borderline.add(row)
     left = set(people())
     result["camera"].append([len(left), len(everybody), sorted((left ^ expected) - borderline)])
+
+# A new box is round everybody, whoever was culled or not shown before.
+scene.frame_set(20)
+bpy.ops.throng.cull(by="none")
+everybody = people()
+bpy.ops.throng.cull(by="camera", margin=0.0)
+bpy.ops.throng.show(percent=30.0)
+bpy.context.view_layer.objects.active = crowd
+before = len(people())
+bpy.ops.throng.cull(by="box", margin=0.1)
+part = people()
+bpy.ops.throng.show(percent=100.0)
+result["new box"] = [before, len(everybody), len(part), len(people())]
 bpy.ops.throng.cull(by="none")
 result["again"] = len(people()) == len(everybody)
 print("RESULT " + json.dumps(result))

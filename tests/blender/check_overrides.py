@@ -141,10 +141,20 @@ theirs = json.loads(content)
 theirs["overrides"] = theirs["overrides"][1:]
 with open(FILE, "w", encoding="utf-8") as file:
     json.dump(theirs, file)
-result["conflict"] = refused(ops.hide_people, rows="20")
-assert entries() == theirs["overrides"] and len(crowd.throng_overrides) == len(theirs["overrides"]) + 1
+assert refused(ops.hide_people, rows="20") == "no error"
+result["merged"] = [entry["id"] for entry in entries()] == [entry["id"] for entry in theirs["overrides"]] + [20]
+result["theirs"] = 3 in people() and len(crowd.throng_overrides) == len(entries())
+ops.clear_people(rows="20")
+theirs = {"throng_overrides": 1, "overrides": entries()}
+next(entry for entry in theirs["overrides"] if entry["id"] == 15)["tint"] = "#00ff00"
+with open(FILE, "w", encoding="utf-8") as file:
+    json.dump(theirs, file)
+result["conflict"] = refused(ops.tint_people, rows="15", by="colour", colour=(0.0, 0.0, 1.0))
+result["cleared by both"] = refused(ops.clear_people, rows="15")
+assert entries() == theirs["overrides"]
 ops.reload_overrides()
-result["theirs"] = 3 in people()
+result["reloaded"] = [json.loads(item.text) for item in crowd.throng_overrides] == theirs["overrides"]
+ops.tint_people(rows="15", by="colour", colour=(0.627451, 0.062745, 0.12549))
 ops.hide_people(rows="3")
 
 # --- heroes ----------------------------------------------------------------------------------------------------------

@@ -79,11 +79,17 @@ def test_mistakes_are_reported_and_change_nothing(found):
     found = found[0]
     assert "Nobody is picked" in found["nobody"] and "no person 999" in found["stranger"]
     assert "found `three`" in found["words"]
-    assert "changed by somebody else" in found["conflict"] and found["theirs"], "what they have taken back is back"
+    for told in (found["conflict"], found["cleared by both"]):
+        assert "person 15 of `f` (tint) has been changed by somebody else" in told and "Re-load Overrides" in told
     assert "`Anna` already" in found["twice"]
     assert "person 18 is a character that was brought along" in found["brought"]
     imported, reloaded, more = found["damaged"]
     assert "/hide: expected true or false" in imported and "/hide: expected true or false" in reloaded and more == 0
+
+
+def test_what_somebody_else_has_changed_in_the_file_is_taken_over(found):
+    assert found[0]["merged"] and found[0]["theirs"], "what they have taken back is back"
+    assert found[0]["reloaded"]
 
 
 def test_clearing_brings_back_the_crowd_as_it_was(found):

@@ -130,4 +130,6 @@ def test_only_those_outside_a_box_or_the_cameras_view_are_left_out(blender, tmp_
     assert 10 < left < 0.5 * found["all"] and exact and unmoved
     for left, of, wrong in found["camera"]:
         assert 0 < left < of and wrong == []
+    before, everybody, part, boxed = found["new box"]
+    assert before < part < everybody == boxed, "a new box is round everybody, whoever was culled or not shown before"
     assert found["again"]

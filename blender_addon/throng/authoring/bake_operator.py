@@ -8,6 +8,7 @@ import time
 import bpy
 from bpy.props import IntProperty
 
+from ..blender.polls import available, in_object_mode
 from ..formats import BakeError
 from ..formats.outcomes import account_text
 from .bake_job import BakeJob, Diagnostic, check_layout
@@ -245,7 +246,8 @@ class THRONG_OT_bake(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return context.mode == "OBJECT" and running() is None
+        return in_object_mode(cls, context) and available(
+            cls, "A bake is going on: wait for its end, or cancel it first" if running() else "")
 
     def _begin(self, context):
         context.scene.throng_layout.problems.clear()
@@ -321,7 +323,7 @@ class THRONG_OT_bake_cancel(bpy.types.Operator):
 
     @classmethod
     def poll(cls, _context):
-        return running() is not None
+        return available(cls, "" if running() else "No bake is going on")
 
     def execute(self, _context):
         running().cancel()

@@ -7,6 +7,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
+from ..blender.polls import available, in_object_mode
 from . import display, geometry, importer
 from .exporter import default_name, export_layout, folder_of_files, layout_text, write_text
 from .geometry import AuthoringError
@@ -58,7 +59,7 @@ class _Adds:
 
     @classmethod
     def poll(cls, context):
-        return context.mode == "OBJECT"
+        return in_object_mode(cls, context)
 
     def add_curve(self, context, name, corners, cyclic, kind, **values):
         """A curve round the 3D cursor, turned by the operator's angle."""
@@ -166,7 +167,8 @@ class THRONG_OT_mark(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return context.mode == "OBJECT" and bool(context.selected_objects)
+        return in_object_mode(cls, context) and available(
+            cls, "" if context.selected_objects else "Nothing is selected: select curves, meshes or empties first")
 
     def execute(self, context):
         fitting = {"NONE": None, "ROAD": ("CURVE",), "LINE": ("CURVE",), "AREA": ("CURVE", "MESH"),

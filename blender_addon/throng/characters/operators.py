@@ -6,7 +6,8 @@ from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
 from ..blender.panels import Below
-from ..crowd.queries import chosen_crowds, members_of, repertoire_of
+from ..blender.polls import in_object_mode
+from ..crowd.queries import chosen_crowds, members_of, repertoire_of, why_fixed, why_no_crowd
 from . import CharacterError, character, files, members
 from .clips import HEADINGS, Options
 from .roles import ROLES
@@ -16,7 +17,9 @@ def _one_crowd(context):
     chosen = chosen_crowds(context)
     if len(chosen) != 1:
         raise CharacterError("Select one crowd: each has a cast of its own" if chosen
-                             else "There is no crowd: import a bake first")
+                             else why_no_crowd(context.scene))
+    if why_fixed(chosen[0]):
+        raise CharacterError(why_fixed(chosen[0]))
     return chosen[0]
 
 
@@ -113,7 +116,7 @@ class THRONG_OT_add_armature(_AddsCharacter, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return context.mode == "OBJECT"
+        return in_object_mode(cls, context)
 
     def invoke(self, context, _event):
         return context.window_manager.invoke_props_dialog(self, width=420)

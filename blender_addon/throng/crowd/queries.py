@@ -5,6 +5,7 @@ import os
 import bpy
 
 from .. import cast
+from ..blender.polls import available
 from ..cast import library
 from .names import CACHES
 
@@ -17,21 +18,42 @@ def caches(crowd):
 
 def crowd_objects(scene):
     """All crowds of a scene that this version of the add-on can work on."""
-    return [thing for thing in _playing(scene) if _is_current(thing)]
+    return [thing for thing in scene.objects if is_crowd(thing)]
 
 
 def earlier_crowds(scene):
     """Those of earlier versions, or without a cast: they play as they are, and no more."""
-    return [thing for thing in _playing(scene) if not _is_current(thing)]
+    return [thing for thing in scene.objects if _plays(thing) and not is_crowd(thing)]
 
 
-def _playing(scene):
-    return [thing for thing in scene.objects if all(name in thing.modifiers for name in CACHES)]
+def _plays(thing):
+    return all(name in thing.modifiers for name in CACHES)
 
 
-def _is_current(crowd):
-    """Whether a crowd has a cast, as this version of the add-on makes them."""
-    return "throng_levels" in (crowd.get("throng_cast") or ())
+def is_crowd(thing):
+    """Whether an object is a crowd with a cast, as this version of the add-on makes them."""
+    return _plays(thing) and "throng_levels" in (thing.get("throng_cast") or ())
+
+
+def why_fixed(crowd):
+    """Why a crowd cannot be changed in this .blend; empty where it can."""
+    library = crowd.library or crowd.data.library
+    if not library:
+        return ""
+    return (f"{crowd.name} is linked from {library.filepath}: open that file to change it, or make it local (Object > "
+            "Relations > Make Local > All)")
+
+
+def why_no_crowd(scene):
+    """What to do where a scene has no crowd to work on."""
+    if earlier_crowds(scene):
+        return "The scene's crowds are of an earlier version of Throng: import their bakes again"
+    instanced = [thing.name for thing in scene.objects if thing.instance_type == "COLLECTION"
+                 and thing.instance_collection and any(map(_plays, thing.instance_collection.all_objects))]
+    if instanced:
+        return (f"The crowd in {instanced[0]} is an instance of a collection: work on it in the file that it comes "
+                "from, or link the collection itself")
+    return "The scene has no crowd: import a bake first (File > Import > Throng bake)"
 
 
 class OnCrowds:
@@ -39,13 +61,36 @@ class OnCrowds:
 
     @classmethod
     def poll(cls, context):
-        return bool(crowd_objects(context.scene))
+        return available(cls, "" if crowd_objects(context.scene) else why_no_crowd(context.scene))
+
+
+class ChangesCrowds:
+    """Operators that are there while the scene has a crowd that can be changed, and none is selected that cannot."""
+
+    @classmethod
+    def poll(cls, context):
+        chosen = chosen_crowds(context)
+        if not chosen:
+            return available(cls, why_no_crowd(context.scene))
+        fixed = [crowd for crowd in chosen if why_fixed(crowd)]
+        selected = any(crowd.select_get() for crowd in fixed)
+        return available(cls, why_fixed(fixed[0]) if selected or len(fixed) == len(chosen) else "")
 
 
 def chosen_crowds(context):
     """The crowds that are selected, or all of the scene."""
     crowds = crowd_objects(context.scene)
     return [crowd for crowd in crowds if crowd.select_get()] or crowds
+
+
+def changed_crowds(context):
+    """Those of them that can be changed."""
+    return [crowd for crowd in chosen_crowds(context) if not why_fixed(crowd)]
+
+
+def absolute(thing, path):
+    """A path that an object has, from wherever its .blend is: `//` is beside that, and not beside one that links it."""
+    return os.path.normpath(bpy.path.abspath(path, library=thing.library))
 
 
 def collection_of(crowd):
@@ -62,7 +107,7 @@ def terrain_of(crowd):
 
 def bake_path(crowd):
     """The manifest that a crowd plays, as an absolute path: beside its streams, wherever these have gone."""
-    stream = bpy.path.abspath(crowd.modifiers["throng pos"].filepath)
+    stream = absolute(crowd, crowd.modifiers["throng pos"].filepath)
     return os.path.join(os.path.dirname(os.path.dirname(stream)), "bake.json")
 
 

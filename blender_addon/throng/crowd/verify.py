@@ -2,11 +2,9 @@
 """What is wrong with the bake that a crowd plays."""
 import os
 
-import bpy
-
 from ..formats import Bake, BakeError, check_pc2, read_manifest
 from ..formats.listed_files import file_problems
-from .queries import bake_path
+from .queries import absolute, bake_path
 
 
 def verify(crowd, scene):
@@ -39,6 +37,6 @@ def _stream_problems(crowd, bake, stream):
         check_pc2(bake.stream_path(stream), bake.agents, bake.frames)
     except BakeError as error:
         yield str(error)
-    stored = os.path.normpath(bpy.path.abspath(crowd.modifiers[f"throng {stream}"].filepath))
+    stored = absolute(crowd, crowd.modifiers[f"throng {stream}"].filepath)
     if stored != os.path.normpath(bake.stream_path(stream)):
         yield f"the stream {stream} is played from {stored}, not from the bake's folder: re-load mends it"

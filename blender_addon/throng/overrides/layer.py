@@ -11,15 +11,13 @@ from dataclasses import replace
 
 import bpy
 
-from ..crowd.queries import bake_path, crowd_objects
+from ..crowd.queries import bake_path, crowd_objects, is_crowd, why_fixed
 from ..formats import BakeError, load_bake
 from . import hero, native
 from .matching import match, orphan_reason
-from .override_file import Change, OverrideError, change_of, path_beside, person_of, read, read_beside, text_of, write
+from .merging import changed, merge_into, only, taken_over
+from .override_file import Change, OverrideError, change_of, path_beside, person_of, read_beside
 from .rows import Rows, Table
-
-# what this session has read from or written to each file, by path: whoever else changes it must not lose that
-_seen = {}
 
 
 def entries_of(crowd):
@@ -48,6 +46,7 @@ class Matched:
 
     def __init__(self, bake, entries):
         self.bake, self.entries = bake, entries
+        self.others = ""  # whom somebody else has changed meanwhile, see change()
         with Rows(bake) as rows:
             self.table = Table(bake, rows)
         self.matches = match(entries, self.table.people)
@@ -95,33 +94,55 @@ def _list(crowd, matched):
     crowd.throng_override_index = min(crowd.throng_override_index, max(0, len(items) - 1))
 
 
-def _content(path):
-    try:
-        with open(path, encoding="utf-8") as file:
-            return file.read()
-    except OSError:
-        return None
+def crowds_at(path):
+    """The crowds of the scene that have their overrides from a file, and that can be changed."""
+    return [crowd for crowd in crowd_objects(bpy.context.scene) if not why_fixed(crowd) and file_of(crowd) == path]
 
 
-def _save(crowd, path, entries):
-    """Writes the file, unless somebody else has changed it since this scene last saw it."""
-    there, shown = _content(path), entries_of(crowd)
-    known = there in (None, _seen.get(path), text_of(shown)) or read(path) == shown
-    if not known:
-        raise OverrideError(f"{path} has been changed by somebody else: Re-load Overrides first")
-    write(path, entries)
-    _seen[path] = text_of(entries)
+class _Session:
+    """What this session has done to files of overrides, so that undo takes back that, and nothing of others'."""
+
+    def __init__(self):
+        self.known = {}  # by path and crowd's name: the entries when scene and file were last brought together
+        self.own = {}    # by path: the cells that this session has written
+
+    def note(self, path, others, ours=frozenset()):
+        """Scene and file are together; `others` are cells that somebody else has changed meanwhile."""
+        self.own[path] = (self.own.get(path, set()) - others) | ours
+        for crowd in crowds_at(path):
+            self.known[path, crowd.name] = entries_of(crowd)
+
+
+_session = _Session()
+
+
+def _keeps_people(bake, path):
+    """A check for merging: nobody's changes may go to somebody else by what comes in here."""
+    def check(theirs, merged):
+        before, after = ({person_of(entry): found.row for entry, found in zip(entries, Matched(bake, entries).matches)}
+                         for entries in (theirs, merged))
+        moved = sorted(person for person, row in before.items() if after.get(person, row) != row)
+        if moved:
+            raise OverrideError(f"{path}: person {moved[0][0]} of `{moved[0][1]}` has been changed by somebody else, in "
+                                "another take: Re-load Overrides first")
+
+    return check
 
 
 def change(crowd, edit):
-    """Changes the entries by `edit(entries, matched)`, which returns the new ones; then file and scene. Raises
-    BakeError, nothing changed."""
+    """Changes the entries by `edit(entries, matched)`, which returns the new ones; then file and scene, with what
+    others have changed in the file meanwhile (`others` of what is returned says it). All crowds of one bake show the
+    same. Raises BakeError, nothing changed."""
     bake = bake_of(crowd)
     before = Matched(bake, entries_of(crowd))
-    after = Matched(bake, edit([dict(entry) for entry in before.entries], before))
+    mine = edit([dict(entry) for entry in before.entries], before)
     path = path_beside(bake.folder)
-    _save(crowd, path, after.entries)
-    show(crowd, after)
+    theirs, merged = merge_into(path, before.entries, mine, _keeps_people(bake, path))
+    after = Matched(bake, merged)
+    after.others = taken_over(before.entries, theirs)
+    for each in crowds_at(path):
+        show(each, after)
+    _session.note(path, changed(before.entries, theirs), changed(theirs, merged))
     return after
 
 
@@ -135,10 +156,16 @@ def entry_for(matched, row):
 
 
 def set_for(crowd, rows, values):
-    """Sets keys of some people's entries; a value of None takes the key away, and an entry without any goes."""
+    """Sets keys of some people's entries to the same, see set_each()."""
+    return set_each(crowd, dict.fromkeys(rows, values))
+
+
+def set_each(crowd, by_row):
+    """Sets keys of some people's entries ({row: {key: value}}); a value of None takes the key away, and an entry
+    without any goes."""
     def edit(entries, matched):
         index = {found.row: position for position, found in enumerate(matched.matches) if found.kind != "orphaned"}
-        for row in rows:
+        for row, values in by_row.items():
             if row not in index:
                 index[row] = len(entries)
                 entries.append(entry_for(matched, row))
@@ -177,7 +204,7 @@ def variation_of(crowd, row):
 
 
 def remove(crowd, positions):
-    """Takes away entries by their place in the list."""
+    """Takes away entries by their place in the crowd's list."""
     gone = set(positions)
     return change(crowd, lambda entries, _: [entry for index, entry in enumerate(entries) if index not in gone])
 
@@ -191,41 +218,55 @@ class Arrival:
     def __init__(self, bake, crowd=None):
         beside = read_beside(bake.folder)
         self.path = path_beside(bake.folder)
+        self.fresh = crowd is None
         shown = entries_of(crowd) if crowd else []
         self.entries = shown if beside is None else beside
         needed = self.entries or shown or "applied" in bake.manifest
         self.matched = Matched(bake, self.entries) if needed else None
         if self.entries and beside is None:  # approved work goes along with a bake in another place
-            write(self.path, self.entries)
-        if self.entries:
-            _seen[self.path] = _content(self.path)
+            merge_into(self.path, [], self.entries)
 
     @property
     def orphans(self):
         return self.matched.orphans if self.matched else []
 
     def place(self, crowd):
+        others = set() if self.fresh else changed(entries_of(crowd), self.entries)
         if self.matched:
             show(crowd, self.matched)
+        _session.note(self.path, others)
 
 
 def load(crowd):
     """Takes the file's entries instead of the scene's; returns the orphans."""
     arrival = Arrival(bake_of(crowd), crowd)
-    arrival.place(crowd)
+    for each in crowds_at(arrival.path):
+        arrival.place(each)
     return arrival.orphans
 
 
+def _write_undone(crowd):
+    """Puts what undo or redo has changed in the scene into the file: of what this session has written there."""
+    path = file_of(crowd)
+    known, now = _session.known.get((path, crowd.name)), entries_of(crowd)
+    if known is None or known == now or not os.path.exists(path):
+        return
+    theirs, merged = merge_into(path, known, only(known, now, _session.own.get(path, set())))
+    _session.own[path] = _session.own.get(path, set()) | changed(theirs, merged)
+    _session.known[path, crowd.name] = now
+
+
 @bpy.app.handlers.persistent
-def write_after_undo(scene, *_):
-    """Undo brings back the scene's entries; the file follows, where this session wrote it."""
-    for crowd in crowd_objects(scene):
+def write_after_undo(*_):
+    """Undo brings back the scene's entries; the file follows."""
+    for crowd in [thing for thing in bpy.data.objects if is_crowd(thing) and not why_fixed(thing)]:
         try:
-            path = file_of(crowd)
-            there = _content(path)
-            wanted = text_of(entries_of(crowd))
-            if there is not None and there == _seen.get(path) and there != wanted:
-                write(path, entries_of(crowd))
-                _seen[path] = wanted
+            _write_undone(crowd)
         except (BakeError, AttributeError) as error:
             print(f"Throng: overrides: {error}")
+
+
+@bpy.app.handlers.persistent
+def forget(*_):
+    """Another .blend has been opened."""
+    _session.__init__()

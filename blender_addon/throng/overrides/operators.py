@@ -6,7 +6,8 @@ import bpy
 from bpy.props import (BoolProperty, CollectionProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty,
                        StringProperty)
 
-from ..crowd.queries import crowd_objects
+from ..blender.polls import available
+from ..crowd.queries import crowd_objects, why_fixed, why_no_crowd
 from ..formats import BakeError
 from ..blender.panels import InSidebar
 from . import hero, layer, picking
@@ -22,25 +23,34 @@ class ThrongOverride(bpy.types.PropertyGroup):
 
 
 def _crowd(context):
-    """The crowd that is meant: the active one, else one with people picked, else the only one."""
+    """The crowd that is meant: the active one, else one with people picked, else the only one that can be changed."""
     crowds = crowd_objects(context.scene)
     active = context.view_layer.objects.active
     if active in crowds:
         return active
     with_picks = [crowd for crowd in crowds if crowd.get(picking.PICKED)]
-    return with_picks[0] if with_picks else crowds[0] if len(crowds) == 1 else None
+    own = [crowd for crowd in crowds if not why_fixed(crowd)] or crowds
+    return with_picks[0] if with_picks else own[0] if len(own) == 1 else None
 
 
-class _OnPeople:
+class _OnOneCrowd:
+    """Operators that are there while it is clear which crowd is meant, and that can be changed."""
+
+    @classmethod
+    def poll(cls, context):
+        if not crowd_objects(context.scene):
+            return available(cls, why_no_crowd(context.scene))
+        crowd = _crowd(context)
+        return available(cls, why_fixed(crowd) if crowd else
+                         "There are several crowds: make the one active that is meant, or pick people of it")
+
+
+class _OnPeople(_OnOneCrowd):
     """Changes whoever is picked, or the rows that a script names."""
 
     bl_options = {"REGISTER", "UNDO"}
     rows: StringProperty(name="People", description="Rows between blanks; whoever is picked where this is empty",
                          options={"SKIP_SAVE"})
-
-    @classmethod
-    def poll(cls, context):
-        return _crowd(context) is not None
 
     def values(self, context, crowd, row):
         raise NotImplementedError
@@ -59,7 +69,7 @@ class _OnPeople:
         if edits:  # attributes cannot be written there
             bpy.ops.object.mode_set(mode="OBJECT")
         try:
-            self.apply(context, crowd, rows)
+            report_others(self, self.apply(context, crowd, rows))
         except BakeError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
@@ -69,7 +79,8 @@ class _OnPeople:
         return {"FINISHED"}
 
     def apply(self, context, crowd, rows):
-        layer.set_for(crowd, rows, self.values(context, crowd, rows))
+        """Returns what layer.change() does."""
+        return layer.set_for(crowd, rows, self.values(context, crowd, rows))
 
 
 class THRONG_OT_hide_people(_OnPeople, bpy.types.Operator):
@@ -158,7 +169,7 @@ class THRONG_OT_move_people(_OnPeople, bpy.types.Operator):
             cursor = crowd.matrix_world.inverted() @ context.scene.cursor.location
             stands = layer.place_at(crowd, rows[0], context.scene.frame_current, move.get("turn", 0.0))
             move["by"] = [round(a - b, 6) for a, b in zip(cursor, stands)]
-        layer.set_for(crowd, rows, {"move": move})
+        return layer.set_for(crowd, rows, {"move": move})
 
 
 class THRONG_OT_retime_people(_OnPeople, bpy.types.Operator):
@@ -192,14 +203,14 @@ class THRONG_OT_promote_person(_OnPeople, bpy.types.Operator):
         if self.hero and len(rows) > 1:
             raise BakeError("Pick one person: heroes have a name each")
         taken = {layer.change_of(entry).hero for entry in layer.entries_of(crowd) if entry["id"] not in rows}
-        for row in rows:
-            name = self.hero or f"Hero {row}"
+        names = {row: self.hero or f"Hero {row}" for row in rows}
+        for row, name in names.items():
             if name in taken:
                 raise BakeError(f"there is a hero `{name}` already")
             if not hero.shipped_person(crowd, layer.variation_of(crowd, row)):
                 raise BakeError(f"person {row} is a character that was brought along: heroes are made "
                                 "of the shipped cast only")
-            layer.set_for(crowd, [row], {"hero": name})
+        return layer.set_each(crowd, {row: {"hero": name} for row, name in names.items()})
 
 
 class THRONG_OT_clear_people(_OnPeople, bpy.types.Operator):
@@ -209,10 +220,10 @@ class THRONG_OT_clear_people(_OnPeople, bpy.types.Operator):
     bl_label = "Clear"
 
     def apply(self, _context, crowd, rows):
-        layer.remove(crowd, [index for index, item in enumerate(crowd.throng_overrides) if item.row in rows])
+        return layer.remove(crowd, [index for index, item in enumerate(crowd.throng_overrides) if item.row in rows])
 
 
-class THRONG_OT_clear_override(bpy.types.Operator):
+class THRONG_OT_clear_override(_OnOneCrowd, bpy.types.Operator):
     """Take back one entry of the list; a hero is removed with its keys"""
 
     bl_idname = "throng.clear_override"
@@ -221,10 +232,6 @@ class THRONG_OT_clear_override(bpy.types.Operator):
 
     index: IntProperty(default=-1, options={"SKIP_SAVE"})
 
-    @classmethod
-    def poll(cls, context):
-        return _crowd(context) is not None
-
     def execute(self, context):
         crowd = _crowd(context)
         index = self.index if self.index >= 0 else crowd.throng_override_index
@@ -232,23 +239,19 @@ class THRONG_OT_clear_override(bpy.types.Operator):
             self.report({"ERROR"}, f"There is no entry {index}")
             return {"CANCELLED"}
         try:
-            layer.remove(crowd, [index])
+            report_others(self, layer.remove(crowd, [index]))
         except BakeError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         return {"FINISHED"}
 
 
-class THRONG_OT_reload_overrides(bpy.types.Operator):
+class THRONG_OT_reload_overrides(_OnOneCrowd, bpy.types.Operator):
     """Take the file of overrides beside the bake as it is now"""
 
     bl_idname = "throng.reload_overrides"
     bl_label = "Re-load Overrides"
     bl_options = {"REGISTER", "UNDO"}
-
-    @classmethod
-    def poll(cls, context):
-        return _crowd(context) is not None
 
     def execute(self, context):
         try:
@@ -258,6 +261,12 @@ class THRONG_OT_reload_overrides(bpy.types.Operator):
             return {"CANCELLED"}
         report_orphans(self, orphans)
         return {"FINISHED"}
+
+
+def report_others(operator, matched):
+    """What somebody else had changed in the file is shown from now on: nobody should be surprised."""
+    if matched.others:
+        operator.report({"WARNING"}, f"Somebody else had changed the file, which is taken over: {matched.others}")
 
 
 def report_orphans(operator, orphans):
@@ -312,6 +321,7 @@ def register():
     bpy.types.Object.throng_override_index = IntProperty(name="Override")
     for handlers in (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post):
         handlers.append(layer.write_after_undo)
+    bpy.app.handlers.load_post.append(layer.forget)
     picking.start_drawing()
 
 
@@ -319,5 +329,6 @@ def unregister():
     picking.stop_drawing()
     for handlers in (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post):
         handlers.remove(layer.write_after_undo)
+    bpy.app.handlers.load_post.remove(layer.forget)
     del bpy.types.Object.throng_override_index, bpy.types.Object.throng_overrides
     _unregister_classes()

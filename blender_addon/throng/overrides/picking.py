@@ -8,6 +8,7 @@ from bpy_extras import view3d_utils
 from gpu_extras.batch import batch_for_shader
 from mathutils import Vector
 
+from ..blender.polls import available
 from ..crowd.queries import crowd_objects
 
 PICKED = "throng_picked"  # rows, as a text: numbers between blanks
@@ -79,7 +80,8 @@ class THRONG_OT_pick_people(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return context.area is not None and context.area.type == "VIEW_3D"
+        in_view = context.area is not None and context.area.type == "VIEW_3D"
+        return available(cls, "" if in_view else "People are picked in the 3D view; scripts name their rows instead")
 
     def invoke(self, context, _event):
         context.window_manager.modal_handler_add(self)

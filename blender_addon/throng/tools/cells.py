@@ -14,7 +14,7 @@ from ..blender.actions import curves_of
 from ..blender.nodes import own_tree
 from ..blender.panels import Below
 from ..blender.paths import stored_path
-from ..crowd.queries import OnCrowds, bake_path, chosen_crowds, collection_of
+from ..crowd.queries import ChangesCrowds, OnCrowds, bake_path, changed_crowds, collection_of
 from ..environment.shapes import Shape
 from ..environment.streets import MARK_Z
 from ..formats import Bake, BakeError, read_manifest
@@ -263,7 +263,7 @@ def _untread(material):
         nodes.remove(node)
 
 
-class THRONG_OT_cells(OnCrowds, bpy.types.Operator):
+class THRONG_OT_cells(ChangesCrowds, bpy.types.Operator):
     """Show the bake's diagram images on the ground: whose ground is whose, or a mask where people are"""
 
     bl_idname = "throng.cells"
@@ -279,7 +279,7 @@ class THRONG_OT_cells(OnCrowds, bpy.types.Operator):
 
     def execute(self, context):
         try:
-            for crowd in chosen_crowds(context):
+            for crowd in changed_crowds(context):
                 show(crowd, self.kind, self.strength)
         except BakeError as error:
             self.report({"ERROR"}, str(error))

@@ -8,7 +8,7 @@ import bpy
 from mathutils import Vector
 
 from ..blender.modifiers import move_modifier
-from ..blender.nodes import Maths, new_tree, own_tree, set_input
+from ..blender.nodes import Maths, get_input, new_tree, own_tree, set_input
 from ..crowd.names import HIDDEN
 
 MODIFIER = "throng cull"
@@ -100,11 +100,29 @@ def apply(crowd, scene, mode, target, margin):
     crowd.update_tag()
 
 
+def _places_of_all(crowd):
+    """Where everybody is in this frame, whoever is culled or left out of the viewport now."""
+    shown = crowd.modifiers["throng people (viewport)"]
+    share, cull = get_input(shown, "Share"), crowd.modifiers.get(MODIFIER)
+    looks = cull.show_viewport if cull else False
+    try:
+        set_input(shown, "Share", 2.0)
+        if cull:
+            cull.show_viewport = False
+        crowd.update_tag()
+        graph = bpy.context.evaluated_depsgraph_get()
+        return [i.matrix_world.translation.copy() for i in graph.object_instances
+                if i.is_instance and i.parent and i.parent.original == crowd]
+    finally:
+        set_input(shown, "Share", share)
+        if cull:
+            cull.show_viewport = looks
+        crowd.update_tag()
+
+
 def box(scene, crowd, name="Throng box"):
     """An empty cube round everybody, to be made smaller."""
-    graph = bpy.context.evaluated_depsgraph_get()
-    places = [i.matrix_world.translation.copy() for i in graph.object_instances
-              if i.is_instance and i.parent and i.parent.original == crowd]
+    places = _places_of_all(crowd)
     made = bpy.data.objects.new(name, None)
     made.empty_display_type = "CUBE"
     if places:

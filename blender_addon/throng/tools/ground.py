@@ -6,10 +6,11 @@ from bpy.props import PointerProperty, StringProperty
 from ..blender.modifiers import move_modifier
 from ..blender.nodes import set_input
 from ..blender.panels import Below
+from ..blender.polls import available
 from ..crowd.footing import conform_tree
 from ..crowd.names import CONFORM
 from ..crowd.playback import set_cast
-from ..crowd.queries import OnCrowds, cast_of, chosen_crowds
+from ..crowd.queries import ChangesCrowds, cast_of, changed_crowds
 
 
 def conform(crowd, ground):
@@ -28,7 +29,7 @@ def release(crowd):
         set_cast(crowd, cast_of(crowd))
 
 
-class THRONG_OT_conform(OnCrowds, bpy.types.Operator):
+class THRONG_OT_conform(ChangesCrowds, bpy.types.Operator):
     bl_idname = "throng.conform"
     bl_label = "Conform to Ground"
     bl_description = ("Let the selected crowds, or all, stand on the mesh chosen above: heights and slopes come from "
@@ -47,7 +48,7 @@ class THRONG_OT_conform(OnCrowds, bpy.types.Operator):
 
     def execute(self, context):
         ground = self._ground(context)
-        crowds = chosen_crowds(context)
+        crowds = changed_crowds(context)
         if not ground or ground.type not in {"MESH", "CURVE", "SURFACE"} or ground in crowds:
             self.report({"ERROR"}, f"There is no mesh `{self.ground}` to stand on" if self.ground
                                    else "Choose the mesh to stand on: in the sidebar, or make it active")
@@ -58,7 +59,7 @@ class THRONG_OT_conform(OnCrowds, bpy.types.Operator):
         return {"FINISHED"}
 
 
-class THRONG_OT_release(bpy.types.Operator):
+class THRONG_OT_release(ChangesCrowds, bpy.types.Operator):
     """Let the selected crowds, or all, stand where their bakes have them"""
 
     bl_idname = "throng.release"
@@ -67,10 +68,12 @@ class THRONG_OT_release(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return any(CONFORM in thing.modifiers for thing in context.scene.objects)
+        return super().poll(context) and available(
+            cls, "" if any(CONFORM in crowd.modifiers for crowd in changed_crowds(context))
+            else "These crowds stand where their bakes have them: none has been conformed to a ground")
 
     def execute(self, context):
-        for crowd in chosen_crowds(context):
+        for crowd in changed_crowds(context):
             release(crowd)
         return {"FINISHED"}
 

@@ -15,7 +15,7 @@ from ..blender.panels import Below
 from ..cast import library
 from ..crowd.names import LEVEL
 from ..crowd.playback import cast_changed
-from ..crowd.queries import OnCrowds, cast_of, chosen_crowds, crowds_of, repertoire_of
+from ..crowd.queries import ChangesCrowds, cast_of, changed_crowds, crowds_of, repertoire_of
 from . import culling
 
 MODIFIER = "throng levels"
@@ -81,7 +81,7 @@ def apply(crowd, camera, near, far):
     crowd.update_tag()
 
 
-class THRONG_OT_levels(OnCrowds, bpy.types.Operator):
+class THRONG_OT_levels(ChangesCrowds, bpy.types.Operator):
     """Give people far from the camera coarser meshes: the selected crowds', or all"""
 
     bl_idname = "throng.levels"
@@ -99,7 +99,7 @@ class THRONG_OT_levels(OnCrowds, bpy.types.Operator):
         return context.window_manager.invoke_props_dialog(self)
 
     def execute(self, context):
-        chosen = chosen_crowds(context)
+        chosen = changed_crowds(context)
         if self.by == "none":
             for crowd in chosen:
                 remove(crowd)

@@ -4,7 +4,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, St
 from bpy_extras.io_utils import ImportHelper
 
 from ..blender.panels import InSidebar
-from ..crowd.queries import OnCrowds, chosen_crowds, crowd_objects, earlier_crowds
+from ..crowd.queries import ChangesCrowds, OnCrowds, changed_crowds, chosen_crowds, crowd_objects, earlier_crowds
 from ..crowd.verify import verify
 from ..formats import BakeError
 from ..overrides.operators import report_orphans
@@ -44,7 +44,7 @@ class IMPORT_SCENE_OT_throng(bpy.types.Operator, ImportHelper):
         return {"FINISHED"}
 
 
-class _OnCrowds(OnCrowds):
+class _ChangesCrowds(ChangesCrowds):
     bl_options = {"REGISTER", "UNDO"}
 
     def follow(self, crowds):
@@ -53,7 +53,7 @@ class _OnCrowds(OnCrowds):
             self.report({"WARNING"}, line)
 
 
-class THRONG_OT_verify(_OnCrowds, bpy.types.Operator):
+class THRONG_OT_verify(OnCrowds, bpy.types.Operator):
     """Say what is wrong with the bakes of the selected crowds, or of all"""
 
     bl_idname = "throng.verify"
@@ -70,7 +70,7 @@ class THRONG_OT_verify(_OnCrowds, bpy.types.Operator):
         return {"FINISHED"}
 
 
-class THRONG_OT_reload(_OnCrowds, bpy.types.Operator):
+class THRONG_OT_reload(_ChangesCrowds, bpy.types.Operator):
     bl_idname = "throng.reload"
     bl_label = "Re-load Bakes"
     bl_description = ("Play the selected crowds' bakes as they are now: after baking again, or after files have moved. "
@@ -78,16 +78,16 @@ class THRONG_OT_reload(_OnCrowds, bpy.types.Operator):
 
     def execute(self, context):
         try:
-            orphans = [orphan for crowd in chosen_crowds(context) for orphan in reload(crowd, context.scene)]
+            orphans = [orphan for crowd in changed_crowds(context) for orphan in reload(crowd, context.scene)]
         except BakeError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         report_orphans(self, orphans)
-        self.follow(chosen_crowds(context))
+        self.follow(changed_crowds(context))
         return {"FINISHED"}
 
 
-class THRONG_OT_relink(_OnCrowds, bpy.types.Operator, ImportHelper):
+class THRONG_OT_relink(_ChangesCrowds, bpy.types.Operator, ImportHelper):
     """Let the selected crowd play another bake. Looks and settings stay"""
 
     bl_idname = "throng.relink"
@@ -96,7 +96,7 @@ class THRONG_OT_relink(_OnCrowds, bpy.types.Operator, ImportHelper):
     filter_glob: StringProperty(default="*.json", options={"HIDDEN"})
 
     def execute(self, context):
-        crowds = chosen_crowds(context)
+        crowds = changed_crowds(context)
         if len(crowds) != 1:
             self.report({"ERROR"}, "Select one crowd: each plays a bake of its own")
             return {"CANCELLED"}
@@ -110,7 +110,7 @@ class THRONG_OT_relink(_OnCrowds, bpy.types.Operator, ImportHelper):
         return {"FINISHED"}
 
 
-class THRONG_OT_show(_OnCrowds, bpy.types.Operator):
+class THRONG_OT_show(_ChangesCrowds, bpy.types.Operator):
     """How the selected crowds are shown: how many people in the viewport, and when they begin"""
 
     bl_idname = "throng.show"
@@ -121,12 +121,12 @@ class THRONG_OT_show(_OnCrowds, bpy.types.Operator):
     offset: IntProperty(name="Later by", default=0, description="Frames that the crowd plays later")
 
     def invoke(self, context, _event):
-        crowd = chosen_crowds(context)[0]
+        crowd = changed_crowds(context)[0]
         self.percent, self.offset = crowd.get("throng_percent", 100.0), crowd.get("throng_offset", 0)
         return context.window_manager.invoke_props_dialog(self)
 
     def execute(self, context):
-        chosen = chosen_crowds(context)
+        chosen = changed_crowds(context)
         later = [crowd for crowd in chosen if crowd.get("throng_offset", 0) != self.offset]
         for crowd in chosen:
             set_viewport_percent(crowd, self.percent)
@@ -135,7 +135,7 @@ class THRONG_OT_show(_OnCrowds, bpy.types.Operator):
         return {"FINISHED"}
 
 
-class THRONG_OT_cull(_OnCrowds, bpy.types.Operator):
+class THRONG_OT_cull(_ChangesCrowds, bpy.types.Operator):
     """Leave out people whom nobody sees: outside the active box (a cube empty) or outside the scene's camera"""
 
     bl_idname = "throng.cull"
@@ -153,7 +153,7 @@ class THRONG_OT_cull(_OnCrowds, bpy.types.Operator):
             self.report({"ERROR"}, "The scene has no camera")
             return {"CANCELLED"}
         active = context.view_layer.objects.active
-        for crowd in chosen_crowds(context):
+        for crowd in changed_crowds(context):
             if self.by == "none":
                 culling.remove(crowd)
                 continue

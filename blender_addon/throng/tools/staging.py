@@ -4,20 +4,21 @@ import bpy
 from bpy.props import EnumProperty
 
 from ..blender.panels import Below
-from ..crowd.queries import OnCrowds, chosen_crowds, collection_of
+from ..crowd.queries import ChangesCrowds, OnCrowds, bake_path, changed_crowds, collection_of
 from ..environment import camera, lights
 from ..formats import BakeError, read_manifest
 
 
 def _staged(context):
     """The chosen crowd's collection and manifest. Raises BakeError."""
-    collection = collection_of(chosen_crowds(context)[0])
+    crowd = changed_crowds(context)[0]
+    collection = collection_of(crowd)
     if not collection:
         raise BakeError("this crowd's collection is not its import's any more: import the bake again")
-    return collection, read_manifest(collection["throng_bake"])
+    return collection, read_manifest(bake_path(crowd))
 
 
-class _Stages(OnCrowds):
+class _Stages(ChangesCrowds):
     bl_options = {"REGISTER", "UNDO"}
 
     def execute(self, context):
