@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs inside Blender: what operators say that are not available, without a crowd, with crowds that are linked, instanced
-or of another folder, and in edit mode; and that linked crowds are verified."""
+"""Runs inside Blender: what operators say that are not available, without a crowd, with crowds that are linked,
+instanced or of another folder, and in edit mode; and that linked crowds are verified."""
 import json
 import os
 import sys

@@ -52,7 +52,8 @@ def test_a_dense_stream_flows_as_the_bar_says_on_average(throng, tmp_path):
 
 
 # Half as many as in the scenarios, as close together: a street as wide with streams half as long, a corridor half as
-# wide. Without impatience 1,997 and 1,572 of 2,048 get through in this time, in the crossing without ways round jams 329.
+# wide. Without impatience 1,997 and 1,572 of 2,048 get through in this time; in the crossing without ways round jams
+# 329 within 120 s.
 HALVED = {
     "crossing": ["simulation.duration=125", *(f"formations.{i}.{key}" for i in (0, 1)
                                               for key in ("columns=37", "count=1024"))],

@@ -123,8 +123,8 @@ def _keeps_people(bake, path):
                          for entries in (theirs, merged))
         moved = sorted(person for person, row in before.items() if after.get(person, row) != row)
         if moved:
-            raise OverrideError(f"{path}: person {moved[0][0]} of `{moved[0][1]}` has been changed by somebody else, in "
-                                "another take: Re-load Overrides first")
+            raise OverrideError(f"{path}: person {moved[0][0]} of `{moved[0][1]}` has been changed by somebody else, "
+                                "in another take: Re-load Overrides first")
 
     return check
 

@@ -119,8 +119,8 @@ if hasattr(bpy.types, "USDHook"):  # not where Blender is built without USD
 class THRONG_OT_realize(ChangesCrowds, bpy.types.Operator):
     bl_idname = "throng.realize"
     bl_label = "Realize for Export"
-    bl_description = ("Make the people of the selected crowds, or of all, one mesh that USD, Alembic and other exporters "
-                      "know. Files get large: take it back after the export")
+    bl_description = ("Make the people of the selected crowds, or of all, one mesh that USD, Alembic and other "
+                      "exporters know. Files get large: take it back after the export")
     bl_options = {"REGISTER", "UNDO"}
 
     realize: BoolProperty(name="Realize", default=True)
