@@ -6,12 +6,14 @@ import pathlib
 import resource
 import shutil
 import subprocess
+import sys
 
 import filelock
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 EXAMPLES = ROOT / "examples"
+sys.path.insert(0, str(ROOT / "python" / "src"))  # the package throng_io, as it lies there
 
 
 @pytest.fixture(scope="session")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How the add-on is written: imports go one way, between files and between folders, functions are simple, lines short.
-It is parsed, not run."""
+"""How the add-on and the package throng_io are written: imports go one way, between files and between folders, functions
+are simple, lines short. They are parsed, not run."""
 import ast
 import functools
 import graphlib
@@ -12,6 +12,7 @@ from conftest import ROOT
 
 ADDON = ROOT / "blender_addon" / "throng"
 TESTS = ROOT / "tests" / "blender"
+PACKAGE, ITS_TESTS = ROOT / "python" / "src" / "throng_io", ROOT / "tests" / "python"
 MOST_COMPLEX, LONGEST = 15, 120
 # (file, module) of imports inside functions, and why they are there.
 INNER_IMPORTS = {("tools/film_look.py", "_cycles"): "a Blender may be built without Cycles"}
@@ -120,24 +121,31 @@ def too_long(root):
             for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1) if len(line) > LONGEST]
 
 
-def test_no_files_import_each_other():
-    assert not circle(import_graph(sources(ADDON), ADDON.name))
+@pytest.mark.parametrize("root", [ADDON, PACKAGE], ids=["addon", "package"])
+def test_no_files_import_each_other(root):
+    assert not circle(import_graph(sources(root), root.name))
 
 
-def test_imports_between_folders_go_one_way():
-    assert not circle(folder_graph(import_graph(sources(ADDON), ADDON.name)))
+@pytest.mark.parametrize("root", [ADDON, PACKAGE], ids=["addon", "package"])
+def test_imports_between_folders_go_one_way(root):
+    assert not circle(folder_graph(import_graph(sources(root), root.name)))
 
 
 def test_imports_are_at_the_top_of_files():
     assert inner_imports(sources(ADDON)) == set(INNER_IMPORTS)
+    assert inner_imports(sources(PACKAGE)) == set()
 
 
-@pytest.mark.parametrize("root", [ADDON, TESTS], ids=["addon", "tests"])
+ALL = pytest.mark.parametrize("root", [ADDON, TESTS, PACKAGE, ITS_TESTS],
+                              ids=["addon", "tests", "package", "its tests"])
+
+
+@ALL
 def test_functions_are_simple(root):
     assert too_complex(sources(root)) == []
 
 
-@pytest.mark.parametrize("root", [ADDON, TESTS], ids=["addon", "tests"])
+@ALL
 def test_lines_are_short(root):
     assert [(file, number) for file, number in too_long(root) if file not in LONG_LINES] == []
 

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: Apache-2.0
+"""throng-io: scenes of other programs in, crowds to other programs out."""
+from __future__ import annotations
+
+import argparse
+import pathlib
+import sys
+
+from . import __version__
+from .bake import Bake
+from .errors import ThrongError
+
+USAGE, INVALID = 2, 3
+EXPORTS = {".csv": Bake.to_csv, ".sqlite": Bake.to_jupedsim_sqlite}
+
+
+def export(given: argparse.Namespace) -> None:
+    write = EXPORTS.get(pathlib.Path(given.output).suffix.lower())
+    if not write:
+        raise ThrongError(f"{given.output}: expected a name that ends in {' or '.join(EXPORTS)}")
+    write(Bake(given.bake), given.output, given.every)
+
+
+def positive(text: str) -> int:
+    number = int(text)
+    if number < 1:
+        raise argparse.ArgumentTypeError(f"expected 1 or more, found {text}")
+    return number
+
+
+def parser() -> argparse.ArgumentParser:
+    top = argparse.ArgumentParser(prog="throng-io", description=__doc__.partition(": ")[2].strip())
+    top.add_argument("--version", action="version", version=f"throng-io {__version__}")
+    commands = top.add_subparsers(required=True, metavar="COMMAND")
+    command = commands.add_parser("export", help="write a bake's trajectories: .csv, or .sqlite as JuPedSim does")
+    command.add_argument("bake", help="a bake's folder")
+    command.add_argument("-o", "--output", required=True, help="the file to write")
+    command.add_argument("--every", type=positive, default=1, metavar="N", help="only every N-th frame")
+    command.set_defaults(run=export)
+    return top
+
+
+def main(arguments: list[str] | None = None) -> int:
+    given = parser().parse_args(arguments)
+    try:
+        return given.run(given) or 0
+    except ThrongError as error:
+        print(f"throng-io: {error}", file=sys.stderr)
+        return INVALID
+    except OSError as error:
+        print(f"throng-io: {error.filename}: {error.strerror}", file=sys.stderr)
+        return INVALID
+
+
+if __name__ == "__main__":
+    sys.exit(main())
