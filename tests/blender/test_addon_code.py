@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How the add-on and the package throng_io are written: imports go one way, between files and between folders, functions
-are simple, lines short. They are parsed, not run."""
+"""How the add-on and the package throng_io are written: imports go one way, between files and between folders,
+functions are simple, lines short. They are parsed, not run."""
 import ast
 import functools
 import graphlib
