@@ -74,7 +74,7 @@ def test_extras_are_named_where_they_are_missing():
     """In a Python that hides them."""
     code = ("import sys; sys.modules.update(dict.fromkeys(['pedpy', 'pandas']))\n"
             "import throng_io\n"
-            "from throng_io.errors import need\n"
+            "from throng_io.base.errors import need\n"
             "try: need('pedpy', 'pedpy')\n"
             "except throng_io.MissingExtra as error: print(error)\n")
     told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True,

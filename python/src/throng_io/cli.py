@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import argparse
+import json
 import pathlib
 import sys
 
 from . import __version__
-from .bake import Bake
-from .errors import ThrongError
+from .bakes.bake import Bake
+from .base.errors import ThrongError
+from .base.whole_files import whole_file
+from .importers.formats import read_scene
 
 USAGE, INVALID = 2, 3
 EXPORTS = {".csv": Bake.to_csv, ".sqlite": Bake.to_jupedsim_sqlite}
@@ -19,6 +22,16 @@ def export(given: argparse.Namespace) -> None:
     if not write:
         raise ThrongError(f"{given.output}: expected a name that ends in {' or '.join(EXPORTS)}")
     write(Bake(given.bake), given.output, given.every)
+
+
+def import_scene(given: argparse.Namespace) -> None:
+    imported = read_scene(given.file)
+    with whole_file(given.output) as beside:
+        beside.write_text(json.dumps(imported.layout, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    if given.report == "json":
+        print(json.dumps(imported.report.as_dict(), indent=1))
+    else:
+        print(imported.report)
 
 
 def positive(text: str) -> int:
@@ -37,6 +50,12 @@ def parser() -> argparse.ArgumentParser:
     command.add_argument("-o", "--output", required=True, help="the file to write")
     command.add_argument("--every", type=positive, default=1, metavar="N", help="only every N-th frame")
     command.set_defaults(run=export)
+    command = commands.add_parser("import", help="make a layout of another program's scene")
+    command.add_argument("file", help="the scene: its name or its content says of which program")
+    command.add_argument("-o", "--output", required=True, help="the layout to write")
+    command.add_argument("--report", choices=("text", "json"), nargs="?", const="text", default="text",
+                         help="how to tell what was taken over, changed and left out")
+    command.set_defaults(run=import_scene)
     return top
 
 

@@ -12,8 +12,9 @@ from typing import Any
 import numpy
 import shapely
 
-from . import exports, geometry
-from .errors import BakeError, need
+from ..base import geometry
+from ..base.errors import BakeError, need
+from . import exports
 from .people import read_people
 
 FORMAT, VERSION = "throng bake", 1

@@ -6,16 +6,15 @@ import contextlib
 import csv
 import hashlib
 import os
-import pathlib
 import sqlite3
-import tempfile
 from collections.abc import Iterator
 from typing import Protocol
 
 import numpy
 import shapely
 
-from .errors import ThrongError, need
+from ..base.errors import ThrongError, need
+from ..base.whole_files import whole_file
 
 COLUMNS = ("frame", "seconds", "id", "group", "x", "y", "z", "heading", "speed", "activity")
 
@@ -32,25 +31,6 @@ class Crowd(Protocol):
     state: numpy.ndarray
 
     def walkable(self, margin: float = 1.0) -> shapely.Polygon: ...
-
-
-@contextlib.contextmanager
-def whole_file(path: str | os.PathLike) -> Iterator[pathlib.Path]:
-    """A name to write to: what is written appears under `path` when it is complete, or not at all."""
-    target = pathlib.Path(path)
-    try:
-        folder = tempfile.mkdtemp(prefix=f".{target.name}.", dir=target.parent)
-    except OSError as error:
-        raise ThrongError(f"{target} cannot be written: {error.strerror}") from error
-    beside = pathlib.Path(folder) / target.name
-    try:
-        yield beside
-        os.replace(beside, target)
-    except OSError as error:
-        raise ThrongError(f"{target} cannot be written: {error.strerror or error}") from error
-    finally:
-        beside.unlink(missing_ok=True)
-        os.rmdir(folder)
 
 
 def blocks(bake: Crowd, every: int, rows: numpy.ndarray | None = None, most: int = 200_000) -> Iterator[dict]:

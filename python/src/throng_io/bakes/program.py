@@ -14,8 +14,8 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
+from ..base.errors import Diagnostic, InvalidLayout, ProgramError, ThrongError, need
 from .bake import Bake
-from .errors import Diagnostic, InvalidLayout, ProgramError, ThrongError, need
 
 Layout = dict[str, Any] | str | os.PathLike
 Progress = Callable[[dict[str, Any]], None]

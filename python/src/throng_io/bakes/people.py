@@ -7,7 +7,7 @@ import pathlib
 
 import numpy
 
-from .errors import BakeError
+from ..base.errors import BakeError
 
 # Columns of agents.csv; those that a bake has besides are read as texts.
 COLUMNS = {
