@@ -153,8 +153,9 @@ def test_menge_follows_profiles_and_states(tmp_path):
     found = read_scene(write_scene("menge", tmp_path))
     grid, cross = found.layout["formations"]
     assert [person["position"] for person in grid["agents"]] == [[-6 + x, -2 + y] for x in range(2) for y in range(3)]
-    assert all(4 <= person["goal"][0] <= 6 and -4 <= person["goal"][1] <= -2 and 1.5 <= person["speed"] <= 1.6 and person["radius"] == 0.25
-               for person in grid["agents"])
+    for person in grid["agents"]:
+        assert 4 <= person["goal"][0] <= 6 and -4 <= person["goal"][1] <= -2
+        assert 1.5 <= person["speed"] <= 1.6 and person["radius"] == 0.25
     assert cross["agents"] == [{"position": [4, 3], "goal": [-4, -3], "speed": 1, "radius": 0.25}]
     assert [wall.get("closed", False) for wall in found.layout["walls"]] == [True, False]
     assert found.report.left["obstacles of the type nav_mesh", "are in a file of their own"] == 1
