@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import dataclasses
 import json
 import pathlib
 import sys
@@ -12,6 +13,7 @@ from .bakes.bake import Bake
 from .base.errors import ThrongError
 from .base.whole_files import whole_file
 from .importers.formats import read_scene
+from .importers.options import Options
 
 USAGE, INVALID = 2, 3
 EXPORTS = {".csv": Bake.to_csv, ".sqlite": Bake.to_jupedsim_sqlite}
@@ -25,7 +27,10 @@ def export(given: argparse.Namespace) -> None:
 
 
 def import_scene(given: argparse.Namespace) -> None:
-    imported = read_scene(given.file)
+    chosen = {field.name: value for field in dataclasses.fields(Options)
+              if (value := getattr(given, field.name)) is not None}
+    imported = read_scene(given.file, Options(**{key: tuple(value) if isinstance(value, list) else value
+                                                 for key, value in chosen.items()}))
     with whole_file(given.output) as beside:
         beside.write_text(json.dumps(imported.layout, indent=1, allow_nan=False) + "\n", encoding="utf-8")
     if given.report == "json":
@@ -38,6 +43,13 @@ def positive(text: str) -> int:
     number = int(text)
     if number < 1:
         raise argparse.ArgumentTypeError(f"expected 1 or more, found {text}")
+    return number
+
+
+def above_zero(text: str) -> float:
+    number = float(text)
+    if not 1e-6 <= number <= 1e6:
+        raise argparse.ArgumentTypeError(f"expected a number above 0, found {text}")
     return number
 
 
@@ -55,6 +67,13 @@ def parser() -> argparse.ArgumentParser:
     command.add_argument("-o", "--output", required=True, help="the layout to write")
     command.add_argument("--report", choices=("text", "json"), nargs="?", const="text", default="text",
                          help="how to tell what was taken over, changed and left out")
+    for kind in ("walls", "areas", "roads", "skip"):
+        command.add_argument(f"--{kind}", action="append", metavar="PATTERN",
+                             help=f"DXF, SVG: layers that are {'left out' if kind == 'skip' else kind} (repeatable)")
+    command.add_argument("--unit", type=above_zero, metavar="METRES", help="DXF, SVG, GeoJSON: a unit of the file")
+    command.add_argument("--tolerance", type=above_zero, metavar="METRES", help="DXF, SVG: how far off curves may be")
+    command.add_argument("--crs", metavar="NAME", help="GeoJSON: its system of coordinates, e.g. EPSG:25832")
+    command.add_argument("--people", type=positive, metavar="N", help="so many people, where nobody is in a plan")
     command.set_defaults(run=import_scene)
     return top
 

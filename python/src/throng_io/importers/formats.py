@@ -7,12 +7,14 @@ import pathlib
 from collections.abc import Callable
 
 from ..base.errors import ImportFailed
-from . import jupedsim, menge, steersuite, umans, vadere
+from . import dxf, geojson, jupedsim, menge, osm, steersuite, svg, umans, vadere
 from .files import read_json, read_xml, tag
+from .options import Options
 from .report import Report
 from .scene import Scene
+from .visitors import add_people
 
-XML = {menge.ROOT: menge.read, steersuite.ROOT: steersuite.read, umans.ROOT: umans.read}
+Read = Callable[[pathlib.Path, Scene, Options], None]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -21,7 +23,16 @@ class Imported:
     report: Report
 
 
-def _xml(path: pathlib.Path) -> Callable:
+def _scene_only(read: Callable[[pathlib.Path, Scene], None]) -> Read:
+    """Scenes say everything themselves."""
+    return lambda path, scene, options: read(path, scene)
+
+
+XML: dict[str, Read] = {menge.ROOT: _scene_only(menge.read), steersuite.ROOT: _scene_only(steersuite.read),
+                        umans.ROOT: _scene_only(umans.read), osm.ROOT: osm.read, svg.ROOT: svg.read}
+
+
+def _xml(path: pathlib.Path) -> Read:
     root = read_xml(path)
     if tag(root) not in XML:
         raise ImportFailed(f"no scene that is known: its root is <{tag(root)}>", str(path), root.sourceline,
@@ -29,17 +40,22 @@ def _xml(path: pathlib.Path) -> Callable:
     return XML[tag(root)]
 
 
-def _json(path: pathlib.Path) -> Callable:
-    if vadere.is_one(read_json(path)):
-        return vadere.read
-    raise ImportFailed("no scene that is known", str(path))
+def _json(path: pathlib.Path) -> Read:
+    found = read_json(path)
+    if vadere.is_one(found):
+        return _scene_only(vadere.read)
+    if geojson.is_one(found):
+        return geojson.read
+    raise ImportFailed("no scene that is known", str(path), hint="known are GeoJSON and Vadere's scenarios")
 
 
-BY_NAME: dict[str, Callable] = {".wkt": jupedsim.read_wkt, ".sqlite": jupedsim.read_sqlite, ".scenario": vadere.read}
-BY_CONTENT: dict[str, Callable] = {".xml": _xml, ".json": _json}
+BY_NAME: dict[str, Read] = {".wkt": _scene_only(jupedsim.read_wkt), ".sqlite": _scene_only(jupedsim.read_sqlite),
+                            ".scenario": _scene_only(vadere.read), ".geojson": geojson.read, ".osm": osm.read,
+                            ".svg": svg.read, ".dxf": dxf.read}
+BY_CONTENT: dict[str, Callable[[pathlib.Path], Read]] = {".xml": _xml, ".json": _json}
 
 
-def read_scene(file: str | pathlib.Path, name: str | None = None) -> Imported:
+def read_scene(file: str | pathlib.Path, options: Options = Options()) -> Imported:
     """A file of another program as a layout, with a report."""
     path = pathlib.Path(file)
     suffix = path.suffix.lower()
@@ -47,8 +63,9 @@ def read_scene(file: str | pathlib.Path, name: str | None = None) -> Imported:
         raise ImportFailed(f"files that end in {suffix or 'nothing'} are not known", str(path),
                            hint=f"known are {', '.join(sorted([*BY_NAME, *BY_CONTENT]))}")
     read = BY_NAME.get(suffix) or BY_CONTENT[suffix](path)
-    scene = Scene(name or path.stem, Report(str(path)))
-    read(path, scene)
+    scene = Scene(path.stem, Report(str(path)))
+    read(path, scene, options)
     if not (scene.walls or scene.areas or scene.roads or scene.flows or scene.formations):
         raise ImportFailed("has nothing that a layout can hold", str(path), hint=str(scene.report))
+    add_people(scene, options.people)
     return Imported(scene.layout(), scene.report)
