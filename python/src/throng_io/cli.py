@@ -14,6 +14,7 @@ from .base.errors import ThrongError
 from .base.whole_files import whole_file
 from .importers.formats import read_scene
 from .importers.options import Options
+from .usd.crowd import export_usd
 
 USAGE, INVALID = 2, 3
 EXPORTS = {".csv": Bake.to_csv, ".sqlite": Bake.to_jupedsim_sqlite}
@@ -62,6 +63,11 @@ def parser() -> argparse.ArgumentParser:
     command.add_argument("-o", "--output", required=True, help="the file to write")
     command.add_argument("--every", type=positive, default=1, metavar="N", help="only every N-th frame")
     command.set_defaults(run=export)
+    command = commands.add_parser("export-usd", help="write a bake as USD: people in poses, walls and ground")
+    command.add_argument("bake", help="a bake's folder")
+    command.add_argument("-o", "--output", required=True, help="the file to write: .usdc, .usda or .usd")
+    command.add_argument("--every", type=positive, default=1, metavar="N", help="only every N-th frame")
+    command.set_defaults(run=lambda given: export_usd(Bake(given.bake), given.output, given.every))
     command = commands.add_parser("import", help="make a layout of another program's scene")
     command.add_argument("file", help="the scene: its name or its content says of which program")
     command.add_argument("-o", "--output", required=True, help="the layout to write")

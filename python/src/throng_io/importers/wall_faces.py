@@ -71,10 +71,22 @@ def walls_of(faces: list[Face]) -> tuple[list[shapely.Polygon], list[list[Point]
     solid = []
     for _, one, other, span in pairs:
         solid += _wall(faces[one], faces[other], span)
-    walls = shapely.union_all(solid)
+    walls = _corners_filled(shapely.union_all(solid), faces)
     inside = walls.buffer(2 * GRAIN, join_style="mitre")
     left = [[face.at(low), face.at(high)] for face in faces for low, high in face.free((0.0, face.length))]
-    return polygons(walls), [line for line in left if not inside.covers(shapely.LineString(line))]
+    thin = [line for line in left if not inside.covers(shapely.LineString(line))]
+    merged = shapely.line_merge(shapely.MultiLineString(thin)) if thin else shapely.MultiLineString()
+    return polygons(walls), [list(line.coords) for line in shapely.get_parts(merged)]
+
+
+def _corners_filled(walls: shapely.Geometry, faces: list[Face]) -> shapely.Geometry:
+    """Where walls meet, their outer faces enclose a corner that has no inner ones."""
+    left = [shapely.LineString([face.at(low), face.at(high)]) for face in faces
+            for low, high in face.free((0.0, face.length)) if high - low <= THICKEST]
+    rings = shapely.polygonize(shapely.get_parts(shapely.union_all([walls.boundary, *left], grid_size=GRAIN)))
+    corners = [ring for ring in shapely.get_parts(rings)
+               if ring.length <= 4 * THICKEST and not walls.covers(ring.representative_point())]
+    return shapely.union_all([walls, *corners], grid_size=GRAIN)
 
 
 def _wall(one: Face, other: Face, span: Span) -> list[shapely.Polygon]:

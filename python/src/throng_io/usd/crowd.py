@@ -1,0 +1,218 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A bake as a USD stage: a point instancer whose prototypes are poses, walls, and ground."""
+from __future__ import annotations
+
+import colorsys
+import os
+import pathlib
+
+import numpy
+import shapely
+
+from ..bakes.bake import Bake
+from ..base.errors import ThrongError, need
+from ..base.geometry import road_shape
+from ..base.whole_files import whole_file
+from .figures import PHASES, Mesh, figure
+from .surroundings import flat, wall_prism
+
+SUFFIXES = (".usd", ".usda", ".usdc")
+WALKING = 1
+USUAL_RADIUS = 0.25           # m, of figures as they are made
+SIZES = (0.6, 1.15)           # of bodies that are smaller or larger
+GROUND_MARGIN = 2.0           # m round everything
+ROAD_HEIGHT = 0.005           # m over the ground, so that they do not fight for the same pixels
+GREY = {"walls": (0.55, 0.55, 0.53), "ground": (0.32, 0.33, 0.32), "roads": (0.42, 0.42, 0.41)}
+
+
+def export_usd(bake: Bake, path: str | os.PathLike, every: int = 1) -> None:
+    """All frames, or every N-th, at the time codes of the shot: frame i of the bake is time code i + 1."""
+    if pathlib.Path(path).suffix.lower() not in SUFFIXES:
+        raise ThrongError(f"{os.fspath(path)}: expected a name that ends in {', '.join(SUFFIXES)}")
+    if every < 1:
+        raise ThrongError(f"every: expected 1 or more, found {every}")
+    need("pxr", "usd")
+    with whole_file(path) as beside:
+        Stage(bake, str(beside), every).write()
+
+
+class Stage:
+    def __init__(self, bake: Bake, path: str, every: int):
+        self.usd, self.geom, self.shade, self.sdf, self.gf, self.vt = (
+            need(f"pxr.{name}", "usd") for name in ("Usd", "UsdGeom", "UsdShade", "Sdf", "Gf", "Vt"))
+        self.bake, self.every = bake, every
+        self.stage = self.usd.Stage.CreateNew(path)
+
+    def write(self) -> None:
+        bake, stage, geom = self.bake, self.stage, self.geom
+        geom.SetStageUpAxis(stage, geom.Tokens.z)
+        geom.SetStageMetersPerUnit(stage, 1.0)
+        stage.SetTimeCodesPerSecond(bake.fps)
+        stage.SetFramesPerSecond(bake.fps)
+        stage.SetStartTimeCode(1)
+        stage.SetEndTimeCode(bake.frames)
+        stage.GetRootLayer().comment = f"{bake.name}: {bake.agents} people, by Throng"
+        world = geom.Xform.Define(stage, "/World")
+        stage.SetDefaultPrim(world.GetPrim())
+        self.usd.ModelAPI(world.GetPrim()).SetKind("component")
+        world.AddTranslateOp().Set(self.gf.Vec3d(*bake.origin.tolist()))
+        self.surroundings()
+        self.crowd()
+        stage.GetRootLayer().Save()
+
+    # ---- what stands still
+
+    def surroundings(self) -> None:
+        told, origin = self.bake.about["geometry"], self.bake.origin
+        for number, wall in enumerate(told["walls"]):
+            points, faces = wall_prism(wall, origin)
+            self.mesh(f"/World/Walls/wall{number}", points, faces, GREY["walls"], wall.get("id"))
+        if self.bake.about.get("terrain"):
+            return  # which is a file of its own, terrain.glb
+        low, high = self.bake.about["bounds"]["min"], self.bake.about["bounds"]["max"]
+        shape = shapely.box(*low, *high).buffer(GROUND_MARGIN, join_style="mitre")
+        points, faces = flat(shape, 0.0)
+        self.mesh("/World/Ground/ground", points, faces, GREY["ground"])
+        for number, road in enumerate(told["roads"]):
+            points, faces = flat(road_shape(road), ROAD_HEIGHT)
+            self.mesh(f"/World/Ground/road{number}", points - origin, faces, GREY["roads"], road.get("id"))
+
+    def mesh(self, path: str, points: numpy.ndarray, faces: list[list[int]], colour, name: str | None = None) -> None:
+        if not len(points):
+            return
+        self.geom.Scope.Define(self.stage, path.rpartition("/")[0])
+        mesh = self.geom.Mesh.Define(self.stage, path)
+        self.shaped(mesh, points, [len(face) for face in faces], [corner for face in faces for corner in face])
+        mesh.CreateDisplayColorPrimvar(self.geom.Tokens.constant).Set([self.gf.Vec3f(*colour)])
+        if name:
+            mesh.GetPrim().SetDisplayName(str(name))
+
+    def shaped(self, mesh, points: numpy.ndarray, counts, corners) -> None:
+        mesh.CreateSubdivisionSchemeAttr(self.geom.Tokens.none)
+        mesh.CreatePointsAttr(self.vectors(points))
+        mesh.CreateFaceVertexCountsAttr(self.vt.IntArray.FromNumpy(numpy.asarray(counts, dtype=numpy.int32)))
+        mesh.CreateFaceVertexIndicesAttr(self.vt.IntArray.FromNumpy(numpy.asarray(corners, dtype=numpy.int32)))
+        mesh.CreateExtentAttr(self.vectors(numpy.array([points.min(axis=0), points.max(axis=0)])))
+
+    def vectors(self, values: numpy.ndarray):
+        return self.vt.Vec3fArray.FromNumpy(numpy.ascontiguousarray(values, dtype=numpy.float32))
+
+    # ---- people
+
+    def crowd(self) -> None:
+        crowd = self.geom.PointInstancer.Define(self.stage, "/World/Crowd")
+        self.gaits = [int(gait) for gait in self.bake.about.get("gaits", [])] or [0]
+        strides = self.bake.about.get("strides") or [1.4]
+        poses = [("standing", figure(None))]
+        for gait in self.gaits:
+            poses += [(f"stride{gait}_pose{pose}", figure(pose / PHASES, strides[min(gait, len(strides) - 1)]))
+                      for pose in range(PHASES)]
+        material = self.material()
+        for name, mesh in poses:
+            crowd.GetPrototypesRel().AddTarget(self.prototype(name, mesh, material))
+        self.low = numpy.min([mesh.points.min(axis=0) for _, mesh in poses], axis=0)
+        self.high = numpy.max([mesh.points.max(axis=0) for _, mesh in poses], axis=0)
+        self.looks(crowd)
+        self.frames(crowd)
+
+    def material(self):
+        """What the people's own colours are seen by."""
+        scope = "/World/Looks"
+        self.geom.Scope.Define(self.stage, scope)
+        material = self.shade.Material.Define(self.stage, f"{scope}/people")
+        reader = self.shade.Shader.Define(self.stage, f"{scope}/people/tint")
+        reader.CreateIdAttr("UsdPrimvarReader_float3")
+        reader.CreateInput("varname", self.sdf.ValueTypeNames.String).Set("displayColor")
+        colour = reader.CreateOutput("result", self.sdf.ValueTypeNames.Float3)
+        surface = self.shade.Shader.Define(self.stage, f"{scope}/people/surface")
+        surface.CreateIdAttr("UsdPreviewSurface")
+        surface.CreateInput("diffuseColor", self.sdf.ValueTypeNames.Color3f).ConnectToSource(colour)
+        surface.CreateInput("roughness", self.sdf.ValueTypeNames.Float).Set(0.8)
+        material.CreateSurfaceOutput().ConnectToSource(
+            surface.CreateOutput("surface", self.sdf.ValueTypeNames.Token))
+        return material
+
+    def prototype(self, name: str, figure_mesh: Mesh, material):
+        path = f"/World/Crowd/Prototypes/{name}"
+        self.geom.Scope.Define(self.stage, "/World/Crowd/Prototypes")
+        mesh = self.geom.Mesh.Define(self.stage, path)
+        faces = figure_mesh.faces
+        self.shaped(mesh, figure_mesh.points, numpy.full(len(faces), 3), faces.ravel())
+        mesh.CreateNormalsAttr(self.vectors(figure_mesh.normals))
+        mesh.SetNormalsInterpolation(self.geom.Tokens.vertex)
+        self.shade.MaterialBindingAPI.Apply(mesh.GetPrim()).Bind(material)
+        return mesh.GetPath()
+
+    def looks(self, crowd) -> None:
+        """What of a person does not change: its row, colour and size."""
+        people, rows = self.bake.people, numpy.arange(self.bake.agents)
+        crowd.CreateIdsAttr(self.vt.Int64Array.FromNumpy(rows.astype(numpy.int64)))
+        primvars, types = self.geom.PrimvarsAPI(crowd.GetPrim()), self.sdf.ValueTypeNames
+        tints = self.vectors(_tints(people, rows))
+        for name in ("tint", "displayColor"):
+            primvars.CreatePrimvar(name, types.Color3fArray, self.geom.Tokens.vertex).Set(tints)
+        primvars.CreatePrimvar("personId", types.IntArray, self.geom.Tokens.vertex).Set(
+            self.vt.IntArray.FromNumpy(rows.astype(numpy.int32)))
+        self.sizes = numpy.clip(people["radius"] / USUAL_RADIUS, *SIZES)
+        if "scale" in people.dtype.names:
+            self.sizes = numpy.where(numpy.isfinite(people["scale"]), self.sizes * people["scale"], self.sizes)
+        crowd.CreateScalesAttr(self.vectors(numpy.repeat(self.sizes[:, None], 3, axis=1)))
+
+    def frames(self, crowd) -> None:
+        attributes = {name: getattr(crowd, f"Create{name}Attr")() for name in (
+            "ProtoIndices", "Positions", "Orientations", "Velocities", "AngularVelocities", "InvisibleIds", "Extent")}
+        seconds, last = self.every / self.bake.fps, self.bake.frames - 1
+        for frame in range(0, self.bake.frames, self.every):
+            time, after = frame + 1, min(frame + self.every, last)
+            here, there = self.bake.pos[frame], self.bake.there(frame)
+            heading, later = (numpy.arctan2(*self.bake.dir[each][:, 1::-1].T) for each in (frame, after))
+            turn = numpy.degrees((later - heading + numpy.pi) % (2 * numpy.pi) - numpy.pi) / seconds
+            speed = (self.bake.pos[after] - here) / seconds
+            attributes["ProtoIndices"].Set(self.vt.IntArray.FromNumpy(self.poses(frame)), time)
+            attributes["Positions"].Set(self.vectors(here), time)
+            attributes["Velocities"].Set(self.vectors(numpy.where(there[:, None], speed, 0.0)), time)
+            attributes["AngularVelocities"].Set(self.vectors(
+                numpy.column_stack([0 * turn, 0 * turn, numpy.where(there, turn, 0.0)])), time)
+            attributes["Orientations"].Set(self.turned(heading), time)
+            attributes["InvisibleIds"].Set(self.vt.Int64Array.FromNumpy(numpy.nonzero(~there)[0].astype(numpy.int64)),
+                                           time)
+            attributes["Extent"].Set(self.extent(here[there], self.sizes[there]), time)
+
+    def poses(self, frame: int) -> numpy.ndarray:
+        """The prototype of everybody: who walks has the pose of its phase, in the gait of its stride."""
+        state = self.bake.state[frame]
+        activity = numpy.floor(state[:, 0] + 1e-4)
+        gait = numpy.rint(16 * (state[:, 0] - activity)).astype(int)
+        place = numpy.abs(gait[:, None] - numpy.array(self.gaits)).argmin(axis=1)
+        pose = numpy.floor((state[:, 2] % 1.0) * PHASES + 0.5).astype(int) % PHASES
+        walks = (activity == WALKING) & (self.bake.dir[frame][:, 2] > 0.1)
+        return numpy.where(walks, 1 + PHASES * place + pose, 0).astype(numpy.int32)
+
+    def turned(self, heading: numpy.ndarray):
+        """Quaternions about z, of half precision as the schema has them: w comes last in memory."""
+        quaternions = numpy.zeros((len(heading), 4), dtype=numpy.float16)
+        quaternions[:, 2], quaternions[:, 3] = numpy.sin(0.5 * heading), numpy.cos(0.5 * heading)
+        return self.vt.QuathArray.FromNumpy(quaternions)
+
+    def extent(self, places: numpy.ndarray, sizes: numpy.ndarray):
+        """A box round everybody who is there, however they are turned."""
+        if not len(places):
+            return self.vectors(numpy.zeros((2, 3)))
+        reach = numpy.abs([self.low[:2], self.high[:2]]).max() * numpy.sqrt(2) * sizes.max()
+        up = float(self.high[2] * sizes.max())
+        return self.vectors(numpy.array([places.min(axis=0) - [reach, reach, 0],
+                                         places.max(axis=0) + [reach, reach, up]]))
+
+
+def _tints(people: numpy.ndarray, rows: numpy.ndarray) -> numpy.ndarray:
+    """Quiet colours, the same for a row everywhere; those that overrides give come first."""
+    golden = (rows * 0.61803398875) % 1.0
+    colours = numpy.array([colorsys.hsv_to_rgb(hue, 0.25 + 0.35 * ((5 * hue) % 1.0), 0.35 + 0.45 * ((7 * hue) % 1.0))
+                           for hue in golden]).reshape(-1, 3)
+    for row, text in enumerate(people["tint"] if "tint" in people.dtype.names else []):
+        digits = text.lstrip("#")
+        if len(digits) == 6 and all(each in "0123456789abcdefABCDEF" for each in digits):
+            # Written as screens show them; USD's colours are linear (IEC 61966-2-1).
+            shown = numpy.array([int(digits[place:place + 2], 16) / 255 for place in (0, 2, 4)])
+            colours[row] = numpy.where(shown <= 0.04045, shown / 12.92, ((shown + 0.055) / 1.055) ** 2.4)
+    return colours
