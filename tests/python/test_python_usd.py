@@ -6,7 +6,8 @@ import shapely
 
 import throng_io
 from throng_io import cli
-from throng_io.usd.figures import HEIGHT, PHASES, figure
+from throng_io.usd.crowd import TOPS, costumes
+from throng_io.usd.figures import HEIGHT, PHASES, TOP, figure
 from throng_io.usd.surroundings import prism
 
 Usd = pytest.importorskip("pxr.Usd", reason="usd-core is not installed")
@@ -63,7 +64,7 @@ def test_everybody_is_where_they_are_in_the_world(crowd, instancer):
 def test_everybody_looks_and_is_posed_as_they_are(crowd, instancer):
     bake, stage = crowd
     names = [path.name for path in instancer.GetPrototypesRel().GetTargets()]
-    assert len(names) == 1 + PHASES * len(bake.about["gaits"])
+    assert len(names) == len(TOPS) * (1 + PHASES * len(bake.about["gaits"]))
     seen = set()
     for frame in range(0, bake.frames, 11):
         there = bake.there(frame)
@@ -74,9 +75,9 @@ def test_everybody_looks_and_is_posed_as_they_are(crowd, instancer):
         for row in numpy.nonzero(there)[0]:
             activity, _, phase = bake.state[frame, row]
             if bake.dir[frame, row, 2] < 0.1:
-                assert names[indices[row]] == "standing"
+                assert names[indices[row]].endswith("_standing")
                 continue
-            gait, pose = names[indices[row]].removeprefix("stride").split("_pose")
+            gait, pose = names[indices[row]].partition("_stride")[2].split("_pose")
             seen.add(int(pose))
             assert int(gait) == round(16 * (activity % 1))
             assert abs((phase - int(pose) / PHASES + 0.5) % 1 - 0.5) <= 0.5 / PHASES + 1e-5
@@ -89,11 +90,24 @@ def test_ids_tints_and_invisible_people(crowd, instancer):
     primvars = UsdGeom.PrimvarsAPI(instancer.GetPrim())
     assert list(primvars.GetPrimvar("personId").Get()) == list(range(bake.agents))
     tints = numpy.array(primvars.GetPrimvar("tint").Get())
-    assert tints.shape == (bake.agents, 3) and len({tuple(tint) for tint in tints.tolist()}) == bake.agents
-    assert 0 <= tints.min() and tints.max() <= 1
+    assert tints.shape == (bake.agents, 3) and len({tuple(tint) for tint in tints.tolist()}) > 4
+    paths = instancer.GetPrototypesRel().GetTargets()
+    for row, prototype in enumerate(instancer.GetProtoIndicesAttr().Get(100)):
+        mesh = UsdGeom.Mesh(crowd[1].GetPrimAtPath(paths[prototype]))
+        colours, indices = mesh.GetDisplayColorPrimvar().Get(), mesh.GetDisplayColorPrimvar().GetIndices()
+        assert numpy.allclose(colours[TOP], tints[row]) and len(indices) == len(mesh.GetFaceVertexCountsAttr().Get())
     for frame in (0, 60, bake.frames - 1):
         hidden = set(instancer.GetInvisibleIdsAttr().Get(frame + 1))
         assert hidden == set(numpy.nonzero(~bake.there(frame))[0].tolist())
+
+
+def test_overrides_dress_people():
+    people = numpy.zeros(70, dtype=[("tint", "U10")])
+    people["tint"] = [f"#{row:02x}{2 * row:02x}80" for row in range(69)] + ["0.1 0.2 0.3"]
+    tops, worn = costumes(people)
+    assert len(tops) == 64 and len(set(worn[:56])) == 56
+    assert tops[worn[3]] == pytest.approx([0.000911, 0.001821, 0.215861], abs=1e-5)
+    assert worn[69] < len(TOPS)
 
 
 def test_between_frames_people_move_on(crowd, instancer):

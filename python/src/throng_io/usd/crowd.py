@@ -2,9 +2,9 @@
 """A bake as a USD stage: a point instancer whose prototypes are poses, walls, and ground."""
 from __future__ import annotations
 
-import colorsys
 import os
 import pathlib
+import string
 
 import numpy
 import shapely
@@ -22,6 +22,12 @@ USUAL_RADIUS = 0.25           # m, of figures as they are made
 SIZES = (0.6, 1.15)           # of bodies that are smaller or larger
 GROUND_MARGIN = 2.0           # m round everything
 ROAD_HEIGHT = 0.005           # m over the ground, so that they do not fight for the same pixels
+SKINS = ((0.62, 0.42, 0.31), (0.45, 0.27, 0.18), (0.23, 0.13, 0.08), (0.72, 0.52, 0.41))
+TROUSERS = ((0.05, 0.06, 0.1), (0.12, 0.11, 0.1), (0.16, 0.13, 0.09), (0.07, 0.08, 0.09))
+SHOES = (0.03, 0.03, 0.03)
+TOPS = ((0.42, 0.09, 0.07), (0.07, 0.16, 0.36), (0.1, 0.26, 0.16), (0.55, 0.44, 0.2), (0.5, 0.5, 0.48),
+        (0.05, 0.05, 0.06), (0.3, 0.16, 0.34), (0.22, 0.36, 0.42))
+MOST_COSTUMES = 64
 GREY = {"walls": (0.55, 0.55, 0.53), "ground": (0.32, 0.33, 0.32), "roads": (0.42, 0.42, 0.41)}
 
 
@@ -56,9 +62,28 @@ class Stage:
         stage.SetDefaultPrim(world.GetPrim())
         self.usd.ModelAPI(world.GetPrim()).SetKind("component")
         world.AddTranslateOp().Set(self.gf.Vec3d(*bake.origin.tolist()))
+        self.material = self.painted()
         self.surroundings()
         self.crowd()
         stage.GetRootLayer().Save()
+
+    def painted(self):
+        """A material that shows the colours that things, and people, have of their own."""
+        scope = "/World/Looks"
+        self.geom.Scope.Define(self.stage, scope)
+        material = self.shade.Material.Define(self.stage, f"{scope}/painted")
+        reader = self.shade.Shader.Define(self.stage, f"{scope}/painted/tint")
+        reader.CreateIdAttr("UsdPrimvarReader_float3")
+        reader.CreateInput("varname", self.sdf.ValueTypeNames.String).Set("displayColor")
+        reader.CreateInput("fallback", self.sdf.ValueTypeNames.Float3).Set(self.gf.Vec3f(*GREY["walls"]))
+        colour = reader.CreateOutput("result", self.sdf.ValueTypeNames.Float3)
+        surface = self.shade.Shader.Define(self.stage, f"{scope}/painted/surface")
+        surface.CreateIdAttr("UsdPreviewSurface")
+        surface.CreateInput("diffuseColor", self.sdf.ValueTypeNames.Color3f).ConnectToSource(colour)
+        surface.CreateInput("roughness", self.sdf.ValueTypeNames.Float).Set(0.8)
+        material.CreateSurfaceOutput().ConnectToSource(
+            surface.CreateOutput("surface", self.sdf.ValueTypeNames.Token))
+        return material
 
     # ---- what stands still
 
@@ -93,6 +118,7 @@ class Stage:
         mesh.CreateFaceVertexCountsAttr(self.vt.IntArray.FromNumpy(numpy.asarray(counts, dtype=numpy.int32)))
         mesh.CreateFaceVertexIndicesAttr(self.vt.IntArray.FromNumpy(numpy.asarray(corners, dtype=numpy.int32)))
         mesh.CreateExtentAttr(self.vectors(numpy.array([points.min(axis=0), points.max(axis=0)])))
+        self.shade.MaterialBindingAPI.Apply(mesh.GetPrim()).Bind(self.material)
 
     def vectors(self, values: numpy.ndarray):
         return self.vt.Vec3fArray.FromNumpy(numpy.ascontiguousarray(values, dtype=numpy.float32))
@@ -107,50 +133,45 @@ class Stage:
         for gait in self.gaits:
             poses += [(f"stride{gait}_pose{pose}", figure(pose / PHASES, strides[min(gait, len(strides) - 1)]))
                       for pose in range(PHASES)]
-        material = self.material()
+        self.geom.Scope.Define(self.stage, "/World/Crowd/Prototypes")
+        self.stage.CreateClassPrim("/World/Crowd/Poses")
         for name, mesh in poses:
-            crowd.GetPrototypesRel().AddTarget(self.prototype(name, mesh, material))
+            self.pose(name, mesh)
+        self.poses_of_one = len(poses)
+        self.tops, self.costume = costumes(self.bake.people)
+        for number, top in enumerate(self.tops):
+            for name, _ in poses:
+                crowd.GetPrototypesRel().AddTarget(self.prototype(number, top, name))
         self.low = numpy.min([mesh.points.min(axis=0) for _, mesh in poses], axis=0)
         self.high = numpy.max([mesh.points.max(axis=0) for _, mesh in poses], axis=0)
         self.looks(crowd)
         self.frames(crowd)
 
-    def material(self):
-        """What the people's own colours are seen by."""
-        scope = "/World/Looks"
-        self.geom.Scope.Define(self.stage, scope)
-        material = self.shade.Material.Define(self.stage, f"{scope}/people")
-        reader = self.shade.Shader.Define(self.stage, f"{scope}/people/tint")
-        reader.CreateIdAttr("UsdPrimvarReader_float3")
-        reader.CreateInput("varname", self.sdf.ValueTypeNames.String).Set("displayColor")
-        colour = reader.CreateOutput("result", self.sdf.ValueTypeNames.Float3)
-        surface = self.shade.Shader.Define(self.stage, f"{scope}/people/surface")
-        surface.CreateIdAttr("UsdPreviewSurface")
-        surface.CreateInput("diffuseColor", self.sdf.ValueTypeNames.Color3f).ConnectToSource(colour)
-        surface.CreateInput("roughness", self.sdf.ValueTypeNames.Float).Set(0.8)
-        material.CreateSurfaceOutput().ConnectToSource(
-            surface.CreateOutput("surface", self.sdf.ValueTypeNames.Token))
-        return material
-
-    def prototype(self, name: str, figure_mesh: Mesh, material):
-        path = f"/World/Crowd/Prototypes/{name}"
-        self.geom.Scope.Define(self.stage, "/World/Crowd/Prototypes")
-        mesh = self.geom.Mesh.Define(self.stage, path)
-        faces = figure_mesh.faces
-        self.shaped(mesh, figure_mesh.points, numpy.full(len(faces), 3), faces.ravel())
-        mesh.CreateNormalsAttr(self.vectors(figure_mesh.normals))
+    def pose(self, name: str, made: Mesh) -> None:
+        """The shape of all prototypes that are in this pose."""
+        self.stage.CreateClassPrim(f"/World/Crowd/Poses/{name}").SetTypeName("Mesh")
+        mesh = self.geom.Mesh(self.stage.GetPrimAtPath(f"/World/Crowd/Poses/{name}"))
+        self.shaped(mesh, made.points, numpy.full(len(made.faces), 3), made.faces.ravel())
+        mesh.CreateNormalsAttr(self.vectors(made.normals))
         mesh.SetNormalsInterpolation(self.geom.Tokens.vertex)
-        self.shade.MaterialBindingAPI.Apply(mesh.GetPrim()).Bind(material)
-        return mesh.GetPath()
+        colours = mesh.CreateDisplayColorPrimvar(self.geom.Tokens.uniform)
+        colours.SetIndices(self.vt.IntArray.FromNumpy(made.parts.astype(numpy.int32)))
+
+    def prototype(self, number: int, top: numpy.ndarray, pose: str):
+        """A pose in a costume."""
+        prim = self.stage.DefinePrim(f"/World/Crowd/Prototypes/costume{number}_{pose}")
+        prim.GetReferences().AddInternalReference(f"/World/Crowd/Poses/{pose}")
+        colours = [SKINS[number % len(SKINS)], TROUSERS[number // 2 % len(TROUSERS)], top, SHOES]
+        self.geom.Mesh(prim).GetDisplayColorPrimvar().Set(self.vectors(numpy.array(colours)))
+        return prim.GetPath()
 
     def looks(self, crowd) -> None:
         """What of a person does not change: its row, colour and size."""
         people, rows = self.bake.people, numpy.arange(self.bake.agents)
         crowd.CreateIdsAttr(self.vt.Int64Array.FromNumpy(rows.astype(numpy.int64)))
         primvars, types = self.geom.PrimvarsAPI(crowd.GetPrim()), self.sdf.ValueTypeNames
-        tints = self.vectors(_tints(people, rows))
-        for name in ("tint", "displayColor"):
-            primvars.CreatePrimvar(name, types.Color3fArray, self.geom.Tokens.vertex).Set(tints)
+        primvars.CreatePrimvar("tint", types.Color3fArray, self.geom.Tokens.vertex).Set(
+            self.vectors(self.tops[self.costume]))
         primvars.CreatePrimvar("personId", types.IntArray, self.geom.Tokens.vertex).Set(
             self.vt.IntArray.FromNumpy(rows.astype(numpy.int32)))
         self.sizes = numpy.clip(people["radius"] / USUAL_RADIUS, *SIZES)
@@ -186,7 +207,8 @@ class Stage:
         place = numpy.abs(gait[:, None] - numpy.array(self.gaits)).argmin(axis=1)
         pose = numpy.floor((state[:, 2] % 1.0) * PHASES + 0.5).astype(int) % PHASES
         walks = (activity == WALKING) & (self.bake.dir[frame][:, 2] > 0.1)
-        return numpy.where(walks, 1 + PHASES * place + pose, 0).astype(numpy.int32)
+        shown = numpy.where(walks, 1 + PHASES * place + pose, 0)
+        return (self.poses_of_one * self.costume + shown).astype(numpy.int32)
 
     def turned(self, heading: numpy.ndarray):
         """Quaternions about z, of half precision as the schema has them: w comes last in memory."""
@@ -204,15 +226,22 @@ class Stage:
                                          places.max(axis=0) + [reach, reach, up]]))
 
 
-def _tints(people: numpy.ndarray, rows: numpy.ndarray) -> numpy.ndarray:
-    """Quiet colours, the same for a row everywhere; those that overrides give come first."""
-    golden = (rows * 0.61803398875) % 1.0
-    colours = numpy.array([colorsys.hsv_to_rgb(hue, 0.25 + 0.35 * ((5 * hue) % 1.0), 0.35 + 0.45 * ((7 * hue) % 1.0))
-                           for hue in golden]).reshape(-1, 3)
+def costumes(people: numpy.ndarray) -> tuple[numpy.ndarray, numpy.ndarray]:
+    """The colours of all tops, and which everybody wears: those that overrides give, and else one by the row."""
+    tops = [tuple(top) for top in TOPS]
+    worn = (numpy.arange(len(people)) * 0.61803398875 % 1.0 * len(TOPS)).astype(int)
     for row, text in enumerate(people["tint"] if "tint" in people.dtype.names else []):
-        digits = text.lstrip("#")
-        if len(digits) == 6 and all(each in "0123456789abcdefABCDEF" for each in digits):
-            # Written as screens show them; USD's colours are linear (IEC 61966-2-1).
-            shown = numpy.array([int(digits[place:place + 2], 16) / 255 for place in (0, 2, 4)])
-            colours[row] = numpy.where(shown <= 0.04045, shown / 12.92, ((shown + 0.055) / 1.055) ** 2.4)
-    return colours
+        digits = text.removeprefix("#")
+        if len(digits) != 6 or not all(each in string.hexdigits for each in digits):
+            continue
+        # Written as screens show them; USD's colours are linear (IEC 61966-2-1).
+        shown = numpy.array([int(digits[place:place + 2], 16) / 255 for place in (0, 2, 4)])
+        top = tuple(numpy.where(shown <= 0.04045, shown / 12.92, ((shown + 0.055) / 1.055) ** 2.4).tolist())
+        if top not in tops and len(tops) < MOST_COSTUMES:
+            tops.append(top)
+        worn[row] = tops.index(top) if top in tops else _nearest(tops, top)
+    return numpy.array(tops), worn
+
+
+def _nearest(colours: list[tuple[float, ...]], wanted: tuple[float, ...]) -> int:
+    return int(((numpy.array(colours) - wanted) ** 2).sum(axis=1).argmin())

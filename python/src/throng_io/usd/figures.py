@@ -18,6 +18,8 @@ PLANTED = 0.6
 KNEE_WALK, KNEE_MOST = math.radians(8), math.radians(55)
 ARM_SHARE, ELBOW = 0.75, math.radians(18)         # arms swing less than legs
 
+SKIN, TROUSERS, TOP, SHOES = range(4)
+
 Vector = numpy.ndarray
 
 
@@ -26,9 +28,10 @@ class Mesh:
     points: numpy.ndarray   # n x 3
     normals: numpy.ndarray  # n x 3
     faces: numpy.ndarray    # m x 3
+    parts: numpy.ndarray    # of each face: SKIN, TROUSERS, TOP or SHOES
 
 
-def _limb(start: Vector, end: Vector, thick: float, thin: float) -> Mesh:
+def _limb(part: int, start: Vector, end: Vector, thick: float, thin: float) -> Mesh:
     """A round bar between two points, with round ends."""
     axis = end - start
     length = float(numpy.linalg.norm(axis)) or 1e-6
@@ -50,19 +53,21 @@ def _limb(start: Vector, end: Vector, thick: float, thin: float) -> Mesh:
         for here in range(SIDES):
             low, next_low = ring * SIDES + here, ring * SIDES + (here + 1) % SIDES
             faces += [(low, next_low, next_low + SIDES), (low, next_low + SIDES, low + SIDES)]
-    return Mesh(numpy.concatenate(points), numpy.concatenate(normals), numpy.array(faces))
+    return Mesh(numpy.concatenate(points), numpy.concatenate(normals), numpy.array(faces), numpy.full(len(faces), part))
 
 
 def _scaled(mesh: Mesh, centre: Vector, scale: Vector) -> Mesh:
     normals = mesh.normals / scale
     return Mesh(centre + (mesh.points - centre) * scale,
-                normals / numpy.linalg.norm(normals, axis=1)[:, None], mesh.faces)
+                normals / numpy.linalg.norm(normals, axis=1)[:, None], mesh.faces,
+                mesh.parts)
 
 
 def _joined(parts: list[Mesh]) -> Mesh:
     before = numpy.cumsum([0] + [len(part.points) for part in parts])
     return Mesh(numpy.concatenate([part.points for part in parts]), numpy.concatenate([part.normals for part in parts]),
-                numpy.concatenate([part.faces + offset for part, offset in zip(parts, before)]))
+                numpy.concatenate([part.faces + offset for part, offset in zip(parts, before)]),
+                numpy.concatenate([part.parts for part in parts]))
 
 
 def _along(angle: float, length: float) -> Vector:
@@ -96,13 +101,16 @@ def figure(phase: float | None, stride: float = 1.4) -> Mesh:
         shoulder = numpy.array([0.0, sign * SHOULDER_HALF, SHOULDER])
         elbow = shoulder + _along(arm, UPPER_ARM) + [0.0, sign * 0.03, 0.0]
         hand = elbow + _along(arm + ELBOW, FOREARM)
-        parts += [_limb(hip, joint, 0.085, 0.058), _limb(joint, ankle, 0.056, 0.04), _limb(ankle, toe, 0.045, 0.035),
-                  _limb(shoulder, elbow, 0.05, 0.04), _limb(elbow, hand, 0.038, 0.034)]
+        parts += [_limb(TROUSERS, hip, joint, 0.095, 0.065), _limb(TROUSERS, joint, ankle, 0.062, 0.042),
+                  _limb(SHOES, ankle, toe, 0.045, 0.035),
+                  _limb(TOP, shoulder, elbow, 0.057, 0.045), _limb(SKIN, elbow, hand, 0.042, 0.038)]
     chest, waist = numpy.array([0.0, 0.0, SHOULDER - 0.07]), numpy.array([0.0, 0.0, HIP + 0.04])
-    parts.append(_scaled(_limb(waist, chest, 0.115, 0.13), 0.5 * (chest + waist), numpy.array([0.85, 1.35, 1.0])))
+    parts.append(_scaled(_limb(TOP, waist, chest, 0.115, 0.13), 0.5 * (chest + waist),
+                         numpy.array([0.88, 1.45, 1.0])))
     neck, head = numpy.array([0.0, 0.0, SHOULDER + 0.04]), numpy.array([0.01, 0.0, HEIGHT - 0.115])
-    parts += [_limb(neck, head, 0.05, 0.05),
-              _scaled(_limb(head - [0, 0, 0.02], head + [0, 0, 0.02], 0.095, 0.095), head, numpy.array([1, 0.85, 1]))]
+    parts += [_limb(SKIN, neck, head, 0.05, 0.05),
+              _scaled(_limb(SKIN, head - [0, 0, 0.02], head + [0, 0, 0.02], 0.095, 0.095), head,
+                      numpy.array([1, 0.85, 1]))]
     mesh = _joined(parts)
     # The lower foot is on the ground.
-    return Mesh(mesh.points - [0.0, 0.0, mesh.points[:, 2].min()], mesh.normals, mesh.faces)
+    return Mesh(mesh.points - [0.0, 0.0, mesh.points[:, 2].min()], mesh.normals, mesh.faces, mesh.parts)
