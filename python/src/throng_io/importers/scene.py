@@ -105,12 +105,11 @@ class Scene:
 
     def enclosure(self, shape: shapely.Geometry, thickness: float = 0.2, what: str = "walkable areas") -> None:
         """Walls round ground that is not left, their faces on its edge; what is cut out of it is solid."""
-        for ground in polygons(shape):
-            outside = shapely.Polygon(ground.exterior).buffer(0.5 * thickness, join_style="mitre")
-            self.line(outside.exterior.coords, thickness, what="outer walls")
-            for hole in ground.interiors:
-                self.solid(shapely.make_valid(shapely.Polygon(hole)), what="obstacles")
-            self.report.took(what)
+        grounds = polygons(shape)
+        around = shapely.union_all([shapely.Polygon(ground.exterior).buffer(thickness, join_style="mitre")
+                                    for ground in grounds])
+        self.solid(around.difference(shapely.union_all(grounds)), what="walls round walkable areas")
+        self.report.took(what, len(grounds))
 
     def area(self, shape: shapely.Geometry, name: str, what: str = "areas") -> str | None:
         """The name that the area has got; of several pieces, the largest is taken."""

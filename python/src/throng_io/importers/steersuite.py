@@ -2,6 +2,8 @@
 """SteerSuite: test cases of SteerBench. Their ground is x and z, y is up: here x and -z."""
 from __future__ import annotations
 
+import collections
+import itertools
 import math
 import pathlib
 import random
@@ -11,12 +13,13 @@ import shapely.affinity
 
 from ..base.errors import ImportFailed
 from .files import Reader, child, children, read_xml, tag
-from .scene import Scene
+from .scene import RADII, Scene
 
 ROOT = "SteerBenchTestCase"
 OVERHEAD = 2.2        # m; what begins higher is walked under
 TRIES = 200           # for a random place that is free
 MOST_AT_RANDOM = 100_000
+CELL = 2 * RADII[1]   # m: who touch are in cells that are neighbours
 KNOWN = ("header", "suggestedCameraView", "obstacle", "circleObstacle", "orientedBoxObstacle", "obstacleRegion",
          "agent", "agentRegion")
 
@@ -43,7 +46,7 @@ class Case:
         self.reader, self.root, self.scene = Reader(path), read_xml(path, ROOT), scene
         self.random = random.Random(1)
         self.solids: list[shapely.Geometry] = []
-        self.taken: list[tuple[float, float, float]] = []
+        self.taken: dict[tuple[int, int], list[tuple[float, float, float]]] = collections.defaultdict(list)
         header = child(self.root, "header")
         bounds = None if header is None else child(header, "worldBounds")
         self.world = (-100.0, -100.0, 100.0, 100.0) if bounds is None else self.box(bounds)
@@ -107,13 +110,24 @@ class Case:
 
     def free_place(self, box, radius: float) -> tuple[float, float]:
         """Where nobody and nothing is, if there is such a place."""
+        tree = shapely.STRtree(self.solids)
         for _ in range(TRIES):
             x, y = self.random.uniform(box[0], box[2]), self.random.uniform(box[1], box[3])
-            body = shapely.Point(x, y).buffer(radius)
-            if not any(body.intersects(solid) for solid in self.solids) and all(
-                    math.hypot(x - other_x, y - other_y) >= radius + other for other_x, other_y, other in self.taken):
-                break
+            if not len(tree.query(shapely.Point(x, y), predicate="dwithin", distance=radius)) and all(
+                    math.hypot(x - other_x, y - other_y) >= radius + other for other_x, other_y, other in
+                    self.near(x, y)):
+                return x, y
+        self.scene.report.altered("people", "at random: found no free place, and stand in each other")
         return x, y
+
+    def cell(self, x: float, y: float) -> tuple[int, int]:
+        return math.floor(x / CELL), math.floor(y / CELL)
+
+    def near(self, x: float, y: float):
+        """Who may be in the way."""
+        column, row = self.cell(x, y)
+        for place in itertools.product((column - 1, column, column + 1), (row - 1, row, row + 1)):
+            yield from self.taken.get(place, ())
 
     def agent(self, element, holder, box=None) -> dict:
         start = self.part(holder, "initialConditions")
@@ -122,8 +136,8 @@ class Case:
         if box is None and position is not None and child(position, "random") is None:
             x, y = self.place(position)
         else:
-            x, y = self.free_place(box or self.world, radius)
-        self.taken.append((x, y, radius))
+            x, y = self.free_place(box or self.world, min(radius, RADII[1]))
+        self.taken[self.cell(x, y)].append((x, y, min(radius, RADII[1])))
         direction, heading = child(start, "direction"), None
         if direction is not None and child(direction, "random") is None:
             along_x, along_y = self.place(direction)

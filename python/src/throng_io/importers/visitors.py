@@ -19,7 +19,7 @@ def add_people(scene: Scene, count: int) -> None:
     room = _room(scene)
     if room.area < 1.0:
         raise ImportFailed("there is no ground for people", scene.report.source)
-    corners = [shapely.Point(point) for point in room.exterior.coords]
+    corners = [shapely.Point(point) for piece in polygons(room) for point in piece.exterior.coords]
     first = max(corners, key=room.centroid.distance)
     last = max(corners, key=first.distance)
     ends = [scene.area(_largest(polygons(point.buffer(1.2).intersection(room))), name, "ends for people")
@@ -30,16 +30,15 @@ def add_people(scene: Scene, count: int) -> None:
     scene.report.altered("people", "made up: nobody is in the plan", count)
 
 
-def _room(scene: Scene) -> shapely.Polygon:
-    """Where the middle of a person can be, clear of walls: the largest piece. Rooms come before the ground round the
-    plan."""
+def _room(scene: Scene) -> shapely.Geometry:
+    """Where people can stand clear of walls and come from each place to each other. Rooms come before the ground round
+    the plan."""
     solid = shapely.union_all([shapely.make_valid(wall_shape(wall)) for wall in scene.walls])
     ways = [road_shape(road) for road in scene.roads] + [area_shape(area) for area in scene.areas if scene.roads]
     free = shapely.union_all(ways) if ways else shapely.box(*solid.bounds).buffer(MARGIN, join_style="mitre")
     pieces = polygons(free.difference(solid.buffer(BODY)))
     inner = pieces if ways else [piece for piece in pieces if not piece.intersects(free.boundary)]
-    ground = _largest(inner or pieces)
-    return _largest(polygons(ground.buffer(BODY - CLEAR)))
+    return _largest(inner or pieces).buffer(BODY - CLEAR)
 
 
 def _largest(pieces: list[shapely.Polygon]) -> shapely.Polygon:
