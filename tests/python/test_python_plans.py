@@ -265,3 +265,10 @@ def test_a_plan_without_ground_is_told(tmp_path):
     (tmp_path / "full.geojson").write_text(geojson(("LineString", [[0, 0], [0.1, 0]], {"throng": "road"})))
     with pytest.raises(throng_io.ImportFailed, match="no ground for people"):
         read_scene(tmp_path / "full.geojson", Options(unit=1.0, people=5))
+
+
+def test_plans_of_areas_alone_have_ground(tmp_path):
+    (tmp_path / "areas.geojson").write_text(geojson(
+        ("Polygon", [[[0, 0], [9, 0], [9, 5], [0, 5], [0, 0]]], {"throng": "area"})))
+    found = read_scene(tmp_path / "areas.geojson", Options(unit=1.0, people=6))
+    assert sum(flow["count"] for flow in found.layout["flows"]) == 6

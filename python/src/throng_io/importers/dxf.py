@@ -31,7 +31,8 @@ class Plan:
         read_bytes(path)  # of a sensible size, and a file
         try:
             self.document = ezdxf.readfile(path)
-        except (ezdxf.DXFError, OSError, UnicodeError, ValueError, KeyError, IndexError, TypeError) as error:
+        except (ezdxf.DXFError, OSError, ValueError, LookupError, TypeError, ArithmeticError, AttributeError,
+                RecursionError) as error:
             raise ImportFailed(f"no DXF: {error}", str(path)) from error
         self.unit = self.metres_of_a_unit()
         self.has_walls = any(matches([layer.dxf.name], NAMES_OF_WALLS) for layer in self.document.layers)

@@ -105,7 +105,10 @@ class Experiment:
             raise ImportFailed(f"a group without <{what}Selector>", self.reader.file, group.sourceline)
         if selector.get("type") == "const":
             return [(selector.get("name"), 1.0)]
-        return [(each.get("name"), self.reader.attribute(each, "weight", 1.0)) for each in selector]
+        found = [(each.get("name"), self.reader.attribute(each, "weight", 1.0)) for each in selector]
+        if not found:
+            raise ImportFailed(f"<{what}Selector> that has nothing to choose", self.reader.file, selector.sourceline)
+        return found
 
     def group(self, group) -> None:
         profiles, states = self.chosen(group, "Profile"), self.chosen(group, "State")
@@ -118,7 +121,7 @@ class Experiment:
         self.scene.agents(profiles[0][0] or "agents", people, "stay")
 
     def drawn(self, choices: list[tuple[str, float]]) -> str:
-        names, weights = zip(*choices) if choices else ((None,), (1.0,))
+        names, weights = zip(*choices)
         if not sum(weights) > 0 or min(weights) < 0:
             raise ImportFailed("weights: expected numbers of which one is above 0", self.reader.file)
         return self.random.choices(names, weights)[0]

@@ -24,6 +24,8 @@ def add_people(scene: Scene, count: int) -> None:
     last = max(corners, key=first.distance)
     ends = [scene.area(_largest(polygons(point.buffer(1.2).intersection(room))), name, "ends for people")
             for point, name in ((first, "one end"), (last, "other end"))]
+    if None in ends:
+        raise ImportFailed("there is no ground for people", scene.report.source)
     for (start, end), share in ((ends, count - count // 2), (ends[::-1], count // 2)):
         if share:
             scene.flow(f"from {start}", share, **{"from": start, "to": end, "end": float(max(1, share))})
@@ -35,7 +37,10 @@ def _room(scene: Scene) -> shapely.Geometry:
     the plan."""
     solid = shapely.union_all([shapely.make_valid(wall_shape(wall)) for wall in scene.walls])
     ways = [road_shape(road) for road in scene.roads] + [area_shape(area) for area in scene.areas if scene.roads]
-    free = shapely.union_all(ways) if ways else shapely.box(*solid.bounds).buffer(MARGIN, join_style="mitre")
+    everything = shapely.union_all([solid, *map(area_shape, scene.areas)])
+    if everything.is_empty and not ways:
+        return shapely.Polygon()
+    free = shapely.union_all(ways) if ways else shapely.box(*everything.bounds).buffer(MARGIN, join_style="mitre")
     pieces = polygons(free.difference(solid.buffer(BODY)))
     inner = pieces if ways else [piece for piece in pieces if not piece.intersects(free.boundary)]
     return _largest(inner or pieces).buffer(BODY - CLEAR)
