@@ -2,11 +2,14 @@
 """The film look in a real Blender: its settings, and the layers of the files that it renders."""
 import json
 import math
+import subprocess
+import sys
 
 import numpy
 import OpenEXR
 import pytest
 
+from conftest import ROOT
 from results import ADDON, HERE, result_of
 from sample_bake import write_bake
 from throng import cast
@@ -88,3 +91,52 @@ def test_the_crowds_matte_is_that_of_all_that_people_are_made_of(rendered):
         assert 0.005 < crowd.mean() < 0.9 and abs(crowd - clothes).max() < 1e-3
         mattes.append(crowd.mean())
     assert mattes[0] == pytest.approx(mattes[1], rel=0.2), "it goes on in the next frame, whatever poses people take"
+
+
+def person_matte(folder, frame):
+    """({name: its share of every pixel}, channels) of what scripts/person_mattes.py makes of a plate."""
+    out = folder / f"people.{frame:04d}.exr"
+    process = subprocess.run([sys.executable, ROOT / "scripts" / "person_mattes.py", folder / f"plate.{frame:04d}.exr",
+                              out, folder / "bake"], capture_output=True, text=True)
+    assert process.returncode == 0, process.stderr
+    channels, manifests = layers_of(out)
+    return {name: coverage(channels, "CryptoPerson", number)
+            for name, number in manifests["CryptoPerson"].items()}, channels, manifests
+
+
+@pytest.fixture(scope="module")
+def persons(rendered):
+    return {frame: person_matte(rendered[1], frame) for frame in (20, 21)}
+
+
+@pytest.mark.parametrize("frame", [20, 21])
+def test_everybody_has_a_matte_where_the_bake_says_they_are(rendered, persons, frame):
+    mattes, _, _ = persons[frame]
+    places, near = rendered[0]["seen"][str(frame)], 0
+    rows, columns = numpy.mgrid[0:135, 0:240] + 0.5
+    for name, share in mattes.items():
+        if share.sum() < 25.0:  # less of somebody may be a hand
+            continue
+        x, y = places[str(int(name.split("/")[1]))]
+        size = 1.8 * max(numpy.ptp(rows[share > 0.2]), 4.0)
+        middle = (share * columns).sum() / share.sum(), (share * rows).sum() / share.sum()
+        assert math.dist(middle, (x, y)) < 0.5 * size, (name, middle, (x, y))
+        near += 1
+    assert near >= 10
+
+
+@pytest.mark.parametrize("frame", [20, 21])
+def test_the_mattes_of_people_add_up_to_the_crowds(rendered, persons, frame):
+    mattes, channels, manifests = persons[frame]
+    crowd = coverage(channels, "CryptoObject", manifests["CryptoObject"]["Throng sample crowd"])
+    assert abs(sum(mattes.values()) - crowd).max() < 2e-3
+    assert not any("ThrongPerson" in name for name in channels), "what they were made of is left out"
+
+
+def test_people_keep_their_mattes_from_frame_to_frame(persons):
+    before, after = (persons[frame][0] for frame in (20, 21))
+    large = [name for name, share in before.items() if share.sum() > 25.0]
+    for name in large:
+        grown = numpy.pad(before[name], 4)
+        shifted = sum(numpy.roll(grown, (i, j), (0, 1)) for i in range(-4, 5) for j in range(-4, 5))[4:-4, 4:-4]
+        assert (after[name] * (shifted > 0.0)).sum() > 0.9 * after[name].sum() > 0.0, name

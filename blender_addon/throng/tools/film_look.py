@@ -7,6 +7,7 @@ from mathutils import Vector
 
 from ..blender.nodes import socket
 from ..environment.lights import set_colours, tame_fireflies
+from . import mattes
 
 
 @dataclass(frozen=True)
@@ -37,8 +38,10 @@ def can_denoise():
 
 
 def apply(scene, preset, *, crane=True, haze=0.3):
-    """Sets up the whole look; harmless to apply again."""
+    """Sets up the whole look; harmless to apply again. Raises BakeError before anything is changed."""
     look = PRESETS[preset]
+    if look.layers:
+        mattes.apply(scene)
     _set_render(scene, look)
     set_colours(scene)
     _set_output(scene, look)

@@ -183,7 +183,11 @@ class THRONG_OT_film_look(bpy.types.Operator):
             self.report({"ERROR"}, "Film looks render with Cycles: enable the add-on Cycles Render Engine "
                                    "in Blender's preferences")
             return {"CANCELLED"}
-        film_look.apply(context.scene, self.preset, crane=self.crane, haze=self.haze)
+        try:
+            film_look.apply(context.scene, self.preset, crane=self.crane, haze=self.haze)
+        except BakeError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
         return {"FINISHED"}
 
 

@@ -10,6 +10,7 @@ from ..crowd.queries import bake_path, caches, collection_of
 from ..formats import BakeError, load_bake
 from ..overrides import native
 from ..overrides.layer import Arrival
+from . import mattes
 from .importer import set_frame_rate
 
 
@@ -56,5 +57,6 @@ def reload(crowd, scene, path=None):
     if collection:
         collection["throng_bake"] = os.path.join(bake.folder, "bake.json")
     overrides.place(crowd)
+    mattes.follow(crowd)
     crowd.update_tag()
     return overrides.orphans
