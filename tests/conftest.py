@@ -77,7 +77,7 @@ def bakes(throng, once):
     """bakes("intersection") is the folder of that example's bake."""
 
     def bake(name):
-        extra = ["--diagrams", "480"] if name == "intersection" else ["--no-gltf"]
+        extra = {"intersection": ["--diagrams", "480"], "station": []}.get(name, ["--no-gltf"])
         make = lambda folder: throng("bake", EXAMPLES / f"{name}.json", "-o", folder / name, "-q", *extra)
         return once(f"example-{name}", make) / name
 
@@ -141,6 +141,14 @@ def pytest_configure(config):
     config.addinivalue_line("markers", "quick: one of those that `scripts/test quick` passes")
 
 
+def shares_a_fixture(item):
+    """Whether other tests of its file look at the same, which a Blender or a process of ours makes for them all."""
+    if "once" in item.fixturenames and "blender" not in item.fixturenames:
+        return False  # all processes share it
+    return any(found.scope == "module" for name in item.fixturenames
+               for found in item._fixtureinfo.name2fixturedefs.get(name, ()))
+
+
 @pytest.hookimpl(tryfirst=True)  # before the processes are told of the groups
 def pytest_collection_modifyitems(items):
     """The longest first, so that no processor is idle at the end; what only one process can make stays in one."""
@@ -149,8 +157,9 @@ def pytest_collection_modifyitems(items):
     for item in items:
         if "slurm" in item.fixturenames:
             item.add_marker(pytest.mark.xdist_group("slurm"))
-        if "found" in item.fixturenames:
-            item.add_marker(pytest.mark.xdist_group(f"overrides in {item.callspec.id}"))
+        elif shares_a_fixture(item):
+            program = item.callspec.params["blender"].__name__ if "blender" in item.fixturenames else "Python"
+            item.add_marker(pytest.mark.xdist_group(f"{item.path.name} in {program}"))
         if item.path.parent.name == "house":
             item.add_marker(pytest.mark.quick)
     items.sort(key=lambda item: (item.get_closest_marker("slow") is None, place.get(item.path.parent.name, len(first))))

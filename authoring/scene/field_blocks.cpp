@@ -133,11 +133,12 @@ void addWallCosts(const WalkGeometry& geometry, const FieldBlocks& blocks, std::
 template <class Visit>
 void visitRoad(const FieldBlocks& blocks, const LocalRoad& road, Visit visit) {
     for (std::size_t i = 0; i + 1 < road.centreline.size(); ++i) {
-        const LocalRoad piece{{road.centreline[i], road.centreline[i + 1]}, road.width, road.one_way};
-        const glm::vec2 along = glm::normalize(piece.centreline[1] - piece.centreline[0]);
-        const Box box = boundsOf(piece.centreline, 0.5f * road.width);
+        const RoadPiece piece(road, i, 0.0f);
+        const glm::vec2 ends[] = {road.centreline[i], road.centreline[i + 1]};
+        const glm::vec2 along = glm::normalize(ends[1] - ends[0]);
+        const Box box = boundsOf(ends, 0.5f * road.width);
         blocks.visitNodes(box.lower, box.upper, [&](std::uint32_t node, glm::vec2 at) {
-            if (onPiece(road, i, at, 0.0f)) visit(node, along);
+            if (piece.holds(at)) visit(node, along);
         });
     }
 }

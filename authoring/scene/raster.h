@@ -120,31 +120,54 @@ void visitInside(const FieldGrid& grid, std::span<const glm::vec2> polygon, Visi
     }
 }
 
-/// On one of a road's pieces: beside it (flat ends), or within half the width of the inner corner at which it
-/// begins (round joins).
-inline bool onPiece(const LocalRoad& road, std::size_t i, glm::vec2 point, float margin) {
-    const float half = 0.5f * road.width + margin;
-    const glm::vec2 a = road.centreline[i];
-    const glm::vec2 b = road.centreline[i + 1];
-    const float length = glm::distance(a, b);
-    if (length <= 0.0f) return false;
-    const glm::vec2 along = (b - a) / length;
-    const glm::vec2 offset = point - a;
-    const float forward = glm::dot(offset, along);
-    const float aside = std::abs(along.x * offset.y - along.y * offset.x);
-    if (forward >= -margin && forward <= length + margin && aside <= half) return true;
-    return i > 0 && glm::dot(offset, offset) <= half * half;
-}
+/// One of a road's pieces, and so much more around it.
+class RoadPiece {
+  public:
+    RoadPiece(const LocalRoad& road, std::size_t i, float margin)
+        : from_(road.centreline[i]),
+          length_(glm::distance(road.centreline[i], road.centreline[i + 1])),
+          along_((road.centreline[i + 1] - road.centreline[i]) / length_),
+          half_(0.5f * road.width + margin),
+          margin_(margin),
+          is_joined_(i > 0) {}
+
+    /// Beside it (flat ends), or within half the width of the inner corner at which it begins (round joins).
+    bool holds(glm::vec2 point) const {
+        if (length_ <= 0.0f) return false;
+        const glm::vec2 offset = point - from_;
+        const float forward = glm::dot(offset, along_);
+        const float aside = std::abs(along_.x * offset.y - along_.y * offset.x);
+        if (forward >= -margin_ && forward <= length_ + margin_ && aside <= half_) return true;
+        return is_joined_ && glm::dot(offset, offset) <= half_ * half_;
+    }
+
+  private:
+    glm::vec2 from_;
+    float length_;
+    glm::vec2 along_;
+    float half_;
+    float margin_;
+    bool is_joined_;
+};
 
 /// Calls visit(index, centre) for the cells whose centre lies on a road.
-template <class Visit>
-void visitRoad(const FieldGrid& grid, const LocalRoad& road, float margin, Visit visit) {
+/// @param wanted whether a cell is of interest still: many roads may lie over each other
+template <class Visit, class Wanted>
+void visitRoad(const FieldGrid& grid, const LocalRoad& road, float margin, Visit visit, Wanted wanted) {
     const float reach = 0.5f * road.width + 1.5f * margin;
-    for (std::size_t i = 0; i + 1 < road.centreline.size(); ++i)
+    for (std::size_t i = 0; i + 1 < road.centreline.size(); ++i) {
+        const RoadPiece piece(road, i, margin);
         visitAlong(grid, road.centreline[i], road.centreline[i + 1], reach,
                    [&](std::uint32_t cell, glm::vec2 centre) {
-                       if (onPiece(road, i, centre, margin)) visit(cell, centre);
+                       if (wanted(cell) && piece.holds(centre)) visit(cell, centre);
                    });
+    }
+}
+
+inline void markRoad(const FieldGrid& grid, const LocalRoad& road, float margin, std::vector<bool>& marked) {
+    visitRoad(
+        grid, road, margin, [&](std::uint32_t cell, glm::vec2) { marked[cell] = true; },
+        [&](std::uint32_t cell) { return !marked[cell]; });
 }
 
 struct Box {

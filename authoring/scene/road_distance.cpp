@@ -74,7 +74,7 @@ std::vector<float> roadDistance(const WalkGeometry& geometry, const FieldGrid& g
     const float seam = 0.25f * grid.cell_size;
     std::vector<bool> inside(cellCount(grid), false);
     for (const LocalRoad& road : geometry.roads)
-        visitRoad(grid, road, seam, [&](std::uint32_t cell, glm::vec2) { inside[cell] = true; });
+        markRoad(grid, road, seam, inside);
     for (const LocalPolygon& area : geometry.areas)
         for (const std::uint32_t cell : cellsInPolygon(grid, area))
             inside[cell] = true;

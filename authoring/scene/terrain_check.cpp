@@ -189,11 +189,10 @@ class Checker {
 
     std::vector<bool> walkedCells(const FieldGrid& grid) const {
         std::vector<bool> walked(cellCount(grid), false);
-        const auto mark = [&](std::uint32_t cell, glm::vec2) { walked[cell] = true; };
         for (const LocalRoad& road : geometry_.roads)
-            visitRoad(grid, road, 0.0f, mark);
+            markRoad(grid, road, 0.0f, walked);
         for (const LocalPolygon& area : geometry_.areas)
-            visitInside(grid, area, mark);
+            visitInside(grid, area, [&](std::uint32_t cell, glm::vec2) { walked[cell] = true; });
         return walked;
     }
 

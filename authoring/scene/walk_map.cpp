@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <functional>
+
 #include "authoring/scene/raster.h"
 
 namespace throng::authoring {
@@ -33,19 +35,22 @@ void markOneWays(const WalkGeometry& geometry, WalkMap& map) {
                      [](const LocalRoad& road) { return road.one_way; }))
         return;
     map.one_way.assign(cellCount(map.grid), glm::vec2(0.0f));
-    for (const LocalRoad& road : geometry.roads) {
-        if (!road.one_way) continue;
-        for (std::size_t i = 0; i + 1 < road.centreline.size(); ++i) {
-            const LocalRoad piece{{road.centreline[i], road.centreline[i + 1]}, road.width, true};
+    const auto is_free = [&](std::uint32_t cell) { return map.one_way[cell] == glm::vec2(0.0f); };
+    // Where several lie over each other, the last piece of the last road holds.
+    for (auto road = geometry.roads.rbegin(); road != geometry.roads.rend(); ++road) {
+        if (!road->one_way) continue;
+        for (std::size_t i = road->centreline.size(); i-- > 1;) {
+            const LocalRoad piece{{road->centreline[i - 1], road->centreline[i]}, road->width, true};
             const glm::vec2 along = glm::normalize(piece.centreline[1] - piece.centreline[0]);
-            visitRoad(map.grid, piece, 0.0f,
-                      [&](std::uint32_t cell, glm::vec2) { map.one_way[cell] = along; });
+            visitRoad(
+                map.grid, piece, 0.0f, [&](std::uint32_t cell, glm::vec2) { map.one_way[cell] = along; },
+                is_free);
         }
     }
     // Where another road or an area lies over it, one may also walk that road's way.
     const auto release = [&](std::uint32_t cell, glm::vec2) { map.one_way[cell] = glm::vec2(0.0f); };
     for (const LocalRoad& road : geometry.roads)
-        if (!road.one_way) visitRoad(map.grid, road, 0.0f, release);
+        if (!road.one_way) visitRoad(map.grid, road, 0.0f, release, std::not_fn(is_free));
     for (const LocalPolygon& area : geometry.areas)
         visitInside(map.grid, area, release);
 }

@@ -13,6 +13,7 @@ import numpy
 import pytest
 
 from conftest import ROOT
+from processor_time import HANGS
 
 sys.path.insert(0, str(ROOT / "blender_addon"))
 from throng.formats import BakeError, load_bake  # noqa: E402
@@ -236,7 +237,7 @@ def test_ctrl_c_leaves_nothing(throng, street, tmp_path):
     while '"frame": ' not in process.stderr.readline():
         assert process.poll() is None
     process.send_signal(signal.SIGINT)
-    _, told = process.communicate(timeout=60)
+    _, told = process.communicate(timeout=HANGS)
     assert process.returncode == 130 and "nothing was written" in told
     assert sorted(path.name for path in tmp_path.iterdir()) == ["big", "big.overrides.json"]
 

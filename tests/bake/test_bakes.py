@@ -13,6 +13,7 @@ import numpy
 import pytest
 
 from conftest import EXAMPLES
+from processor_time import HANGS
 
 SMALL = {"throng": 1, "simulation": {"duration": 2},
          "roads": [{"id": "road", "centreline": [[0, 0], [20, 0]], "width": 6}],
@@ -247,7 +248,7 @@ def test_ctrl_c_keeps_what_there_is(throng, tmp_path, manifest_of):
         assert process.poll() is None
     time.sleep(0.5)
     process.send_signal(signal.SIGINT)
-    process.communicate(timeout=60)
+    process.communicate(timeout=HANGS)
     assert process.returncode == 130
     assert not (tmp_path / "out").exists()
     manifest = manifest_of(tmp_path / "out.partial")

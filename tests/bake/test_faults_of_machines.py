@@ -10,6 +10,7 @@ import subprocess
 import pytest
 
 from conftest import ROOT
+from processor_time import HANGS
 from test_bakes import SMALL, write
 
 LAYOUT = {**SMALL, "simulation": {"duration": 0.5}}
@@ -112,7 +113,7 @@ def test_two_processes_on_one_folder_make_one_bake(throng, whole, tmp_path):
     layout, expected, _ = whole
     words = [throng.binary, "bake", str(layout), "-o", str(tmp_path / "bake"), *OPTIONS, "--resume"]
     both = [subprocess.Popen(words, stderr=subprocess.PIPE, text=True) for _ in range(2)]
-    told = [process.communicate(timeout=60)[1] for process in both]
+    told = [process.communicate(timeout=HANGS)[1] for process in both]
     codes = sorted(process.returncode for process in both)
     assert codes in ([0, 0], [0, 5]) and all(process.returncode == 0 or "another process" in said or "exists" in said
                                              for process, said in zip(both, told)), (codes, told)
@@ -125,6 +126,6 @@ def test_two_batches_on_one_folder_make_one_batch(throng, tmp_path):
     words = [throng.binary, "batch", str(family), "-o", str(tmp_path / "out"), "-q", "--workers", "1"]
     both = [subprocess.Popen(words, stderr=subprocess.PIPE, text=True) for _ in range(2)]
     for process in both:
-        process.communicate(timeout=60)
+        process.communicate(timeout=HANGS)
     throng(*words[1:])
     assert "2 of 2 bakes are whole" in throng("verify", tmp_path / "out", "-q").stdout

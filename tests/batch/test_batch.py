@@ -19,6 +19,7 @@ import pytest
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "tests"))
 import terrain_files  # noqa: E402
+from processor_time import HANGS  # noqa: E402
 
 EXAMPLES = ROOT / "examples"
 
@@ -296,23 +297,23 @@ LONGER = {**BASE, "simulation": {"duration": 60, "seed": 1}}
 
 @pytest.mark.slow
 def test_ctrl_c_stops_at_once_and_leaves_each_bake_complete_or_absent(throng, tmp_path):
-    plan = family(tmp_path, base=LONGER, axes=[{"set": "/simulation/seed", "range": [1, 16]}])
-    process = subprocess.Popen([throng.binary, "batch", str(plan), "-o", str(tmp_path / "out")], stdout=subprocess.PIPE,
-                               stderr=subprocess.PIPE, text=True, start_new_session=True)
+    plan = family(tmp_path, base=LONGER, axes=[{"set": "/simulation/seed", "range": [1, 10]}])
+    process = subprocess.Popen([throng.binary, "batch", str(plan), "-o", str(tmp_path / "out"), "--workers", "2"],
+                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True)
     while len(list((tmp_path / "out" / "results").glob("*.json"))) < 3:
         assert process.poll() is None
         time.sleep(0.02)
-    started = time.time()
+    before = len(list((tmp_path / "out" / "results").glob("*.json")))
     os.killpg(process.pid, signal.SIGINT)
-    process.communicate(timeout=20)
-    assert time.time() - started < 10 and process.returncode == 130
+    process.communicate(timeout=HANGS)
+    assert process.returncode == 130
     done = rows(tmp_path / "out", "SELECT * FROM scenarios WHERE status = 'ok'")
-    assert 3 <= len(done) < 16
+    assert 3 <= len(done) <= before + 2, "at most those that were under way came to their ends"
     assert sorted(path.name for path in (tmp_path / "out" / "bakes").iterdir()) == sorted(row["id"] for row in done)
     for row in done:
         throng("info", tmp_path / "out" / row["bake"], "--verify")
     throng("batch", plan, "-o", tmp_path / "out", "-q")
-    assert len(rows(tmp_path / "out", "SELECT * FROM scenarios WHERE status = 'ok'")) == 16
+    assert len(rows(tmp_path / "out", "SELECT * FROM scenarios WHERE status = 'ok'")) == 10
 
 
 def test_killed_workers_are_replaced_and_the_batch_ends_complete(throng, tmp_path):
@@ -325,7 +326,7 @@ def test_killed_workers_are_replaced_and_the_batch_ends_complete(throng, tmp_pat
         for worker in [worker for worker in processes_of(process.pid) if worker not in killed][:1]:
             os.kill(worker, signal.SIGKILL)
             killed.append(worker)
-    assert process.wait(timeout=120) in (0, 1)
+    assert process.wait(timeout=HANGS) in (0, 1)
     found = rows(tmp_path / "out", "SELECT * FROM scenarios")
     assert all(row["status"] == "ok" or "killed by signal 9" in row["reason"] for row in found)
     # Four kills: whoever was killed twice has failed.
@@ -335,8 +336,8 @@ def test_killed_workers_are_replaced_and_the_batch_ends_complete(throng, tmp_pat
 
 
 def test_sigkill_of_the_whole_batch_loses_only_what_was_under_way(throng, tmp_path):
-    plan = family(tmp_path, base=LONGER, axes=[{"set": "/simulation/seed", "range": [1, 12]}])
-    process = subprocess.Popen([throng.binary, "batch", str(plan), "-o", str(tmp_path / "out"), "-q"])
+    plan = family(tmp_path, base=LONGER, axes=[{"set": "/simulation/seed", "range": [1, 8]}])
+    process = subprocess.Popen([throng.binary, "batch", str(plan), "-o", str(tmp_path / "out"), "--workers", "2", "-q"])
     while len(list((tmp_path / "out" / "results").glob("*.json"))) < 4:
         assert process.poll() is None
         time.sleep(0.02)
@@ -346,7 +347,7 @@ def test_sigkill_of_the_whole_batch_loses_only_what_was_under_way(throng, tmp_pa
     done = len(list((tmp_path / "out" / "results").glob("*.json")))
     told = throng("batch", plan, "-o", tmp_path / "out").stdout
     assert f"{done} are done" in told
-    assert len(rows(tmp_path / "out", "SELECT * FROM scenarios WHERE status = 'ok'")) == 12
+    assert len(rows(tmp_path / "out", "SELECT * FROM scenarios WHERE status = 'ok'")) == 8
 
 
 def test_parts_of_a_batch_make_the_whole(throng, tmp_path):
@@ -360,12 +361,18 @@ def test_parts_of_a_batch_make_the_whole(throng, tmp_path):
 
 
 def test_nothing_is_begun_that_would_not_end_in_time(throng, tmp_path):
-    plan = family(tmp_path, base=LONGER, axes=[{"set": "/simulation/seed", "range": [1, 200]}])
-    started = time.time()
-    throng("batch", plan, "-o", tmp_path / "out", "-q", "--time-limit", "0.1", expect=85)
-    assert time.time() - started < 15
+    axis = lambda count: [{"set": "/simulation/seed", "range": [1, count]}]
+    started = time.monotonic()
+    throng("batch", family(tmp_path, base=LONGER, axes=axis(1)), "-o", tmp_path / "one", "-q")
+    one = time.monotonic() - started
+    limit = max(6.0, 4.0 * one)  # some, on busy machines too
+    started = time.monotonic()
+    throng("batch", family(tmp_path, base=LONGER, axes=axis(200)), "-o", tmp_path / "out", "-q", "--time-limit",
+           f"{limit / 60.0:.4f}", expect=85)
+    took = time.monotonic() - started
     done = rows(tmp_path / "out", "SELECT * FROM scenarios WHERE status = 'ok'")
     assert 0 < len(done) < 200
+    assert took < limit + 2.0 * one + 6.0, "what was begun, and the start"
 
 
 def test_a_folder_of_something_else_is_left_alone(throng, tmp_path):

@@ -86,7 +86,7 @@ for step, (chosen, options) in enumerate((((crowd, other), far), ((crowd,), {"by
     result[f"copies {step}"] = [shown(crowd), shown(other),
                                 len([thing for thing in bpy.data.objects if "throng_member" in thing])]
     if step == 0:  # somebody takes a coarse mesh for a thing of their own
-        mine = bpy.data.objects.new("mine", figure(crowd, 3, 2).data)
+        mine = bpy.data.objects.new("mine", figure(crowd, 1, 2).data)
         bpy.context.scene.collection.objects.link(mine)
 result["mine"] = "mine" in bpy.data.objects and len(bpy.data.objects["mine"].data.vertices) > 0
 

@@ -3,13 +3,13 @@
 import pytest
 
 from results import ADDON, HERE, result_of
-from sample_bake import write_bake
+from sample_bake import SMALL_CAST, write_bake
 
 
 @pytest.fixture(scope="module")
 def seen(blender, tmp_path_factory):
     folder = tmp_path_factory.mktemp("available")
-    write_bake(folder / "bakes" / "sample", variations=2, gaits=(1,))
+    write_bake(folder / "bakes" / "sample", **SMALL_CAST)
     return result_of(blender(HERE / "check_availability.py", ADDON, folder / "bakes" / "sample", folder))
 
 

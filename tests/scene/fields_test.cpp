@@ -187,5 +187,20 @@ TEST(RoadDistance, HasNoEdgeWhereARoadMeetsAnArea) {
     EXPECT_TRUE(roadDistance(openGround(10.0f), makeGrid(openGround(10.0f))).empty());
 }
 
+TEST(WalkMaps, HoldTheLastOfTheOneWayRoadsThatLieOverEachOther) {
+    WalkGeometry geometry = openGround(20.0f);
+    geometry.roads = {{{{2.0f, 10.0f}, {18.0f, 10.0f}}, 6.0f, true},
+                      {{{10.0f, 2.0f}, {10.0f, 18.0f}, {15.0f, 18.0f}}, 6.0f, true},
+                      {{{2.0f, 4.0f}, {18.0f, 4.0f}}, 3.0f, false}};
+    const FieldGrid grid = makeGrid(geometry);
+    const WalkMap map = makeWalkMap(geometry, grid, true);
+    const auto way = [&](float x, float y) { return map.one_way[cellAt(grid, {x, y})]; };
+    EXPECT_EQ(way(4.0f, 10.0f), glm::vec2(1.0f, 0.0f));
+    EXPECT_EQ(way(10.0f, 10.0f), glm::vec2(0.0f, 1.0f)) << "the second road's, not the first one's";
+    EXPECT_EQ(way(11.0f, 17.0f), glm::vec2(1.0f, 0.0f)) << "of its pieces, the later one's";
+    EXPECT_EQ(way(10.0f, 4.0f), glm::vec2(0.0f)) << "a road that one may walk both ways lies over it";
+    EXPECT_EQ(way(4.0f, 17.0f), glm::vec2(0.0f)) << "no road";
+}
+
 }  // namespace
 }  // namespace throng::authoring
