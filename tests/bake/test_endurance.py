@@ -23,17 +23,20 @@ def growth_in(told):
     return float(told.split(" MiB per ")[0].split()[-1])
 
 
+@pytest.mark.slow
 def test_a_long_bake_needs_no_more_memory_with_its_time(endure, tmp_path):
     told = endure("hours", 10, TMPDIR=str(tmp_path))
     assert "MiB per hour" in told.stdout, told.stderr
     assert growth_in(told.stdout) < 1.0, told.stdout
 
 
+@pytest.mark.slow
 def test_a_leak_of_fifty_bytes_a_frame_and_stream_would_be_seen(endure, faults, tmp_path):
     told = endure("hours", 10, TMPDIR=str(tmp_path), LD_PRELOAD=str(faults), THRONG_LEAK="50")
     assert told.returncode == 1 and growth_in(told.stdout) >= 1.0, told.stdout + told.stderr
 
 
+@pytest.mark.slow
 def test_a_worker_needs_no_more_memory_with_its_scenarios(endure, tmp_path):
     told = endure("batch", 200, TMPDIR=str(tmp_path))
     assert "MiB per thousand" in told.stdout, told.stderr
