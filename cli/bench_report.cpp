@@ -42,14 +42,6 @@ std::string share(double value) {
     return value < 1.0e-4 ? fmt::format("{:.4f} %", 100.0 * value) : fmt::format("{:.2f} %", 100.0 * value);
 }
 
-void writeText(const std::filesystem::path& path, const std::string& text) {
-    std::error_code ignored;
-    std::filesystem::remove(path, ignored);  // a report replaces the one before
-    OutputFile file(path);
-    file.write(text);
-    file.finish();
-}
-
 std::string head(const BenchMachine& machine) {
     return fmt::format("{} ({}), {} processor cores. Times by {}.\n", machine.device.name,
                        machine.device.version, machine.cores, machine.timer);
@@ -208,13 +200,13 @@ std::string proximityCsv(const ProximityReport& report) {
 }  // namespace
 
 void writeDiagramReport(const std::filesystem::path& folder, const DiagramReport& report) {
-    writeText(folder / "diagrams.md", diagramMarkdown(report));
-    writeText(folder / "diagrams.csv", diagramCsv(report));
+    replaceFile(folder / "diagrams.md", diagramMarkdown(report));
+    replaceFile(folder / "diagrams.csv", diagramCsv(report));
 }
 
 void writeProximityReport(const std::filesystem::path& folder, const ProximityReport& report) {
-    writeText(folder / "proximity.md", proximityMarkdown(report));
-    writeText(folder / "proximity.csv", proximityCsv(report));
+    replaceFile(folder / "proximity.md", proximityMarkdown(report));
+    replaceFile(folder / "proximity.csv", proximityCsv(report));
 }
 
 }  // namespace throng::cli

@@ -82,7 +82,7 @@ void run(const Options& options) {
     if (options.output.empty())
         fmt::print("{}", text);
     else
-        writeFile(options.output, text);
+        writeNewFile(options.output, text);
     if (options.json && !options.output.empty()) sayJson({{"output", options.output}});
 }
 

@@ -40,8 +40,7 @@ std::vector<std::string> runOne(const Scenario& scenario, const Options& options
                                 nlohmann::ordered_json& report) {
     const std::filesystem::path folder(options.output);
     const std::filesystem::path layout = folder / fmt::format("{}.json", scenario.name);
-    std::filesystem::remove(layout);  // of an earlier run
-    writeFile(layout, scenario.layout);
+    replaceFile(layout, scenario.layout);
     BakeRequest request;
     request.layout = layout.string();
     request.overrides = options.overrides;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <new>
 #include <string>
@@ -32,6 +34,15 @@ int fail(int code, const std::string& what, bool json, const std::string& hint =
     if (!hint.empty()) fmt::print(stderr, "  hint: {}\n", hint);
     if (json) cli::sayFailureJson(code, what, hint);
     return code;
+}
+
+/// What is printed may go to a file or a program: none of it is missing without a word.
+/// @param code what the command ends with otherwise
+int withAllPrinted(int code) {
+    const bool is_whole = std::fflush(stdout) == 0 && !std::ferror(stdout);
+    if (is_whole || (code != cli::kOk && code != cli::kExpectationMissed)) return code;
+    const char* const reason = errno ? std::strerror(errno) : "it failed";
+    return fail(cli::kOutputFailed, fmt::format("cannot write to standard output: {}", reason), false);
 }
 
 int parseAndRun(CLI::App& app, int argc, char** argv, bool json) {
@@ -77,10 +88,10 @@ int main(int argc, char** argv) {
     cli::addReport(app);
     const bool json = cli::asksForJson(argc, argv);
     try {
-        return parseAndRun(app, argc, argv, json);
+        return withAllPrinted(parseAndRun(app, argc, argv, json));
     } catch (const cli::Exit& exit) {
         if (json && !exit.message.empty()) cli::sayFailureJson(exit.code, exit.message, {}, exit.diagnostics);
-        return exit.code;
+        return withAllPrinted(exit.code);
     } catch (const gl::GraphicsError& error) {
         return fail(cli::kNoGraphics, error.what(), json);
     } catch (const OutputError& error) {
@@ -88,6 +99,8 @@ int main(int argc, char** argv) {
     } catch (const std::bad_alloc&) {
         return fail(cli::kInvalidInput, "there is not enough memory for this", json);
     } catch (const std::exception& error) {
+        // Of what cannot be printed, fmt tells like of any other mistake.
+        if (std::ferror(stdout)) return withAllPrinted(cli::kOk);
         return fail(cli::kInvalidInput, error.what(), json);
     }
 }

@@ -66,19 +66,6 @@ bool isTaken(const fs::path& path) {
     return fs::exists(fs::symlink_status(path));
 }
 
-/// Renames without ever replacing. False when `to` exists. Some network file systems know no flags for
-/// renaming: there, a rename after a check is the best there is, and it still cannot replace a folder that
-/// has files in it.
-bool renameNoReplace(const fs::path& from, const fs::path& to) {
-    if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return true;
-    if (errno == EEXIST) return false;
-    if (errno != EINVAL && errno != ENOSYS) throw OutputError(to, "rename the finished bake to", errno);
-    if (isTaken(to)) return false;
-    if (::rename(from.c_str(), to.c_str()) == 0) return true;
-    if (errno == EEXIST || errno == ENOTEMPTY) return false;
-    throw OutputError(to, "rename the finished bake to", errno);
-}
-
 /// Puts `fresh` in the place of `old` and returns where the old one is now.
 fs::path exchange(const fs::path& fresh, const fs::path& old) {
     if (::renameat2(AT_FDCWD, fresh.c_str(), AT_FDCWD, old.c_str(), RENAME_EXCHANGE) == 0) return fresh;

@@ -4,6 +4,8 @@
 
 Usage: export_batch.py BATCH FILE.parquet|FILE.arrow   (needs pyarrow)
 """
+import contextlib
+import os
 import pathlib
 import sqlite3
 import sys
@@ -14,6 +16,8 @@ import pyarrow.parquet
 
 
 def main(batch, target):
+    if not target.endswith((".parquet", ".arrow", ".feather")):
+        sys.exit(f"{target}: the name has to end in .parquet or .arrow")
     path = pathlib.Path(batch)
     database = path / "results.sqlite" if path.is_dir() else path
     connection = sqlite3.connect(f"file:{database}?mode=ro", uri=True)
@@ -21,12 +25,27 @@ def main(batch, target):
     names = [column[0] for column in cursor.description]
     columns = list(zip(*cursor.fetchall())) or [()] * len(names)
     table = pyarrow.table({name: list(values) for name, values in zip(names, columns)})
-    if target.endswith(".parquet"):
-        pyarrow.parquet.write_table(table, target)
-    elif target.endswith((".arrow", ".feather")):
-        pyarrow.feather.write_feather(table, target)
-    else:
-        sys.exit(f"{target}: the name has to end in .parquet or .arrow")
+    try:
+        write(table, target)
+    except OSError as error:
+        sys.exit(f"{target}: cannot be written: {error}")
+
+
+def write(table, target):
+    """All of it, or nothing."""
+    fresh = pathlib.Path(f"{target}.new-{os.getpid()}")
+    try:
+        with fresh.open("xb") as file:
+            if target.endswith(".parquet"):
+                pyarrow.parquet.write_table(table, file)
+            else:
+                pyarrow.feather.write_feather(table, file)
+            file.flush()
+            os.fsync(file.fileno())
+        fresh.replace(target)
+    finally:
+        with contextlib.suppress(OSError):
+            fresh.unlink()
 
 
 if __name__ == "__main__":

@@ -84,6 +84,18 @@ def bakes(throng, once):
     return bake
 
 
+@pytest.fixture(scope="session")
+def faults(once):
+    """The library that makes machines fail (tests/bake/machine_faults.c)."""
+    compiler = shutil.which("cc")
+    if not compiler:
+        pytest.skip("no C compiler here")
+    source = ROOT / "tests" / "bake" / "machine_faults.c"
+    make = lambda folder: subprocess.run([compiler, "-shared", "-fPIC", "-O1", "-Wall", "-o", folder / "faults.so",
+                                          source, "-ldl"], check=True)
+    return once("machine-faults", make) / "faults.so"
+
+
 def blender_program():
     """Debian's Blender."""
     program = shutil.which("blender")

@@ -2,6 +2,7 @@
 #include "analysis/preview/preview.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <optional>
 #include <string>
@@ -10,31 +11,33 @@
 
 #include "analysis/plot/png.h"
 #include "analysis/preview/plate.h"
+#include "base/files/output_file.h"
 #include "base/process.h"
 
 namespace throng::analysis {
 namespace {
 
-/// Where a picture is made until it is complete, so that a failure leaves nothing that looks like one.
+/// Where a film is made until it is complete, so that a failure leaves nothing that looks like one.
 std::filesystem::path unfinished(const std::filesystem::path& path) {
     std::filesystem::path result = path;
-    result.replace_filename(fmt::format(".{}.unfinished{}", path.stem().string(), path.extension().string()));
+    result.replace_filename(
+        fmt::format(".{}.unfinished-{}{}", path.stem().string(), ::getpid(), path.extension().string()));
     return result;
 }
 
 void publish(const std::filesystem::path& from, const std::filesystem::path& to) {
+    syncFile(from);
     std::error_code error;
     std::filesystem::rename(from, to, error);
-    if (!error) return;
-    std::filesystem::remove(from);
-    throw OutputError(to, "write", error.value());
+    if (error) throw OutputError(to, "write", error.value());
 }
 
 /// ffmpeg, which takes raw frames.
 class Encoder {
   public:
     Encoder(const Plate& plate, const std::filesystem::path& path) : path_(path) {
-        std::vector<std::string> words = {"ffmpeg", "-loglevel", "error", "-nostdin", "-y"};
+        // Without -xerror it ends well where the last of the film found no room on the disk.
+        std::vector<std::string> words = {"ffmpeg", "-loglevel", "error", "-nostdin", "-xerror", "-y"};
         const auto add = [&](std::initializer_list<std::string> more) { words.insert(words.end(), more); };
         add({"-f", "rawvideo", "-pix_fmt", "bgr0", "-s",
              fmt::format("{}x{}", plate.width(), plate.height())});
@@ -91,12 +94,12 @@ void writePreviewVideo(const std::filesystem::path& bake, const std::filesystem:
             progress(static_cast<double>(frame + 1) / plate.frames());
         }
         encoder.finish();
+        publish(temporary, mp4);
     } catch (...) {
         std::error_code ignored;
         std::filesystem::remove(temporary, ignored);
         throw;
     }
-    publish(temporary, mp4);
 }
 
 }  // namespace throng::analysis

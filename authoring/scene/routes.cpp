@@ -231,6 +231,14 @@ float Routes::reachable(std::uint32_t field, const LocalPolygon& from) const {
     return least;
 }
 
+bool Routes::leads(std::span<const glm::vec2> from, const Place& to) {
+    const std::shared_ptr<const Field> field = solve({to}, false);
+    return std::ranges::any_of(from, [&](glm::vec2 point) {
+        const std::uint32_t spot = ground_.spotAt(point);
+        return spot != gpu::NO_INDEX && ground_.lengthFrom(*field, spot) != kUnreachable;
+    });
+}
+
 glm::vec2 Routes::directionFrom(std::uint32_t field, glm::vec2 from) const {
     const std::uint32_t spot = fields_.empty() ? gpu::NO_INDEX : ground_.spotAt(from);
     if (spot == gpu::NO_INDEX) return glm::vec2(0.0f);

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -49,6 +50,9 @@ class Routes {
     /// Metres of walking, kUnreachable where no path leads.
     float reachable(std::uint32_t field, glm::vec2 from) const;
     float reachable(std::uint32_t field, const LocalPolygon& from) const;
+
+    /// Whether a way leads from any of the points to a place. It takes a field that nobody keeps.
+    bool leads(std::span<const glm::vec2> from, const Place& to);
 
     /// Where the way leads at first; zero where it is straight or unknown.
     glm::vec2 directionFrom(std::uint32_t field, glm::vec2 from) const;

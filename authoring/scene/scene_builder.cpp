@@ -555,9 +555,11 @@ class Builder {
         const auto* grid = std::get_if<GridFormation>(&formation.shape);
         if (grid && std::holds_alternative<Extent>(grid->goal)) straight.flags |= gpu::STAGE_ANYWHERE;
         if (geometry_.walls.empty()) return straight;
-        if (const std::string why = whyUnattainable(formation, person, goal); !why.empty()) {
+        if (const auto near = whyUnattainable(formation, person, goal)) {
             complain(formation, i, "has its goal in a wall",
-                     "move the goal, or the wall, or raise `goal_tolerance`", why);
+                     near->empty() ? "move the goal, or the wall"
+                                   : "move the goal, or the wall, or raise `goal_tolerance`",
+                     *near);
             return straight;
         }
         // Even where the straight way is clear, others may push somebody round a corner on the way.
@@ -579,19 +581,21 @@ class Builder {
 
     /// A goal may be nearer to a wall than a body gets to it, as long as it gets near enough.
     /// @returns nothing for goals that will do
-    std::string whyUnattainable(const Formation& formation, const gpu::Person& person, glm::vec2 goal) const {
+    /// @returns nothing where it is; no words where it is in the wall itself
+    std::optional<std::string> whyUnattainable(const Formation& formation, const gpu::Person& person,
+                                               glm::vec2 goal) const {
         constexpr float kHair = 1.0e-4f;  // m, of rounding
         const float depth = wallDepth(geometry_, goal, person.radius);
         if (depth <= static_cast<float>(formation.goal_tolerance) + kHair &&
             wallDepth(geometry_, goal, 0.0f) <= 0.0f && !isInSolid(goal))
-            return {};
+            return std::nullopt;
         const float apart = person.radius - depth;  // from the wall
         if (apart > 0.0f && !isInSolid(goal))
             return fmt::format(
                 ", or nearer to one than its body can come: {:.2f} m from it, with a radius of {:.2f} m and "
                 "a `goal_tolerance` of {:.2f} m",
                 apart, person.radius, formation.goal_tolerance);
-        return " ";
+        return "";
     }
 
     bool isInSolid(glm::vec2 point) const {

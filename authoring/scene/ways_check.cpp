@@ -42,7 +42,7 @@ struct Pieces {
 
 class Checker {
   public:
-    Checker(const Layout& layout, const Rebase& rebase, const WalkGeometry& geometry, const Routes& routes,
+    Checker(const Layout& layout, const Rebase& rebase, const WalkGeometry& geometry, Routes& routes,
             const Scene& scene, Diagnostics& diagnostics)
         : layout_(layout),
           rebase_(rebase),
@@ -126,16 +126,35 @@ class Checker {
         Cells all;
         for (const Place& place : to.places) {
             const Cells cells = cellsInPolygon(grid_, routes_.outline(place, Routes::kTargetDepth));
-            if (to.kind != Destination::Kind::nearest) follow(who, kind, from, cells);
+            if (to.kind != Destination::Kind::nearest)
+                follow(who, kind, from, cells);
+            else
+                checkOneOfSeveral(who, kind, from, cells, place);
             all.insert(all.end(), cells.begin(), cells.end());
         }
-        if (to.kind == Destination::Kind::nearest) follow(who, kind, from, all);
         return all;
     }
 
-    void follow(const std::string& who, const Kind& kind, const Cells& from, const Cells& to) {
+    /// Nobody notices at a route to the nearest of several places that one of them cannot be had.
+    void checkOneOfSeveral(const std::string& who, const Kind& kind, const Cells& from, const Cells& to,
+                           const Place& place) {
+        constexpr std::size_t kMostShut = 20;  // each takes a field
+        const std::string name = routes_.name(place);
+        const auto known = std::ranges::find(shut_, name, &Shut::name);
+        if (known != shut_.end() && std::ranges::find(known->who, who) != known->who.end()) return;
+        if (follow(who, kind, from, to) || shut_.size() == kMostShut) return;
+        std::vector<glm::vec2> starts;
+        for (const std::uint32_t cell : from)
+            starts.push_back(cellCentre(grid_, cell % grid_.width, cell / grid_.width));
+        if (routes_.leads(starts, place)) return;  // these cells may be larger than a door
+        const auto end = known != shut_.end() ? known : shut_.insert(known, {place.where, name, {}});
+        end->who.push_back(who);
+    }
+
+    /// Tells of ways that are none for these. @returns whether any leads there, whoever walks it
+    bool follow(const std::string& who, const Kind& kind, const Cells& from, const Cells& to) {
         const Pieces* narrow = piecesFor(kind);
-        if (!narrow) return;
+        if (!narrow) return true;
         std::vector<std::uint32_t> reached;
         for (const std::uint32_t cell : to)
             if (narrow->of[cell] != kNone) reached.push_back(narrow->of[cell]);
@@ -144,12 +163,14 @@ class Checker {
         for (const std::uint32_t cell : from) {
             const std::uint32_t piece = narrow->of[cell];
             if (piece == kNone) continue;
-            if (std::ranges::binary_search(reached, piece)) return;
+            if (std::ranges::binary_search(reached, piece)) return true;
             starts = true;
         }
         // Starts and goals without room are told elsewhere.
-        if (!starts || reached.empty()) return;
-        if (const auto end = endOfWay(*narrow, from, to)) remember(who, kind, *end);
+        if (!starts || reached.empty()) return true;
+        const auto end = endOfWay(*narrow, from, to);
+        if (end) remember(who, kind, *end);
+        return end.has_value();
     }
 
     /// Where the shortest way of the smallest body, all gates open, first is no way for these.
@@ -174,7 +195,7 @@ class Checker {
                 cell = next[cell];
             return cell;
         }
-        return std::nullopt;  // no way at all: an error of its own
+        return std::nullopt;  // no way at all: an error of its own, or one of several places
     }
 
     float clearanceFor(float radius) const {
@@ -246,6 +267,18 @@ class Checker {
         std::vector<std::string> who;
     };
 
+    /// One of several places to which no way leads, and for whom.
+    struct Shut {
+        SourcePosition where;
+        std::string name;
+        std::vector<std::string> who;
+    };
+
+    static std::string namesOf(const std::vector<std::string>& who) {
+        return fmt::format("`{}`{}", who.front(),
+                           who.size() > 1 ? fmt::format(" and of {} more groups", who.size() - 1) : "");
+    }
+
     void remember(const std::string& who, const Kind& kind, std::uint32_t cell) {
         const glm::vec2 at = cellCentre(grid_, cell % grid_.width, cell / grid_.width);
         const gpu::WallSegment* nearest = nullptr;
@@ -269,12 +302,17 @@ class Checker {
     }
 
     void tell() {
+        for (const Shut& shut : shut_)
+            diagnostics_.warning(shut.where,
+                                 fmt::format("nobody of {} can walk to `{}`: all go to the other places of "
+                                             "`nearest`",
+                                             namesOf(shut.who), shut.name),
+                                 "look for walls across the way, doors narrower than a body, and one-way "
+                                 "roads that point the other way");
         for (const End& end : ends_) {
             const glm::dvec2 at = rebase_.origin() + glm::dvec2(end.at);
             const Wall& wall = layout_.walls[end.wall];
-            const std::string who = fmt::format(
-                "`{}`{}", end.who.front(),
-                end.who.size() > 1 ? fmt::format(" and of {} more groups", end.who.size() - 1) : "");
+            const std::string who = namesOf(end.who);
             if (end.is_gate)
                 diagnostics_.warning(wall.where,
                                      fmt::format("the way of {} ends at the gate `{}`, at [{:.2f}, {:.2f}]: "
@@ -295,18 +333,19 @@ class Checker {
     const Layout& layout_;
     const Rebase& rebase_;
     const WalkGeometry& geometry_;
-    const Routes& routes_;
+    Routes& routes_;
     const Scene& scene_;
     Diagnostics& diagnostics_;
     FieldGrid grid_;
     std::vector<bool> widest_;
     std::map<Kind, Pieces> pieces_;
     std::vector<End> ends_;
+    std::vector<Shut> shut_;
 };
 
 }  // namespace
 
-void checkWays(const Layout& layout, const Rebase& rebase, const WalkGeometry& geometry, const Routes& routes,
+void checkWays(const Layout& layout, const Rebase& rebase, const WalkGeometry& geometry, Routes& routes,
                const Scene& scene, Diagnostics& diagnostics) {
     if (!scene.wall_segments.empty()) Checker(layout, rebase, geometry, routes, scene, diagnostics).check();
 }

@@ -11,11 +11,12 @@
 namespace throng::authoring {
 
 /// Warns of ways that are there for a route, and not for those who are to walk it: doors narrower than the
-/// widest body of a group, and gates that stay closed while the group is there. One warning for each such
-/// place, with where the way ends; in doubt none, as the ground is looked at in cells.
+/// widest body of a group, gates that stay closed while the group is there, and places of a `nearest` behind
+/// walls. One warning for each such place, with where the way ends; in doubt none, as the ground is looked at
+/// in cells.
 /// @param geometry without the gates
 /// @param scene with everybody and all walls' segments
-void checkWays(const Layout& layout, const Rebase& rebase, const WalkGeometry& geometry, const Routes& routes,
+void checkWays(const Layout& layout, const Rebase& rebase, const WalkGeometry& geometry, Routes& routes,
                const Scene& scene, Diagnostics& diagnostics);
 
 }  // namespace throng::authoring

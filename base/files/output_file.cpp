@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <stdio.h>
 #include <unistd.h>
 
 #include <bit>
@@ -92,6 +93,19 @@ void OutputFile::finish() {
     if (::close(descriptor) != 0) throw OutputError(path_, "close", errno);
 }
 
+namespace {
+
+/// Writes under another name in the same folder. @returns its path
+std::filesystem::path writtenBeside(const std::filesystem::path& path, std::string_view content) {
+    std::filesystem::path fresh = path.string() + fmt::format(".new-{}", ::getpid());
+    std::error_code ignored;
+    std::filesystem::remove(fresh, ignored);  // of a process that was killed
+    writeFile(fresh, content);
+    return fresh;
+}
+
+}  // namespace
+
 void writeFile(const std::filesystem::path& path, std::string_view content) {
     OutputFile file(path);
     try {
@@ -104,11 +118,36 @@ void writeFile(const std::filesystem::path& path, std::string_view content) {
     }
 }
 
-void replaceFile(const std::filesystem::path& path, std::string_view content) {
-    const std::filesystem::path fresh = path.string() + fmt::format(".new-{}", ::getpid());
+bool renameNoReplace(const std::filesystem::path& from, const std::filesystem::path& to) {
+    if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return true;
+    if (errno == EEXIST) return false;
+    if (errno != EINVAL && errno != ENOSYS) throw OutputError(to, "give the finished work the name", errno);
+    // Some network file systems know no flags for renaming: there, a rename after a check is the best there
+    // is, and it still cannot replace a folder that has files in it.
+    if (std::filesystem::exists(std::filesystem::symlink_status(to))) return false;
+    if (::rename(from.c_str(), to.c_str()) == 0) return true;
+    if (errno == EEXIST || errno == ENOTEMPTY) return false;
+    throw OutputError(to, "give the finished work the name", errno);
+}
+
+void writeNewFile(const std::filesystem::path& path, std::string_view content) {
     std::error_code ignored;
-    std::filesystem::remove(fresh, ignored);  // of a process that was killed
-    writeFile(fresh, content);
+    const auto isTaken = [&] {
+        return std::filesystem::exists(std::filesystem::symlink_status(path, ignored));
+    };
+    if (isTaken()) throw OutputError(path, "create", EEXIST);
+    const std::filesystem::path fresh = writtenBeside(path, content);
+    try {
+        if (!renameNoReplace(fresh, path)) throw OutputError(path, "create", EEXIST);
+    } catch (const OutputError&) {
+        std::filesystem::remove(fresh, ignored);
+        throw;
+    }
+}
+
+void replaceFile(const std::filesystem::path& path, std::string_view content) {
+    const std::filesystem::path fresh = writtenBeside(path, content);
+    std::error_code ignored;
     if (::rename(fresh.c_str(), path.c_str()) == 0) return;
     const int reason = errno;
     std::filesystem::remove(fresh, ignored);

@@ -53,6 +53,12 @@ void writeFile(const std::filesystem::path& path, std::string_view content);
 /// The same for a file that may exist: it has its old content or the new one, never something in between.
 void replaceFile(const std::filesystem::path& path, std::string_view content);
 
+/// The same under a name that nothing may have yet. Throws OutputError.
+void writeNewFile(const std::filesystem::path& path, std::string_view content);
+
+/// Renames without ever replacing. Throws OutputError. @returns false when `to` exists
+bool renameNoReplace(const std::filesystem::path& from, const std::filesystem::path& to);
+
 /// Puts what somebody else wrote into a file on the disk. Throws OutputError.
 void syncFile(const std::filesystem::path& path);
 

@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "base/files/errors.h"
 #include "base/files/hash.h"
 #include "base/files/input_file.h"
+#include "base/files/output_file.h"
 #include "base/json_shape.h"
 #include "cli/terminal/say.h"
 
@@ -79,17 +79,12 @@ void saveCalibration(const gl::Device& device, const sim::CostModel& model) {
     for (const sim::MethodCost& cost : model.costs)
         json["costs"].push_back(toJson(cost));
     const std::filesystem::path path = calibrationPath(device);
-    const std::filesystem::path draft = path.string() + ".new";
-    std::error_code error;
-    std::filesystem::create_directories(path.parent_path(), error);
-    {
-        std::ofstream file(draft);
-        file << json.dump(2) << '\n';
-        file.close();
-        if (!file) throw OutputError(draft, "cannot be written; XDG_CACHE_HOME names another folder");
+    try {
+        makeFolder(path.parent_path());
+        replaceFile(path, json.dump(2) + "\n");
+    } catch (const OutputError& error) {
+        throw OutputError(path, fmt::format("{}; XDG_CACHE_HOME names another folder", error.what()));
     }
-    std::filesystem::rename(draft, path, error);
-    if (error) throw OutputError(path, "cannot be put in place: " + error.message());
 }
 
 std::optional<sim::CostModel> loadCalibration(const gl::Device& device) {

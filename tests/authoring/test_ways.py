@@ -68,6 +68,38 @@ def test_walls_all_round_are_an_error_and_no_warning_beside_it(warnings):
     assert {told["severity"] for told in warnings(shut, expect=3)} == {"error"}
 
 
+def to_the_nearest(fence, kind="flow", people=1):
+    """A fenced place and an open one, and people who go to the nearest."""
+    fences = [[[14, 4.4], [14, 1], [18, 1], [18, 9], [14, 9], [14, 5.6]]]
+    if fence == "shut":
+        fences.append([[14, 4.4], [14, 5.6]])
+    made = {"throng": 1, "simulation": {"duration": 20},
+            "areas": [{"id": "a", "polygon": [[0, 0], [8, 0], [8, 10], [0, 10]]},
+                      {"id": "fenced", "polygon": [[15, 3], [17, 3], [17, 7], [15, 7]]},
+                      {"id": "open", "polygon": [[22, 0], [26, 0], [26, 10], [22, 10]]}],
+            "walls": [{"id": f"fence{i}", "points": points} for i, points in enumerate(fences)]}
+    goal = {"nearest": ["open", "fenced"]}
+    if kind == "flow":
+        made["flows"] = [{"id": f"f{i}", "from": "a", "to": goal, "count": 5} for i in range(people)]
+    else:
+        made["formations"] = [{"id": "f0", "type": "grid", "origin": [2, 2], "rows": 3, "columns": 3, "goal": goal}]
+    return made
+
+
+@pytest.mark.parametrize("kind", ["flow", "formation"])
+def test_one_of_the_nearest_places_behind_walls_is_told(warnings, kind):
+    [told] = warnings(to_the_nearest("shut", kind))
+    assert told["severity"] == "warning" and told["hint"] and told["line"] > 0
+    assert told["pointer"].endswith("/nearest/1") and "`f0`" in told["message"] and "`fenced`" in told["message"]
+    assert warnings(to_the_nearest("gap", kind)) == []
+
+
+def test_a_place_that_several_groups_cannot_reach_is_told_once(warnings):
+    [told] = warnings(to_the_nearest("shut", people=3))
+    assert "`f0` and of 2 more groups" in told["message"]
+
+
 def test_what_the_repository_has_gets_no_false_warning(throng):
     for found in json.loads(throng("check", *ALL, "--json").stdout):
-        assert not [told for told in found["diagnostics"] if "the way of" in told["message"]], found["file"]
+        assert not [told for told in found["diagnostics"] if "the way of" in told["message"] or
+                    "can walk to" in told["message"]], found["file"]

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Preloaded into the program: makes changes of files below THRONG_FAULT_UNDER fail, kills the process at one of them,
 // lets the clock jump, or loses the device.
-//   THRONG_FAULT=KIND:N:ERRNO  from the N-th (from 1) change of KIND on, all changes fail; KIND `any` counts all
+//   THRONG_FAULT=KIND:N:ERRNO  from the N-th (from 1) change of KIND on, all changes fail; KIND `any` counts all, and
+//                              with `gone` reading fails, too
+//   THRONG_FAULT=read:N:ERRNO  from the N-th piece that is read on, reading fails
 //   THRONG_FAULT=kill:N        SIGKILL before the N-th change
 //   THRONG_FAULT_COUNT=FILE    writes there, as it ends, how many changes there were
 //   THRONG_CLOCK=1             every look at the date is an hour before or after the one before
 //   THRONG_LOSE=N              the device is lost from the N-th question after it on
+//   THRONG_LEAK=BYTES          so much memory is never given back, at each piece that is written
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -20,7 +23,7 @@
 #include <time.h>
 #include <unistd.h>
 
-static atomic_int changes, of_kind, failing, looks, questions;
+static atomic_int changes, of_kind, failing, pieces_read, looks, questions;
 
 static int below(const char* path) {
     const char* under = getenv("THRONG_FAULT_UNDER");
@@ -36,32 +39,66 @@ static int isOurs(int file) {
     return below(path);
 }
 
+// What the fault is, if there is one.
+static int fault(char wanted[32], int* at, int* reason) {
+    const char* text = getenv("THRONG_FAULT");
+    *reason = 0;
+    return text && sscanf(text, "%31[^:]:%d:%d", wanted, at, reason) >= 2;
+}
+
 // Whether this change is to fail; errno says how.
 static int fails(const char* kind, int ours) {
+    char wanted[32];
+    int at, reason;
     if (!ours) return 0;
     const int number = ++changes;
-    const char* fault = getenv("THRONG_FAULT");
-    char wanted[32];
-    int at = 0, reason = 0;
-    if (!fault || sscanf(fault, "%31[^:]:%d:%d", wanted, &at, &reason) < 2) return 0;
+    if (!fault(wanted, &at, &reason)) return 0;
     if (strcmp(wanted, "kill") == 0) {
         if (number == at) kill(getpid(), SIGKILL);
         return 0;
     }
-    if ((strcmp(wanted, "any") == 0 || strcmp(wanted, kind) == 0) && ++of_kind >= at) failing = 1;
+    const int counts = strcmp(wanted, "any") == 0 || strcmp(wanted, "gone") == 0 || strcmp(wanted, kind) == 0;
+    if (counts && ++of_kind >= at) failing = 1;
     if (failing) errno = reason;
     return failing;
 }
 
+static int failsToRead(int file) {
+    char wanted[32];
+    int at, reason;
+    if (!fault(wanted, &at, &reason) || !isOurs(file)) return 0;
+    const int is_gone = strcmp(wanted, "gone") == 0 && failing;
+    const int is_unreadable = strcmp(wanted, "read") == 0 && ++pieces_read >= at;
+    if (is_gone || is_unreadable) errno = reason;
+    return is_gone || is_unreadable;
+}
+
 #define REAL(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
 
+ssize_t write(int file, const void* bytes, size_t count) {
+    if (fails("write", isOurs(file))) return -1;
+    return REAL(write)(file, bytes, count);
+}
+static void leak(void) {
+    const char* bytes = getenv("THRONG_LEAK");
+    static void* volatile lost;
+    if (bytes && (lost = malloc(atoi(bytes)))) memset(lost, 1, atoi(bytes));
+}
+
 ssize_t pwrite(int file, const void* bytes, size_t count, off_t at) {
+    leak();
     if (fails("write", isOurs(file))) return -1;
     return REAL(pwrite)(file, bytes, count, at);
 }
 ssize_t pwrite64(int file, const void* bytes, size_t count, off64_t at) {
     if (fails("write", isOurs(file))) return -1;
     return REAL(pwrite64)(file, bytes, count, at);
+}
+ssize_t pread(int file, void* bytes, size_t count, off_t at) {
+    return failsToRead(file) ? -1 : REAL(pread)(file, bytes, count, at);
+}
+ssize_t pread64(int file, void* bytes, size_t count, off64_t at) {
+    return failsToRead(file) ? -1 : REAL(pread64)(file, bytes, count, at);
 }
 int fsync(int file) { return fails("sync", isOurs(file)) ? -1 : REAL(fsync)(file); }
 int fdatasync(int file) { return fails("sync", isOurs(file)) ? -1 : REAL(fdatasync)(file); }
@@ -82,6 +119,13 @@ int open(const char* path, int flags, ...) {
     const mode_t mode = flags & O_CREAT ? va_arg(more, mode_t) : 0;
     va_end(more);
     return (flags & O_CREAT) && fails("create", below(path)) ? -1 : REAL(open)(path, flags, mode);
+}
+int open64(const char* path, int flags, ...) {
+    va_list more;
+    va_start(more, flags);
+    const mode_t mode = flags & O_CREAT ? va_arg(more, mode_t) : 0;
+    va_end(more);
+    return (flags & O_CREAT) && fails("create", below(path)) ? -1 : REAL(open64)(path, flags, mode);
 }
 
 static time_t jump(void) { return getenv("THRONG_CLOCK") ? (++looks % 2 ? 3600 : -3600) : 0; }

@@ -4,29 +4,15 @@ bytes."""
 import errno
 import json
 import os
-import shutil
 import subprocess
 
 import pytest
 
-from conftest import ROOT
 from processor_time import HANGS
 from test_bakes import SMALL, write
 
 LAYOUT = {**SMALL, "simulation": {"duration": 0.5}}
 OPTIONS = ["-q", "--diagrams", "6", "--checkpoint", "1e-9"]
-
-
-@pytest.fixture(scope="module")
-def faults(once):
-    """The library that makes machines fail."""
-    compiler = shutil.which("cc")
-    if not compiler:
-        pytest.skip("no C compiler here")
-    source = ROOT / "tests" / "bake" / "machine_faults.c"
-    make = lambda folder: subprocess.run([compiler, "-shared", "-fPIC", "-O1", "-Wall", "-o", folder / "faults.so",
-                                          source, "-ldl"], check=True)
-    return once("machine-faults", make) / "faults.so"
 
 
 def content_of(bake):
@@ -48,8 +34,8 @@ def whole(throng, once, faults):
     return folder / "layout.json", content_of(folder / "bake"), counts[0]
 
 
-def run(throng, faults, layout, output, expect, *more, **environment):
-    return throng("bake", layout, "-o", output, *OPTIONS, *more, expect=expect,
+def run(throng, faults, layout, output, expect, options=OPTIONS, **environment):
+    return throng("bake", layout, "-o", output, *options, expect=expect,
                   env={**os.environ, "LD_PRELOAD": str(faults), "THRONG_FAULT_UNDER": str(output),
                        **{name: str(value) for name, value in environment.items()}})
 
@@ -79,9 +65,11 @@ def test_killed_at_any_change_of_a_file_it_goes_on_to_the_same_bytes(throng, fau
 @pytest.mark.parametrize("kind, at, reason", [
     ("mkdir", 1, errno.EROFS), ("create", 3, errno.ENOSPC), ("write", 1, errno.ENOSPC), ("write", 60, errno.ENOSPC),
     ("write", 90, errno.EIO), ("sync", 1, errno.EIO), ("sync", 40, errno.ESTALE), ("rename", 1, errno.EROFS),
-    ("rename", 8, errno.ENOSPC), ("any", 200, errno.EROFS)])
+    ("rename", 8, errno.ENOSPC), ("any", 200, errno.EROFS), ("gone", 1, errno.EIO), ("gone", 30, errno.ENODEV),
+    ("gone", 150, errno.ESTALE), ("gone", -8, errno.ENOTCONN)])
 def test_a_disk_that_fails_is_told_and_leaves_nothing_that_looks_whole(throng, faults, whole, tmp_path, kind, at,
                                                                       reason):
+    at += whole[2] if at < 0 else 0  # where the bake is complete and gets its name
     failed = run(throng, faults, whole[0], tmp_path / "bake", 5, THRONG_FAULT=f"{kind}:{at}:{reason}")
     assert os.strerror(reason) in failed.stderr and str(tmp_path) in failed.stderr
     assert len(failed.stderr.splitlines()) == 1 and not (tmp_path / "bake").exists()
@@ -89,8 +77,13 @@ def test_a_disk_that_fails_is_told_and_leaves_nothing_that_looks_whole(throng, f
 
 
 def test_a_clock_that_jumps_changes_nothing(throng, faults, whole, tmp_path):
-    run(throng, faults, whole[0], tmp_path / "bake", 0, THRONG_CLOCK=1)
-    assert content_of(tmp_path / "bake") == whole[1]
+    changes = []
+    for name, clock in (("steady", {}), ("jumps", {"THRONG_CLOCK": 1})):
+        run(throng, faults, whole[0], tmp_path / name, 0, [*OPTIONS[:-1], "30"],
+            THRONG_FAULT_COUNT=tmp_path / "count", **clock)
+        assert content_of(tmp_path / name) == whole[1]
+        changes.append((tmp_path / "count").read_text().split()[0])
+    assert changes[0] == changes[1], "an hour on the clock is not half an hour of work: no checkpoint is due"
 
 
 def test_without_any_room_for_temporary_files_it_bakes(throng, faults, whole, tmp_path):

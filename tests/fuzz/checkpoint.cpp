@@ -67,14 +67,13 @@ void goOn(const recording::BakeDescription& description, const io::Checkpoint& c
 
 void fuzz::readOne(std::string_view input) {
     const recording::BakeDescription description = crowd().description(folder() / "bake");
-    leaveUnfinished(description);
     const std::filesystem::path unfinished = io::BakeFolder::unfinishedPath(description.output);
-    for (const char* name : {"checkpoint.a", "checkpoint.b"})
-        std::filesystem::remove(unfinished / name);
+    std::filesystem::remove_all(unfinished);
     put(unfinished.filename() / "checkpoint.a",
         input.starts_with(kMagic) ? std::string(input) : sealed(input));
     const auto checkpoint = io::loadCheckpoint(unfinished);
     if (!checkpoint) return;
+    leaveUnfinished(description);
     try {
         goOn(description, *checkpoint);
     } catch (const std::runtime_error&) {

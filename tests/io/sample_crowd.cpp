@@ -11,6 +11,7 @@
 #include <iterator>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 
 namespace throng::test {
@@ -192,20 +193,23 @@ Frame SampleCrowd::frameOf(std::uint32_t index, const PerStream<std::vector<floa
     return frame;
 }
 
+SampleDiagram SampleCrowd::diagramOf(std::uint32_t index) const {
+    std::vector<glm::vec2> sites;
+    // A site out of sight stands for somebody who is not there.
+    for (std::uint32_t row = 0; row < options_.rows; ++row)
+        sites.push_back(isAlive(row, index) ? glm::vec2(position(row, index) + kToScene) : glm::vec2(1e6f));
+    for (int i = 0; i < 10; ++i)
+        sites.push_back(glm::vec2(glm::dvec2(-5.2, 5.2 + i) + kToScene));
+    return {sites, options_.rows, glm::vec2(glm::dvec2(-16.0, -16.0) + kToScene), 128, 96, 4.0f, 0.6f};
+}
+
 void SampleCrowd::makeFrames(std::uint32_t count, const std::function<void(const Frame&)>& take) const {
     for (std::uint32_t index = 0; index < count; ++index) {
         const PerStream<std::vector<float>> values = valuesOf(index);
         Frame frame = frameOf(index, values);
-        std::vector<glm::vec2> sites;
-        // A site out of sight stands for somebody who is not there.
-        for (std::uint32_t row = 0; row < options_.rows && options_.diagram_every > 0; ++row)
-            sites.push_back(isAlive(row, index) ? glm::vec2(position(row, index) + kToScene)
-                                                : glm::vec2(1e6f));
-        for (int i = 0; i < 10 && options_.diagram_every > 0; ++i)
-            sites.push_back(glm::vec2(glm::dvec2(-5.2, 5.2 + i) + kToScene));
-        const SampleDiagram diagram(sites, options_.rows, glm::vec2(glm::dvec2(-16.0, -16.0) + kToScene), 128,
-                                    96, 4.0f, 0.6f);
-        if (options_.diagram_every > 0) frame.diagram = &diagram.image;
+        std::optional<SampleDiagram> diagram;
+        if (options_.diagram_every > 0 && index % options_.diagram_every == 0)
+            frame.diagram = &diagram.emplace(diagramOf(index)).image;
         take(frame);
     }
 }

@@ -25,6 +25,16 @@ struct SampleOptions {
     bool every_stream = false;  ///< on a slope, with all streams from the device
 };
 
+/// A diagram of the given sites by brute force; `site` and `distance` back the image's spans.
+struct SampleDiagram {
+    SampleDiagram(const std::vector<glm::vec2>& sites, std::uint32_t agent_count, glm::vec2 minimum,
+                  std::uint32_t width, std::uint32_t height, float pixels_per_metre, float tile_radius);
+
+    std::vector<std::uint32_t> site;
+    std::vector<float> distance;
+    DiagramImage image;
+};
+
 /// A crowd that needs no simulation: two flows cross at right angles, each person swaying along a straight
 /// lane, as functions of row and frame. Every fifth row enters late, those at the end of their lane leave,
 /// and the last of three rows or more never finds room. Rows that have not entered hold -999, which no file
@@ -60,19 +70,10 @@ class SampleCrowd {
     double distance(std::uint32_t row, std::uint32_t frame) const;
     double speed(std::uint32_t row) const { return 1.1 + 0.1 * (row % 4); }
     PerStream<std::vector<float>> valuesOf(std::uint32_t frame) const;
+    SampleDiagram diagramOf(std::uint32_t index) const;
     Frame frameOf(std::uint32_t index, const PerStream<std::vector<float>>& values) const;
 
     SampleOptions options_;
-};
-
-/// A diagram of the given sites by brute force; `site` and `distance` back the image's spans.
-struct SampleDiagram {
-    SampleDiagram(const std::vector<glm::vec2>& sites, std::uint32_t agent_count, glm::vec2 minimum,
-                  std::uint32_t width, std::uint32_t height, float pixels_per_metre, float tile_radius);
-
-    std::vector<std::uint32_t> site;
-    std::vector<float> distance;
-    DiagramImage image;
 };
 
 /// The bytes of a file; none where it is not there.

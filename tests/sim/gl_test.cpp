@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <epoxy/gl.h>
+
 #include <filesystem>
 #include <fstream>
 
@@ -32,6 +34,12 @@ TEST(Devices, RefusesADeviceThatDoesNotExist) {
     } catch (const gl::GraphicsError& error) {
         EXPECT_NE(std::string(error.what()).find("throng devices"), std::string::npos) << error.what();
     }
+}
+
+TEST_F(GlTest, DriversAreAskedToTellOfResets) {
+    GLint strategy = 0;
+    glGetIntegerv(GL_RESET_NOTIFICATION_STRATEGY, &strategy);
+    EXPECT_EQ(strategy, GL_LOSE_CONTEXT_ON_RESET) << "a lost device would go unnoticed";
 }
 
 TEST_F(GlTest, UploadsAndDownloadsWhatWasPutIn) {

@@ -3,10 +3,10 @@
 import json
 import math
 import os
-import tempfile
 
 import bpy
 
+from ..formats.whole_files import write_whole
 from . import fields, places
 from .codecs import take_all
 from .geometry import AuthoringError, outlines_of, people_of, splines_of
@@ -221,25 +221,10 @@ def layout_text(document):
 
 def write_text(path, text):
     """All of it or nothing."""
-    folder = os.path.dirname(os.path.abspath(path))
     try:
-        handle, temporary = tempfile.mkstemp(dir=folder, prefix=".throng-", suffix=".json")
+        write_whole(path, text.encode())
     except OSError as error:
         raise AuthoringError(f"{path} cannot be written: {error.strerror}") from None
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8") as file:
-            file.write(text)
-        os.chmod(temporary, 0o666 & ~_umask())
-        os.replace(temporary, path)
-    except OSError as error:
-        os.unlink(temporary)
-        raise AuthoringError(f"{path} cannot be written: {error.strerror}") from None
-
-
-def _umask():
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
 
 
 def folder_of_files(scene, document):

@@ -8,6 +8,7 @@ import re
 from dataclasses import dataclass
 
 from ..formats import BakeError
+from ..formats.whole_files import write_whole
 
 VERSION = 1
 _COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
@@ -193,16 +194,7 @@ def text_of(entries):
 def write(path, entries):
     """Replaces a file: it has its old content or the new one, never something in between."""
     check({"throng_overrides": VERSION, "overrides": entries}, path)
-    fresh = f"{path}.new-{os.getpid()}"
     try:
-        with open(fresh, "w", encoding="utf-8", newline="\n") as file:
-            file.write(text_of(entries))
-            file.flush()
-            os.fsync(file.fileno())
-        os.replace(fresh, path)
+        write_whole(path, text_of(entries).encode())
     except OSError as error:
-        try:
-            os.unlink(fresh)
-        except OSError:
-            pass
         raise OverrideError(f"{path} cannot be written: {error.strerror}") from None

@@ -10,6 +10,7 @@ import struct
 from dataclasses import dataclass
 
 from ..formats import STREAMS, BakeError
+from ..formats.whole_files import write_whole
 from .matching import Entrant
 from .override_file import Change
 
@@ -150,14 +151,8 @@ def write_caches(folder, rows, people, changes):
             content = struct.pack("<12siiffi", b"POINTCACHE2\0", 1, len(order), 1.0, 1.0, rows.frames) + bytes(content)
             path = os.path.join(folder, f"{hashlib.blake2b(content, digest_size=8).hexdigest()}.{stream}.pc2")
             paths[stream] = path
-            if os.path.exists(path):
-                continue
-            fresh = f"{path}.new-{os.getpid()}"
-            with open(fresh, "wb") as file:
-                file.write(content)
-                file.flush()
-                os.fsync(file.fileno())
-            os.replace(fresh, path)
+            if not os.path.exists(path):
+                write_whole(path, content)
     except OSError as error:
         raise BakeError(f"the retimed people cannot be written to {folder}: {error.strerror}") from None
     return paths
