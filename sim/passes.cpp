@@ -36,7 +36,7 @@ const gl::Declaration kAvoid = {
 const gl::Declaration kContact = {
     "contacts",
     {"shaders/motion/contact.comp"},
-    {"ParametersBlock", "TouchDispatch", "TouchSlots", "Bodies", "PreferredVelocities", "TouchWords",
+    {"ParametersBlock", "TouchDispatch", "TouchSlots", "Bodies", "Walkers", "PreferredVelocities", "TouchWords",
      "TouchLists", "WallSegments", "WallStarts", "WallItems", "StripStarts", "CellOffsets", "TargetsBefore",
      "TargetsAfter"},
     {"TargetsAfter"}};

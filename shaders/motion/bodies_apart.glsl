@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bodies apart: those that overlap are pushed away from each other, each by its share.
 // Needs the blocks Bodies, TouchLists and TargetsBefore, shaders/cells/cells.glsl and cell_runs.glsl, and
-// shaders/motion/standing_fast.glsl.
+// shaders/motion/standing_fast.glsl and nearest_first.glsl.
 
 vec2 apartDirection(vec2 offset, float size, uint row, uint other_row) {
     if (size > 1.0e-6) return offset / size;
@@ -18,6 +18,7 @@ void addPush(Body self, uint self_slot, float weight, uint slot, vec2 position, 
     if (size_squared >= reach * reach || slot == self_slot) return;
     float size = sqrt(size_squared);
     float its_weight = weightOf(slot, bracing);
+    if (bracing > 0.0) its_weight /= precedence(self_slot, slot, offset);
     vec2 apart = apartDirection(offset, size, self.row, bodies[slot].row);
     push += vec3(apart * (reach - size) * its_weight / (weight + its_weight), 1.0);
 }

@@ -16,6 +16,7 @@ layout(std140) uniform ParametersBlock { Parameters parameters; };
 layout(std430) readonly buffer TouchDispatch { uint touch_groups[3]; uint touch_count; };
 layout(std430) readonly buffer TouchSlots { uint touch_slots[]; };
 layout(std430) readonly buffer Bodies { Body bodies[]; };
+layout(std430) readonly buffer Walkers { Walker walkers[]; };
 layout(std430) readonly buffer PreferredVelocities { vec2 preferred_velocities[]; };
 layout(std430) readonly buffer TouchWords { uint touch_words[]; };
 layout(std430) readonly buffer TouchLists { uint touch_lists[]; };
@@ -31,7 +32,10 @@ uniform float bracing;   // 1 = who is carried off its way gives less than other
 #include "shaders/cells/cells.glsl"
 #include "shaders/cells/cell_runs.glsl"
 #include "shaders/shared/walls.glsl"
+#include "shaders/motion/walking_behind.glsl"
+#include "shaders/motion/impatience.glsl"
 #include "shaders/motion/standing_fast.glsl"
+#include "shaders/motion/nearest_first.glsl"
 #include "shaders/motion/bodies_apart.glsl"
 #include "shaders/motion/out_of_walls.glsl"
 

@@ -25,6 +25,7 @@ uniform uint steps_done;  // counted with this one
 #include "shaders/motion/waiting_line.glsl"
 #include "shaders/motion/under_way.glsl"
 #include "shaders/motion/impatience.glsl"
+#include "shaders/motion/facing_ahead.glsl"
 #include "shaders/motion/turning.glsl"
 #include "shaders/motion/plans.glsl"
 #include "shaders/motion/wide_site.glsl"

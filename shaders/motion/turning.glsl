@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Turning: who walks looks where it goes, who has stopped at what there is to see, and who cannot get on turns on the
 // spot to where it wants to go before it walks there.
-// Needs the blocks ParametersBlock and WaitingLines, and shaders/motion/waiting_line.glsl and under_way.glsl.
+// Needs the blocks ParametersBlock and WaitingLines, and shaders/motion/waiting_line.glsl, under_way.glsl and
+// facing_ahead.glsl.
 
 const float PI = 3.14159265358979;
 
@@ -23,7 +24,8 @@ vec2 nextInLine(AgentState state, Stage stage) {
 /// The heading after one more step.
 float turned(AgentState state, Stage stage, Walker walker, vec2 wish, float speed) {
     bool stops = !isUnderWay(walker);
-    if (speed >= (stops ? TURNING_STEPPING_ASIDE : STANDING_SPEED)) return turnTowards(state.heading, state.velocity);
+    vec2 look = stops ? state.velocity : state.velocity + aheadWhereStuck(wish, state.nervousness);
+    if (speed >= (stops ? TURNING_STEPPING_ASIDE : STANDING_SPEED)) return turnTowards(state.heading, look);
     if (TURNING_ON_THE_SPOT && !stops && length(wish) > STANDING_SPEED) return turnTowards(state.heading, wish);
     vec2 sight = (stage.line != NO_INDEX ? nextInLine(state, stage) : stage.facing) - state.position;
     return stops && length(sight) > TURNING_SIGHT ? turnTowards(state.heading, sight) : state.heading;

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A stream that presses through a door not much wider than a body gets out where people take turns."""
+import json
+
+import numpy
+import pytest
+
+SQUEEZE = {
+    "throng": 1,
+    "simulation": {"duration": 75, "seed": 1},
+    "areas": [{"id": "in", "polygon": [[-8, 0.1], [-6, 0.1], [-6, 1.7], [-8, 1.7]]},
+              {"id": "out", "polygon": [[6, -1], [7, -1], [7, 2.8], [6, 2.8]]}],
+    "walls": [{"points": [[4, 0.5], [4, 0], [-8.2, 0], [-8.2, 1.8], [4, 1.8], [4, 1.3]], "thickness": 0}],
+    "flows": [{"id": "f", "from": "in", "to": "out", "count": 70, "end": 35, "people": {}}],
+}
+DOOR = numpy.array([4.0, 0.9])
+NEAR = 2.0  # m
+
+
+@pytest.fixture(scope="module")
+def squeeze(throng, once):
+    """squeeze(taking turns?): positions, headings and who is there, by frame and person."""
+    def run(takes_turns):
+        def make(folder):
+            (folder / "squeeze.json").write_text(json.dumps(SQUEEZE))
+            throng("bake", folder / "squeeze.json", "-o", folder / "bake", "-q", "--no-gltf",
+                   "--set", "motion.search_beside_walls.enabled=false",
+                   "--set", f"motion.nearest_first.enabled={json.dumps(takes_turns)}",
+                   "--set", f"motion.facing_ahead.enabled={json.dumps(takes_turns)}")
+
+        streams = once(f"squeeze-{takes_turns}", make) / "bake" / "streams"
+        there = numpy.load(streams / "state.npy")[..., 0] > 0.5
+        return numpy.load(streams / "pos.npy")[..., :2], numpy.load(streams / "dir.npy")[..., :2], there
+
+    return run
+
+
+def out_of_the_door(positions):
+    """How many have been beyond it."""
+    return int((positions[..., 0] > DOOR[0]).any(axis=0).sum())
+
+
+def test_who_takes_turns_gets_out_and_who_presses_jams(squeeze):
+    assert out_of_the_door(squeeze(True)[0]) >= 66
+    assert out_of_the_door(squeeze(False)[0]) < 60
+
+
+def test_who_waits_before_a_door_looks_at_it(squeeze):
+    positions, headings, there = squeeze(True)
+    to_door = DOOR - positions
+    before = there & (numpy.linalg.norm(to_door, axis=-1) < NEAR) & (to_door[..., 0] > 0)
+    away = ((headings * to_door).sum(axis=-1) < 0) & before
+    assert away.sum() < 0.05 * before.sum()
