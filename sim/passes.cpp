@@ -36,9 +36,9 @@ const gl::Declaration kAvoid = {
 const gl::Declaration kContact = {
     "contacts",
     {"shaders/motion/contact.comp"},
-    {"ParametersBlock", "TouchDispatch", "TouchSlots", "Bodies", "Walkers", "PreferredVelocities", "TouchWords",
-     "TouchLists", "WallSegments", "WallStarts", "WallItems", "StripStarts", "CellOffsets", "TargetsBefore",
-     "TargetsAfter"},
+    {"ParametersBlock", "TouchDispatch", "TouchSlots", "Bodies", "Walkers", "PreferredVelocities",
+     "TouchWords", "TouchLists", "WallSegments", "WallStarts", "WallItems", "StripStarts", "CellOffsets",
+     "TargetsBefore", "TargetsAfter"},
     {"TargetsAfter"}};
 const gl::Declaration kMove = {"motion",
                                {"shaders/motion/move.comp"},
