@@ -80,6 +80,7 @@ struct Scene {
     std::vector<Group> groups;
 
     std::vector<gpu::WallSegment> wall_segments;
+    std::vector<glm::vec2> narrow_places;  ///< m: middles of narrow passages, if people take turns there
     std::vector<gpu::WallTile> wall_tiles;
     std::vector<GateMove> gate_moves;          ///< in the order of their times
     std::vector<std::uint32_t> open_at_start;  ///< walls

@@ -179,6 +179,10 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
                                        parameter_values.contact_range + scene.largest_radius);
     wall_starts = gl::makeBuffer("wall starts", walls.starts, "cell");
     wall_items = gl::makeBuffer("wall items", walls.items, "wall near a cell");
+    const auto before_narrows =
+        static_cast<float>(scene.settings.motion.number("nearest_first", "before"));
+    narrow_cells = gl::makeBuffer(
+        "narrow cells", markCells(scene.narrow_places, parameter_values, before_narrows), "32 cells");
 
     // One cell more than there are belongs to the last strip: where it starts is how many people there are.
     const std::size_t strips = cells / gpu::CELLS_PER_STRIP + 1;
@@ -257,6 +261,7 @@ std::vector<std::pair<std::string, const gl::Buffer*>> Buffers::named() const {
             {"WallTiles", &wall_tiles},
             {"WallStarts", &wall_starts},
             {"WallItems", &wall_items},
+            {"NarrowCells", &narrow_cells},
             {"CellCounts", &cell_counts},
             {"CellOffsets", &cell_offsets},
             {"CellCursors", &cell_cursors},

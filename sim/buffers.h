@@ -32,7 +32,7 @@ struct Buffers {
     gl::Buffer lines, line_points, tickets;                            // people who wait in line
     gl::Buffer detour_slopes;                                          // what jams add to them
     gl::Buffer queues, queue_heads, entries, entry_points, proposals;  // entering
-    gl::Buffer wall_segments, wall_tiles, wall_starts, wall_items;
+    gl::Buffer wall_segments, wall_tiles, wall_starts, wall_items, narrow_cells;
 
     gl::Buffer cell_counts, cell_offsets, cell_cursors;                    // per cell
     gl::Buffer strip_counts, strip_marks, strip_starts, strip_group_sums;  // per strip of cells

@@ -43,7 +43,7 @@ const gl::Declaration kContact = {
 const gl::Declaration kMove = {"motion",
                                {"shaders/motion/move.comp"},
                                {"ParametersBlock", "LiveDispatch", "People", "Bodies", "Walkers",
-                                "PreferredVelocities", "Paces", "Ways", "Targets", "Stages", "field_cells",
+                                "PreferredVelocities", "TouchWords", "Paces", "Ways", "Targets", "Stages", "field_cells",
                                 "DetourSlopes", "PlanChanges", "WaitingLines", "LinePoints", "States"},
                                {"WaitingLines", "States"}};
 

@@ -10,13 +10,13 @@ const gl::Declaration kMarch = {
     "sensing",
     {"shaders/sensing/sense.comp"},
     {"ParametersBlock", "LiveDispatch", "Bodies", "StripStarts", "CellOffsets", "WallSegments", "WallStarts",
-     "WallTiles", "owners", "page_table", "TouchDispatch"},
+     "NarrowCells", "WallTiles", "owners", "page_table", "TouchDispatch"},
     {"Neighbours", "NeighbourCounts", "TouchWords", "TouchLists", "TouchSlots", "TouchDispatch"}};
 const gl::Declaration kCompare = {
     "sensing",
     {"shaders/sensing/sense_exact.comp"},
     {"ParametersBlock", "LiveDispatch", "Bodies", "StripStarts", "CellOffsets", "WallSegments", "WallStarts",
-     "FarWallStarts", "FarWallItems", "TouchDispatch"},
+     "NarrowCells", "FarWallStarts", "FarWallItems", "TouchDispatch"},
     {"Neighbours", "NeighbourCounts", "TouchWords", "TouchLists", "TouchSlots", "TouchDispatch"}};
 
 }  // namespace

@@ -54,4 +54,16 @@ WallIndex indexWalls(std::span<const gpu::WallSegment> segments, const gpu::Para
     return index;
 }
 
+std::vector<std::uint32_t> markCells(std::span<const glm::vec2> places, const gpu::Parameters& cells,
+                                     float reach) {
+    const std::size_t count = std::size_t{cells.cells_width} * cells.cells_height;
+    std::vector<std::uint32_t> words((count + 31) / 32, 0);
+    for (const glm::vec2 place : places) {
+        gpu::WallSegment point{};
+        point.a = point.b = place;
+        visitCells(point, cells, reach, [&](std::size_t cell) { words[cell / 32] |= 1u << cell % 32; });
+    }
+    return words;
+}
+
 }  // namespace throng::sim

@@ -19,4 +19,8 @@ struct WallIndex {
 /// @param reach m: segments whose surface is within this distance of some point of the cell are listed
 WallIndex indexWalls(std::span<const gpu::WallSegment> segments, const gpu::Parameters& cells, float reach);
 
+/// One bit for every cell, 32 in a word: whether some point of it may lie within `reach` (m) of a place.
+std::vector<std::uint32_t> markCells(std::span<const glm::vec2> places, const gpu::Parameters& cells,
+                                     float reach);
+
 }  // namespace throng::sim

@@ -72,11 +72,15 @@ void visitAlong(const FieldGrid& grid, glm::vec2 a, glm::vec2 b, float reach, Vi
     }
 }
 
-inline float segmentDistance(glm::vec2 point, glm::vec2 a, glm::vec2 b) {
+inline glm::vec2 nearestOnSegment(glm::vec2 point, glm::vec2 a, glm::vec2 b) {
     const glm::vec2 axis = b - a;
     const float squared = glm::dot(axis, axis);
     const float along = squared > 0.0f ? std::clamp(glm::dot(point - a, axis) / squared, 0.0f, 1.0f) : 0.0f;
-    return glm::distance(point, a + along * axis);
+    return a + along * axis;
+}
+
+inline float segmentDistance(glm::vec2 point, glm::vec2 a, glm::vec2 b) {
+    return glm::distance(point, nearestOnSegment(point, a, b));
 }
 
 /// Even-odd rule: any winding.

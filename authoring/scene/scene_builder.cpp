@@ -12,6 +12,7 @@
 
 #include "authoring/layout/layout_reader.h"
 #include "authoring/scene/itineraries.h"
+#include "authoring/scene/narrow_places.h"
 #include "authoring/scene/people.h"
 #include "authoring/scene/raster.h"
 #include "authoring/scene/rebase.h"
@@ -642,6 +643,10 @@ class Builder {
             scene_.detours = routes.detours();
         scene_.fields = routes.store();
         scene_.road_distance = ground_->roadDistances();
+        const MotionSettings& motion = layout_.simulation.motion;
+        if (motion.isOn("nearest_first"))
+            scene_.narrow_places =
+                narrowPlaces(geometry_, static_cast<float>(motion.number("nearest_first", "widest")));
     }
 
     const Layout& layout_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Facing ahead: who is stuck is pushed about by those round it. Its feet follow the pushes, but it keeps looking where
+// Facing ahead: who is stuck at a narrow passage is pushed about by those round it. Its feet follow the pushes, but it keeps looking where
 // it wants to go, as people before a door do: there they stand turned to it.
 
 /// m/s: what is added to one's velocity to tell where one looks.

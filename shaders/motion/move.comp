@@ -9,6 +9,7 @@ layout(std430) readonly buffer People { Person people[]; };
 layout(std430) readonly buffer Bodies { Body bodies[]; };
 layout(std430) readonly buffer Walkers { Walker walkers[]; };
 layout(std430) readonly buffer PreferredVelocities { vec2 preferred_velocities[]; };
+layout(std430) readonly buffer TouchWords { uint touch_words[]; };
 layout(std430) readonly buffer Paces { float paces[]; };
 layout(std430) readonly buffer Ways { vec2 ways[]; };
 layout(std430) readonly buffer Targets { vec2 targets[]; };
@@ -47,7 +48,8 @@ void main() {
     if (speed > self.maximum_speed) state.velocity *= self.maximum_speed / speed;
     float held_up = heldUp(preferred_velocities[slot], paces[slot], state.velocity);
     state.nervousness = grownNervous(state.nervousness, held_up, parameters.step_seconds);
-    state.heading = turned(state, stage, walkers[slot], preferred_velocities[slot], speed);
+    bool in_narrows = (touch_words[slot] & TOUCH_IN_NARROWS) != 0u;
+    state.heading = turned(state, stage, walkers[slot], preferred_velocities[slot], in_narrows, speed);
     if (parameters.is_wide != 0u)
         addFinely(state.walked, state.walked_rest, distance_moved);
     else

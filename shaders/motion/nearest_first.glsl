@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Nearest first: of two who are held up on the same way beside a wall, the one who is ahead gives next to nothing in
+// Nearest first: of two who are held up on the same way at a narrow passage, the one who is ahead gives next to nothing in
 // the first rounds of contact, and the other makes way.
 //
 // Bodies that are round and press evenly form arches before doors: each holds up the next, however long they press. In
@@ -8,17 +8,18 @@
 // ahead is decided between two along the sum of their ways, so both decide alike, nobody is ahead of all who are ahead
 // of it, and whoever is first of all is held up by nobody.
 //
-// Off unless told: where streams meet beside walls, whoever is caught between a heavy neighbour and those who come the
-// other way has nowhere to go, and bodies overlap (docs/motion-notebook.md).
+// Only in and before narrow passages, which the scene's geometry tells (authoring/scene/narrow_places.h): where streams
+// meet beside long walls, whoever is caught between a heavy neighbour and those who come the other way has nowhere to
+// go, and bodies overlap (docs/motion-notebook.md).
 // Needs the blocks Bodies, Walkers, PreferredVelocities and TouchWords, and shaders/motion/walking_behind.glsl
 // and impatience.glsl.
 
-bool wallIsNear(uint slot) { return (touch_words[slot] & TOUCH_WALL_NEAR) != 0u; }
+bool isInNarrows(uint slot) { return (touch_words[slot] & TOUCH_IN_NARROWS) != 0u; }
 
 /// By what factor somebody is heavier (above 1) or lighter than usual beside another.
 /// @param offset from the other to oneself, m
 float precedence(uint self_slot, uint slot, vec2 offset) {
-    if (!NEAREST_FIRST_ENABLED || !(wallIsNear(self_slot) || wallIsNear(slot))) return 1.0;
+    if (!NEAREST_FIRST_ENABLED || !(isInNarrows(self_slot) || isInNarrows(slot))) return 1.0;
     float impatience = max(impatienceOf(walkers[self_slot].nervousness), impatienceOf(walkers[slot].nervousness));
     vec2 mine = preferred_velocities[self_slot];
     vec2 its = preferred_velocities[slot];

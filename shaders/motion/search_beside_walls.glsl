@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Who does not get on at all beside a wall looks for another way: up to so far aside, another way every so often. It is
-// what breaks the arches that form before narrow doors (the fluctuations of Helbing, Farkas and Vicsek 2000).
+// what breaks the arches that form where people press (the fluctuations of Helbing, Farkas and Vicsek 2000). Where
+// people take turns (nearest_first.glsl) there are no arches, and nobody searches.
 // Needs the block ParametersBlock and shaders/shared/random.glsl.
 
 const uint PURPOSE_SEARCH = 0x5eu;
 
 /// rad to the left of the way.
-float searchAngle(uint row, float nervousness, bool wall_near, uint step) {
-    if (!SEARCH_BESIDE_WALLS_ENABLED || !wall_near) return 0.0;
+float searchAngle(uint row, float nervousness, bool may_search, uint step) {
+    if (!SEARCH_BESIDE_WALLS_ENABLED || !may_search) return 0.0;
     float despair = smoothstep(SEARCH_BESIDE_WALLS_BEGINS, SEARCH_BESIDE_WALLS_COMPLETE, nervousness);
     if (despair <= 0.0) return 0.0;
     uint turn = uint(float(step) * parameters.step_seconds / SEARCH_BESIDE_WALLS_PERIOD +

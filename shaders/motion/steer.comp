@@ -41,8 +41,8 @@ void main() {
 
     bool in_party = WAITING_FOR_COMPANY_ENABLED && walker.party_size > 1u;
     if (in_party) ahead.direction = wayWithParty(row, walker, stage, position, ahead);
-    bool wall_near = (touch_words[slot] & TOUCH_WALL_NEAR) != 0u;
-    float angle = ownAngle(row) + searchAngle(row, walker.nervousness, wall_near, steps_done);
+    bool may_search = (touch_words[slot] & (TOUCH_WALL_NEAR | TOUCH_IN_NARROWS)) == TOUCH_WALL_NEAR;
+    float angle = ownAngle(row) + searchAngle(row, walker.nervousness, may_search, steps_done);
     vec2 direction = mat2(cos(angle), sin(angle), -sin(angle), cos(angle)) * ahead.direction;
 
     float speed = walker.preferred_speed;

@@ -4,12 +4,18 @@
 // Needs the blocks TouchWords, Neighbours, NeighbourCounts, WallSegments, WallStarts and WallItems,
 // shaders/cells/cells.glsl, shaders/shared/walls.glsl and shaders/motion/linear_program.glsl.
 
-vec3 wallConstraint(Body self, WallSegment wall) {
+/// s: in narrow passages people do not slow down for a wall that they will not walk into.
+float wallHorizon(uint touch_word) {
+    bool narrow = (touch_word & TOUCH_IN_NARROWS) != 0u;
+    return narrow ? min(parameters.wall_time_horizon, WALLS_AHEAD_IN_NARROWS) : parameters.wall_time_horizon;
+}
+
+vec3 wallConstraint(Body self, WallSegment wall, float horizon) {
     vec2 offset = nearestOnSegment(self.position, wall.a, wall.b) - self.position;
     float size = length(offset);
     vec2 normal = size > 1.0e-6 ? -offset / size : normalize(vec2(wall.a.y - wall.b.y, wall.b.x - wall.a.x));
     float gap = size - self.radius - wall.half_thickness + WALLS_AHEAD_SLACK;
-    return vec3(normal, -gap / (gap > 0.0 ? parameters.wall_time_horizon : WALLS_AHEAD_WAY_OUT));
+    return vec3(normal, -gap / (gap > 0.0 ? horizon : WALLS_AHEAD_WAY_OUT));
 }
 
 float wallDistance(Body self, uint segment) {
@@ -46,7 +52,8 @@ int gatherWalls(Body self, uint slot) {
         kept[at] = segment;
         distances[at] = gap;
     }
-    for (int i = 0; i < count; ++i) setConstraint(i, wallConstraint(self, wall_segments[kept[i]]));
+    float horizon = wallHorizon(touch_words[slot]);
+    for (int i = 0; i < count; ++i) setConstraint(i, wallConstraint(self, wall_segments[kept[i]], horizon));
     return count;
 }
 

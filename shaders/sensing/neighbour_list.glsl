@@ -8,6 +8,7 @@ layout(std430) readonly buffer LiveDispatch { uint live_groups[3]; uint live_cou
 layout(std430) readonly buffer Bodies { Body bodies[]; };
 layout(std430) readonly buffer WallSegments { WallSegment wall_segments[]; };
 layout(std430) readonly buffer WallStarts { uint wall_starts[]; };
+layout(std430) readonly buffer NarrowCells { uint narrow_cells[]; };  // a bit each
 layout(std430) writeonly buffer Neighbours { uint neighbours[]; };
 layout(std430) writeonly buffer NeighbourCounts { uint neighbour_counts[]; };
 layout(std430) writeonly buffer TouchWords { uint touch_words[]; };
@@ -68,7 +69,8 @@ uint feelContacts(Body self, uint self_slot) {
         }
     }
     bool walls = wall_starts[cell_number] != wall_starts[cell_number + 1u];
-    return min(touching, TOUCH_COUNT_MASK) | (walls ? TOUCH_WALL_NEAR : 0u);
+    bool narrow = (narrow_cells[cell_number / 32u] >> cell_number % 32u & 1u) != 0u;
+    return min(touching, TOUCH_COUNT_MASK) | (walls ? TOUCH_WALL_NEAR : 0u) | (narrow ? TOUCH_IN_NARROWS : 0u);
 }
 
 void forgetEverybody() {
@@ -100,7 +102,7 @@ void publish(uint slot, uint touch_word) {
     neighbour_counts[slot] = found;
     touch_words[slot] = touch_word | (wall_found ? TOUCH_WALL_SENSED : 0u);
     // In whatever order: the contact pass writes to each person's own place only.
-    if (touch_word != 0u) {
+    if ((touch_word & ~TOUCH_IN_NARROWS) != 0u) {
         uint place = atomicAdd(touch_count, 1u);
         touch_slots[place] = slot;
         if (place % AGENT_GROUP_SIZE == 0u) atomicAdd(touch_groups[0], 1u);

@@ -31,11 +31,11 @@ const uint STATUS_GONE = 3u;     // arrived, and has left the scene
 /// A neighbour key is a slot, or a wall segment with this bit.
 const uint NEIGHBOUR_IS_WALL = 0x80000000u;
 
-/// A touch word counts those who may touch somebody within this step (its low bits) and says whether walls
-/// matter to it.
+/// A touch word counts those who may touch somebody within this step (its low bits) and says where it is.
 const uint TOUCH_COUNT_MASK = 0xffffu;
 const uint TOUCH_WALL_NEAR = 0x80000000u;    // the cell's list of walls is not empty
 const uint TOUCH_WALL_SENSED = 0x40000000u;  // there is a wall among its neighbours
+const uint TOUCH_IN_NARROWS = 0x20000000u;   // it is in a narrow passage, or close to one
 
 /// Touch lists hold this many slots; where more bodies crowd together, contact goes back to the cells.
 const uint TOUCH_CAPACITY = 16u;
