@@ -179,8 +179,7 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
                                        parameter_values.contact_range + scene.largest_radius);
     wall_starts = gl::makeBuffer("wall starts", walls.starts, "cell");
     wall_items = gl::makeBuffer("wall items", walls.items, "wall near a cell");
-    const auto before_narrows =
-        static_cast<float>(scene.settings.motion.number("nearest_first", "before"));
+    const auto before_narrows = static_cast<float>(scene.settings.motion.number("nearest_first", "before"));
     narrow_cells = gl::makeBuffer(
         "narrow cells", markCells(scene.narrow_places, parameter_values, before_narrows), "32 cells");
 

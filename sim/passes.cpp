@@ -40,12 +40,13 @@ const gl::Declaration kContact = {
      "TouchWords", "TouchLists", "WallSegments", "WallStarts", "WallItems", "StripStarts", "CellOffsets",
      "TargetsBefore", "TargetsAfter"},
     {"TargetsAfter"}};
-const gl::Declaration kMove = {"motion",
-                               {"shaders/motion/move.comp"},
-                               {"ParametersBlock", "LiveDispatch", "People", "Bodies", "Walkers",
-                                "PreferredVelocities", "TouchWords", "Paces", "Ways", "Targets", "Stages", "field_cells",
-                                "DetourSlopes", "PlanChanges", "WaitingLines", "LinePoints", "States"},
-                               {"WaitingLines", "States"}};
+const gl::Declaration kMove = {
+    "motion",
+    {"shaders/motion/move.comp"},
+    {"ParametersBlock", "LiveDispatch", "People", "Bodies", "Walkers", "PreferredVelocities", "TouchWords",
+     "Paces", "Ways", "Targets", "Stages", "field_cells", "DetourSlopes", "PlanChanges", "WaitingLines",
+     "LinePoints", "States"},
+    {"WaitingLines", "States"}};
 
 gl::Definitions together(gl::Definitions some, const gl::Definitions& others) {
     some.insert(some.end(), others.begin(), others.end());

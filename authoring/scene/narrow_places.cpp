@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A passage is narrow where two walls face each other across little room with nothing between them. From points along
-// every wall, the nearest point of each other wall is looked for; the two make a passage if the disc that has them as
-// a diameter holds no part of any wall, which is how Gabriel graphs tell which of many points are next to each other.
-// (K. R. Gabriel and R. R. Sokal 1969, A new statistical approach to geographic variation analysis.) The disc is
-// taken a little smaller: points along walls are never quite opposite. A corner has none: the disc between its two
-// sides holds a part of both.
+// A passage is narrow where two walls face each other across little room with nothing between them. From
+// points along every wall, the nearest point of each other wall is looked for; the two make a passage if the
+// disc that has them as a diameter holds no part of any wall, which is how Gabriel graphs tell which of many
+// points are next to each other. (K. R. Gabriel and R. R. Sokal 1969, A new statistical approach to
+// geographic variation analysis.) The disc is taken a little smaller: points along walls are never quite
+// opposite. A corner has none: the disc between its two sides holds a part of both.
 #include "authoring/scene/narrow_places.h"
 
 #include <algorithm>
@@ -56,8 +56,8 @@ std::vector<glm::vec2> narrowPlaces(const WalkGeometry& geometry, float widest) 
     Places places;
     if (geometry.walls.empty()) return places.take();
     const auto grid = geometry.wall_grid ? geometry.wall_grid
-                                         : std::make_shared<const WallGrid>(
-                                               geometry.walls, geometry.minimum, geometry.maximum);
+                                         : std::make_shared<const WallGrid>(geometry.walls, geometry.minimum,
+                                                                            geometry.maximum);
     const float narrowest = 2.0f * geometry.smallest_radius;
     for (std::uint32_t i = 0; i < geometry.walls.size(); ++i) {
         const gpu::WallSegment& wall = geometry.walls[i];
