@@ -41,8 +41,7 @@ void main() {
 
     bool in_party = WAITING_FOR_COMPANY_ENABLED && walker.party_size > 1u;
     if (in_party) ahead.direction = wayWithParty(row, walker, stage, position, ahead);
-    bool may_search = (touch_words[slot] & (TOUCH_WALL_NEAR | TOUCH_IN_NARROWS)) == TOUCH_WALL_NEAR;
-    float angle = ownAngle(row) + searchAngle(row, walker.nervousness, may_search, steps_done);
+    float angle = ownAngle(row) + searchAngle(row, walker.nervousness, touch_words[slot], steps_done);
     vec2 direction = mat2(cos(angle), sin(angle), -sin(angle), cos(angle)) * ahead.direction;
 
     float speed = walker.preferred_speed;
