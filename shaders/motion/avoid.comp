@@ -31,10 +31,11 @@ uniform uint slot_capacity;
 #include "shaders/cells/cells.glsl"
 #include "shaders/shared/walls.glsl"
 #include "shaders/motion/linear_program.glsl"
-#include "shaders/motion/walls_ahead.glsl"
-#include "shaders/motion/kerb.glsl"
 #include "shaders/motion/drive.glsl"
 #include "shaders/motion/among_all.glsl"
+#include "shaders/motion/taking_turns.glsl"
+#include "shaders/motion/walls_ahead.glsl"
+#include "shaders/motion/kerb.glsl"
 #include "shaders/motion/company.glsl"
 #include "shaders/motion/under_way.glsl"
 #include "shaders/motion/planted_feet.glsl"
@@ -66,7 +67,7 @@ void main() {
     vec2 legs = self.velocity;  // what they start from
     plantFeet(self, walker, around.in_peace && headway > 0.0, around.in_traffic, wanted, legs);
 
-    int hard = wallsAhead(self, slot);
+    int hard = wallsAhead(self, walker, slot);
     int count = hard + kerbBeside(self, walker, hard);
     vec2 velocity = nearestAllowed(hard, count, self.maximum_speed, wanted);
     velocity = limitChange(legs, velocity, parameters.maximum_acceleration * parameters.step_seconds);

@@ -35,6 +35,8 @@ uniform float bracing;   // 1 = who is carried off its way gives less than other
 #include "shaders/motion/walking_behind.glsl"
 #include "shaders/motion/impatience.glsl"
 #include "shaders/motion/standing_fast.glsl"
+#include "shaders/motion/headway.glsl"
+#include "shaders/motion/taking_turns.glsl"
 #include "shaders/motion/nearest_first.glsl"
 #include "shaders/motion/bodies_apart.glsl"
 #include "shaders/motion/out_of_walls.glsl"

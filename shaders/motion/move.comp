@@ -26,6 +26,9 @@ uniform uint steps_done;  // counted with this one
 #include "shaders/motion/waiting_line.glsl"
 #include "shaders/motion/under_way.glsl"
 #include "shaders/motion/impatience.glsl"
+#include "shaders/motion/walking_behind.glsl"
+#include "shaders/motion/headway.glsl"
+#include "shaders/motion/taking_turns.glsl"
 #include "shaders/motion/facing_ahead.glsl"
 #include "shaders/motion/turning.glsl"
 #include "shaders/motion/plans.glsl"
@@ -48,8 +51,8 @@ void main() {
     if (speed > self.maximum_speed) state.velocity *= self.maximum_speed / speed;
     float held_up = heldUp(preferred_velocities[slot], paces[slot], state.velocity);
     state.nervousness = grownNervous(state.nervousness, held_up, parameters.step_seconds);
-    bool in_narrows = (touch_words[slot] & TOUCH_IN_NARROWS) != 0u;
-    state.heading = turned(state, stage, walkers[slot], preferred_velocities[slot], in_narrows, speed);
+    bool takes_turns = takesTurns(walkers[slot], touch_words[slot]);
+    state.heading = turned(state, stage, walkers[slot], preferred_velocities[slot], takes_turns, speed);
     if (parameters.is_wide != 0u)
         addFinely(state.walked, state.walked_rest, distance_moved);
     else

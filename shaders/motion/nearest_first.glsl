@@ -14,12 +14,12 @@
 // Needs the blocks Bodies, Walkers, PreferredVelocities and TouchWords, and shaders/motion/walking_behind.glsl
 // and impatience.glsl.
 
-bool isInNarrows(uint slot) { return (touch_words[slot] & TOUCH_IN_NARROWS) != 0u; }
+bool takesTurnsAt(uint slot) { return takesTurns(walkers[slot], touch_words[slot]); }
 
 /// By what factor somebody is heavier (above 1) or lighter than usual beside another.
 /// @param offset from the other to oneself, m
 float precedence(uint self_slot, uint slot, vec2 offset) {
-    if (!NEAREST_FIRST_ENABLED || !(isInNarrows(self_slot) || isInNarrows(slot))) return 1.0;
+    if (!NEAREST_FIRST_ENABLED || !(takesTurnsAt(self_slot) || takesTurnsAt(slot))) return 1.0;
     float impatience = max(impatienceOf(walkers[self_slot].nervousness), impatienceOf(walkers[slot].nervousness));
     vec2 mine = preferred_velocities[self_slot];
     vec2 its = preferred_velocities[slot];

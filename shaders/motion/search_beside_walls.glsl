@@ -7,12 +7,11 @@
 const uint PURPOSE_SEARCH = 0x5eu;
 
 /// rad to the left of the way.
-float searchAngle(uint row, float nervousness, uint touch_word, uint step) {
+float searchAngle(uint row, Walker walker, uint touch_word, uint step) {
     if (!SEARCH_BESIDE_WALLS_ENABLED || (touch_word & TOUCH_WALL_NEAR) == 0u) return 0.0;
-    bool takes_turns = (touch_word & TOUCH_IN_NARROWS) != 0u;
-    float despair = takes_turns
-                        ? smoothstep(SEARCH_BESIDE_WALLS_IN_NARROWS, 1.0, nervousness)
-                        : smoothstep(SEARCH_BESIDE_WALLS_BEGINS, SEARCH_BESIDE_WALLS_COMPLETE, nervousness);
+    float despair = takesTurns(walker, touch_word)
+                        ? smoothstep(SEARCH_BESIDE_WALLS_IN_NARROWS, 1.0, walker.nervousness)
+                        : smoothstep(SEARCH_BESIDE_WALLS_BEGINS, SEARCH_BESIDE_WALLS_COMPLETE, walker.nervousness);
     if (despair <= 0.0) return 0.0;
     uint turn = uint(float(step) * parameters.step_seconds / SEARCH_BESIDE_WALLS_PERIOD +
                      randomUnit(parameters.seed, row, PURPOSE_SEARCH));

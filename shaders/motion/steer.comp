@@ -22,6 +22,9 @@ uniform uint steps_done;  // counted with this one
 #include "shaders/routes/route.glsl"
 #include "shaders/motion/waiting_line.glsl"
 #include "shaders/motion/symmetry_breaking.glsl"
+#include "shaders/motion/walking_behind.glsl"
+#include "shaders/motion/headway.glsl"
+#include "shaders/motion/taking_turns.glsl"
 #include "shaders/motion/search_beside_walls.glsl"
 #include "shaders/motion/waiting_for_company.glsl"
 #include "shaders/motion/coming_to_rest.glsl"
@@ -41,7 +44,7 @@ void main() {
 
     bool in_party = WAITING_FOR_COMPANY_ENABLED && walker.party_size > 1u;
     if (in_party) ahead.direction = wayWithParty(row, walker, stage, position, ahead);
-    float angle = ownAngle(row) + searchAngle(row, walker.nervousness, touch_words[slot], steps_done);
+    float angle = ownAngle(row) + searchAngle(row, walker, touch_words[slot], steps_done);
     vec2 direction = mat2(cos(angle), sin(angle), -sin(angle), cos(angle)) * ahead.direction;
 
     float speed = walker.preferred_speed;

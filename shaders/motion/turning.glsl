@@ -22,10 +22,10 @@ vec2 nextInLine(AgentState state, Stage stage) {
 }
 
 /// The heading after one more step.
-float turned(AgentState state, Stage stage, Walker walker, vec2 wish, bool in_narrows, float speed) {
+float turned(AgentState state, Stage stage, Walker walker, vec2 wish, bool takes_turns, float speed) {
     bool stops = !isUnderWay(walker);
     vec2 look = state.velocity;
-    if (in_narrows && !stops) look += aheadWhereStuck(wish, state.nervousness);
+    if (takes_turns && !stops) look += aheadWhereStuck(wish, state.nervousness);
     if (speed >= (stops ? TURNING_STEPPING_ASIDE : STANDING_SPEED)) return turnTowards(state.heading, look);
     if (TURNING_ON_THE_SPOT && !stops && length(wish) > STANDING_SPEED) return turnTowards(state.heading, wish);
     vec2 sight = (stage.line != NO_INDEX ? nextInLine(state, stage) : stage.facing) - state.position;

@@ -5,9 +5,8 @@
 // shaders/cells/cells.glsl, shaders/shared/walls.glsl and shaders/motion/linear_program.glsl.
 
 /// s: in narrow passages people do not slow down for a wall that they will not walk into.
-float wallHorizon(uint touch_word) {
-    bool narrow = (touch_word & TOUCH_IN_NARROWS) != 0u;
-    return narrow ? min(parameters.wall_time_horizon, WALLS_AHEAD_IN_NARROWS) : parameters.wall_time_horizon;
+float wallHorizon(bool takes_turns) {
+    return takes_turns ? min(parameters.wall_time_horizon, WALLS_AHEAD_IN_NARROWS) : parameters.wall_time_horizon;
 }
 
 vec3 wallConstraint(Body self, WallSegment wall, float horizon) {
@@ -24,7 +23,7 @@ float wallDistance(Body self, uint segment) {
 }
 
 /// The walls near by, exactly, and then those seen further ahead; the nearest WALL_CONSTRAINTS of them.
-int gatherWalls(Body self, uint slot) {
+int gatherWalls(Body self, Walker walker, uint slot) {
     uint kept[WALL_CONSTRAINTS];
     float distances[WALL_CONSTRAINTS];
     int count = 0;
@@ -52,13 +51,13 @@ int gatherWalls(Body self, uint slot) {
         kept[at] = segment;
         distances[at] = gap;
     }
-    float horizon = wallHorizon(touch_words[slot]);
+    float horizon = wallHorizon(takesTurns(walker, touch_words[slot]));
     for (int i = 0; i < count; ++i) setConstraint(i, wallConstraint(self, wall_segments[kept[i]], horizon));
     return count;
 }
 
 /// Sets the constraints of walls. @returns how many
-int wallsAhead(Body self, uint slot) {
+int wallsAhead(Body self, Walker walker, uint slot) {
     bool walls = (touch_words[slot] & (TOUCH_WALL_NEAR | TOUCH_WALL_SENSED)) != 0u;
-    return WALLS_AHEAD_ENABLED && walls ? gatherWalls(self, slot) : 0;
+    return WALLS_AHEAD_ENABLED && walls ? gatherWalls(self, walker, slot) : 0;
 }
