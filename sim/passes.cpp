@@ -26,13 +26,13 @@ const gl::Declaration kSteer = {
     {"shaders/motion/steer.comp"},
     {"ParametersBlock", "LiveDispatch", "States", "Bodies", "Walkers", "Stages", "field_cells",
      "DetourSlopes", "WaitingLines", "LinePoints", "TouchWords", "TerrainNodes"},
-    {"PreferredVelocities"}};
+    {"Walkers", "PreferredVelocities"}};
 const gl::Declaration kAvoid = {
     "avoidance",
     {"shaders/motion/avoid.comp"},
     {"ParametersBlock", "LiveDispatch", "States", "Bodies", "Walkers", "PreferredVelocities", "Neighbours",
      "NeighbourCounts", "TouchWords", "WallSegments", "WallStarts", "WallItems", "RoadDistances"},
-    {"Targets", "TargetsAfter", "Paces", "Ways"}};
+    {"TouchWords", "Targets", "TargetsAfter", "Paces", "Ways"}};
 const gl::Declaration kContact = {
     "contacts",
     {"shaders/motion/contact.comp"},

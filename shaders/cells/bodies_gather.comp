@@ -41,7 +41,7 @@ void main() {
     bodies[slot] = body;
     walkers[slot] = Walker(person.preferred_speed, person.headway, person.flags, person.party_first, person.party_size,
                            person.change_count, state.status, state.stage, state.stage_end, state.leave_step,
-                           state.ticket, state.nervousness);
+                           state.ticket, state.nervousness, 0u);
 
     precise vec2 pixel = (body.position - parameters.diagram_minimum) * parameters.pixels_per_metre;
     DiagramSite site;

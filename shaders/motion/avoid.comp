@@ -13,7 +13,7 @@ layout(std430) readonly buffer Walkers { Walker walkers[]; };
 layout(std430) readonly buffer PreferredVelocities { vec2 preferred_velocities[]; };
 layout(std430) readonly buffer Neighbours { uint neighbours[]; };
 layout(std430) readonly buffer NeighbourCounts { uint neighbour_counts[]; };
-layout(std430) readonly buffer TouchWords { uint touch_words[]; };
+layout(std430) buffer TouchWords { uint touch_words[]; };
 layout(std430) readonly buffer WallSegments { WallSegment wall_segments[]; };
 layout(std430) readonly buffer WallStarts { uint wall_starts[]; };
 layout(std430) readonly buffer WallItems { uint wall_items[]; };
@@ -41,6 +41,17 @@ uniform uint slot_capacity;
 #include "shaders/motion/planted_feet.glsl"
 #include "shaders/motion/wide_site.glsl"
 
+/// Of those sensed who are under way.
+bool anybodyIsOncoming(uint slot) {
+    bool found = false;
+    for (uint i = 0u; i < neighbour_counts[slot]; ++i) {
+        uint key = neighbourKey(slot, i);
+        if ((key & NEIGHBOUR_IS_WALL) != 0u || length(preferred_velocities[key]) <= STANDING_SPEED) continue;
+        found = found || isOncoming(walkers[slot].way_through, walkers[key].way_through);
+    }
+    return found;
+}
+
 void main() {
     uint slot = gl_GlobalInvocationID.x;
     if (slot >= live_count) return;
@@ -60,6 +71,7 @@ void main() {
     if (HEADWAY_IN_PEACE_ENABLED && around.in_peace && headway <= 0.0)
         pace = paceAmongAll(self, slot, way, speed, headwayInPeace(impatience));
     paces[slot] = pace;
+    if ((touch_words[slot] & TOUCH_IN_NARROWS) != 0u && anybodyIsOncoming(slot)) touch_words[slot] &= ~TOUCH_IN_NARROWS;
 
     vec2 acceleration = drive(wish, speed, pace, self.velocity) + around.room * shareOfRoom(speed) +
                         company(self, walker, way, speed);

@@ -7,7 +7,7 @@ layout(std140) uniform ParametersBlock { Parameters parameters; };
 layout(std430) readonly buffer LiveDispatch { uint live_groups[3]; uint live_count; };
 layout(std430) readonly buffer States { AgentState states[]; };
 layout(std430) readonly buffer Bodies { Body bodies[]; };
-layout(std430) readonly buffer Walkers { Walker walkers[]; };
+layout(std430) buffer Walkers { Walker walkers[]; };
 layout(std430) readonly buffer Stages { Stage stages[]; };
 uniform usamplerBuffer field_cells;  // FieldCell
 layout(std430) readonly buffer DetourSlopes { vec2 detour_slopes[]; };
@@ -25,6 +25,7 @@ uniform uint steps_done;  // counted with this one
 #include "shaders/motion/walking_behind.glsl"
 #include "shaders/motion/headway.glsl"
 #include "shaders/motion/taking_turns.glsl"
+#include "shaders/motion/way_through.glsl"
 #include "shaders/motion/search_beside_walls.glsl"
 #include "shaders/motion/waiting_for_company.glsl"
 #include "shaders/motion/coming_to_rest.glsl"
@@ -41,6 +42,9 @@ void main() {
     Walker walker = walkers[slot];
     Stage stage = stageOf(walker.stage, walker.ticket);
     RouteAhead ahead = routeAhead(stage, position);
+
+    bool narrow = (touch_words[slot] & TOUCH_IN_NARROWS) != 0u;
+    walkers[slot].way_through = packSnorm2x16(narrow ? wayThrough(stage, position, ahead) : ahead.direction);
 
     bool in_party = WAITING_FOR_COMPANY_ENABLED && walker.party_size > 1u;
     if (in_party) ahead.direction = wayWithParty(row, walker, stage, position, ahead);

@@ -89,6 +89,7 @@ struct Walker {
     uint leave_step;
     uint ticket;
     float nervousness;
+    uint way_through;  // where its way leads beyond a narrow passage: a direction, packed (snorm 2 x 16)
 };
 
 /// A site of the diagram, in pixels from the window's corner.
