@@ -24,9 +24,7 @@ def squeeze(throng, once):
         def make(folder):
             (folder / "squeeze.json").write_text(json.dumps(SQUEEZE))
             throng("bake", folder / "squeeze.json", "-o", folder / "bake", "-q", "--no-gltf",
-                   "--set", "motion.search_beside_walls.enabled=false",
-                   "--set", f"motion.nearest_first.enabled={json.dumps(takes_turns)}",
-                   "--set", f"motion.facing_ahead.enabled={json.dumps(takes_turns)}")
+                   "--set", f"motion.nearest_first.enabled={json.dumps(takes_turns)}")
 
         streams = once(f"squeeze-{takes_turns}", make) / "bake" / "streams"
         there = numpy.load(streams / "state.npy")[..., 0] > 0.5
