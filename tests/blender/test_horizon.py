@@ -47,9 +47,14 @@ def test_ground_goes_on_from_a_terrains_edge_to_the_horizon():
     assert level and level == [pytest.approx(middle[2])] * len(level), "flat near by"
     far = [z - middle[2] for distance, (_, _, z) in zip(out, country) if distance > 3700.0]
     assert min(far) >= 0.0 and 60.0 < max(far) < 120.0, "hills far away"
-    used = {corner for quad in quads for corner in quad}
-    assert used == set(range(len(country))) and len(quads) == len(country) - 32
-    for a, b, c, _ in quads:  # seen from above
+
+
+def test_the_country_is_one_surface_that_faces_upwards():
+    border = [(x, y, 0.0) for x, y in horizon.rectangle((-10.0, -4.0), (10.0, 4.0), 8)]
+    country, quads = horizon.country(border)
+    assert {corner for quad in quads for corner in quad} == set(range(len(country)))
+    assert len(quads) == len(country) - len(border) == len(set(quads))
+    for a, b, c, _ in quads:
         (ax, ay, _), (bx, by, _), (cx, cy, _) = country[a], country[b], country[c]
         assert (bx - ax) * (cy - ay) - (by - ay) * (cx - ax) > 0.0
 

@@ -87,7 +87,8 @@ def _haze():
     tree, given, result = new_tree(HAZE, [("Surface", "NodeSocketShader")], [("Surface", "NodeSocketShader")],
                                    "ShaderNodeTree")
     shading = Shading(tree)
-    colour, visibility = shading.node("ShaderNodeRGB", name="Colour"), shading.node("ShaderNodeValue", name="Visibility")
+    colour = shading.node("ShaderNodeRGB", name="Colour")
+    visibility = shading.node("ShaderNodeValue", name="Visibility")
     visibility.outputs[0].default_value = 2600.0
     distance = shading.node("ShaderNodeCameraData").outputs["View Distance"]
     through = shading.math("EXPONENT", shading.math("MULTIPLY", shading.math("DIVIDE", distance, visibility.outputs[0]),
@@ -123,7 +124,7 @@ def _rain():
     sealed = shading.math("SUBTRACT", 1.0, given.outputs["Soft"])
     puddle = shading.math("MULTIPLY", puddle, shading.math("MULTIPLY", level, sealed))
     damp = shading.math("MULTIPLY", amount, shading.smooth(hollows, 0.25, 0.60, 0.55, 1.0))
-    shade = shading.math("SUBTRACT", 1.0, shading.math("MULTIPLY", damp, 0.55))
+    shade = shading.math("SUBTRACT", 1.0, shading.math("MULTIPLY", damp, 0.60))
     dark = shading.times(given.outputs["Colour"], shade)
     shading.link(shading.mix(puddle, dark, shading.times(dark, 0.55)), result.inputs["Colour"])
     shiny = shading.math("MULTIPLY", damp, sealed)
