@@ -2,8 +2,8 @@
 """Imports a bake with the add-on of this checkout and renders a still, without a display.
 
 blender -b --factory-startup --python-exit-code 1 -P scripts/render_bake.py -- BAKE OUT.png [--frame N] [--samples N]
-        [--width W] [--height H] [--engine cycles|eevee|workbench] [--shot crane|street|wide] [--light day|night]
-        [--levels] [--save FILE.blend]
+        [--width W] [--height H] [--engine cycles|eevee|workbench] [--shot crane|street|wide] [--light noon|overcast|late|night]
+        [--wet [AMOUNT]] [--levels] [--save FILE.blend]
 """
 import argparse
 import os
@@ -13,6 +13,16 @@ import bpy
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "blender_addon"))
 import throng  # noqa: E402
+
+
+def share(text):
+    try:
+        value = float(text)
+    except ValueError:
+        value = -1.0
+    if not 0.0 <= value <= 1.0:
+        raise argparse.ArgumentTypeError(f"expected how much, from 0 (dry) to 1 (puddles), found `{text}`")
+    return value
 
 
 def arguments():
@@ -25,7 +35,9 @@ def arguments():
     parser.add_argument("--height", type=int, default=540)
     parser.add_argument("--engine", choices=("cycles", "eevee", "workbench"), default="cycles")
     parser.add_argument("--shot", choices=("crane", "street", "wide"), default="crane")
-    parser.add_argument("--light", choices=("day", "night"), default="day")
+    parser.add_argument("--light", choices=("noon", "overcast", "late", "night"), default="late")
+    parser.add_argument("--wet", type=share, nargs="?", const=1.0, default=0.0, metavar="AMOUNT",
+                        help="how wet the ground is, from 0 to 1, which has puddles; 1 unless told")
     parser.add_argument("--levels", action="store_true", help="with coarser people far away")
     parser.add_argument("--save", help="also save the scene; paths in it are relative")
     return parser.parse_args(sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else [])
@@ -64,8 +76,10 @@ def main():
     set_up_render(scene, options)
     if options.shot != "crane":
         bpy.ops.throng.shot(kind=options.shot)
-    if options.light != "day":
+    if options.light != "late":
         bpy.ops.throng.light(time=options.light)
+    if options.wet:
+        bpy.ops.throng.rain(amount=options.wet)
     if options.levels:
         bpy.ops.throng.levels(by="camera")
     crowd = next(c for c in bpy.data.collections if "throng_bake" in c)

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs inside Blender: a crowd seen from a crane, from the street and from afar, by day and by night."""
+"""Runs inside Blender: a crowd seen from a crane, from the street and from afar, in every light, dry and wet."""
 import json
 import os
 import sys
+import tempfile
 
 import bpy
 
@@ -10,6 +11,8 @@ addon, bake = sys.argv[-2:]
 sys.path.insert(0, addon)
 import throng  # noqa: E402
 from bpy_extras.object_utils import world_to_camera_view  # noqa: E402
+from mathutils import Vector  # noqa: E402
+from throng.crowd.names import INSTANCERS  # noqa: E402
 
 bpy.ops.wm.read_factory_settings(use_empty=True)
 throng.register()
@@ -31,7 +34,7 @@ for kind in ("street", "wide", "crane"):
                              "height": camera.location.z,
                              "nearest": min((camera.location.xy - place.xy).length for place in places),
                              "cameras": sum(thing.type == "CAMERA" for thing in scene.objects)}
-for time in ("night", "day", "night"):
+for time in ("night", "noon", "overcast", "late", "night"):
     assert bpy.ops.throng.light(time=time) == {"FINISHED"}
     lights = [thing for thing in scene.objects if thing.type == "LIGHT"]
     heads = [thing for thing in scene.objects if thing.name.startswith("Throng lamp heads")]
@@ -39,4 +42,41 @@ for time in ("night", "day", "night"):
         "kinds": sorted(light.data.type for light in lights), "world": scene.world.name.split(".")[0],
         "lamps": [list(light.location.xy) for light in lights if light.data.type == "POINT"],
         "clamp": scene.cycles.sample_clamp_indirect, "heads_light": [head.visible_diffuse for head in heads]})
+corners = [(corner.co.x, corner.co.y) for corner in scene.objects["Throng surroundings"].data.vertices]
+result["reach"] = min(max(axis * corner[i] for corner in corners) for i in (0, 1) for axis in (-1.0, 1.0))
+result["clip"] = scene.camera.data.clip_end
+
+crowd = scene.objects[f"{collection.name} crowd"]
+for name in INSTANCERS:
+    crowd.modifiers.remove(crowd.modifiers[name])  # its people would be most of the work
+scene.render.engine = "CYCLES"
+scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = 64, 36, 100
+scene.render.image_settings.file_format = "PNG"
+scene.cycles.samples, scene.cycles.use_denoising, scene.cycles.seed = 8, False, 1
+scene.camera.data.dof.use_dof = False
+scene.camera.data.lens = 20.0
+
+
+def picture(place, aim):
+    """Grey values, row by row from below, of what is seen from a place towards another."""
+    scene.camera.constraints.clear()
+    scene.camera.location = place
+    scene.camera.rotation_euler = (Vector(aim) - Vector(place)).to_track_quat("-Z", "Y").to_euler()
+    with tempfile.TemporaryDirectory() as folder:
+        scene.render.filepath = os.path.join(folder, "picture.png")
+        bpy.ops.render.render(write_still=True)
+        image = bpy.data.images.load(scene.render.filepath)
+        pixels = list(image.pixels)
+        bpy.data.images.remove(image)
+    return [sum(pixels[i:i + 3]) / 3.0 for i in range(0, len(pixels), 4)]
+
+
+result["sky"], result["paving"] = {}, {}
+for time in ("noon", "overcast", "late", "night"):
+    assert bpy.ops.throng.light(time=time) == {"FINISHED"}
+    result["sky"][time] = picture((0.0, 0.0, 60.0), (-60.0, 0.0, 90.0))
+assert bpy.ops.throng.light(time="overcast") == {"FINISHED"}
+for amount in (0.0, 0.5, 1.0):
+    assert bpy.ops.throng.rain(amount=amount) == {"FINISHED"}
+    result["paving"][str(amount)] = picture((44.0, 5.0, 7.0), (44.0, 5.1, 0.0))
 print("RESULT " + json.dumps(result))

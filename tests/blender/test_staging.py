@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Shots and lights of a crowd in a real Blender."""
+import numpy
 import pytest
 
 from results import ADDON, HERE, result_of
@@ -19,13 +20,40 @@ def test_shots_show_the_crowd(staged):
     assert {shot["cameras"] for shot in shots.values()} == {1}
 
 
+DAYS = ("noon", "overcast", "late")
+
+
 def test_days_have_a_sun_and_nights_the_same_lamps_again(staged):
-    day, = staged["lights"]["day"]
     first, again = staged["lights"]["night"]
-    assert day["clamp"] > 1.0 > first["clamp"] and day["heads_light"] == [], "fireflies are clamped at night only"
-    assert day["kinds"] == ["SUN"] and day["world"] == "Throng sky"
-    assert first["heads_light"] == [False] and first["world"] == "Throng night" and first["kinds"].count("POINT") >= 4
+    for time in DAYS:
+        day, = staged["lights"][time]
+        assert day["clamp"] > 1.0 > first["clamp"] and day["heads_light"] == [], "fireflies are clamped at night only"
+        assert day["kinds"] == ["SUN"] and day["world"] == f"Throng {time} sky"
+    assert first["heads_light"] == [False] and first["world"] == "Throng night sky" and \
+        first["kinds"].count("POINT") >= 4
     assert first == again
+
+
+@pytest.mark.parametrize("time", DAYS)
+def test_skies_of_the_day_have_clouds_and_are_not_blown_out(staged, time):
+    sky = numpy.array(staged["sky"][time]).reshape(36, 64)[18:]
+    assert 0.3 < sky.mean() < 0.85 and numpy.quantile(sky, 0.99) < 0.97
+    assert numpy.ptp(numpy.quantile(sky, (0.05, 0.95), axis=1), axis=0).mean() > 0.05, "across, at one height"
+
+
+def test_nights_are_dark(staged):
+    assert numpy.mean(staged["sky"]["night"]) < 0.25 < numpy.mean(staged["sky"]["late"])
+
+
+def test_wet_ground_is_darker_and_has_puddles(staged):
+    dry, damp, wet = (numpy.array(staged["paving"][amount]) for amount in ("0.0", "0.5", "1.0"))
+    assert numpy.median(wet) < 0.94 * numpy.median(damp) < 0.9 * numpy.median(dry)
+    assert numpy.quantile(wet, 0.02) < 0.71 * numpy.quantile(dry, 0.02), "water is black from above"
+    assert damp.std() < 1.5 * dry.std(), "and there is none yet"
+
+
+def test_the_ground_reaches_the_horizon(staged):
+    assert staged["reach"] > 6000.0 and staged["clip"] > 6000.0
 
 
 def gaps_to(roads, x, y):

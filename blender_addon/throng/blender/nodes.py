@@ -3,15 +3,15 @@
 import bpy
 
 
-def new_tree(name, inputs=(), outputs=()):
-    """A geometry node tree with sockets [(name, type)]; returns (tree, input node, output node)."""
-    tree = bpy.data.node_groups.new(name, "GeometryNodeTree")
+def new_tree(name, inputs=(), outputs=(), kind="GeometryNodeTree"):
+    """A node tree, of geometry unless told, with sockets [(name, type)]; returns (tree, input node, output node)."""
+    tree = bpy.data.node_groups.new(name, kind)
     for direction, sockets in (("INPUT", inputs), ("OUTPUT", outputs)):
-        for socket_name, kind in sockets:
+        for socket_name, socket_kind in sockets:
             if hasattr(tree, "interface"):
-                tree.interface.new_socket(name=socket_name, in_out=direction, socket_type=kind)
+                tree.interface.new_socket(name=socket_name, in_out=direction, socket_type=socket_kind)
             else:
-                (tree.inputs if direction == "INPUT" else tree.outputs).new(kind, socket_name)
+                (tree.inputs if direction == "INPUT" else tree.outputs).new(socket_kind, socket_name)
     return tree, tree.nodes.new("NodeGroupInput"), tree.nodes.new("NodeGroupOutput")
 
 

@@ -24,8 +24,8 @@ def build_environment(context, manifest, collection, *, walls=True, roads=True, 
         for thing in streets.build_streets(geometry):
             collection.objects.link(thing)
     if ground:
-        collection.objects.link(terrain_module.build_terrain(*terrain, manifest) if terrain
-                                else streets.build_ground(manifest))
+        for thing in (terrain_module.build_terrain(*terrain, manifest) if terrain else streets.build_ground(manifest)):
+            collection.objects.link(thing)
     if light:
         lights.build_light(context.scene, collection, manifest=manifest)
     if camera:

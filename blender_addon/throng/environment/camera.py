@@ -97,7 +97,7 @@ def build_camera(scene, manifest, collection, shot="crane"):
 
 def _new_camera(collection):
     data = bpy.data.cameras.new("Throng camera")
-    data.lens, data.clip_end = _LENS, 2000.0
+    data.lens, data.clip_end = _LENS, 12000.0  # the horizon is in it
     holder = bpy.data.objects.new("Throng camera", data)
     collection.objects.link(holder)
     collection["throng_camera"] = holder.name

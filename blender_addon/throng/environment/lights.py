@@ -1,40 +1,34 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Light: a late-afternoon sun and its sky, or a night with street lamps and lit windows; and the view transform
-that photographs it well."""
+"""Light for a time of the day, at night with street lamps and lit windows, and the view transform that photographs it
+well."""
 import math
 
 import bpy
 
 from .materials import glow, glass, plain
 from .shapes import Shape, direction
+from .skies import AZIMUTH, build_world, light_of
+from .weather import set_haze
 
-ELEVATION, AZIMUTH = math.radians(31.0), math.radians(128.0)
-
-
-TIMES = ("day", "night")
-# of indirect light: what lies next to a lamp is so bright that the few rays that find it would be fireflies
-_CLAMP = {"day": 4.0, "night": 0.4}
-_EXPOSURE = {"day": 0.6, "night": 1.7}  # stops, for people in streets; from afar all the ground is in the sun
-_LESS_FROM_AFAR = 0.5
+_LESS_FROM_AFAR = 0.5  # stops: from afar all the ground is in the sun
 _LAMP_HEIGHT, _LAMPS_APART, _MOST_LAMPS, _HUNG_HEIGHT = 5.4, 16.0, 40, 8.5
 _WARM = (1.0, 0.66, 0.36)
 
 
-def build_light(scene, collection, time="day", manifest=None):
+def build_light(scene, collection, time="late", manifest=None):
     """Lights for a time of the day, in place of those made before."""
     for thing in [thing for thing in collection.objects if "throng_light" in thing]:
         bpy.data.objects.remove(thing)
-    if time == "day":
-        _add(collection, _sun("Throng sun", 3.6, (1.0, 0.90, 0.78), ELEVATION))
-        scene.world = _world("Throng sky", _day_sky, 0.22)
-    else:
-        _add(collection, _sun("Throng moon", 0.10, (0.60, 0.73, 1.0), math.radians(48.0)))
-        scene.world = _world("Throng night", None, 0.05)
+    light = light_of(time)
+    _add(collection, _sun(light.sun))
+    scene.world = build_world(time)
+    if time == "night":
         _light_streets(collection, manifest or {})
+    set_haze(light.haze, light.visibility)
     collection["throng_light_time"] = time
     expose(scene, collection)
     tame_fireflies(scene)
-    glow(glass(), 0.0 if time == "day" else 0.3)
+    glow(glass(), 0.3 if time == "night" else 0.0)
     set_colours(scene)
 
 
@@ -42,15 +36,19 @@ def expose(scene, collection):
     """Exposure for the collection's light and shot."""
     time, shot = collection.get("throng_light_time"), collection.get("throng_shot", "crane")
     if time:
-        scene.view_settings.exposure = _EXPOSURE[time] - (_LESS_FROM_AFAR if shot == "wide" else 0.0)
+        scene.view_settings.exposure = light_of(time).exposure - (_LESS_FROM_AFAR if shot == "wide" else 0.0)
+
+
+def lights_of(scene):
+    """What the scene's crowds are lit by."""
+    return [light_of(collection["throng_light_time"]) for collection in scene.collection.children_recursive
+            if "throng_light_time" in collection]
 
 
 def tame_fireflies(scene):
     """How much of indirect light to keep, by the time of the day that the scene's crowds are lit for."""
-    times = {collection["throng_light_time"] for collection in scene.collection.children_recursive
-             if "throng_light_time" in collection}
     if hasattr(scene, "cycles"):  # which may be disabled
-        scene.cycles.sample_clamp_indirect = _CLAMP["night" if "night" in times else "day"]
+        scene.cycles.sample_clamp_indirect = min((light.clamp for light in lights_of(scene)), default=4.0)
 
 
 def _add(collection, thing):
@@ -58,39 +56,12 @@ def _add(collection, thing):
     collection.objects.link(thing)
 
 
-def _sun(name, energy, colour, elevation):
-    sun = bpy.data.lights.new(name, "SUN")
-    sun.energy, sun.angle, sun.color = energy, math.radians(0.8), colour
-    holder = bpy.data.objects.new(name, sun)
-    holder.rotation_euler = (math.pi / 2 - elevation, 0.0, AZIMUTH)
+def _sun(kind):
+    sun = bpy.data.lights.new(kind.name, "SUN")
+    sun.energy, sun.angle, sun.color = kind.energy, math.radians(kind.angle), kind.colour
+    holder = bpy.data.objects.new(kind.name, sun)
+    holder.rotation_euler = (math.radians(90.0 - kind.elevation), 0.0, AZIMUTH)
     return holder
-
-
-def _world(name, fill, strength):
-    world = bpy.data.worlds.new(name)
-    world.use_nodes = True
-    background = next(node for node in world.node_tree.nodes if node.type == "BACKGROUND")
-    background.inputs[0].default_value = (0.10, 0.16, 0.32, 1.0)
-    background.inputs[1].default_value = strength
-    if fill:
-        world.node_tree.links.new(fill(world.node_tree.nodes), background.inputs[0])
-    return world
-
-
-def _day_sky(nodes):
-    sky = nodes.new("ShaderNodeTexSky")
-    kinds = sky.bl_rna.properties["sky_type"].enum_items.keys()
-    sky.sky_type = next(kind for kind in ("NISHITA", "MULTIPLE_SCATTERING", "SINGLE_SCATTERING", "HOSEK_WILKIE")
-                        if kind in kinds)
-    if hasattr(sky, "sun_disc"):
-        sky.sun_disc = False
-        sky.sun_elevation = ELEVATION
-        sky.sun_rotation = math.pi - AZIMUTH
-        sky.altitude = 50.0
-        for dust in ("dust_density", "aerosol_density"):
-            if hasattr(sky, dust):
-                setattr(sky, dust, 1.6)
-    return sky.outputs[0]
 
 
 def lamp_places(manifest):

@@ -2,6 +2,9 @@
 """Procedural surfaces. Coordinates are the object's own, in metres, so patterns keep their size."""
 import bpy
 
+from .shading import not_a_lamp
+from .weather import mark_soft
+
 
 def _nodes_of(material):
     """(nodes, links, the shader) of a material made here."""
@@ -125,6 +128,7 @@ def outskirts(paving, low, high, beyond):
     edge.inputs["From Min"].default_value = corner + beyond + 9.0
     edge.inputs["From Max"].default_value = corner + beyond + 13.0
     links.new(ragged.outputs[0], edge.inputs["Value"])
+    mark_soft(material, edge.outputs[0])
     # Parcels of crops, meadow and bare earth, each a little uneven.
     parcels = nodes.new("ShaderNodeTexVoronoi")
     parcels.inputs["Scale"].default_value, parcels.inputs["Randomness"].default_value = 0.012, 0.85
@@ -190,11 +194,7 @@ def glow(material, strength, varied=True):
     nodes, links, shader = _nodes_of(material)
     colour = shader.inputs["Emission Color" if "Emission Color" in shader.inputs else "Emission"]
     colour.default_value = (1.0, 0.66, 0.34, 1.0)
-    cycles = getattr(material, "cycles", None)  # none where that add-on is disabled
-    if cycles and hasattr(cycles, "emission_sampling"):
-        cycles.emission_sampling = "NONE"  # hundreds of panes light little and cost much noise
-    elif cycles:
-        cycles.sample_as_light = False
+    not_a_lamp(material)  # hundreds of panes light little and cost much noise
     socket = shader.inputs["Emission Strength"]
     for link in [*socket.links]:
         links.remove(link)

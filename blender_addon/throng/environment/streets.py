@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Ground, roads and areas. Flat things lie millimetres apart: ground, areas, roads, markings, from below."""
+from ..setting import horizon
 from . import materials
 from .shapes import Shape, counter_clockwise, direction
+from .weather import weathered
 
 GROUND_Z, AREA_Z, ROAD_Z, MARK_Z = -0.012, -0.004, 0.0, 0.004
 KERB_HEIGHT = 0.10
@@ -15,11 +17,25 @@ def build_ground(manifest):
     low, high = (tuple(bounds.get(key, fallback))[:2]
                  for key, fallback in (("min", (-50.0, -50.0)), ("max", (50.0, 50.0))))
     far = 3.0 * max(high[0] - low[0], high[1] - low[1], 100.0)
-    shape = Shape("Throng ground")
     paving = materials.slabs("pavement", (0.185, 0.180, 0.168), (0.105, 0.102, 0.097), 0.9)
-    shape.flat([(low[0] - far, low[1] - far), (high[0] + far, low[1] - far), (high[0] + far, high[1] + far),
-                (low[0] - far, high[1] + far)], GROUND_Z, materials.outskirts(paving, low, high, _PAVED))
-    return shape.to_object()
+    material = weathered(materials.outskirts(paving, low, high, _PAVED))
+    border = horizon.rectangle((low[0] - far, low[1] - far), (high[0] + far, high[1] + far))
+    ground = Shape("Throng ground")
+    ground.flat(border, GROUND_Z, material)
+    return [ground.to_object(), build_country([(x, y, GROUND_Z) for x, y in border], material)]
+
+
+def build_country(border, material, lid=False):
+    """What is round a place, out to the horizon, as an object."""
+    corners, quads = horizon.country(border)
+    shape = Shape("Throng surroundings")
+    shape.vertices, shape.faces = corners, quads
+    shape.slots = [shape.slot(material)] * len(quads)
+    if lid:
+        shape.flat([p[:2] for p in border], border[0][2], material)
+    thing = shape.to_object()
+    thing.data.polygons.foreach_set("use_smooth", [True] * len(thing.data.polygons))
+    return thing
 
 
 def _pieces(road):
@@ -55,14 +71,15 @@ def _junctions(roads):
 
 def build_streets(geometry):
     roads = [road for road in geometry.get("roads", []) if len(road["centreline"]) > 1]
-    asphalt = materials.mottled("asphalt", (0.040, 0.041, 0.043), (0.075, 0.075, 0.076), 0.25, 0.9, 60.0, 0.12)
-    paint = materials.mottled("paint", (0.42, 0.42, 0.40), (0.70, 0.70, 0.68), 3.0, 0.7, 30.0)
-    kerb = materials.mottled("kerb", (0.30, 0.295, 0.285), (0.40, 0.395, 0.38), 2.0)
+    asphalt, paint, kerb = (weathered(material) for material in (
+        materials.mottled("asphalt", (0.040, 0.041, 0.043), (0.075, 0.075, 0.076), 0.25, 0.9, 60.0, 0.12),
+        materials.mottled("paint", (0.42, 0.42, 0.40), (0.70, 0.70, 0.68), 3.0, 0.7, 30.0),
+        materials.mottled("kerb", (0.30, 0.295, 0.285), (0.40, 0.395, 0.38), 2.0)))
     objects = []
     for area in geometry.get("areas", []):
         shape = Shape(f"Throng area {area.get('id', '')}")
         shape.flat(counter_clockwise(area["polygon"]), AREA_Z,
-                   materials.slabs("plaza", (0.190, 0.175, 0.153), (0.115, 0.107, 0.096), 0.6))
+                   weathered(materials.slabs("plaza", (0.190, 0.175, 0.153), (0.115, 0.107, 0.096), 0.6)))
         objects.append(shape.to_object())
     junctions = _junctions(roads)
     for i, road in enumerate(roads):

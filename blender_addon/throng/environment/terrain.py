@@ -2,9 +2,11 @@
 """The terrain that a bake brings along, as the ground."""
 import bpy
 
+from ..setting import horizon
 from . import materials
 from .shapes import inside
-from .streets import _pieces
+from .streets import _pieces, build_country
+from .weather import mark_soft, weathered
 
 ROAD = "throng_road"  # 1 on roads and areas, 0 beside them
 
@@ -29,8 +31,20 @@ def _shares(positions, geometry):
             for x, y in zip(positions[0::3], positions[1::3])]
 
 
+_MEADOW = 45.0  # m round a terrain; fields begin beyond
+
+
 def build_terrain(positions, corners, manifest):
-    """The ground as an object."""
+    """The ground and what is round it, as objects."""
+    border, lid = horizon.border_of(positions, corners)
+    low, high = (tuple(pick(p[axis] for p in border) for axis in range(2)) for pick in (min, max))
+    around = weathered(materials.outskirts(_material(), low, high, _MEADOW))
+    thing = _terrain(positions, corners, manifest)
+    weathered(thing.data.materials[0])
+    return [thing, build_country(border, around, lid)]
+
+
+def _terrain(positions, corners, manifest):
     mesh = bpy.data.meshes.new("Throng terrain")
     faces = len(corners) // 3
     mesh.vertices.add(len(positions) // 3)
@@ -73,6 +87,10 @@ def _material():
     edge = nodes.new("ShaderNodeMapRange")
     edge.inputs["From Min"].default_value, edge.inputs["From Max"].default_value = 0.85, 1.15
     links.new(ragged.outputs[0], edge.inputs["Value"])
+    grown = nodes.new("ShaderNodeMath")
+    grown.operation, grown.inputs[0].default_value = "SUBTRACT", 1.0
+    links.new(edge.outputs[0], grown.inputs[1])
+    mark_soft(material, grown.outputs[0])
     mix = nodes.new("ShaderNodeMixRGB")
     links.new(edge.outputs[0], mix.inputs[0])
     links.new(grass, mix.inputs[1])

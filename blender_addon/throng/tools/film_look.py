@@ -6,7 +6,7 @@ import bpy
 from mathutils import Vector
 
 from ..blender.nodes import socket
-from ..environment.lights import set_colours, tame_fireflies
+from ..environment.lights import lights_of, set_colours, tame_fireflies
 from . import mattes
 
 
@@ -25,7 +25,7 @@ PRESETS = {
     "plate": Look(1920, 1080, 192, 0.02, True, True),
     "final": Look(1920, 1080, 768, 0.008, True, True),
 }
-HAZE_COLOUR = (0.62, 0.68, 0.76, 1.0)
+HAZE_COLOUR = (0.62, 0.68, 0.76)  # where the light is the scene's own
 
 
 def can_denoise():
@@ -123,7 +123,7 @@ def _set_haze(scene, amount):
     strength.inputs[1].default_value = amount
     tree.links.new(layers.outputs["Mist"], strength.inputs[0])
     factor, first, second, mixed = _mix_sockets(tree)
-    second.default_value = HAZE_COLOUR
+    second.default_value = (*next((light.haze for light in lights_of(scene)), HAZE_COLOUR), 1.0)
     tree.links.new(strength.outputs[0], factor)
     tree.links.new(layers.outputs["Image"], first)
     tree.links.new(mixed, _output_socket(tree))
