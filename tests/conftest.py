@@ -96,6 +96,15 @@ def faults(once):
     return once("machine-faults", make) / "faults.so"
 
 
+@pytest.fixture(scope="session")
+def bodies():
+    """The library of bodies: what THRONG_BODIES says, or what scripts/test has fetched."""
+    library = pathlib.Path(os.environ.get("THRONG_BODIES") or ROOT / "build" / "bodies.npz")
+    if not library.is_file():
+        pytest.skip(f"there is no library of bodies: {library} (scripts/body_library.py makes it)")
+    return library
+
+
 def blender_program():
     """Debian's Blender."""
     program = shutil.which("blender")
