@@ -50,30 +50,81 @@ void visitPoints(const gpu::WallSegment& wall, Visit visit) {
         visit(wall.a + (static_cast<float>(i) / static_cast<float>(parts)) * (wall.b - wall.a));
 }
 
+/// Walls across from a point of another wall, the nearest first.
+struct Across {
+    glm::vec2 offset;  // m, to the wall's nearest point
+    float distance;    // m, of its surface; between the middles where both are thick
+    std::uint32_t wall;
+};
+
+/// Finds the places of one scene.
+class Finder {
+  public:
+    Finder(const WalkGeometry& geometry, float widest)
+        : geometry_(geometry),
+          grid_(geometry.wall_grid
+                    ? geometry.wall_grid
+                    : std::make_shared<const WallGrid>(geometry.walls, geometry.minimum, geometry.maximum)),
+          narrowest_(2.0f * geometry.smallest_radius),
+          widest_(widest) {}
+
+    std::vector<glm::vec2> find() {
+        for (std::uint32_t wall = 0; wall < geometry_.walls.size(); ++wall)
+            visitPoints(geometry_.walls[wall], [&](glm::vec2 point) { lookAcross(wall, point); });
+        return places_.take();
+    }
+
+  private:
+    void lookAcross(std::uint32_t wall, glm::vec2 point) {
+        const float own = geometry_.walls[wall].half_thickness;
+        across_.clear();
+        for (const std::uint32_t index : grid_->near(point)) {
+            const gpu::WallSegment& other = geometry_.walls[index];
+            const glm::vec2 offset = nearestOnSegment(point, other.a, other.b) - point;
+            const float gap = glm::length(offset) - own - other.half_thickness;
+            if (index != wall && gap <= widest_) across_.push_back({offset, gap, index});
+        }
+        const std::size_t first = std::min(kNearest, across_.size());
+        std::partial_sort(across_.begin(), across_.begin() + static_cast<std::ptrdiff_t>(first),
+                          across_.end(), [](const Across& a, const Across& b) {
+                              return a.distance != b.distance ? a.distance < b.distance : a.wall < b.wall;
+                          });
+        for (const Across& each : across_) {
+            if (each.distance < narrowest_) continue;
+            const float to_middle = (own + 0.5f * each.distance) / glm::length(each.offset);
+            const glm::vec2 middle = point + each.offset * to_middle;
+            const float radius = 0.5f * kDiscShare * each.distance;
+            if (isFreeOfTheNearest(middle, radius, first) && isFree(middle, radius)) places_.add(middle);
+        }
+    }
+    /// Almost all discs between many walls hold one of those that are nearest: without asking the others.
+    bool isFreeOfTheNearest(glm::vec2 middle, float radius, std::size_t count) const {
+        return std::none_of(across_.begin(), across_.begin() + static_cast<std::ptrdiff_t>(count),
+                            [&](const Across& each) { return touches(each.wall, middle, radius); });
+    }
+    bool isFree(glm::vec2 middle, float radius) const {
+        return std::ranges::none_of(grid_->near(middle),
+                                    [&](std::uint32_t wall) { return touches(wall, middle, radius); }) &&
+               wallDepth(geometry_, middle, radius) <= 0.0f;
+    }
+    bool touches(std::uint32_t wall, glm::vec2 middle, float radius) const {
+        const gpu::WallSegment& each = geometry_.walls[wall];
+        return segmentDistance(middle, each.a, each.b) < radius + each.half_thickness;
+    }
+
+    static constexpr std::size_t kNearest = 8;
+    const WalkGeometry& geometry_;
+    std::shared_ptr<const WallGrid> grid_;
+    float narrowest_, widest_;
+    std::vector<Across> across_;
+    Places places_;
+};
+
 }  // namespace
 
 std::vector<glm::vec2> narrowPlaces(const WalkGeometry& geometry, float widest) {
-    Places places;
-    if (geometry.walls.empty()) return places.take();
-    const auto grid = geometry.wall_grid ? geometry.wall_grid
-                                         : std::make_shared<const WallGrid>(geometry.walls, geometry.minimum,
-                                                                            geometry.maximum);
-    const float narrowest = 2.0f * geometry.smallest_radius;
-    for (std::uint32_t i = 0; i < geometry.walls.size(); ++i) {
-        const gpu::WallSegment& wall = geometry.walls[i];
-        visitPoints(wall, [&](glm::vec2 point) {
-            for (const std::uint32_t index : grid->near(point)) {
-                const gpu::WallSegment& other = geometry.walls[index];
-                const glm::vec2 across = nearestOnSegment(point, other.a, other.b) - point;
-                const float distance = glm::length(across);
-                const float gap = distance - wall.half_thickness - other.half_thickness;
-                if (index == i || gap < narrowest || gap > widest) continue;
-                const glm::vec2 middle = point + across * ((wall.half_thickness + 0.5f * gap) / distance);
-                if (wallDepth(geometry, middle, 0.5f * kDiscShare * gap) <= 0.0f) places.add(middle);
-            }
-        });
-    }
-    return places.take();
+    if (geometry.walls.empty()) return {};
+    return Finder(geometry, widest).find();
 }
 
 }  // namespace throng::authoring
