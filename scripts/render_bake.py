@@ -2,8 +2,8 @@
 """Imports a bake with the add-on of this checkout and renders a still, without a display.
 
 blender -b --factory-startup --python-exit-code 1 -P scripts/render_bake.py -- BAKE OUT.png [--frame N] [--samples N]
-        [--width W] [--height H] [--engine cycles|eevee|workbench] [--shot crane|street|wide] [--light noon|overcast|late|night]
-        [--wet [AMOUNT]] [--levels] [--save FILE.blend]
+        [--width W] [--height H] [--engine cycles|eevee|workbench] [--shot crane|street|wide]
+        [--light noon|overcast|late|night] [--wet [AMOUNT]] [--levels] [--save FILE.blend]
 """
 import argparse
 import os

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Nearest first: of two who are held up on the same way at a narrow passage, the one who is ahead gives next to nothing in
-// the first rounds of contact, and the other makes way.
+// Nearest first: of two who are held up on the same way at a narrow passage, the one who is ahead gives next to nothing
+// in the first rounds of contact, and the other makes way.
 //
 // Bodies that are round and press evenly form arches before doors: each holds up the next, however long they press. In
 // experiments people before a narrow passage go one after another instead, in layers that overlap like the teeth of a
