@@ -19,20 +19,30 @@ def endure(throng):
     return run
 
 
+@pytest.fixture
+def bake_hours(endure):
+    """Bakes ten hours; on a machine so fast that this is too short to tell, thirty."""
+    def run(**environment):
+        told = endure("hours", 10, **environment)
+        return endure("hours", 30, **environment) if "too short" in told.stderr else told
+
+    return run
+
+
 def growth_in(told):
     return float(told.split(" MiB per ")[0].split()[-1])
 
 
 @pytest.mark.slow
-def test_a_long_bake_needs_no_more_memory_with_its_time(endure, tmp_path):
-    told = endure("hours", 10, TMPDIR=str(tmp_path))
+def test_a_long_bake_needs_no_more_memory_with_its_time(bake_hours, tmp_path):
+    told = bake_hours(TMPDIR=str(tmp_path))
     assert "MiB per hour" in told.stdout, told.stderr
     assert growth_in(told.stdout) < 1.0, told.stdout
 
 
 @pytest.mark.slow
-def test_a_leak_of_fifty_bytes_a_frame_and_stream_would_be_seen(endure, faults, tmp_path):
-    told = endure("hours", 10, TMPDIR=str(tmp_path), LD_PRELOAD=str(faults), THRONG_LEAK="50")
+def test_a_leak_of_fifty_bytes_a_frame_and_stream_would_be_seen(bake_hours, faults, tmp_path):
+    told = bake_hours(TMPDIR=str(tmp_path), LD_PRELOAD=str(faults), THRONG_LEAK="50")
     assert told.returncode == 1 and growth_in(told.stdout) >= 1.0, told.stdout + told.stderr
 
 
