@@ -17,6 +17,7 @@ void addDevices(CLI::App& app);
 void addCalibrate(CLI::App& app);
 void addBench(CLI::App& app);
 void addMeasure(CLI::App& app);
+void addCompare(CLI::App& app);
 void addScenarios(CLI::App& app);
 void addGenerate(CLI::App& app);
 void addBatch(CLI::App& app);

@@ -82,6 +82,7 @@ int main(int argc, char** argv) {
     cli::addCalibrate(app);
     cli::addBench(app);
     cli::addMeasure(app);
+    cli::addCompare(app);
     cli::addScenarios(app);
     cli::addGenerate(app);
     cli::addBatch(app);

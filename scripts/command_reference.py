@@ -30,6 +30,7 @@ BESIDE = {
     "bench step": ["../benchmarks/step.md|the time of a step"],
     "calibrate": ["../diagram.md#which-is-fastest|which way to build the diagram is fastest"],
     "check": ["../layout.md|layouts"],
+    "compare": ["../measure.md#beside-people|what is compared"],
     "generate": ["../batch.md#generators|the kinds"],
     "info": ["../bake.md|what a bake holds"],
     "measure": ["../measure.md|what is measured", "../how-to/bars.md|how to hold a bake to bars"],

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "analysis/measure/histogram.h"
+#include "analysis/measure/voronoi_density.h"
 #include "analysis/stuck.h"
 #include "base/plane_grid.h"
 #include "recording/wall_watch.h"
@@ -207,29 +208,9 @@ class Measurer {
         ++lane_frames_;
     }
 
-    /// One over the area of the Voronoi cell, truncated at a metre and counted in squares around the person
-    /// (Steffen and Seyfried 2010).
     void observeDensity() {
-        constexpr double kRadius = 1.0, kSquare = 0.1;
-        constexpr int kReach = 10;
-        std::vector<glm::dvec2> others;
-        for (std::uint32_t i = 0; i < present_.size(); ++i) {
-            others.clear();
-            grid_.near(places_[i], 2.0 * kRadius, [&](std::uint32_t j) {
-                const glm::dvec2 offset = places_[j] - places_[i];
-                if (j != i && glm::dot(offset, offset) < 4.0 * kRadius * kRadius) others.push_back(offset);
-            });
-            int owned = 0;
-            for (int y = -kReach; y < kReach; ++y)
-                for (int x = -kReach; x < kReach; ++x) {
-                    const glm::dvec2 at = glm::dvec2(x + 0.5, y + 0.5) * kSquare;
-                    const double own = glm::dot(at, at);
-                    owned += own <= kRadius * kRadius && std::ranges::none_of(others, [&](glm::dvec2 other) {
-                                 return glm::dot(at - other, at - other) < own;
-                             });
-                }
-            addDensity(i, 1.0 / (std::max(owned, 1) * kSquare * kSquare));
-        }
+        for (std::uint32_t i = 0; i < present_.size(); ++i)
+            addDensity(i, voronoiDensity(grid_, places_, i));
     }
 
     void addDensity(std::uint32_t i, double density) {

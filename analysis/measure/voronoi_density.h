@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <vector>
+
+#include "base/plane_grid.h"
+
+namespace throng::analysis {
+
+/// persons/m^2: one over the area of a person's Voronoi cell, truncated at a metre and counted in squares of
+/// 0.1 m around it (Steffen and Seyfried 2010).
+/// @param grid holds `places`; the person is `places[self]`
+inline double voronoiDensity(const PlaneGrid& grid, const std::vector<glm::dvec2>& places,
+                             std::uint32_t self) {
+    constexpr double kRadius = 1.0, kSquare = 0.1;
+    constexpr int kReach = 10;
+    std::vector<glm::dvec2> others;
+    grid.near(places[self], 2.0 * kRadius, [&](std::uint32_t other) {
+        const glm::dvec2 offset = places[other] - places[self];
+        if (other != self && glm::dot(offset, offset) < 4.0 * kRadius * kRadius) others.push_back(offset);
+    });
+    int owned = 0;
+    for (int y = -kReach; y < kReach; ++y)
+        for (int x = -kReach; x < kReach; ++x) {
+            const glm::dvec2 at = glm::dvec2(x + 0.5, y + 0.5) * kSquare;
+            const double own = glm::dot(at, at);
+            owned += own <= kRadius * kRadius && std::ranges::none_of(others, [&](glm::dvec2 other) {
+                         return glm::dot(at - other, at - other) < own;
+                     });
+        }
+    return 1.0 / (std::max(owned, 1) * kSquare * kSquare);
+}
+
+}  // namespace throng::analysis
