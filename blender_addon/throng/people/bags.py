@@ -26,11 +26,12 @@ def _box(bodies, centre, half, bone, material, level, round_=0.55):
             for row in range(steps - 1):
                 for column in range(steps - 1):
                     corner = first + row * steps + column
-                    quad = (corner, corner + 1, corner + steps + 1, corner + steps)
-                    turned = quad if (sign > 0.0) == (axis != 1) else quad[::-1]
-                    faces += [(turned[0], turned[2], turned[1]), (turned[0], turned[3], turned[2])]
-    part = loose(bodies, numpy.array(points), numpy.array(faces)[:, ::-1], bone, material)
-    return part
+                    faces += [(corner, corner + 1, corner + steps + 1), (corner, corner + steps + 1, corner + steps)]
+    points, faces = numpy.array(points), numpy.array(faces)
+    a, b, c = (points[faces[:, corner]] for corner in range(3))
+    inwards = (numpy.cross(b - a, c - a) * (a - centre)).sum(axis=1) < 0.0
+    faces[inwards] = faces[inwards][:, ::-1]
+    return loose(bodies, points, faces, bone, material)
 
 
 def _strap(part, field, material, scale, lift=0.006):
@@ -60,8 +61,8 @@ def bag(bodies, kind, tops, rig, level):
         for top in tops if level < 2 else ():
             places = top.places
             aside = 0.017 - numpy.abs(numpy.abs(places[:, regions.Y]) - 0.098)
-            found += _strap(top, numpy.minimum(regions.on_trunk(places, aside), places[:, regions.Z] - 0.35)
-                            * (places[:, regions.ARM] <= 0.0), "extra pack", scale)
+            found += _strap(top, regions.but_arms(places, numpy.minimum(aside, places[:, regions.Z] - 0.35)), "extra pack",
+                            scale)
     else:
         high = 0.10 if kind == "satchel" else 0.16
         side = -1.0
@@ -74,8 +75,7 @@ def bag(bodies, kind, tops, rig, level):
             # from the left shoulder to the right hip
             across = 0.013 - numpy.abs((places[:, regions.Y] + 0.13) * 0.80 - (places[:, regions.Z] - 0.10) * 0.50)
             across = numpy.minimum(across, places[:, regions.Z] - 0.10)
-            found += _strap(top, regions.on_trunk(places, across) * (places[:, regions.ARM] <= 0.0), "extra leather",
-                            scale)
+            found += _strap(top, regions.but_arms(places, across), "extra leather", scale)
     return found
 
 

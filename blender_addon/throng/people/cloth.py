@@ -246,8 +246,7 @@ class Tailor:
     def _belt(self, part, garment):
         height = garment.waist if garment.kind != "top" else 0.165
         band = numpy.minimum(part.places[:, regions.Z] - height + 0.036, height - 0.004 - part.places[:, regions.Z])
-        return self._laid_on(part, regions.on_trunk(part.places, band) * (part.places[:, regions.ARM] <= 0.0), 0.004,
-                             garment.belt)
+        return self._laid_on(part, regions.but_arms(part.places, band), 0.004, garment.belt)
 
     def _folds(self, part, garment):
         """How far the cloth goes out, m: folds across limbs where joints bend and where cloth piles up."""
@@ -327,6 +326,7 @@ def covered(places, garment, margin):
     arm = places[:, regions.ARM] > 0.0
     inside = numpy.where(arm, inside - margin, inside)
     inside = numpy.minimum(inside, regions.neckline(places, *garment.neck) - margin)
+    inside = numpy.minimum(inside, 0.605 - places[:, regions.Z])  # heads are free
     if garment.vee is not None:
         inside = numpy.minimum(inside, regions.vee(places, garment.vee) - margin)
     if garment.gap:

@@ -172,7 +172,9 @@ def _grow(points, ways, length, style, scale, draw, pieces, collider, fringe):
         points = points + out * numpy.clip(wanted - off, -0.010 * (style.comb != "out"), 0.04)[:, None]
         line.append(points)
         sides.append(out)
-        ways = ways + (0.0, 0.0, -1.0) * fall * (8.0 / pieces if pieces < 8 else 1.0)
+        if style.fall >= 0.5:  # what hangs does not fly
+            ways = ways * (0.70, 0.70, 1.0)
+        ways = ways + numpy.array([0.0, 0.0, -1.0]) * fall * (8.0 / pieces if pieces < 8 else 1.0)
         ways = ways + draw.normal(0.0, 0.04 + style.curl, ways.shape)
         ways = ways - out * numpy.minimum(0.0, (ways * out).sum(axis=1))[:, None]
         ways /= numpy.linalg.norm(ways, axis=1, keepdims=True) + 1e-9

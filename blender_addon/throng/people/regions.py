@@ -41,6 +41,11 @@ def on_trunk(places, value):
     return numpy.where(places[:, ARM] > 0.0, 1.0, value)
 
 
+def but_arms(places, value):
+    """A field of the trunk, that arms are outside of."""
+    return numpy.where(places[:, ARM] > 0.0, -1.0, value)
+
+
 def sleeve(places, until):
     return numpy.where(places[:, ARM] > 0.0, (until - places[:, ARM]) * ARM_LENGTH, 1.0)
 
