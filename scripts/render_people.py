@@ -94,7 +94,7 @@ def row(stage, level, draw):
         phase = None if index % 4 == 3 else 0.02 + 0.27 * index
         stage.place(stage.options.first + index, level, 0.86 * (index - 5.5), 0.5 * (index % 2), ahead(draw, 0.18),
                     phase)
-    stage.camera((0.0, -11.5, 1.5), (0.0, 0.0, 0.93), 38.0)
+    stage.camera((0.0, -11.5, 1.45), (0.0, 0.0, 0.86), 37.0)
 
 
 def close(stage, level, draw):
@@ -124,7 +124,7 @@ def ground(scene):
     stone = bpy.data.materials.new("ground")
     stone.use_nodes = True
     surface = next(node for node in stone.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
-    surface.inputs["Base Color"].default_value = (0.20, 0.195, 0.19, 1.0)
+    surface.inputs["Base Color"].default_value = (0.075, 0.073, 0.071, 1.0)
     surface.inputs["Roughness"].default_value = 0.9
     mesh.materials.append(stone)
     scene.collection.objects.link(bpy.data.objects.new("ground", mesh))

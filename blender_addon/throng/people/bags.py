@@ -11,7 +11,7 @@ from .parts import clipped, folded
 
 def _box(bodies, centre, half, bone, material, level, round_=0.55):
     """A box with soft edges."""
-    steps = {levels.NEAR: 9, 0: 5, 1: 3, 2: 2}[level]
+    steps = {levels.NEAR: 9, 0: 4, 1: 3, 2: 2}[level]
     line = numpy.linspace(-1.0, 1.0, steps)
     points, faces = [], []
     for axis in range(3):
@@ -60,9 +60,10 @@ def bag(bodies, kind, tops, rig, level):
                               level))
         for top in tops if level < 2 else ():
             places = top.places
-            aside = 0.017 - numpy.abs(numpy.abs(places[:, regions.Y]) - 0.098)
-            found += _strap(top, regions.but_arms(places, numpy.minimum(aside, places[:, regions.Z] - 0.35)), "extra pack",
-                            scale)
+            out, up = numpy.abs(places[:, regions.Y]), places[:, regions.Z]
+            aside = numpy.minimum(0.017 - numpy.abs(out - 0.098), up - 0.325)
+            under = numpy.minimum(numpy.minimum(0.014 - numpy.abs(up - 0.335), out - 0.085), 0.25 - out)  # the arm
+            found += _strap(top, regions.but_arms(places, numpy.maximum(aside, under)), "extra pack", scale)
     else:
         high = 0.10 if kind == "satchel" else 0.16
         side = -1.0

@@ -171,6 +171,8 @@ class Tailor:
 
     def _trimmed(self, part, garment):
         """With a collar, lapels, pockets, a belt, and edges that have a thickness."""
+        if self.level < 1:  # no edge is ragged
+            part = part.moved(smoothed(part.points, part.faces, 8, 0.5, part.tags == 0))
         extras = []
         if self.detail.trimmed:
             for pocket in garment.pockets:

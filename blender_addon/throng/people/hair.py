@@ -32,10 +32,10 @@ STYLES = {
     "curtains": Style(1200, 0.110, 0.013, 0.013, 0.011, 0.35, 0.03, "parted"),
     "curls": Style(1900, 0.050, 0.012, 0.030, 0.020, -0.03, 0.55, "out"),
     "afro": Style(2600, 0.065, 0.013, 0.042, 0.034, -0.05, 0.60, "out"),
-    "bob": Style(1000, -0.02, 0.017, 0.014, 0.012, 0.50, 0.015, "parted", 0.0, 9),
-    "fringed bob": Style(1000, -0.03, 0.017, 0.014, 0.012, 0.50, 0.015, "parted", 0.055, 9),
-    "long": Style(1050, -0.20, 0.019, 0.014, 0.012, 0.60, 0.014, "parted", 0.0, 11),
-    "waves": Style(1050, -0.15, 0.021, 0.017, 0.013, 0.55, 0.075, "parted", 0.0, 11),
+    "bob": Style(1500, -0.02, 0.017, 0.014, 0.012, 0.50, 0.015, "parted", 0.0, 9),
+    "fringed bob": Style(1500, -0.03, 0.017, 0.014, 0.012, 0.50, 0.015, "parted", 0.055, 9),
+    "long": Style(1700, -0.20, 0.019, 0.014, 0.012, 0.60, 0.014, "parted", 0.0, 11),
+    "waves": Style(1700, -0.15, 0.021, 0.017, 0.013, 0.55, 0.075, "parted", 0.0, 11),
     "knot": Style(800, 0.110, 0.013, 0.006, 0.008, 0.06, 0.015, "knot"),
     "tail": Style(800, 0.115, 0.013, 0.006, 0.008, 0.06, 0.015, "knot"),
     "ring": Style(600, 0.035, 0.009, 0.005, 0.006, 0.20, 0.05, raised=0.0),
@@ -55,7 +55,9 @@ def hair(bodies, shape, level, name, material, scale, seed):
     if style.length < 0.0 and level == 2:
         count = 12
     if count:
-        wider = min(4.5, (style.count / count) ** 0.55)
+        hangs = style.length < 0.0
+        count = int(count * (1.35 if hangs else 1.0))
+        wider = min((style.count / count) ** 0.5, (0.040 if level < 1 else 0.065) / style.wide)
         parts.append(_locks(bodies, shape, level, style, material, scale, draw, count, wider, name == "ring"))
     if name in ("knot", "tail") and level < 2:
         parts.append(_knot(bodies, shape, level, name, material, scale))
@@ -150,26 +152,33 @@ def _locks(bodies, shape, level, style, material, scale, draw, count, wider, rin
         length = numpy.where(fringe, style.fringe * scale * draw.uniform(0.7, 1.1, count), length)
         aside = numpy.stack([numpy.full(count, 0.5), 0.30 - points[:, 1] * 4.0, numpy.full(count, -0.8)], axis=1)
         ways = numpy.where(fringe[:, None], aside + draw.normal(0.0, 0.12, (count, 3)), ways)
-    pieces = style.pieces if level == levels.NEAR else max(2, style.pieces // 2)
+    pieces = style.pieces if level == levels.NEAR else max(2, style.pieces // 2 if style.length > 0.0 else 4)
     line, sides = _grow(points + normals * style.lift * 0.5, ways, length, style, scale, draw, pieces,
-                        _collider(bodies, shape), fringe)
+                        _collider(bodies, shape), fringe, bodies.joint(shape, "mouth")[2] - 0.03 * scale)
     wide = style.wide * wider * scale * draw.uniform(0.7, 1.3, count)
     return _ribbons(bodies, line, sides, wide, weights, material, draw, level, style)
 
 
-def _grow(points, ways, length, style, scale, draw, pieces, collider, fringe):
+def _grow(points, ways, length, style, scale, draw, pieces, collider, fringe, chin):
     """Lines of pieces + 1 points, and the normals of the head beside them."""
     near, normals = collider
     lift = style.lift * scale * draw.uniform(0.45, 1.35, len(points))
     fall = numpy.where(fringe, 0.30, style.fall)[:, None]
     ways = ways / (numpy.linalg.norm(ways, axis=1, keepdims=True) + 1e-9)
     line, sides = [], []
+    # where locks bend round the head, their pieces are short
+    steps = numpy.diff((numpy.arange(pieces + 2) / pieces) ** (1.5 if style.fall >= 0.5 else 1.0))
     for piece in range(pieces + 1):
         nearest = ((points[:, None] - near[None]) ** 2).sum(axis=2).argmin(axis=1)
         out = normals[nearest]
         off = ((points - near[nearest]) * out).sum(axis=1)
         wanted = lift * (1.0 - 0.4 * piece / pieces)
-        points = points + out * numpy.clip(wanted - off, -0.010 * (style.comb != "out"), 0.04)[:, None]
+        pull = 0.0 if style.comb == "out" else numpy.where(points[:, 2] > chin, 0.05, 0.01)
+        points = points + out * numpy.clip(wanted - off, -pull, 0.04)[:, None]
+        if style.fall >= 0.5:  # below the chin, beside the neck and not out on the shoulders
+            low = numpy.clip((chin - points[:, 2]) / (0.06 * scale), 0.0, 1.0)
+            wide = numpy.abs(points[:, 1]) / (0.088 * scale)
+            points[:, 1] /= 1.0 + low * (numpy.maximum(wide, 1.0) - 1.0)
         line.append(points)
         sides.append(out)
         if style.fall >= 0.5:  # what hangs does not fly
@@ -178,7 +187,7 @@ def _grow(points, ways, length, style, scale, draw, pieces, collider, fringe):
         ways = ways + draw.normal(0.0, 0.04 + style.curl, ways.shape)
         ways = ways - out * numpy.minimum(0.0, (ways * out).sum(axis=1))[:, None]
         ways /= numpy.linalg.norm(ways, axis=1, keepdims=True) + 1e-9
-        points = points + ways * (length / pieces)[:, None]
+        points = points + ways * (length * steps[piece])[:, None]
     return numpy.stack(line, axis=1), numpy.stack(sides, axis=1)
 
 
@@ -188,8 +197,8 @@ def _ribbons(bodies, line, out, wide, weights, material, draw, level, style):
     along = numpy.gradient(line, axis=1)
     side = numpy.cross(along, out)
     side /= numpy.linalg.norm(side, axis=2, keepdims=True) + 1e-9
-    share = numpy.linspace(0.0, 1.0, pieces)
-    half = 0.5 * wide[:, None, None] * (1.0 - 0.80 * share ** 2.2)[None, :, None]
+    share, taper = numpy.linspace(0.0, 1.0, pieces), 0.85 if style.length > 0.0 else 0.62
+    half = 0.5 * wide[:, None, None] * (1.0 - taper * share ** 2.2)[None, :, None]
     rows = [line - side * half, line + side * half]
     if level == levels.NEAR:
         rows = [rows[0] - out * half * 0.35, line + out * half * 0.3, rows[1] - out * half * 0.35]

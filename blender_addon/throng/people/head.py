@@ -159,7 +159,7 @@ def glasses(bodies, shape, level, scale, round_ones):
     curve = numpy.stack([numpy.sign(numpy.cos(angles)) * numpy.abs(numpy.cos(angles)) ** power * 0.0255,
                          numpy.sign(numpy.sin(angles)) * numpy.abs(numpy.sin(angles)) ** power * 0.0205], axis=1) * scale
     base = regions.places_of(bodies)
-    temples = (numpy.abs(base[:, 1]) > 0.066) & (numpy.abs(base[:, 2] - 0.735) < 0.02) & (base[:, 4] > 0.5)
+    temples = (numpy.abs(base[:, 1]) > 0.060) & (numpy.abs(base[:, 1]) < 0.0705) & (numpy.abs(base[:, 2] - 0.735) < 0.02) & (base[:, 4] > 0.5)
     wide = float(numpy.abs(shape[temples, 1]).max())
     behind = float(numpy.median(shape[temples, 0]))
     found = []

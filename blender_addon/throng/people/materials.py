@@ -63,7 +63,7 @@ def _skin(shade, tint, pattern, kind, _look, bodies):
     colour = shade.mix(colour, shade.mix(base, (0.60, 0.47, 0.46), 1.0, "MULTIPLY"),
                        shade.math("MULTIPLY", shadow, 0.55))
     colour = shade.mix(colour, shade.mix(base, (0.86, 0.42, 0.42), 1.0, "MULTIPLY"),
-                       shade.math("MULTIPLY", lips, 0.85))
+                       shade.math("MULTIPLY", lips, 0.68))
     if stubble:
         colour = shade.mix(colour, shade.mix(base, (0.22, 0.22, 0.24), 1.0, "MULTIPLY"),
                            shade.math("MULTIPLY", beard, shade.math("ADD", 0.25, shade.math("MULTIPLY", fine, 0.6))))
@@ -191,7 +191,7 @@ def _relief(shade, pattern, fabric, left, up, weave, wave):
     elif fabric == "leather":
         fine = shade.bump(shade.noise(pattern, 330.0, 3.0), 0.35, 0.001)
     else:
-        fine = shade.bump(weave, 0.16, 0.0005)
+        fine = shade.bump(weave, 0.07, 0.0004)
     # folds: long across limbs, short along them
     folds = shade.noise(pattern, 15.0, 3.0, (1.0, 1.0, 1.9))
     small = shade.noise(pattern, 36.0, 2.0, (1.0, 1.0, 0.6))

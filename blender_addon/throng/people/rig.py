@@ -106,7 +106,7 @@ class Rig:
     def _arm(self, turns, places, pose, side, sign, swing, elbow):
         clavicle, upper, lower, hand = (f"{bone}_{side}" for bone in ("clavicle", "upperarm", "lowerarm", "hand"))
         shoulders = turns["spine_03"]
-        turns[clavicle] = shoulders @ turn(_X, -sign * 0.09)
+        turns[clavicle] = shoulders @ turn(_X, -sign * 0.03)
         places[clavicle] = places["spine_03"] + shoulders @ (self.heads[clavicle] - self.heads["spine_03"])
         shoulder = places[clavicle] + turns[clavicle] @ (self.heads[upper] - self.heads[clavicle])
         reach = math.dist(self.heads[upper], self.heads[lower]) + math.dist(self.heads[lower], self.heads[hand])
@@ -127,7 +127,7 @@ class Rig:
         turns[lower] = frame(fore, hinge) @ frame(rest_lower, rest_hinge).T
         places[upper] = shoulder
         places[lower] = shoulder + turns[upper] @ rest_upper
-        turns[hand] = turn(fore, sign * 0.35) @ turns[lower]
+        turns[hand] = turn(fore, -sign * 0.70) @ turns[lower]
         places[hand] = places[lower] + turns[lower] @ rest_lower
         self._fingers(turns, places, side, hand, sign)
 

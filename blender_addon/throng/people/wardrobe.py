@@ -39,12 +39,12 @@ BOMBER = replace(LEATHER, material="top padded", off=0.024, loose=0.20, hem=0.06
 TRACK = replace(BOMBER, material="top jersey", off=0.015, gap=(0.008, 0.034))
 PUFFER = Garment("top", "top padded", off=0.036, loose=0.26, hem=-0.02, collar="stand", smooth=8, folds=1.6)
 PARKA = Garment("top", "top cotton", off=0.030, loose=0.20, hem=-0.12, collar="hood", pockets=("hip",), folds=1.3)
-COAT = Garment("top", "top wool", off=0.024, loose=0.13, hem=0.10, collar="coat", vee=0.345, lapels=0.065, folds=0.7,
-               pockets=("chest",))
-COAT_SKIRT = Garment("skirt", "top wool", off=0.030, hem=-0.34, waist=0.155, flare=0.06, pleats=0.006)
-BELTED = replace(COAT, belt="top wool")
-DRESS = Garment("top", "top silk", off=0.008, loose=0.07, sleeve=0.28, hem=0.125, neck=(1.18, 1.25))
-DRESS_SKIRT = Garment("skirt", "top silk", off=0.014, hem=-0.34, waist=0.165, flare=0.18, pleats=0.045)
+COAT = Garment("top", "top wool", off=0.024, loose=0.13, hem=0.122, collar="coat", vee=0.345, lapels=0.065, folds=0.7,
+               pockets=("chest",), belt="top wool")
+COAT_SKIRT = Garment("skirt", "top wool", off=0.021, hem=-0.34, waist=0.170, flare=0.08, pleats=0.006)
+BELTED = replace(COAT, belt="extra leather")
+DRESS = Garment("top", "top silk", off=0.008, loose=0.07, sleeve=0.28, hem=0.130, neck=(1.18, 1.25), belt="top silk")
+DRESS_SKIRT = Garment("skirt", "top silk", off=0.008, hem=-0.34, waist=0.165, flare=0.18, pleats=0.045)
 JERSEY = replace(TEE, material="top team", loose=0.20, vee=0.545)
 SNEAKERS = Garment("shoes", "shoes canvas", hem=-0.752)
 SHOES = Garment("shoes", "shoes leather", hem=-0.758)
@@ -65,16 +65,16 @@ LOOKS = {
         ((DRESS_SKIRT, (DRESS,), SHOES), (SHORTS, (TANK,), SNEAKERS), (SLIM, (TEE,), SNEAKERS), (SKIRT, (TEE,), SHOES),
          (LONG_SKIRT, (TANK,), SHOES), (MINI, (BLOUSE,), SNEAKERS))),
     "winter": (
-        ((JEANS, (PUFFER,), BOOTS), (TROUSERS, (COAT, COAT_SKIRT), SHOES), (CARGO, (PARKA,), BOOTS),
-         (JEANS, (JUMPER,), BOOTS), (SUIT_TROUSERS, (COAT, COAT_SKIRT), SHOES), (JEANS, (HOODIE,), SNEAKERS)),
-        ((SLIM, (PUFFER,), BOOTS), (LEGGINGS, (BELTED, COAT_SKIRT), BOOTS), (SLIM, (PARKA,), BOOTS),
-         (SKIRT, (ROLL,), BOOTS), (JEANS, (COAT, COAT_SKIRT), BOOTS), (SLIM, (ROLL,), BOOTS))),
+        ((JEANS, (PUFFER,), BOOTS), (TROUSERS, (UNDER, COAT_SKIRT, COAT), SHOES), (CARGO, (PARKA,), BOOTS),
+         (JEANS, (JUMPER,), BOOTS), (SUIT_TROUSERS, (UNDER, COAT_SKIRT, COAT), SHOES), (JEANS, (HOODIE,), SNEAKERS)),
+        ((SLIM, (PUFFER,), BOOTS), (LEGGINGS, (UNDER, COAT_SKIRT, BELTED), BOOTS), (SLIM, (PARKA,), BOOTS),
+         (SKIRT, (ROLL,), BOOTS), (JEANS, (UNDER, COAT_SKIRT, COAT), BOOTS), (SLIM, (ROLL,), BOOTS))),
     "business": (
         ((_belted(SUIT_TROUSERS), (TUCKED, BLAZER), SHOES), (_belted(SUIT_TROUSERS), (TUCKED,), SHOES),
-         (SUIT_TROUSERS, (COAT, COAT_SKIRT), SHOES), (_belted(TROUSERS), (TUCKED, BLAZER), SHOES),
+         (SUIT_TROUSERS, (UNDER, COAT_SKIRT, COAT), SHOES), (_belted(TROUSERS), (TUCKED, BLAZER), SHOES),
          (_belted(SUIT_TROUSERS), (TUCKED, BLAZER), SHOES), (_belted(TROUSERS), (SHIRT,), SHOES)),
         ((PENCIL, (BLOUSE,), SHOES), (SUIT_TROUSERS, (TUCKED, BLAZER), SHOES), (PENCIL, (UNDER, BLAZER), SHOES),
-         (DRESS_SKIRT, (DRESS,), SHOES), (SLIM, (BLOUSE,), SHOES), (SUIT_TROUSERS, (BELTED, COAT_SKIRT), SHOES))),
+         (DRESS_SKIRT, (DRESS,), SHOES), (SLIM, (BLOUSE,), SHOES), (SUIT_TROUSERS, (UNDER, COAT_SKIRT, BELTED), SHOES))),
     "sport": (
         ((SPORT_SHORTS, (TEE,), SNEAKERS), (JOGGERS, (TRACK,), SNEAKERS), (JOGGERS, (HOODIE,), SNEAKERS),
          (SPORT_SHORTS, (TANK,), SNEAKERS), (JOGGERS, (TEE,), SNEAKERS), (SPORT_SHORTS, (HOODIE,), SNEAKERS)),
@@ -90,15 +90,14 @@ LOOKS = {
          (JEANS, (UNDER, DENIM), SNEAKERS), (TROUSERS, (JUMPER,), SHOES), (CARGO, (UNDER, BOMBER), SNEAKERS),
          (_belted(JEANS), (TEE,), SNEAKERS), (TROUSERS, (TUCKED, CARDIGAN), SHOES)),
         ((SLIM, (JUMPER,), SNEAKERS), (SKIRT, (BLOUSE,), SHOES), (JEANS, (UNDER, LEATHER), BOOTS),
-         (DRESS_SKIRT, (DRESS,), SHOES), (SLIM, (UNDER, CARDIGAN), SHOES), (LEGGINGS, (BELTED, COAT_SKIRT), BOOTS),
+         (DRESS_SKIRT, (DRESS,), SHOES), (SLIM, (UNDER, CARDIGAN), SHOES), (LEGGINGS, (UNDER, COAT_SKIRT, BELTED), BOOTS),
          (JEANS, (TEE,), SNEAKERS), (LONG_SKIRT, (ROLL,), BOOTS))),
 }
 
 
 def order(bottom, tops, shoes):
     """From the inside out. What is tucked in goes below trousers and skirts, what hangs over them goes above."""
-    inside = [top for top in tops if top.kind == "top" and top.hem > 0.09 and top is not tops[-1]
-              or top.kind == "top" and top.hem > 0.11]
+    inside = [top for top in tops if top.kind == "top" and top.hem > 0.09 and top.material.startswith("shirt")]
     outside = [top for top in tops if top not in inside]
     if bottom.kind == "legs" and bottom.hem < -0.7:  # over the shoes, but boots over trousers
         legs = [bottom, shoes] if shoes.hem > -0.7 else [shoes, bottom]
