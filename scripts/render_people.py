@@ -3,6 +3,7 @@
 
 THRONG_BODIES=bodies.npz blender -b --factory-startup --python-exit-code 1 -P scripts/render_people.py -- OUT.png
         [--shot row|close|crowd] [--look LOOK] [--first N] [--level near|0|1|2] [--width W] [--height H] [--samples N]
+        [--denoise]
 """
 import argparse
 import math
@@ -31,6 +32,7 @@ def arguments():
     parser.add_argument("--width", type=int, default=1280)
     parser.add_argument("--height", type=int, default=720)
     parser.add_argument("--samples", type=int, default=48)
+    parser.add_argument("--denoise", action="store_true", help="where the build has a denoiser; Debian's has none")
     return parser.parse_args(sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else [])
 
 
@@ -128,6 +130,29 @@ def ground(scene):
     surface.inputs["Roughness"].default_value = 0.9
     mesh.materials.append(stone)
     scene.collection.objects.link(bpy.data.objects.new("ground", mesh))
+    wall = bpy.data.meshes.new("wall")
+    wall.from_pydata([(-60, 46, 0), (60, 46, 0), (60, 46, 24), (-60, 46, 24)], [], [(0, 1, 2, 3)])
+    wall.materials.append(facade())
+    scene.collection.objects.link(bpy.data.objects.new("wall", wall))
+
+
+def facade():
+    """Plaster with dark windows."""
+    plaster = bpy.data.materials.new("facade")
+    plaster.use_nodes = True
+    nodes, links = plaster.node_tree.nodes, plaster.node_tree.links
+    surface = next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
+    bricks, place, turned = (nodes.new(f"ShaderNode{kind}") for kind in ("TexBrick", "TexCoord", "Mapping"))
+    turned.inputs["Rotation"].default_value = (0.5 * math.pi, 0.0, 0.0)
+    bricks.offset = 0.0
+    for name, value in (("Color1", (0.030, 0.038, 0.048, 1.0)), ("Color2", (0.060, 0.070, 0.082, 1.0)),
+                        ("Mortar", (0.42, 0.33, 0.25, 1.0)), ("Scale", 1.0), ("Mortar Size", 0.75),
+                        ("Brick Width", 3.0), ("Row Height", 3.8)):
+        bricks.inputs[name].default_value = value
+    links.new(place.outputs["Object"], turned.inputs[0])
+    links.new(turned.outputs[0], bricks.inputs["Vector"])
+    links.new(bricks.outputs[0], surface.inputs["Base Color"])
+    return plaster
 
 
 def main():
@@ -139,10 +164,12 @@ def main():
     ground(scene)
     lights.build_light(scene, scene.collection)
     scene.render.engine = "CYCLES"
-    scene.cycles.samples, scene.cycles.use_denoising = options.samples, False
+    scene.cycles.samples, scene.cycles.use_denoising = options.samples, options.denoise
     scene.cycles.max_bounces = 5
     scene.render.resolution_x, scene.render.resolution_y = options.width, options.height
     scene.render.resolution_percentage = 100
+    if options.picture.endswith((".jpg", ".jpeg")):
+        scene.render.image_settings.file_format, scene.render.image_settings.quality = "JPEG", 88
     scene.render.filepath = os.path.abspath(options.picture)
     for flag in [name for name in dir(scene.render) if name.startswith("use_stamp_")]:
         setattr(scene.render, flag, False)

@@ -98,22 +98,24 @@ def test_people_are_as_tall_as_they_should_be(loaded, years, male, height, ances
     assert abs(body.min()) < 0.012, "on the ground"
 
 
-def width_at(loaded, made, bone, low, high):
-    part = (loaded.weights[:, loaded.bone[bone]] > 0.5) & (made[:, 2] > low * 1.75) & (made[:, 2] < high * 1.75)
-    return numpy.ptp(made[part & numpy.isin(numpy.arange(len(made)), loaded.vertices_of("body")), 1])
+def waist_of(loaded, made):
+    """Width and depth together, m, of what hangs on the lower spine."""
+    part = loaded.vertices_of("body")
+    part = part[loaded.weights[part, loaded.bone["spine_01"]] > 0.5]
+    return numpy.ptp(made[part, :2], axis=0).sum()
 
 
 def test_the_heavy_are_wider_and_children_have_larger_heads(loaded):
     make = lambda **more: shape.shape_of(loaded, shape.Body(**{"years": 30, "male": 1.0, "height": 1.75, **more}))
-    waist = lambda made: width_at(loaded, made, "spine_01", 0.5, 0.75)
-    assert waist(make(weight=0.95)) > waist(make()) + 0.05 > waist(make(weight=0.1)) + 0.07
+    waist = lambda made: waist_of(loaded, made)
+    assert waist(make(weight=0.95)) > waist(make()) + 0.08 and waist(make()) > waist(make(weight=0.1)) + 0.04
     apart = lambda made: numpy.ptp([loaded.joint(made, f"{side}-shoulder")[1] for side in "lr"])
     assert apart(make(shoulders=1.0)) > apart(make()) + 0.01 > apart(make(shoulders=-1.0)) + 0.02
 
     def head(made, height):
         return (loaded.joint(made, "head-2")[2] - loaded.joint(made, "neck")[2]) / height
 
-    assert head(make(years=7, height=1.22), 1.22) > 1.2 * head(make(), 1.75)
+    assert head(make(years=7, height=1.22), 1.22) > 1.08 * head(make(), 1.75)
     faces = [make(seed=seed)[loaded.vertices_of("body")] for seed in (1, 2)]
     assert numpy.abs(faces[0] - faces[1]).max() > 0.004, "everybody has a face of one's own"
 
@@ -133,7 +135,7 @@ def test_levels_have_no_cracks(loaded):
 
 
 def test_triangles_keep_to_their_budget(models):
-    for level, middle, most in ((0, 4400, 6300), (1, 1600, 2300), (2, 520, 760)):
+    for level, middle, most in ((0, 4600, 6000), (1, 1800, 2300), (2, 560, 760)):
         counts = [len(model.faces) for (_, each), model in models.items() if each == level]
         assert numpy.mean(counts) < middle and max(counts) < most, (level, counts)
 
@@ -159,7 +161,7 @@ def test_feet_stay_on_the_ground_and_do_not_slide(models, number):
     phases = numpy.linspace(0.12, 0.38, 6)  # the right foot is flat
     posed = model.posed([gait.walk_pose(phase, build, walked) for phase in phases])
     lowest = posed[:, :, 2].min(axis=1)
-    assert (lowest > -0.012).all() and (lowest < 0.012).all(), lowest
+    assert (lowest > -0.006).all() and (lowest < 0.006).all(), lowest
     foot = model.weights[:, [model.rig.bodies.bone[bone] for bone in ("foot_r", "ball_r")]].sum(axis=1) > 0.99
     moved = posed[:, foot].mean(axis=1)[:, 0] + phases * walked.stride
     assert numpy.ptp(moved) < 0.004, "in the world"
@@ -178,7 +180,7 @@ def test_what_clothes_hide_is_not_there(loaded):
     who = roster.draw_person("business", 0)
     parts = person.Maker(loaded, who)._parts(0)
     skin = next(part for part in parts if part.material.startswith("skin"))
-    trunk = (skin.places[:, 2] < 0.45) & (skin.places[:, 3] < 0.0)
+    trunk = (skin.places[:, 2] < 0.45) & (skin.places[:, 2] > -0.70) & (skin.places[:, 3] < 0.0)
     assert not trunk.any(), "no skin under a shirt"
     head = skin.places[:, 4] > 0.9
     assert head.sum() > 250, "but heads"

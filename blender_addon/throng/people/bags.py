@@ -1,12 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """What people carry: a rucksack, a bag on a strap, a shopper over the shoulder. Straps are laid on the clothes."""
-from dataclasses import replace
-
 import numpy
 
 from . import levels, regions
-from .head import bound_to, loose
-from .parts import clipped, folded
+from .head import loose
+from .parts import laid_on
 
 
 def _box(bodies, centre, half, bone, material, level, round_=0.55):
@@ -34,14 +32,6 @@ def _box(bodies, centre, half, bone, material, level, round_=0.55):
     return loose(bodies, points, faces, bone, material)
 
 
-def _strap(part, field, material, scale, lift=0.006):
-    piece = clipped(replace(part, tags=numpy.zeros(len(part.points), int)), field)
-    if not len(piece.faces):
-        return []
-    piece = replace(piece.moved(piece.points + piece.normals * lift * scale), material=material)
-    return [folded(piece, 1.3 * lift * scale)]
-
-
 def bag(bodies, kind, tops, rig, level):
     """@param tops the parts of what is worn uppermost"""
     if not kind:
@@ -59,11 +49,11 @@ def bag(bodies, kind, tops, rig, level):
             found.append(_box(bodies, pocket, numpy.array([0.028, 0.095, 0.085]) * scale, "spine_03", "extra pack",
                               level))
         for top in tops if level < 2 else ():
-            places = top.places
-            out, up = numpy.abs(places[:, regions.Y]), places[:, regions.Z]
-            aside = numpy.minimum(0.017 - numpy.abs(out - 0.098), up - 0.325)
-            under = numpy.minimum(numpy.minimum(0.014 - numpy.abs(up - 0.335), out - 0.085), 0.25 - out)  # the arm
-            found += _strap(top, regions.but_arms(places, numpy.maximum(aside, under)), "extra pack", scale)
+            for side in (-1.0, 1.0):  # over the shoulder, and under the arm
+                found += laid_on(top, regions.box((None, 0.081, 0.322), (None, 0.115, None), side), 0.006 * scale,
+                                 "extra pack")
+                found += laid_on(top, regions.box((None, 0.112, 0.322), (None, None, 0.350), side), 0.006 * scale,
+                                 "extra pack")
     else:
         high = 0.10 if kind == "satchel" else 0.16
         side = -1.0
@@ -71,13 +61,6 @@ def bag(bodies, kind, tops, rig, level):
         edge = numpy.abs(near[:, 1]).max() if len(near) else rig.widest
         centre = (hips[0] - 0.03, side * (min(edge, rig.widest + 0.05) + 0.035 * scale), hips[2] + 0.02 * scale)
         found.append(_box(bodies, centre, numpy.array([0.13, 0.040, high]) * scale, "pelvis", "extra leather", level))
-        for top in tops if level < 2 else ():
-            places = top.places
-            # from the left shoulder to the right hip
-            across = 0.013 - numpy.abs((places[:, regions.Y] + 0.13) * 0.80 - (places[:, regions.Z] - 0.10) * 0.50)
-            across = numpy.minimum(across, places[:, regions.Z] - 0.10)
-            found += _strap(top, regions.but_arms(places, across), "extra leather", scale)
+        for top in tops if level < 2 else ():  # from the left shoulder to the right hip
+            found += laid_on(top, regions.band((-0.13, 0.10), (0.115, 0.56), 0.014), 0.006 * scale, "extra leather")
     return found
-
-
-__all__ = ["bag", "bound_to"]

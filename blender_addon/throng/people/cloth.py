@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy
 
 from . import levels, regions
-from .parts import Part, border_of, clipped, folded, grown, joined, normals_of, smoothed, subdivided
+from .parts import Part, border_of, clipped, folded, grown, laid_on, normals_of, smooth_normals, smoothed, subdivided
 
 NECK, CUFF, HEM, FRONT = 1, 2, 3, 4  # tags of cuts
 SUIT, SKIRT = "helper-tights", "helper-skirt"
@@ -172,13 +172,13 @@ class Tailor:
     def _trimmed(self, part, garment):
         """With a collar, lapels, pockets, a belt, and edges that have a thickness."""
         if self.level < 1:  # no edge is ragged
-            part = part.moved(smoothed(part.points, part.faces, 8, 0.5, part.tags == 0))
+            part = part.moved(smoothed(part.points, part.faces, 14, 0.5, part.tags == 0))
         extras = []
         if self.detail.trimmed:
             for pocket in garment.pockets:
                 extras += self._pocket(part, pocket, garment)
             if garment.belt:
-                extras.append(self._belt(part, garment))
+                extras += self._belt(part, garment)
         if garment.lapels and self.detail.trimmed:
             part = self._lapels(part, garment)
         if garment.collar and self.level < 2:
@@ -218,7 +218,9 @@ class Tailor:
         share = numpy.clip((height - bottom) / (0.49 - bottom), 0.0, 1.0)
         width = garment.lapels * self.scale * numpy.where(share < 0.86, share / 0.86, 1.0 - 1.6 * (share - 0.86))
 
-        def rings(points, normals):
+        normals = smooth_normals(part)[ends]
+
+        def rings(points, _normals):
             aside = numpy.stack([0.0 * height, numpy.sign(points[:, 1]), 0.25 + 0.0 * height], axis=1)
             aside -= normals * (aside * normals).sum(axis=1, keepdims=True)
             aside /= numpy.linalg.norm(aside, axis=1, keepdims=True) + 1e-9
@@ -228,27 +230,20 @@ class Tailor:
 
         return grown(part, border, rings)
 
-    def _laid_on(self, part, field, lift, material):
-        """What of a garment is inside of a field, once more on top of it."""
-        piece = clipped(replace(part, tags=numpy.zeros(len(part.points), int)), field, HEM)
-        if not len(piece.faces):
-            return None
-        piece = replace(piece.moved(piece.points + piece.normals * lift * self.scale), material=material)
-        return folded(piece, 1.2 * lift * self.scale)
-
     def _pocket(self, part, kind, garment):
-        low, high = {"chest": ((0.05, 0.045, 0.385), (9.0, 0.105, 0.465)),
-                     "hip": ((-0.02, 0.060, 0.035), (9.0, 0.135, 0.120)),
-                     "kangaroo": ((0.03, -1.0, 0.075), (9.0, 0.105, 0.205)),
-                     "thigh": ((-0.075, 0.115, -0.235), (0.09, 9.0, -0.120)),
-                     "back": ((-9.0, 0.035, -0.015), (-0.03, 0.105, 0.085))}[kind]
-        piece = self._laid_on(part, regions.box(part.places, low, high), 0.004, garment.material)
-        return [piece] if piece else []
+        low, high = {"chest": ((0.05, 0.045, 0.385), (None, 0.105, 0.465)),
+                     "hip": ((-0.02, 0.060, 0.035), (None, 0.135, 0.120)),
+                     "kangaroo": ((0.03, -0.105, 0.075), (None, 0.105, 0.205)),
+                     "thigh": ((-0.075, 0.115, -0.235), (0.09, None, -0.120)),
+                     "back": ((None, 0.035, -0.015), (-0.03, 0.105, 0.085))}[kind]
+        sides = (0.0,) if kind == "kangaroo" else (-1.0, 1.0) if kind != "chest" else (1.0,)
+        return [piece for side in sides
+                for piece in laid_on(part, regions.box(low, high, side), 0.004 * self.scale, garment.material)]
 
     def _belt(self, part, garment):
-        height = garment.waist if garment.kind != "top" else 0.165
-        band = numpy.minimum(part.places[:, regions.Z] - height + 0.036, height - 0.004 - part.places[:, regions.Z])
-        return self._laid_on(part, regions.but_arms(part.places, band), 0.004, garment.belt)
+        high = (garment.waist if garment.kind != "top" else 0.165) - 0.004
+        return laid_on(part, regions.box((None, None, high - 0.032), (None, None, high)), 0.005 * self.scale,
+                       garment.belt)
 
     def _folds(self, part, garment):
         """How far the cloth goes out, m: folds across limbs where joints bend and where cloth piles up."""
@@ -275,20 +270,17 @@ class Tailor:
 
     def _shoes(self, garment):
         """The suit's feet, whose toes are one, with a sole."""
-        triangles = self.bodies.triangles(SUIT)
         part = self._part(self.shape, SUIT, garment.material)
         part = clipped(part, regions.below(part.places, garment.hem), CUFF)
-        numbers = numpy.unique(triangles)
-        ground = self.shape[numbers, 2].min()
         points = smoothed(part.points, part.faces, 3 if self.level < 2 else 0)
         normals = normals_of(points, part.faces)
         points = points + 0.008 * self.scale * normals
-        low = points[:, 2] < ground + 0.026 * self.scale
+        low = points[:, 2] < 0.026 * self.scale
         flat = normals * (1.0, 1.0, 0.0)
         points = points + flat * (0.006 * self.scale * low)[:, None]
         under = low & (normals[:, 2] < -0.35)
-        points[:, 2] = numpy.where(under, ground - self.rig.sole, points[:, 2])
-        points[:, 2] = numpy.maximum(points[:, 2], ground - self.rig.sole)
+        points[:, 2] = numpy.where(under, -self.rig.sole, points[:, 2])
+        points[:, 2] = numpy.maximum(points[:, 2], -self.rig.sole)
         part = part.moved(points)
         sole = low[part.faces].all(axis=1)
         parts = [part.kept(part.faces[~sole]), replace(part.kept(part.faces[sole]), material="shoes sole")]
@@ -350,6 +342,3 @@ def layered(worn):
             if len(part.faces):
                 found.append(part)
     return found
-
-
-__all__ = ["Garment", "Tailor", "covered", "joined", "layered"]

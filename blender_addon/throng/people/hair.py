@@ -6,7 +6,7 @@ import numpy
 
 from . import levels, regions
 from .head import head_of, loose
-from .parts import Part, clipped, joined, normals_of, smoothed, subdivided
+from .parts import Part, clipped, normals_of, smoothed, subdivided
 
 
 @dataclass(frozen=True)
@@ -56,8 +56,9 @@ def hair(bodies, shape, level, name, material, scale, seed):
         count = 12
     if count:
         hangs = style.length < 0.0
-        count = int(count * (1.35 if hangs else 1.0))
-        wider = min((style.count / count) ** 0.5, (0.040 if level < 1 else 0.065) / style.wide)
+        count = int(count * (0.95 if hangs else 1.0))
+        widest = 0.080 if hangs or level > 0 else 0.058
+        wider = min((style.count / count) ** 0.5, widest / style.wide)
         parts.append(_locks(bodies, shape, level, style, material, scale, draw, count, wider, name == "ring"))
     if name in ("knot", "tail") and level < 2:
         parts.append(_knot(bodies, shape, level, name, material, scale))
@@ -80,7 +81,8 @@ def _skin(bodies, shape, level, style, scale, ring):
     if level == levels.NEAR:
         piece = subdivided(piece, 0.2)
     above = regions.scalp(piece.places, style.raised)
-    thick = style.thick * (1.0 if level < 1 else 1.35) * numpy.clip(above / 0.03, 0.04, 1.0) ** 0.8
+    plain = 0.0 if level < 2 else 1.1 * style.lift if style.comb == "out" else 0.0  # instead of locks
+    thick = (style.thick * (1.0 if level < 1 else 1.35) + plain) * numpy.clip(above / 0.03, 0.04, 1.0) ** 0.8
     points = piece.points + piece.normals * (thick * scale)[:, None]
     strands = numpy.stack([regions.angle_of(piece.places) / 12.0, piece.places[:, regions.Z] * 5.0], axis=1)
     return replace(piece.moved(smoothed(points, piece.faces, 1, 0.3)), flat=strands)
@@ -106,7 +108,7 @@ def _ways(style, points, normals, places, crown, back, draw):
     elif style.comb == "side":
         ways = numpy.where((ahead & (places[:, regions.Z] > 0.775))[:, None], (-0.35, -0.9, 0.15), points - crown)
     elif style.comb == "parted":
-        ways = numpy.stack([numpy.full(len(points), -0.35), numpy.sign(points[:, 1] - 0.014) * 1.2,
+        ways = numpy.stack([numpy.where(regions.angle_of(places) < 55.0, -0.9, -0.35), numpy.sign(points[:, 1] - 0.014) * 1.2,
                             numpy.full(len(points), -0.2)], axis=1)
     elif style.comb == "knot":
         ways = back - points
@@ -154,12 +156,13 @@ def _locks(bodies, shape, level, style, material, scale, draw, count, wider, rin
         ways = numpy.where(fringe[:, None], aside + draw.normal(0.0, 0.12, (count, 3)), ways)
     pieces = style.pieces if level == levels.NEAR else max(2, style.pieces // 2 if style.length > 0.0 else 4)
     line, sides = _grow(points + normals * style.lift * 0.5, ways, length, style, scale, draw, pieces,
-                        _collider(bodies, shape), fringe, bodies.joint(shape, "mouth")[2] - 0.03 * scale)
+                        _collider(bodies, shape), fringe, bodies.joint(shape, "mouth")[2] - 0.03 * scale,
+                        bodies.joint(shape, "l-eye")[[0, 2]] + (-0.055 * scale, 0.045 * scale))
     wide = style.wide * wider * scale * draw.uniform(0.7, 1.3, count)
     return _ribbons(bodies, line, sides, wide, weights, material, draw, level, style)
 
 
-def _grow(points, ways, length, style, scale, draw, pieces, collider, fringe, chin):
+def _grow(points, ways, length, style, scale, draw, pieces, collider, fringe, chin, brow):
     """Lines of pieces + 1 points, and the normals of the head beside them."""
     near, normals = collider
     lift = style.lift * scale * draw.uniform(0.45, 1.35, len(points))
@@ -179,6 +182,10 @@ def _grow(points, ways, length, style, scale, draw, pieces, collider, fringe, ch
             low = numpy.clip((chin - points[:, 2]) / (0.06 * scale), 0.0, 1.0)
             wide = numpy.abs(points[:, 1]) / (0.088 * scale)
             points[:, 1] /= 1.0 + low * (numpy.maximum(wide, 1.0) - 1.0)
+            # and beside the face
+            before = (points[:, 0] > brow[0]) & (points[:, 2] < brow[1])
+            beside = numpy.maximum(numpy.abs(points[:, 1]), 0.060 * scale)
+            points[:, 1] = numpy.where(before, numpy.copysign(beside, points[:, 1] - 0.014), points[:, 1])
         line.append(points)
         sides.append(out)
         if style.fall >= 0.5:  # what hangs does not fly
@@ -251,6 +258,3 @@ def _knot(bodies, shape, level, name, material, scale):
                 after = (spoke + 1) % around
                 faces += [(a + spoke, a + after, b + after), (a + spoke, b + after, b + spoke)]
     return loose(bodies, numpy.array(spots), numpy.array(faces), "head", material, numpy.array(flat))
-
-
-__all__ = ["STYLES", "hair", "joined"]

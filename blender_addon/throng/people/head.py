@@ -6,7 +6,7 @@ import numpy
 
 from . import levels, regions
 from .cloth import covered
-from .parts import Part, clipped, joined, smoothed, subdivided
+from .parts import Part, clipped, cut_out, joined, smoothed, subdivided
 
 
 def bound_to(bodies, bone, count):
@@ -78,15 +78,8 @@ def brows(bodies, shape, level, material, scale):
     """As a thin skin over the face: they read from far away, where what is painted does not."""
     if level > 0:
         return []
-    finest = head_of(bodies, shape, levels.NEAR)
-    field = regions.box(finest.places, (0.07, 0.0, 0.725), (1.0, 0.07, 0.775))
-    piece = clipped(finest, field)
-    if level == levels.NEAR:
-        piece = subdivided(piece, 0.2)
-    else:
-        piece = clipped(head_of(bodies, shape, level), regions.box(
-            head_of(bodies, shape, level).places, (0.07, 0.0, 0.725), (1.0, 0.07, 0.775)))
-        piece = subdivided(piece, 0.0)
+    piece = cut_out(head_of(bodies, shape, level), regions.box((0.07, -0.07, 0.725), (None, 0.07, 0.775)))
+    piece = subdivided(piece, 0.2 if level == levels.NEAR else 0.0)
     piece = clipped(piece, regions.brow(piece.places))
     if not len(piece.faces):
         return []

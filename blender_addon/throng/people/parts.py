@@ -122,6 +122,31 @@ def clipped(part, field, tag=0):
     return everything.kept(numpy.concatenate(faces))
 
 
+def cut_out(part, fields):
+    """What of a part is inside of several fields, one cut after the other."""
+    piece = replace(part, tags=numpy.zeros(len(part.points), int))
+    for field in fields:
+        if len(piece.faces):
+            piece = clipped(piece, field(piece.places), 1)
+    return piece
+
+
+def laid_on(part, fields, lift, material):
+    """What of a part is inside of fields, once more on top of it, with edges: pockets, belts, straps."""
+    piece = cut_out(part, fields)
+    if not len(piece.faces):
+        return []
+    piece = piece.moved(smoothed(piece.points, piece.faces, 6, 0.5, piece.tags == 0))
+    piece = replace(piece.moved(piece.points + smooth_normals(piece) * lift), material=material)
+    return [folded(piece, 1.2 * lift)]
+
+
+def smooth_normals(part):
+    """Without the folds of cloth."""
+    normals = smoothed(part.normals, part.faces, 3)
+    return normals / (numpy.linalg.norm(normals, axis=1, keepdims=True) + 1e-9)
+
+
 def subdivided(part, share=0.35):
     """Every triangle in four, a little smoothed."""
     edges, number = numpy.unique(numpy.sort(directed_edges(part.faces), axis=1), axis=0, return_inverse=True)

@@ -30,10 +30,24 @@ def places_of(bodies):
     return numpy.concatenate([base, arm[:, None], bodies.weights[:, [bodies.bone["head"]]]], axis=1)
 
 
-def box(places, low, high):
-    """Inside of a box whose y is the distance from the middle."""
-    even = numpy.stack([places[:, X], numpy.abs(places[:, Y]), places[:, Z]], axis=1)
-    return numpy.minimum((even - low).min(axis=1), (numpy.asarray(high) - even).min(axis=1))
+def box(low, high, side=0.0):
+    """The planes of a box, one field each, for cuts that are exact however large triangles are; on one side (1 left, -1
+    right) y is the distance from the middle. None is infinite."""
+    fields = [lambda places: but_arms(places, 1.0)]
+    for axis in (X, Y, Z):
+        sign = side if axis == Y and side else 1.0
+        if low[axis] is not None:
+            fields.append(lambda places, a=axis, s=sign: places[:, a] * s - low[a])
+        if high[axis] is not None:
+            fields.append(lambda places, a=axis, s=sign: high[a] - places[:, a] * s)
+    return fields
+
+
+def band(first, second, half):
+    """The planes of a strip between two places (y, z), so wide to each side."""
+    (y, z), (dy, dz) = first, numpy.subtract(second, first) / numpy.hypot(*numpy.subtract(second, first))
+    off = lambda places: (places[:, Y] - y) * dz - (places[:, Z] - z) * dy
+    return [lambda places: but_arms(places, 1.0), lambda places: half - off(places), lambda places: half + off(places)]
 
 
 def on_trunk(places, value):

@@ -132,16 +132,19 @@ class Rig:
         self._fingers(turns, places, side, hand, sign)
 
     def _fingers(self, turns, places, side, hand, sign):
-        """Half closed, as hands hang."""
+        """Half closed and side by side, as hands hang."""
+        middle = self.tails[f"middle_01_{side}"] - self.heads[f"middle_01_{side}"]
         index, little = (self.heads[f"{finger}_01_{side}"] - self.heads[hand] for finger in ("index", "pinky"))
         back = numpy.cross(index, little) * sign
         for finger, curl in _FINGERS:
-            parent, bent = hand, turns[hand]
+            own = self.tails[f"{finger}_01_{side}"] - self.heads[f"{finger}_01_{side}"]
+            apart = math.acos(min(1.0, own @ middle / (numpy.linalg.norm(own) * numpy.linalg.norm(middle))))
+            parent, bent = hand, turns[hand] @ turn(numpy.cross(own, middle), 0.75 * apart)
             for number in (1, 2, 3):
                 bone = f"{finger}_0{number}_{side}"
                 places[bone] = places[parent] + turns[parent] @ (self.heads[bone] - self.heads[parent])
                 hinge = numpy.cross(self.tails[bone] - self.heads[bone], back)
-                bent = bent @ turn(hinge, curl * (0.7 if number == 1 else 1.0))
+                bent = bent @ turn(hinge, -curl * (0.7 if number == 1 else 1.0))
                 turns[bone] = bent
                 parent = bone
 

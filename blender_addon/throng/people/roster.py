@@ -48,7 +48,7 @@ def draw_person(look, number, years=None, male=None, height=None, shoulders=None
     body = Body(years, male, height or _height(draw, years, male), ancestry,
                 weight=float(numpy.clip(draw.normal(0.50 + 0.08 * (years > 45), 0.13), 0.25, 0.92)),
                 muscle=float(numpy.clip(draw.normal(0.52 - 0.12 * (years > 60), 0.12), 0.2, 0.85)),
-                proportions=float(draw.uniform(0.5, 0.85)),
+                proportions=float(draw.uniform(0.40, 0.72)),
                 shoulders=float(draw.normal(0.0, 0.3)) if shoulders is None else shoulders,
                 seed=int(draw.integers(1 << 30)), smile=float(draw.random() * 0.6))
     outfits = wardrobe.LOOKS[look][0 if male > 0.5 else 1]

@@ -107,13 +107,24 @@ def shape_of(bodies, body):
     rules, names = json.loads(bodies.rules), list(bodies._target)
     middle = bodies.vertices.copy()
     for weights in (macro_targets(rules, _values(body, 0.5), body.ancestry), face_targets(names, body),
-                    dict(body.details), {_shoulders(body): abs(body.shoulders)}):
+                    dict(body.details), waist_targets(body), {_shoulders(body): abs(body.shoulders)}):
         for name, weight in weights.items():
             bodies.move(middle, name, weight)
     shape = _as_tall(bodies, body, rules, middle)
     shape *= body.height / height_of(bodies, shape)  # what is left
     shape[:, 2] -= bodies.joint(shape, "ground")[2]
     return shape
+
+
+def waist_targets(body):
+    """{target: weight} of bellies and hips: the macro targets for weight make athletes that are a little wider."""
+    more = body.weight - 0.5
+    soft = max(0.0, more) * (1.0 + 0.5 * body.male + 0.01 * max(0.0, body.years - 35.0))
+    circumference = 0.18 + 1.7 * more
+    return {f"torso/measure-waist-circ-{'incr' if circumference > 0.0 else 'decr'}": min(abs(circumference), 1.2),
+            f"torso/measure-hips-circ-{'incr' if more > 0.0 else 'decr'}": abs(more),
+            "stomach/stomach-tone-decr": min(1.3 * soft, 1.0), "stomach/stomach-pregnant-incr": min(0.5 * soft, 0.45),
+            "neck/neck-double-incr": min(1.2 * soft, 0.8)}
 
 
 def _shoulders(body):
