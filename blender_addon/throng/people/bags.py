@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What people carry: a rucksack, a bag on a strap, a shopper over the shoulder. Straps are laid on the clothes."""
+import numpy
+
+from . import levels, regions
+from .head import loose
+from .parts import laid_on
+
+
+def _box(bodies, centre, half, bone, material, level, round_=0.55):
+    """A box with soft edges."""
+    steps = {levels.NEAR: 9, 0: 4, 1: 3, 2: 2}[level]
+    line = numpy.linspace(-1.0, 1.0, steps)
+    points, faces = [], []
+    for axis in range(3):
+        for sign in (-1.0, 1.0):
+            first, (a, b) = len(points), [other for other in range(3) if other != axis]
+            for u in line:
+                for v in line:
+                    spot = numpy.zeros(3)
+                    spot[axis], spot[a], spot[b] = sign, u, v
+                    ball = spot / numpy.linalg.norm(spot) * 1.25
+                    points.append(numpy.asarray(centre) + (spot * (1.0 - round_) + ball * round_) * half)
+            for row in range(steps - 1):
+                for column in range(steps - 1):
+                    corner = first + row * steps + column
+                    faces += [(corner, corner + 1, corner + steps + 1), (corner, corner + steps + 1, corner + steps)]
+    points, faces = numpy.array(points), numpy.array(faces)
+    a, b, c = (points[faces[:, corner]] for corner in range(3))
+    inwards = (numpy.cross(b - a, c - a) * (a - centre)).sum(axis=1) < 0.0
+    faces[inwards] = faces[inwards][:, ::-1]
+    return loose(bodies, points, faces, bone, material)
+
+
+def bag(bodies, kind, tops, rig, level):
+    """@param tops the parts of what is worn uppermost"""
+    if not kind:
+        return []
+    scale, body = rig.scale, numpy.concatenate([top.points for top in tops])
+    spine, hips = rig.heads["spine_03"], rig.heads["pelvis"]
+    found = []
+    if kind == "rucksack":
+        middle = numpy.abs(body[:, 1]) < 0.09
+        back = body[middle & (numpy.abs(body[:, 2] - spine[2]) < 0.10 * scale), 0].min()
+        centre = (back - 0.052 * scale, 0.0, spine[2] - 0.02 * scale)
+        found.append(_box(bodies, centre, numpy.array([0.062, 0.125, 0.19]) * scale, "spine_03", "extra pack", level))
+        pocket = (centre[0] - 0.060 * scale, 0.0, centre[2] - 0.07 * scale)
+        if level < 1:
+            found.append(_box(bodies, pocket, numpy.array([0.028, 0.095, 0.085]) * scale, "spine_03", "extra pack",
+                              level))
+        for top in tops if level < 2 else ():
+            for side in (-1.0, 1.0):  # over the shoulder, and under the arm
+                found += laid_on(top, regions.box((None, 0.081, 0.322), (None, 0.115, None), side), 0.006 * scale,
+                                 "extra pack")
+                found += laid_on(top, regions.box((None, 0.112, 0.322), (None, None, 0.350), side), 0.006 * scale,
+                                 "extra pack")
+    else:
+        high = 0.10 if kind == "satchel" else 0.16
+        side = -1.0
+        near = body[(numpy.abs(body[:, 2] - hips[2]) < 0.12 * scale)]
+        edge = numpy.abs(near[:, 1]).max() if len(near) else rig.widest
+        centre = (hips[0] - 0.03, side * (min(edge, rig.widest + 0.05) + 0.035 * scale), hips[2] + 0.02 * scale)
+        found.append(_box(bodies, centre, numpy.array([0.13, 0.040, high]) * scale, "pelvis", "extra leather", level))
+        for top in tops if level < 2 else ():  # from the left shoulder to the right hip
+            found += laid_on(top, regions.band((-0.13, 0.10), (0.115, 0.56), 0.014), 0.006 * scale, "extra leather")
+    return found

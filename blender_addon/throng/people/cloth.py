@@ -1,0 +1,344 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Clothes, made from the body's own surface: the base mesh brings a suit from neck to toes and a skirt, which follow
+every shape. They are smoothed, kept at a distance from the body, loosened, cut by fields, and trimmed."""
+from dataclasses import dataclass, replace
+
+import numpy
+
+from . import levels, regions
+from .parts import Part, border_of, clipped, folded, grown, laid_on, normals_of, smooth_normals, smoothed, subdivided
+
+NECK, CUFF, HEM, FRONT = 1, 2, 3, 4  # tags of cuts
+SUIT, SKIRT = "helper-tights", "helper-skirt"
+_COLLARS = {  # rows of (up, away from the neck), m
+    "crew": ((0.006, -0.004), (0.011, -0.002), (0.009, 0.004)),
+    "shirt": ((0.018, -0.005), (0.026, 0.001), (0.008, 0.013), (-0.020, 0.030)),
+    "roll": ((0.022, -0.003), (0.044, -0.005), (0.050, 0.002), (0.034, 0.008), (0.008, 0.011)),
+    "coat": ((0.020, -0.003), (0.030, 0.004), (0.006, 0.024), (-0.028, 0.042)),
+    "hood": ((0.014, 0.006), (0.030, 0.024), (0.016, 0.050), (-0.022, 0.060), (-0.050, 0.045)),
+    "stand": ((0.020, -0.004), (0.042, -0.006), (0.045, 0.000), (0.022, 0.004)),
+}
+
+
+@dataclass(frozen=True)
+class Garment:
+    kind: str                # top, legs, skirt, shoes
+    material: str            # "top knit": what it is worn as, and of what
+    off: float = 0.010       # m, from the body
+    loose: float = 0.10      # how much wider than the limbs
+    smooth: int = 4          # rounds
+    sleeve: float = 0.97     # until where on the arm
+    hem: float = 0.02        # height on the base mesh
+    waist: float = 0.19
+    width: float = 1.0       # of trouser legs
+    flare: float = 0.0
+    pleats: float = 0.0
+    neck: tuple = (1.0, 1.0)
+    vee: float = None        # the bottom of a V
+    gap: tuple = None        # an open front: (half width at the waist, at the neck)
+    collar: str = ""
+    lapels: float = 0.0      # m
+    pockets: tuple = ()      # chest, hip, thigh, kangaroo
+    belt: str = ""           # its material
+    heel: float = 0.0
+    folds: float = 1.0
+
+
+class Tailor:
+    """Makes somebody's clothes at a level of detail."""
+
+    def __init__(self, bodies, shape, rig, level, seed):
+        self.bodies, self.shape, self.rig, self.level, self.seed = bodies, shape, rig, level, seed
+        self.detail, self.scale = levels.DETAILS[level], rig.scale
+        self.places = regions.places_of(bodies)
+
+    def wear(self, garment):
+        """Its parts."""
+        return {"top": self._top, "legs": self._legs, "skirt": self._skirt, "shoes": self._shoes}[garment.kind](garment)
+
+    def bone(self, *names):
+        """How much vertices of the base mesh hang on bones, both sides."""
+        return self.bodies.weights[:, [self.bodies.bone[name] for name in names]].sum(axis=1)
+
+    # --- the surface
+
+    def _surface(self, garment, group=SUIT):
+        """Where the suit is, loosened: points for all vertices of the base mesh."""
+        triangles = self.bodies.triangles(group)
+        numbers = numpy.unique(triangles)
+        place = numpy.zeros(len(self.shape), int)
+        place[numbers] = numpy.arange(len(numbers))
+        faces, body = place[triangles], self.shape[numbers]
+        off = garment.off * max(self.scale, 0.8)
+        points = smoothed(body + off * normals_of(body, faces), faces, garment.smooth)
+        normals = normals_of(points, faces)
+        near = ((points - body) * normals).sum(axis=1)
+        points += normals * numpy.maximum(0.0, off - near)[:, None]
+        whole = self.shape.copy()
+        whole[numbers] = points
+        if garment.kind == "top":
+            whole = self._loose_sleeves(garment, self._loose_trunk(garment, whole))
+        if garment.kind == "legs":
+            whole = self._loose_legs(garment, whole)
+        whole[numbers] = smoothed(whole[numbers], faces, 2, 0.4)
+        return whole
+
+    def _loose_trunk(self, garment, points):
+        """Cloth hangs from chest and shoulder blades over the waist, and a little outwards at the hem."""
+        low, high = self.rig.heads["pelvis"][2], self.bodies.joint(self.shape, "spine-1")[2]
+        trunk = self.places[:, regions.ARM] <= 0.0
+        bulge = numpy.sin(numpy.clip((high - points[:, 2]) / (high - low), 0.0, 1.0) * 2.6) * garment.loose
+        hang = numpy.clip((0.21 - self.places[:, regions.Z]) / 0.2, 0.0, 1.5) * (0.012 + 0.05 * garment.flare)
+        middle = 0.5 * (points[trunk, 0].max() + points[trunk, 0].min())
+        wider = numpy.where(trunk, 1.0 + 1.1 * bulge + 4.0 * hang, 1.0)
+        deeper = numpy.where(trunk, 1.0 + bulge + 5.0 * hang, 1.0)
+        found = points.copy()
+        found[:, 1] *= wider
+        found[:, 0] = numpy.where(trunk, middle + (points[:, 0] - middle) * deeper, points[:, 0])
+        return found
+
+    def _loose_sleeves(self, garment, points):
+        for side in "lr":
+            joints = [self.rig.heads[f"{bone}_{side}"] for bone in ("upperarm", "lowerarm", "hand")]
+            for bone, (start, stop), share in (("upperarm", joints[:2], 0.25), ("lowerarm", joints[1:], 0.7)):
+                away = _from_axis(points, start, stop)
+                points = points + away * (garment.loose * share * self.bone(f"{bone}_{side}"))[:, None]
+        return points
+
+    def _loose_legs(self, garment, points):
+        for side in "lr":
+            hip, knee, ankle = (self.rig.heads[f"{bone}_{side}"] for bone in ("thigh", "calf", "foot"))
+            least = 0.52 * abs(hip[1]) * garment.width  # of a leg of cloth below the knee
+            share = numpy.clip((points[:, 2] - ankle[2]) / (knee[2] - ankle[2]), -0.3, 1.0)
+            away = points - (ankle + (knee - ankle) * share[:, None])
+            away[:, 2] = 0.0
+            size = numpy.linalg.norm(away, axis=1) + 1e-9
+            wanted = numpy.maximum(size, least * (1.0 + (0.12 + garment.flare) * (1.0 - share)))
+            points = points + away * ((wanted / size - 1.0) * self.bone(f"calf_{side}", f"foot_{side}"))[:, None]
+            share = numpy.clip((points[:, 2] - knee[2]) / (hip[2] - knee[2]), 0.0, 1.0)
+            away = points - (knee + (hip - knee) * share[:, None])
+            away[:, 2] = 0.0
+            points = points + away * (garment.loose * (1.3 - share) * self.bone(f"thigh_{side}"))[:, None]
+        return points
+
+    def _part(self, points, group, material):
+        """A part of the level's triangles; the finest are cut smaller."""
+        triangles = levels.triangles_of(self.bodies, group, self.level)
+        numbers, faces = numpy.unique(triangles, return_inverse=True)
+        part = Part(faces.reshape(-1, 3), points[numbers], self.bodies.weights[numbers], self.places[numbers], material)
+        for _ in range(self.detail.finer):
+            part = subdivided(part)
+        return part
+
+    # --- garments
+
+    def _top(self, garment):
+        part = self._part(self._surface(garment), SUIT, garment.material)
+        places = part.places
+        if self.detail.finer and garment.folds:
+            part = part.moved(part.points + part.normals * self._folds(part, garment)[:, None])
+        part = clipped(part, regions.above(places, garment.hem), HEM)
+        part = clipped(part, regions.sleeve(part.places, garment.sleeve), CUFF)
+        part = clipped(part, regions.neckline(part.places, *garment.neck), NECK)
+        if garment.vee is not None:
+            part = clipped(part, regions.vee(part.places, garment.vee), FRONT)
+        if garment.gap:
+            part = clipped(part, regions.gap(part.places, *garment.gap, garment.hem), FRONT)
+        return self._trimmed(part, garment)
+
+    def _legs(self, garment):
+        part = self._part(self._surface(garment), SUIT, garment.material)
+        if self.detail.finer and garment.folds:
+            part = part.moved(part.points + part.normals * self._folds(part, garment)[:, None])
+        part = clipped(part, regions.below(part.places, garment.waist), HEM)
+        part = clipped(part, regions.above(part.places, garment.hem), CUFF)
+        return self._trimmed(part, garment)
+
+    def _skirt(self, garment):
+        part = self._part(self._surface(garment, SKIRT), SKIRT, garment.material)
+        part = clipped(part, numpy.minimum(garment.waist - part.places[:, regions.Z], 1.0), HEM)
+        part = clipped(part, part.places[:, regions.Z] - garment.hem, HEM)
+        high, low = part.points[:, 2].max(), part.points[:, 2].min()
+        share = (high - part.points[:, 2]) / max(high - low, 1e-6)
+        middle = part.points[:, 0].mean()
+        angle = numpy.arctan2(part.points[:, 1], part.points[:, 0] - middle)
+        waves = numpy.sin(angle * 13.0 + 2.0 * numpy.sin(2.0 * angle + self.seed)) if self.level < 1 else 0.0
+        wider = 1.0 + share * (garment.flare + garment.pleats * waves)
+        points = part.points.copy()
+        points[:, 1] *= wider
+        points[:, 0] = middle + (points[:, 0] - middle) * wider
+        return self._trimmed(part.moved(points), garment)
+
+    def _trimmed(self, part, garment):
+        """With a collar, lapels, pockets, a belt, and edges that have a thickness."""
+        if self.level < 1:  # no edge is ragged
+            part = part.moved(smoothed(part.points, part.faces, 14, 0.5, part.tags == 0))
+        extras = []
+        if self.detail.trimmed:
+            for pocket in garment.pockets:
+                extras += self._pocket(part, pocket, garment)
+            if garment.belt:
+                extras += self._belt(part, garment)
+        if garment.lapels and self.detail.trimmed:
+            part = self._lapels(part, garment)
+        if garment.collar and self.level < 2:
+            part = self._collar(part, _COLLARS[garment.collar])
+        if self.detail.trimmed:
+            tags = [CUFF, HEM, FRONT] if garment.collar else [NECK, CUFF, HEM, FRONT]
+            part = folded(part, 0.008 * self.scale, tags)
+        return [part, *extras]
+
+    def _collar(self, part, rows):
+        neck = self.rig.heads["neck_01"]
+        border = border_of(part.faces)
+        border = border[(part.tags[border] == NECK).all(axis=1)]
+        if len(border) < 4:
+            return part
+        rows = rows if self.detail.trimmed else rows[:1] + rows[-1:]
+
+        def rings(points, _normals):
+            away = (points - neck) * (1.0, 1.0, 0.0)
+            away /= numpy.linalg.norm(away, axis=1, keepdims=True) + 1e-9
+            # lower before the throat than behind
+            lower = numpy.where(away[:, 0] > 0.5, 0.8, 1.0)[:, None]
+            return [points + self.scale * (lower * up * numpy.array([0.0, 0.0, 1.0]) + aside * away)
+                    for up, aside in rows]
+
+        return grown(part, border, rings)
+
+    def _lapels(self, part, garment):
+        """The edges of the front, turned over: widest below the collar."""
+        border = border_of(part.faces)
+        border = border[(part.tags[border] == FRONT).all(axis=1)]
+        if not len(border):
+            return part
+        ends = numpy.unique(border)
+        height = part.places[ends, regions.Z]
+        bottom = garment.vee if garment.vee is not None else 0.18
+        share = numpy.clip((height - bottom) / (0.49 - bottom), 0.0, 1.0)
+        width = garment.lapels * self.scale * numpy.where(share < 0.86, share / 0.86, 1.0 - 1.6 * (share - 0.86))
+
+        normals = smooth_normals(part)[ends]
+
+        def rings(points, _normals):
+            aside = numpy.stack([0.0 * height, numpy.sign(points[:, 1]), 0.25 + 0.0 * height], axis=1)
+            aside -= normals * (aside * normals).sum(axis=1, keepdims=True)
+            aside /= numpy.linalg.norm(aside, axis=1, keepdims=True) + 1e-9
+            lift = (0.010 + 0.0 * height)[:, None]
+            return [points + normals * lift + 0.1 * width[:, None] * aside,
+                    points + normals * lift * 0.8 + width[:, None] * aside]
+
+        return grown(part, border, rings)
+
+    def _pocket(self, part, kind, garment):
+        low, high = {"chest": ((0.05, 0.045, 0.385), (None, 0.105, 0.465)),
+                     "hip": ((-0.02, 0.060, 0.035), (None, 0.135, 0.120)),
+                     "kangaroo": ((0.03, -0.105, 0.075), (None, 0.105, 0.205)),
+                     "thigh": ((-0.075, 0.115, -0.235), (0.09, None, -0.120)),
+                     "back": ((None, 0.035, -0.015), (-0.03, 0.105, 0.085))}[kind]
+        sides = (0.0,) if kind == "kangaroo" else (-1.0, 1.0) if kind != "chest" else (1.0,)
+        return [piece for side in sides
+                for piece in laid_on(part, regions.box(low, high, side), 0.004 * self.scale, garment.material)]
+
+    def _belt(self, part, garment):
+        high = (garment.waist if garment.kind != "top" else 0.165) - 0.004
+        return laid_on(part, regions.box((None, None, high - 0.032), (None, None, high)), 0.005 * self.scale,
+                       garment.belt)
+
+    def _folds(self, part, garment):
+        """How far the cloth goes out, m: folds across limbs where joints bend and where cloth piles up."""
+        points, wave = part.points / self.scale, _Waves(self.seed)
+        wander = 0.55 * wave(points * 9.0) + 0.3 * wave(points * 20.0)
+        weights = dict(zip(self.bodies.bones, part.weights.T))
+        height = numpy.zeros(len(points))
+        if garment.kind == "top":
+            arm = part.places[:, regions.ARM]
+            on = arm > 0.0
+            amount = 0.25 + numpy.exp(-((arm - 0.52) / 0.14) ** 2) + 0.7 * numpy.exp(-((arm - 0.95) / 0.1) ** 2)
+            height += numpy.where(on, amount, 0.0) * numpy.sin(arm * 36.0 + 4.2 * wander) * 0.0050
+            trunk = weights["spine_01"] + weights["spine_02"] + weights["pelvis"]
+            across = points[:, 2] * 42.0 + numpy.abs(points[:, 1]) * 18.0
+            height += trunk * numpy.sin(across + 5.0 * wander) * 0.0045
+            upper = points[:, 2] * 15.0 - numpy.abs(points[:, 1]) * 36.0
+            height += weights["spine_03"] * numpy.sin(upper + 4.0 * wander) * 0.0030
+        else:
+            level = part.places[:, regions.Z]
+            for middle, wide, often, far in ((-0.745, 0.10, 75.0, 0.0085), (-0.37, 0.10, 60.0, 0.0045),
+                                             (0.03, 0.10, 50.0, 0.0050)):
+                height += numpy.exp(-((level - middle) / wide) ** 2) * numpy.sin(level * often + 4.0 * wander) * far
+        return height * garment.folds * self.scale
+
+    def _shoes(self, garment):
+        """The suit's feet, whose toes are one, with a sole."""
+        part = self._part(self.shape, SUIT, garment.material)
+        part = clipped(part, regions.below(part.places, garment.hem), CUFF)
+        points = smoothed(part.points, part.faces, 3 if self.level < 2 else 0)
+        normals = normals_of(points, part.faces)
+        points = points + 0.008 * self.scale * normals
+        low = points[:, 2] < 0.026 * self.scale
+        flat = normals * (1.0, 1.0, 0.0)
+        points = points + flat * (0.006 * self.scale * low)[:, None]
+        under = low & (normals[:, 2] < -0.35)
+        points[:, 2] = numpy.where(under, -self.rig.sole, points[:, 2])
+        points[:, 2] = numpy.maximum(points[:, 2], -self.rig.sole)
+        part = part.moved(points)
+        sole = low[part.faces].all(axis=1)
+        parts = [part.kept(part.faces[~sole]), replace(part.kept(part.faces[sole]), material="shoes sole")]
+        return [folded(parts[0], 0.006, [CUFF]) if self.detail.trimmed else parts[0],
+                *(each for each in parts[1:] if len(each.faces))]
+
+
+class _Waves:
+    """A smooth noise from -1 to 1: sines in all directions."""
+
+    def __init__(self, seed):
+        draw = numpy.random.default_rng(seed)
+        self.ways, self.starts = draw.normal(size=(8, 3)), draw.random(8) * 6.28
+
+    def __call__(self, points):
+        return numpy.sin(points @ self.ways.T + self.starts).sum(axis=1) / 4.0
+
+
+def _from_axis(points, start, stop):
+    """From the nearest places of a line between two points."""
+    along = (stop - start) / numpy.linalg.norm(stop - start)
+    share = numpy.clip((points - start) @ along, 0.0, numpy.linalg.norm(stop - start))
+    return points - start - share[:, None] * along
+
+
+def covered(places, garment, margin):
+    """Positive where a garment does not cover what is under it, by more than a margin (m)."""
+    if garment.kind == "skirt":
+        inside = regions.below(places, garment.waist - margin)
+        return -numpy.minimum(inside, places[:, regions.Z] - max(garment.hem + 0.12, -0.25))
+    if garment.kind == "shoes":
+        return -regions.below(places, garment.hem - margin)
+    if garment.kind == "legs":
+        return -numpy.minimum(regions.below(places, garment.waist - margin),
+                              regions.above(places, garment.hem + margin))
+    inside = numpy.minimum(regions.above(places, garment.hem + margin), regions.sleeve(places, garment.sleeve))
+    arm = places[:, regions.ARM] > 0.0
+    inside = numpy.where(arm, inside - margin, inside)
+    inside = numpy.minimum(inside, regions.neckline(places, *garment.neck) - margin)
+    inside = numpy.minimum(inside, 0.605 - places[:, regions.Z])  # heads are free
+    if garment.vee is not None:
+        inside = numpy.minimum(inside, regions.vee(places, garment.vee) - margin)
+    if garment.gap:
+        inside = numpy.minimum(inside, regions.gap(places, *garment.gap, garment.hem) - margin)
+    return -inside
+
+
+def layered(worn):
+    """Parts of garments from the inside out: an inner one loses what the outer ones hide.
+
+    @param worn [(garment, parts)]
+    """
+    found = []
+    for number, (_, parts) in enumerate(worn):
+        for part in parts:
+            for garment, _ in worn[number + 1:]:
+                if len(part.faces):
+                    part = clipped(part, covered(part.places, garment, 0.03))
+            if len(part.faces):
+                found.append(part)
+    return found

@@ -1,0 +1,260 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Hair: a close skin over the scalp, and locks that grow from it, fall, and keep off the head."""
+from dataclasses import dataclass, replace
+
+import numpy
+
+from . import levels, regions
+from .head import head_of, loose
+from .parts import Part, clipped, normals_of, smoothed, subdivided
+
+
+@dataclass(frozen=True)
+class Style:
+    count: int              # of locks, in full detail
+    length: float           # m, or down to a height where that is less than 0
+    wide: float             # m, of a lock
+    lift: float             # m, off the head
+    thick: float            # m, of the skin
+    fall: float             # how fast locks turn down
+    curl: float = 0.03
+    comb: str = "crown"     # crown, back, side, parted, knot, out
+    fringe: float = 0.0     # m, of locks over the forehead
+    pieces: int = 5         # of a lock
+    raised: float = 0.0     # m, of the hairline
+
+
+STYLES = {
+    "crop": Style(500, 0.016, 0.007, 0.004, 0.006, 0.0, 0.10),
+    "short": Style(1500, 0.042, 0.0085, 0.012, 0.010, 0.06, 0.10, fringe=0.030),
+    "quiff": Style(1300, 0.062, 0.010, 0.014, 0.010, 0.03, 0.05, "back"),
+    "side": Style(1300, 0.080, 0.011, 0.012, 0.011, 0.08, 0.04, "side"),
+    "curtains": Style(1200, 0.110, 0.013, 0.013, 0.011, 0.35, 0.03, "parted"),
+    "curls": Style(1900, 0.050, 0.012, 0.030, 0.020, -0.03, 0.55, "out"),
+    "afro": Style(2600, 0.065, 0.013, 0.042, 0.034, -0.05, 0.60, "out"),
+    "bob": Style(1500, -0.02, 0.017, 0.014, 0.012, 0.50, 0.015, "parted", 0.0, 9),
+    "fringed bob": Style(1500, -0.03, 0.017, 0.014, 0.012, 0.50, 0.015, "parted", 0.055, 9),
+    "long": Style(1700, -0.20, 0.019, 0.014, 0.012, 0.60, 0.014, "parted", 0.0, 11),
+    "waves": Style(1700, -0.15, 0.021, 0.017, 0.013, 0.55, 0.075, "parted", 0.0, 11),
+    "knot": Style(800, 0.110, 0.013, 0.006, 0.008, 0.06, 0.015, "knot"),
+    "tail": Style(800, 0.115, 0.013, 0.006, 0.008, 0.06, 0.015, "knot"),
+    "ring": Style(600, 0.035, 0.009, 0.005, 0.006, 0.20, 0.05, raised=0.0),
+}
+
+
+def hair(bodies, shape, level, name, material, scale, seed):
+    """Parts of somebody's hair."""
+    if name not in STYLES:
+        return []
+    style, draw = STYLES[name], numpy.random.default_rng(seed)
+    skin = _skin(bodies, shape, level, style, scale, name == "ring")
+    if not len(skin.faces):
+        return []
+    parts = [replace(skin, material=material)]
+    count = int(style.count * levels.DETAILS[level].locks)
+    if style.length < 0.0 and level == 2:
+        count = 12
+    if count:
+        hangs = style.length < 0.0
+        count = int(count * (0.95 if hangs else 1.0))
+        widest = 0.080 if hangs or level > 0 else 0.058
+        wider = min((style.count / count) ** 0.5, widest / style.wide)
+        parts.append(_locks(bodies, shape, level, style, material, scale, draw, count, wider, name == "ring"))
+    if name in ("knot", "tail") and level < 2:
+        parts.append(_knot(bodies, shape, level, name, material, scale))
+    return parts
+
+
+def _scalp(bodies, shape, level, style, ring):
+    piece = head_of(bodies, shape, level)
+    field = numpy.minimum(regions.scalp(piece.places, style.raised), -regions.ear(piece.places) + 0.002)
+    if ring:  # bald on top
+        field = numpy.minimum(field, 0.772 - piece.places[:, regions.Z])
+    return clipped(piece, field)
+
+
+def _skin(bodies, shape, level, style, scale, ring):
+    """Thinnest at the hairline, so that no edge shows."""
+    piece = _scalp(bodies, shape, level, style, ring)
+    if not len(piece.faces):
+        return piece
+    if level == levels.NEAR:
+        piece = subdivided(piece, 0.2)
+    above = regions.scalp(piece.places, style.raised)
+    plain = 0.0 if level < 2 else 1.1 * style.lift if style.comb == "out" else 0.0  # instead of locks
+    thick = (style.thick * (1.0 if level < 1 else 1.35) + plain) * numpy.clip(above / 0.03, 0.04, 1.0) ** 0.8
+    points = piece.points + piece.normals * (thick * scale)[:, None]
+    strands = numpy.stack([regions.angle_of(piece.places) / 12.0, piece.places[:, regions.Z] * 5.0], axis=1)
+    return replace(piece.moved(smoothed(points, piece.faces, 1, 0.3)), flat=strands)
+
+
+def _roots(piece, draw, count):
+    """Points all over a part, by area: (points, normals, weights, heights over the hairline)."""
+    a, b, c = (piece.points[piece.faces[:, corner]] for corner in range(3))
+    area = numpy.linalg.norm(numpy.cross(b - a, c - a), axis=1)
+    chosen = draw.choice(len(piece.faces), count, p=area / area.sum())
+    share = draw.dirichlet((1.0, 1.0, 1.0), count)
+    mix = lambda values: (values[piece.faces[chosen]] * share[..., None]).sum(axis=1)
+    normals = mix(piece.normals)
+    return (mix(piece.points), normals / numpy.linalg.norm(normals, axis=1, keepdims=True), mix(piece.weights),
+            mix(piece.places))
+
+
+def _ways(style, points, normals, places, crown, back, draw):
+    """Which way locks start, along the head."""
+    ahead = points[:, 0] > crown[0]
+    if style.comb == "back":
+        ways = numpy.where(ahead[:, None], (-0.9, 0.0, 0.55), points - crown)
+    elif style.comb == "side":
+        ways = numpy.where((ahead & (places[:, regions.Z] > 0.775))[:, None], (-0.35, -0.9, 0.15), points - crown)
+    elif style.comb == "parted":
+        ways = numpy.stack([numpy.where(regions.angle_of(places) < 55.0, -0.9, -0.35), numpy.sign(points[:, 1] - 0.014) * 1.2,
+                            numpy.full(len(points), -0.2)], axis=1)
+    elif style.comb == "knot":
+        ways = back - points
+    elif style.comb == "out":
+        return normals + draw.normal(0.0, 0.6, points.shape)
+    else:
+        ways = points - crown
+        ways = ways / (numpy.linalg.norm(ways, axis=1, keepdims=True) + 1e-9) + draw.normal(0.0, 0.22, points.shape)
+    ways = ways - normals * (ways * normals).sum(axis=1, keepdims=True)
+    return ways / (numpy.linalg.norm(ways, axis=1, keepdims=True) + 1e-9)
+
+
+def _collider(bodies, shape):
+    """(points, normals) of head, neck and upper back, without ears and shoulders."""
+    faces = bodies.triangles("body")
+    places = regions.places_of(bodies)
+    use = numpy.zeros(len(shape), bool)
+    use[bodies.vertices_of("body")] = True
+    upper = (places[:, regions.HEAD] > 0.3) & (numpy.abs(places[:, 1]) < 0.071)
+    below = (places[:, regions.HEAD] <= 0.3) & (places[:, 2] > 0.33) & (numpy.abs(places[:, 1]) < 0.11)
+    use &= (upper | below) & (places[:, regions.ARM] < 0.0)
+    chosen = numpy.nonzero(use)[0][::3]
+    return shape[chosen], normals_of(shape, faces)[chosen]
+
+
+def _locks(bodies, shape, level, style, material, scale, draw, count, wider, ring):
+    scalp = _scalp(bodies, shape, level if level < 1 else 0, style, ring)
+    points, normals, weights, places = _roots(scalp, draw, count)
+    head = bodies.joint(shape, "head-2")
+    low, high = scalp.points[:, 0].min(), scalp.points[:, 0].max()
+    crown = numpy.array([low + 0.45 * (high - low), 0.014, head[2]])
+    back = numpy.array([low - 0.01, 0.0, head[2] - 0.055 * scale])
+    ways = _ways(style, points, normals, places, crown, back, draw)
+    above = regions.scalp(places, style.raised)
+    if style.length < 0.0:  # cut level
+        lowest = bodies.joint(shape, "neck")[2] + style.length * scale
+        length = numpy.clip(points[:, 2] - lowest, 0.05, None) * draw.uniform(0.93, 1.06, count) + 0.03
+    else:
+        length = style.length * scale * numpy.clip(0.35 + above / 0.05, 0.35, 1.0) * draw.uniform(0.75, 1.15, count)
+    fringe = numpy.zeros(count, bool)
+    if style.fringe:
+        fringe = (above < 0.022) & (regions.angle_of(places) < 40.0)
+        length = numpy.where(fringe, style.fringe * scale * draw.uniform(0.7, 1.1, count), length)
+        aside = numpy.stack([numpy.full(count, 0.5), 0.30 - points[:, 1] * 4.0, numpy.full(count, -0.8)], axis=1)
+        ways = numpy.where(fringe[:, None], aside + draw.normal(0.0, 0.12, (count, 3)), ways)
+    pieces = style.pieces if level == levels.NEAR else max(2, style.pieces // 2 if style.length > 0.0 else 4)
+    line, sides = _grow(points + normals * style.lift * 0.5, ways, length, style, scale, draw, pieces,
+                        _collider(bodies, shape), fringe, bodies.joint(shape, "mouth")[2] - 0.03 * scale,
+                        bodies.joint(shape, "l-eye")[[0, 2]] + (-0.055 * scale, 0.045 * scale))
+    wide = style.wide * wider * scale * draw.uniform(0.7, 1.3, count)
+    return _ribbons(bodies, line, sides, wide, weights, material, draw, level, style)
+
+
+def _grow(points, ways, length, style, scale, draw, pieces, collider, fringe, chin, brow):
+    """Lines of pieces + 1 points, and the normals of the head beside them."""
+    near, normals = collider
+    lift = style.lift * scale * draw.uniform(0.45, 1.35, len(points))
+    fall = numpy.where(fringe, 0.30, style.fall)[:, None]
+    ways = ways / (numpy.linalg.norm(ways, axis=1, keepdims=True) + 1e-9)
+    line, sides = [], []
+    # where locks bend round the head, their pieces are short
+    steps = numpy.diff((numpy.arange(pieces + 2) / pieces) ** (1.5 if style.fall >= 0.5 else 1.0))
+    for piece in range(pieces + 1):
+        nearest = ((points[:, None] - near[None]) ** 2).sum(axis=2).argmin(axis=1)
+        out = normals[nearest]
+        off = ((points - near[nearest]) * out).sum(axis=1)
+        wanted = lift * (1.0 - 0.4 * piece / pieces)
+        pull = 0.0 if style.comb == "out" else numpy.where(points[:, 2] > chin, 0.05, 0.01)
+        points = points + out * numpy.clip(wanted - off, -pull, 0.04)[:, None]
+        if style.fall >= 0.5:  # below the chin, beside the neck and not out on the shoulders
+            low = numpy.clip((chin - points[:, 2]) / (0.06 * scale), 0.0, 1.0)
+            wide = numpy.abs(points[:, 1]) / (0.088 * scale)
+            points[:, 1] /= 1.0 + low * (numpy.maximum(wide, 1.0) - 1.0)
+            # and beside the face
+            before = (points[:, 0] > brow[0]) & (points[:, 2] < brow[1])
+            beside = numpy.maximum(numpy.abs(points[:, 1]), 0.060 * scale)
+            points[:, 1] = numpy.where(before, numpy.copysign(beside, points[:, 1] - 0.014), points[:, 1])
+        line.append(points)
+        sides.append(out)
+        if style.fall >= 0.5:  # what hangs does not fly
+            ways = ways * (0.70, 0.70, 1.0)
+        ways = ways + numpy.array([0.0, 0.0, -1.0]) * fall * (8.0 / pieces if pieces < 8 else 1.0)
+        ways = ways + draw.normal(0.0, 0.04 + style.curl, ways.shape)
+        ways = ways - out * numpy.minimum(0.0, (ways * out).sum(axis=1))[:, None]
+        ways /= numpy.linalg.norm(ways, axis=1, keepdims=True) + 1e-9
+        points = points + ways * (length * steps[piece])[:, None]
+    return numpy.stack(line, axis=1), numpy.stack(sides, axis=1)
+
+
+def _ribbons(bodies, line, out, wide, weights, material, draw, level, style):
+    """Locks as ribbons that narrow to a tip; near ones are bent across, so that light runs over them."""
+    count, pieces, _ = line.shape
+    along = numpy.gradient(line, axis=1)
+    side = numpy.cross(along, out)
+    side /= numpy.linalg.norm(side, axis=2, keepdims=True) + 1e-9
+    share, taper = numpy.linspace(0.0, 1.0, pieces), 0.85 if style.length > 0.0 else 0.62
+    half = 0.5 * wide[:, None, None] * (1.0 - taper * share ** 2.2)[None, :, None]
+    rows = [line - side * half, line + side * half]
+    if level == levels.NEAR:
+        rows = [rows[0] - out * half * 0.35, line + out * half * 0.3, rows[1] - out * half * 0.35]
+    across = len(rows)
+    points = numpy.stack(rows, axis=2)
+    number = numpy.arange(count * pieces * across).reshape(count, pieces, across)
+    a, b = number[:, :-1, :-1].ravel(), number[:, :-1, 1:].ravel()
+    c, d = number[:, 1:, 1:].ravel(), number[:, 1:, :-1].ravel()
+    faces = numpy.concatenate([numpy.stack([a, b, c], axis=1), numpy.stack([a, c, d], axis=1)])
+    flat = numpy.broadcast_to((draw.random(count) * 9.0)[:, None, None], (count, pieces, across))
+    flat = numpy.stack([flat + numpy.linspace(0.0, 0.6, across), numpy.broadcast_to(share[None, :, None], flat.shape)],
+                       axis=-1).reshape(-1, 2)
+    weights = numpy.repeat(weights, pieces * across, axis=0)
+    points = points.reshape(-1, 3)
+    if style.length < 0.0:  # what lies on the back goes with it
+        neck = line[:, 0, 2].min()
+        lower = numpy.clip((neck - points[:, 2]) / 0.10, 0.0, 0.85)[:, None]
+        back = numpy.zeros_like(weights)
+        back[:, bodies.bone["spine_03"]] = 1.0
+        weights = weights * (1.0 - lower) + back * lower
+    places = numpy.zeros((len(points), 5))
+    places[:, regions.ARM] = -1.0
+    return Part(faces, points, weights, places, material, flat=flat)
+
+
+def _knot(bodies, shape, level, name, material, scale):
+    """A ball of hair at the back of the head, or a tail that hangs from there."""
+    scalp = regions.scalp(regions.places_of(bodies)) > 0.0
+    head, back = bodies.joint(shape, "head-2"), shape[scalp & (bodies.weights[:, bodies.bone["head"]] > 0.5), 0].min()
+    middle = numpy.array([back - 0.012 * scale, 0.0, head[2] - 0.050 * scale])
+    around, rows = (16, 9) if level == levels.NEAR else (7, 5)
+    spots, flat, faces = [], [], []
+    for row in range(rows + 1):
+        share = row / rows
+        for spoke in range(around):
+            angle = 2.0 * numpy.pi * spoke / around
+            if name == "knot":
+                bump = 1.0 + 0.07 * numpy.sin(5.0 * angle + 9.0 * share)
+                size = 0.040 * scale * bump * numpy.sin(numpy.pi * (0.04 + 0.92 * share))
+                ahead = -0.032 * scale * numpy.cos(numpy.pi * share)
+                spot = middle + (ahead, size * numpy.cos(angle), size * numpy.sin(angle))
+            else:
+                size = 0.026 * scale * (0.35 + share) * (1.0 - share) ** 0.5 * 1.5 + 0.003
+                sag = numpy.array([-0.055 * numpy.sin(2.2 * share), 0.0, 0.02 * (1.0 - share) - 0.23 * share ** 1.4])
+                spot = middle + scale * sag + (size * numpy.cos(angle), size * numpy.sin(angle), 0.0)
+            spots.append(spot)
+            flat.append((angle * 1.9, share))
+            if row < rows:
+                a, b = row * around, (row + 1) * around
+                after = (spoke + 1) % around
+                faces += [(a + spoke, a + after, b + after), (a + spoke, b + after, b + spoke)]
+    return loose(bodies, numpy.array(spots), numpy.array(faces), "head", material, numpy.array(flat))

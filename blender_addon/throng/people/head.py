@@ -1,0 +1,217 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Skin, eyes, brows, lashes, beards and glasses."""
+from dataclasses import replace
+
+import numpy
+
+from . import levels, regions
+from .cloth import covered
+from .parts import Part, clipped, cut_out, joined, smoothed, subdivided
+
+
+def bound_to(bodies, bone, count):
+    """Weights of points that hang on one bone."""
+    weights = numpy.zeros((count, len(bodies.bones)))
+    weights[:, bodies.bone[bone]] = 1.0
+    return weights
+
+
+def loose(bodies, points, faces, bone, material, flat=None):
+    """A part that comes from nowhere on the base mesh."""
+    places = numpy.zeros((len(points), 5))
+    places[:, regions.ARM] = -1.0
+    return Part(numpy.asarray(faces), numpy.asarray(points), bound_to(bodies, bone, len(points)), places, material,
+                flat=flat)
+
+
+def skin(bodies, shape, level, garments):
+    """The body, without what clothes hide."""
+    triangles = levels.triangles_of(bodies, "body", level)
+    numbers, faces = numpy.unique(triangles, return_inverse=True)
+    part = Part(faces.reshape(-1, 3), shape[numbers], bodies.weights[numbers], regions.places_of(bodies)[numbers])
+    for garment in garments:
+        part = clipped(part, covered(part.places, garment, 0.035))
+    return part
+
+
+def head_of(bodies, shape, level):
+    """The skin of the head alone, whatever is worn, for what grows on it or covers it."""
+    triangles = levels.triangles_of(bodies, "body", level)
+    head = bodies.weights[:, bodies.bone["head"]] > 0.4
+    numbers, faces = numpy.unique(triangles[head[triangles].all(axis=1)], return_inverse=True)
+    return Part(faces.reshape(-1, 3), shape[numbers], bodies.weights[numbers], regions.places_of(bodies)[numbers])
+
+
+def eyes(bodies, shape, level):
+    rings = levels.DETAILS[level].eyes
+    return [_eye(bodies, shape[bodies.vertices_of(f"helper-{side}-eye")], rings) for side in "lr"] if rings else []
+
+
+def _eye(bodies, points, rings):
+    """The front of a ball; `flat` says how far from the middle of the pupil, 1 at a right angle."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    middle, radius = 0.5 * (low + high), 0.25 * (high - low)[1:].sum()
+    spokes = 6 + 2 * rings
+    made, flat, faces = [middle + (radius * 1.04, 0.0, 0.0)], [(0.0, 0.0)], []
+    for ring in range(1, rings + 1):
+        away = 0.58 * numpy.pi * ring / rings
+        bulge = 1.0 + 0.04 * max(0.0, 1.0 - away / 0.55)
+        for spoke in range(spokes):
+            around = 2.0 * numpy.pi * spoke / spokes
+            side = numpy.sin(away) * numpy.array([numpy.cos(around), numpy.sin(around)])
+            made.append(middle + radius * bulge * numpy.array([numpy.cos(away), *side]))
+            flat.append(away / (0.5 * numpy.pi) * side / max(numpy.sin(away), 1e-9))
+    for spoke in range(spokes):
+        after = (spoke + 1) % spokes
+        faces.append((0, 1 + spoke, 1 + after))
+        for ring in range(rings - 1):
+            a, b = 1 + ring * spokes, 1 + (ring + 1) * spokes
+            faces += [(a + spoke, b + spoke, b + after), (a + spoke, b + after, a + after)]
+    return loose(bodies, numpy.array(made), faces, "head", "eyes", numpy.array(flat))
+
+
+def _raised(piece, lift, material):
+    return replace(piece.moved(piece.points + piece.normals * lift), material=material)
+
+
+def brows(bodies, shape, level, material, scale):
+    """As a thin skin over the face: they read from far away, where what is painted does not."""
+    if level > 0:
+        return []
+    piece = cut_out(head_of(bodies, shape, level), regions.box((0.07, -0.07, 0.725), (None, 0.07, 0.775)))
+    piece = subdivided(piece, 0.2 if level == levels.NEAR else 0.0)
+    piece = clipped(piece, regions.brow(piece.places))
+    if not len(piece.faces):
+        return []
+    strands = numpy.stack([piece.places[:, regions.Y] * 40.0 + piece.places[:, regions.Z] * 30.0,
+                           piece.places[:, regions.Z] * 4.0], axis=1)
+    return [replace(_raised(piece, 0.0016 * scale, material), flat=strands)]
+
+
+def lashes(bodies, shape, level):
+    if level != levels.NEAR:
+        return []
+    found = []
+    for side in "lr":
+        for number in (1, 2):
+            group = f"helper-{side}-eyelashes-{number}"
+            numbers, faces = numpy.unique(bodies.triangles(group), return_inverse=True)
+            found.append(Part(faces.reshape(-1, 3), shape[numbers], bodies.weights[numbers],
+                              regions.places_of(bodies)[numbers], "lashes"))
+    return found
+
+
+def beard(bodies, shape, level, style, material, scale):
+    """A beard as a skin that is thickest at the chin; with stubble, nothing: that is painted."""
+    if style not in ("full", "chin") or level > 1:
+        return []
+    piece = head_of(bodies, shape, level)
+    piece = clipped(piece, numpy.minimum(regions.beard(piece.places, style == "full"), 1.0))
+    if not len(piece.faces):
+        return []
+    piece = subdivided(piece, 0.2) if level == levels.NEAR else piece
+    thick = 0.010 * numpy.clip(regions.beard(piece.places, style == "full") / 0.014, 0.08, 1.0)
+    rough = 0.75 + 0.25 * numpy.sin(piece.places[:, regions.Y] * 900.0) * numpy.sin(piece.places[:, regions.Z] * 700.0)
+    points = piece.points + piece.normals * (thick * rough * scale)[:, None] - (0.0, 0.0, 0.002 * scale)
+    strands = numpy.stack([piece.places[:, regions.Y] * 30.0, piece.places[:, regions.Z] * 5.0], axis=1)
+    return [replace(piece.moved(points), material=material, flat=strands)]
+
+
+def tube(points, radius, sides=5, closed=False):
+    """(points, faces) of a round tube along a line."""
+    points = numpy.asarray(points, float)
+    along = numpy.gradient(points, axis=0)
+    if closed:
+        along = numpy.roll(points, -1, axis=0) - numpy.roll(points, 1, axis=0)
+    along /= numpy.linalg.norm(along, axis=1, keepdims=True) + 1e-12
+    across = numpy.cross(along, (0.31, 0.17, 0.93))
+    across /= numpy.linalg.norm(across, axis=1, keepdims=True) + 1e-12
+    other = numpy.cross(along, across)
+    angles = 2.0 * numpy.pi * numpy.arange(sides) / sides
+    made = (points[:, None] + radius * (numpy.cos(angles)[None, :, None] * across[:, None]
+                                        + numpy.sin(angles)[None, :, None] * other[:, None])).reshape(-1, 3)
+    faces, count = [], len(points)
+    for one in range(count if closed else count - 1):
+        a, b = one * sides, (one + 1) % count * sides
+        for side in range(sides):
+            after = (side + 1) % sides
+            faces += [(a + side, b + side, b + after), (a + side, b + after, a + after)]
+    return made, numpy.array(faces)
+
+
+def glasses(bodies, shape, level, scale, round_ones):
+    """Rims, a bridge, and temples that reach the ears."""
+    if level > 0:
+        return []
+    around, sides = (28, 6) if level == levels.NEAR else (10, 3)
+    eyes_at = [0.5 * (points.max(axis=0) + points.min(axis=0)) for points in
+               (shape[bodies.vertices_of(f"helper-{side}-eye")] for side in "lr")]
+    front = max(point[0] for point in eyes_at) + 0.026 * scale
+    angles = 2.0 * numpy.pi * numpy.arange(around) / around
+    power = 1.0 if round_ones else 0.7
+    curve = numpy.stack([numpy.sign(numpy.cos(angles)) * numpy.abs(numpy.cos(angles)) ** power * 0.0255,
+                         numpy.sign(numpy.sin(angles)) * numpy.abs(numpy.sin(angles)) ** power * 0.0205], axis=1) * scale
+    base = regions.places_of(bodies)
+    temples = (numpy.abs(base[:, 1]) > 0.060) & (numpy.abs(base[:, 1]) < 0.0705) & (numpy.abs(base[:, 2] - 0.735) < 0.02) & (base[:, 4] > 0.5)
+    wide = float(numpy.abs(shape[temples, 1]).max())
+    behind = float(numpy.median(shape[temples, 0]))
+    found = []
+    for eye in eyes_at:
+        side = numpy.sign(eye[1])
+        centre = numpy.array([front, eye[1] + side * 0.001, eye[2] - 0.004 * scale])
+        rim = numpy.stack([centre[0] - 0.35 * numpy.abs(curve[:, 0] * (numpy.sign(curve[:, 0]) == side)),
+                           centre[1] + curve[:, 0], centre[2] + curve[:, 1]], axis=1)
+        found.append(tube(rim, 0.0016 * scale, sides, closed=True))
+        hinge = (centre[0] - 0.010 * scale, centre[1] + side * 0.0255 * scale, centre[2] + 0.008 * scale)
+        ear = (behind, side * (wide + 0.002), centre[2] + 0.010 * scale)
+        found.append(tube([hinge, (hinge[0] - 0.015, side * max(abs(hinge[1]), wide), hinge[2]), ear], 0.0014 * scale,
+                          sides))
+    inner = 0.5 * (eyes_at[0] + eyes_at[1])
+    found.append(tube([(front, side * (abs(eyes_at[0][1]) - 0.0245 * scale), inner[2]) for side in (-1, 0, 1)],
+                      0.0016 * scale, sides))
+    return [joined([loose(bodies, points, faces, "head", "extra frame") for points, faces in found])]
+
+
+def hat(bodies, shape, level, kind, scale):
+    """A beanie, a cap or a headscarf, from the scalp."""
+    piece = head_of(bodies, shape, min(level, 1)) if kind != "headscarf" else _scarf_skin(bodies, shape, min(level, 1))
+    angle = regions.angle_of(piece.places)
+    line = {"beanie": ((0, 90, 180), (0.796, 0.772, 0.715)), "cap": ((0, 90, 180), (0.796, 0.778, 0.735)),
+            "headscarf": ((0, 35, 60, 78, 100, 180), (0.806, 0.790, 0.700, 0.612, 0.560, 0.530))}[kind]
+    field = piece.places[:, regions.Z] - numpy.interp(angle, *line)
+    piece = clipped(replace(piece, tags=numpy.zeros(len(piece.points), int)), field, 1)
+    points = piece.points + 0.014 * scale * piece.normals
+    points = smoothed(points, piece.faces, 14 if kind == "headscarf" else 8)
+    middle = points.mean(axis=0)
+    points = middle + (points - middle) * {"beanie": (1.11, 1.13, 1.08), "cap": (1.12, 1.13, 1.10),
+                                           "headscarf": (1.13, 1.15, 1.07)}[kind]
+    high = numpy.clip((points[:, 2] - middle[2]) / (0.1 * scale), 0.0, 1.0)
+    if kind == "beanie":
+        points = points + high[:, None] * numpy.array([-0.012, 0.0, 0.022]) * scale
+    found = [replace(piece.moved(points), material="extra knit" if kind == "beanie" else "extra cotton")]
+    if kind == "cap":
+        found.append(_brim(bodies, points, scale))
+    return found
+
+
+def _scarf_skin(bodies, shape, level):
+    triangles = levels.triangles_of(bodies, "body", level)
+    upper = (bodies.weights[:, [bodies.bone["head"], bodies.bone["neck_01"]]].sum(axis=1) > 0.3)
+    numbers, faces = numpy.unique(triangles[upper[triangles].all(axis=1)], return_inverse=True)
+    return Part(faces.reshape(-1, 3), shape[numbers], bodies.weights[numbers], regions.places_of(bodies)[numbers])
+
+
+def _brim(bodies, points, scale):
+    front = points[:, 0].max()
+    edge = points[points[:, 0] > front - 0.02 * scale][:, 2].min()
+    across = numpy.linspace(-1.0, 1.0, 9)
+    rows = [numpy.stack([front - 0.006 - reach_back * across ** 2, across * half,
+                         edge + 0.006 - drop - sag * across ** 2], axis=1)
+            for reach_back, half, drop, sag in ((0.070, 0.074, 0.0, 0.008), (0.078, 0.074, 0.004, 0.014),
+                                                (0.090, 0.070, 0.014, 0.020))]
+    rows[1][:, 0] += 0.036
+    rows[2][:, 0] += 0.070
+    made = numpy.concatenate(rows) * (1.0, scale, 1.0)
+    faces = [each for row in range(2) for k in range(8)
+             for each in ((row * 9 + k, row * 9 + k + 1, row * 9 + k + 10), (row * 9 + k, row * 9 + k + 10, row * 9 + k + 9))]
+    return loose(bodies, made, faces, "head", "extra cotton")

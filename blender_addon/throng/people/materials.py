@@ -1,0 +1,199 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Materials of people. As in the rest of the cast, three random numbers a person (the instance attribute `tint`) pick
+colours, and the attribute `pattern` of the mesh says where on the body, the strand or the cloth something is."""
+import bpy
+import numpy
+
+from . import masks, palettes
+from .shades import Shade
+
+PICTURE = "throng faces"
+
+
+def material_of(kind, look, bodies):
+    """`kind` as parts have it, such as "top knit"; the material of that name, if the file has it already."""
+    slot, *rest = kind.split()
+    name = f"throng {kind}" + (f" {look}" if slot in ("top", "bottom", "extra") else "")
+    found = bpy.data.materials.get(name)
+    if found and found.get("throng_people"):
+        return found
+    shade = Shade(name)
+    shade.material["throng_people"] = True
+    tint = shade.split(shade.attribute("tint", "INSTANCER"))
+    pattern = shade.attribute("pattern")
+    make = {"skin": _skin, "hair": _hair, "grey": _hair, "eyes": _eyes, "lashes": _lashes}.get(slot, _cloth)
+    make(shade, tint, pattern, kind, look, bodies)
+    return shade.material
+
+
+def _picture(number, bodies):
+    name = f"{PICTURE} {number}"
+    found = bpy.data.images.get(name)
+    if found:
+        return found
+    for index, mask in enumerate(masks.masks(bodies)):
+        picture = bpy.data.images.new(f"{PICTURE} {index}", mask.shape[1], mask.shape[0])
+        picture.colorspace_settings.name = "Non-Color"
+        pixels = numpy.ones((*mask.shape[:2], 4), numpy.float32)
+        pixels[..., :3] = mask
+        picture.pixels.foreach_set(pixels.ravel())
+        picture.pack()
+    return bpy.data.images[name]
+
+
+def _skin(shade, tint, pattern, kind, _look, bodies):
+    _, tone, *stubble = kind.split()
+    base = shade.palette(tint[2], 1.0, palettes.SKINS[tone])
+    ahead, left, up = shade.split(pattern)
+    spot = shade.combine(
+        shade.math("DIVIDE", shade.math("SUBTRACT", left, masks.LOW[0]), masks.HIGH[0] - masks.LOW[0]),
+        shade.math("DIVIDE", shade.math("SUBTRACT", up, masks.LOW[1]), masks.HIGH[1] - masks.LOW[1]), 0.0)
+    # what is painted is on the front of the head alone
+    front = shade.math("MULTIPLY", shade.math("GREATER_THAN", ahead, 0.035), shade.math("GREATER_THAN", up, 0.592))
+    masks_of = []
+    for number in range(2):
+        image = shade.node("ShaderNodeTexImage", image=_picture(number, bodies), extension="CLIP")
+        shade.link(spot, image.inputs[0])
+        masks_of += [shade.math("MULTIPLY", front, each) for each in shade.split(image.outputs["Color"])]
+    brows, beard, lips, cheeks, shadow, _ = masks_of
+    mottle, fine = shade.noise(pattern, 38.0, 4.0), shade.noise(pattern, 260.0)
+    colour = shade.mix(base, shade.mix(base, (0.80, 0.42, 0.36), 1.0, "MULTIPLY"), shade.math("MULTIPLY", mottle, 0.30))
+    colour = shade.mix(colour, shade.mix(base, (0.96, 0.52, 0.44), 1.0, "MULTIPLY"),
+                       shade.math("MULTIPLY", cheeks, 0.55))
+    colour = shade.mix(colour, shade.mix(base, (0.60, 0.47, 0.46), 1.0, "MULTIPLY"),
+                       shade.math("MULTIPLY", shadow, 0.55))
+    colour = shade.mix(colour, shade.mix(base, (0.86, 0.42, 0.42), 1.0, "MULTIPLY"),
+                       shade.math("MULTIPLY", lips, 0.68))
+    if stubble:
+        colour = shade.mix(colour, shade.mix(base, (0.22, 0.22, 0.24), 1.0, "MULTIPLY"),
+                           shade.math("MULTIPLY", beard, shade.math("ADD", 0.25, shade.math("MULTIPLY", fine, 0.6))))
+    colour = shade.mix(colour, shade.mix(base, (0.10, 0.085, 0.08), 1.0, "MULTIPLY"),
+                       shade.math("MULTIPLY", brows, 0.75))
+    shade.set(colour, "Base Color")
+    shade.set(shade.math("ADD", 0.40, shade.math("MULTIPLY", mottle, 0.18)), "Roughness")
+    shade.set(0.42, "Specular", "Specular IOR Level")
+    shade.set(shade.bump(fine, 0.10, 0.0008, shade.bump(mottle, 0.10, 0.002)), "Normal")
+
+
+def _hair(shade, tint, pattern, kind, _look, _bodies):
+    slot, *rest = kind.split()
+    base = shade.palette(tint[2], 7.0, palettes.HAIR[rest[0] if rest else slot])
+    across, along, _ = shade.split(pattern)
+    strands = shade.noise(shade.combine(shade.math("MULTIPLY", across, 26.0), shade.math("MULTIPLY", along, 2.2), 0.0),
+                          1.0, 3.0)
+    lock = shade.noise(shade.combine(shade.math("MULTIPLY", across, 2.3), along, 3.0), 1.0, 1.0)
+    share = shade.math("MULTIPLY", shade.math("ADD", strands, lock), 0.5)
+    colour = shade.mix(shade.mix(base, (0.36, 0.34, 0.32), 1.0, "MULTIPLY"),
+                       shade.mix(base, (1.55, 1.5, 1.42), 1.0, "MULTIPLY"), share)
+    # darker at the roots, lighter at the tips
+    colour = shade.mix(shade.mix(colour, (0.62, 0.60, 0.58), 1.0, "MULTIPLY"), colour,
+                       shade.math("MINIMUM", shade.math("ADD", along, 0.35), 1.0))
+    shade.set(colour, "Base Color")
+    shade.set(0.44, "Roughness")
+    shade.set(0.34, "Specular", "Specular IOR Level")
+    shade.set(0.6, "Anisotropic")
+    shade.set(shade.bump(strands, 0.65, 0.004), "Normal")
+
+
+def _lashes(shade, *_):
+    shade.set((0.012, 0.010, 0.009), "Base Color")
+    shade.set(0.6, "Roughness")
+
+
+def _eyes(shade, tint, pattern, *_):
+    across, upwards, _ = shade.split(pattern)
+    away = shade.math("SQRT", shade.math("ADD", shade.math("MULTIPLY", across, across),
+                                         shade.math("MULTIPLY", upwards, upwards)))
+    iris = shade.palette(tint[2], 13.0, palettes.EYES)
+    streaks = shade.noise(pattern, 22.0, 3.0)
+    colour = shade.mix(iris, shade.mix(iris, (2.2, 2.0, 1.6), 1.0, "MULTIPLY"), streaks)
+    colour = shade.mix(colour, (0.003, 0.003, 0.003), shade.math("LESS_THAN", away, 0.125))
+    colour = shade.mix(colour, (0.010, 0.008, 0.006), shade.math("MULTIPLY", shade.math("GREATER_THAN", away, 0.27), 0.8))
+    colour = shade.mix(colour, (0.40, 0.36, 0.335), shade.math("GREATER_THAN", away, 0.315))
+    shade.set(colour, "Base Color")
+    shade.set(0.08, "Roughness")
+    shade.set(0.6, "Specular", "Specular IOR Level")
+
+
+def _colours(slot, fabric, look):
+    if slot == "top":
+        return palettes.DENIMS if fabric == "denim" else palettes.TOPS[look]
+    if slot == "bottom":
+        return palettes.DENIMS if fabric == "denim" else palettes.BOTTOMS.get(look, palettes.BOTTOM)
+    if slot == "shirt":
+        return palettes.SHIRTS
+    if slot == "shoes":
+        return palettes.SOLES if fabric == "sole" else palettes.SHOES[fabric]
+    if look == "fans" and fabric in ("knit", "cotton"):
+        return palettes.EXTRA_OF_FANS
+    return palettes.EXTRAS[fabric]
+
+
+_PICKS = {"top": (0, 1.0), "bottom": (1, 1.0), "shirt": (0, 5.0), "shoes": (1, 9.0), "extra": (0, 11.0)}
+_ROUGH = {"leather": 0.40, "silk": 0.55, "padded": 0.55, "team": 0.6, "sole": 0.7, "frame": 0.25, "pack": 0.75}
+_SHEEN = {"knit": 0.5, "wool": 0.4, "fleece": 0.6}
+
+
+def _cloth(shade, tint, pattern, kind, look, _bodies):
+    slot, fabric = kind.split()
+    number, rounds = _PICKS[slot]
+    base = shade.palette(tint[number], rounds, _colours(slot, fabric, look))
+    ahead, left, up = shade.split(pattern)
+    wave = lambda value, often: shade.math("SINE", shade.math("MULTIPLY", value, often))
+    worn = shade.noise(pattern, 7.0, 3.0)
+    colour = shade.mix(shade.mix(base, (0.78, 0.78, 0.80), 1.0, "MULTIPLY"), base, worn)
+    weave = shade.math("ADD", wave(shade.math("ADD", ahead, left), 2400.0), wave(up, 2400.0))
+    if slot == "top":
+        colour = _printed(shade, colour, base, tint, fabric, left, up, wave)
+    if fabric == "denim":
+        fade = shade.math("MAXIMUM", shade.math("SUBTRACT", shade.noise(pattern, 5.0), 0.45), 0.0)
+        twill = shade.noise(pattern, 900.0)
+        colour = shade.mix(colour, shade.mix(base, (2.3, 2.1, 1.8), 1.0, "MULTIPLY"),
+                           shade.math("ADD", shade.math("MULTIPLY", fade, 1.8), shade.math("MULTIPLY", twill, 0.25)))
+    if fabric == "wool":
+        colour = shade.mix(colour, shade.mix(base, (1.7, 1.7, 1.7), 1.0, "MULTIPLY"),
+                           shade.math("MULTIPLY", shade.noise(pattern, 700.0, 3.0), 0.45))
+    shade.set(colour, "Base Color")
+    shade.set(_ROUGH.get(fabric, 0.85), "Roughness")
+    shade.set(0.45 if fabric in ("leather", "frame") else 0.2, "Specular", "Specular IOR Level")
+    shade.set(_SHEEN.get(fabric, 0.15), "Sheen", "Sheen Weight")
+    shade.set(_relief(shade, pattern, fabric, left, up, weave, wave), "Normal")
+
+
+def _printed(shade, colour, base, tint, fabric, left, up, wave):
+    """Some have stripes or checks: those whose tint says so."""
+    picks = shade.math("FRACT", shade.math("MULTIPLY", tint[0], 37.0))
+    other = shade.mix(base, (0.28, 0.28, 0.30), 1.0, "MULTIPLY")
+    light = shade.mix(base, (0.75, 0.73, 0.68), 0.7)
+    if fabric == "cotton":  # checked shirts
+        squares = shade.math("ADD", shade.math("GREATER_THAN", wave(left, 95.0), 0.2),
+                             shade.math("GREATER_THAN", wave(up, 95.0), 0.2))
+        return shade.mix(colour, other, shade.math("MULTIPLY", shade.math("MULTIPLY", squares, 0.40),
+                                                   shade.math("LESS_THAN", picks, 0.40)))
+    if fabric in ("jersey", "knit", "team"):  # striped ones
+        bands = shade.math("GREATER_THAN", wave(up, 120.0 if fabric != "team" else 60.0), 0.3)
+        return shade.mix(colour, light if fabric != "team" else other, shade.math(
+            "MULTIPLY", bands, shade.math("LESS_THAN", picks, 0.30)))
+    if fabric == "silk":  # flowered ones
+        flowers = shade.math("GREATER_THAN", shade.noise(shade.attribute("pattern"), 42.0, 1.0), 0.60)
+        return shade.mix(colour, light, shade.math("MULTIPLY", flowers, shade.math("LESS_THAN", picks, 0.45)))
+    return colour
+
+
+def _relief(shade, pattern, fabric, left, up, weave, wave):
+    if fabric in ("frame", "sole"):
+        return shade.bump(shade.noise(pattern, 200.0), 0.05, 0.001)
+    if fabric == "knit":
+        ribs = shade.math("ADD", wave(left, 640.0), wave(up, 520.0))
+        fine = shade.bump(ribs, 0.55, 0.0016)
+    elif fabric == "padded":
+        fine = shade.bump(shade.math("ABSOLUTE", wave(up, 42.0)), 0.9, 0.020)
+    elif fabric == "leather":
+        fine = shade.bump(shade.noise(pattern, 330.0, 3.0), 0.35, 0.001)
+    else:
+        fine = shade.bump(weave, 0.07, 0.0004)
+    # folds: long across limbs, short along them
+    folds = shade.noise(pattern, 15.0, 3.0, (1.0, 1.0, 1.9))
+    small = shade.noise(pattern, 36.0, 2.0, (1.0, 1.0, 0.6))
+    amount = {"leather": 0.75, "silk": 0.7, "cotton": 0.65, "denim": 0.6}.get(fabric, 0.5)
+    return shade.bump(small, 0.4 * amount, 0.008, shade.bump(folds, amount, 0.026, fine))

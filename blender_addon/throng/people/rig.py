@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Poses of bodies: the add-on's gaits (cast/gait.py), whose feet do not slide, on the library's bones."""
+import math
+
+import numpy
+
+from ..cast import gait
+
+_FINGERS = (("index", 0.22), ("middle", 0.30), ("ring", 0.36), ("pinky", 0.40))
+_X, _Y, _Z = numpy.eye(3)
+SOLE = 0.018  # m, of a shoe, below the foot
+
+
+def turn(axis, angle):
+    """The matrix that turns by an angle about an axis."""
+    x, y, z = axis / max(numpy.linalg.norm(axis), 1e-12)
+    cross = numpy.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return numpy.eye(3) + math.sin(angle) * cross + (1.0 - math.cos(angle)) * cross @ cross
+
+
+def frame(along, hinge):
+    """Axes: along a bone, about its hinge, and across both."""
+    along = along / numpy.linalg.norm(along)
+    hinge = hinge - along * (hinge @ along)
+    hinge = hinge / numpy.linalg.norm(hinge)
+    return numpy.stack([along, hinge, numpy.cross(along, hinge)], axis=1)
+
+
+class Rig:
+    """Somebody's bones at rest, and how they go with a pose."""
+
+    def __init__(self, bodies, shape, height, sole=SOLE):
+        self.bodies, self.sole = bodies, sole
+        joints = bodies.joints(shape)
+        self.heads = {bone: joints[bodies.heads[number]] for bone, number in bodies.bone.items()}
+        self.tails = {bone: joints[bodies.tails[number]] for bone, number in bodies.bone.items()}
+        self.scale = height / 1.74
+        self.hips = 0.5 * (self.heads["thigh_l"] + self.heads["thigh_r"])
+        self.build = self._build(shape)
+        self.widest = self._widest(shape)
+
+    def _build(self, shape):
+        """Lengths for the gaits, of the left leg: bodies are as good as even."""
+        hip, knee, ankle = (self.heads[bone] for bone in ("thigh_l", "calf_l", "foot_l"))
+        ball = self.heads["ball_l"]
+        foot = shape[(self.bodies.weights[:, self.bodies.bone["foot_l"]] > 0.5) & (shape[:, 2] < ankle[2])]
+        return gait.Build(thigh=float(math.dist(hip, knee)), shank=float(math.dist(knee, ankle)),
+                          ankle=float(ankle[2] + self.sole), heel=float(0.85 * (ankle[0] - foot[:, 0].min())),
+                          ball=float(ball[0] - ankle[0]), hip_width=float(hip[1] - self.heads["thigh_r"][1]))
+
+    def _widest(self, shape):
+        """Half the width of the hips, where hands pass."""
+        trunk = self.bodies.weights[:, [self.bodies.bone[b] for b in ("pelvis", "thigh_l", "thigh_r")]].sum(axis=1)
+        level = numpy.abs(shape[:, 2] - self.hips[2]) < 0.08 * self.scale
+        return float(numpy.abs(shape[(trunk > 0.9) & level, 1]).max())
+
+    def matrices(self, pose):
+        """(B, 3, 4): where a pose takes the points that hang on each bone."""
+        turns, places = self._trunk(pose)
+        for side, sign, index in (("r", -1.0, 0), ("l", 1.0, 1)):
+            self._leg(turns, places, pose, side, pose.feet[index])
+            self._arm(turns, places, pose, side, sign, *pose.arms[index])
+        return self._all(turns, places)
+
+    def neutral(self):
+        """Matrices of standing upright, arms down: where patterns of cloth are told from."""
+        feet = tuple(gait.Foot((0.0, self.build.ankle), 0.0, "flat") for _ in range(2))
+        leg = 0.999 * (self.build.thigh + self.build.shank) + self.build.ankle
+        return self.matrices(gait.Pose((0.0, 0.0, leg), 0.0, 0.0, 0.0, feet, ((0.0, 0.12), (0.0, 0.12))))
+
+    def _trunk(self, pose):
+        lean = turn(_Y, pose.lean)
+        shoulders = turn(_Z, pose.shoulder_yaw)
+        half = turn(_Z, 0.5 * (pose.pelvis_yaw + pose.shoulder_yaw))
+        pelvis = turn(_Z, pose.pelvis_yaw) @ turn(_Y, 0.4 * pose.lean)
+        turns = {"Root": numpy.eye(3), "pelvis": pelvis, "spine_01": half @ turn(_Y, 0.7 * pose.lean),
+                 "spine_02": half @ lean, "spine_03": shoulders @ lean,
+                 "neck_01": turn(_Z, 0.6 * pose.shoulder_yaw) @ turn(_Y, 0.6 * pose.lean),
+                 "head": turn(_Z, 0.3 * pose.shoulder_yaw)}
+        middle = numpy.array(pose.pelvis) - (0.0, 0.0, gait.HIP_DROP * self.scale)
+        places = {"Root": numpy.zeros(3), "pelvis": middle + pelvis @ (self.heads["pelvis"] - self.hips)}
+        for parent, bone in (("pelvis", "spine_01"), ("spine_01", "spine_02"), ("spine_02", "spine_03"),
+                             ("spine_03", "neck_01"), ("neck_01", "head")):
+            places[bone] = places[parent] + turns[parent] @ (self.heads[bone] - self.heads[parent])
+        return turns, places
+
+    def _leg(self, turns, places, pose, side, foot):
+        thigh, calf, ankle, ball = (f"{bone}_{side}" for bone in ("thigh", "calf", "foot", "ball"))
+        hip = places["pelvis"] + turns["pelvis"] @ (self.heads[thigh] - self.heads["pelvis"])
+        aside = self.heads[thigh][1] * 0.62 + 0.25 * pose.pelvis[1]
+        knee_x, knee_z = gait.knee_of((hip[0], hip[2]), foot.ankle, self.build)
+        end = numpy.array([foot.ankle[0], aside, foot.ankle[1]])
+        knee = numpy.array([knee_x, 0.5 * (hip[1] + aside), knee_z])
+        toes_out = turn(_Z, 0.09 if side == "l" else -0.09)
+        hinge = toes_out @ _Y
+        for bone, start, stop, rest in ((thigh, hip, knee, self.heads[calf]), (calf, knee, end, self.heads[ankle])):
+            turns[bone] = frame(stop - start, hinge) @ frame(rest - self.heads[bone], _Y).T
+            places[bone] = start
+        rest = self.heads[ball] - self.heads[ankle]
+        straight = turn(_Z, -math.atan2(rest[1], rest[0]))
+        turns[ankle] = toes_out @ turn(_Y, -foot.pitch) @ straight
+        places[ankle] = end
+        turns[ball] = toes_out @ turn(_Y, -max(foot.pitch, 0.0)) @ straight  # toes stay on the ground
+        places[ball] = end + turns[ankle] @ rest
+
+    def _arm(self, turns, places, pose, side, sign, swing, elbow):
+        clavicle, upper, lower, hand = (f"{bone}_{side}" for bone in ("clavicle", "upperarm", "lowerarm", "hand"))
+        shoulders = turns["spine_03"]
+        turns[clavicle] = shoulders @ turn(_X, -sign * 0.03)
+        places[clavicle] = places["spine_03"] + shoulders @ (self.heads[clavicle] - self.heads["spine_03"])
+        shoulder = places[clavicle] + turns[clavicle] @ (self.heads[upper] - self.heads[clavicle])
+        reach = math.dist(self.heads[upper], self.heads[lower]) + math.dist(self.heads[lower], self.heads[hand])
+        # outwards enough for the hand to pass beside the hips
+        room = (self.widest + 0.055 * self.scale - abs(self.heads[upper][1])) / reach
+        out = sign * min(max(0.10, room), 0.34)
+        turned = turn(_Z, pose.shoulder_yaw)
+
+        def hang(angle):
+            return turned @ numpy.array([math.sin(angle), out * (1.0 - 0.4 * abs(angle)), -math.cos(angle)])
+
+        down = hang(swing)
+        fore = hang(swing + elbow) / numpy.linalg.norm(hang(swing + elbow)) - turned @ _Y * sign * 0.07
+        rest_upper = self.heads[lower] - self.heads[upper]
+        rest_lower = self.heads[hand] - self.heads[lower]
+        hinge, rest_hinge = -(turned @ _Y), numpy.cross(rest_upper, rest_lower)
+        turns[upper] = frame(down, hinge) @ frame(rest_upper, rest_hinge).T
+        turns[lower] = frame(fore, hinge) @ frame(rest_lower, rest_hinge).T
+        places[upper] = shoulder
+        places[lower] = shoulder + turns[upper] @ rest_upper
+        turns[hand] = turn(fore, -sign * 0.70) @ turns[lower]
+        places[hand] = places[lower] + turns[lower] @ rest_lower
+        self._fingers(turns, places, side, hand, sign)
+
+    def _fingers(self, turns, places, side, hand, sign):
+        """Half closed and side by side, as hands hang."""
+        middle = self.tails[f"middle_01_{side}"] - self.heads[f"middle_01_{side}"]
+        index, little = (self.heads[f"{finger}_01_{side}"] - self.heads[hand] for finger in ("index", "pinky"))
+        back = numpy.cross(index, little) * sign
+        for finger, curl in _FINGERS:
+            own = self.tails[f"{finger}_01_{side}"] - self.heads[f"{finger}_01_{side}"]
+            apart = math.acos(min(1.0, own @ middle / (numpy.linalg.norm(own) * numpy.linalg.norm(middle))))
+            parent, bent = hand, turns[hand] @ turn(numpy.cross(own, middle), 0.75 * apart)
+            for number in (1, 2, 3):
+                bone = f"{finger}_0{number}_{side}"
+                places[bone] = places[parent] + turns[parent] @ (self.heads[bone] - self.heads[parent])
+                hinge = numpy.cross(self.tails[bone] - self.heads[bone], back)
+                bent = bent @ turn(hinge, -curl * (0.7 if number == 1 else 1.0))
+                turns[bone] = bent
+                parent = bone
+
+    def _all(self, turns, places):
+        """Bones that no pose turns go with their parents."""
+        found = numpy.zeros((len(self.bodies.bones), 3, 4))
+        for number, bone in enumerate(self.bodies.bones):
+            if bone not in turns:
+                parent = self.bodies.bones[self.bodies.parents[number]]
+                turns[bone] = turns[parent]
+                places[bone] = places[parent] + turns[parent] @ (self.heads[bone] - self.heads[parent])
+            found[number, :, :3] = turns[bone]
+            found[number, :, 3] = places[bone] - turns[bone] @ self.heads[bone]
+        return found
+
+
+def skinned(points, weights, matrices):
+    """(P, V, 3): points in all poses. @param matrices (P, B, 3, 4)"""
+    whole = numpy.concatenate([points, numpy.ones((len(points), 1))], axis=1).astype(numpy.float32)
+    blended = numpy.tensordot(weights.astype(numpy.float32), matrices.astype(numpy.float32), (1, 1))  # V, P, 3, 4
+    return numpy.einsum("vpij,vj->pvi", blended, whole)

@@ -1,0 +1,206 @@
+# SPDX-License-Identifier: Apache-2.0
+"""People shaped from a library of bodies, without Blender: sizes, levels of detail, clothes, and feet on the ground."""
+import pathlib
+import sys
+
+import numpy
+import pytest
+
+from conftest import ROOT
+
+sys.path.insert(0, str(ROOT / "blender_addon"))
+from throng.cast import gait  # noqa: E402
+from throng.people import library, levels, person, roster, shape, wardrobe  # noqa: E402
+from throng.people.parts import Part, border_of, clipped, edges_of, folded, subdivided  # noqa: E402
+
+EUROPEAN, AFRICAN, ASIAN = (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
+CROWD = (0, 1, 2)
+
+
+@pytest.fixture(scope="module")
+def loaded(bodies):
+    return library.load(pathlib.Path(bodies))
+
+
+@pytest.fixture(scope="module")
+def models(loaded):
+    """{(number, level): model} of some of all looks, a child and somebody old among them."""
+    found = {}
+    for number in (0, 1, 9, 10, 16, 20):
+        who = roster.draw_person(roster.LOOKS[number % 6], number)
+        maker = person.Maker(loaded, who)
+        found.update({(number, level): maker.model(level) for level in CROWD})
+    return found
+
+
+def square(count=4):
+    """A flat square of so many cells a side, of side 1."""
+    line = numpy.linspace(0.0, 1.0, count + 1)
+    x, y = (each.ravel() for each in numpy.meshgrid(line, line))
+    points = numpy.stack([x, y, 0.0 * x], axis=1)
+    corner = (numpy.arange(count)[:, None] * (count + 1) + numpy.arange(count)).ravel()
+    faces = numpy.concatenate([numpy.stack([corner, corner + 1, corner + count + 2], axis=1),
+                               numpy.stack([corner, corner + count + 2, corner + count + 1], axis=1)])
+    return Part(faces, points, numpy.ones((len(points), 1)), numpy.concatenate([points, points[:, :2]], axis=1))
+
+
+def area_of(part):
+    a, b, c = (part.points[part.faces[:, corner]] for corner in range(3))
+    return 0.5 * numpy.cross(b - a, c - a)[:, 2].sum()
+
+
+def test_cuts_are_exact_and_tagged():
+    part = clipped(square(), 0.37 - square().points[:, 0], 7)
+    assert abs(area_of(part) - 0.37) < 1e-9 and part.points[:, 0].max() < 0.37 + 1e-9
+    assert set(part.tags[numpy.abs(part.points[:, 0] - 0.37) < 1e-9]) == {7} and (part.tags == 7).sum() == 9
+    assert numpy.allclose(part.places[:, :3], part.points), "what vertices carry is cut, too"
+    assert len(clipped(square(), numpy.full(25, -1.0)).faces) == 0
+    diagonal = clipped(square(), 1.0 - square().points[:, :2].sum(axis=1))
+    assert abs(area_of(diagonal) - 0.5) < 1e-6
+
+
+def test_cut_smaller_is_as_large_and_hems_are_strips():
+    finer = subdivided(square(), 0.0)
+    assert len(finer.faces) == 4 * 32 and abs(area_of(finer) - 1.0) < 1e-9 and edges_of(finer.faces)[1].max() == 2
+    hemmed = folded(square(), 0.1)
+    assert len(hemmed.faces) == 32 + 2 * 16 and abs(hemmed.points[:, 2].min() + 0.1) < 1e-9
+
+
+def test_what_is_no_library_is_told(tmp_path):
+    (tmp_path / "bodies.npz").write_text("no")
+    with pytest.raises(library.LibraryError, match="bodies.npz .*body_library.py"):
+        library.load(tmp_path / "bodies.npz")
+    with pytest.raises(library.LibraryError, match="cannot be read"):
+        library.load(tmp_path / "missing.npz")
+    numpy.savez(tmp_path / "later.npz", format=99)
+    with pytest.raises(library.LibraryError, match="has the format 99"):
+        library.load(tmp_path / "later.npz")
+
+
+def test_factors_lie_between_two_names():
+    rules = {"macrotargets": {"age": {"parts": [{"lowest": -0.01, "highest": 0.5, "low": "child", "high": "young"}]},
+                              "height": {"parts": [{"lowest": -0.01, "highest": 0.49, "low": "minheight", "high": ""}]}},
+             "combinations": {"racegenderage": ["race", "age"], "genderagemuscleweightheight": ["age", "height"]}}
+    found = shape.macro_targets(rules, {"age": 0.245, "height": 0.24}, (0.5, 0.0, 0.5))
+    assert set(found) == {"macrodetails/african-child", "macrodetails/caucasian-child", "macrodetails/african-young",
+                          "macrodetails/caucasian-young", "macrodetails/height/child-minheight",
+                          "macrodetails/height/young-minheight"}
+    assert found["macrodetails/african-child"] == pytest.approx(0.25) and sum(found.values()) == pytest.approx(1.5)
+
+
+@pytest.mark.parametrize("years, male, height, ancestry, weight", [
+    (6, 1, 1.14, EUROPEAN, 0.5), (9, 0, 1.33, AFRICAN, 0.4), (14, 1, 1.62, ASIAN, 0.5), (30, 0, 1.50, EUROPEAN, 0.9),
+    (30, 1, 2.02, AFRICAN, 0.3), (55, 1, 1.74, ASIAN, 0.8), (85, 0, 1.58, EUROPEAN, 0.6)])
+def test_people_are_as_tall_as_they_should_be(loaded, years, male, height, ancestry, weight):
+    made = shape.shape_of(loaded, shape.Body(years, male, height, ancestry, weight, seed=years))
+    body = made[loaded.vertices_of("body"), 2]
+    assert abs(body.max() - height) < 0.001 and abs(loaded.joint(made, "ground")[2]) < 0.001
+    assert abs(body.min()) < 0.012, "on the ground"
+
+
+def waist_of(loaded, made):
+    """Width and depth together, m, of what hangs on the lower spine."""
+    part = loaded.vertices_of("body")
+    part = part[loaded.weights[part, loaded.bone["spine_01"]] > 0.5]
+    return numpy.ptp(made[part, :2], axis=0).sum()
+
+
+def test_the_heavy_are_wider_and_children_have_larger_heads(loaded):
+    make = lambda **more: shape.shape_of(loaded, shape.Body(**{"years": 30, "male": 1.0, "height": 1.75, **more}))
+    waist = lambda made: waist_of(loaded, made)
+    assert waist(make(weight=0.95)) > waist(make()) + 0.08 and waist(make()) > waist(make(weight=0.1)) + 0.04
+    apart = lambda made: numpy.ptp([loaded.joint(made, f"{side}-shoulder")[1] for side in "lr"])
+    assert apart(make(shoulders=1.0)) > apart(make()) + 0.01 > apart(make(shoulders=-1.0)) + 0.02
+
+    def head(made, height):
+        return (loaded.joint(made, "head-2")[2] - loaded.joint(made, "neck")[2]) / height
+
+    assert head(make(years=7, height=1.22), 1.22) > 1.08 * head(make(), 1.75)
+    faces = [make(seed=seed)[loaded.vertices_of("body")] for seed in (1, 2)]
+    assert numpy.abs(faces[0] - faces[1]).max() > 0.004, "everybody has a face of one's own"
+
+
+def test_levels_have_no_cracks(loaded):
+    """A coarser body is open where the full one is, and nowhere else: at the mouth."""
+    full = levels.triangles_of(loaded, "body", levels.NEAR)
+    open_ones = set(numpy.unique(border_of(full)))
+    for level in CROWD:
+        triangles = levels.triangles_of(loaded, "body", level)
+        assert edges_of(triangles)[1].max() <= 2, "no three faces at one edge"
+        assert set(numpy.unique(border_of(triangles))) <= open_ones
+        own = levels._regions(loaded, numpy.unique(triangles))
+        detail = levels.DETAILS[level]
+        assert abs((own == 0).sum() - detail.head) < 0.1 * detail.head + 4, "heads keep a budget of their own"
+        assert abs((own == 1).sum() - detail.hands) < 0.15 * detail.hands + 4
+
+
+def test_triangles_keep_to_their_budget(models):
+    for level, middle, most in ((0, 4600, 6000), (1, 1800, 2300), (2, 560, 760)):
+        counts = [len(model.faces) for (_, each), model in models.items() if each == level]
+        assert numpy.mean(counts) < middle and max(counts) < most, (level, counts)
+
+
+def test_levels_are_as_large(models):
+    for (number, level), model in models.items():
+        full = models[number, 0]
+        assert numpy.abs(model.points.max(axis=0) - full.points.max(axis=0)).max() < 0.05, (number, level)
+        assert numpy.abs(model.points.min(axis=0) - full.points.min(axis=0)).max() < 0.05, (number, level)
+
+
+def test_models_are_whole(models, loaded):
+    for model in models.values():
+        assert numpy.isfinite(model.points).all() and numpy.isfinite(model.pattern).all()
+        assert model.faces.max() < len(model.points) and set(model.material_of) == set(range(len(model.materials)))
+        assert numpy.allclose(model.weights.sum(axis=1), 1.0, atol=2e-3)
+
+
+@pytest.mark.parametrize("number", (0, 9, 10))
+def test_feet_stay_on_the_ground_and_do_not_slide(models, number):
+    model = models[number, 0]
+    walked, build = gait.gait_of(1.1), model.rig.build
+    phases = numpy.linspace(0.12, 0.38, 6)  # the right foot is flat
+    posed = model.posed([gait.walk_pose(phase, build, walked) for phase in phases])
+    lowest = posed[:, :, 2].min(axis=1)
+    assert (lowest > -0.006).all() and (lowest < 0.006).all(), lowest
+    foot = model.weights[:, [model.rig.bodies.bone[bone] for bone in ("foot_r", "ball_r")]].sum(axis=1) > 0.99
+    moved = posed[:, foot].mean(axis=1)[:, 0] + phases * walked.stride
+    assert numpy.ptp(moved) < 0.004, "in the world"
+
+
+def test_standing_people_are_as_tall_as_their_bodies(models):
+    for number in (0, 9, 16):
+        model, who = models[number, 0], roster.draw_person(roster.LOOKS[number % 6], number)
+        stands = model.posed([gait.standing_pose("idle", 0.0, model.rig.build)])[0]
+        skin = [index for index, name in enumerate(model.materials) if name.startswith("skin")]
+        own = numpy.unique(model.faces[numpy.isin(model.material_of, skin)])
+        assert abs(stands[own, 2].max() - who.body.height - model.rig.sole) < 0.04
+
+
+def test_what_clothes_hide_is_not_there(loaded):
+    who = roster.draw_person("business", 0)
+    parts = person.Maker(loaded, who)._parts(0)
+    skin = next(part for part in parts if part.material.startswith("skin"))
+    trunk = (skin.places[:, 2] < 0.45) & (skin.places[:, 2] > -0.70) & (skin.places[:, 3] < 0.0)
+    assert not trunk.any(), "no skin under a shirt"
+    head = skin.places[:, 4] > 0.9
+    assert head.sum() > 250, "but heads"
+
+
+def test_looks_are_drawn_the_same_and_nobody_twice():
+    drawn = [roster.draw_person("casual", number) for number in range(64)]
+    assert drawn == [roster.draw_person("casual", number) for number in range(64)] and len(set(drawn)) == 64
+    assert sum(who.child for who in drawn) >= 3 and sum(who.body.years > 60 for who in drawn) >= 3
+    assert 20 < sum(who.body.male for who in drawn) < 44
+    assert len({who.hair for who in drawn}) >= 8 and len({who.skin for who in drawn}) >= 5
+    assert len({garment for who in drawn for garment in who.garments if garment.kind == "top"}) >= 6
+    with pytest.raises(ValueError, match="no look 'beach': expected one of summer"):
+        roster.draw_person("beach", 0)
+
+
+def test_every_look_dresses_women_and_men():
+    for look, sexes in wardrobe.LOOKS.items():
+        for outfits in sexes:
+            assert len(outfits) >= 6, look
+            for bottom, tops, shoes in outfits:
+                order = wardrobe.order(bottom, tops, shoes)
+                assert set(order) == {bottom, shoes, *tops} and len(order) == 2 + len(tops)
