@@ -3,7 +3,7 @@
 
 THRONG_BODIES=bodies.npz blender -b --factory-startup --python-exit-code 1 -P scripts/render_people.py -- OUT.png
         [--shot row|close|crowd] [--look LOOK] [--first N] [--level near|0|1|2] [--width W] [--height H] [--samples N]
-        [--denoise]
+        [--denoise] [--light noon|overcast|late|night]
 """
 import argparse
 import math
@@ -16,9 +16,10 @@ import numpy
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "blender_addon"))
 from throng.cast import gait  # noqa: E402
-from throng.environment import lights  # noqa: E402
+from throng.environment import lights, skies  # noqa: E402
 from throng.people import figures, library, levels, person, roster  # noqa: E402
 
+BRIGHTER = 0.7  # stops: here are no streets whose walls are lit, too
 LEVELS = {"near": levels.NEAR, "0": 0, "1": 1, "2": 2}
 
 
@@ -33,6 +34,7 @@ def arguments():
     parser.add_argument("--height", type=int, default=720)
     parser.add_argument("--samples", type=int, default=48)
     parser.add_argument("--denoise", action="store_true", help="where the build has a denoiser; Debian's has none")
+    parser.add_argument("--light", choices=list(skies.LIGHTS), default="noon")
     return parser.parse_args(sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else [])
 
 
@@ -162,7 +164,8 @@ def main():
     level = LEVELS[options.level] if options.level else {"row": 0, "close": levels.NEAR, "crowd": 0}[options.shot]
     {"row": row, "close": close, "crowd": crowd}[options.shot](stage, level, numpy.random.default_rng(4))
     ground(scene)
-    lights.build_light(scene, scene.collection)
+    lights.build_light(scene, scene.collection, options.light)
+    scene.view_settings.exposure += BRIGHTER
     scene.render.engine = "CYCLES"
     scene.cycles.samples, scene.cycles.use_denoising = options.samples, options.denoise
     scene.cycles.max_bounces = 5
