@@ -3,6 +3,9 @@
 import math
 import zlib
 
+import bpy
+
+from ..setting import street_ends
 from . import materials
 from .shapes import Shape, counter_clockwise, direction, offset_polygon, signed_area
 
@@ -107,6 +110,21 @@ def _open_wall(shape, points, thickness, height):
     for a, b in zip(points, points[1:]):
         shape.strip(a, b, half, 0.0, height - 0.08, body)
         shape.strip(a, b, half + 0.04, height - 0.08, height, coping)
+
+
+HOUSES = 6  # different ones, along streets that go on beyond a layout
+
+
+def house_mesh(number):
+    """One of some houses of street_ends.HOUSE, the street at -y."""
+    name = f"Throng house {number}"
+    found = bpy.data.meshes.get(name)
+    if found:
+        return found
+    (length, depth), shape = street_ends.HOUSE, Shape(name)
+    s, t = 0.5 * length, 0.5 * depth
+    _building(shape, [(-s, -t), (s, -t), (s, t), (-s, t)], GROUND_FLOOR + STOREY * (2 + number % 3) + 0.6, number)
+    return shape.to_mesh()
 
 
 def _building(shape, outline, height, number):
