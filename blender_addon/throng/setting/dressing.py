@@ -29,7 +29,7 @@ MOST = {"cars": 140, "trees": 160, "furniture": 160, "fields": 260, "hill": 40}
 _CROWN = 2.3  # m: from a street's tree to a wall, at least
 
 
-def dress(geometry, trodden, bounds, name, beyond=(), houses=()):
+def dress(geometry, trodden, bounds, name, beyond=(), houses=(), lamps=()):
     """[Thing] of a flat set.
 
     @param geometry the layout's, in the manifest's form
@@ -38,11 +38,14 @@ def dress(geometry, trodden, bounds, name, beyond=(), houses=()):
     @param name what chance goes by: the same name, the same set
     @param beyond roads that go on where the layout's end
     @param houses corners of houses along those
+    @param lamps places that are taken
     """
     chance = random.Random(zlib.crc32(name.encode()))
     whole = dict(geometry, roads=[*geometry.get("roads", []), *beyond],
                  walls=[*geometry.get("walls", []), *({"points": house, "closed": True} for house in houses)])
     space, found = Space(whole, trodden), []
+    for x, y in lamps:
+        space.take(x, y, 0.0, 0.5, 0.5)
     for piece in space.roads:
         found += _park(space, piece, chance, MOST["cars"] - len(found))
     trees = []
@@ -148,7 +151,7 @@ def _furnish(space, wall, chance, most):
             kind, form = (("bench", BENCH), ("bin", BIN), ("planter", PLANTER))[turn % 3]
             away = 0.5 * form[1] + 0.25
             place = (a[0] + ux * at + out[0] * away, a[1] + uy * at + out[1] * away)
-            found += _put(space, kind, place, math.atan2(out[1], out[0]) - math.pi / 2, form, clearance=0.2)
+            found += _put(space, kind, place, math.atan2(out[0], -out[1]), form, clearance=0.2)
             turn, at = turn + 1, at + (1.9 if turn % 3 == 0 else chance.uniform(4.0, 8.0))
     return found
 
