@@ -1,32 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Flat polygons and boxes, gathered into one mesh."""
-import math
-
 import bpy
 
-
-def signed_area(polygon):
-    return 0.5 * sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(polygon, polygon[1:] + polygon[:1]))
+from ..setting.plane import along_of as direction, area as signed_area, inside  # noqa: F401  what shapes are made by
 
 
 def counter_clockwise(polygon):
     polygon = [tuple(point[:2]) for point in polygon]
     return polygon if signed_area(polygon) > 0.0 else polygon[::-1]
-
-
-def direction(a, b):
-    """Unit vector and length from a to b."""
-    dx, dy = b[0] - a[0], b[1] - a[1]
-    size = math.hypot(dx, dy)
-    return ((dx / size, dy / size) if size > 1e-9 else (1.0, 0.0)), size
-
-
-def inside(polygon, point):
-    hit = False
-    for a, b in zip(polygon, polygon[1:] + polygon[:1]):
-        if (a[1] > point[1]) != (b[1] > point[1]):
-            hit ^= point[0] < (b[0] - a[0]) * (point[1] - a[1]) / (b[1] - a[1]) + a[0]
-    return hit
 
 
 def offset_polygon(polygon, distance):
@@ -87,11 +68,14 @@ class Shape:
         self.prism([(a[0] - side[0], a[1] - side[1]), (b[0] - side[0], b[1] - side[1]),
                     (b[0] + side[0], b[1] + side[1]), (a[0] + side[0], a[1] + side[1])], low, high, material)
 
-    def to_object(self):
+    def to_mesh(self):
         mesh = bpy.data.meshes.new(self.name)
         mesh.from_pydata(self.vertices, [], self.faces)
         for material in self.materials:
             mesh.materials.append(material)
         mesh.polygons.foreach_set("material_index", self.slots)
         mesh.update()
-        return bpy.data.objects.new(self.name, mesh)
+        return mesh
+
+    def to_object(self):
+        return bpy.data.objects.new(self.name, self.to_mesh())

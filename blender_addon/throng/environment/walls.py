@@ -3,6 +3,9 @@
 import math
 import zlib
 
+import bpy
+
+from ..setting import street_ends
 from . import materials
 from .shapes import Shape, counter_clockwise, direction, offset_polygon, signed_area
 
@@ -109,6 +112,21 @@ def _open_wall(shape, points, thickness, height):
         shape.strip(a, b, half + 0.04, height - 0.08, height, coping)
 
 
+HOUSES = 6  # different ones, along streets that go on beyond a layout
+
+
+def house_mesh(number):
+    """One of some houses of street_ends.HOUSE, the street at -y."""
+    name = f"Throng house {number}"
+    found = bpy.data.meshes.get(name)
+    if found:
+        return found
+    (length, depth), shape = street_ends.HOUSE, Shape(name)
+    s, t = 0.5 * length, 0.5 * depth
+    _building(shape, [(-s, -t), (s, -t), (s, t), (-s, t)], GROUND_FLOOR + STOREY * (2 + number % 3) + 0.6, number)
+    return shape.to_mesh()
+
+
 def _building(shape, outline, height, number):
     dark, light = _FACADES[number % len(_FACADES)]
     facade = materials.mottled(f"facade {number % len(_FACADES)}", dark, light, 0.35, 0.9, 9.0)
@@ -134,7 +152,10 @@ def _facade(shape, a, b, height, trim, number):
     awning = materials.plain(f"awning {number % len(_AWNINGS)}", _AWNINGS[number % len(_AWNINGS)], 0.8)
     for bay in range(bays):
         start = margin + bay * BAY
-        _shopfront(shape, a, along, outward, start, pane, frame, awning if (bay + number) % 5 < 3 else None)
+        if (bay + number) % 5 == 4 or bays == 1:
+            _door(shape, a, along, outward, start, number + bay, pane, frame, trim)
+        else:
+            _shopfront(shape, a, along, outward, start, pane, frame, awning if (bay + number) % 5 < 3 else None)
         floor = GROUND_FLOOR
         while floor + STOREY <= height - 0.3:
             # A raised surround, a recessed-looking pane with a bar, and a sill.
@@ -160,6 +181,29 @@ def _shopfront(shape, a, along, outward, start, pane, frame, awning):
         shape.face([at(near, 0.06, high), at(near, 0.75, low), at(far, 0.75, low), at(far, 0.06, high)], awning)
         shape.face([at(near, 0.75, low), at(near, 0.75, low - 0.18), at(far, 0.75, low - 0.18), at(far, 0.75, low)],
                    awning)
+
+
+_DOORS = [(0.055, 0.012, 0.010), (0.010, 0.035, 0.026), (0.012, 0.020, 0.050), (0.085, 0.048, 0.024)]
+
+
+def _door(shape, a, along, outward, start, number, pane, frame, trim):
+    """A house's door: a surround, two leaves with panels and handles, a light above, a step."""
+    def panel(shift, width, low, high, out, material):
+        shape.panel(a, along, outward, start + 0.5 * BAY + shift - 0.5 * width, width, low, high, out, material)
+
+    leaf = materials.plain(f"door {number % len(_DOORS)}", _DOORS[number % len(_DOORS)], 0.35)
+    inset = materials.plain(f"door panel {number % len(_DOORS)}", tuple(0.55 * c for c in _DOORS[number % len(_DOORS)]),
+                            0.45)
+    brass = materials.plain("brass", (0.45, 0.30, 0.10), 0.3)
+    panel(0.0, 1.90, 0.10, 3.30, 0.060, trim)
+    panel(0.0, 1.50, 0.15, 3.10, 0.066, frame)
+    panel(0.0, 1.38, 2.45, 3.02, 0.072, pane)
+    for side in (-1.0, 1.0):
+        panel(side * 0.35, 0.67, 0.16, 2.36, 0.076, leaf)
+        for low, high in ((0.34, 0.98), (1.14, 2.20)):
+            panel(side * 0.35, 0.44, low, high, 0.082, inset)
+        panel(side * 0.06, 0.03, 1.00, 1.16, 0.120, brass)
+    _ledge(shape, a, along, outward, start + 0.5 * BAY - 1.0, 2.0, 0.0, 0.14, 0.18, trim)
 
 
 def _ledge(shape, a, along, outward, start, width, low, high, out, material):

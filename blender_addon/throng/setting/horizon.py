@@ -2,6 +2,8 @@
 """The country round a place, out to the horizon."""
 import math
 
+from .plane import area
+
 REACH = 6000.0  # m beyond the place's own ground
 _RINGS = (0.0, 15.0, 50.0, 130.0, 300.0, 600.0, 1000.0, 1500.0, 2100.0, 2800.0, 3600.0, 4500.0, REACH)
 _LEVEL_FROM = 300.0               # m: up to here the ground comes to its mean level
@@ -51,14 +53,10 @@ def border_of(positions, corners):
     ring = [places[i] for i in outline(corners, len(places))]
     low, high = (tuple(pick(p[axis] for p in places) for axis in range(2)) for pick in (min, max))
     whole = (high[0] - low[0]) * (high[1] - low[1])
-    if len(ring) > 2 and _is_star(ring) and _area(ring) > 0.5 * whole:
+    if len(ring) > 2 and _is_star(ring) and area(ring) > 0.5 * whole:
         return ring, False
     floor = min(p[2] for p in places) - 0.05
     return [(x, y, floor) for x, y in rectangle(low, high)], True
-
-
-def _area(ring):
-    return 0.5 * sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(ring, ring[1:] + ring[:1]))
 
 
 def _is_star(ring):
@@ -103,3 +101,26 @@ def country(border):
                 inner, after = (ring - 1) * count + i, (ring - 1) * count + (i + 1) % count
                 quads.append((inner, inner + count, after + count, after))
     return corners, quads
+
+
+def height(border, x, y):
+    """How high country() is at a place outside a border."""
+    count = len(border)
+    middle = tuple(sum(p[axis] for p in border) / count for axis in range(3))
+    dx, dy = x - middle[0], y - middle[1]
+    for a, b in zip(border, border[1:] + border[:1]):
+        ax, ay, bx, by = a[0] - middle[0], a[1] - middle[1], b[0] - middle[0], b[1] - middle[1]
+        turn = ax * by - ay * bx
+        s, t = (dx * by - dy * bx) / turn if turn else -1.0, (ax * dy - ay * dx) / turn if turn else -1.0
+        if s < 0.0 or t < 0.0:
+            continue
+        # In the sector between two corners of the border; beyond the border by `out`.
+        share = t / (s + t)
+        edge = (ax + (bx - ax) * share, ay + (by - ay) * share)
+        out = math.hypot(dx, dy) - math.hypot(*edge)
+        for low, high in zip(_RINGS, _RINGS[1:]):
+            if low <= out <= high:
+                z = a[2] + (b[2] - a[2]) * share
+                ends = [z + (middle[2] - z) * _step(ring, 0.0, _LEVEL_FROM) for ring in (low, high)]
+                return ends[0] + (ends[1] - ends[0]) * (out - low) / (high - low)
+    return middle[2]

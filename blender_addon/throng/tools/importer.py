@@ -30,7 +30,8 @@ def set_up_scene(scene, bake, frame_start):
         scene.cycles.motion_blur_position = "CENTER"
 
 
-def import_bake(context, path, *, frame_start=1, walls=True, roads=True, scenery=True, camera=True, relative=True):
+def import_bake(context, path, *, frame_start=1, walls=True, roads=True, scenery=True, camera=True, relative=True,
+                dressing=True):
     """Imports a bake and returns the crowd's object. Raises formats.BakeError before anything is changed."""
     bake = load_bake(path)
     overrides = Arrival(bake)
@@ -49,6 +50,7 @@ def import_bake(context, path, *, frame_start=1, walls=True, roads=True, scenery
     collection.objects.link(crowd)
     set_up_scene(scene, bake, frame_start)
     environment.build_environment(context, bake.manifest, collection, walls=walls, roads=roads, ground=scenery,
-                                  light=scenery, camera=camera, frame_start=frame_start, terrain=terrain)
+                                  light=scenery, camera=camera, frame_start=frame_start, terrain=terrain,
+                                  bake=bake if scenery and dressing else None)
     overrides.place(crowd)
     return crowd

@@ -27,6 +27,9 @@ class IMPORT_SCENE_OT_throng(bpy.types.Operator, ImportHelper):
     walls: BoolProperty(name="Walls", default=True, description="Build the layout's walls as meshes")
     roads: BoolProperty(name="Roads", default=True, description="Build the layout's roads and areas as meshes")
     scenery: BoolProperty(name="Ground and Light", default=True, description="Add a ground, a sun and a sky")
+    dressing: BoolProperty(name="Dressing", default=True,
+                           description="With the ground: cars, trees, benches and the like where nobody walks, and "
+                                       "streets that go on where the layout's end")
     camera: BoolProperty(name="Camera", default=True, description="Add a camera that frames the crowd")
     relative: BoolProperty(name="Relative Paths", default=True,
                            description="Store the streams' paths relative to the .blend, once that is saved")
@@ -34,7 +37,8 @@ class IMPORT_SCENE_OT_throng(bpy.types.Operator, ImportHelper):
     def execute(self, context):
         try:
             crowd = import_bake(context, self.filepath, frame_start=self.frame_start, walls=self.walls,
-                                roads=self.roads, scenery=self.scenery, camera=self.camera, relative=self.relative)
+                                roads=self.roads, scenery=self.scenery, camera=self.camera, relative=self.relative,
+                                dressing=self.dressing)
         except BakeError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
