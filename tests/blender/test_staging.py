@@ -4,6 +4,7 @@ import numpy
 import pytest
 
 from results import ADDON, HERE, result_of
+from throng.setting import street_ends
 
 
 @pytest.fixture(scope="module")
@@ -66,7 +67,8 @@ def gaps_to(roads, x, y):
 
 
 def test_lamps_stand_beside_the_roads(staged, bakes, manifest_of):
-    roads = manifest_of(bakes("intersection"))["geometry"]["roads"]
+    geometry = manifest_of(bakes("intersection"))["geometry"]
+    roads = geometry["roads"] + street_ends.beyond(geometry)[0]
     for x, y in staged["lights"]["night"][0]["lamps"]:
         assert 0.0 <= min(gaps_to(roads, x, y)) < 1.0, (x, y)
 

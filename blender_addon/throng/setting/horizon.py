@@ -9,6 +9,7 @@ _RINGS = (0.0, 15.0, 50.0, 130.0, 300.0, 600.0, 1000.0, 1500.0, 2100.0, 2800.0, 
 _LEVEL_FROM = 300.0               # m: up to here the ground comes to its mean level
 _HILLS_FROM, _HILLS_TO = 700.0, 3600.0
 _HIGHEST = 105.0                  # m, about
+_HAIR = 1e-6                      # m, or of a share
 
 
 def rectangle(low, high, pieces=24):
@@ -81,6 +82,12 @@ def _step(value, low, high):
     return t * t * (3.0 - 2.0 * t)
 
 
+def _height(edge, mean, out, x, y):
+    """At a place so many metres beyond a border of this height."""
+    level = edge + (mean - edge) * _step(out, 0.0, _LEVEL_FROM)
+    return level + _HIGHEST * hills(x, y) * _step(out, _HILLS_FROM, _HILLS_TO)
+
+
 def country(border):
     """Ground from a border outwards: it levels, and there are hills far away. (corners, quads).
 
@@ -94,8 +101,7 @@ def country(border):
             away = math.hypot(x - middle[0], y - middle[1]) or 1.0
             stretch = (away + out) / away
             px, py = middle[0] + (x - middle[0]) * stretch, middle[1] + (y - middle[1]) * stretch
-            height = z + (middle[2] - z) * _step(out, 0.0, _LEVEL_FROM)
-            corners.append((px, py, height + _HIGHEST * hills(px, py) * _step(out, _HILLS_FROM, _HILLS_TO)))
+            corners.append((px, py, _height(z, middle[2], out, px, py)))
         if ring:
             for i in range(count):
                 inner, after = (ring - 1) * count + i, (ring - 1) * count + (i + 1) % count
@@ -112,15 +118,19 @@ def height(border, x, y):
         ax, ay, bx, by = a[0] - middle[0], a[1] - middle[1], b[0] - middle[0], b[1] - middle[1]
         turn = ax * by - ay * bx
         s, t = (dx * by - dy * bx) / turn if turn else -1.0, (ax * dy - ay * dx) / turn if turn else -1.0
-        if s < 0.0 or t < 0.0:
+        if min(s, t) < -_HAIR or s + t <= 0.0:
             continue
         # In the sector between two corners of the border; beyond the border by `out`.
         share = t / (s + t)
         edge = (ax + (bx - ax) * share, ay + (by - ay) * share)
-        out = math.hypot(dx, dy) - math.hypot(*edge)
-        for low, high in zip(_RINGS, _RINGS[1:]):
-            if low <= out <= high:
-                z = a[2] + (b[2] - a[2]) * share
-                ends = [z + (middle[2] - z) * _step(ring, 0.0, _LEVEL_FROM) for ring in (low, high)]
-                return ends[0] + (ends[1] - ends[0]) * (out - low) / (high - low)
+        away = math.hypot(dx, dy)
+        out = min(REACH, max(0.0, away - math.hypot(*edge)))
+        low = max(ring for ring in _RINGS[:-1] if ring <= out + _HAIR)
+        high = _RINGS[_RINGS.index(low) + 1]
+        ends = []
+        for ring in (low, high):
+            stretch = (away - out + ring) / away
+            ends.append(_height(a[2] + (b[2] - a[2]) * share, middle[2], ring, middle[0] + dx * stretch,
+                                middle[1] + dy * stretch))
+        return ends[0] + (ends[1] - ends[0]) * (out - low) / (high - low)
     return middle[2]
