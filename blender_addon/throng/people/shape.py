@@ -69,24 +69,29 @@ def _values(body, height):
             "proportions": body.proportions, "height": height, "cupsize": 0.5, "firmness": 0.6}
 
 
-def face_targets(names, body):
-    """{target: weight} of a face of one's own: `names` are all targets there are."""
-    draw = numpy.random.default_rng(body.seed)
-    known, weights = set(names), {}
+def _opposites(names):
+    """Pairs of targets of faces that are each other's opposites, of the left side where there are two."""
+    known = set(names)
     for name in sorted(names):
         folder, _, leaf = name.partition("/")
         if folder not in _FACE or leaf.startswith("r-") or any(part in leaf for part in _LEFT_OUT):
             continue
         for low, high in _OPPOSITES:
             other = name[:-len(low)] + high
-            if not leaf.endswith("-" + low) or other not in known:
-                continue
-            value = float(numpy.clip(draw.normal(0.0, 0.42), -1.0, 1.0)) * body.character
-            if folder == "eyes":
-                value *= 0.5
-            for one in {other if value > 0.0 else name}:
-                for each in (one, one.replace("/l-", "/r-")):
-                    weights[each] = abs(value)
+            if leaf.endswith("-" + low) and other in known:
+                yield name, other
+
+
+def face_targets(names, body):
+    """{target: weight} of a face of one's own: `names` are all targets there are."""
+    draw = numpy.random.default_rng(body.seed)
+    weights = {}
+    for name, other in _opposites(names):
+        value = float(numpy.clip(draw.normal(0.0, 0.42), -1.0, 1.0)) * body.character
+        if name.startswith("eyes/"):
+            value *= 0.5
+        one = other if value > 0.0 else name
+        weights.update({each: abs(value) for each in (one, one.replace("/l-", "/r-"))})
     weights[f"head/head-{draw.choice(_HEADS)}"] = 0.6 * draw.random()
     for part in _UNEVEN:
         weights[f"asym/asym-{part}-{draw.choice(['l', 'r'])}"] = 0.25 * draw.random()
