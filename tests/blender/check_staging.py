@@ -34,6 +34,14 @@ for kind in ("street", "wide", "crane"):
                              "height": camera.location.z,
                              "nearest": min((camera.location.xy - place.xy).length for place in places),
                              "cameras": sum(thing.type == "CAMERA" for thing in scene.objects)}
+dressing = collection.children[f"{collection.name} dressing"]
+tree = next(thing for thing in dressing.objects if thing.name.startswith("Throng lime tree"))
+stood, result["tree hidden"] = tree.location.copy(), []
+ahead = scene.camera.matrix_world.to_quaternion() @ Vector((0.0, 0.0, -1.0))
+for place in (scene.camera.location + 6.0 * ahead, scene.camera.location - 6.0 * ahead, stood):
+    tree.location = (place.x, place.y, 0.0)
+    assert bpy.ops.throng.shot(kind="crane") == {"FINISHED"}
+    result["tree hidden"].append([tree.hide_render, tree.hide_viewport])
 for time in ("night", "noon", "overcast", "late", "night"):
     assert bpy.ops.throng.light(time=time) == {"FINISHED"}
     lights = [thing for thing in scene.objects if thing.type == "LIGHT"]
@@ -76,7 +84,7 @@ for time in ("noon", "overcast", "late", "night"):
     assert bpy.ops.throng.light(time=time) == {"FINISHED"}
     result["sky"][time] = picture((0.0, 0.0, 60.0), (-60.0, 0.0, 90.0))
 assert bpy.ops.throng.light(time="overcast") == {"FINISHED"}
-for thing in collection.children[f"{collection.name} dressing"].objects:
+for thing in dressing.objects:
     thing.hide_render = True  # what stands there may be what is seen
 for amount in (0.0, 0.5, 1.0):
     assert bpy.ops.throng.rain(amount=amount) == {"FINISHED"}

@@ -21,6 +21,10 @@ def test_shots_show_the_crowd(staged):
     assert {shot["cameras"] for shot in shots.values()} == {1}
 
 
+def test_a_tree_before_the_lens_is_hidden_until_it_is_not(staged):
+    assert staged["tree hidden"] == [[True, True], [False, False], [False, False]]
+
+
 DAYS = ("noon", "overcast", "late")
 
 

@@ -8,6 +8,7 @@ import bpy
 
 from ..formats import BakeError, load_bake
 from ..formats.terrain_mesh import read_mesh
+from ..setting.dressing import FIELD_TREES, STREET_TREES
 from .lights import expose
 from .shapes import direction, inside
 
@@ -89,10 +90,35 @@ def build_camera(scene, manifest, collection, shot="crane"):
     holder.data.dof.use_dof, holder.data.dof.aperture_fstop = shot != "wide", 2.8
     holder.data.dof.focus_object, holder.data.dof.focus_distance = None, distance * (1.0 if shot == "wide" else 0.72)
     scene.camera = holder
+    _clear_view(collection, place, aim)
     collection["throng_shot"] = shot
     expose(scene, collection)
     collection["throng_camera_frame"] = scene.frame_start + frame
     return holder
+
+
+_TREES = {f"Throng {kind}" for kind in (*STREET_TREES, *FIELD_TREES)}
+_CROWN = 3.2  # m: how far leaves reach
+_HIDDEN = "throng_before_lens"
+
+
+def _clear_view(collection, place, aim, share=0.7):
+    """Hides trees that stand before the lens, up to this share of the way to what is aimed at, and shows those that
+    did so before."""
+    away = math.dist(place[:2], aim[:2]) or 1.0
+    ux, uy = (aim[0] - place[0]) / away, (aim[1] - place[1]) / away
+    for holder in collection.children:
+        for thing in holder.objects if holder.name.startswith(f"{collection.name} dressing") else ():
+            dx, dy = thing.location[0] - place[0], thing.location[1] - place[1]
+            ahead, aside = dx * ux + dy * uy, abs(dy * ux - dx * uy)
+            hides = getattr(thing.data, "name", "") in _TREES and -_CROWN < ahead < share * away and \
+                aside < 18.0 / _LENS * max(ahead, 0.0) + _CROWN
+            if hides or _HIDDEN in thing:
+                thing.hide_render = thing.hide_viewport = hides
+            if hides:
+                thing[_HIDDEN] = True
+            elif _HIDDEN in thing:
+                del thing[_HIDDEN]
 
 
 def _new_camera(collection):
