@@ -7,6 +7,7 @@ from . import LEVELS, POSES, VARIATIONS, limb_velocities, people, plan_of, poses
 from .figure import build_figure
 from .gait import gait_of
 from .materials import cast_materials
+from ..people import members
 from .sheets import Posed, drop_spare_attributes, make_figure, remove_figures, sheet_of
 
 BLURS_UNTIL = 1  # the last level whose limbs blur: further away they move by less than a pixel or two
@@ -33,11 +34,13 @@ def add_figure(cast, level, member, name, posed):
 
 
 def build_cast(variations, repertoire, name="Throng cast"):
-    """A cast of that many people at level 0."""
+    """A cast of that many people at level 0, shaped from bodies where there is a library of them."""
     cast = bpy.data.collections.new(name)
     cast["throng_variations"], cast["throng_levels"] = variations, 1
+    if members.found():
+        cast["throng_bodies"] = members.LOOK
     cast.hide_viewport = cast.hide_render = True  # File > Append puts it into the scene
-    materials = cast_materials(people.MATERIALS)
+    materials = [] if members.found() else cast_materials(people.MATERIALS)
     for member in range(variations):
         add_person(cast, member, repertoire, materials)
     return cast
@@ -45,9 +48,17 @@ def build_cast(variations, repertoire, name="Throng cast"):
 
 def add_person(cast, member, repertoire, materials, levels=None):
     """The shipped person of a number, at the levels that the cast shows unless told."""
+    wanted = range(cast["throng_levels"]) if levels is None else levels
+    look = cast.get("throng_bodies")
+    if look:
+        for level in wanted:
+            figure = add_figure(cast, level, member, f"Throng person {member:02d}",
+                                members.posed_of(member, level, repertoire, look))
+            figure["throng_person"] = member
+        return
     person = member % VARIATIONS
     bodies = [build_figure(people.CAST[person], pose) for pose in poses_of(people.CAST[person], repertoire)]
-    for level in range(cast["throng_levels"]) if levels is None else levels:
+    for level in wanted:
         figure = add_figure(cast, level, member, f"Throng person {member:02d}",
                             _posed(bodies, level, repertoire, materials))
         figure["throng_person"] = person
@@ -57,6 +68,8 @@ def add_levels(cast, repertoire):
     """Shows the coarser levels: makes those of the shipped people; who was brought along has them."""
     if cast["throng_levels"] == LEVELS:
         return
+    if cast.get("throng_bodies"):
+        members.bodies()  # or nothing is changed
     cast["throng_levels"] = LEVELS
     for (level, member), figure in figures_of(cast).items():
         if "throng_person" not in figure:
