@@ -15,8 +15,8 @@ quads, each with its corners' `face_uvs` in `uvs` and its `face_group` in `group
 Joint J (`joint_names`) is the mean of the vertices `joint_vertices[joint_first[J]:joint_first[J + 1]]`. Target T
 (`target_names`) moves some vertices by `target_offsets` (one row an axis), in tenths of a millimetre, for whole numbers
 of those are what the data has; which ones is the running sum of `target_gaps[target_first[T]:target_first[T + 1]]`.
-`rules` say which macro targets make up an age, a sex, and so on. For levels of detail, `merge_gone` are vertices that go
-first to last, each merged into its neighbour of `merge_into`: those of group G from `merge_first[G]` on.
+`rules` say which macro targets make up an age, a sex, and so on. For levels of detail, `merge_gone` are vertices that
+go first to last, each merged into its neighbour of `merge_into`: those of group G from `merge_first[G]` on.
 """
 import argparse
 import gzip

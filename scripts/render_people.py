@@ -175,7 +175,8 @@ def main():
         setattr(scene.render, flag, False)
     bpy.ops.render.render(write_still=True)
     triangles = sum(len(mesh.polygons) for mesh in bpy.data.meshes)
-    print(f"{options.picture}: {len(bpy.data.meshes) - 1} meshes, {triangles:,} triangles, made in {stage.seconds:.1f} s")
+    print(f"{options.picture}: {len(bpy.data.meshes) - 2} meshes, {triangles - 2:,} triangles, "
+          f"made in {stage.seconds:.1f} s")
 
 
 main()

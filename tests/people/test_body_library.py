@@ -149,7 +149,8 @@ def test_levels_of_detail_keep_what_has_a_shape(body_library):
 
 
 def test_merges_name_vertices_of_the_library(made):
-    assert len(made["merge_first"]) == 2 and made["merge_first"][-1] == len(made["merge_gone"]) == len(made["merge_into"])
+    assert len(made["merge_first"]) == 2
+    assert made["merge_first"][-1] == len(made["merge_gone"]) == len(made["merge_into"])
 
 
 def test_the_licence_goes_along(made, tmp_path):

@@ -79,7 +79,8 @@ def test_what_is_no_library_is_told(tmp_path):
 
 def test_factors_lie_between_two_names():
     rules = {"macrotargets": {"age": {"parts": [{"lowest": -0.01, "highest": 0.5, "low": "child", "high": "young"}]},
-                              "height": {"parts": [{"lowest": -0.01, "highest": 0.49, "low": "minheight", "high": ""}]}},
+                              "height": {"parts": [{"lowest": -0.01, "highest": 0.49, "low": "minheight",
+                                                    "high": ""}]}},
              "combinations": {"racegenderage": ["race", "age"], "genderagemuscleweightheight": ["age", "height"]}}
     found = shape.macro_targets(rules, {"age": 0.245, "height": 0.24}, (0.5, 0.0, 0.5))
     assert set(found) == {"macrodetails/african-child", "macrodetails/caucasian-child", "macrodetails/african-young",

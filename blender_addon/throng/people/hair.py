@@ -108,8 +108,8 @@ def _ways(style, points, normals, places, crown, back, draw):
     elif style.comb == "side":
         ways = numpy.where((ahead & (places[:, regions.Z] > 0.775))[:, None], (-0.35, -0.9, 0.15), points - crown)
     elif style.comb == "parted":
-        ways = numpy.stack([numpy.where(regions.angle_of(places) < 55.0, -0.9, -0.35), numpy.sign(points[:, 1] - 0.014) * 1.2,
-                            numpy.full(len(points), -0.2)], axis=1)
+        from_face = numpy.where(regions.angle_of(places) < 55.0, -0.9, -0.35)
+        ways = numpy.stack([from_face, numpy.sign(points[:, 1] - 0.014) * 1.2, numpy.full(len(points), -0.2)], axis=1)
     elif style.comb == "knot":
         ways = back - points
     elif style.comb == "out":

@@ -149,10 +149,11 @@ def glasses(bodies, shape, level, scale, round_ones):
     front = max(point[0] for point in eyes_at) + 0.026 * scale
     angles = 2.0 * numpy.pi * numpy.arange(around) / around
     power = 1.0 if round_ones else 0.7
-    curve = numpy.stack([numpy.sign(numpy.cos(angles)) * numpy.abs(numpy.cos(angles)) ** power * 0.0255,
-                         numpy.sign(numpy.sin(angles)) * numpy.abs(numpy.sin(angles)) ** power * 0.0205], axis=1) * scale
+    bent = lambda wave, half: numpy.sign(wave) * numpy.abs(wave) ** power * half * scale
+    curve = numpy.stack([bent(numpy.cos(angles), 0.0255), bent(numpy.sin(angles), 0.0205)], axis=1)
     base = regions.places_of(bodies)
-    temples = (numpy.abs(base[:, 1]) > 0.060) & (numpy.abs(base[:, 1]) < 0.0705) & (numpy.abs(base[:, 2] - 0.735) < 0.02) & (base[:, 4] > 0.5)
+    aside = numpy.abs(base[:, 1])
+    temples = (aside > 0.060) & (aside < 0.0705) & (numpy.abs(base[:, 2] - 0.735) < 0.02) & (base[:, 4] > 0.5)
     wide = float(numpy.abs(shape[temples, 1]).max())
     behind = float(numpy.median(shape[temples, 0]))
     found = []
@@ -212,6 +213,6 @@ def _brim(bodies, points, scale):
     rows[1][:, 0] += 0.036
     rows[2][:, 0] += 0.070
     made = numpy.concatenate(rows) * (1.0, scale, 1.0)
-    faces = [each for row in range(2) for k in range(8)
-             for each in ((row * 9 + k, row * 9 + k + 1, row * 9 + k + 10), (row * 9 + k, row * 9 + k + 10, row * 9 + k + 9))]
+    corners = [row * 9 + k for row in range(2) for k in range(8)]
+    faces = [each for a in corners for each in ((a, a + 1, a + 10), (a, a + 10, a + 9))]
     return loose(bodies, made, faces, "head", "extra cotton")

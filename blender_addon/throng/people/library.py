@@ -93,8 +93,8 @@ class Bodies:
         number = self._joint[f"joint-{name}"]
         return shape[self._joint_vertices[self._joint_first[number]:self._joint_first[number + 1]]].mean(axis=0)
 
-    def target_names(self, folder):
-        return [name for name in self._target if name.startswith(folder + "/")]
+    def target_names(self):
+        return list(self._target)
 
     @lru_cache(maxsize=512)
     def target(self, name):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is painted on faces: lips, brows, beards, red cheeks. Functions of the place on the base mesh, seen from ahead, so
-one small picture fits everybody."""
+"""What is painted on faces: lips, brows, beards, red cheeks. Functions of the place on the base mesh, seen from ahead,
+so one small picture fits everybody."""
 import numpy
 
 from . import levels, regions

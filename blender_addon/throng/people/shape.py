@@ -2,7 +2,7 @@
 """The shape of somebody's body: age, sex, ancestry, weight, muscle, height, shoulders and a face of one's own."""
 import itertools
 import json
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy
 
@@ -26,7 +26,7 @@ class Body:
     years: float
     male: float                    # 0 a woman, 1 a man
     height: float                  # m, from the ground to the crown, barefoot
-    ancestry: tuple = ((0.0, 0.0, 1.0))  # shares of ANCESTRIES
+    ancestry: tuple = (0.0, 0.0, 1.0)  # shares of ANCESTRIES
     weight: float = 0.5
     muscle: float = 0.5
     proportions: float = 0.65
@@ -34,7 +34,7 @@ class Body:
     seed: int = 0                  # of the face
     character: float = 0.42        # how far the face is from the average
     smile: float = 0.0
-    details: tuple = field(default=())  # more targets: ((name, share), ...)
+    details: tuple = ()           # more targets: ((name, share), ...)
 
 
 def age_of(years):
@@ -69,24 +69,32 @@ def _values(body, height):
             "proportions": body.proportions, "height": height, "cupsize": 0.5, "firmness": 0.6}
 
 
+def _opposite(name, known):
+    """The target that does the contrary, for those that name the lesser one of two."""
+    for low, high in _OPPOSITES:
+        if name.endswith("-" + low) and name[:-len(low)] + high in known:
+            return name[:-len(low)] + high
+    return None
+
+
+def _of_faces(name):
+    folder, _, leaf = name.partition("/")
+    return folder in _FACE and not leaf.startswith("r-") and not any(part in leaf for part in _LEFT_OUT)
+
+
 def face_targets(names, body):
     """{target: weight} of a face of one's own: `names` are all targets there are."""
     draw = numpy.random.default_rng(body.seed)
     known, weights = set(names), {}
-    for name in sorted(names):
-        folder, _, leaf = name.partition("/")
-        if folder not in _FACE or leaf.startswith("r-") or any(part in leaf for part in _LEFT_OUT):
+    for name in sorted(filter(_of_faces, names)):
+        other = _opposite(name, known)
+        if not other:
             continue
-        for low, high in _OPPOSITES:
-            other = name[:-len(low)] + high
-            if not leaf.endswith("-" + low) or other not in known:
-                continue
-            value = float(numpy.clip(draw.normal(0.0, 0.42), -1.0, 1.0)) * body.character
-            if folder == "eyes":
-                value *= 0.5
-            for one in {other if value > 0.0 else name}:
-                for each in (one, one.replace("/l-", "/r-")):
-                    weights[each] = abs(value)
+        value = float(numpy.clip(draw.normal(0.0, 0.42), -1.0, 1.0)) * body.character
+        if name.startswith("eyes/"):
+            value *= 0.5
+        one = other if value > 0.0 else name
+        weights[one] = weights[one.replace("/l-", "/r-")] = abs(value)
     weights[f"head/head-{draw.choice(_HEADS)}"] = 0.6 * draw.random()
     for part in _UNEVEN:
         weights[f"asym/asym-{part}-{draw.choice(['l', 'r'])}"] = 0.25 * draw.random()
@@ -104,7 +112,7 @@ def height_of(bodies, shape):
 
 def shape_of(bodies, body):
     """The base mesh in somebody's shape, all groups of it; the soles are on z = 0."""
-    rules, names = json.loads(bodies.rules), list(bodies._target)
+    rules, names = json.loads(bodies.rules), bodies.target_names()
     middle = bodies.vertices.copy()
     for weights in (macro_targets(rules, _values(body, 0.5), body.ancestry), face_targets(names, body),
                     dict(body.details), waist_targets(body), {_shoulders(body): abs(body.shoulders)}):
