@@ -7,10 +7,20 @@ from . import LEVELS, POSES, VARIATIONS, limb_velocities, people, plan_of, poses
 from .figure import build_figure
 from .gait import gait_of
 from .materials import cast_materials
-from ..people import members
 from .sheets import Posed, drop_spare_attributes, make_figure, remove_figures, sheet_of
 
 BLURS_UNTIL = 1  # the last level whose limbs blur: further away they move by less than a pixel or two
+
+
+class _Shaped:
+    """How people are made who are shaped from a library of bodies: the package `people` fills it in, which this one
+    knows nothing of."""
+
+    make = None   # (member, level, repertoire, look): Posed
+    check = None  # raises where the library is missing, before anything is changed
+
+
+shaped = _Shaped()
 
 
 def figures_of(cast):
@@ -33,14 +43,14 @@ def add_figure(cast, level, member, name, posed):
     return figure
 
 
-def build_cast(variations, repertoire, name="Throng cast"):
-    """A cast of that many people at level 0, shaped from bodies where there is a library of them."""
+def build_cast(variations, repertoire, name="Throng cast", look=""):
+    """A cast of that many people at level 0; with a look they are shaped from a library of bodies."""
     cast = bpy.data.collections.new(name)
     cast["throng_variations"], cast["throng_levels"] = variations, 1
-    if members.found():
-        cast["throng_bodies"] = members.LOOK
+    if look:
+        cast["throng_bodies"] = look
     cast.hide_viewport = cast.hide_render = True  # File > Append puts it into the scene
-    materials = [] if members.found() else cast_materials(people.MATERIALS)
+    materials = [] if look else cast_materials(people.MATERIALS)
     for member in range(variations):
         add_person(cast, member, repertoire, materials)
     return cast
@@ -53,7 +63,7 @@ def add_person(cast, member, repertoire, materials, levels=None):
     if look:
         for level in wanted:
             figure = add_figure(cast, level, member, f"Throng person {member:02d}",
-                                members.posed_of(member, level, repertoire, look))
+                                shaped.make(member, level, repertoire, look))
             figure["throng_person"] = member
         return
     person = member % VARIATIONS
@@ -69,7 +79,7 @@ def add_levels(cast, repertoire):
     if cast["throng_levels"] == LEVELS:
         return
     if cast.get("throng_bodies"):
-        members.bodies()  # or nothing is changed
+        shaped.check()
     cast["throng_levels"] = LEVELS
     for (level, member), figure in figures_of(cast).items():
         if "throng_person" not in figure:

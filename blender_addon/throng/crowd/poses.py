@@ -19,8 +19,8 @@ def member_of(maths, variation, drawn, count, own=False):
     if own:
         member = maths.attribute(OWN, "FLOAT")
         has = maths.math("GREATER_THAN", member, 0.5)
-        variation = maths.math("MULTIPLY_ADD", has, maths.math("SUBTRACT", maths.math("SUBTRACT", member, 1.0), variation),
-                               variation)
+        instead = maths.math("SUBTRACT", maths.math("SUBTRACT", member, 1.0), variation)
+        variation = maths.math("MULTIPLY_ADD", has, instead, variation)
     own = maths.math("MODULO", variation, float(count))
     later = count - drawn
     if later <= 0:

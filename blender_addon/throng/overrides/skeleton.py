@@ -53,7 +53,8 @@ def bones_of(person, pose):
     figure = _posed(person, pose)
     across = lambda share: turn_z((0.0, 1.0, 0.0), figure.yaw(share))
     spine = [figure.along(height) for height in (0.0, 0.17, 0.515, 0.80)]
-    bones = {"hips": bone_between(spine[0], spine[1], across(0.0)), "spine": bone_between(spine[1], spine[2], across(1.0)),
+    bones = {"hips": bone_between(spine[0], spine[1], across(0.0)),
+             "spine": bone_between(spine[1], spine[2], across(1.0)),
              "head": bone_between(spine[2], spine[3], turn_z((0.0, 1.0, 0.0), 0.4 * figure.yaw(1.0)))}
     for side, (shoulder, elbow, wrist), (hip, knee, ankle), foot in zip("RL", figure.arms, figure.legs, pose.feet):
         bones[f"upper_arm.{side}"] = bone_between(shoulder, elbow, across(1.0))

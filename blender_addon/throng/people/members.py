@@ -7,7 +7,8 @@ from functools import lru_cache
 
 import numpy
 
-from ..cast import BEATS, LEVELS, POSES, gait
+from ..cast import BEATS, POSES, gait
+from ..cast.library import BLURS_UNTIL, shaped
 from ..cast.sheets import Posed
 from . import figures, library, roster
 from .person import Maker
@@ -16,7 +17,6 @@ from .rig import skinned
 LOOK = "casual"
 MEMBERS = 24      # of a cast; among them are women and men of all ages
 FINE = 4096.0     # steps a metre: what is finer is not seen, and files are a third as large without it
-BLURS_UNTIL = 1   # the last level whose limbs blur
 CHILD_UNTIL = 0.205  # m: people of a smaller radius are children
 _KEPT = 2         # people who stay in memory: all their levels are made one after the other
 
@@ -94,8 +94,8 @@ def breadth_of(who):
 
 
 def read_people(folder):
-    """[(radius, variation)] of a bake's people, or None where its table cannot be read; None in the place of those whose
-    look somebody has chosen (`throng apply`)."""
+    """[(radius, variation)] of a bake's people, or None where its table cannot be read; None in the place of those
+    whose look somebody has chosen (`throng apply`)."""
     try:
         with open(os.path.join(folder, "agents.csv"), newline="", encoding="utf-8") as table:
             return [None if line.get("overrides") else (float(line["radius"]), int(line["variation"]))
@@ -104,4 +104,5 @@ def read_people(folder):
         return None
 
 
-assert LEVELS == 3
+# the cast's own library calls these for members whose cast has a look
+shaped.make, shaped.check = posed_of, bodies

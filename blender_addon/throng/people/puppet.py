@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""People shaped from bodies on the simple skeleton of heroes (overrides/skeleton.py): each of its bones takes what hangs
-on several of the library's."""
+"""People shaped from bodies on the simple skeleton of heroes (overrides/skeleton.py): each of its bones takes what
+hangs on several of the library's."""
 import numpy
 
 from ..cast import gait

@@ -48,9 +48,10 @@ def import_bake(context, path, *, frame_start=1, walls=True, roads=True, scenery
     collection["throng_bake"] = os.path.join(bake.folder, "bake.json")
     collection["throng_origin"] = bake.origin
 
-    variations = members.MEMBERS if members.found() else min(bake.variations, cast.VARIATIONS)
+    look = members.LOOK if members.found() else ""
+    variations = members.MEMBERS if look else min(bake.variations, cast.VARIATIONS)
     repertoire = cast.Repertoire.of(bake.strides, bake.gaits)
-    people = library.build_cast(variations, repertoire, f"Throng {bake.name} cast")
+    people = library.build_cast(variations, repertoire, f"Throng {bake.name} cast", look)
     paths = {stream: stored_path(bake.stream_path(stream), relative) for stream in bake.streams}
     crowd = playback.build_crowd(bake, f"Throng {bake.name} crowd", people, frame_start, paths)
     collection.objects.link(crowd)
