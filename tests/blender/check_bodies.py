@@ -96,13 +96,11 @@ bpy.data.scenes.remove(look)
 row = min(row for row, member in result["shown"].items() if member == 0)
 assert bpy.ops.throng.swap_people(rows=str(row), character=2) == {"FINISHED"}
 scene.frame_set(20)
-result["swapped"] = [shown()[row], sum(one != other for one, other in zip(shown().values(), result["shown"].values()))]
+now = shown()
+result["swapped"] = [now[row], [each for each, member in result["shown"].items() if now[each] != member] == [row]]
 bpy.ops.throng.clear_people(rows=str(row))
 scene.frame_set(20)
 result["back"] = shown() == result["shown"]
-crowd_body = next(i for i in bpy.context.evaluated_depsgraph_get().object_instances
-                  if i.is_instance and i.parent and i.parent.original == crowd and i.persistent_id[1] == row)
-
 
 def bounds(mesh, matrix):
     flat = numpy.empty(3 * len(mesh.vertices), numpy.float32)
@@ -111,7 +109,9 @@ def bounds(mesh, matrix):
     return numpy.concatenate([spots.min(axis=0), spots.max(axis=0)])
 
 
-in_crowd = bounds(crowd_body.object.data, crowd_body.matrix_world.copy())
+in_crowd = next(bounds(each.object.data, each.matrix_world)
+                for each in bpy.context.evaluated_depsgraph_get().object_instances
+                if each.is_instance and each.parent and each.parent.original == crowd and each.persistent_id[1] == row)
 assert bpy.ops.throng.promote_person(rows=str(row), hero="Anna") == {"FINISHED"}
 scene.frame_set(20)
 anna = hero.heroes_of(crowd)["Anna"]

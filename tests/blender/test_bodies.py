@@ -58,7 +58,7 @@ def test_limbs_blur_by_the_poses_before_and_after(seen):
 
 
 def test_overrides_and_heroes_work(seen):
-    assert seen["swapped"] == [GIRL, 1] and seen["back"]
+    assert seen["swapped"] == [GIRL, True] and seen["back"]
     hero = seen["hero"]
     assert hero["off"] < 0.08 and hero["hidden"] and hero["materials"] and hero["pattern"] and hero["tint"] == 3
     assert hero["triangles"] > 30000, "in full detail"

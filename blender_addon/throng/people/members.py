@@ -62,7 +62,8 @@ def posed_of(number, level, repertoire, look=LOOK):
     """A member at a level, for cast.sheets."""
     model = maker_of(number, look).model(level)
     matrices = _matrices(number, look, repertoire)[repertoire.sources(level)]
-    points = (numpy.rint(skinned(model.points, model.weights, matrices) * FINE) / FINE).astype(numpy.float32)
+    posed = skinned(model.points, model.weights, matrices)
+    points = (numpy.rint(posed * FINE) / FINE + 0.0).astype(numpy.float32)  # no zero is negative
     cycles = tuple((POSES, gait.gait_of(stride).seconds / POSES) for stride in repertoire.strides)
     mesh = figures.mesh_of("throng figure", model, points[-1], look, bodies())
     return Posed(mesh, points, cycles=cycles if level <= BLURS_UNTIL else ())
