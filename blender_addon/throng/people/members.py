@@ -15,7 +15,7 @@ from .person import Maker
 from .rig import skinned
 
 LOOK = "casual"
-MEMBERS = 24      # of a cast; among them are women and men of all ages
+MEMBERS = 20      # of a cast: women and men of all ages, two children among them
 FINE = 4096.0     # steps a metre: what is finer is not seen, and files are a third as large without it
 CHILD_UNTIL = 0.205  # m: people of a smaller radius are children
 _KEPT = 2         # people who stay in memory: all their levels are made one after the other
