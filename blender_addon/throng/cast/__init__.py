@@ -6,8 +6,9 @@ detail, with the custom properties `throng_member`, its number as the bake has t
 is the finest). A figure brings an instance of each of its poses, in order: the gaits first, each a cycle from the right
 heel's strike on, then the beats of the standing clips (Repertoire numbers them). The collection's `throng_variations`
 says how many members there are, `throng_levels` how many levels the crowd shows. `throng_person` is there where the
-add-on's own cast made a figure, `throng_character` where it was brought along. Figures look along +x and stand on
-z = 0; all take the bake's strides.
+add-on's own cast made a figure, `throng_character` where it was brought along. The collection's `throng_bodies` is the
+look of people who are shaped from a library of bodies (people/members.py); without it they are made of lofts
+(figure.py). Figures look along +x and stand on z = 0; all take the bake's strides.
 """
 from dataclasses import dataclass
 

@@ -12,6 +12,17 @@ from .sheets import Posed, drop_spare_attributes, make_figure, remove_figures, s
 BLURS_UNTIL = 1  # the last level whose limbs blur: further away they move by less than a pixel or two
 
 
+class _Shaped:
+    """How people are made who are shaped from a library of bodies: the package `people` fills it in, which this one
+    knows nothing of."""
+
+    make = None   # (member, level, repertoire, look): Posed
+    check = None  # raises where the library is missing, before anything is changed
+
+
+shaped = _Shaped()
+
+
 def figures_of(cast):
     """{(level, member): figure}, whoever made them; also of levels that nobody shows now."""
     return {(thing["throng_level"], thing["throng_member"]): thing for thing in cast.objects
@@ -32,12 +43,14 @@ def add_figure(cast, level, member, name, posed):
     return figure
 
 
-def build_cast(variations, repertoire, name="Throng cast"):
-    """A cast of that many people at level 0."""
+def build_cast(variations, repertoire, name="Throng cast", look=""):
+    """A cast of that many people at level 0; with a look they are shaped from a library of bodies."""
     cast = bpy.data.collections.new(name)
     cast["throng_variations"], cast["throng_levels"] = variations, 1
+    if look:
+        cast["throng_bodies"] = look
     cast.hide_viewport = cast.hide_render = True  # File > Append puts it into the scene
-    materials = cast_materials(people.MATERIALS)
+    materials = [] if look else cast_materials(people.MATERIALS)
     for member in range(variations):
         add_person(cast, member, repertoire, materials)
     return cast
@@ -45,9 +58,17 @@ def build_cast(variations, repertoire, name="Throng cast"):
 
 def add_person(cast, member, repertoire, materials, levels=None):
     """The shipped person of a number, at the levels that the cast shows unless told."""
+    wanted = range(cast["throng_levels"]) if levels is None else levels
+    look = cast.get("throng_bodies")
+    if look:
+        for level in wanted:
+            figure = add_figure(cast, level, member, f"Throng person {member:02d}",
+                                shaped.make(member, level, repertoire, look))
+            figure["throng_person"] = member
+        return
     person = member % VARIATIONS
     bodies = [build_figure(people.CAST[person], pose) for pose in poses_of(people.CAST[person], repertoire)]
-    for level in range(cast["throng_levels"]) if levels is None else levels:
+    for level in wanted:
         figure = add_figure(cast, level, member, f"Throng person {member:02d}",
                             _posed(bodies, level, repertoire, materials))
         figure["throng_person"] = person
@@ -57,6 +78,8 @@ def add_levels(cast, repertoire):
     """Shows the coarser levels: makes those of the shipped people; who was brought along has them."""
     if cast["throng_levels"] == LEVELS:
         return
+    if cast.get("throng_bodies"):
+        shaped.check()
     cast["throng_levels"] = LEVELS
     for (level, member), figure in figures_of(cast).items():
         if "throng_person" not in figure:

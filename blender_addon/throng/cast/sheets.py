@@ -12,6 +12,7 @@ operations of every object that something refers to in every frame, whether anyt
 that took as long as all people together. The price: people are geometry of one object, the crowd, so mattes go by crowd
 and by material, and exports want Realize Instances (docs/blender.md).
 """
+import zlib
 from dataclasses import dataclass
 
 import bpy
@@ -30,6 +31,8 @@ class Posed:
     mesh: bpy.types.Mesh
     points: numpy.ndarray             # (P, V, 3) m
     velocities: numpy.ndarray = None  # (W, V, 3) m/s in the walker's own frame, where limbs blur
+    cycles: tuple = ()                # or, of each gait, how many poses and the seconds between two: velocities then
+                                      # are worked out from the poses before and after, and take no room in files
 
 
 def drop_spare_attributes(mesh, keep_sharp=False):
@@ -44,6 +47,7 @@ def drop_spare_attributes(mesh, keep_sharp=False):
 def make_figure(name, posed):
     """The object of somebody at a level of detail. The mesh becomes its own."""
     poses, vertices, _ = posed.points.shape
+    assert posed.velocities is None or not posed.cycles
     sheet = bpy.data.objects.new(f"{name} poses", bpy.data.meshes.new(f"{name} poses"))
     sheet.data.vertices.add(poses * vertices)
     sheet.data.vertices.foreach_set("co", numpy.ascontiguousarray(posed.points, numpy.float32).ravel())
@@ -57,7 +61,7 @@ def make_figure(name, posed):
     posed.mesh.name = name
     figure = bpy.data.objects.new(name, posed.mesh)
     modifier = figure.modifiers.new(MODIFIER, "NODES")
-    modifier.node_group = _poses_tree(poses, blurring)
+    modifier.node_group = _poses_tree(poses, blurring, posed.cycles)
     set_input(modifier, "Sheet", sheet)
     return figure
 
@@ -96,18 +100,26 @@ def remove_figures(figures):
         drop_tree(tree)
 
 
+_POSE_TREES = {"": "Throng pose", "stored": "Throng pose that blurs", "worked out": "Throng pose that blurs by others"}
+
+
 def _pose_tree(blurs):
-    """One pose: the figure's mesh with its vertices where the sheet has them."""
-    name = "Throng pose that blurs" if blurs else "Throng pose"
-    found = own_tree(name)
+    """One pose: the figure's mesh with its vertices where the sheet has them.
+
+    @param blurs by velocities that are "stored" in the sheet, or "worked out" from two other poses of it, or not ("")
+    """
+    found = own_tree(_POSE_TREES[blurs])
     if found:
         return found
-    tree, inputs, outputs = new_tree(name, [("Figure", "NodeSocketGeometry"), ("Sheet", "NodeSocketGeometry"),
-                                            ("First", "NodeSocketInt")], _GEOMETRY)
+    others = [("Before", "NodeSocketInt"), ("After", "NodeSocketInt"), ("Rate", "NodeSocketFloat")]
+    tree, inputs, outputs = new_tree(_POSE_TREES[blurs], [
+        ("Figure", "NodeSocketGeometry"), ("Sheet", "NodeSocketGeometry"), ("First", "NodeSocketInt"),
+        *(others if blurs == "worked out" else [])], _GEOMETRY)
     maths = Maths(tree)
-    place = maths.math("ADD", maths.node("GeometryNodeInputIndex").outputs[0], inputs.outputs["First"])
+    index = maths.node("GeometryNodeInputIndex").outputs[0]
 
-    def from_sheet(value):
+    def from_sheet(value, first="First"):
+        place = maths.math("ADD", index, inputs.outputs[first])
         sample = maths.node("GeometryNodeSampleIndex", data_type="FLOAT_VECTOR", domain="POINT")
         maths.link(inputs.outputs["Sheet"], sample.inputs["Geometry"])
         maths.link(value, socket(sample.inputs, "Value"))
@@ -116,9 +128,17 @@ def _pose_tree(blurs):
 
     moved = maths.node("GeometryNodeSetPosition")
     maths.link(inputs.outputs["Figure"], moved.inputs["Geometry"])
-    maths.link(from_sheet(maths.node("GeometryNodeInputPosition").outputs[0]), moved.inputs["Position"])
+    position = maths.node("GeometryNodeInputPosition").outputs[0]
+    maths.link(from_sheet(position), moved.inputs["Position"])
     posed = moved.outputs[0]
-    if blurs:
+    if blurs == "worked out":
+        way, velocity = (maths.node("ShaderNodeVectorMath", operation=each) for each in ("SUBTRACT", "SCALE"))
+        maths.link(from_sheet(position, "After"), way.inputs[0])
+        maths.link(from_sheet(position, "Before"), way.inputs[1])
+        maths.link(way.outputs[0], velocity.inputs[0])
+        maths.link(inputs.outputs["Rate"], velocity.inputs["Scale"])
+        posed = maths.store(posed, "velocity", velocity.outputs[0], "FLOAT_VECTOR")
+    if blurs == "stored":
         posed = maths.store(posed, "velocity", from_sheet(maths.attribute("velocity", "FLOAT_VECTOR")), "FLOAT_VECTOR")
     instance = maths.node("GeometryNodeGeometryToInstance")
     maths.link(posed, instance.inputs[0])
@@ -126,9 +146,21 @@ def _pose_tree(blurs):
     return tree
 
 
-def _poses_tree(poses, blurring):
+def _neighbours(cycles):
+    """For each pose that walks: the ones before and after it, and 1 / s between these."""
+    found, first = [], 0
+    for count, seconds in cycles:
+        found += [(first + (pose - 1) % count, first + (pose + 1) % count, 0.5 / seconds) for pose in range(count)]
+        first += count
+    return found
+
+
+def _poses_tree(poses, blurring, cycles):
     """An instance of each pose, in order; the first ones blur."""
+    neighbours = _neighbours(cycles)
     name = f"Throng {poses} poses, {blurring} blur"
+    if cycles:  # names have room for 63 letters
+        name = f"Throng {poses} poses, blur {zlib.crc32(repr(cycles).encode()):08x}"
     found = own_tree(name)
     if found:
         return found
@@ -141,7 +173,13 @@ def _poses_tree(poses, blurring):
     everything = maths.node("GeometryNodeJoinGeometry")
     for pose in reversed(range(poses)):  # what is linked to a Join Geometry last comes out first
         one = maths.node("GeometryNodeGroup")
-        one.node_tree = _pose_tree(pose < blurring)
+        by_others = pose < len(neighbours)
+        one.node_tree = _pose_tree("worked out" if by_others else "stored" if pose < blurring else "")
+        if by_others:
+            before, after, rate = neighbours[pose]
+            for each, number in (("Before", before), ("After", after)):
+                maths.link(maths.math("MULTIPLY", socket(size.outputs, "Point Count"), float(number)), one.inputs[each])
+            one.inputs["Rate"].default_value = rate
         maths.link(inputs.outputs["Geometry"], one.inputs["Figure"])
         maths.link(socket(sheet.outputs, "Geometry"), one.inputs["Sheet"])
         maths.link(maths.math("MULTIPLY", socket(size.outputs, "Point Count"), float(pose)), one.inputs["First"])

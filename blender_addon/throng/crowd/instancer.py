@@ -57,7 +57,9 @@ def instancer_tree(cast, repertoire, leans):
     cosine, sine, speed = maths.components("throng_dir")
     state, variation, phase = maths.components("throng_state")
     nature = maths.components(NATURE)
-    variation = member_of(maths, variation, cast["throng_drawn"], cast["throng_variations"])
+    own = "throng_bodies" in cast
+    variation = member_of(maths, variation, cast["throng_shipped"] if own else cast["throng_drawn"],
+                          cast["throng_variations"], own)
     rotation = maths.node("ShaderNodeCombineXYZ")
     maths.link(maths.math("ARCTAN2", sine, cosine), rotation.inputs[2])
     figure, pose = _figures_and_poses(maths, state, phase, speed, variation, nature, repertoire, levels)

@@ -12,7 +12,7 @@ import bpy
 
 from ..blender.nodes import Maths, drop_tree, get_input, new_tree, set_input
 from ..formats import STREAMS
-from . import footing
+from . import footing, own
 from .instancer import instancer_tree
 from .names import INSTANCERS, NATURE
 from .queries import cast_of, crowds_of, repertoire_of
@@ -96,6 +96,7 @@ def build_crowd(bake, name, cast, frame_start, paths):
     crowd["throng_strides"], cast["throng_gaits"] = list(bake.strides), list(bake.gaits)
     cast["throng_drawn"], cast["throng_shipped"] = bake.variations, cast["throng_variations"]
     crowd["throng_frame_start"], crowd["throng_offset"], crowd["throng_percent"] = frame_start, 0, 100.0
+    own.give(crowd, cast, bake.folder)
     set_cast(crowd, cast)
     return crowd
 

@@ -2,19 +2,25 @@
 """Who somebody appears as, and in which pose, as nodes that work it out for all at once."""
 from ..cast import LEVEL_BEATS, LEVEL_POSES
 from ..blender.nodes import socket
+from .own import OWN
 
 STANDING_SPEED = 0.1   # m/s: slower people stand
 FRAMES_A_ROUND = 80.0  # of a standing clip
 
 
-def member_of(maths, variation, drawn, count):
+def member_of(maths, variation, drawn, count, own=False):
     """Nodes that say which member somebody is.
 
     The bake draws among so many as it knew of; members that joined later take their share from all alike, by
     numbers that everybody has.
     @param variation the stream's value; @param drawn how many the bake draws among; @param count
-    how many members there are
+    how many members there are; @param own whether most people have a member of their own (crowd/own.py)
     """
+    if own:
+        member = maths.attribute(OWN, "FLOAT")
+        has = maths.math("GREATER_THAN", member, 0.5)
+        instead = maths.math("SUBTRACT", maths.math("SUBTRACT", member, 1.0), variation)
+        variation = maths.math("MULTIPLY_ADD", has, instead, variation)
     own = maths.math("MODULO", variation, float(count))
     later = count - drawn
     if later <= 0:

@@ -10,10 +10,16 @@ from mathutils import Matrix, Vector
 from .. import cast
 from ..cast import gait, library, people
 from ..cast.materials import cast_materials
+from ..crowd import own
 from ..crowd.footing import HIGH, REACH
 from ..crowd.names import NATURE
 from ..crowd.poses import FRAMES_A_ROUND, STANDING_SPEED
 from ..crowd.queries import terrain_of
+from ..formats import BakeError
+from ..people import figures, members
+from ..people.library import LibraryError
+from ..people.materials import material_of
+from ..people.puppet import Puppet
 from . import skeleton
 from .dyes import linear
 
@@ -56,10 +62,9 @@ class _Curves:
         curve.update()
 
 
-def _pose_at(sample, frame, person, strides, nature):
+def _pose_at(sample, frame, build, strides, nature):
     """As the instancer picks poses, but at the phase itself instead of the nearest of its steps."""
     activity, _, phase = sample.state
-    build = people.build_of(person)
     if sample.direction[2] > STANDING_SPEED:
         index = min(len(strides) - 1, round((activity % 1.0) * 16.0))
         return gait.walk_pose(phase % 1.0, build, gait.gait_of(strides[index]))
@@ -67,11 +72,51 @@ def _pose_at(sample, frame, person, strides, nature):
     return gait.standing_pose(gait.STANDING_CLIPS[clip], (nature[1] + frame / FRAMES_A_ROUND) % 1.0, build)
 
 
-def _build_armature(name, person, collection):
+class Lofted:
+    """A person of cast/people.py as a hero."""
+
+    def __init__(self, person, materials):
+        self.person, self.materials, self.build = person, materials, people.build_of(person)
+        self.rest = skeleton.rest_pose(person)
+
+    def bones(self, pose):
+        return skeleton.bones_of(self.person, pose)
+
+    def body(self, strides):
+        """(vertices, faces, the material of each, [(bone, weight)] of each vertex)"""
+        plan = skeleton.plan_of(self.person)
+        return (skeleton.vertices_of(self.person, self.rest), plan.faces, plan.materials,
+                skeleton.weights_of(self.person, strides))
+
+    def finish(self, mesh):
+        """What else its mesh has."""
+
+
+class Shaped:
+    """A member of a cast that is shaped from bodies as a hero, in full detail."""
+
+    def __init__(self, number, look):
+        self.puppet = Puppet(number, look)
+        self.materials = [material_of(kind, look, members.bodies()) for kind in self.puppet.model.materials]
+        self.build, self.rest = self.puppet.build, self.puppet.rest
+
+    def bones(self, pose):
+        return self.puppet.bones(pose, skeleton.bone_between)
+
+    def body(self, _strides):
+        model, weights = self.puppet.model, self.puppet.weights(skeleton.BONES)
+        blends = [[(skeleton.BONES[bone], float(row[bone])) for bone in row.nonzero()[0]] for row in weights]
+        return self.puppet.vertices().tolist(), model.faces.tolist(), model.material_of.tolist(), blends
+
+    def finish(self, mesh):
+        figures.add_pattern(mesh, self.puppet.model)
+
+
+def _build_armature(name, who, collection):
     armature = bpy.data.armatures.new(name)
     thing = bpy.data.objects.new(name, armature)
     collection.objects.link(thing)
-    rest = skeleton.bones_of(person, skeleton.rest_pose(person))
+    rest = who.bones(who.rest)
     layer = bpy.context.view_layer
     active, selected = layer.objects.active, list(bpy.context.selected_objects)
     layer.objects.active = thing
@@ -91,12 +136,16 @@ def _build_armature(name, person, collection):
     return thing
 
 
-def _build_body(name, person, strides, armature, collection):
-    plan, weights = skeleton.plan_of(person), skeleton.weights_of(person, strides)
+def _build_body(name, who, strides, armature, collection):
+    vertices, faces, material_of_faces, weights = who.body(strides)
     mesh = bpy.data.meshes.new(f"{name} body")
-    mesh.from_pydata(skeleton.vertices_of(person, skeleton.rest_pose(person)), [], plan.faces)
-    mesh.polygons.foreach_set("use_smooth", [True] * len(plan.faces))
+    mesh.from_pydata(vertices, [], faces)
+    for material in who.materials:
+        mesh.materials.append(material)
+    mesh.polygons.foreach_set("use_smooth", [True] * len(faces))
+    mesh.polygons.foreach_set("material_index", material_of_faces)
     mesh.update()
+    who.finish(mesh)
     body = bpy.data.objects.new(mesh.name, mesh)
     collection.objects.link(body)
     groups = {bone: body.vertex_groups.new(name=bone) for bone in skeleton.BONES}
@@ -109,19 +158,18 @@ def _build_body(name, person, strides, armature, collection):
 
 
 def shipped_person(crowd, variation):
-    """(person, materials) of the shipped cast whom a variation shows as; None where somebody brought it along."""
+    """Whom of the shipped cast a variation shows as; None where somebody brought it along."""
     shown = crowd["throng_cast"]
     figure = library.figures_of(shown).get((0, variation % shown["throng_variations"]))
     if figure is None or "throng_person" not in figure:
         return None
-    return people.CAST[figure["throng_person"]], list(figure.data.materials)
+    if shown.get("throng_bodies"):
+        return Shaped(figure["throng_person"], shown["throng_bodies"])
+    return Lofted(people.CAST[figure["throng_person"]], list(figure.data.materials))
 
 
-def _dress(crowd, body, person, materials, row, change):
-    """The crowd's own materials; they find the colours on the object when it is not an instance."""
-    for material in materials:
-        body.data.materials.append(material)
-    body.data.polygons.foreach_set("material_index", skeleton.plan_of(person).materials)
+def _dress(crowd, body, row, change):
+    """The crowd's own materials find the colours on the object when it is not an instance."""
     body["tint"] = list(crowd.data.attributes["tint"].data[row].vector)
     if isinstance(change.tint, str):
         body["throng_dyed"], body["throng_dye"] = 1.0, list(linear(change.tint))
@@ -202,17 +250,20 @@ def promote(crowd, bake, rows, people_of_bake, row, change):
         samples = _on_terrain(crowd, samples, change.move[2])
     frames = [start + frame for frame in range(rows.frames)]
     alive = [sample.state[0] > 0.5 for sample in samples]
-    variation = int(samples[0].state[1])
-    shipped = shipped_person(crowd, variation)
-    person, materials = shipped or (people.CAST[variation % cast.VARIATIONS], cast_materials(people.MATERIALS))
+    variation = own.member_of(crowd, row, int(samples[0].state[1]), change.character is not None)
+    try:
+        who = shipped_person(crowd, variation)
+    except LibraryError as error:
+        raise BakeError(str(error)) from error
+    who = who or Lofted(people.CAST[variation % cast.VARIATIONS], cast_materials(people.MATERIALS))
     strides = tuple(crowd.get("throng_strides", bake.strides))
     nature = crowd.data.attributes[NATURE].data[row].vector
 
-    armature = _build_armature(change.hero, person, collection)
+    armature = _build_armature(change.hero, who, collection)
     armature[HERO], armature[HERO_OF], armature[HERO_ROW] = change.hero, crowd, row
-    body = _build_body(change.hero, person, strides, armature, collection)
+    body = _build_body(change.hero, who, strides, armature, collection)
     body[HERO_OF] = crowd
-    _dress(crowd, body, person, materials, row, change)
+    _dress(crowd, body, row, change)
     armature.parent = crowd
     armature.rotation_mode = "XYZ"
     armature.scale = [change.scale or 1.0] * 3
@@ -220,7 +271,7 @@ def promote(crowd, bake, rows, people_of_bake, row, change):
     _key_root(curves, frames, samples)
     shown = [i for i in range(len(frames)) if alive[i]] or [0]
     span = range(shown[0], shown[-1] + 1)
-    skeletons = [skeleton.bones_of(person, _pose_at(samples[i], frames[i], person, strides, nature)) for i in span]
+    skeletons = [who.bones(_pose_at(samples[i], frames[i], who.build, strides, nature)) for i in span]
     _key_bones(curves, armature, [frames[i] for i in span], skeletons)
     _key_presence(body, f"{change.hero} presence", frames, alive)
     return armature

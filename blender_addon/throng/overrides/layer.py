@@ -11,6 +11,7 @@ from dataclasses import replace
 
 import bpy
 
+from ..crowd import own
 from ..crowd.queries import bake_path, crowd_objects, is_crowd, why_fixed
 from ..formats import BakeError, load_bake
 from . import hero, native
@@ -200,7 +201,8 @@ def variation_of(crowd, row):
     entry_for(matched, row)
     change = matched.changes.get(row, Change())
     with Rows(matched.bake) as rows:
-        return int(rows.whole(row, 0).state[1]) if change.character is None else change.character
+        drawn = int(rows.whole(row, 0).state[1])
+    return own.member_of(crowd, row, drawn, False) if change.character is None else change.character
 
 
 def remove(crowd, positions):

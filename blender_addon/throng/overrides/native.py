@@ -13,6 +13,7 @@ import bpy
 from ..blender.modifiers import move_modifier
 from ..blender.nodes import set_input
 from ..blender.paths import stored_path
+from ..crowd import own
 from ..crowd.names import BIGGER
 from ..crowd.playback import add_cache, give_natures
 from ..crowd.queries import terrain_of
@@ -69,6 +70,7 @@ def _write_attributes(mesh, changes, pivots):
     said = {row: _said_of(change, pivots.get(row)) for row, change in changes.items()}
     for name, kind in _ATTRIBUTES.items():
         _write_attribute(mesh, name, kind, {row: values[name] for row, values in said.items() if name in values})
+    own.let_swap(mesh, [row for row, change in changes.items() if change.character is not None])
     for row, change in changes.items():
         if change.tint is not None and not isinstance(change.tint, str):
             mesh.attributes["tint"].data[row].vector = change.tint
@@ -95,6 +97,7 @@ def clear(crowd):
     known = [name for name in _ATTRIBUTES if name in mesh.attributes]
     for name in known:
         mesh.attributes.remove(mesh.attributes[name])
+    own.let_swap(mesh, ())
     if known:
         give_natures(mesh)  # tints as they were drawn
 

@@ -37,7 +37,8 @@ class Bone:
         return tuple(sum(a * b for a, b in zip(away, axis)) for axis in (self.left, self.along, self.ahead))
 
 
-def _bone(head, tail, beside):
+def bone_between(head, tail, beside):
+    """From head to tail, its x axis as much `beside` as that allows."""
     along = unit(sub(tail, head))
     left = unit(sub(beside, scale(along, sum(a * b for a, b in zip(beside, along)))))
     return Bone(head, tail, left, along, cross(left, along))
@@ -52,14 +53,15 @@ def bones_of(person, pose):
     figure = _posed(person, pose)
     across = lambda share: turn_z((0.0, 1.0, 0.0), figure.yaw(share))
     spine = [figure.along(height) for height in (0.0, 0.17, 0.515, 0.80)]
-    bones = {"hips": _bone(spine[0], spine[1], across(0.0)), "spine": _bone(spine[1], spine[2], across(1.0)),
-             "head": _bone(spine[2], spine[3], turn_z((0.0, 1.0, 0.0), 0.4 * figure.yaw(1.0)))}
+    bones = {"hips": bone_between(spine[0], spine[1], across(0.0)),
+             "spine": bone_between(spine[1], spine[2], across(1.0)),
+             "head": bone_between(spine[2], spine[3], turn_z((0.0, 1.0, 0.0), 0.4 * figure.yaw(1.0)))}
     for side, (shoulder, elbow, wrist), (hip, knee, ankle), foot in zip("RL", figure.arms, figure.legs, pose.feet):
-        bones[f"upper_arm.{side}"] = _bone(shoulder, elbow, across(1.0))
-        bones[f"forearm.{side}"] = _bone(elbow, wrist, across(1.0))
-        bones[f"thigh.{side}"] = _bone(hip, knee, (0.0, 1.0, 0.0))
-        bones[f"shank.{side}"] = _bone(knee, ankle, (0.0, 1.0, 0.0))
-        bones[f"foot.{side}"] = _bone(ankle, add(ankle, turn_y((0.16 * figure.s, 0.0, 0.0), -foot.pitch)),
+        bones[f"upper_arm.{side}"] = bone_between(shoulder, elbow, across(1.0))
+        bones[f"forearm.{side}"] = bone_between(elbow, wrist, across(1.0))
+        bones[f"thigh.{side}"] = bone_between(hip, knee, (0.0, 1.0, 0.0))
+        bones[f"shank.{side}"] = bone_between(knee, ankle, (0.0, 1.0, 0.0))
+        bones[f"foot.{side}"] = bone_between(ankle, add(ankle, turn_y((0.16 * figure.s, 0.0, 0.0), -foot.pitch)),
                                       (0.0, 1.0, 0.0))
     return bones
 

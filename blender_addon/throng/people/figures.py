@@ -3,6 +3,7 @@
 import bpy
 import numpy
 
+from ..cast.sheets import drop_spare_attributes
 from .materials import material_of
 
 PATTERN = "pattern"
@@ -24,8 +25,13 @@ def mesh_of(name, model, points, look, bodies):
         mesh.materials.append(material_of(kind, look, bodies))
     mesh.polygons.foreach_set("material_index", model.material_of.astype(numpy.int32))
     mesh.polygons.foreach_set("use_smooth", numpy.ones(faces, bool))
-    pattern = mesh.attributes.new(PATTERN, "FLOAT_VECTOR", "POINT")
-    pattern.data.foreach_set("vector", numpy.ascontiguousarray(model.pattern, numpy.float32).ravel())
+    add_pattern(mesh, model)
     mesh.update(calc_edges=True)
     mesh.validate()
+    drop_spare_attributes(mesh)
     return mesh
+
+
+def add_pattern(mesh, model):
+    pattern = mesh.attributes.new(PATTERN, "FLOAT_VECTOR", "POINT")
+    pattern.data.foreach_set("vector", numpy.ascontiguousarray(model.pattern, numpy.float32).ravel())

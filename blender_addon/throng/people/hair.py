@@ -57,7 +57,7 @@ def hair(bodies, shape, level, name, material, scale, seed):
     if count:
         hangs = style.length < 0.0
         count = int(count * (0.95 if hangs else 1.0))
-        widest = 0.080 if hangs or level > 0 else 0.058
+        widest = 0.066 if hangs or level > 0 else 0.050
         wider = min((style.count / count) ** 0.5, widest / style.wide)
         parts.append(_locks(bodies, shape, level, style, material, scale, draw, count, wider, name == "ring"))
     if name in ("knot", "tail") and level < 2:
@@ -159,6 +159,7 @@ def _locks(bodies, shape, level, style, material, scale, draw, count, wider, rin
                         _collider(bodies, shape), fringe, bodies.joint(shape, "mouth")[2] - 0.03 * scale,
                         bodies.joint(shape, "l-eye")[[0, 2]] + (-0.055 * scale, 0.045 * scale))
     wide = style.wide * wider * scale * draw.uniform(0.7, 1.3, count)
+    wide = numpy.where(fringe, numpy.minimum(wide, 0.020 * scale), wide)  # eyes stay free
     return _ribbons(bodies, line, sides, wide, weights, material, draw, level, style)
 
 

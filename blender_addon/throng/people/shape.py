@@ -131,7 +131,7 @@ def waist_targets(body):
     circumference = 0.18 + 1.7 * more
     return {f"torso/measure-waist-circ-{'incr' if circumference > 0.0 else 'decr'}": min(abs(circumference), 1.2),
             f"torso/measure-hips-circ-{'incr' if more > 0.0 else 'decr'}": abs(more),
-            "stomach/stomach-tone-decr": min(1.3 * soft, 1.0), "stomach/stomach-pregnant-incr": min(0.5 * soft, 0.45),
+            "stomach/stomach-tone-decr": min(1.3 * soft, 1.0), "stomach/stomach-pregnant-incr": min(0.3 * soft, 0.35),
             "neck/neck-double-incr": min(1.2 * soft, 0.8)}
 
 

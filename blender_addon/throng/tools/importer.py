@@ -8,8 +8,10 @@ from .. import cast, environment
 from ..blender.paths import stored_path
 from ..cast import library
 from ..crowd import playback
-from ..formats import load_bake
+from ..formats import BakeError, load_bake
 from ..overrides.layer import Arrival
+from ..people import members
+from ..people.library import LibraryError
 
 
 def set_frame_rate(scene, fps):
@@ -34,6 +36,11 @@ def import_bake(context, path, *, frame_start=1, walls=True, roads=True, scenery
                 dressing=True):
     """Imports a bake and returns the crowd's object. Raises formats.BakeError before anything is changed."""
     bake = load_bake(path)
+    if members.found():
+        try:
+            members.bodies()
+        except LibraryError as error:
+            raise BakeError(str(error)) from error
     overrides = Arrival(bake)
     terrain = environment.read_terrain(bake) if scenery else None
     scene = context.scene
@@ -42,9 +49,10 @@ def import_bake(context, path, *, frame_start=1, walls=True, roads=True, scenery
     collection["throng_bake"] = os.path.join(bake.folder, "bake.json")
     collection["throng_origin"] = bake.origin
 
-    variations = min(bake.variations, cast.VARIATIONS)
+    look = members.LOOK if members.found() else ""
+    variations = members.MEMBERS if look else min(bake.variations, cast.VARIATIONS)
     repertoire = cast.Repertoire.of(bake.strides, bake.gaits)
-    people = library.build_cast(variations, repertoire, f"Throng {bake.name} cast")
+    people = library.build_cast(variations, repertoire, f"Throng {bake.name} cast", look)
     paths = {stream: stored_path(bake.stream_path(stream), relative) for stream in bake.streams}
     crowd = playback.build_crowd(bake, f"Throng {bake.name} crowd", people, frame_start, paths)
     collection.objects.link(crowd)

@@ -16,6 +16,7 @@ from ..cast import library
 from ..crowd.names import LEVEL
 from ..crowd.playback import cast_changed
 from ..crowd.queries import ChangesCrowds, cast_of, changed_crowds, crowds_of, repertoire_of
+from ..people.library import LibraryError
 from . import culling
 
 MODIFIER = "throng levels"
@@ -117,8 +118,12 @@ class THRONG_OT_levels(ChangesCrowds, bpy.types.Operator):
         if far < near:
             self.report({"ERROR"}, f"Far ({far:g} m) is nearer than Near ({near:g} m)")
             return {"CANCELLED"}
-        for crowd in chosen:
-            apply(crowd, camera, near, far)
+        try:
+            for crowd in chosen:
+                apply(crowd, camera, near, far)
+        except LibraryError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
         self.report({"INFO"}, f"Coarser from {near:.1f} m and {far:.1f} m on")
         return {"FINISHED"}
 

@@ -5,7 +5,7 @@ import os
 from ..blender.nodes import set_input
 from ..blender.paths import stored_path
 from ..characters import members
-from ..crowd import playback
+from ..crowd import own, playback
 from ..crowd.queries import bake_path, caches, collection_of
 from ..formats import BakeError, load_bake
 from ..overrides import native
@@ -47,6 +47,7 @@ def reload(crowd, scene, path=None):
         mesh.clear_geometry()
         mesh.vertices.add(bake.agents)
         playback.give_natures(mesh)
+    own.give(crowd, crowd["throng_cast"], bake.folder)
     relative = crowd.modifiers["throng pos"].filepath.startswith("//")
     for stream in bake.streams:
         crowd.modifiers[f"throng {stream}"].filepath = stored_path(bake.stream_path(stream), relative)

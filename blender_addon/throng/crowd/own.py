@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Who of the cast somebody appears as where that follows from the person and is not drawn: an attribute of the crowd's
+points, one more than the member's number. 0 leaves it to the bake's draw, as does an override that swaps somebody."""
+from ..people import members
+
+OWN = "throng_own"
+_FIRST = "throng_own_first"  # as it was before overrides
+
+
+def give(crowd, cast, folder):
+    """To all people of a bake; harmless where the cast is not shaped from bodies."""
+    mesh = crowd.data
+    for name in (OWN, _FIRST):
+        if name in mesh.attributes:
+            mesh.attributes.remove(mesh.attributes[name])
+    if not cast.get("throng_bodies"):
+        return
+    people = members.read_people(folder)
+    if people is None or len(people) != len(mesh.vertices):
+        return
+    known = [each or (0.25, 0) for each in people]
+    chosen = members.choose(known, cast["throng_shipped"], max(1, cast["throng_drawn"]))
+    numbers = [float(number + 1) if each else 0.0 for each, number in zip(people, chosen)]
+    for name in (OWN, _FIRST):
+        mesh.attributes.new(name, "FLOAT", "POINT").data.foreach_set("value", numbers)
+
+
+def let_swap(mesh, rows):
+    """Those rows show what an override says; all others are as they were."""
+    if _FIRST not in mesh.attributes:
+        return
+    numbers = [0.0] * len(mesh.vertices)
+    mesh.attributes[_FIRST].data.foreach_get("value", numbers)
+    for row in rows:
+        numbers[row] = 0.0
+    mesh.attributes[OWN].data.foreach_set("value", numbers)
+
+
+def member_of(crowd, row, variation, swapped):
+    """The number of the member that somebody shows; as the instancer has it, for those who joined not."""
+    if not swapped and OWN in crowd.data.attributes:
+        own = int(crowd.data.attributes[OWN].data[row].value)
+        if own:
+            return own - 1
+    return variation % crowd["throng_cast"]["throng_variations"]

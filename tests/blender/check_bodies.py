@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Runs inside Blender: a crowd of people shaped from a library of bodies. ADDON BAKE FOLDER"""
+import json
+import os
+import sys
+
+import bpy
+import numpy
+
+addon, bake, folder = sys.argv[-3:]
+sys.path[:0] = [addon, os.path.dirname(os.path.abspath(__file__))]
+import throng  # noqa: E402
+from pose_names import Names  # noqa: E402
+from throng.cast import library, sheets  # noqa: E402
+from throng.crowd.queries import cast_of, crowd_objects, figure, repertoire_of  # noqa: E402
+from throng.overrides import hero  # noqa: E402
+from throng.people import members  # noqa: E402
+
+PEOPLE = (0, 1, 9)  # a man, a woman, a girl
+drawn = members.person_of
+members.MEMBERS, members.person_of = len(PEOPLE), lambda number, look=members.LOOK: drawn(PEOPLE[number], look)
+bpy.ops.wm.read_factory_settings(use_empty=True)
+throng.register()
+scene, result = bpy.context.scene, {}
+
+
+def load():
+    return bpy.ops.import_scene.throng(filepath=os.path.join(bake, "bake.json"), scenery=False, walls=False,
+                                       roads=False, relative=False)
+
+
+def refused(call, **arguments):
+    try:
+        call(**arguments)
+        return "no error"
+    except RuntimeError as error:
+        return str(error)
+
+
+def shown():
+    """{row: member} of whom the scene shows now."""
+    graph, names = bpy.context.evaluated_depsgraph_get(), Names()
+    return {i.persistent_id[1]: int(names.of(i.object.data)[1:3]) for i in graph.object_instances
+            if i.is_instance and i.parent and i.parent.original == crowd}
+
+
+found_at = os.environ["THRONG_BODIES"]
+os.environ["THRONG_BODIES"] = os.path.join(folder, "none.npz")
+result["missing"], result["left"] = refused(load), len(bpy.data.objects)
+os.environ["THRONG_BODIES"] = found_at
+assert load() == {"FINISHED"}
+crowd = crowd_objects(scene)[0]
+shape = cast_of(crowd)
+scene.frame_set(20)
+result["shown"] = shown()
+figures = library.figures_of(shape)
+result["figures"] = [len(figures), shape["throng_variations"], shape["throng_bodies"]]
+
+repertoire = repertoire_of(crowd)
+os.environ["THRONG_BODIES"] = os.path.join(folder, "none.npz")
+result["no levels"] = refused(bpy.ops.throng.levels, by="camera"), len(library.figures_of(shape))
+os.environ["THRONG_BODIES"] = found_at
+assert bpy.ops.throng.levels(by="camera", near=4000.0, far=5000.0) == {"FINISHED"}
+figures = library.figures_of(shape)
+result["triangles"] = [[len(figures[level, member].data.polygons) for level in range(3)] for member in range(3)]
+result["poses"] = [len(sheets.points_of(figures[level, 1])) for level in range(3)]
+result["expected poses"] = [repertoire.poses(level) for level in range(3)]
+stands = [sheets.points_of(figures[0, member])[repertoire.walking()] for member in range(3)]
+result["heights"] = [[float(points[:, 2].min()), float(points[:, 2].max()), members.person_of(member).body.height]
+                     for member, points in enumerate(stands)]
+result["between levels"] = max(
+    float(numpy.abs(end(fine, axis=0) - end(coarse, axis=0)).max())
+    for member in range(3) for end in (numpy.min, numpy.max)
+    for fine, coarse in [(sheets.points_of(figures[0, member])[3], sheets.points_of(figures[1, member])[3])])
+result["materials"] = sorted({material.name for each in figures.values() for material in each.data.materials})
+
+# velocities are those of the poses before and after
+points = sheets.points_of(figures[0, 0])
+look = bpy.data.scenes.new("one")
+look.collection.objects.link(figures[0, 0])
+look.view_layers[0].update()
+worst, blurring = 0.0, 0
+for instance in look.view_layers[0].depsgraph.object_instances:
+    velocity = instance.object.data.attributes.get("velocity") if instance.is_instance else None
+    pose = instance.persistent_id[1]
+    if velocity and len(velocity.data):
+        flat = numpy.empty(3 * len(velocity.data), numpy.float32)
+        velocity.data.foreach_get("vector", flat)
+        seconds = 2.0 * members.gait.gait_of(repertoire.strides[0]).seconds / 24
+        wanted = (points[(pose + 1) % 24] - points[(pose - 1) % 24]) / seconds
+        worst, blurring = max(worst, float(numpy.abs(flat.reshape(-1, 3) - wanted).max())), blurring + 1
+result["velocities"] = [blurring, worst, "velocity" in sheets.sheet_of(figures[0, 0]).data.attributes]
+bpy.data.scenes.remove(look)
+
+# overrides: swapped, taken back, a hero
+row = min(row for row, member in result["shown"].items() if member == 0)
+assert bpy.ops.throng.swap_people(rows=str(row), character=2) == {"FINISHED"}
+scene.frame_set(20)
+now = shown()
+result["swapped"] = [now[row], [each for each, member in result["shown"].items() if now[each] != member] == [row]]
+bpy.ops.throng.clear_people(rows=str(row))
+scene.frame_set(20)
+result["back"] = shown() == result["shown"]
+
+def bounds(mesh, matrix):
+    flat = numpy.empty(3 * len(mesh.vertices), numpy.float32)
+    mesh.vertices.foreach_get("co", flat)
+    spots = flat.reshape(-1, 3) @ numpy.array(matrix)[:3, :3].T + numpy.array(matrix)[:3, 3]
+    return numpy.concatenate([spots.min(axis=0), spots.max(axis=0)])
+
+
+in_crowd = next(bounds(each.object.data, each.matrix_world)
+                for each in bpy.context.evaluated_depsgraph_get().object_instances
+                if each.is_instance and each.parent and each.parent.original == crowd and each.persistent_id[1] == row)
+assert bpy.ops.throng.promote_person(rows=str(row), hero="Anna") == {"FINISHED"}
+scene.frame_set(20)
+anna = hero.heroes_of(crowd)["Anna"]
+body = next(child for child in anna.children if child.type == "MESH")
+worn = body.evaluated_get(bpy.context.evaluated_depsgraph_get())
+result["hero"] = {"off": float(numpy.abs(bounds(worn.data, worn.matrix_world) - in_crowd).max()),
+                  "triangles": len(body.data.polygons), "hidden": row not in shown(),
+                  "materials": all(slot.material for slot in body.material_slots),
+                  "pattern": "pattern" in body.data.attributes, "tint": len(body["tint"])}
+bpy.ops.throng.levels(by="none")
+result["after"] = len(library.figures_of(shape))
+bpy.ops.wm.save_as_mainfile(filepath=os.path.join(folder, "people.blend"), compress=True)
+result["megabytes"] = os.path.getsize(os.path.join(folder, "people.blend")) / 1e6
+print("RESULT " + json.dumps(result))
+assert figure(crowd, 0)

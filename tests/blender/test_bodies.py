@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Crowds of people who are shaped from a library of bodies, in a real Blender: Debian's and the newest."""
+import csv
+
+import pytest
+
+from conftest import blender_module, blender_program
+from results import ADDON, HERE, result_of
+from sample_bake import write_bake
+
+pytestmark = pytest.mark.parametrize("blender", [blender_program, blender_module], indirect=True,
+                                     ids=["blender", "bpy"])
+MAN, WOMAN, GIRL = range(3)
+RADII = (0.16, 0.19, 0.23, 0.25, 0.27)
+
+
+@pytest.fixture(scope="module")
+def seen(blender, bodies, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("bodies")
+    write_bake(folder / "bake", agents=40, variations=12, gaits=(1,))
+    with open(folder / "bake" / "agents.csv", "w", newline="") as file:
+        table = csv.writer(file)
+        table.writerow(["id", "group", "radius", "variation", "spawn_frame"])
+        table.writerows([row, "walkers", RADII[row % 5], row % 12, 0] for row in range(40))
+    return result_of(blender(HERE / "check_bodies.py", ADDON, folder / "bake", folder,
+                             environment={"THRONG_BODIES": str(bodies)}))
+
+
+def test_children_are_children_and_others_are_not(seen):
+    shown = {int(row): member for row, member in seen["shown"].items()}
+    assert len(shown) > 30 and all((member == GIRL) == (RADII[row % 5] < 0.2) for row, member in shown.items())
+    assert {MAN, WOMAN} <= set(shown.values())
+
+
+def test_the_broad_have_a_larger_radius(seen):
+    shown = {int(row): member for row, member in seen["shown"].items()}
+    broad = lambda radius: [member == MAN for row, member in shown.items() if RADII[row % 5] == radius]
+    assert sum(broad(0.27)) / len(broad(0.27)) > sum(broad(0.23)) / len(broad(0.23)) + 0.3
+
+
+def test_figures_have_all_poses_and_levels(seen):
+    assert seen["figures"] == [3, 3, "casual"] and seen["after"] == 3
+    assert seen["poses"] == seen["expected poses"]
+    for near, middle, far in seen["triangles"]:
+        assert 3000 < near < 6000 and 900 < middle < 2300 and 300 < far < 760
+    assert seen["between levels"] < 0.06
+
+
+def test_people_stand_on_the_ground_and_are_as_tall_as_they_should_be(seen):
+    for low, high, height in seen["heights"]:
+        assert abs(low) < 0.004 and -0.02 < high - height < 0.09, "with shoes and hair"
+    assert seen["heights"][GIRL][2] < 1.45 < 1.6 < seen["heights"][MAN][2]
+
+
+def test_limbs_blur_by_the_poses_before_and_after(seen):
+    blurring, worst, stored = seen["velocities"]
+    assert blurring == 24 and worst < 2e-3 and not stored
+
+
+def test_overrides_and_heroes_work(seen):
+    assert seen["swapped"] == [GIRL, True] and seen["back"]
+    hero = seen["hero"]
+    assert hero["off"] < 0.08 and hero["hidden"] and hero["materials"] and hero["pattern"] and hero["tint"] == 3
+    assert hero["triangles"] > 30000, "in full detail"
+
+
+def test_materials_are_those_of_the_cast(seen):
+    kinds = {name.split()[1] for name in seen["materials"]}
+    assert {"skin", "hair", "top", "bottom", "shoes", "eyes"} <= kinds
+
+
+def test_without_the_library_nothing_is_changed(seen):
+    assert "none.npz cannot be read" in seen["missing"] and "body_library.py" in seen["missing"] and seen["left"] == 0
+    said, figures = seen["no levels"]
+    assert "none.npz cannot be read" in said and figures == 3
