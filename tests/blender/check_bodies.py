@@ -13,8 +13,9 @@ import throng  # noqa: E402
 from pose_names import Names  # noqa: E402
 from throng.cast import library, sheets  # noqa: E402
 from throng.crowd.queries import cast_of, crowd_objects, figure, repertoire_of  # noqa: E402
-from throng.overrides import hero  # noqa: E402
+from throng.overrides import hero, skeleton  # noqa: E402
 from throng.people import members  # noqa: E402
+from throng.people.puppet import Puppet  # noqa: E402
 
 PEOPLE = (0, 1, 9)  # a man, a woman, a girl
 drawn = members.person_of
@@ -121,6 +122,18 @@ result["hero"] = {"off": float(numpy.abs(bounds(worn.data, worn.matrix_world) - 
                   "triangles": len(body.data.polygons), "hidden": row not in shown(),
                   "materials": all(slot.material for slot in body.material_slots),
                   "pattern": "pattern" in body.data.attributes, "tint": len(body["tint"])}
+# a hero's own bones take every vertex where its person's pose has it
+puppet, walk = Puppet(0, members.LOOK), members.gait.walk_pose(0.75, members.maker_of(0).rig.build,
+                                                              members.gait.gait_of(1.4))
+rest, then = (puppet.bones(pose, skeleton.bone_between) for pose in (puppet.rest, walk))
+axes = lambda bone: numpy.stack([bone.left, bone.along, bone.ahead], axis=1)
+vertices, weights, taken = puppet.vertices(), puppet.weights(skeleton.BONES), 0.0
+for column, name in enumerate(skeleton.BONES):
+    turned = (vertices - rest[name].head) @ (axes(then[name]) @ axes(rest[name]).T).T + then[name].head
+    taken = taken + weights[:, column:column + 1] * turned
+off = numpy.linalg.norm(taken - puppet.model.posed([walk])[0], axis=1)
+result["puppet"] = [float(value) for value in (numpy.median(off), numpy.quantile(off, 0.98),
+                                               abs(weights.sum(axis=1) - 1.0).max())]
 bpy.ops.throng.levels(by="none")
 result["after"] = len(library.figures_of(shape))
 bpy.ops.wm.save_as_mainfile(filepath=os.path.join(folder, "people.blend"), compress=True)

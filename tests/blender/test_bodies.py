@@ -64,6 +64,11 @@ def test_overrides_and_heroes_work(seen):
     assert hero["triangles"] > 30000, "in full detail"
 
 
+def test_heroes_go_as_their_people_do(seen):
+    median, most, weights = seen["puppet"]
+    assert median < 0.012 and most < 0.05 and weights < 0.01, seen["puppet"]
+
+
 def test_materials_are_those_of_the_cast(seen):
     kinds = {name.split()[1] for name in seen["materials"]}
     assert {"skin", "hair", "top", "bottom", "shoes", "eyes"} <= kinds
