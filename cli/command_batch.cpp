@@ -83,7 +83,9 @@ void printStanding(const BatchPlan& plan, const BatchStanding& standing) {
             values += (values.empty() ? "" : ", ") + value.dump();
         if (values.size() > 60) values = values.substr(0, 57) + "...";
         const char* words[] = {"", "uniform", "normal", "log-normal"};
-        if (axis.kind != authoring::Axis::Kind::values)
+        if (axis.kind == authoring::Axis::Kind::formula)
+            values = "a formula";
+        else if (axis.kind != authoring::Axis::Kind::values)
             values = fmt::format("{} {:g}, {:g}", words[static_cast<int>(axis.kind)], axis.a, axis.b);
         say(stdout, "  {}: {}\n", axis.name, values);
     }

@@ -37,6 +37,18 @@ std::string refusedReasons(const Bake& bake) {
     return lines;
 }
 
+/// The layout's file, and what was set beside it.
+std::string sourceOf(const Bake& bake) {
+    const Json::json_pointer overrides("/layout/overrides");
+    std::string line = bake.manifest.contains("/layout/source/file"_json_pointer)
+                           ? " " + optionalText(bake.manifest, "/layout/source/file")
+                           : "";
+    if (bake.manifest.contains(overrides) && bake.manifest.at(overrides).is_array())
+        for (const Json& each : bake.manifest.at(overrides))
+            if (each.is_string()) line += " --set " + each.get<std::string>();
+    return line.empty() ? "" : fmt::format("baked from:  {}\n", line);
+}
+
 std::string extras(const Bake& bake) {
     std::string lines;
     if (bake.manifest.contains("gltf") && bake.manifest["gltf"].is_object())
@@ -59,6 +71,7 @@ std::string infoText(const Bake& bake) {
     text += fmt::format("bake:         {} ({})\n", bake.folder.string(),
                         bake.complete ? "complete" : "INCOMPLETE: the bake was interrupted");
     text += fmt::format("layout:       {}, seed {}\n", bake.name, bake.seed);
+    text += sourceOf(bake);
     text += fmt::format("frames:       {} at {} fps = {:.2f} s, {} steps per frame\n", grouped(bake.frames),
                         bake.fps, bake.frames / bake.fps, optionalText(bake.manifest, "/substeps"));
     text += fmt::format("people:       {}: {} {}, {} {}, {} {}\n", grouped(bake.account.agents),

@@ -128,6 +128,15 @@ Json gaitsToJson(std::uint32_t gaits) {
     return list;
 }
 
+/// Which layout this is: what there is of it here, and what that was made from.
+Json layoutToJson(const recording::BakeDescription& description) {
+    Json json{{"file", "layout.json"}, {"hash", "xxh3:" + hashText(description.layout_text)}};
+    const recording::LayoutSource& source = description.source;
+    if (!source.file.empty()) json["source"] = {{"file", source.file}, {"hash", "xxh3:" + source.hash}};
+    if (!source.overrides.empty()) json["overrides"] = source.overrides;
+    return json;
+}
+
 Json filesToJson(const std::vector<BakeOutcome::File>& files) {
     Json list = Json::array();
     for (const BakeOutcome::File& file : files)
@@ -180,7 +189,7 @@ Json bakeManifest(const recording::BakeDescription& description, const BakeOutco
     json["generator"] = "throng " THRONG_VERSION;
     json["name"] = description.name;
     json["complete"] = outcome.complete;
-    json["layout"] = {{"file", "layout.json"}, {"hash", "xxh3:" + hashText(description.layout_text)}};
+    json["layout"] = layoutToJson(description);
     if (!description.inputs.empty()) json["inputs"] = "xxh3:" + description.inputs;
     json["seed"] = description.seed;
     json["fps"] = description.fps;

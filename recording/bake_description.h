@@ -34,6 +34,13 @@ struct BakeAgent {
     std::optional<std::uint32_t> colour = {};  ///< 0xRRGGBB, instead of the group's
 };
 
+/// What the layout was made from.
+struct LayoutSource {
+    std::string file;  ///< its name; empty: it came from no file
+    std::string hash;  ///< of its bytes
+    std::vector<std::string> overrides;
+};
+
 /// Ground that is not flat.
 struct BakeTerrain {
     std::shared_ptr<const authoring::TerrainMesh> mesh;
@@ -50,8 +57,9 @@ struct BakeDescription {
     bool force = false;            ///< replace an existing bake
 
     std::string name;         ///< the layout's
-    std::string layout_text;  ///< the layout file, byte for byte
-    std::string inputs;       ///< hash of all that the bytes depend on; empty: not told
+    std::string layout_text;  ///< the layout as it is baked: its file's bytes where nothing overrides them
+    LayoutSource source;
+    std::string inputs;  ///< hash of all that the bytes depend on; empty: not told
     std::uint64_t seed = 1;
     double fps = 24.0;
     std::uint32_t frames = 0;  ///< expected

@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "authoring/family/formula.h"
 #include "authoring/family/generators.h"
 #include "authoring/layout.h"
 #include "base/streams.h"
@@ -20,16 +22,29 @@ using Json = nlohmann::ordered_json;
 
 /// One thing that varies.
 struct Axis {
-    enum class Kind { values, uniform, normal, log_normal };
+    enum class Kind { values, uniform, normal, log_normal, formula };
+    /// What one of several cases sets: JSON pointers and values.
+    using Settings = std::vector<std::pair<std::string, Json>>;
     std::string name;                   ///< unique in the family
     std::vector<std::string> pointers;  ///< JSON pointers into the layout; none: a parameter of the generator
     std::string parameter;
     Kind kind = Kind::values;
     std::vector<Json> values;
+    std::vector<Settings> cases;  ///< one per value, which is its name; or none
+    Formula formula;              ///< of axes that are none, and of formulas before it
     std::vector<double> weights;  ///< one per value, or none: all are alike
     double a = 0.0, b = 0.0;      ///< least and most, or mean and deviation (of the logarithm for log_normal)
     double minimum, maximum;      ///< tails beyond are cut off
     bool whole = false;           ///< rounded to whole numbers
+    SourcePosition where, formula_where;
+    /// Where a letter of the formula stands in the file.
+    SourcePosition formulaPlace(std::size_t letter) const;
+};
+
+/// A family that has no plan.
+struct PlanError : std::invalid_argument {
+    PlanError(const std::string& what, SourcePosition place)
+        : std::invalid_argument(what), where(std::move(place)) {}
     SourcePosition where;
 };
 
@@ -64,6 +79,7 @@ struct Scenario {
 };
 
 /// All scenarios, each once: whoever draws from short lists may draw the same twice.
+/// @throws PlanError where a formula has no value
 std::vector<Scenario> planFamily(const Family& family);
 
 /// How many planFamily() would give before it drops what is there twice; HUGE for grids beyond counting.

@@ -18,35 +18,10 @@ namespace throng::authoring {
 namespace {
 
 constexpr const char* kAxisHint =
-    R"(for example {"set": "/flows/0/rate", "values": [0.5, 1, 2]} or {"set": "/simulation/seed", "range": [1, 10]})";
+    R"(for example {"set": "/flows/by-id/north/rate", "values": [0.5, 1, 2]} or {"set": "/simulation/seed", "range": [1, 10]})";
 
-Json valueOf(const JsonNode& node) {
-    switch (node.kind) {
-        case JsonNode::Kind::null:
-            return nullptr;
-        case JsonNode::Kind::boolean:
-            return node.boolean;
-        case JsonNode::Kind::number:
-            if (node.integral && std::abs(node.number) <= 0x1.0p53)
-                return static_cast<std::int64_t>(node.number);
-            return node.number;
-        case JsonNode::Kind::text:
-            return node.text;
-        case JsonNode::Kind::array: {
-            Json list = Json::array();
-            for (const JsonNode& item : node.items)
-                list.push_back(valueOf(item));
-            return list;
-        }
-        case JsonNode::Kind::object: {
-            Json object = Json::object();
-            for (const JsonNode::Member& member : node.members)
-                object[member.key] = valueOf(member.value);
-            return object;
-        }
-    }
-    return nullptr;
-}
+constexpr const char* kCasesHint =
+    R"(for example {"name": "day", "cases": {"quiet": {"/flows/0/rate": 0.2}, "busy": {"/flows/0/rate": 2}}})";
 
 constexpr std::size_t kLongestName = 200;
 constexpr double kMostAxes = 3.0;  // of as many scenarios as there can be
@@ -97,7 +72,7 @@ class Reader {
         }
         if (generate) return readGenerator(*generate);
         if (base->kind == JsonNode::Kind::object) {
-            family_.base = valueOf(*base);
+            family_.base = plainJson(*base);
             placeTerrain(folder_);
             family_.base_name = "the base layout";
         } else if (base->kind == JsonNode::Kind::text) {
@@ -179,6 +154,14 @@ class Reader {
     void readTargets(ObjectReader& reader, const JsonNode& node, Axis& axis) {
         const JsonNode* set = reader.get("set");
         const JsonNode* parameter = reader.get("parameter");
+        if (reader.get("cases")) {
+            if (set || parameter)
+                diagnostics_.error(node.where, "`cases` say themselves what they set",
+                                   "leave `set` and `parameter` out");
+            else
+                reader.require("name", "what the cases have in common");
+            return;
+        }
         if (!set == !parameter) {
             diagnostics_.error(
                 node.where,
@@ -196,28 +179,40 @@ class Reader {
                 readPointer(each, axis);
         else
             readPointer(*set, axis);
-        if (axis.pointers.empty()) return;
-        axis.name = axis.pointers.front().substr(1);
-        std::replace(axis.name.begin(), axis.name.end(), '/', '.');
+        if (!axis.pointers.empty()) axis.name = shortNameOf(axis.pointers.front());
+    }
+
+    /// "/flows/by-id/north/rate" is "flows.north.rate".
+    static std::string shortNameOf(std::string pointer) {
+        const std::string by_id = fmt::format("/{}/", kById);
+        for (std::size_t at = pointer.find(by_id); at != std::string::npos; at = pointer.find(by_id, at))
+            pointer.erase(at, by_id.size() - 1);
+        std::replace(pointer.begin(), pointer.end(), '/', '.');
+        return pointer.substr(1);
     }
 
     void readPointer(const JsonNode& node, Axis& axis) {
-        if (node.kind != JsonNode::Kind::text || !node.text.starts_with('/') || node.text.size() < 2) {
-            diagnostics_.error(node.where, "expected a JSON pointer into the layout",
-                               "for example \"/flows/0/rate\"");
-            return;
+        if (node.kind == JsonNode::Kind::text ? isPointer(node.text, node.where) : isPointer("", node.where))
+            axis.pointers.push_back(node.text);
+    }
+
+    bool isPointer(const std::string& text, const SourcePosition& where) {
+        if (!text.starts_with('/') || text.size() < 2) {
+            diagnostics_.error(where, "expected a JSON pointer into the layout",
+                               R"(for example "/flows/0/rate", or "/flows/by-id/north/rate")");
+            return false;
         }
-        if (static_cast<std::size_t>(std::ranges::count(node.text, '/')) > kMostDepth) {
-            diagnostics_.error(node.where, fmt::format("this pointer is more than {} deep", kMostDepth));
-            return;
+        if (static_cast<std::size_t>(std::ranges::count(text, '/')) > kMostDepth) {
+            diagnostics_.error(where, fmt::format("this pointer is more than {} deep", kMostDepth));
+            return false;
         }
-        for (std::size_t at = node.text.find('~'); at != std::string::npos; at = node.text.find('~', at + 1))
-            if (at + 1 == node.text.size() || (node.text[at + 1] != '0' && node.text[at + 1] != '1')) {
-                diagnostics_.error(node.where, "this is no JSON pointer: a `~` stands before 0 or 1",
+        for (std::size_t at = text.find('~'); at != std::string::npos; at = text.find('~', at + 1))
+            if (at + 1 == text.size() || (text[at + 1] != '0' && text[at + 1] != '1')) {
+                diagnostics_.error(where, "this is no JSON pointer: a `~` stands before 0 or 1",
                                    "`~0` is a `~` in a key, `~1` a `/`");
-                return;
+                return false;
             }
-        axis.pointers.push_back(node.text);
+        return true;
     }
 
     void readAxis(const JsonNode& node) {
@@ -230,19 +225,23 @@ class Reader {
         axis.minimum = -HUGE_VAL;
         axis.maximum = HUGE_VAL;
         std::vector<std::string> found;
-        for (const char* kind : {"values", "range", "uniform", "normal", "log_normal"})
+        for (const char* kind : {"values", "range", "uniform", "normal", "log_normal", "formula", "cases"})
             if (reader.get(kind)) found.emplace_back(kind);
         if (found.size() != 1)
             diagnostics_.error(
                 node.where,
-                fmt::format("an axis has one of `values`, `range`, `uniform`, `normal`, `log_normal`; this "
-                            "one has {}",
+                fmt::format("an axis has one of `values`, `range`, `uniform`, `normal`, `log_normal`, "
+                            "`formula`, `cases`; this one has {}",
                             found.empty() ? "none" : "several"),
                 kAxisHint);
         else if (found[0] == "values")
             readValues(reader, axis);
         else if (found[0] == "range")
             readRange(reader, *reader.get("range"), axis);
+        else if (found[0] == "formula")
+            readFormula(reader, axis);
+        else if (found[0] == "cases")
+            readCases(reader, axis);
         else
             readDistribution(reader, found[0], axis);
         reader.finish();
@@ -253,7 +252,11 @@ class Reader {
         const JsonNode& values = *reader.get("values");
         if (!isList(values, "values")) return;
         for (const JsonNode& value : values.items)
-            axis.values.push_back(valueOf(value));
+            axis.values.push_back(plainJson(value));
+        readWeights(reader, axis);
+    }
+
+    void readWeights(ObjectReader& reader, Axis& axis) {
         const JsonNode* weights = reader.get("weights");
         if (!weights || !isList(*weights, "weights")) return;
         const Limits limits = reader.rule("weights").item().limits();
@@ -265,6 +268,70 @@ class Reader {
         if (family_.sampling == Sampling::grid)
             diagnostics_.error(weights->where, "a grid takes every value: weights mean nothing there",
                                R"(add "sampling": "random", "count": 100)");
+    }
+
+    /// Names of cases, and what each sets.
+    void readCases(ObjectReader& reader, Axis& axis) {
+        const JsonNode& cases = *reader.get("cases");
+        if (cases.kind != JsonNode::Kind::object || cases.members.empty()) {
+            diagnostics_.error(cases.where, "expected names of cases, each with what it sets", kCasesHint);
+            return;
+        }
+        for (const JsonNode::Member& one : cases.members) {
+            if (one.value.kind != JsonNode::Kind::object) {
+                diagnostics_.error(
+                    one.value.where,
+                    fmt::format("expected what the case sets, JSON pointers and values, found {}",
+                                one.value.kindName()),
+                    kCasesHint);
+                continue;
+            }
+            Axis::Settings settings;
+            for (const JsonNode::Member& setting : one.value.members)
+                if (isPointer(setting.key, setting.key_where))
+                    settings.emplace_back(setting.key, plainJson(setting.value));
+            axis.values.emplace_back(one.key);
+            axis.cases.push_back(std::move(settings));
+        }
+        readWeights(reader, axis);
+    }
+
+    void readFormula(ObjectReader& reader, Axis& axis) {
+        const JsonNode& node = *reader.get("formula");
+        std::string text;
+        reader.text("formula", text);
+        axis.kind = Axis::Kind::formula;
+        axis.formula_where = node.where;
+        reader.boolean("whole", axis.whole);
+        if (node.kind != JsonNode::Kind::text) return;
+        try {
+            axis.formula = Formula(text);
+        } catch (const FormulaError& error) {
+            diagnostics_.error(axis.formulaPlace(error.at), error.what(),
+                               "for example \"2 * rate + 1\": axes by their names, + - * / ( ), min, max");
+        }
+    }
+
+    /// Formulas are of numbers that are known by then.
+    void checkFormula(const Axis& formula) {
+        for (const auto& [name, at] : formula.formula.names()) {
+            const auto axis = std::ranges::find(family_.axes, name, &Axis::name);
+            const bool is_known = axis != family_.axes.end();
+            const bool is_later = is_known && axis->kind == Axis::Kind::formula && &*axis >= &formula;
+            std::string wrong;
+            if (!is_known)
+                wrong = fmt::format("there is no axis `{}`", name);
+            else if (is_later)
+                wrong = &*axis == &formula ? std::string("a formula is of other axes")
+                                           : fmt::format("`{}` is a formula that comes later", name);
+            else if (!std::ranges::all_of(axis->values, [](const Json& value) { return value.is_number(); }))
+                wrong = fmt::format("`{}` is no number in every scenario", name);
+            if (!wrong.empty())
+                diagnostics_.error(formula.formulaPlace(at), wrong,
+                                   is_known ? ""
+                                            : "the axes' names are what their `name` says; give those one "
+                                              "that have none");
+        }
     }
 
     std::vector<double> numbersOf(ObjectReader& reader, const std::string& key, const char* meaning) {
@@ -361,6 +428,7 @@ class Reader {
             if (!names.insert(name).second)
                 diagnostics_.error(axis.where, fmt::format("there are two axes of the name `{}`", axis.name),
                                    "give one of them another `name`");
+            checkFormula(axis);
             if (axis.parameter.empty()) continue;
             if (!family_.generator)
                 diagnostics_.error(axis.where,

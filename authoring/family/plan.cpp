@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "authoring/family/family.h"
+#include "authoring/layout/json_document.h"
 #include "authoring/scene/random.h"
 
 namespace throng::authoring {
@@ -74,8 +75,9 @@ Scenario gridPoint(const Family& family, std::uint64_t index) {
     Scenario scenario;
     // The last axis runs fastest, as one reads.
     for (auto axis = family.axes.rbegin(); axis != family.axes.rend(); ++axis) {
-        scenario.parameters.emplace_back(axis->name, axis->values[index % axis->values.size()]);
-        index /= axis->values.size();
+        const std::size_t count = axis->values.size();
+        scenario.parameters.emplace_back(axis->name, count ? axis->values[index % count] : Json());
+        index /= std::max<std::size_t>(count, 1);
     }
     std::reverse(scenario.parameters.begin(), scenario.parameters.end());
     return scenario;
@@ -93,6 +95,11 @@ std::vector<std::uint64_t> permutation(std::uint64_t count, const GroupRandom& r
 std::vector<Scenario> drawn(const Family& family) {
     std::vector<Scenario> scenarios(family.count);
     for (const Axis& axis : family.axes) {
+        if (axis.kind == Axis::Kind::formula) {
+            for (Scenario& scenario : scenarios)
+                scenario.parameters.emplace_back(axis.name, Json());
+            continue;
+        }
         const GroupRandom random(family.seed, axis.name);
         const std::vector<std::uint64_t> order = family.sampling == Sampling::latin
                                                      ? permutation(family.count, random)
@@ -107,11 +114,50 @@ std::vector<Scenario> drawn(const Family& family) {
     return scenarios;
 }
 
+/// As many digits as numbers are written with, so that 0.1 * 3 is 0.3; whole ones are whole.
+Json calculated(double value, bool whole) {
+    constexpr double kExact = 0x1.0p53;
+    const double result = whole ? std::round(value) : std::stod(fmt::format("{:.12g}", value));
+    if (result == std::floor(result) && std::abs(result) <= kExact) return static_cast<std::int64_t>(result);
+    return result;
+}
+
+/// Gives each formula its value, in the order of the axes.
+void calculate(const Family& family, Scenario& scenario) {
+    for (std::size_t i = 0; i < family.axes.size(); ++i) {
+        const Axis& axis = family.axes[i];
+        if (axis.kind != Axis::Kind::formula) continue;
+        const auto value_of = [&](const std::string& name) {
+            const auto known =
+                std::ranges::find(scenario.parameters, name, &std::pair<std::string, Json>::first);
+            return known->second.get<double>();
+        };
+        try {
+            scenario.parameters[i].second = calculated(axis.formula.evaluate(value_of), axis.whole);
+        } catch (const FormulaError& error) {
+            std::erase_if(scenario.parameters, [](const auto& each) { return each.second.is_null(); });
+            throw PlanError(fmt::format("`{}` has no value where it is {}: {}", axis.name, describe(scenario),
+                                        error.what()),
+                            axis.formulaPlace(error.at));
+        }
+    }
+}
+
 std::optional<std::size_t> indexOf(const std::string& key) {
     std::size_t index = 0;
     const char* const end = key.data() + key.size();
     const auto [stop, error] = std::from_chars(key.data(), end, index);
     return error == std::errc() && stop == end ? std::optional(index) : std::nullopt;
+}
+
+Json& itemOfId(Json& list, const std::string& id, const std::string& pointer) {
+    std::vector<std::string> known;
+    for (Json& item : list) {
+        if (!item.is_object() || !item.contains("id") || !item["id"].is_string()) continue;
+        if (item["id"] == id) return item;
+        known.push_back(item["id"]);
+    }
+    throw std::invalid_argument(fmt::format("`{}`: {}", pointer, noSuchId(id, known)));
 }
 
 /// Members that are missing are added, as `--set` does; the layout's reader judges them. A list that is
@@ -125,7 +171,10 @@ void setAt(Json& layout, const std::string& pointer, const Json& value) {
     bool is_new = false;
     for (auto key = keys.rbegin(); key != keys.rend(); ++key) {
         if (is_new) *at = *key == "0" ? Json::array({nullptr}) : Json::object();
-        if (at->is_array()) {
+        if (at->is_array() && *key == kById && std::next(key) != keys.rend()) {
+            holder.push_back(*key++);
+            at = &itemOfId(*at, *key, pointer);
+        } else if (at->is_array()) {
             const std::optional<std::size_t> index = indexOf(*key);
             if (!index || *index >= at->size())
                 throw std::invalid_argument(
@@ -145,11 +194,17 @@ void setAt(Json& layout, const std::string& pointer, const Json& value) {
 
 }  // namespace
 
+SourcePosition Axis::formulaPlace(std::size_t letter) const {
+    SourcePosition place = formula_where;
+    if (place.line > 0) place.column += 1 + static_cast<int>(letter);  // behind its quotation mark
+    return place;
+}
+
 double countOf(const Family& family) {
     if (family.sampling != Sampling::grid) return static_cast<double>(family.count);
     double count = 1.0;
     for (const Axis& axis : family.axes)
-        count *= static_cast<double>(axis.values.size());
+        if (axis.kind != Axis::Kind::formula) count *= static_cast<double>(axis.values.size());
     return count;
 }
 
@@ -160,6 +215,8 @@ std::vector<Scenario> planFamily(const Family& family) {
             scenarios.push_back(gridPoint(family, i));
     else
         scenarios = drawn(family);
+    for (Scenario& scenario : scenarios)
+        calculate(family, scenario);
     std::set<std::string> known;
     std::erase_if(scenarios,
                   [&](const Scenario& scenario) { return !known.insert(describe(scenario)).second; });
@@ -182,9 +239,16 @@ Json composeLayout(const Family& family, const Scenario& scenario) {
         }
         layout = family.generator->make(values);
     }
-    for (std::size_t i = 0; i < family.axes.size(); ++i)
-        for (const std::string& pointer : family.axes[i].pointers)
-            setAt(layout, pointer, scenario.parameters[i].second);
+    for (std::size_t i = 0; i < family.axes.size(); ++i) {
+        const Axis& axis = family.axes[i];
+        const Json& value = scenario.parameters[i].second;
+        for (const std::string& pointer : axis.pointers)
+            setAt(layout, pointer, value);
+        if (axis.cases.empty()) continue;
+        const auto name = std::ranges::find(axis.values, value);
+        for (const auto& [pointer, its] : axis.cases[static_cast<std::size_t>(name - axis.values.begin())])
+            setAt(layout, pointer, its);
+    }
     return layout;
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <iterator>
@@ -268,6 +269,35 @@ const char* JsonNode::kindName() const {
     return "a value";
 }
 
+nlohmann::ordered_json plainJson(const JsonNode& node) {
+    constexpr double kExact = 0x1.0p53;
+    switch (node.kind) {
+        case JsonNode::Kind::null:
+            return nullptr;
+        case JsonNode::Kind::boolean:
+            return node.boolean;
+        case JsonNode::Kind::number:
+            if (node.integral && std::abs(node.number) <= kExact)
+                return static_cast<std::int64_t>(node.number);
+            return node.number;
+        case JsonNode::Kind::text:
+            return node.text;
+        case JsonNode::Kind::array: {
+            auto list = nlohmann::ordered_json::array();
+            for (const JsonNode& item : node.items)
+                list.push_back(plainJson(item));
+            return list;
+        }
+        case JsonNode::Kind::object: {
+            auto object = nlohmann::ordered_json::object();
+            for (const JsonNode::Member& member : node.members)
+                object[member.key] = plainJson(member.value);
+            return object;
+        }
+    }
+    return nullptr;
+}
+
 std::string appendPointer(const std::string& pointer, std::string_view key) {
     std::string result = pointer + "/";
     for (const char letter : key) {
@@ -302,7 +332,71 @@ std::string unescaped(const std::string& word) {
     return key;
 }
 
+/// "simulation.seed" or "/simulation/seed", a key each.
+std::vector<std::string> wordsOf(std::string path) {
+    const char separator = path.front() == '/' ? '/' : '.';
+    if (separator == '/') path.erase(0, 1);
+    std::vector<std::string> words;
+    for (std::size_t from = 0; from <= path.size();) {
+        const std::size_t end = std::min(path.find(separator, from), path.size());
+        const std::string word = path.substr(from, end - from);
+        words.push_back(separator == '/' ? unescaped(word) : word);
+        from = end + 1;
+    }
+    return words;
+}
+
+/// The item at an index.
+/// @returns what is wrong, or nothing
+std::string goToItem(JsonNode*& list, const std::string& word) {
+    std::size_t index = 0;
+    const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), index);
+    if (error != std::errc() || stop != word.data() + word.size() || index >= list->items.size())
+        return fmt::format("`{}` is not one of the {} items at {}", word, list->items.size(),
+                           list->where.pointer());
+    list = &list->items[index];
+    return {};
+}
+
+/// The item of an id.
+/// @returns what is wrong, or nothing
+std::string goToId(JsonNode*& list, const std::string& id) {
+    std::vector<std::string> known;
+    for (JsonNode& item : list->items) {
+        const JsonNode* const its = item.find("id");
+        if (!its || its->kind != JsonNode::Kind::text) continue;
+        if (its->text == id) {
+            list = &item;
+            return {};
+        }
+        known.push_back(its->text);
+    }
+    return fmt::format("{}: {}", list->where.pointer(), noSuchId(id, known));
+}
+
+void goToMember(JsonNode*& object, const std::string& key) {
+    JsonNode* member = object->find(key);
+    if (!member) {
+        const SourcePosition where{0, 0, object->where.path.member(key)};
+        object->members.push_back({key, where, {}});
+        member = &object->members.back().value;
+        member->kind = JsonNode::Kind::object;
+        member->where = where;
+    }
+    object = member;
+}
+
 }  // namespace
+
+std::string noSuchId(std::string_view id, const std::vector<std::string>& known) {
+    constexpr std::size_t kMostTold = 8;
+    std::string told;
+    for (std::size_t i = 0; i < std::min(known.size(), kMostTold); ++i)
+        told += (i ? ", `" : "`") + known[i] + "`";
+    if (known.size() > kMostTold) told += ", ...";
+    return fmt::format("nothing in this list has the id `{}`{}", id,
+                       told.empty() ? "" : "; there are " + told);
+}
 
 void applyOverride(JsonNode& root, const std::string& text, Diagnostics& diagnostics) {
     const std::size_t equals = text.find('=');
@@ -312,42 +406,26 @@ void applyOverride(JsonNode& root, const std::string& text, Diagnostics& diagnos
                           "for example --set simulation.seed=7");
         return;
     }
-    std::string path = text.substr(0, equals);
-    const char separator = path.front() == '/' ? '/' : '.';
-    if (path.front() == '/') path.erase(0, 1);
-
     JsonNode* node = &root;
     SourcePath pointer;
-    std::size_t from = 0;
-    while (from <= path.size()) {
-        const std::size_t end = std::min(path.find(separator, from), path.size());
-        const std::string word = path.substr(from, end - from);
-        const std::string key = separator == '/' ? unescaped(word) : word;
-        from = end + 1;
-        pointer = pointer.member(key);
-        if (node->kind == JsonNode::Kind::array) {
-            std::size_t index = 0;
-            const auto [stop, error] = std::from_chars(key.data(), key.data() + key.size(), index);
-            if (error != std::errc() || stop != key.data() + key.size() || index >= node->items.size()) {
-                diagnostics.error(where, fmt::format("`{}` is not one of the {} items at {}", key,
-                                                     node->items.size(), node->where.pointer()));
-                return;
-            }
-            node = &node->items[index];
-        } else if (node->kind == JsonNode::Kind::object) {
-            JsonNode* member = node->find(key);
-            if (!member) {
-                node->members.push_back({key, {0, 0, pointer}, {}});
-                member = &node->members.back().value;
-                member->kind = JsonNode::Kind::object;
-                member->where = {0, 0, pointer};
-            }
-            node = member;
+    const std::vector<std::string> words = wordsOf(text.substr(0, equals));
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        std::string wrong;
+        pointer = pointer.member(words[i]);
+        if (node->kind == JsonNode::Kind::object) {
+            goToMember(node, words[i]);
+        } else if (node->kind != JsonNode::Kind::array) {
+            wrong =
+                fmt::format("{} is {}: there is nothing inside it", node->where.pointer(), node->kindName());
+        } else if (words[i] == kById && i + 1 < words.size()) {
+            pointer = pointer.member(words[++i]);
+            wrong = goToId(node, words[i]);
         } else {
-            diagnostics.error(where, fmt::format("{} is {}: there is nothing inside it",
-                                                 node->where.pointer(), node->kindName()));
-            return;
+            wrong = goToItem(node, words[i]);
         }
+        if (wrong.empty()) continue;
+        diagnostics.error(where, wrong);
+        return;
     }
     Diagnostics ignored;
     const std::string value_text = text.substr(equals + 1);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -42,11 +43,21 @@ struct JsonNode::Member {
 /// levels are errors. @returns nothing usable when there are errors
 JsonNode parseJson(std::string_view text, Diagnostics& diagnostics);
 
+/// The same without the places. Whole numbers stay whole as far as they are exact.
+nlohmann::ordered_json plainJson(const JsonNode& node);
+
 /// Puts `pointer/key` together, escaped as RFC 6901 has it.
 std::string appendPointer(const std::string& pointer, std::string_view key);
 
-/// Changes one value: "simulation.seed=7" or "/simulation/seed=7". Missing keys are added; the reader will
-/// judge them.
+/// In the path of a value, this word after that of a list and before an id means the item of that id:
+/// "/flows/by-id/north/rate". A list has no item of this name, so no path means two things.
+constexpr std::string_view kById = "by-id";
+
+/// What is wrong where a list has no item of this id, with those that it has.
+std::string noSuchId(std::string_view id, const std::vector<std::string>& known);
+
+/// Changes one value: "simulation.seed=7", "/simulation/seed=7" or "flows.by-id.north.rate=2". Missing keys
+/// are added; the reader will judge them.
 void applyOverride(JsonNode& root, const std::string& text, Diagnostics& diagnostics);
 
 }  // namespace throng::authoring

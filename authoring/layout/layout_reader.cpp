@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "authoring/layout/object_reader.h"
@@ -679,6 +680,15 @@ std::optional<Layout> readLayout(std::string_view text, std::span<const std::str
         });
     if (diagnostics.hasErrors()) return std::nullopt;
     return layout;
+}
+
+std::string layoutWith(std::string_view text, std::span<const std::string> overrides) {
+    if (overrides.empty()) return std::string(text);
+    Diagnostics known;  // readLayout() has told them
+    JsonNode root = parseJson(text, known);
+    for (const std::string& change : overrides)
+        applyOverride(root, change, known);
+    return plainJson(root).dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace throng::authoring

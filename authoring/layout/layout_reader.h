@@ -27,6 +27,10 @@ const Schema& layoutRules();
 std::optional<Layout> readLayout(std::string_view text, std::span<const std::string> overrides,
                                  Diagnostics& diagnostics, const Schema& schema = layoutRules());
 
+/// The text of a layout that says by itself what it and the overrides say together: the same bytes where
+/// there are none. Both are such that readLayout() reads them.
+std::string layoutWith(std::string_view text, std::span<const std::string> overrides);
+
 /// One diagnostic as compilers print theirs: file:line:column, the pointer, what is wrong, the line with a
 /// caret, the hint.
 std::string formatDiagnostic(const Diagnostic& diagnostic, std::string_view file, std::string_view text);

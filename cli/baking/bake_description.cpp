@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "authoring/layout/layout_reader.h"
 #include "authoring/scene/terrain_check.h"
 #include "base/files/errors.h"
+#include "base/files/hash.h"
 #include "base/printable.h"
 #include "recording/gaits.h"
 
@@ -42,7 +44,8 @@ recording::BakeDescription describeBake(const LoadedLayout& loaded, const BakeOp
     bake.output = outputOf(loaded, options);
     bake.force = options.force;
     bake.name = loaded.layout.name;
-    bake.layout_text = loaded.text;
+    bake.layout_text = authoring::layoutWith(loaded.text, loaded.overrides);
+    bake.source = {loaded.file, hashText(loaded.text), loaded.overrides};
     bake.seed = scene.settings.seed;
     bake.fps = scene.settings.fps;
     bake.frames =

@@ -67,8 +67,11 @@ LoadAttempt tryReadLayout(std::string text, const std::string& name, std::vector
 
 LoadAttempt tryLoadLayout(const std::string& path, const std::vector<std::string>& overrides,
                           const SolverMaker& make_solver) {
-    return tryReadLayout(path == "-" ? readStandardInput() : readFile(path),
-                         path == "-" ? "standard input" : path, overrides, nullptr, make_solver);
+    const bool is_file = path != "-";
+    LoadAttempt attempt = tryReadLayout(is_file ? readFile(path) : readStandardInput(),
+                                        is_file ? path : "standard input", overrides, nullptr, make_solver);
+    if (is_file) attempt.loaded.file = std::filesystem::path(path).filename().string();
+    return attempt;
 }
 
 void printDiagnostics(const LoadedLayout& loaded) {

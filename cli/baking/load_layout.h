@@ -17,6 +17,7 @@ namespace throng::cli {
 /// A layout file, read, checked and made into a scene.
 struct LoadedLayout {
     std::string text;  ///< the file, byte for byte
+    std::string file;  ///< its name, without folders; empty where it was none
     std::vector<std::string> overrides;
     authoring::Layout layout;
     std::shared_ptr<const authoring::TerrainMesh> terrain;  ///< null: flat ground

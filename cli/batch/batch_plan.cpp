@@ -60,12 +60,19 @@ BatchPlan::BatchPlan(const std::string& path) : path_(path) {
     authoring::Diagnostics diagnostics;
     diagnostics.file = path;
     auto family = authoring::readFamily(text, std::filesystem::path(path).parent_path(), diagnostics);
+    std::vector<authoring::Scenario> scenarios;
+    if (family) try {
+            scenarios = authoring::planFamily(*family);
+        } catch (const authoring::PlanError& error) {
+            diagnostics.error(error.where, error.what());
+            family.reset();
+        }
     for (const authoring::Diagnostic& entry : diagnostics.entries)
         say(stderr, "{}\n", authoring::formatDiagnostic(entry, path, text));
     if (!family) throw Exit(kInvalidInput, "the family is not valid", diagnosticsJson(diagnostics));
     family_ = std::move(*family);
     if (family_.name.empty()) family_.name = printable(std::filesystem::path(path).stem().string());
-    for (authoring::Scenario& scenario : authoring::planFamily(family_)) {
+    for (authoring::Scenario& scenario : scenarios) {
         std::string id = idOf(scenario);
         scenarios_.push_back({std::move(id), std::move(scenario)});
     }

@@ -125,6 +125,92 @@ TEST(Family, NumbersAmongMissingMembersMakeNoLongLists) {
     }
 }
 
+TEST(Family, ItemsAreFoundByTheirIds) {
+    Diagnostics diagnostics;
+    const auto family = familyOf(R"("axes": [{"set": "/flows/by-id/f/rate", "values": [3]}])", diagnostics);
+    ASSERT_TRUE(family);
+    EXPECT_EQ(family->axes[0].name, "flows.f.rate");
+    EXPECT_EQ(composeLayout(*family, planFamily(*family)[0]).at("flows").at(0).at("rate"), 3);
+    const auto absent = familyOf(R"("axes": [{"set": "/flows/by-id/g/rate", "values": [3]}])", diagnostics);
+    ASSERT_TRUE(absent);
+    try {
+        composeLayout(*absent, planFamily(*absent)[0]);
+        FAIL();
+    } catch (const std::invalid_argument& error) {
+        EXPECT_NE(std::string(error.what()).find("id `g`; there are `f`"), std::string::npos) << error.what();
+    }
+}
+
+TEST(Family, FormulasAreOfOtherAxesAndOfFormulasBefore) {
+    const auto scenarios = plan(R"json("axes": [
+ {"name": "a", "set": "/simulation/seed", "values": [1, 2]},
+ {"name": "b", "set": "/flows/0/rate", "formula": "0.1 * a * 3"},
+ {"name": "c", "set": "/roads/0/width", "formula": "-(b - 2) / 2 + min(a, 9, 8) * max(1, 2)"},
+ {"name": "d", "set": "/simulation/substeps", "formula": "e * a + 0.4", "whole": true},
+ {"name": "e", "set": "/simulation/duration", "values": [3]}])json");
+    EXPECT_EQ(column(scenarios, 1), (std::vector<double>{0.3, 0.6}));
+    EXPECT_EQ(column(scenarios, 2), (std::vector<double>{2.85, 4.7}));
+    EXPECT_EQ(column(scenarios, 3), (std::vector<double>{3, 6}));
+    EXPECT_TRUE(scenarios[0].parameters[3].second.is_number_integer());
+    const auto doubled = plan(R"json("sampling": "latin", "count": 3, "axes": [
+ {"name": "b", "set": "/c", "formula": "2*a"}, {"name": "a", "set": "/b", "uniform": [1, 1]}])json");
+    EXPECT_EQ(column(doubled, 0), (std::vector<double>{2}));
+}
+
+TEST(Family, WrongFormulasAreToldWhereTheyAreWrong) {
+    struct Wrong {
+        std::string formula;
+        int letter;
+        std::string message;
+    };
+    const Wrong wrong[] = {{"2 * (a + 1", 10, "expected `)`, found the end"},
+                           {"2 ** a", 3, "expected a number"},
+                           {"sin(a)", 0, "there is no function `sin`"},
+                           {"a + b", 4, "there is no axis `b`"},
+                           {"a + f", 4, "a formula is of other axes"},
+                           {"text + 1", 0, "`text` is no number"},
+                           {"a + ", 4, "expected a number"},
+                           {"a; 1", 1, "expected +, -, *, / or the end, found `;`"}};
+    for (const Wrong& each : wrong) {
+        Diagnostics diagnostics;
+        const std::string head = R"("axes": [{"name": "a", "set": "/a", "values": [0]},
+ {"name": "text", "set": "/b", "values": ["x"]},
+ {"name": "f", "set": "/c", "formula": ")";
+        EXPECT_FALSE(familyOf(head + each.formula + "\"}]", diagnostics)) << each.formula;
+        ASSERT_EQ(diagnostics.entries.size(), 1u) << each.formula;
+        const Diagnostic& told = diagnostics.entries[0];
+        const std::size_t before = head.size() - head.rfind('\n');  // the column of the first letter
+        EXPECT_EQ(told.where.column, static_cast<int>(before) + each.letter) << told.message;
+        EXPECT_EQ(told.message.substr(0, each.message.size()), each.message);
+    }
+    Diagnostics diagnostics;
+    const auto family = familyOf(
+        R"("axes": [{"name": "a", "set": "/a", "values": [1, 0]}, {"name": "f", "set": "/b", "formula": "1/a"}])",
+        diagnostics);
+    ASSERT_TRUE(family);
+    EXPECT_THROW(planFamily(*family), PlanError);
+}
+
+TEST(Family, CasesSetSeveralThings) {
+    Diagnostics diagnostics;
+    const auto family = familyOf(R"("axes": [{"name": "day", "cases": {
+ "quiet": {"/flows/by-id/f/rate": 0.5, "/roads/0/width": 3}, "busy": {"/flows/0/rate": 2}}}])",
+                                 diagnostics);
+    ASSERT_TRUE(family);
+    const auto scenarios = planFamily(*family);
+    ASSERT_EQ(scenarios.size(), 2u);
+    EXPECT_EQ(describe(scenarios[1]), "day \"busy\"");
+    const Json quiet = composeLayout(*family, scenarios[0]), busy = composeLayout(*family, scenarios[1]);
+    EXPECT_EQ(quiet.at("flows").at(0).at("rate"), 0.5);
+    EXPECT_EQ(quiet.at("roads").at(0).at("width"), 3);
+    EXPECT_EQ(busy.at("flows").at(0).at("rate"), 2);
+    EXPECT_EQ(busy.at("roads").at(0).at("width"), 4);
+    for (const char* wrong : {R"({"cases": {"a": {}}})", R"({"name": "x", "set": "/a", "cases": {"a": {}}})",
+                              R"({"name": "x", "cases": {}})", R"({"name": "x", "cases": {"a": 3}})",
+                              R"({"name": "x", "cases": {"a": {"flows": 3}}})"})
+        EXPECT_FALSE(familyOf(std::string(R"("axes": [)") + wrong + "]", diagnostics)) << wrong;
+}
+
 TEST(Family, EveryMistakeHasItsPlace) {
     Diagnostics diagnostics;
     EXPECT_FALSE(familyOf(

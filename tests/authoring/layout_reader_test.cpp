@@ -324,6 +324,21 @@ TEST(LayoutReader, RefusesSeedsThatADoubleWouldRound) {
     expectError(before + "18446744073709551615}}", 1, 38, "/simulation/seed", "out of range");
 }
 
+TEST(LayoutReader, WritesLayoutsAsOverridesMakeThem) {
+    const std::string text = kTwoAreas + R"("simulation": {"fps": 23.976, "seed": 9007199254740992},
+ "flows": [{"id": "f", "from": "a", "to": "b", "rate": 0.1}]})";
+    EXPECT_EQ(layoutWith(text, {}), text);
+    const std::string with = layoutWith(
+        text, std::vector<std::string>{"simulation.duration=7", "flows.by-id.f.rate=0.30000000000000004",
+                                       "/flows/0/people={\"profile\": \"child\"}"});
+    const Layout layout = read(with);
+    EXPECT_EQ(layout.simulation.duration, 7.0);
+    EXPECT_EQ(layout.simulation.fps, 23.976);
+    EXPECT_EQ(layout.simulation.seed, 9007199254740992u);
+    EXPECT_EQ(layout.flows.at(0).rate, 0.30000000000000004);
+    EXPECT_NE(with.find("\"profile\": \"child\""), std::string::npos);
+}
+
 TEST(LayoutReader, OverridesValuesAndNamesTheOverrideThatIsWrong) {
     const std::string text =
         R"({"throng": 1, "formations": [{"id": "c", "type": "circle", "centre": [0, 0], "radius": 5, "count": 6}]})";
@@ -337,6 +352,10 @@ TEST(LayoutReader, OverridesValuesAndNamesTheOverrideThatIsWrong) {
  {"id": "b", "polygon": [[9,0],[12,0],[12,4]]}],
  "flows": [{"id": "f", "from": "b", "to": {"choose": {"x/y~": 1}}, "count": 1}]})";
     EXPECT_EQ(read(choice, {"/flows/0/to/choose/x~1y~0=5"}).flows.at(0).to.weights.at(0), 5.0);
+    EXPECT_EQ(read(choice, {"flows.by-id.f.count=5"}).flows.at(0).count, 5u);
+    const Diagnostics absent = diagnose(choice, {"/areas/by-id/c/id=5"});
+    EXPECT_EQ(absent.entries.at(0).message,
+              "/areas: nothing in this list has the id `c`; there are `x/y~`, `b`");
     for (const std::string wrong :
          {"simulation.sed=7", "simulation.seed", "formations.3.count=1", "simulation.fps=fast"})
         EXPECT_TRUE(diagnose(text, {wrong}).hasErrors()) << wrong;

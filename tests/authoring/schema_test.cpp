@@ -51,7 +51,10 @@ std::vector<Format> formats() {
                       {"set": "/simulation/duration", "normal": [10, 2], "min": 5, "max": 15},
                       {"set": "/simulation/smoothing", "log_normal": [-1, 0.1]}]})",
           R"({"throng_family": 1, "generate": {"kind": "crossing"},
-             "axes": [{"parameter": "arms", "range": [3, 5]}]})"},
+             "axes": [{"parameter": "arms", "range": [3, 5]},
+                      {"name": "seed", "parameter": "seed", "formula": "2 * arms", "whole": true}]})",
+          R"({"throng_family": 1, "sampling": "random", "count": 5, "generate": {"kind": "crossing"},
+             "axes": [{"name": "day", "cases": {"a": {"/simulation/seed": 2}, "b": {}}, "weights": [1, 2]}]})"},
          [](const std::string& text, const Schema& schema, Diagnostics& diagnostics) {
              readFamily(text, ".", diagnostics, schema);
          }},

@@ -258,6 +258,33 @@ def test_ctrl_c_keeps_what_there_is(throng, tmp_path, manifest_of):
 
 
 @pytest.mark.quick
+def test_what_is_set_by_hand_is_in_the_layout_of_the_bake(throng, tmp_path, manifest_of):
+    path = write(tmp_path / "ring.json", {"throng": 1, "name": "ring", "simulation": {"duration": 1}, "formations": [
+        {"id": "ring", "type": "circle", "centre": [0, 0], "radius": 4, "count": 6}]})
+    changes = ["formations.by-id.ring.count=4", "simulation.seed=7", 'expect={"arrived": {"min": 1}}']
+    options = ["-q", "--no-gltf", "--proximity", "grid"] + [word for text in changes for word in ("--set", text)]
+    throng("bake", path, "-o", tmp_path / "set", *options)
+    written = json.loads((tmp_path / "set" / "layout.json").read_text())
+    assert written["formations"][0]["count"] == 4 and written["expect"] == {"arrived": {"min": 1}}
+    assert written["simulation"] == {"duration": 1, "proximity": "grid", "seed": 7}
+    about = manifest_of(tmp_path / "set")["layout"]
+    assert about["source"]["file"] == "ring.json" and about["source"]["hash"] != about["hash"]
+    assert about["overrides"] == ["simulation.proximity=grid"] + changes
+    assert "baked from:   ring.json --set simulation.proximity=grid" in throng("info", tmp_path / "set").stdout
+    throng("verify", tmp_path / "set")
+
+    # The layout of the bake gives the same bake, and its bars are heeded: nobody arrives within a second.
+    throng("bake", tmp_path / "set" / "layout.json", "-o", tmp_path / "again", "-q", "--no-gltf")
+    assert digest(tmp_path / "set") == digest(tmp_path / "again")
+    assert "arrived is 0" in throng("measure", tmp_path / "set", expect=1).stderr
+
+    # What it was made from says whether it is complete already, and what others would be.
+    told = throng("bake", path, "-o", tmp_path / "set", "--resume", *options[1:]).stdout
+    assert "is complete already" in told
+    told = throng("bake", path, "-o", tmp_path / "set", "--resume", "-q", expect=5).stderr
+    assert "--force" in told
+
+
 def test_info_says_what_is_wrong_with_a_damaged_bake(throng, tmp_path):
     throng("bake", write(tmp_path / "small.json", SMALL), "-o", tmp_path / "out", "-q", "--no-gltf")
     assert "verified" in throng("info", tmp_path / "out", "--verify").stdout

@@ -101,6 +101,23 @@ def test_weights_decide_how_often_a_value_is_drawn(throng, tmp_path):
     assert len({row["seed"] for row in found}) > 75
 
 
+def test_axes_go_by_ids_by_formulas_and_by_cases(throng, tmp_path):
+    axes = [{"name": "rate", "set": "/flows/by-id/walkers/rate", "values": [1, 2]},
+            {"name": "duration", "set": "/simulation/duration", "formula": "max(0.1, rate / 10)"},
+            {"name": "yard", "cases": {"open": {"/walls/by-id/south/points": [[-1, -9], [13, -9]]},
+                                       "shut": {"/walls/by-id/south/height": 5, "/simulation/seed": 4}}}]
+    throng("batch", family(tmp_path, axes=axes), "-o", tmp_path / "out", "-q")
+    found = rows(tmp_path / "out")
+    assert [(row["rate"], row["parameter duration"], row["yard"]) for row in found] == \
+        [(1, 0.1, "open"), (1, 0.1, "shut"), (2, 0.2, "open"), (2, 0.2, "shut")]
+    for row in found:
+        layout = json.loads((tmp_path / "out" / row["bake"] / "layout.json").read_text())
+        is_open = row["yard"] == "open"
+        assert layout["flows"][0]["rate"] == row["rate"] and layout["simulation"]["duration"] == row["rate"] / 10
+        assert layout["simulation"]["seed"] == (1 if is_open else 4) and ("height" in layout["walls"][0]) != is_open
+        assert layout["walls"][0]["points"][0][1] == (-9 if is_open else -0.5)
+
+
 def test_scenarios_are_named_by_their_parameters_whatever_the_order_of_axes(throng, tmp_path):
     (tmp_path / "a").mkdir()
     (tmp_path / "b").mkdir()
@@ -132,6 +149,10 @@ WRONG = [
     ({"axes": [{"set": "/simulation/seed", "range": [2, 1]}]}, "from the smaller number to the larger one"),
     ({"axes": [{"set": "/simulation/seed", "range": [1, 2000]}, {"set": "/flows/0/rate", "range": [1, 2000]}]},
      "too many"),
+    ({"axes": [{"set": "/walls/by-id/north/height", "values": [3]}]}, "has the id `north`; there are `south`"),
+    ({"axes": [{"name": "a", "set": "/flows/0/rate", "values": [0]},
+               {"name": "b", "set": "/simulation/seed", "formula": "1 / a"}]}, "`b` has no value where it is a 0: 1 is"),
+    ({"axes": [{"name": "a", "set": "/flows/0/rate", "formula": "2 * b"}]}, "there is no axis `b`"),
     ({"axis": []}, "did you mean `axes`?"),
 ]
 
