@@ -18,7 +18,7 @@ namespace throng::authoring {
 namespace {
 
 constexpr const char* kAxisHint =
-    R"(for example {"set": "/flows/by-id/north/rate", "values": [0.5, 1, 2]} or {"set": "/simulation/seed", "range": [1, 10]})";
+    R"(for example {"set": "/flows/0/rate", "values": [0.5, 1, 2]} or {"set": "/simulation/seed", "range": [1, 10]})";
 
 constexpr const char* kCasesHint =
     R"(for example {"name": "day", "cases": {"quiet": {"/flows/0/rate": 0.2}, "busy": {"/flows/0/rate": 2}}})";
