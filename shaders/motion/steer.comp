@@ -27,6 +27,7 @@ uniform uint steps_done;  // counted with this one
 #include "shaders/motion/taking_turns.glsl"
 #include "shaders/motion/way_through.glsl"
 #include "shaders/motion/search_beside_walls.glsl"
+#include "shaders/motion/foresight.glsl"
 #include "shaders/motion/waiting_for_company.glsl"
 #include "shaders/motion/coming_to_rest.glsl"
 #ifdef TERRAIN
@@ -41,7 +42,7 @@ void main() {
     vec2 position = bodies[slot].position;
     Walker walker = walkers[slot];
     Stage stage = stageOf(walker.stage, walker.ticket);
-    RouteAhead ahead = routeAhead(stage, position);
+    RouteAhead ahead = wayAhead(stage, position, bodies[slot].velocity, 1.0 - walker.nervousness);
 
     bool narrow = (touch_words[slot] & TOUCH_IN_NARROWS) != 0u;
     walkers[slot].way_through = packSnorm2x16(narrow ? wayThrough(stage, position, ahead) : ahead.direction);
