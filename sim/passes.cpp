@@ -32,7 +32,11 @@ const gl::Declaration kAvoid = {
     {"shaders/motion/avoid.comp"},
     {"ParametersBlock", "LiveDispatch", "States", "Bodies", "Walkers", "PreferredVelocities", "Neighbours",
      "NeighbourCounts", "TouchWords", "WallSegments", "WallStarts", "WallItems", "RoadDistances"},
-    {"TouchWords", "Targets", "TargetsAfter", "Paces", "Ways"}};
+    {"TouchWords", "Targets", "TargetsAfter", "Paces", "VelocityChanges", "Ways"}};
+const gl::Declaration kCarryOn = {"avoidance",
+                                  {"shaders/motion/carry_on.comp"},
+                                  {"ParametersBlock", "LiveDispatch", "States", "VelocityChanges", "Bodies"},
+                                  {"Bodies", "Walkers", "Targets", "TargetsAfter", "Ways"}};
 const gl::Declaration kContact = {
     "contacts",
     {"shaders/motion/contact.comp"},
@@ -85,7 +89,8 @@ Avoidance::Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, int nei
           library, kSteer,
           together(rules.definitions(), ground ? gl::Definitions{{"TERRAIN", "1"}} : gl::Definitions{}))),
       avoid_(buffers.connect(library, kAvoid,
-                             together(rules.definitions(), {{"NEIGHBOURS", std::to_string(neighbours)}}))) {
+                             together(rules.definitions(), {{"NEIGHBOURS", std::to_string(neighbours)}}))),
+      carry_on_(buffers.connect(library, kCarryOn)) {
     avoid_.set("slot_capacity", buffers.slotCapacity());
     if (ground) ground->describeTo(steer_);
 }
@@ -94,6 +99,10 @@ void Avoidance::run(std::uint32_t steps_done) {
     steer_.setIfUsed("steps_done", steps_done);
     steer_.dispatchIndirect(buffers_.live_dispatch);
     avoid_.dispatchIndirect(buffers_.live_dispatch);
+}
+
+void Avoidance::carryOn() {
+    carry_on_.dispatchIndirect(buffers_.live_dispatch);
 }
 
 Contacts::Contacts(const gl::ShaderLibrary& library, Buffers& buffers, int iterations,

@@ -20,6 +20,7 @@ layout(std430) readonly buffer WallItems { uint wall_items[]; };
 layout(std430) readonly buffer RoadDistances { float road_distances[]; };
 layout(std430) writeonly buffer Targets { vec2 targets[]; };  // where each person will be unless bodies touch
 layout(std430) writeonly buffer TargetsAfter { vec2 targets_after[]; };  // the same, for those whom contact passes over
+layout(std430) writeonly buffer VelocityChanges { vec2 velocity_changes[]; };  // m/s a step, until the next decision
 layout(std430) writeonly buffer Ways { vec2 ways[]; };  // m: what is meant to be added to places; on wide sites
 layout(std430) writeonly buffer Paces { float paces[]; };  // m/s: how fast each person wants to walk behind others
 uniform uint slot_capacity;
@@ -75,14 +76,19 @@ void main() {
 
     vec2 acceleration = drive(wish, speed, pace, self.velocity) + around.room * shareOfRoom(speed) +
                         company(self, walker, way, speed);
-    vec2 wanted = self.velocity + acceleration * parameters.step_seconds;
+    vec2 wanted = self.velocity + acceleration * parameters.decision_seconds;
     vec2 legs = self.velocity;  // what they start from
     plantFeet(self, walker, around.in_peace && headway > 0.0, around.in_traffic, wanted, legs);
 
     int hard = wallsAhead(self, walker, slot);
     int count = hard + kerbBeside(self, walker, hard);
     vec2 velocity = nearestAllowed(hard, count, self.maximum_speed, wanted);
-    velocity = limitChange(legs, velocity, parameters.maximum_acceleration * parameters.step_seconds);
+    velocity = limitChange(legs, velocity, parameters.maximum_acceleration * parameters.decision_seconds);
+    if (parameters.decision_seconds > parameters.step_seconds) {
+        vec2 change = (velocity - legs) * (parameters.step_seconds / parameters.decision_seconds);
+        velocity_changes[slot] = change;
+        velocity = legs + change;
+    }
     vec2 target = self.position + velocity * parameters.step_seconds;
     if (parameters.is_wide != 0u) {
         vec2 way = velocity * parameters.step_seconds + states[self.row].rest;

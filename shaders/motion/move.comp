@@ -22,6 +22,7 @@ layout(std430) readonly buffer LinePoints { vec2 line_points[]; };
 layout(std430) buffer States { AgentState states[]; };
 uniform uint steps_done;  // counted with this one
 
+#include "shaders/shared/alive.glsl"
 #include "shaders/routes/route.glsl"
 #include "shaders/motion/waiting_line.glsl"
 #include "shaders/motion/under_way.glsl"
@@ -39,6 +40,7 @@ void main() {
     if (slot >= live_count) return;
     Body self = bodies[slot];
     AgentState state = states[self.row];
+    if (!isAlive(state.status)) return;  // it left after the last decision
     Stage stage = stageOf(state.stage, state.ticket);
 
     vec2 moved = targets[slot] - self.position;

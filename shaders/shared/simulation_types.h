@@ -148,11 +148,12 @@ struct Parameters {
     float tile_radius;     // m, of agents
     float largest_radius;  // m, of all people
     float step_seconds;
+    float decision_seconds;   // from one decision of people to the next: one step or several
     float time_horizon;       // s
     float wall_time_horizon;  // s
     float contact_range;      // m
     float
-        contact_slack;  // m: two people further apart than their radii and this cannot touch within one step
+        contact_slack;  // m: two people further apart than their radii and this cannot touch before the next decision
     float maximum_acceleration;  // m/s^2
     uint is_wide;                // 1 = places are too coarse for steps (base/wide_site.h)
 };
