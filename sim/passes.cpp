@@ -32,11 +32,12 @@ const gl::Declaration kAvoid = {
     {"shaders/motion/avoid.comp"},
     {"ParametersBlock", "LiveDispatch", "States", "Bodies", "Walkers", "PreferredVelocities", "Neighbours",
      "NeighbourCounts", "TouchWords", "WallSegments", "WallStarts", "WallItems", "RoadDistances"},
-    {"TouchWords", "Targets", "TargetsAfter", "Paces", "VelocityChanges", "Ways"}};
-const gl::Declaration kCarryOn = {"avoidance",
-                                  {"shaders/motion/carry_on.comp"},
-                                  {"ParametersBlock", "LiveDispatch", "States", "VelocityChanges", "Bodies"},
-                                  {"Bodies", "Walkers", "Targets", "TargetsAfter", "Ways"}};
+    {"TouchWords", "Targets", "TargetsAfter", "Decisions", "Ways"}};
+const gl::Declaration kCarryOn = {
+    "avoidance",
+    {"shaders/motion/carry_on.comp"},
+    {"ParametersBlock", "LiveDispatch", "States", "Decisions", "Bodies", "Walkers"},
+    {"Bodies", "Walkers", "Targets", "TargetsAfter", "Ways"}};
 const gl::Declaration kContact = {
     "contacts",
     {"shaders/motion/contact.comp"},
@@ -48,7 +49,7 @@ const gl::Declaration kMove = {
     "motion",
     {"shaders/motion/move.comp"},
     {"ParametersBlock", "LiveDispatch", "People", "Bodies", "Walkers", "PreferredVelocities", "TouchWords",
-     "Paces", "Ways", "Targets", "Stages", "field_cells", "DetourSlopes", "PlanChanges", "WaitingLines",
+     "Decisions", "Ways", "Targets", "Stages", "field_cells", "DetourSlopes", "PlanChanges", "WaitingLines",
      "LinePoints", "States"},
     {"WaitingLines", "States"}};
 

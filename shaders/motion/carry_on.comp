@@ -7,7 +7,7 @@ layout(local_size_x = AGENT_GROUP_SIZE) in;
 layout(std140) uniform ParametersBlock { Parameters parameters; };
 layout(std430) readonly buffer LiveDispatch { uint live_groups[3]; uint live_count; };
 layout(std430) readonly buffer States { AgentState states[]; };
-layout(std430) readonly buffer VelocityChanges { vec2 velocity_changes[]; };
+layout(std430) readonly buffer Decisions { Decision decisions[]; };
 layout(std430) buffer Bodies { Body bodies[]; };
 layout(std430) buffer Walkers { Walker walkers[]; };
 layout(std430) writeonly buffer Targets { vec2 targets[]; };
@@ -38,7 +38,7 @@ void main() {
     takeOver(slot, state);
     // Who has left stays where it was last, for a step.
     vec2 velocity = isAlive(state.status)
-                        ? atMost(state.velocity + velocity_changes[slot], bodies[slot].maximum_speed)
+                        ? atMost(state.velocity + decisions[slot].change, bodies[slot].maximum_speed)
                         : vec2(0.0);
     vec2 target = state.position + velocity * parameters.step_seconds;
     if (parameters.is_wide != 0u) {

@@ -92,6 +92,13 @@ struct Walker {
     uint way_through;  // where its way leads beyond a narrow passage: a direction, packed (snorm 2 x 16)
 };
 
+/// What somebody has decided, until it looks round again.
+struct Decision {
+    vec2 change;  // m/s, of its velocity in a step
+    float pace;   // m/s: how fast it wants to walk behind others
+    float reserved;
+};
+
 /// A site of the diagram, in pixels from the window's corner.
 struct DiagramSite {
     vec2 position;
