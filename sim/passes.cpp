@@ -25,7 +25,7 @@ const gl::Declaration kSteer = {
     "avoidance",
     {"shaders/motion/steer.comp"},
     {"ParametersBlock", "LiveDispatch", "States", "Bodies", "Walkers", "Stages", "field_cells",
-     "DetourSlopes", "WaitingLines", "LinePoints", "TouchWords", "TerrainNodes"},
+     "DetourSlopes", "WaitingLines", "LinePoints", "NeighbourCounts", "TouchWords", "TerrainNodes"},
     {"Walkers", "PreferredVelocities"}};
 const gl::Declaration kAvoid = {
     "avoidance",
@@ -91,7 +91,7 @@ Avoidance::Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, int nei
           together(rules.definitions(), ground ? gl::Definitions{{"TERRAIN", "1"}} : gl::Definitions{}))),
       avoid_(buffers.connect(library, kAvoid,
                              together(rules.definitions(), {{"NEIGHBOURS", std::to_string(neighbours)}}))),
-      carry_on_(buffers.connect(library, kCarryOn)) {
+      carry_on_(buffers.connect(library, kCarryOn, rules.definitions())) {
     avoid_.set("slot_capacity", buffers.slotCapacity());
     if (ground) ground->describeTo(steer_);
 }

@@ -76,14 +76,15 @@ void main() {
                         company(self, walker, way, speed);
     vec2 wanted = self.velocity + acceleration * parameters.decision_seconds;
     vec2 legs = self.velocity;  // what they start from
-    plantFeet(self, walker, around.in_peace && headway > 0.0, around.in_traffic, wanted, legs);
+    uint feet = (around.in_traffic ? FEET_IN_TRAFFIC : 0u) | (around.in_peace && headway > 0.0 ? FEET_WAIT : 0u);
+    plantFeet(self, walker, feet, wanted, legs);
 
     int hard = wallsAhead(self, walker, slot);
     int count = hard + kerbBeside(self, walker, hard);
     vec2 velocity = nearestAllowed(hard, count, self.maximum_speed, wanted);
     velocity = limitChange(legs, velocity, parameters.maximum_acceleration * parameters.decision_seconds);
     vec2 change = (velocity - legs) * (parameters.step_seconds / parameters.decision_seconds);
-    decisions[slot] = Decision(change, pace, 0.0);
+    decisions[slot] = Decision(change, pace, feet);
     if (parameters.decision_seconds > parameters.step_seconds) velocity = legs + change;
     vec2 target = self.position + velocity * parameters.step_seconds;
     if (parameters.is_wide != 0u) {

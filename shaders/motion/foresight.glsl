@@ -5,10 +5,11 @@
 
 /// The way from where one will be, or from where one is, if there might be a wall in between: beyond that, the way is
 /// longer or shorter by more than what was walked. Jams are heeded as they are.
-RouteAhead wayAhead(Stage stage, vec2 position, vec2 velocity, float patience) {
+RouteAhead wayAhead(Stage stage, vec2 position, vec2 velocity, uint sensed, float nervousness) {
     RouteAhead ahead = freeRouteAhead(stage, position);
     if (FORESIGHT_ENABLED) {
-        vec2 lead = velocity * (FORESIGHT_TIME * patience);
+        float free = 1.0 - smoothstep(FORESIGHT_FREELY, FORESIGHT_NO_MORE, float(sensed));
+        vec2 lead = velocity * (FORESIGHT_TIME * free * (1.0 - nervousness));
         RouteAhead soon = freeRouteAhead(stage, position + lead);
         if (abs(soon.remaining - ahead.remaining) <= length(lead) * FORESIGHT_SAME_WAY) ahead = soon;
     }

@@ -92,11 +92,14 @@ struct Walker {
     uint way_through;  // where its way leads beyond a narrow passage: a direction, packed (snorm 2 x 16)
 };
 
+const uint FEET_IN_TRAFFIC = 1u;  // it senses others who are under way
+const uint FEET_WAIT = 2u;        // it waits for its turn in a stream that goes one way
+
 /// What somebody has decided, until it looks round again.
 struct Decision {
     vec2 change;  // m/s, of its velocity in a step
     float pace;   // m/s: how fast it wants to walk behind others
-    float reserved;
+    uint feet;    // 0 or more of FEET_*
 };
 
 /// A site of the diagram, in pixels from the window's corner.

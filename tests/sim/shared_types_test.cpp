@@ -116,7 +116,7 @@ std::map<std::string, Layout> layoutsInCpp() {
     }
     {
         using T = gpu::Decision;
-        result["Decision"] = {sizeof(T), {MEMBER(change), MEMBER(pace), MEMBER(reserved)}};
+        result["Decision"] = {sizeof(T), {MEMBER(change), MEMBER(pace), MEMBER(feet)}};
     }
     {
         using T = gpu::DiagramSite;
