@@ -18,8 +18,9 @@ def test_every_pass_is_told_of_any_layout(throng):
     rows = {entry["pass"]: entry["rows"] for entry in told["passes"]}
     assert list(rows) == PASSES
     assert rows["spawn"] == []  # everybody is there from the start
-    steer, avoid = rows["avoidance"]
+    steer, avoid, carry_on = rows["avoidance"]
     assert steer["what"] == "shaders/motion/steer.comp" and steer["declared"] == "avoidance"
+    assert carry_on["what"] == "shaders/motion/carry_on.comp" and carry_on["launches"] == avoid["launches"] == 0.5
     for buffers in (steer["writes"], avoid["reads"]):
         assert "preferred velocities" in {buffer["buffer"] for buffer in buffers}
 
