@@ -100,6 +100,19 @@ def test_without_foresight_corners_and_goals_are_overshot(throng, tmp_path):
     assert 1.03 * shortest_between_blocks() < walked < 1.08 * shortest_between_blocks()
 
 
+def test_nobody_walks_round_and_round_a_place_that_is_full(throng, tmp_path):
+    """Forty people who are to stay on four square metres."""
+    layout = {"throng": 1, "simulation": {"duration": 60},
+              "areas": [{"id": "from", "polygon": [[-20, -4], [-10, -4], [-10, 4], [-20, 4]]},
+                        {"id": "small", "polygon": [[10, 0], [12, 0], [12, 2], [10, 2]]}],
+              "flows": [{"id": "f", "from": "from", "to": "small", "count": 40, "end": 20, "arrival": "stay"}]}
+    (tmp_path / "full.json").write_text(json.dumps(layout))
+    throng("bake", tmp_path / "full.json", "-o", tmp_path / "bake", "-q", "--no-gltf")
+    people = rows(tmp_path / "bake")
+    assert [row["outcome"] for row in people] == ["arrived"] * 40
+    assert max(float(row["distance_walked"]) / float(row["shortest_way"]) for row in people) < 2.5
+
+
 def house(x, y, side, door):
     """Four walls with a door in the middle of the southern one; walls of 0.2 m have round ends."""
     left, right = x + (side - door) / 2 - 0.1, x + (side + door) / 2 + 0.1
