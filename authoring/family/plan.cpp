@@ -12,6 +12,7 @@
 #include "authoring/family/family.h"
 #include "authoring/layout/json_document.h"
 #include "authoring/scene/random.h"
+#include "base/numbers.h"
 
 namespace throng::authoring {
 namespace {
@@ -33,7 +34,7 @@ double standardNormalQuantile(double share) {
 
 /// Six digits say enough, read well, and are the same wherever they are printed.
 double readable(double value) {
-    return std::stod(fmt::format("{:.6g}", value));
+    return withDigits(value, 6);
 }
 
 /// A normal distribution without the tails beyond the limits.
