@@ -118,7 +118,7 @@ std::vector<Scenario> drawn(const Family& family) {
 /// As many digits as numbers are written with, so that 0.1 * 3 is 0.3; whole ones are whole.
 Json calculated(double value, bool whole) {
     constexpr double kExact = 0x1.0p53;
-    const double result = whole ? std::round(value) : std::stod(fmt::format("{:.12g}", value));
+    const double result = whole ? std::round(value) : withDigits(value, 12);
     if (result == std::floor(result) && std::abs(result) <= kExact) return static_cast<std::int64_t>(result);
     return result;
 }
