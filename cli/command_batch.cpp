@@ -5,6 +5,7 @@
 #include <memory>
 #include <sstream>
 
+#include "base/build_name.h"
 #include "base/files/output_file.h"
 #include "base/printable.h"
 #include "base/stopwatch.h"
@@ -95,6 +96,9 @@ void printStanding(const BatchPlan& plan, const BatchStanding& standing) {
         say(stdout,
             "{} are out of date (the base layout or what is to be written has changed) and are baked again\n",
             standing.out_of_date);
+    if (standing.other_build)
+        say(stdout, "{} were made by another build of throng (this is {}) and are baked again\n",
+            standing.other_build, buildName());
     if (!standing.damaged.empty())
         say(stdout, "{} damaged and baked again\n", plural(standing.damaged.size(), "bake is", "bakes are"));
     if (!standing.foreign.empty())

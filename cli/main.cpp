@@ -8,6 +8,7 @@
 #include <new>
 #include <string>
 
+#include "base/build_name.h"
 #include "base/files/errors.h"
 #include "base/printable.h"
 #include "cli/commands.h"
@@ -68,7 +69,7 @@ int main(int argc, char** argv) {
     CLI::App app(
         "Bakes crowds: layouts of roads, walls and flows of people in; animation caches and diagrams out.",
         "throng");
-    app.set_version_flag("--version", "throng " THRONG_VERSION);
+    app.set_version_flag("--version", fmt::format("throng {}, build {}", THRONG_VERSION, buildName()));
     app.require_subcommand(1);
     app.footer(kFooter);
     cli::addBake(app);
@@ -87,6 +88,8 @@ int main(int argc, char** argv) {
     cli::addGenerate(app);
     cli::addBatch(app);
     cli::addReport(app);
+    cli::addCompletions(app);
+    cli::addManual(app);
     const bool json = cli::asksForJson(argc, argv);
     try {
         return withAllPrinted(parseAndRun(app, argc, argv, json));

@@ -88,8 +88,9 @@ std::string infoText(const Bake& bake) {
                             bake.manifest.value("/terrain/highest"_json_pointer, 0.0));
     text += extras(bake);
     text += fmt::format("files:        {}, {}\n", bake.files.size(), readableBytes(totalBytes(bake)));
-    text += fmt::format("made by:      {} on {}\n", optionalText(bake.manifest, "/generator"),
-                        optionalText(bake.manifest, "/device/renderer"));
+    text +=
+        fmt::format("made by:      {}, build {}, on {}\n", optionalText(bake.manifest, "/generator"),
+                    optionalText(bake.manifest, "/build"), optionalText(bake.manifest, "/device/renderer"));
     return text;
 }
 

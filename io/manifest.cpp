@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "base/build_name.h"
 #include "base/outcomes.h"
 #include "io/streams/stream_format.h"
 
@@ -187,6 +188,7 @@ Json bakeManifest(const recording::BakeDescription& description, const BakeOutco
     json["format"] = "throng bake";
     json["version"] = 1;
     json["generator"] = "throng " THRONG_VERSION;
+    json["build"] = buildName();
     json["name"] = description.name;
     json["complete"] = outcome.complete;
     json["layout"] = layoutToJson(description);

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <span>
 
+#include "base/build_name.h"
 #include "base/files/hash.h"
 #include "base/stopwatch.h"
 #include "cli/baking/calibration_file.h"
@@ -25,9 +26,10 @@ constexpr const char* kMotion = "motion";
 
 /// Everything that the bytes of a bake depend on.
 std::string identityOf(const LoadedLayout& loaded, const BakeJob& job, const gl::Device& device) {
-    std::string text = fmt::format(
-        "{}\n{}\n{}\n{} {} {} {} {}\n", THRONG_VERSION, device.name, device.version, job.diagram_every,
-        job.seconds, throng::identityOf(job.streams), job.options.gltf, job.options.gltf_agents);
+    std::string text =
+        fmt::format("{} {}\n{}\n{}\n{} {} {} {} {}\n", THRONG_VERSION, buildName(), device.name,
+                    device.version, job.diagram_every, job.seconds, throng::identityOf(job.streams),
+                    job.options.gltf, job.options.gltf_agents);
     for (const std::string& override_text : loaded.overrides)
         text += override_text + "\n";
     if (loaded.fields_on_device) text += "fields on the device\n";  // other bits than the CPU's
@@ -74,8 +76,8 @@ std::optional<io::Checkpoint> findCheckpoint(const recording::BakeDescription& d
     if (job.options.force) return std::nullopt;
     if (job.resume)
         throw OutputError(folder,
-                          "was begun with another layout, other options or another driver; --force "
-                          "starts over");
+                          "was begun with another layout, other options, another driver or another build of "
+                          "throng; --force starts over");
     throw OutputError(folder, fmt::format("holds the first {} of {} frames of an earlier run; --resume "
                                           "goes on with it, --force starts over",
                                           checkpoint->frames, description.frames));

@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "base/build_name.h"
 #include "base/files/input_file.h"
 #include "base/files/output_file.h"
 #include "base/json_shape.h"
@@ -60,15 +61,17 @@ BatchStanding standingOf(const BatchPlan& plan, const BatchFolder& folder, bool 
                 // Its layout cannot be made: it fails again, and says so.
             }
             const bool fits = result->at("input") == input;
+            const bool is_ours = result->value("build", ordered_json()) == buildName();
             const bool well = result->at("status") == "ok";
             const bool has_bake = fs::exists(folder.bake(id), ignored);
             const bool is_sound =
                 !keeps || (has_bake && (!mine(i) || io::verifyBake(folder.bake(id)).problems.empty()));
-            if (fits && well && is_sound) {
+            if (fits && is_ours && well && is_sound) {
                 ++standing.done;
                 continue;
             }
-            if (fits && well && has_bake) standing.damaged.push_back(i);
+            if (fits && is_ours && well && has_bake) standing.damaged.push_back(i);
+            standing.other_build += well && fits && !is_ours ? 1 : 0;
             standing.failed_before += !well ? 1 : 0;
             standing.out_of_date += well && !fits ? 1 : 0;
         }

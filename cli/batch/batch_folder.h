@@ -42,6 +42,7 @@ struct BatchStanding {
     std::size_t done = 0;
     std::size_t failed_before = 0;     ///< among the open ones
     std::size_t out_of_date = 0;       ///< among the open ones: made from another layout or other options
+    std::size_t other_build = 0;       ///< among the open ones: not out of date, but made by another program
     std::vector<std::size_t> damaged;  ///< among the open ones: their bakes are not as they were written
     std::vector<std::string> foreign;  ///< ids of results that belong to no scenario of the family
 };

@@ -14,6 +14,7 @@
 
 #include "analysis/measure/measure.h"
 #include "authoring/layout/layout_reader.h"
+#include "base/build_name.h"
 #include "base/stopwatch.h"
 #include "cli/baking/judge.h"
 #include "sim/gl/context.h"
@@ -66,6 +67,7 @@ ordered_json headOf(const BatchPlan& plan, std::size_t index, const std::string&
         result["parameters"][name] = value;
     result["input"] = input;
     result["version"] = THRONG_VERSION;
+    result["build"] = buildName();
     result["host"] = hostName();
     result["ended"] = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
     return result;

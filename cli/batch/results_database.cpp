@@ -11,6 +11,7 @@
 #include <memory>
 #include <set>
 
+#include "base/build_name.h"
 #include "base/files/csv.h"
 #include "base/files/errors.h"
 #include "base/files/output_file.h"
@@ -86,6 +87,7 @@ constexpr Column kColumns[] = {
     {"total_seconds", "REAL", "/seconds/total"},
     {"peak_memory_mib", "REAL", "/peak_memory_mib"},
     {"version", "TEXT", "/version"},
+    {"build", "TEXT", "/build"},
     {"device", "TEXT", "/device"},
     {"driver", "TEXT", "/driver"},
     {"host", "TEXT", "/host"},
@@ -140,7 +142,8 @@ void fill(SQLite::Database& database, const BatchPlan& plan, const BatchFolder& 
     SQLite::Statement about(database, "INSERT INTO batch VALUES (?, ?)");
     for (const auto& [key, value] :
          {std::pair{"name", plan.family().name}, std::pair{"base", plan.family().base_name},
-          std::pair{"version", std::string(THRONG_VERSION)}, std::pair{"family", plan.selfContained()}}) {
+          std::pair{"version", std::string(THRONG_VERSION)}, std::pair{"build", std::string(buildName())},
+          std::pair{"family", plan.selfContained()}}) {
         put(about, 1, key);
         put(about, 2, value);
         insert(about);

@@ -12,6 +12,7 @@
 #include <numbers>
 #include <set>
 
+#include "base/build_name.h"
 #include "base/files/beneath.h"
 #include "base/files/hash.h"
 #include "base/files/input_file.h"
@@ -359,6 +360,7 @@ class Application {
     void writeManifest(const Json& gltf) {
         Json manifest = source_.manifest;
         manifest["generator"] = "throng " THRONG_VERSION;
+        manifest["build"] = buildName();
         manifest["inputs"] = "xxh3:" + hashText(manifest.value("inputs", "") + "\n" + options_.identity);
         std::uint32_t variations = manifest.value("variations", 1u);
         for (const ChangedRow& each : rows_)
