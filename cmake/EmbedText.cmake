@@ -12,16 +12,20 @@ function(throng_cut_text text tag out)
     set(${out} "${pieces}" PARENT_SCOPE)
 endfunction()
 
-# throng_embed_schema(FILE FUNCTION HEADER): writes FUNCTION.cpp into the build folder, which defines
-# std::string_view throng::authoring::FUNCTION(), declared in HEADER, as the content of FILE.
+# throng_embed_schema(FILE FUNCTION HEADER [ROOM]): writes FUNCTION.cpp into the build folder, which defines
+# std::string_view throng::ROOM::FUNCTION(), declared in HEADER, as the content of FILE. ROOM is authoring unless told.
 function(throng_embed_schema file function header)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
     file(READ ${file} text)
+    set(room authoring)
+    if(ARGC GREATER 3)
+        set(room ${ARGV3})
+    endif()
     throng_cut_text("${text}" schema pieces)
     file(CONFIGURE OUTPUT ${function}.cpp @ONLY CONTENT
 "#include \"@header@\"
 
-namespace throng::authoring {
+namespace throng::@room@ {
 std::string_view @function@() {
     return
 @pieces@;

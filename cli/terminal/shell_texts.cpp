@@ -167,7 +167,7 @@ std::string roffOptions(const CLI::App& command) {
     for (const CLI::Option* option : command.get_options()) {
         if (option->get_group().empty()) continue;
         const std::string type = option->get_type_size() > 0 ? " " + option->get_type_name() : "";
-        text += fmt::format(".TP\n.B {}\n{}\n", roff(option->get_name(option->get_positional()) + type),
+        text += fmt::format(".TP\n.B {}\n{}\n", roff(option->get_name(option->get_positional(), true) + type),
                             roff(option->get_description()));
     }
     return text;
