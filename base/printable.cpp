@@ -59,6 +59,15 @@ std::string printable(std::string_view text, bool lines) {
     return result;
 }
 
+std::string shortened(std::string text) {
+    constexpr std::size_t kLongest = 600;  // bytes
+    if (text.size() <= kLongest) return text;
+    std::size_t end = kLongest;
+    while ((static_cast<unsigned char>(text[end]) & 0xc0u) == 0x80u)
+        --end;  // no character is cut in two
+    return text.substr(0, end) + "...";
+}
+
 bool isFileName(std::string_view name) {
     constexpr std::size_t kLongest = 200;  // bytes: the 255 of file systems, less what is put behind it
     return !name.empty() && name.size() <= kLongest && name != "." && name != ".." &&

@@ -9,6 +9,7 @@
 
 #include "base/files/input_file.h"
 #include "base/json_shape.h"
+#include "base/printable.h"
 
 namespace throng::io {
 namespace fs = std::filesystem;
@@ -111,7 +112,7 @@ Json parseManifest(const fs::path& path, const std::string& text) {
     try {
         return Json::parse(text);
     } catch (const nlohmann::json::exception& error) {
-        throw InputError(path, std::string("not a manifest: ") + error.what());
+        throw InputError(path, "not a manifest: " + shortened(printable(error.what())));
     }
 }
 
