@@ -7,15 +7,14 @@ from functools import lru_cache
 
 import numpy
 
-from ..cast import BEATS, POSES, gait
+from ..cast import BEATS, POSES, gait, skinning
 from ..cast.library import BLURS_UNTIL, shaped
-from ..cast.sheets import Posed
+from ..cast.bones import Boned
 from . import figures, library, roster
 from .person import Maker
-from .rig import skinned
 
 LOOK = "casual"
-MEMBERS = 20      # of a cast: women and men of all ages, two children among them
+MEMBERS = 64      # of a cast: women and men of all ages, some children among them
 FINE = 4096.0     # steps a metre: what is finer is not seen, and files are a third as large without it
 CHILD_UNTIL = 0.205  # m: people of a smaller radius are children
 _KEPT = 2         # people who stay in memory: all their levels are made one after the other
@@ -58,15 +57,15 @@ def _matrices(number, look, repertoire):
     return numpy.stack([rig.matrices(pose) for pose in poses_of(rig.build, repertoire)])
 
 
-def posed_of(number, level, repertoire, look=LOOK):
+def boned_of(number, level, repertoire, look=LOOK):
     """A member at a level, for cast.sheets."""
     model = maker_of(number, look).model(level)
-    matrices = _matrices(number, look, repertoire)[repertoire.sources(level)]
-    posed = skinned(model.points, model.weights, matrices)
-    points = (numpy.rint(posed * FINE) / FINE + 0.0).astype(numpy.float32)  # no zero is negative
+    hangs = skinning.hinged(model.points, model.weights, bodies().parents, _matrices(number, look, repertoire))
+    points = (numpy.rint(hangs.points * FINE) / FINE + 0.0).astype(numpy.float32)  # no zero is negative
     cycles = tuple((POSES, gait.gait_of(stride).seconds / POSES) for stride in repertoire.strides)
-    mesh = figures.mesh_of("throng figure", model, points[-1], look, bodies())
-    return Posed(mesh, points, cycles=cycles if level <= BLURS_UNTIL else ())
+    mesh = figures.mesh_of("throng figure", model, points, look, bodies())
+    return Boned(mesh, hangs.weights, hangs.matrices, tuple(repertoire.sources(level)),
+                 cycles if level <= BLURS_UNTIL else ())
 
 
 def choose(people, count, drawn):
@@ -106,4 +105,4 @@ def read_people(folder):
 
 
 # the cast's own library calls these for members whose cast has a look
-shaped.make, shaped.check = posed_of, bodies
+shaped.make, shaped.check = boned_of, bodies
