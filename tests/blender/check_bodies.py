@@ -19,7 +19,7 @@ from throng.people.puppet import Puppet  # noqa: E402
 
 PEOPLE = (0, 1, 9)  # a man, a woman, a girl
 drawn = members.person_of
-members.MEMBERS, members.person_of = len(PEOPLE), lambda number, look=members.LOOK: drawn(PEOPLE[number], look)
+members.person_of = lambda number, look=members.LOOK: drawn(PEOPLE[number], look)
 bpy.ops.wm.read_factory_settings(use_empty=True)
 throng.register()
 scene, result = bpy.context.scene, {}
@@ -27,7 +27,7 @@ scene, result = bpy.context.scene, {}
 
 def load():
     return bpy.ops.import_scene.throng(filepath=os.path.join(bake, "bake.json"), scenery=False, walls=False,
-                                       roads=False, relative=False)
+                                       roads=False, relative=False, people=len(PEOPLE))
 
 
 def refused(call, **arguments):

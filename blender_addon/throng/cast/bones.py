@@ -24,10 +24,10 @@ _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
 
 @dataclass
 class Boned:
-    """A mesh at rest, and its B bones in P poses of level 0."""
+    """A mesh at rest on B bones."""
     mesh: bpy.types.Mesh
     weights: numpy.ndarray    # (V, B), at most MOST of a vertex
-    matrices: numpy.ndarray   # (P, B, 3, 4)
+    matrices: object          # () gives (P, B, 3, 4), of the bones in all poses of level 0: one level of somebody asks
     sources: tuple            # for each pose of this level the one of level 0 that it is
     cycles: tuple = ()        # as those of sheets.Posed
 
@@ -150,7 +150,7 @@ def skinned(maths, figure, sheet, boned):
     group.node_tree = _skin_tree()
     maths.link(figure, group.inputs["Figure"])
     maths.link(sheet, group.inputs["Sheet"])
-    for name, number in (("Poses", len(boned.sources)), ("Bones", boned.matrices.shape[1]),
+    for name, number in (("Poses", len(boned.sources)), ("Bones", boned.weights.shape[1]),
                          *zip(_RUNS, runs_of(tuple(boned.sources)))):
         group.inputs[name].default_value = number
     remove = maths.node("GeometryNodeRemoveAttribute")

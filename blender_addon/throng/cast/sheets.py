@@ -79,7 +79,7 @@ def _boned_figure(name, boned, sheet):
     figure["throng_sources"] = list(boned.sources)
     modifier = figure.modifiers.new(MODIFIER, "NODES")
     modifier.node_group = _poses_tree(len(boned.sources), 0, boned.cycles, boned)
-    set_input(modifier, "Sheet", sheet or bones.make_sheet(f"{name} bones", boned.matrices))
+    set_input(modifier, "Sheet", sheet or bones.make_sheet(f"{name} bones", boned.matrices()))
     return figure
 
 
@@ -183,7 +183,7 @@ def _poses_tree(poses, blurring, cycles, boned=None):
     neighbours = _neighbours(cycles)
     name = f"Throng {poses} poses, {blurring} blur"
     if cycles or boned:  # names have room for 63 letters
-        which = (cycles, boned and (tuple(boned.sources), boned.matrices.shape[1]))
+        which = (cycles, boned and (tuple(boned.sources), boned.weights.shape[1]))
         name = f"Throng {poses} poses{' of bones' if boned else ''}, blur {zlib.crc32(repr(which).encode()):08x}"
     found = own_tree(name)
     if found:

@@ -4,20 +4,11 @@
 They hang on as few bones as their poses tell apart: fingers never move beside the hand, nor shoulder blades beside the
 chest, so they need no place in what files keep of every pose.
 """
-from dataclasses import dataclass
-
 import numpy
 
 MOST = 4          # bones that a vertex hangs on
 SHARES = 4096.0   # steps of a share: what is finer is not seen, and files are smaller without it
 _STILL = 1e-7     # how much a bone may move beside another one and still go with it
-
-
-@dataclass(frozen=True)
-class Hinged:
-    points: numpy.ndarray    # (V, 3) m, at rest, after what never changes has been done to them
-    weights: numpy.ndarray   # (V, B)
-    matrices: numpy.ndarray  # (P, B, 3, 4)
 
 
 def _whole(matrices):
@@ -44,16 +35,16 @@ def leaders_of(parents, matrices):
     return numpy.array(leaders), numpy.stack(turns)
 
 
-def hinged(points, weights, parents, matrices):
-    """@param points (V, 3) at rest; @param weights (V, all bones); @param matrices (P, all bones, 3, 4)"""
-    leaders, turns = leaders_of(parents, matrices)
+def hinged(points, weights, leaders, turns):
+    """(points at rest, weights) of a mesh on those bones alone that lead: of (V, 3) and (V, all bones)."""
     used, column = numpy.unique(leaders, return_inverse=True)
     whole = numpy.concatenate([points, numpy.ones((len(points), 1))], axis=1)
-    moved = numpy.einsum("vb,bij,vj->vi", weights, turns[:, :3], whole, optimize=True)
+    blended = numpy.tensordot(weights, turns[:, :3], (1, 0))
+    moved = numpy.einsum("vij,vj->vi", blended, whole) / weights.sum(axis=1, keepdims=True)
     few = numpy.zeros((len(points), len(used)))
     for bone, place in enumerate(column):
         few[:, place] += weights[:, bone]
-    return Hinged(moved / weights.sum(axis=1, keepdims=True), strongest(few), matrices[:, used])
+    return moved, strongest(few)
 
 
 def strongest(weights):
