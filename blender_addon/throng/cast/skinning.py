@@ -49,8 +49,8 @@ def hinged(points, weights, leaders, turns):
 
 def strongest(weights):
     """The MOST largest weights of every vertex, which add up to 1."""
-    least = numpy.sort(weights, axis=1)[:, -min(MOST, weights.shape[1]), None]
-    kept = numpy.where(weights >= least, weights, 0.0)
+    kept, order = numpy.zeros_like(weights), numpy.argsort(-weights, axis=1, kind="stable")[:, :MOST]
+    numpy.put_along_axis(kept, order, numpy.take_along_axis(weights, order, axis=1), axis=1)
     return kept / kept.sum(axis=1, keepdims=True)
 
 

@@ -85,7 +85,8 @@ def choose(people, count, drawn):
     """
     folk = sorted(range(count), key=lambda number: (breadth_of(person_of(number)), number))
     # by breadth; how broad somebody is among the members should be how broad it is among the people
-    fitting = {child: [number for number in folk if person_of(number).child == child] or folk for child in (True, False)}
+    fitting = {child: [number for number in folk if person_of(number).child == child] or folk
+               for child in (True, False)}
     chosen = []
     for row, (radius, variation) in enumerate(people):
         fits = fitting[radius < CHILD_UNTIL]

@@ -32,7 +32,7 @@ class IMPORT_SCENE_OT_throng(bpy.types.Operator, ImportHelper):
                            description="With the ground: cars, trees, benches and the like where nobody walks, and "
                                        "streets that go on where the layout's end")
     camera: BoolProperty(name="Camera", default=True, description="Add a camera that frames the crowd")
-    people: IntProperty(name="Different People", default=members.MEMBERS, min=1, soft_max=members.MEMBERS, max=999,
+    people: IntProperty(name="Different People", default=members.MEMBERS, min=1, max=90,
                         description="How many people the crowd draws on, where they are shaped from a library of "
                                     "bodies: more take more memory, and time to make")
     relative: BoolProperty(name="Relative Paths", default=True,
