@@ -15,6 +15,11 @@ std::optional<double> finiteNumber(std::string_view text) {
     return is_whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
+double withDigits(double value, int digits) {
+    if (!std::isfinite(value)) return value;
+    return finiteNumber(fmt::format("{:.{}g}", value, digits)).value_or(value);
+}
+
 std::string grouped(std::uint64_t number) {
     std::string text = std::to_string(number);
     for (std::size_t at = text.size(); at > 3;) {

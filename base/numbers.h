@@ -12,6 +12,9 @@ namespace throng {
 /// A number that is all of a text, and finite.
 std::optional<double> finiteNumber(std::string_view text);
 
+/// As it reads with so many digits: the same wherever it is printed.
+double withDigits(double value, int digits);
+
 /// 1234567 -> "1,234,567"
 std::string grouped(std::uint64_t number);
 

@@ -160,7 +160,8 @@ void writeCrowd(const std::string& path, const authoring::Scene& scene) {
     writeFile(path, table);
 }
 
-/// Steps when told to, so that another program can be timed in turn: one step per line of the standard input.
+/// Steps when told to, so that another program can be timed in turn: for a line of the standard input, as
+/// many as there are from one decision of people to the next.
 void runStep(const StepOptions& options) {
     const gl::Context context({options.device, false});
     authoring::Scene scene = sim::ProximityBenchmark{}.crowd(options.people);
@@ -168,23 +169,27 @@ void runStep(const StepOptions& options) {
         options.proximity == "grid" ? authoring::Proximity::grid : authoring::Proximity::voronoi;
     if (!options.crowd.empty()) writeCrowd(options.crowd, scene);
     sim::Simulation simulation(scene, gl::ShaderLibrary(), costsFor(context.device()));
-    simulation.step();
+    const int steps = scene.settings.stepsPerDecision();
+    for (int step = 0; step < steps; ++step)
+        simulation.step();
     simulation.wait();
     fmt::print("{}\n", context.device().name);
     std::fflush(stdout);
     for (std::string line; std::getline(std::cin, line);) {
         const auto start = std::chrono::steady_clock::now();
-        simulation.step();
+        for (int step = 0; step < steps; ++step)
+            simulation.step();
         simulation.wait();
         const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
-        fmt::print("{:.4f}\n", time.count());
+        fmt::print("{:.4f}\n", time.count() / steps);
         std::fflush(stdout);
     }
 }
 
 void addStep(CLI::App& bench) {
-    CLI::App* command = bench.add_subcommand(
-        "step", "Whole steps, one for each line of the standard input: their times in ms, a line each");
+    CLI::App* command = bench.add_subcommand("step",
+                                             "Whole steps, those of a frame for each line of the standard "
+                                             "input: their mean time in ms, a line each");
     auto options = std::make_shared<StepOptions>();
     command->add_option("--people", options->people, "One per 4 m^2, on their way to random goals")
         ->check(CLI::Range(1, 4'000'000))

@@ -99,9 +99,10 @@ gpu::Parameters makeParameters(const authoring::Scene& scene) {
     const glm::vec2 extent = glm::max(scene.maximum - scene.minimum, glm::vec2(1.0f));
     gpu::Parameters parameters{};
     parameters.step_seconds = static_cast<float>(1.0 / (settings.fps * settings.substeps));
+    parameters.decision_seconds = parameters.step_seconds * static_cast<float>(settings.stepsPerDecision());
     parameters.largest_radius = scene.largest_radius;
     // Both may walk, and both may be pushed.
-    parameters.contact_slack = 2.0f * fastest(scene) * parameters.step_seconds + 2.0f * kPushAllowance;
+    parameters.contact_slack = 2.0f * fastest(scene) * parameters.decision_seconds + 2.0f * kPushAllowance;
     parameters.contact_range = std::max(static_cast<float>(settings.contact_range),
                                         2.0f * scene.largest_radius + parameters.contact_slack);
     parameters.cells_minimum = scene.minimum;
@@ -223,7 +224,7 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
     touch_slots = gl::Buffer("touch slots", {rows, kWord, kPerson});
     touch_dispatch = gl::Buffer("touch dispatch", kWord * 4);
     preferred_velocities = gl::Buffer("preferred velocities", {rows, sizeof(glm::vec2), kPerson});
-    paces = gl::Buffer("paces", {rows, sizeof(float), kPerson});
+    decisions = gl::Buffer("decisions", {rows, sizeof(gpu::Decision), kPerson});
     ways = gl::Buffer("ways", {rows, sizeof(glm::vec2), kPerson});
     targets = gl::Buffer("targets", {rows, sizeof(glm::vec2), kPerson});
     targets_after = gl::Buffer("targets after contact", {rows, sizeof(glm::vec2), kPerson});
@@ -286,7 +287,7 @@ std::vector<std::pair<std::string, const gl::Buffer*>> Buffers::named() const {
             {"TouchSlots", &touch_slots},
             {"TouchDispatch", &touch_dispatch},
             {"PreferredVelocities", &preferred_velocities},
-            {"Paces", &paces},
+            {"Decisions", &decisions},
             {"Ways", &ways},
             {"Targets", &targets},
             {"TargetsAfter", &targets_after}};

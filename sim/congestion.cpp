@@ -7,8 +7,7 @@
 namespace throng::sim {
 namespace {
 
-constexpr std::uint32_t kStepsPerLook = 4;   // the crowd is looked at this often
-constexpr std::uint32_t kStepsPerRound = 4;  // every field is relaxed once within this many steps
+constexpr std::uint32_t kStepsPerRound = 4;
 
 const gl::Declaration kFlow = {
     "routes",
@@ -43,7 +42,9 @@ Congestion::Congestion(const gl::ShaderLibrary& library, Buffers& buffers, const
     if (detours.distances.empty()) return;
     cells_ = parameters.detour_width * parameters.detour_height;
     fields_ = static_cast<std::uint32_t>(detours.ground_of_field.size());
-    fields_per_step_ = (fields_ + kStepsPerRound - 1) / kStepsPerRound;
+    const auto steps_per_run = static_cast<std::uint32_t>(scene.settings.stepsPerDecision());
+    runs_per_round_ = std::max(kStepsPerRound / steps_per_run, 1u);
+    fields_per_run_ = (fields_ + runs_per_round_ - 1) / runs_per_round_;
     blocks_ = (cells_ + gpu::PIXEL_GROUP_SIZE - 1) / gpu::PIXEL_GROUP_SIZE;
     std::vector<gpu::FieldMap> maps;
     for (std::uint32_t field = 0; field < fields_; ++field)
@@ -54,7 +55,7 @@ Congestion::Congestion(const gl::ShaderLibrary& library, Buffers& buffers, const
     free_distances_ = gl::makeBuffer("free distances", detours.distances, "cell of a detour field");
     distances_ = gl::makeBuffer("detour distances", detours.distances, "cell of a detour field");
     next_distances_ = gl::Buffer(
-        "next distances", {std::size_t{cells_} * fields_per_step_, sizeof(float), "cell of a detour field"});
+        "next distances", {std::size_t{cells_} * fields_per_run_, sizeof(float), "cell of a detour field"});
     flows_ = gl::Buffer("crowd flows", {cells_, sizeof(gpu::CrowdFlow), "detour cell"});
     flows_.fill(0);
     dense_blocks_ = gl::Buffer("dense blocks", {blocks_, sizeof(std::uint32_t), "block of detour cells"});
@@ -64,7 +65,7 @@ Congestion::Congestion(const gl::ShaderLibrary& library, Buffers& buffers, const
     changed_now_ = gl::Buffer("blocks changed now", marks);
     changed_before_.fill(1);  // nothing is known to have settled
     changed_now_.fill(0);
-    listed_ = gl::Buffer("listed blocks", {std::size_t{fields_per_step_} * blocks_, sizeof(std::uint32_t),
+    listed_ = gl::Buffer("listed blocks", {std::size_t{fields_per_run_} * blocks_, sizeof(std::uint32_t),
                                            "block of a detour field"});
     no_blocks_ = gl::makeBuffer("no blocks", std::vector<std::uint32_t>{0, 1, 1});
     block_dispatch_ = gl::Buffer("block dispatch", no_blocks_.bytes());
@@ -87,16 +88,16 @@ Congestion::Congestion(const gl::ShaderLibrary& library, Buffers& buffers, const
     relax_.bind("ChangedBlocks", changed_now_);
     const auto memory = static_cast<float>(rules.number("routes_round_jams", "memory"));
     flow_.set("fading",
-              1.0f - std::exp(-static_cast<float>(kStepsPerLook) * parameters.step_seconds / memory));
+              1.0f - std::exp(-static_cast<float>(runs_per_round_) * parameters.decision_seconds / memory));
 }
 
 void Congestion::run() {
     if (fields_ == 0) return;
-    if (clock_.steps++ % kStepsPerLook == 0) {
+    if (clock_.runs++ % runs_per_round_ == 0) {
         dense_blocks_.fill(0);
         flow_.dispatch(cells_);
     }
-    const std::uint32_t count = std::min(fields_per_step_, fields_ - clock_.next_field);
+    const std::uint32_t count = std::min(fields_per_run_, fields_ - clock_.next_field);
     list_.set("field_count", count);
     for (gl::ComputeProgram* program : {&list_, &relax_, &keep_})
         program->set("first_field", clock_.next_field);
@@ -125,7 +126,7 @@ void Congestion::listBlocks(const gl::Buffer& changed, bool dense_too) {
     block_dispatch_.copyFrom(no_blocks_);
     list_.bind("ChangedBlocks", changed);
     list_.set("dense_too", dense_too ? 1u : 0u);
-    list_.dispatch(std::uint64_t{std::min(fields_per_step_, fields_ - clock_.next_field)} * blocks_);
+    list_.dispatch(std::uint64_t{std::min(fields_per_run_, fields_ - clock_.next_field)} * blocks_);
 }
 
 }  // namespace throng::sim

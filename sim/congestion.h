@@ -22,7 +22,7 @@ class Congestion {
     /// Where it stands in its rounds: with the buffers, all that it remembers.
     struct Clock {
         std::uint32_t next_field = 0;
-        std::uint32_t steps = 0;
+        std::uint32_t runs = 0;
     };
     Clock clock() const { return clock_; }
     void setClock(const Clock& clock) { clock_ = clock; }
@@ -33,7 +33,8 @@ class Congestion {
 
     std::uint32_t cells_ = 0, blocks_ = 0;  // of one map
     std::uint32_t fields_ = 0;
-    std::uint32_t fields_per_step_ = 0;
+    std::uint32_t runs_per_round_ = 1;  // once a round, the crowd is looked at and every field is relaxed
+    std::uint32_t fields_per_run_ = 0;
     Clock clock_;
     gl::Buffer ground_, free_distances_, distances_, next_distances_, flows_;
     gl::Buffer field_maps_, dense_blocks_;

@@ -25,14 +25,19 @@ const gl::Declaration kSteer = {
     "avoidance",
     {"shaders/motion/steer.comp"},
     {"ParametersBlock", "LiveDispatch", "States", "Bodies", "Walkers", "Stages", "field_cells",
-     "DetourSlopes", "WaitingLines", "LinePoints", "TouchWords", "TerrainNodes"},
+     "DetourSlopes", "WaitingLines", "LinePoints", "NeighbourCounts", "TouchWords", "TerrainNodes"},
     {"Walkers", "PreferredVelocities"}};
 const gl::Declaration kAvoid = {
     "avoidance",
     {"shaders/motion/avoid.comp"},
     {"ParametersBlock", "LiveDispatch", "States", "Bodies", "Walkers", "PreferredVelocities", "Neighbours",
      "NeighbourCounts", "TouchWords", "WallSegments", "WallStarts", "WallItems", "RoadDistances"},
-    {"TouchWords", "Targets", "TargetsAfter", "Paces", "Ways"}};
+    {"TouchWords", "Targets", "TargetsAfter", "Decisions", "Ways"}};
+const gl::Declaration kCarryOn = {
+    "avoidance",
+    {"shaders/motion/carry_on.comp"},
+    {"ParametersBlock", "LiveDispatch", "States", "Decisions", "Bodies", "Walkers"},
+    {"Bodies", "Walkers", "Targets", "TargetsAfter", "Ways"}};
 const gl::Declaration kContact = {
     "contacts",
     {"shaders/motion/contact.comp"},
@@ -44,7 +49,7 @@ const gl::Declaration kMove = {
     "motion",
     {"shaders/motion/move.comp"},
     {"ParametersBlock", "LiveDispatch", "People", "Bodies", "Walkers", "PreferredVelocities", "TouchWords",
-     "Paces", "Ways", "Targets", "Stages", "field_cells", "DetourSlopes", "PlanChanges", "WaitingLines",
+     "Decisions", "Ways", "Targets", "Stages", "field_cells", "DetourSlopes", "PlanChanges", "WaitingLines",
      "LinePoints", "States"},
     {"WaitingLines", "States"}};
 
@@ -85,7 +90,8 @@ Avoidance::Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, int nei
           library, kSteer,
           together(rules.definitions(), ground ? gl::Definitions{{"TERRAIN", "1"}} : gl::Definitions{}))),
       avoid_(buffers.connect(library, kAvoid,
-                             together(rules.definitions(), {{"NEIGHBOURS", std::to_string(neighbours)}}))) {
+                             together(rules.definitions(), {{"NEIGHBOURS", std::to_string(neighbours)}}))),
+      carry_on_(buffers.connect(library, kCarryOn, rules.definitions())) {
     avoid_.set("slot_capacity", buffers.slotCapacity());
     if (ground) ground->describeTo(steer_);
 }
@@ -94,6 +100,10 @@ void Avoidance::run(std::uint32_t steps_done) {
     steer_.setIfUsed("steps_done", steps_done);
     steer_.dispatchIndirect(buffers_.live_dispatch);
     avoid_.dispatchIndirect(buffers_.live_dispatch);
+}
+
+void Avoidance::carryOn() {
+    carry_on_.dispatchIndirect(buffers_.live_dispatch);
 }
 
 Contacts::Contacts(const gl::ShaderLibrary& library, Buffers& buffers, int iterations,

@@ -42,10 +42,12 @@ class Avoidance {
     Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, int neighbours, const TerrainSlopes* ground,
               const MotionSettings& rules);
     void run(std::uint32_t steps_done);
+    /// Steps between two decisions: as was decided.
+    void carryOn();
 
   private:
     Buffers& buffers_;
-    gl::ComputeProgram steer_, avoid_;
+    gl::ComputeProgram steer_, avoid_, carry_on_;
 };
 
 /// Keeps bodies out of each other and out of walls.

@@ -125,6 +125,7 @@ void Simulation::restore(const State& state) {
         p.gates.move(p.now());
     }
     p.steps_done = state.steps_done;
+    p.has_decided = false;
 }
 
 void Simulation::adaptTo(std::uint32_t people_present) {
@@ -185,6 +186,7 @@ void Simulation::packFrame(const gl::Buffer& buffer) {
 }
 
 bool Simulation::buildDiagramNow(Extent extent) {
+    parts_->has_decided = false;  // the order is another one
     parts_->cells.run(CellSort::SiteIds::rows);
     return parts_->diagram.build(extent);
 }

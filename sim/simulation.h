@@ -50,8 +50,9 @@ class Simulation {
     DiagramMethod diagramMethod() const;
     bool diagramIsPaged() const;
 
-    /// Waits for the device. Another simulation of the same scene on the same driver that is given this state
-    /// goes on to the very same bytes. An earlier state of a simulation's own is for saving again only.
+    /// Waits for the device. Between frames: another simulation of the same scene on the same driver that is
+    /// given this state goes on to the very same bytes. An earlier state of a simulation's own is for saving
+    /// again only.
     State save() const;
     /// @throws std::runtime_error for the state of another scene
     void restore(const State& state);
@@ -63,7 +64,7 @@ class Simulation {
     void packFrame(const gl::Buffer& buffer);
     std::size_t frameBytes() const;
 
-    /// Brings the diagram up to the present positions; the next step builds its own.
+    /// Brings the diagram up to the present positions, between frames; the next step builds its own.
     /// @returns false where that was stopped
     bool buildDiagramNow(Extent extent = Extent::everywhere);
     Diagram& diagram();

@@ -105,26 +105,39 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
 
 std::vector<Pass> Simulation::Parts::passesOfStep() {
     const auto enter = [this] {
-        if (anybody_enters_later) spawner.run(step_start, steps_done);
+        if (decides && anybody_enters_later) spawner.run(step_start, steps_done);
     };
     const auto build = [this] {
-        if (sensing.needsDiagram()) stopped = !diagram.build(extent);
+        if (decides && sensing.needsDiagram()) stopped = !diagram.build(extent);
+    };
+    const auto decide = [this] {
+        if (decides)
+            avoidance.run(steps_done);
+        else
+            avoidance.carryOn();
+    };
+    const auto when_deciding = [this](auto& part) {
+        return [this, &part] {
+            if (decides) part.run();
+        };
     };
     const auto move = [this] {
         motion.run(steps_done);
         lines.run();
     };
-    return {{"cells", [this] { cells.run(); }},
-            {"routes", [this] { congestion.run(); }},
+    return {{"cells", when_deciding(cells)},
+            {"routes", when_deciding(congestion)},
             {"spawn", enter},
             {"diagram", build},
-            {"sensing", [this] { sensing.run(); }},
-            {"avoidance", [this] { avoidance.run(steps_done); }},
+            {"sensing", when_deciding(sensing)},
+            {"avoidance", decide},
             {"contacts", [this] { contacts.run(); }},
             {"motion", move}};
 }
 
 void Simulation::Parts::beginStep() {
+    decides = !has_decided || steps_done % static_cast<std::uint32_t>(settings.stepsPerDecision()) == 0;
+    has_decided = true;
     step_start = now();
     ++steps_done;
     gates.move(step_start);

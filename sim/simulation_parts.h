@@ -18,7 +18,8 @@
 
 namespace throng::sim {
 
-/// One pass of a step: its name, as its programs declare it, and what runs it.
+/// One pass of a step: its name, as its programs declare it, and what runs it. Some run only where people
+/// decide.
 struct Pass {
     std::string name;
     std::function<void()> run;
@@ -55,7 +56,9 @@ struct Simulation::Parts {
 
     std::uint32_t rows = 0;
     std::uint32_t steps_done = 0;
-    float step_start = 0.0f;  // s, simulation time
+    bool decides = true;       // in this step people look round
+    bool has_decided = false;  // slots and lists are those of the last decision
+    float step_start = 0.0f;   // s, simulation time
     bool anybody_enters_later = false;
     std::vector<Pass> passes;  // of a step, in order; they refer to this
 

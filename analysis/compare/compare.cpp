@@ -8,6 +8,7 @@
 
 #include "analysis/plot/line_plot.h"
 #include "base/files/errors.h"
+#include "base/numbers.h"
 
 namespace throng::analysis {
 namespace {
@@ -35,7 +36,7 @@ const std::array kQuantities = {
 };
 
 double rounded(double value) {
-    return std::stod(fmt::format("{:.6g}", value));
+    return withDigits(value, 6);
 }
 
 double secondsOf(const Trajectories& looks) {

@@ -6,6 +6,7 @@
 
 #include "analysis/measure/measure.h"
 #include "analysis/plot/line_plot.h"
+#include "base/numbers.h"
 #include "base/outcomes.h"
 
 namespace throng::analysis {
@@ -14,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 double rounded(double value) {
-    return std::stod(fmt::format("{:.6g}", value));
+    return withDigits(value, 6);
 }
 
 Json spreadJson(const Spread& spread) {

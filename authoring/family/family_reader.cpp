@@ -12,6 +12,7 @@
 #include "authoring/layout/object_reader.h"
 #include "base/files/input_file.h"
 #include "base/json_shape.h"
+#include "base/numbers.h"
 #include "base/printable.h"
 
 namespace throng::authoring {
@@ -306,7 +307,7 @@ class Reader {
         for (std::size_t i = 0; i <= static_cast<std::size_t>(steps); ++i) {
             const double value = range[0] + static_cast<double>(i) * step;
             axis.values.push_back(whole ? Json(static_cast<std::int64_t>(value))
-                                        : Json(std::stod(fmt::format("{:.12g}", value))));
+                                        : Json(withDigits(value, 12)));
         }
     }
 

@@ -11,6 +11,7 @@
 
 #include "authoring/family/family.h"
 #include "authoring/scene/random.h"
+#include "base/numbers.h"
 
 namespace throng::authoring {
 namespace {
@@ -32,7 +33,7 @@ double standardNormalQuantile(double share) {
 
 /// Six digits say enough, read well, and are the same wherever they are printed.
 double readable(double value) {
-    return std::stod(fmt::format("{:.6g}", value));
+    return withDigits(value, 6);
 }
 
 /// A normal distribution without the tails beyond the limits.

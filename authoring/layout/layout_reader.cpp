@@ -76,6 +76,7 @@ class Reader {
         reader.number("warmup", s.warmup);
         reader.number("fps", s.fps);
         reader.integer("substeps", s.substeps);
+        reader.number("decision_interval", s.decision_interval);
         reader.integer("seed", s.seed);
         reader.number("tile_radius", s.tile_radius);
         reader.number("field_of_view", s.field_of_view);

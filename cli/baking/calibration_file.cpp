@@ -43,6 +43,14 @@ nlohmann::ordered_json toJson(const sim::MethodCost& cost) {
     return json;
 }
 
+/// Looked at before it becomes a whole number: none holds what a file may say.
+std::uint32_t blockSide(const nlohmann::json& json) {
+    const auto side = json.get<double>();
+    if (side != 1.0 && side != 2.0 && side != 4.0 && side != 8.0)
+        throw std::runtime_error("blocks of a size that does not exist");
+    return static_cast<std::uint32_t>(side);
+}
+
 sim::MethodCost fromJson(const nlohmann::json& json) {
     sim::MethodCost cost;
     const auto method = authoring::diagramMethodNamed(json.at("method").get<std::string>());
@@ -54,13 +62,10 @@ sim::MethodCost fromJson(const nlohmann::json& json) {
     cost.site_ns = json.at("site_ns");
     cost.covered_ns = json.at("covered_ns");
     if (json.contains("gather")) {
-        cost.gather.block_width = json["gather"].at("block_width");
-        cost.gather.block_height = json["gather"].at("block_height");
+        cost.gather.block_width = blockSide(json["gather"].at("block_width"));
+        cost.gather.block_height = blockSide(json["gather"].at("block_height"));
         cost.gather.bin_radii = json["gather"].at("bin_radii");
-        const auto fits = [](std::uint32_t side) { return side == 1 || side == 2 || side == 4 || side == 8; };
-        if (!fits(cost.gather.block_width) || !fits(cost.gather.block_height) ||
-            !(cost.gather.bin_radii >= 0.25f))
-            throw std::runtime_error("blocks of a size that does not exist");
+        if (!(cost.gather.bin_radii >= 0.25f)) throw std::runtime_error("bins of a size that does not exist");
     }
     return cost;
 }

@@ -21,7 +21,7 @@ layout(std430) readonly buffer RoadDistances { float road_distances[]; };
 layout(std430) writeonly buffer Targets { vec2 targets[]; };  // where each person will be unless bodies touch
 layout(std430) writeonly buffer TargetsAfter { vec2 targets_after[]; };  // the same, for those whom contact passes over
 layout(std430) writeonly buffer Ways { vec2 ways[]; };  // m: what is meant to be added to places; on wide sites
-layout(std430) writeonly buffer Paces { float paces[]; };  // m/s: how fast each person wants to walk behind others
+layout(std430) writeonly buffer Decisions { Decision decisions[]; };
 uniform uint slot_capacity;
 
 // Room for the nearest walls and the kerb.
@@ -70,19 +70,22 @@ void main() {
     Surroundings around = lookAround(self, slot, wish, manners);
     if (HEADWAY_IN_PEACE_ENABLED && around.in_peace && headway <= 0.0)
         pace = paceAmongAll(self, slot, way, speed, headwayInPeace(impatience));
-    paces[slot] = pace;
     if ((touch_words[slot] & TOUCH_IN_NARROWS) != 0u && anybodyIsOncoming(slot)) touch_words[slot] &= ~TOUCH_IN_NARROWS;
 
     vec2 acceleration = drive(wish, speed, pace, self.velocity) + around.room * shareOfRoom(speed) +
                         company(self, walker, way, speed);
-    vec2 wanted = self.velocity + acceleration * parameters.step_seconds;
+    vec2 wanted = self.velocity + acceleration * parameters.decision_seconds;
     vec2 legs = self.velocity;  // what they start from
-    plantFeet(self, walker, around.in_peace && headway > 0.0, around.in_traffic, wanted, legs);
+    uint feet = (around.in_traffic ? FEET_IN_TRAFFIC : 0u) | (around.in_peace && headway > 0.0 ? FEET_WAIT : 0u);
+    plantFeet(self, walker, feet, wanted, legs);
 
     int hard = wallsAhead(self, walker, slot);
     int count = hard + kerbBeside(self, walker, hard);
     vec2 velocity = nearestAllowed(hard, count, self.maximum_speed, wanted);
-    velocity = limitChange(legs, velocity, parameters.maximum_acceleration * parameters.step_seconds);
+    velocity = limitChange(legs, velocity, parameters.maximum_acceleration * parameters.decision_seconds);
+    vec2 change = (velocity - legs) * (parameters.step_seconds / parameters.decision_seconds);
+    decisions[slot] = Decision(change, pace, feet);
+    if (parameters.decision_seconds > parameters.step_seconds) velocity = legs + change;
     vec2 target = self.position + velocity * parameters.step_seconds;
     if (parameters.is_wide != 0u) {
         vec2 way = velocity * parameters.step_seconds + states[self.row].rest;

@@ -10,7 +10,7 @@ layout(std430) readonly buffer Bodies { Body bodies[]; };
 layout(std430) readonly buffer Walkers { Walker walkers[]; };
 layout(std430) readonly buffer PreferredVelocities { vec2 preferred_velocities[]; };
 layout(std430) readonly buffer TouchWords { uint touch_words[]; };
-layout(std430) readonly buffer Paces { float paces[]; };
+layout(std430) readonly buffer Decisions { Decision decisions[]; };
 layout(std430) readonly buffer Ways { vec2 ways[]; };
 layout(std430) readonly buffer Targets { vec2 targets[]; };
 layout(std430) readonly buffer Stages { Stage stages[]; };
@@ -22,6 +22,7 @@ layout(std430) readonly buffer LinePoints { vec2 line_points[]; };
 layout(std430) buffer States { AgentState states[]; };
 uniform uint steps_done;  // counted with this one
 
+#include "shaders/shared/alive.glsl"
 #include "shaders/routes/route.glsl"
 #include "shaders/motion/waiting_line.glsl"
 #include "shaders/motion/under_way.glsl"
@@ -39,6 +40,7 @@ void main() {
     if (slot >= live_count) return;
     Body self = bodies[slot];
     AgentState state = states[self.row];
+    if (!isAlive(state.status)) return;  // it left after the last decision
     Stage stage = stageOf(state.stage, state.ticket);
 
     vec2 moved = targets[slot] - self.position;
@@ -49,7 +51,7 @@ void main() {
     float speed = length(state.velocity);
     // A push may be faster than legs are; the next step does not build on it.
     if (speed > self.maximum_speed) state.velocity *= self.maximum_speed / speed;
-    float held_up = heldUp(preferred_velocities[slot], paces[slot], state.velocity);
+    float held_up = heldUp(preferred_velocities[slot], decisions[slot].pace, state.velocity);
     state.nervousness = grownNervous(state.nervousness, held_up, parameters.step_seconds);
     bool takes_turns = takesTurns(walkers[slot], touch_words[slot]);
     state.heading = turned(state, stage, walkers[slot], preferred_velocities[slot], takes_turns, speed);

@@ -28,12 +28,12 @@ float takenBack(vec2 velocity, vec2 facing, vec2 feet) {
     return back * (1.0 - smoothstep(feet.x, feet.y, back));
 }
 
-/// @param waits for its turn in a stream that goes one way
-/// @param in_traffic senses others who are under way
+/// @param feet FEET_*
 /// @param wanted the velocity that it is to have next
 /// @param legs the velocity that legs start from
-void plantFeet(Body self, Walker walker, bool waits, bool in_traffic, inout vec2 wanted, inout vec2 legs) {
-    if (!PLANTED_FEET_ENABLED || !in_traffic || !isUnderWay(walker)) return;
+void plantFeet(Body self, Walker walker, uint feet, inout vec2 wanted, inout vec2 legs) {
+    if (!PLANTED_FEET_ENABLED || (feet & FEET_IN_TRAFFIC) == 0u || !isUnderWay(walker)) return;
+    bool waits = (feet & FEET_WAIT) != 0u;
     vec2 facing = vec2(cos(self.heading), sin(self.heading));
     float back = takenBack(wanted, facing, waits ? WAITING : FIRM);
     wanted += facing * back;

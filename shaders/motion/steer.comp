@@ -13,6 +13,7 @@ uniform usamplerBuffer field_cells;  // FieldCell
 layout(std430) readonly buffer DetourSlopes { vec2 detour_slopes[]; };
 layout(std430) readonly buffer WaitingLines { WaitingLine waiting_lines[]; };
 layout(std430) readonly buffer LinePoints { vec2 line_points[]; };
+layout(std430) readonly buffer NeighbourCounts { uint neighbour_counts[]; };
 layout(std430) readonly buffer TouchWords { uint touch_words[]; };
 layout(std430) writeonly buffer PreferredVelocities { vec2 preferred_velocities[]; };
 
@@ -27,6 +28,7 @@ uniform uint steps_done;  // counted with this one
 #include "shaders/motion/taking_turns.glsl"
 #include "shaders/motion/way_through.glsl"
 #include "shaders/motion/search_beside_walls.glsl"
+#include "shaders/motion/foresight.glsl"
 #include "shaders/motion/waiting_for_company.glsl"
 #include "shaders/motion/coming_to_rest.glsl"
 #ifdef TERRAIN
@@ -41,7 +43,8 @@ void main() {
     vec2 position = bodies[slot].position;
     Walker walker = walkers[slot];
     Stage stage = stageOf(walker.stage, walker.ticket);
-    RouteAhead ahead = routeAhead(stage, position);
+    RouteAhead ahead = wayAhead(stage, position, bodies[slot].velocity,
+                                neighbour_counts[slot], walker.nervousness);
 
     bool narrow = (touch_words[slot] & TOUCH_IN_NARROWS) != 0u;
     walkers[slot].way_through = packSnorm2x16(narrow ? wayThrough(stage, position, ahead) : ahead.direction);

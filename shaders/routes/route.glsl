@@ -99,19 +99,29 @@ vec2 roundJams(uint field, vec2 position, vec2 direction) {
     return size > 0.05 ? downhill / size : direction;
 }
 
-RouteAhead routeAhead(Stage stage, vec2 position) {
+/// While nobody is in the way.
+RouteAhead freeRouteAhead(Stage stage, vec2 position) {
     vec2 offset = stage.point - position;
     float remaining = length(offset);
     RouteAhead straight = RouteAhead(remaining > 1.0e-6 ? offset / remaining : vec2(0.0), remaining, true);
     if (stage.field == NO_INDEX) return straight;
-    uint field = stage.field & ~FIELD_THEN_POINT;
-    RouteAhead ahead = sampleField(field, position);
-    if ((stage.field & FIELD_THEN_POINT) != 0u) {
-        // What is near, the coarse map of jams does not know.
-        if (ahead.remaining <= 0.0 || (ahead.straight && remaining <= parameters.detour_cell)) return straight;
-        if (ahead.straight) ahead.direction = straight.direction;
-        ahead.remaining = ahead.straight ? remaining : max(ahead.remaining, remaining);
-    }
-    ahead.direction = roundJams(field, position, ahead.direction);
+    RouteAhead ahead = sampleField(stage.field & ~FIELD_THEN_POINT, position);
+    if ((stage.field & FIELD_THEN_POINT) == 0u) return ahead;
+    if (ahead.straight || ahead.remaining <= 0.0) return straight;
+    ahead.remaining = max(ahead.remaining, remaining);
     return ahead;
+}
+
+/// The same with the crowd as it is at a position.
+RouteAhead heedingJams(Stage stage, vec2 position, RouteAhead ahead) {
+    if (stage.field == NO_INDEX) return ahead;
+    bool to_point = (stage.field & FIELD_THEN_POINT) != 0u;
+    // What is near, the coarse map of jams does not know.
+    if (to_point && ahead.straight && ahead.remaining <= parameters.detour_cell) return ahead;
+    ahead.direction = roundJams(stage.field & ~FIELD_THEN_POINT, position, ahead.direction);
+    return ahead;
+}
+
+RouteAhead routeAhead(Stage stage, vec2 position) {
+    return heedingJams(stage, position, freeRouteAhead(stage, position));
 }

@@ -92,6 +92,16 @@ struct Walker {
     uint way_through;  // where its way leads beyond a narrow passage: a direction, packed (snorm 2 x 16)
 };
 
+const uint FEET_IN_TRAFFIC = 1u;  // it senses others who are under way
+const uint FEET_WAIT = 2u;        // it waits for its turn in a stream that goes one way
+
+/// What somebody has decided, until it looks round again.
+struct Decision {
+    vec2 change;  // m/s, of its velocity in a step
+    float pace;   // m/s: how fast it wants to walk behind others
+    uint feet;    // 0 or more of FEET_*
+};
+
 /// A site of the diagram, in pixels from the window's corner.
 struct DiagramSite {
     vec2 position;
@@ -148,11 +158,12 @@ struct Parameters {
     float tile_radius;     // m, of agents
     float largest_radius;  // m, of all people
     float step_seconds;
+    float decision_seconds;   // from one decision of people to the next: one step or several
     float time_horizon;       // s
     float wall_time_horizon;  // s
     float contact_range;      // m
-    float
-        contact_slack;  // m: two people further apart than their radii and this cannot touch within one step
+    float contact_slack;      // m: two people further apart than their radii and this cannot touch before the
+                              // next decision
     float maximum_acceleration;  // m/s^2
     uint is_wide;                // 1 = places are too coarse for steps (base/wide_site.h)
 };

@@ -43,9 +43,10 @@ struct Runner {
     std::vector<double> search, step;
 };
 
-void timeOneStep(Runner& runner) {
+/// A step's mean time, over those from one decision of people to the next.
+void timeSteps(Runner& runner, int steps) {
     double search = 0.0, step = 0.0;
-    for (const auto& [pass, milliseconds] : runner.simulation->profile(1)) {
+    for (const auto& [pass, milliseconds] : runner.simulation->profile(steps)) {
         step += milliseconds;
         if (pass == "diagram" || pass == "sensing") search += milliseconds;
     }
@@ -107,11 +108,12 @@ ProximityRow ProximityBenchmark::run(const gl::ShaderLibrary& library, std::uint
         (*result)->recall = recallOf(found, exact, scene);
     }
     for (Runner& runner : runners)
-        for (int i = 0; i < 2; ++i)
+        for (int i = 0; i < 2 * scene.settings.stepsPerDecision(); ++i)
             runner.simulation->step();
     for (int round = 0; round < rounds; ++round)
         for (Runner& runner : runners)
-            if (round < 3 || runner.step.front() < 2000.0) timeOneStep(runner);
+            if (round < 3 || runner.step.front() < 2000.0)
+                timeSteps(runner, scene.settings.stepsPerDecision());
     for (Runner& runner : runners) {
         ProximityTiming& timing = **runner.result;
         timing.search_ms = median(runner.search);

@@ -58,6 +58,13 @@ TEST(Family, RangesIncludeBothEndsAndStayWhole) {
               (std::vector<double>{0.1, 0.2, 0.3, 0.4, 0.5}));
 }
 
+TEST(Family, RangesBeginWithTheSmallestNumberThatThereIs) {
+    const auto values = column(plan(R"("axes": [{"set": "/flows/0/rate", "range": [5e-324, 2.736]}])"), 0);
+    ASSERT_EQ(values.size(), 3u);
+    EXPECT_LT(values[0], 1e-300);
+    EXPECT_EQ(values[2], 2.0);
+}
+
 TEST(Family, RandomNormalsAreTruncatedAndNotPiledUpAtTheirLimits) {
     const auto scenarios = plan(
         R"("sampling": "random", "count": 4000,

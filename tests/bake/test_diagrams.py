@@ -96,8 +96,12 @@ def test_calibration_is_kept_and_changes_no_byte(throng, tmp_path):
     assert all(min(cost[term] for term in ("base_ms", "pixel_ns", "site_ns", "covered_ns")) >= 0 for cost in costs)
     throng("bake", layout, "-o", tmp_path / "after", "-q", "--no-gltf", env=environment)
     assert digest(tmp_path / "before") == digest(tmp_path / "after")
-    kept[0].write_text("{ not json")
-    assert "passed over" in throng("bake", layout, "-o", tmp_path / "broken", "-q", "--no-gltf", env=environment).stderr
+    too_high = json.loads(kept[0].read_text())
+    too_high["costs"][-1]["gather"] = {"block_width": 8, "block_height": 4.6e18, "bin_radii": 1.5}
+    for broken, why in (("{ not json", "parse error"), (json.dumps(too_high), "blocks of a size that does not exist")):
+        kept[0].write_text(broken)
+        said = throng("bake", layout, "-o", tmp_path / why.split()[0], "-q", "--no-gltf", env=environment).stderr
+        assert "passed over" in said and why in said
 
 
 def test_benchmarks_write_markdown_and_csv(throng, tmp_path):

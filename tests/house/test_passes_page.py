@@ -4,6 +4,8 @@ import json
 import subprocess
 import sys
 
+import pytest
+
 from conftest import EXAMPLES, ROOT
 
 PASSES = ["gates", "cells", "routes", "spawn", "diagram", "sensing", "avoidance", "contacts", "motion"]
@@ -18,8 +20,10 @@ def test_every_pass_is_told_of_any_layout(throng):
     rows = {entry["pass"]: entry["rows"] for entry in told["passes"]}
     assert list(rows) == PASSES
     assert rows["spawn"] == []  # everybody is there from the start
-    steer, avoid = rows["avoidance"]
+    steer, avoid, carry_on = rows["avoidance"]
     assert steer["what"] == "shaders/motion/steer.comp" and steer["declared"] == "avoidance"
+    assert carry_on["what"] == "shaders/motion/carry_on.comp"
+    assert carry_on["launches"] == avoid["launches"] == pytest.approx(0.5)
     for buffers in (steer["writes"], avoid["reads"]):
         assert "preferred velocities" in {buffer["buffer"] for buffer in buffers}
 

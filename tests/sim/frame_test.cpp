@@ -75,7 +75,8 @@ TEST_F(FramePumpTest, DiagramsAgreeWithTheFramesPositions) {
 /// Positions frame by frame, with what comes along looked at.
 std::vector<float> positionsWith(const sim::FramePump::Cargo& cargo, std::uint32_t count,
                                  const gl::ShaderLibrary& library) {
-    sim::Simulation simulation(uniformScene(count, 2.0f, count), library);
+    const authoring::Scene scene = uniformScene(count, 2.0f, count);
+    sim::Simulation simulation(scene, library);
     std::vector<float> positions;
     PerStream<bool> tells;
     sim::FramePump pump(simulation, cargo, [&](const Frame& frame) {
@@ -94,7 +95,8 @@ std::vector<float> positionsWith(const sim::FramePump::Cargo& cargo, std::uint32
         }
     });
     for (std::uint32_t frame = 0; frame < 8; ++frame) {
-        if (frame > 0) simulation.step();
+        for (int step = 0; frame > 0 && step < scene.settings.substeps; ++step)
+            simulation.step();
         pump.submit(frame, cargo.diagrams && frame % 3 == 0);
     }
     pump.finish();

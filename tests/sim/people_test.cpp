@@ -405,7 +405,7 @@ TEST_F(PeopleTest, WhoStandsIsWalkedAround) {
     EXPECT_LT(deepest, 1.0f) << "%";
 }
 
-// What a step hands to the next is all in Simulation::State: groups, gates, lines, routes round jams,
+// What a frame hands to the next is all in Simulation::State: groups, gates, lines, routes round jams,
 // entries.
 TEST_F(PeopleTest, GoOnFromASavedStateToTheVerySameBytes) {
     const authoring::Scene scene = sceneOf(kStreet + R"("walls": [{"id": "gate", "points": [[30,-4],[30,4]]}],
@@ -417,12 +417,12 @@ TEST_F(PeopleTest, GoOnFromASavedStateToTheVerySameBytes) {
     for (int step = 0; step < kSteps; ++step)
         whole.step();
     const sim::Simulation::State end = whole.save();
-    for (const int stop : {1, 48 * 5 + 3, 48 * 7, 48 * 10 + 1}) {
+    for (const int stop : {2, 48 * 5 + 4, 48 * 7, 48 * 10 + 2}) {
         sim::Simulation first(scene, library);
         for (int step = 0; step < stop; ++step)
             first.step();
         sim::Simulation second(scene, library);
-        for (int step = 0; step < 17; ++step)
+        for (int step = 0; step < 18; ++step)
             second.step();  // whatever it did before is forgotten
         second.restore(first.save());
         for (int step = stop; step < kSteps; ++step)

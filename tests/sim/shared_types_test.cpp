@@ -115,6 +115,10 @@ std::map<std::string, Layout> layoutsInCpp() {
              MEMBER(ticket), MEMBER(nervousness), MEMBER(way_through)}};
     }
     {
+        using T = gpu::Decision;
+        result["Decision"] = {sizeof(T), {MEMBER(change), MEMBER(pace), MEMBER(feet)}};
+    }
+    {
         using T = gpu::DiagramSite;
         result["DiagramSite"] = {sizeof(T), {MEMBER(position), MEMBER(radius), MEMBER(id)}};
     }
@@ -163,6 +167,7 @@ std::map<std::string, Layout> layoutsInCpp() {
                                  MEMBER(tile_radius),
                                  MEMBER(largest_radius),
                                  MEMBER(step_seconds),
+                                 MEMBER(decision_seconds),
                                  MEMBER(time_horizon),
                                  MEMBER(wall_time_horizon),
                                  MEMBER(contact_range),

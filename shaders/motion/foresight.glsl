@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Foresight: legs take their time to answer (drive), so people turn into a bend and slow down before a place as long
+// before they are there. Who went by where it is would swing out after every corner, and walk past its goal and back.
+// Needs shaders/routes/route.glsl.
+
+/// The way from where one will be, or from where one is, if there might be a wall in between: beyond that, the way is
+/// longer or shorter by more than what was walked. Jams are heeded as they are.
+RouteAhead wayAhead(Stage stage, vec2 position, vec2 velocity, uint sensed, float nervousness) {
+    RouteAhead ahead = freeRouteAhead(stage, position);
+    if (FORESIGHT_ENABLED) {
+        float free = 1.0 - smoothstep(FORESIGHT_FREELY, FORESIGHT_NO_MORE, float(sensed));
+        vec2 lead = velocity * (FORESIGHT_TIME * free * (1.0 - nervousness));
+        RouteAhead soon = freeRouteAhead(stage, position + lead);
+        if (abs(soon.remaining - ahead.remaining) <= length(lead) * FORESIGHT_SAME_WAY) ahead = soon;
+    }
+    return heedingJams(stage, position, ahead);
+}
