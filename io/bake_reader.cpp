@@ -9,7 +9,6 @@
 
 #include "base/files/input_file.h"
 #include "base/json_shape.h"
-#include "base/printable.h"
 
 namespace throng::io {
 namespace fs = std::filesystem;
@@ -112,7 +111,7 @@ Json parseManifest(const fs::path& path, const std::string& text) {
     try {
         return Json::parse(text);
     } catch (const nlohmann::json::exception& error) {
-        throw InputError(path, "not a manifest: " + shortened(printable(error.what())));
+        throw InputError(path, std::string("not a manifest: ") + error.what());
     }
 }
 
