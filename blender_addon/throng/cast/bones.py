@@ -104,7 +104,7 @@ def _vectors(maths, operation, *values):
     return node.outputs[0]
 
 
-def _sample(maths, geometry, value, index, kind="FLOAT_VECTOR"):
+def sample(maths, geometry, value, index, kind="FLOAT_VECTOR"):
     node = maths.node("GeometryNodeSampleIndex", data_type=kind, domain="POINT")
     maths.link(geometry, node.inputs["Geometry"])
     maths.link(value, socket(node.inputs, "Value"))
@@ -122,8 +122,8 @@ def _scaled(maths, vector, number):
 def _hung(maths, bones, first, hang, place):
     """Where a bone takes a place. `hang` has the bone's number, `first` is that of the pose's first bone."""
     index = maths.math("ADD", first, maths.math("FLOOR", hang))
-    x, y = (_sample(maths, bones, maths.attribute(name, "FLOAT_VECTOR"), index) for name in "xy")
-    moved = _sample(maths, bones, maths.node("GeometryNodeInputPosition").outputs[0], index)
+    x, y = (sample(maths, bones, maths.attribute(name, "FLOAT_VECTOR"), index) for name in "xy")
+    moved = sample(maths, bones, maths.node("GeometryNodeInputPosition").outputs[0], index)
     z = _vectors(maths, "CROSS_PRODUCT", x, y)
     for column, along in zip((x, y, z), place):
         moved = _vectors(maths, "ADD", moved, _scaled(maths, column, along))
@@ -197,10 +197,10 @@ def _skin_tree():
 def _place(maths, given, vertex, first):
     """Where a vertex is in the pose whose first bone is the sheet's point `first`."""
     parts = maths.node("ShaderNodeSeparateXYZ")
-    maths.link(_sample(maths, given["Figure"], maths.node("GeometryNodeInputPosition").outputs[0], vertex),
+    maths.link(sample(maths, given["Figure"], maths.node("GeometryNodeInputPosition").outputs[0], vertex),
                parts.inputs[0])
     hangs = maths.node("FunctionNodeSeparateColor")
-    maths.link(_sample(maths, given["Figure"], maths.attribute(HANGS, "FLOAT_COLOR"), vertex, "FLOAT_COLOR"),
+    maths.link(sample(maths, given["Figure"], maths.attribute(HANGS, "FLOAT_COLOR"), vertex, "FLOAT_COLOR"),
                hangs.inputs[0])
     bones = _columns(maths, given["Sheet"])
     shares = [maths.math("FRACT", each) for each in hangs.outputs[1:MOST]]
@@ -210,3 +210,18 @@ def _place(maths, given, vertex, first):
         part = _scaled(maths, _hung(maths, bones, first, bone, parts.outputs), share)
         place = part if place is None else _vectors(maths, "ADD", place, part)
     return place
+
+
+def join_sheets(name, sheets):
+    """The object of several people's sheets, one behind the other, with the columns x and y worked out."""
+    joined = bpy.data.objects.new(name, bpy.data.meshes.new(name))
+    tree, _, outputs = new_tree(f"{name} of all", _GEOMETRY, _GEOMETRY)
+    maths = Maths(tree)
+    everybody = maths.node("GeometryNodeJoinGeometry")
+    for sheet in reversed(sheets):  # what is linked to a Join Geometry last comes out first
+        info = maths.node("GeometryNodeObjectInfo", transform_space="ORIGINAL")
+        info.inputs["Object"].default_value = sheet
+        maths.link(socket(info.outputs, "Geometry"), everybody.inputs[0])
+    maths.link(_columns(maths, everybody.outputs[0]), outputs.inputs[0])
+    joined.modifiers.new("throng bones", "NODES").node_group = tree
+    return joined
