@@ -59,7 +59,8 @@ def instancer_tree(cast, repertoire, leans, near=None):
     figures = {(level, member): thing for (level, member), thing in shown_figures(cast).items()
                if level > 0 or member >= bent}
     levels = sorted({level for level, _ in figures})
-    tree, inputs, outputs = new_tree("Throng instancer", _GEOMETRY + [("Share", "NodeSocketFloat")], _GEOMETRY)
+    tree, inputs, outputs = new_tree("Throng instancer", _GEOMETRY + [("Share", "NodeSocketFloat"),
+                                                                    ("Blur", "NodeSocketBool")], _GEOMETRY)
     maths = Maths(tree)
     cosine, sine, speed = maths.components("throng_dir")
     state, variation, phase = maths.components("throng_state")
@@ -75,6 +76,7 @@ def instancer_tree(cast, repertoire, leans, near=None):
         group = maths.node("GeometryNodeGroup")
         group.node_tree = near_tree(cast, repertoire, near, drawn, own)
         maths.link(apart.outputs["Selection"], group.inputs[0])
+        maths.link(inputs.outputs["Blur"], group.inputs["Blur"])
         points, people = apart.outputs["Inverted"], [if_any(maths, apart.outputs["Selection"], group.outputs[0])]
     rotation = maths.node("ShaderNodeCombineXYZ")
     maths.link(maths.math("ARCTAN2", sine, cosine), rotation.inputs[2])

@@ -19,7 +19,7 @@ from ..blender.nodes import Maths, drop_tree, new_tree, own_tree, socket
 from ..cast import BEATS, POSES, bones, library
 from ..cast.sheets import sheet_of
 from . import poses
-from .names import BIGGER, GROUND, HIDDEN, NATURE, NEAR
+from .names import BIGGER, GROUND, HIDDEN, LEVEL, NATURE, NEAR
 
 MODIFIER = "throng near"
 STEPS = 16             # of the distance
@@ -317,7 +317,7 @@ def near_tree(cast, repertoire, sheet, drawn, own):
     @param sheet the object of all members' bones (bones.join_sheets)
     """
     figures = boned_members(cast)
-    tree, inputs, outputs = new_tree("Throng near people", _GEOMETRY, _GEOMETRY)
+    tree, inputs, outputs = new_tree("Throng near people", _GEOMETRY + [("Blur", "NodeSocketBool")], _GEOMETRY)
     maths = Maths(tree)
     people = _people(maths, inputs.outputs[0], repertoire, cast["throng_variations"], drawn, own)
     info = maths.node("GeometryNodeObjectInfo", transform_space="ORIGINAL")
@@ -328,7 +328,7 @@ def near_tree(cast, repertoire, sheet, drawn, own):
     for rest in rests:
         if rest.name not in cast.objects:
             cast.objects.link(rest)
-    spare = ("throng_dir", "throng_state", NATURE, NEAR, GROUND, "throng_level")
+    spare = ("throng_dir", "throng_state", NATURE, NEAR, GROUND, LEVEL, own.OWN, own.FIRST)
     bodies = people
     for name in spare:
         bodies = _without(maths, bodies, name)
@@ -337,7 +337,12 @@ def near_tree(cast, repertoire, sheet, drawn, own):
     hangs = maths.node("FunctionNodeSeparateColor")
     maths.link(maths.attribute(bones.HANGS, "FLOAT_COLOR"), hangs.inputs[0])
     first = maths.math("MULTIPLY", maths.attribute(_RANK, "INT"), float(bone_count))
-    mesh = maths.store(mesh, "velocity", _hung(maths, hung_on, _CHANGES, place, hangs.outputs, first), "FLOAT_VECTOR")
+    velocity = _hung(maths, hung_on, _CHANGES, place, hangs.outputs, first)
+    blurs = maths.node("GeometryNodeSwitch", input_type="GEOMETRY")
+    maths.link(inputs.outputs["Blur"], socket(blurs.inputs, "Switch"))
+    maths.link(mesh, socket(blurs.inputs, "False"))
+    maths.link(maths.store(mesh, "velocity", velocity, "FLOAT_VECTOR"), socket(blurs.inputs, "True"))
+    mesh = socket(blurs.outputs)
     put = maths.node("GeometryNodeSetPosition")
     maths.link(mesh, put.inputs["Geometry"])
     maths.link(_hung(maths, hung_on, (*_COLUMNS, ""), place, hangs.outputs, first), put.inputs["Position"])

@@ -38,6 +38,7 @@ def set_cast(crowd, cast):
     for modifier, share in zip(modifiers, shares):
         modifier.node_group = tree
         set_input(modifier, "Share", share)
+        set_input(modifier, "Blur", modifier.name == INSTANCERS[0])  # nothing blurs on the screen
     drop_tree(before)
     crowd.update_tag()
 
