@@ -7,7 +7,8 @@ jumps from one pose to another. Here bones are worked out first, a few points fo
 of the walk, between two beats of how somebody stands, and between walking and standing by how fast the person is; then
 turned and put where the person is. After that all vertices follow the bones that they hang on (cast/bones.py).
 
-What comes out is one mesh, and what the people's points say of them (`id`, `tint`) is on its vertices. It has a
+What comes out is one mesh, and what the people's points say of them (`tint`, and in `throng_row` the number that
+`id` is elsewhere) is on its vertices. It has a
 `velocity`, for the whole way of every vertex, so it blurs though it is another mesh in every frame.
 
 Who is near, a modifier files away on the points: whoever is within so many metres before the camera. Where these are
@@ -19,15 +20,17 @@ from ..blender.nodes import Maths, drop_tree, new_tree, own_tree, socket
 from ..cast import BEATS, POSES, bones, library
 from ..cast.sheets import sheet_of
 from . import poses
-from .names import BIGGER, GROUND, HIDDEN, LEVEL, NATURE, NEAR
+from .names import BIGGER, GROUND, HIDDEN, LEVEL, NATURE, NEAR, ROW
+from .own import FIRST, OWN
 
 MODIFIER = "throng near"
 STEPS = 16             # of the distance
 STANDS_BELOW = 0.03    # m/s: slower people stand, those faster than WALKS_FROM walk, between them both are blended
 WALKS_FROM = 0.35
 _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
+_ALL, _REST = "throng_all_bones", "throng_rest"  # marks of objects in the cast
 _WHO, _RANK, _TURN = "throng_who", "throng_rank", "throng_turn"
-_WALKS, _STANDS, _RATES = "throng_walks", "throng_stands", "throng_rates"
+_WALKS, _BEFORE, _STANDS, _RATES = "throng_walks", "throng_before", "throng_stands", "throng_rates"
 
 
 def vector(maths, operation, *values):
@@ -101,17 +104,32 @@ def bones_for(crowd, cast):
     figures = boned_members(cast) if MODIFIER in crowd.modifiers else []
     if not figures:
         return None
-    name = f"{cast.name} bones"
-    before = next((thing for thing in cast.objects if "throng_all_bones" in thing), None)
-    if before:
-        mesh, tree = before.data, before.modifiers[0].node_group
-        bpy.data.objects.remove(before)
-        bpy.data.meshes.remove(mesh)
-        drop_tree(tree)
-    joined = bones.join_sheets(name, [sheet_of(figure) for figure in figures])
-    joined["throng_all_bones"] = len(figures)
+    sheets = [sheet_of(figure) for figure in figures]
+    joined = next((thing for thing in cast.objects if _ALL in thing), None)
+    if joined and [sheet.name for sheet in sheets] == list(joined[_ALL]):
+        return joined
+    _drop_bones(joined)
+    joined = bones.join_sheets(f"{cast.name} bones", sheets)
+    joined[_ALL] = [sheet.name for sheet in sheets]
     cast.objects.link(joined)
     return joined
+
+
+def _drop_bones(joined):
+    if joined:
+        mesh, tree = joined.data, joined.modifiers[0].node_group
+        bpy.data.objects.remove(joined)
+        bpy.data.meshes.remove(mesh)
+        drop_tree(tree)
+
+
+def forget(cast, crowds):
+    """Throws away what only near people need, where no crowd of the cast has any."""
+    if any(MODIFIER in crowd.modifiers for crowd in crowds):
+        return
+    for thing in [each for each in cast.objects if _REST in each]:
+        bpy.data.objects.remove(thing)
+    _drop_bones(next((thing for thing in cast.objects if _ALL in thing), None))
 
 
 def boned_members(cast):
@@ -138,14 +156,22 @@ def _smooth(maths, value, low, high):
 
 
 def _walks(maths, state, phase, repertoire):
-    """(a pose of the walk, the one after it, how far between them)"""
-    gait = maths.math("ROUND", maths.math("MULTIPLY", maths.math("FRACT", state), 16.0))
-    first = maths.math("MULTIPLY", maths.math("SUBTRACT", gait, float(repertoire.first)), float(POSES))
+    """(a pose of the walk, the one after it, how far between them), the same of the gait before, but how much of that
+    is left, and the gait (docs/bake.md has how the state tells all this)."""
+    all_ = maths.math("MULTIPLY", maths.math("FRACT", state), 16.0)
+    gait = maths.math("ROUND", all_)
+    rest = maths.math("MULTIPLY_ADD", maths.math("SUBTRACT", all_, gait), 32.0, 1e-3)
+    before, left = maths.math("FLOOR", rest), maths.math("FRACT", rest)
     place = maths.math("MULTIPLY", maths.math("FRACT", phase), float(POSES))
     pose = maths.math("MINIMUM", maths.math("FLOOR", place), POSES - 1.0)
     after = maths.math("MODULO", maths.math("ADD", pose, 1.0), float(POSES))
-    return (combined(maths, maths.math("ADD", first, pose), maths.math("ADD", first, after),
-                     maths.math("SUBTRACT", place, pose)), gait)
+    found = []
+    for each, share in ((gait, maths.math("SUBTRACT", place, pose)), (before, _smooth(maths, left, 0.0, 1.0))):
+        number = maths.math("SUBTRACT", each, float(repertoire.first))
+        number = maths.math("MINIMUM", maths.math("MAXIMUM", number, 0.0), len(repertoire.strides) - 1.0)
+        first = maths.math("MULTIPLY", number, float(POSES))
+        found.append(combined(maths, maths.math("ADD", first, pose), maths.math("ADD", first, after), share))
+    return (*found, gait)
 
 
 def _stands(maths, state, nature, walking):
@@ -169,7 +195,7 @@ def _people(maths, points, repertoire, count, drawn, own):
     state, variation, phase = maths.components("throng_state")
     nature = maths.components(NATURE)
     who = poses.member_of(maths, variation, drawn, count, own)
-    walks, gait = _walks(maths, state, phase, repertoire)
+    walks, before, gait = _walks(maths, state, phase, repertoire)
     stride = None
     for number, length in enumerate(repertoire.strides, repertoire.first):
         part = maths.math("MULTIPLY", maths.math("COMPARE", gait, float(number), 0.5), float(length))
@@ -177,7 +203,8 @@ def _people(maths, points, repertoire, count, drawn, own):
     walking = _smooth(maths, speed, STANDS_BELOW, WALKS_FROM)
     rate = maths.math("DIVIDE", maths.math("MULTIPLY", speed, float(POSES)), maths.math("MAXIMUM", stride, 0.1))
     for name, value, kind in ((_WHO, who, "INT"), (_RANK, maths.node("GeometryNodeInputIndex").outputs[0], "INT"),
-                              (_WALKS, walks, "FLOAT_VECTOR"),
+                              (ROW, maths.node("GeometryNodeInputID").outputs[0], "INT"),
+                              (_WALKS, walks, "FLOAT_VECTOR"), (_BEFORE, before, "FLOAT_VECTOR"),
                               (_STANDS, _stands(maths, state, nature, repertoire.walking()), "FLOAT_VECTOR"),
                               (_RATES, combined(maths, walking, rate, speed), "FLOAT_VECTOR"),
                               (_TURN, combined(maths, cosine, sine, maths.math("ADD", maths.attribute(BIGGER), 1.0)),
@@ -191,12 +218,14 @@ def _between(maths, one, other, share):
 
 
 def _blended(maths, sheet, at, name):
-    """(a column of everybody's bones between all four poses, how fast it changes in a second)"""
+    """(a column of everybody's bones between all six poses, how fast it changes in a second)"""
     value = maths.attribute(name, "FLOAT_VECTOR") if name else maths.node("GeometryNodeInputPosition").outputs[0]
-    walks, stands = maths.components(_WALKS), maths.components(_STANDS)
+    walks, before, stands = (maths.components(each) for each in (_WALKS, _BEFORE, _STANDS))
     walking, rate, _ = maths.components(_RATES)
     here, after, stand, stand_after = (bones.sample(maths, sheet, value, at(each))
                                        for each in (walks[0], walks[1], stands[0], stands[1]))
+    here, after = (_between(maths, each, bones.sample(maths, sheet, value, at(was)), before[2])
+                   for each, was in ((here, before[0]), (after, before[1])))
     walk = _between(maths, here, after, walks[2])
     change = scaled(maths, vector(maths, "SUBTRACT", after, here), maths.math("MULTIPLY", walking, rate))
     return _between(maths, _between(maths, stand, stand_after, stands[2]), walk, walking), change
@@ -257,7 +286,7 @@ def _bone_points(maths, people, sheet, pose_count, bone_count):
 
 def _meshes(maths, people, figures, kept):
     """Everybody's mesh at rest, as one mesh. Of what the people's points say, `kept` stays."""
-    for spare in (_WHO, _WALKS, _STANDS, _RATES, _TURN):
+    for spare in (_WHO, _WALKS, _BEFORE, _STANDS, _RATES, _TURN):
         if spare not in kept:
             people = _without(maths, people, spare)
     origin = maths.node("GeometryNodeSetPosition")
@@ -307,7 +336,7 @@ def _hung(maths, bones_, names, place, hangs, first):
 def _rest_of(name, figure):
     """An object that shows a figure's mesh at rest."""
     found = bpy.data.objects.get(name) or bpy.data.objects.new(name, figure.data)
-    found.data = figure.data
+    found.data, found[_REST] = figure.data, True
     return found
 
 
@@ -328,7 +357,7 @@ def near_tree(cast, repertoire, sheet, drawn, own):
     for rest in rests:
         if rest.name not in cast.objects:
             cast.objects.link(rest)
-    spare = ("throng_dir", "throng_state", NATURE, NEAR, GROUND, LEVEL, own.OWN, own.FIRST)
+    spare = ("id", "throng_dir", "throng_state", NATURE, NEAR, GROUND, LEVEL, FIRST, OWN)
     bodies = people
     for name in spare:
         bodies = _without(maths, bodies, name)

@@ -12,6 +12,7 @@ from ..formats import BakeError, load_bake
 from ..overrides.layer import Arrival
 from ..people import members
 from ..people.library import LibraryError
+from . import near
 
 
 def set_frame_rate(scene, fps):
@@ -33,10 +34,11 @@ def set_up_scene(scene, bake, frame_start):
 
 
 def import_bake(context, path, *, frame_start=1, walls=True, roads=True, scenery=True, camera=True, relative=True,
-                dressing=True, people=members.MEMBERS):
+                dressing=True, people=members.MEMBERS, bend=True):
     """Imports a bake and returns the crowd's object. Raises formats.BakeError before anything is changed.
 
     @param people how many different ones there are to be, where they are shaped from a library of bodies
+    @param bend whether those near the camera are bent into their pose (tools/near.py), where they can be
     """
     bake = load_bake(path)
     if members.found():
@@ -64,4 +66,6 @@ def import_bake(context, path, *, frame_start=1, walls=True, roads=True, scenery
                                   light=scenery, camera=camera, frame_start=frame_start, terrain=terrain,
                                   bake=bake if scenery and dressing else None)
     overrides.place(crowd)
+    if bend and look and scene.camera:
+        near.apply(crowd, scene.camera)
     return crowd

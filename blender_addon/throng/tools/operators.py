@@ -35,6 +35,9 @@ class IMPORT_SCENE_OT_throng(bpy.types.Operator, ImportHelper):
     people: IntProperty(name="Different People", default=members.MEMBERS, min=1, max=90,
                         description="How many people the crowd draws on, where they are shaped from a library of "
                                     "bodies: more take more memory, and time to make")
+    bend: BoolProperty(name="Bend Near People", default=True,
+                       description="Before a camera, people who are shaped from a library of bodies are bent into the "
+                                   "pose of the moment; all others take the next one that there is")
     relative: BoolProperty(name="Relative Paths", default=True,
                            description="Store the streams' paths relative to the .blend, once that is saved")
 
@@ -42,7 +45,7 @@ class IMPORT_SCENE_OT_throng(bpy.types.Operator, ImportHelper):
         try:
             crowd = import_bake(context, self.filepath, frame_start=self.frame_start, walls=self.walls,
                                 roads=self.roads, scenery=self.scenery, camera=self.camera, relative=self.relative,
-                                dressing=self.dressing, people=self.people)
+                                dressing=self.dressing, people=self.people, bend=self.bend)
         except BakeError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
