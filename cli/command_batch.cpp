@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "base/files/output_file.h"
-#include "base/printable.h"
 #include "base/stopwatch.h"
+#include "base/text/printable.h"
 #include "cli/batch/batch_estimate.h"
 #include "cli/batch/batch_folder.h"
 #include "cli/batch/batch_local.h"

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "base/printable.h"
+#include "base/text/printable.h"
 
 namespace throng::authoring {
 

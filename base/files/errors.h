@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "base/printable.h"
+#include "base/text/printable.h"
 
 namespace throng {
 

@@ -11,7 +11,7 @@
 #include "base/files/input_file.h"
 #include "base/files/output_file.h"
 #include "base/json_shape.h"
-#include "base/printable.h"
+#include "base/text/printable.h"
 #include "cli/terminal/say.h"
 
 namespace throng::cli {

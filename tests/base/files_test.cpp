@@ -12,7 +12,7 @@
 #include "base/files/output_file.h"
 #include "base/json_shape.h"
 #include "base/plane_grid.h"
-#include "base/printable.h"
+#include "base/text/printable.h"
 
 namespace throng {
 namespace {
