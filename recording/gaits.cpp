@@ -34,8 +34,23 @@ double strideOf(std::uint32_t gait) {
     return kNormalStride * std::pow(kRatio, static_cast<double>(gait) - kNormal);
 }
 
-std::uint32_t gaitOf(float state) {
-    return static_cast<std::uint32_t>(std::lround((state - std::floor(state)) / kGaitInState));
+GaitInState gaitsOf(float state) {
+    const float all = state - std::floor(state);
+    const float gait = std::round(all / kGaitInState);
+    const long rest = std::lround((all - gait * kGaitInState) / kLeftInState);
+    return {static_cast<std::uint32_t>(gait), static_cast<std::uint32_t>(rest / 16),
+            static_cast<double>(rest % 16) / 16.0};
+}
+
+double GaitTrack::left() const {
+    return std::clamp(1.0 - (phase - changed) / kGaitsBlendOver, 0.0, 1.0);
+}
+
+float GaitTrack::inState() const {
+    const auto sixteenths = static_cast<float>(std::min(15l, std::lround(16.0 * left())));
+    if (sixteenths == 0.0f) return kGaitInState * static_cast<float>(gait);
+    return kGaitInState * static_cast<float>(gait) + kBeforeInState * static_cast<float>(before) +
+           kLeftInState * sixteenths;
 }
 
 std::uint32_t gaitFor(double speed) {
@@ -53,17 +68,20 @@ void GaitTrack::advance(double way, double speed) {
     if (speed < gpu::STANDING_SPEED) {
         phase += way / strideOf(gait);
         gait = kSettingOff;
+        changed = kLongAgo;
         return;
     }
-    const double before = untilUnderBody(phase) * strideOf(gait);
+    const double until = untilUnderBody(phase) * strideOf(gait);
     const bool changes = std::abs(gaitScale(speed) - gait) >= kStays;
-    if (!changes || way < before) {
+    if (!changes || way < until) {
         phase += way / strideOf(gait);
         return;
     }
-    phase += before / strideOf(gait);
+    phase += until / strideOf(gait);
+    before = gait;
+    changed = phase;
     gait = gaitFor(speed);
-    phase += (way - before) / strideOf(gait);
+    phase += (way - until) / strideOf(gait);
 }
 
 }  // namespace throng::recording

@@ -13,12 +13,17 @@
 ///
 /// A renderer has clips of a few strides, not of all: the gaits, a fixed ratio apart, each walked with its
 /// own stride, so that the phase always follows the way and feet do not slide. Changing the stride would move
-/// a planted foot, except where it is under the body: that is where strides change.
+/// a planted foot, except where it is under the body: that is where strides change. The rest of the body
+/// would jump there, so for some of a cycle the gait before is told, too, and how much of it is left to be
+/// shown.
 namespace throng::recording {
 
 inline constexpr std::uint32_t kGaits = 6;      ///< clips of a walk; the last one: a run
 inline constexpr float kGaitInState = 0.0625f;  ///< the stream of states adds gait * this to the activity
-inline constexpr double kUnderBody = 0.28;      ///< phase of a foot's own cycle in which it is under the body
+inline constexpr float kBeforeInState = kGaitInState / 32.0f;  ///< and of the gait before * this,
+inline constexpr float kLeftInState = kBeforeInState / 16.0f;  ///< and of the sixteenths left of it * this
+inline constexpr double kGaitsBlendOver = 0.3;                 ///< cycles
+inline constexpr double kUnderBody = 0.28;  ///< phase of a foot's own cycle in which it is under the body
 
 /// m per gait cycle (two steps).
 double strideOf(std::uint32_t gait);
@@ -28,14 +33,29 @@ std::uint32_t gaitFor(double speed);
 
 std::vector<double> allStrides();
 
-/// The gait that a value of the stream of states holds beside the activity.
-std::uint32_t gaitOf(float state);
+/// What a value of the stream of states holds beside the activity.
+struct GaitInState {
+    std::uint32_t gait = 0, before = 0;
+    double left = 0.0;  ///< of the gait before, from 1 to 0
+};
+GaitInState gaitsOf(float state);
+inline std::uint32_t gaitOf(float state) {
+    return gaitsOf(state).gait;
+}
 
 /// The gait of one person over time.
 struct GaitTrack {
+    static constexpr double kLongAgo = -1.0e9;
+
     double phase = 0.0;  ///< cycles, unwrapped
     std::uint32_t gait = 0;
+    std::uint32_t before = 0;   ///< the gait before
+    double changed = kLongAgo;  ///< phase at which it ended
 
+    /// How much of the gait before is left to be shown, from 1 to 0.
+    double left() const;
+    /// What the stream of states has of all this: less than 1.
+    float inState() const;
     /// Walks on by `way` m at `speed` m/s. Where the stride changes, the way is shared out between the two.
     void advance(double way, double speed);
 };

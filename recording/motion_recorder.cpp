@@ -121,11 +121,11 @@ void MotionRecorder::record(const KeptFrame& frame) {
             if (window_.reach() > 0 && !wide_) directions_[at + 2] = static_cast<float>(way * fps_);
             walker.gait.advance(way, way * fps_);
         } else {
-            walker.gait = {states_[at + 2], gaitFor(speeds_[row])};
+            walker.gait = GaitTrack{states_[at + 2], gaitFor(speeds_[row])};
             walker.walks = 1;
         }
         walker.place = place;
-        states_[at] += kGaitInState * static_cast<float>(walker.gait.gait);
+        states_[at] += walker.gait.inState();
         states_[at + 2] = static_cast<float>(walker.gait.phase);
         if (footing_)
             putStance(

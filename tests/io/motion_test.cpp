@@ -53,6 +53,36 @@ TEST(Gaits, ChangeOnlyWhereThePlantedFootIsUnderTheBody) {
     EXPECT_GT(changes, 20);
 }
 
+TEST(Gaits, TellTheGaitBeforeUntilItsBlendIsOver) {
+    recording::GaitTrack track{0.0, 1};
+    int frames = 0, changes = 0;
+    double left = 0.0;
+    for (int frame = 0; frame < 2000; ++frame) {
+        const double speed = 1.5 + 1.3 * std::sin(0.01 * frame);
+        const recording::GaitTrack was = track;
+        track.advance(speed / kFps, speed);
+        for (const float activity : {1.0f, 4.0f}) {
+            const recording::GaitInState told = recording::gaitsOf(activity + track.inState());
+            EXPECT_EQ(told.gait, track.gait);
+            EXPECT_NEAR(told.left, track.left(), 1.0 / 16.0);
+            if (told.left > 0.0) {
+                EXPECT_EQ(told.before, track.before);
+            }
+            EXPECT_EQ(std::lround(16.0f * (track.inState())), track.gait) << "earlier readers round";
+            left = told.left;
+        }
+        if (track.gait != was.gait) {
+            EXPECT_EQ(track.before, was.gait);
+            EXPECT_GT(left, 0.7);
+            ++changes;
+        }
+        frames += left > 0.0;
+    }
+    EXPECT_GT(changes, 20);
+    EXPECT_GT(frames, 3 * changes);
+    EXPECT_LT(frames, 20 * changes);
+}
+
 TEST(Gaits, WhoStandsSetsOffWithAShortStride) {
     recording::GaitTrack track{0.0, 4};
     track.advance(0.0, 0.0);

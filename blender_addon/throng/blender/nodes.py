@@ -54,6 +54,21 @@ def get_input(modifier, name):
     return modifier[_identifier(modifier, name)] if slot is None else slot.value
 
 
+def of_person(tree, name, output="Vector"):
+    """What a crowd's points say of a person, in a material: of an instance, or on the vertices of those who are bent
+    (crowd/near.py); where it is not there it is 0. Returns (nodes, socket)."""
+    found = []
+    for kind in ("INSTANCER", "GEOMETRY"):
+        node = tree.nodes.new("ShaderNodeAttribute")
+        node.attribute_type, node.attribute_name = kind, name
+        found.append(node)
+    total = tree.nodes.new("ShaderNodeMath" if output == "Fac" else "ShaderNodeVectorMath")
+    total.operation = "ADD"
+    for node, slot in zip(found, total.inputs):
+        tree.links.new(node.outputs[output], slot)
+    return [*found, total], total.outputs[0]
+
+
 def socket(sockets, name=None):
     """The enabled socket of a name: nodes keep hidden twins for other data types."""
     return next(s for s in sockets if s.enabled and (name is None or s.name == name))
@@ -122,3 +137,8 @@ class Maths:
         self.link(value, enabled[0])
         enabled[1].default_value = number
         return socket(node.outputs)
+
+    def between(self, value, first, last):
+        """Whether a number is one of those from the first to the last."""
+        middle, reach = 0.5 * (first + last), 0.5 * (last - first) + 0.5
+        return self.math("COMPARE", value, middle, reach)

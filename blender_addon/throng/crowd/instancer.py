@@ -5,9 +5,11 @@ import bpy
 from ..blender.nodes import Maths, new_tree, socket
 from ..cast.library import shown_figures
 from . import footing
-from .names import BIGGER, FIGURE, HIDDEN, LEVEL, NATURE
+from .names import BIGGER, FIGURE, HIDDEN, LEVEL, NATURE, NEAR
+from .near import boned_members, near_tree
 from .poses import member_of, pose_index
 
+BUNCH = 4  # figures that share a node, from 4.0 on
 _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
 
 
@@ -18,11 +20,13 @@ def _present(maths, alive, nature, share):
     return maths.math("GREATER_THAN", maths.math("MULTIPLY", maths.math("GREATER_THAN", alive, 0.5), seen), 0.5)
 
 
-def _chosen(maths, levels, values):
-    """Of values by level those of everybody's own level."""
+def _chosen(maths, levels, values, member, bent):
+    """Of values by level those of everybody's own level. @param bent how many members have no poses at level 0"""
     if len(levels) == 1:
         return values[0]
     level, total = maths.attribute(LEVEL), 0.0
+    if bent:
+        level = maths.math("MAXIMUM", level, maths.math("LESS_THAN", member, bent - 0.5))
     for number, value in zip(levels, values):
         total = maths.math("MULTIPLY_ADD", value, maths.math("COMPARE", level, float(number), 0.5), total)
     return total
@@ -33,38 +37,53 @@ def _figure_number(level, member):
     return 1 + 1000 * level + member
 
 
-def _figures_and_poses(maths, state, phase, speed, variation, nature, repertoire, levels):
+def _figures_and_poses(maths, state, phase, speed, variation, nature, repertoire, levels, bent):
     """Everybody's figure (_figure_number), and which of its poses."""
     poses = [pose_index(maths, speed, state, phase, nature, repertoire, level) for level in levels]
     figures = [maths.math("ADD", variation, float(_figure_number(level, 0))) for level in levels]
-    return _chosen(maths, levels, figures), _chosen(maths, levels, poses)
+    return _chosen(maths, levels, figures, variation, bent), _chosen(maths, levels, poses, variation, bent)
 
 
-def instancer_tree(cast, repertoire, leans):
-    """One Instance on Points for each figure of the cast. What it needs is filed away on the points: worked out for all
-    at once, not by every figure.
+def instancer_tree(cast, repertoire, leans, near=None):
+    """An Instance on Points for each bunch of the cast's figures; those who are near are made by a group of their own
+    (near.py), the object `near` has the bones of its members, which then need no poses at level 0. What it needs is filed away on the points: worked out
+    for all at once, not by every bunch.
 
     While a crowd is on screen, Blender notes down all attributes of what goes through a socket, those of every pose
     included, which takes longer than the work itself. From 4.0 on it does so for sockets outside of groups only, so
     there the figures are in a group; before for all, so there should be few. And later versions look up every pose
-    among those before it, in time that grows with their square: there each figure's people are handed on as one
-    instance.
+    among those before it, in time that grows with their square: there bunches are small, and the people of each are
+    handed on as one instance.
     """
-    figures = shown_figures(cast)
+    bent = len(boned_members(cast)) if near else 0
+    figures = {(level, member): thing for (level, member), thing in shown_figures(cast).items()
+               if level > 0 or member >= bent}
     levels = sorted({level for level, _ in figures})
-    tree, inputs, outputs = new_tree("Throng instancer", _GEOMETRY + [("Share", "NodeSocketFloat")], _GEOMETRY)
+    tree, inputs, outputs = new_tree("Throng instancer", _GEOMETRY + [("Share", "NodeSocketFloat"),
+                                                                    ("Blur", "NodeSocketBool")], _GEOMETRY)
     maths = Maths(tree)
     cosine, sine, speed = maths.components("throng_dir")
     state, variation, phase = maths.components("throng_state")
     nature = maths.components(NATURE)
     own = "throng_bodies" in cast
-    variation = member_of(maths, variation, cast["throng_shipped"] if own else cast["throng_drawn"],
-                          cast["throng_variations"], own)
+    points, drawn = inputs.outputs[0], cast["throng_shipped"] if own else cast["throng_drawn"]
+    people, share = [], inputs.outputs["Share"]
+    if near:
+        who = maths.math("MULTIPLY", maths.attribute(NEAR), _present(maths, state, nature, share))
+        apart = maths.node("GeometryNodeSeparateGeometry", domain="POINT")
+        maths.link(points, apart.inputs["Geometry"])
+        maths.link(maths.greater(who, 0.5), apart.inputs["Selection"])
+        group = maths.node("GeometryNodeGroup")
+        group.node_tree = near_tree(cast, repertoire, near, drawn, own)
+        maths.link(apart.outputs["Selection"], group.inputs[0])
+        maths.link(inputs.outputs["Blur"], group.inputs["Blur"])
+        points, people = apart.outputs["Inverted"], [if_any(maths, apart.outputs["Selection"], group.outputs[0])]
     rotation = maths.node("ShaderNodeCombineXYZ")
     maths.link(maths.math("ARCTAN2", sine, cosine), rotation.inputs[2])
-    figure, pose = _figures_and_poses(maths, state, phase, speed, variation, nature, repertoire, levels)
-    there = _present(maths, state, nature, inputs.outputs["Share"])
-    points = maths.store(inputs.outputs[0], FIGURE, maths.math("MULTIPLY", figure, there), "INT")
+    member = member_of(maths, variation, drawn, cast["throng_variations"], own)
+    figure, pose = _figures_and_poses(maths, state, phase, speed, member, nature, repertoire, levels, bent)
+    there = _present(maths, state, nature, share)
+    points = maths.store(points, FIGURE, maths.math("MULTIPLY", figure, there), "INT")
     points = maths.store(points, "throng_pose", pose, "INT")
     points = maths.store(points, "throng_turn", rotation.outputs[0], "FLOAT_VECTOR")
     for spare in ("throng_dir", "throng_state", NATURE):  # instances need not carry them along
@@ -74,32 +93,89 @@ def instancer_tree(cast, repertoire, leans):
         points = remove.outputs[0]
 
     if bpy.app.version < (4, 0, 0):
-        maths.link(_instances(maths, points, figures, leans, apart=False), outputs.inputs[0])
+        _together(maths, [*people, _instances(maths, points, figures, leans, False, repertoire)], outputs.inputs[0])
         return tree
     inside = maths.node("GeometryNodeGroup")
     inside.node_tree, inner_inputs, inner_outputs = new_tree("Throng figures", _GEOMETRY, _GEOMETRY)
     within = Maths(inside.node_tree)
-    within.link(_instances(within, inner_inputs.outputs[0], figures, leans, apart=True), inner_outputs.inputs[0])
+    within.link(_instances(within, inner_inputs.outputs[0], figures, leans, True, repertoire), inner_outputs.inputs[0])
     maths.link(points, inside.inputs[0])
-    maths.link(inside.outputs[0], outputs.inputs[0])
+    _together(maths, [*people, inside.outputs[0]], outputs.inputs[0])
     return tree
 
 
-def _instances(maths, points, figures, leans, apart):
-    """Everybody's pose. @param apart whether the people of each figure are one instance"""
+def _together(maths, geometries, target):
+    if len(geometries) == 1:
+        maths.link(geometries[0], target)
+        return
+    join = maths.node("GeometryNodeJoinGeometry")
+    for geometry in geometries:
+        maths.link(geometry, join.inputs[0])
+    maths.link(join.outputs[0], target)
+
+
+def _instances(maths, points, figures, leans, apart, repertoire):
+    """Everybody's pose, level by level. @param apart whether the people of each bunch are one instance"""
+    levels = sorted({level for level, _ in figures})
+    if len(levels) == 1:
+        return _instances_of(maths, points, figures, leans, apart, repertoire)
+    everybody, figure = maths.node("GeometryNodeJoinGeometry"), maths.attribute(FIGURE, "INT")
+    for number in levels:
+        own = {(level, member): thing for (level, member), thing in figures.items() if level == number}
+        some = maths.node("GeometryNodeSeparateGeometry", domain="POINT")
+        maths.link(points, some.inputs["Geometry"])
+        last = max(member for _, member in own)
+        maths.link(maths.between(figure, _figure_number(number, 0), _figure_number(number, last)),
+                   some.inputs["Selection"])
+        here = some.outputs["Selection"]
+        people = _instances_of(maths, here, own, leans, apart, repertoire)
+        maths.link(if_any(maths, here, people), everybody.inputs[0])
+    return everybody.outputs[0]
+
+
+def if_any(maths, points, people):
+    """`people` where there are any points, or nothing, without looking: most levels are empty in most pictures."""
+    size = maths.node("GeometryNodeAttributeDomainSize")
+    maths.link(points, size.inputs[0])
+    switch = maths.node("GeometryNodeSwitch", input_type="GEOMETRY")
+    maths.link(maths.greater(socket(size.outputs, "Point Count"), 0.5), socket(switch.inputs, "Switch"))
+    maths.link(people, socket(switch.inputs, "True"))
+    return socket(switch.outputs)
+
+
+def _bunches(figures):
+    """Figures of one level whose numbers follow each other, so many at a time."""
+    most = BUNCH if bpy.app.version >= (4, 0, 0) else len(figures)
+    found = []
+    for (level, member), thing in sorted(figures.items()):
+        if not found or len(found[-1]) == most or (level, member - 1) != found[-1][-1][0]:
+            found.append([])
+        found[-1].append(((level, member), thing))
+    return found
+
+
+def _instances_of(maths, points, figures, leans, apart, repertoire):
+    """The people of some figures, a bunch of these at a time."""
     figure, pose, turn = (maths.attribute(name, kind)
                           for name, kind in ((FIGURE, "INT"), ("throng_pose", "INT"), ("throng_turn", "FLOAT_VECTOR")))
     size = maths.math("ADD", maths.attribute(BIGGER), 1.0)
     everybody = maths.node("GeometryNodeJoinGeometry")
-    for (level, member), thing in figures.items():
-        poses = maths.node("GeometryNodeObjectInfo", transform_space="ORIGINAL")
-        poses.inputs["Object"].default_value = thing
+    for bunch in _bunches(figures):
+        (level, first), (_, last) = bunch[0][0], bunch[-1][0]
+        poses = maths.node("GeometryNodeJoinGeometry")
+        for _, thing in reversed(bunch):  # what is linked to a Join Geometry last comes out first
+            info = maths.node("GeometryNodeObjectInfo", transform_space="ORIGINAL")
+            info.inputs["Object"].default_value = thing
+            maths.link(socket(info.outputs, "Geometry"), poses.inputs[0])
         place = maths.node("GeometryNodeInstanceOnPoints")
         place.inputs["Pick Instance"].default_value = True
         maths.link(points, place.inputs["Points"])
-        maths.link(maths.equal(figure, _figure_number(level, member)), place.inputs["Selection"])
-        maths.link(socket(poses.outputs, "Geometry"), place.inputs["Instance"])
-        maths.link(pose, place.inputs["Instance Index"])
+        maths.link(maths.between(figure, _figure_number(level, first), _figure_number(level, last)),
+                   place.inputs["Selection"])
+        maths.link(poses.outputs[0], place.inputs["Instance"])
+        before = maths.math("SUBTRACT", figure, float(_figure_number(level, first)))
+        maths.link(maths.math("MULTIPLY_ADD", before, float(repertoire.poses(level)), pose),
+                   place.inputs["Instance Index"])
         maths.link(size, place.inputs["Scale"])
         maths.link(turn, place.inputs["Rotation"])  # the points' other attributes go along: id, tint
         people = footing.leaning(maths, place.outputs[0]) if leans else place.outputs[0]

@@ -13,3 +13,5 @@ FIGURE = "throng_figure"
 BIGGER = "throng_bigger"  # how much larger than 1 somebody's scale is; nobody's where there is no such attribute
 HIDDEN = "throng_hidden"  # 1 for those who are left out; see tools/culling.py
 GROUND = "throng_ground"  # slopes along the heading and to the left of it, and the height; see footing.py
+NEAR = "throng_near"      # 1 for those who are bent into their pose; see near.py
+ROW = "throng_row"        # on the vertices of those: which of the bake's people

@@ -4,13 +4,13 @@ points, one more than the member's number. 0 leaves it to the bake's draw, as do
 from ..people import members
 
 OWN = "throng_own"
-_FIRST = "throng_own_first"  # as it was before overrides
+FIRST = "throng_own_first"  # as it was before overrides
 
 
 def give(crowd, cast, folder):
     """To all people of a bake; harmless where the cast is not shaped from bodies."""
     mesh = crowd.data
-    for name in (OWN, _FIRST):
+    for name in (OWN, FIRST):
         if name in mesh.attributes:
             mesh.attributes.remove(mesh.attributes[name])
     if not cast.get("throng_bodies"):
@@ -21,16 +21,16 @@ def give(crowd, cast, folder):
     known = [each or (0.25, 0) for each in people]
     chosen = members.choose(known, cast["throng_shipped"], max(1, cast["throng_drawn"]))
     numbers = [float(number + 1) if each else 0.0 for each, number in zip(people, chosen)]
-    for name in (OWN, _FIRST):
+    for name in (OWN, FIRST):
         mesh.attributes.new(name, "FLOAT", "POINT").data.foreach_set("value", numbers)
 
 
 def let_swap(mesh, rows):
     """Those rows show what an override says; all others are as they were."""
-    if _FIRST not in mesh.attributes:
+    if FIRST not in mesh.attributes:
         return
     numbers = [0.0] * len(mesh.vertices)
-    mesh.attributes[_FIRST].data.foreach_get("value", numbers)
+    mesh.attributes[FIRST].data.foreach_get("value", numbers)
     for row in rows:
         numbers[row] = 0.0
     mesh.attributes[OWN].data.foreach_set("value", numbers)

@@ -12,7 +12,7 @@ import bpy
 
 from ..blender.nodes import Maths, drop_tree, get_input, new_tree, set_input
 from ..formats import STREAMS
-from . import footing, own
+from . import footing, near, own
 from .instancer import instancer_tree
 from .names import INSTANCERS, NATURE
 from .queries import cast_of, crowds_of, repertoire_of
@@ -34,10 +34,11 @@ def set_cast(crowd, cast):
     modifiers = [crowd.modifiers[name] for name in INSTANCERS]
     before = modifiers[0].node_group
     shares = [get_input(modifier, "Share") if modifier.node_group else 2.0 for modifier in modifiers]  # 2: everybody
-    tree = instancer_tree(cast, repertoire_of(crowd), footing.slopes(crowd))
+    tree = instancer_tree(cast, repertoire_of(crowd), footing.slopes(crowd), near.bones_for(crowd, cast))
     for modifier, share in zip(modifiers, shares):
         modifier.node_group = tree
         set_input(modifier, "Share", share)
+        set_input(modifier, "Blur", modifier.name == INSTANCERS[0])  # nothing blurs on the screen
     drop_tree(before)
     crowd.update_tag()
 

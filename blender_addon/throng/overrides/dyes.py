@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Somebody's own colour on the materials of the cast."""
-from ..blender.nodes import socket
+from ..blender.nodes import of_person, socket
 
 
 def linear(colour):
@@ -34,7 +34,5 @@ def allow_dyes(crowd):
         else:
             own.default_value = base.default_value
         for name, output, target in (("throng_dyed", "Fac", factor), ("throng_dye", "Color", dyed)):
-            attribute = nodes.new("ShaderNodeAttribute")
-            attribute.attribute_type, attribute.attribute_name = "INSTANCER", name
-            links.new(attribute.outputs[output], target)
+            links.new(of_person(material.node_tree, name, output)[1], target)
         links.new(socket(mix.outputs, "Result"), base)

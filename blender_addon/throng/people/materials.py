@@ -4,6 +4,7 @@ colours, and the attribute `pattern` of the mesh says where on the body, the str
 import bpy
 import numpy
 
+from ..blender.nodes import of_person
 from . import masks, palettes
 from .shades import Shade
 
@@ -19,7 +20,7 @@ def material_of(kind, look, bodies):
         return found
     shade = Shade(name)
     shade.material["throng_people"] = True
-    tint = shade.split(shade.attribute("tint", "INSTANCER"))
+    tint = shade.split(of_person(shade.tree, "tint")[1])
     pattern = shade.attribute("pattern")
     make = {"skin": _skin, "hair": _hair, "grey": _hair, "eyes": _eyes, "lashes": _lashes}.get(slot, _cloth)
     make(shade, tint, pattern, kind, look, bodies)

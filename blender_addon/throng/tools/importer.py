@@ -12,6 +12,7 @@ from ..formats import BakeError, load_bake
 from ..overrides.layer import Arrival
 from ..people import members
 from ..people.library import LibraryError
+from . import near
 
 
 def set_frame_rate(scene, fps):
@@ -33,8 +34,12 @@ def set_up_scene(scene, bake, frame_start):
 
 
 def import_bake(context, path, *, frame_start=1, walls=True, roads=True, scenery=True, camera=True, relative=True,
-                dressing=True):
-    """Imports a bake and returns the crowd's object. Raises formats.BakeError before anything is changed."""
+                dressing=True, people=members.MEMBERS, bend=True):
+    """Imports a bake and returns the crowd's object. Raises formats.BakeError before anything is changed.
+
+    @param people how many different ones there are to be, where they are shaped from a library of bodies
+    @param bend whether those near the camera are bent into their pose (tools/near.py), where they can be
+    """
     bake = load_bake(path)
     if members.found():
         try:
@@ -50,15 +55,17 @@ def import_bake(context, path, *, frame_start=1, walls=True, roads=True, scenery
     collection["throng_origin"] = bake.origin
 
     look = members.LOOK if members.found() else ""
-    variations = members.MEMBERS if look else min(bake.variations, cast.VARIATIONS)
+    variations = min(people, max(1, bake.agents)) if look else min(bake.variations, cast.VARIATIONS)
     repertoire = cast.Repertoire.of(bake.strides, bake.gaits)
-    people = library.build_cast(variations, repertoire, f"Throng {bake.name} cast", look)
+    shown = library.build_cast(variations, repertoire, f"Throng {bake.name} cast", look)
     paths = {stream: stored_path(bake.stream_path(stream), relative) for stream in bake.streams}
-    crowd = playback.build_crowd(bake, f"Throng {bake.name} crowd", people, frame_start, paths)
+    crowd = playback.build_crowd(bake, f"Throng {bake.name} crowd", shown, frame_start, paths)
     collection.objects.link(crowd)
     set_up_scene(scene, bake, frame_start)
     environment.build_environment(context, bake.manifest, collection, walls=walls, roads=roads, ground=scenery,
                                   light=scenery, camera=camera, frame_start=frame_start, terrain=terrain,
                                   bake=bake if scenery and dressing else None)
     overrides.place(crowd)
+    if bend and look and scene.camera:
+        near.apply(crowd, scene.camera)
     return crowd

@@ -13,6 +13,7 @@ from bpy.props import EnumProperty, FloatProperty
 from ..blender.nodes import Maths, drop_tree, new_tree, own_tree, set_input
 from ..blender.panels import Below
 from ..cast import library
+from ..crowd import near
 from ..crowd.names import LEVEL
 from ..crowd.playback import cast_changed
 from ..crowd.queries import ChangesCrowds, cast_of, changed_crowds, crowds_of, repertoire_of
@@ -62,7 +63,7 @@ def remove(crowd):
     crowd.modifiers.remove(modifier)
     drop_tree(tree)
     cast = cast_of(crowd)
-    if not any(MODIFIER in other.modifiers for other in crowds_of(cast)):
+    if not any(name in other.modifiers for name in (MODIFIER, near.MODIFIER) for other in crowds_of(cast)):
         library.remove_levels(cast)
         cast_changed(crowd)
 

@@ -2,6 +2,7 @@
 """Mattes by person: everybody's numbers (formats/person_codes.py) on the crowd's points, and materials that write them
 into passes of the render. It is all in the scene, so a farm needs no add-on; `scripts/person_mattes.py` makes a
 Cryptomatte of what has been rendered."""
+from ..blender.nodes import of_person
 from ..cast import library
 from ..crowd.queries import bake_path, cast_of, crowd_objects, why_fixed
 from ..formats import load_bake
@@ -71,9 +72,10 @@ def _write_passes(material):
     if any(node.label == _LABEL for node in nodes):
         return
     for attribute, name in zip(ATTRIBUTES, PASSES):
-        source, target = nodes.new("ShaderNodeAttribute"), nodes.new("ShaderNodeOutputAOV")
+        target = nodes.new("ShaderNodeOutputAOV")
         # which reads the object's own property where there is no instancer: a hero's
-        source.attribute_type, source.attribute_name = "INSTANCER", attribute
+        sources, codes = of_person(material.node_tree, attribute)
         setattr(target, "aov_name" if hasattr(target, "aov_name") else "name", name)
-        source.label = target.label = _LABEL
-        material.node_tree.links.new(source.outputs["Vector"], target.inputs["Color"])
+        for node in (*sources, target):
+            node.label = _LABEL
+        material.node_tree.links.new(codes, target.inputs["Color"])

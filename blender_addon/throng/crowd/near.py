@@ -1,0 +1,382 @@
+# SPDX-License-Identifier: Apache-2.0
+"""People near the camera: they are not given one of the poses that there are, as all others are (instancer.py), but
+bent into the very pose of the moment. Natively, as playback is: nodes only, no Python when frames change.
+
+A picked pose stands for a whole 24th of a cycle: from near, feet stick to a moment and then jump, and whoever stops
+jumps from one pose to another. Here bones are worked out first, a few points for each person: blended between two poses
+of the walk, between two beats of how somebody stands, and between walking and standing by how fast the person is; then
+turned and put where the person is. After that all vertices follow the bones that they hang on (cast/bones.py).
+
+What comes out is one mesh, and what the people's points say of them (`tint`, and in `throng_row` the number that
+`id` is elsewhere) is on its vertices. It has a
+`velocity`, for the whole way of every vertex, so it blurs though it is another mesh in every frame.
+
+Who is near, a modifier files away on the points: whoever is within so many metres before the camera. Where these are
+more than there may be, the distance shrinks, in sixteen steps, until they are not.
+"""
+import bpy
+
+from ..blender.nodes import Maths, drop_tree, new_tree, own_tree, socket
+from ..cast import BEATS, POSES, bones, library
+from ..cast.sheets import sheet_of
+from . import poses
+from .names import BIGGER, GROUND, HIDDEN, LEVEL, NATURE, NEAR, ROW
+from .own import FIRST, OWN
+
+MODIFIER = "throng near"
+STEPS = 16             # of the distance
+STANDS_BELOW = 0.03    # m/s: slower people stand, those faster than WALKS_FROM walk, between them both are blended
+WALKS_FROM = 0.35
+_GEOMETRY = [("Geometry", "NodeSocketGeometry")]
+_ALL, _REST = "throng_all_bones", "throng_rest"  # marks of objects in the cast
+_WHO, _RANK, _TURN = "throng_who", "throng_rank", "throng_turn"
+_WALKS, _BEFORE, _STANDS, _RATES = "throng_walks", "throng_before", "throng_stands", "throng_rates"
+
+
+def vector(maths, operation, *values):
+    node = maths.node("ShaderNodeVectorMath", operation=operation)
+    for slot, value in zip(node.inputs, values):
+        if isinstance(value, tuple):
+            slot.default_value = value
+        else:
+            maths.link(value, slot)
+    return node.outputs["Value" if operation in ("DISTANCE", "DOT_PRODUCT", "LENGTH") else 0]
+
+
+def scaled(maths, value, factor):
+    node = maths.node("ShaderNodeVectorMath", operation="SCALE")
+    maths.link(value, node.inputs[0])
+    if isinstance(factor, (int, float)):
+        node.inputs["Scale"].default_value = factor
+    else:
+        maths.link(factor, node.inputs["Scale"])
+    return node.outputs[0]
+
+
+def combined(maths, *values):
+    node = maths.node("ShaderNodeCombineXYZ")
+    for slot, value in zip(node.inputs, values):
+        if isinstance(value, (int, float)):
+            slot.default_value = value
+        else:
+            maths.link(value, slot)
+    return node.outputs[0]
+
+
+def selection_tree():
+    """The modifier's nodes: who is near."""
+    name = "Throng near by distance"
+    found = own_tree(name)
+    if found:
+        return found
+    tree, inputs, outputs = new_tree(name, _GEOMETRY + [("Camera", "NodeSocketObject"), ("Reach", "NodeSocketFloat"),
+                                                        ("Most", "NodeSocketInt")], _GEOMETRY)
+    maths, given = Maths(tree), inputs.outputs
+    camera = maths.node("GeometryNodeObjectInfo", transform_space="RELATIVE")
+    maths.link(given["Camera"], camera.inputs["Object"])
+    place = maths.node("GeometryNodeInputPosition").outputs[0]
+    away = vector(maths, "SUBTRACT", place, camera.outputs["Location"])
+    looks = maths.node("ShaderNodeVectorRotate", rotation_type="EULER_XYZ")
+    looks.inputs["Vector"].default_value = (0.0, 0.0, -1.0)
+    maths.link(camera.outputs["Rotation"], looks.inputs["Rotation"])
+    ahead = maths.math("GREATER_THAN", vector(maths, "DOT_PRODUCT", away, looks.outputs[0]), -1.0)
+    alive = maths.math("GREATER_THAN", maths.components("throng_state")[0], 0.5)
+    there = maths.math("MULTIPLY", maths.math("SUBTRACT", alive, maths.attribute(HIDDEN)), ahead)
+    share = maths.math("DIVIDE", vector(maths, "LENGTH", away), given["Reach"])
+    # who is not there is beyond all reach
+    share = maths.math("MULTIPLY_ADD", maths.math("SUBTRACT", 1.0, there), 2.0, share)
+    points = maths.store(given["Geometry"], NEAR, share)
+    share = maths.attribute(NEAR)
+    fitting = 0.0
+    for step in range(1, STEPS + 1):
+        count = maths.node("GeometryNodeAttributeStatistic", data_type="FLOAT", domain="POINT")
+        maths.link(points, count.inputs["Geometry"])
+        maths.link(maths.math("LESS_THAN", share, step / STEPS), socket(count.inputs, "Attribute"))
+        fits = maths.math("LESS_THAN", socket(count.outputs, "Sum"), maths.math("ADD", given["Most"], 0.5))
+        fitting = maths.math("ADD", fits, fitting)
+    near = maths.math("LESS_THAN", share, maths.math("DIVIDE", fitting, float(STEPS)))
+    maths.link(maths.store(points, NEAR, near), outputs.inputs[0])
+    return tree
+
+
+def bones_for(crowd, cast):
+    """The object of the bones of all members that can be bent, where a crowd bends who is near; or None."""
+    figures = boned_members(cast) if MODIFIER in crowd.modifiers else []
+    if not figures:
+        return None
+    sheets = [sheet_of(figure) for figure in figures]
+    joined = next((thing for thing in cast.objects if _ALL in thing), None)
+    if joined and [sheet.name for sheet in sheets] == list(joined[_ALL]):
+        return joined
+    _drop_bones(joined)
+    joined = bones.join_sheets(f"{cast.name} bones", sheets)
+    joined[_ALL] = [sheet.name for sheet in sheets]
+    cast.objects.link(joined)
+    return joined
+
+
+def _drop_bones(joined):
+    if joined:
+        mesh, tree = joined.data, joined.modifiers[0].node_group
+        bpy.data.objects.remove(joined)
+        bpy.data.meshes.remove(mesh)
+        drop_tree(tree)
+
+
+def forget(cast, crowds):
+    """Throws away what only near people need, where no crowd of the cast has any."""
+    if any(MODIFIER in crowd.modifiers for crowd in crowds):
+        return
+    for thing in [each for each in cast.objects if _REST in each]:
+        bpy.data.objects.remove(thing)
+    _drop_bones(next((thing for thing in cast.objects if _ALL in thing), None))
+
+
+def boned_members(cast):
+    """Figures of level 0 that keep bones, from member 0 on; all have as many poses and bones as the first."""
+    figures, found = library.figures_of(cast), []
+    while (0, len(found)) in figures and bones.has_bones(sheet_of(figures[0, len(found)])):
+        figure = figures[0, len(found)]
+        if found and _size(figure) != _size(found[0]):
+            break
+        found.append(figure)
+    return found
+
+
+def _size(figure):
+    sheet = sheet_of(figure)
+    return len(sheet.data.vertices), sheet["throng_bones"]
+
+
+def _smooth(maths, value, low, high):
+    node = maths.node("ShaderNodeMapRange", interpolation_type="SMOOTHSTEP")
+    maths.link(value, node.inputs["Value"])
+    node.inputs["From Min"].default_value, node.inputs["From Max"].default_value = low, high
+    return node.outputs[0]
+
+
+def _walks(maths, state, phase, repertoire):
+    """(a pose of the walk, the one after it, how far between them), the same of the gait before, but how much of that
+    is left, and the gait (docs/bake.md has how the state tells all this)."""
+    all_ = maths.math("MULTIPLY", maths.math("FRACT", state), 16.0)
+    gait = maths.math("ROUND", all_)
+    rest = maths.math("MULTIPLY_ADD", maths.math("SUBTRACT", all_, gait), 32.0, 1e-3)
+    before, left = maths.math("FLOOR", rest), maths.math("FRACT", rest)
+    place = maths.math("MULTIPLY", maths.math("FRACT", phase), float(POSES))
+    pose = maths.math("MINIMUM", maths.math("FLOOR", place), POSES - 1.0)
+    after = maths.math("MODULO", maths.math("ADD", pose, 1.0), float(POSES))
+    found = []
+    for each, share in ((gait, maths.math("SUBTRACT", place, pose)), (before, _smooth(maths, left, 0.0, 1.0))):
+        number = maths.math("SUBTRACT", each, float(repertoire.first))
+        number = maths.math("MINIMUM", maths.math("MAXIMUM", number, 0.0), len(repertoire.strides) - 1.0)
+        first = maths.math("MULTIPLY", number, float(POSES))
+        found.append(combined(maths, maths.math("ADD", first, pose), maths.math("ADD", first, after), share))
+    return (*found, gait)
+
+
+def _stands(maths, state, nature, walking):
+    """(a beat of how somebody stands, the one after it, how far between them): as poses.py picks them, but people
+    take a third of the time for each change."""
+    gathers = maths.math("COMPARE", maths.math("FLOOR", state), 2.0, 0.1)
+    clip = maths.math("MODULO", nature[0], maths.math("MULTIPLY_ADD", gathers, 2.0, 2.0))
+    frame = socket(maths.node("GeometryNodeInputSceneTime").outputs, "Frame")
+    rounds = maths.math("ADD", nature[1], maths.math("DIVIDE", frame, poses.FRAMES_A_ROUND))
+    place = maths.math("MULTIPLY", maths.math("FRACT", rounds), float(BEATS))
+    beat = maths.math("FLOOR", place)
+    first = maths.math("MULTIPLY_ADD", clip, float(BEATS), float(walking))
+    after = maths.math("MODULO", maths.math("ADD", beat, 1.0), float(BEATS))
+    return combined(maths, maths.math("ADD", first, beat), maths.math("ADD", first, after),
+                    _smooth(maths, maths.math("SUBTRACT", place, beat), 0.67, 1.0))
+
+
+def _people(maths, points, repertoire, count, drawn, own):
+    """Points of near people with all that their bones need to know of them."""
+    cosine, sine, speed = maths.components("throng_dir")
+    state, variation, phase = maths.components("throng_state")
+    nature = maths.components(NATURE)
+    who = poses.member_of(maths, variation, drawn, count, own)
+    walks, before, gait = _walks(maths, state, phase, repertoire)
+    stride = None
+    for number, length in enumerate(repertoire.strides, repertoire.first):
+        part = maths.math("MULTIPLY", maths.math("COMPARE", gait, float(number), 0.5), float(length))
+        stride = part if stride is None else maths.math("ADD", stride, part)
+    walking = _smooth(maths, speed, STANDS_BELOW, WALKS_FROM)
+    rate = maths.math("DIVIDE", maths.math("MULTIPLY", speed, float(POSES)), maths.math("MAXIMUM", stride, 0.1))
+    for name, value, kind in ((_WHO, who, "INT"), (_RANK, maths.node("GeometryNodeInputIndex").outputs[0], "INT"),
+                              (ROW, maths.node("GeometryNodeInputID").outputs[0], "INT"),
+                              (_WALKS, walks, "FLOAT_VECTOR"), (_BEFORE, before, "FLOAT_VECTOR"),
+                              (_STANDS, _stands(maths, state, nature, repertoire.walking()), "FLOAT_VECTOR"),
+                              (_RATES, combined(maths, walking, rate, speed), "FLOAT_VECTOR"),
+                              (_TURN, combined(maths, cosine, sine, maths.math("ADD", maths.attribute(BIGGER), 1.0)),
+                               "FLOAT_VECTOR")):
+        points = maths.store(points, name, value, kind)
+    return points
+
+
+def _between(maths, one, other, share):
+    return vector(maths, "ADD", one, scaled(maths, vector(maths, "SUBTRACT", other, one), share))
+
+
+def _blended(maths, sheet, at, name):
+    """(a column of everybody's bones between all six poses, how fast it changes in a second)"""
+    value = maths.attribute(name, "FLOAT_VECTOR") if name else maths.node("GeometryNodeInputPosition").outputs[0]
+    walks, before, stands = (maths.components(each) for each in (_WALKS, _BEFORE, _STANDS))
+    walking, rate, _ = maths.components(_RATES)
+    here, after, stand, stand_after = (bones.sample(maths, sheet, value, at(each))
+                                       for each in (walks[0], walks[1], stands[0], stands[1]))
+    here, after = (_between(maths, each, bones.sample(maths, sheet, value, at(was)), before[2])
+                   for each, was in ((here, before[0]), (after, before[1])))
+    walk = _between(maths, here, after, walks[2])
+    change = scaled(maths, vector(maths, "SUBTRACT", after, here), maths.math("MULTIPLY", walking, rate))
+    return _between(maths, _between(maths, stand, stand_after, stands[2]), walk, walking), change
+
+
+def _placed(maths, value):
+    """A vector of somebody's own frame, in the scene's: along the ground's slope, turned, and as large as they are."""
+    x, y, z = _parts(maths, value)
+    along, across, _ = maths.components(GROUND)
+    z = maths.math("MULTIPLY_ADD", x, along, maths.math("MULTIPLY_ADD", y, across, z))
+    cosine, sine, size = maths.components(_TURN)
+    turned = combined(maths, maths.math("SUBTRACT", maths.math("MULTIPLY", x, cosine), maths.math("MULTIPLY", y, sine)),
+                      maths.math("MULTIPLY_ADD", x, sine, maths.math("MULTIPLY", y, cosine)), z)
+    return scaled(maths, turned, size)
+
+
+def _parts(maths, value):
+    node = maths.node("ShaderNodeSeparateXYZ")
+    maths.link(value, node.inputs[0])
+    return node.outputs
+
+
+_COLUMNS = ("throng_x", "throng_y", "throng_z")
+_CHANGES = ("throng_x_changes", "throng_y_changes", "throng_z_changes", "throng_changes")
+
+
+def _bone_points(maths, people, sheet, pose_count, bone_count):
+    """A point for each bone of everybody: where it takes what hangs on it is its place; what it makes of x, y and z,
+    and how fast all four change, are attributes."""
+    copies = maths.node("GeometryNodeDuplicateElements", domain="POINT")
+    maths.link(people, copies.inputs["Geometry"])
+    copies.inputs["Amount"].default_value = bone_count
+    points = maths.store(copies.outputs["Geometry"], "throng_bone", copies.outputs["Duplicate Index"], "INT")
+    first = maths.math("MULTIPLY_ADD", maths.attribute(_WHO, "INT"), float(pose_count * bone_count),
+                       maths.attribute("throng_bone", "INT"))
+    at = lambda pose: maths.math("MULTIPLY_ADD", pose, float(bone_count), first)
+
+    (x, x_changes), (y, y_changes), (moved, changes) = (_blended(maths, sheet, at, name) for name in ("x", "y", ""))
+    x = vector(maths, "NORMALIZE", x)
+    y = vector(maths, "SUBTRACT", y, scaled(maths, x, vector(maths, "DOT_PRODUCT", x, y)))
+    y = vector(maths, "NORMALIZE", y)
+    z = vector(maths, "CROSS_PRODUCT", x, y)
+    z_changes = vector(maths, "ADD", vector(maths, "CROSS_PRODUCT", x_changes, y),
+                       vector(maths, "CROSS_PRODUCT", x, y_changes))
+    cosine, sine, _ = maths.components(_TURN)
+    goes = scaled(maths, combined(maths, cosine, sine, maths.components(GROUND)[0]), maths.components(_RATES)[2])
+    changes = vector(maths, "ADD", _placed(maths, changes), goes)
+    place = vector(maths, "ADD", _placed(maths, moved), maths.node("GeometryNodeInputPosition").outputs[0])
+    for name, value in (*zip(_COLUMNS, (_placed(maths, each) for each in (x, y, z))),
+                        *zip(_CHANGES, (*(_placed(maths, each) for each in (x_changes, y_changes, z_changes)),
+                                        changes))):
+        points = maths.store(points, name, value, "FLOAT_VECTOR")
+    put = maths.node("GeometryNodeSetPosition")
+    maths.link(points, put.inputs["Geometry"])
+    maths.link(place, put.inputs["Position"])
+    return put.outputs[0]
+
+
+def _meshes(maths, people, figures, kept):
+    """Everybody's mesh at rest, as one mesh. Of what the people's points say, `kept` stays."""
+    for spare in (_WHO, _WALKS, _BEFORE, _STANDS, _RATES, _TURN):
+        if spare not in kept:
+            people = _without(maths, people, spare)
+    origin = maths.node("GeometryNodeSetPosition")
+    maths.link(people, origin.inputs["Geometry"])
+    origin.inputs["Position"].default_value = (0.0, 0.0, 0.0)
+    maths.link(combined(maths, 0.0, 0.0, 0.0), origin.inputs["Position"])
+    shapes = maths.node("GeometryNodeJoinGeometry")
+    for figure in reversed(figures):  # what is linked to a Join Geometry last comes out first
+        info = maths.node("GeometryNodeObjectInfo", transform_space="ORIGINAL")
+        info.inputs["Object"].default_value = figure
+        info.inputs["As Instance"].default_value = True
+        maths.link(socket(info.outputs, "Geometry"), shapes.inputs[0])
+    place = maths.node("GeometryNodeInstanceOnPoints")
+    place.inputs["Pick Instance"].default_value = True
+    maths.link(origin.outputs[0], place.inputs["Points"])
+    maths.link(shapes.outputs[0], place.inputs["Instance"])
+    maths.link(maths.attribute(_WHO, "INT"), place.inputs["Instance Index"])
+    whole = maths.node("GeometryNodeRealizeInstances")
+    maths.link(place.outputs[0], whole.inputs[0])
+    return whole.outputs[0]
+
+
+def _without(maths, geometry, name):
+    remove = maths.node("GeometryNodeRemoveAttribute")
+    remove.inputs["Name"].default_value = name
+    maths.link(geometry, remove.inputs[0])
+    return remove.outputs[0]
+
+
+def _hung(maths, bones_, names, place, hangs, first):
+    """What all bones that a vertex hangs on make of its place at rest. @param names of x, y, z and of what is added"""
+    shares = [maths.math("FRACT", each) for each in hangs[1:bones.MOST]]
+    left = maths.math("SUBTRACT", 1.0, maths.math("ADD", shares[0], maths.math("ADD", shares[1], shares[2])))
+    total = None
+    for hang, share in zip(hangs, (left, *shares)):
+        index = maths.math("ADD", first, maths.math("FLOOR", hang))
+        part = None
+        for name, along in zip((names[3], *names[:3]), (None, *place)):
+            value = (maths.attribute(name, "FLOAT_VECTOR") if name
+                     else maths.node("GeometryNodeInputPosition").outputs[0])
+            column = bones.sample(maths, bones_, value, index)
+            part = column if part is None else vector(maths, "MULTIPLY_ADD", column, along, part)
+        total = (scaled(maths, part, share) if total is None else vector(maths, "MULTIPLY_ADD", part, share, total))
+    return total
+
+
+def _rest_of(name, figure):
+    """An object that shows a figure's mesh at rest."""
+    found = bpy.data.objects.get(name) or bpy.data.objects.new(name, figure.data)
+    found.data, found[_REST] = figure.data, True
+    return found
+
+
+def near_tree(cast, repertoire, sheet, drawn, own):
+    """A group that makes one mesh of all points that it gets.
+
+    @param sheet the object of all members' bones (bones.join_sheets)
+    """
+    figures = boned_members(cast)
+    tree, inputs, outputs = new_tree("Throng near people", _GEOMETRY + [("Blur", "NodeSocketBool")], _GEOMETRY)
+    maths = Maths(tree)
+    people = _people(maths, inputs.outputs[0], repertoire, cast["throng_variations"], drawn, own)
+    info = maths.node("GeometryNodeObjectInfo", transform_space="ORIGINAL")
+    info.inputs["Object"].default_value = sheet
+    bone_count = sheet_of(figures[0])["throng_bones"]
+    hung_on = _bone_points(maths, people, socket(info.outputs, "Geometry"), repertoire.poses(0), bone_count)
+    rests = [_rest_of(f"{figure.name} at rest", figure) for figure in figures]
+    for rest in rests:
+        if rest.name not in cast.objects:
+            cast.objects.link(rest)
+    spare = ("id", "throng_dir", "throng_state", NATURE, NEAR, GROUND, LEVEL, FIRST, OWN)
+    bodies = people
+    for name in spare:
+        bodies = _without(maths, bodies, name)
+    mesh = _meshes(maths, bodies, rests, (_WHO,))
+    place = _parts(maths, maths.node("GeometryNodeInputPosition").outputs[0])
+    hangs = maths.node("FunctionNodeSeparateColor")
+    maths.link(maths.attribute(bones.HANGS, "FLOAT_COLOR"), hangs.inputs[0])
+    first = maths.math("MULTIPLY", maths.attribute(_RANK, "INT"), float(bone_count))
+    velocity = _hung(maths, hung_on, _CHANGES, place, hangs.outputs, first)
+    blurs = maths.node("GeometryNodeSwitch", input_type="GEOMETRY")
+    maths.link(inputs.outputs["Blur"], socket(blurs.inputs, "Switch"))
+    maths.link(mesh, socket(blurs.inputs, "False"))
+    maths.link(maths.store(mesh, "velocity", velocity, "FLOAT_VECTOR"), socket(blurs.inputs, "True"))
+    mesh = socket(blurs.outputs)
+    put = maths.node("GeometryNodeSetPosition")
+    maths.link(mesh, put.inputs["Geometry"])
+    maths.link(_hung(maths, hung_on, (*_COLUMNS, ""), place, hangs.outputs, first), put.inputs["Position"])
+    mesh = put.outputs[0]
+    for name in (_WHO, _RANK, bones.HANGS):
+        mesh = _without(maths, mesh, name)
+    maths.link(mesh, outputs.inputs[0])
+    return tree

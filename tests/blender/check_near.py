@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Runs inside Blender: people near the camera, who are bent into the pose of the moment. ADDON BAKE FOLDER"""
+import json
+import os
+import sys
+
+import bpy
+import numpy
+
+addon, bake, folder = sys.argv[-3:]
+sys.path[:0] = [addon, os.path.dirname(os.path.abspath(__file__))]
+import throng  # noqa: E402
+from throng.cast import library, sheets  # noqa: E402
+from throng.crowd import own, poses  # noqa: E402
+from throng.crowd.names import INSTANCERS  # noqa: E402
+from throng.crowd.queries import cast_of, crowd_objects, repertoire_of  # noqa: E402
+from throng.people import members  # noqa: E402
+
+PEOPLE = (0, 1, 9)  # a man, a woman, a girl
+FRAME, FPS = 20, 24.0
+drawn = members.person_of
+members.person_of = lambda number, look=members.LOOK: drawn(PEOPLE[number], look)
+bpy.ops.wm.read_factory_settings(use_empty=True)
+throng.register()
+scene, result = bpy.context.scene, {}
+pos, way, state = (numpy.load(os.path.join(bake, "streams", f"{name}.npy")) for name in ("pos", "dir", "state"))
+
+
+def load(**options):
+    return bpy.ops.import_scene.throng(filepath=os.path.join(bake, "bake.json"), scenery=False, walls=False,
+                                       roads=False, relative=False, people=len(PEOPLE), **options)
+
+
+def refused(call, **arguments):
+    try:
+        call(**arguments)
+        return "no error"
+    except RuntimeError as error:
+        return str(error)
+
+
+def bent(crowd, frame=FRAME, values="position"):
+    """{row: (V, 3)} of those who are bent."""
+    scene.frame_set(frame)
+    mesh = crowd.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+    count = len(mesh.vertices)
+    flat, rows = numpy.empty(3 * count, numpy.float32), numpy.empty(count, numpy.int32)
+    if not count:
+        return {}
+    if values == "position":
+        mesh.vertices.foreach_get("co", flat)
+    else:
+        mesh.attributes[values].data.foreach_get("vector", flat)
+    mesh.attributes["throng_row"].data.foreach_get("value", rows)
+    return {int(row): flat.reshape(-1, 3)[rows == row].astype(float) for row in numpy.unique(rows)}
+
+
+def instanced(crowd):
+    graph = bpy.context.evaluated_depsgraph_get()
+    return {i.persistent_id[1] for i in graph.object_instances
+            if i.is_instance and i.parent and i.parent.original == crowd}
+
+
+def smooth(value, low, high):
+    share = numpy.clip((value - low) / (high - low), 0.0, 1.0)
+    return share * share * (3.0 - 2.0 * share)
+
+
+def walk(points, gait, phase):
+    place = phase % 1.0 * 24
+    pose = int(place)
+    first = 24 * gait
+    return points[first + pose] + (place - pose) * (points[first + (pose + 1) % 24] - points[first + pose])
+
+
+def expected(crowd, row, frame=FRAME):
+    """Where somebody's vertices should be: poses blended vertex by vertex."""
+    repertoire, at = repertoire_of(crowd), frame - 1
+    activity, variation, phase = (float(value) for value in state[at, row])
+    figure = library.figures_of(cast_of(crowd))[0, own.member_of(crowd, row, int(variation), False)]
+    points = sheets.points_of(figure).astype(float)
+    told = activity % 1.0 * 16.0
+    gait = round(told)
+    before, left = divmod((told - gait) * 32.0 + 1e-4, 1.0)
+    walks = walk(points, gait - repertoire.first, phase)
+    if left > 0.01:
+        was = walk(points, int(before) - repertoire.first, phase)
+        walks = walks + smooth(left, 0.0, 1.0) * (was - walks)
+    clip = row % 4 % (4 if int(activity) == 2 else 2)
+    rounds = (row * 0.618034 % 1.0 + frame / poses.FRAMES_A_ROUND) % 1.0 * 4
+    beat, first = int(rounds), repertoire.walking() + 4 * clip
+    stands = points[first + beat]
+    stands = stands + smooth(rounds - beat, 0.67, 1.0) * (points[first + (beat + 1) % 4] - stands)
+    cosine, sine, speed = (float(value) for value in way[at, row])
+    body = stands + smooth(speed, 0.03, 0.35) * (walks - stands)
+    turned = numpy.stack([cosine * body[:, 0] - sine * body[:, 1], sine * body[:, 0] + cosine * body[:, 1],
+                          body[:, 2]], axis=1)
+    return turned + pos[at, row]
+
+
+assert load() == {"FINISHED"}
+crowd = crowd_objects(scene)[0]
+shape, camera = cast_of(crowd), scene.camera
+result["by default"] = ["throng near" in crowd.modifiers, shape["throng_levels"]]
+camera.location, camera.rotation_euler = (0.0, -12.0, 3.0), (1.35, 0.0, 0.0)  # looks along +y
+assert bpy.ops.throng.near(by="camera", reach=14.0, most=1000) == {"FINISHED"}
+found = bent(crowd)
+result["bent"], result["instanced"] = sorted(found), sorted(instanced(crowd))
+result["off"] = {row: float(numpy.linalg.norm(points - expected(crowd, row), axis=1).max())
+                 for row, points in found.items()}
+mesh = crowd.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+tints = numpy.empty(3 * len(mesh.vertices), numpy.float32)
+mesh.attributes["tint"].data.foreach_get("vector", tints)
+rows = numpy.empty(len(mesh.vertices), numpy.int32)
+mesh.attributes["throng_row"].data.foreach_get("value", rows)
+wanted = numpy.array([each.vector for each in crowd.data.attributes["tint"].data])
+result["tints"] = float(numpy.abs(tints.reshape(-1, 3) - wanted[rows]).max())
+result["blurs on screen"] = "velocity" in mesh.attributes
+result["materials"] = len(mesh.materials)
+
+# as rendered: what vertices do in a frame is what their velocity says
+for name, shown in zip(INSTANCERS, (True, False)):
+    crowd.modifiers[name].show_viewport = shown
+velocities = bent(crowd, values="velocity")
+earlier, later = bent(crowd, FRAME - 1), bent(crowd, FRAME + 1)
+straight = [row for row in velocities if row > 1 and row in earlier and row in later and way[FRAME, row, 2] > 0.5]
+off = [numpy.linalg.norm((later[row] - earlier[row]) * FPS / 2.0 - velocities[row], axis=1) for row in straight]
+result["velocities"] = [len(straight), float(numpy.median(numpy.concatenate(off))),
+                        float(numpy.quantile(numpy.concatenate(off), 0.99))]
+for name, shown in zip(INSTANCERS, (False, True)):
+    crowd.modifiers[name].show_viewport = shown
+
+# fewer than there are: the nearest
+assert bpy.ops.throng.near(by="camera", reach=14.0, most=5) == {"FINISHED"}
+few = bent(crowd)
+away = {row: float(numpy.linalg.norm(pos[FRAME - 1, row] - numpy.array(camera.location))) for row in found}
+result["few"] = [len(few), max(away[row] for row in few),
+                 min((away[row] for row in found if row not in few), default=99.0)]
+result["all are there"] = sorted({*few, *instanced(crowd)}) == sorted({*found, *result["instanced"]})
+
+# larger, from a saved file without the add-on, and nobody at all
+row = min(few)
+assert bpy.ops.throng.scale_people(rows=str(row), scale=1.25) == {"FINISHED"}
+tall = lambda people: float(people[row][:, 2].max() - people[row][:, 2].min())
+result["scaled"] = tall(bent(crowd)) / tall(few)
+path = os.path.join(folder, "near.blend")
+bpy.ops.wm.save_as_mainfile(filepath=path)
+before = bent(crowd)
+name = crowd.name
+throng.unregister()
+bpy.ops.wm.open_mainfile(filepath=path)
+scene = bpy.context.scene
+after = bent(bpy.data.objects[name])
+result["saved"] = sorted(before) == sorted(after) and max(
+    float(numpy.abs(before[row] - after[row]).max()) for row in before)
+throng.register()
+crowd = bpy.data.objects[name]
+counts = lambda: [len(each) for each in (bpy.data.objects, bpy.data.meshes, bpy.data.node_groups)]
+bpy.ops.throng.levels(by="none")
+result["levels stay"] = cast_of(crowd)["throng_levels"]
+assert bpy.ops.throng.near(by="none") == {"FINISHED"}
+result["none"] = [len(bent(crowd)), len(instanced(crowd)), cast_of(crowd)["throng_levels"]]
+without = counts()
+bpy.ops.throng.near(by="camera")
+bpy.ops.throng.near(by="camera")
+bpy.ops.throng.near(by="none")
+result["nothing is left"] = counts() == without
+
+# people without bones
+bpy.ops.wm.read_factory_settings(use_empty=True)
+del os.environ["THRONG_BODIES"]
+scene = bpy.context.scene
+assert bpy.ops.import_scene.throng(filepath=os.path.join(bake, "bake.json"), scenery=False, walls=False, roads=False,
+                                   relative=False) == {"FINISHED"}
+result["plain"] = ["throng near" in crowd_objects(scene)[0].modifiers, refused(bpy.ops.throng.near, by="camera")]
+scene.camera = None
+result["no camera"] = refused(bpy.ops.throng.near, by="camera")
+print("RESULT " + json.dumps(result))
