@@ -46,8 +46,8 @@ def _figures_and_poses(maths, state, phase, speed, variation, nature, repertoire
 
 def instancer_tree(cast, repertoire, leans, near=None):
     """An Instance on Points for each bunch of the cast's figures; those who are near are made by a group of their own
-    (near.py), the object `near` has the bones of its members, which then need no poses at level 0. What it needs is filed away on the points: worked out
-    for all at once, not by every bunch.
+    (near.py), the object `near` has the bones of its members, which then need no poses at level 0. What is needed is
+    filed away on the points: worked out for all at once, not by every bunch.
 
     While a crowd is on screen, Blender notes down all attributes of what goes through a socket, those of every pose
     included, which takes longer than the work itself. From 4.0 on it does so for sockets outside of groups only, so

@@ -62,8 +62,8 @@ class THRONG_OT_near(ChangesCrowds, bpy.types.Operator):
     reach: FloatProperty(name="Reach", default=REACH, min=1.0, max=200.0, subtype="DISTANCE",
                          description="How far from the camera people are bent")
     most: IntProperty(name="Most", default=MOST, min=1, max=5000,
-                      description="At most so many are: where there are more, the reach shrinks. 150 take about as long "
-                                  "as 30,000 who are not")
+                      description="At most so many are: where there are more, the reach shrinks. It takes time in "
+                                  "every frame")
 
     def invoke(self, context, _event):
         return context.window_manager.invoke_props_dialog(self)
