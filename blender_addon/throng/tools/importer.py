@@ -60,12 +60,12 @@ def import_bake(context, path, *, frame_start=1, walls=True, roads=True, scenery
     shown = library.build_cast(variations, repertoire, f"Throng {bake.name} cast", look)
     paths = {stream: stored_path(bake.stream_path(stream), relative) for stream in bake.streams}
     crowd = playback.build_crowd(bake, f"Throng {bake.name} crowd", shown, frame_start, paths)
-    collection.objects.link(crowd)
     set_up_scene(scene, bake, frame_start)
     environment.build_environment(context, bake.manifest, collection, walls=walls, roads=roads, ground=scenery,
                                   light=scenery, camera=camera, frame_start=frame_start, terrain=terrain,
                                   bake=bake if scenery and dressing else None)
-    overrides.place(crowd)
     if bend and look and scene.camera:
         near.apply(crowd, scene.camera)
+    collection.objects.link(crowd)  # when all is there: whatever the scene has is worked out, poses that go away, too
+    overrides.place(crowd)
     return crowd
