@@ -37,7 +37,9 @@ BESIDE = {
     "report": ["../report.md|what the pages show"],
     "scenarios": ["../motion-validation.md|what came of them"],
     "verify": ["../bake.md#checksums|the checksums of a bake", "../how-to/render-on-a-farm.md|rendering on a farm"],
-    "schema": ["../layout.md|layouts", "../batch.md|families", "../overrides.md|overrides"],
+    "completions": ["../how-to/install.md|how to install it"],
+    "manual": ["../how-to/install.md|how to install it"],
+    "schema": ["../how-to/editors.md|how editors use them", "../layout.md|layouts", "../batch.md|families", "../overrides.md|overrides"],
 }
 
 
