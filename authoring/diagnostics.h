@@ -19,9 +19,6 @@ struct Diagnostic {
     std::string hint;     ///< how to mend it, e.g. "did you mean `width`?"; may be empty
 };
 
-/// As much of a text as one reads in a message.
-std::string shortened(std::string text);
-
 /// All that was found in one file, in the order of the file. Of very many mistakes only the first are kept,
 /// and whatever names from the file are in them can be shown on a terminal.
 struct Diagnostics {

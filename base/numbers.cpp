@@ -20,6 +20,10 @@ double withDigits(double value, int digits) {
     return finiteNumber(fmt::format("{:.{}g}", value, digits)).value_or(value);
 }
 
+double readable(double value) {
+    return withDigits(value, 6);
+}
+
 std::string grouped(std::uint64_t number) {
     std::string text = std::to_string(number);
     for (std::size_t at = text.size(); at > 3;) {

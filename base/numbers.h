@@ -15,6 +15,9 @@ std::optional<double> finiteNumber(std::string_view text);
 /// As it reads with so many digits: the same wherever it is printed.
 double withDigits(double value, int digits);
 
+/// Six digits say enough and read well.
+double readable(double value);
+
 /// 1234567 -> "1,234,567"
 std::string grouped(std::uint64_t number);
 

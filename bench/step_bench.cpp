@@ -107,8 +107,9 @@ void wholeStep(benchmark::State& state) {
 void stepOverGradient1(benchmark::State& state) {
     context();
     Gradient1 yardstick(16384, 8.0f);
-    sim::Simulation simulation(benchScene(16384), shaders());
-    const int in_frame = benchScene(1).settings.stepsPerDecision();
+    const authoring::Scene scene = benchScene(16384);
+    const int in_frame = scene.settings.stepsPerDecision();
+    sim::Simulation simulation(scene, shaders());
     for (int i = 0; i < 6; ++i)
         milliseconds([&] { simulation.step(), yardstick.draw(); });
     std::vector<double> steps, yardsticks, ratios;

@@ -7,8 +7,8 @@
 
 #include "base/build_name.h"
 #include "base/files/output_file.h"
-#include "base/printable.h"
 #include "base/stopwatch.h"
+#include "base/text/printable.h"
 #include "cli/batch/batch_estimate.h"
 #include "cli/batch/batch_folder.h"
 #include "cli/batch/batch_local.h"

@@ -7,7 +7,7 @@
 
 #include "authoring/layout/words.h"
 #include "base/files/output_file.h"
-#include "base/printable.h"
+#include "base/text/printable.h"
 #include "cli/batch/results_database.h"
 #include "cli/batch/results_query.h"
 #include "cli/commands.h"

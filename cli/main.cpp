@@ -10,7 +10,7 @@
 
 #include "base/build_name.h"
 #include "base/files/errors.h"
-#include "base/printable.h"
+#include "base/text/printable.h"
 #include "cli/commands.h"
 #include "cli/terminal/exit_codes.h"
 #include "cli/terminal/failure.h"

@@ -3,7 +3,7 @@
 
 blender -b --factory-startup --python-exit-code 1 -P scripts/render_bake.py -- BAKE OUT.png [--frame N] [--samples N]
         [--width W] [--height H] [--engine cycles|eevee|workbench] [--shot crane|street|wide]
-        [--light noon|overcast|late|night] [--wet [AMOUNT]] [--levels] [--save FILE.blend]
+        [--also SHOT=OUT.png]... [--light noon|overcast|late|night] [--wet [AMOUNT]] [--levels] [--save FILE.blend]
 """
 import argparse
 import os
@@ -25,6 +25,16 @@ def share(text):
     return value
 
 
+SHOTS = ("crane", "street", "wide")
+
+
+def shot_and_picture(text):
+    shot, _, picture = text.partition("=")
+    if shot not in SHOTS or not picture:
+        raise argparse.ArgumentTypeError(f"expected one of {', '.join(SHOTS)}, `=` and a picture, found `{text}`")
+    return shot, picture
+
+
 def arguments():
     parser = argparse.ArgumentParser(prog="render_bake.py")
     parser.add_argument("bake")
@@ -34,7 +44,9 @@ def arguments():
     parser.add_argument("--width", type=int, default=960)
     parser.add_argument("--height", type=int, default=540)
     parser.add_argument("--engine", choices=("cycles", "eevee", "workbench"), default="cycles")
-    parser.add_argument("--shot", choices=("crane", "street", "wide"), default="crane")
+    parser.add_argument("--shot", choices=SHOTS, default="crane")
+    parser.add_argument("--also", type=shot_and_picture, action="append", default=[], metavar="SHOT=OUT.png",
+                        help="the same moment from elsewhere, as another picture")
     parser.add_argument("--light", choices=("noon", "overcast", "late", "night"), default="late")
     parser.add_argument("--wet", type=share, nargs="?", const=1.0, default=0.0, metavar="AMOUNT",
                         help="how wet the ground is, from 0 to 1, which has puddles; 1 unless told")
@@ -64,6 +76,12 @@ def set_up_render(scene, options):
         cycles.caustics_reflective = cycles.caustics_refractive = False
 
 
+def render(scene, frame, picture):
+    scene.render.filepath = os.path.abspath(picture)
+    bpy.ops.render.render(write_still=True)
+    print(f"rendered frame {frame}: {picture}")
+
+
 def main():
     options = arguments()
     bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -85,11 +103,12 @@ def main():
     crowd = next(c for c in bpy.data.collections if "throng_bake" in c)
     frame = options.frame if options.frame is not None else crowd["throng_camera_frame"]
     scene.frame_set(frame)
-    scene.render.filepath = os.path.abspath(options.picture)
     if options.save:
         bpy.ops.wm.save_mainfile(compress=True)
-    bpy.ops.render.render(write_still=True)
-    print(f"rendered frame {frame}: {options.picture}")
+    render(scene, frame, options.picture)
+    for shot, picture in options.also:
+        bpy.ops.throng.shot(kind=shot)
+        render(scene, frame, picture)
 
 
 main()

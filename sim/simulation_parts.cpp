@@ -105,10 +105,10 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
 
 std::vector<Pass> Simulation::Parts::passesOfStep() {
     const auto enter = [this] {
-        if (decides && anybody_enters_later) spawner.run(step_start, steps_done);
+        if (anybody_enters_later) spawner.run(step_start, steps_done);
     };
     const auto build = [this] {
-        if (decides && sensing.needsDiagram()) stopped = !diagram.build(extent);
+        if (sensing.needsDiagram()) stopped = !diagram.build(extent);
     };
     const auto decide = [this] {
         if (decides)
@@ -116,20 +116,20 @@ std::vector<Pass> Simulation::Parts::passesOfStep() {
         else
             avoidance.carryOn();
     };
-    const auto when_deciding = [this](auto& part) {
-        return [this, &part] {
-            if (decides) part.run();
+    const auto when_deciding = [this](auto pass) {
+        return [this, pass] {
+            if (decides) pass();
         };
     };
     const auto move = [this] {
         motion.run(steps_done);
         lines.run();
     };
-    return {{"cells", when_deciding(cells)},
-            {"routes", when_deciding(congestion)},
-            {"spawn", enter},
-            {"diagram", build},
-            {"sensing", when_deciding(sensing)},
+    return {{"cells", when_deciding([this] { cells.run(); })},
+            {"routes", when_deciding([this] { congestion.run(); })},
+            {"spawn", when_deciding(enter)},
+            {"diagram", when_deciding(build)},
+            {"sensing", when_deciding([this] { sensing.run(); })},
             {"avoidance", decide},
             {"contacts", [this] { contacts.run(); }},
             {"motion", move}};

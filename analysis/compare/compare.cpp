@@ -35,10 +35,6 @@ const std::array kQuantities = {
     Quantity{"time_gap", "Time gap", "s", &Observed::time_gap, true},
 };
 
-double rounded(double value) {
-    return withDigits(value, 6);
-}
-
 double secondsOf(const Trajectories& looks) {
     std::int64_t first = looks.tracks.front().first, last = first;
     for (const Track& track : looks.tracks) {
@@ -85,19 +81,19 @@ std::string valuesText(const Distribution& values) {
 Json valuesJson(const Distribution& values) {
     Json json = {{"samples", values.count()}};
     if (values.count() == 0) return json;
-    json["mean"] = rounded(values.mean());
-    json["median"] = rounded(values.quantile(0.5));
-    json["p10"] = rounded(values.quantile(0.1));
-    json["p90"] = rounded(values.quantile(0.9));
+    json["mean"] = readable(values.mean());
+    json["median"] = readable(values.quantile(0.5));
+    json["p10"] = readable(values.quantile(0.1));
+    json["p90"] = readable(values.quantile(0.9));
     return json;
 }
 
 Json sideJson(const Side& side) {
-    Json json = {{"name", side.name}, {"people", side.people}, {"seconds", rounded(side.seconds)}};
-    if (side.seen.flow) json["flow"] = rounded(*side.seen.flow);
+    Json json = {{"name", side.name}, {"people", side.people}, {"seconds", readable(side.seconds)}};
+    if (side.seen.flow) json["flow"] = readable(*side.seen.flow);
     json["speed_by_density"] = Json::array();
     for (const glm::dvec2 point : side.seen.speed_by_density)
-        json["speed_by_density"].push_back({rounded(point.x), rounded(point.y)});
+        json["speed_by_density"].push_back({readable(point.x), readable(point.y)});
     return json;
 }
 
@@ -140,8 +136,8 @@ Comparison compareWith(io::CrowdReader& crowd, const Trajectories& people, const
 Json comparisonJson(const Comparison& comparison) {
     const Box2d& area = comparison.area;
     Json json = {{"area",
-                  {rounded(area.minimum.x), rounded(area.minimum.y), rounded(area.maximum.x),
-                   rounded(area.maximum.y)}},
+                  {readable(area.minimum.x), readable(area.minimum.y), readable(area.maximum.x),
+                   readable(area.maximum.y)}},
                  {"bake", sideJson(comparison.bake)},
                  {"trajectories", sideJson(comparison.people)},
                  {"figures", Json::object()}};
@@ -151,8 +147,8 @@ Json comparisonJson(const Comparison& comparison) {
         const Distribution& b = comparison.people.seen.*quantity.member;
         Json figure = {{"unit", quantity.unit}, {"bake", valuesJson(a)}, {"trajectories", valuesJson(b)}};
         if (a.count() && b.count()) {
-            figure["wasserstein"] = rounded(meanDistance(a, b));
-            figure["kolmogorov_smirnov"] = rounded(largestDifference(a, b));
+            figure["wasserstein"] = readable(meanDistance(a, b));
+            figure["kolmogorov_smirnov"] = readable(largestDifference(a, b));
         }
         json["figures"][quantity.key] = std::move(figure);
     }

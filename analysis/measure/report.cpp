@@ -14,13 +14,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double rounded(double value) {
-    return withDigits(value, 6);
-}
-
 Json spreadJson(const Spread& spread) {
-    return {
-        {"median", rounded(spread.median)}, {"p99", rounded(spread.high)}, {"worst", rounded(spread.worst)}};
+    return {{"median", readable(spread.median)},
+            {"p99", readable(spread.high)},
+            {"worst", readable(spread.worst)}};
 }
 
 std::string spreadText(const Spread& spread) {
@@ -77,29 +74,29 @@ Json measurementJson(const Measurement& m) {
                  {keyFor(Fate::walking), m.walking},
                  {keyFor(Fate::refused), m.refused},
                  {keyFor(Fate::stuck), m.stuck},
-                 {"seconds", rounded(m.seconds)},
-                 {"duration", rounded(m.duration)},
-                 {"overlapping_percent", rounded(m.overlapping_percent)},
-                 {"worst_overlapping_percent", rounded(m.worst_overlapping_percent)},
-                 {"deepest_overlap_percent", rounded(m.deepest_overlap_percent)},
+                 {"seconds", readable(m.seconds)},
+                 {"duration", readable(m.duration)},
+                 {"overlapping_percent", readable(m.overlapping_percent)},
+                 {"worst_overlapping_percent", readable(m.worst_overlapping_percent)},
+                 {"deepest_overlap_percent", readable(m.deepest_overlap_percent)},
                  {"wall_crossings", m.wall_crossings},
-                 {"deepest_wall_penetration", rounded(m.deepest_wall_penetration)},
-                 {"time_ratio", rounded(m.time_ratio)},
-                 {"detour_ratio", rounded(m.detour_ratio)},
+                 {"deepest_wall_penetration", readable(m.deepest_wall_penetration)},
+                 {"time_ratio", readable(m.time_ratio)},
+                 {"detour_ratio", readable(m.detour_ratio)},
                  {"heading_rate", spreadJson(m.heading_rate)},
                  {"acceleration", spreadJson(m.acceleration)},
                  {"jerk", spreadJson(m.jerk)},
-                 {"backward_percent", rounded(m.backward_percent)},
-                 {"effort", rounded(m.effort)},
-                 {"lane_order", rounded(m.lane_order)},
-                 {"mean_density", rounded(m.mean_density)},
-                 {"high_density", rounded(m.high_density)},
-                 {"mean_speed", rounded(m.mean_speed)}};
-    if (m.flow) json["flow"] = rounded(*m.flow);
-    if (m.specific_flow) json["specific_flow"] = rounded(*m.specific_flow);
+                 {"backward_percent", readable(m.backward_percent)},
+                 {"effort", readable(m.effort)},
+                 {"lane_order", readable(m.lane_order)},
+                 {"mean_density", readable(m.mean_density)},
+                 {"high_density", readable(m.high_density)},
+                 {"mean_speed", readable(m.mean_speed)}};
+    if (m.flow) json["flow"] = readable(*m.flow);
+    if (m.specific_flow) json["specific_flow"] = readable(*m.specific_flow);
     json["speed_by_density"] = Json::array();
     for (const glm::dvec2 point : m.speed_by_density)
-        json["speed_by_density"].push_back({rounded(point.x), rounded(point.y)});
+        json["speed_by_density"].push_back({readable(point.x), readable(point.y)});
     return json;
 }
 

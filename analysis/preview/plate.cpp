@@ -8,7 +8,7 @@
 #include <glm/common.hpp>
 #include <numbers>
 
-#include "base/printable.h"
+#include "base/text/printable.h"
 
 namespace throng::analysis {
 namespace {

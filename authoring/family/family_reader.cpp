@@ -13,7 +13,7 @@
 #include "base/files/input_file.h"
 #include "base/json_shape.h"
 #include "base/numbers.h"
-#include "base/printable.h"
+#include "base/text/printable.h"
 
 namespace throng::authoring {
 namespace {

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "base/json_shape.h"
-#include "base/printable.h"
+#include "base/text/printable.h"
 
 namespace throng::authoring {
 namespace {

@@ -32,11 +32,6 @@ double standardNormalQuantile(double share) {
     return 0.5 * (low + high);
 }
 
-/// Six digits say enough, read well, and are the same wherever they are printed.
-double readable(double value) {
-    return withDigits(value, 6);
-}
-
 /// A normal distribution without the tails beyond the limits.
 double normalQuantile(const Axis& axis, double share) {
     const bool logarithm = axis.kind == Axis::Kind::log_normal;

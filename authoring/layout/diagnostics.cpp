@@ -3,18 +3,9 @@
 
 #include <utility>
 
-#include "base/printable.h"
+#include "base/text/printable.h"
 
 namespace throng::authoring {
-
-std::string shortened(std::string text) {
-    constexpr std::size_t kLongest = 600;  // bytes
-    if (text.size() <= kLongest) return text;
-    std::size_t end = kLongest;
-    while ((static_cast<unsigned char>(text[end]) & 0xc0u) == 0x80u)
-        --end;  // no character is cut in two
-    return text.substr(0, end) + "...";
-}
 
 void Diagnostics::error(const SourcePosition& where, std::string message, std::string hint) {
     add({Severity::error, where, shortened(printable(message)), shortened(printable(hint))});

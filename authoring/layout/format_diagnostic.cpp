@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "authoring/layout/layout_reader.h"
-#include "base/printable.h"
+#include "base/text/printable.h"
 
 namespace throng::authoring {
 namespace {

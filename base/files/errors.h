@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/text/printable.h"
+
 namespace throng {
 
 /// Something could not be written. The message names the path and the system's reason.
@@ -30,11 +32,14 @@ class OutputBusy : public OutputError {
     using OutputError::OutputError;
 };
 
-/// A file of a bake could not be read or is not what it claims to be. The message begins with the path.
+/// A file of a bake could not be read or is not what it claims to be. The message begins with the path;
+/// whatever of the file it repeats, it is short enough to be read.
 class InputError : public std::runtime_error {
   public:
     InputError(const std::filesystem::path& path, const std::string& message)
-        : std::runtime_error(path.string() + ": " + message), path_(path), reason_(message) {}
+        : std::runtime_error(path.string() + ": " + shortened(message)),
+          path_(path),
+          reason_(shortened(message)) {}
 
     const std::filesystem::path& path() const { return path_; }
     /// The message without the path.

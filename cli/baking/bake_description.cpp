@@ -10,7 +10,7 @@
 #include "authoring/scene/terrain_check.h"
 #include "base/files/errors.h"
 #include "base/files/hash.h"
-#include "base/printable.h"
+#include "base/text/printable.h"
 #include "recording/gaits.h"
 
 namespace throng::cli {

@@ -11,6 +11,7 @@
 #include "base/files/input_file.h"
 #include "base/files/output_file.h"
 #include "base/json_shape.h"
+#include "base/text/printable.h"
 #include "cli/terminal/say.h"
 
 namespace throng::cli {
@@ -112,7 +113,7 @@ std::optional<sim::CostModel> loadCalibration(const gl::Device& device) {
         return model;
     } catch (const std::exception& error) {
         say(stderr, "throng: warning: {} is passed over ({}); `throng calibrate` makes a new one\n",
-            path.string(), error.what());
+            path.string(), shortened(printable(error.what())));
         return std::nullopt;
     }
 }

@@ -11,7 +11,7 @@
 #include "authoring/layout/layout_reader.h"
 #include "base/files/hash.h"
 #include "base/files/input_file.h"
-#include "base/printable.h"
+#include "base/text/printable.h"
 #include "cli/terminal/exit_codes.h"
 #include "cli/terminal/failure.h"
 #include "cli/terminal/say.h"

@@ -10,8 +10,8 @@
 #include "base/files/errors.h"
 #include "base/files/input_file.h"
 #include "base/files/output_file.h"
-#include "base/printable.h"
 #include "base/process.h"
+#include "base/text/printable.h"
 #include "cli/batch/farm_job.h"
 #include "cli/terminal/say.h"
 

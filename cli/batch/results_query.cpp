@@ -11,8 +11,8 @@
 #include "base/files/csv.h"
 #include "base/files/input_file.h"
 #include "base/numbers.h"
-#include "base/printable.h"
 #include "base/stopwatch.h"
+#include "base/text/printable.h"
 
 namespace throng::cli {
 namespace fs = std::filesystem;

@@ -40,6 +40,7 @@ uniform uint slot_capacity;
 #include "shaders/motion/under_way.glsl"
 #include "shaders/motion/planted_feet.glsl"
 #include "shaders/motion/wide_site.glsl"
+#include "shaders/motion/stride.glsl"
 
 /// Of those sensed who are under way.
 bool anybodyIsOncoming(uint slot) {
@@ -86,12 +87,5 @@ void main() {
     vec2 change = (velocity - legs) * (parameters.step_seconds / parameters.decision_seconds);
     decisions[slot] = Decision(change, pace, feet);
     if (parameters.decision_seconds > parameters.step_seconds) velocity = legs + change;
-    vec2 target = self.position + velocity * parameters.step_seconds;
-    if (parameters.is_wide != 0u) {
-        vec2 way = velocity * parameters.step_seconds + states[self.row].rest;
-        ways[slot] = way;
-        target = placeAfter(self.position, way);
-    }
-    targets[slot] = target;
-    targets_after[slot] = target;
+    stride(slot, self.position, velocity, parameters.is_wide != 0u ? states[self.row].rest : vec2(0.0));
 }

@@ -20,6 +20,7 @@ layout(std430) writeonly buffer Ways { vec2 ways[]; };
 #include "shaders/motion/under_way.glsl"
 #include "shaders/motion/planted_feet.glsl"
 #include "shaders/motion/wide_site.glsl"
+#include "shaders/motion/stride.glsl"
 
 /// What the last step has changed.
 void takeOver(uint slot, AgentState state) {
@@ -49,12 +50,5 @@ void main() {
     takeOver(slot, state);
     // Who has left stays where it was last, for a step.
     vec2 velocity = isAlive(state.status) ? asDecided(bodies[slot], walkers[slot], decisions[slot]) : vec2(0.0);
-    vec2 target = state.position + velocity * parameters.step_seconds;
-    if (parameters.is_wide != 0u) {
-        vec2 way = velocity * parameters.step_seconds + state.rest;
-        ways[slot] = way;
-        target = placeAfter(state.position, way);
-    }
-    targets[slot] = target;
-    targets_after[slot] = target;
+    stride(slot, state.position, velocity, state.rest);
 }

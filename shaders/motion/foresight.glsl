@@ -7,8 +7,8 @@
 /// longer or shorter by more than what was walked. Jams are heeded as they are.
 RouteAhead wayAhead(Stage stage, vec2 position, vec2 velocity, uint sensed, float nervousness) {
     RouteAhead ahead = freeRouteAhead(stage, position);
-    if (FORESIGHT_ENABLED) {
-        float free = 1.0 - smoothstep(FORESIGHT_FREELY, FORESIGHT_NO_MORE, float(sensed));
+    float free = 1.0 - smoothstep(FORESIGHT_FREELY, FORESIGHT_NO_MORE, float(sensed));
+    if (FORESIGHT_ENABLED && free > 0.0) {  // in a crowd, and so for most, one look will do
         vec2 lead = velocity * (FORESIGHT_TIME * free * (1.0 - nervousness));
         RouteAhead soon = freeRouteAhead(stage, position + lead);
         if (abs(soon.remaining - ahead.remaining) <= length(lead) * FORESIGHT_SAME_WAY) ahead = soon;

@@ -97,12 +97,12 @@ def test_manifests_of_any_size_are_read_in_little_memory_and_time(confined, own,
 
 
 @pytest.mark.parametrize("text", ["[" * 100000, '{"a":' * 100000, "{" + ",".join(f'"{i}":0' for i in range(100000)) + "}",
-                                  "", "null", '"\ud800"', "\x1b[31m"], ids=("arrays", "objects", "keys", "empty", "null",
-                                                                            "surrogate", "escape"))
+                                  "", "null", '"\ud800"', "\x1b[31m", '"' + "endless " * 5000],
+                         ids=("arrays", "objects", "keys", "empty", "null", "surrogate", "escape", "token"))
 def test_what_is_no_manifest_is_told(confined, own, text):
     (own / "bake.json").write_bytes(text.encode("utf-8", "surrogatepass"))
     for said in all_read(confined, own, (3,)):
-        assert "bake.json" in said and "\x1b" not in said
+        assert "bake.json" in said and "\x1b" not in said and len(said) < 1500
 
 
 def test_bakes_without_people_or_frames_are_read(confined, own):

@@ -7,11 +7,12 @@
 #include <fstream>
 
 #include "base/files/beneath.h"
+#include "base/files/errors.h"
 #include "base/files/input_file.h"
 #include "base/files/output_file.h"
 #include "base/json_shape.h"
 #include "base/plane_grid.h"
-#include "base/printable.h"
+#include "base/text/printable.h"
 
 namespace throng {
 namespace {
@@ -77,6 +78,16 @@ TEST(FileName, IsOneThatStaysInItsFolder) {
     for (const char* name : {"", ".", "..", "../x", "/tmp/x", "a/b", "a\x1b", "a\nb", "\xff"})
         EXPECT_FALSE(isFileName(name)) << name;
     EXPECT_FALSE(isFileName(std::string(300, 'a')));
+}
+
+TEST(InputError, RepeatsAsMuchOfAFileAsOneReads) {
+    std::string euros;
+    for (int i = 0; i < 2000; ++i)
+        euros += "\xe2\x82\xac";
+    const InputError error("bake.json", "found " + euros);
+    EXPECT_LT(std::string(error.what()).size(), 700u);
+    EXPECT_LT(error.reason().size(), 700u);
+    EXPECT_TRUE(error.reason().ends_with("\xe2\x82\xac...")) << "a letter was cut in two";
 }
 
 TEST(JsonShape, IsLookedAtBeforeAnythingIsParsed) {

@@ -19,7 +19,7 @@ from throng.people.puppet import Puppet  # noqa: E402
 
 PEOPLE = (0, 1, 9)  # a man, a woman, a girl
 drawn = members.person_of
-members.MEMBERS, members.person_of = len(PEOPLE), lambda number, look=members.LOOK: drawn(PEOPLE[number], look)
+members.person_of = lambda number, look=members.LOOK: drawn(PEOPLE[number], look)
 bpy.ops.wm.read_factory_settings(use_empty=True)
 throng.register()
 scene, result = bpy.context.scene, {}
@@ -27,7 +27,7 @@ scene, result = bpy.context.scene, {}
 
 def load():
     return bpy.ops.import_scene.throng(filepath=os.path.join(bake, "bake.json"), scenery=False, walls=False,
-                                       roads=False, relative=False)
+                                       roads=False, relative=False, people=len(PEOPLE))
 
 
 def refused(call, **arguments):
@@ -66,6 +66,16 @@ figures = library.figures_of(shape)
 result["triangles"] = [[len(figures[level, member].data.polygons) for level in range(3)] for member in range(3)]
 result["poses"] = [len(sheets.points_of(figures[level, 1])) for level in range(3)]
 result["expected poses"] = [repertoire.poses(level) for level in range(3)]
+# poses by the few bones that files keep, beside those by all bones of the library
+result["off bones"] = []
+for member in range(3):
+    maker = members.maker_of(member)
+    poses = members.poses_of(maker.rig.build, repertoire)
+    model = maker.model(0)
+    off = numpy.linalg.norm(sheets.points_of(figures[0, member]) - model.posed(poses), axis=2)
+    result["off bones"].append([float(numpy.quantile(off, 0.999)), float(off.max())])
+kept = {sheets.sheet_of(each) for each in figures.values()}
+result["sheets"] = [len(kept), max(len(each.data.vertices) for each in kept) // repertoire.poses(0)]
 stands = [sheets.points_of(figures[0, member])[repertoire.walking()] for member in range(3)]
 result["heights"] = [[float(points[:, 2].min()), float(points[:, 2].max()), members.person_of(member).body.height]
                      for member, points in enumerate(stands)]

@@ -46,6 +46,12 @@ def test_figures_have_all_poses_and_levels(seen):
     assert seen["between levels"] < 0.06
 
 
+def test_few_bones_pose_people_as_all_bones_do(seen):
+    assert all(nearly < 1e-3 and most < 4e-3 for nearly, most in seen["off bones"]), seen["off bones"]
+    count, bones = seen["sheets"]
+    assert count == 3 and bones <= 20, "one a person, for all levels, of the bones that move"
+
+
 def test_people_stand_on_the_ground_and_are_as_tall_as_they_should_be(seen):
     for low, high, height in seen["heights"]:
         assert abs(low) < 0.004 and -0.02 < high - height < 0.09, "with shoes and hair"

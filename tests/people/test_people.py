@@ -9,8 +9,9 @@ import pytest
 from conftest import ROOT
 
 sys.path.insert(0, str(ROOT / "blender_addon"))
-from throng.cast import gait  # noqa: E402
+from throng.cast import gait, skinning  # noqa: E402
 from throng.people import library, levels, person, roster, shape, wardrobe  # noqa: E402
+from throng.people.rig import skinned  # noqa: E402
 from throng.people.parts import Part, border_of, clipped, edges_of, folded, subdivided  # noqa: E402
 
 EUROPEAN, AFRICAN, ASIAN = (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
@@ -205,3 +206,29 @@ def test_every_look_dresses_women_and_men():
             for bottom, tops, shoes in outfits:
                 order = wardrobe.order(bottom, tops, shoes)
                 assert set(order) == {bottom, shoes, *tops} and len(order) == 2 + len(tops)
+
+
+def test_bones_that_never_move_beside_others_are_left_out(models):
+    model = models[0, 0]
+    rig = model.rig
+    walk = gait.gait_of(1.4)
+    poses = [gait.walk_pose(index / 6.0, rig.build, walk) for index in range(6)]
+    poses += [gait.standing_pose(clip, 0.3, rig.build) for clip in gait.STANDING_CLIPS]
+    matrices = numpy.stack([rig.matrices(pose) for pose in poses])
+    leaders, turns = skinning.leaders_of(rig.bodies.parents, matrices)
+    name = lambda bone: rig.bodies.bones[leaders[rig.bodies.bone[bone]]]
+    assert name("index_02_l") == name("hand_l") == "lowerarm_l" and name("clavicle_r") == "spine_03"
+    assert all(name(bone) == bone for bone in ("pelvis", "thigh_l", "calf_r", "foot_l", "ball_r", "upperarm_l", "head"))
+    points, weights = skinning.hinged(model.points, model.weights, leaders, turns)
+    assert (weights > 0.0).sum(axis=1).max() <= skinning.MOST and numpy.allclose(weights.sum(axis=1), 1.0)
+    off = numpy.linalg.norm(skinned(points, weights, matrices[:, numpy.unique(leaders)]) - model.posed(poses), axis=2)
+    assert numpy.quantile(off, 0.999) < 1e-3 and off.max() < 4e-3
+
+
+def test_turns_and_shares_come_back_from_what_files_keep(models):
+    rig = models[0, 0].rig
+    matrices = rig.matrices(gait.walk_pose(0.1, rig.build, gait.gait_of(1.4)))
+    again = skinning.matrices_of(skinning.turns_of(matrices[..., :3]), matrices[..., 3])
+    assert numpy.allclose(again, matrices, atol=1e-9)
+    hangs = skinning.hangs_of(numpy.array([[0.0, 1.0, 0.0], [0.25, 0.0, 0.75]]))
+    assert hangs.tolist() == [[1.0, 0.0, 0.0, 0.0], [2.0, 0.25, 0.0, 0.0]]

@@ -4,7 +4,6 @@
 
 #include "sim/simulation.h"
 #include "tests/sim/gpu_test.h"
-#include "tests/sim/observe.h"
 #include "tests/sim/scenes.h"
 
 namespace throng::test {

@@ -363,7 +363,7 @@ TEST_F(MotionTest, BodiesThatStartInsideEachOtherPartWithoutFlying) {
     const auto states = simulation.parts().buffers.states.download<gpu::AgentState>(9);
     EXPECT_LT(overlapsOf(states, scene.people).deepest_percent, 5.0f);
     for (const gpu::AgentState& state : states)
-        EXPECT_LT(glm::length(state.position), 2.5f);
+        EXPECT_LT(glm::length(state.position), 2.0f);
 }
 
 TEST_F(MotionTest, ACrushBeyondTheTouchListsStillKeepsBodiesApart) {

@@ -122,3 +122,8 @@ class Maths:
         self.link(value, enabled[0])
         enabled[1].default_value = number
         return socket(node.outputs)
+
+    def between(self, value, first, last):
+        """Whether a number is one of those from the first to the last."""
+        middle, reach = 0.5 * (first + last), 0.5 * (last - first) + 0.5
+        return self.math("COMPARE", value, middle, reach)

@@ -16,7 +16,7 @@ class _Shaped:
     """How people are made who are shaped from a library of bodies: the package `people` fills it in, which this one
     knows nothing of."""
 
-    make = None   # (member, level, repertoire, look): Posed
+    make = None   # (member, level, repertoire, look): bones.Boned
     check = None  # raises where the library is missing, before anything is changed
 
 
@@ -35,11 +35,13 @@ def shown_figures(cast):
             if level < cast["throng_levels"]}
 
 
-def add_figure(cast, level, member, name, posed):
-    figure = make_figure(f"{name} level {level}" if level else name, posed)
+def add_figure(cast, level, member, name, posed, sheet=None):
+    """@param sheet of the member at another level, where it keeps bones"""
+    figure = make_figure(f"{name} level {level}" if level else name, posed, sheet)
     figure["throng_level"], figure["throng_member"] = level, member
     for thing in (figure, sheet_of(figure)):
-        cast.objects.link(thing)
+        if thing.name not in cast.objects:
+            cast.objects.link(thing)
     return figure
 
 
@@ -61,10 +63,12 @@ def add_person(cast, member, repertoire, materials, levels=None):
     wanted = range(cast["throng_levels"]) if levels is None else levels
     look = cast.get("throng_bodies")
     if look:
+        there = {level: figure for (level, number), figure in figures_of(cast).items() if number == member}
         for level in wanted:
-            figure = add_figure(cast, level, member, f"Throng person {member:02d}",
-                                shaped.make(member, level, repertoire, look))
-            figure["throng_person"] = member
+            sheet = sheet_of(next(iter(there.values()))) if there else None
+            there[level] = add_figure(cast, level, member, f"Throng person {member:02d}",
+                                      shaped.make(member, level, repertoire, look), sheet)
+            there[level]["throng_person"] = member
         return
     person = member % VARIATIONS
     bodies = [build_figure(people.CAST[person], pose) for pose in poses_of(people.CAST[person], repertoire)]

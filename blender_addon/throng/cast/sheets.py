@@ -19,6 +19,7 @@ import bpy
 import numpy
 
 from ..blender.nodes import Maths, drop_tree, get_input, new_tree, own_tree, set_input, socket
+from . import bones
 
 MODIFIER = "throng poses"
 MOST_POINTS = 1 << 24  # numbers of points go through nodes as floats, which count no further
@@ -44,8 +45,13 @@ def drop_spare_attributes(mesh, keep_sharp=False):
         mesh.attributes.remove(mesh.attributes[name])
 
 
-def make_figure(name, posed):
-    """The object of somebody at a level of detail. The mesh becomes its own."""
+def make_figure(name, posed, sheet=None):
+    """The object of somebody at a level of detail. The mesh becomes its own.
+
+    @param posed Posed, or Boned; @param sheet of bones that there is already
+    """
+    if isinstance(posed, bones.Boned):
+        return _boned_figure(name, posed, sheet)
     poses, vertices, _ = posed.points.shape
     assert posed.velocities is None or not posed.cycles
     sheet = bpy.data.objects.new(f"{name} poses", bpy.data.meshes.new(f"{name} poses"))
@@ -66,12 +72,25 @@ def make_figure(name, posed):
     return figure
 
 
+def _boned_figure(name, boned, sheet):
+    bones.hang(boned.mesh, boned.weights)
+    boned.mesh.name = name
+    figure = bpy.data.objects.new(name, boned.mesh)
+    figure["throng_sources"] = list(boned.sources)
+    modifier = figure.modifiers.new(MODIFIER, "NODES")
+    modifier.node_group = _poses_tree(len(boned.sources), 0, boned.cycles, boned)
+    set_input(modifier, "Sheet", sheet or bones.make_sheet(f"{name} bones", boned.matrices()))
+    return figure
+
+
 def sheet_of(figure):
     return get_input(figure.modifiers[MODIFIER], "Sheet")
 
 
 def points_of(figure, values="points"):
     """(P, V, 3): where a figure's vertices are in each pose, or their "velocity"."""
+    if bones.has_bones(sheet_of(figure)):
+        return bones.posed_points(figure, sheet_of(figure), figure["throng_sources"])
     mesh = sheet_of(figure).data
     flat = numpy.empty(3 * len(mesh.vertices), numpy.float32)
     if values == "points":
@@ -84,6 +103,8 @@ def points_of(figure, values="points"):
 def pose_mesh(figure, pose):
     """A mesh of one pose alone, with the figure's materials."""
     mesh = figure.data.copy()
+    if bones.HANGS in mesh.attributes:
+        mesh.attributes.remove(mesh.attributes[bones.HANGS])
     mesh.vertices.foreach_set("co", points_of(figure)[pose].ravel())
     mesh.update()
     return mesh
@@ -91,7 +112,9 @@ def pose_mesh(figure, pose):
 
 def remove_figures(figures):
     """With their sheets, and with the meshes and nodes that nobody else uses. Materials stay."""
-    sheets = [sheet_of(figure) for figure in figures]
+    gone = set(figures)
+    shared = {sheet_of(thing) for thing in bpy.data.objects if MODIFIER in thing.modifiers and thing not in gone}
+    sheets = list({sheet_of(figure) for figure in figures} - shared)
     trees = {figure.modifiers[MODIFIER].node_group for figure in figures}
     meshes = [thing.data for thing in (*figures, *sheets)]
     bpy.data.batch_remove([*figures, *sheets])
@@ -155,12 +178,13 @@ def _neighbours(cycles):
     return found
 
 
-def _poses_tree(poses, blurring, cycles):
-    """An instance of each pose, in order; the first ones blur."""
+def _poses_tree(poses, blurring, cycles, boned=None):
+    """An instance of each pose, in order; the first ones blur. The sheet is one of points, or of bones."""
     neighbours = _neighbours(cycles)
     name = f"Throng {poses} poses, {blurring} blur"
-    if cycles:  # names have room for 63 letters
-        name = f"Throng {poses} poses, blur {zlib.crc32(repr(cycles).encode()):08x}"
+    if cycles or boned:  # names have room for 63 letters
+        which = (cycles, boned and (tuple(boned.sources), boned.weights.shape[1]))
+        name = f"Throng {poses} poses{' of bones' if boned else ''}, blur {zlib.crc32(repr(which).encode()):08x}"
     found = own_tree(name)
     if found:
         return found
@@ -169,7 +193,10 @@ def _poses_tree(poses, blurring, cycles):
     sheet = maths.node("GeometryNodeObjectInfo", transform_space="ORIGINAL")
     maths.link(inputs.outputs["Sheet"], sheet.inputs["Object"])
     size = maths.node("GeometryNodeAttributeDomainSize")
-    maths.link(inputs.outputs["Geometry"], size.inputs[0])
+    figure, points = inputs.outputs["Geometry"], socket(sheet.outputs, "Geometry")
+    if boned:
+        figure, points = bones.skinned(maths, figure, points, boned)
+    maths.link(figure, size.inputs[0])
     everything = maths.node("GeometryNodeJoinGeometry")
     for pose in reversed(range(poses)):  # what is linked to a Join Geometry last comes out first
         one = maths.node("GeometryNodeGroup")
@@ -180,8 +207,8 @@ def _poses_tree(poses, blurring, cycles):
             for each, number in (("Before", before), ("After", after)):
                 maths.link(maths.math("MULTIPLY", socket(size.outputs, "Point Count"), float(number)), one.inputs[each])
             one.inputs["Rate"].default_value = rate
-        maths.link(inputs.outputs["Geometry"], one.inputs["Figure"])
-        maths.link(socket(sheet.outputs, "Geometry"), one.inputs["Sheet"])
+        maths.link(figure, one.inputs["Figure"])
+        maths.link(points, one.inputs["Sheet"])
         maths.link(maths.math("MULTIPLY", socket(size.outputs, "Point Count"), float(pose)), one.inputs["First"])
         maths.link(one.outputs[0], everything.inputs[0])
     maths.link(everything.outputs[0], outputs.inputs[0])

@@ -8,6 +8,7 @@ from . import footing
 from .names import BIGGER, FIGURE, HIDDEN, LEVEL, NATURE
 from .poses import member_of, pose_index
 
+BUNCH = 4  # figures that share a node, from 4.0 on
 _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
 
 
@@ -41,14 +42,14 @@ def _figures_and_poses(maths, state, phase, speed, variation, nature, repertoire
 
 
 def instancer_tree(cast, repertoire, leans):
-    """One Instance on Points for each figure of the cast. What it needs is filed away on the points: worked out for all
-    at once, not by every figure.
+    """An Instance on Points for each bunch of the cast's figures. What it needs is filed away on the points: worked out
+    for all at once, not by every bunch.
 
     While a crowd is on screen, Blender notes down all attributes of what goes through a socket, those of every pose
     included, which takes longer than the work itself. From 4.0 on it does so for sockets outside of groups only, so
     there the figures are in a group; before for all, so there should be few. And later versions look up every pose
-    among those before it, in time that grows with their square: there each figure's people are handed on as one
-    instance.
+    among those before it, in time that grows with their square: there bunches are small, and the people of each are
+    handed on as one instance.
     """
     figures = shown_figures(cast)
     levels = sorted({level for level, _ in figures})
@@ -74,32 +75,79 @@ def instancer_tree(cast, repertoire, leans):
         points = remove.outputs[0]
 
     if bpy.app.version < (4, 0, 0):
-        maths.link(_instances(maths, points, figures, leans, apart=False), outputs.inputs[0])
+        maths.link(_instances(maths, points, figures, leans, False, repertoire), outputs.inputs[0])
         return tree
     inside = maths.node("GeometryNodeGroup")
     inside.node_tree, inner_inputs, inner_outputs = new_tree("Throng figures", _GEOMETRY, _GEOMETRY)
     within = Maths(inside.node_tree)
-    within.link(_instances(within, inner_inputs.outputs[0], figures, leans, apart=True), inner_outputs.inputs[0])
+    within.link(_instances(within, inner_inputs.outputs[0], figures, leans, True, repertoire), inner_outputs.inputs[0])
     maths.link(points, inside.inputs[0])
     maths.link(inside.outputs[0], outputs.inputs[0])
     return tree
 
 
-def _instances(maths, points, figures, leans, apart):
-    """Everybody's pose. @param apart whether the people of each figure are one instance"""
+def _instances(maths, points, figures, leans, apart, repertoire):
+    """Everybody's pose, level by level. @param apart whether the people of each bunch are one instance"""
+    levels = sorted({level for level, _ in figures})
+    if len(levels) == 1:
+        return _instances_of(maths, points, figures, leans, apart, repertoire)
+    everybody, figure = maths.node("GeometryNodeJoinGeometry"), maths.attribute(FIGURE, "INT")
+    for number in levels:
+        own = {(level, member): thing for (level, member), thing in figures.items() if level == number}
+        some = maths.node("GeometryNodeSeparateGeometry", domain="POINT")
+        maths.link(points, some.inputs["Geometry"])
+        last = max(member for _, member in own)
+        maths.link(maths.between(figure, _figure_number(number, 0), _figure_number(number, last)),
+                   some.inputs["Selection"])
+        here = some.outputs["Selection"]
+        people = _instances_of(maths, here, own, leans, apart, repertoire)
+        maths.link(_if_any(maths, here, people), everybody.inputs[0])
+    return everybody.outputs[0]
+
+
+def _if_any(maths, points, people):
+    """`people` where there are any points, or nothing, without looking: most levels are empty in most pictures."""
+    size = maths.node("GeometryNodeAttributeDomainSize")
+    maths.link(points, size.inputs[0])
+    switch = maths.node("GeometryNodeSwitch", input_type="GEOMETRY")
+    maths.link(maths.greater(socket(size.outputs, "Point Count"), 0.5), socket(switch.inputs, "Switch"))
+    maths.link(people, socket(switch.inputs, "True"))
+    return socket(switch.outputs)
+
+
+def _bunches(figures):
+    """Figures of one level whose numbers follow each other, so many at a time."""
+    most = BUNCH if bpy.app.version >= (4, 0, 0) else len(figures)
+    found = []
+    for (level, member), thing in sorted(figures.items()):
+        if not found or len(found[-1]) == most or (level, member - 1) != found[-1][-1][0]:
+            found.append([])
+        found[-1].append(((level, member), thing))
+    return found
+
+
+def _instances_of(maths, points, figures, leans, apart, repertoire):
+    """The people of some figures, a bunch of these at a time."""
     figure, pose, turn = (maths.attribute(name, kind)
                           for name, kind in ((FIGURE, "INT"), ("throng_pose", "INT"), ("throng_turn", "FLOAT_VECTOR")))
     size = maths.math("ADD", maths.attribute(BIGGER), 1.0)
     everybody = maths.node("GeometryNodeJoinGeometry")
-    for (level, member), thing in figures.items():
-        poses = maths.node("GeometryNodeObjectInfo", transform_space="ORIGINAL")
-        poses.inputs["Object"].default_value = thing
+    for bunch in _bunches(figures):
+        (level, first), (_, last) = bunch[0][0], bunch[-1][0]
+        poses = maths.node("GeometryNodeJoinGeometry")
+        for _, thing in reversed(bunch):  # what is linked to a Join Geometry last comes out first
+            info = maths.node("GeometryNodeObjectInfo", transform_space="ORIGINAL")
+            info.inputs["Object"].default_value = thing
+            maths.link(socket(info.outputs, "Geometry"), poses.inputs[0])
         place = maths.node("GeometryNodeInstanceOnPoints")
         place.inputs["Pick Instance"].default_value = True
         maths.link(points, place.inputs["Points"])
-        maths.link(maths.equal(figure, _figure_number(level, member)), place.inputs["Selection"])
-        maths.link(socket(poses.outputs, "Geometry"), place.inputs["Instance"])
-        maths.link(pose, place.inputs["Instance Index"])
+        maths.link(maths.between(figure, _figure_number(level, first), _figure_number(level, last)),
+                   place.inputs["Selection"])
+        maths.link(poses.outputs[0], place.inputs["Instance"])
+        before = maths.math("SUBTRACT", figure, float(_figure_number(level, first)))
+        maths.link(maths.math("MULTIPLY_ADD", before, float(repertoire.poses(level)), pose),
+                   place.inputs["Instance Index"])
         maths.link(size, place.inputs["Scale"])
         maths.link(turn, place.inputs["Rotation"])  # the points' other attributes go along: id, tint
         people = footing.leaning(maths, place.outputs[0]) if leans else place.outputs[0]

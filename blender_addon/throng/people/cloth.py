@@ -47,8 +47,10 @@ class Garment:
 class Tailor:
     """Makes somebody's clothes at a level of detail."""
 
-    def __init__(self, bodies, shape, rig, level, seed):
+    def __init__(self, bodies, shape, rig, level, seed, surfaces=None):
+        """@param surfaces what has been worked out of the same clothes for other levels, to be added to"""
         self.bodies, self.shape, self.rig, self.level, self.seed = bodies, shape, rig, level, seed
+        self._surfaces = {} if surfaces is None else surfaces
         self.detail, self.scale = levels.DETAILS[level], rig.scale
         self.places = regions.places_of(bodies)
 
@@ -64,6 +66,11 @@ class Tailor:
 
     def _surface(self, garment, group=SUIT):
         """Where the suit is, loosened: points for all vertices of the base mesh."""
+        if (garment, group) not in self._surfaces:
+            self._surfaces[garment, group] = self._loosened(garment, group)
+        return self._surfaces[garment, group]
+
+    def _loosened(self, garment, group):
         triangles = self.bodies.triangles(group)
         numbers = numpy.unique(triangles)
         place = numpy.zeros(len(self.shape), int)

@@ -7,17 +7,17 @@ from functools import lru_cache
 
 import numpy
 
-from ..cast import BEATS, POSES, gait
+from ..cast import BEATS, POSES, gait, skinning
 from ..cast.library import BLURS_UNTIL, shaped
-from ..cast.sheets import Posed
+from ..cast.bones import Boned
 from . import figures, library, roster
 from .person import Maker
-from .rig import skinned
 
 LOOK = "casual"
-MEMBERS = 20      # of a cast: women and men of all ages, two children among them
+MEMBERS = 64      # of a cast: women and men of all ages, some children among them
 FINE = 4096.0     # steps a metre: what is finer is not seen, and files are a third as large without it
 CHILD_UNTIL = 0.205  # m: people of a smaller radius are children
+_SOME = 7         # of so many poses one tells which bones move
 _KEPT = 2         # people who stay in memory: all their levels are made one after the other
 
 
@@ -53,20 +53,29 @@ def poses_of(build, repertoire):
 
 
 @lru_cache(maxsize=_KEPT)
-def _matrices(number, look, repertoire):
+def _leaders(number, look, repertoire):
+    """Which bones go with which (skinning.leaders_of): a few poses tell."""
     rig = maker_of(number, look).rig
-    return numpy.stack([rig.matrices(pose) for pose in poses_of(rig.build, repertoire)])
+    some = numpy.stack([rig.matrices(pose) for pose in poses_of(rig.build, repertoire)[::_SOME]])
+    return skinning.leaders_of(bodies().parents, some)
 
 
-def posed_of(number, level, repertoire, look=LOOK):
+def matrices_of(number, look, repertoire):
+    """(P, B, 3, 4) of the bones that lead, in all poses of level 0."""
+    rig, (leaders, _) = maker_of(number, look).rig, _leaders(number, look, repertoire)
+    used = numpy.unique(leaders)
+    return numpy.stack([rig.matrices(pose)[used] for pose in poses_of(rig.build, repertoire)])
+
+
+def boned_of(number, level, repertoire, look=LOOK):
     """A member at a level, for cast.sheets."""
-    model = maker_of(number, look).model(level)
-    matrices = _matrices(number, look, repertoire)[repertoire.sources(level)]
-    posed = skinned(model.points, model.weights, matrices)
-    points = (numpy.rint(posed * FINE) / FINE + 0.0).astype(numpy.float32)  # no zero is negative
+    model, leaders = maker_of(number, look).model(level), _leaders(number, look, repertoire)
+    points, weights = skinning.hinged(model.points, model.weights, *leaders)
+    points = (numpy.rint(points * FINE) / FINE + 0.0).astype(numpy.float32)  # no zero is negative
     cycles = tuple((POSES, gait.gait_of(stride).seconds / POSES) for stride in repertoire.strides)
-    mesh = figures.mesh_of("throng figure", model, points[-1], look, bodies())
-    return Posed(mesh, points, cycles=cycles if level <= BLURS_UNTIL else ())
+    mesh = figures.mesh_of("throng figure", model, points, look, bodies())
+    return Boned(mesh, weights, lambda: matrices_of(number, look, repertoire), tuple(repertoire.sources(level)),
+                 cycles if level <= BLURS_UNTIL else ())
 
 
 def choose(people, count, drawn):
@@ -74,18 +83,18 @@ def choose(people, count, drawn):
 
     @param people [(radius, variation)]; @param count how many members there are; @param drawn how many variations
     """
-    folk = [(number, person_of(number)) for number in range(count)]
+    folk = sorted(range(count), key=lambda number: (breadth_of(person_of(number)), number))
+    # by breadth; how broad somebody is among the members should be how broad it is among the people
+    fitting = {child: [number for number in folk if person_of(number).child == child] or folk
+               for child in (True, False)}
     chosen = []
     for row, (radius, variation) in enumerate(people):
-        child = radius < CHILD_UNTIL
-        fits = [(number, who) for number, who in folk if who.child == child] or folk
-        # by breadth; how broad somebody is among the members should be how broad it is among the people
-        fits.sort(key=lambda each: (breadth_of(each[1]), each[0]))
-        low, high = (0.15, 0.20) if child else (0.22, 0.28)
+        fits = fitting[radius < CHILD_UNTIL]
+        low, high = (0.15, 0.20) if radius < CHILD_UNTIL else (0.22, 0.28)
         share = min(max((radius - low) / (high - low), 0.0), 0.999)
         spread = ((variation + 0.618034 * row) % drawn) / drawn - 0.5  # not all of one radius are one person
         wanted = min(max(share * len(fits) + 0.5 * len(fits) * spread, 0.0), len(fits) - 1.0)
-        chosen.append(fits[int(wanted)][0])
+        chosen.append(fits[int(wanted)])
     return chosen
 
 
@@ -106,4 +115,4 @@ def read_people(folder):
 
 
 # the cast's own library calls these for members whose cast has a look
-shaped.make, shaped.check = posed_of, bodies
+shaped.make, shaped.check = boned_of, bodies

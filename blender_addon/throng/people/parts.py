@@ -56,15 +56,24 @@ def directed_edges(faces):
     return numpy.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
 
 
+def pairs_of(pairs, **returns):
+    """(pairs, of each the smaller number first and none twice; what numpy.unique returns beside): as one number each
+    they sort in a tenth of the time."""
+    pairs = numpy.sort(pairs, axis=1)
+    most = int(pairs.max(initial=0)) + 1
+    numbers, *others = numpy.unique(pairs[:, 0].astype(numpy.int64) * most + pairs[:, 1], **returns)
+    return (numpy.stack(numpy.divmod(numbers, most), axis=1), *others)
+
+
 def edges_of(faces):
     """(edges, in how many faces each is)"""
-    return numpy.unique(numpy.sort(directed_edges(faces), axis=1), axis=0, return_counts=True)
+    return pairs_of(directed_edges(faces), return_counts=True)
 
 
 def border_of(faces):
     """Directed edges that only one face has."""
     edges = directed_edges(faces)
-    _, number, count = numpy.unique(numpy.sort(edges, axis=1), axis=0, return_inverse=True, return_counts=True)
+    _, number, count = pairs_of(edges, return_inverse=True, return_counts=True)
     return edges[count[number.ravel()] == 1]
 
 
@@ -106,7 +115,7 @@ def clipped(part, field, tag=0):
         rows = numpy.arange(len(some))[:, None]
         cut.append(some[rows, (turn[:, None] + numpy.arange(3)) % 3])
     crossing = numpy.concatenate([cut[0][:, [0, 1]], cut[0][:, [0, 2]], cut[1][:, [0, 1]], cut[1][:, [0, 2]]])
-    edges, number = numpy.unique(numpy.sort(crossing, axis=1), axis=0, return_inverse=True)
+    edges, number = pairs_of(crossing, return_inverse=True)
     number = number.ravel() + len(part.points)
     a, b = len(cut[0]), len(cut[1])
     one_b, one_c = number[:a], number[a:2 * a]
@@ -149,7 +158,7 @@ def smooth_normals(part):
 
 def subdivided(part, share=0.35):
     """Every triangle in four, a little smoothed."""
-    edges, number = numpy.unique(numpy.sort(directed_edges(part.faces), axis=1), axis=0, return_inverse=True)
+    edges, number = pairs_of(directed_edges(part.faces), return_inverse=True)
     number = number.ravel().reshape(3, -1) + len(part.points)
     columns = part.columns()
     ab, bc, ca = number

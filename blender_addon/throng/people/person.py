@@ -33,6 +33,7 @@ class Maker:
         self.bodies, self.person = bodies, person
         self.shape = shape_of(bodies, person.body)
         self.rig = Rig(bodies, self.shape, person.body.height)
+        self._surfaces = {}
 
     def model(self, level):
         parts = self._parts(level)
@@ -48,7 +49,7 @@ class Maker:
     def _parts(self, level):
         person, bodies, shape, scale = self.person, self.bodies, self.shape, self.rig.scale
         seed = person.body.seed
-        tailor = cloth.Tailor(bodies, shape, self.rig, level, seed)
+        tailor = cloth.Tailor(bodies, shape, self.rig, level, seed, self._surfaces)
         clothes = cloth.layered([(garment, tailor.wear(garment)) for garment in person.garments])
         colour = f"hair {person.hair_colour}" if person.hair_colour != "grey" else "grey"
         skin = head.skin(bodies, shape, level, person.garments)

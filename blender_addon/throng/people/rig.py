@@ -11,19 +11,29 @@ _X, _Y, _Z = numpy.eye(3)
 SOLE = 0.018  # m, of a shoe, below the foot
 
 
+def cross(one, other):
+    """As numpy.cross of two vectors, in a tenth of the time."""
+    (a, b, c), (x, y, z) = one, other
+    return numpy.array((b * z - c * y, c * x - a * z, a * y - b * x))
+
+
 def turn(axis, angle):
     """The matrix that turns by an angle about an axis."""
-    x, y, z = axis / max(numpy.linalg.norm(axis), 1e-12)
-    cross = numpy.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    return numpy.eye(3) + math.sin(angle) * cross + (1.0 - math.cos(angle)) * cross @ cross
+    x, y, z = (float(part) for part in axis)
+    length = max(math.sqrt(x * x + y * y + z * z), 1e-12)
+    x, y, z, s, c = x / length, y / length, z / length, math.sin(angle), math.cos(angle)
+    d = 1.0 - c
+    return numpy.array(((c + d * x * x, d * x * y - s * z, d * x * z + s * y),
+                        (d * x * y + s * z, c + d * y * y, d * y * z - s * x),
+                        (d * x * z - s * y, d * y * z + s * x, c + d * z * z)))
 
 
 def frame(along, hinge):
     """Axes: along a bone, about its hinge, and across both."""
-    along = along / numpy.linalg.norm(along)
+    along = along / math.sqrt(along @ along)
     hinge = hinge - along * (hinge @ along)
-    hinge = hinge / numpy.linalg.norm(hinge)
-    return numpy.stack([along, hinge, numpy.cross(along, hinge)], axis=1)
+    hinge = hinge / math.sqrt(hinge @ hinge)
+    return numpy.stack([along, hinge, cross(along, hinge)], axis=1)
 
 
 class Rig:
@@ -35,6 +45,7 @@ class Rig:
         self.heads = {bone: joints[bodies.heads[number]] for bone, number in bodies.bone.items()}
         self.tails = {bone: joints[bodies.tails[number]] for bone, number in bodies.bone.items()}
         self.scale = height / 1.74
+        self._curled = {}
         self.hips = 0.5 * (self.heads["thigh_l"] + self.heads["thigh_r"])
         self.build = self._build(shape)
         self.widest = self._widest(shape)
@@ -122,7 +133,7 @@ class Rig:
         fore = hang(swing + elbow) / numpy.linalg.norm(hang(swing + elbow)) - turned @ _Y * sign * 0.07
         rest_upper = self.heads[lower] - self.heads[upper]
         rest_lower = self.heads[hand] - self.heads[lower]
-        hinge, rest_hinge = -(turned @ _Y), numpy.cross(rest_upper, rest_lower)
+        hinge, rest_hinge = -(turned @ _Y), cross(rest_upper, rest_lower)
         turns[upper] = frame(down, hinge) @ frame(rest_upper, rest_hinge).T
         turns[lower] = frame(fore, hinge) @ frame(rest_lower, rest_hinge).T
         places[upper] = shoulder
@@ -133,20 +144,28 @@ class Rig:
 
     def _fingers(self, turns, places, side, hand, sign):
         """Half closed and side by side, as hands hang."""
+        if side not in self._curled:
+            self._curled[side] = self._curl(side, hand, sign)
+        for bone, parent, bent in self._curled[side]:
+            places[bone] = places[parent] + turns[parent] @ (self.heads[bone] - self.heads[parent])
+            turns[bone] = turns[hand] @ bent
+
+    def _curl(self, side, hand, sign):
+        """[(bone, parent, how it is turned beside the hand)]: the same in all poses."""
         middle = self.tails[f"middle_01_{side}"] - self.heads[f"middle_01_{side}"]
         index, little = (self.heads[f"{finger}_01_{side}"] - self.heads[hand] for finger in ("index", "pinky"))
-        back = numpy.cross(index, little) * sign
+        back, found = cross(index, little) * sign, []
         for finger, curl in _FINGERS:
             own = self.tails[f"{finger}_01_{side}"] - self.heads[f"{finger}_01_{side}"]
             apart = math.acos(min(1.0, own @ middle / (numpy.linalg.norm(own) * numpy.linalg.norm(middle))))
-            parent, bent = hand, turns[hand] @ turn(numpy.cross(own, middle), 0.75 * apart)
+            parent, bent = hand, turn(cross(own, middle), 0.75 * apart)
             for number in (1, 2, 3):
                 bone = f"{finger}_0{number}_{side}"
-                places[bone] = places[parent] + turns[parent] @ (self.heads[bone] - self.heads[parent])
-                hinge = numpy.cross(self.tails[bone] - self.heads[bone], back)
+                hinge = cross(self.tails[bone] - self.heads[bone], back)
                 bent = bent @ turn(hinge, -curl * (0.7 if number == 1 else 1.0))
-                turns[bone] = bent
+                found.append((bone, parent, bent))
                 parent = bone
+        return found
 
     def _all(self, turns, places):
         """Bones that no pose turns go with their parents."""

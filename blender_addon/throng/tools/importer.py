@@ -33,8 +33,11 @@ def set_up_scene(scene, bake, frame_start):
 
 
 def import_bake(context, path, *, frame_start=1, walls=True, roads=True, scenery=True, camera=True, relative=True,
-                dressing=True):
-    """Imports a bake and returns the crowd's object. Raises formats.BakeError before anything is changed."""
+                dressing=True, people=members.MEMBERS):
+    """Imports a bake and returns the crowd's object. Raises formats.BakeError before anything is changed.
+
+    @param people how many different ones there are to be, where they are shaped from a library of bodies
+    """
     bake = load_bake(path)
     if members.found():
         try:
@@ -50,11 +53,11 @@ def import_bake(context, path, *, frame_start=1, walls=True, roads=True, scenery
     collection["throng_origin"] = bake.origin
 
     look = members.LOOK if members.found() else ""
-    variations = members.MEMBERS if look else min(bake.variations, cast.VARIATIONS)
+    variations = min(people, max(1, bake.agents)) if look else min(bake.variations, cast.VARIATIONS)
     repertoire = cast.Repertoire.of(bake.strides, bake.gaits)
-    people = library.build_cast(variations, repertoire, f"Throng {bake.name} cast", look)
+    shown = library.build_cast(variations, repertoire, f"Throng {bake.name} cast", look)
     paths = {stream: stored_path(bake.stream_path(stream), relative) for stream in bake.streams}
-    crowd = playback.build_crowd(bake, f"Throng {bake.name} crowd", people, frame_start, paths)
+    crowd = playback.build_crowd(bake, f"Throng {bake.name} crowd", shown, frame_start, paths)
     collection.objects.link(crowd)
     set_up_scene(scene, bake, frame_start)
     environment.build_environment(context, bake.manifest, collection, walls=walls, roads=roads, ground=scenery,

@@ -8,6 +8,7 @@ from ..crowd.queries import ChangesCrowds, OnCrowds, changed_crowds, chosen_crow
 from ..crowd.verify import verify
 from ..formats import BakeError
 from ..overrides.operators import report_orphans
+from ..people import members
 from . import cells, culling, film_look
 from .importer import import_bake
 from .update import reload, set_offset, set_viewport_percent
@@ -31,6 +32,9 @@ class IMPORT_SCENE_OT_throng(bpy.types.Operator, ImportHelper):
                            description="With the ground: cars, trees, benches and the like where nobody walks, and "
                                        "streets that go on where the layout's end")
     camera: BoolProperty(name="Camera", default=True, description="Add a camera that frames the crowd")
+    people: IntProperty(name="Different People", default=members.MEMBERS, min=1, max=90,
+                        description="How many people the crowd draws on, where they are shaped from a library of "
+                                    "bodies: more take more memory, and time to make")
     relative: BoolProperty(name="Relative Paths", default=True,
                            description="Store the streams' paths relative to the .blend, once that is saved")
 
@@ -38,7 +42,7 @@ class IMPORT_SCENE_OT_throng(bpy.types.Operator, ImportHelper):
         try:
             crowd = import_bake(context, self.filepath, frame_start=self.frame_start, walls=self.walls,
                                 roads=self.roads, scenery=self.scenery, camera=self.camera, relative=self.relative,
-                                dressing=self.dressing)
+                                dressing=self.dressing, people=self.people)
         except BakeError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/printable.h"
+#include "base/text/printable.h"
 
 #include <fmt/format.h>
 
@@ -57,6 +57,15 @@ std::string printable(std::string_view text, bool lines) {
         text.remove_prefix(bytes);
     }
     return result;
+}
+
+std::string shortened(std::string text) {
+    constexpr std::size_t kLongest = 600;  // bytes
+    if (text.size() <= kLongest) return text;
+    std::size_t end = kLongest;
+    while ((static_cast<unsigned char>(text[end]) & 0xc0u) == 0x80u)
+        --end;  // no character is cut in two
+    return text.substr(0, end) + "...";
 }
 
 bool isFileName(std::string_view name) {

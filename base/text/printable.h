@@ -11,6 +11,9 @@ namespace throng {
 /// @param lines line breaks and tabs stay
 std::string printable(std::string_view text, bool lines = false);
 
+/// As much of a text as one reads in a message.
+std::string shortened(std::string text);
+
 /// Whether a text can be the name of one file or folder inside another: neither empty, `.` nor `..`, without
 /// slashes and control characters, and short enough for file systems.
 bool isFileName(std::string_view name);
