@@ -40,8 +40,8 @@ install(FILES ${share}/throng.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES ${share}/throng.bash RENAME throng DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
 install(FILES ${share}/_throng DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
 install(FILES ${share}/throng.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
-file(GLOB_RECURSE schemas CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/analysis/*.schema.json
-    ${CMAKE_SOURCE_DIR}/authoring/*.schema.json ${CMAKE_SOURCE_DIR}/cli/*.schema.json ${CMAKE_SOURCE_DIR}/io/*.schema.json)
+file(GLOB_RECURSE schemas CONFIGURE_DEPENDS analysis/*.schema.json authoring/*.schema.json cli/*.schema.json
+    io/*.schema.json)
 install(FILES ${schemas} DESTINATION ${CMAKE_INSTALL_DATADIR}/throng/schemas)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/throng)
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN "*.css" EXCLUDE)
