@@ -37,7 +37,7 @@ void run(bool as_json) {
     if (any_usable) return;
     say(stderr,
         "throng: none of these devices can be used. On Debian, install the Mesa drivers: "
-        "apt-get install libegl1 libgl1-mesa-dri (or the GPU vendor's driver with EGL).\n");
+        "apt-get install libegl1 libopengl0 libgl1-mesa-dri (or the GPU vendor's driver with EGL).\n");
     throw Exit(kNoGraphics);
 }
 

@@ -2,6 +2,7 @@
 cmake_minimum_required(VERSION 3.25)
 # Writes OUTPUT, the source file of base/build_name.h, when the name of the state of ROOT has changed.
 set(name unknown)
+set(found "")
 find_program(git git)
 if(git)
     execute_process(COMMAND ${git} -C ${ROOT} rev-parse --show-toplevel

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/gl/context.h"
 
+#include <dlfcn.h>
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 #include <fmt/format.h>
@@ -12,8 +13,8 @@ namespace throng::gl {
 namespace {
 
 constexpr const char* kInstallHint =
-    "On Debian, install the Mesa drivers: apt-get install libegl1 libgl1-mesa-dri (or the GPU vendor's "
-    "driver with EGL).";
+    "On Debian, install the Mesa drivers: apt-get install libegl1 libopengl0 libgl1-mesa-dri (or the "
+    "GPU vendor's driver with EGL).";
 
 bool hasExtension(const char* extensions, const char* name) {
     if (!extensions) return false;
@@ -34,10 +35,18 @@ struct Candidate {
     std::string problem;
 };
 
+bool hasOpenGl() {
+    // Stays open: libepoxy is going to open it as well.
+    return dlopen("libOpenGL.so.0", RTLD_LAZY) || dlopen("libGL.so.1", RTLD_LAZY);
+}
+
 const char* clientExtensions() {
-    // libepoxy aborts the process when libEGL.so.1 is absent, so ask it politely first.
+    // libepoxy aborts the process where a library is absent, so look for them first.
     if (!epoxy_has_egl())
         throw GraphicsError(fmt::format("there is no EGL library (libEGL.so.1) here. {}", kInstallHint));
+    if (!hasOpenGl())
+        throw GraphicsError(
+            fmt::format("there is no OpenGL library (libOpenGL.so.0) here. {}", kInstallHint));
     return eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
 }
 

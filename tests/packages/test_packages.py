@@ -98,8 +98,35 @@ def test_the_debian_package_is_whole_and_names_what_it_needs(build, tmp_path):
     run("cpack", "--config", build / "CPackConfig.cmake", "-G", "DEB", "-B", tmp_path, cwd=build)
     package, = tmp_path.glob("throng_*.deb")
     needs = run("dpkg-deb", "-f", package, "Depends")
-    assert all(name in needs for name in ("libc6", "libegl1", "libepoxy0", "libcairo2", "libopenexr"))
+    assert all(name in needs for name in ("libc6", "libegl1", "libopengl0", "libepoxy0", "libcairo2", "libopenexr"))
     run("dpkg-deb", "-x", package, tmp_path / "root")
     usr = tmp_path / "root/usr"
     assert bakes(usr / "bin/throng", usr / "share/throng/examples", tmp_path / "bake") == 5
     assert (usr / "share/man/man1/throng.1").exists()
+
+
+def test_builds_are_named_after_their_checkout_and_only_theirs(tmp_path):
+    if not shutil.which("cmake") or not shutil.which("git"):
+        pytest.skip("no cmake, or no git, here")
+    source, inner = tmp_path / "build_name.cpp", tmp_path / "checkout" / "unpacked"
+    inner.mkdir(parents=True)
+
+    def name(root):
+        run("cmake", f"-DOUTPUT={source}", f"-DROOT={root}", "-P", ROOT / "cmake/BuildName.cmake")
+        return re.search(r'return "(.*)"', source.read_text())[1]
+
+    def git(*words):
+        run("git", "-C", tmp_path / "checkout", "-c", "user.name=a", "-c", "user.email=a@b", *words)
+
+    assert name(tmp_path) == "unknown"
+    git("init", "-q")
+    (tmp_path / "checkout/file").write_text("1")
+    git("add", "file")
+    git("commit", "-qm", "first")
+    commit = name(tmp_path / "checkout")
+    assert re.fullmatch("[0-9a-f]{12}", commit)
+    written = source.stat().st_mtime_ns
+    assert name(tmp_path / "checkout") == commit and source.stat().st_mtime_ns == written, "nothing to compile again"
+    (tmp_path / "checkout/file").write_text("2")
+    assert name(tmp_path / "checkout") == f"{commit}-dirty"
+    assert name(inner) == "unknown", "that is somebody else's checkout"
