@@ -52,7 +52,7 @@ struct PersonSettings {
 struct PeopleShare {
     double weight = 1.0;
     PersonSettings settings;
-    std::string profile;  ///< its name; empty: the layout names none
+    std::string profile = {};  ///< its name; empty: the layout names none
 };
 
 /// Larger groups of friends split up into twos and threes (Moussaid et al. 2010).

@@ -8,10 +8,10 @@ import signal
 import struct
 import subprocess
 import time
+from collections import Counter
 
 import numpy
 import pytest
-from collections import Counter
 
 from conftest import EXAMPLES
 from processor_time import HANGS

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What people carry: a rucksack, a bag on a strap, a shopper over the shoulder, a stick. Straps are laid on the clothes."""
+"""What people carry: a rucksack, a bag on a strap, a shopper over the shoulder, a stick. Straps are laid on clothes."""
 import math
 
 import numpy

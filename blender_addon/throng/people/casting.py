@@ -4,7 +4,7 @@ them."""
 import csv
 import os
 import re
-from collections import Counter
+from collections import Counter, deque
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -68,7 +68,7 @@ def choose(walkers, roles, drawn):
     @param roles of the members; @param drawn how many variations the bake draws among
     """
     folk = sorted(range(len(roles)), key=lambda number: (breadth_of(person_of(roles[number])), number))
-    fitting, chosen = {}, []
+    fitting, seen, chosen = {}, {}, []
     for row, walker in enumerate(walkers):
         if walker.kind not in fitting:
             fitting[walker.kind] = _fitting(walker.kind, roles, folk)
@@ -77,9 +77,18 @@ def choose(walkers, roles, drawn):
         low, high = (0.15, 0.20) if walker.kind[1] == "child" else (0.22, 0.28)
         share = min(max((walker.radius - low) / (high - low), 0.0), 0.999)
         spread = ((walker.variation + 0.618034 * row) % drawn) / drawn - 0.5  # not all of one radius are one person
-        wanted = min(max(share * len(fits) + 0.5 * len(fits) * spread, 0.0), len(fits) - 1.0)
-        chosen.append(fits[int(wanted)])
+        last = len(fits) - 0.5
+        wanted = last - abs(last - abs((share + 0.5 * spread) * len(fits)))  # turned back at both ends: nobody crowds
+        chosen.append(_nearest_unseen(fits, int(wanted), seen.setdefault(walker.kind, deque(maxlen=len(fits) // 4))))
     return chosen
+
+
+def _nearest_unseen(fits, wanted, seen):
+    """Who comes in together stays together: of such a handful no two are the same."""
+    order = sorted(range(len(fits)), key=lambda place: abs(place - wanted))
+    place = next(place for place in order if place not in seen)
+    seen.append(place)
+    return fits[place]
 
 
 def _fitting(kind, roles, folk):

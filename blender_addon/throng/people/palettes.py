@@ -65,7 +65,10 @@ def club(look):
 
 def tops(look):
     own = club(look)
-    return (own[0], own[0], own[0], own[1]) if own else TOPS[look]
+    if not own:
+        return TOPS[look]
+    washed = tuple(0.72 * part + 0.03 for part in own[0])  # last year's jersey
+    return own[0], washed, own[1], own[0]
 
 
 def extras(look, fabric):
