@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs inside Blender: a crowd of people shaped from a library of bodies. ADDON BAKE FOLDER"""
 import json
+import math
 import os
 import sys
 
 import bpy
 import numpy
+from mathutils import Matrix
 
 addon, bake, folder = sys.argv[-3:]
 sys.path[:0] = [addon, os.path.dirname(os.path.abspath(__file__))]
@@ -114,6 +116,57 @@ result["swapped"] = [now[row], [each for each, member in result["shown"].items()
 bpy.ops.throng.clear_people(rows=str(row))
 scene.frame_set(20)
 result["back"] = shown() == result["shown"]
+
+# culled by a box
+places = {i.persistent_id[1]: i.matrix_world.translation.copy()
+          for i in bpy.context.evaluated_depsgraph_get().object_instances
+          if i.is_instance and i.parent and i.parent.original == crowd}
+box = bpy.data.objects.new("box", None)
+scene.collection.objects.link(box)
+box.location, box.scale = (15.0, 0.0, 0.0), (15.0, 40.0, 5.0)
+bpy.context.view_layer.objects.active = box
+bpy.ops.throng.cull(by="box", margin=0.0)
+result["culled"] = [shown() == {each: member for each, member in result["shown"].items() if places[each].x >= 0.0},
+                    len(shown())]
+bpy.ops.throng.cull(by="none")
+bpy.data.objects.remove(box)
+
+
+def chest_of(each):
+    """The mean colour of somebody's chest, as Cycles has it."""
+    own = next(i.matrix_world.copy() for i in bpy.context.evaluated_depsgraph_get().object_instances
+               if i.is_instance and i.parent and i.parent.original == crowd and i.persistent_id[1] == each)
+    camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
+    camera.data.type, camera.data.ortho_scale, camera.data.clip_end = "ORTHO", 0.2, 1.1
+    turned = Matrix.Rotation(0.5 * math.pi, 4, "Z") @ Matrix.Rotation(0.5 * math.pi, 4, "X")
+    camera.matrix_world = own @ Matrix.Translation((1.0, 0.0, 1.22)) @ turned
+    scene.collection.objects.link(camera)
+    scene.camera, scene.render.engine = camera, "CYCLES"
+    scene.cycles.samples, scene.cycles.use_denoising, scene.render.use_motion_blur = 4, False, False
+    scene.render.resolution_x = scene.render.resolution_y = 16
+    scene.render.filepath = os.path.join(folder, "chest.png")
+    bpy.ops.render.render(write_still=True)
+    picture = bpy.data.images.load(scene.render.filepath)
+    pixels = numpy.array(picture.pixels[:]).reshape(-1, 4)[:, :3].mean(axis=0)
+    bpy.data.images.remove(picture)
+    bpy.data.objects.remove(camera)
+    return [float(value) for value in pixels]
+
+
+# tints: colours of their own, and draws, which are where the club's colours are picked by
+scene.world = bpy.data.worlds.new("white")
+scene.world.use_nodes = True
+scene.world.node_tree.nodes["Background"].inputs[0].default_value = (1.0, 1.0, 1.0, 1.0)
+fan = min(row for row, member in result["shown"].items() if member == 3)
+result["chests"] = []
+for draws in ((0.1, 0.9, 0.5), (0.6, 0.9, 0.5), None):
+    tint = {"by": "draws", "draws": draws} if draws else {"by": "colour", "colour": (0.9, 0.02, 0.02)}
+    assert bpy.ops.throng.tint_people(rows=str(fan), **tint) == {"FINISHED"}
+    scene.frame_set(20)
+    result["chests"].append(chest_of(fan))
+bpy.ops.throng.clear_people(rows=str(fan))
+scene.frame_set(20)
+
 
 def bounds(mesh, matrix):
     flat = numpy.empty(3 * len(mesh.vertices), numpy.float32)

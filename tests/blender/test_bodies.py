@@ -52,7 +52,8 @@ def test_people_are_dressed_and_as_old_as_the_bake_says(seen):
 
 def test_the_broad_have_a_larger_radius(seen):
     shown = {int(row): member for row, member in seen["shown"].items()}
-    broad = lambda radius: [member == MAN for row, member in shown.items() if RADII[row % 5] == radius and not is_old(row)]
+    shown = {row: member for row, member in shown.items() if not is_old(row)}
+    broad = lambda radius: [member == MAN for row, member in shown.items() if RADII[row % 5] == radius]
     assert sum(broad(0.27)) / len(broad(0.27)) > sum(broad(0.23)) / len(broad(0.23)) + 0.3
 
 
@@ -88,6 +89,15 @@ def test_overrides_and_heroes_work(seen):
     hero = seen["hero"]
     assert hero["off"] < 0.08 and hero["hidden"] and hero["materials"] and hero["pattern"] and hero["tint"] == 3
     assert hero["triangles"] > 30000, "in full detail"
+
+
+def test_people_are_culled_and_tinted_as_any_are(seen):
+    same, left = seen["culled"]
+    assert same and 5 < left < len(seen["shown"]) - 5
+    club, other, own = seen["chests"]
+    assert club[2] > 1.5 * club[0], "the club is blue"
+    assert min(other) > 0.6 * max(other), "its other colour is white"
+    assert own[0] > 3.0 * max(own[1:]), "somebody's own colour is red"
 
 
 def test_heroes_go_as_their_people_do(seen):

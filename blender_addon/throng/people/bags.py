@@ -54,10 +54,7 @@ def bag(bodies, kind, tops, rig, level):
                               level))
         for top in tops if level < 2 else ():
             for side in (-1.0, 1.0):  # over the shoulder, and under the arm
-                found += laid_on(top, regions.box((None, 0.081, 0.322), (None, 0.115, None), side), 0.006 * scale,
-                                 "extra pack")
-                found += laid_on(top, regions.box((None, 0.112, 0.322), (None, None, 0.350), side), 0.006 * scale,
-                                 "extra pack")
+                found += laid_on(top, regions.strap(side), 0.006 * scale, "extra pack")
     else:
         high = 0.10 if kind == "satchel" else 0.16
         side = -1.0

@@ -147,7 +147,7 @@ class Rig:
         turns[lower] = frame(fore, hinge) @ frame(rest_lower, rest_hinge).T
         places[upper] = shoulder
         places[lower] = shoulder + turns[upper] @ rest_upper
-        turns[hand] = turn(fore, -sign * 0.70) @ turns[lower]
+        turns[hand] = turn(fore, sign * 0.22) @ turns[lower]  # palms to the thighs
         places[hand] = places[lower] + turns[lower] @ rest_lower
         self._fingers(turns, places, side, hand, sign)
 
