@@ -10,7 +10,7 @@ _FINGERS = (("index", 0.22), ("middle", 0.30), ("ring", 0.36), ("pinky", 0.40))
 _X, _Y, _Z = numpy.eye(3)
 SOLE = 0.018  # m, of a shoe, below the foot
 STICK_AHEAD = 0.12  # m, of the ankle, where sticks are planted
-_ROUNDS = 7       # of looking for an elbow's angle: to a centimetre of the stick's tip
+_ROUNDS = 10      # of looking for an elbow's angle: to a millimetre of the stick's tip
 
 
 def cross(one, other):
