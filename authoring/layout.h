@@ -52,6 +52,7 @@ struct PersonSettings {
 struct PeopleShare {
     double weight = 1.0;
     PersonSettings settings;
+    std::string profile = {};  ///< its name; empty: the layout names none
 };
 
 /// Larger groups of friends split up into twos and threes (Moussaid et al. 2010).
@@ -62,6 +63,8 @@ struct People {
     std::vector<PeopleShare> kinds{PeopleShare{}};
     /// Weights of social groups of one, two, three and four people who walk together.
     std::array<double, kLargestParty> party_sizes{1.0, 0.0, 0.0, 0.0};
+    std::string look = "casual";       ///< what they wear
+    std::vector<std::string> colours;  ///< two of fans, "#rrggbb"; empty: the look's own
     double largestRadius() const {
         double largest = 0.0;
         for (const PeopleShare& share : kinds)

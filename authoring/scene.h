@@ -43,6 +43,9 @@ struct GateMove {
 struct Group {
     std::string id;  ///< the flow's or formation's id
     bool is_flow = false;
+    std::string look = {};                   ///< People::look
+    std::vector<std::string> colours = {};   ///< People::colours
+    std::vector<std::string> profiles = {};  ///< by gpu::Person::kind
 };
 
 /// What routes round jams are worked out on: a coarse map, and walking distances on it without any crowd.

@@ -52,17 +52,17 @@ std::string agentTable(const recording::BakeDescription& description, const Acco
         "id,group,kind,radius,preferred_speed,variation,party,spawn_frame,arrival_frame,outcome,reason,goal_"
         "x,goal_"
         "y,"
-        "distance_walked,shortest_way\n";
+        "distance_walked,shortest_way,profile,look,colours\n";
     for (std::size_t row = 0; row < description.agents.size(); ++row) {
         const recording::BakeAgent& agent = description.agents[row];
         const recording::BakeGroup& group = description.groups.at(agent.group);
         const AgentOutcome& outcome = account.agents[row];
-        fmt::format_to(std::back_inserter(table), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row,
-                       csvField(group.id), group.is_flow ? "flow" : "formation", agent.radius,
+        fmt::format_to(std::back_inserter(table), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
+                       row, csvField(group.id), group.is_flow ? "flow" : "formation", agent.radius,
                        agent.preferred_speed, agent.variation, agent.party, frameNumber(outcome.spawn_frame),
                        frameNumber(outcome.arrival_frame), outcomeName(outcome.status),
                        csvField(reasonOf(outcome)), agent.goal.x, agent.goal.y, outcome.distance_walked,
-                       outcome.shortest_way);
+                       outcome.shortest_way, agent.profile, group.look, group.colours);
     }
     return table;
 }

@@ -20,6 +20,8 @@ namespace throng::recording {
 struct BakeGroup {
     std::string id;
     bool is_flow = false;
+    std::string look = {};     ///< what its people wear
+    std::string colours = {};  ///< of fans: two, apart by a space; empty: the look's own
 };
 
 /// What is known of a row before the simulation begins.
@@ -32,6 +34,7 @@ struct BakeAgent {
     glm::dvec2 goal{0.0};     ///< m, world
     double scale = 1.0;       ///< of the figure, beyond what the radius says
     std::optional<std::uint32_t> colour = {};  ///< 0xRRGGBB, instead of the group's
+    std::string profile = {};                  ///< as the layout names it; empty: it names none
 };
 
 /// What the layout was made from.

@@ -2,8 +2,8 @@
 """Renders people shaped from a library of bodies (scripts/body_library.py): all in a row, a few from near, or a crowd.
 
 THRONG_BODIES=bodies.npz blender -b --factory-startup --python-exit-code 1 -P scripts/render_people.py -- OUT.png
-        [--shot row|close|crowd] [--look LOOK] [--first N] [--level near|0|1|2] [--width W] [--height H] [--samples N]
-        [--denoise] [--light noon|overcast|late|night]
+        [--shot row|close|crowd] [--look LOOK] [--colours A B] [--profile PROFILE] [--first N] [--level near|0|1|2]
+        [--width W] [--height H] [--samples N] [--denoise] [--light noon|overcast|late|night]
 """
 import argparse
 import math
@@ -28,6 +28,8 @@ def arguments():
     parser.add_argument("picture")
     parser.add_argument("--shot", choices=("row", "close", "crowd"), default="row")
     parser.add_argument("--look", choices=(*roster.LOOKS, "all"), default="all")
+    parser.add_argument("--colours", nargs=2, metavar="COLOUR", default=(), help="of fans, such as #a01020 #ffffff")
+    parser.add_argument("--profile", choices=roster.AGES, default="", help="as layouts have it")
     parser.add_argument("--first", type=int, default=0, help="the number of the first one")
     parser.add_argument("--level", choices=LEVELS, help="of detail; unless told what the shot needs")
     parser.add_argument("--width", type=int, default=1280)
@@ -53,7 +55,9 @@ class Stage:
     def drawn(self, number):
         options = self.options
         look = roster.LOOKS[number % len(roster.LOOKS)] if options.look == "all" else options.look
-        return roster.draw_person(look, number)
+        if look == "fans":
+            look = " ".join((look, *options.colours))
+        return roster.Role(number, look, options.profile).person()
 
     def place(self, number, level, x, y, heading, phase):
         """Somebody at a place; a phase of None stands."""

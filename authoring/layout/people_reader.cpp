@@ -135,14 +135,14 @@ void readProfile(ObjectReader& people_reader, const JsonNode& node, SchemaRule p
             if (!node.find(name)) continue;
             double weight = 0.0;
             reader.number(name, weight);
-            people.kinds.push_back({weight, profileNamed(name, people_rule)});
+            people.kinds.push_back({weight, profileNamed(name, people_rule), name});
         }
         reader.finish();
         if (people.kinds.empty())
             diagnostics.error(node.where, "`profile` names nobody",
                               R"(for example {"adult": 0.8, "child": 0.2})");
     } else if (const auto chosen = people_reader.word("profile")) {
-        people.kinds.push_back({1.0, profileNamed(*chosen, people_rule)});
+        people.kinds.push_back({1.0, profileNamed(*chosen, people_rule), *chosen});
     }
     if (people.kinds.empty()) people.kinds.emplace_back();
 }
@@ -184,6 +184,39 @@ void readPartySizes(ObjectReader& people_reader, People& people, Diagnostics& di
     people.party_sizes = {1.0};
 }
 
+constexpr const char* kFans = "fans";
+
+bool isColour(const JsonNode& node) {
+    return node.kind == JsonNode::Kind::text && node.text.size() == 7 && node.text.front() == '#' &&
+           node.text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
+}
+
+void readLook(ObjectReader& people_reader, People& people, Diagnostics& diagnostics) {
+    Meanings<std::string> looks;
+    for (const char* look : {"casual", "summer", "winter", "business", "sport", kFans})
+        looks.emplace_back(look, look);
+    people_reader.choice("look", looks, people.look);
+    const std::size_t wanted = people_reader.rule("colours").leastItems();
+    const JsonNode* node = people_reader.get("colours");
+    if (!node) return;
+    const char* const hint = R"(for example ["#a01020", "#ffffff"])";
+    if (node->kind != JsonNode::Kind::array || node->items.size() != wanted) {
+        diagnostics.error(node->where, fmt::format("expected {} colours", wanted), hint);
+        return;
+    }
+    if (people.look != kFans)
+        diagnostics.error(node->where, "only fans have colours of their own", R"(add "look": "fans")");
+    for (const JsonNode& item : node->items) {
+        if (!isColour(item))
+            diagnostics.error(
+                item.where,
+                fmt::format("expected a colour, found {}",
+                            item.kind == JsonNode::Kind::text ? "`" + item.text + "`" : item.kindName()),
+                hint);
+        people.colours.push_back(item.text);
+    }
+}
+
 }  // namespace
 
 Distribution readDistribution(ObjectReader& owner, const std::string& key, const Distribution& standard,
@@ -206,6 +239,7 @@ People readPeople(ObjectReader& owner, Diagnostics& diagnostics) {
     if (const JsonNode* profile = reader.get("profile"))
         readProfile(reader, *profile, rule, people, diagnostics);
     readPartySizes(reader, people, diagnostics);
+    readLook(reader, people, diagnostics);
     PersonSettings common;
     readPerson(reader, common, diagnostics);
     reader.number("maximum_speed_factor", common.maximum_speed_factor);

@@ -14,22 +14,23 @@ constexpr double kBriskest = 1.0e7;  // more people than this from one rate is a
 
 }  // namespace
 
-const PersonSettings& kindOf(const People& people, const GroupRandom& random, std::uint64_t index) {
+std::uint32_t kindOf(const People& people, const GroupRandom& random, std::uint64_t index) {
     double left = 0.0;
     for (const PeopleShare& share : people.kinds)
         left += share.weight;
     left *= random.unit(index, Purpose::kind);
-    for (const PeopleShare& share : people.kinds) {
-        if (left < share.weight) return share.settings;
-        left -= share.weight;
+    for (std::uint32_t kind = 0; kind < people.kinds.size(); ++kind) {
+        if (left < people.kinds[kind].weight) return kind;
+        left -= people.kinds[kind].weight;
     }
-    return people.kinds.back().settings;
+    return static_cast<std::uint32_t>(people.kinds.size() - 1);
 }
 
 gpu::Person drawPerson(const People& people, const GroupRandom& random, std::uint64_t index,
                        std::uint32_t group) {
-    const PersonSettings& settings = kindOf(people, random, index);
     gpu::Person person{};
+    person.kind = kindOf(people, random, index);
+    const PersonSettings& settings = people.kinds[person.kind].settings;
     const double speed = random.draw(settings.speed, index, Purpose::speed);
     person.radius = static_cast<float>(random.draw(settings.radius, index, Purpose::radius));
     person.preferred_speed = static_cast<float>(speed);

@@ -13,8 +13,8 @@ namespace throng::authoring {
 /// How many characters the cast has: Person::variation is below this.
 inline constexpr std::uint32_t kVariations = 12;
 
-/// Which kind of people somebody is.
-const PersonSettings& kindOf(const People& people, const GroupRandom& random, std::uint64_t index);
+/// Which kind of people somebody is, as an index.
+std::uint32_t kindOf(const People& people, const GroupRandom& random, std::uint64_t index);
 /// Draws what makes one person of a group differ from the next: body, speed, gait, looks. Place and route are
 /// left open.
 gpu::Person drawPerson(const People& people, const GroupRandom& random, std::uint64_t index,

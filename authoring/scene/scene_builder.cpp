@@ -173,7 +173,7 @@ class Builder {
             if (concerns(event, flow.id) && event.at > flow.start) end = std::min(end, event.at);
         }
         const std::vector<double> times = entryTimes(flow, changes, random, layout_.simulation.warmup, end);
-        beginGroup(flow.id, true);
+        beginGroup(flow.id, true, flow.people);
         for (const Party& party : drawParties(flow.people, random, times.size())) {
             for (std::uint64_t i = party.first; i < party.first + party.size; ++i) {
                 gpu::Person person = drawPerson(flow.people, random, i, group());
@@ -189,7 +189,7 @@ class Builder {
         const GroupRandom random(layout_.simulation.seed, formation.id);
         const FormationPlaces places = formationPlaces(formation, layout_.simulation.seed);
         const auto* list = std::get_if<ListFormation>(&formation.shape);
-        beginGroup(formation.id, false);
+        beginGroup(formation.id, false, formation.people);
         for (const Party& party : drawParties(formation.people, random, places.positions)) {
             for (std::uint64_t i = party.first; i < party.first + party.size; ++i) {
                 gpu::Person person = drawPerson(formation.people, random, i, group());
@@ -228,8 +228,10 @@ class Builder {
         person.preferred_speed = static_cast<float>(*agent.speed);
     }
 
-    void beginGroup(const std::string& id, bool is_flow) {
-        scene_.groups.push_back({id, is_flow});
+    void beginGroup(const std::string& id, bool is_flow, const People& people) {
+        scene_.groups.push_back({id, is_flow, people.look, people.colours, {}});
+        for (const PeopleShare& share : people.kinds)
+            scene_.groups.back().profiles.push_back(share.profile);
         scene_.queues.push_back({static_cast<gpu::uint>(scene_.people.size()), 0});
     }
     std::uint32_t group() const { return static_cast<std::uint32_t>(scene_.groups.size() - 1); }
@@ -389,8 +391,9 @@ class Builder {
             journey.first_draw = 1000 + nth;
             if (i == 0) itineraries.check(journey, "where they start", from);
             const Traveller traveller = travellerOf(person, group_index, i);
-            const double reaction = random.draw(kindOf(people, random, traveller.leader).reaction,
-                                                traveller.leader, Purpose::reaction, nth++);
+            const PeopleShare& kind = people.kinds[kindOf(people, random, traveller.leader)];
+            const double reaction =
+                random.draw(kind.settings.reaction, traveller.leader, Purpose::reaction, nth++);
             gpu::PlanChange change{};
             change.start_step = stepAt(event.at + reaction);
             change.first_stage = static_cast<std::uint32_t>(scene_.stages.size());

@@ -23,6 +23,7 @@ std::vector<recording::BakeAgent> describeAgents(const authoring::Scene& scene) 
         const gpu::Person& person = scene.people[row];
         agents.push_back({person.group, person.radius, person.preferred_speed, person.variation,
                           person.party_first, scene.origin + glm::dvec2(scene.goals[row])});
+        agents.back().profile = scene.groups[person.group].profiles[person.kind];
     }
     return agents;
 }
@@ -62,7 +63,8 @@ recording::BakeDescription describeBake(const LoadedLayout& loaded, const BakeOp
     bake.minimum = scene.origin + glm::dvec2(scene.minimum);
     bake.maximum = scene.origin + glm::dvec2(scene.maximum);
     for (const authoring::Group& group : scene.groups)
-        bake.groups.push_back({group.id, group.is_flow});
+        bake.groups.push_back(
+            {group.id, group.is_flow, group.look, fmt::format("{}", fmt::join(group.colours, " "))});
     bake.agents = describeAgents(scene);
     bake.roads = loaded.layout.roads;
     bake.areas = loaded.layout.areas;

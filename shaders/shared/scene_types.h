@@ -34,7 +34,7 @@ struct Person {
     uint party_size;   // 1 = walks alone
     uint group;        // flow or formation, index into the scene's groups
     float headway;     // s of free way kept to those walked behind; 0 = pushes on
-    uint reserved;
+    uint kind;         // of its group's people, as the layout lists them: nothing here depends on it
 };
 
 /// A step of somebody's route: walk until at most `tolerance` metres are left, and perhaps stop there.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "authoring/layout/layout_reader.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -94,6 +95,36 @@ TEST(LayoutReader, SaysWhatProfilesThereAre) {
         "{\"throng\": 1, \"formations\": [{\"id\": \"c\", \"type\": \"circle\", \"centre\": [0, 0],\n"
         " \"radius\": 5, \"count\": 6, \"people\": {\"profile\": \"adlut\"}}]}",
         2, 49, "/formations/0/people/profile", "expected one of", "`adult`");
+}
+
+TEST(LayoutReader, ReadsWhatPeopleWear) {
+    const Layout layout = read(kTwoAreas + R"("flows": [
+ {"id": "f", "from": "a", "to": "b", "rate": 1, "people": {"look": "fans", "colours": ["#a01020", "#FFFFFF"]}},
+ {"id": "g", "from": "a", "to": "b", "rate": 1, "people": {"profile": {"child": 1, "elderly": 1}}}]})");
+    EXPECT_EQ(layout.flows[0].people.look, "fans");
+    EXPECT_EQ(layout.flows[0].people.colours, (std::vector<std::string>{"#a01020", "#FFFFFF"}));
+    EXPECT_EQ(layout.flows[0].people.kinds[0].profile, "");
+    EXPECT_EQ(layout.flows[1].people.look, "casual");
+    EXPECT_TRUE(layout.flows[1].people.colours.empty());
+    EXPECT_EQ(layout.flows[1].people.kinds[1].profile, "elderly");
+}
+
+TEST(LayoutReader, SaysWhatLooksThereAreAndWhatAColourIs) {
+    const auto ring = [](const char* people) {
+        return fmt::format(R"({{"throng": 1, "formations": [{{"id": "c", "type": "circle", "centre": [0, 0],
+ "radius": 5, "count": 6, "people": {}}}]}})",
+                           people);
+    };
+    expectError(ring(R"({"look": "sumer"})"), 2, 46, "/formations/0/people/look", "expected one of casual",
+                "did you mean `summer`?");
+    expectError(ring(R"({"colours": ["#a01020", "#ffffff"]})"), 2, 49, "/formations/0/people/colours",
+                "only fans", "\"look\": \"fans\"");
+    expectError(ring(R"({"look": "fans", "colours": ["#a01020"]})"), 2, 65, "/formations/0/people/colours",
+                "expected 2 colours");
+    expectError(ring(R"({"look": "fans", "colours": ["#a01020", "white"]})"), 2, 77,
+                "/formations/0/people/colours/1", "expected a colour, found `white`", "#a01020");
+    expectError(ring(R"({"look": "fans", "colours": ["#a0102g", "#ffffff"]})"), 2, 66,
+                "/formations/0/people/colours/0", "expected a colour");
 }
 
 TEST(LayoutReader, ABarOnFlowNeedsALine) {

@@ -306,7 +306,7 @@ def test_damaged_files_are_told_with_their_place(throng, street, tmp_path):
     write(path, [GOOD])
     agents = tmp_path / "street" / "agents.csv"
     for damage, words in ((lambda text: "\n".join(text.splitlines()[:-1]) + "\n", "36 people where bake.json has 37"),
-                          (lambda text: text.replace(",flow,", ",", 1), "line 2 has 14 fields")):
+                          (lambda text: text.replace(",flow,", ",", 1), "line 2 has 17 fields")):
         whole = agents.read_text()
         agents.write_text(damage(whole))
         assert words in throng("apply", tmp_path / "street", "--overrides", path, "-o", tmp_path / "out",

@@ -8,6 +8,7 @@ import signal
 import struct
 import subprocess
 import time
+from collections import Counter
 
 import numpy
 import pytest
@@ -140,6 +141,19 @@ def test_the_streams_have_the_promised_shape_in_both_formats(bakes, manifest_of)
             assert (magic, version, points, start, rate, samples) == \
                 (b"POINTCACHE2\0", 1, manifest["agents"], 1.0, 1.0, manifest["frames"])
             assert numpy.array_equal(numpy.fromfile(file, "<f4").reshape(array.shape), array)
+
+
+def test_the_table_tells_profiles_and_looks(throng, tmp_path):
+    people = {"profile": {"adult": 2, "child": 1, "elderly": 1}, "look": "fans", "colours": ["#a01020", "#ffffff"]}
+    layout = {"throng": 1, "simulation": {"duration": 0.2}, "formations": [
+        {"id": "club", "type": "circle", "centre": [0, 0], "radius": 30, "count": 60, "people": people},
+        {"id": "ring", "type": "circle", "centre": [0, 0], "radius": 8, "count": 5}]}
+    throng("bake", write(tmp_path / "lay.json", layout), "-o", tmp_path / "bake", "--no-gltf")
+    rows = table(tmp_path / "bake")
+    often = Counter((row["group"], row["profile"], row["look"], row["colours"]) for row in rows)
+    club = [often.pop(("club", profile, "fans", "#a01020 #ffffff")) for profile in ("adult", "child", "elderly")]
+    assert often == {("ring", "", "casual", ""): 5} and sum(club) == 60 and club[0] > 20 and min(club) > 7, club
+    assert all((float(row["radius"]) < 0.21) == (row["profile"] == "child") for row in rows)
 
 
 def test_the_manifest_lists_the_gaits_that_occur(bakes, manifest_of):

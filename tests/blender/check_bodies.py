@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs inside Blender: a crowd of people shaped from a library of bodies. ADDON BAKE FOLDER"""
 import json
+import math
 import os
 import sys
 
 import bpy
 import numpy
+from mathutils import Matrix
 
 addon, bake, folder = sys.argv[-3:]
 sys.path[:0] = [addon, os.path.dirname(os.path.abspath(__file__))]
@@ -14,12 +16,10 @@ from pose_names import Names  # noqa: E402
 from throng.cast import library, sheets  # noqa: E402
 from throng.crowd.queries import cast_of, crowd_objects, figure, repertoire_of  # noqa: E402
 from throng.overrides import hero, skeleton  # noqa: E402
-from throng.people import members  # noqa: E402
+from throng.people import casting, members  # noqa: E402
 from throng.people.puppet import Puppet  # noqa: E402
 
-PEOPLE = (0, 1, 9)  # a man, a woman, a girl
-drawn = members.person_of
-members.person_of = lambda number, look=members.LOOK: drawn(PEOPLE[number], look)
+PEOPLE = 4
 bpy.ops.wm.read_factory_settings(use_empty=True)
 throng.register()
 scene, result = bpy.context.scene, {}
@@ -27,7 +27,7 @@ scene, result = bpy.context.scene, {}
 
 def load():
     return bpy.ops.import_scene.throng(filepath=os.path.join(bake, "bake.json"), scenery=False, walls=False,
-                                       roads=False, relative=False, people=len(PEOPLE))
+                                       roads=False, relative=False, people=PEOPLE)
 
 
 def refused(call, **arguments):
@@ -55,7 +55,11 @@ shape = cast_of(crowd)
 scene.frame_set(20)
 result["shown"] = shown()
 figures = library.figures_of(shape)
-result["figures"] = [len(figures), shape["throng_variations"], shape["throng_bodies"]]
+result["figures"] = [len(figures), shape["throng_variations"]]
+roles = members.roles_of(shape)
+result["roles"] = [[role.look, role.profile] for role in roles]
+old = [casting.person_of(role) for role in roles][3]
+result["old"] = [old.body.years, old.stoop]
 
 repertoire = repertoire_of(crowd)
 os.environ["THRONG_BODIES"] = os.path.join(folder, "none.npz")
@@ -63,13 +67,13 @@ result["no levels"] = refused(bpy.ops.throng.levels, by="camera"), len(library.f
 os.environ["THRONG_BODIES"] = found_at
 assert bpy.ops.throng.levels(by="camera", near=4000.0, far=5000.0) == {"FINISHED"}
 figures = library.figures_of(shape)
-result["triangles"] = [[len(figures[level, member].data.polygons) for level in range(3)] for member in range(3)]
+result["triangles"] = [[len(figures[level, member].data.polygons) for level in range(3)] for member in range(PEOPLE)]
 result["poses"] = [len(sheets.points_of(figures[level, 1])) for level in range(3)]
 result["expected poses"] = [repertoire.poses(level) for level in range(3)]
 # poses by the few bones that files keep, beside those by all bones of the library
 result["off bones"] = []
-for member in range(3):
-    maker = members.maker_of(member)
+for member in range(PEOPLE):
+    maker = members.maker_of(roles[member])
     poses = members.poses_of(maker.rig.build, repertoire)
     model = maker.model(0)
     off = numpy.linalg.norm(sheets.points_of(figures[0, member]) - model.posed(poses), axis=2)
@@ -77,11 +81,11 @@ for member in range(3):
 kept = {sheets.sheet_of(each) for each in figures.values()}
 result["sheets"] = [len(kept), max(len(each.data.vertices) for each in kept) // repertoire.poses(0)]
 stands = [sheets.points_of(figures[0, member])[repertoire.walking()] for member in range(3)]
-result["heights"] = [[float(points[:, 2].min()), float(points[:, 2].max()), members.person_of(member).body.height]
-                     for member, points in enumerate(stands)]
+result["heights"] = [[float(points[:, 2].min()), float(points[:, 2].max()), casting.person_of(role).body.height]
+                     for role, points in zip(roles, stands)]
 result["between levels"] = max(
     float(numpy.abs(end(fine, axis=0) - end(coarse, axis=0)).max())
-    for member in range(3) for end in (numpy.min, numpy.max)
+    for member in range(PEOPLE) for end in (numpy.min, numpy.max)
     for fine, coarse in [(sheets.points_of(figures[0, member])[3], sheets.points_of(figures[1, member])[3])])
 result["materials"] = sorted({material.name for each in figures.values() for material in each.data.materials})
 
@@ -113,6 +117,57 @@ bpy.ops.throng.clear_people(rows=str(row))
 scene.frame_set(20)
 result["back"] = shown() == result["shown"]
 
+# culled by a box
+places = {i.persistent_id[1]: i.matrix_world.translation.copy()
+          for i in bpy.context.evaluated_depsgraph_get().object_instances
+          if i.is_instance and i.parent and i.parent.original == crowd}
+box = bpy.data.objects.new("box", None)
+scene.collection.objects.link(box)
+box.location, box.scale = (15.0, 0.0, 0.0), (15.0, 40.0, 5.0)
+bpy.context.view_layer.objects.active = box
+bpy.ops.throng.cull(by="box", margin=0.0)
+result["culled"] = [shown() == {each: member for each, member in result["shown"].items() if places[each].x >= 0.0},
+                    len(shown())]
+bpy.ops.throng.cull(by="none")
+bpy.data.objects.remove(box)
+
+
+def chest_of(each):
+    """The mean colour of somebody's chest, as Cycles has it."""
+    own = next(i.matrix_world.copy() for i in bpy.context.evaluated_depsgraph_get().object_instances
+               if i.is_instance and i.parent and i.parent.original == crowd and i.persistent_id[1] == each)
+    camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
+    camera.data.type, camera.data.ortho_scale, camera.data.clip_end = "ORTHO", 0.2, 1.1
+    turned = Matrix.Rotation(0.5 * math.pi, 4, "Z") @ Matrix.Rotation(0.5 * math.pi, 4, "X")
+    camera.matrix_world = own @ Matrix.Translation((1.0, 0.0, 1.22)) @ turned
+    scene.collection.objects.link(camera)
+    scene.camera, scene.render.engine = camera, "CYCLES"
+    scene.cycles.samples, scene.cycles.use_denoising, scene.render.use_motion_blur = 4, False, False
+    scene.render.resolution_x = scene.render.resolution_y = 16
+    scene.render.filepath = os.path.join(folder, "chest.png")
+    bpy.ops.render.render(write_still=True)
+    picture = bpy.data.images.load(scene.render.filepath)
+    pixels = numpy.array(picture.pixels[:]).reshape(-1, 4)[:, :3].mean(axis=0)
+    bpy.data.images.remove(picture)
+    bpy.data.objects.remove(camera)
+    return [float(value) for value in pixels]
+
+
+# tints: colours of their own, and draws, which are where the club's colours are picked by
+scene.world = bpy.data.worlds.new("white")
+scene.world.use_nodes = True
+scene.world.node_tree.nodes["Background"].inputs[0].default_value = (1.0, 1.0, 1.0, 1.0)
+fan = min(row for row, member in result["shown"].items() if member == 3)
+result["chests"] = []
+for draws in ((0.1, 0.9, 0.5), (0.6, 0.9, 0.5), None):
+    tint = {"by": "draws", "draws": draws} if draws else {"by": "colour", "colour": (0.9, 0.02, 0.02)}
+    assert bpy.ops.throng.tint_people(rows=str(fan), **tint) == {"FINISHED"}
+    scene.frame_set(20)
+    result["chests"].append(chest_of(fan))
+bpy.ops.throng.clear_people(rows=str(fan))
+scene.frame_set(20)
+
+
 def bounds(mesh, matrix):
     flat = numpy.empty(3 * len(mesh.vertices), numpy.float32)
     mesh.vertices.foreach_get("co", flat)
@@ -133,8 +188,8 @@ result["hero"] = {"off": float(numpy.abs(bounds(worn.data, worn.matrix_world) - 
                   "materials": all(slot.material for slot in body.material_slots),
                   "pattern": "pattern" in body.data.attributes, "tint": len(body["tint"])}
 # a hero's own bones take every vertex where its person's pose has it
-puppet, walk = Puppet(0, members.LOOK), members.gait.walk_pose(0.75, members.maker_of(0).rig.build,
-                                                              members.gait.gait_of(1.4))
+puppet, walk = Puppet(roles[0]), members.gait.walk_pose(0.75, members.maker_of(roles[0]).rig.build,
+                                                         members.gait.gait_of(1.4))
 rest, then = (puppet.bones(pose, skeleton.bone_between) for pose in (puppet.rest, walk))
 axes = lambda bone: numpy.stack([bone.left, bone.along, bone.ahead], axis=1)
 vertices, weights, taken = puppet.vertices(), puppet.weights(skeleton.BONES), 0.0

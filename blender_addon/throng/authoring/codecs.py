@@ -143,6 +143,7 @@ class Distribution(Codec):
 
 
 PROFILES = words_of(LAYOUT.entry("people", "profile"))
+LOOKS = words_of(LAYOUT.entry("people", "look"))
 MIX = "MIX"
 
 

@@ -91,7 +91,8 @@ BARS = tuple(key for key, entry in schema.LAYOUT.entries(schema.LAYOUT.named("ex
 BAR = (Optional(_codec("bar", "min", "least")), Optional(_codec("bar", "max", "most")))
 
 PEOPLE = (*_codecs("people", "speed", "radius", "maximum_speed_factor", "headway"),
-          Profile("profile", "profile_weights"), _codec("people", "reaction"), Groups("groups", "group_weights"))
+          Profile("profile", "profile_weights"), _codec("people", "reaction"), Groups("groups", "group_weights"),
+          _codec("people", "look"))
 
 ROAD = _codecs("road", "width", "one_way")
 OPEN_WALL = _codecs("wall", "thickness", "height")

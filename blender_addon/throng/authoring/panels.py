@@ -42,6 +42,7 @@ def _people(layout, people):
         layout.prop(people, name)
         if getattr(people, name) == MIX:
             layout.prop(people, weights, text="")
+    layout.prop(people, "look")
     row = layout.row(align=True)
     row.prop(people, "maximum_speed_factor")
     row.prop(people, "headway")

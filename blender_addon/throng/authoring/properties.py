@@ -9,7 +9,7 @@ from bpy.props import (BoolProperty, CollectionProperty, EnumProperty, FloatProp
                        PointerProperty, StringProperty)
 
 from . import display, fields
-from .codecs import GROUPS, MIX, PROFILES, UNSET, Flag, Whole
+from .codecs import GROUPS, LOOKS, MIX, PROFILES, UNSET, Flag, Whole
 from .fields import limits
 
 KINDS = (("NONE", "None", "No part of the layout"), ("ROAD", "Road", "A curve with a width, on which people walk"),
@@ -76,6 +76,7 @@ class ThrongPeople(bpy.types.PropertyGroup):
                                         + [(MIX, "Weights", "Of those who walk alone, in twos, threes and fours")])
     group_weights: FloatVectorProperty(name="Weights", size=4, default=(1.0, 0.0, 0.0, 0.0), soft_min=0.0,
                                        description="Alone, twos, threes, fours")
+    look: EnumProperty(name="Look", items=_words(LOOKS), description="What they wear")
 
 
 class ThrongPlace(bpy.types.PropertyGroup):

@@ -16,7 +16,8 @@ class _Shaped:
     """How people are made who are shaped from a library of bodies: the package `people` fills it in, which this one
     knows nothing of."""
 
-    make = None   # (member, level, repertoire, look): bones.Boned
+    make = None   # (text of a role, level, repertoire): bones.Boned
+    role = None   # (cast, member): that text
     check = None  # raises where the library is missing, before anything is changed
 
 
@@ -45,14 +46,15 @@ def add_figure(cast, level, member, name, posed, sheet=None):
     return figure
 
 
-def build_cast(variations, repertoire, name="Throng cast", look=""):
-    """A cast of that many people at level 0; with a look they are shaped from a library of bodies."""
+def build_cast(variations, repertoire, name="Throng cast", dress=None):
+    """A cast of that many people at level 0. @param dress tells a cast who its people are, where they are shaped from a
+    library of bodies"""
     cast = bpy.data.collections.new(name)
-    cast["throng_variations"], cast["throng_levels"] = variations, 1
-    if look:
-        cast["throng_bodies"] = look
+    cast["throng_variations"], cast["throng_levels"], cast["throng_shipped"] = variations, 1, variations
+    if dress:
+        dress(cast)
     cast.hide_viewport = cast.hide_render = True  # File > Append puts it into the scene
-    materials = [] if look else cast_materials(people.MATERIALS)
+    materials = [] if dress else cast_materials(people.MATERIALS)
     for member in range(variations):
         add_person(cast, member, repertoire, materials)
     return cast
@@ -61,13 +63,13 @@ def build_cast(variations, repertoire, name="Throng cast", look=""):
 def add_person(cast, member, repertoire, materials, levels=None):
     """The shipped person of a number, at the levels that the cast shows unless told."""
     wanted = range(cast["throng_levels"]) if levels is None else levels
-    look = cast.get("throng_bodies")
-    if look:
+    if cast.get("throng_bodies"):
+        role = shaped.role(cast, member)
         there = {level: figure for (level, number), figure in figures_of(cast).items() if number == member}
         for level in wanted:
             sheet = sheet_of(next(iter(there.values()))) if there else None
             there[level] = add_figure(cast, level, member, f"Throng person {member:02d}",
-                                      shaped.make(member, level, repertoire, look), sheet)
+                                      shaped.make(role, level, repertoire), sheet)
             there[level]["throng_person"] = member
         return
     person = member % VARIATIONS

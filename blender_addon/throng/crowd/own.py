@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Who of the cast somebody appears as where that follows from the person and is not drawn: an attribute of the crowd's
 points, one more than the member's number. 0 leaves it to the bake's draw, as does an override that swaps somebody."""
-from ..people import members
+from ..people import casting, members
 
 OWN = "throng_own"
 FIRST = "throng_own_first"  # as it was before overrides
@@ -15,12 +15,11 @@ def give(crowd, cast, folder):
             mesh.attributes.remove(mesh.attributes[name])
     if not cast.get("throng_bodies"):
         return
-    people = members.read_people(folder)
-    if people is None or len(people) != len(mesh.vertices):
+    walkers = casting.read_walkers(folder)
+    if walkers is None or len(walkers) != len(mesh.vertices):
         return
-    known = [each or (0.25, 0) for each in people]
-    chosen = members.choose(known, cast["throng_shipped"], max(1, cast["throng_drawn"]))
-    numbers = [float(number + 1) if each else 0.0 for each, number in zip(people, chosen)]
+    chosen = casting.choose(walkers, members.roles_of(cast), max(1, cast["throng_drawn"]))
+    numbers = [0.0 if walker.chosen else float(number + 1) for walker, number in zip(walkers, chosen)]
     for name in (OWN, FIRST):
         mesh.attributes.new(name, "FLOAT", "POINT").data.foreach_set("value", numbers)
 

@@ -1,12 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Somebody's own colour on the materials of the cast."""
 from ..blender.nodes import of_person, socket
-
-
-def linear(colour):
-    """"#rrggbb" (sRGB) as three linear numbers."""
-    parts = (int(colour[at:at + 2], 16) / 255.0 for at in (1, 3, 5))
-    return tuple(v / 12.92 if v <= 0.04045 else ((v + 0.055) / 1.055) ** 2.4 for v in parts)
+from ..people.palettes import linear
 
 
 def _cast_materials(crowd):

@@ -95,9 +95,9 @@ class Lofted:
 class Shaped:
     """A member of a cast that is shaped from bodies as a hero, in full detail."""
 
-    def __init__(self, number, look):
-        self.puppet = Puppet(number, look)
-        self.materials = [material_of(kind, look, members.bodies()) for kind in self.puppet.model.materials]
+    def __init__(self, role):
+        self.puppet = Puppet(role)
+        self.materials = [material_of(kind, self.puppet.look, members.bodies()) for kind in self.puppet.model.materials]
         self.build, self.rest = self.puppet.build, self.puppet.rest
 
     def bones(self, pose):
@@ -164,7 +164,7 @@ def shipped_person(crowd, variation):
     if figure is None or "throng_person" not in figure:
         return None
     if shown.get("throng_bodies"):
-        return Shaped(figure["throng_person"], shown["throng_bodies"])
+        return Shaped(members.roles_of(shown)[figure["throng_person"]])
     return Lofted(people.CAST[figure["throng_person"]], list(figure.data.materials))
 
 

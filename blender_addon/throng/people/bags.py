@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What people carry: a rucksack, a bag on a strap, a shopper over the shoulder. Straps are laid on the clothes."""
+"""What people carry: a rucksack, a bag on a strap, a shopper over the shoulder, a stick. Straps are laid on clothes."""
+import math
+
 import numpy
 
 from . import levels, regions
 from .head import loose
 from .parts import laid_on
+
+_UP = numpy.array([0.0, 0.0, 1.0])
 
 
 def _box(bodies, centre, half, bone, material, level, round_=0.55):
@@ -50,10 +54,7 @@ def bag(bodies, kind, tops, rig, level):
                               level))
         for top in tops if level < 2 else ():
             for side in (-1.0, 1.0):  # over the shoulder, and under the arm
-                found += laid_on(top, regions.box((None, 0.081, 0.322), (None, 0.115, None), side), 0.006 * scale,
-                                 "extra pack")
-                found += laid_on(top, regions.box((None, 0.112, 0.322), (None, None, 0.350), side), 0.006 * scale,
-                                 "extra pack")
+                found += laid_on(top, regions.strap(side), 0.006 * scale, "extra pack")
     else:
         high = 0.10 if kind == "satchel" else 0.16
         side = -1.0
@@ -64,3 +65,35 @@ def bag(bodies, kind, tops, rig, level):
         for top in tops if level < 2 else ():  # from the left shoulder to the right hip
             found += laid_on(top, regions.band((-0.13, 0.10), (0.115, 0.56), 0.014), 0.006 * scale, "extra leather")
     return found
+
+
+def stick(bodies, rig, level):
+    """A walking stick with a crook (rig.Rig moves it)."""
+    tip, top = rig.stick_at_rest()
+    sides, crook = {levels.NEAR: (12, 12), 0: (6, 6), 1: (4, 3), 2: (3, 0)}[level]
+    reach = 0.045 * rig.scale
+    line, radii = [tip, tip + 0.02 * rig.scale * _UP, top], [0.011, 0.0085, 0.0095]
+    for step in range(1, crook + 1):  # forwards, and down again
+        angle = math.pi * step / crook
+        line.append(top + reach * numpy.array([1.0 - math.cos(angle), 0.0, math.sin(angle)]))
+        radii.append(0.0095)
+    return [_tube(bodies, numpy.array(line), numpy.array(radii) * rig.scale, sides, "Root", "extra leather")]
+
+
+def _tube(bodies, line, radii, sides, bone, material):
+    """Round about a line in the plane of x and z."""
+    along = numpy.gradient(line, axis=0)
+    along /= numpy.linalg.norm(along, axis=1, keepdims=True)
+    aside = numpy.array([0.0, 1.0, 0.0])
+    out = numpy.cross(along, aside)
+    angles = 2.0 * math.pi * numpy.arange(sides) / sides
+    round_ = numpy.cos(angles)[None, :, None] * out[:, None] + numpy.sin(angles)[None, :, None] * aside
+    points = (line[:, None] + radii[:, None, None] * round_).reshape(-1, 3)
+    corner = (numpy.arange(len(line) - 1)[:, None] * sides + numpy.arange(sides)).ravel()
+    beside = (numpy.arange(len(line) - 1)[:, None] * sides + (numpy.arange(sides) + 1) % sides).ravel()
+    faces = [numpy.stack([corner, beside, beside + sides], axis=1),
+             numpy.stack([corner, beside + sides, corner + sides], axis=1)]
+    fan = numpy.arange(1, sides - 1)
+    last = (len(line) - 1) * sides
+    faces += [numpy.stack([0 * fan, fan + 1, fan], axis=1), last + numpy.stack([0 * fan, fan, fan + 1], axis=1)]
+    return loose(bodies, points, numpy.concatenate(faces), bone, material)

@@ -119,16 +119,14 @@ def _eyes(shade, tint, pattern, *_):
 
 def _colours(slot, fabric, look):
     if slot == "top":
-        return palettes.DENIMS if fabric == "denim" else palettes.TOPS[look]
+        return palettes.DENIMS if fabric == "denim" else palettes.tops(look)
     if slot == "bottom":
         return palettes.DENIMS if fabric == "denim" else palettes.BOTTOMS.get(look, palettes.BOTTOM)
     if slot == "shirt":
         return palettes.SHIRTS
     if slot == "shoes":
         return palettes.SOLES if fabric == "sole" else palettes.SHOES[fabric]
-    if look == "fans" and fabric in ("knit", "cotton"):
-        return palettes.EXTRA_OF_FANS
-    return palettes.EXTRAS[fabric]
+    return palettes.extras(look, fabric)
 
 
 _PICKS = {"top": (0, 1.0), "bottom": (1, 1.0), "shirt": (0, 5.0), "shoes": (1, 9.0), "extra": (0, 11.0)}
@@ -146,7 +144,7 @@ def _cloth(shade, tint, pattern, kind, look, _bodies):
     colour = shade.mix(shade.mix(base, (0.78, 0.78, 0.80), 1.0, "MULTIPLY"), base, worn)
     weave = shade.math("ADD", wave(shade.math("ADD", ahead, left), 2400.0), wave(up, 2400.0))
     if slot == "top":
-        colour = _printed(shade, colour, base, tint, fabric, left, up, wave)
+        colour = _printed(shade, colour, base, tint, fabric, (left, up), wave, palettes.club(look))
     if fabric == "denim":
         fade = shade.math("MAXIMUM", shade.math("SUBTRACT", shade.noise(pattern, 5.0), 0.45), 0.0)
         twill = shade.noise(pattern, 900.0)
@@ -162,8 +160,9 @@ def _cloth(shade, tint, pattern, kind, look, _bodies):
     shade.set(_relief(shade, pattern, fabric, left, up, weave, wave), "Normal")
 
 
-def _printed(shade, colour, base, tint, fabric, left, up, wave):
-    """Some have stripes or checks: those whose tint says so."""
+def _printed(shade, colour, base, tint, fabric, place, wave, club):
+    """Some have stripes or checks: those whose tint says so. @param club two colours, or None"""
+    left, up = place
     picks = shade.math("FRACT", shade.math("MULTIPLY", tint[0], 37.0))
     other = shade.mix(base, (0.28, 0.28, 0.30), 1.0, "MULTIPLY")
     light = shade.mix(base, (0.75, 0.73, 0.68), 0.7)
@@ -174,6 +173,8 @@ def _printed(shade, colour, base, tint, fabric, left, up, wave):
                                                    shade.math("LESS_THAN", picks, 0.40)))
     if fabric in ("jersey", "knit", "team"):  # striped ones
         bands = shade.math("GREATER_THAN", wave(up, 120.0 if fabric != "team" else 60.0), 0.3)
+        if fabric == "team":
+            other = shade.mix(club[0], club[1], shade.math("LESS_THAN", tint[0], 0.75)) if club else other
         return shade.mix(colour, light if fabric != "team" else other, shade.math(
             "MULTIPLY", bands, shade.math("LESS_THAN", picks, 0.30)))
     if fabric == "silk":  # flowered ones

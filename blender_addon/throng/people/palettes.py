@@ -49,3 +49,29 @@ EXTRAS = {"leather": ((0.060, 0.030, 0.016), (0.016, 0.015, 0.015), (0.16, 0.085
           "frame": ((0.012, 0.011, 0.011), (0.030, 0.016, 0.009), (0.12, 0.11, 0.10)),
           "knit": _MUTED, "cotton": _MUTED}
 EXTRA_OF_FANS = ((0.42, 0.022, 0.028), (0.55, 0.53, 0.51))
+
+
+def linear(colour):
+    """"#rrggbb" (sRGB) as three linear numbers."""
+    parts = (int(colour[at:at + 2], 16) / 255.0 for at in (1, 3, 5))
+    return tuple(v / 12.92 if v <= 0.04045 else ((v + 0.055) / 1.055) ** 2.4 for v in parts)
+
+
+def club(look):
+    """The two colours of a look such as "fans #a01020 #ffffff", or None: cloth reflects less than a screen shows."""
+    _, *colours = look.split()
+    return [tuple(min(max(part, 0.008), 0.62) for part in linear(colour)) for colour in colours] or None
+
+
+def tops(look):
+    own = club(look)
+    if not own:
+        return TOPS[look]
+    washed = tuple(0.72 * part + 0.03 for part in own[0])  # last year's jersey
+    return own[0], washed, own[1], own[0]
+
+
+def extras(look, fabric):
+    if look.startswith("fans") and fabric in ("knit", "cotton"):
+        return tuple(club(look) or EXTRA_OF_FANS)
+    return EXTRAS[fabric]

@@ -32,7 +32,7 @@ class Maker:
     def __init__(self, bodies, person):
         self.bodies, self.person = bodies, person
         self.shape = shape_of(bodies, person.body)
-        self.rig = Rig(bodies, self.shape, person.body.height)
+        self.rig = Rig(bodies, self.shape, person.body.height, stoop=person.stoop, stick=person.stick)
         self._surfaces = {}
 
     def model(self, level):
@@ -69,6 +69,8 @@ class Maker:
             parts += head.glasses(bodies, shape, level, scale, person.glasses == "round")
         upper = [part for part in clothes if part.material.startswith(("top", "shirt"))]
         tops = [part for part in upper if part.material.startswith("top")] or upper
+        if person.stick:
+            parts += bags.stick(bodies, self.rig, level)
         return [part for part in parts + bags.bag(bodies, person.bag, tops, self.rig, level) if len(part.faces)]
 
 

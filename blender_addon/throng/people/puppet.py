@@ -23,9 +23,9 @@ for _side in "RL":
 class Puppet:
     """A member of a cast as a hero."""
 
-    def __init__(self, number, look):
-        self.maker = members.maker_of(number, look)
-        self.rig, self.look = self.maker.rig, look
+    def __init__(self, role):
+        self.maker = members.maker_of(role)
+        self.rig, self.look = self.maker.rig, self.maker.person.look
         self.build = self.rig.build
         self.rest = gait.idle_pose(self.build)
         self.model = self.maker.model(levels.NEAR)
@@ -56,7 +56,8 @@ class Puppet:
         """(V, bones) in the order of the names."""
         found = numpy.zeros((len(self.model.points), len(names)))
         for number, bone in enumerate(self.rig.bodies.bones):
-            found[:, names.index(_leader(bone))] += self.model.weights[:, number]
+            leader = "forearm.R" if bone == "Root" and self.rig.stick else _leader(bone)
+            found[:, names.index(leader)] += self.model.weights[:, number]
         return found
 
 

@@ -11,6 +11,9 @@ ARM_LENGTH = 0.48              # m, from shoulder to wrist
 _ARMS = ("upperarm", "lowerarm", "hand", "index", "middle", "ring", "pinky", "thumb")
 # Height of the hairline by the angle from straight ahead.
 _ANGLES = (0, 25, 42, 58, 75, 95, 112, 128, 150, 180)
+# Heights, and how far from the middle a rucksack's strap is there.
+_STRAP_UP = (0.235, 0.255, 0.280, 0.310, 0.345, 0.385, 0.43, 0.60)
+_STRAP_ASIDE = (0.250, 0.185, 0.150, 0.128, 0.112, 0.102, 0.098, 0.092)
 _LINE = (0.806, 0.803, 0.788, 0.760, 0.712, 0.745, 0.752, 0.695, 0.668, 0.655)
 
 
@@ -48,6 +51,17 @@ def band(first, second, half):
     (y, z), (dy, dz) = first, numpy.subtract(second, first) / numpy.hypot(*numpy.subtract(second, first))
     off = lambda places: (places[:, Y] - y) * dz - (places[:, Z] - z) * dy
     return [lambda places: but_arms(places, 1.0), lambda places: half - off(places), lambda places: half + off(places)]
+
+
+def strap(side):
+    """The planes of a rucksack's strap: over the shoulder, down beside the breast, and under the arm to the back."""
+    def inside(places):
+        aside, up = places[:, Y] * side, places[:, Z]
+        middle = numpy.interp(up, _STRAP_UP, _STRAP_ASIDE)
+        slope = numpy.interp(up, _STRAP_UP[:-1], numpy.abs(numpy.diff(_STRAP_ASIDE) / numpy.diff(_STRAP_UP)))
+        return 0.0185 - numpy.abs(aside - middle) / numpy.sqrt(1.0 + slope ** 2)
+
+    return [lambda places: but_arms(places, 1.0), inside]
 
 
 def on_trunk(places, value):

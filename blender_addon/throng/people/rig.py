@@ -9,6 +9,8 @@ from ..cast import gait
 _FINGERS = (("index", 0.22), ("middle", 0.30), ("ring", 0.36), ("pinky", 0.40))
 _X, _Y, _Z = numpy.eye(3)
 SOLE = 0.018  # m, of a shoe, below the foot
+STICK_AHEAD = 0.12  # m, of the ankle, where sticks are planted
+_ROUNDS = 10      # of looking for an elbow's angle: to a millimetre of the stick's tip
 
 
 def cross(one, other):
@@ -39,8 +41,9 @@ def frame(along, hinge):
 class Rig:
     """Somebody's bones at rest, and how they go with a pose."""
 
-    def __init__(self, bodies, shape, height, sole=SOLE):
-        self.bodies, self.sole = bodies, sole
+    def __init__(self, bodies, shape, height, sole=SOLE, stoop=0.0, stick=False):
+        """@param stoop rad, that the back bends forward; @param stick whether somebody walks with one"""
+        self.bodies, self.sole, self.stoop, self.stick = bodies, sole, stoop, stick
         joints = bodies.joints(shape)
         self.heads = {bone: joints[bodies.heads[number]] for bone, number in bodies.bone.items()}
         self.tails = {bone: joints[bodies.tails[number]] for bone, number in bodies.bone.items()}
@@ -70,7 +73,12 @@ class Rig:
         turns, places = self._trunk(pose)
         for side, sign, index in (("r", -1.0, 0), ("l", 1.0, 1)):
             self._leg(turns, places, pose, side, pose.feet[index])
-            self._arm(turns, places, pose, side, sign, *pose.arms[index])
+            swing, elbow = pose.arms[index]
+            if self.stoop:  # arms hang down from bent backs, and swing less
+                swing, elbow = 0.6 * swing + 0.4 * self.stoop, elbow + 0.15
+            self._arm(turns, places, pose, side, sign, swing, elbow)
+        if self.stick:
+            self._plant(turns, places, pose)
         return self._all(turns, places)
 
     def neutral(self):
@@ -80,14 +88,15 @@ class Rig:
         return self.matrices(gait.Pose((0.0, 0.0, leg), 0.0, 0.0, 0.0, feet, ((0.0, 0.12), (0.0, 0.12))))
 
     def _trunk(self, pose):
-        lean = turn(_Y, pose.lean)
+        stoop, straight = self.stoop, pose.lean
+        lean = turn(_Y, straight + 0.9 * stoop)
         shoulders = turn(_Z, pose.shoulder_yaw)
         half = turn(_Z, 0.5 * (pose.pelvis_yaw + pose.shoulder_yaw))
         pelvis = turn(_Z, pose.pelvis_yaw) @ turn(_Y, 0.4 * pose.lean)
-        turns = {"Root": numpy.eye(3), "pelvis": pelvis, "spine_01": half @ turn(_Y, 0.7 * pose.lean),
-                 "spine_02": half @ lean, "spine_03": shoulders @ lean,
-                 "neck_01": turn(_Z, 0.6 * pose.shoulder_yaw) @ turn(_Y, 0.6 * pose.lean),
-                 "head": turn(_Z, 0.3 * pose.shoulder_yaw)}
+        turns = {"Root": numpy.eye(3), "pelvis": pelvis, "spine_01": half @ turn(_Y, 0.7 * straight + 0.4 * stoop),
+                 "spine_02": half @ lean, "spine_03": shoulders @ turn(_Y, straight + 1.5 * stoop),
+                 "neck_01": turn(_Z, 0.6 * pose.shoulder_yaw) @ turn(_Y, 0.6 * straight + 1.3 * stoop),
+                 "head": turn(_Z, 0.3 * pose.shoulder_yaw) @ turn(_Y, 0.35 * stoop)}
         middle = numpy.array(pose.pelvis) - (0.0, 0.0, gait.HIP_DROP * self.scale)
         places = {"Root": numpy.zeros(3), "pelvis": middle + pelvis @ (self.heads["pelvis"] - self.hips)}
         for parent, bone in (("pelvis", "spine_01"), ("spine_01", "spine_02"), ("spine_02", "spine_03"),
@@ -138,9 +147,35 @@ class Rig:
         turns[lower] = frame(fore, hinge) @ frame(rest_lower, rest_hinge).T
         places[upper] = shoulder
         places[lower] = shoulder + turns[upper] @ rest_upper
-        turns[hand] = turn(fore, -sign * 0.70) @ turns[lower]
+        turns[hand] = turn(fore, sign * 0.22) @ turns[lower]  # palms to the thighs
         places[hand] = places[lower] + turns[lower] @ rest_lower
         self._fingers(turns, places, side, hand, sign)
+
+    def _plant(self, turns, places, pose):
+        """A stick in the right hand goes with the left foot: while that stands, so does it. Its bone is the root, which
+        nothing else hangs on."""
+        foot = pose.feet[1]
+        lift = 0.0 if foot.planted else 0.35 * max(foot.ankle[1] - self.build.ankle, 0.0)
+        tip = numpy.array([foot.ankle[0] + STICK_AHEAD * self.scale, -self.widest - 0.13 * self.scale, lift])
+        rest, top = self.stick_at_rest()
+        low, high = 0.05, 1.5  # of the elbow: whatever holds the stick's top where it ends
+        for _ in range(_ROUNDS):
+            elbow = 0.5 * (low + high)
+            self._arm(turns, places, pose, "r", -1.0, 0.5 * pose.arms[0][0] + 0.05, elbow)
+            along = self._grip(turns, places) - tip
+            low, high = (low, elbow) if along @ along > (top - rest) @ (top - rest) else (elbow, high)
+        turns["Root"] = frame(along, _Y) @ frame(_Z, _Y).T
+        places["Root"] = self._grip(turns, places) + turns["Root"] @ (self.heads["Root"] - top)
+
+    def _grip(self, turns, places):
+        """Where the right hand holds something, m."""
+        inside = 0.5 * (self.tails["middle_01_r"] + self.heads["middle_01_r"]) - self.heads["hand_r"]
+        return places["hand_r"] + turns["hand_r"] @ inside
+
+    def stick_at_rest(self):
+        """(tip, top) of a stick where it is made: beside the right foot, upright."""
+        x, y = 0.12 * self.scale, -self.widest - 0.13 * self.scale
+        return numpy.array([x, y, 0.0]), numpy.array([x, y, 0.84 * self.scale])
 
     def _fingers(self, turns, places, side, hand, sign):
         """Half closed and side by side, as hands hang."""

@@ -8,6 +8,10 @@ from . import wardrobe
 from .shape import Body
 
 LOOKS = tuple(wardrobe.LOOKS)
+# By a layout's profile: the youngest and the oldest, years.
+AGES = {"child": (6.0, 13.5), "adult": (19.0, 64.0), "elderly": (67.0, 84.0), "runner": (18.0, 54.0)}
+OLD = 65.0   # years: from here on people stoop
+_STEP = 0.618034  # of a turn, from one number to the next: ages of neighbours are far apart
 # In any stretch of the cast there are young and old, women and men.
 _YEARS = (34, 27, 52, 41, 22, 33, 67, 29, 38, 9, 73, 46, 25, 58, 31, 36, 19, 44, 12, 62, 28, 48, 35, 24)
 _MALE = (1, 0, 1, 0, 1, 0, 1, 1, 0, 0, 0, 1, 0, 1, 1, 0, 1, 0, 1, 0, 0, 1, 1, 0)
@@ -16,6 +20,33 @@ _SKINS = {"caucasian": ("pale", "fair", "fair", "olive"), "asian": ("east", "eas
           "african": ("brown", "dark", "brown")}
 _MEN_HAIR = ("short", "side", "crop", "quiff", "short", "curtains", "curls", "side")
 _WOMEN_HAIR = ("long", "bob", "tail", "waves", "knot", "fringed bob", "long", "waves")
+
+
+@dataclass(frozen=True)
+class Role:
+    """Whom a member of a cast is drawn as."""
+    number: int
+    look: str = "casual"  # of fans perhaps with their two colours: "fans #a01020 #ffffff"
+    profile: str = ""     # as layouts name it; "" whoever has the number
+
+    @classmethod
+    def of(cls, text):
+        number, profile, look = text.split(" ", 2)
+        return cls(int(number), look, profile.strip("-"))
+
+    def __str__(self):
+        return f"{self.number} {self.profile or '-'} {self.look}"
+
+    def person(self):
+        look = "sport" if self.profile == "runner" and self.look == "casual" else self.look
+        return draw_person(look, self.number, _years(self.profile, self.number), runs=self.profile == "runner")
+
+
+def _years(profile, number):
+    if profile not in AGES:
+        return None
+    youngest, oldest = AGES[profile]
+    return youngest + (oldest - youngest) * ((number + 0.5) * _STEP % 1.0)
 
 
 @dataclass(frozen=True)
@@ -30,17 +61,20 @@ class Person:
     glasses: str = ""   # round, square
     bag: str = ""       # rucksack, satchel, shopper
     hat: str = ""       # beanie, cap, headscarf
+    stoop: float = 0.0  # rad, that the back bends forward
+    stick: bool = False  # walks with one
 
     @property
     def child(self):
         return self.body.years < 15
 
 
-def draw_person(look, number, years=None, male=None, height=None, shoulders=None):
+def draw_person(look, number, years=None, male=None, height=None, shoulders=None, runs=False):
     """The person of a number in a look. What is given is taken; the rest is drawn."""
-    if look not in wardrobe.LOOKS:
+    word = look.split(" ", 1)[0]
+    if word not in wardrobe.LOOKS:
         raise ValueError(f"there is no look {look!r}: expected one of {', '.join(LOOKS)}")
-    draw = numpy.random.default_rng([LOOKS.index(look), number])
+    draw = numpy.random.default_rng([LOOKS.index(word), number])
     years = float(_YEARS[number % len(_YEARS)] + draw.integers(-2, 3) if years is None else years)
     years = float(numpy.clip(years, 6.0, 85.0))
     male = float(_MALE[number % len(_MALE)]) if male is None else float(male)
@@ -51,10 +85,10 @@ def draw_person(look, number, years=None, male=None, height=None, shoulders=None
                 proportions=float(draw.uniform(0.40, 0.72)),
                 shoulders=float(draw.normal(0.0, 0.3)) if shoulders is None else shoulders,
                 seed=int(draw.integers(1 << 30)), smile=float(draw.random() * 0.6))
-    outfits = wardrobe.LOOKS[look][0 if male > 0.5 else 1]
+    outfits = wardrobe.LOOKS[word][0 if male > 0.5 else 1]
     bottom, tops, shoes = outfits[int(number // 2 + draw.integers(2)) % len(outfits)]
     hair, colour = _hair(draw, years, male, race)
-    hat = _hat(draw, look, years, male)
+    hat = _hat(draw, word, years, male)
     if hat:
         hair = "crop" if male > 0.5 or hat == "headscarf" else hair if hair in ("long", "waves", "bob", "tail") else ""
     if hat == "headscarf":
@@ -62,7 +96,16 @@ def draw_person(look, number, years=None, male=None, height=None, shoulders=None
     return Person(body, look, wardrobe.order(bottom, tops, shoes),
                   str(draw.choice(_SKINS[race])), hair, colour, _beard(draw, years, male),
                   "" if draw.random() > (0.2 if years < 55 else 0.5) else str(draw.choice(["round", "square"])),
-                  _bag(draw, look, years, male), hat)
+                  "" if runs else _bag(draw, word, years, male), hat, *_frailty(number, years))
+
+
+def _frailty(number, years):
+    """How far somebody stoops, and whether with a stick."""
+    if years < OLD:
+        return 0.0, False
+    draw = numpy.random.default_rng([97, number])
+    stoop = float(numpy.clip(draw.normal(0.06 + 0.009 * (years - OLD), 0.05), 0.03, 0.30))
+    return stoop, bool(draw.random() < 0.25 + 0.02 * (years - OLD))
 
 
 def _ancestry(draw):

@@ -10,7 +10,7 @@ from ..cast import library
 from ..crowd import playback
 from ..formats import BakeError, load_bake
 from ..overrides.layer import Arrival
-from ..people import members
+from ..people import casting, members
 from ..people.library import LibraryError
 from . import near
 
@@ -54,17 +54,20 @@ def import_bake(context, path, *, frame_start=1, walls=True, roads=True, scenery
     collection["throng_bake"] = os.path.join(bake.folder, "bake.json")
     collection["throng_origin"] = bake.origin
 
-    look = members.LOOK if members.found() else ""
-    variations = min(people, max(1, bake.agents)) if look else min(bake.variations, cast.VARIATIONS)
-    repertoire = cast.Repertoire.of(bake.strides, bake.gaits)
-    shown = library.build_cast(variations, repertoire, f"Throng {bake.name} cast", look)
+    repertoire, dress = cast.Repertoire.of(bake.strides, bake.gaits), None
+    variations = min(bake.variations, cast.VARIATIONS)
+    if members.found():
+        variations = min(people, max(1, bake.agents))
+        roles = casting.roles_for(casting.read_walkers(bake.folder) or [casting.Walker()], variations)
+        dress = lambda made: members.write_roles(made, roles)
+    shown = library.build_cast(variations, repertoire, f"Throng {bake.name} cast", dress)
     paths = {stream: stored_path(bake.stream_path(stream), relative) for stream in bake.streams}
     crowd = playback.build_crowd(bake, f"Throng {bake.name} crowd", shown, frame_start, paths)
     set_up_scene(scene, bake, frame_start)
     environment.build_environment(context, bake.manifest, collection, walls=walls, roads=roads, ground=scenery,
                                   light=scenery, camera=camera, frame_start=frame_start, terrain=terrain,
                                   bake=bake if scenery and dressing else None)
-    if bend and look and scene.camera:
+    if bend and dress and scene.camera:
         near.apply(crowd, scene.camera)
     collection.objects.link(crowd)  # when all is there: whatever the scene has is worked out, poses that go away, too
     overrides.place(crowd)

@@ -13,7 +13,8 @@ from ..base.errors import BakeError
 COLUMNS = {
     "id": "i8", "group": "U", "kind": "U", "radius": "f4", "preferred_speed": "f4", "variation": "i4", "party": "i8",
     "spawn_frame": "i8", "arrival_frame": "i8", "outcome": "U", "reason": "U", "goal_x": "f8", "goal_y": "f8",
-    "distance_walked": "f4", "shortest_way": "f4", "scale": "f4",
+    "distance_walked": "f4", "shortest_way": "f4", "profile": "U", "look": "U",
+    "colours": "U", "scale": "f4",
 }
 NOBODY = {"i": -1, "f": numpy.nan}  # what an empty cell stands for
 
