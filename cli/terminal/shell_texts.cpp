@@ -140,7 +140,7 @@ std::string choiceLines(const CLI::App& app, fmt::format_string<std::string, std
         for (const Spelled& option : optionsOf(command))
             for (const std::string& name : option.names)
                 if (!option.choices.empty())
-                    lines += fmt::format(line, path + " " + name, joined(option.choices));
+                    lines += fmt::format(line, fmt::format("{} {}", path, name), joined(option.choices));
     });
     return lines;
 }

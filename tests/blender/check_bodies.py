@@ -27,7 +27,7 @@ scene, result = bpy.context.scene, {}
 
 def load():
     return bpy.ops.import_scene.throng(filepath=os.path.join(bake, "bake.json"), scenery=False, walls=False,
-                                       roads=False, relative=False, people=PEOPLE)
+                                       roads=False, relative=False, people=PEOPLE, bend=False)
 
 
 def refused(call, **arguments):

@@ -14,12 +14,12 @@ from throng.cast import library, sheets  # noqa: E402
 from throng.crowd import own, poses  # noqa: E402
 from throng.crowd.names import INSTANCERS  # noqa: E402
 from throng.crowd.queries import cast_of, crowd_objects, repertoire_of  # noqa: E402
-from throng.people import members  # noqa: E402
+from throng.people import casting  # noqa: E402
+from throng.people.roster import Role  # noqa: E402
 
 PEOPLE = (0, 1, 9)  # a man, a woman, a girl
 FRAME, FPS = 20, 24.0
-drawn = members.person_of
-members.person_of = lambda number, look=members.LOOK: drawn(PEOPLE[number], look)
+casting.roles_for = lambda walkers, count: [Role(number) for number in PEOPLE]
 bpy.ops.wm.read_factory_settings(use_empty=True)
 throng.register()
 scene, result = bpy.context.scene, {}
@@ -73,8 +73,9 @@ def walk(points, gait, phase):
     return points[first + pose] + (place - pose) * (points[first + (pose + 1) % 24] - points[first + pose])
 
 
-def expected(crowd, row, frame=FRAME):
-    """Where somebody's vertices should be: poses blended vertex by vertex."""
+def expected(crowd, row, frame=FRAME, slopes=(0.0, 0.0)):
+    """Where somebody's vertices should be: poses blended vertex by vertex, on ground of these slopes along the heading
+    and to the left of it."""
     repertoire, at = repertoire_of(crowd), frame - 1
     activity, variation, phase = (float(value) for value in state[at, row])
     figure = library.figures_of(cast_of(crowd))[0, own.member_of(crowd, row, int(variation), False)]
@@ -93,6 +94,7 @@ def expected(crowd, row, frame=FRAME):
     stands = stands + smooth(rounds - beat, 0.67, 1.0) * (points[first + (beat + 1) % 4] - stands)
     cosine, sine, speed = (float(value) for value in way[at, row])
     body = stands + smooth(speed, 0.03, 0.35) * (walks - stands)
+    body[:, 2] += slopes[0] * body[:, 0] + slopes[1] * body[:, 1]
     turned = numpy.stack([cosine * body[:, 0] - sine * body[:, 1], sine * body[:, 0] + cosine * body[:, 1],
                           body[:, 2]], axis=1)
     return turned + pos[at, row]
@@ -117,6 +119,13 @@ wanted = numpy.array([each.vector for each in crowd.data.attributes["tint"].data
 result["tints"] = float(numpy.abs(tints.reshape(-1, 3) - wanted[rows]).max())
 result["blurs on screen"] = "velocity" in mesh.attributes
 result["materials"] = len(mesh.materials)
+
+# on ground that slopes
+slope = crowd.data.attributes.new("throng_ground", "FLOAT_VECTOR", "POINT")
+slope.data.foreach_set("vector", [0.2, -0.1, 0.0] * len(crowd.data.vertices))
+result["leaning"] = max(float(numpy.linalg.norm(points - expected(crowd, row, slopes=(0.2, -0.1)), axis=1).max())
+                        for row, points in bent(crowd).items() if row > 1)
+crowd.data.attributes.remove(crowd.data.attributes["throng_ground"])
 
 # as rendered: what vertices do in a frame is what their velocity says
 for name, shown in zip(INSTANCERS, (True, False)):

@@ -48,6 +48,10 @@ def test_bent_people_have_the_pose_of_the_moment(seen):
     assert shuffles < 0.05, "half a stand and half a walk: bones turn where vertices, blended, would go straight"
 
 
+def test_bent_people_follow_the_ground(seen):
+    assert seen["leaning"] < 4e-3
+
+
 def test_bent_people_keep_their_tint_and_materials(seen):
     assert seen["tints"] < 1e-6 and seen["materials"] > 5
 
