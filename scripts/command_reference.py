@@ -39,7 +39,8 @@ BESIDE = {
     "verify": ["../bake.md#checksums|the checksums of a bake", "../how-to/render-on-a-farm.md|rendering on a farm"],
     "completions": ["../how-to/install.md|how to install it"],
     "manual": ["../how-to/install.md|how to install it"],
-    "schema": ["../how-to/editors.md|how editors use them", "../layout.md|layouts", "../batch.md|families", "../overrides.md|overrides"],
+    "schema": ["../how-to/editors.md|how editors use them", "../layout.md|layouts", "../batch.md|families",
+               "../overrides.md|overrides"],
 }
 
 

@@ -23,8 +23,8 @@ else:
     from .tools.export import glTF2_pre_export_callback  # noqa: F401, Blender's glTF exporter looks for it here
 
     # What registers classes of its own, in order: panels appear in it.
-    _PARTS = (preferences, operators, staging, cells, levels, near, ground, properties, authoring_operators, bake_operator,
-              overlay, panels, characters_operators, overrides_operators, export)
+    _PARTS = (preferences, operators, staging, cells, levels, near, ground, properties, authoring_operators,
+              bake_operator, overlay, panels, characters_operators, overrides_operators, export)
 
 
 def register():
