@@ -33,7 +33,7 @@ def check_version(path):
         done = subprocess.run([path, "--version"], capture_output=True, text=True, timeout=30, check=False)
     except (OSError, subprocess.TimeoutExpired) as error:
         raise ExecutableError(f"{path} does not run: {error}") from None
-    found = re.fullmatch(r"throng (\d+)\.(\d+)\.(\d+)\S*\s*", done.stdout)
+    found = re.fullmatch(r"throng (\d+)\.(\d+)\.(\d+)\S*(?:, build \S+)?\s*", done.stdout)
     if not found:
         raise ExecutableError(f"{path} is not Throng: `--version` says {(done.stdout or done.stderr).strip()[:80]!r}")
     if tuple(int(part) for part in found.groups()[:2]) != VERSION:
