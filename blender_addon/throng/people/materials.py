@@ -68,7 +68,7 @@ def _skin(shade, tint, pattern, kind, _look, bodies):
         colour = shade.mix(colour, shade.mix(base, (0.22, 0.22, 0.24), 1.0, "MULTIPLY"),
                            shade.math("MULTIPLY", beard, shade.math("ADD", 0.25, shade.math("MULTIPLY", fine, 0.6))))
     colour = shade.mix(colour, shade.mix(base, (0.10, 0.085, 0.08), 1.0, "MULTIPLY"),
-                       shade.math("MULTIPLY", brows, 0.75))
+                       shade.math("MULTIPLY", brows, 0.60))
     shade.set(colour, "Base Color")
     shade.set(shade.math("ADD", 0.40, shade.math("MULTIPLY", mottle, 0.18)), "Roughness")
     shade.set(0.42, "Specular", "Specular IOR Level")

@@ -171,6 +171,18 @@ def subdivided(part, share=0.35):
     return finer.moved(smoothed(finer.points, finer.faces, 1, share))
 
 
+def scattered(piece, draw, count):
+    """Points all over a part, by area: (points, normals, weights, places)."""
+    a, b, c = (piece.points[piece.faces[:, corner]] for corner in range(3))
+    area = numpy.linalg.norm(numpy.cross(b - a, c - a), axis=1)
+    chosen = draw.choice(len(piece.faces), count, p=area / area.sum())
+    share = draw.dirichlet((1.0, 1.0, 1.0), count)
+    mix = lambda values: (values[piece.faces[chosen]] * share[..., None]).sum(axis=1)
+    normals = mix(piece.normals)
+    return (mix(piece.points), normals / numpy.linalg.norm(normals, axis=1, keepdims=True), mix(piece.weights),
+            mix(piece.places))
+
+
 def joined(parts):
     """One part of several; the first one's material."""
     parts = [part for part in parts if len(part.faces)]

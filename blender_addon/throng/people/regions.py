@@ -126,8 +126,8 @@ def ear(places):
 def brow(places):
     """Inside of the brows."""
     along = (numpy.abs(places[:, Y]) - 0.011) / 0.045
-    middle = 0.7495 + 0.0095 * numpy.sin(numpy.clip(along, 0.0, 1.0) * 2.4) - 0.004 * along
-    half = numpy.interp(along, [-0.06, 0.05, 0.35, 0.75, 1.03], [0.001, 0.0052, 0.0056, 0.0042, 0.0006])
+    middle = 0.7505 + 0.0062 * numpy.sin(numpy.clip(along, 0.0, 1.0) * 2.3) - 0.0035 * along
+    half = numpy.interp(along, [-0.06, 0.08, 0.35, 0.75, 1.03], [0.0008, 0.0036, 0.0040, 0.0028, 0.0004])
     field = half - numpy.abs(places[:, Z] - middle)
     outside = numpy.minimum(along + 0.06, 1.03 - along) * 0.045
     return numpy.minimum(numpy.minimum(field, outside), places[:, X] - 0.08)
@@ -137,7 +137,7 @@ def beard(places, full=True):
     """Inside of a beard; else of a moustache and what is round the chin."""
     y = numpy.abs(places[:, Y])
     top = numpy.interp(y, [0.0, 0.022, 0.030, 0.055, 0.072, 0.085], [0.694, 0.691, 0.664, 0.668, 0.715, 0.740])
-    mouth = 0.0105 - numpy.hypot((places[:, Z] - 0.6685) * 1.15, numpy.maximum(y - 0.014, 0.0))
+    mouth = 0.0080 - numpy.hypot((places[:, Z] - 0.6670) * 1.05, numpy.maximum(y - 0.017, 0.0))
     field = numpy.minimum(top - places[:, Z], places[:, Z] - 0.606)
     field = numpy.minimum(numpy.minimum(field, places[:, X] - 0.035), (places[:, HEAD] - 0.4) * 0.2)
     field = numpy.minimum(field, -ear(places))
