@@ -179,7 +179,7 @@ def _grow(points, ways, length, style, scale, draw, pieces, collider, fringe, ch
         ways /= numpy.linalg.norm(ways, axis=1, keepdims=True) + 1e-9
         points = points + ways * (length * steps[piece])[:, None]
     line = numpy.stack(line, axis=1)
-    if style.fall >= 0.5:  # heavy hair has no kinks
+    if style.fall >= 0.3:  # heavy hair has no kinks
         for _ in range(3):
             line[:, 1:-1] = 0.5 * line[:, 1:-1] + 0.25 * (line[:, :-2] + line[:, 2:])
     return line, numpy.stack(sides, axis=1)

@@ -194,8 +194,11 @@ def _relief(shade, pattern, fabric, left, up, weave, wave):
         fine = shade.bump(shade.noise(pattern, 330.0, 3.0), 0.35, 0.001)
     else:
         fine = shade.bump(weave, 0.07, 0.0004)
-    # folds: long across limbs, short along them
-    folds = shade.noise(pattern, 15.0, 3.0, (1.0, 1.0, 1.9))
-    small = shade.noise(pattern, 36.0, 2.0, (1.0, 1.0, 0.6))
+    # creases, where a noise goes through its middle: long across limbs, short along them
+    folds = shade.noise(pattern, 9.0, 2.0, (1.0, 1.0, 1.5))
+    small = shade.noise(pattern, 30.0, 2.0, (1.0, 1.0, 0.6))
+    crease = lambda value, sharp: shade.math("POWER", shade.math("SUBTRACT", 1.0, shade.math("ABSOLUTE", shade.math(
+        "MULTIPLY_ADD", value, 2.0, -1.0))), sharp)
+    folds, small = crease(folds, 5.0), crease(small, 3.0)
     amount = {"leather": 0.75, "silk": 0.7, "cotton": 0.65, "denim": 0.6}.get(fabric, 0.5)
-    return shade.bump(small, 0.4 * amount, 0.008, shade.bump(folds, amount, 0.026, fine))
+    return shade.bump(small, 0.22 * amount, 0.004, shade.bump(folds, 0.55 * amount, 0.010, fine))

@@ -46,22 +46,16 @@ def box(low, high, side=0.0):
     return fields
 
 
-def band(first, second, half):
-    """The planes of a strip between two places (y, z), so wide to each side."""
+def line(first, second):
+    """Zero along a straight line through two places (y, z)."""
     (y, z), (dy, dz) = first, numpy.subtract(second, first) / numpy.hypot(*numpy.subtract(second, first))
-    off = lambda places: (places[:, Y] - y) * dz - (places[:, Z] - z) * dy
-    return [lambda places: but_arms(places, 1.0), lambda places: half - off(places), lambda places: half + off(places)]
+    return lambda places: (places[:, Y] - y) * dz - (places[:, Z] - z) * dy
 
 
 def strap(side):
-    """The planes of a rucksack's strap: over the shoulder, down beside the breast, and under the arm to the back."""
-    def inside(places):
-        aside, up = places[:, Y] * side, places[:, Z]
-        middle = numpy.interp(up, _STRAP_UP, _STRAP_ASIDE)
-        slope = numpy.interp(up, _STRAP_UP[:-1], numpy.abs(numpy.diff(_STRAP_ASIDE) / numpy.diff(_STRAP_UP)))
-        return 0.0185 - numpy.abs(aside - middle) / numpy.sqrt(1.0 + slope ** 2)
-
-    return [lambda places: but_arms(places, 1.0), inside]
+    """Zero along the middle of a rucksack's strap: over the shoulder, down beside the breast, and under the arm to the
+    back."""
+    return lambda places: places[:, Y] * side - numpy.interp(places[:, Z], _STRAP_UP, _STRAP_ASIDE)
 
 
 def on_trunk(places, value):
