@@ -19,6 +19,7 @@ from throng.cast import gait  # noqa: E402
 from throng.environment import lights, skies  # noqa: E402
 from throng.people import figures, library, levels, person, roster  # noqa: E402
 
+SIDELIGHT = (math.radians(50.0), 0.0, math.radians(-38.0))
 BRIGHTER = 0.7  # stops: here are no streets whose walls are lit, too
 LEVELS = {"near": levels.NEAR, "0": 0, "1": 1, "2": 2}
 
@@ -169,6 +170,9 @@ def main():
     {"row": row, "close": close, "crowd": crowd}[options.shot](stage, level, numpy.random.default_rng(4))
     ground(scene)
     lights.build_light(scene, scene.collection, options.light)
+    if options.shot == "close":  # faces, as a photographer would have them: lit from the side, and not from above
+        sun = next(thing for thing in scene.collection.objects if thing.type == "LIGHT")
+        sun.rotation_euler = SIDELIGHT
     scene.view_settings.exposure += BRIGHTER
     scene.render.engine = "CYCLES"
     scene.cycles.samples, scene.cycles.use_denoising = options.samples, options.denoise

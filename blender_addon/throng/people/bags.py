@@ -6,7 +6,7 @@ import numpy
 
 from . import levels, regions
 from .head import loose
-from .parts import laid_on
+from .parts import clipped, strap_on
 
 _UP = numpy.array([0.0, 0.0, 1.0])
 
@@ -36,6 +36,11 @@ def _box(bodies, centre, half, bone, material, level, round_=0.55):
     return loose(bodies, points, faces, bone, material)
 
 
+def _strap(top, field, wide, material, scale):
+    trunk = clipped(top, regions.but_arms(top.places, 1.0))
+    return strap_on(trunk, field(trunk.places), wide, 0.007 * scale, material) if len(trunk.faces) else []
+
+
 def bag(bodies, kind, tops, rig, level):
     """@param tops the parts of what is worn uppermost"""
     if not kind:
@@ -54,7 +59,7 @@ def bag(bodies, kind, tops, rig, level):
                               level))
         for top in tops if level < 2 else ():
             for side in (-1.0, 1.0):  # over the shoulder, and under the arm
-                found += laid_on(top, regions.strap(side), 0.006 * scale, "extra pack")
+                found += _strap(top, regions.strap(side), 0.036 * scale, "extra pack", scale)
     else:
         high = 0.10 if kind == "satchel" else 0.16
         side = -1.0
@@ -63,7 +68,7 @@ def bag(bodies, kind, tops, rig, level):
         centre = (hips[0] - 0.03, side * (min(edge, rig.widest + 0.05) + 0.035 * scale), hips[2] + 0.02 * scale)
         found.append(_box(bodies, centre, numpy.array([0.13, 0.040, high]) * scale, "pelvis", "extra leather", level))
         for top in tops if level < 2 else ():  # from the left shoulder to the right hip
-            found += laid_on(top, regions.band((-0.13, 0.10), (0.115, 0.56), 0.014), 0.006 * scale, "extra leather")
+            found += _strap(top, regions.line((-0.13, 0.10), (0.115, 0.56)), 0.030 * scale, "extra leather", scale)
     return found
 
 

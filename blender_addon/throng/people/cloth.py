@@ -5,10 +5,11 @@ from dataclasses import dataclass, replace
 
 import numpy
 
-from . import levels, regions
+from . import drape, levels, regions
 from .parts import Part, border_of, clipped, folded, grown, laid_on, normals_of, smooth_normals, smoothed, subdivided
 
 NECK, CUFF, HEM, FRONT = 1, 2, 3, 4  # tags of cuts
+_TUCKED = 0.09  # tops that end above are tucked in
 SUIT, SKIRT = "helper-tights", "helper-skirt"
 _COLLARS = {  # rows of (up, away from the neck), m
     "crew": ((0.006, -0.004), (0.011, -0.002), (0.009, 0.004)),
@@ -91,25 +92,32 @@ class Tailor:
         return whole
 
     def _loose_trunk(self, garment, points):
-        """Cloth hangs from chest and shoulder blades over the waist, and a little outwards at the hem."""
-        low, high = self.rig.heads["pelvis"][2], self.bodies.joint(self.shape, "spine-1")[2]
-        trunk = self.places[:, regions.ARM] <= 0.0
-        bulge = numpy.sin(numpy.clip((high - points[:, 2]) / (high - low), 0.0, 1.0) * 2.6) * garment.loose
-        hang = numpy.clip((0.21 - self.places[:, regions.Z]) / 0.2, 0.0, 1.5) * (0.012 + 0.05 * garment.flare)
-        middle = 0.5 * (points[trunk, 0].max() + points[trunk, 0].min())
-        wider = numpy.where(trunk, 1.0 + 1.1 * bulge + 4.0 * hang, 1.0)
-        deeper = numpy.where(trunk, 1.0 + bulge + 5.0 * hang, 1.0)
+        """Cloth falls from shoulder blades, chest and belly, the straighter the looser it is, and stays a little away
+        from the waist."""
+        trunk = (self.places[:, regions.ARM] <= 0.0) & (self.places[:, regions.Z] < 0.46)
+        trunk &= self.places[:, regions.Z] > -0.16
+        middle = numpy.array([0.5 * (points[trunk, 0].max() + points[trunk, 0].min()), 0.0])
         found = points.copy()
-        found[:, 1] *= wider
-        found[:, 0] = numpy.where(trunk, middle + (points[:, 0] - middle) * deeper, points[:, 0])
+        if garment.hem < _TUCKED:
+            steepest = numpy.interp(garment.loose, (0.05, 0.10, 0.17, 0.25), (0.50, 0.34, 0.20, 0.12))
+            hangs = numpy.clip((0.10 - self.places[trunk, regions.Z]) / 0.08, 0.0, 1.0)
+            found[trunk] = drape.Fall(points[trunk], middle, steepest).moved(points[trunk], hangs)
+        low, high = self.rig.heads["pelvis"][2], self.bodies.joint(self.shape, "spine-1")[2]
+        bulge = numpy.sin(numpy.clip((high - points[:, 2]) / (high - low), 0.0, 1.0) * 2.6) * garment.loose
+        found[trunk, :2] += (found[trunk, :2] - middle) * (0.35 * bulge[trunk] + garment.flare)[:, None]
         return found
 
     def _loose_sleeves(self, garment, points):
+        """Loosest at the elbow; cuffs are close."""
+        arm = numpy.clip(self.places[:, regions.ARM], 0.0, 1.2)
+        share = numpy.interp(arm, (0.0, 0.2, 0.5, 0.75, 0.97), (0.10, 0.30, 0.50, 0.45, 0.12)) * garment.loose
+        if garment.sleeve < 0.6:  # short ones are open
+            share = numpy.interp(arm, (0.0, 0.2, 0.45), (0.10, 0.35, 1.1)) * garment.loose
         for side in "lr":
             joints = [self.rig.heads[f"{bone}_{side}"] for bone in ("upperarm", "lowerarm", "hand")]
-            for bone, (start, stop), share in (("upperarm", joints[:2], 0.25), ("lowerarm", joints[1:], 0.7)):
+            for bone, (start, stop) in (("upperarm", joints[:2]), ("lowerarm", joints[1:])):
                 away = _from_axis(points, start, stop)
-                points = points + away * (garment.loose * share * self.bone(f"{bone}_{side}"))[:, None]
+                points = points + away * (share * self.bone(f"{bone}_{side}"))[:, None]
         return points
 
     def _loose_legs(self, garment, points):
@@ -144,6 +152,9 @@ class Tailor:
         places = part.places
         if self.detail.finer and garment.folds:
             part = part.moved(part.points + part.normals * self._folds(part, garment)[:, None])
+        if garment.hem > _TUCKED:  # below the belt it is under trousers and skirts
+            under = _ramp(0.215 - places[:, regions.Z], 0.0, 0.03) * (places[:, regions.ARM] <= 0.0)
+            part = part.moved(part.points - part.normals * (0.012 * self.scale * under)[:, None])
         part = clipped(part, regions.above(places, garment.hem), HEM)
         part = clipped(part, regions.sleeve(part.places, garment.sleeve), CUFF)
         part = clipped(part, regions.neckline(part.places, *garment.neck), NECK)
@@ -253,27 +264,31 @@ class Tailor:
                        garment.belt)
 
     def _folds(self, part, garment):
-        """How far the cloth goes out, m: folds across limbs where joints bend and where cloth piles up."""
-        points, wave = part.points / self.scale, _Waves(self.seed)
-        wander = 0.55 * wave(points * 9.0) + 0.3 * wave(points * 20.0)
-        weights = dict(zip(self.bodies.bones, part.weights.T))
-        height = numpy.zeros(len(points))
+        """How far the cloth goes out, m: ridges, here and there, across limbs where joints bend and where cloth piles
+        up, and from the armpits over the chest."""
+        points, wave, other = part.points / self.scale, _Waves(self.seed), _Waves(self.seed + 1)
+        wander, patches = 0.6 * wave(points * 8.0) + 0.25 * wave(points * 19.0), _ramp(other(points * 7.0), -0.4, 0.7)
         if garment.kind == "top":
-            arm = part.places[:, regions.ARM]
-            on = arm > 0.0
-            amount = 0.25 + numpy.exp(-((arm - 0.52) / 0.14) ** 2) + 0.7 * numpy.exp(-((arm - 0.95) / 0.1) ** 2)
-            height += numpy.where(on, amount, 0.0) * numpy.sin(arm * 36.0 + 4.2 * wander) * 0.0050
-            trunk = weights["spine_01"] + weights["spine_02"] + weights["pelvis"]
-            across = points[:, 2] * 42.0 + numpy.abs(points[:, 1]) * 18.0
-            height += trunk * numpy.sin(across + 5.0 * wander) * 0.0045
-            upper = points[:, 2] * 15.0 - numpy.abs(points[:, 1]) * 36.0
-            height += weights["spine_03"] * numpy.sin(upper + 4.0 * wander) * 0.0030
+            height = self._folds_of_top(part, points, wander)
         else:
-            level = part.places[:, regions.Z]
-            for middle, wide, often, far in ((-0.745, 0.10, 75.0, 0.0085), (-0.37, 0.10, 60.0, 0.0045),
-                                             (0.03, 0.10, 50.0, 0.0050)):
-                height += numpy.exp(-((level - middle) / wide) ** 2) * numpy.sin(level * often + 4.0 * wander) * far
-        return height * garment.folds * self.scale
+            level, height = part.places[:, regions.Z], numpy.zeros(len(points))
+            for middle, wide, often, far in ((-0.74, 0.09, 58.0, 0.0090), (-0.38, 0.09, 46.0, 0.0060),
+                                             (0.02, 0.09, 40.0, 0.0065)):
+                lean = 16.0 * points[:, 0] + 12.0 * numpy.abs(points[:, 1])
+                height += numpy.exp(-((level - middle) / wide) ** 2) * _ridges(level * often + lean + 2.6 * wander) * far
+        return height * (0.25 + 0.75 * patches) * garment.folds * self.scale
+
+    def _folds_of_top(self, part, points, wander):
+        weights = dict(zip(self.bodies.bones, part.weights.T))
+        arm, height = part.places[:, regions.ARM], numpy.zeros(len(points))
+        amount = 0.15 + numpy.exp(-((arm - 0.53) / 0.12) ** 2) + 0.6 * numpy.exp(-((arm - 0.92) / 0.08) ** 2)
+        height += numpy.where(arm > 0.0, amount, 0.0) * _ridges(arm * 27.0 + 9.0 * points[:, 0] + 2.8 * wander) * 0.0070
+        low = weights["spine_01"] + weights["spine_02"] + weights["pelvis"]
+        side = _ramp(numpy.abs(points[:, 1]), 0.02, 0.13)
+        sag = points[:, 2] * 34.0 + numpy.abs(points[:, 1]) * 26.0
+        height += low * (0.35 + 0.65 * side) * _ridges(sag + 2.8 * wander) * 0.0060
+        chest = points[:, 2] * 17.0 - numpy.abs(points[:, 1]) * 34.0
+        return height + weights["spine_03"] * _ridges(chest + 2.4 * wander) * 0.0048
 
     def _shoes(self, garment):
         """The suit's feet, whose toes are one, with a sole."""
@@ -293,6 +308,16 @@ class Tailor:
         parts = [part.kept(part.faces[~sole]), replace(part.kept(part.faces[sole]), material="shoes sole")]
         return [folded(parts[0], 0.006, [CUFF]) if self.detail.trimmed else parts[0],
                 *(each for each in parts[1:] if len(each.faces))]
+
+
+def _ridges(phase):
+    """Narrow ridges and wide valleys, from -0.4 to 0.6."""
+    return (1.0 - numpy.abs(numpy.sin(phase))) ** 1.6 - 0.4
+
+
+def _ramp(values, low, high):
+    share = numpy.clip((values - low) / (high - low), 0.0, 1.0)
+    return share * share * (3.0 - 2.0 * share)
 
 
 class _Waves:

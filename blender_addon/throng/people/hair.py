@@ -6,7 +6,7 @@ import numpy
 
 from . import levels, regions
 from .head import head_of, loose
-from .parts import Part, clipped, normals_of, smoothed, subdivided
+from .parts import Part, clipped, normals_of, scattered, smoothed, subdivided
 
 
 @dataclass(frozen=True)
@@ -88,18 +88,6 @@ def _skin(bodies, shape, level, style, scale, ring):
     return replace(piece.moved(smoothed(points, piece.faces, 1, 0.3)), flat=strands)
 
 
-def _roots(piece, draw, count):
-    """Points all over a part, by area: (points, normals, weights, heights over the hairline)."""
-    a, b, c = (piece.points[piece.faces[:, corner]] for corner in range(3))
-    area = numpy.linalg.norm(numpy.cross(b - a, c - a), axis=1)
-    chosen = draw.choice(len(piece.faces), count, p=area / area.sum())
-    share = draw.dirichlet((1.0, 1.0, 1.0), count)
-    mix = lambda values: (values[piece.faces[chosen]] * share[..., None]).sum(axis=1)
-    normals = mix(piece.normals)
-    return (mix(piece.points), normals / numpy.linalg.norm(normals, axis=1, keepdims=True), mix(piece.weights),
-            mix(piece.places))
-
-
 def _ways(style, points, normals, places, crown, back, draw):
     """Which way locks start, along the head."""
     ahead = points[:, 0] > crown[0]
@@ -136,7 +124,7 @@ def _collider(bodies, shape):
 
 def _locks(bodies, shape, level, style, material, scale, draw, count, wider, ring):
     scalp = _scalp(bodies, shape, level if level < 1 else 0, style, ring)
-    points, normals, weights, places = _roots(scalp, draw, count)
+    points, normals, weights, places = scattered(scalp, draw, count)
     head = bodies.joint(shape, "head-2")
     low, high = scalp.points[:, 0].min(), scalp.points[:, 0].max()
     crown = numpy.array([low + 0.45 * (high - low), 0.014, head[2]])
@@ -157,7 +145,7 @@ def _locks(bodies, shape, level, style, material, scale, draw, count, wider, rin
     pieces = style.pieces if level == levels.NEAR else max(2, style.pieces // 2 if style.length > 0.0 else 4)
     line, sides = _grow(points + normals * style.lift * 0.5, ways, length, style, scale, draw, pieces,
                         _collider(bodies, shape), fringe, bodies.joint(shape, "mouth")[2] - 0.03 * scale,
-                        bodies.joint(shape, "l-eye")[[0, 2]] + (-0.055 * scale, 0.045 * scale))
+                        bodies.joint(shape, "l-eye")[[0, 2]] + (-0.050 * scale, 0.048 * scale))
     wide = style.wide * wider * scale * draw.uniform(0.7, 1.3, count)
     wide = numpy.where(fringe, numpy.minimum(wide, 0.020 * scale), wide)  # eyes stay free
     return _ribbons(bodies, line, sides, wide, weights, material, draw, level, style)
@@ -180,13 +168,7 @@ def _grow(points, ways, length, style, scale, draw, pieces, collider, fringe, ch
         pull = 0.0 if style.comb == "out" else numpy.where(points[:, 2] > chin, 0.05, 0.01)
         points = points + out * numpy.clip(wanted - off, -pull, 0.04)[:, None]
         if style.fall >= 0.5:  # below the chin, beside the neck and not out on the shoulders
-            low = numpy.clip((chin - points[:, 2]) / (0.06 * scale), 0.0, 1.0)
-            wide = numpy.abs(points[:, 1]) / (0.088 * scale)
-            points[:, 1] /= 1.0 + low * (numpy.maximum(wide, 1.0) - 1.0)
-            # and beside the face
-            before = (points[:, 0] > brow[0]) & (points[:, 2] < brow[1])
-            beside = numpy.maximum(numpy.abs(points[:, 1]), 0.060 * scale)
-            points[:, 1] = numpy.where(before, numpy.copysign(beside, points[:, 1] - 0.014), points[:, 1])
+            points = _beside(points, chin, brow, scale)
         line.append(points)
         sides.append(out)
         if style.fall >= 0.5:  # what hangs does not fly
@@ -196,7 +178,27 @@ def _grow(points, ways, length, style, scale, draw, pieces, collider, fringe, ch
         ways = ways - out * numpy.minimum(0.0, (ways * out).sum(axis=1))[:, None]
         ways /= numpy.linalg.norm(ways, axis=1, keepdims=True) + 1e-9
         points = points + ways * (length * steps[piece])[:, None]
-    return numpy.stack(line, axis=1), numpy.stack(sides, axis=1)
+    line = numpy.stack(line, axis=1)
+    if style.fall >= 0.3:  # heavy hair has no kinks
+        for _ in range(3):
+            line[:, 1:-1] = 0.5 * line[:, 1:-1] + 0.25 * (line[:, :-2] + line[:, 2:])
+    return line, numpy.stack(sides, axis=1)
+
+
+def _beside(points, chin, brow, scale):
+    """What hangs, beside the neck and not out on the shoulders, and beside the face: behind the cheeks."""
+    points = points.copy()
+    low = numpy.clip((chin - points[:, 2]) / (0.06 * scale), 0.0, 1.0)
+    wide = numpy.abs(points[:, 1]) / (0.088 * scale)
+    points[:, 1] /= 1.0 + low * (numpy.maximum(wide, 1.0) - 1.0)
+    points[:, 1] = numpy.clip(points[:, 1], -0.094 * scale, 0.094 * scale)
+    below = points[:, 2] < brow[1]
+    before = below & (points[:, 0] > brow[0])
+    aside = numpy.maximum(numpy.abs(points[:, 1]), 0.068 * scale)
+    points[:, 1] = numpy.where(before, numpy.copysign(aside, points[:, 1] - 0.014), points[:, 1])
+    back = numpy.clip((brow[1] - points[:, 2]) / (0.05 * scale), 0.0, 1.0) * 0.6
+    points[:, 0] -= numpy.where(before, back * (points[:, 0] - brow[0]), 0.0)
+    return points
 
 
 def _ribbons(bodies, line, out, wide, weights, material, draw, level, style):

@@ -70,24 +70,6 @@ def _eye(bodies, points, rings):
     return loose(bodies, numpy.array(made), faces, "head", "eyes", numpy.array(flat))
 
 
-def _raised(piece, lift, material):
-    return replace(piece.moved(piece.points + piece.normals * lift), material=material)
-
-
-def brows(bodies, shape, level, material, scale):
-    """As a thin skin over the face: they read from far away, where what is painted does not."""
-    if level > 0:
-        return []
-    piece = cut_out(head_of(bodies, shape, level), regions.box((0.07, -0.07, 0.725), (None, 0.07, 0.775)))
-    piece = subdivided(piece, 0.2 if level == levels.NEAR else 0.0)
-    piece = clipped(piece, regions.brow(piece.places))
-    if not len(piece.faces):
-        return []
-    strands = numpy.stack([piece.places[:, regions.Y] * 40.0 + piece.places[:, regions.Z] * 30.0,
-                           piece.places[:, regions.Z] * 4.0], axis=1)
-    return [replace(_raised(piece, 0.0016 * scale, material), flat=strands)]
-
-
 def lashes(bodies, shape, level):
     if level != levels.NEAR:
         return []
@@ -99,22 +81,6 @@ def lashes(bodies, shape, level):
             found.append(Part(faces.reshape(-1, 3), shape[numbers], bodies.weights[numbers],
                               regions.places_of(bodies)[numbers], "lashes"))
     return found
-
-
-def beard(bodies, shape, level, style, material, scale):
-    """A beard as a skin that is thickest at the chin; with stubble, nothing: that is painted."""
-    if style not in ("full", "chin") or level > 1:
-        return []
-    piece = head_of(bodies, shape, level)
-    piece = clipped(piece, numpy.minimum(regions.beard(piece.places, style == "full"), 1.0))
-    if not len(piece.faces):
-        return []
-    piece = subdivided(piece, 0.2) if level == levels.NEAR else piece
-    thick = 0.010 * numpy.clip(regions.beard(piece.places, style == "full") / 0.014, 0.08, 1.0)
-    rough = 0.75 + 0.25 * numpy.sin(piece.places[:, regions.Y] * 900.0) * numpy.sin(piece.places[:, regions.Z] * 700.0)
-    points = piece.points + piece.normals * (thick * rough * scale)[:, None] - (0.0, 0.0, 0.002 * scale)
-    strands = numpy.stack([piece.places[:, regions.Y] * 30.0, piece.places[:, regions.Z] * 5.0], axis=1)
-    return [replace(piece.moved(points), material=material, flat=strands)]
 
 
 def tube(points, radius, sides=5, closed=False):

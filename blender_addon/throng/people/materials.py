@@ -69,7 +69,7 @@ def _skin(shade, tint, pattern, kind, _look, bodies):
         colour = shade.mix(colour, shade.mix(base, (0.22, 0.22, 0.24), 1.0, "MULTIPLY"),
                            shade.math("MULTIPLY", beard, shade.math("ADD", 0.25, shade.math("MULTIPLY", fine, 0.6))))
     colour = shade.mix(colour, shade.mix(base, (0.10, 0.085, 0.08), 1.0, "MULTIPLY"),
-                       shade.math("MULTIPLY", brows, 0.75))
+                       shade.math("MULTIPLY", brows, 0.60))
     shade.set(colour, "Base Color")
     shade.set(shade.math("ADD", 0.40, shade.math("MULTIPLY", mottle, 0.18)), "Roughness")
     shade.set(0.42, "Specular", "Specular IOR Level")
@@ -195,8 +195,11 @@ def _relief(shade, pattern, fabric, left, up, weave, wave):
         fine = shade.bump(shade.noise(pattern, 330.0, 3.0), 0.35, 0.001)
     else:
         fine = shade.bump(weave, 0.07, 0.0004)
-    # folds: long across limbs, short along them
-    folds = shade.noise(pattern, 15.0, 3.0, (1.0, 1.0, 1.9))
-    small = shade.noise(pattern, 36.0, 2.0, (1.0, 1.0, 0.6))
+    # creases, where a noise goes through its middle: long across limbs, short along them
+    folds = shade.noise(pattern, 9.0, 2.0, (1.0, 1.0, 1.5))
+    small = shade.noise(pattern, 30.0, 2.0, (1.0, 1.0, 0.6))
+    crease = lambda value, sharp: shade.math("POWER", shade.math("SUBTRACT", 1.0, shade.math("ABSOLUTE", shade.math(
+        "MULTIPLY_ADD", value, 2.0, -1.0))), sharp)
+    folds, small = crease(folds, 5.0), crease(small, 3.0)
     amount = {"leather": 0.75, "silk": 0.7, "cotton": 0.65, "denim": 0.6}.get(fabric, 0.5)
-    return shade.bump(small, 0.4 * amount, 0.008, shade.bump(folds, amount, 0.026, fine))
+    return shade.bump(small, 0.22 * amount, 0.004, shade.bump(folds, 0.55 * amount, 0.010, fine))

@@ -150,6 +150,60 @@ def laid_on(part, fields, lift, material):
     return [folded(piece, 1.2 * lift)]
 
 
+def lines_on(part, field, least=8):
+    """Where a field is zero on a part, as parts without faces, their points in order along it: (part, whether its ends
+    meet) of each line that has some length."""
+    cut = clipped(replace(part, tags=numpy.zeros(len(part.points), int)), field, 1)
+    border = border_of(cut.faces) if len(cut.faces) else numpy.zeros((0, 2), int)
+    after = {int(a): int(b) for a, b in border[(cut.tags[border] == 1).all(axis=1)]}
+    starts, found = [a for a in after if a not in set(after.values())], []
+    while after:
+        at = next((a for a in starts if a in after), next(iter(after)))
+        chain = [at]
+        while at in after:
+            at = after.pop(at)
+            chain.append(at)
+        closed = chain[0] == chain[-1]
+        if len(chain) >= least:
+            chain = chain[:-1] if closed else chain
+            columns = numpy.concatenate([cut.columns(), smooth_normals(cut)], axis=1)[chain]
+            found.append((cut.of_columns(columns[:, :-3], cut.faces[:0], cut.tags[chain]), columns[:, -3:], closed))
+    return found
+
+
+def strap_on(part, field, wide, lift, material, rounds=30):
+    """A strap of even width along the lines where a field is zero."""
+    found = []
+    for line, normals, closed in lines_on(part, field):
+        points, faces = line.points, []
+        for each in range(rounds):
+            before, after = (numpy.roll(points, 1, axis=0), numpy.roll(points, -1, axis=0))
+            middle = 0.5 * (before + after)
+            if not closed:
+                middle[0], middle[-1] = points[0], points[-1]
+            points = 0.5 * (points + middle)
+            normals = 0.5 * normals + 0.25 * (numpy.roll(normals, 1, axis=0) + numpy.roll(normals, -1, axis=0)) \
+                if closed else normals
+        normals /= numpy.linalg.norm(normals, axis=1, keepdims=True) + 1e-12
+        along = numpy.roll(points, -1, axis=0) - numpy.roll(points, 1, axis=0) if closed else \
+            numpy.gradient(points, axis=0)
+        aside = numpy.cross(normals, along)
+        aside /= numpy.linalg.norm(aside, axis=1, keepdims=True) + 1e-12
+        rows = [points + aside * (0.5 * wide * share) + normals * (lift * height)
+                for share, height in ((-1.0, -0.6), (-0.96, 0.8), (0.0, 1.0), (0.96, 0.8), (1.0, -0.6))]
+        count, across = len(points), len(rows)
+        columns = numpy.tile(line.columns(), (across, 1))
+        columns[:, :3] = numpy.concatenate(rows)
+        a = numpy.arange(count if closed else count - 1)
+        b = (a + 1) % count
+        for row in range(across - 1):
+            one, two = row * count, (row + 1) * count
+            faces += [numpy.stack([one + a, one + b, two + b], axis=1), numpy.stack([one + a, two + b, two + a], axis=1)]
+        found.append(replace(line.of_columns(columns, numpy.concatenate(faces), numpy.zeros(len(columns), int)),
+                             material=material))
+    return found
+
+
 def smooth_normals(part):
     """Without the folds of cloth."""
     normals = smoothed(part.normals, part.faces, 3)
@@ -169,6 +223,18 @@ def subdivided(part, share=0.35):
     finer = part.of_columns(numpy.concatenate([columns, columns[edges].mean(axis=1)]), faces,
                             numpy.concatenate([part.tags, tags]))
     return finer.moved(smoothed(finer.points, finer.faces, 1, share))
+
+
+def scattered(piece, draw, count):
+    """Points all over a part, by area: (points, normals, weights, places)."""
+    a, b, c = (piece.points[piece.faces[:, corner]] for corner in range(3))
+    area = numpy.linalg.norm(numpy.cross(b - a, c - a), axis=1)
+    chosen = draw.choice(len(piece.faces), count, p=area / area.sum())
+    share = draw.dirichlet((1.0, 1.0, 1.0), count)
+    mix = lambda values: (values[piece.faces[chosen]] * share[..., None]).sum(axis=1)
+    normals = mix(piece.normals)
+    return (mix(piece.points), normals / numpy.linalg.norm(normals, axis=1, keepdims=True), mix(piece.weights),
+            mix(piece.places))
 
 
 def joined(parts):

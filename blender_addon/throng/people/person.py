@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy
 
-from . import bags, cloth, hair, head, regions
+from . import bags, cloth, hair, head, regions, whiskers
 from .rig import Rig, skinned
 from .shape import shape_of
 
@@ -59,8 +59,8 @@ class Maker:
         stubble = " stubble" if person.beard else ""
         parts = [replace(skin, material=f"skin {person.skin}{stubble}")]
         parts += head.eyes(bodies, shape, level) + head.lashes(bodies, shape, level)
-        parts += head.brows(bodies, shape, level, colour, scale)
-        parts += head.beard(bodies, shape, level, person.beard, colour, scale)
+        parts += whiskers.brows(bodies, shape, level, colour, scale, seed)
+        parts += whiskers.beard(bodies, shape, level, person.beard, colour, scale, seed)
         parts += clothes
         parts += hair.hair(bodies, shape, level, person.hair, colour, scale, seed)
         if person.hat:

@@ -46,22 +46,16 @@ def box(low, high, side=0.0):
     return fields
 
 
-def band(first, second, half):
-    """The planes of a strip between two places (y, z), so wide to each side."""
+def line(first, second):
+    """Zero along a straight line through two places (y, z)."""
     (y, z), (dy, dz) = first, numpy.subtract(second, first) / numpy.hypot(*numpy.subtract(second, first))
-    off = lambda places: (places[:, Y] - y) * dz - (places[:, Z] - z) * dy
-    return [lambda places: but_arms(places, 1.0), lambda places: half - off(places), lambda places: half + off(places)]
+    return lambda places: (places[:, Y] - y) * dz - (places[:, Z] - z) * dy
 
 
 def strap(side):
-    """The planes of a rucksack's strap: over the shoulder, down beside the breast, and under the arm to the back."""
-    def inside(places):
-        aside, up = places[:, Y] * side, places[:, Z]
-        middle = numpy.interp(up, _STRAP_UP, _STRAP_ASIDE)
-        slope = numpy.interp(up, _STRAP_UP[:-1], numpy.abs(numpy.diff(_STRAP_ASIDE) / numpy.diff(_STRAP_UP)))
-        return 0.0185 - numpy.abs(aside - middle) / numpy.sqrt(1.0 + slope ** 2)
-
-    return [lambda places: but_arms(places, 1.0), inside]
+    """Zero along the middle of a rucksack's strap: over the shoulder, down beside the breast, and under the arm to the
+    back."""
+    return lambda places: places[:, Y] * side - numpy.interp(places[:, Z], _STRAP_UP, _STRAP_ASIDE)
 
 
 def on_trunk(places, value):
@@ -126,8 +120,8 @@ def ear(places):
 def brow(places):
     """Inside of the brows."""
     along = (numpy.abs(places[:, Y]) - 0.011) / 0.045
-    middle = 0.7495 + 0.0095 * numpy.sin(numpy.clip(along, 0.0, 1.0) * 2.4) - 0.004 * along
-    half = numpy.interp(along, [-0.06, 0.05, 0.35, 0.75, 1.03], [0.001, 0.0052, 0.0056, 0.0042, 0.0006])
+    middle = 0.7505 + 0.0062 * numpy.sin(numpy.clip(along, 0.0, 1.0) * 2.3) - 0.0035 * along
+    half = numpy.interp(along, [-0.06, 0.08, 0.35, 0.75, 1.03], [0.0008, 0.0036, 0.0040, 0.0028, 0.0004])
     field = half - numpy.abs(places[:, Z] - middle)
     outside = numpy.minimum(along + 0.06, 1.03 - along) * 0.045
     return numpy.minimum(numpy.minimum(field, outside), places[:, X] - 0.08)
@@ -137,7 +131,7 @@ def beard(places, full=True):
     """Inside of a beard; else of a moustache and what is round the chin."""
     y = numpy.abs(places[:, Y])
     top = numpy.interp(y, [0.0, 0.022, 0.030, 0.055, 0.072, 0.085], [0.694, 0.691, 0.664, 0.668, 0.715, 0.740])
-    mouth = 0.0105 - numpy.hypot((places[:, Z] - 0.6685) * 1.15, numpy.maximum(y - 0.014, 0.0))
+    mouth = 0.0080 - numpy.hypot((places[:, Z] - 0.6670) * 1.05, numpy.maximum(y - 0.017, 0.0))
     field = numpy.minimum(top - places[:, Z], places[:, Z] - 0.606)
     field = numpy.minimum(numpy.minimum(field, places[:, X] - 0.035), (places[:, HEAD] - 0.4) * 0.2)
     field = numpy.minimum(field, -ear(places))

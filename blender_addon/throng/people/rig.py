@@ -6,7 +6,7 @@ import numpy
 
 from ..cast import gait
 
-_FINGERS = (("index", 0.22), ("middle", 0.30), ("ring", 0.36), ("pinky", 0.40))
+_FINGERS = (("index", 0.32), ("middle", 0.40), ("ring", 0.45), ("pinky", 0.48))
 _X, _Y, _Z = numpy.eye(3)
 SOLE = 0.018  # m, of a shoe, below the foot
 STICK_AHEAD = 0.12  # m, of the ankle, where sticks are planted
