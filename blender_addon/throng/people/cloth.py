@@ -275,7 +275,8 @@ class Tailor:
             for middle, wide, often, far in ((-0.74, 0.09, 58.0, 0.0090), (-0.38, 0.09, 46.0, 0.0060),
                                              (0.02, 0.09, 40.0, 0.0065)):
                 lean = 16.0 * points[:, 0] + 12.0 * numpy.abs(points[:, 1])
-                height += numpy.exp(-((level - middle) / wide) ** 2) * _ridges(level * often + lean + 2.6 * wander) * far
+                ridges = _ridges(level * often + lean + 2.6 * wander)
+                height += numpy.exp(-((level - middle) / wide) ** 2) * ridges * far
         return height * (0.25 + 0.75 * patches) * garment.folds * self.scale
 
     def _folds_of_top(self, part, points, wander):

@@ -198,7 +198,8 @@ def strap_on(part, field, wide, lift, material, rounds=30):
         b = (a + 1) % count
         for row in range(across - 1):
             one, two = row * count, (row + 1) * count
-            faces += [numpy.stack([one + a, one + b, two + b], axis=1), numpy.stack([one + a, two + b, two + a], axis=1)]
+            faces += [numpy.stack([one + a, one + b, two + b], axis=1),
+                      numpy.stack([one + a, two + b, two + a], axis=1)]
         found.append(replace(line.of_columns(columns, numpy.concatenate(faces), numpy.zeros(len(columns), int)),
                              material=material))
     return found
