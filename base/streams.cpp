@@ -20,8 +20,15 @@ StreamChoice streamsOf(bool has_terrain, const StreamChoice& asked) {
     for (const StreamInfo& info : kStreams)
         streams[info.id] = info.source == StreamSource::motion ||
                            (info.source == StreamSource::terrain && has_terrain) ||
-                           (info.source == StreamSource::device && asked[info.id]);
+                           (isAskedFor(info) && asked[info.id]);
     return streams;
+}
+
+StreamChoice fromDevice(const StreamChoice& streams) {
+    StreamChoice found;
+    for (const StreamInfo& info : kStreams)
+        found[info.id] = info.source == StreamSource::device && streams[info.id];
+    return found;
 }
 
 std::size_t countOf(const StreamChoice& streams) {

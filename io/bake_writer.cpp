@@ -101,7 +101,7 @@ void BakeWriter::openStreams(const Checkpoint* go_on_from) {
     const StreamChoice streams = description_.streams();
     for (const bool asked : {false, true})
         for (const StreamInfo& info : kStreams) {
-            if (!streams[info.id] || (info.source == StreamSource::device) != asked) continue;
+            if (!streams[info.id] || isAskedFor(info) != asked) continue;
             streams_.emplace_back(folder_->path(), info,
                                   static_cast<std::uint32_t>(description_.agents.size()), description_.frames,
                                   frames_there);
