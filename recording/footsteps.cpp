@@ -95,10 +95,11 @@ struct Footsteps::Moment {
     float direction = 0.0f, turns = 0.0f;  ///< rad, rad/s
     float walks = 0.0f;                    ///< share of walking
     bool rests = false;
-    std::array<glm::vec2, 2> clip{};  ///< m: where the clip has the feet
-    std::array<bool, 2> down{};       ///< whether the clip's are
-    glm::vec2 slides{0.0f};           ///< m/s, that a planted foot of the clip would slide
-    float stands_for = 0.0f;          ///< s, that a foot is down in a cycle
+    std::array<glm::vec2, 2> clip{};     ///< m: where the clip has the feet
+    std::array<bool, 2> down{};          ///< whether the clip's are
+    std::array<glm::vec2, 2> carries{};  ///< m: how far they come as standing goes over into walking
+    glm::vec2 slides{0.0f};              ///< m/s, that a planted foot of the clip would slide
+    float stands_for = 0.0f;             ///< s, that a foot is down in a cycle
 };
 
 Footsteps::Footsteps(std::size_t rows, double fps)
@@ -116,18 +117,19 @@ std::array<FootMove, 2> Footsteps::step(std::size_t row, const Walker& walker, c
     const double left = gait.left(), old = left * left * (3.0 - 2.0 * left);
     for (const std::size_t side : {0u, 1u}) {
         const double phase = gait.phase + (side == 0 ? 0.5 : 0.0);
-        const auto ahead =
-            static_cast<float>(glm::mix(stride.ahead(phase), before.ahead(phase), old)) * now.walks;
+        const auto ahead = static_cast<float>(glm::mix(stride.ahead(phase), before.ahead(phase), old));
         now.clip[side] =
-            walker.place + walker.scale * (ahead * walker.heading +
+            walker.place + walker.scale * (now.walks * ahead * walker.heading +
                                            (side == 0 ? kBeside : -kBeside) * leftOf(walker.heading));
         now.down[side] = stride.isDown(phase);
+        now.carries[side] = walker.scale * ahead * (person.walks - now.walks) * walker.heading;
     }
     const bool is_new = person.known == 0;
     if (!is_new) now.turns = wrapped(now.direction - person.direction) / interval_;
     now.slides = walker.moved / interval_ - now.walks * walker.speed * walker.scale * walker.heading;
     now.stands_for = static_cast<float>(stride.down_for * stride.stride) / std::max(walker.speed, 0.3f);
     person.direction = now.direction;
+    person.walks = now.walks;
     person.known = 1;
 
     std::array<FootMove, 2> moves;
@@ -195,6 +197,7 @@ void Footsteps::move(Foot& foot, const Moment& now, std::size_t side) const {
         foot.facing = now.direction + foot.turn;
         return;
     }
+    foot.away += now.carries[side];  // which is no swing: the foot stays where it is, and follows
     const float half = 0.5f * now.stands_for;
     approach(foot.away, foot.rate, atMost(half * now.slides, kMostAhead), interval_);
     approach(foot.turn, foot.turn_rate, std::clamp(half * now.turns, -kMostTurnAhead, kMostTurnAhead),

@@ -15,3 +15,5 @@ HIDDEN = "throng_hidden"  # 1 for those who are left out; see tools/culling.py
 GROUND = "throng_ground"  # slopes along the heading and to the left of it, and the height; see footing.py
 NEAR = "throng_near"      # 1 for those who are bent into their pose; see near.py
 ROW = "throng_row"        # on the vertices of those: which of the bake's people
+WHO = "throng_who"        # of those: which member of the cast
+BONE = "throng_bone"      # of a point for each of their bones: which one

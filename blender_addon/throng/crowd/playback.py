@@ -11,7 +11,7 @@ import random
 import bpy
 
 from ..blender.nodes import Maths, drop_tree, get_input, new_tree, set_input
-from ..formats import STREAMS
+from ..formats import FEET, STREAMS
 from . import footing, near, own
 from .instancer import instancer_tree
 from .names import INSTANCERS, NATURE
@@ -34,7 +34,8 @@ def set_cast(crowd, cast):
     modifiers = [crowd.modifiers[name] for name in INSTANCERS]
     before = modifiers[0].node_group
     shares = [get_input(modifier, "Share") if modifier.node_group else 2.0 for modifier in modifiers]  # 2: everybody
-    tree = instancer_tree(cast, repertoire_of(crowd), footing.slopes(crowd), near.bones_for(crowd, cast))
+    held = f"throng {FEET[0]}" in crowd.modifiers
+    tree = instancer_tree(cast, repertoire_of(crowd), footing.slopes(crowd), near.bones_for(crowd, cast), held)
     for modifier, share in zip(modifiers, shares):
         modifier.node_group = tree
         set_input(modifier, "Share", share)
@@ -87,8 +88,9 @@ def build_crowd(bake, name, cast, frame_start, paths):
     mesh.vertices.add(bake.agents)
     give_natures(mesh)
     crowd = bpy.data.objects.new(name, mesh)
-    for stream in (each for each in ("state", "dir", "ground") if each in paths):
-        add_cache(crowd, f"throng {stream}", paths[stream], "NONE" if stream == "state" else "LINEAR", frame_start)
+    for stream in (each for each in ("state", "dir", "ground", *FEET) if each in paths):
+        between = "NONE" if stream in ("state", *FEET) else "LINEAR"
+        add_cache(crowd, f"throng {stream}", paths[stream], between, frame_start)
         modifier = crowd.modifiers.new(f"throng {stream} to attribute", "NODES")
         modifier.node_group = _store_tree(f"throng_{stream}")
     add_cache(crowd, "throng pos", paths["pos"], "LINEAR", frame_start)

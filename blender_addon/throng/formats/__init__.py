@@ -5,6 +5,7 @@ import os
 import struct
 
 STREAMS = ("pos", "dir", "state")
+FEET = ("left_foot", "right_foot")
 _PC2 = struct.Struct("<12siiffi")
 _PC2_MAGIC = b"POINTCACHE2\0"
 
@@ -31,8 +32,10 @@ class Bake:
 
     @property
     def streams(self):
-        """Those of every bake, and `ground` where it has a terrain."""
-        return STREAMS + (("ground",) if self.manifest.get("terrain") else ())
+        """Those of every bake, `ground` where it has a terrain, and those of feet where it was asked for them."""
+        told = self.manifest.get("streams")
+        feet = isinstance(told, dict) and all(foot in told for foot in FEET)
+        return STREAMS + (("ground",) if self.manifest.get("terrain") else ()) + (FEET if feet else ())
 
     @property
     def terrain_path(self):

@@ -62,6 +62,15 @@ def matrices_of(role, repertoire):
     return numpy.stack([rig.matrices(pose)[used] for pose in poses_of(rig.build, repertoire)])
 
 
+def legs_of(role, repertoire):
+    """(bones, joints) of both legs, as cast.bones.Boned has them."""
+    library_, rig = bodies(), maker_of(role).rig
+    used = numpy.unique(_leaders(role, repertoire)[0]).tolist()
+    chains = [[f"{bone}_{side}" for bone in ("thigh", "calf", "foot", "ball")] for side in "lr"]
+    return ([[used.index(library_.bone[bone]) for bone in chain] for chain in chains],
+            [[rig.heads[bone] for bone in chain[:3]] for chain in chains])
+
+
 def boned_of(text, level, repertoire):
     """A member at a level, for cast.sheets. @param text of its role"""
     role = Role.of(text)
@@ -71,7 +80,7 @@ def boned_of(text, level, repertoire):
     cycles = tuple((POSES, gait.gait_of(stride).seconds / POSES) for stride in repertoire.strides)
     mesh = figures.mesh_of("throng figure", model, points, person_of(role).look, bodies())
     return Boned(mesh, weights, lambda: matrices_of(role, repertoire), tuple(repertoire.sources(level)),
-                 cycles if level <= BLURS_UNTIL else ())
+                 cycles if level <= BLURS_UNTIL else (), legs_of(role, repertoire))
 
 
 def write_roles(cast, roles):

@@ -38,8 +38,9 @@ def reload(crowd, scene, path=None):
     bake = load_bake(path or bake_path(crowd))
     if list(bake.strides) != list(crowd.get("throng_strides", bake.strides)):
         raise BakeError("this bake walks with other strides than the cast was made for: import it anew")
-    if len(caches(crowd)) != len(bake.streams):
-        raise BakeError("one of the two bakes has a terrain and the other has none: import it anew")
+    if {cache.name for cache in caches(crowd)} != {f"throng {stream}" for stream in bake.streams}:
+        raise BakeError("one of the two bakes has a terrain, or streams of feet (--feet), and the other has none: "
+                        "import it anew")
     overrides = Arrival(bake, crowd)
     members.widen(crowd, bake.gaits)
     mesh = crowd.data
