@@ -14,6 +14,7 @@
 #include "cli/baking/baker.h"
 #include "cli/baking/device_fields.h"
 #include "cli/commands.h"
+#include "cli/stream_option.h"
 #include "cli/terminal/exit_codes.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/say.h"
@@ -92,6 +93,7 @@ BakeRun bakeOrLeave(Baker& baker, const LoadedLayout& loaded, const BakeJob& job
 void bakeLayout(const BakeRequest& options) {
     BakeJob job;
     job.options = options.bake;
+    job.options.formats = formatsOf(options.formats);
     job.diagram_every = diagramInterval(options.diagrams);
     job.seconds = options.seconds;
     job.streams = options.streams;
@@ -160,6 +162,7 @@ void addBake(CLI::App& app) {
         if (info.source == StreamSource::device)
             command->add_flag(fmt::format("--{}", info.name), options->streams[info.id],
                               fmt::format("Also the stream `{}`: {}", info.name, info.about));
+    addStreamsOption(*command, options->formats);
     command->add_option("--method", options->method,
                         "How the diagram is built: auto, " + methodWords() + " (as simulation.method)");
     command->add_option("--proximity", options->proximity,
