@@ -16,7 +16,8 @@ struct BakeRequest {
     std::string diagrams = "none";
     std::string method, proximity;
     std::string fields = "auto";
-    StreamChoice streams{};  ///< asked for
+    std::string formats = wordsOf(StreamFormats::standard());  ///< of the streams
+    StreamChoice streams{};                                    ///< asked for
     bool seconds = false;
     double checkpoint_minutes = 10.0;
     bool resume = false;

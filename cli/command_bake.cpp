@@ -14,6 +14,7 @@
 #include "cli/baking/baker.h"
 #include "cli/baking/device_fields.h"
 #include "cli/commands.h"
+#include "cli/stream_option.h"
 #include "cli/terminal/exit_codes.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/say.h"
@@ -113,6 +114,7 @@ void addStreamOptions(CLI::App& command, StreamChoice& chosen) {
 void bakeLayout(const BakeRequest& options) {
     BakeJob job;
     job.options = options.bake;
+    job.options.formats = formatsOf(options.formats);
     job.diagram_every = diagramInterval(options.diagrams);
     job.seconds = options.seconds;
     job.streams = options.streams;
@@ -178,6 +180,7 @@ void addBake(CLI::App& app) {
                    "With --diagrams: also the second-nearest site of each pixel")
         ->needs(diagrams);
     addStreamOptions(*command, options->streams);
+    addStreamsOption(*command, options->formats);
     command->add_option("--method", options->method,
                         "How the diagram is built: auto, " + methodWords() + " (as simulation.method)");
     command->add_option("--proximity", options->proximity,

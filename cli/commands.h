@@ -9,6 +9,7 @@ namespace throng::cli {
 
 void addBake(CLI::App& app);
 void addApply(CLI::App& app);
+void addConvert(CLI::App& app);
 void addCheck(CLI::App& app);
 void addInfo(CLI::App& app);
 void addPreview(CLI::App& app);

@@ -74,6 +74,7 @@ int main(int argc, char** argv) {
     app.footer(kFooter);
     cli::addBake(app);
     cli::addApply(app);
+    cli::addConvert(app);
     cli::addCheck(app);
     cli::addInfo(app);
     cli::addVerify(app);

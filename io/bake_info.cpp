@@ -11,13 +11,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::uint64_t totalBytes(const Bake& bake) {
-    std::uint64_t total = 0;
-    for (const Bake::File& file : bake.files)
-        total += file.bytes;
-    return total;
-}
-
 /// A member of the manifest that is for show only and so may be missing.
 std::string optionalText(const Json& manifest, const char* pointer) {
     const Json::json_pointer where(pointer);
@@ -65,6 +58,13 @@ std::string extras(const Bake& bake) {
 
 }  // namespace
 
+std::uint64_t totalBytes(const Bake& bake) {
+    std::uint64_t total = 0;
+    for (const Bake::File& file : bake.files)
+        total += file.bytes;
+    return total;
+}
+
 std::string infoText(const Bake& bake) {
     const glm::dvec2 size = bake.maximum - bake.minimum;
     std::string text;
@@ -87,6 +87,7 @@ std::string infoText(const Bake& bake) {
                             bake.manifest.value("/terrain/lowest"_json_pointer, 0.0),
                             bake.manifest.value("/terrain/highest"_json_pointer, 0.0));
     text += extras(bake);
+    text += fmt::format("streams:      as {}\n", wordsOf(bake.formats));
     text += fmt::format("files:        {}, {}\n", bake.files.size(), readableBytes(totalBytes(bake)));
     text +=
         fmt::format("made by:      {}, build {}, on {}\n", optionalText(bake.manifest, "/generator"),

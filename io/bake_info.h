@@ -8,6 +8,9 @@
 
 namespace throng::io {
 
+/// Of all its files.
+std::uint64_t totalBytes(const Bake& bake);
+
 /// Facts about a bake for people, several lines.
 std::string infoText(const Bake& bake);
 

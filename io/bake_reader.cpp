@@ -184,6 +184,24 @@ StreamChoice readStreams(const ManifestReader& reader) {
     return streamsOf(reader.has("/terrain"), asked);
 }
 
+/// Where the manifest names none, they are those that every bake once had.
+StreamFormats readFormats(const ManifestReader& reader, const StreamChoice& streams) {
+    StreamFormats formats;
+    bool names_any = false;
+    for (const StreamFormatInfo& format : kStreamFormats) {
+        bool is_of_all = true;
+        for (const StreamInfo& info : kStreams) {
+            const bool is_named = reader.has(fmt::format("/streams/{}/{}", info.name, format.name));
+            names_any = names_any || is_named;
+            is_of_all = is_of_all && (is_named || !streams[info.id]);
+        }
+        if (is_of_all) formats.add(format.id);
+    }
+    if (!names_any) return StreamFormats::standard();
+    if (formats.isEmpty()) reader.fail("/streams", "streams that all have one form which this version reads");
+    return formats;
+}
+
 void readFiles(const ManifestReader& reader, Bake& bake) {
     reader.each("/files", [&](const ManifestReader& file) {
         bake.files.push_back(
@@ -222,6 +240,7 @@ Bake loadBake(const fs::path& path) {
                     reader.count("/account/walking"), reader.count("/account/arrived"),
                     reader.count("/account/refused")};
     bake.streams = readStreams(reader);
+    bake.formats = readFormats(reader, bake.streams);
     readFiles(reader, bake);
     checkTheRest(reader);
     return bake;

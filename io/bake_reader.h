@@ -47,10 +47,13 @@ struct Bake {
     };
     std::vector<File> files;
 
-    StreamChoice streams;  ///< that it says it has
-    std::filesystem::path streamPath(Stream stream, StreamFormat format = StreamFormat::npy) const {
+    StreamChoice streams;   ///< that it says it has
+    StreamFormats formats;  ///< in which it says it has all of them
+    std::filesystem::path streamPath(Stream stream, StreamFormat format) const {
         return folder / streamFile(infoOf(stream), format);
     }
+    /// Of the form that is read.
+    std::filesystem::path streamPath(Stream stream) const { return streamPath(stream, formats.preferred()); }
 };
 
 /// bake.json as it lies on the disk.

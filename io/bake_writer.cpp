@@ -102,7 +102,7 @@ void BakeWriter::openStreams(const Checkpoint* go_on_from) {
     for (const bool asked : {false, true})
         for (const StreamInfo& info : kStreams) {
             if (!streams[info.id] || isAskedFor(info) != asked) continue;
-            streams_.emplace_back(folder_->path(), info,
+            streams_.emplace_back(folder_->path(), info, description_.formats,
                                   static_cast<std::uint32_t>(description_.agents.size()), description_.frames,
                                   frames_there);
             hashes_.emplace_back();
@@ -267,7 +267,7 @@ BakeOutcome BakeWriter::writeAll(const Account& account, const BakeTiming& timin
     if (description_.gltf) {
         files.push_back("crowd.glb");
         outcome.gltf = writeCrowdGlb(folder_->path() / files.back(), description_,
-                                     {folder_->path(), description_.streams(), frames_,
+                                     {folder_->path(), description_.streams(), description_.formats, frames_,
                                       static_cast<std::uint32_t>(description_.agents.size())});
     }
     for (const std::string& file : files)

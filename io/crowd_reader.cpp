@@ -20,7 +20,8 @@ std::span<const float> CrowdFrame::operator[](Stream stream) const {
 }
 
 CrowdReader::CrowdReader(Bake bake)
-    : bake_(std::move(bake)), streams_(bake_.folder, bake_.streams, bake_.frames, bake_.agents) {}
+    : bake_(std::move(bake)),
+      streams_(bake_.folder, bake_.streams, bake_.formats, bake_.frames, bake_.agents) {}
 
 CrowdFrame CrowdReader::frame(std::uint32_t index) {
     if (index >= bake_.frames)

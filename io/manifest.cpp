@@ -56,22 +56,15 @@ const char* nameOf(Between between) {
     return between == Between::nearest ? "nearest" : between == Between::linear ? "linear" : "heading";
 }
 
-Json streamToJson(const StreamInfo& info) {
+Json streamToJson(const StreamInfo& info, const StreamFormats& formats) {
     Json json;
-    for (const StreamFormat format : kStreamFormats)
-        json[nameOf(format)] = streamFile(info, format);
+    for (const StreamFormatInfo& format : kStreamFormats)
+        if (formats.has(format.id)) json[std::string(format.name)] = streamFile(info, format.id);
     for (const StreamComponent& component : info.components) {
         json["components"].push_back(component.name);
         json["units"].push_back(component.unit);
         json["interpolation"].push_back(nameOf(component.between));
     }
-    return json;
-}
-
-Json streamsToJson(const StreamChoice& streams) {
-    Json json;
-    for (const StreamInfo& info : kStreams)
-        if (streams[info.id]) json[std::string(info.name)] = streamToJson(info);
     return json;
 }
 
@@ -164,6 +157,13 @@ std::string_view hashAtTheEnd(std::string_view text) {
 
 }  // namespace
 
+Json streamsToJson(const StreamChoice& streams, const StreamFormats& formats) {
+    Json json;
+    for (const StreamInfo& info : kStreams)
+        if (streams[info.id]) json[std::string(info.name)] = streamToJson(info, formats);
+    return json;
+}
+
 std::string manifestText(Json manifest) {
     manifest.erase(kChecksum);
     manifest[kChecksum] = fmt::format("{}{}", kHashName, kNoDigits);
@@ -209,7 +209,7 @@ Json bakeManifest(const recording::BakeDescription& description, const BakeOutco
     json["origin"] = {origin.x, origin.y, 0.0};
     json["bounds"] = {{"min", pointToJson(description.minimum - origin)},
                       {"max", pointToJson(description.maximum - origin)}};
-    json["streams"] = streamsToJson(description.streams());
+    json["streams"] = streamsToJson(description.streams(), description.formats);
     if (description.terrain) json["terrain"] = terrainToJson(*description.terrain);
     json["table"] = "agents.csv";
     json["gltf"] = gltfToJson(outcome.gltf);

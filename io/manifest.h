@@ -49,6 +49,9 @@ struct BakeOutcome {
 nlohmann::ordered_json bakeManifest(const recording::BakeDescription& description,
                                     const BakeOutcome& outcome);
 
+/// Its member `streams`.
+nlohmann::ordered_json streamsToJson(const StreamChoice& streams, const StreamFormats& formats);
+
 /// The text of bake.json, with its own `checksum` as the last member: XXH3 of the text that has zeros in the
 /// place of the checksum's digits.
 std::string manifestText(nlohmann::ordered_json manifest);

@@ -24,8 +24,9 @@ using Kind = BakeProblem::Kind;
 constexpr const char* kManifest = "bake.json";
 
 bool isStream(const std::string& path) {
-    return std::ranges::any_of(kStreamFormats,
-                               [&](StreamFormat format) { return path.ends_with("." + nameOf(format)); });
+    return std::ranges::any_of(kStreamFormats, [&](const StreamFormatInfo& format) {
+        return path.ends_with(fmt::format(".{}", format.name));
+    });
 }
 
 /// Whether a manifest has a checksum for every file it should have one for.
@@ -78,10 +79,11 @@ class Strangers {
 std::vector<BakeProblem> unlistedStreams(const Bake& bake) {
     std::vector<BakeProblem> found;
     for (const StreamInfo& info : kStreams)
-        for (const StreamFormat format : kStreamFormats) {
-            const std::string path = streamFile(info, format);
+        for (const StreamFormatInfo& format : kStreamFormats) {
+            const std::string path = streamFile(info, format.id);
             std::error_code absent;
-            if (bake.streams[info.id] && !fs::exists(bake.folder / path, absent) &&
+            if (bake.streams[info.id] && bake.formats.has(format.id) &&
+                !fs::exists(bake.folder / path, absent) &&
                 std::ranges::none_of(bake.files, [&](const Bake::File& file) { return file.path == path; }))
                 found.push_back({Kind::unlisted, path, "missing, and not in the list of bake.json"});
         }

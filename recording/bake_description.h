@@ -12,6 +12,7 @@
 #include "authoring/layout.h"
 #include "authoring/terrain/terrain.h"
 #include "authoring/terrain/terrain_mesh.h"
+#include "base/stream_formats.h"
 #include "base/streams.h"
 
 namespace throng::recording {
@@ -92,6 +93,7 @@ struct BakeDescription {
     std::uint32_t gltf_agents = 2000;  ///< at most this many people in crowd.glb; the rest is left out
     std::uint32_t diagram_every = 0;   ///< frames between diagram images; 0 = none
     StreamChoice asked{};              ///< the streams from the device that are written, too
+    StreamFormats formats = StreamFormats::standard();  ///< in which all streams are written
 
     StreamChoice streams() const { return streamsOf(terrain.has_value(), asked); }
 };

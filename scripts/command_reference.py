@@ -17,6 +17,7 @@ COLUMN = 30  # where meanings begin
 SECTION = re.compile(r"^(Positionals|Options|Subcommands):$")
 # Where else to read about a command, from docs/commands/.
 BESIDE = {
+    "convert": ["../bake.md#forms|the forms of streams"],
     "apply": ["../how-to/change-people.md|how to change single people", "../overrides.md|the file of overrides"],
     "bake": [
         "../layout.md|layouts",

@@ -13,6 +13,7 @@
 #include "authoring/family/formula.h"
 #include "authoring/family/generators.h"
 #include "authoring/layout.h"
+#include "base/stream_formats.h"
 #include "base/streams.h"
 
 /// A family of scenarios: a layout, and what varies from one scenario to the next (docs/batch.md).
@@ -66,9 +67,10 @@ struct Family {
     std::uint64_t seed = 1;   ///< of the drawing
     struct Bake {
         bool gltf = false;
-        bool keep = true;            ///< the bakes themselves, not only what was measured
-        StreamChoice streams{};      ///< asked for
-        std::uint64_t diagrams = 0;  ///< frames between diagram images, 0 for none
+        bool keep = true;        ///< the bakes themselves, not only what was measured
+        StreamChoice streams{};  ///< asked for
+        StreamFormats formats = StreamFormats::standard();  ///< in which they are written
+        std::uint64_t diagrams = 0;                         ///< frames between diagram images, 0 for none
     } bake;
     SourcePosition where, generator_where;
 };

@@ -413,7 +413,18 @@ class Reader {
             if (info.source == StreamSource::device)
                 reader.boolean(std::string(info.name), family_.bake.streams[info.id]);
         reader.integer("diagrams", family_.bake.diagrams);
+        readFormats(reader);
         reader.finish();
+    }
+
+    void readFormats(ObjectReader& reader) {
+        std::string words = wordsOf(family_.bake.formats);
+        reader.text("streams", words);
+        const FormatsRead forms = throng::readFormats(words);
+        if (!forms.problem.empty())
+            diagnostics_.error(reader.get("streams")->where, forms.problem, R"(e.g. "streams": "npy")");
+        else
+            family_.bake.formats = forms.formats;
     }
 
     void checkWhole() {

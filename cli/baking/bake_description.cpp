@@ -80,6 +80,7 @@ recording::BakeDescription describeBake(const LoadedLayout& loaded, const BakeOp
     bake.driver = device.version;
     bake.gltf = options.gltf;
     bake.gltf_agents = options.gltf_agents;
+    bake.formats = options.formats;
     return bake;
 }
 

@@ -17,6 +17,7 @@ struct BakeOptions {
     bool force = false;
     bool gltf = true;
     std::uint32_t gltf_agents = 2000;
+    StreamFormats formats = StreamFormats::standard();  ///< in which streams are written
 };
 
 /// The folder of a bake. Without -o it has the layout's name, if that is the name of a folder here and leads

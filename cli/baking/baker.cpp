@@ -32,6 +32,8 @@ std::string identityOf(const LoadedLayout& loaded, const BakeJob& job, const gl:
                     job.options.gltf, job.options.gltf_agents);
     for (const std::string& override_text : loaded.overrides)
         text += override_text + "\n";
+    if (job.options.formats != StreamFormats::standard())
+        text += fmt::format("streams as {}\n", wordsOf(job.options.formats));
     if (loaded.fields_on_device) text += "fields on the device\n";  // other bits than the CPU's
     if (loaded.terrain) text += fmt::format("{:016x}\n", loaded.terrain_identity);
     return hashText(text + loaded.text);

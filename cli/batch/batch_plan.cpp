@@ -91,8 +91,10 @@ std::string BatchPlan::layoutText(std::size_t index) const {
 
 std::string BatchPlan::inputHash(const std::string& layout_text) const {
     const authoring::Family::Bake& bake = family_.bake;
-    return hashText(fmt::format("{}\n{} {} {} {}{}", layout_text, bake.keep, bake.gltf,
-                                identityOf(bake.streams), bake.diagrams, terrainOf(layout_text)));
+    const std::string formats =
+        bake.formats == StreamFormats::standard() ? "" : "\nstreams as " + wordsOf(bake.formats);
+    return hashText(fmt::format("{}\n{} {} {} {}{}{}", layout_text, bake.keep, bake.gltf,
+                                identityOf(bake.streams), bake.diagrams, terrainOf(layout_text), formats));
 }
 
 /// What the terrain's file holds, for a layout that has one: a result is out of date when it changes.
@@ -153,11 +155,12 @@ void BatchPlan::addLoad(const authoring::Layout& layout, double share) {
     const double frames = std::max(1.0, std::round(settings.duration * settings.fps));
     const double steps = (frames + std::round(settings.warmup * settings.fps)) * settings.substeps;
     const double people = peopleOf(layout);
-    constexpr double kBytesPerValue = 4.0 * 3.0 * 2.0;  // three floats, as NPY and as PC2
+    const double bytes_per_stream = family_.bake.formats.bytes();
     const auto streams = static_cast<double>(countOf(streamsOf(false, family_.bake.streams)));
     load_.steps += share * steps;
     load_.people_steps += share * steps * people;
-    load_.bytes += share * (family_.bake.keep ? frames * people * kBytesPerValue * streams + 20'000.0 : 0.0);
+    load_.bytes +=
+        share * (family_.bake.keep ? frames * people * bytes_per_stream * streams + 20'000.0 : 0.0);
     load_.largest_people = std::max(load_.largest_people, people);
 }
 

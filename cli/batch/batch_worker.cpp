@@ -148,6 +148,7 @@ ScenarioEnd ScenarioBaker::tryBake(std::size_t index, const InterruptGuard& inte
     job.options.output = folder_.bake(id).string();
     job.options.force = true;
     job.options.gltf = plan_.family().bake.gltf;
+    job.options.formats = plan_.family().bake.formats;
     job.streams = plan_.family().bake.streams;
     job.diagram_every = static_cast<std::uint32_t>(plan_.family().bake.diagrams);
     job.checkpoint_seconds = options_.checkpoint_seconds;

@@ -10,13 +10,11 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <set>
 
 #include "base/build_name.h"
-#include "base/files/beneath.h"
 #include "base/files/hash.h"
-#include "base/files/input_file.h"
 #include "base/files/output_file.h"
+#include "io/bake_copy.h"
 #include "io/bake_folder.h"
 #include "io/gltf/crowd_glb.h"
 #include "io/gltf/terrain_file.h"
@@ -24,7 +22,6 @@
 #include "io/overrides/agent_table_edit.h"
 #include "io/overrides/row_sampler.h"
 #include "io/streams/stream_files.h"
-#include "io/verify_bake.h"
 #include "recording/footing.h"
 
 namespace throng::io {
@@ -70,9 +67,13 @@ class Application {
         folder_.addFolder("streams");
         for (const StreamInfo& info : kStreams)
             if (source_.streams[info.id])
-                files_.emplace_back(folder_.path(), info, source_.agents, source_.frames);
-        requireInside();
-        requireSound();
+                files_.emplace_back(folder_.path(), info, source_.formats, source_.agents, source_.frames);
+        requireInside(source_, source_.manifest.contains("terrain")
+                                   ? std::vector<std::string>{"agents.csv", "terrain.glb"}
+                                   : std::vector<std::string>{"agents.csv"});
+        requireSound(source_, [this](const std::string& path) {
+            return !isWrittenAnew(path) || path == "agents.csv" || isReadStream(source_, path);
+        });
         for (const RowChange& each : changes)
             rows_.push_back(prepared(each));
         if (source_.manifest.contains("terrain")) readTerrainBack();
@@ -103,30 +104,6 @@ class Application {
     }
 
   private:
-    /// A bake may come from anywhere, and the new one has what this one has: nothing that a link leads to
-    /// outside.
-    void requireInside() const {
-        std::set<std::string> paths = {"agents.csv"};
-        for (const Bake::File& file : source_.files)
-            paths.insert(file.path);
-        for (const StreamInfo& info : kStreams)
-            if (source_.streams[info.id]) paths.insert(streamFile(info, StreamFormat::npy));
-        if (source_.manifest.contains("terrain")) paths.insert("terrain.glb");
-        for (const std::string& path : paths)
-            openBeneath(source_.folder, path);
-    }
-
-    /// What is read or copied is as it was written: damage would get checksums that fit it.
-    void requireSound() const {
-        for (const Bake::File& file : source_.files) {
-            const bool is_read =
-                !isWrittenAnew(file.path) || file.path == "agents.csv" ||
-                (file.path.starts_with("streams/") && file.path.ends_with(nameOf(StreamFormat::npy)));
-            const std::optional<BakeProblem> problem = is_read ? problemOf(source_, file) : std::nullopt;
-            if (problem) throw InputError(source_.folder / file.path, problem->message);
-        }
-    }
-
     void read(const CrowdFrame& frame) {
         for (const StreamFiles& stream : files_) {
             const std::span<const float> values = frame[stream.info().id];
@@ -268,28 +245,15 @@ class Application {
         table_.set(each.row, "goal_y", fmt::format("{}", y));
     }
 
-    bool isWrittenAnew(const std::string& path) const {
-        if (path == "agents.csv" || path == "crowd.glb" || path.starts_with("diagrams/")) return true;
-        for (const StreamInfo& info : kStreams)
-            for (const StreamFormat format : kStreamFormats)
-                if (path == streamFile(info, format)) return true;
-        return false;
+    static bool isWrittenAnew(const std::string& path) {
+        return path == "agents.csv" || path == "crowd.glb" || path.starts_with("diagrams/") ||
+               isStreamFile(path);
     }
 
     void copyTheRest() {
         for (const Bake::File& file : source_.files) {
             if (isWrittenAnew(file.path)) continue;
-            const fs::path to = folder_.path() / file.path;
-            makeFolder(to.parent_path());
-            const InputFile from = openBeneath(source_.folder, file.path);
-            OutputFile copy(to);
-            std::vector<std::byte> piece(std::size_t{1} << 20);
-            for (std::uint64_t at = 0; at < from.size(); at += piece.size()) {
-                const std::size_t count = std::min<std::uint64_t>(piece.size(), from.size() - at);
-                from.readAt(at, std::span(piece).first(count));
-                copy.write(std::span<const std::byte>(piece).first(count));
-            }
-            copy.finish();
+            copyBakeFile(source_, file.path, folder_.path());
             copied_.push_back(file.path);
         }
     }
@@ -298,7 +262,7 @@ class Application {
         const recording::BakeDescription description = describe();
         const GltfSummary summary =
             writeCrowdGlb(folder_.path() / "crowd.glb", description,
-                          {folder_.path(), source_.streams, source_.frames, source_.agents});
+                          {folder_.path(), source_.streams, source_.formats, source_.frames, source_.agents});
         return {{"file", "crowd.glb"}, {"agents", summary.agents}, {"of", summary.of}};
     }
 
@@ -376,11 +340,7 @@ class Application {
         for (const std::string& file : filesOf(files_))
             files.push_back(file);
         if (!gltf.is_null()) files.emplace_back("crowd.glb");
-        manifest["files"] = Json::array();
-        for (const std::string& file : files) {
-            const FileHash hash = hashFile(folder_.path() / file);
-            manifest["files"].push_back({{"path", file}, {"bytes", hash.bytes}, {"xxh3", hash.xxh3}});
-        }
+        manifest["files"] = listOfFiles(folder_.path(), files);
         writeFile(folder_.path() / "bake.json", manifestText(std::move(manifest)));
     }
 

@@ -3,10 +3,13 @@
 
 namespace throng::io {
 
-StreamFiles::StreamFiles(const std::filesystem::path& bake, const StreamInfo& info, std::uint32_t rows,
-                         std::uint32_t expected_frames, std::optional<std::uint32_t> frames_there)
-    : info_(info) {
-    for (const StreamFormat format : kStreamFormats) {
+StreamFiles::StreamFiles(const std::filesystem::path& bake, const StreamInfo& info,
+                         const StreamFormats& formats, std::uint32_t rows, std::uint32_t expected_frames,
+                         std::optional<std::uint32_t> frames_there)
+    : info_(info), formats_(formats) {
+    for (const StreamFormatInfo& each : kStreamFormats) {
+        const StreamFormat format = each.id;
+        if (!formats.has(format)) continue;
         const std::filesystem::path path = bake / streamFile(info, format);
         if (frames_there)
             writers_.emplace_back(path, format, rows, expected_frames, *frames_there);
@@ -41,8 +44,8 @@ void StreamFiles::finish() {
 std::vector<std::string> filesOf(std::span<const StreamFiles> streams) {
     std::vector<std::string> files;
     for (const StreamFiles& stream : streams)
-        for (const StreamFormat format : kStreamFormats)
-            files.push_back(streamFile(stream.info(), format));
+        for (const StreamFormatInfo& format : kStreamFormats)
+            if (stream.formats().has(format.id)) files.push_back(streamFile(stream.info(), format.id));
     return files;
 }
 

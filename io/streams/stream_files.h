@@ -8,15 +8,18 @@
 
 namespace throng::io {
 
-/// One stream of a bake on its way to the disk, in every format. All members throw OutputError.
+/// One stream of a bake on its way to the disk, in every form that is asked for. All members throw
+/// OutputError.
 class StreamFiles {
   public:
-    /// @param bake the folder, with a folder `streams` in it
+    /// @param bake the folder, with a folder `streams` in it; @param formats in which it is written
     /// @param frames_there of files that are gone on with; none where they begin
-    StreamFiles(const std::filesystem::path& bake, const StreamInfo& info, std::uint32_t rows,
-                std::uint32_t expected_frames, std::optional<std::uint32_t> frames_there = {});
+    StreamFiles(const std::filesystem::path& bake, const StreamInfo& info, const StreamFormats& formats,
+                std::uint32_t rows, std::uint32_t expected_frames,
+                std::optional<std::uint32_t> frames_there = {});
 
     const StreamInfo& info() const { return info_; }
+    const StreamFormats& formats() const { return formats_; }
 
     /// As in StreamWriter.
     void append(std::span<const float> frame);
@@ -30,6 +33,7 @@ class StreamFiles {
 
   private:
     const StreamInfo& info_;
+    StreamFormats formats_;
     std::vector<StreamWriter> writers_;
 };
 

@@ -36,12 +36,8 @@ std::string pc2Header(std::uint64_t frames, std::uint64_t rows) {
 
 }  // namespace
 
-std::string nameOf(StreamFormat format) {
-    return format == StreamFormat::npy ? "npy" : "pc2";
-}
-
 std::string streamFile(const StreamInfo& info, StreamFormat format) {
-    return fmt::format("streams/{}.{}", info.name, nameOf(format));
+    return fmt::format("streams/{}.{}", info.name, infoOf(format).name);
 }
 
 std::string streamHeader(StreamFormat format, std::uint64_t frames, std::uint64_t rows) {

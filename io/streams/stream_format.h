@@ -5,21 +5,12 @@
 #include <cstdint>
 #include <string>
 
+#include "base/stream_formats.h"
 #include "base/streams.h"
 
-/// The two containers of a stream: frames x rows x 3 float32, little endian, frame after frame.
+/// The containers of a stream. NumPy arrays (version 1.0) and point caches hold frames x rows x 3 float32,
+/// little endian, frame after frame.
 namespace throng::io {
-
-enum class StreamFormat {
-    npy,  ///< NumPy array file, version 1.0
-    pc2,  ///< point cache as Blender's Mesh Cache modifier reads it
-};
-
-/// Every stream is written in all of them.
-inline constexpr StreamFormat kStreamFormats[] = {StreamFormat::npy, StreamFormat::pc2};
-
-/// Also of files' names.
-std::string nameOf(StreamFormat format);
 
 /// Where a stream is in the folder of its bake, with forward slashes.
 std::string streamFile(const StreamInfo& info, StreamFormat format);

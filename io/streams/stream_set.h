@@ -10,9 +10,9 @@ namespace throng::io {
 /// The streams of one bake, of one size, for reading. A stream is opened when it is first asked for.
 class StreamSet {
   public:
-    /// @param bake the folder; @param streams that it has
-    StreamSet(std::filesystem::path bake, const StreamChoice& streams, std::uint32_t frames,
-              std::uint32_t rows);
+    /// @param bake the folder; @param streams that it has; @param formats in which it has them
+    StreamSet(std::filesystem::path bake, const StreamChoice& streams, const StreamFormats& formats,
+              std::uint32_t frames, std::uint32_t rows);
 
     std::uint32_t frames() const { return frames_; }
     std::uint32_t rows() const { return rows_; }
@@ -24,6 +24,7 @@ class StreamSet {
   private:
     std::filesystem::path bake_;
     StreamChoice streams_;
+    StreamFormat format_;  ///< in which they are read
     std::uint32_t frames_ = 0, rows_ = 0;
     mutable PerStream<std::optional<StreamReader>> readers_;
 };

@@ -155,7 +155,7 @@ TEST(ApplyOverrides, HeadingsGoTheShorterWayRound) {
     write(Stream::pos, {0, 0, 0, 1, 0, 0});
     write(Stream::dir, {c, s, 1, c, -s, 1});
     write(Stream::state, {1, 2, 0.5f, 2, 3, 1.5f});
-    const StreamSet streams(folder.path(), streamsOf(false, {}), 2, 1);
+    const StreamSet streams(folder.path(), streamsOf(false, {}), StreamFormats::standard(), 2, 1);
     const RowSampler sampler(streams);
     EXPECT_NEAR(sampler.at(0, 0.5, 1.0)[Stream::dir][0], -1.0, 1e-6);
     EXPECT_NEAR(sampler.at(0, 0.25, 2.0)[Stream::dir][2], 2.0, 1e-6);

@@ -121,8 +121,10 @@ TEST_P(EveryStream, IsInTheFilesAndTheManifest) {
             EXPECT_EQ(told["units"].at(i).get<std::string>(), info.components[i].unit);
             EXPECT_NE(told["interpolation"].at(i), "");
         }
-        for (const StreamFormat format : kStreamFormats) {
-            EXPECT_EQ(told[nameOf(format)], streamFile(info, format));
+        for (const StreamFormatInfo& each : kStreamFormats) {
+            const StreamFormat format = each.id;
+            if (!bake.formats.has(format)) continue;
+            EXPECT_EQ(told[std::string(each.name)], streamFile(info, format));
             const std::filesystem::path file = folder / "bake" / streamFile(info, format);
             std::filesystem::rename(file, folder / "elsewhere");
             const auto problems = verifyBake(folder / "bake").problems;

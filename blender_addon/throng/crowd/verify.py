@@ -2,7 +2,7 @@
 """What is wrong with the bake that a crowd plays."""
 import os
 
-from ..formats import FEET, Bake, BakeError, check_pc2, read_manifest
+from ..formats import FEET, Bake, BakeError, NoPointCaches, check_pc2, read_manifest
 from ..formats.listed_files import file_problems
 from .queries import absolute, bake_path
 
@@ -16,7 +16,7 @@ def verify(crowd, scene):
         return [str(error)]
     by_stream = {stream: list(_stream_problems(crowd, bake, stream)) for stream in bake.streams}
     problems = [problem for found in by_stream.values() for problem in found]
-    told = [bake.manifest["streams"][stream]["pc2"] for stream, found in by_stream.items() if found]
+    told = [bake.manifest["streams"][stream].get("pc2") for stream, found in by_stream.items() if found]
     problems += [sentence for _, sentence in file_problems(bake, told)]
     if len(crowd.data.vertices) != bake.agents:
         problems.append(f"the scene has {len(crowd.data.vertices)} people, the bake {bake.agents}: re-load mends it")
@@ -36,6 +36,9 @@ def _stream_problems(crowd, bake, stream):
         return
     try:
         check_pc2(bake.stream_path(stream), bake.agents, bake.frames)
+    except NoPointCaches as error:
+        yield str(error)
+        return
     except BakeError as error:
         yield str(error)
     stored = absolute(crowd, crowd.modifiers[f"throng {stream}"].filepath)

@@ -14,6 +14,10 @@ class BakeError(Exception):
     """A bake cannot be used; the message says why and what to do."""
 
 
+class NoPointCaches(BakeError):
+    """A bake's streams are whole, but in forms that Blender does not play."""
+
+
 class Bake:
     """A bake's manifest, and where its streams are."""
 
@@ -49,10 +53,15 @@ class Bake:
         return os.path.join(self.folder, name)
 
     def stream_path(self, stream):
+        """Of its point cache, which is what Blender plays."""
         try:
-            relative = self.manifest["streams"][stream]["pc2"]
-        except (KeyError, TypeError):
-            raise BakeError(f"bake.json names no PC2 file for the stream `{stream}`: bake again") from None
+            told = self.manifest["streams"][stream]
+            relative = told.get("pc2")
+        except (KeyError, TypeError, AttributeError):
+            raise BakeError(f"bake.json names no files for the stream `{stream}`: bake again") from None
+        if relative is None:
+            raise NoPointCaches(f"this bake has no point caches, which Blender plays: `throng convert {self.folder} "
+                                "-o NEW --streams pc2` makes a bake that has them")
         return os.path.join(self.folder, *relative.split("/"))
 
 

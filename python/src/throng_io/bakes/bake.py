@@ -16,6 +16,7 @@ from ..base import geometry
 from ..base.errors import BakeError, need
 from . import exports
 from .people import read_people
+from .streams import form_of, open_stream
 
 FORMAT, VERSION = "throng bake", 1
 
@@ -62,17 +63,12 @@ class Bake:
         told = self.about["streams"].get(name)
         if told is None:
             raise BakeError(f"{self.folder} has no stream {name!r}", f"it has {', '.join(self.streams)}")
-        path = _inside(self.folder, told["npy"])
-        try:
-            # What is empty cannot be mapped.
-            array = numpy.load(path, mmap_mode="r" if self.agents and self.frames else None, allow_pickle=False)
-        except (OSError, ValueError) as error:
-            raise BakeError(f"{path} cannot be read: {error}", "`throng verify` says what is damaged") from error
-        expected = (self.frames, self.agents, len(told["components"]))
-        if array.shape != expected or array.dtype != numpy.float32:
-            raise BakeError(f"{path} is {array.shape} of {array.dtype}, expected {expected} of float32",
-                            "`throng verify` says what is damaged")
-        return array
+        form = form_of(told)
+        if form is None:
+            raise BakeError(f"{self.folder} has no form of the stream {name!r} that this version reads",
+                            "`throng convert` writes it in others")
+        return open_stream(_inside(self.folder, told[form]), form,
+                           (self.frames, self.agents, len(told["components"])))
 
     def component(self, name: str) -> numpy.ndarray:
         """Frames x people: a view of one number by its name, "speed", or "density.area" with its stream."""
