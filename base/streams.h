@@ -17,7 +17,7 @@ namespace throng {
 inline constexpr std::size_t kComponents = 3;  ///< point caches know no other number
 
 /// In the order of kStreams.
-enum class Stream { pos, dir, state, density, ground, wish, left_foot, right_foot };
+enum class Stream { pos, dir, state, density, ground, wish, left_foot, right_foot, gaze };
 
 /// What a row holds in the frames before it is first alive.
 enum class BackFill {
@@ -52,7 +52,7 @@ enum class InPlane {
 enum class StreamSource {
     motion,   ///< made of the simulated motion by recording/motion_recorder.h: every bake
     terrain,  ///< likewise: every bake with a terrain
-    feet,     ///< likewise: bakes that are asked for them
+    pose,     ///< likewise: bakes that are asked for them
     device,   ///< packed by a shader of its own and written as it is: bakes that are asked for it
 };
 
@@ -73,7 +73,7 @@ struct StreamInfo {
 
 /// Whether a bake has such streams only where it is asked for them.
 constexpr bool isAskedFor(const StreamInfo& info) {
-    return info.source == StreamSource::device || info.source == StreamSource::feet;
+    return info.source == StreamSource::device || info.source == StreamSource::pose;
 }
 
 inline constexpr std::array<StreamComponent, kComponents> kFootComponents{
@@ -131,14 +131,21 @@ inline constexpr std::array kStreams = {
                .name = "left_foot",
                .about = "how far the left foot has to be moved from where a clip has it",
                .components = kFootComponents,
-               .source = StreamSource::feet,
+               .source = StreamSource::pose,
                .option = "feet"},
     StreamInfo{.id = Stream::right_foot,
                .name = "right_foot",
                .about = "the same of the right foot",
                .components = kFootComponents,
-               .source = StreamSource::feet,
+               .source = StreamSource::pose,
                .option = "feet"},
+    StreamInfo{.id = Stream::gaze,
+               .name = "gaze",
+               .about = "which way everybody looks, from where the body faces, and at whom",
+               .components = {{{"yaw", "rad", BackFill::zero, Between::linear},
+                               {"pitch", "rad", BackFill::zero, Between::linear},
+                               {"at", "1", BackFill::zero, Between::nearest}}},
+               .source = StreamSource::pose},
 };
 
 /// Something for each stream.

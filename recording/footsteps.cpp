@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "recording/spring.h"
+
 namespace throng::recording {
 namespace {
 
@@ -67,16 +69,6 @@ struct ClipFoot {
 
     double stride, down, down_for;
 };
-
-/// A critically damped spring, exactly: frames may be as long as they like.
-template <class Value>
-void approach(Value& value, Value& rate, Value target, float interval) {
-    const float decay = std::exp(-kStiffness * interval);
-    const Value apart = value - target;
-    const Value push = rate + kStiffness * apart;
-    value = target + (apart + push * interval) * decay;
-    rate = (rate - kStiffness * interval * push) * decay;
-}
 
 }  // namespace
 
@@ -199,9 +191,9 @@ void Footsteps::move(Foot& foot, const Moment& now, std::size_t side) const {
     }
     foot.away += now.carries[side];  // which is no swing: the foot stays where it is, and follows
     const float half = 0.5f * now.stands_for;
-    approach(foot.away, foot.rate, atMost(half * now.slides, kMostAhead), interval_);
+    approach(foot.away, foot.rate, atMost(half * now.slides, kMostAhead), kStiffness, interval_);
     approach(foot.turn, foot.turn_rate, std::clamp(half * now.turns, -kMostTurnAhead, kMostTurnAhead),
-             interval_);
+             kStiffness, interval_);
     const bool swings = now.walks > kSwingsFrom && !now.down[side];
     const bool comes_down = foot.contact == Contact::steps ? foot.since >= foot.lasts && !swings : !swings;
     if (!comes_down) return;

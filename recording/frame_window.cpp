@@ -47,7 +47,7 @@ std::vector<double> hann(std::uint32_t reach) {
 KeptFrame::KeptFrame(const Frame& frame) : index(frame.index) {
     for (const StreamInfo& info : kStreams) {
         // Others are made of the motion once that is steady.
-        if (info.source == StreamSource::terrain || info.source == StreamSource::feet) continue;
+        if (info.source == StreamSource::terrain || info.source == StreamSource::pose) continue;
         streams[info.id].assign(frame[info.id].begin(), frame[info.id].end());
     }
 }

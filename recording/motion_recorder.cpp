@@ -47,7 +47,13 @@ MotionRecorder::MotionRecorder(const BakeDescription& description, Sink sink)
         for (std::vector<float>& values : feet_)
             values.resize(walkers_.size() * kComponents);
     }
+    if (description.asked[Stream::gaze]) {
+        gazes_.emplace(walkers_.size(), fps_, description.minimum - description.scene_origin,
+                       description.maximum - description.scene_origin);
+        gaze_values_.resize(walkers_.size() * kComponents);
+    }
     for (const BakeAgent& agent : description.agents) {
+        parties_.push_back(agent.party);
         radii_.push_back(agent.radius);
         speeds_.push_back(agent.preferred_speed);
         scales_.push_back(static_cast<float>(agent.scale));
@@ -74,6 +80,7 @@ void MotionRecorder::giveOut() {
     states_ = frame[Stream::state];
     if (window_.reach() > 0) average(frame);
     record(frame);
+    if (gazes_) look(frame);
     Frame shown = frame.view();
     shown[Stream::pos] = positions_;
     shown[Stream::dir] = directions_;
@@ -81,6 +88,7 @@ void MotionRecorder::giveOut() {
     shown[Stream::ground] = grounds_;
     shown[Stream::left_foot] = feet_[0];
     shown[Stream::right_foot] = feet_[1];
+    shown[Stream::gaze] = gaze_values_;
     sink_(shown);
     window_.advance();
 }
@@ -164,6 +172,30 @@ void MotionRecorder::putFeet(std::size_t at, const std::array<FootMove, 2>& feet
     }
 }
 
+void MotionRecorder::look(const KeptFrame& frame) {
+    onlookers_.clear();
+    for (std::uint32_t row = 0; row < walkers_.size(); ++row) {
+        const std::size_t at = row * kComponents;
+        if (frame.isAlive(row))
+            onlookers_.push_back({row,
+                                  parties_[row],
+                                  {positions_[at], positions_[at + 1]},
+                                  positions_[at + 2],
+                                  {directions_[at], directions_[at + 1]},
+                                  directions_[at + 2]});
+        else
+            std::fill_n(gaze_values_.begin() + static_cast<std::ptrdiff_t>(at), kComponents, 0.0f);
+    }
+    gazes_->look(onlookers_);
+    for (const Onlooker& each : onlookers_) {
+        const Gaze& gaze = (*gazes_)[each.row];
+        const std::size_t at = each.row * kComponents;
+        gaze_values_[at] = gaze.yaw;
+        gaze_values_[at + 1] = gaze.pitch;
+        gaze_values_[at + 2] = gaze.at;
+    }
+}
+
 std::vector<std::byte> MotionRecorder::save() const {
     std::vector<std::byte> bytes(sizeof taken_ + walkers_.size() * sizeof(Walker));
     std::memcpy(bytes.data(), &taken_, sizeof taken_);
@@ -171,6 +203,7 @@ std::vector<std::byte> MotionRecorder::save() const {
         std::memcpy(bytes.data() + sizeof taken_, walkers_.data(), walkers_.size() * sizeof(Walker));
     if (footing_) bytes.insert(bytes.end(), footing_->state().begin(), footing_->state().end());
     if (footsteps_) bytes.insert(bytes.end(), footsteps_->state().begin(), footsteps_->state().end());
+    if (gazes_) bytes.insert(bytes.end(), gazes_->state().begin(), gazes_->state().end());
     window_.save(bytes);
     return bytes;
 }
@@ -189,6 +222,7 @@ void MotionRecorder::restore(std::span<const std::byte> bytes) {
     };
     if (footing_) take(footing_->state());
     if (footsteps_) take(footsteps_->state());
+    if (gazes_) take(gazes_->state());
     window_.restore(bytes, walkers_.size(), carried_);
 }
 
