@@ -48,3 +48,11 @@ def rotated(maths, value, axis, angle, centre=None):
         if given is not None:
             maths.link(given, node.inputs[name])
     return node.outputs[0]
+
+
+def index(maths):
+    return maths.node("GeometryNodeInputIndex").outputs[0]
+
+
+def place(maths):
+    return maths.node("GeometryNodeInputPosition").outputs[0]

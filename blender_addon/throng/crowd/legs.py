@@ -6,12 +6,10 @@ bake that was asked for it (`--feet`) says of each foot how far it has to be mov
 Here legs follow: the foot goes where it has to, and the knee bends the way it did, as much as is needed (two-bone
 inverse kinematics). Where a leg is too short for that, the whole body sinks, as people's do in long steps.
 """
-from dataclasses import dataclass
-
-from ..blender.vectors import combined, parts, rotated, scaled, vector
+from ..blender.vectors import combined, index, parts, place, rotated, scaled, vector
 from ..cast import bones
 from ..formats import FEET
-from .names import BONE, WHO
+from .names import BONE
 
 FOOT_MOVES = tuple(f"throng_{foot}" for foot in FEET)  # of points: as the streams have them
 TURN_STEPS = 512.0   # of a radian, in the streams
@@ -26,16 +24,6 @@ _HIP, _KNEE, _ANKLE, _KNEE_TO, _ANKLE_TO = (f"throng_{name}" for name in ("hip",
                                                                           "ankle_to"))
 
 
-@dataclass
-class Bones:
-    """All bones of the people who are bent."""
-    points: object     # a point for each, in the scene, with its columns as attributes
-    sheet: object      # geometry: points of all members' bones in all poses, and then their legs' joints at rest
-    first_joint: int   # the first joint's number in it
-    count: int         # bones a person
-    chains: list       # numbers of thigh, calf, foot and toes of the left leg, then of the right one
-
-
 def _copies(maths, points, count, name):
     node = maths.node("GeometryNodeDuplicateElements", domain="POINT")
     maths.link(points, node.inputs["Geometry"])
@@ -43,29 +31,13 @@ def _copies(maths, points, count, name):
     return maths.store(node.outputs["Geometry"], name, node.outputs["Duplicate Index"], "INT")
 
 
-def _index(maths):
-    return maths.node("GeometryNodeInputIndex").outputs[0]
-
-
-def _place(maths):
-    return maths.node("GeometryNodeInputPosition").outputs[0]
-
-
-def _joint(maths, all_, number, columns):
+def _joint(maths, all_, number):
     """Where a joint of everybody's leg is: 0 hip, 1 knee, 2 ankle. At points of legs."""
     side = maths.attribute(_SIDE, "INT")
-    left, right = all_.chains[number], all_.chains[4 + number]
-    person = maths.math("FLOOR", maths.math("DIVIDE", maths.math("ADD", _index(maths), 0.5), 2.0))
-    bone = maths.math("MULTIPLY_ADD", side, float(right - left),
-                      maths.math("MULTIPLY_ADD", person, float(all_.count), float(left)))
-    rest = maths.math("MULTIPLY_ADD", maths.attribute(WHO, "INT"), 6.0,
-                      maths.math("MULTIPLY_ADD", side, 3.0, float(all_.first_joint + number)))
-    rest = bones.sample(maths, all_.sheet, _place(maths), rest)
-    total = bones.sample(maths, all_.points, _place(maths), bone)
-    for name, along in zip(columns[:3], parts(maths, rest)):
-        column = bones.sample(maths, all_.points, maths.attribute(name, "FLOAT_VECTOR"), bone)
-        total = vector(maths, "ADD", total, scaled(maths, column, along))
-    return total
+    left, right = all_.limbs[number], all_.limbs[4 + number]
+    person = maths.math("FLOOR", maths.math("DIVIDE", maths.math("ADD", index(maths), 0.5), 2.0))
+    bone = maths.math("MULTIPLY_ADD", side, float(right - left), float(left))
+    return all_.joint(maths, person, bone, maths.math("MULTIPLY_ADD", side, 3.0, float(number)))
 
 
 def _from_to(maths, one, other):
@@ -82,12 +54,12 @@ def _across(maths, value, direction):
                   scaled(maths, direction, vector(maths, "DOT_PRODUCT", value, direction)))
 
 
-def _legs(maths, people, all_, placed, columns):
+def _legs(maths, people, all_, placed):
     """A point for each leg: the left one of the first person, the right one, the left one of the second ...; with
     where its joints are, and where knee and ankle have to be."""
     legs = _copies(maths, people, 2, _SIDE)
     for number, name in enumerate((_HIP, _KNEE, _ANKLE)):
-        legs = maths.store(legs, name, _joint(maths, all_, number, columns), "FLOAT_VECTOR")
+        legs = maths.store(legs, name, _joint(maths, all_, number), "FLOAT_VECTOR")
     hip, knee, ankle = (maths.attribute(name, "FLOAT_VECTOR") for name in (_HIP, _KNEE, _ANKLE))
 
     forward, aside, both = parts(maths, _move(maths))
@@ -104,7 +76,7 @@ def _legs(maths, people, all_, placed, columns):
         "SUBTRACT", maths.math("MULTIPLY", longest, longest), aside), 0.0))
     sinks = maths.math("MAXIMUM", maths.math("SUBTRACT", 0.0, maths.math("ADD", z, down)), 0.0)
     legs = maths.store(legs, _SINKS, maths.math("MINIMUM", sinks, SINKS))
-    other = maths.math("SUBTRACT", maths.math("ADD", _index(maths), 1.0),
+    other = maths.math("SUBTRACT", maths.math("ADD", index(maths), 1.0),
                        maths.math("MULTIPLY", maths.attribute(_SIDE, "INT"), 2.0))
     own = maths.attribute(_SINKS)
     legs = maths.store(legs, _SINKS, maths.math("MAXIMUM", own, bones.sample(maths, legs, own, other, "FLOAT")))
@@ -167,17 +139,16 @@ def _parts_of_legs(maths, legs):
     return found
 
 
-def with_feet_held(maths, people, all_, placed, columns):
+def with_feet_held(maths, people, all_, placed):
     """The points of bones, moved as the legs have to.
 
-    @param placed (maths, vector of somebody's own frame) is that vector in the scene; @param columns names of the
-    attributes that turn with their bone: x, y and z first
+    @param placed (maths, vector of somebody's own frame) is that vector in the scene
     """
-    table = _parts_of_legs(maths, _legs(maths, people, all_, placed, columns))
+    table = _parts_of_legs(maths, _legs(maths, people, all_, placed))
     bone = maths.attribute(BONE, "INT")
-    person = maths.math("FLOOR", maths.math("DIVIDE", maths.math("ADD", _index(maths), 0.5), float(all_.count)))
+    person = all_.person(maths)
     row = maths.math("MULTIPLY_ADD", person, 2.0 * _PARTS, _PARTS - 1.0)
-    for number, leg_bone in enumerate(all_.chains):
+    for number, leg_bone in enumerate(all_.limbs[:8]):
         own = number // 4 * _PARTS + min(number % 4, 2)
         row = maths.math("MULTIPLY_ADD", maths.math("COMPARE", bone, float(leg_bone), 0.5), own - (_PARTS - 1.0), row)
     points = all_.points
@@ -186,10 +157,10 @@ def with_feet_held(maths, people, all_, placed, columns):
         points = maths.store(points, name, value, "FLOAT_VECTOR")
     centre, axis, shift = (maths.attribute(name, "FLOAT_VECTOR") for name in (_CENTRE, _TURNS, _SHIFT))
     angle = vector(maths, "LENGTH", axis)
-    for name in columns:
+    for name in all_.columns:
         points = maths.store(points, name, rotated(maths, maths.attribute(name, "FLOAT_VECTOR"), axis, angle),
                              "FLOAT_VECTOR")
     put = maths.node("GeometryNodeSetPosition")
     maths.link(points, put.inputs["Geometry"])
-    maths.link(vector(maths, "ADD", rotated(maths, _place(maths), axis, angle, centre), shift), put.inputs["Position"])
+    maths.link(vector(maths, "ADD", rotated(maths, place(maths), axis, angle, centre), shift), put.inputs["Position"])
     return put.outputs[0]

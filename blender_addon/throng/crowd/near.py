@@ -20,8 +20,10 @@ from ..blender.nodes import Maths, drop_tree, new_tree, own_tree, socket
 from ..blender.vectors import between, combined, parts, scaled, vector
 from ..cast import BEATS, POSES, bones, library
 from ..cast.sheets import sheet_of
-from . import legs, poses
-from .names import BIGGER, BONE, GROUND, HIDDEN, LEVEL, NATURE, NEAR, ROW, WHO
+from ..formats import FEET
+from . import heads, legs, poses
+from .bent_bones import BentBones
+from .names import BIGGER, BONE, GROUND, HIDDEN, LEVEL, NATURE, NEAR, POSE_STREAMS, ROW, WHO
 from .own import FIRST, OWN
 
 MODIFIER = "throng near"
@@ -301,11 +303,10 @@ def _rest_of(name, figure):
     return found
 
 
-def near_tree(cast, repertoire, sheet, drawn, own, held):
+def near_tree(cast, repertoire, sheet, drawn, own, streams):
     """A group that makes one mesh of all points that it gets.
 
-    @param sheet the object of all members' bones (bones.join_sheets); @param held whether points say where their feet
-    are held (legs.py)
+    @param sheet the object of all members' bones (bones.join_sheets); @param streams that points have
     """
     figures = boned_members(cast)
     tree, inputs, outputs = new_tree("Throng near people", _GEOMETRY + [("Blur", "NodeSocketBool")], _GEOMETRY)
@@ -316,15 +317,17 @@ def near_tree(cast, repertoire, sheet, drawn, own, held):
     bone_count = sheet_of(figures[0])["throng_bones"]
     bones_, pose_count = socket(info.outputs, "Geometry"), repertoire.poses(0)
     hung_on = _bone_points(maths, people, bones_, pose_count, bone_count)
-    chains = bones.legs_of([sheet_of(figure) for figure in figures]) if held else None
-    if chains:
-        all_ = legs.Bones(hung_on, bones_, len(figures) * pose_count * bone_count, bone_count, chains)
-        hung_on = legs.with_feet_held(maths, people, all_, _placed, (*_COLUMNS, *_CHANGES))
+    limbs = bones.limbs_of([sheet_of(figure) for figure in figures])
+    for stream, bend in ((FEET[0], legs.with_feet_held), ("gaze", heads.with_heads_turned)):
+        if limbs and stream in streams:
+            first_joint = len(figures) * pose_count * bone_count
+            all_ = BentBones(hung_on, (*_COLUMNS, *_CHANGES), bones_, first_joint, bone_count, limbs)
+            hung_on = bend(maths, people, all_, _placed)
     rests = [_rest_of(f"{figure.name} at rest", figure) for figure in figures]
     for rest in rests:
         if rest.name not in cast.objects:
             cast.objects.link(rest)
-    spare = ("id", "throng_dir", "throng_state", NATURE, NEAR, GROUND, LEVEL, FIRST, OWN, *legs.FOOT_MOVES)
+    spare = ("id", "throng_dir", "throng_state", NATURE, NEAR, GROUND, LEVEL, FIRST, OWN, *POSE_STREAMS)
     bodies = people
     for name in spare:
         bodies = _without(maths, bodies, name)

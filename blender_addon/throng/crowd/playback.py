@@ -12,7 +12,7 @@ import bpy
 
 from ..blender.modifiers import move_modifier
 from ..blender.nodes import Maths, drop_tree, get_input, new_tree, set_input
-from ..formats import FEET, STREAMS
+from ..formats import FEET, POSE, STREAMS
 from . import footing, near, own
 from .instancer import instancer_tree
 from .names import INSTANCERS, NATURE
@@ -35,8 +35,8 @@ def set_cast(crowd, cast):
     modifiers = [crowd.modifiers[name] for name in INSTANCERS]
     before = modifiers[0].node_group
     shares = [get_input(modifier, "Share") if modifier.node_group else 2.0 for modifier in modifiers]  # 2: everybody
-    held = f"throng {FEET[0]}" in crowd.modifiers
-    tree = instancer_tree(cast, repertoire_of(crowd), footing.slopes(crowd), near.bones_for(crowd, cast), held)
+    streams = [stream for stream in POSE if f"throng {stream}" in crowd.modifiers]
+    tree = instancer_tree(cast, repertoire_of(crowd), footing.slopes(crowd), near.bones_for(crowd, cast), streams)
     for modifier, share in zip(modifiers, shares):
         modifier.node_group = tree
         set_input(modifier, "Share", share)
@@ -92,9 +92,9 @@ def _filed(stream):
     return f"throng {stream} to attribute"
 
 
-def follow_feet(crowd, paths):
-    """Plays the streams of feet, or no more, as the bake has them: another time it may be baked without."""
-    for stream in FEET:
+def follow_pose(crowd, paths):
+    """Plays the streams of feet and heads, or no more, as the bake has them: another time it may be baked without."""
+    for stream in POSE:
         played = f"throng {stream}" in crowd.modifiers
         if played and stream not in paths:
             tree = crowd.modifiers[_filed(stream)].node_group
@@ -114,7 +114,7 @@ def build_crowd(bake, name, cast, frame_start, paths):
     mesh.vertices.add(bake.agents)
     give_natures(mesh)
     crowd = bpy.data.objects.new(name, mesh)
-    for stream in (each for each in ("state", "dir", "ground", *FEET) if each in paths):
+    for stream in (each for each in ("state", "dir", "ground", *POSE) if each in paths):
         _add_stream(crowd, stream, paths[stream], frame_start)
     add_cache(crowd, "throng pos", paths["pos"], "LINEAR", frame_start)
     for name, hidden in zip(INSTANCERS, ("show_viewport", "show_render")):

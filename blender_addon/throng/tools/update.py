@@ -7,7 +7,7 @@ from ..blender.paths import stored_path
 from ..characters import members
 from ..crowd import own, playback
 from ..crowd.queries import bake_path, caches, collection_of
-from ..formats import FEET, BakeError, load_bake
+from ..formats import POSE, BakeError, load_bake
 from ..overrides import native
 from ..overrides.layer import Arrival
 from . import mattes
@@ -39,7 +39,7 @@ def reload(crowd, scene, path=None):
     if list(bake.strides) != list(crowd.get("throng_strides", bake.strides)):
         raise BakeError("this bake walks with other strides than the cast was made for: import it anew")
     played = {cache.name.removeprefix("throng ") for cache in caches(crowd)}
-    if played - set(FEET) != set(bake.streams) - set(FEET):
+    if played - set(POSE) != set(bake.streams) - set(POSE):
         raise BakeError("one of the two bakes has a terrain and the other has none: import it anew")
     overrides = Arrival(bake, crowd)
     members.widen(crowd, bake.gaits)
@@ -52,7 +52,7 @@ def reload(crowd, scene, path=None):
     relative = crowd.modifiers["throng pos"].filepath.startswith("//")
     paths = {stream: stored_path(bake.stream_path(stream), relative) for stream in bake.streams}
     if played != set(paths):
-        playback.follow_feet(crowd, paths)
+        playback.follow_pose(crowd, paths)
     for stream, file in paths.items():
         crowd.modifiers[f"throng {stream}"].filepath = file
     set_frame_rate(scene, bake.fps)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs inside Blender: feet of near people, held where the bake says. ADDON BAKE"""
+"""Runs inside Blender: feet of near people, held where the bake says, and heads that look there. ADDON BAKE"""
 import json
 import os
 import shutil
@@ -21,8 +21,7 @@ from throng.tools import update  # noqa: E402
 
 casting.roles_for = lambda walkers, count: [Role(0), Role(1)]
 throng.register()
-_, way, state, left, right = (numpy.load(os.path.join(bake, "streams", f"{name}.npy"))
-                              for name in ("pos", "dir", "state", "left_foot", "right_foot"))
+way, state = (numpy.load(os.path.join(bake, "streams", f"{name}.npy")) for name in ("dir", "state"))
 FRAME = 20
 result = {}
 
@@ -48,14 +47,14 @@ def bent(crowd):
 
 
 def whole_bones(crowd, row):
-    """(V,): the bone that a vertex hangs on alone, or -1; and the legs' bones, (2, 4)."""
+    """(V,): the bone that a vertex hangs on alone, or -1; and the limbs' bones."""
     figure = library.figures_of(cast_of(crowd))[0, own.member_of(crowd, row, int(state[FRAME - 1, row, 1]), False)]
     hangs = numpy.empty(4 * len(figure.data.vertices), numpy.float32)
     figure.data.attributes[bones.HANGS].data.foreach_get("color", hangs)
     hangs = hangs.reshape(-1, 4)
     alone = (hangs[:, 1:] % 1.0).max(axis=1) == 0.0
     return numpy.where(alone, hangs[:, 0].astype(int), -1), \
-        numpy.array(sheets.sheet_of(figure)[bones.LEGS]).reshape(2, 4)
+        numpy.array(sheets.sheet_of(figure)[bones.LIMBS])
 
 
 def turned(before, after):
@@ -77,8 +76,8 @@ plain = f"{bake}-plain"
 shutil.copytree(bake, plain)
 with open(os.path.join(plain, "bake.json")) as file:
     manifest = json.load(file)
-for foot in ("left_foot", "right_foot"):
-    del manifest["streams"][foot]
+for stream in ("left_foot", "right_foot", "gaze"):
+    del manifest["streams"][stream]
 with open(os.path.join(plain, "bake.json"), "w") as file:
     json.dump(manifest, file)
 crowd = crowd_of(plain)
@@ -91,7 +90,8 @@ result["same people"] = sorted(held) == sorted(without)
 result["rows"] = {}
 for row in held:
     before, after = without[row], held[row]
-    bone, chains = whole_bones(crowd, row)
+    bone, limbs = whole_bones(crowd, row)
+    chains, (neck, head) = limbs[:8].reshape(2, 4), limbs[8:]
     cosine, sine, _ = way[FRAME - 1, row]
     found = {"highest": float((after - before)[before[:, 2].argmax(), 2])}
     for side, name in enumerate(("left", "right")):
@@ -103,6 +103,15 @@ for row in held:
                        "apart": float(numpy.abs(shift - move).max()), "turned": turned(before[foot], after[foot]),
                        "stretched": max(stretched(before[part][:60], after[part][:60])
                                         for part in (calf, thigh) if part.sum() > 3)}
+    head, neck = bone == head, bone == neck
+    forward = (after[head] - after[head].mean(axis=0)) @ (cosine, sine, 0.0)
+    before_it = (before[head] - before[head].mean(axis=0)) @ (cosine, sine, 0.0)
+    ahead = before_it.argmax()  # the nose, or a hat's brim
+    found["head"] = {"turned": turned(before[head], after[head]), "stretched": stretched(before[head][:90],
+                                                                                       after[head][:90]),
+                     "up": float((after[head] - after[head].mean(axis=0))[ahead, 2]
+                                 - (before[head] - before[head].mean(axis=0))[ahead, 2]), "ahead": float(forward[ahead]),
+                     "neck": turned(before[neck], after[neck])[0] if neck.sum() > 3 else None}
     result["rows"][row] = found
 
 # baked again without them, and again with them
