@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <utility>
 
 #include "base/frame.h"
 #include "base/random.h"
@@ -22,6 +23,7 @@ constexpr double kSeen = 1.2, kStillSeen = 1.45;                // rad, from the
 constexpr double kOncoming = -0.3;                              // cosine between headings
 constexpr double kTogether = 1.1, kComes = 1.0, kOther = 0.35;  // how much people draw eyes, nearby
 constexpr double kCurious = 0.3, kVaries = 0.35;  // as much has somebody to draw; more, at times
+constexpr double kMindsTheWay = 0.35;             // share of times that walkers look ahead first
 constexpr double kLeads = 0.3, kMostLead = 0.6;   // s, rad: by how much heads are ahead of turns
 constexpr double kGround = -0.08;                 // rad: who walks looks at the ground ahead
 constexpr float kStiffness = 9.0f;                // 1/s, of necks
@@ -81,30 +83,38 @@ const Onlooker* Gazes::seenBy(const Onlooker& self, std::span<const Onlooker> pe
     return away > kLost || away < 1.0e-6 || std::abs(angleTo(self, other)) > kStillSeen ? nullptr : &other;
 }
 
+/// Who draws somebody's eyes most: Gaze::at of it, 0 where nobody does. @param before who has been looked at
+std::uint32_t Gazes::whoDraws(const Onlooker& self, std::span<const Onlooker> people, std::uint32_t before) {
+    double most = kCurious + kVaries * draw(self.row);
+    const std::uint32_t number = heads_[self.row].draws;
+    std::uint32_t found = 0;
+    grid_.near(self.place, kNoticed, [&](std::uint32_t index) {
+        const Onlooker& other = people[index];
+        if (other.row == self.row || other.row + 1 == before) return;
+        const double varied = 0.5 + static_cast<double>(scramble(other.row + number) >> 40) * 0x1.0p-24;
+        const double drawn = draws(self, other) * varied;
+        if (drawn <= most) return;
+        most = drawn;
+        found = other.row + 1;
+    });
+    return found;
+}
+
 void Gazes::choose(const Onlooker& self, std::span<const Onlooker> people) {
     Head& head = heads_[self.row];
     const auto between = [&](double low, double high) {
         return static_cast<float>(low + (high - low) * draw(self.row));
     };
     const bool stands = self.speed < gpu::STANDING_SPEED;
-    double most = kCurious + kVaries * draw(self.row);
-    const std::uint32_t before = head.at;
-    head.at = 0;
-    grid_.near(self.place, kNoticed, [&](std::uint32_t index) {
-        const Onlooker& other = people[index];
-        if (other.row == self.row || other.row + 1 == before) return;
-        const double drawn = draws(self, other) *
-                             (0.5 + static_cast<double>(scramble(other.row + head.draws) >> 40) * 0x1.0p-24);
-        if (drawn <= most) return;
-        most = drawn;
-        head.at = other.row + 1;
-    });
+    const std::uint32_t before = std::exchange(head.at, 0);
+    const bool minds_the_way = !stands && (before > 0 || draw(self.row) < kMindsTheWay);
+    if (!minds_the_way) head.at = whoDraws(self, people, before);
     if (head.at > 0) {
         const bool together = people[index_[head.at - 1]].party == self.party;
         head.left = together ? between(1.2, stands ? 5.0 : 2.5) : between(0.6, 1.8);
         return;
     }
-    const bool ahead = !stands && draw(self.row) < 0.7;
+    const bool ahead = minds_the_way || (!stands && draw(self.row) < kMindsTheWay);
     head.aside = ahead ? 0.0f : between(-1.0, 1.0);
     head.up = ahead ? static_cast<float>(kGround) : between(-0.15, 0.1);
     head.left = ahead ? between(0.8, 3.0) : stands ? between(1.0, 4.0) : between(0.5, 1.2);

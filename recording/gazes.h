@@ -58,6 +58,7 @@ class Gazes {
         std::uint32_t known = 0;  ///< 0: has not been here yet
     };
     double draw(std::uint32_t row);
+    std::uint32_t whoDraws(const Onlooker& self, std::span<const Onlooker> people, std::uint32_t before);
     void choose(const Onlooker& self, std::span<const Onlooker> people);
     void follow(const Onlooker& self, std::span<const Onlooker> people);
     const Onlooker* seenBy(const Onlooker& self, std::span<const Onlooker> people) const;

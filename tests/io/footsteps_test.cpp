@@ -123,7 +123,8 @@ TEST(Footsteps, StepRoundWithOneFootAtATimeWhereSomebodyTurnsOnTheSpot) {
 
 TEST(Footsteps, ComeTogetherWhereSomebodyStops) {
     const auto stop = [](double t) { return Place{{t < 2.2 ? 1.3 * t : 1.3 * 2.2, 0.0}, 0.0}; };
-    for (const FootMove& move : walk(stop, 6.0).back().moves)
+    const std::vector<Seen> seen = walk(stop, 6.0);
+    for (const FootMove& move : seen.back().moves)
         EXPECT_LT(std::hypot(move.forward, move.left), 0.06);
 }
 

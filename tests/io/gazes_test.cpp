@@ -91,7 +91,7 @@ TEST(Gazes, FallOnWhoComesAndLeaveWhoHasPassed) {
                 EXPECT_LT(static_cast<double>(frame) / kFps, 5.0) << "they meet after 5 s";
             }
     }
-    EXPECT_GT(looked, 12);
+    EXPECT_GT(looked, 8);
     EXPECT_LT(looked, 32);
 }
 
