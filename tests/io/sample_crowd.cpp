@@ -132,6 +132,7 @@ recording::BakeDescription SampleCrowd::description(const std::filesystem::path&
     description.driver = "none";
     description.gltf = options_.gltf;
     description.gltf_agents = options_.gltf_agents;
+    description.formats = options_.formats;
     description.diagram_every = options_.diagram_every;
     if (!options_.every_stream) return description;
     description.terrain = slope(options_.origin, description.scene_origin, description.walls.size());
