@@ -11,7 +11,7 @@
 namespace throng {
 
 /// In the order of kStreamFormats, which is that in which readers prefer them.
-enum class StreamFormat { npy, pc2 };
+enum class StreamFormat { npy, pc2, packed };
 
 /// One row of the table.
 struct StreamFormatInfo {
@@ -20,11 +20,14 @@ struct StreamFormatInfo {
     std::string_view about;  ///< in words
     double bytes;            ///< that a person takes in a frame of one stream, about
     bool is_default;         ///< written unless told
+    bool is_exact;           ///< holds what was recorded to the last bit
 };
 
 inline constexpr std::array kStreamFormats = {
-    StreamFormatInfo{StreamFormat::npy, "npy", "NumPy arrays", 12.0, true},
-    StreamFormatInfo{StreamFormat::pc2, "pc2", "point caches, which Blender plays", 12.0, true},
+    StreamFormatInfo{StreamFormat::npy, "npy", "NumPy arrays", 12.0, true, true},
+    StreamFormatInfo{StreamFormat::pc2, "pc2", "point caches, which Blender plays", 12.0, true, true},
+    StreamFormatInfo{StreamFormat::packed, "packed", "compressed, positions to within 0.04 mm", 1.0, false,
+                     false},
 };
 
 constexpr const StreamFormatInfo& infoOf(StreamFormat format) {

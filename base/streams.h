@@ -38,7 +38,9 @@ struct StreamComponent {
     std::string_view unit;  ///< "1": none
     BackFill before_entry;
     Between between;
-    bool is_rate = false;  ///< grows with the pace of whoever lives faster, and is zero where time stands
+    double step;            ///< of the form `packed`, a power of two: values are off by half of it at most
+    bool is_rate = false;   ///< grows with the pace of whoever lives faster, and is zero where time stands
+    bool is_whole = false;  ///< all values are whole steps
 };
 
 /// What the first two components are in the plane.
@@ -55,6 +57,9 @@ enum class StreamSource {
     pose,     ///< likewise: bakes that are asked for them
     device,   ///< packed by a shader of its own and written as it is: bakes that are asked for it
 };
+
+inline constexpr double kFinest = 1.0 / 16384.0, kFine = 1.0 / 8192.0, kFair = 1.0 / 2048.0;  ///< steps
+constexpr bool kRate = true, kWhole = true;
 
 /// One row of the table.
 struct StreamInfo {
@@ -77,53 +82,54 @@ constexpr bool isAskedFor(const StreamInfo& info) {
 }
 
 inline constexpr std::array<StreamComponent, kComponents> kFootComponents{
-    {{"forward", "m", BackFill::zero, Between::nearest},
-     {"left", "m", BackFill::zero, Between::nearest},
-     {"turn_and_lift", "1", BackFill::zero, Between::nearest}}};
+    {{"forward", "m", BackFill::zero, Between::nearest, kFair},
+     {"left", "m", BackFill::zero, Between::nearest, kFair},
+     {"turn_and_lift", "1", BackFill::zero, Between::nearest, kFair}}};
 
 inline constexpr std::array kStreams = {
     StreamInfo{.id = Stream::pos,
                .name = "pos",
                .about = "where everybody is",
-               .components = {{{"x", "m", BackFill::first_alive, Between::linear},
-                               {"y", "m", BackFill::first_alive, Between::linear},
-                               {"z", "m", BackFill::first_alive, Between::linear}}},
+               .components = {{{"x", "m", BackFill::first_alive, Between::linear, kFinest},
+                               {"y", "m", BackFill::first_alive, Between::linear, kFinest},
+                               {"z", "m", BackFill::first_alive, Between::linear, kFinest}}},
                .in_plane = InPlane::place},
     StreamInfo{.id = Stream::dir,
                .name = "dir",
                .about = "which way everybody faces, and how fast it goes",
-               .components = {{{"cos_heading", "1", BackFill::first_alive, Between::heading},
-                               {"sin_heading", "1", BackFill::first_alive, Between::heading},
-                               {"speed", "m/s", BackFill::zero, Between::linear, true}}},
+               .components = {{{"cos_heading", "1", BackFill::first_alive, Between::heading, kFine},
+                               {"sin_heading", "1", BackFill::first_alive, Between::heading, kFine},
+                               {"speed", "m/s", BackFill::zero, Between::linear, kFair, kRate}}},
                .in_plane = InPlane::direction},
-    StreamInfo{.id = Stream::state,
-               .name = "state",
-               .about = "what everybody does, its looks, and its pose",
-               .components = {{{"activity", "1", BackFill::keep, Between::nearest},
-                               {"variation", "1", BackFill::first_alive, Between::nearest},
-                               {"phase", "cycles", BackFill::first_alive, Between::linear}}}},
+    StreamInfo{
+        .id = Stream::state,
+        .name = "state",
+        .about = "what everybody does, its looks, and its pose",
+        .components = {{{"activity", "1", BackFill::keep, Between::nearest, kFine, !kRate, kWhole},
+                        {"variation", "1", BackFill::first_alive, Between::nearest, 1.0, !kRate, kWhole},
+                        {"phase", "cycles", BackFill::first_alive, Between::linear, 0.5 * kFair}}}},
     StreamInfo{.id = Stream::density,
                .name = "density",
                .about = "persons per square metre by the area of each person's cell",
-               .components = {{{"density", "1/m^2", BackFill::keep, Between::linear},
-                               {"area", "m^2", BackFill::keep, Between::linear},
-                               {"share", "1", BackFill::keep, Between::linear}}},
+               .components = {{{"density", "1/m^2", BackFill::keep, Between::linear, 0.5 * kFair},
+                               {"area", "m^2", BackFill::keep, Between::linear, 0.5 * kFair},
+                               {"share", "1", BackFill::keep, Between::linear, kFine}}},
                .source = StreamSource::device,
                .shader = "shaders/frame/pack_density.comp",
                .needs_diagram = true},
     StreamInfo{.id = Stream::ground,
                .name = "ground",
                .about = "how the ground under everybody's feet slopes, and how high it is",
-               .components = {{{"slope_along", "1", BackFill::first_alive, Between::linear},
-                               {"slope_across", "1", BackFill::first_alive, Between::linear},
-                               {"height", "m", BackFill::first_alive, Between::linear}}},
+               .components = {{{"slope_along", "1", BackFill::first_alive, Between::linear, kFine},
+                               {"slope_across", "1", BackFill::first_alive, Between::linear, kFine},
+                               {"height", "m", BackFill::first_alive, Between::linear, kFine}}},
                .source = StreamSource::terrain},
     StreamInfo{.id = Stream::wish,
                .name = "wish",
                .about = "the velocity that everybody would like, and how much it has been held up lately",
-               .components = {{{"x", "m/s", BackFill::keep, Between::linear, true},
-                               {"y", "m/s", BackFill::keep, Between::linear, true},
-                               {"held_up", "1", BackFill::keep, Between::linear}}},
+               .components = {{{"x", "m/s", BackFill::keep, Between::linear, kFair, kRate},
+                               {"y", "m/s", BackFill::keep, Between::linear, kFair, kRate},
+                               {"held_up", "1", BackFill::keep, Between::linear, kFair}}},
                .source = StreamSource::device,
                .in_plane = InPlane::direction,
                .shader = "shaders/frame/pack_wish.comp"},
@@ -142,9 +148,9 @@ inline constexpr std::array kStreams = {
     StreamInfo{.id = Stream::gaze,
                .name = "gaze",
                .about = "which way everybody looks, from where the body faces, and at whom",
-               .components = {{{"yaw", "rad", BackFill::zero, Between::linear},
-                               {"pitch", "rad", BackFill::zero, Between::linear},
-                               {"at", "1", BackFill::zero, Between::nearest}}},
+               .components = {{{"yaw", "rad", BackFill::zero, Between::linear, kFair},
+                               {"pitch", "rad", BackFill::zero, Between::linear, kFair},
+                               {"at", "1", BackFill::zero, Between::nearest, 1.0, !kRate, kWhole}}},
                .source = StreamSource::pose},
 };
 

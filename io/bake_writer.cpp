@@ -31,6 +31,18 @@ std::string streamSection(const StreamInfo& info) {
     return fmt::format("hash of {}", info.name);
 }
 
+std::string packedSection(const StreamInfo& info) {
+    return fmt::format("packed {}", info.name);
+}
+
+std::span<const std::byte> packedStateIn(const Checkpoint& checkpoint, const StreamInfo& info) {
+    const std::vector<std::byte>* bytes = checkpoint.find(packedSection(info));
+    if (!bytes)
+        throw std::runtime_error(
+            fmt::format("the checkpoint says nothing of the packed stream `{}`", info.name));
+    return *bytes;
+}
+
 std::string diagramName(std::uint32_t frame) {
     return fmt::format("diagrams/diagram.{:04}.exr", frame + 1);
 }
@@ -97,14 +109,17 @@ BakeWriter::BakeWriter(recording::BakeDescription description, std::unique_ptr<B
 /// Those that were asked for come last, as bake.json has always listed their files.
 /// @param go_on_from may be before the first frame: the recorded motion lags behind
 void BakeWriter::openStreams(const Checkpoint* go_on_from) {
-    const auto frames_there = go_on_from ? std::optional(go_on_from->frames) : std::nullopt;
+    const bool is_packed = description_.formats.has(StreamFormat::packed);
     const StreamChoice streams = description_.streams();
     for (const bool asked : {false, true})
         for (const StreamInfo& info : kStreams) {
             if (!streams[info.id] || isAskedFor(info) != asked) continue;
+            std::optional<StreamSoFar> so_far;
+            if (go_on_from) so_far = {go_on_from->frames, {}};
+            if (go_on_from && is_packed) so_far->packed = packedStateIn(*go_on_from, info);
             streams_.emplace_back(folder_->path(), info, description_.formats,
                                   static_cast<std::uint32_t>(description_.agents.size()), description_.frames,
-                                  frames_there);
+                                  so_far);
             hashes_.emplace_back();
         }
 }
@@ -136,7 +151,7 @@ void BakeWriter::goOnFrom(const Checkpoint& checkpoint) {
     goOnWithDiagrams(checkpoint);
 }
 
-/// Of the frames that are there already, in every format.
+/// Of the frames that are there already, in every exact form; a packed file has been compared already.
 /// @param then what it was at the checkpoint
 void BakeWriter::hashAgain(std::size_t stream, std::uint64_t then) {
     std::vector<float> values(description_.agents.size() * kComponents);
@@ -183,6 +198,8 @@ void BakeWriter::save(Checkpoint checkpoint) {
     checkpoint.add(kFirstAlive, std::as_bytes(std::span(first_alive_)));
     checkpoint.add(kGaitsWalked, std::as_bytes(std::span(&gaits_, 1)));
     if (diagrams_) checkpoint.add(kDiagrams, std::as_bytes(std::span(&*diagrams_, 1)));
+    for (StreamFiles& stream : streams_)
+        if (const auto state = stream.packedState()) checkpoint.add(packedSection(stream.info()), *state);
     addHashes(checkpoint);
     saveCheckpoint(folder_->path(), checkpoint);
     folder_->keep();
@@ -199,8 +216,8 @@ void BakeWriter::write(const Frame& frame) {
         const StreamInfo& info = streams_[i].info();
         const std::span<const float> values =
             info.in_plane == InPlane::place ? placed(frame[info.id]) : frame[info.id];
-        streams_[i].append(values);
-        hashes_[i].add(frame.index, values, first_alive_);
+        streams_[i].append(values, first_alive_);
+        if (!streams_[i].writers().empty()) hashes_[i].add(frame.index, values, first_alive_);
     }
     ++frames_;
 }

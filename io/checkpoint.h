@@ -37,10 +37,6 @@ std::optional<Checkpoint> loadCheckpoint(const std::filesystem::path& folder);
 /// Whether there are checkpoints in a folder of which none is whole.
 bool hasOnlyTornCheckpoints(const std::filesystem::path& folder);
 
-/// What is said of a file that is not what it was when the checkpoint was made.
-inline constexpr const char* kDoesNotFitCheckpoint =
-    "is not what it was at the last checkpoint, so nothing goes on from there; --force starts over";
-
 /// Whether a file in the folder of a bake belongs to its checkpoints.
 bool isCheckpoint(const std::filesystem::path& path);
 

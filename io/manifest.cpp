@@ -64,6 +64,8 @@ Json streamToJson(const StreamInfo& info, const StreamFormats& formats) {
         json["components"].push_back(component.name);
         json["units"].push_back(component.unit);
         json["interpolation"].push_back(nameOf(component.between));
+        if (formats.has(StreamFormat::packed))
+            json["packed_error"].push_back(component.is_whole ? 0.0 : component.step / 2.0);
     }
     return json;
 }

@@ -9,6 +9,10 @@
 
 namespace throng::io {
 
+/// What is said of a file that is not what it was when the checkpoint was made.
+inline constexpr const char* kDoesNotFitCheckpoint =
+    "is not what it was at the last checkpoint, so nothing goes on from there; --force starts over";
+
 /// XXH3 of the frames of a stream, in which rows count from the frame they enter in: what they hold before
 /// is filled in when the bake ends, and a bake may be killed in the middle of that.
 class EnteredHash {

@@ -9,13 +9,15 @@
 #include "base/streams.h"
 
 /// The containers of a stream. NumPy arrays (version 1.0) and point caches hold frames x rows x 3 float32,
-/// little endian, frame after frame.
+/// little endian, frame after frame; packed
+/// ones are in io/streams/packed_layout.h.
 namespace throng::io {
 
 /// Where a stream is in the folder of its bake, with forward slashes.
 std::string streamFile(const StreamInfo& info, StreamFormat format);
 
-/// The size of the header depends on the format only, so that the counts can be mended in place.
+/// Of arrays and point caches: the size of the header depends on the format only, so that the counts can be
+/// mended in place.
 constexpr std::size_t headerSize(StreamFormat format) {
     return format == StreamFormat::npy ? 128 : 32;
 }

@@ -62,8 +62,17 @@ StreamReader::StreamReader(const std::filesystem::path& path) : file_(path) {
         readPc2Header();
     else if (std::memcmp(magic.data(), "\x93NUMPY", 6) == 0)
         readNpyHeader();
+    else if (std::memcmp(magic.data(), kPackedMagic.data(), kPackedMagic.size()) == 0)
+        openPacked();
     else
-        throw InputError(path, "neither an NPY nor a PC2 stream");
+        throw InputError(path, "neither an NPY nor a PC2 nor a packed stream");
+}
+
+void StreamReader::openPacked() {
+    format_ = StreamFormat::packed;
+    packed_ = std::make_unique<PackedReader>(file_);
+    frames_ = packed_->frames();
+    rows_ = packed_->rows();
 }
 
 void StreamReader::readPc2Header() {
@@ -126,7 +135,10 @@ void StreamReader::readRows(std::uint32_t frame, std::uint32_t first_row, std::s
     if (frame >= frames_ || values.size() % kComponents != 0 || first_row + count > rows_)
         throw std::out_of_range("no such frame or rows in the stream");
     const std::uint64_t row = std::uint64_t{frame} * rows_ + first_row;
-    file_.readAt(data_offset_ + row * kComponents * sizeof(float), std::as_writable_bytes(values));
+    if (packed_)
+        packed_->readRows(file_, frame, first_row, values);
+    else
+        file_.readAt(data_offset_ + row * kComponents * sizeof(float), std::as_writable_bytes(values));
     constexpr float kMost = 4.0e9f;  // of metres as of anything else; and what is no number is not within it
     if (!std::ranges::all_of(values, [](float value) { return std::abs(value) <= kMost; }))
         throw InputError(file_.path(),

@@ -3,14 +3,16 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 
 #include "base/files/input_file.h"
+#include "io/streams/packed_reader.h"
 #include "io/streams/stream_format.h"
 
 namespace throng::io {
 
-/// Reads a stream in either format. The constructor checks the header and that the file holds exactly the
+/// Reads a stream in any form. The constructor checks the header and that the file holds exactly the
 /// frames it announces; all members throw InputError.
 class StreamReader {
   public:
@@ -22,10 +24,12 @@ class StreamReader {
 
     /// One frame: rows x 3 values.
     void readFrame(std::uint32_t frame, std::span<float> values) const { readRows(frame, 0, values); }
-    /// values.size() / 3 rows of one frame, from `first_row` on.
+    /// values.size() / 3 rows of one frame, from `first_row` on. Of a packed stream, one thread at a time:
+    /// what is unpacked is kept for the next call.
     void readRows(std::uint32_t frame, std::uint32_t first_row, std::span<float> values) const;
 
   private:
+    void openPacked();
     void readPc2Header();
     void readNpyHeader();
     void setCounts(std::uint64_t frames, std::uint64_t rows);
@@ -35,6 +39,7 @@ class StreamReader {
     std::uint64_t data_offset_ = 0;
     std::uint32_t frames_ = 0;
     std::uint32_t rows_ = 0;
+    std::unique_ptr<PackedReader> packed_;  ///< where it is that form
 };
 
 }  // namespace throng::io

@@ -156,11 +156,34 @@ def folder_as_input(folder):
 def bakes(build, folder):
     """Folders of bakes of nobody, of few, and of some who arrive."""
     for number, words in enumerate((("agents=0", "frames=2"), ("agents=6", "frames=8"),
-                                    ("agents=3", "frames=3", "x=500000.25", "y=5600000"), ("agents=12", "frames=40"))):
+                                    ("agents=3", "frames=3", "x=500000.25", "y=5600000"), ("agents=12", "frames=40"),
+                                    ("agents=6", "frames=80", "packed=1"))):
         made = folder / f"bake{number}"
         subprocess.run([next(build.glob("tests/*/write_sample_bake")), made, *words, "gltf=-1"],
                        check=True, stdout=subprocess.DEVNULL)
         yield made
+
+
+def packed():
+    """What packed.cpp takes: a directory whose blocks have no sizes yet, and what is in them."""
+    for frames, people, in_block, late in ((3, 2, (64, 1024), ()), (70, 3, (64, 1024), (1,)), (9, 5, (4, 2), (0, 4))):
+        head = struct.pack("<6I", 1, frames, people, *in_block, 3)
+        head += b"".join(struct.pack("<dII", step, before, 0) for step, before in ((2 ** -14, 1), (2 ** -11, 2), (1, 0)))
+        sizes = [(min(in_block[0], frames - frame), min(in_block[1], people - row))
+                 for frame in range(0, frames, in_block[0]) for row in range(0, people, in_block[1])]
+        first = [2 if row in late else 0 for row in range(people)]
+        directory = head + bytes(4 * len(sizes)) + struct.pack(f"<{people}I", *first) + \
+            struct.pack("<3i", 5, -7, 1) * len(late)
+        yield struct.pack("<H", len(directory)) + directory + b"".join(
+            struct.pack("<H", len(content)) + content for content in map(packed_block, sizes))
+        yield struct.pack("<H", len(directory)) + directory
+
+
+def packed_block(size):
+    cells = size[0] * size[1]
+    planes = ((2, 2), (1, 1), (0, 1))  # order and bytes of each component
+    return bytes(number for pair in planes for number in pair) + \
+        b"".join(bytes((7 * cell + plane) % 5 for cell in range(cells)) for _, count in planes for plane in range(count))
 
 
 def streams(folders):
@@ -234,7 +257,7 @@ def words_of(*documents):
 DICTIONARIES = {
     "settings": lambda: words_of(schema_of("layout")) |
     {"=", ".", "/", "~0", "~1", "[0, 1]", "{}", "-1", "1e300", "null"},
-    "streams": lambda: {"POINTCACHE2", "\\x93NUMPY\\x01\\x00", "'descr': '<f4'", "'fortran_order': False",
+    "streams": lambda: {"POINTCACHE2", "THRONGP1", "THRONGPE", "\\x93NUMPY\\x01\\x00", "'descr': '<f4'", "'fortran_order': False",
                          "'shape': (", ", 3), }"},
     "results": lambda: {"SQLite format 3", "CREATE TABLE", "CREATE VIEW", "WITH RECURSIVE", "SELECT", "randomblob(",
                         "zeroblob(",
@@ -255,7 +278,7 @@ def corpora(build, folder):
         "layout": [compact(layout) for layout in layouts() + wrong_layouts(9)],
         "scene": [compact(small(layout)) for layout in layouts() + wrong_layouts(40)],
         "settings": settings(), "family": families(), "overrides": overrides(), "terrain": terrains(),
-        "bake": folders, "analysis": folders, "streams": streams(baked), "checkpoint": checkpoints(),
+        "bake": folders, "analysis": folders, "streams": streams(baked), "packed": packed(), "checkpoint": checkpoints(),
         "results": databases(folder), "calibration": calibrations(),
     }
 

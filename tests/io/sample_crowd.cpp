@@ -73,7 +73,7 @@ float SampleCrowd::extra(const StreamInfo& info, std::uint32_t row, std::uint32_
                          std::size_t component) const {
     if (isAskedFor(info) && !isAlive(row, frame)) return 0.0f;
     return static_cast<float>(static_cast<std::size_t>(info.id) * 100 + component * 10 + row % 8) +
-           static_cast<float>(frame) / 512.0f;
+           (info.components[component].is_whole ? 0.0f : static_cast<float>(frame) / 512.0f);
 }
 
 namespace {
@@ -132,6 +132,7 @@ recording::BakeDescription SampleCrowd::description(const std::filesystem::path&
     description.driver = "none";
     description.gltf = options_.gltf;
     description.gltf_agents = options_.gltf_agents;
+    description.formats = options_.formats;
     description.diagram_every = options_.diagram_every;
     if (!options_.every_stream) return description;
     description.terrain = slope(options_.origin, description.scene_origin, description.walls.size());

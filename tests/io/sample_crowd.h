@@ -22,6 +22,7 @@ struct SampleOptions {
     std::uint32_t gltf_agents = 2000;
     bool gltf = true;
     bool force = false;
+    StreamFormats formats = StreamFormats::standard();
     bool every_stream = false;  ///< on a slope, with all streams from the device
 };
 

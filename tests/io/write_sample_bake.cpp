@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes a bake of a synthetic crowd without any simulation, for tests of what reads bakes:
 //   write_sample_bake OUT [agents=64] [frames=48] [x=0] [y=0] [diagrams=0] [gltf=2000] [force=0]
-//   [stop=FRAMES]
+//   [stop=FRAMES] [packed=0]
 // `diagrams` is the number of frames from one image to the next, `gltf` the most people in crowd.glb (-1: no
-// file); with `stop` the bake ends early, as if it had been interrupted. Prints the path of the bake.
+// file); with `stop` the bake ends early, as if it had been interrupted;
+// with `packed` its streams are of that form only. Prints the path of the bake.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -16,8 +17,9 @@
 namespace {
 
 std::map<std::string, double> readArguments(int count, char** arguments) {
-    std::map<std::string, double> values{{"agents", 64},  {"frames", 48}, {"x", 0},     {"y", 0},
-                                         {"diagrams", 0}, {"gltf", 2000}, {"force", 0}, {"stop", -1}};
+    std::map<std::string, double> values{{"agents", 64}, {"frames", 48},  {"x", 0},
+                                         {"y", 0},       {"diagrams", 0}, {"gltf", 2000},
+                                         {"force", 0},   {"stop", -1},    {"packed", 0}};
     for (int i = 2; i < count; ++i) {
         const std::string argument = arguments[i];
         const std::size_t equals = argument.find('=');
@@ -41,6 +43,7 @@ int main(int count, char** arguments) try {
     options.gltf = values["gltf"] >= 0;
     options.gltf_agents = static_cast<std::uint32_t>(std::max(values["gltf"], 0.0));
     options.force = values["force"] != 0;
+    if (values["packed"] != 0) options.formats = throng::readFormats("packed").formats;
     const throng::test::SampleCrowd crowd(options);
 
     throng::io::BakeWriter writer(crowd.description(arguments[1]));

@@ -8,9 +8,11 @@
 
 namespace throng::fuzz {
 
-inline const char* const kBakeFiles[] = {
-    "bake.json",         "agents.csv",      "layout.json",         "streams/pos.npy",  "streams/dir.npy",
-    "streams/state.npy", "streams/pos.pc2", "streams/density.npy", "streams/wish.npy", "streams/ground.npy"};
+inline const char* const kBakeFiles[] = {"bake.json",           "agents.csv",          "layout.json",
+                                         "streams/pos.npy",     "streams/dir.npy",     "streams/state.npy",
+                                         "streams/pos.pc2",     "streams/density.npy", "streams/wish.npy",
+                                         "streams/ground.npy",  "streams/pos.packed",  "streams/dir.packed",
+                                         "streams/state.packed"};
 
 /// The folder of a bake in one input. bake.json has its keys from the seeds: there is no schema.
 inline std::string mutatedBake(std::string_view input, std::size_t most, unsigned seed) {

@@ -16,7 +16,7 @@ from ..base import geometry
 from ..base.errors import BakeError, need
 from . import exports
 from .people import read_people
-from .streams import form_of, open_stream
+from .streams import Frames, form_of, open_stream
 
 FORMAT, VERSION = "throng bake", 1
 
@@ -31,7 +31,8 @@ class Activity(enum.IntEnum):
 
 
 class Bake:
-    """A bake's folder. Streams are memory maps of its files: nothing is copied until numbers are asked for."""
+    """A bake's folder. Streams are memory maps of its files: nothing is copied until numbers are asked for. Packed ones
+    are unpacked then."""
 
     def __init__(self, folder: str | os.PathLike):
         self.folder = pathlib.Path(folder)
@@ -43,6 +44,7 @@ class Bake:
         #: World position = origin + position of a stream.
         self.origin = numpy.array(self.about["origin"], dtype=float)
         self._opened: dict[str, numpy.ndarray] = {}
+        self._readers: dict[str, Frames] = {}
 
     def __repr__(self) -> str:
         return f"Bake({str(self.folder)!r}: {self.agents} people, {self.frames} frames at {self.fps:g} fps)"
@@ -54,12 +56,25 @@ class Bake:
         return list(self.about["streams"])
 
     def stream(self, name: str) -> numpy.ndarray:
-        """Frames x people x components, float32: a read-only view of the file."""
+        """Frames x people x components, float32, read-only: a view of the file, or all of a packed one, unpacked (in
+        a temporary file where it is large; `read` unpacks some frames)."""
         if name not in self._opened:
             self._opened[name] = self._open(name)
         return self._opened[name]
 
+    def read(self, name: str, first: int, last: int) -> numpy.ndarray:
+        """Frames [first, last) of a stream, a copy: of a packed one, no more is unpacked."""
+        if name in self._opened:
+            return numpy.array(self._opened[name][first:last])
+        if name not in self._readers:
+            self._readers[name] = Frames(*self._file_of(name))
+        return self._readers[name].read(first, last)
+
     def _open(self, name: str) -> numpy.ndarray:
+        return open_stream(*self._file_of(name))
+
+    def _file_of(self, name: str) -> tuple[pathlib.Path, str, tuple[int, int, int]]:
+        """Path, form and shape."""
         told = self.about["streams"].get(name)
         if told is None:
             raise BakeError(f"{self.folder} has no stream {name!r}", f"it has {', '.join(self.streams)}")
@@ -67,8 +82,7 @@ class Bake:
         if form is None:
             raise BakeError(f"{self.folder} has no form of the stream {name!r} that this version reads",
                             "`throng convert` writes it in others")
-        return open_stream(_inside(self.folder, told[form]), form,
-                           (self.frames, self.agents, len(told["components"])))
+        return _inside(self.folder, told[form]), form, (self.frames, self.agents, len(told["components"]))
 
     def component(self, name: str) -> numpy.ndarray:
         """Frames x people: a view of one number by its name, "speed", or "density.area" with its stream."""

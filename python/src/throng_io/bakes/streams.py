@@ -2,12 +2,14 @@
 """The forms in which streams lie on the disk, as arrays."""
 from __future__ import annotations
 
+import contextlib
 import pathlib
 import struct
 
 import numpy
 
 from ..base.errors import BakeError
+from .packed import PackedStream
 
 _PC2 = struct.Struct("<12siiffi")
 
@@ -34,8 +36,13 @@ def _pc2(path: pathlib.Path, shape: tuple[int, int, int]) -> numpy.ndarray:
     return numpy.memmap(path, "<f4", "r", _PC2.size, shape)
 
 
+def _packed(path: pathlib.Path, shape: tuple[int, int, int]) -> numpy.ndarray:
+    stream = PackedStream(path)
+    return stream.whole() if stream.shape == shape else numpy.broadcast_to(numpy.float32(0), stream.shape)
+
+
 #: In the order in which they are preferred.
-_READERS = {"npy": _npy, "pc2": _pc2}
+_READERS = {"npy": _npy, "pc2": _pc2, "packed": _packed}
 
 
 def form_of(told: dict) -> str | None:
@@ -43,13 +50,43 @@ def form_of(told: dict) -> str | None:
     return next((form for form in _READERS if isinstance(told.get(form), str)), None)
 
 
-def open_stream(path: pathlib.Path, form: str, shape: tuple[int, int, int]) -> numpy.ndarray:
-    """The whole stream, read-only, frames x people x 3. Raises BakeError."""
+@contextlib.contextmanager
+def _told(path: pathlib.Path):
+    """What is wrong with a file, as an error of this package."""
     try:
-        array = _READERS[form](path, shape)
+        yield
     except (OSError, ValueError) as error:
         raise BakeError(f"{path} cannot be read: {error}", "`throng verify` says what is damaged") from error
+
+
+def open_stream(path: pathlib.Path, form: str, shape: tuple[int, int, int]) -> numpy.ndarray:
+    """The whole stream, read-only, frames x people x 3. Raises BakeError."""
+    with _told(path):
+        array = _READERS[form](path, shape)
     if array.shape != shape or array.dtype != numpy.float32:
         raise BakeError(f"{path} is {array.shape} of {array.dtype}, expected {shape} of float32",
                         "`throng verify` says what is damaged")
     return array
+
+
+class Frames:
+    """Some frames of a stream at a time, of those that are unpacked only the blocks that have them."""
+
+    def __init__(self, path: pathlib.Path, form: str, shape: tuple[int, int, int]):
+        self._path, self._shape, self._array, self._packed = path, shape, None, None
+        if form != "packed":
+            self._array = open_stream(path, form, shape)
+            return
+        with _told(path):
+            self._packed = PackedStream(path)
+        if self._packed.shape != shape:
+            raise BakeError(f"{path} is {self._packed.shape}, expected {shape}",
+                            "`throng verify` says what is damaged")
+
+    def read(self, first: int, last: int) -> numpy.ndarray:
+        """Frames [first, last)."""
+        first, last, _ = slice(first, last).indices(self._shape[0])
+        if self._packed is None:
+            return numpy.array(self._array[first:last])
+        with _told(self._path):
+            return self._packed.read(first, last)
