@@ -20,7 +20,8 @@ LAYOUT = {"throng": 1, "simulation": {"duration": 10, "seed": 5},
 def bakes(throng, once):
     def make(folder):
         throng_io.bake(LAYOUT, folder / "exact", program=throng.binary)
-        throng("convert", folder / "exact", "-o", folder / "packed", "--streams", "packed", "-q")
+        (folder / "layout.json").write_text(json.dumps(LAYOUT))
+        throng("bake", folder / "layout.json", "-o", folder / "packed", "--streams", "packed", "-q")
 
     folder = once("python-packed", make)
     return throng_io.Bake(folder / "exact"), folder / "packed"
