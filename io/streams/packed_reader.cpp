@@ -94,17 +94,18 @@ void PackedReader::readDirectory(const InputFile& file, const std::vector<std::b
 void PackedReader::readEntries(const InputFile& file, std::span<const std::byte> bytes) {
     first_.resize(head_.rows);
     late_.resize(head_.rows);
-    std::memcpy(first_.data(), bytes.data(), first_.size() * sizeof first_[0]);
+    const std::span<std::byte> first = std::as_writable_bytes(std::span(first_));
+    std::ranges::copy(bytes.first(first.size()), first.begin());
     std::uint32_t late = 0;
     for (std::uint32_t row = 0; row < head_.rows; ++row) {
         late_[row] = late;
         late += first_[row] > 0;
     }
-    bytes = bytes.subspan(first_.size() * sizeof first_[0]);
+    bytes = bytes.subspan(first.size());
     if (bytes.size() != std::uint64_t{late} * sizeof(Steps))
         throw InputError(file.path(), "a packed stream that does not tell how everybody enters");
     entries_.resize(late);
-    std::memcpy(entries_.data(), bytes.data(), bytes.size());
+    std::ranges::copy(bytes, std::as_writable_bytes(std::span(entries_)).begin());
 }
 
 std::vector<Steps> PackedReader::decoded(const InputFile& file, std::uint64_t index, BlockSize size) {
