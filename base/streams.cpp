@@ -13,6 +13,18 @@ constexpr bool isInOrder() {
 }
 static_assert(isInOrder(), "kStreams has a row for each stream, in their order");
 
+constexpr bool isPowerOfTwo(double step) {
+    while (step > 0.0 && step < 1.0)
+        step *= 2.0;
+    return step == 1.0;
+}
+static_assert(std::ranges::all_of(kStreams,
+                                  [](const StreamInfo& info) {
+                                      return std::ranges::all_of(info.components, isPowerOfTwo,
+                                                                 &StreamComponent::step);
+                                  }),
+              "a step of the form `packed` is a power of two, up to 1");
+
 }  // namespace
 
 StreamChoice streamsOf(bool has_terrain, const StreamChoice& asked) {
@@ -20,8 +32,15 @@ StreamChoice streamsOf(bool has_terrain, const StreamChoice& asked) {
     for (const StreamInfo& info : kStreams)
         streams[info.id] = info.source == StreamSource::motion ||
                            (info.source == StreamSource::terrain && has_terrain) ||
-                           (info.source == StreamSource::device && asked[info.id]);
+                           (isAskedFor(info) && asked[info.id]);
     return streams;
+}
+
+StreamChoice fromDevice(const StreamChoice& streams) {
+    StreamChoice found;
+    for (const StreamInfo& info : kStreams)
+        found[info.id] = info.source == StreamSource::device && streams[info.id];
+    return found;
 }
 
 std::size_t countOf(const StreamChoice& streams) {

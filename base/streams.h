@@ -17,7 +17,7 @@ namespace throng {
 inline constexpr std::size_t kComponents = 3;  ///< point caches know no other number
 
 /// In the order of kStreams.
-enum class Stream { pos, dir, state, density, ground, wish };
+enum class Stream { pos, dir, state, density, ground, wish, left_foot, right_foot, gaze };
 
 /// What a row holds in the frames before it is first alive.
 enum class BackFill {
@@ -54,6 +54,7 @@ enum class InPlane {
 enum class StreamSource {
     motion,   ///< made of the simulated motion by recording/motion_recorder.h: every bake
     terrain,  ///< likewise: every bake with a terrain
+    pose,     ///< likewise: bakes that are asked for them
     device,   ///< packed by a shader of its own and written as it is: bakes that are asked for it
 };
 
@@ -63,14 +64,27 @@ constexpr bool kRate = true, kWhole = true;
 /// One row of the table.
 struct StreamInfo {
     Stream id;
-    std::string_view name;   ///< of its files, its entry in bake.json and the option that asks for it
+    std::string_view name;   ///< of its files and its entry in bake.json
     std::string_view about;  ///< in words
     std::array<StreamComponent, kComponents> components;
     StreamSource source = StreamSource::motion;
     InPlane in_plane = InPlane::nothing;
     std::string_view shader = {};  ///< of a stream from the device: fills the block StreamBlock, row by row
     bool needs_diagram = false;    ///< that shader reads the frame's diagram: how many pixels each row owns
+    std::string_view option = {};  ///< that asks for it, and for others with the same; empty: its name
+
+    constexpr std::string_view asksFor() const { return option.empty() ? name : option; }
 };
+
+/// Whether a bake has such streams only where it is asked for them.
+constexpr bool isAskedFor(const StreamInfo& info) {
+    return info.source == StreamSource::device || info.source == StreamSource::pose;
+}
+
+inline constexpr std::array<StreamComponent, kComponents> kFootComponents{
+    {{"forward", "m", BackFill::zero, Between::nearest, kFine},
+     {"left", "m", BackFill::zero, Between::nearest, kFine},
+     {"turn_and_lift", "1", BackFill::zero, Between::nearest, kFine}}};
 
 inline constexpr std::array kStreams = {
     StreamInfo{.id = Stream::pos,
@@ -119,6 +133,25 @@ inline constexpr std::array kStreams = {
                .source = StreamSource::device,
                .in_plane = InPlane::direction,
                .shader = "shaders/frame/pack_wish.comp"},
+    StreamInfo{.id = Stream::left_foot,
+               .name = "left_foot",
+               .about = "how far the left foot has to be moved from where a clip has it",
+               .components = kFootComponents,
+               .source = StreamSource::pose,
+               .option = "feet"},
+    StreamInfo{.id = Stream::right_foot,
+               .name = "right_foot",
+               .about = "the same of the right foot",
+               .components = kFootComponents,
+               .source = StreamSource::pose,
+               .option = "feet"},
+    StreamInfo{.id = Stream::gaze,
+               .name = "gaze",
+               .about = "which way everybody looks, from where the body faces, and at whom",
+               .components = {{{"yaw", "rad", BackFill::zero, Between::linear, kFine},
+                               {"pitch", "rad", BackFill::zero, Between::linear, kFine},
+                               {"at", "1", BackFill::zero, Between::nearest, 1.0, !kRate, kWhole}}},
+               .source = StreamSource::pose},
 };
 
 /// Something for each stream.
@@ -135,6 +168,9 @@ class PerStream {
 
 /// Some of the streams.
 using StreamChoice = PerStream<bool>;
+
+/// Those of them that come from a device.
+StreamChoice fromDevice(const StreamChoice& streams);
 
 constexpr const StreamInfo& infoOf(Stream stream) {
     return kStreams[static_cast<std::size_t>(stream)];

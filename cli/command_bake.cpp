@@ -88,6 +88,27 @@ BakeRun bakeOrLeave(Baker& baker, const LoadedLayout& loaded, const BakeJob& job
     throw Exit(kCheckpointed);
 }
 
+/// An option for each name that asks for streams: `--density`, `--feet` (of both), ...
+void addStreamOptions(CLI::App& command, StreamChoice& chosen) {
+    for (const StreamInfo& first : kStreams) {
+        const auto has_same = [&](const StreamInfo& info) {
+            return isAskedFor(info) && info.asksFor() == first.asksFor();
+        };
+        if (!isAskedFor(first) || &*std::ranges::find_if(kStreams, has_same) != &first) continue;
+        std::string what;
+        for (const StreamInfo& info : kStreams)
+            if (has_same(info))
+                what += fmt::format("{}`{}`: {}", what.empty() ? "" : "; ", info.name, info.about);
+        command.add_flag_callback(
+            fmt::format("--{}", first.asksFor()),
+            [&chosen, has_same] {
+                for (const StreamInfo& info : kStreams)
+                    chosen[info.id] = chosen[info.id] || has_same(info);
+            },
+            "Also the stream " + what);
+    }
+}
+
 }  // namespace
 
 void bakeLayout(const BakeRequest& options) {
@@ -158,10 +179,7 @@ void addBake(CLI::App& app) {
         ->add_flag("--second", options->seconds,
                    "With --diagrams: also the second-nearest site of each pixel")
         ->needs(diagrams);
-    for (const StreamInfo& info : kStreams)
-        if (info.source == StreamSource::device)
-            command->add_flag(fmt::format("--{}", info.name), options->streams[info.id],
-                              fmt::format("Also the stream `{}`: {}", info.name, info.about));
+    addStreamOptions(*command, options->streams);
     addStreamsOption(*command, options->formats);
     command->add_option("--method", options->method,
                         "How the diagram is built: auto, " + methodWords() + " (as simulation.method)");

@@ -113,7 +113,7 @@ void BakeWriter::openStreams(const Checkpoint* go_on_from) {
     const StreamChoice streams = description_.streams();
     for (const bool asked : {false, true})
         for (const StreamInfo& info : kStreams) {
-            if (!streams[info.id] || (info.source == StreamSource::device) != asked) continue;
+            if (!streams[info.id] || isAskedFor(info) != asked) continue;
             std::optional<StreamSoFar> so_far;
             if (go_on_from) so_far = {go_on_from->frames, {}};
             if (go_on_from && is_packed) so_far->packed = packedStateIn(*go_on_from, info);

@@ -37,14 +37,26 @@ MotionRecorder::MotionRecorder(const BakeDescription& description, Sink sink)
       apart_(localWalls(description), description.minimum - description.scene_origin,
              description.maximum - description.scene_origin),
       walkers_(description.agents.size()),
-      carried_(description.asked) {
+      carried_(fromDevice(description.asked)) {
     if (description.terrain) {
         footing_.emplace(description.terrain->surface, walkers_.size(), fps_);
         grounds_.resize(walkers_.size() * kComponents);
     }
+    if (description.asked[Stream::left_foot]) {
+        footsteps_.emplace(walkers_.size(), fps_);
+        for (std::vector<float>& values : feet_)
+            values.resize(walkers_.size() * kComponents);
+    }
+    if (description.asked[Stream::gaze]) {
+        gazes_.emplace(walkers_.size(), fps_, description.minimum - description.scene_origin,
+                       description.maximum - description.scene_origin);
+        gaze_values_.resize(walkers_.size() * kComponents);
+    }
     for (const BakeAgent& agent : description.agents) {
+        parties_.push_back(agent.party);
         radii_.push_back(agent.radius);
         speeds_.push_back(agent.preferred_speed);
+        scales_.push_back(static_cast<float>(agent.scale));
     }
 }
 
@@ -68,11 +80,15 @@ void MotionRecorder::giveOut() {
     states_ = frame[Stream::state];
     if (window_.reach() > 0) average(frame);
     record(frame);
+    if (gazes_) look(frame);
     Frame shown = frame.view();
     shown[Stream::pos] = positions_;
     shown[Stream::dir] = directions_;
     shown[Stream::state] = states_;
     shown[Stream::ground] = grounds_;
+    shown[Stream::left_foot] = feet_[0];
+    shown[Stream::right_foot] = feet_[1];
+    shown[Stream::gaze] = gaze_values_;
     sink_(shown);
     window_.advance();
 }
@@ -112,6 +128,7 @@ void MotionRecorder::record(const KeptFrame& frame) {
             positions_[at + 1] = walker.place.y;
             states_[at + 2] = static_cast<float>(walker.gait.phase);
             if (footing_) putStance(at, footing_->last(row));
+            if (footsteps_) putFeet(at, {});
             continue;
         }
         const glm::vec2 moved = walker.walks ? place - walker.place : glm::vec2(0.0f);
@@ -127,6 +144,13 @@ void MotionRecorder::record(const KeptFrame& frame) {
         walker.place = place;
         states_[at] += walker.gait.inState();
         states_[at + 2] = static_cast<float>(walker.gait.phase);
+        if (footsteps_)
+            putFeet(
+                at,
+                footsteps_->step(
+                    row,
+                    {place, {directions_[at], directions_[at + 1]}, moved, directions_[at + 2], scales_[row]},
+                    walker.gait));
         if (footing_)
             putStance(
                 at, footing_->stand(row, place, {directions_[at], directions_[at + 1]}, moved, walker.gait));
@@ -140,12 +164,46 @@ void MotionRecorder::putStance(std::size_t at, const Stance& stance) {
     grounds_[at + 2] = stance.ground;
 }
 
+void MotionRecorder::putFeet(std::size_t at, const std::array<FootMove, 2>& feet) {
+    for (std::size_t side = 0; side < feet.size(); ++side) {
+        feet_[side][at] = feet[side].forward;
+        feet_[side][at + 1] = feet[side].left;
+        feet_[side][at + 2] = turnAndLift(feet[side]);
+    }
+}
+
+void MotionRecorder::look(const KeptFrame& frame) {
+    onlookers_.clear();
+    for (std::uint32_t row = 0; row < walkers_.size(); ++row) {
+        const std::size_t at = row * kComponents;
+        if (frame.isAlive(row))
+            onlookers_.push_back({row,
+                                  parties_[row],
+                                  {positions_[at], positions_[at + 1]},
+                                  positions_[at + 2],
+                                  {directions_[at], directions_[at + 1]},
+                                  directions_[at + 2]});
+        else
+            std::fill_n(gaze_values_.begin() + static_cast<std::ptrdiff_t>(at), kComponents, 0.0f);
+    }
+    gazes_->look(onlookers_);
+    for (const Onlooker& each : onlookers_) {
+        const Gaze& gaze = (*gazes_)[each.row];
+        const std::size_t at = each.row * kComponents;
+        gaze_values_[at] = gaze.yaw;
+        gaze_values_[at + 1] = gaze.pitch;
+        gaze_values_[at + 2] = gaze.at;
+    }
+}
+
 std::vector<std::byte> MotionRecorder::save() const {
     std::vector<std::byte> bytes(sizeof taken_ + walkers_.size() * sizeof(Walker));
     std::memcpy(bytes.data(), &taken_, sizeof taken_);
     if (!walkers_.empty())
         std::memcpy(bytes.data() + sizeof taken_, walkers_.data(), walkers_.size() * sizeof(Walker));
     if (footing_) bytes.insert(bytes.end(), footing_->state().begin(), footing_->state().end());
+    if (footsteps_) bytes.insert(bytes.end(), footsteps_->state().begin(), footsteps_->state().end());
+    if (gazes_) bytes.insert(bytes.end(), gazes_->state().begin(), gazes_->state().end());
     window_.save(bytes);
     return bytes;
 }
@@ -156,13 +214,15 @@ void MotionRecorder::restore(std::span<const std::byte> bytes) {
     std::memcpy(&taken_, bytes.data(), sizeof taken_);
     if (!walkers_.empty()) std::memcpy(walkers_.data(), bytes.data() + sizeof taken_, own - sizeof taken_);
     bytes = bytes.subspan(own);
-    if (footing_) {
-        const std::span<std::byte> feet = footing_->state();
-        if (bytes.size() < feet.size())
+    const auto take = [&](std::span<std::byte> state) {
+        if (bytes.size() < state.size())
             throw std::runtime_error("the checkpoint's motion does not fit this bake");
-        std::copy_n(bytes.begin(), feet.size(), feet.begin());
-        bytes = bytes.subspan(feet.size());
-    }
+        std::copy_n(bytes.begin(), state.size(), state.begin());
+        bytes = bytes.subspan(state.size());
+    };
+    if (footing_) take(footing_->state());
+    if (footsteps_) take(footsteps_->state());
+    if (gazes_) take(gazes_->state());
     window_.restore(bytes, walkers_.size(), carried_);
 }
 

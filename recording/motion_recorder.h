@@ -8,8 +8,10 @@
 
 #include "recording/bake_description.h"
 #include "recording/footing.h"
+#include "recording/footsteps.h"
 #include "recording/frame_window.h"
 #include "recording/gaits.h"
+#include "recording/gazes.h"
 #include "recording/keep_apart.h"
 
 namespace throng::recording {
@@ -47,21 +49,29 @@ class MotionRecorder {
     void average(const KeptFrame& frame);
     void record(const KeptFrame& frame);
     void putStance(std::size_t at, const Stance& stance);
+    void look(const KeptFrame& frame);
+    void putFeet(std::size_t at, const std::array<FootMove, 2>& feet);
 
     double fps_;
     bool wide_;  ///< places are too coarse for speeds: these follow from the velocities
-    std::vector<float> radii_, speeds_;  ///< by row: m; preferred, m/s
+    std::vector<float> radii_, speeds_, scales_;  ///< by row: m; preferred, m/s; of figures
     Sink sink_;
     FrameWindow window_;
     KeepApart apart_;
     std::vector<Walker> walkers_;
-    std::optional<Footing> footing_;  // none on flat ground
-    StreamChoice carried_;            // from the device, past all this
+    std::optional<Footing> footing_;      // none on flat ground
+    std::optional<Footsteps> footsteps_;  // none unless asked for
+    std::optional<Gazes> gazes_;          // likewise
+    StreamChoice carried_;                // from the device, past all this
     std::uint32_t taken_ = 0;
 
     std::vector<float> positions_, directions_, states_, grounds_;  ///< of the frame being given out
+    std::array<std::vector<float>, 2> feet_;                        ///< likewise: left, right
     std::vector<std::uint32_t> present_;
+    std::vector<float> gaze_values_;
     std::vector<MovedBody> bodies_;
+    std::vector<Onlooker> onlookers_;
+    std::vector<std::uint32_t> parties_;  ///< by row
 };
 
 }  // namespace throng::recording

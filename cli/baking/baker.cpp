@@ -113,7 +113,7 @@ class Run {
           frames_(description.frames),
           substeps_(static_cast<std::uint32_t>(settings.substeps)),
           warmup_(sim::warmupSteps(settings)),
-          pump_(simulation, {job.diagram_every > 0, job.seconds, job.streams},
+          pump_(simulation, {job.diagram_every > 0, job.seconds, fromDevice(job.streams)},
                 [this](const Frame& frame) { receive(frame); }) {}
 
     void goOnFrom(const io::Checkpoint& checkpoint) {

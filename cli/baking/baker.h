@@ -31,7 +31,7 @@ struct BakeJob {
     BakeOptions options;
     std::uint32_t diagram_every = 0;  ///< frames between diagram images, 0 for none
     bool seconds = false;             ///< diagrams with the second-nearest sites
-    StreamChoice streams{};           ///< from the device, besides those of every bake
+    StreamChoice streams{};           ///< asked for, besides those of every bake
     double checkpoint_seconds = 0.0;  ///< between checkpoints; 0: none, and nothing is left to go on from
     bool resume = false;              ///< go on from an earlier run's checkpoint where there is one
     /// @param signal that came; @param seconds that the bake has taken so far

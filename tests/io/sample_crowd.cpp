@@ -71,9 +71,10 @@ double SampleCrowd::phase(std::uint32_t row, std::uint32_t frame) const {
 
 float SampleCrowd::extra(const StreamInfo& info, std::uint32_t row, std::uint32_t frame,
                          std::size_t component) const {
-    if (info.source == StreamSource::device && !isAlive(row, frame)) return 0.0f;
-    return static_cast<float>(static_cast<std::size_t>(info.id) * 100 + component * 10 + row % 8) +
-           static_cast<float>(frame) / 512.0f;
+    if (isAskedFor(info) && !isAlive(row, frame)) return 0.0f;
+    const auto place = static_cast<float>(static_cast<std::size_t>(info.id) * 100 + component * 10 + row % 8);
+    return place + (info.components[component].is_whole ? static_cast<float>(frame)
+                                                        : static_cast<float>(frame) / 512.0f);
 }
 
 namespace {
@@ -137,7 +138,7 @@ recording::BakeDescription SampleCrowd::description(const std::filesystem::path&
     if (!options_.every_stream) return description;
     description.terrain = slope(options_.origin, description.scene_origin, description.walls.size());
     for (const StreamInfo& info : kStreams)
-        description.asked[info.id] = info.source == StreamSource::device;
+        description.asked[info.id] = isAskedFor(info);
     return description;
 }
 
@@ -179,7 +180,7 @@ PerStream<std::vector<float>> SampleCrowd::valuesOf(std::uint32_t frame) const {
                 const bool is_motion = info.source == StreamSource::motion;
                 const double value =
                     is_motion ? moving[static_cast<std::size_t>(info.id)][i] : extra(info, row, frame, i);
-                const bool is_known = has_values || info.source == StreamSource::device;
+                const bool is_known = has_values || isAskedFor(info);
                 values[info.id].push_back(is_known ? static_cast<float>(value) : kNotYet);
             }
         if (!alive) values[Stream::state][row * kComponents] = 0.0f;

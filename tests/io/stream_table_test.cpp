@@ -80,8 +80,8 @@ TEST(StreamTable, IsTheOneInTheDocs) {
                 return std::string(each.before_entry == BackFill::first_alive ? "its first" : "0");
             }));
         EXPECT_NE(docs.find(line + " "), std::string::npos) << "docs/bake.md should have the line\n" << line;
-        if (info.source == StreamSource::device) {
-            EXPECT_NE(docs.find(fmt::format("`--{}`", info.name)), std::string::npos) << info.name;
+        if (isAskedFor(info)) {
+            EXPECT_NE(docs.find(fmt::format("`--{}`", info.asksFor())), std::string::npos) << info.name;
         }
     }
 }

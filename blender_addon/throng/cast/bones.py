@@ -17,6 +17,8 @@ from ..blender.nodes import Maths, new_tree, own_tree, socket
 from .skinning import MOST, hangs_of, matrices_of, turns_of
 
 HANGS, TURN = "throng_bones", "throng_turned"
+LIMBS, JOINTS = "throng_limbs", "throng_joints"  # of a sheet; LIMBS are thigh, calf, foot and toes of the left leg,
+                                                 # those of the right one, neck and head
 _FINE = 8192.0         # steps a metre of what bones move
 _TURNS = 16384.0       # steps a radian
 _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
@@ -30,10 +32,12 @@ class Boned:
     matrices: object          # () gives (P, B, 3, 4), of the bones in all poses of level 0: one level of somebody asks
     sources: tuple            # for each pose of this level the one of level 0 that it is
     cycles: tuple = ()        # as those of sheets.Posed
+    limbs: object = None      # (bones, joints): the numbers of what LIMBS lists, (10,), and where joints are at rest:
+                              # hip, knee and ankle of both legs, the neck's lower and its upper end, (8, 3)
 
 
-def make_sheet(name, matrices):
-    """The object of a sheet of bones."""
+def make_sheet(name, matrices, limbs=None):
+    """The object of a sheet of bones. @param limbs as Boned has them"""
     poses, bones = matrices.shape[:2]
     mesh = bpy.data.meshes.new(name)
     mesh.vertices.add(poses * bones)
@@ -44,6 +48,8 @@ def make_sheet(name, matrices):
     mesh.update()
     sheet = bpy.data.objects.new(name, mesh)
     sheet["throng_bones"] = bones
+    if limbs:
+        sheet[LIMBS], sheet[JOINTS] = (numpy.asarray(each).ravel().tolist() for each in limbs)
     return sheet
 
 
@@ -212,12 +218,23 @@ def _place(maths, given, vertex, first):
     return place
 
 
+def limbs_of(sheets):
+    """The numbers of the bones of limbs, as Boned has them, where all sheets have the same; or None."""
+    found = [list(sheet.get(LIMBS, ())) for sheet in sheets]
+    return found[0] if found[0] and all(each == found[0] for each in found) else None
+
+
 def join_sheets(name, sheets):
-    """The object of several people's sheets, one behind the other, with the columns x and y worked out."""
+    """The object of several people's sheets, one behind the other, with the columns x and y worked out. Behind them
+    come the joints of everybody's limbs, where they are at rest."""
     joined = bpy.data.objects.new(name, bpy.data.meshes.new(name))
-    tree, _, outputs = new_tree(f"{name} of all", _GEOMETRY, _GEOMETRY)
+    joints = numpy.concatenate([numpy.array(sheet.get(JOINTS, ()), numpy.float32) for sheet in sheets])
+    joined.data.vertices.add(len(joints) // 3)
+    joined.data.vertices.foreach_set("co", joints)
+    tree, inputs, outputs = new_tree(f"{name} of all", _GEOMETRY, _GEOMETRY)
     maths = Maths(tree)
     everybody = maths.node("GeometryNodeJoinGeometry")
+    maths.link(inputs.outputs[0], everybody.inputs[0])
     for sheet in reversed(sheets):  # what is linked to a Join Geometry last comes out first
         info = maths.node("GeometryNodeObjectInfo", transform_space="ORIGINAL")
         info.inputs["Object"].default_value = sheet

@@ -79,7 +79,7 @@ def _boned_figure(name, boned, sheet):
     figure["throng_sources"] = list(boned.sources)
     modifier = figure.modifiers.new(MODIFIER, "NODES")
     modifier.node_group = _poses_tree(len(boned.sources), 0, boned.cycles, boned)
-    set_input(modifier, "Sheet", sheet or bones.make_sheet(f"{name} bones", boned.matrices()))
+    set_input(modifier, "Sheet", sheet or bones.make_sheet(f"{name} bones", boned.matrices(), boned.limbs))
     return figure
 
 

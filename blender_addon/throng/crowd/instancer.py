@@ -5,7 +5,7 @@ import bpy
 from ..blender.nodes import Maths, new_tree, socket
 from ..cast.library import shown_figures
 from . import footing
-from .names import BIGGER, FIGURE, HIDDEN, LEVEL, NATURE, NEAR
+from .names import BIGGER, FIGURE, HIDDEN, LEVEL, NATURE, NEAR, POSE_STREAMS
 from .near import boned_members, near_tree
 from .poses import member_of, pose_index
 
@@ -44,10 +44,11 @@ def _figures_and_poses(maths, state, phase, speed, variation, nature, repertoire
     return _chosen(maths, levels, figures, variation, bent), _chosen(maths, levels, poses, variation, bent)
 
 
-def instancer_tree(cast, repertoire, leans, near=None):
+def instancer_tree(cast, repertoire, leans, near=None, streams=()):
     """An Instance on Points for each bunch of the cast's figures; those who are near are made by a group of their own
     (near.py), the object `near` has the bones of its members, which then need no poses at level 0. What is needed is
-    filed away on the points: worked out for all at once, not by every bunch.
+    filed away on the points: worked out for all at once, not by every bunch. `streams` are those that the
+    points have beside those of every bake.
 
     While a crowd is on screen, Blender notes down all attributes of what goes through a socket, those of every pose
     included, which takes longer than the work itself. From 4.0 on it does so for sockets outside of groups only, so
@@ -74,7 +75,7 @@ def instancer_tree(cast, repertoire, leans, near=None):
         maths.link(points, apart.inputs["Geometry"])
         maths.link(maths.greater(who, 0.5), apart.inputs["Selection"])
         group = maths.node("GeometryNodeGroup")
-        group.node_tree = near_tree(cast, repertoire, near, drawn, own)
+        group.node_tree = near_tree(cast, repertoire, near, drawn, own, streams)
         maths.link(apart.outputs["Selection"], group.inputs[0])
         maths.link(inputs.outputs["Blur"], group.inputs["Blur"])
         points, people = apart.outputs["Inverted"], [if_any(maths, apart.outputs["Selection"], group.outputs[0])]
@@ -86,7 +87,7 @@ def instancer_tree(cast, repertoire, leans, near=None):
     points = maths.store(points, FIGURE, maths.math("MULTIPLY", figure, there), "INT")
     points = maths.store(points, "throng_pose", pose, "INT")
     points = maths.store(points, "throng_turn", rotation.outputs[0], "FLOAT_VECTOR")
-    for spare in ("throng_dir", "throng_state", NATURE):  # instances need not carry them along
+    for spare in ("throng_dir", "throng_state", NATURE, *POSE_STREAMS):  # not for instances
         remove = maths.node("GeometryNodeRemoveAttribute")
         remove.inputs["Name"].default_value = spare
         maths.link(points, remove.inputs[0])

@@ -17,10 +17,13 @@ more than there may be, the distance shrinks, in sixteen steps, until they are n
 import bpy
 
 from ..blender.nodes import Maths, drop_tree, new_tree, own_tree, socket
+from ..blender.vectors import between, combined, parts, scaled, vector
 from ..cast import BEATS, POSES, bones, library
 from ..cast.sheets import sheet_of
-from . import poses
-from .names import BIGGER, GROUND, HIDDEN, LEVEL, NATURE, NEAR, ROW
+from ..formats import FEET
+from . import heads, legs, poses
+from .bent_bones import BentBones
+from .names import BIGGER, BONE, GROUND, HIDDEN, LEVEL, NATURE, NEAR, POSE_STREAMS, ROW, WHO
 from .own import FIRST, OWN
 
 MODIFIER = "throng near"
@@ -29,38 +32,8 @@ STANDS_BELOW = 0.03    # m/s: slower people stand, those faster than WALKS_FROM 
 WALKS_FROM = 0.35
 _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
 _ALL, _REST = "throng_all_bones", "throng_rest"  # marks of objects in the cast
-_WHO, _RANK, _TURN = "throng_who", "throng_rank", "throng_turn"
+_RANK, _TURN = "throng_rank", "throng_turn"
 _WALKS, _BEFORE, _STANDS, _RATES = "throng_walks", "throng_before", "throng_stands", "throng_rates"
-
-
-def vector(maths, operation, *values):
-    node = maths.node("ShaderNodeVectorMath", operation=operation)
-    for slot, value in zip(node.inputs, values):
-        if isinstance(value, tuple):
-            slot.default_value = value
-        else:
-            maths.link(value, slot)
-    return node.outputs["Value" if operation in ("DISTANCE", "DOT_PRODUCT", "LENGTH") else 0]
-
-
-def scaled(maths, value, factor):
-    node = maths.node("ShaderNodeVectorMath", operation="SCALE")
-    maths.link(value, node.inputs[0])
-    if isinstance(factor, (int, float)):
-        node.inputs["Scale"].default_value = factor
-    else:
-        maths.link(factor, node.inputs["Scale"])
-    return node.outputs[0]
-
-
-def combined(maths, *values):
-    node = maths.node("ShaderNodeCombineXYZ")
-    for slot, value in zip(node.inputs, values):
-        if isinstance(value, (int, float)):
-            slot.default_value = value
-        else:
-            maths.link(value, slot)
-    return node.outputs[0]
 
 
 def selection_tree():
@@ -202,7 +175,7 @@ def _people(maths, points, repertoire, count, drawn, own):
         stride = part if stride is None else maths.math("ADD", stride, part)
     walking = _smooth(maths, speed, STANDS_BELOW, WALKS_FROM)
     rate = maths.math("DIVIDE", maths.math("MULTIPLY", speed, float(POSES)), maths.math("MAXIMUM", stride, 0.1))
-    for name, value, kind in ((_WHO, who, "INT"), (_RANK, maths.node("GeometryNodeInputIndex").outputs[0], "INT"),
+    for name, value, kind in ((WHO, who, "INT"), (_RANK, maths.node("GeometryNodeInputIndex").outputs[0], "INT"),
                               (ROW, maths.node("GeometryNodeInputID").outputs[0], "INT"),
                               (_WALKS, walks, "FLOAT_VECTOR"), (_BEFORE, before, "FLOAT_VECTOR"),
                               (_STANDS, _stands(maths, state, nature, repertoire.walking()), "FLOAT_VECTOR"),
@@ -213,10 +186,6 @@ def _people(maths, points, repertoire, count, drawn, own):
     return points
 
 
-def _between(maths, one, other, share):
-    return vector(maths, "ADD", one, scaled(maths, vector(maths, "SUBTRACT", other, one), share))
-
-
 def _blended(maths, sheet, at, name):
     """(a column of everybody's bones between all six poses, how fast it changes in a second)"""
     value = maths.attribute(name, "FLOAT_VECTOR") if name else maths.node("GeometryNodeInputPosition").outputs[0]
@@ -224,28 +193,22 @@ def _blended(maths, sheet, at, name):
     walking, rate, _ = maths.components(_RATES)
     here, after, stand, stand_after = (bones.sample(maths, sheet, value, at(each))
                                        for each in (walks[0], walks[1], stands[0], stands[1]))
-    here, after = (_between(maths, each, bones.sample(maths, sheet, value, at(was)), before[2])
+    here, after = (between(maths, each, bones.sample(maths, sheet, value, at(was)), before[2])
                    for each, was in ((here, before[0]), (after, before[1])))
-    walk = _between(maths, here, after, walks[2])
+    walk = between(maths, here, after, walks[2])
     change = scaled(maths, vector(maths, "SUBTRACT", after, here), maths.math("MULTIPLY", walking, rate))
-    return _between(maths, _between(maths, stand, stand_after, stands[2]), walk, walking), change
+    return between(maths, between(maths, stand, stand_after, stands[2]), walk, walking), change
 
 
 def _placed(maths, value):
     """A vector of somebody's own frame, in the scene's: along the ground's slope, turned, and as large as they are."""
-    x, y, z = _parts(maths, value)
+    x, y, z = parts(maths, value)
     along, across, _ = maths.components(GROUND)
     z = maths.math("MULTIPLY_ADD", x, along, maths.math("MULTIPLY_ADD", y, across, z))
     cosine, sine, size = maths.components(_TURN)
     turned = combined(maths, maths.math("SUBTRACT", maths.math("MULTIPLY", x, cosine), maths.math("MULTIPLY", y, sine)),
                       maths.math("MULTIPLY_ADD", x, sine, maths.math("MULTIPLY", y, cosine)), z)
     return scaled(maths, turned, size)
-
-
-def _parts(maths, value):
-    node = maths.node("ShaderNodeSeparateXYZ")
-    maths.link(value, node.inputs[0])
-    return node.outputs
 
 
 _COLUMNS = ("throng_x", "throng_y", "throng_z")
@@ -258,9 +221,9 @@ def _bone_points(maths, people, sheet, pose_count, bone_count):
     copies = maths.node("GeometryNodeDuplicateElements", domain="POINT")
     maths.link(people, copies.inputs["Geometry"])
     copies.inputs["Amount"].default_value = bone_count
-    points = maths.store(copies.outputs["Geometry"], "throng_bone", copies.outputs["Duplicate Index"], "INT")
-    first = maths.math("MULTIPLY_ADD", maths.attribute(_WHO, "INT"), float(pose_count * bone_count),
-                       maths.attribute("throng_bone", "INT"))
+    points = maths.store(copies.outputs["Geometry"], BONE, copies.outputs["Duplicate Index"], "INT")
+    first = maths.math("MULTIPLY_ADD", maths.attribute(WHO, "INT"), float(pose_count * bone_count),
+                       maths.attribute(BONE, "INT"))
     at = lambda pose: maths.math("MULTIPLY_ADD", pose, float(bone_count), first)
 
     (x, x_changes), (y, y_changes), (moved, changes) = (_blended(maths, sheet, at, name) for name in ("x", "y", ""))
@@ -286,7 +249,7 @@ def _bone_points(maths, people, sheet, pose_count, bone_count):
 
 def _meshes(maths, people, figures, kept):
     """Everybody's mesh at rest, as one mesh. Of what the people's points say, `kept` stays."""
-    for spare in (_WHO, _WALKS, _BEFORE, _STANDS, _RATES, _TURN):
+    for spare in (WHO, _WALKS, _BEFORE, _STANDS, _RATES, _TURN):
         if spare not in kept:
             people = _without(maths, people, spare)
     origin = maths.node("GeometryNodeSetPosition")
@@ -303,7 +266,7 @@ def _meshes(maths, people, figures, kept):
     place.inputs["Pick Instance"].default_value = True
     maths.link(origin.outputs[0], place.inputs["Points"])
     maths.link(shapes.outputs[0], place.inputs["Instance"])
-    maths.link(maths.attribute(_WHO, "INT"), place.inputs["Instance Index"])
+    maths.link(maths.attribute(WHO, "INT"), place.inputs["Instance Index"])
     whole = maths.node("GeometryNodeRealizeInstances")
     maths.link(place.outputs[0], whole.inputs[0])
     return whole.outputs[0]
@@ -340,10 +303,10 @@ def _rest_of(name, figure):
     return found
 
 
-def near_tree(cast, repertoire, sheet, drawn, own):
+def near_tree(cast, repertoire, sheet, drawn, own, streams):
     """A group that makes one mesh of all points that it gets.
 
-    @param sheet the object of all members' bones (bones.join_sheets)
+    @param sheet the object of all members' bones (bones.join_sheets); @param streams that points have
     """
     figures = boned_members(cast)
     tree, inputs, outputs = new_tree("Throng near people", _GEOMETRY + [("Blur", "NodeSocketBool")], _GEOMETRY)
@@ -352,17 +315,24 @@ def near_tree(cast, repertoire, sheet, drawn, own):
     info = maths.node("GeometryNodeObjectInfo", transform_space="ORIGINAL")
     info.inputs["Object"].default_value = sheet
     bone_count = sheet_of(figures[0])["throng_bones"]
-    hung_on = _bone_points(maths, people, socket(info.outputs, "Geometry"), repertoire.poses(0), bone_count)
+    bones_, pose_count = socket(info.outputs, "Geometry"), repertoire.poses(0)
+    hung_on = _bone_points(maths, people, bones_, pose_count, bone_count)
+    limbs = bones.limbs_of([sheet_of(figure) for figure in figures])
+    for stream, bend in ((FEET[0], legs.with_feet_held), ("gaze", heads.with_heads_turned)):
+        if limbs and stream in streams:
+            first_joint = len(figures) * pose_count * bone_count
+            all_ = BentBones(hung_on, (*_COLUMNS, *_CHANGES), bones_, first_joint, bone_count, limbs)
+            hung_on = bend(maths, people, all_, _placed)
     rests = [_rest_of(f"{figure.name} at rest", figure) for figure in figures]
     for rest in rests:
         if rest.name not in cast.objects:
             cast.objects.link(rest)
-    spare = ("id", "throng_dir", "throng_state", NATURE, NEAR, GROUND, LEVEL, FIRST, OWN)
+    spare = ("id", "throng_dir", "throng_state", NATURE, NEAR, GROUND, LEVEL, FIRST, OWN, *POSE_STREAMS)
     bodies = people
     for name in spare:
         bodies = _without(maths, bodies, name)
-    mesh = _meshes(maths, bodies, rests, (_WHO,))
-    place = _parts(maths, maths.node("GeometryNodeInputPosition").outputs[0])
+    mesh = _meshes(maths, bodies, rests, (WHO,))
+    place = parts(maths, maths.node("GeometryNodeInputPosition").outputs[0])
     hangs = maths.node("FunctionNodeSeparateColor")
     maths.link(maths.attribute(bones.HANGS, "FLOAT_COLOR"), hangs.inputs[0])
     first = maths.math("MULTIPLY", maths.attribute(_RANK, "INT"), float(bone_count))
@@ -376,7 +346,7 @@ def near_tree(cast, repertoire, sheet, drawn, own):
     maths.link(mesh, put.inputs["Geometry"])
     maths.link(_hung(maths, hung_on, (*_COLUMNS, ""), place, hangs.outputs, first), put.inputs["Position"])
     mesh = put.outputs[0]
-    for name in (_WHO, _RANK, bones.HANGS):
+    for name in (WHO, _RANK, bones.HANGS):
         mesh = _without(maths, mesh, name)
     maths.link(mesh, outputs.inputs[0])
     return tree

@@ -10,8 +10,9 @@ import random
 
 import bpy
 
+from ..blender.modifiers import move_modifier
 from ..blender.nodes import Maths, drop_tree, get_input, new_tree, set_input
-from ..formats import STREAMS
+from ..formats import FEET, POSE, STREAMS
 from . import footing, near, own
 from .instancer import instancer_tree
 from .names import INSTANCERS, NATURE
@@ -34,7 +35,8 @@ def set_cast(crowd, cast):
     modifiers = [crowd.modifiers[name] for name in INSTANCERS]
     before = modifiers[0].node_group
     shares = [get_input(modifier, "Share") if modifier.node_group else 2.0 for modifier in modifiers]  # 2: everybody
-    tree = instancer_tree(cast, repertoire_of(crowd), footing.slopes(crowd), near.bones_for(crowd, cast))
+    streams = [stream for stream in POSE if f"throng {stream}" in crowd.modifiers]
+    tree = instancer_tree(cast, repertoire_of(crowd), footing.slopes(crowd), near.bones_for(crowd, cast), streams)
     for modifier, share in zip(modifiers, shares):
         modifier.node_group = tree
         set_input(modifier, "Share", share)
@@ -81,16 +83,39 @@ def give_natures(mesh):
                                                         for value in (row % 4, row * 0.618034 % 1.0, draw.random())])
 
 
+def _add_stream(crowd, stream, path, frame_start):
+    add_cache(crowd, f"throng {stream}", path, "NONE" if stream in ("state", *FEET) else "LINEAR", frame_start)
+    crowd.modifiers.new(_filed(stream), "NODES").node_group = _store_tree(f"throng_{stream}")
+
+
+def _filed(stream):
+    return f"throng {stream} to attribute"
+
+
+def follow_pose(crowd, paths):
+    """Plays the streams of feet and heads, or no more, as the bake has them: another time it may be baked without."""
+    for stream in POSE:
+        played = f"throng {stream}" in crowd.modifiers
+        if played and stream not in paths:
+            tree = crowd.modifiers[_filed(stream)].node_group
+            for name in (f"throng {stream}", _filed(stream)):
+                crowd.modifiers.remove(crowd.modifiers[name])
+            drop_tree(tree)
+        elif stream in paths and not played:
+            _add_stream(crowd, stream, paths[stream], crowd.modifiers["throng pos"].frame_start)
+            for name in (_filed(stream), f"throng {stream}"):
+                move_modifier(crowd, name, 0)
+    set_cast(crowd, cast_of(crowd))
+
+
 def build_crowd(bake, name, cast, frame_start, paths):
     """The crowd's object. `paths` are the streams' files as Blender shall store them, by stream."""
     mesh = bpy.data.meshes.new(name)
     mesh.vertices.add(bake.agents)
     give_natures(mesh)
     crowd = bpy.data.objects.new(name, mesh)
-    for stream in (each for each in ("state", "dir", "ground") if each in paths):
-        add_cache(crowd, f"throng {stream}", paths[stream], "NONE" if stream == "state" else "LINEAR", frame_start)
-        modifier = crowd.modifiers.new(f"throng {stream} to attribute", "NODES")
-        modifier.node_group = _store_tree(f"throng_{stream}")
+    for stream in (each for each in ("state", "dir", "ground", *POSE) if each in paths):
+        _add_stream(crowd, stream, paths[stream], frame_start)
     add_cache(crowd, "throng pos", paths["pos"], "LINEAR", frame_start)
     for name, hidden in zip(INSTANCERS, ("show_viewport", "show_render")):
         setattr(crowd.modifiers.new(name, "NODES"), hidden, False)

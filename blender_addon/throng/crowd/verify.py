@@ -2,7 +2,7 @@
 """What is wrong with the bake that a crowd plays."""
 import os
 
-from ..formats import Bake, BakeError, NoPointCaches, check_pc2, read_manifest
+from ..formats import POSE, Bake, BakeError, NoPointCaches, check_pc2, read_manifest
 from ..formats.listed_files import file_problems
 from .queries import absolute, bake_path
 
@@ -31,7 +31,8 @@ def verify(crowd, scene):
 def _stream_problems(crowd, bake, stream):
     """Of the file of one stream, and of where the scene looks for it."""
     if f"throng {stream}" not in crowd.modifiers:
-        yield "the bake has a terrain and the crowd in the scene has none: import it anew"
+        yield ("the bake tells of feet or heads what the crowd in the scene does not know: re-load mends it"
+               if stream in POSE else "the bake has a terrain and the crowd in the scene has none: import it anew")
         return
     try:
         check_pc2(bake.stream_path(stream), bake.agents, bake.frames)

@@ -5,6 +5,8 @@ import os
 import struct
 
 STREAMS = ("pos", "dir", "state")
+FEET = ("left_foot", "right_foot")
+POSE = (*FEET, "gaze")  # that bakes are asked for
 _PC2 = struct.Struct("<12siiffi")
 _PC2_MAGIC = b"POINTCACHE2\0"
 
@@ -35,8 +37,10 @@ class Bake:
 
     @property
     def streams(self):
-        """Those of every bake, and `ground` where it has a terrain."""
-        return STREAMS + (("ground",) if self.manifest.get("terrain") else ())
+        """Those of every bake, `ground` where it has a terrain, and those of POSE that it was asked for."""
+        told = self.manifest.get("streams")
+        asked = tuple(stream for stream in POSE if isinstance(told, dict) and stream in told)
+        return STREAMS + (("ground",) if self.manifest.get("terrain") else ()) + asked
 
     @property
     def terrain_path(self):

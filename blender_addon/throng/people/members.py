@@ -62,6 +62,16 @@ def matrices_of(role, repertoire):
     return numpy.stack([rig.matrices(pose)[used] for pose in poses_of(rig.build, repertoire)])
 
 
+def limbs_of(role, repertoire):
+    """(bones, joints) as cast.bones.Boned has them."""
+    library_, rig = bodies(), maker_of(role).rig
+    used = numpy.unique(_leaders(role, repertoire)[0]).tolist()
+    legs = [[f"{bone}_{side}" for bone in ("thigh", "calf", "foot", "ball")] for side in "lr"]
+    neck = ["neck_01", "head"]
+    return ([used.index(library_.bone[bone]) for bone in (*legs[0], *legs[1], *neck)],
+            [rig.heads[bone] for bone in (*legs[0][:3], *legs[1][:3], *neck)])
+
+
 def boned_of(text, level, repertoire):
     """A member at a level, for cast.sheets. @param text of its role"""
     role = Role.of(text)
@@ -71,7 +81,7 @@ def boned_of(text, level, repertoire):
     cycles = tuple((POSES, gait.gait_of(stride).seconds / POSES) for stride in repertoire.strides)
     mesh = figures.mesh_of("throng figure", model, points, person_of(role).look, bodies())
     return Boned(mesh, weights, lambda: matrices_of(role, repertoire), tuple(repertoire.sources(level)),
-                 cycles if level <= BLURS_UNTIL else ())
+                 cycles if level <= BLURS_UNTIL else (), limbs_of(role, repertoire))
 
 
 def write_roles(cast, roles):

@@ -7,7 +7,7 @@ from ..blender.paths import stored_path
 from ..characters import members
 from ..crowd import own, playback
 from ..crowd.queries import bake_path, caches, collection_of
-from ..formats import BakeError, load_bake
+from ..formats import POSE, BakeError, load_bake
 from ..overrides import native
 from ..overrides.layer import Arrival
 from . import mattes
@@ -38,7 +38,8 @@ def reload(crowd, scene, path=None):
     bake = load_bake(path or bake_path(crowd))
     if list(bake.strides) != list(crowd.get("throng_strides", bake.strides)):
         raise BakeError("this bake walks with other strides than the cast was made for: import it anew")
-    if len(caches(crowd)) != len(bake.streams):
+    played = {cache.name.removeprefix("throng ") for cache in caches(crowd)}
+    if played - set(POSE) != set(bake.streams) - set(POSE):
         raise BakeError("one of the two bakes has a terrain and the other has none: import it anew")
     overrides = Arrival(bake, crowd)
     members.widen(crowd, bake.gaits)
@@ -49,8 +50,11 @@ def reload(crowd, scene, path=None):
         playback.give_natures(mesh)
     own.give(crowd, crowd["throng_cast"], bake.folder)
     relative = crowd.modifiers["throng pos"].filepath.startswith("//")
-    for stream in bake.streams:
-        crowd.modifiers[f"throng {stream}"].filepath = stored_path(bake.stream_path(stream), relative)
+    paths = {stream: stored_path(bake.stream_path(stream), relative) for stream in bake.streams}
+    if played != set(paths):
+        playback.follow_pose(crowd, paths)
+    for stream, file in paths.items():
+        crowd.modifiers[f"throng {stream}"].filepath = file
     set_frame_rate(scene, bake.fps)
     start = crowd.get("throng_frame_start", 1) + crowd.get("throng_offset", 0)
     scene.frame_end = max(scene.frame_end, start + bake.frames - 1)

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+
+namespace throng::recording {
+
+/// A critically damped spring over an interval, exactly: frames may be as long as they like.
+/// @param stiffness 1/s; after three to five times its inverse, what is left is not seen
+template <class Value>
+void approach(Value& value, Value& rate, Value target, float stiffness, float interval) {
+    const float decay = std::exp(-stiffness * interval);
+    const Value apart = value - target;
+    const Value push = rate + stiffness * apart;
+    value = target + (apart + push * interval) * decay;
+    rate = (rate - stiffness * interval * push) * decay;
+}
+
+}  // namespace throng::recording
