@@ -13,6 +13,18 @@ constexpr bool isInOrder() {
 }
 static_assert(isInOrder(), "kStreams has a row for each stream, in their order");
 
+constexpr bool isPowerOfTwo(double step) {
+    while (step > 0.0 && step < 1.0)
+        step *= 2.0;
+    return step == 1.0;
+}
+static_assert(std::ranges::all_of(kStreams,
+                                  [](const StreamInfo& info) {
+                                      return std::ranges::all_of(info.components, isPowerOfTwo,
+                                                                 &StreamComponent::step);
+                                  }),
+              "a step of the form `packed` is a power of two, up to 1");
+
 }  // namespace
 
 StreamChoice streamsOf(bool has_terrain, const StreamChoice& asked) {

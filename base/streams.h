@@ -82,9 +82,9 @@ constexpr bool isAskedFor(const StreamInfo& info) {
 }
 
 inline constexpr std::array<StreamComponent, kComponents> kFootComponents{
-    {{"forward", "m", BackFill::zero, Between::nearest, kFair},
-     {"left", "m", BackFill::zero, Between::nearest, kFair},
-     {"turn_and_lift", "1", BackFill::zero, Between::nearest, kFair}}};
+    {{"forward", "m", BackFill::zero, Between::nearest, kFine},
+     {"left", "m", BackFill::zero, Between::nearest, kFine},
+     {"turn_and_lift", "1", BackFill::zero, Between::nearest, kFine}}};
 
 inline constexpr std::array kStreams = {
     StreamInfo{.id = Stream::pos,
@@ -148,8 +148,8 @@ inline constexpr std::array kStreams = {
     StreamInfo{.id = Stream::gaze,
                .name = "gaze",
                .about = "which way everybody looks, from where the body faces, and at whom",
-               .components = {{{"yaw", "rad", BackFill::zero, Between::linear, kFair},
-                               {"pitch", "rad", BackFill::zero, Between::linear, kFair},
+               .components = {{{"yaw", "rad", BackFill::zero, Between::linear, kFine},
+                               {"pitch", "rad", BackFill::zero, Between::linear, kFine},
                                {"at", "1", BackFill::zero, Between::nearest, 1.0, !kRate, kWhole}}},
                .source = StreamSource::pose},
 };

@@ -22,6 +22,7 @@ from throng import formats as addon  # noqa: E402
 EXACT = ("npy", "pc2")
 FORMS = (*EXACT, "packed")
 STREAMS = ("pos", "dir", "state")
+ALL = (*STREAMS, "density", "wish", "left_foot", "right_foot", "gaze")
 SUBSETS = [",".join(some) for count in (1, 2, 3) for some in itertools.combinations(FORMS, count)]
 
 
@@ -31,8 +32,8 @@ def crowds(throng, once):
 
     def bake(forms):
         def make(folder):
-            throng("bake", write(folder / "layout.json", SMALL), "-o", folder / "bake", "-q", "--density",
-                   *(["--streams", forms] if forms else []))
+            throng("bake", write(folder / "layout.json", SMALL), "-o", folder / "bake", "-q", "--density", "--wish",
+                   "--feet", "--gaze", *(["--streams", forms] if forms else []))
 
         return once(f"forms-{forms}", make) / "bake"
 
@@ -45,7 +46,7 @@ def names(bake):
 
 @pytest.mark.quick
 def test_both_are_written_unless_told(crowds, manifest_of):
-    assert names(crowds("")) == {f"{stream}.{form}" for stream in (*STREAMS, "density") for form in EXACT}
+    assert names(crowds("")) == {f"{stream}.{form}" for stream in ALL for form in EXACT}
     plain, told = manifest_of(crowds("")), manifest_of(crowds("npy,pc2"))
     assert plain["files"] == told["files"] and plain["inputs"] == told["inputs"]
     assert list(plain["streams"]["pos"]) == ["npy", "pc2", "components", "units", "interpolation"]
@@ -57,7 +58,7 @@ def test_what_is_asked_for_is_there_and_everything_reads_it(throng, crowds, mani
     listed = {entry["path"]: entry["xxh3"] for entry in manifest_of(plain)["files"]}
     for stream, told in manifest_of(bake)["streams"].items():
         assert [form for form in told if form in FORMS] == forms.split(",")
-    assert names(bake) == {f"{stream}.{form}" for stream in (*STREAMS, "density") for form in forms.split(",")}
+    assert names(bake) == {f"{stream}.{form}" for stream in ALL for form in forms.split(",")}
     is_exact = forms != "packed"
     for entry in manifest_of(bake)["files"]:
         if entry["path"] in listed and entry["path"] != "layout.json" and (is_exact or entry["path"] != "crowd.glb"):
@@ -82,7 +83,7 @@ def is_close(measured, same):
 @pytest.mark.parametrize("forms", SUBSETS)
 def test_the_package_reads_it_to_within_what_is_told(crowds, forms):
     opened, plain = throng_io.Bake(crowds(forms)), throng_io.Bake(crowds(""))
-    for stream in (*STREAMS, "density"):
+    for stream in ALL:
         off = numpy.abs(opened.stream(stream).astype(float) - plain.stream(stream)).max(axis=(0, 1))
         told = opened.about["streams"][stream].get("packed_error", [0, 0, 0])
         assert (off <= (told if forms == "packed" else 0)).all(), (stream, off)
@@ -164,7 +165,7 @@ def test_forms_are_converted_into_each_other(throng, crowds, manifest_of, tmp_pa
 def test_packing_again_changes_nothing(throng, crowds, tmp_path):
     throng("convert", crowds("packed"), "-o", tmp_path / "plain", "--streams", "npy", "-q")
     throng("convert", tmp_path / "plain", "-o", tmp_path / "packed", "--streams", "packed", "-q")
-    for stream in (*STREAMS, "density"):
+    for stream in ALL:
         made = [throng_io.Bake(bake).stream(stream) for bake in (crowds("packed"), tmp_path / "plain",
                                                                  tmp_path / "packed")]
         assert numpy.array_equal(made[0], made[1]) and numpy.array_equal(made[0], made[2])

@@ -72,8 +72,9 @@ double SampleCrowd::phase(std::uint32_t row, std::uint32_t frame) const {
 float SampleCrowd::extra(const StreamInfo& info, std::uint32_t row, std::uint32_t frame,
                          std::size_t component) const {
     if (isAskedFor(info) && !isAlive(row, frame)) return 0.0f;
-    return static_cast<float>(static_cast<std::size_t>(info.id) * 100 + component * 10 + row % 8) +
-           (info.components[component].is_whole ? 0.0f : static_cast<float>(frame) / 512.0f);
+    const auto place = static_cast<float>(static_cast<std::size_t>(info.id) * 100 + component * 10 + row % 8);
+    return place + (info.components[component].is_whole ? static_cast<float>(frame)
+                                                        : static_cast<float>(frame) / 512.0f);
 }
 
 namespace {
