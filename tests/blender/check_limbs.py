@@ -110,7 +110,8 @@ for row in held:
     found["head"] = {"turned": turned(before[head], after[head]), "stretched": stretched(before[head][:90],
                                                                                        after[head][:90]),
                      "up": float((after[head] - after[head].mean(axis=0))[ahead, 2]
-                                 - (before[head] - before[head].mean(axis=0))[ahead, 2]), "ahead": float(forward[ahead]),
+                                 - (before[head] - before[head].mean(axis=0))[ahead, 2]),
+                     "ahead": float(forward[ahead]),
                      "neck": turned(before[neck], after[neck])[0] if neck.sum() > 3 else None}
     result["rows"][row] = found
 
