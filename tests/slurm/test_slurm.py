@@ -167,10 +167,10 @@ def test_ctrl_c_takes_the_job_out_of_the_queue(throng, slurm, tmp_path):
 def test_tasks_that_run_out_of_time_are_gone_on_with(throng, slurm, tmp_path):
     # Each scenario takes longer than the limit that its task works under: checkpoints carry it over.
     output = tmp_path / "out"
-    # Few people and few frames, as nobody has disks without an end: long is the work, not what it writes.
-    crowd = {**BASE, "simulation": {"duration": 7200, "fps": 1},
-             "flows": [{"id": "walkers", "from": "west", "to": "east", "rate": 0.2}]}
-    process = subprocess.Popen([throng.binary, "batch", str(family(tmp_path, 1, base=crowd)), "-o", str(output),
+    crowd = {**BASE, "simulation": {"duration": 3600},
+             "flows": [{"id": "walkers", "from": "west", "to": "east", "rate": 2}]}
+    plan = family(tmp_path, 1, base=crowd, bake={"streams": "packed"})  # or it would be gigabytes
+    process = subprocess.Popen([throng.binary, "batch", str(plan), "-o", str(output),
                                 "--executor", "slurm", "--tasks", "1",
                                 "--checkpoint", "0.01", "--time-limit", "0.6", "--retries", "30"],
                                env=slurm["environment"], stderr=subprocess.PIPE, text=True)
