@@ -5,15 +5,12 @@
 
 #include <algorithm>
 
+#include "base/tables.h"
+
 namespace throng {
 namespace {
 
-constexpr bool isInOrder() {
-    for (std::size_t i = 0; i < kStreamFormats.size(); ++i)
-        if (kStreamFormats[i].id != static_cast<StreamFormat>(i)) return false;
-    return true;
-}
-static_assert(isInOrder(), "kStreamFormats has a row for each form, in their order");
+static_assert(isInOrder(kStreamFormats), "kStreamFormats has a row for each form, in their order");
 
 std::string_view trimmed(std::string_view word) {
     while (word.starts_with(' '))

@@ -26,7 +26,7 @@ struct StreamFormatInfo {
 inline constexpr std::array kStreamFormats = {
     StreamFormatInfo{StreamFormat::npy, "npy", "NumPy arrays", 12.0, true, true},
     StreamFormatInfo{StreamFormat::pc2, "pc2", "point caches, which Blender plays", 12.0, true, true},
-    StreamFormatInfo{StreamFormat::packed, "packed", "compressed, positions to within 0.04 mm", 1.0, false,
+    StreamFormatInfo{StreamFormat::packed, "packed", "compressed, coordinates to within 0.04 mm", 1.0, false,
                      false},
 };
 

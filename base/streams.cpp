@@ -3,15 +3,12 @@
 
 #include <algorithm>
 
+#include "base/tables.h"
+
 namespace throng {
 namespace {
 
-constexpr bool isInOrder() {
-    for (std::size_t i = 0; i < kStreams.size(); ++i)
-        if (kStreams[i].id != static_cast<Stream>(i)) return false;
-    return true;
-}
-static_assert(isInOrder(), "kStreams has a row for each stream, in their order");
+static_assert(isInOrder(kStreams), "kStreams has a row for each stream, in their order");
 
 constexpr bool isPowerOfTwo(double step) {
     while (step > 0.0 && step < 1.0)

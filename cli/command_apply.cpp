@@ -162,10 +162,7 @@ void write(const Options& options, io::CrowdReader& crowd, const Layer& layer) {
             changes.push_back({layer.matches[i].row, layer.overrides[i].change});
 
     const InterruptGuard interrupt;
-    Progress progress(options.quiet  ? ProgressStyle::quiet
-                      : options.json ? ProgressStyle::json
-                                     : detectProgressStyle(),
-                      bake.frames, 0, 1);
+    Progress progress(progressStyle(options.quiet, options.json), bake.frames, 0, 1);
     io::ApplyOptions apply;
     apply.output = options.output;
     apply.force = options.force;

@@ -120,9 +120,7 @@ void bakeLayout(const BakeRequest& options) {
     job.streams = options.streams;
     job.checkpoint_seconds = 60.0 * options.checkpoint_minutes;
     job.resume = options.resume;
-    job.progress = options.quiet  ? ProgressStyle::quiet
-                   : options.json ? ProgressStyle::json
-                                  : detectProgressStyle();
+    job.progress = progressStyle(options.quiet, options.json);
     // Farms say SIGTERM and come back; people at a terminal want to see what there is.
     job.when_stopped = [&](int signal, double) {
         return signal == SIGTERM && options.checkpoint_minutes > 0.0 ? WhenStopped::checkpoint

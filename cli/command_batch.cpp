@@ -160,9 +160,7 @@ void bakeAll(const Options& options, const BatchPlan& plan, const BatchFolder& f
     const Clock::time_point start = Clock::now();
     LocalOutcome outcome;
     if (!options.collect_only && !standing.open.empty()) {
-        const auto style = options.quiet  ? ProgressStyle::quiet
-                           : options.json ? ProgressStyle::json
-                                          : detectProgressStyle();
+        const auto style = progressStyle(options.quiet, options.json);
         const std::size_t mine = shard.of == 1 ? standing.done : 0;
         BatchProgress progress(style, standing.open.size() + mine, mine);
         const auto advance = [&](std::size_t done, std::size_t failed) { progress.update(done, failed); };

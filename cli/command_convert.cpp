@@ -32,10 +32,7 @@ void run(const Options& options) {
     convert.formats = formatsOf(options.formats);
     io::CrowdReader crowd(io::loadBake(options.bake));
     const InterruptGuard interrupt;
-    Progress progress(options.quiet  ? ProgressStyle::quiet
-                      : options.json ? ProgressStyle::json
-                                     : detectProgressStyle(),
-                      crowd.frames(), 0, 1);
+    Progress progress(progressStyle(options.quiet, options.json), crowd.frames(), 0, 1);
     convert.go_on = [&](std::uint32_t frames) {
         progress.update(frames, crowd.rows(), frames);
         return interrupt.signal() == 0;

@@ -204,9 +204,7 @@ Outcome verifyBatch(const Options& options, ProgressStyle style) {
 }
 
 void run(const Options& options) {
-    const ProgressStyle style = options.quiet  ? ProgressStyle::quiet
-                                : options.json ? ProgressStyle::json
-                                               : detectProgressStyle();
+    const ProgressStyle style = progressStyle(options.quiet, options.json);
     const bool is_batch = fs::exists(fs::path(options.input) / "results.sqlite");
     const Outcome outcome = is_batch ? verifyBatch(options, style) : verifyOne(options, style);
     if (outcome == Outcome::damaged) throw Exit(kInvalidInput);

@@ -73,10 +73,9 @@ class Footsteps {
     };
     struct Person {
         std::array<Foot, 2> feet;
-        float direction = 0.0f;    ///< rad, of the heading in the frame before
-        float walks = 0.0f;        ///< the share of walking in it
-        std::uint32_t known = 0;   ///< 0: has not been here yet
-        std::uint32_t unused = 0;  ///< no bytes of a checkpoint are left to chance
+        float direction = 0.0f;   ///< rad, of the heading in the frame before
+        float walks = 0.0f;       ///< the share of walking in it
+        std::uint32_t known = 0;  ///< 0: has not been here yet
     };
     struct Moment;
     void lift(Person& person, const Moment& now) const;

@@ -115,7 +115,7 @@ Average FrameWindow::average(std::size_t row) const {
 void FrameWindow::save(std::vector<std::byte>& bytes) const {
     std::uint64_t counts[] = {frames_.size(), middle_, 0};
     for (const StreamInfo& info : kStreams)
-        if (!frames_.empty() && info.source == StreamSource::device) counts[2] += frames_[0][info.id].size();
+        if (!frames_.empty() && info.source != StreamSource::motion) counts[2] += frames_[0][info.id].size();
     put<std::uint64_t>(bytes, counts);
     for (const KeptFrame& frame : frames_) {
         put<std::uint32_t>(bytes, {&frame.index, 1});
@@ -136,9 +136,7 @@ void FrameWindow::restore(std::span<const std::byte> bytes, std::size_t rows, co
     for (KeptFrame& frame : frames_) {
         take<std::uint32_t>(bytes, {&frame.index, 1});
         for (const StreamInfo& info : kStreams) {
-            const bool is_kept = info.source == StreamSource::motion ||
-                                 (info.source == StreamSource::device && carried[info.id]);
-            if (!is_kept) continue;
+            if (info.source != StreamSource::motion && !carried[info.id]) continue;
             frame[info.id].resize(values);
             take<float>(bytes, frame[info.id]);
         }

@@ -33,13 +33,18 @@ double angleTo(const Onlooker& self, const Onlooker& other) {
     return std::atan2(self.heading.x * away.y - self.heading.y * away.x, glm::dot(self.heading, away));
 }
 
+/// Whether somebody is within so many metres, and so many radians to either side of the heading.
+bool isBefore(const Onlooker& self, const Onlooker& other, double reach, double angle) {
+    const double away = glm::distance(self.place, other.place);
+    return away <= reach && away >= 1.0e-6 && std::abs(angleTo(self, other)) <= angle;
+}
+
 /// How much somebody draws another one's eyes; 0: not at all.
 double draws(const Onlooker& self, const Onlooker& other) {
-    const double away = glm::distance(self.place, other.place);
-    if (away > kNoticed || away < 1.0e-6 || std::abs(angleTo(self, other)) > kSeen) return 0.0;
+    if (!isBefore(self, other, kNoticed, kSeen)) return 0.0;
     const bool comes = glm::dot(self.heading, other.heading) < kOncoming && other.speed > gpu::STANDING_SPEED;
     const double weight = self.party == other.party ? kTogether : comes ? kComes : kOther;
-    return weight * (1.0 - away / (kNoticed + 1.0));
+    return weight * (1.0 - glm::distance(self.place, other.place) / (kNoticed + 1.0));
 }
 
 }  // namespace
@@ -47,7 +52,6 @@ double draws(const Onlooker& self, const Onlooker& other) {
 Gazes::Gazes(std::size_t rows, double fps, glm::dvec2 minimum, glm::dvec2 maximum)
     : interval_(1.0 / fps),
       heads_(rows),
-      gazes_(rows),
       index_(rows, kNone),
       grid_(minimum, maximum, kNoticed / 2.0, cellsFor(rows)) {}
 
@@ -55,6 +59,12 @@ Gazes::Gazes(std::size_t rows, double fps, glm::dvec2 minimum, glm::dvec2 maximu
 double Gazes::draw(std::uint32_t row) {
     const std::uint64_t word = scramble(scramble(row) + heads_[row].draws++);
     return static_cast<double>(word >> 11) * 0x1.0p-53;
+}
+
+Gaze Gazes::operator[](std::size_t row) const {
+    const Head& head = heads_[row];
+    constexpr auto kMost = static_cast<float>(kNeck);
+    return {std::clamp(head.yaw, -kMost, kMost), head.pitch, static_cast<float>(head.at)};
 }
 
 void Gazes::look(std::span<const Onlooker> people) {
@@ -79,8 +89,7 @@ const Onlooker* Gazes::seenBy(const Onlooker& self, std::span<const Onlooker> pe
     const std::uint32_t at = heads_[self.row].at;
     if (at == 0 || index_[at - 1] == kNone) return nullptr;
     const Onlooker& other = people[index_[at - 1]];
-    const double away = glm::distance(self.place, other.place);
-    return away > kLost || away < 1.0e-6 || std::abs(angleTo(self, other)) > kStillSeen ? nullptr : &other;
+    return isBefore(self, other, kLost, kStillSeen) ? &other : nullptr;
 }
 
 /// Who draws somebody's eyes most: Gaze::at of it, 0 where nobody does. @param before who has been looked at
@@ -142,8 +151,6 @@ void Gazes::follow(const Onlooker& self, std::span<const Onlooker> people) {
     const auto interval = static_cast<float>(interval_);
     approach(head.yaw, head.yaw_rate, static_cast<float>(yaw), kStiffness, interval);
     approach(head.pitch, head.pitch_rate, static_cast<float>(pitch), kStiffness, interval);
-    gazes_[self.row] = {std::clamp(head.yaw, static_cast<float>(-kNeck), static_cast<float>(kNeck)),
-                        head.pitch, static_cast<float>(head.at)};
 }
 
 }  // namespace throng::recording

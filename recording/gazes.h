@@ -41,7 +41,7 @@ class Gazes {
 
     /// The next frame. @param people all who are there, by row
     void look(std::span<const Onlooker> people);
-    const Gaze& operator[](std::size_t row) const { return gazes_[row]; }
+    Gaze operator[](std::size_t row) const;
 
     /// All that later frames depend on.
     std::span<std::byte> state() { return std::as_writable_bytes(std::span(heads_)); }
@@ -65,7 +65,6 @@ class Gazes {
 
     double interval_;  ///< s
     std::vector<Head> heads_;
-    std::vector<Gaze> gazes_;
     std::vector<std::uint32_t> index_;  ///< of rows, in the people of this frame; kNone of who is not there
     std::vector<glm::dvec2> places_;
     PlaneGrid grid_;

@@ -188,7 +188,7 @@ void MotionRecorder::look(const KeptFrame& frame) {
     }
     gazes_->look(onlookers_);
     for (const Onlooker& each : onlookers_) {
-        const Gaze& gaze = (*gazes_)[each.row];
+        const Gaze gaze = (*gazes_)[each.row];
         const std::size_t at = each.row * kComponents;
         gaze_values_[at] = gaze.yaw;
         gaze_values_[at + 1] = gaze.pitch;

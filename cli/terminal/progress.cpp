@@ -16,7 +16,9 @@ std::string timeText(double seconds) {
                          : fmt::format("{}:{:02}", whole / 60, whole % 60);
 }
 
-ProgressStyle detectProgressStyle() {
+ProgressStyle progressStyle(bool quiet, bool json) {
+    if (quiet) return ProgressStyle::quiet;
+    if (json) return ProgressStyle::json;
     const char* terminal = std::getenv("TERM");
     const bool dumb = !terminal || std::string(terminal) == "dumb";
     return isatty(STDERR_FILENO) && !dumb ? ProgressStyle::terminal : ProgressStyle::plain;

@@ -19,8 +19,8 @@ enum class ProgressStyle {
     quiet,
 };
 
-/// The style that suits stderr.
-ProgressStyle detectProgressStyle();
+/// What was asked for, or the style that suits stderr.
+ProgressStyle progressStyle(bool quiet, bool json);
 
 /// The line on stderr that says how far something is, and when it is worth writing again.
 class StatusLine {

@@ -89,6 +89,13 @@ class Maths:
     def link(self, source, target):
         self.tree.links.new(source, target)
 
+    def feed(self, value, target):
+        """A constant, a number or a tuple of some, or what a socket gives."""
+        if isinstance(value, (int, float, tuple)):
+            target.default_value = value
+        else:
+            self.link(value, target)
+
     def attribute(self, name, kind="FLOAT"):
         """A named attribute's value."""
         node = self.node("GeometryNodeInputNamedAttribute", data_type=kind)
@@ -118,10 +125,7 @@ class Maths:
     def math(self, operation, *values):
         node = self.node("ShaderNodeMath", operation=operation)
         for slot, value in zip(node.inputs, values):
-            if isinstance(value, (int, float)):
-                slot.default_value = value
-            else:
-                self.link(value, slot)
+            self.feed(value, slot)
         return node.outputs[0]
 
     def greater(self, value, threshold):

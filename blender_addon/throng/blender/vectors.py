@@ -5,30 +5,21 @@
 def vector(maths, operation, *values):
     node = maths.node("ShaderNodeVectorMath", operation=operation)
     for slot, value in zip(node.inputs, values):
-        if isinstance(value, tuple):
-            slot.default_value = value
-        else:
-            maths.link(value, slot)
+        maths.feed(value, slot)
     return node.outputs["Value" if operation in ("DISTANCE", "DOT_PRODUCT", "LENGTH") else 0]
 
 
 def scaled(maths, value, factor):
     node = maths.node("ShaderNodeVectorMath", operation="SCALE")
     maths.link(value, node.inputs[0])
-    if isinstance(factor, (int, float)):
-        node.inputs["Scale"].default_value = factor
-    else:
-        maths.link(factor, node.inputs["Scale"])
+    maths.feed(factor, node.inputs["Scale"])
     return node.outputs[0]
 
 
 def combined(maths, *values):
     node = maths.node("ShaderNodeCombineXYZ")
     for slot, value in zip(node.inputs, values):
-        if isinstance(value, (int, float)):
-            slot.default_value = value
-        else:
-            maths.link(value, slot)
+        maths.feed(value, slot)
     return node.outputs[0]
 
 
@@ -46,7 +37,7 @@ def rotated(maths, value, axis, angle, centre=None):
     node = maths.node("ShaderNodeVectorRotate", rotation_type="AXIS_ANGLE")
     for name, given in (("Vector", value), ("Axis", axis), ("Angle", angle), ("Center", centre)):
         if given is not None:
-            maths.link(given, node.inputs[name])
+            maths.feed(given, node.inputs[name])
     return node.outputs[0]
 
 

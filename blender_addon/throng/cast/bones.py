@@ -14,6 +14,7 @@ import bpy
 import numpy
 
 from ..blender.nodes import Maths, new_tree, own_tree, socket
+from ..blender.vectors import rotated, scaled, vector
 from .skinning import MOST, hangs_of, matrices_of, turns_of
 
 HANGS, TURN = "throng_bones", "throng_turned"
@@ -92,22 +93,10 @@ def posed_points(figure, sheet, sources):
 def _columns(maths, bones):
     """A sheet's points with what they turn x and y into filed away on them: once, not for every vertex."""
     turn = maths.attribute(TURN, "FLOAT_VECTOR")
-    length = maths.node("ShaderNodeVectorMath", operation="LENGTH")
-    maths.link(turn, length.inputs[0])
+    length = vector(maths, "LENGTH", turn)
     for name, axis in (("x", (1.0, 0.0, 0.0)), ("y", (0.0, 1.0, 0.0))):
-        rotate = maths.node("ShaderNodeVectorRotate", rotation_type="AXIS_ANGLE")
-        rotate.inputs["Vector"].default_value = axis
-        maths.link(turn, rotate.inputs["Axis"])
-        maths.link(length.outputs["Value"], rotate.inputs["Angle"])
-        bones = maths.store(bones, name, rotate.outputs[0], "FLOAT_VECTOR")
+        bones = maths.store(bones, name, rotated(maths, axis, turn, length), "FLOAT_VECTOR")
     return bones
-
-
-def _vectors(maths, operation, *values):
-    node = maths.node("ShaderNodeVectorMath", operation=operation)
-    for slot, value in zip(node.inputs, values):
-        maths.link(value, slot)
-    return node.outputs[0]
 
 
 def sample(maths, geometry, value, index, kind="FLOAT_VECTOR"):
@@ -118,21 +107,14 @@ def sample(maths, geometry, value, index, kind="FLOAT_VECTOR"):
     return socket(node.outputs, "Value")
 
 
-def _scaled(maths, vector, number):
-    node = maths.node("ShaderNodeVectorMath", operation="SCALE")
-    maths.link(vector, node.inputs[0])
-    maths.link(number, node.inputs["Scale"])
-    return node.outputs[0]
-
-
 def _hung(maths, bones, first, hang, place):
     """Where a bone takes a place. `hang` has the bone's number, `first` is that of the pose's first bone."""
     index = maths.math("ADD", first, maths.math("FLOOR", hang))
     x, y = (sample(maths, bones, maths.attribute(name, "FLOAT_VECTOR"), index) for name in "xy")
     moved = sample(maths, bones, maths.node("GeometryNodeInputPosition").outputs[0], index)
-    z = _vectors(maths, "CROSS_PRODUCT", x, y)
+    z = vector(maths, "CROSS_PRODUCT", x, y)
     for column, along in zip((x, y, z), place):
-        moved = _vectors(maths, "ADD", moved, _scaled(maths, column, along))
+        moved = vector(maths, "ADD", moved, scaled(maths, column, along))
     return moved
 
 
@@ -213,8 +195,8 @@ def _place(maths, given, vertex, first):
     left = maths.math("SUBTRACT", 1.0, maths.math("ADD", shares[0], maths.math("ADD", shares[1], shares[2])))
     place = None
     for bone, share in zip(hangs.outputs, (left, *shares)):
-        part = _scaled(maths, _hung(maths, bones, first, bone, parts.outputs), share)
-        place = part if place is None else _vectors(maths, "ADD", place, part)
+        part = scaled(maths, _hung(maths, bones, first, bone, parts.outputs), share)
+        place = part if place is None else vector(maths, "ADD", place, part)
     return place
 
 

@@ -37,3 +37,13 @@ class BentBones:
             column = bones.sample(maths, self.points, maths.attribute(name, "FLOAT_VECTOR"), bone)
             total = vector(maths, "ADD", total, scaled(maths, column, along))
         return total
+
+    def turned(self, maths, points, turn, centre, shift):
+        """`points` with their columns turned, and their places, about `centre`, and then shifted. @param turn (vector,
+        place to turn about) is the vector turned"""
+        for name in self.columns:
+            points = maths.store(points, name, turn(maths.attribute(name, "FLOAT_VECTOR"), None), "FLOAT_VECTOR")
+        put = maths.node("GeometryNodeSetPosition")
+        maths.link(points, put.inputs["Geometry"])
+        maths.link(vector(maths, "ADD", turn(place(maths), centre), shift), put.inputs["Position"])
+        return put.outputs[0]

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Heads of people near the camera turn to where the bake says that they look (`--gaze`, docs/bake.md): the neck by a
 part of it, the head by all."""
-from ..blender.vectors import combined, index, parts, place, rotated, scaled, vector
+from ..blender.vectors import combined, index, parts, rotated, scaled, vector
 from ..cast import bones
 from .names import BONE
 
@@ -38,14 +38,7 @@ def with_heads_turned(maths, people, all_, placed):
     turns, nods, _ = maths.components(_ANGLES)
     aside = placed(maths, combined(maths, 0.0, 1.0, 0.0))
 
-    def looking(value, about=None):
+    def looking(value, about):
         return rotated(maths, rotated(maths, value, aside, nods, about), upright, turns, about)
 
-    for name in all_.columns:
-        points = maths.store(points, name, looking(maths.attribute(name, "FLOAT_VECTOR")), "FLOAT_VECTOR")
-    put = maths.node("GeometryNodeSetPosition")
-    maths.link(points, put.inputs["Geometry"])
-    moved = vector(maths, "ADD", looking(place(maths), maths.attribute(_CENTRE, "FLOAT_VECTOR")),
-                   maths.attribute(_SHIFT, "FLOAT_VECTOR"))
-    maths.link(moved, put.inputs["Position"])
-    return put.outputs[0]
+    return all_.turned(maths, points, looking, *(maths.attribute(name, "FLOAT_VECTOR") for name in (_CENTRE, _SHIFT)))

@@ -5,7 +5,7 @@ import bpy
 from ..blender.nodes import Maths, new_tree, socket
 from ..cast.library import shown_figures
 from . import footing
-from .names import BIGGER, FIGURE, HIDDEN, LEVEL, NATURE, NEAR, POSE_STREAMS
+from .names import BIGGER, FIGURE, HIDDEN, LEVEL, NATURE, NEAR
 from .near import boned_members, near_tree
 from .poses import member_of, pose_index
 
@@ -87,7 +87,8 @@ def instancer_tree(cast, repertoire, leans, near=None, streams=()):
     points = maths.store(points, FIGURE, maths.math("MULTIPLY", figure, there), "INT")
     points = maths.store(points, "throng_pose", pose, "INT")
     points = maths.store(points, "throng_turn", rotation.outputs[0], "FLOAT_VECTOR")
-    for spare in ("throng_dir", "throng_state", NATURE, *POSE_STREAMS):  # not for instances
+    # instances need not carry them along
+    for spare in ("throng_dir", "throng_state", NATURE, *(f"throng_{each}" for each in streams)):
         remove = maths.node("GeometryNodeRemoveAttribute")
         remove.inputs["Name"].default_value = spare
         maths.link(points, remove.inputs[0])

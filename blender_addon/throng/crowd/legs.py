@@ -6,7 +6,7 @@ bake that was asked for it (`--feet`) says of each foot how far it has to be mov
 Here legs follow: the foot goes where it has to, and the knee bends the way it did, as much as is needed (two-bone
 inverse kinematics). Where a leg is too short for that, the whole body sinks, as people's do in long steps.
 """
-from ..blender.vectors import combined, index, parts, place, rotated, scaled, vector
+from ..blender.vectors import combined, index, parts, rotated, scaled, vector
 from ..cast import bones
 from ..formats import FEET
 from .names import BONE
@@ -64,12 +64,24 @@ def _legs(maths, people, all_, placed):
 
     forward, aside, both = parts(maths, _move(maths))
     goes = placed(maths, combined(maths, forward, aside, maths.math("FRACT", both)))
-    thigh = vector(maths, "SUBTRACT", knee, hip)
-    lengths = [vector(maths, "LENGTH", each) for each in (thigh, vector(maths, "SUBTRACT", ankle, knee))]
+    legs = maths.store(legs, _ANKLE_TO, vector(maths, "ADD", ankle, goes), "FLOAT_VECTOR")
+    lengths = [vector(maths, "LENGTH", vector(maths, "SUBTRACT", *ends)) for ends in ((knee, hip), (ankle, knee))]
     # a leg that the clip stretches further than that stays as it is
     longest = maths.math("MAXIMUM", maths.math("MULTIPLY", maths.math("ADD", *lengths), STRETCHED),
                          vector(maths, "LENGTH", vector(maths, "SUBTRACT", ankle, hip)))
-    legs = maths.store(legs, _ANKLE_TO, vector(maths, "ADD", ankle, goes), "FLOAT_VECTOR")
+    legs = _sunk(maths, legs, hip, longest)
+    hip_to = vector(maths, "ADD", hip, _down(maths))
+    wanted = vector(maths, "SUBTRACT", maths.attribute(_ANKLE_TO, "FLOAT_VECTOR"), hip_to)
+    far, direction = maths.math("MINIMUM", vector(maths, "LENGTH", wanted), longest), vector(maths, "NORMALIZE", wanted)
+    legs = maths.store(legs, _ANKLE_TO, vector(maths, "ADD", hip_to, scaled(maths, direction, far)), "FLOAT_VECTOR")
+    ahead = vector(maths, "ADD", placed(maths, combined(maths, BENDS, 0.0, 0.0)), _across(
+        maths, vector(maths, "SUBTRACT", knee, hip), vector(maths, "NORMALIZE", vector(maths, "SUBTRACT", ankle, hip))))
+    bent = _thigh(maths, lengths, far, direction, vector(maths, "NORMALIZE", _across(maths, ahead, direction)))
+    return maths.store(legs, _KNEE_TO, vector(maths, "ADD", hip_to, bent), "FLOAT_VECTOR")
+
+
+def _sunk(maths, legs, hip, longest):
+    """The points of legs, with how far down the body has to go for the longer way of its two feet."""
     x, y, z = parts(maths, vector(maths, "SUBTRACT", maths.attribute(_ANKLE_TO, "FLOAT_VECTOR"), hip))
     aside = maths.math("MULTIPLY_ADD", x, x, maths.math("MULTIPLY", y, y))
     down = maths.math("SQRT", maths.math("MAXIMUM", maths.math(
@@ -79,24 +91,17 @@ def _legs(maths, people, all_, placed):
     other = maths.math("SUBTRACT", maths.math("ADD", index(maths), 1.0),
                        maths.math("MULTIPLY", maths.attribute(_SIDE, "INT"), 2.0))
     own = maths.attribute(_SINKS)
-    legs = maths.store(legs, _SINKS, maths.math("MAXIMUM", own, bones.sample(maths, legs, own, other, "FLOAT")))
-    hip_to = vector(maths, "ADD", hip, _down(maths))
-    wanted = vector(maths, "SUBTRACT", maths.attribute(_ANKLE_TO, "FLOAT_VECTOR"), hip_to)
-    far, direction = maths.math("MINIMUM", vector(maths, "LENGTH", wanted), longest), vector(maths, "NORMALIZE", wanted)
-    legs = maths.store(legs, _ANKLE_TO, vector(maths, "ADD", hip_to, scaled(maths, direction, far)), "FLOAT_VECTOR")
+    return maths.store(legs, _SINKS, maths.math("MAXIMUM", own, bones.sample(maths, legs, own, other, "FLOAT")))
 
-    wanted = vector(maths, "SUBTRACT", maths.attribute(_ANKLE_TO, "FLOAT_VECTOR"), hip_to)
-    far, direction = vector(maths, "LENGTH", wanted), vector(maths, "NORMALIZE", wanted)
+
+def _thigh(maths, lengths, far, direction, bends):
+    """From the hip to the knee. @param lengths of thigh and calf; @param far how far the ankle is from the hip"""
     squares = [maths.math("MULTIPLY", each, each) for each in (*lengths, far)]
     along = maths.math("DIVIDE", maths.math("ADD", maths.math("SUBTRACT", squares[0], squares[1]), squares[2]),
                        maths.math("MAXIMUM", maths.math("MULTIPLY", far, 2.0), 1e-6))
     out = maths.math("SQRT", maths.math("MAXIMUM", maths.math(
         "SUBTRACT", squares[0], maths.math("MULTIPLY", along, along)), 0.0))
-    was = vector(maths, "NORMALIZE", vector(maths, "SUBTRACT", ankle, hip))
-    ahead = vector(maths, "ADD", _across(maths, thigh, was), placed(maths, combined(maths, BENDS, 0.0, 0.0)))
-    bends = vector(maths, "NORMALIZE", _across(maths, ahead, direction))
-    bent = vector(maths, "ADD", scaled(maths, direction, along), scaled(maths, bends, out))
-    return maths.store(legs, _KNEE_TO, vector(maths, "ADD", hip_to, bent), "FLOAT_VECTOR")
+    return vector(maths, "ADD", scaled(maths, direction, along), scaled(maths, bends, out))
 
 
 def _down(maths):
@@ -157,10 +162,5 @@ def with_feet_held(maths, people, all_, placed):
         points = maths.store(points, name, value, "FLOAT_VECTOR")
     centre, axis, shift = (maths.attribute(name, "FLOAT_VECTOR") for name in (_CENTRE, _TURNS, _SHIFT))
     angle = vector(maths, "LENGTH", axis)
-    for name in all_.columns:
-        points = maths.store(points, name, rotated(maths, maths.attribute(name, "FLOAT_VECTOR"), axis, angle),
-                             "FLOAT_VECTOR")
-    put = maths.node("GeometryNodeSetPosition")
-    maths.link(points, put.inputs["Geometry"])
-    maths.link(vector(maths, "ADD", rotated(maths, place(maths), axis, angle, centre), shift), put.inputs["Position"])
-    return put.outputs[0]
+    turn = lambda value, about: rotated(maths, value, axis, angle, about)
+    return all_.turned(maths, points, turn, centre, shift)

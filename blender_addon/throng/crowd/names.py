@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Names that scenes have in them: of a crowd's modifiers, and of the attributes of its points. Saved files keep them,
 so they stay as they are."""
-from ..formats import POSE, STREAMS
+from ..formats import STREAMS
 
 CACHES = tuple(f"throng {stream}" for stream in STREAMS)
 INSTANCERS = ("throng people", "throng people (viewport)")
@@ -17,4 +17,3 @@ NEAR = "throng_near"      # 1 for those who are bent into their pose; see near.p
 ROW = "throng_row"        # on the vertices of those: which of the bake's people
 WHO = "throng_who"        # of those: which member of the cast
 BONE = "throng_bone"      # of a point for each of their bones: which one
-POSE_STREAMS = tuple(f"throng_{stream}" for stream in POSE)  # of who is bent: what the bake has of feet and heads

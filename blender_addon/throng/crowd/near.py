@@ -23,7 +23,7 @@ from ..cast.sheets import sheet_of
 from ..formats import FEET
 from . import heads, legs, poses
 from .bent_bones import BentBones
-from .names import BIGGER, BONE, GROUND, HIDDEN, LEVEL, NATURE, NEAR, POSE_STREAMS, ROW, WHO
+from .names import BIGGER, BONE, GROUND, HIDDEN, LEVEL, NATURE, NEAR, ROW, WHO
 from .own import FIRST, OWN
 
 MODIFIER = "throng near"
@@ -327,7 +327,8 @@ def near_tree(cast, repertoire, sheet, drawn, own, streams):
     for rest in rests:
         if rest.name not in cast.objects:
             cast.objects.link(rest)
-    spare = ("id", "throng_dir", "throng_state", NATURE, NEAR, GROUND, LEVEL, FIRST, OWN, *POSE_STREAMS)
+    spare = ("id", "throng_dir", "throng_state", NATURE, NEAR, GROUND, LEVEL, FIRST, OWN,
+             *(f"throng_{stream}" for stream in streams))
     bodies = people
     for name in spare:
         bodies = _without(maths, bodies, name)
