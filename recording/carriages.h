@@ -30,9 +30,10 @@ struct Carriage {
 /// part of what a body that must not fall over would need, as feet are put ahead and behind, too.
 ///
 /// Shoulders are broader than chests are deep: who passes by closely turns the shoulder on that side back,
-/// between two people those of both, and so needs less room (Yamamoto, Yanagisawa, Feliciani and Nishinari
-/// 2019 measured it in corridors). Here bodies are discs and pass as such; the turn is what is shown of it.
-/// Who walks with others abreast, or stands in a queue, passes nobody and turns nothing. How far is by eye.
+/// and so needs less room (measured in passing and crossing flows by Yamamoto, Yanagisawa, Feliciani and
+/// Nishinari 2019); between two people it goes sideways. Here bodies are discs and pass as such; the turn is
+/// what is shown of it. Who walks with others abreast, or stands in a queue, passes nobody and turns nothing.
+/// How far is by eye.
 class Carriages {
   public:
     /// @param radii m, by row; @param minimum, maximum of the site, m

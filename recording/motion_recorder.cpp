@@ -141,7 +141,7 @@ void MotionRecorder::record(const KeptFrame& frame) {
             const double way = wide_ ? directions_[at + 2] / fps_
                                      : glm::distance(glm::dvec2(walker.place), glm::dvec2(place));
             if (window_.reach() > 0 && !wide_) directions_[at + 2] = static_cast<float>(way * fps_);
-            walker.gait.advance(way, way * fps_);
+            walker.gait.advance(way, 1.0 / fps_);
         } else {
             walker.gait = GaitTrack{states_[at + 2], gaitFor(speeds_[row])};
             walker.walks = 1;

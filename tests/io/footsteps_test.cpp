@@ -46,7 +46,7 @@ std::vector<Seen> walk(const std::function<Place(double)>& way, double seconds, 
         const double moved = glm::distance(now.at, before.at);
         const double begins = glm::distance(way(1.0 / fps).at, now.at) * fps;
         if (frame == 0) gait.gait = gaitFor(begins);
-        if (frame > 0) gait.advance(moved, moved * fps);
+        if (frame > 0) gait.advance(moved, 1.0 / fps);
         const glm::vec2 heading(std::cos(now.faces), std::sin(now.faces));
         const auto speed = static_cast<float>(frame > 0 ? moved * fps : begins);
         const float walking = carriages.step(0, speed);
