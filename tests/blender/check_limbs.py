@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs inside Blender: feet of near people, held where the bake says, trunks that turn, heads that look. ADDON BAKE"""
+"""Runs inside Blender: near people with feet held where the bake says, trunks that turn, heads that look. ADDON BAKE
+"""
 import json
 import os
 import shutil
@@ -128,8 +129,8 @@ for row in held:
     before_it = (before[head] - before[head].mean(axis=0)) @ (cosine, sine, 0.0)
     ahead = before_it.argmax()  # the nose, or a hat's brim
     found["head"] = {"turned": turned(before[head], after[head]),
-                     "rotation": rotation(before[head], after[head], way[FRAME - 1, row])[0], "stretched": stretched(before[head][:90],
-                                                                                       after[head][:90]),
+                     "rotation": rotation(before[head], after[head], way[FRAME - 1, row])[0],
+                     "stretched": stretched(before[head][:90], after[head][:90]),
                      "up": float((after[head] - after[head].mean(axis=0))[ahead, 2]
                                  - (before[head] - before[head].mean(axis=0))[ahead, 2]),
                      "ahead": float(forward[ahead]),

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Feet of near people are held where the bake says, trunks turn and heads look as it says, in a real Blender: Debian's and the
-newest."""
+"""Feet of near people are held where the bake says, trunks turn and heads look as it says, in a real Blender:
+Debian's and the newest."""
 import json
 import struct
 

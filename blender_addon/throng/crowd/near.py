@@ -307,7 +307,8 @@ def _rest_of(name, figure):
 def _bent(maths, people, points, sheet, figures, streams):
     """The points of bones, as the streams say how feet, trunks and heads go. @param sheet (geometry, the number of its
     first joint, bones a person)"""
-    limbs, trunk = (bones.told_of([sheet_of(figure) for figure in figures], what) for what in (bones.LIMBS, bones.TRUNK))
+    sheets = [sheet_of(figure) for figure in figures]
+    limbs, trunk = (bones.told_of(sheets, what) for what in (bones.LIMBS, bones.TRUNK))
     turns = "carriage" in streams and trunk is not None
     for is_told, bend in ((FEET[0] in streams, legs.with_feet_held), (turns, trunks.with_trunks_turned),
                           (turns or "gaze" in streams, heads.turning("gaze" in streams, turns))):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Trunks of people near the camera turn and lean as the bake says (`--feet`, docs/bake.md): about the middle between the
-hips, shoulders and arms by all of it, the back by less the lower it is. Heads stay as they are (heads.py)."""
+"""Trunks of people near the camera turn and lean as the bake says (`--feet`, docs/bake.md): about the middle between
+the hips, shoulders and arms by all of it, the back by less the lower it is. Heads stay as they are (heads.py)."""
 from ..blender.vectors import combined, index, parts, rotated, scaled, vector
 from ..cast import bones
 from .names import BONE
