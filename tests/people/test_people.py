@@ -10,7 +10,8 @@ from conftest import ROOT
 
 sys.path.insert(0, str(ROOT / "blender_addon"))
 from throng.cast import gait, skinning  # noqa: E402
-from throng.people import casting, library, levels, palettes, person, roster, shape, wardrobe  # noqa: E402
+from throng.people import (casting, library, levels, palettes, person, regions, roster, shape,  # noqa: E402
+                           wardrobe)
 from throng.people.rig import skinned  # noqa: E402
 from throng.people.parts import Part, border_of, clipped, edges_of, folded, subdivided  # noqa: E402
 
@@ -313,7 +314,10 @@ def test_every_look_dresses_women_and_men():
             assert len(outfits) >= 6, look
             for bottom, tops, shoes in outfits:
                 order = wardrobe.order(bottom, tops, shoes)
-                assert set(order) == {bottom, shoes, *tops} and len(order) == 2 + len(tops)
+                kinds = lambda garments: sorted((each.kind, each.material, each.off) for each in garments)
+                assert kinds(order) == kinds((bottom, shoes, *tops))
+                if bottom.kind == "skirt" and all(top.off <= 0.01 and top.material != bottom.material for top in tops):
+                    assert [each.kind for each in order][-1] == "skirt", "blouses and tees are tucked in"
 
 
 def test_bones_that_never_move_beside_others_are_left_out(models):
@@ -340,3 +344,32 @@ def test_turns_and_shares_come_back_from_what_files_keep(models):
     assert numpy.allclose(again, matrices, atol=1e-9)
     hangs = skinning.hangs_of(numpy.array([[0.0, 1.0, 0.0], [0.25, 0.0, 0.75]]))
     assert hangs.tolist() == [[1.0, 0.0, 0.0, 0.0], [2.0, 0.25, 0.0, 0.0]]
+
+
+def around(points, middle):
+    """(how far round the body, m; height, m; how far out, m)"""
+    x, y = points[:, 0] - middle, points[:, 1]
+    return numpy.stack([0.15 * numpy.arctan2(y, x), points[:, 2], numpy.hypot(x, y)], axis=1)
+
+
+def test_tops_fall_outside_of_what_is_worn_below(loaded):
+    tried = 0
+    for number in range(24):
+        who = roster.draw_person(("casual", "summer", "winter")[number % 3], number)
+        tops = [each for each in who.garments if each.kind == "top" and each.hem < 0.09 and not each.gap]
+        if not tops:
+            continue
+        parts = person.Maker(loaded, who)._parts(levels.NEAR)
+        top = next(part for part in parts if part.material == tops[-1].material)
+        for below in (part for part in parts if part.material.startswith("bottom") and len(part.points) > 400):
+            height = below.places[:, regions.Z] - tops[-1].hem
+            covered = below.points[(height > 0.008) & (height < 0.03)]
+            middle = 0.5 * (covered[:, 0].min() + covered[:, 0].max())
+            under = around(covered, middle)
+            over = around(top.points[top.tags == 0], middle)  # without hems, turned inwards
+            near = ((under[:, None, :2] - over[None, :, :2]) ** 2).sum(axis=2).argmin(axis=1)
+            out = under[:, 2] - over[near, 2]
+            pokes = (out > 0.001).mean()
+            assert pokes < 0.1, (number, tops[-1], below.material, pokes)
+            tried += 1
+    assert tried > 6

@@ -10,6 +10,7 @@ from .parts import Part, border_of, clipped, folded, grown, laid_on, normals_of,
 
 NECK, CUFF, HEM, FRONT = 1, 2, 3, 4  # tags of cuts
 _TUCKED = 0.09  # tops that end above are tucked in
+_OVER = 0.018   # m, that the others fall outside of what is worn below them
 SUIT, SKIRT = "helper-tights", "helper-skirt"
 _COLLARS = {  # rows of (up, away from the neck), m
     "crew": ((0.006, -0.004), (0.011, -0.002), (0.009, 0.004)),
@@ -133,7 +134,7 @@ class Tailor:
             share = numpy.clip((points[:, 2] - knee[2]) / (hip[2] - knee[2]), 0.0, 1.0)
             away = points - (knee + (hip - knee) * share[:, None])
             away[:, 2] = 0.0
-            points = points + away * (garment.loose * (1.3 - share) * self.bone(f"thigh_{side}"))[:, None]
+            points = points + away * (garment.loose * 1.2 * (1.08 - share) * self.bone(f"thigh_{side}"))[:, None]
         return points
 
     def _part(self, points, group, material):
@@ -155,6 +156,9 @@ class Tailor:
         if garment.hem > _TUCKED:  # below the belt it is under trousers and skirts
             under = _ramp(0.215 - places[:, regions.Z], 0.0, 0.03) * (places[:, regions.ARM] <= 0.0)
             part = part.moved(part.points - part.normals * (0.012 * self.scale * under)[:, None])
+        else:  # it falls over trousers and skirts
+            over = _ramp(0.15 - places[:, regions.Z], 0.0, 0.09) * (places[:, regions.ARM] <= 0.0)
+            part = part.moved(part.points + part.normals * (_OVER * self.scale * over)[:, None])
         part = clipped(part, regions.above(places, garment.hem), HEM)
         part = clipped(part, regions.sleeve(part.places, garment.sleeve), CUFF)
         part = clipped(part, regions.neckline(part.places, *garment.neck), NECK)
@@ -259,7 +263,8 @@ class Tailor:
                 for piece in laid_on(part, regions.box(low, high, side), 0.004 * self.scale, garment.material)]
 
     def _belt(self, part, garment):
-        high = (garment.waist if garment.kind != "top" else 0.165) - 0.004
+        # of coats and dresses above what the skirt covers
+        high = (garment.waist if garment.kind != "top" else 0.190) - 0.004
         return laid_on(part, regions.box((None, None, high - 0.032), (None, None, high)), 0.005 * self.scale,
                        garment.belt)
 

@@ -130,7 +130,7 @@ def brow(places):
 def beard(places, full=True):
     """Inside of a beard; else of a moustache and what is round the chin."""
     y = numpy.abs(places[:, Y])
-    top = numpy.interp(y, [0.0, 0.022, 0.030, 0.055, 0.072, 0.085], [0.694, 0.691, 0.664, 0.668, 0.715, 0.740])
+    top = numpy.interp(y, [0.0, 0.022, 0.030, 0.055, 0.072, 0.085], [0.6840, 0.6825, 0.664, 0.668, 0.715, 0.740])
     mouth = 0.0080 - numpy.hypot((places[:, Z] - 0.6670) * 1.05, numpy.maximum(y - 0.017, 0.0))
     field = numpy.minimum(top - places[:, Z], places[:, Z] - 0.606)
     field = numpy.minimum(numpy.minimum(field, places[:, X] - 0.035), (places[:, HEAD] - 0.4) * 0.2)

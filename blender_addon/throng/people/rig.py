@@ -7,6 +7,7 @@ import numpy
 from ..cast import gait
 
 _FINGERS = (("index", 0.32), ("middle", 0.40), ("ring", 0.45), ("pinky", 0.48))
+_THUMB = 0.55  # of the angle between thumb and index, by which they close
 _X, _Y, _Z = numpy.eye(3)
 SOLE = 0.018  # m, of a shoe, below the foot
 STICK_AHEAD = 0.12  # m, of the ankle, where sticks are planted
@@ -200,6 +201,18 @@ class Rig:
                 bent = bent @ turn(hinge, -curl * (0.7 if number == 1 else 1.0))
                 found.append((bone, parent, bent))
                 parent = bone
+        return found + self._thumb(side, hand, index)
+
+    def _thumb(self, side, hand, index):
+        """Beside the index, not spread."""
+        thumb, parent, found = f"thumb_0{{}}_{side}", hand, []
+        own = self.tails[thumb.format(3)] - self.heads[thumb.format(1)]
+        apart = math.acos(own @ index / (numpy.linalg.norm(own) * numpy.linalg.norm(index)))
+        bent = turn(cross(own, index), _THUMB * apart)
+        for number in (1, 2, 3):
+            bone = thumb.format(number)
+            found.append((bone, parent, bent))
+            parent = bone
         return found
 
     def _all(self, turns, places):

@@ -11,7 +11,7 @@ LEGGINGS = replace(TROUSERS, material="bottom jersey", width=0.40, loose=0.0, of
 SUIT_TROUSERS = replace(TROUSERS, material="bottom wool", width=0.96, folds=0.7)
 CARGO = replace(TROUSERS, width=1.15, loose=0.14, off=0.012, pockets=("thigh",))
 JOGGERS = replace(TROUSERS, material="bottom fleece", width=0.92, loose=0.14, off=0.012, hem=-0.735, folds=1.3)
-SHORTS = replace(TROUSERS, width=1.0, loose=0.24, off=0.014, hem=-0.335)
+SHORTS = replace(TROUSERS, width=1.0, loose=0.24, hem=-0.335)
 SPORT_SHORTS = replace(SHORTS, material="bottom jersey", hem=-0.245, loose=0.30)
 SKIRT = Garment("skirt", "bottom cotton", off=0.012, hem=-0.36, waist=0.165, flare=0.10, pleats=0.02)
 LONG_SKIRT = replace(SKIRT, hem=-0.60, flare=0.16, pleats=0.05)
@@ -51,6 +51,7 @@ SHOES = Garment("shoes", "shoes leather", hem=-0.758)
 BOOTS = Garment("shoes", "shoes leather", hem=-0.655, smooth=2)
 
 BELT = "extra leather"
+_TUCKED = 0.10  # height on the base mesh
 
 
 def _belted(bottom):
@@ -97,9 +98,18 @@ LOOKS = {
 }
 
 
+def _is_thin(top):
+    return top.kind == "top" and top.off <= 0.010
+
+
 def order(bottom, tops, shoes):
-    """From the inside out. What is tucked in goes below trousers and skirts, what hangs over them goes above."""
-    inside = [top for top in tops if top.kind == "top" and top.hem > 0.09 and top.material.startswith("shirt")]
+    """From the inside out. What is tucked in goes below trousers and skirts, what hangs over them goes above; thin
+    tops are tucked into skirts."""
+    if bottom.kind == "skirt":
+        tops = [replace(top, hem=max(top.hem, _TUCKED)) if _is_thin(top) and top.material != bottom.material else top
+                for top in tops]
+    inside = [top for top in tops if top.kind == "top" and top.hem > 0.09 and (
+        top.material.startswith("shirt") or bottom.kind == "skirt" and top.material != bottom.material)]
     outside = [top for top in tops if top not in inside]
     if bottom.kind == "legs" and bottom.hem < -0.7:  # over the shoes, but boots over trousers
         legs = [bottom, shoes] if shoes.hem > -0.7 else [shoes, bottom]

@@ -9,7 +9,7 @@ from . import levels, regions
 from .head import head_of
 from .parts import Part, clipped, cut_out, scattered, subdivided
 
-_BROW, _BEARD, _CHIN = 330, 2600, 900  # hairs
+_BROW, _BEARD, _CHIN = 330, 4200, 1500  # hairs
 
 
 def brows(bodies, shape, level, material, scale, seed):
@@ -38,26 +38,26 @@ def _brow_ways(places, draw):
 
 
 def beard(bodies, shape, level, style, material, scale, seed):
-    """A beard as a skin that is thickest at the chin, with hairs; with stubble, nothing: that is painted."""
+    """A beard: from near, hairs over what is painted on the face; from further away a skin that is thickest at the
+    chin. With stubble, nothing: that is painted, too."""
     if style not in ("full", "chin") or level > 1:
         return []
     full = style == "full"
     head = head_of(bodies, shape, level)
     field = regions.beard(head.places, full)
+    if level == levels.NEAR:
+        piece = clipped(head, numpy.minimum(field + 0.0015, 1.0))
+        if not len(piece.faces):
+            return []
+        draw, size = numpy.random.default_rng(seed + 1), (0.014 * scale, 0.0013 * scale, 0.36)
+        return [_hairs(piece, draw, _BEARD if full else _CHIN, _beard_ways, size, material)]
     piece = clipped(head, numpy.minimum(field, 1.0))
     if not len(piece.faces):
         return []
-    piece = subdivided(piece, 0.2) if level == levels.NEAR else piece
-    inside = regions.beard(piece.places, full)
-    thick = (0.005 if level == levels.NEAR else 0.009) * numpy.clip(inside / 0.016, 0.05, 1.0)
+    thick = 0.009 * numpy.clip(regions.beard(piece.places, full) / 0.016, 0.05, 1.0)
     points = piece.points + piece.normals * (thick * scale)[:, None]
     strands = numpy.stack([piece.places[:, regions.Y] * 30.0, piece.places[:, regions.Z] * 5.0], axis=1)
-    found = [replace(piece.moved(points), material=material, flat=strands)]
-    if level == levels.NEAR:
-        draw, edge = numpy.random.default_rng(seed + 1), clipped(head, numpy.minimum(field + 0.0025, 1.0))
-        found.append(_hairs(edge, draw, _BEARD if full else _CHIN, _beard_ways, (0.015 * scale, 0.0010 * scale, 0.42),
-                            material))
-    return found
+    return [replace(piece.moved(points), material=material, flat=strands)]
 
 
 def _beard_ways(places, draw):
