@@ -99,11 +99,11 @@ def ahead(draw, spread):
 
 
 def row(stage, level, draw):
-    for index in range(12):
+    for index in range(16):
         phase = None if index % 4 == 3 else 0.02 + 0.27 * index
-        stage.place(stage.options.first + index, level, 0.86 * (index - 5.5), 0.5 * (index % 2), ahead(draw, 0.18),
+        stage.place(stage.options.first + index, level, 0.80 * (index - 7.5), 0.5 * (index % 2), ahead(draw, 0.18),
                     phase)
-    stage.camera((0.0, -11.5, 1.45), (0.0, 0.0, 0.86), 37.0)
+    stage.camera((0.0, -14.0, 1.45), (0.0, 0.0, 0.98), 38.0)
 
 
 def close(stage, level, draw):
@@ -166,11 +166,11 @@ def main():
     options = arguments()
     bpy.ops.wm.read_factory_settings(use_empty=True)
     stage, scene = Stage(options), bpy.context.scene
-    level = LEVELS[options.level] if options.level else {"row": 0, "close": levels.NEAR, "crowd": 0}[options.shot]
+    level = LEVELS[options.level] if options.level else {"row": levels.NEAR, "close": levels.NEAR, "crowd": 0}[options.shot]
     {"row": row, "close": close, "crowd": crowd}[options.shot](stage, level, numpy.random.default_rng(4))
     ground(scene)
     lights.build_light(scene, scene.collection, options.light)
-    if options.shot == "close":  # faces, as a photographer would have them: lit from the side, and not from above
+    if options.shot != "crowd":  # faces, as a photographer would have them: lit from the side, and not from above
         sun = next(thing for thing in scene.collection.objects if thing.type == "LIGHT")
         sun.rotation_euler = SIDELIGHT
     scene.view_settings.exposure += BRIGHTER

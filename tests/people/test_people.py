@@ -13,7 +13,7 @@ from throng.cast import gait, skinning  # noqa: E402
 from throng.people import (casting, library, levels, palettes, person, regions, roster, shape,  # noqa: E402
                            wardrobe)
 from throng.people.rig import skinned  # noqa: E402
-from throng.people.parts import Part, border_of, clipped, edges_of, folded, subdivided  # noqa: E402
+from throng.people.parts import Part, border_of, clipped, edges_of, folded, normals_of, subdivided  # noqa: E402
 
 EUROPEAN, AFRICAN, ASIAN = (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
 CROWD = (0, 1, 2)
@@ -306,6 +306,34 @@ def test_sticks_are_planted_while_the_left_foot_is(loaded):
     assert tips[:, 2].min() > -0.01 and tips[:, 2].max() < 0.06
     flat = [index for index, pose in enumerate(poses) if pose.feet[1].planted == "flat"]
     assert numpy.ptp(tips[flat, 0] + numpy.array(flat) / 24 * walked.stride) < 0.01, "in the world"
+
+
+def through_legs(bodies, model):
+    """The share of a model's hands that are in its legs, in all poses there are."""
+    bones = numpy.array(bodies.bones)
+    of = lambda *starts: model.weights[:, numpy.char.startswith(bones[:, None], starts).any(axis=1)].sum(axis=1)
+    skin = [number for number, name in enumerate(model.materials) if name.startswith("skin")]
+    is_skin = numpy.isin(numpy.arange(len(model.points)), model.faces[numpy.isin(model.material_of, skin)])
+    hands = is_skin & (of("hand_", "index", "middle", "ring", "pinky", "thumb") > 0.6)
+    legs = of("thigh", "calf") > 0.5
+    poses = [gait.walk_pose(beat / 12.0, model.rig.build, gait.gait_of(stride))
+             for stride in (0.69, 1.13, 1.85, 2.37) for beat in range(0, 12, 2)]
+    poses += [gait.standing_pose(clip, beat / 4.0, model.rig.build)
+              for clip in gait.STANDING_CLIPS for beat in (0, 2)]
+    inside = []
+    for points in model.posed(poses):
+        away = points[hands][:, None] - points[legs][None]
+        near = (away ** 2).sum(axis=2).argmin(axis=1)
+        away = away[numpy.arange(len(near)), near]
+        normals = normals_of(points, model.faces)[legs][near]
+        inside.append(((away * normals).sum(axis=1) < -0.002) & ((away ** 2).sum(axis=1) < 0.06 ** 2))
+    return numpy.mean(inside)
+
+
+def test_hands_pass_beside_legs_in_all_poses(models, loaded):
+    for (number, level), model in models.items():
+        if level == 0:
+            assert through_legs(loaded, model) < 0.005, number
 
 
 def test_every_look_dresses_women_and_men():

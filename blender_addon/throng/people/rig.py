@@ -132,7 +132,7 @@ class Rig:
         shoulder = places[clavicle] + turns[clavicle] @ (self.heads[upper] - self.heads[clavicle])
         reach = math.dist(self.heads[upper], self.heads[lower]) + math.dist(self.heads[lower], self.heads[hand])
         # outwards enough for the hand to pass beside the hips
-        room = (self.widest + 0.055 * self.scale - abs(self.heads[upper][1])) / reach
+        room = (self.widest + 0.070 * self.scale - abs(self.heads[upper][1])) / reach
         out = sign * min(max(0.10, room), 0.34)
         turned = turn(_Z, pose.shoulder_yaw)
 
@@ -140,7 +140,7 @@ class Rig:
             return turned @ numpy.array([math.sin(angle), out * (1.0 - 0.4 * abs(angle)), -math.cos(angle)])
 
         down = hang(swing)
-        fore = hang(swing + elbow) / numpy.linalg.norm(hang(swing + elbow)) - turned @ _Y * sign * 0.07
+        fore = hang(swing + elbow)
         rest_upper = self.heads[lower] - self.heads[upper]
         rest_lower = self.heads[hand] - self.heads[lower]
         hinge, rest_hinge = -(turned @ _Y), cross(rest_upper, rest_lower)
