@@ -202,4 +202,4 @@ def _relief(shade, pattern, fabric, left, up, weave, wave):
         "MULTIPLY_ADD", value, 2.0, -1.0))), sharp)
     folds, small = crease(folds, 5.0), crease(small, 3.0)
     amount = {"leather": 0.75, "silk": 0.7, "cotton": 0.65, "denim": 0.6}.get(fabric, 0.5)
-    return shade.bump(small, 0.08 * amount, 0.004, shade.bump(folds, 0.30 * amount, 0.010, fine))
+    return shade.bump(small, 0.08 * amount, 0.004, shade.bump(folds, 0.18 * amount, 0.010, fine))
