@@ -280,8 +280,13 @@ def _without(maths, geometry, name):
     return remove.outputs[0]
 
 
-def _hung(maths, bones_, names, place, hangs, first):
+def _hung(maths, bones_, names, bone_count):
     """What all bones that a vertex hangs on make of its place at rest. @param names of x, y, z and of what is added"""
+    place = parts(maths, maths.node("GeometryNodeInputPosition").outputs[0])
+    separate = maths.node("FunctionNodeSeparateColor")
+    maths.link(maths.attribute(bones.HANGS, "FLOAT_COLOR"), separate.inputs[0])
+    hangs = separate.outputs
+    first = maths.math("MULTIPLY", maths.attribute(_RANK, "INT"), float(bone_count))
     shares = [maths.math("FRACT", each) for each in hangs[1:bones.MOST]]
     left = maths.math("SUBTRACT", 1.0, maths.math("ADD", shares[0], maths.math("ADD", shares[1], shares[2])))
     total = None
@@ -313,7 +318,9 @@ def _bent(maths, people, points, sheet, figures, streams):
     for is_told, bend in ((FEET[0] in streams, legs.with_feet_held), (turns, trunks.with_trunks_turned),
                           (turns or "gaze" in streams, heads.turning("gaze" in streams, turns))):
         if limbs and is_told:
-            points = bend(maths, people, BentBones(points, (*_COLUMNS, *_CHANGES), *sheet, limbs, trunk), _placed)
+            points = maths.grouped(
+                "Throng near limbs", [people, points, sheet[0]], lambda inner, who, bent, all_, bend=bend: bend(
+                    inner, who, BentBones(bent, (*_COLUMNS, *_CHANGES), all_, *sheet[1:], limbs, trunk), _placed))
     return points
 
 
@@ -325,13 +332,14 @@ def near_tree(cast, repertoire, sheet, drawn, own, streams):
     figures = boned_members(cast)
     tree, inputs, outputs = new_tree("Throng near people", _GEOMETRY + [("Blur", "NodeSocketBool")], _GEOMETRY)
     maths = Maths(tree)
-    people = _people(maths, inputs.outputs[0], repertoire, cast["throng_variations"], drawn, own,
-                     "carriage" in streams)
     info = maths.node("GeometryNodeObjectInfo", transform_space="ORIGINAL")
     info.inputs["Object"].default_value = sheet
     bone_count = sheet_of(figures[0])["throng_bones"]
     bones_, pose_count = socket(info.outputs, "Geometry"), repertoire.poses(0)
-    hung_on = _bone_points(maths, people, bones_, pose_count, bone_count)
+    people = maths.grouped("Throng near poses", [inputs.outputs[0]], lambda inner, points: _people(
+        inner, points, repertoire, cast["throng_variations"], drawn, own, "carriage" in streams))
+    hung_on = maths.grouped("Throng near bones", [people, bones_], lambda inner, points, all_: _bone_points(
+        inner, points, all_, pose_count, bone_count))
     first_joint = len(figures) * pose_count * bone_count
     hung_on = _bent(maths, people, hung_on, (bones_, first_joint, bone_count), figures, streams)
     rests = [_rest_of(f"{figure.name} at rest", figure) for figure in figures]
@@ -344,11 +352,8 @@ def near_tree(cast, repertoire, sheet, drawn, own, streams):
     for name in spare:
         bodies = _without(maths, bodies, name)
     mesh = _meshes(maths, bodies, rests, (WHO,))
-    place = parts(maths, maths.node("GeometryNodeInputPosition").outputs[0])
-    hangs = maths.node("FunctionNodeSeparateColor")
-    maths.link(maths.attribute(bones.HANGS, "FLOAT_COLOR"), hangs.inputs[0])
-    first = maths.math("MULTIPLY", maths.attribute(_RANK, "INT"), float(bone_count))
-    velocity = _hung(maths, hung_on, _CHANGES, place, hangs.outputs, first)
+    velocity, place = (maths.grouped("Throng near skin", [hung_on], lambda inner, bent, names=names: _hung(
+        inner, bent, names, bone_count), "NodeSocketVector") for names in (_CHANGES, (*_COLUMNS, "")))
     blurs = maths.node("GeometryNodeSwitch", input_type="GEOMETRY")
     maths.link(inputs.outputs["Blur"], socket(blurs.inputs, "Switch"))
     maths.link(mesh, socket(blurs.inputs, "False"))
@@ -356,7 +361,7 @@ def near_tree(cast, repertoire, sheet, drawn, own, streams):
     mesh = socket(blurs.outputs)
     put = maths.node("GeometryNodeSetPosition")
     maths.link(mesh, put.inputs["Geometry"])
-    maths.link(_hung(maths, hung_on, (*_COLUMNS, ""), place, hangs.outputs, first), put.inputs["Position"])
+    maths.link(place, put.inputs["Position"])
     mesh = put.outputs[0]
     for name in (WHO, _RANK, bones.HANGS):
         mesh = _without(maths, mesh, name)

@@ -51,7 +51,7 @@ SHOES = Garment("shoes", "shoes leather", hem=-0.758)
 BOOTS = Garment("shoes", "shoes leather", hem=-0.655, smooth=2)
 
 BELT = "extra leather"
-_TUCKED = 0.10  # height on the base mesh
+_TUCKED, _THIN = 0.10, 0.010  # height on the base mesh of what is tucked in; m, from the body
 
 
 def _belted(bottom):
@@ -98,19 +98,19 @@ LOOKS = {
 }
 
 
-def _is_thin(top):
-    return top.kind == "top" and top.off <= 0.010
+def _tucked_in(top, bottom):
+    """The top as it is worn with that, if below it: shirts with a short hem, and thin tops in skirts; or None."""
+    if top.kind != "top" or top.material == bottom.material:
+        return None
+    if bottom.kind == "skirt" and top.off <= _THIN:
+        return replace(top, hem=max(top.hem, _TUCKED))
+    return top if top.hem > _TUCKED - 0.01 and top.material.startswith("shirt") else None
 
 
 def order(bottom, tops, shoes):
-    """From the inside out. What is tucked in goes below trousers and skirts, what hangs over them goes above; thin
-    tops are tucked into skirts."""
-    if bottom.kind == "skirt":
-        tops = [replace(top, hem=max(top.hem, _TUCKED)) if _is_thin(top) and top.material != bottom.material else top
-                for top in tops]
-    inside = [top for top in tops if top.kind == "top" and top.hem > 0.09 and (
-        top.material.startswith("shirt") or bottom.kind == "skirt" and top.material != bottom.material)]
-    outside = [top for top in tops if top not in inside]
+    """From the inside out. What is tucked in goes below trousers and skirts, what hangs over them goes above."""
+    inside = [tucked for tucked in (_tucked_in(top, bottom) for top in tops) if tucked]
+    outside = [top for top in tops if not _tucked_in(top, bottom)]
     if bottom.kind == "legs" and bottom.hem < -0.7:  # over the shoes, but boots over trousers
         legs = [bottom, shoes] if shoes.hem > -0.7 else [shoes, bottom]
     else:
