@@ -170,7 +170,7 @@ def main():
     {"row": row, "close": close, "crowd": crowd}[options.shot](stage, level, numpy.random.default_rng(4))
     ground(scene)
     lights.build_light(scene, scene.collection, options.light)
-    if options.shot != "crowd":  # faces, as a photographer would have them: lit from the side, and not from above
+    if options.light == "noon":  # faces, as a photographer would have them: lit from the side, and not from above
         sun = next(thing for thing in scene.collection.objects if thing.type == "LIGHT")
         sun.rotation_euler = SIDELIGHT
     scene.view_settings.exposure += BRIGHTER

@@ -51,7 +51,7 @@ def hair(bodies, shape, level, name, material, scale, seed):
     if not len(skin.faces):
         return []
     parts = [replace(skin, material=material)]
-    count = int(style.count * levels.DETAILS[level].locks)
+    count = 0 if _is_cap(style, level) else int(style.count * levels.DETAILS[level].locks)
     if style.length < 0.0 and level == 2:
         count = 12
     if count:
@@ -63,6 +63,11 @@ def hair(bodies, shape, level, name, material, scale, seed):
     if name in ("knot", "tail") and level < 2:
         parts.append(_knot(bodies, shape, level, name, material, scale))
     return parts
+
+
+def _is_cap(style, level):
+    """Whether the skin alone is the hair: few locks of short hair look like leaves."""
+    return level > levels.NEAR and style.length > 0.0 and style.comb != "knot"
 
 
 def _scalp(bodies, shape, level, style, ring):
@@ -81,8 +86,11 @@ def _skin(bodies, shape, level, style, scale, ring):
     if level == levels.NEAR:
         piece = subdivided(piece, 0.2)
     above = regions.scalp(piece.places, style.raised)
-    plain = 0.0 if level < 2 else 1.1 * style.lift if style.comb == "out" else 0.0  # instead of locks
+    plain = (0.8 if style.comb == "out" else 0.5) * style.lift if _is_cap(style, level) else 0.0  # instead of locks
     thick = (style.thick * (1.0 if level < 1 else 1.35) + plain) * numpy.clip(above / 0.03, 0.04, 1.0) ** 0.8
+    if plain and level < 2:  # tufts and curls
+        often, size = (95.0, 0.22) if style.comb == "out" else (70.0, 0.12)
+        thick = thick * (1.0 + size * numpy.sin(piece.places[:, :3] * often + (0.0, 1.0, 2.0)).sum(axis=1))
     points = piece.points + piece.normals * (thick * scale)[:, None]
     strands = numpy.stack([regions.angle_of(piece.places) / 12.0, piece.places[:, regions.Z] * 5.0], axis=1)
     return replace(piece.moved(smoothed(points, piece.faces, 1, 0.3)), flat=strands)
