@@ -6,7 +6,8 @@ import math
 import numpy
 
 THIGH, SHIN, ANKLE, WIDE = 0.40, 0.42, 0.09, 0.10  # m
-TOE, STANCE, LIFT = 0.16, 0.6, 0.10
+TOE, BALL, LIFT = 0.16, 0.02, 0.08
+STANCE, ROLLS = 0.6, 0.38  # of the cycle: how long feet are planted, and when heels rise
 DROP = 0.05              # m that hips are below straight legs
 NOD = 8.0                # degrees of the head, once a cycle
 ELBOW = 30.0             # degrees
@@ -41,10 +42,11 @@ class Walker:
     """x forward, y left, z up, m."""
 
     def __init__(self, stride=1.3, swing=24.0, rest="T", frames=32, rate=30.0, cycles=1, travels=True, heading=0.0,
-                 backwards=False, closed=True, stands=False):
+                 backwards=False, closed=True, stands=False, roll=35.0, dips=False):
         self.stride, self.swing, self.frames, self.rate, self.cycles = stride, swing, frames, rate, cycles
         self.travels, self.heading, self.backwards, self.closed = travels, heading, backwards, closed
-        self.stands = stands
+        self.stands, self.roll = stands, math.radians(roll)
+        self.dips = dips  # toes go through the ground when they leave it
         self.joints = self._joints(numpy.array(RESTS[rest]))  # name: (parent, place, end)
 
     def _joints(self, arm):
@@ -55,7 +57,7 @@ class Walker:
         found["head"] = ("neck", (0.02, 0, HIP + 0.58), (0.04, 0, HIP + 0.80))
         for side, sign in (("Right", -1.0), ("Left", 1.0)):
             y = sign * WIDE
-            toe = ((0.6 * TOE, y, 0.02), (TOE, y, 0.0))
+            toe = ((0.6 * TOE, y, BALL), (TOE, y, 0.0))
             out = arm * (1.0, sign, 1.0)
             shoulder = numpy.array([0.0, sign * 0.18, HIP + 0.45])
             for name, parent, place, end in (
@@ -69,15 +71,24 @@ class Walker:
                 for name, (parent, place, end) in found.items()}
 
     def _foot(self, phase):
-        """(x, z) of an ankle beside the hips: planted from 0 on."""
+        """(x, z) of an ankle beside the hips, how far the foot points down, and whether it is planted: from 0 on, at
+        last on its toes."""
         if self.stands:
-            return 0.0, ANKLE
+            return 0.0, ANKLE, 0.0, True
         reach = 0.5 * STANCE * self.stride
         if phase < STANCE:
-            return reach - phase * self.stride, ANKLE
+            down = self.roll * max(0.0, (phase - ROLLS) / (STANCE - ROLLS))
+            return *self._rolled(reach - phase * self.stride, down), down, True
         t = (phase - STANCE) / (1.0 - STANCE)
         s = t * t * (3.0 - 2.0 * t)
-        return -reach + 2.0 * reach * s, ANKLE + LIFT * math.sin(math.pi * t)
+        x, z = self._rolled(-reach, self.roll)
+        return x + (reach - x) * s, z + (ANKLE - z) * s + LIFT * math.sin(math.pi * t), self.roll * (1.0 - s), False
+
+    def _rolled(self, x, down):
+        """The ankle of a foot that stood flat there, and now on its toes."""
+        ahead, up = 0.6 * TOE, ANKLE - BALL
+        c, s = math.cos(down), math.sin(down)
+        return x + ahead - ahead * c + up * s, BALL + ahead * s + up * c
 
     def _leg(self, ankle, hip):
         """(thigh, shin) as turns about y: a leg that hangs goes forward by a negative one."""
@@ -97,10 +108,12 @@ class Walker:
         turns["head"] = about_y(math.radians(NOD) * math.sin(2.0 * math.pi * share))
         for side, later in (("Right", 0.0), ("Left", 0.5)):
             own = (phase - later) % 1.0
-            thigh, shin = self._leg(self._foot(own), HIP - drop)
+            x, z, down, planted = self._foot(own)
+            thigh, shin = self._leg((x, z), HIP - drop)
             turns[f"{side} side"] = turns[f"{side} collar"] = numpy.eye(3)
             turns[f"{side} thigh"], turns[f"{side} shin"] = about_y(thigh), about_y(shin)
-            turns[f"{side} foot"] = turns[f"{side} toe"] = numpy.eye(3)
+            turns[f"{side} foot"] = about_y(down)
+            turns[f"{side} toe"] = about_y(down) if self.dips and not planted else numpy.eye(3)
             swing = math.radians(self.swing) * -math.cos(2.0 * math.pi * own)
             elbow = math.radians(ELBOW)
             for part, angle in (("upper", swing), ("fore", swing + elbow)):

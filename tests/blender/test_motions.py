@@ -159,8 +159,8 @@ def swing_of(motion, side=0):
     ({"stride": 2.0, "frames": 24}, {"z_up": True}),
     ({"stride": 1.3, "frames": 128, "rate": 120.0, "cycles": 5, "heading": 0.7}, {"scale": 0.45 / 0.0254}),
     ({"stride": 1.3, "closed": False}, {"scale": 1.0 / 0.0254}),
-    ({"stride": 1.3, "travels": False, "cycles": 2}, {})],
-    ids=["cm", "m", "z up", "long, askew, the CMU library's unit", "not closed, inches", "on the spot"])
+    ({"stride": 1.3, "travels": False, "cycles": 2}, {}), ({"stride": 0.8, "frames": 40, "dips": True}, {})],
+    ids=["cm", "m", "z up", "long, askew, the CMU library's unit", "not closed, inches", "on the spot", "toes dip"])
 def test_strides_and_swing_are_found(tmp_path, walker, options):
     motion = walk_of(tmp_path, Walker(**walker), **options)
     assert motion.stride == pytest.approx(walker["stride"], rel=0.02)

@@ -131,6 +131,14 @@ class _Reader(clips.Reader):
     def cycle_bones(self, clip):
         return _closed(self.straight.bones), self.straight.seconds, self.straight.notes
 
+    def soles(self, bones):
+        """As they are over the bones, but for what of them goes through the ground: these are no real soles."""
+        found = super().soles(bones)
+        ground = numpy.percentile(numpy.minimum(*(points[..., 2].min(axis=1) for points in found)), 20.0)
+        for points in found:
+            points[..., 2] = numpy.maximum(points[..., 2], ground)
+        return found
+
 
 def _closed(samples):
     """What is left at the seam, spread over the cycle."""

@@ -20,6 +20,7 @@ _ABOVE = {"spine_01": "pelvis", "spine_02": "spine_01", "spine_03": "spine_02", 
           "upperarm": "clavicle", "lowerarm": "upperarm", "hand": "lowerarm"}
 _AT = {name: number for number, name in enumerate(BONES)}
 WIDEST = 0.40   # rad: so far arms are held aside at most for hands to pass the hips
+BEHIND = 0.03   # m, of the ball: from there on a sole goes with the foot alone
 BESIDE = 0.055  # m, from the hips to the middle of a hand
 NEAR = 1.28     # a bake's strides are so many times the one before
 _Y, _Z = numpy.array([0.0, 1.0, 0.0]), numpy.array([0.0, 0.0, 1.0])
@@ -67,6 +68,8 @@ def _sole(maker, side):
         body = bodies.vertices_of("body")
         mine = maker.shape[body[bodies.weights[body, bodies.bone[bone]] > 0.5]]
         mine = mine[mine[:, 2] < ankle[2]]
+        if not toe:  # what is below the ball turns with both
+            mine = mine[mine[:, 0] < rig.heads[f"ball_{side}"][0] - BEHIND * rig.scale]
         corners = mine[anatomy.corners_of(mine)]
         corners[:, 2] = -rig.sole
         points.append(corners - ankle)
