@@ -26,6 +26,7 @@ _MARKS = set("mixamorig def org bip biped j c cc base bone bones joint jnt rig v
 # Bones that only help.
 _HELPERS = set("twist roll ik fk pole target ctrl control mch tweak helper corrective dummy sec nub end heel parent "
                "vis wgt pivot socket".split())
+BESIDE = 0.05  # of the height, from the middle: what is nearer to it is no arm
 _LEVEL = 0.35  # of its length: a foot that points further down at rest does not tell where it looks
 
 
@@ -233,16 +234,12 @@ def _arm_by_name(bones, side):
 
 def _arm_by_place(bones, pelvis, aside):
     """The last three joints of what reaches furthest aside above the pelvis, before it forks into fingers."""
+    out = lambda bone: float((bones.heads[bone] - bones.heads[pelvis]) @ aside) / bones.tall
     above = [bone for bone in range(len(bones.names))
              if bones.heads[bone][2] > bones.heads[pelvis][2] - 0.1 * bones.tall and pelvis in bones.chain(bone)]
-    outer = max(above, key=lambda bone: (bones.heads[bone] - bones.heads[pelvis]) @ aside, default=None)
-    if outer is None or (bones.heads[outer] - bones.heads[pelvis]) @ aside < 0.08 * bones.tall:
-        return None
-    chain = bones.chain(outer)
-    chain = chain[chain.index(pelvis) + 1:]
-    forks = [place for place, bone in enumerate(chain) if len(bones.children(bone)) > 1
-             and (bones.heads[bone] - bones.heads[pelvis]) @ aside > 0.1 * bones.tall]
-    hand = forks[0] if forks else len(chain) - 1
+    chain = bones.chain(max(above, key=out))
+    chain = [bone for bone in chain[chain.index(pelvis) + 1:] if out(bone) > BESIDE]
+    hand = next((place for place, bone in enumerate(chain) if len(bones.children(bone)) > 1), len(chain) - 1)
     return Arm(*chain[hand - 2:hand + 1]) if hand >= 2 else None
 
 

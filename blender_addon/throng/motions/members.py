@@ -63,6 +63,11 @@ def said(cast):
     return [(json.loads(each["motion"])["name"], each["lines"]) for each in json.loads(cast.get(MOTIONS, "[]"))]
 
 
+def moves(cast, member):
+    """Whether a member has a motion."""
+    return any(member in each["members"] for each in json.loads(cast.get(MOTIONS, "[]")))
+
+
 def movable(cast):
     """Numbers of the members who can be given motions: those who are shaped from bodies."""
     if not cast.get("throng_bodies"):

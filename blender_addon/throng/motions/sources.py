@@ -2,6 +2,7 @@
 """Where takes come from in Blender: files, and armatures with actions."""
 import os
 from contextlib import contextmanager
+from dataclasses import replace
 
 import numpy
 
@@ -22,7 +23,7 @@ class Source:
         self.name, self.reads, self.z_up = name, reads, z_up
 
     def take(self, clip):
-        return self.reads[clip]()
+        return replace(self.reads[clip](), name=clip)
 
     def chosen(self, wanted=""):
         """[(clip's name, what it is for, by its name, or "")] of those to take: what the user says; the plainest of

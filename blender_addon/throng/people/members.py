@@ -66,6 +66,12 @@ def matrices_of(role, repertoire):
     return numpy.stack([rig.matrices(pose)[used] for pose in poses_of(rig.build, repertoire)])
 
 
+def of_all_bones(role, repertoire, led):
+    """(bones of the library, 3, 4) of those that lead, (B, 3, 4): all others go with them."""
+    leaders, turns = _leaders(role, repertoire)
+    return led[numpy.searchsorted(numpy.unique(leaders), leaders)] @ turns
+
+
 def limbs_of(role, repertoire):
     """(bones, joints) as cast.bones.Boned has them."""
     library_, rig = bodies(), maker_of(role).rig
