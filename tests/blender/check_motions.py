@@ -171,7 +171,8 @@ result["swings"] = [swings(member, taken) for member in (MAN, GIRL)]
 shown = seen()
 assert add(filepath=clip("walk.bvh", rest="down", scale=1.0)) == {"FINISHED"}
 other = all_bones()
-result["rests"] = [len(motions.said(cast)), max(float(numpy.abs(moved[member] - other[member]).max()) for member in moved)]
+result["rests"] = [len(motions.said(cast)),
+                   max(float(numpy.abs(moved[member] - other[member]).max()) for member in moved)]
 
 
 def differs(one, other, rows):

@@ -261,6 +261,8 @@ def matrices(wearer, pose):
     turns = {name: pose[number, :3, :3] for name, number in _AT.items()}
     places = {name: pose[number, :3, 3] for name, number in _AT.items()}
     turns["Root"], places["Root"] = numpy.eye(3), numpy.zeros(3)
+    for side in _SIDES:
+        wearer.rig.bend_fingers(turns, places, side)
     return wearer.rig.of_all(turns, places)
 
 

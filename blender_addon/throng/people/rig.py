@@ -151,7 +151,7 @@ class Rig:
         places[lower] = shoulder + turns[upper] @ rest_upper
         turns[hand] = turn(fore, sign * 0.22) @ turns[lower]  # palms to the thighs
         places[hand] = places[lower] + turns[lower] @ rest_lower
-        self._fingers(turns, places, side, hand, sign)
+        self.bend_fingers(turns, places, side)
 
     def _plant(self, turns, places, pose):
         """A stick in the right hand goes with the left foot: while that stands, so does it. Its bone is the root, which
@@ -179,10 +179,11 @@ class Rig:
         x, y = 0.12 * self.scale, -self.widest - 0.13 * self.scale
         return numpy.array([x, y, 0.0]), numpy.array([x, y, 0.84 * self.scale])
 
-    def _fingers(self, turns, places, side, hand, sign):
+    def bend_fingers(self, turns, places, side):
         """Half closed and side by side, as hands hang."""
+        hand = f"hand_{side}"
         if side not in self._curled:
-            self._curled[side] = self._curl(side, hand, sign)
+            self._curled[side] = self._curl(side, hand, 1.0 if side == "l" else -1.0)
         for bone, parent, bent in self._curled[side]:
             places[bone] = places[parent] + turns[parent] @ (self.heads[bone] - self.heads[parent])
             turns[bone] = turns[hand] @ bent
