@@ -17,7 +17,7 @@ namespace throng {
 inline constexpr std::size_t kComponents = 3;  ///< point caches know no other number
 
 /// In the order of kStreams.
-enum class Stream { pos, dir, state, density, ground, wish, left_foot, right_foot, gaze };
+enum class Stream { pos, dir, state, density, ground, wish, left_foot, right_foot, carriage, gaze };
 
 /// What a row holds in the frames before it is first alive.
 enum class BackFill {
@@ -143,6 +143,14 @@ inline constexpr std::array kStreams = {
                .name = "right_foot",
                .about = "the same of the right foot",
                .components = kFootComponents,
+               .source = StreamSource::pose,
+               .option = "feet"},
+    StreamInfo{.id = Stream::carriage,
+               .name = "carriage",
+               .about = "how much of a walk is in the pose, and how the trunk turns and leans",
+               .components = {{{"walking", "1", BackFill::zero, Between::linear, kFine},
+                               {"twist", "rad", BackFill::zero, Between::linear, kFine},
+                               {"lean", "rad", BackFill::zero, Between::linear, kFine}}},
                .source = StreamSource::pose,
                .option = "feet"},
     StreamInfo{.id = Stream::gaze,

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "recording/carriages.h"
 #include "recording/spring.h"
 
 namespace throng::recording {
@@ -85,7 +86,7 @@ FootMove footMoveOf(std::span<const float, 3> values) {
 struct Footsteps::Moment {
     glm::vec2 heading{1.0f, 0.0f};
     float direction = 0.0f, turns = 0.0f;  ///< rad, rad/s
-    float walks = 0.0f;                    ///< share of walking
+    float walking = 0.0f;                  ///< share of it
     bool rests = false;
     std::array<glm::vec2, 2> clip{};     ///< m: where the clip has the feet
     std::array<bool, 2> down{};          ///< whether the clip's are
@@ -102,26 +103,25 @@ std::array<FootMove, 2> Footsteps::step(std::size_t row, const Walker& walker, c
     Moment now;
     now.heading = walker.heading;
     now.direction = std::atan2(walker.heading.y, walker.heading.x);
-    const float share = glm::clamp((walker.speed - kStandsBelow) / (kWalksFrom - kStandsBelow), 0.0f, 1.0f);
-    now.walks = share * share * (3.0f - 2.0f * share);
-    now.rests = walker.speed < kStandsBelow;
+    now.walking = walker.walking;
+    now.rests = walker.speed < static_cast<float>(kStandsBelow);
     const ClipFoot stride(gait.gait), before(gait.before);
     const double left = gait.left(), old = left * left * (3.0 - 2.0 * left);
     for (const std::size_t side : {0u, 1u}) {
         const double phase = gait.phase + (side == 0 ? 0.5 : 0.0);
         const auto ahead = static_cast<float>(glm::mix(stride.ahead(phase), before.ahead(phase), old));
         now.clip[side] =
-            walker.place + walker.scale * (now.walks * ahead * walker.heading +
+            walker.place + walker.scale * (now.walking * ahead * walker.heading +
                                            (side == 0 ? kBeside : -kBeside) * leftOf(walker.heading));
         now.down[side] = stride.isDown(phase);
-        now.carries[side] = walker.scale * ahead * (person.walks - now.walks) * walker.heading;
+        now.carries[side] = walker.scale * ahead * (person.walking - now.walking) * walker.heading;
     }
     const bool is_new = person.known == 0;
     if (!is_new) now.turns = wrapped(now.direction - person.direction) / interval_;
-    now.slides = walker.moved / interval_ - now.walks * walker.speed * walker.scale * walker.heading;
+    now.slides = walker.moved / interval_ - now.walking * walker.speed * walker.scale * walker.heading;
     now.stands_for = static_cast<float>(stride.down_for * stride.stride) / std::max(walker.speed, 0.3f);
     person.direction = now.direction;
-    person.walks = now.walks;
+    person.walking = now.walking;
     person.known = 1;
 
     std::array<FootMove, 2> moves;
@@ -131,7 +131,7 @@ std::array<FootMove, 2> Footsteps::step(std::size_t row, const Walker& walker, c
         if (is_new) {
             foot.anchor = now.clip[side];
             foot.facing = now.direction;
-            foot.contact = now.walks > kSwingsFrom && !now.down[side] ? Contact::swings : Contact::planted;
+            foot.contact = now.walking > kSwingsFrom && !now.down[side] ? Contact::swings : Contact::planted;
         }
         move(foot, now, side);
         const float up =
@@ -157,7 +157,7 @@ void Footsteps::lift(Person& person, const Moment& now) const {
             std::clamp(kLiftPerMetre * glm::length(foot.away) + kLiftPerRadian * std::abs(foot.turn),
                        kLeastLift, kMostLift);
     };
-    const bool swings = now.walks > kSwingsFrom;
+    const bool swings = now.walking > kSwingsFrom;
     std::array<float, 2> need{};  // 1: that of a foot that has to go
     for (const std::size_t side : {0u, 1u}) {
         Foot& foot = person.feet[side];
@@ -194,7 +194,7 @@ void Footsteps::move(Foot& foot, const Moment& now, std::size_t side) const {
     approach(foot.away, foot.rate, atMost(half * now.slides, kMostAhead), kStiffness, interval_);
     approach(foot.turn, foot.turn_rate, std::clamp(half * now.turns, -kMostTurnAhead, kMostTurnAhead),
              kStiffness, interval_);
-    const bool swings = now.walks > kSwingsFrom && !now.down[side];
+    const bool swings = now.walking > kSwingsFrom && !now.down[side];
     const bool comes_down = foot.contact == Contact::steps ? foot.since >= foot.lasts && !swings : !swings;
     if (!comes_down) return;
     foot.contact = Contact::planted;

@@ -11,10 +11,6 @@
 
 namespace throng::recording {
 
-/// From where a renderer's clips stop standing, and from where they walk and nothing else; between the two
-/// both are blended. m/s. blender_addon/throng/crowd/near.py has the same.
-inline constexpr float kStandsBelow = 0.03f, kWalksFrom = 0.35f;
-
 /// How far a foot is from where the clip has it.
 struct FootMove {
     float forward = 0.0f;  ///< m, along the heading
@@ -48,6 +44,7 @@ class Footsteps {
         glm::vec2 heading{1.0f, 0.0f};
         glm::vec2 moved{0.0f};  ///< m, since the frame before
         float speed = 0.0f;     ///< m/s, as the stream has it
+        float walking = 0.0f;   ///< share of the walk in the clip's pose (Carriage)
         float scale = 1.0f;     ///< of the figure
     };
 
@@ -74,7 +71,7 @@ class Footsteps {
     struct Person {
         std::array<Foot, 2> feet;
         float direction = 0.0f;   ///< rad, of the heading in the frame before
-        float walks = 0.0f;       ///< the share of walking in it
+        float walking = 0.0f;     ///< the share of it in that frame
         std::uint32_t known = 0;  ///< 0: has not been here yet
     };
     struct Moment;

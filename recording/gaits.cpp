@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::uint32_t kNormal = 3;      // of adults: 1.34 m/s
 constexpr std::uint32_t kSettingOff = 1;  // of those who begin to walk
+constexpr double kStandsAfter = 0.5;      // s: until then the stride that somebody stopped in is still seen
 constexpr double kNormalStride = 1.446;   // m per cycle of two steps
 constexpr double kRatio = 1.28;           // of a gait's stride to the one before
 constexpr double kStrideAtOne = 1.249;    // m at 1 m/s
@@ -64,9 +65,12 @@ std::vector<double> allStrides() {
     return strides;
 }
 
-void GaitTrack::advance(double way, double speed) {
-    if (speed < gpu::STANDING_SPEED) {
+void GaitTrack::advance(double way, double seconds) {
+    const double speed = way / seconds;
+    stood = speed < gpu::STANDING_SPEED ? stood + seconds : 0.0;
+    if (stood > 0.0) {
         phase += way / strideOf(gait);
+        if (stood < kStandsAfter) return;
         gait = kSettingOff;
         changed = kLongAgo;
         return;

@@ -51,13 +51,14 @@ struct GaitTrack {
     std::uint32_t gait = 0;
     std::uint32_t before = 0;   ///< the gait before
     double changed = kLongAgo;  ///< phase at which it ended
+    double stood = 0.0;         ///< s, up to now
 
     /// How much of the gait before is left to be shown, from 1 to 0.
     double left() const;
     /// What the stream of states has of all this: less than 1.
     float inState() const;
-    /// Walks on by `way` m at `speed` m/s. Where the stride changes, the way is shared out between the two.
-    void advance(double way, double speed);
+    /// Walks on by `way` m in so many seconds. Where the stride changes, the way is shared out between the two.
+    void advance(double way, double seconds);
 };
 
 }  // namespace throng::recording

@@ -42,21 +42,23 @@ MotionRecorder::MotionRecorder(const BakeDescription& description, Sink sink)
         footing_.emplace(description.terrain->surface, walkers_.size(), fps_);
         grounds_.resize(walkers_.size() * kComponents);
     }
-    if (description.asked[Stream::left_foot]) {
-        footsteps_.emplace(walkers_.size(), fps_);
-        for (std::vector<float>& values : feet_)
-            values.resize(walkers_.size() * kComponents);
-    }
-    if (description.asked[Stream::gaze]) {
-        gazes_.emplace(walkers_.size(), fps_, description.minimum - description.scene_origin,
-                       description.maximum - description.scene_origin);
-        gaze_values_.resize(walkers_.size() * kComponents);
-    }
     for (const BakeAgent& agent : description.agents) {
         parties_.push_back(agent.party);
         radii_.push_back(agent.radius);
         speeds_.push_back(agent.preferred_speed);
         scales_.push_back(static_cast<float>(agent.scale));
+    }
+    const glm::dvec2 minimum = description.minimum - description.scene_origin;
+    const glm::dvec2 maximum = description.maximum - description.scene_origin;
+    if (description.asked[Stream::left_foot]) {
+        footsteps_.emplace(walkers_.size(), fps_);
+        carriages_.emplace(radii_, fps_, minimum, maximum);
+        for (std::vector<float>* values : {&feet_[0], &feet_[1], &carriage_values_})
+            values->resize(walkers_.size() * kComponents);
+    }
+    if (description.asked[Stream::gaze]) {
+        gazes_.emplace(walkers_.size(), fps_, minimum, maximum);
+        gaze_values_.resize(walkers_.size() * kComponents);
     }
 }
 
@@ -80,7 +82,9 @@ void MotionRecorder::giveOut() {
     states_ = frame[Stream::state];
     if (window_.reach() > 0) average(frame);
     record(frame);
-    if (gazes_) look(frame);
+    if (carriages_ || gazes_) findOnlookers(frame);
+    if (carriages_) carry();
+    if (gazes_) look();
     Frame shown = frame.view();
     shown[Stream::pos] = positions_;
     shown[Stream::dir] = directions_;
@@ -88,6 +92,7 @@ void MotionRecorder::giveOut() {
     shown[Stream::ground] = grounds_;
     shown[Stream::left_foot] = feet_[0];
     shown[Stream::right_foot] = feet_[1];
+    shown[Stream::carriage] = carriage_values_;
     shown[Stream::gaze] = gaze_values_;
     sink_(shown);
     window_.advance();
@@ -136,7 +141,7 @@ void MotionRecorder::record(const KeptFrame& frame) {
             const double way = wide_ ? directions_[at + 2] / fps_
                                      : glm::distance(glm::dvec2(walker.place), glm::dvec2(place));
             if (window_.reach() > 0 && !wide_) directions_[at + 2] = static_cast<float>(way * fps_);
-            walker.gait.advance(way, way * fps_);
+            walker.gait.advance(way, 1.0 / fps_);
         } else {
             walker.gait = GaitTrack{states_[at + 2], gaitFor(speeds_[row])};
             walker.walks = 1;
@@ -144,16 +149,13 @@ void MotionRecorder::record(const KeptFrame& frame) {
         walker.place = place;
         states_[at] += walker.gait.inState();
         states_[at + 2] = static_cast<float>(walker.gait.phase);
+        const glm::vec2 heading(directions_[at], directions_[at + 1]);
+        const float speed = directions_[at + 2];
         if (footsteps_)
-            putFeet(
-                at,
-                footsteps_->step(
-                    row,
-                    {place, {directions_[at], directions_[at + 1]}, moved, directions_[at + 2], scales_[row]},
-                    walker.gait));
-        if (footing_)
-            putStance(
-                at, footing_->stand(row, place, {directions_[at], directions_[at + 1]}, moved, walker.gait));
+            putFeet(at, footsteps_->step(
+                            row, {place, heading, moved, speed, carriages_->step(row, speed), scales_[row]},
+                            walker.gait));
+        if (footing_) putStance(at, footing_->stand(row, place, heading, moved, walker.gait));
     }
 }
 
@@ -172,7 +174,7 @@ void MotionRecorder::putFeet(std::size_t at, const std::array<FootMove, 2>& feet
     }
 }
 
-void MotionRecorder::look(const KeptFrame& frame) {
+void MotionRecorder::findOnlookers(const KeptFrame& frame) {
     onlookers_.clear();
     for (std::uint32_t row = 0; row < walkers_.size(); ++row) {
         const std::size_t at = row * kComponents;
@@ -183,9 +185,23 @@ void MotionRecorder::look(const KeptFrame& frame) {
                                   positions_[at + 2],
                                   {directions_[at], directions_[at + 1]},
                                   directions_[at + 2]});
-        else
-            std::fill_n(gaze_values_.begin() + static_cast<std::ptrdiff_t>(at), kComponents, 0.0f);
     }
+}
+
+void MotionRecorder::carry() {
+    carriages_->squeeze(onlookers_);
+    std::ranges::fill(carriage_values_, 0.0f);
+    for (const Onlooker& each : onlookers_) {
+        const Carriage carriage = (*carriages_)[each.row];
+        const std::size_t at = each.row * kComponents;
+        carriage_values_[at] = carriage.walking;
+        carriage_values_[at + 1] = carriage.twist;
+        carriage_values_[at + 2] = carriage.lean;
+    }
+}
+
+void MotionRecorder::look() {
+    std::ranges::fill(gaze_values_, 0.0f);
     gazes_->look(onlookers_);
     for (const Onlooker& each : onlookers_) {
         const Gaze gaze = (*gazes_)[each.row];
@@ -203,6 +219,7 @@ std::vector<std::byte> MotionRecorder::save() const {
         std::memcpy(bytes.data() + sizeof taken_, walkers_.data(), walkers_.size() * sizeof(Walker));
     if (footing_) bytes.insert(bytes.end(), footing_->state().begin(), footing_->state().end());
     if (footsteps_) bytes.insert(bytes.end(), footsteps_->state().begin(), footsteps_->state().end());
+    if (carriages_) bytes.insert(bytes.end(), carriages_->state().begin(), carriages_->state().end());
     if (gazes_) bytes.insert(bytes.end(), gazes_->state().begin(), gazes_->state().end());
     window_.save(bytes);
     return bytes;
@@ -222,6 +239,7 @@ void MotionRecorder::restore(std::span<const std::byte> bytes) {
     };
     if (footing_) take(footing_->state());
     if (footsteps_) take(footsteps_->state());
+    if (carriages_) take(carriages_->state());
     if (gazes_) take(gazes_->state());
     window_.restore(bytes, walkers_.size(), carried_);
 }

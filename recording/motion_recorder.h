@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "recording/bake_description.h"
+#include "recording/carriages.h"
 #include "recording/footing.h"
 #include "recording/footsteps.h"
 #include "recording/frame_window.h"
@@ -49,7 +50,9 @@ class MotionRecorder {
     void average(const KeptFrame& frame);
     void record(const KeptFrame& frame);
     void putStance(std::size_t at, const Stance& stance);
-    void look(const KeptFrame& frame);
+    void findOnlookers(const KeptFrame& frame);
+    void carry();
+    void look();
     void putFeet(std::size_t at, const std::array<FootMove, 2>& feet);
 
     double fps_;
@@ -61,6 +64,7 @@ class MotionRecorder {
     std::vector<Walker> walkers_;
     std::optional<Footing> footing_;      // none on flat ground
     std::optional<Footsteps> footsteps_;  // none unless asked for
+    std::optional<Carriages> carriages_;  // likewise, with them
     std::optional<Gazes> gazes_;          // likewise
     StreamChoice carried_;                // from the device, past all this
     std::uint32_t taken_ = 0;
@@ -68,7 +72,7 @@ class MotionRecorder {
     std::vector<float> positions_, directions_, states_, grounds_;  ///< of the frame being given out
     std::array<std::vector<float>, 2> feet_;                        ///< likewise: left, right
     std::vector<std::uint32_t> present_;
-    std::vector<float> gaze_values_;
+    std::vector<float> gaze_values_, carriage_values_;
     std::vector<MovedBody> bodies_;
     std::vector<Onlooker> onlookers_;
     std::vector<std::uint32_t> parties_;  ///< by row

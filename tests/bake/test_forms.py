@@ -22,7 +22,7 @@ from throng import formats as addon  # noqa: E402
 EXACT = ("npy", "pc2")
 FORMS = (*EXACT, "packed")
 STREAMS = ("pos", "dir", "state")
-ALL = (*STREAMS, "density", "wish", "left_foot", "right_foot", "gaze")
+ALL = (*STREAMS, "density", "wish", "left_foot", "right_foot", "carriage", "gaze")
 SUBSETS = [",".join(some) for count in (1, 2, 3) for some in itertools.combinations(FORMS, count)]
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs inside Blender: feet of near people, held where the bake says, and heads that look there. ADDON BAKE"""
+"""Runs inside Blender: near people with feet held where the bake says, trunks that turn, heads that look. ADDON BAKE
+"""
 import json
 import os
 import shutil
@@ -47,14 +48,14 @@ def bent(crowd):
 
 
 def whole_bones(crowd, row):
-    """(V,): the bone that a vertex hangs on alone, or -1; and the limbs' bones."""
+    """(V,): the bone that a vertex hangs on alone, or -1; the limbs' bones; and how much bones are of the trunk."""
     figure = library.figures_of(cast_of(crowd))[0, own.member_of(crowd, row, int(state[FRAME - 1, row, 1]), False)]
     hangs = numpy.empty(4 * len(figure.data.vertices), numpy.float32)
     figure.data.attributes[bones.HANGS].data.foreach_get("color", hangs)
     hangs = hangs.reshape(-1, 4)
     alone = (hangs[:, 1:] % 1.0).max(axis=1) == 0.0
     return numpy.where(alone, hangs[:, 0].astype(int), -1), \
-        numpy.array(sheets.sheet_of(figure)[bones.LIMBS])
+        numpy.array(sheets.sheet_of(figure)[bones.LIMBS]), numpy.array(sheets.sheet_of(figure)[bones.TRUNK])
 
 
 def turned(before, after):
@@ -64,6 +65,19 @@ def turned(before, after):
     cosine, sine = numpy.cos(angle), numpy.sin(angle)
     back = numpy.stack([cosine * one[:, 0] - sine * one[:, 1], sine * one[:, 0] + cosine * one[:, 1], one[:, 2]], 1)
     return float(angle), float(numpy.abs(back - other).max())
+
+
+def rotation(before, after, heading):
+    """(about the way ahead, the left, and up, rad; how far points are from it) of what has turned (Kabsch 1976)."""
+    one, other = before - before.mean(axis=0), after - after.mean(axis=0)
+    left, _, right = numpy.linalg.svd(one.T @ other)
+    turn = (left @ numpy.diag([1.0, 1.0, numpy.sign(numpy.linalg.det(left @ right))]) @ right).T
+    axis = numpy.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
+    sine = max(float(numpy.linalg.norm(axis)) / 2.0, 1e-12)
+    axis *= numpy.arctan2(sine, (numpy.trace(turn) - 1.0) / 2.0) / (2.0 * sine)
+    cosine, sine, _ = heading
+    return [float(cosine * axis[0] + sine * axis[1]), float(cosine * axis[1] - sine * axis[0]), float(axis[2])], \
+        float(numpy.abs(one @ turn.T - other).max())
 
 
 def stretched(before, after):
@@ -76,7 +90,7 @@ plain = f"{bake}-plain"
 shutil.copytree(bake, plain)
 with open(os.path.join(plain, "bake.json")) as file:
     manifest = json.load(file)
-for stream in ("left_foot", "right_foot", "gaze"):
+for stream in ("left_foot", "right_foot", "carriage", "gaze"):
     del manifest["streams"][stream]
 with open(os.path.join(plain, "bake.json"), "w") as file:
     json.dump(manifest, file)
@@ -90,7 +104,7 @@ result["same people"] = sorted(held) == sorted(without)
 result["rows"] = {}
 for row in held:
     before, after = without[row], held[row]
-    bone, limbs = whole_bones(crowd, row)
+    bone, limbs, shares = whole_bones(crowd, row)
     chains, (neck, head) = limbs[:8].reshape(2, 4), limbs[8:]
     cosine, sine, _ = way[FRAME - 1, row]
     found = {"highest": float((after - before)[before[:, 2].argmax(), 2])}
@@ -103,12 +117,20 @@ for row in held:
                        "apart": float(numpy.abs(shift - move).max()), "turned": turned(before[foot], after[foot]),
                        "stretched": max(stretched(before[part][:60], after[part][:60])
                                         for part in (calf, thigh) if part.sum() > 3)}
+    above = (bone >= 0) & (shares[bone] == 1.0) & (bone != head) & (bone != neck)
+    found["shoulders"] = rotation(before[above], after[above], way[FRAME - 1, row])
+    legs = numpy.isin(bone, limbs[:8])
+    found["legs"] = float(numpy.abs(after[legs] - before[legs]).max())
+    ahead = lambda side: float((after[bone == chains[side][2]].mean(axis=0)
+                                - after[bone == chains[1 - side][2]].mean(axis=0)) @ (cosine, sine, 0.0))
+    found["stride"] = abs(ahead(0))
     head, neck = bone == head, bone == neck
     forward = (after[head] - after[head].mean(axis=0)) @ (cosine, sine, 0.0)
     before_it = (before[head] - before[head].mean(axis=0)) @ (cosine, sine, 0.0)
     ahead = before_it.argmax()  # the nose, or a hat's brim
-    found["head"] = {"turned": turned(before[head], after[head]), "stretched": stretched(before[head][:90],
-                                                                                       after[head][:90]),
+    found["head"] = {"turned": turned(before[head], after[head]),
+                     "rotation": rotation(before[head], after[head], way[FRAME - 1, row])[0],
+                     "stretched": stretched(before[head][:90], after[head][:90]),
                      "up": float((after[head] - after[head].mean(axis=0))[ahead, 2]
                                  - (before[head] - before[head].mean(axis=0))[ahead, 2]),
                      "ahead": float(forward[ahead]),

@@ -8,6 +8,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "recording/carriages.h"
+
 namespace throng::recording {
 namespace {
 
@@ -35,6 +37,7 @@ std::pair<double, bool> clipFoot(double phase, double stride) {
 
 std::vector<Seen> walk(const std::function<Place(double)>& way, double seconds, double fps = 24.0) {
     Footsteps footsteps(1, fps);
+    Carriages carriages({0.2f}, fps, {-50.0, -50.0}, {50.0, 50.0});
     GaitTrack gait{0.0, 3};
     std::vector<Seen> seen;
     Place before = way(0.0);
@@ -43,15 +46,15 @@ std::vector<Seen> walk(const std::function<Place(double)>& way, double seconds, 
         const double moved = glm::distance(now.at, before.at);
         const double begins = glm::distance(way(1.0 / fps).at, now.at) * fps;
         if (frame == 0) gait.gait = gaitFor(begins);
-        if (frame > 0) gait.advance(moved, moved * fps);
+        if (frame > 0) gait.advance(moved, 1.0 / fps);
         const glm::vec2 heading(std::cos(now.faces), std::sin(now.faces));
         const auto speed = static_cast<float>(frame > 0 ? moved * fps : begins);
-        Seen each{footsteps.step(0, {now.at, heading, now.at - before.at, speed}, gait), {}, {}};
+        const float walking = carriages.step(0, speed);
+        Seen each{footsteps.step(0, {now.at, heading, now.at - before.at, speed, walking}, gait), {}, {}};
         for (const std::size_t side : {0u, 1u}) {
             const auto [ahead, stands] = clipFoot(gait.phase + (side == 0 ? 0.5 : 0.0), strideOf(gait.gait));
             const glm::dvec2 along(heading), left(-along.y, along.x);
-            const double walks = speed > kWalksFrom ? 1.0 : 0.0;
-            each.feet[side] = now.at + (walks * ahead + each.moves[side].forward) * along +
+            each.feet[side] = now.at + (walking * ahead + each.moves[side].forward) * along +
                               ((side == 0 ? 0.06 : -0.06) + each.moves[side].left) * left;
             each.clip_stands[side] = stands;
         }

@@ -23,12 +23,12 @@ TEST(Gaits, StridesFollowTheSpeedAndThePhaseTheWay) {
     for (const double speed : {0.3, 0.6, 1.0, 1.34, 1.7, 2.2, 3.5}) {
         recording::GaitTrack track{0.25, 1};
         for (int frame = 0; frame < 240; ++frame)
-            track.advance(speed / kFps, speed);
+            track.advance(speed / kFps, 1.0 / kFps);
         EXPECT_EQ(track.gait, recording::gaitFor(speed)) << speed;
         // Sekiya et al. 1996: within what lies between two gaits.
         EXPECT_NEAR(recording::strideOf(track.gait) / (1.249 * std::sqrt(speed)), 1.0, 0.14) << speed;
         const double before = track.phase;
-        track.advance(speed, speed);
+        track.advance(speed, 1.0);
         EXPECT_NEAR((track.phase - before) * recording::strideOf(track.gait), speed, 1e-9) << speed;
     }
 }
@@ -39,7 +39,7 @@ TEST(Gaits, ChangeOnlyWhereThePlantedFootIsUnderTheBody) {
     for (int frame = 0; frame < 2000; ++frame) {
         const double speed = 1.5 + 1.3 * std::sin(0.01 * frame);
         const recording::GaitTrack before = track;
-        track.advance(speed / kFps, speed);
+        track.advance(speed / kFps, 1.0 / kFps);
         if (track.gait == before.gait) continue;
         ++changes;
         // The way until then with the old stride, the rest with the new one: the foot is not moved at all.
@@ -60,7 +60,7 @@ TEST(Gaits, TellTheGaitBeforeUntilItsBlendIsOver) {
     for (int frame = 0; frame < 2000; ++frame) {
         const double speed = 1.5 + 1.3 * std::sin(0.01 * frame);
         const recording::GaitTrack was = track;
-        track.advance(speed / kFps, speed);
+        track.advance(speed / kFps, 1.0 / kFps);
         for (const float activity : {1.0f, 4.0f}) {
             const recording::GaitInState told = recording::gaitsOf(activity + track.inState());
             EXPECT_EQ(told.gait, track.gait);
@@ -85,8 +85,18 @@ TEST(Gaits, TellTheGaitBeforeUntilItsBlendIsOver) {
 
 TEST(Gaits, WhoStandsSetsOffWithAShortStride) {
     recording::GaitTrack track{0.0, 4};
-    track.advance(0.0, 0.0);
+    track.advance(0.0, 0.6);
     EXPECT_LT(recording::strideOf(track.gait), 1.0);
+}
+
+TEST(Gaits, WhoStopsForAMomentKeepsItsStride) {
+    recording::GaitTrack track{0.1, 4};
+    for (int frame = 0; frame < 10; ++frame)
+        track.advance(0.0, 1.0 / kFps);
+    EXPECT_EQ(track.gait, 4u);
+    for (int frame = 0; frame < 10; ++frame)
+        track.advance(0.0, 1.0 / kFps);
+    EXPECT_LT(track.gait, 4u);
 }
 
 // --- averages over time

@@ -20,6 +20,7 @@ from .skinning import MOST, hangs_of, matrices_of, turns_of, within_half_a_round
 HANGS, TURN = "throng_bones", "throng_turned"
 LIMBS, JOINTS = "throng_limbs", "throng_joints"  # of a sheet; LIMBS are thigh, calf, foot and toes of the left leg,
                                                  # those of the right one, neck and head
+TRUNK = "throng_trunk"  # of a sheet: for each bone, the share of it in how the trunk turns and leans
 _FINE = 8192.0         # steps a metre of what bones move
 _TURNS = 16384.0       # steps a radian
 _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
@@ -33,8 +34,9 @@ class Boned:
     matrices: object          # () gives (P, B, 3, 4), of the bones in all poses of level 0: one level of somebody asks
     sources: tuple            # for each pose of this level the one of level 0 that it is
     cycles: tuple = ()        # as those of sheets.Posed
-    limbs: object = None      # (bones, joints): the numbers of what LIMBS lists, (10,), and where joints are at rest:
-                              # hip, knee and ankle of both legs, the neck's lower and its upper end, (8, 3)
+    limbs: object = None      # (bones, joints, trunk): the numbers of what LIMBS lists, (10,); where joints are at
+                              # rest: hip, knee and ankle of both legs, the neck's lower and its upper end, (8, 3);
+                              # and TRUNK, (B,)
 
 
 def make_sheet(name, matrices, limbs=None):
@@ -47,7 +49,7 @@ def make_sheet(name, matrices, limbs=None):
     sheet = bpy.data.objects.new(name, mesh)
     sheet["throng_bones"] = bones
     if limbs:
-        sheet[LIMBS], sheet[JOINTS] = (numpy.asarray(each).ravel().tolist() for each in limbs)
+        sheet[LIMBS], sheet[JOINTS], sheet[TRUNK] = (numpy.asarray(each).ravel().tolist() for each in limbs)
     return sheet
 
 
@@ -223,9 +225,9 @@ def _place(maths, given, vertex, first):
     return place
 
 
-def limbs_of(sheets):
-    """The numbers of the bones of limbs, as Boned has them, where all sheets have the same; or None."""
-    found = [list(sheet.get(LIMBS, ())) for sheet in sheets]
+def told_of(sheets, what):
+    """LIMBS or TRUNK, where all sheets tell the same of them; or None."""
+    found = [list(sheet.get(what, ())) for sheet in sheets]
     return found[0] if found[0] and all(each == found[0] for each in found) else None
 
 

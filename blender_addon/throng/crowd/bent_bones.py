@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The bones of the people who are bent (near.py), as points: what legs.py and heads.py work on."""
+"""The bones of the people who are bent (near.py), as points: what legs.py, trunks.py and heads.py work on."""
 from dataclasses import dataclass
 
 from ..blender.vectors import index, parts, place, scaled, vector
@@ -16,7 +16,8 @@ class BentBones:
     sheet: object      # geometry: points of all members' bones in all poses, and then their joints at rest
     first_joint: int   # the first joint's number in it
     count: int         # bones a person
-    limbs: list        # their numbers, as cast.bones.Boned has them
+    limbs: list        # their numbers, as cast.bones.LIMBS has them
+    trunk: object      # shares, as cast.bones.TRUNK has them; or None
 
     def person(self, maths):
         """At points of bones: whose it is, by number."""

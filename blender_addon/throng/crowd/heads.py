@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Heads of people near the camera turn to where the bake says that they look (`--gaze`, docs/bake.md): the neck by a
-part of it, the head by all."""
+part of it, the head by all. Where trunks turn and lean, heads turn and nod back."""
+import functools
+
 from ..blender.vectors import combined, index, parts, rotated, scaled, vector
 from ..cast import bones
 from .names import BONE
+from .trunks import CARRIAGE
 
 GAZE = "throng_gaze"  # of points: as the stream has it
 NECK_TURNS = 0.4      # of the yaw
@@ -19,13 +22,27 @@ def _ends_of_necks(maths, people, all_):
     return people
 
 
-def with_heads_turned(maths, people, all_, placed):
+def _wanted(maths, gazes, turns):
+    """(yaw, pitch) of heads, from how trunks are. @param gazes, turns whether there are streams of gazes and trunks"""
+    yaw, pitch = parts(maths, maths.attribute(GAZE, "FLOAT_VECTOR"))[:2] if gazes else (0.0, 0.0)
+    if turns:
+        _, twist, lean = parts(maths, maths.attribute(CARRIAGE, "FLOAT_VECTOR"))
+        yaw, pitch = maths.math("SUBTRACT", yaw, twist), maths.math("ADD", pitch, lean)
+    return yaw, pitch
+
+
+def turning(gazes, turns):
+    """What turns heads (_with_heads_turned), by the streams that there are."""
+    return functools.partial(_with_heads_turned, lambda maths: _wanted(maths, gazes, turns))
+
+
+def _with_heads_turned(wanted, maths, people, all_, placed):
     """The points of bones, with heads that look. @param placed as in legs.with_feet_held"""
     ends, person = _ends_of_necks(maths, people, all_), all_.person(maths)
     neck, head = (bones.sample(maths, ends, maths.attribute(name, "FLOAT_VECTOR"), person) for name in (_NECK, _HEAD))
     bone = maths.attribute(BONE, "INT")
     is_neck, is_head = (maths.math("COMPARE", bone, float(number), 0.5) for number in all_.limbs[8:])
-    yaw, pitch, _ = parts(maths, maths.attribute(GAZE, "FLOAT_VECTOR"))
+    yaw, pitch = wanted(maths)
     upright = combined(maths, 0.0, 0.0, 1.0)
     bent = rotated(maths, head, upright, maths.math("MULTIPLY", yaw, NECK_TURNS), neck)
     centre = vector(maths, "ADD", scaled(maths, neck, is_neck), scaled(maths, head, is_head))

@@ -21,15 +21,15 @@ from ..blender.vectors import between, combined, parts, scaled, vector
 from ..cast import BEATS, POSES, bones, library
 from ..cast.sheets import sheet_of
 from ..formats import FEET
-from . import heads, legs, poses
+from . import heads, legs, poses, trunks
 from .bent_bones import BentBones
 from .names import BIGGER, BONE, GROUND, HIDDEN, LEVEL, NATURE, NEAR, ROW, WHO
 from .own import FIRST, OWN
 
 MODIFIER = "throng near"
 STEPS = 16             # of the distance
-STANDS_BELOW = 0.03    # m/s: slower people stand, those faster than WALKS_FROM walk, between them both are blended
-WALKS_FROM = 0.35
+STANDS_BELOW = 0.03    # m/s: where no stream tells it, slower people stand, those faster than WALKS_FROM walk, and
+WALKS_FROM = 0.35      # between them both are blended
 _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
 _ALL, _REST = "throng_all_bones", "throng_rest"  # marks of objects in the cast
 _RANK, _TURN = "throng_rank", "throng_turn"
@@ -168,8 +168,9 @@ def _stands(maths, state, nature, walking):
                     _smooth(maths, maths.math("SUBTRACT", place, beat), 0.67, 1.0))
 
 
-def _people(maths, points, repertoire, count, drawn, own):
-    """Points of near people with all that their bones need to know of them."""
+def _people(maths, points, repertoire, count, drawn, own, is_told):
+    """Points of near people with all that their bones need to know of them. @param is_told by a stream, how much of
+    the walk is in their poses"""
     cosine, sine, speed = maths.components("throng_dir")
     state, variation, phase = maths.components("throng_state")
     nature = maths.components(NATURE)
@@ -179,7 +180,7 @@ def _people(maths, points, repertoire, count, drawn, own):
     for number, length in enumerate(repertoire.strides, repertoire.first):
         part = maths.math("MULTIPLY", maths.math("COMPARE", gait, float(number), 0.5), float(length))
         stride = part if stride is None else maths.math("ADD", stride, part)
-    walking = _smooth(maths, speed, STANDS_BELOW, WALKS_FROM)
+    walking = trunks.walking(maths) if is_told else _smooth(maths, speed, STANDS_BELOW, WALKS_FROM)
     rate = maths.math("DIVIDE", maths.math("MULTIPLY", speed, float(POSES)), maths.math("MAXIMUM", stride, 0.1))
     for name, value, kind in ((WHO, who, "INT"), (_RANK, maths.node("GeometryNodeInputIndex").outputs[0], "INT"),
                               (ROW, maths.node("GeometryNodeInputID").outputs[0], "INT"),
@@ -309,6 +310,19 @@ def _rest_of(name, figure):
     return found
 
 
+def _bent(maths, people, points, sheet, figures, streams):
+    """The points of bones, as the streams say how feet, trunks and heads go. @param sheet (geometry, the number of its
+    first joint, bones a person)"""
+    sheets = [sheet_of(figure) for figure in figures]
+    limbs, trunk = (bones.told_of(sheets, what) for what in (bones.LIMBS, bones.TRUNK))
+    turns = "carriage" in streams and trunk is not None
+    for is_told, bend in ((FEET[0] in streams, legs.with_feet_held), (turns, trunks.with_trunks_turned),
+                          (turns or "gaze" in streams, heads.turning("gaze" in streams, turns))):
+        if limbs and is_told:
+            points = bend(maths, people, BentBones(points, (*_COLUMNS, *_CHANGES), *sheet, limbs, trunk), _placed)
+    return points
+
+
 def near_tree(cast, repertoire, sheet, drawn, own, streams):
     """A group that makes one mesh of all points that it gets.
 
@@ -317,18 +331,15 @@ def near_tree(cast, repertoire, sheet, drawn, own, streams):
     figures = boned_members(cast)
     tree, inputs, outputs = new_tree("Throng near people", _GEOMETRY + [("Blur", "NodeSocketBool")], _GEOMETRY)
     maths = Maths(tree)
-    people = _people(maths, inputs.outputs[0], repertoire, cast["throng_variations"], drawn, own)
+    people = _people(maths, inputs.outputs[0], repertoire, cast["throng_variations"], drawn, own,
+                     "carriage" in streams)
     info = maths.node("GeometryNodeObjectInfo", transform_space="ORIGINAL")
     info.inputs["Object"].default_value = sheet
     bone_count = sheet_of(figures[0])["throng_bones"]
     bones_, pose_count = socket(info.outputs, "Geometry"), repertoire.poses(0)
     hung_on = _bone_points(maths, people, bones_, pose_count, bone_count)
-    limbs = bones.limbs_of([sheet_of(figure) for figure in figures])
-    for stream, bend in ((FEET[0], legs.with_feet_held), ("gaze", heads.with_heads_turned)):
-        if limbs and stream in streams:
-            first_joint = len(figures) * pose_count * bone_count
-            all_ = BentBones(hung_on, (*_COLUMNS, *_CHANGES), bones_, first_joint, bone_count, limbs)
-            hung_on = bend(maths, people, all_, _placed)
+    first_joint = len(figures) * pose_count * bone_count
+    hung_on = _bent(maths, people, hung_on, (bones_, first_joint, bone_count), figures, streams)
     rests = [_rest_of(f"{figure.name} at rest", figure) for figure in figures]
     for rest in rests:
         if rest.name not in cast.objects:

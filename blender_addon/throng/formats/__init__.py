@@ -6,7 +6,7 @@ import struct
 
 STREAMS = ("pos", "dir", "state")
 FEET = ("left_foot", "right_foot")
-POSE = (*FEET, "gaze")  # that bakes are asked for
+POSE = (*FEET, "carriage", "gaze")  # that bakes are asked for
 _PC2 = struct.Struct("<12siiffi")
 _PC2_MAGIC = b"POINTCACHE2\0"
 

@@ -19,6 +19,8 @@ MEMBERS = 64      # of a cast: women and men of all ages, some children among th
 FINE = 4096.0     # steps a metre: what is finer is not seen, and files are a third as large without it
 _SOME = 7         # of so many poses one tells which bones move
 _KEPT = 2         # people who stay in memory: all their levels are made one after the other
+# the share of bones in how the trunk turns and leans: these do less than what is above them
+_STILL = {"Root": 0.0, "pelvis": 0.0, "spine_01": 0.4, "spine_02": 0.75}
 
 
 def found():
@@ -73,13 +75,15 @@ def of_all_bones(role, repertoire, led):
 
 
 def limbs_of(role, repertoire):
-    """(bones, joints) as cast.bones.Boned has them."""
+    """(bones, joints, trunk) as cast.bones.Boned has them."""
     library_, rig = bodies(), maker_of(role).rig
     used = leading(role, repertoire).tolist()
     legs = [[f"{bone}_{side}" for bone in ("thigh", "calf", "foot", "ball")] for side in "lr"]
     neck = ["neck_01", "head"]
     return ([used.index(library_.bone[bone]) for bone in (*legs[0], *legs[1], *neck)],
-            [rig.heads[bone] for bone in (*legs[0][:3], *legs[1][:3], *neck)])
+            [rig.heads[bone] for bone in (*legs[0][:3], *legs[1][:3], *neck)],
+            [0.0 if bone in (*legs[0], *legs[1]) else _STILL.get(bone, 1.0)
+             for bone in (library_.bones[number] for number in used)])
 
 
 def boned_of(text, level, repertoire):
