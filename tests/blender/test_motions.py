@@ -265,6 +265,8 @@ def test_feet_are_planted_whoever_walks_so(tmp_path, wearers):
                 place = foot[int(under)] + under % 1.0 * (foot[int(under) + 1] - foot[int(under)])
                 assert abs(place[0]) < 0.02, "the foot is under the body where the bake changes strides"
                 assert (foot[:, 1] < 0.0).all() == (side == "r")
+                heel, toes = (poses[:, retarget.BONES.index(f"{bone}_{side}"), 2, 0] for bone in ("foot", "ball"))
+                assert heel.min() < -0.3 and toes.min() > -0.12, "heels rise, toes stay on the ground"
 
 
 def test_arms_swing_as_the_clip_does(tmp_path, wearers):
