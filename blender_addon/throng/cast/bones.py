@@ -15,7 +15,7 @@ import numpy
 
 from ..blender.nodes import Maths, new_tree, own_tree, socket
 from ..blender.vectors import rotated, scaled, vector
-from .skinning import MOST, hangs_of, matrices_of, turns_of
+from .skinning import MOST, hangs_of, matrices_of, turns_of, within_half_a_round
 
 HANGS, TURN = "throng_bones", "throng_turned"
 LIMBS, JOINTS = "throng_limbs", "throng_joints"  # of a sheet; LIMBS are thigh, calf, foot and toes of the left leg,
@@ -44,16 +44,42 @@ def make_sheet(name, matrices, limbs=None):
     poses, bones = matrices.shape[:2]
     mesh = bpy.data.meshes.new(name)
     mesh.vertices.add(poses * bones)
-    round_ = lambda values, steps: (numpy.rint(values * steps) / steps + 0.0).astype(numpy.float32).ravel()
-    mesh.vertices.foreach_set("co", round_(matrices[..., 3], _FINE))
-    turn = mesh.attributes.new(TURN, "FLOAT_VECTOR", "POINT")
-    turn.data.foreach_set("vector", round_(turns_of(matrices[..., :3]), _TURNS))
-    mesh.update()
+    mesh.attributes.new(TURN, "FLOAT_VECTOR", "POINT")
+    _set_points(mesh, _rounded(matrices[..., 3], _FINE), _rounded(turns_of(matrices[..., :3]), _TURNS))
     sheet = bpy.data.objects.new(name, mesh)
     sheet["throng_bones"] = bones
     if limbs:
         sheet[LIMBS], sheet[JOINTS], sheet[TRUNK] = (numpy.asarray(each).ravel().tolist() for each in limbs)
     return sheet
+
+
+def _rounded(values, steps):
+    return (numpy.rint(values * steps) / steps + 0.0).astype(numpy.float32)
+
+
+def _set_points(mesh, moves, turns):
+    mesh.vertices.foreach_set("co", moves.ravel())
+    mesh.attributes[TURN].data.foreach_set("vector", turns.ravel())
+    mesh.update()
+
+
+def _points(sheet):
+    """(how far, how) the bones of all poses have moved and turned, each (P, B, 3)."""
+    moves, turns = (numpy.empty(3 * len(sheet.data.vertices), numpy.float32) for _ in range(2))
+    sheet.data.vertices.foreach_get("co", moves)
+    sheet.data.attributes[TURN].data.foreach_get("vector", turns)
+    return (each.reshape(-1, sheet["throng_bones"], 3) for each in (moves, turns))
+
+
+def put_poses(sheet, poses):
+    """Writes over poses of a sheet. @param poses {number: (B, 3, 4)}"""
+    moves, turns = _points(sheet)
+    for number, matrices in poses.items():
+        moves[number] = _rounded(matrices[..., 3], _FINE)
+        turns[number] = _rounded(turns_of(within_half_a_round(matrices[..., :3])), _TURNS)
+    _set_points(sheet.data, moves, turns)
+    sheet.update_tag()
+    sheet.data.update_tag()
 
 
 def has_bones(sheet):
@@ -62,11 +88,8 @@ def has_bones(sheet):
 
 def bones_of(sheet):
     """(P, B, 3, 4) of a sheet."""
-    moves, turns = (numpy.empty(3 * len(sheet.data.vertices), numpy.float32) for _ in range(2))
-    sheet.data.vertices.foreach_get("co", moves)
-    sheet.data.attributes[TURN].data.foreach_get("vector", turns)
-    shape = (-1, sheet["throng_bones"], 3)
-    return matrices_of(turns.reshape(shape).astype(float), moves.reshape(shape).astype(float))
+    moves, turns = _points(sheet)
+    return matrices_of(turns.astype(float), moves.astype(float))
 
 
 def hang(mesh, weights):

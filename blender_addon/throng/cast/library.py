@@ -19,6 +19,8 @@ class _Shaped:
     make = None   # (text of a role, level, repertoire): bones.Boned
     role = None   # (cast, member): that text
     check = None  # raises where the library is missing, before anything is changed
+    move = None   # (cast, member, sheet, repertoire): gives somebody who is made anew the motions that the user
+                  # brought, where the package `motions` is there
 
 
 shaped = _Shaped()
@@ -71,6 +73,8 @@ def add_person(cast, member, repertoire, materials, levels=None):
             there[level] = add_figure(cast, level, member, f"Throng person {member:02d}",
                                       shaped.make(role, level, repertoire), sheet)
             there[level]["throng_person"] = member
+            if sheet is None and shaped.move:
+                shaped.move(cast, member, sheet_of(there[level]), repertoire)
         return
     person = member % VARIATIONS
     bodies = [build_figure(people.CAST[person], pose) for pose in poses_of(people.CAST[person], repertoire)]

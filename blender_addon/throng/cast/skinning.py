@@ -75,6 +75,17 @@ def turns_of(matrices):
     return axis * numpy.where(length > 1e-9, angle / numpy.maximum(length, 1e-12), 0.5)[..., None]
 
 
+def within_half_a_round(matrices):
+    """Turns (B, 3, 3) as near to those as turns_of can tell: whatever would be half a round is a little less."""
+    found = matrices.copy()
+    for number, matrix in enumerate(matrices):
+        if numpy.trace(matrix) < -0.995:  # about 176 degrees
+            nudges = [matrices_of(sign * 0.07 * axis, numpy.zeros(3))[:, :3] @ matrix
+                      for axis in numpy.eye(3) for sign in (-1.0, 1.0)]
+            found[number] = max(nudges, key=numpy.trace)
+    return found
+
+
 def matrices_of(turns, moves):
     """(..., 3, 4): the contrary."""
     angle = numpy.linalg.norm(turns, axis=-1)[..., None, None]

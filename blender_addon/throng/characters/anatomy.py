@@ -122,15 +122,20 @@ def _joints(leg, heads):
     return leg[0], knee
 
 
-def _soles(points, main, bones):
-    """The vertices of a foot that can be its lowest, however it is turned: its corners, of each bone on its own."""
+def corners_of(points):
+    """Which of the points of a foot can be its lowest, however it is turned."""
     directions = [(numpy.cos(a) * c, numpy.sin(a) * c, -s) for a in numpy.arange(16) * numpy.pi / 8
                   for c, s in ((0.97, 0.24), (0.7, 0.7), (0.3, 0.95))]
+    return sorted(set((points @ numpy.array(directions).T).argmax(axis=0).tolist()))
+
+
+def _soles(points, main, bones):
+    """The vertices of a foot that can be its lowest: the corners of each bone on its own."""
     chosen = set()
     for bone in bones:
         mine = numpy.nonzero(main == bone)[0]
         if len(mine):
-            chosen.update(int(mine[i]) for i in (points[mine] @ numpy.array(directions).T).argmax(axis=0))
+            chosen.update(int(each) for each in mine[corners_of(points[mine])])
     if not chosen:
         raise CharacterError("no vertex follows the feet's bones: name the bones of both feet")
     return numpy.array(sorted(chosen))

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy
 
 from . import CharacterError, anatomy, feet, motion, roles
-from .rig import skinned
+from .skin import skinned
 
 STANDS_ABOUT = (1.3, 2.1)  # m: characters of such a height keep it
 HEIGHT = 1.75              # m, of others

@@ -13,9 +13,13 @@ def rotation_part(matrices):
 
 def straightened(matrices):
     """Matrices that were blended, as rotations again."""
-    rotations, scales = rotation_part(matrices)
+    return rescaled(matrices, rotation_part(matrices)[1])
+
+
+def rescaled(matrices, scales):
+    """Matrices that were blended, as rotations again, and scaled: turns that are far apart blend to less."""
     result = matrices.copy()
-    result[..., :3, :3] = rotations * scales[..., None, :]
+    result[..., :3, :3] = rotation_part(matrices)[0] * scales[..., None, :]
     return result
 
 
@@ -29,7 +33,7 @@ def _frame(along, normal):
     return numpy.stack([x, numpy.cross(z, x), z], axis=1)
 
 
-def _turn(before, after):
+def turn_between(before, after):
     """The smallest rotation from one direction to another."""
     a, b = _unit(before), _unit(after)
     cross, cosine = numpy.cross(a, b), float(a @ b)
@@ -60,7 +64,7 @@ def bend(hip, knee, ankle, target, sideways=numpy.array([0.0, 1.0, 0.0])):
     normal = numpy.cross(knee - hip, ankle - knee)
     if numpy.linalg.norm(normal) < 0.05 * thigh * shin or normal @ sideways < 0.0:
         normal = sideways
-    turned = _turn(ankle - hip, way) @ normal
+    turned = turn_between(ankle - hip, way) @ normal
     u = _unit(way)
     turned = _unit(turned - u * float(turned @ u))
     along = (thigh ** 2 - shin ** 2 + distance ** 2) / (2.0 * distance)

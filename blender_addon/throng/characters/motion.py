@@ -116,8 +116,10 @@ def body_at(cycle, body, phase, amplitude):
     if amplitude > 0.999:
         return bones
     if cycle.mean is None:
-        cycle.mean = legs.straightened(locals_of(cycle.bones, body.parents).mean(axis=0))
-    relative = legs.straightened(amplitude * locals_of(bones, body.parents) + (1.0 - amplitude) * cycle.mean)
+        all_ = locals_of(cycle.bones, body.parents)
+        cycle.mean = legs.rescaled(all_.mean(axis=0), legs.rotation_part(all_)[1].mean(axis=0))
+    relative = locals_of(bones, body.parents)
+    relative = legs.rescaled(amplitude * relative + (1.0 - amplitude) * cycle.mean, legs.rotation_part(relative)[1])
     return globals_of(relative, body.parents)
 
 

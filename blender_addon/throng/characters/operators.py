@@ -13,7 +13,7 @@ from .clips import HEADINGS, Options
 from .roles import ROLES
 
 
-def _one_crowd(context):
+def one_crowd(context):
     chosen = chosen_crowds(context)
     if len(chosen) != 1:
         raise CharacterError("Select one crowd: each has a cast of its own" if chosen
@@ -87,7 +87,7 @@ class _AddsCharacter:
 
     def execute(self, context):
         try:
-            crowd = _one_crowd(context)
+            crowd = one_crowd(context)
             self._run(context, crowd)
         except CharacterError as error:
             self.report({"ERROR"}, str(error))
@@ -139,7 +139,7 @@ class THRONG_OT_remove_character(bpy.types.Operator):
 
     def execute(self, context):
         try:
-            members.remove(_one_crowd(context), self.member)
+            members.remove(one_crowd(context), self.member)
         except CharacterError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
@@ -154,7 +154,7 @@ class VIEW3D_PT_throng_characters(Below, bpy.types.Panel):
         layout.operator(THRONG_OT_add_character.bl_idname, icon="IMPORT")
         layout.operator(THRONG_OT_add_armature.bl_idname, icon="ARMATURE_DATA")
         try:
-            crowd = _one_crowd(context)
+            crowd = one_crowd(context)
         except CharacterError as error:
             layout.label(text=str(error))
             return

@@ -9,6 +9,7 @@ import numpy
 from ..blender.actions import curves_of
 from . import CharacterError
 from .roles import words_of
+from .skin import Skin
 
 _HELD = set("hand handslot wrist weapon prop slot item attach tool".split())
 
@@ -132,14 +133,6 @@ def rig_of(armature, leave_out="", keep=""):
     return Rig(armature, meshes, clips, held)
 
 
-@dataclass
-class Skin:
-    """Which bone moves which vertex, for measuring: rest positions in the armature's space, and four weights each."""
-    rest: numpy.ndarray     # (V, 3)
-    bones: numpy.ndarray    # (V, 4) int
-    weights: numpy.ndarray  # (V, 4)
-
-
 class Stage:
     """A scene of its own where a character plays clips, so that nothing else is evaluated. Leaves all as it was."""
 
@@ -243,17 +236,6 @@ class Stage:
             raise CharacterError("no vertex follows a bone: meshes need an Armature modifier and vertex groups with "
                                  "the bones' names, or bones as parents")
         return skin
-
-
-def skinned(skin, chosen, matrices, rest):
-    """(..., len(chosen), 3): where those vertices are for bone matrices (..., B, 4, 4)."""
-    moves = matrices @ numpy.linalg.inv(rest)
-    points = numpy.concatenate([skin.rest[chosen], numpy.ones((len(chosen), 1))], axis=1)
-    total = numpy.zeros(matrices.shape[:-3] + (len(chosen), 4))
-    for slot in range(skin.bones.shape[1]):
-        moved = numpy.einsum("...vij,vj->...vi", moves[..., skin.bones[chosen, slot], :, :], points)
-        total += skin.weights[chosen, slot][:, None] * moved
-    return total[..., :3] / numpy.maximum(1e-9, skin.weights[chosen].sum(axis=1))[:, None]
 
 
 def _weights_of(thing, index):

@@ -79,13 +79,19 @@ def bones_for(crowd, cast):
         return None
     sheets = [sheet_of(figure) for figure in figures]
     joined = next((thing for thing in cast.objects if _ALL in thing), None)
-    if joined and [sheet.name for sheet in sheets] == list(joined[_ALL]):
+    if joined and [sheet.name for sheet in sheets] == list(joined[_ALL]) and _joins(joined) == set(sheets):
         return joined
     _drop_bones(joined)
     joined = bones.join_sheets(f"{cast.name} bones", sheets)
     joined[_ALL] = [sheet.name for sheet in sheets]
     cast.objects.link(joined)
     return joined
+
+
+def _joins(joined):
+    """The sheets that it joins: of members who were made anew there are others of the same name."""
+    return {node.inputs["Object"].default_value for node in joined.modifiers[0].node_group.nodes
+            if node.bl_idname == "GeometryNodeObjectInfo"}
 
 
 def _drop_bones(joined):

@@ -9,13 +9,17 @@ from mathutils import Matrix, Vector
 
 from .. import cast
 from ..cast import gait, library, people
+from ..cast.bones import bones_of
 from ..cast.materials import cast_materials
+from ..cast.sheets import sheet_of
+from ..characters import legs
 from ..crowd import own
 from ..crowd.footing import HIGH, REACH
 from ..crowd.names import NATURE
 from ..crowd.poses import FRAMES_A_ROUND, STANDING_SPEED
-from ..crowd.queries import terrain_of
+from ..crowd.queries import repertoire_of, terrain_of
 from ..formats import BakeError
+from ..motions.members import moves
 from ..people import figures, members
 from ..people.library import LibraryError
 from ..people.materials import material_of
@@ -62,17 +66,26 @@ class _Curves:
         curve.update()
 
 
-def _pose_at(sample, frame, build, strides, nature):
+def _bones_at(who, sample, frame, strides, nature):
     """As the instancer picks poses, but at the phase itself instead of the nearest of its steps."""
     activity, _, phase = sample.state
     if sample.direction[2] > STANDING_SPEED:
-        index = min(len(strides) - 1, round((activity % 1.0) * 16.0))
-        return gait.walk_pose(phase % 1.0, build, gait.gait_of(strides[index]))
+        return who.walking(min(len(strides) - 1, round((activity % 1.0) * 16.0)), strides, phase % 1.0)
     clip = int(nature[0] % (4 if int(activity) == 2 else 2))
-    return gait.standing_pose(gait.STANDING_CLIPS[clip], (nature[1] + frame / FRAMES_A_ROUND) % 1.0, build)
+    return who.standing(clip, (nature[1] + frame / FRAMES_A_ROUND) % 1.0)
 
 
-class Lofted:
+class _ByGaits:
+    """Somebody who moves as the cast's gaits have it."""
+
+    def walking(self, index, strides, phase):
+        return self.bones(gait.walk_pose(phase, self.build, gait.gait_of(strides[index])))
+
+    def standing(self, clip, beat):
+        return self.bones(gait.standing_pose(gait.STANDING_CLIPS[clip], beat, self.build))
+
+
+class Lofted(_ByGaits):
     """A person of cast/people.py as a hero."""
 
     def __init__(self, person, materials):
@@ -92,11 +105,11 @@ class Lofted:
         """What else its mesh has."""
 
 
-class Shaped:
+class Shaped(_ByGaits):
     """A member of a cast that is shaped from bodies as a hero, in full detail."""
 
     def __init__(self, role):
-        self.puppet = Puppet(role)
+        self.role, self.puppet = role, Puppet(role)
         self.materials = [material_of(kind, self.puppet.look, members.bodies()) for kind in self.puppet.model.materials]
         self.build, self.rest = self.puppet.build, self.puppet.rest
 
@@ -110,6 +123,28 @@ class Shaped:
 
     def finish(self, mesh):
         figures.add_pattern(mesh, self.puppet.model)
+
+
+class Moved(Shaped):
+    """One of them who moves as a clip does that was brought along (motions): as its sheet has it."""
+
+    def __init__(self, role, figure, repertoire):
+        super().__init__(role)
+        self.repertoire, self.poses = repertoire, bones_of(sheet_of(figure))
+
+    def walking(self, index, strides, phase):
+        number = min(max(index - self.repertoire.first, 0), len(self.repertoire.strides) - 1)
+        return self._between(number * cast.POSES, cast.POSES, phase)
+
+    def standing(self, clip, beat):
+        return self._between(self.repertoire.walking() + clip * cast.BEATS, cast.BEATS, beat)
+
+    def _between(self, first, count, share):
+        """Bones between the two poses of a round that are nearest."""
+        pose, rest = int(share * count) % count, share * count % 1.0
+        led = (1.0 - rest) * self.poses[first + pose] + rest * self.poses[first + (pose + 1) % count]
+        led[:, :, :3] = legs.rotation_part(led)[0]
+        return self.puppet.bones_at(members.of_all_bones(self.role, self.repertoire, led), skeleton.bone_between)
 
 
 def _build_armature(name, who, collection):
@@ -164,7 +199,9 @@ def shipped_person(crowd, variation):
     if figure is None or "throng_person" not in figure:
         return None
     if shown.get("throng_bodies"):
-        return Shaped(members.roles_of(shown)[figure["throng_person"]])
+        member = figure["throng_person"]
+        role = members.role_of(shown, member)
+        return Moved(role, figure, repertoire_of(crowd)) if moves(shown, member) else Shaped(role)
     return Lofted(people.CAST[figure["throng_person"]], list(figure.data.materials))
 
 
@@ -271,7 +308,7 @@ def promote(crowd, bake, rows, people_of_bake, row, change):
     _key_root(curves, frames, samples)
     shown = [i for i in range(len(frames)) if alive[i]] or [0]
     span = range(shown[0], shown[-1] + 1)
-    skeletons = [who.bones(_pose_at(samples[i], frames[i], who.build, strides, nature)) for i in span]
+    skeletons = [_bones_at(who, samples[i], frames[i], strides, nature) for i in span]
     _key_bones(curves, armature, [frames[i] for i in span], skeletons)
     _key_presence(body, f"{change.hero} presence", frames, alive)
     return armature

@@ -57,17 +57,27 @@ def _leaders(role, repertoire):
     return skinning.leaders_of(bodies().parents, some)
 
 
+def leading(role, repertoire):
+    """Numbers of the library's bones that lead: those that sheets have."""
+    return numpy.unique(_leaders(role, repertoire)[0])
+
+
 def matrices_of(role, repertoire):
     """(P, B, 3, 4) of the bones that lead, in all poses of level 0."""
-    rig, (leaders, _) = maker_of(role).rig, _leaders(role, repertoire)
-    used = numpy.unique(leaders)
+    rig, used = maker_of(role).rig, leading(role, repertoire)
     return numpy.stack([rig.matrices(pose)[used] for pose in poses_of(rig.build, repertoire)])
+
+
+def of_all_bones(role, repertoire, led):
+    """(bones of the library, 3, 4) of those that lead, (B, 3, 4): all others go with them."""
+    leaders, turns = _leaders(role, repertoire)
+    return led[numpy.searchsorted(numpy.unique(leaders), leaders)] @ turns
 
 
 def limbs_of(role, repertoire):
     """(bones, joints, trunk) as cast.bones.Boned has them."""
     library_, rig = bodies(), maker_of(role).rig
-    used = numpy.unique(_leaders(role, repertoire)[0]).tolist()
+    used = leading(role, repertoire).tolist()
     legs = [[f"{bone}_{side}" for bone in ("thigh", "calf", "foot", "ball")] for side in "lr"]
     neck = ["neck_01", "head"]
     return ([used.index(library_.bone[bone]) for bone in (*legs[0], *legs[1], *neck)],
@@ -102,5 +112,9 @@ def roles_of(cast):
     return [Role(number, cast["throng_bodies"]) for number in range(cast["throng_shipped"])]
 
 
+def role_of(cast, member):
+    return roles_of(cast)[member]
+
+
 # the cast's own library calls these for members whose cast has a look
-shaped.make, shaped.check, shaped.role = boned_of, bodies, lambda cast, member: str(roles_of(cast)[member])
+shaped.make, shaped.check, shaped.role = boned_of, bodies, lambda cast, member: str(role_of(cast, member))

@@ -32,7 +32,11 @@ class Puppet:
 
     def bones(self, pose, bone):
         """{name: bone} in a pose; `bone` makes one of a head, a tail and what is beside it."""
-        matrices, found = self.rig.matrices(pose), {}
+        return self.bones_at(self.rig.matrices(pose), bone)
+
+    def bones_at(self, matrices, bone):
+        """The same where the library's bones are known."""
+        found = {}
         place = lambda lead, point: matrices[self.rig.bodies.bone[lead]] @ numpy.append(point, 1.0)
         for name, (lead, _, end) in _LED.items():
             tail = self.rig.tails[lead] if end is None else self.rig.heads[end]

@@ -72,15 +72,15 @@ class Rig:
     def matrices(self, pose):
         """(B, 3, 4): where a pose takes the points that hang on each bone."""
         turns, places = self._trunk(pose)
-        for side, sign, index in (("r", -1.0, 0), ("l", 1.0, 1)):
+        for side, index in (("r", 0), ("l", 1)):
             self._leg(turns, places, pose, side, pose.feet[index])
             swing, elbow = pose.arms[index]
             if self.stoop:  # arms hang down from bent backs, and swing less
                 swing, elbow = 0.6 * swing + 0.4 * self.stoop, elbow + 0.15
-            self._arm(turns, places, pose, side, sign, swing, elbow)
+            self.hang_arm(turns, places, pose.shoulder_yaw, side, swing, elbow)
         if self.stick:
             self._plant(turns, places, pose)
-        return self._all(turns, places)
+        return self.of_all(turns, places)
 
     def neutral(self):
         """Matrices of standing upright, arms down: where patterns of cloth are told from."""
@@ -124,7 +124,9 @@ class Rig:
         turns[ball] = toes_out @ turn(_Y, -max(foot.pitch, 0.0)) @ straight  # toes stay on the ground
         places[ball] = end + turns[ankle] @ rest
 
-    def _arm(self, turns, places, pose, side, sign, swing, elbow):
+    def hang_arm(self, turns, places, yaw, side, swing, elbow):
+        """Adds an arm to a trunk that is turned and placed. @param yaw of the shoulders"""
+        sign = 1.0 if side == "l" else -1.0
         clavicle, upper, lower, hand = (f"{bone}_{side}" for bone in ("clavicle", "upperarm", "lowerarm", "hand"))
         shoulders = turns["spine_03"]
         turns[clavicle] = shoulders @ turn(_X, -sign * 0.03)
@@ -134,7 +136,7 @@ class Rig:
         # outwards enough for the hand to pass beside the hips
         room = (self.widest + 0.070 * self.scale - abs(self.heads[upper][1])) / reach
         out = sign * min(max(0.10, room), 0.34)
-        turned = turn(_Z, pose.shoulder_yaw)
+        turned = turn(_Z, yaw)
 
         def hang(angle):
             return turned @ numpy.array([math.sin(angle), out * (1.0 - 0.4 * abs(angle)), -math.cos(angle)])
@@ -150,7 +152,7 @@ class Rig:
         places[lower] = shoulder + turns[upper] @ rest_upper
         turns[hand] = turn(fore, sign * 0.22) @ turns[lower]  # palms to the thighs
         places[hand] = places[lower] + turns[lower] @ rest_lower
-        self._fingers(turns, places, side, hand, sign)
+        self.bend_fingers(turns, places, side)
 
     def _plant(self, turns, places, pose):
         """A stick in the right hand goes with the left foot: while that stands, so does it. Its bone is the root, which
@@ -162,7 +164,7 @@ class Rig:
         low, high = 0.05, 1.5  # of the elbow: whatever holds the stick's top where it ends
         for _ in range(_ROUNDS):
             elbow = 0.5 * (low + high)
-            self._arm(turns, places, pose, "r", -1.0, 0.5 * pose.arms[0][0] + 0.05, elbow)
+            self.hang_arm(turns, places, pose.shoulder_yaw, "r", 0.5 * pose.arms[0][0] + 0.05, elbow)
             along = self._grip(turns, places) - tip
             low, high = (low, elbow) if along @ along > (top - rest) @ (top - rest) else (elbow, high)
         turns["Root"] = frame(along, _Y) @ frame(_Z, _Y).T
@@ -178,10 +180,11 @@ class Rig:
         x, y = 0.12 * self.scale, -self.widest - 0.13 * self.scale
         return numpy.array([x, y, 0.0]), numpy.array([x, y, 0.84 * self.scale])
 
-    def _fingers(self, turns, places, side, hand, sign):
+    def bend_fingers(self, turns, places, side):
         """Half closed and side by side, as hands hang."""
+        hand = f"hand_{side}"
         if side not in self._curled:
-            self._curled[side] = self._curl(side, hand, sign)
+            self._curled[side] = self._curl(side, hand, 1.0 if side == "l" else -1.0)
         for bone, parent, bent in self._curled[side]:
             places[bone] = places[parent] + turns[parent] @ (self.heads[bone] - self.heads[parent])
             turns[bone] = turns[hand] @ bent
@@ -215,8 +218,8 @@ class Rig:
             parent = bone
         return found
 
-    def _all(self, turns, places):
-        """Bones that no pose turns go with their parents."""
+    def of_all(self, turns, places):
+        """(B, 3, 4) where some bones are turned and placed: all others go with their parents."""
         found = numpy.zeros((len(self.bodies.bones), 3, 4))
         for number, bone in enumerate(self.bodies.bones):
             if bone not in turns:
