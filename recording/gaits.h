@@ -57,7 +57,8 @@ struct GaitTrack {
     double left() const;
     /// What the stream of states has of all this: less than 1.
     float inState() const;
-    /// Walks on by `way` m in so many seconds. Where the stride changes, the way is shared out between the two.
+    /// Walks on by `way` m in so many seconds. Where the stride changes, the way is shared out between the
+    /// two.
     void advance(double way, double seconds);
 };
 
