@@ -50,11 +50,16 @@ def poses_of(build, repertoire):
 
 
 @lru_cache(maxsize=_KEPT)
+def _of_all_poses(role, repertoire):
+    """(P, all bones, 3, 4)"""
+    rig = maker_of(role).rig
+    return rig.all_matrices(poses_of(rig.build, repertoire))
+
+
+@lru_cache(maxsize=_KEPT)
 def _leaders(role, repertoire):
     """Which bones go with which (skinning.leaders_of): a few poses tell."""
-    rig = maker_of(role).rig
-    some = numpy.stack([rig.matrices(pose) for pose in poses_of(rig.build, repertoire)[::_SOME]])
-    return skinning.leaders_of(bodies().parents, some)
+    return skinning.leaders_of(bodies().parents, _of_all_poses(role, repertoire)[::_SOME])
 
 
 def leading(role, repertoire):
@@ -64,8 +69,7 @@ def leading(role, repertoire):
 
 def matrices_of(role, repertoire):
     """(P, B, 3, 4) of the bones that lead, in all poses of level 0."""
-    rig, used = maker_of(role).rig, leading(role, repertoire)
-    return numpy.stack([rig.matrices(pose)[used] for pose in poses_of(rig.build, repertoire)])
+    return _of_all_poses(role, repertoire)[:, leading(role, repertoire)]
 
 
 def of_all_bones(role, repertoire, led):

@@ -23,7 +23,7 @@ class Model:
 
     def posed(self, poses):
         """(P, V, 3) in poses of cast/gait.py."""
-        return skinned(self.points, self.weights, numpy.stack([self.rig.matrices(pose) for pose in poses]))
+        return skinned(self.points, self.weights, self.rig.all_matrices(poses))
 
 
 class Maker:

@@ -14,29 +14,57 @@ STICK_AHEAD = 0.12  # m, of the ankle, where sticks are planted
 _ROUNDS = 10      # of looking for an elbow's angle: to a millimetre of the stick's tip
 
 
+# Vectors are (..., 3) and turns (..., 3, 3): of one pose, or of many at once.
+
+
+def vector(*parts):
+    return numpy.stack(numpy.broadcast_arrays(*parts), axis=-1)
+
+
 def cross(one, other):
-    """As numpy.cross of two vectors, in a tenth of the time."""
-    (a, b, c), (x, y, z) = one, other
-    return numpy.array((b * z - c * y, c * x - a * z, a * y - b * x))
+    """As numpy.cross, in a tenth of the time."""
+    (a, b, c), (x, y, z) = numpy.moveaxis(one, -1, 0), numpy.moveaxis(other, -1, 0)
+    return vector(b * z - c * y, c * x - a * z, a * y - b * x)
+
+
+def length(value):
+    return numpy.sqrt((value * value).sum(axis=-1))
+
+
+def turned(turns, value):
+    """Vectors, turned."""
+    return (turns @ value[..., None])[..., 0]
 
 
 def turn(axis, angle):
-    """The matrix that turns by an angle about an axis."""
-    x, y, z = (float(part) for part in axis)
-    length = max(math.sqrt(x * x + y * y + z * z), 1e-12)
-    x, y, z, s, c = x / length, y / length, z / length, math.sin(angle), math.cos(angle)
+    """What turns by an angle about an axis."""
+    x, y, z = numpy.moveaxis(numpy.asarray(axis) / numpy.maximum(length(axis), 1e-12)[..., None], -1, 0)
+    s, c = numpy.sin(angle), numpy.cos(angle)
     d = 1.0 - c
-    return numpy.array(((c + d * x * x, d * x * y - s * z, d * x * z + s * y),
-                        (d * x * y + s * z, c + d * y * y, d * y * z - s * x),
-                        (d * x * z - s * y, d * y * z + s * x, c + d * z * z)))
+    return numpy.stack([vector(c + d * x * x, d * x * y - s * z, d * x * z + s * y),
+                        vector(d * x * y + s * z, c + d * y * y, d * y * z - s * x),
+                        vector(d * x * z - s * y, d * y * z + s * x, c + d * z * z)], axis=-2)
 
 
 def frame(along, hinge):
     """Axes: along a bone, about its hinge, and across both."""
-    along = along / math.sqrt(along @ along)
-    hinge = hinge - along * (hinge @ along)
-    hinge = hinge / math.sqrt(hinge @ hinge)
-    return numpy.stack([along, hinge, cross(along, hinge)], axis=1)
+    along = along / length(along)[..., None]
+    hinge = hinge - along * (hinge * along).sum(axis=-1)[..., None]
+    hinge = hinge / length(hinge)[..., None]
+    return numpy.stack([along, hinge, cross(along, hinge)], axis=-1)
+
+
+class _Poses:
+    """Poses of cast/gait.py as arrays of all of them."""
+
+    def __init__(self, poses):
+        of = lambda value: numpy.array([value(pose) for pose in poses], float)
+        self.pelvis, self.pelvis_yaw = of(lambda pose: pose.pelvis), of(lambda pose: pose.pelvis_yaw)
+        self.shoulder_yaw, self.lean = of(lambda pose: pose.shoulder_yaw), of(lambda pose: pose.lean)
+        self.ankles = of(lambda pose: [foot.ankle for foot in pose.feet])    # (P, 2, 2)
+        self.pitches = of(lambda pose: [foot.pitch for foot in pose.feet])   # (P, 2)
+        self.planted = of(lambda pose: [bool(foot.planted) for foot in pose.feet]) > 0.5
+        self.arms = of(lambda pose: pose.arms)                               # (P, 2, 2)
 
 
 class Rig:
@@ -71,15 +99,20 @@ class Rig:
 
     def matrices(self, pose):
         """(B, 3, 4): where a pose takes the points that hang on each bone."""
-        turns, places = self._trunk(pose)
+        return self.all_matrices([pose])[0]
+
+    def all_matrices(self, poses):
+        """(P, B, 3, 4) of several poses, worked out together."""
+        poses = _Poses(poses)
+        turns, places = self._trunk(poses)
         for side, index in (("r", 0), ("l", 1)):
-            self._leg(turns, places, pose, side, pose.feet[index])
-            swing, elbow = pose.arms[index]
+            self._leg(turns, places, poses, side, index)
+            swing, elbow = numpy.moveaxis(poses.arms[:, index], -1, 0)
             if self.stoop:  # arms hang down from bent backs, and swing less
                 swing, elbow = 0.6 * swing + 0.4 * self.stoop, elbow + 0.15
-            self.hang_arm(turns, places, pose.shoulder_yaw, side, swing, elbow)
+            self.hang_arm(turns, places, poses.shoulder_yaw, side, swing, elbow)
         if self.stick:
-            self._plant(turns, places, pose)
+            self._plant(turns, places, poses)
         return self.of_all(turns, places)
 
     def neutral(self):
@@ -88,30 +121,38 @@ class Rig:
         leg = 0.999 * (self.build.thigh + self.build.shank) + self.build.ankle
         return self.matrices(gait.Pose((0.0, 0.0, leg), 0.0, 0.0, 0.0, feet, ((0.0, 0.12), (0.0, 0.12))))
 
-    def _trunk(self, pose):
-        stoop, straight = self.stoop, pose.lean
+    def _trunk(self, poses):
+        stoop, straight = self.stoop, poses.lean
         lean = turn(_Y, straight + 0.9 * stoop)
-        shoulders = turn(_Z, pose.shoulder_yaw)
-        half = turn(_Z, 0.5 * (pose.pelvis_yaw + pose.shoulder_yaw))
-        pelvis = turn(_Z, pose.pelvis_yaw) @ turn(_Y, 0.4 * pose.lean)
-        turns = {"Root": numpy.eye(3), "pelvis": pelvis, "spine_01": half @ turn(_Y, 0.7 * straight + 0.4 * stoop),
+        shoulders = turn(_Z, poses.shoulder_yaw)
+        half = turn(_Z, 0.5 * (poses.pelvis_yaw + poses.shoulder_yaw))
+        pelvis = turn(_Z, poses.pelvis_yaw) @ turn(_Y, 0.4 * poses.lean)
+        root = numpy.broadcast_to(numpy.eye(3), pelvis.shape)
+        turns = {"Root": root, "pelvis": pelvis, "spine_01": half @ turn(_Y, 0.7 * straight + 0.4 * stoop),
                  "spine_02": half @ lean, "spine_03": shoulders @ turn(_Y, straight + 1.5 * stoop),
-                 "neck_01": turn(_Z, 0.6 * pose.shoulder_yaw) @ turn(_Y, 0.6 * straight + 1.3 * stoop),
-                 "head": turn(_Z, 0.3 * pose.shoulder_yaw) @ turn(_Y, 0.35 * stoop)}
-        middle = numpy.array(pose.pelvis) - (0.0, 0.0, gait.HIP_DROP * self.scale)
-        places = {"Root": numpy.zeros(3), "pelvis": middle + pelvis @ (self.heads["pelvis"] - self.hips)}
+                 "neck_01": turn(_Z, 0.6 * poses.shoulder_yaw) @ turn(_Y, 0.6 * straight + 1.3 * stoop),
+                 "head": turn(_Z, 0.3 * poses.shoulder_yaw) @ turn(_Y, 0.35 * stoop)}
+        middle = poses.pelvis - (0.0, 0.0, gait.HIP_DROP * self.scale)
+        places = {"Root": numpy.zeros_like(middle),
+                  "pelvis": middle + turned(pelvis, self.heads["pelvis"] - self.hips)}
         for parent, bone in (("pelvis", "spine_01"), ("spine_01", "spine_02"), ("spine_02", "spine_03"),
                              ("spine_03", "neck_01"), ("neck_01", "head")):
-            places[bone] = places[parent] + turns[parent] @ (self.heads[bone] - self.heads[parent])
+            places[bone] = self._end(turns, places, parent, bone)
         return turns, places
 
-    def _leg(self, turns, places, pose, side, foot):
+    def _end(self, turns, places, parent, bone):
+        """Where a bone begins, on its parent."""
+        return places[parent] + turned(turns[parent], self.heads[bone] - self.heads[parent])
+
+    def _leg(self, turns, places, poses, side, index):
         thigh, calf, ankle, ball = (f"{bone}_{side}" for bone in ("thigh", "calf", "foot", "ball"))
-        hip = places["pelvis"] + turns["pelvis"] @ (self.heads[thigh] - self.heads["pelvis"])
-        aside = self.heads[thigh][1] * 0.62 + 0.25 * pose.pelvis[1]
-        knee_x, knee_z = gait.knee_of((hip[0], hip[2]), foot.ankle, self.build)
-        end = numpy.array([foot.ankle[0], aside, foot.ankle[1]])
-        knee = numpy.array([knee_x, 0.5 * (hip[1] + aside), knee_z])
+        hip = self._end(turns, places, "pelvis", thigh)
+        aside = self.heads[thigh][1] * 0.62 + 0.25 * poses.pelvis[:, 1]
+        ankles, pitch = poses.ankles[:, index], poses.pitches[:, index]
+        knees = numpy.array([gait.knee_of(start, stop, self.build)
+                             for start, stop in zip(hip[:, [0, 2]].tolist(), ankles.tolist())])
+        end = vector(ankles[:, 0], aside, ankles[:, 1])
+        knee = vector(knees[:, 0], 0.5 * (hip[:, 1] + aside), knees[:, 1])
         toes_out = turn(_Z, 0.09 if side == "l" else -0.09)
         hinge = toes_out @ _Y
         for bone, start, stop, rest in ((thigh, hip, knee, self.heads[calf]), (calf, knee, end, self.heads[ankle])):
@@ -119,61 +160,62 @@ class Rig:
             places[bone] = start
         rest = self.heads[ball] - self.heads[ankle]
         straight = turn(_Z, -math.atan2(rest[1], rest[0]))
-        turns[ankle] = toes_out @ turn(_Y, -foot.pitch) @ straight
+        turns[ankle] = toes_out @ turn(_Y, -pitch) @ straight
         places[ankle] = end
-        turns[ball] = toes_out @ turn(_Y, -max(foot.pitch, 0.0)) @ straight  # toes stay on the ground
-        places[ball] = end + turns[ankle] @ rest
+        turns[ball] = toes_out @ turn(_Y, -numpy.maximum(pitch, 0.0)) @ straight  # toes stay on the ground
+        places[ball] = end + turned(turns[ankle], rest)
 
     def hang_arm(self, turns, places, yaw, side, swing, elbow):
         """Adds an arm to a trunk that is turned and placed. @param yaw of the shoulders"""
         sign = 1.0 if side == "l" else -1.0
         clavicle, upper, lower, hand = (f"{bone}_{side}" for bone in ("clavicle", "upperarm", "lowerarm", "hand"))
-        shoulders = turns["spine_03"]
-        turns[clavicle] = shoulders @ turn(_X, -sign * 0.03)
-        places[clavicle] = places["spine_03"] + shoulders @ (self.heads[clavicle] - self.heads["spine_03"])
-        shoulder = places[clavicle] + turns[clavicle] @ (self.heads[upper] - self.heads[clavicle])
+        turns[clavicle] = turns["spine_03"] @ turn(_X, -sign * 0.03)
+        places[clavicle] = self._end(turns, places, "spine_03", clavicle)
+        shoulder = self._end(turns, places, clavicle, upper)
         reach = math.dist(self.heads[upper], self.heads[lower]) + math.dist(self.heads[lower], self.heads[hand])
         # outwards enough for the hand to pass beside the hips
         room = (self.widest + 0.070 * self.scale - abs(self.heads[upper][1])) / reach
         out = sign * min(max(0.10, room), 0.34)
-        turned = turn(_Z, yaw)
+        shoulders = turn(_Z, yaw)
 
         def hang(angle):
-            return turned @ numpy.array([math.sin(angle), out * (1.0 - 0.4 * abs(angle)), -math.cos(angle)])
+            return turned(shoulders, vector(numpy.sin(angle), out * (1.0 - 0.4 * numpy.abs(angle)),
+                                            -numpy.cos(angle)))
 
-        down = hang(swing)
-        fore = hang(swing + elbow)
+        down, fore = hang(swing), hang(swing + elbow)
         rest_upper = self.heads[lower] - self.heads[upper]
         rest_lower = self.heads[hand] - self.heads[lower]
-        hinge, rest_hinge = -(turned @ _Y), cross(rest_upper, rest_lower)
+        hinge, rest_hinge = -turned(shoulders, _Y), cross(rest_upper, rest_lower)
         turns[upper] = frame(down, hinge) @ frame(rest_upper, rest_hinge).T
         turns[lower] = frame(fore, hinge) @ frame(rest_lower, rest_hinge).T
         places[upper] = shoulder
-        places[lower] = shoulder + turns[upper] @ rest_upper
+        places[lower] = shoulder + turned(turns[upper], rest_upper)
         turns[hand] = turn(fore, sign * 0.22) @ turns[lower]  # palms to the thighs
-        places[hand] = places[lower] + turns[lower] @ rest_lower
+        places[hand] = places[lower] + turned(turns[lower], rest_lower)
         self.bend_fingers(turns, places, side)
 
-    def _plant(self, turns, places, pose):
+    def _plant(self, turns, places, poses):
         """A stick in the right hand goes with the left foot: while that stands, so does it. Its bone is the root, which
         nothing else hangs on."""
-        foot = pose.feet[1]
-        lift = 0.0 if foot.planted else 0.35 * max(foot.ankle[1] - self.build.ankle, 0.0)
-        tip = numpy.array([foot.ankle[0] + STICK_AHEAD * self.scale, -self.widest - 0.13 * self.scale, lift])
+        ankle = poses.ankles[:, 1]
+        lift = numpy.where(poses.planted[:, 1], 0.0, 0.35 * numpy.maximum(ankle[:, 1] - self.build.ankle, 0.0))
+        tip = vector(ankle[:, 0] + STICK_AHEAD * self.scale, -self.widest - 0.13 * self.scale, lift)
         rest, top = self.stick_at_rest()
-        low, high = 0.05, 1.5  # of the elbow: whatever holds the stick's top where it ends
+        # of the elbow: whatever holds the stick's top where it ends
+        low, high = numpy.full(len(tip), 0.05), numpy.full(len(tip), 1.5)
         for _ in range(_ROUNDS):
             elbow = 0.5 * (low + high)
-            self.hang_arm(turns, places, pose.shoulder_yaw, "r", 0.5 * pose.arms[0][0] + 0.05, elbow)
+            self.hang_arm(turns, places, poses.shoulder_yaw, "r", 0.5 * poses.arms[:, 0, 0] + 0.05, elbow)
             along = self._grip(turns, places) - tip
-            low, high = (low, elbow) if along @ along > (top - rest) @ (top - rest) else (elbow, high)
+            longer = length(along) > math.dist(top, rest)
+            low, high = numpy.where(longer, low, elbow), numpy.where(longer, elbow, high)
         turns["Root"] = frame(along, _Y) @ frame(_Z, _Y).T
-        places["Root"] = self._grip(turns, places) + turns["Root"] @ (self.heads["Root"] - top)
+        places["Root"] = self._grip(turns, places) + turned(turns["Root"], self.heads["Root"] - top)
 
     def _grip(self, turns, places):
         """Where the right hand holds something, m."""
         inside = 0.5 * (self.tails["middle_01_r"] + self.heads["middle_01_r"]) - self.heads["hand_r"]
-        return places["hand_r"] + turns["hand_r"] @ inside
+        return places["hand_r"] + turned(turns["hand_r"], inside)
 
     def stick_at_rest(self):
         """(tip, top) of a stick where it is made: beside the right foot, upright."""
@@ -186,7 +228,7 @@ class Rig:
         if side not in self._curled:
             self._curled[side] = self._curl(side, hand, 1.0 if side == "l" else -1.0)
         for bone, parent, bent in self._curled[side]:
-            places[bone] = places[parent] + turns[parent] @ (self.heads[bone] - self.heads[parent])
+            places[bone] = self._end(turns, places, parent, bone)
             turns[bone] = turns[hand] @ bent
 
     def _curl(self, side, hand, sign):
@@ -219,15 +261,15 @@ class Rig:
         return found
 
     def of_all(self, turns, places):
-        """(B, 3, 4) where some bones are turned and placed: all others go with their parents."""
-        found = numpy.zeros((len(self.bodies.bones), 3, 4))
+        """(..., B, 3, 4) where some bones are turned and placed: all others go with their parents."""
+        found = numpy.zeros((*turns["pelvis"].shape[:-2], len(self.bodies.bones), 3, 4))
         for number, bone in enumerate(self.bodies.bones):
             if bone not in turns:
                 parent = self.bodies.bones[self.bodies.parents[number]]
                 turns[bone] = turns[parent]
-                places[bone] = places[parent] + turns[parent] @ (self.heads[bone] - self.heads[parent])
-            found[number, :, :3] = turns[bone]
-            found[number, :, 3] = places[bone] - turns[bone] @ self.heads[bone]
+                places[bone] = self._end(turns, places, parent, bone)
+            found[..., number, :, :3] = turns[bone]
+            found[..., number, :, 3] = places[bone] - turned(turns[bone], self.heads[bone])
         return found
 
 
