@@ -166,7 +166,7 @@ def main():
     options = arguments()
     bpy.ops.wm.read_factory_settings(use_empty=True)
     stage, scene = Stage(options), bpy.context.scene
-    level = LEVELS[options.level] if options.level else {"row": levels.NEAR, "close": levels.NEAR, "crowd": 0}[options.shot]
+    level = LEVELS[options.level] if options.level else 0 if options.shot == "crowd" else levels.NEAR
     {"row": row, "close": close, "crowd": crowd}[options.shot](stage, level, numpy.random.default_rng(4))
     ground(scene)
     lights.build_light(scene, scene.collection, options.light)
