@@ -2,6 +2,7 @@
 #include "recording/motion_recorder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <glm/common.hpp>
@@ -188,28 +189,28 @@ void MotionRecorder::findOnlookers(const KeptFrame& frame) {
     }
 }
 
+/// A stream's values of all who are there; zero of the others.
+template <class ValuesOf>
+void MotionRecorder::putAll(std::vector<float>& stream, ValuesOf&& of) {
+    std::ranges::fill(stream, 0.0f);
+    for (const Onlooker& each : onlookers_)
+        std::ranges::copy(of(each.row), rowOf(std::span(stream), each.row).begin());
+}
+
 void MotionRecorder::carry() {
     carriages_->squeeze(onlookers_);
-    std::ranges::fill(carriage_values_, 0.0f);
-    for (const Onlooker& each : onlookers_) {
-        const Carriage carriage = (*carriages_)[each.row];
-        const std::size_t at = each.row * kComponents;
-        carriage_values_[at] = carriage.walking;
-        carriage_values_[at + 1] = carriage.twist;
-        carriage_values_[at + 2] = carriage.lean;
-    }
+    putAll(carriage_values_, [this](std::size_t row) {
+        const Carriage carriage = (*carriages_)[row];
+        return std::array{carriage.walking, carriage.twist, carriage.lean};
+    });
 }
 
 void MotionRecorder::look() {
-    std::ranges::fill(gaze_values_, 0.0f);
     gazes_->look(onlookers_);
-    for (const Onlooker& each : onlookers_) {
-        const Gaze gaze = (*gazes_)[each.row];
-        const std::size_t at = each.row * kComponents;
-        gaze_values_[at] = gaze.yaw;
-        gaze_values_[at + 1] = gaze.pitch;
-        gaze_values_[at + 2] = gaze.at;
-    }
+    putAll(gaze_values_, [this](std::size_t row) {
+        const Gaze gaze = (*gazes_)[row];
+        return std::array{gaze.yaw, gaze.pitch, gaze.at};
+    });
 }
 
 std::vector<std::byte> MotionRecorder::save() const {

@@ -53,6 +53,8 @@ class MotionRecorder {
     void findOnlookers(const KeptFrame& frame);
     void carry();
     void look();
+    template <class ValuesOf>
+    void putAll(std::vector<float>& stream, ValuesOf&& of);
     void putFeet(std::size_t at, const std::array<FootMove, 2>& feet);
 
     double fps_;

@@ -108,11 +108,8 @@ class THRONG_OT_add_character(_AddsCharacter, bpy.types.Operator, ImportHelper):
             self._add(crowd, armature, self.character_name or os.path.splitext(os.path.basename(self.filepath))[0])
 
 
-class THRONG_OT_add_armature(_AddsCharacter, bpy.types.Operator):
-    """Make the active armature, with its meshes and actions, a member of the crowd's cast. It stays as it is"""
-
-    bl_idname = "throng.add_armature"
-    bl_label = "Add Active Armature"
+class OfArmature:
+    """What takes the active armature, and asks for its settings first."""
 
     @classmethod
     def poll(cls, context):
@@ -121,10 +118,22 @@ class THRONG_OT_add_armature(_AddsCharacter, bpy.types.Operator):
     def invoke(self, context, _event):
         return context.window_manager.invoke_props_dialog(self, width=420)
 
+    @staticmethod
+    def armature(context):
+        active = context.view_layer.objects.active
+        if active is None or active.type != "ARMATURE":
+            raise CharacterError("the active object is no armature: click the one that is meant last")
+        return active
+
+
+class THRONG_OT_add_armature(_AddsCharacter, OfArmature, bpy.types.Operator):
+    """Make the active armature, with its meshes and actions, a member of the crowd's cast. It stays as it is"""
+
+    bl_idname = "throng.add_armature"
+    bl_label = "Add Active Armature"
+
     def _run(self, context, crowd):
-        armature = context.view_layer.objects.active
-        if armature is None or armature.type != "ARMATURE":
-            raise CharacterError("the active object is no armature: click the character's armature last")
+        armature = self.armature(context)
         self._add(crowd, armature, self.character_name or armature.name)
 
 

@@ -4,12 +4,11 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
 from ..blender.panels import Below
-from ..blender.polls import in_object_mode
 from ..characters import CharacterError, roles
-from ..characters.operators import one_crowd
+from ..characters.operators import OfArmature, one_crowd
 from ..crowd.queries import cast_of
 from ..people.library import LibraryError
-from . import MotionError, adding, members, sources
+from . import adding, members, sources
 
 _ROLES = [("AUTO", "Automatic", "By the clip's name, else by what it does"),
           (roles.WALK.upper(), "Walk", "To walk or to run with, by its stride"),
@@ -70,24 +69,14 @@ class THRONG_OT_add_motion(_AddsMotion, bpy.types.Operator, ImportHelper):
             self._add(context, crowd, source)
 
 
-class THRONG_OT_add_armature_motion(_AddsMotion, bpy.types.Operator):
+class THRONG_OT_add_armature_motion(_AddsMotion, OfArmature, bpy.types.Operator):
     """Let members of the crowd's cast walk or stand as the active armature does in its action. It stays as it is"""
 
     bl_idname = "throng.add_armature_motion"
     bl_label = "Add Motion of Active Armature"
 
-    @classmethod
-    def poll(cls, context):
-        return in_object_mode(cls, context)
-
-    def invoke(self, context, _event):
-        return context.window_manager.invoke_props_dialog(self, width=420)
-
     def _run(self, context, crowd):
-        armature = context.view_layer.objects.active
-        if armature is None or armature.type != "ARMATURE":
-            raise MotionError("the active object is no armature: click the one that moves last")
-        self._add(context, crowd, sources.of_armature(context, armature))
+        self._add(context, crowd, sources.of_armature(context, self.armature(context)))
 
 
 class THRONG_OT_remove_motion(bpy.types.Operator):
