@@ -7,6 +7,7 @@ import sys
 
 import numpy
 import pytest
+import xxhash
 
 import throng_io
 from throng_io.bakes import packed
@@ -64,8 +65,9 @@ def test_all_else_of_the_package_takes_packed_bakes(bakes, tmp_path):
         len((tmp_path / "exact.csv").read_text().splitlines())
 
 
-def test_without_the_library_the_error_says_what_brings_it(bakes, monkeypatch):
-    monkeypatch.setitem(sys.modules, "zstandard", None)
+@pytest.mark.parametrize("library", ["xxhash", "zstandard"])
+def test_without_a_library_the_error_says_what_brings_it(bakes, monkeypatch, library):
+    monkeypatch.setitem(sys.modules, library, None)
     with pytest.raises(throng_io.MissingExtra, match=r"throng-io\[packed\]"):
         throng_io.Bake(bakes[1]).pos  # noqa: B018
     assert throng_io.Bake(bakes[1]).people["radius"].min() > 0
@@ -78,7 +80,7 @@ def test_every_truncation_is_an_error_and_no_flip_changes_anything(own):
         path.write_bytes(content[:length])
         with pytest.raises(throng_io.BakeError, match="throng verify"):
             throng_io.Bake(own).pos  # noqa: B018
-    for at in range(0, directory_of(content), 11):  # of the directory, the package looks at no checksum
+    for at in range(0, len(content), 11):
         path.write_bytes(content[:at] + bytes([content[at] ^ 1 << at % 8]) + content[at + 1:])
         try:
             assert numpy.array_equal(throng_io.Bake(own).pos, expected)
@@ -93,13 +95,18 @@ def directory_of(content):
 @pytest.mark.parametrize("offset, value", [(0, 2), (4, 0xffffffff), (4, 239), (8, 0xffffffff), (8, 7), (12, 0),
                                            (12, 0x10000), (16, 0xffffffff), (20, 4), (72, 0xffffffff), (84, 0)])
 def test_directories_that_cannot_be_are_errors(throng, own, confined, offset, value):
-    """Told by the package, and by the program, whose bounds are in memory and time."""
+    """Told by the package, and by the program, whose bounds are in memory and time, though the checksum is right."""
     path = own / "streams/pos.packed"
     content = bytearray(path.read_bytes())
     struct.pack_into("<I", content, directory_of(content) + offset, value)
-    path.write_bytes(content)
-    with pytest.raises(throng_io.BakeError):
+    with pytest.raises(throng_io.BakeError, match="the checksum is another one"):
+        path.write_bytes(content)
         throng_io.Bake(own).pos  # noqa: B018
+    struct.pack_into("<Q", content, len(content) - 16, xxhash.xxh3_64_intdigest(content[directory_of(content):-32]))
+    path.write_bytes(content)
+    with pytest.raises(throng_io.BakeError) as told:
+        throng_io.Bake(own).pos  # noqa: B018
+    assert "checksum" not in str(told.value)
     assert "pos.packed" in confined("measure", own, expect=3, megabytes=500).stderr
 
 

@@ -35,11 +35,14 @@ class PackedStream:
             if size < len(_MAGIC) + _HEAD.size + _COMPONENTS * _COMPONENT.size + _TAIL.size:
                 raise ValueError("it is too short to be a packed stream")
             file.seek(size - _TAIL.size)
-            begin, length, _, end = _TAIL.unpack(file.read(_TAIL.size))
+            begin, length, checksum, end = _TAIL.unpack(file.read(_TAIL.size))
             if end != _END or begin + length + _TAIL.size != size or begin < len(_MAGIC):
                 raise ValueError("it has no end: truncated, or not completely written")
             file.seek(begin)
-            self._read_directory(file.read(length), begin)
+            directory = file.read(length)
+        if need("xxhash", "packed").xxh3_64_intdigest(directory) != checksum:
+            raise ValueError("its directory is damaged: the checksum is another one")
+        self._read_directory(directory, begin)
         self._kept: collections.OrderedDict[int, numpy.ndarray] = collections.OrderedDict()
 
     @property
