@@ -9,7 +9,7 @@ from . import drape, levels, regions
 from .parts import Part, border_of, clipped, folded, grown, laid_on, normals_of, smooth_normals, smoothed, subdivided
 
 NECK, CUFF, HEM, FRONT = 1, 2, 3, 4  # tags of cuts
-_TUCKED = 0.09  # tops that end above are tucked in
+TUCKED_FROM = 0.09  # tops that end above are tucked in
 _OVER = 0.018   # m, that the others fall outside of what is worn below them
 SUIT, SKIRT = "helper-tights", "helper-skirt"
 _COLLARS = {  # rows of (up, away from the neck), m
@@ -99,7 +99,7 @@ class Tailor:
         trunk &= self.places[:, regions.Z] > -0.16
         middle = numpy.array([0.5 * (points[trunk, 0].max() + points[trunk, 0].min()), 0.0])
         found = points.copy()
-        if garment.hem < _TUCKED:
+        if garment.hem < TUCKED_FROM:
             steepest = numpy.interp(garment.loose, (0.05, 0.10, 0.17, 0.25), (0.50, 0.34, 0.20, 0.12))
             hangs = numpy.clip((0.10 - self.places[trunk, regions.Z]) / 0.08, 0.0, 1.0)
             found[trunk] = drape.Fall(points[trunk], middle, steepest).moved(points[trunk], hangs)
@@ -153,7 +153,7 @@ class Tailor:
         places = part.places
         if self.detail.finer and garment.folds:
             part = part.moved(part.points + part.normals * self._folds(part, garment)[:, None])
-        if garment.hem > _TUCKED:  # below the belt it is under trousers and skirts
+        if garment.hem > TUCKED_FROM:  # below the belt it is under trousers and skirts
             under = _ramp(0.215 - places[:, regions.Z], 0.0, 0.03) * (places[:, regions.ARM] <= 0.0)
             part = part.moved(part.points - part.normals * (0.012 * self.scale * under)[:, None])
         else:  # it falls over trousers and skirts

@@ -75,7 +75,7 @@ def matrices_of(role, repertoire):
 def of_all_bones(role, repertoire, led):
     """(bones of the library, 3, 4) of those that lead, (B, 3, 4): all others go with them."""
     leaders, turns = _leaders(role, repertoire)
-    return led[numpy.searchsorted(numpy.unique(leaders), leaders)] @ turns
+    return led[numpy.searchsorted(leading(role, repertoire), leaders)] @ turns
 
 
 def limbs_of(role, repertoire):

@@ -2,7 +2,7 @@
 """What there is to wear, and what goes together in each look."""
 from dataclasses import replace
 
-from .cloth import Garment
+from .cloth import TUCKED_FROM, Garment
 
 TROUSERS = Garment("legs", "bottom cotton", off=0.009, loose=0.09, hem=-0.778, width=1.02)
 JEANS = replace(TROUSERS, material="bottom denim", width=0.86, loose=0.06, off=0.008, pockets=("back",))
@@ -51,7 +51,7 @@ SHOES = Garment("shoes", "shoes leather", hem=-0.758)
 BOOTS = Garment("shoes", "shoes leather", hem=-0.655, smooth=2)
 
 BELT = "extra leather"
-_TUCKED, _THIN = 0.10, 0.010  # height on the base mesh of what is tucked in; m, from the body
+_SHORTENED, _THIN = 0.10, 0.010  # height on the base mesh of what is tucked in; m, from the body
 
 
 def _belted(bottom):
@@ -103,14 +103,14 @@ def _tucked_in(top, bottom):
     if top.kind != "top" or top.material == bottom.material:
         return None
     if bottom.kind == "skirt" and top.off <= _THIN:
-        return replace(top, hem=max(top.hem, _TUCKED))
-    return top if top.hem > _TUCKED - 0.01 and top.material.startswith("shirt") else None
+        return replace(top, hem=max(top.hem, _SHORTENED))
+    return top if top.hem > TUCKED_FROM and top.material.startswith("shirt") else None
 
 
 def order(bottom, tops, shoes):
     """From the inside out. What is tucked in goes below trousers and skirts, what hangs over them goes above."""
-    inside = [tucked for tucked in (_tucked_in(top, bottom) for top in tops) if tucked]
-    outside = [top for top in tops if not _tucked_in(top, bottom)]
+    worn = [(top, _tucked_in(top, bottom)) for top in tops]
+    inside, outside = [tucked for _, tucked in worn if tucked], [top for top, tucked in worn if not tucked]
     if bottom.kind == "legs" and bottom.hem < -0.7:  # over the shoes, but boots over trousers
         legs = [bottom, shoes] if shoes.hem > -0.7 else [shoes, bottom]
     else:
