@@ -21,8 +21,7 @@ constexpr double kPasses = 0.25, kPassesFully = 0.8;      // m/s, between two pe
 constexpr double kReach = 1.6;                            // m: further away is nobody who matters so soon
 
 double smooth(double value, double low, double high) {
-    const double share = std::clamp((value - low) / (high - low), 0.0, 1.0);
-    return share * share * (3.0 - 2.0 * share);
+    return eased(std::clamp((value - low) / (high - low), 0.0, 1.0));
 }
 
 }  // namespace

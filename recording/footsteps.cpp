@@ -65,7 +65,7 @@ struct ClipFoot {
         const double at = since(phase);
         if (at < down_for) return stride * (kUnderBody - down - at);
         const double share = (at - down_for) / (1.0 - down_for);
-        return stride * (kUnderBody - down - down_for * (1.0 - share * share * (3.0 - 2.0 * share)));
+        return stride * (kUnderBody - down - down_for * (1.0 - eased(share)));
     }
 
     double stride, down, down_for;
@@ -106,7 +106,7 @@ std::array<FootMove, 2> Footsteps::step(std::size_t row, const Walker& walker, c
     now.walking = walker.walking;
     now.rests = walker.speed < static_cast<float>(kStandsBelow);
     const ClipFoot stride(gait.gait), before(gait.before);
-    const double left = gait.left(), old = left * left * (3.0 - 2.0 * left);
+    const double old = eased(gait.left());
     for (const std::size_t side : {0u, 1u}) {
         const double phase = gait.phase + (side == 0 ? 0.5 : 0.0);
         const auto ahead = static_cast<float>(glm::mix(stride.ahead(phase), before.ahead(phase), old));

@@ -16,4 +16,9 @@ void approach(Value& value, Value& rate, Value target, float stiffness, float in
     rate = (rate - stiffness * interval * push) * decay;
 }
 
+/// A share from 0 to 1 without a corner at either end.
+inline double eased(double share) {
+    return share * share * (3.0 - 2.0 * share);
+}
+
 }  // namespace throng::recording
