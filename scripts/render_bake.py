@@ -3,7 +3,8 @@
 
 blender -b --factory-startup --python-exit-code 1 -P scripts/render_bake.py -- BAKE OUT.png [--frame N] [--samples N]
         [--width W] [--height H] [--engine cycles|eevee|workbench] [--shot crane|street|wide]
-        [--also SHOT=OUT.png]... [--light noon|overcast|late|night] [--wet [AMOUNT]] [--levels] [--save FILE.blend]
+        [--also SHOT=OUT.png]... [--light noon|overcast|late|night] [--wet [AMOUNT]] [--levels] [--close M]
+        [--save FILE.blend]
 """
 import argparse
 import os
@@ -26,6 +27,7 @@ def share(text):
 
 
 SHOTS = ("crane", "street", "wide")
+CLOSE = 8.0  # m
 
 
 def shot_and_picture(text):
@@ -51,6 +53,8 @@ def arguments():
     parser.add_argument("--wet", type=share, nargs="?", const=1.0, default=0.0, metavar="AMOUNT",
                         help="how wet the ground is, from 0 to 1, which has puddles; 1 unless told")
     parser.add_argument("--levels", action="store_true", help="with coarser people far away")
+    parser.add_argument("--close", type=float, default=CLOSE, metavar="M",
+                        help=f"people so near the camera, {CLOSE:g} m unless told, have more detail; 0: nobody has")
     parser.add_argument("--save", help="also save the scene; paths in it are relative")
     return parser.parse_args(sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else [])
 
@@ -76,7 +80,9 @@ def set_up_render(scene, options):
         cycles.caustics_reflective = cycles.caustics_refractive = False
 
 
-def render(scene, frame, picture):
+def render(scene, frame, picture, close):
+    if close > 0.0 and throng.people.members.found():
+        bpy.ops.throng.close(by="camera", distance=close, frames="now")
     scene.render.filepath = os.path.abspath(picture)
     bpy.ops.render.render(write_still=True)
     print(f"rendered frame {frame}: {picture}")
@@ -105,10 +111,10 @@ def main():
     scene.frame_set(frame)
     if options.save:
         bpy.ops.wm.save_mainfile(compress=True)
-    render(scene, frame, options.picture)
+    render(scene, frame, options.picture, options.close)
     for shot, picture in options.also:
         bpy.ops.throng.shot(kind=shot)
-        render(scene, frame, picture)
+        render(scene, frame, picture, options.close)
 
 
 main()

@@ -21,7 +21,7 @@ from throng.people import figures, library, levels, person, roster  # noqa: E402
 
 SIDELIGHT = (math.radians(50.0), 0.0, math.radians(-38.0))
 BRIGHTER = 0.7  # stops: here are no streets whose walls are lit, too
-LEVELS = {"near": levels.NEAR, "0": 0, "1": 1, "2": 2}
+LEVELS = {"near": levels.NEAR, "close": levels.CLOSE, "0": 0, "1": 1, "2": 2}
 
 
 def arguments():

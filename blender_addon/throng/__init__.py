@@ -20,11 +20,11 @@ else:
     from .characters import operators as characters_operators
     from .motions import operators as motions_operators
     from .overrides import operators as overrides_operators
-    from .tools import cells, export, ground, levels, near, operators, staging
+    from .tools import cells, close, export, ground, levels, near, operators, staging
     from .tools.export import glTF2_pre_export_callback  # noqa: F401, Blender's glTF exporter looks for it here
 
     # What registers classes of its own, in order: panels appear in it.
-    _PARTS = (preferences, operators, staging, cells, levels, near, ground, properties, authoring_operators,
+    _PARTS = (preferences, operators, staging, cells, levels, near, close, ground, properties, authoring_operators,
               bake_operator, overlay, panels, characters_operators, motions_operators, overrides_operators,
               export)
 

@@ -44,11 +44,11 @@ def _figures_and_poses(maths, state, phase, speed, variation, nature, repertoire
     return _chosen(maths, levels, figures, variation, bent), _chosen(maths, levels, poses, variation, bent)
 
 
-def instancer_tree(cast, repertoire, leans, near=None, streams=()):
+def instancer_tree(cast, repertoire, leans, near=None, streams=(), most_close=0):
     """An Instance on Points for each bunch of the cast's figures; those who are near are made by a group of their own
     (near.py), the object `near` has the bones of its members, which then need no poses at level 0. What is needed is
     filed away on the points: worked out for all at once, not by every bunch. `streams` are those that the
-    points have beside those of every bake.
+    points have beside those of every bake, `most_close` is of near.near_tree().
 
     While a crowd is on screen, Blender notes down all attributes of what goes through a socket, those of every pose
     included, which takes longer than the work itself. From 4.0 on it does so for sockets outside of groups only, so
@@ -69,19 +69,21 @@ def instancer_tree(cast, repertoire, leans, near=None, streams=()):
     own = "throng_bodies" in cast
     points, drawn = inputs.outputs[0], cast["throng_shipped"] if own else cast["throng_drawn"]
     people, share = [], inputs.outputs["Share"]
+    member = member_of(maths, variation, drawn, cast["throng_variations"], own)
     if near:
         who = maths.math("MULTIPLY", maths.attribute(NEAR), _present(maths, state, nature, share))
+        if bent < cast["throng_variations"]:  # others who joined have poses only
+            who = maths.math("MULTIPLY", who, maths.math("LESS_THAN", member, bent - 0.5))
         apart = maths.node("GeometryNodeSeparateGeometry", domain="POINT")
         maths.link(points, apart.inputs["Geometry"])
         maths.link(maths.greater(who, 0.5), apart.inputs["Selection"])
         group = maths.node("GeometryNodeGroup")
-        group.node_tree = near_tree(cast, repertoire, near, drawn, own, streams)
+        group.node_tree = near_tree(cast, repertoire, near, drawn, own, streams, most_close)
         maths.link(apart.outputs["Selection"], group.inputs[0])
         maths.link(inputs.outputs["Blur"], group.inputs["Blur"])
         points, people = apart.outputs["Inverted"], [if_any(maths, apart.outputs["Selection"], group.outputs[0])]
     rotation = maths.node("ShaderNodeCombineXYZ")
     maths.link(maths.math("ARCTAN2", sine, cosine), rotation.inputs[2])
-    member = member_of(maths, variation, drawn, cast["throng_variations"], own)
     figure, pose = _figures_and_poses(maths, state, phase, speed, member, nature, repertoire, levels, bent)
     there = _present(maths, state, nature, share)
     points = maths.store(points, FIGURE, maths.math("MULTIPLY", figure, there), "INT")

@@ -12,7 +12,8 @@ What comes out is one mesh, and what the people's points say of them (`tint`, an
 `velocity`, for the whole way of every vertex, so it blurs though it is another mesh in every frame.
 
 Who is near, a modifier files away on the points: whoever is within so many metres before the camera. Where these are
-more than there may be, the distance shrinks, in sixteen steps, until they are not.
+more than there may be, the distance shrinks, in sixteen steps, until they are not. The nearest of them can have meshes
+of more detail in final pictures (close.py).
 """
 import bpy
 
@@ -21,7 +22,7 @@ from ..blender.vectors import between, combined, parts, scaled, vector
 from ..cast import BEATS, POSES, bones, library
 from ..cast.sheets import sheet_of
 from ..formats import FEET
-from . import heads, legs, poses, trunks
+from . import close, heads, legs, poses, trunks
 from .bent_bones import BentBones
 from .names import BIGGER, BONE, GROUND, HIDDEN, LEVEL, NATURE, NEAR, ROW, WHO
 from .own import FIRST, OWN
@@ -33,17 +34,19 @@ WALKS_FROM = 0.35      # between them both are blended
 _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
 _ALL, _REST = "throng_all_bones", "throng_rest"  # marks of objects in the cast
 _RANK, _TURN = "throng_rank", "throng_turn"
+_CLOSE = "throng_close"
 _WALKS, _BEFORE, _STANDS, _RATES = "throng_walks", "throng_before", "throng_stands", "throng_rates"
 
 
 def selection_tree():
     """The modifier's nodes: who is near."""
-    name = "Throng near by distance"
+    name = "Throng near and close by distance"
     found = own_tree(name)
     if found:
         return found
     tree, inputs, outputs = new_tree(name, _GEOMETRY + [("Camera", "NodeSocketObject"), ("Reach", "NodeSocketFloat"),
-                                                        ("Most", "NodeSocketInt")], _GEOMETRY)
+                                                        ("Most", "NodeSocketInt"), ("Close", "NodeSocketFloat")],
+                                    _GEOMETRY)
     maths, given = Maths(tree), inputs.outputs
     camera = maths.node("GeometryNodeObjectInfo", transform_space="RELATIVE")
     maths.link(given["Camera"], camera.inputs["Object"])
@@ -55,21 +58,29 @@ def selection_tree():
     ahead = maths.math("GREATER_THAN", vector(maths, "DOT_PRODUCT", away, looks.outputs[0]), -1.0)
     alive = maths.math("GREATER_THAN", maths.components("throng_state")[0], 0.5)
     there = maths.math("MULTIPLY", maths.math("SUBTRACT", alive, maths.attribute(HIDDEN)), ahead)
-    share = maths.math("DIVIDE", vector(maths, "LENGTH", away), given["Reach"])
+    distance = vector(maths, "LENGTH", away)
+    share = maths.math("DIVIDE", distance, given["Reach"])
     # who is not there is beyond all reach
     share = maths.math("MULTIPLY_ADD", maths.math("SUBTRACT", 1.0, there), 2.0, share)
     points = maths.store(given["Geometry"], NEAR, share)
     share = maths.attribute(NEAR)
-    fitting = 0.0
+    near = maths.math("LESS_THAN", share, fitting(maths, points, share, given["Most"]))
+    closer = maths.math("SUBTRACT", 1.0, maths.math("DIVIDE", distance, maths.math("MAXIMUM", given["Close"], 1e-3)))
+    near = maths.math("MULTIPLY", near, maths.math("ADD", maths.math("MAXIMUM", closer, 0.0), 1.0))
+    maths.link(maths.store(points, NEAR, near), outputs.inputs[0])
+    return tree
+
+
+def fitting(maths, points, share, most):
+    """The largest of STEPS even steps from 0 to 1 that at most so many points' shares are below."""
+    found = 0.0
     for step in range(1, STEPS + 1):
         count = maths.node("GeometryNodeAttributeStatistic", data_type="FLOAT", domain="POINT")
         maths.link(points, count.inputs["Geometry"])
         maths.link(maths.math("LESS_THAN", share, step / STEPS), socket(count.inputs, "Attribute"))
-        fits = maths.math("LESS_THAN", socket(count.outputs, "Sum"), maths.math("ADD", given["Most"], 0.5))
-        fitting = maths.math("ADD", fits, fitting)
-    near = maths.math("LESS_THAN", share, maths.math("DIVIDE", fitting, float(STEPS)))
-    maths.link(maths.store(points, NEAR, near), outputs.inputs[0])
-    return tree
+        fits = maths.math("LESS_THAN", socket(count.outputs, "Sum"), maths.math("ADD", most, 0.5))
+        found = maths.math("ADD", fits, found)
+    return maths.math("DIVIDE", found, float(STEPS))
 
 
 def bones_for(crowd, cast):
@@ -108,6 +119,7 @@ def forget(cast, crowds):
         return
     for thing in [each for each in cast.objects if _REST in each]:
         bpy.data.objects.remove(thing)
+    close.forget(cast)
     _drop_bones(next((thing for thing in cast.objects if _ALL in thing), None))
 
 
@@ -254,8 +266,8 @@ def _bone_points(maths, people, sheet, pose_count, bone_count):
     return put.outputs[0]
 
 
-def _meshes(maths, people, figures, kept):
-    """Everybody's mesh at rest, as one mesh. Of what the people's points say, `kept` stays."""
+def _meshes(maths, people, figures, which, kept):
+    """Everybody's mesh at rest, as one mesh. @param which of the figures, by point; @param kept of what points say"""
     for spare in (WHO, _WALKS, _BEFORE, _STANDS, _RATES, _TURN):
         if spare not in kept:
             people = _without(maths, people, spare)
@@ -273,7 +285,7 @@ def _meshes(maths, people, figures, kept):
     place.inputs["Pick Instance"].default_value = True
     maths.link(origin.outputs[0], place.inputs["Points"])
     maths.link(shapes.outputs[0], place.inputs["Instance"])
-    maths.link(maths.attribute(WHO, "INT"), place.inputs["Instance Index"])
+    maths.link(which, place.inputs["Instance Index"])
     whole = maths.node("GeometryNodeRealizeInstances")
     maths.link(place.outputs[0], whole.inputs[0])
     return whole.outputs[0]
@@ -330,10 +342,18 @@ def _bent(maths, people, points, sheet, figures, streams):
     return points
 
 
-def near_tree(cast, repertoire, sheet, drawn, own, streams):
+def _close_ones(maths, people, final, most):
+    """1 for those who are close enough for meshes of more detail, in final pictures; at most so many."""
+    far = maths.math("SUBTRACT", 2.0, maths.attribute(NEAR))  # 1 where they begin, 0 at the camera
+    few = maths.math("LESS_THAN", far, maths.math("MINIMUM", fitting(maths, people, far, float(most)), 0.9999))
+    return maths.math("MULTIPLY", few, final)
+
+
+def near_tree(cast, repertoire, sheet, drawn, own, streams, most_close):
     """A group that makes one mesh of all points that it gets.
 
-    @param sheet the object of all members' bones (bones.join_sheets); @param streams that points have
+    @param sheet the object of all members' bones (bones.join_sheets); @param streams that points have; @param
+    most_close how many at most have meshes of more detail
     """
     figures = boned_members(cast)
     tree, inputs, outputs = new_tree("Throng near people", _GEOMETRY + [("Blur", "NodeSocketBool")], _GEOMETRY)
@@ -348,16 +368,21 @@ def near_tree(cast, repertoire, sheet, drawn, own, streams):
         inner, points, all_, pose_count, bone_count))
     first_joint = len(figures) * pose_count * bone_count
     hung_on = _bent(maths, people, hung_on, (bones_, first_joint, bone_count), figures, streams)
-    rests = [_rest_of(f"{figure.name} at rest", figure) for figure in figures]
+    rests, which = [_rest_of(f"{figure.name} at rest", figure) for figure in figures], maths.attribute(WHO, "INT")
     for rest in rests:
         if rest.name not in cast.objects:
             cast.objects.link(rest)
     spare = ("id", "throng_dir", "throng_state", NATURE, NEAR, GROUND, LEVEL, FIRST, OWN,
              *(f"throng_{stream}" for stream in streams))
+    finer = close.meshes_of(cast) if most_close else {}
+    if finer:
+        which = maths.math("MULTIPLY_ADD", maths.attribute(_CLOSE), float(len(figures)), which)
+        people = maths.store(people, _CLOSE, _close_ones(maths, people, inputs.outputs["Blur"], most_close))
     bodies = people
     for name in spare:
         bodies = _without(maths, bodies, name)
-    mesh = _meshes(maths, bodies, rests, (WHO,))
+    finer = [finer.get(member, rest) for member, rest in enumerate(rests)] if finer else []
+    mesh = _meshes(maths, bodies, [*rests, *finer], which, (WHO,))
     velocity, place = (maths.grouped("Throng near skin", [hung_on], lambda inner, bent, names=names: _hung(
         inner, bent, names, bone_count), "NodeSocketVector") for names in (_CHANGES, (*_COLUMNS, "")))
     blurs = maths.node("GeometryNodeSwitch", input_type="GEOMETRY")
@@ -369,7 +394,7 @@ def near_tree(cast, repertoire, sheet, drawn, own, streams):
     maths.link(mesh, put.inputs["Geometry"])
     maths.link(place, put.inputs["Position"])
     mesh = put.outputs[0]
-    for name in (WHO, _RANK, bones.HANGS):
+    for name in (WHO, _RANK, bones.HANGS, *([_CLOSE] if finer else [])):
         mesh = _without(maths, mesh, name)
     maths.link(mesh, outputs.inputs[0])
     return tree

@@ -13,7 +13,7 @@ import bpy
 from ..blender.modifiers import move_modifier
 from ..blender.nodes import Maths, drop_tree, get_input, new_tree, set_input
 from ..formats import FEET, POSE, STREAMS
-from . import footing, near, own
+from . import close, footing, near, own
 from .instancer import instancer_tree
 from .names import INSTANCERS, NATURE
 from .queries import cast_of, crowds_of, repertoire_of
@@ -36,7 +36,8 @@ def set_cast(crowd, cast):
     before = modifiers[0].node_group
     shares = [get_input(modifier, "Share") if modifier.node_group else 2.0 for modifier in modifiers]  # 2: everybody
     streams = [stream for stream in POSE if f"throng {stream}" in crowd.modifiers]
-    tree = instancer_tree(cast, repertoire_of(crowd), footing.slopes(crowd), near.bones_for(crowd, cast), streams)
+    tree = instancer_tree(cast, repertoire_of(crowd), footing.slopes(crowd), near.bones_for(crowd, cast), streams,
+                          crowd.get(close.MOST, 0))
     for modifier, share in zip(modifiers, shares):
         modifier.node_group = tree
         set_input(modifier, "Share", share)

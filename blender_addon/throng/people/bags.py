@@ -13,7 +13,7 @@ _UP = numpy.array([0.0, 0.0, 1.0])
 
 def _box(bodies, centre, half, bone, material, level, round_=0.55):
     """A box with soft edges."""
-    steps = {levels.NEAR: 9, 0: 4, 1: 3, 2: 2}[level]
+    steps = {levels.NEAR: 9, levels.CLOSE: 7, 0: 4, 1: 3, 2: 2}[level]
     line = numpy.linspace(-1.0, 1.0, steps)
     points, faces = [], []
     for axis in range(3):
@@ -75,7 +75,7 @@ def bag(bodies, kind, tops, rig, level):
 def stick(bodies, rig, level):
     """A walking stick with a crook (rig.Rig moves it)."""
     tip, top = rig.stick_at_rest()
-    sides, crook = {levels.NEAR: (12, 12), 0: (6, 6), 1: (4, 3), 2: (3, 0)}[level]
+    sides, crook = {levels.NEAR: (12, 12), levels.CLOSE: (8, 8), 0: (6, 6), 1: (4, 3), 2: (3, 0)}[level]
     reach = 0.045 * rig.scale
     line, radii = [tip, tip + 0.02 * rig.scale * _UP, top], [0.011, 0.0085, 0.0095]
     for step in range(1, crook + 1):  # forwards, and down again

@@ -67,7 +67,7 @@ def hair(bodies, shape, level, name, material, scale, seed):
 
 def _is_cap(style, level):
     """Whether the skin alone is the hair: few locks of short hair look like leaves."""
-    return level > levels.NEAR and style.length > 0.0 and style.comb != "knot"
+    return level >= 0 and style.length > 0.0 and style.comb != "knot"
 
 
 def _scalp(bodies, shape, level, style, ring):
@@ -83,7 +83,7 @@ def _skin(bodies, shape, level, style, scale, ring):
     piece = _scalp(bodies, shape, level, style, ring)
     if not len(piece.faces):
         return piece
-    if level == levels.NEAR:
+    if level < 0:
         piece = subdivided(piece, 0.2)
     above = regions.scalp(piece.places, style.raised)
     plain = (0.8 if style.comb == "out" else 0.5) * style.lift if _is_cap(style, level) else 0.0  # instead of locks
@@ -150,7 +150,7 @@ def _locks(bodies, shape, level, style, material, scale, draw, count, wider, rin
         length = numpy.where(fringe, style.fringe * scale * draw.uniform(0.7, 1.1, count), length)
         aside = numpy.stack([numpy.full(count, 0.5), 0.30 - points[:, 1] * 4.0, numpy.full(count, -0.8)], axis=1)
         ways = numpy.where(fringe[:, None], aside + draw.normal(0.0, 0.12, (count, 3)), ways)
-    pieces = style.pieces if level == levels.NEAR else max(2, style.pieces // 2 if style.length > 0.0 else 4)
+    pieces = max(2, int(style.pieces * levels.DETAILS[level].pieces)) if level < 0 or style.length > 0.0 else 4
     line, sides = _grow(points + normals * style.lift * 0.5, ways, length, style, scale, draw, pieces,
                         _collider(bodies, shape), fringe, bodies.joint(shape, "mouth")[2] - 0.03 * scale,
                         bodies.joint(shape, "l-eye")[[0, 2]] + (-0.050 * scale, 0.048 * scale))
@@ -218,7 +218,7 @@ def _ribbons(bodies, line, out, wide, weights, material, draw, level, style):
     share, taper = numpy.linspace(0.0, 1.0, pieces), 0.85 if style.length > 0.0 else 0.62
     half = 0.5 * wide[:, None, None] * (1.0 - taper * share ** 2.2)[None, :, None]
     rows = [line - side * half, line + side * half]
-    if level == levels.NEAR:
+    if level < 0:
         rows = [rows[0] - out * half * 0.35, line + out * half * 0.3, rows[1] - out * half * 0.35]
     across = len(rows)
     points = numpy.stack(rows, axis=2)
@@ -247,7 +247,7 @@ def _knot(bodies, shape, level, name, material, scale):
     scalp = regions.scalp(regions.places_of(bodies)) > 0.0
     head, back = bodies.joint(shape, "head-2"), shape[scalp & (bodies.weights[:, bodies.bone["head"]] > 0.5), 0].min()
     middle = numpy.array([back - 0.012 * scale, 0.0, head[2] - 0.050 * scale])
-    around, rows = (16, 9) if level == levels.NEAR else (7, 5)
+    around, rows = (16, 9) if level < 0 else (7, 5)
     spots, flat, faces = [], [], []
     for row in range(rows + 1):
         share = row / rows

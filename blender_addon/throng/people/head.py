@@ -71,7 +71,7 @@ def _eye(bodies, points, rings):
 
 
 def lashes(bodies, shape, level):
-    if level != levels.NEAR:
+    if level >= 0:
         return []
     found = []
     for side in "lr":
@@ -109,7 +109,7 @@ def glasses(bodies, shape, level, scale, round_ones):
     """Rims, a bridge, and temples that reach the ears."""
     if level > 0:
         return []
-    around, sides = (28, 6) if level == levels.NEAR else (10, 3)
+    around, sides = (28, 6) if level == levels.NEAR else (18, 5) if level < 0 else (10, 3)
     eyes_at = [0.5 * (points.max(axis=0) + points.min(axis=0)) for points in
                (shape[bodies.vertices_of(f"helper-{side}-eye")] for side in "lr")]
     front = max(point[0] for point in eyes_at) + 0.026 * scale

@@ -5,7 +5,8 @@ from functools import lru_cache
 
 import numpy
 
-NEAR = -1  # for pictures from a few metres and for single people; crowds take 0, 1 and 2
+NEAR = -2   # for pictures from a few metres and for single people
+CLOSE = -1  # for people of a crowd within some metres of the camera (crowd/near.py); all others take 0, 1 and 2
 
 
 @dataclass(frozen=True)
@@ -18,15 +19,18 @@ class Detail:
     skirt: int
     finer: int      # times
     locks: float    # of hair, beside the full number
+    pieces: float   # of each lock, the same
+    hairs: float    # of beards, the same
     eyes: int       # rings, 0 for none
     trimmed: bool   # pockets, lapels, collars with folds, brows
 
 
 DETAILS = {
-    NEAR: Detail(99999, 99999, 99999, 99999, 99999, 1, 1.0, 8, True),
-    0: Detail(400, 100, 250, 520, 160, 0, 0.045, 2, True),
-    1: Detail(120, 44, 100, 250, 76, 0, 0.018, 1, False),
-    2: Detail(36, 14, 30, 84, 36, 0, 0.0, 0, False),
+    NEAR: Detail(99999, 99999, 99999, 99999, 99999, 1, 1.0, 1.0, 1.0, 8, True),
+    CLOSE: Detail(2000, 700, 800, 1200, 420, 1, 0.39, 0.6, 0.5, 5, True),
+    0: Detail(400, 100, 250, 520, 160, 0, 0.045, 0.5, 0.0, 2, True),
+    1: Detail(120, 44, 100, 250, 76, 0, 0.018, 0.5, 0.0, 1, False),
+    2: Detail(36, 14, 30, 84, 36, 0, 0.0, 0.5, 0.0, 0, False),
 }
 
 

@@ -90,14 +90,19 @@ def limbs_of(role, repertoire):
              for bone in (library_.bones[number] for number in used)])
 
 
-def boned_of(text, level, repertoire):
-    """A member at a level, for cast.sheets. @param text of its role"""
-    role = Role.of(text)
+def mesh_on_bones(role, level, repertoire):
+    """(somebody's mesh at rest, (V, B) how its vertices hang on the bones that lead)"""
     model, leaders = maker_of(role).model(level), _leaders(role, repertoire)
     points, weights = skinning.hinged(model.points, model.weights, *leaders)
     points = (numpy.rint(points * FINE) / FINE + 0.0).astype(numpy.float32)  # no zero is negative
+    return figures.mesh_of("throng figure", model, points, person_of(role).look, bodies()), weights
+
+
+def boned_of(text, level, repertoire):
+    """A member at a level, for cast.sheets. @param text of its role"""
+    role = Role.of(text)
+    mesh, weights = mesh_on_bones(role, level, repertoire)
     cycles = tuple((POSES, gait.gait_of(stride).seconds / POSES) for stride in repertoire.strides)
-    mesh = figures.mesh_of("throng figure", model, points, person_of(role).look, bodies())
     return Boned(mesh, weights, lambda: matrices_of(role, repertoire), tuple(repertoire.sources(level)),
                  cycles if level <= BLURS_UNTIL else (), limbs_of(role, repertoire))
 

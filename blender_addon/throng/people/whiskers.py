@@ -16,12 +16,12 @@ def brows(bodies, shape, level, material, scale, seed):
     if level > 0:
         return []
     piece = cut_out(head_of(bodies, shape, level), regions.box((0.07, -0.07, 0.725), (None, 0.07, 0.775)))
-    if level == levels.NEAR:
+    if level < 0:
         piece = subdivided(piece, 0.2)
     piece = clipped(piece, regions.brow(piece.places))
     if not len(piece.faces):
         return []
-    if level == levels.NEAR:
+    if level < 0:
         draw = numpy.random.default_rng(seed)
         return [_hairs(piece, draw, _BROW, _brow_ways, (0.0085 * scale, 0.0006 * scale, 0.10), material)]
     strands = numpy.stack([piece.places[:, regions.Y] * 40.0 + piece.places[:, regions.Z] * 30.0,
@@ -45,12 +45,14 @@ def beard(bodies, shape, level, style, material, scale, seed):
     full = style == "full"
     head = head_of(bodies, shape, level)
     field = regions.beard(head.places, full)
-    if level == levels.NEAR:
+    share = levels.DETAILS[level].hairs
+    if share:
         piece = clipped(head, numpy.minimum(field + 0.0015, 1.0))
         if not len(piece.faces):
             return []
-        draw, size = numpy.random.default_rng(seed + 1), (0.014 * scale, 0.0013 * scale, 0.36)
-        return [_hairs(piece, draw, _BEARD if full else _CHIN, _beard_ways, size, material)]
+        draw, wide = numpy.random.default_rng(seed + 1), 0.0013 * scale / share ** 0.5
+        count = int((_BEARD if full else _CHIN) * share)
+        return [_hairs(piece, draw, count, _beard_ways, (0.014 * scale, wide, 0.36), material)]
     piece = clipped(head, numpy.minimum(field, 1.0))
     if not len(piece.faces):
         return []

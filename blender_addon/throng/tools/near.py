@@ -6,7 +6,7 @@ from bpy.props import EnumProperty, FloatProperty, IntProperty
 from ..blender.nodes import drop_tree, set_input
 from ..blender.panels import Below
 from ..cast import library
-from ..crowd import near
+from ..crowd import close, near
 from ..crowd.playback import cast_changed
 from ..crowd.queries import ChangesCrowds, cast_of, changed_crowds, crowds_of, repertoire_of
 from ..people.library import LibraryError
@@ -25,9 +25,10 @@ def apply(crowd, camera, reach=REACH, most=MOST):
     modifier = crowd.modifiers.get(near.MODIFIER)
     if not modifier:
         modifier = crowd.modifiers.new(near.MODIFIER, "NODES")
-        modifier.node_group = near.selection_tree()
         culling.put_before_instancer(crowd, modifier)
         cast_changed(crowd)
+    before, modifier.node_group = modifier.node_group, near.selection_tree()  # files of old may have another
+    drop_tree(before)
     set_input(modifier, "Camera", camera)
     set_input(modifier, "Reach", float(reach))
     set_input(modifier, "Most", most)
@@ -41,6 +42,7 @@ def remove(crowd):
     if not modifier:
         return
     tree = modifier.node_group
+    crowd.pop(close.MOST, None)
     crowd.modifiers.remove(modifier)
     drop_tree(tree)
     cast = cast_of(crowd)
