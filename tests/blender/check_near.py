@@ -175,6 +175,15 @@ bpy.ops.throng.near(by="camera")
 bpy.ops.throng.near(by="none")
 result["nothing is left"] = counts() == without
 
+# a member without bones, as those are who were brought along: it takes poses, however near
+bpy.ops.throng.near(by="camera", reach=14.0, most=1000)
+member = {row: own.member_of(crowd, row, int(state[FRAME - 1, row, 1]), False) for row in range(len(way[0]))}
+result["without bones"] = [sorted({member[row] for row in bent(crowd)})]
+del sheets.sheet_of(library.figures_of(cast_of(crowd))[0, 2])["throng_bones"]
+bpy.ops.throng.near(by="none")
+bpy.ops.throng.near(by="camera", reach=14.0, most=1000)
+result["without bones"] += [sorted({member[row] for row in people(crowd)}) for people in (bent, instanced)]
+
 # people without bones
 bpy.ops.wm.read_factory_settings(use_empty=True)
 del os.environ["THRONG_BODIES"]

@@ -82,6 +82,11 @@ def test_bending_goes_away_again(seen):
     assert seen["nothing is left"]
 
 
+def test_members_without_bones_are_not_bent_among_those_who_have(seen):
+    before, bent, instanced = seen["without bones"]
+    assert 2 in before and bent == [each for each in before if each < 2] and 2 in instanced
+
+
 def test_people_without_bones_are_not_bent(seen):
     assert seen["plain"][0] is False and "Nobody here has bones" in seen["plain"][1]
     assert "has no camera" in seen["no camera"]

@@ -143,6 +143,12 @@ def test_triangles_keep_to_their_budget(models):
         assert numpy.mean(counts) < middle and max(counts) < most, (level, counts)
 
 
+def test_people_close_to_the_camera_keep_to_their_budget(loaded):
+    counts = [len(person.Maker(loaded, who).model(levels.CLOSE).faces)
+              for who in (roster.draw_person("casual", number) for number in (0, 1, 9, 10, 16, 20))]
+    assert 20_000 < numpy.mean(counts) < 34_000 and max(counts) < 41_000, counts
+
+
 def test_levels_are_as_large(models):
     for (number, level), model in models.items():
         full = models[number, 0]

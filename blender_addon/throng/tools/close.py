@@ -47,13 +47,15 @@ def _looked_at(scene, crowd, frame, most):
 def members_close(scene, crowd, distance, most, frames):
     """Members of a crowd's cast who come so close to the camera in any of some frames. The crowd's near people have
     been chosen (tools/near.py)."""
-    chooser, shown = crowd.modifiers[near.MODIFIER], crowd.modifiers[INSTANCERS[1]]
-    before, looks, at = get_input(chooser, "Close"), shown.show_viewport, scene.frame_current
+    chooser, instancers = crowd.modifiers[near.MODIFIER], [crowd.modifiers[name] for name in INSTANCERS]
+    before, at = get_input(chooser, "Close"), scene.frame_current
+    looks = [each.show_viewport for each in instancers]
     who = crowd.modifiers.new("throng who", "NODES")
     tree = who.node_group = _who_tree(cast_of(crowd))
     culling.put_before_instancer(crowd, who)
     try:
-        shown.show_viewport = False
+        for each in instancers:
+            each.show_viewport = False
         set_input(chooser, "Close", distance + (MARGIN if len(frames) > 1 else 0.0))
         crowd.update_tag()
         return set().union(*(_looked_at(scene, crowd, frame, most) for frame in frames))
@@ -61,7 +63,8 @@ def members_close(scene, crowd, distance, most, frames):
         crowd.modifiers.remove(who)
         drop_tree(tree)
         set_input(chooser, "Close", before)
-        shown.show_viewport = looks
+        for each, look in zip(instancers, looks):
+            each.show_viewport = look
         crowd.update_tag()
         scene.frame_set(at)
 
