@@ -35,16 +35,26 @@ def leaders_of(parents, matrices):
     return numpy.array(leaders), numpy.stack(turns)
 
 
-def hinged(points, weights, leaders, turns):
-    """(points at rest, weights) of a mesh on those bones alone that lead: of (V, 3) and (V, all bones)."""
+def hinged(points, weights, leaders, matrices):
+    """(points at rest, weights) of a mesh on those bones alone that lead: of (V, 3) and (V, all bones).
+
+    Points are where they come nearest to what all bones make of them, in some poses: what hangs on a collarbone and on
+    an arm, say, has no one place at rest that would do in all.
+    @param matrices (P, B, 3, 4) of all bones in these poses
+    """
     used, column = numpy.unique(leaders, return_inverse=True)
-    whole = numpy.concatenate([points, numpy.ones((len(points), 1))], axis=1)
-    blended = numpy.tensordot(weights, turns[:, :3], (1, 0))
-    moved = numpy.einsum("vij,vj->vi", blended, whole) / weights.sum(axis=1, keepdims=True)
     few = numpy.zeros((len(points), len(used)))
     for bone, place in enumerate(column):
         few[:, place] += weights[:, bone]
-    return moved, strongest(few)
+    few = strongest(few)
+    whole = numpy.concatenate([points, numpy.ones((len(points), 1))], axis=1)
+    shares = weights / weights.sum(axis=1, keepdims=True)
+    wanted = numpy.einsum("vpij,vj->vpi", numpy.tensordot(shares, matrices, (1, 1)), whole)
+    led = numpy.tensordot(few, matrices[:, used], (1, 1))  # V, P, 3, 4
+    turned = led[..., :3]
+    square = numpy.einsum("vpij,vpik->vjk", turned, turned)
+    side = numpy.einsum("vpij,vpi->vj", turned, wanted - led[..., 3])
+    return numpy.linalg.solve(square, side[..., None])[..., 0], few
 
 
 def strongest(weights):

@@ -18,6 +18,7 @@ ROLES = "throng_people"  # of a cast, a line each
 MEMBERS = 64      # of a cast: women and men of all ages, some children among them
 FINE = 4096.0     # steps a metre: what is finer is not seen, and files are a third as large without it
 _SOME = 7         # of so many poses one tells which bones move
+_FEW = 19         # and one is looked at for where vertices hang best
 _KEPT = 2         # people who stay in memory: all their levels are made one after the other
 # the share of bones in how the trunk turns and leans: these do less than what is above them
 _STILL = {"Root": 0.0, "pelvis": 0.0, "spine_01": 0.4, "spine_02": 0.75}
@@ -92,8 +93,9 @@ def limbs_of(role, repertoire):
 
 def mesh_on_bones(role, level, repertoire):
     """(somebody's mesh at rest, (V, B) how its vertices hang on the bones that lead)"""
-    model, leaders = maker_of(role).model(level), _leaders(role, repertoire)
-    points, weights = skinning.hinged(model.points, model.weights, *leaders)
+    model, leaders = maker_of(role).model(level), _leaders(role, repertoire)[0]
+    poses = _of_all_poses(role, repertoire)[::_FEW]
+    points, weights = skinning.hinged(model.points, model.weights, leaders, poses)
     points = (numpy.rint(points * FINE) / FINE + 0.0).astype(numpy.float32)  # no zero is negative
     return figures.mesh_of("throng figure", model, points, person_of(role).look, bodies()), weights
 

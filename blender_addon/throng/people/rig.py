@@ -11,6 +11,7 @@ _THUMB = 0.55  # of the angle between thumb and index, by which they close
 _X, _Y, _Z = numpy.eye(3)
 SOLE = 0.018  # m, of a shoe, below the foot
 STICK_AHEAD = 0.12  # m, of the ankle, where sticks are planted
+_DROOP = 0.18     # rad, by which collarbones sink as arms are let down, which are held out at rest
 _ROUNDS = 10      # of looking for an elbow's angle: to a millimetre of the stick's tip
 
 
@@ -169,12 +170,12 @@ class Rig:
         """Adds an arm to a trunk that is turned and placed. @param yaw of the shoulders"""
         sign = 1.0 if side == "l" else -1.0
         clavicle, upper, lower, hand = (f"{bone}_{side}" for bone in ("clavicle", "upperarm", "lowerarm", "hand"))
-        turns[clavicle] = turns["spine_03"] @ turn(_X, -sign * 0.03)
+        turns[clavicle] = turns["spine_03"] @ turn(_X, -sign * _DROOP)
         places[clavicle] = self._end(turns, places, "spine_03", clavicle)
         shoulder = self._end(turns, places, clavicle, upper)
         reach = math.dist(self.heads[upper], self.heads[lower]) + math.dist(self.heads[lower], self.heads[hand])
         # outwards enough for the hand to pass beside the hips
-        room = (self.widest + 0.070 * self.scale - abs(self.heads[upper][1])) / reach
+        room = (self.widest + 0.076 * self.scale - abs(self.heads[upper][1])) / reach
         out = sign * min(max(0.10, room), 0.34)
         shoulders = turn(_Z, yaw)
 
