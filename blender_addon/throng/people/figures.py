@@ -7,6 +7,7 @@ from ..cast.sheets import drop_spare_attributes
 from .materials import material_of
 
 PATTERN = "pattern"
+_FINE = 4096.0  # steps a metre of it: what is finer is not seen, and files are smaller without it
 
 
 def mesh_of(name, model, points, look, bodies):
@@ -34,4 +35,5 @@ def mesh_of(name, model, points, look, bodies):
 
 def add_pattern(mesh, model):
     pattern = mesh.attributes.new(PATTERN, "FLOAT_VECTOR", "POINT")
-    pattern.data.foreach_set("vector", numpy.ascontiguousarray(model.pattern, numpy.float32).ravel())
+    rounded = numpy.rint(model.pattern * _FINE) / _FINE + 0.0
+    pattern.data.foreach_set("vector", numpy.ascontiguousarray(rounded, numpy.float32).ravel())
