@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Imports a bake with the add-on of this checkout and renders a still, without a display.
+"""Imports a bake with the add-on of this checkout and renders a still, or a film, without a display.
 
 blender -b --factory-startup --python-exit-code 1 -P scripts/render_bake.py -- BAKE OUT.png [--frame N] [--samples N]
         [--width W] [--height H] [--engine cycles|eevee|workbench] [--shot crane|street|wide]
         [--also SHOT=OUT.png]... [--light noon|overcast|late|night] [--wet [AMOUNT]] [--levels] [--close M]
-        [--save FILE.blend]
+        [--denoise] [--film SECONDS] [--save FILE.blend]
 """
 import argparse
 import os
@@ -55,6 +55,9 @@ def arguments():
     parser.add_argument("--levels", action="store_true", help="with coarser people far away")
     parser.add_argument("--close", type=float, default=CLOSE, metavar="M",
                         help=f"people so near the camera, {CLOSE:g} m unless told, have more detail; 0: nobody has")
+    parser.add_argument("--denoise", action="store_true", help="as far as this Blender has a denoiser")
+    parser.add_argument("--film", type=float, metavar="SECONDS",
+                        help="the picture is a film, `OUT.mp4`, that begins at the frame")
     parser.add_argument("--save", help="also save the scene; paths in it are relative")
     return parser.parse_args(sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else [])
 
@@ -75,7 +78,7 @@ def set_up_render(scene, options):
     if options.engine == "cycles":
         cycles = scene.cycles
         cycles.samples, cycles.use_adaptive_sampling, cycles.adaptive_threshold = options.samples, True, 0.02
-        cycles.use_denoising = False  # not every build has a denoiser
+        cycles.use_denoising = options.denoise  # not every build has a denoiser
         cycles.max_bounces, cycles.diffuse_bounces, cycles.glossy_bounces, cycles.transmission_bounces = 4, 3, 2, 2
         cycles.caustics_reflective = cycles.caustics_refractive = False
 
@@ -86,6 +89,21 @@ def render(scene, frame, picture, close):
     scene.render.filepath = os.path.abspath(picture)
     bpy.ops.render.render(write_still=True)
     print(f"rendered frame {frame}: {picture}")
+
+
+def render_film(scene, options, frame):
+    scene.frame_start, scene.frame_end = frame, frame + max(1, round(options.film * scene.render.fps)) - 1
+    if options.close > 0.0 and throng.people.members.found():
+        bpy.ops.throng.close(by="camera", distance=options.close, frames="shot")
+    settings, video = scene.render.image_settings, scene.render.ffmpeg
+    if hasattr(settings, "media_type"):  # from 5.0 on
+        settings.media_type = "VIDEO"
+    settings.file_format = "FFMPEG"
+    video.format, video.codec, video.constant_rate_factor, video.gopsize = "MPEG4", "H264", "MEDIUM", 12
+    video.audio_codec = "NONE"
+    scene.render.filepath, scene.render.use_persistent_data = os.path.abspath(options.picture), True
+    bpy.ops.render.render(animation=True)
+    print(f"rendered frames {scene.frame_start} to {scene.frame_end}: {options.picture}")
 
 
 def main():
@@ -111,6 +129,9 @@ def main():
     scene.frame_set(frame)
     if options.save:
         bpy.ops.wm.save_mainfile(compress=True)
+    if options.film:
+        render_film(scene, options, frame)
+        return
     render(scene, frame, options.picture, options.close)
     for shot, picture in options.also:
         bpy.ops.throng.shot(kind=shot)
