@@ -30,9 +30,10 @@ def export(given: argparse.Namespace) -> None:
 
 
 def to_usd(given: argparse.Namespace) -> None:
-    if not given.skeletons and (given.most or given.near):
-        raise ThrongError("--most and --near say whose skeletons are written", "add --skeletons")
-    wanted = Skeletons(given.most, tuple(given.near) if given.near else None) if given.skeletons else None
+    if not given.skeletons and (given.most or given.near or given.copies):
+        raise ThrongError("--most, --near and --copies are about skeletons", "add --skeletons")
+    wanted = Skeletons(given.most, tuple(given.near) if given.near else None,
+                       not given.copies) if given.skeletons else None
     export_usd(Bake(given.bake), given.output, given.every, wanted)
 
 
@@ -85,9 +86,12 @@ def parser() -> argparse.ArgumentParser:
     command.add_argument("--every", type=positive, default=1, metavar="N", help="only every N-th frame")
     command.add_argument("--skeletons", action="store_true",
                          help="people with skeletons and motions (UsdSkel), shaped from the library of bodies")
-    command.add_argument("--most", type=positive, metavar="N", help="skeletons: of N people at most, others are left out")
+    command.add_argument("--most", type=positive, metavar="N",
+                         help="skeletons: of N people at most; others are left out")
     command.add_argument("--near", type=finite, nargs=2, metavar=("X", "Y"),
                          help="skeletons: of these those who come nearest to a place of the world")
+    command.add_argument("--copies", action="store_true",
+                         help="skeletons: people are no instances, which Blender would leave at rest")
     command.set_defaults(run=to_usd)
     command = commands.add_parser("import", help="make a layout of another program's scene")
     command.add_argument("file", help="the scene: its name or its content says of which program")

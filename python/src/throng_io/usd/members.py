@@ -19,6 +19,7 @@ from ..people import casting, library, palettes, parts, person, roster
 MOST_MEMBERS = 64              # as many as the add-on makes of a crowd
 LEVELS = ("near", "middle", "far")
 _SOME_POSES = 7                # of so many, one tells which bones go with others
+MARGIN = 0.02                  # m, of boxes: turns between poses are made turns again, which bends a little more
 _STICK = "Root"                # the bone that a stick is on, where somebody has one
 _PICKS = {"bottom": 1.0, "shirt": 5.0, "shoes": 9.0, "extra": 11.0, "skin": 3.0, "hair": 7.0, "grey": 7.0, "eyes": 13.0}
 _LASHES = (0.012, 0.010, 0.009)
@@ -163,13 +164,13 @@ def _cloths(slot: str, fabric: str, look: str) -> tuple:
 
 
 def _box(points: numpy.ndarray, weights: numpy.ndarray, poses: numpy.ndarray) -> numpy.ndarray:
-    """Round somebody in all poses, and in those between them, which bend by little more."""
+    """Round somebody in all poses and between them: a point is between the places that its joints take it to, and each
+    joint takes it to somewhere in what it makes of the box round all that hangs on it."""
     low, high = numpy.full(3, numpy.inf), numpy.full(3, -numpy.inf)
-    for pose in poses:
-        blended = numpy.tensordot(weights, pose, (1, 0))
-        posed = numpy.einsum("vij,vj->vi", blended[..., :3], points) + blended[..., 3]
-        low, high = numpy.minimum(low, posed.min(axis=0)), numpy.maximum(high, posed.max(axis=0))
-    return numpy.array([low - _MARGIN, high + _MARGIN])
-
-
-_MARGIN = 0.03  # m
+    for joint in numpy.nonzero((weights > 0.0).any(axis=0))[0]:
+        hung = points[weights[:, joint] > 0.0]
+        ends = numpy.array([hung.min(axis=0), hung.max(axis=0)])
+        corners = numpy.array([ends[pick, range(3)] for pick in numpy.ndindex(2, 2, 2)])
+        moved = numpy.einsum("pij,cj->pci", poses[:, joint, :, :3], corners) + poses[:, joint, None, :, 3]
+        low, high = numpy.minimum(low, moved.min(axis=(0, 1))), numpy.maximum(high, moved.max(axis=(0, 1)))
+    return numpy.array([low - MARGIN, high + MARGIN])

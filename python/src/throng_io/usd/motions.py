@@ -9,7 +9,8 @@ import numpy
 
 from ..cast import BEATS, POSES, Repertoire, gait
 
-STANDS_BELOW, WALKS_FROM = 0.03, 0.35  # m/s, where no stream tells how much of a walk is in a pose
+STANDS_BELOW = 0.03                    # m/s, where no stream tells how much of a walk is in a pose
+WALKS_FROM = 0.35
 FRAMES_A_ROUND = 80.0                  # of a standing clip
 STAYS_UNTIL = 0.67                     # share of a beat; in the rest of it people change to the next
 GATHERS = 2                            # the activity of those who stand about

@@ -25,6 +25,7 @@ class Skeletons:
     """Who is written."""
     most: int | None = None                     # so many people at most
     near: tuple[float, float] | None = None     # of these those who come nearest to a place of the world
+    instances: bool = True                      # or copies, which programs bend that leave instances at rest
 
     def check(self) -> None:
         if self.most is not None and self.most < 1:
@@ -39,7 +40,7 @@ class SkeletonCrowd:
     def __init__(self, stage, wanted: Skeletons):
         self.to, self.bake, self.every = stage, stage.bake, stage.every
         self.sdf, self.geom, self.usd, self.gf, self.vt = stage.sdf, stage.geom, stage.usd, stage.gf, stage.vt
-        self.skel, self.stage = stage.skel, stage.stage
+        self.skel, self.stage, self.instances = stage.skel, stage.stage, wanted.instances
         self.layer = self.stage.GetRootLayer()
         self.frames = numpy.arange(0, self.bake.frames, self.every)
         self.there = numpy.array(self.bake.there(self.frames))
@@ -199,17 +200,23 @@ class SkeletonCrowd:
 
     def _figure(self, path: str, row: int, number: int) -> None:
         prim, types = self._prim(path, "SkelRoot"), self.sdf.ValueTypeNames
-        prim.instanceable = True
+        if self.instances:
+            prim.instanceable = True
         prim.referenceList.Prepend(self.sdf.Reference("", f"{CROWD}/Members/member{number:02d}"))
         prim.SetInfo("apiSchemas", self.sdf.TokenListOp.Create(prependedItems=["SkelBindingAPI"]))
         motion = self.sdf.RelationshipSpec(prim, "skel:animationSource", False)
         motion.targetPathList.explicitItems = [self.sdf.Path(path).GetParentPath().AppendChild("motion")]
-        tint = self.gf.Vec3f(*self._tint(row, number))
-        self._attribute(path, "primvars:displayColor", types.Color3fArray, self.vt.Vec3fArray([tint]))
-        self._attribute(path, "primvars:personId", types.Int, row)
-        self._attribute(path, "primvars:crypto_object", types.String, f"{self.bake.name}/{row:05d}")
-        for name in ("displayColor", "personId", "crypto_object"):
-            self.layer.GetAttributeAtPath(f"{path}.primvars:{name}").SetInfo("interpolation", "constant")
+        tint = self.vt.Vec3fArray([self.gf.Vec3f(*self._tint(row, number))])
+        self._primvar(path, "displayColor", types.Color3fArray, tint)
+        self._primvar(path, "personId", types.Int, row)
+        self._primvar(path, "crypto_object", types.String, f"{self.bake.name}/{row:05d}")
+        if not self.instances:  # nor do such programs know what is inherited
+            self.sdf.CreatePrimInLayer(self.layer, f"{path}/tinted")
+            self._primvar(f"{path}/tinted", "displayColor", types.Color3fArray, tint)
+
+    def _primvar(self, path: str, name: str, kind, value) -> None:
+        attribute = self._attribute(path, f"primvars:{name}", kind, value)
+        self.layer.GetAttributeAtPath(attribute).SetInfo("interpolation", self.geom.Tokens.constant)
 
     def _tint(self, row: int, number: int) -> tuple[float, float, float]:
         told = self.bake.people["tint"][row] if "tint" in self.bake.people.dtype.names else ""
