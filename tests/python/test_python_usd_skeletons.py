@@ -24,7 +24,7 @@ LAYOUT = {"throng": 1, "simulation": {"duration": 4, "seed": 2},
           "flows": [{"id": "east", "from": "road:start", "to": "road:end", "count": 5, "end": 2},
                     {"id": "west", "from": "road:end", "to": "road:start", "count": 3, "end": 2}]}
 MOST = 3
-PROXIES = Usd.TraverseInstanceProxies() if hasattr(Usd, "TraverseInstanceProxies") else None
+PROXIES = Usd.TraverseInstanceProxies()
 
 
 @pytest.fixture(scope="module")

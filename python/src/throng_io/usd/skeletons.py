@@ -35,7 +35,7 @@ class Skeletons:
 
 
 class SkeletonCrowd:
-    """@param stage crowd.Stage"""
+    """Written into a stage (crowd.Stage)."""
 
     def __init__(self, stage, wanted: Skeletons):
         self.to, self.bake, self.every = stage, stage.bake, stage.every
