@@ -42,10 +42,16 @@ class PlaneGrid {
             items_[cursors_[cellOf(places[i])]++] = i;
     }
 
-    /// How many cells near() looks at.
-    std::size_t cellsNear(glm::dvec2 place, double reach) const {
-        return static_cast<std::size_t>(column(place.x + reach) - column(place.x - reach) + 1) *
-               static_cast<std::size_t>(line(place.y + reach) - line(place.y - reach) + 1);
+    /// How many cells and things near() looks at, up to `enough` or a line of cells more.
+    std::size_t workNear(glm::dvec2 place, double reach, std::size_t enough) const {
+        const int x0 = column(place.x - reach), x1 = column(place.x + reach);
+        std::size_t work = 0;
+        for (int y = line(place.y - reach); y <= line(place.y + reach) && work <= enough; ++y) {
+            const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_);
+            work += static_cast<std::size_t>(x1 - x0 + 1) + starts_[first + static_cast<std::size_t>(x1) + 1] -
+                    starts_[first + static_cast<std::size_t>(x0)];
+        }
+        return work;
     }
 
     /// Calls visit(index) for all within `reach` of `place`, and for some further away.

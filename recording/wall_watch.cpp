@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kSpacing = 1.0;  // m, where there are not more
 constexpr double kMostSamples = 1.0e6;
-constexpr std::size_t kFewCells = 1000;  // to look through rather than at all walls
+constexpr std::size_t kFewCells = 1000;  // and samples, to look through rather than at all walls
 constexpr double kThickest = 2.0;        // m: half thicknesses above this are looked for further away
 
 double cross(glm::dvec2 a, glm::dvec2 b) {
@@ -46,7 +46,9 @@ WallWatch::WallWatch(std::vector<authoring::Wall> walls, glm::dvec2 minimum, glm
 template <class Visit>
 void WallWatch::near(glm::dvec2 place, double reach, Visit&& visit) const {
     const double around = reach + spacing_ + kThickest;
-    if (grid_.cellsNear(place, around) > segments_.size() + kFewCells) {
+    // Of a wall that reaches far out of the bounds, all samples there are in the cells at the edge.
+    const std::size_t all = segments_.size() + kFewCells;
+    if (grid_.workNear(place, around, all) > all) {
         for (const Segment& each : segments_)
             if (!open_[each.wall]) visit(each);
         return;

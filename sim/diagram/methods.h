@@ -59,6 +59,14 @@ class PerPixelDiagram final : public Diagram::Implementation {
     gl::WordTexture sites_;
 };
 
+/// What gathers where people look in a picture that is kept whole.
+struct BinnedNear {
+    gl::Buffer stamps, list, count;
+    gl::Buffer none;  // what count starts as
+    gl::ComputeProgram list_pages, gather;
+    std::uint32_t stamp = 0;
+};
+
 /// Sites sorted into bins, blocks of pixels look through the bins near them, see shaders/diagram/binned.comp.
 class BinnedDiagram final : public Diagram::Implementation {
   public:
@@ -68,13 +76,6 @@ class BinnedDiagram final : public Diagram::Implementation {
     void build(Extent extent) override;
 
   private:
-    /// What gathers where people look in a picture that is kept whole.
-    struct Near {
-        gl::Buffer stamps, list, count;
-        gl::Buffer none;  // what count starts as
-        gl::ComputeProgram list_pages, gather;
-        std::uint32_t stamp = 0;
-    };
     void setUpPages(const DiagramSetup& setup);
     bool canBuildNear() const;
     void setUpNear();
@@ -92,7 +93,7 @@ class BinnedDiagram final : public Diagram::Implementation {
     std::optional<FixedBins> fixed_bins_;
     std::uint64_t blocks_;
     gl::ComputeProgram gather_;
-    std::optional<Near> near_;  // made at the first asking
+    std::optional<BinnedNear> near_;  // made at the first asking
     DiagramInput input_;
     std::optional<BinGrid> grid_;
 

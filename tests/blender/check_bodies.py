@@ -13,7 +13,7 @@ addon, bake, folder = sys.argv[-3:]
 sys.path[:0] = [addon, os.path.dirname(os.path.abspath(__file__))]
 import throng  # noqa: E402
 from pose_names import Names  # noqa: E402
-from throng.cast import library, sheets  # noqa: E402
+from throng.cast import library, poses_of_build, sheets  # noqa: E402
 from throng.crowd.queries import cast_of, crowd_objects, figure, repertoire_of  # noqa: E402
 from throng.overrides import hero, skeleton  # noqa: E402
 from throng.people import casting, members  # noqa: E402
@@ -74,7 +74,7 @@ result["expected poses"] = [repertoire.poses(level) for level in range(3)]
 result["off bones"] = []
 for member in range(PEOPLE):
     maker = members.maker_of(roles[member])
-    poses = members.poses_of(maker.rig.build, repertoire)
+    poses = poses_of_build(maker.rig.build, repertoire)
     model = maker.model(0)
     off = numpy.linalg.norm(sheets.points_of(figures[0, member]) - model.posed(poses), axis=2)
     result["off bones"].append([float(numpy.quantile(off, 0.999)), float(off.max())])

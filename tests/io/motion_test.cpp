@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ctime>
 #include <glm/geometric.hpp>
 #include <random>
 #include <vector>
@@ -266,6 +267,18 @@ TEST(Motion, NobodyIsAveragedIntoAWall) {
     }
     EXPECT_GT(without, 0.02) << "m: or this test shows nothing";
     EXPECT_LT(with, 2.0e-4) << "m";
+}
+
+TEST(Motion, WallsThatReachFarOutOfTheBoundsAreLookedThroughFast) {
+    authoring::Wall wall;
+    wall.points = {{6.0, 6.0}, {6.0, 14.0}, {4.0e9, 10.0}, {14.0, 6.0}};
+    wall.closed = true;
+    const recording::WallWatch watch({wall}, {-16.0, -16.0}, {16.0, 16.0});
+    const std::clock_t start = std::clock();
+    for (int i = 0; i < 4000; ++i)
+        EXPECT_DOUBLE_EQ(watch.penetration({15.9 - 1.0e-4 * i, 15.5}, 0.25), 0.0);
+    EXPECT_NEAR(watch.penetration({5.9, 10.0}, 0.25), 0.15, 1.0e-9);
+    EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 1.0) << "s";
 }
 
 TEST(Motion, NoSmoothingLeavesPlacesAndHeadingsToTheBit) {

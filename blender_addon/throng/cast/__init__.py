@@ -66,7 +66,11 @@ class Repertoire:
 
 def poses_of(person, repertoire):
     """All poses of level 0, in order. Tall or small, everybody takes the bake's strides: feet must not slide."""
-    build = people.build_of(person)
+    return poses_of_build(people.build_of(person), repertoire)
+
+
+def poses_of_build(build, repertoire):
+    """The same of whoever is built so."""
     gaits = [gait.gait_of(stride) for stride in repertoire.strides]
     return ([gait.walk_pose(index / POSES, build, each) for each in gaits for index in range(POSES)]
             + [gait.standing_pose(clip, beat / BEATS, build) for clip in gait.STANDING_CLIPS for beat in range(BEATS)])

@@ -6,7 +6,7 @@ from functools import lru_cache
 
 import numpy
 
-from ..cast import BEATS, POSES, gait, skinning
+from ..cast import POSES, gait, poses_of_build, skinning
 from ..cast.library import BLURS_UNTIL, shaped
 from ..cast.bones import Boned
 from . import figures, library
@@ -43,18 +43,11 @@ def maker_of(role):
     return Maker(bodies(), person_of(role))
 
 
-def poses_of(build, repertoire):
-    """All poses of level 0, in order."""
-    gaits = [gait.gait_of(stride) for stride in repertoire.strides]
-    return ([gait.walk_pose(index / POSES, build, each) for each in gaits for index in range(POSES)]
-            + [gait.standing_pose(clip, beat / BEATS, build) for clip in gait.STANDING_CLIPS for beat in range(BEATS)])
-
-
 @lru_cache(maxsize=_KEPT)
 def _of_all_poses(role, repertoire):
     """(P, all bones, 3, 4)"""
     rig = maker_of(role).rig
-    return rig.all_matrices(poses_of(rig.build, repertoire))
+    return rig.all_matrices(poses_of_build(rig.build, repertoire))
 
 
 @lru_cache(maxsize=_KEPT)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import json
+import math
 import pathlib
 import sys
 
@@ -15,6 +16,7 @@ from .base.whole_files import whole_file
 from .importers.formats import read_scene
 from .importers.options import Options
 from .usd.crowd import export_usd
+from .usd.skeletons import Skeletons
 
 USAGE, INVALID = 2, 3
 EXPORTS = {".csv": Bake.to_csv, ".sqlite": Bake.to_jupedsim_sqlite}
@@ -25,6 +27,14 @@ def export(given: argparse.Namespace) -> None:
     if not write:
         raise ThrongError(f"{given.output}: expected a name that ends in {' or '.join(EXPORTS)}")
     write(Bake(given.bake), given.output, given.every)
+
+
+def to_usd(given: argparse.Namespace) -> None:
+    if not given.skeletons and (given.most or given.near or given.copies):
+        raise ThrongError("--most, --near and --copies are about skeletons", "add --skeletons")
+    wanted = Skeletons(given.most, tuple(given.near) if given.near else None,
+                       not given.copies) if given.skeletons else None
+    export_usd(Bake(given.bake), given.output, given.every, wanted)
 
 
 def import_scene(given: argparse.Namespace) -> None:
@@ -54,6 +64,13 @@ def above_zero(text: str) -> float:
     return number
 
 
+def finite(text: str) -> float:
+    number = float(text)
+    if not math.isfinite(number):
+        raise argparse.ArgumentTypeError(f"expected a number, found {text}")
+    return number
+
+
 def parser() -> argparse.ArgumentParser:
     top = argparse.ArgumentParser(prog="throng-io", description=__doc__.partition(": ")[2].strip())
     top.add_argument("--version", action="version", version=f"throng-io {__version__}")
@@ -67,7 +84,15 @@ def parser() -> argparse.ArgumentParser:
     command.add_argument("bake", help="a bake's folder")
     command.add_argument("-o", "--output", required=True, help="the file to write: .usdc, .usda or .usd")
     command.add_argument("--every", type=positive, default=1, metavar="N", help="only every N-th frame")
-    command.set_defaults(run=lambda given: export_usd(Bake(given.bake), given.output, given.every))
+    command.add_argument("--skeletons", action="store_true",
+                         help="people with skeletons and motions (UsdSkel), shaped from the library of bodies")
+    command.add_argument("--most", type=positive, metavar="N",
+                         help="skeletons: of N people at most; others are left out")
+    command.add_argument("--near", type=finite, nargs=2, metavar=("X", "Y"),
+                         help="skeletons: of these those who come nearest to a place of the world")
+    command.add_argument("--copies", action="store_true",
+                         help="skeletons: people are no instances, which Blender would leave at rest")
+    command.set_defaults(run=to_usd)
     command = commands.add_parser("import", help="make a layout of another program's scene")
     command.add_argument("file", help="the scene: its name or its content says of which program")
     command.add_argument("-o", "--output", required=True, help="the layout to write")

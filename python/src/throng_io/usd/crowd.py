@@ -14,6 +14,8 @@ from ..base.errors import ThrongError, need
 from ..base.geometry import road_shape
 from ..base.whole_files import whole_file
 from .figures import PHASES, Mesh, figure
+from .members import bodies_of_library
+from .skeletons import SkeletonCrowd, Skeletons
 from .surroundings import flat, wall_prism
 
 SUFFIXES = (".usd", ".usda", ".usdc")
@@ -31,22 +33,28 @@ MOST_COSTUMES = 64
 GREY = {"walls": (0.55, 0.55, 0.53), "ground": (0.32, 0.33, 0.32), "roads": (0.42, 0.42, 0.41)}
 
 
-def export_usd(bake: Bake, path: str | os.PathLike, every: int = 1) -> None:
-    """All frames, or every N-th, at the time codes of the shot: frame i of the bake is time code i + 1."""
+def export_usd(bake: Bake, path: str | os.PathLike, every: int = 1, skeletons: Skeletons | None = None) -> None:
+    """All frames, or every N-th, at the time codes of the shot: frame i of the bake is time code i + 1.
+
+    @param skeletons whose; without, people are a point instancer's simple figures
+    """
     if pathlib.Path(path).suffix.lower() not in SUFFIXES:
         raise ThrongError(f"{os.fspath(path)}: expected a name that ends in {', '.join(SUFFIXES)}")
     if every < 1:
         raise ThrongError(f"every: expected 1 or more, found {every}")
+    if skeletons:
+        skeletons.check()
+        bodies_of_library()
     need("pxr", "usd")
     with whole_file(path) as beside:
-        Stage(bake, str(beside), every).write()
+        Stage(bake, str(beside), every, skeletons).write()
 
 
 class Stage:
-    def __init__(self, bake: Bake, path: str, every: int):
-        self.usd, self.geom, self.shade, self.sdf, self.gf, self.vt = (
-            need(f"pxr.{name}", "usd") for name in ("Usd", "UsdGeom", "UsdShade", "Sdf", "Gf", "Vt"))
-        self.bake, self.every = bake, every
+    def __init__(self, bake: Bake, path: str, every: int, skeletons: Skeletons | None = None):
+        self.usd, self.geom, self.shade, self.skel, self.sdf, self.gf, self.vt = (
+            need(f"pxr.{name}", "usd") for name in ("Usd", "UsdGeom", "UsdShade", "UsdSkel", "Sdf", "Gf", "Vt"))
+        self.bake, self.every, self.skeletons = bake, every, skeletons
         self.stage = self.usd.Stage.CreateNew(path)
 
     def write(self) -> None:
@@ -64,7 +72,10 @@ class Stage:
         world.AddTranslateOp().Set(self.gf.Vec3d(*bake.origin.tolist()))
         self.material = self.painted()
         self.surroundings()
-        self.crowd()
+        if self.skeletons:
+            SkeletonCrowd(self, self.skeletons).write()
+        else:
+            self.crowd()
         stage.GetRootLayer().Save()
 
     def painted(self):

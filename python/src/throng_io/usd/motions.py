@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How somebody's joints move in the course of a bake: poses chosen and blended as the add-on bends people near the
+camera (blender_addon/throng/crowd/near.py), as numbers."""
+from __future__ import annotations
+
+import dataclasses
+
+import numpy
+
+from ..cast import BEATS, POSES, Repertoire, gait
+
+STANDS_BELOW = 0.03                    # m/s, where no stream tells how much of a walk is in a pose
+WALKS_FROM = 0.35
+FRAMES_A_ROUND = 80.0                  # of a standing clip
+STAYS_UNTIL = 0.67                     # share of a beat; in the rest of it people change to the next
+GATHERS = 2                            # the activity of those who stand about
+
+Array = numpy.ndarray
+
+
+@dataclasses.dataclass(frozen=True)
+class Track:
+    """What a bake says of one person in some frames (F)."""
+    row: int
+    times: Array               # F: time codes
+    state: Array               # F x 3
+    speed: Array               # F, m/s
+    walking: Array | None      # F: of the stream `carriage`, where the bake has it
+
+
+@dataclasses.dataclass(frozen=True)
+class Joints:
+    """Of F frames, beside the joints above."""
+    rotations: Array           # F x J x 4: x, y, z, w
+    translations: Array        # F x J x 3, m
+
+
+def smooth(value: Array, low: float, high: float) -> Array:
+    share = numpy.clip((value - low) / (high - low), 0.0, 1.0)
+    return share * share * (3.0 - 2.0 * share)
+
+
+def matrices_of(poses: Array, repertoire: Repertoire, track: Track) -> Array:
+    """F x J x 3 x 4: where joints take what hangs on them. @param poses P x J x 3 x 4"""
+    walk = _walk(poses, repertoire, track.state)
+    walking = smooth(track.speed, STANDS_BELOW, WALKS_FROM) if track.walking is None else track.walking
+    return _upright(_mix(_stand(poses, repertoire, track), walk, walking))
+
+
+def _mix(one: Array, other: Array, share: Array) -> Array:
+    return one + (other - one) * share[:, None, None, None]
+
+
+def _walk(poses: Array, repertoire: Repertoire, state: Array) -> Array:
+    """Between two poses of the gait, and what is left of the gait before (docs/bake.md: `state`)."""
+    told = (state[:, 0] % 1.0) * 16.0
+    number = numpy.rint(told)
+    rest = numpy.maximum((told - number) * 32.0 + 1e-3, 0.0)
+    before, left = numpy.floor(rest), smooth(rest % 1.0, 0.0, 1.0)
+    place = (state[:, 2] % 1.0) * POSES
+    pose = numpy.minimum(numpy.floor(place), POSES - 1).astype(int)
+    after = (pose + 1) % POSES
+    first, first_before = (POSES * numpy.clip(each - repertoire.first, 0, len(repertoire.strides) - 1).astype(int)
+                           for each in (number, before))
+    here, there = (_mix(poses[first + each], poses[first_before + each], left) for each in (pose, after))
+    return _mix(here, there, place - pose)
+
+
+def _stand(poses: Array, repertoire: Repertoire, track: Track) -> Array:
+    """Between two beats of a clip: those who gather talk or look at their phones, others shift their weight."""
+    kinds = numpy.where(numpy.floor(track.state[:, 0]) == GATHERS, len(gait.STANDING_CLIPS), 2)
+    clip = track.row % 4 % kinds
+    place = (track.row * 0.618034 + track.times / FRAMES_A_ROUND) % 1.0 * BEATS
+    beat = numpy.minimum(numpy.floor(place), BEATS - 1).astype(int)
+    first = repertoire.walking() + BEATS * clip
+    return _mix(poses[first + beat], poses[first + (beat + 1) % BEATS], smooth(place - beat, STAYS_UNTIL, 1.0))
+
+
+def _upright(matrices: Array) -> Array:
+    """With turns that are turns: blends of them shear."""
+    x = matrices[..., 0]
+    x = x / numpy.linalg.norm(x, axis=-1, keepdims=True)
+    y = matrices[..., 1]
+    y = y - x * (x * y).sum(axis=-1, keepdims=True)
+    y = y / numpy.linalg.norm(y, axis=-1, keepdims=True)
+    return numpy.stack([x, y, numpy.cross(x, y), matrices[..., 3]], axis=-1)
+
+
+def joints_of(matrices: Array, places: Array, parents: list[int]) -> Joints:
+    """Joints beside those above them. @param matrices F x J x 3 x 4; @param places J x 3, of joints at rest"""
+    turns = matrices[..., :3]
+    moved = numpy.einsum("fjab,jb->fja", turns, places) + matrices[..., 3]
+    local, from_above = turns.copy(), moved.copy()
+    for joint, parent in enumerate(parents):
+        if parent >= 0:
+            back = numpy.swapaxes(turns[:, parent], -1, -2)
+            local[:, joint] = back @ turns[:, joint]
+            from_above[:, joint] = numpy.einsum("fab,fb->fa", back, moved[:, joint] - moved[:, parent])
+    return Joints(_continuous(quaternions(local)), from_above)
+
+
+def quaternions(turns: Array) -> Array:
+    """(..., 4): x, y, z, w of turns (..., 3, 3), by the largest of the four, which is far from 0."""
+    a, b, c = (turns[..., axis, axis] for axis in range(3))
+    squares = numpy.stack([1.0 + a - b - c, 1.0 - a + b - c, 1.0 - a - b + c, 1.0 + a + b + c], axis=-1)
+    x, y, z = (turns[..., one, other] - turns[..., other, one] for one, other in ((2, 1), (0, 2), (1, 0)))
+    xy, xz, yz = (turns[..., one, other] + turns[..., other, one] for one, other in ((0, 1), (0, 2), (1, 2)))
+    choices = numpy.stack([numpy.stack(each, axis=-1) for each in (
+        (squares[..., 0], xy, xz, x), (xy, squares[..., 1], yz, y), (xz, yz, squares[..., 2], z),
+        (x, y, z, squares[..., 3]))], axis=-2)
+    largest = squares.argmax(axis=-1)[..., None, None]
+    found = numpy.take_along_axis(choices, largest, axis=-2)[..., 0, :]
+    return found / numpy.linalg.norm(found, axis=-1, keepdims=True)
+
+
+def _continuous(turns: Array) -> Array:
+    """Of the two quaternions that are the same turn, the one near that of the frame before: so that what is between
+    frames is, too."""
+    flips = numpy.where((turns[1:] * turns[:-1]).sum(axis=-1) < 0.0, -1.0, 1.0)
+    signs = numpy.concatenate([numpy.ones_like(turns[:1, ..., 0]), numpy.cumprod(flips, axis=0)])
+    return turns * signs[..., None]

@@ -1,0 +1,246 @@
+# SPDX-License-Identifier: Apache-2.0
+"""People of a stage with skeletons: the cast's members once, with their meshes, and everybody as an instance of one,
+with a motion of one's own. What is bound on an instance's root holds for all that is in it, so members are shared."""
+from __future__ import annotations
+
+import dataclasses
+import math
+import re
+
+import numpy
+
+from ..base.errors import ThrongError
+from ..people import palettes
+from .members import LEVELS, Member, Part, bodies_of_library, cast_of, make_member, repertoire_of
+from .motions import Track, joints_of, matrices_of
+
+CROWD = "/World/Crowd"
+LEVEL_SET = "levelOfDetail"
+LARGEST = 4.0                 # times, that scales of a table may make people larger
+_COLOUR = re.compile("#[0-9a-fA-F]{6}")
+
+
+@dataclasses.dataclass(frozen=True)
+class Skeletons:
+    """Who is written."""
+    most: int | None = None                     # so many people at most
+    near: tuple[float, float] | None = None     # of these those who come nearest to a place of the world
+    instances: bool = True                      # or copies, which programs bend that leave instances at rest
+
+    def check(self) -> None:
+        if self.most is not None and self.most < 1:
+            raise ThrongError(f"most: expected 1 or more, found {self.most}")
+        if self.near and not all(map(math.isfinite, self.near)):
+            raise ThrongError(f"near: expected two numbers, found {self.near}")
+
+
+class SkeletonCrowd:
+    """Written into a stage (crowd.Stage)."""
+
+    def __init__(self, stage, wanted: Skeletons):
+        self.to, self.bake, self.every = stage, stage.bake, stage.every
+        self.sdf, self.geom, self.usd, self.gf, self.vt = stage.sdf, stage.geom, stage.usd, stage.gf, stage.vt
+        self.skel, self.stage, self.instances = stage.skel, stage.stage, wanted.instances
+        self.layer = self.stage.GetRootLayer()
+        self.frames = numpy.arange(0, self.bake.frames, self.every)
+        self.there = numpy.array(self.bake.there(self.frames))
+        self.rows = self._rows(wanted)
+        self.repertoire = repertoire_of(self.bake)
+        self.roles, self.member_of = cast_of(self.bake)
+        self.bodies = bodies_of_library()
+        self.tints = tints(self.bake.people)
+
+    def write(self) -> None:
+        crowd = self.geom.Xform.Define(self.stage, CROWD)
+        self.usd.ModelAPI(self.stage.GetPrimAtPath("/World")).SetKind("assembly")
+        self.usd.ModelAPI(crowd.GetPrim()).SetKind("group")
+        members = {}
+        for number in sorted({self.member_of[row] for row in self.rows}):
+            members[number] = make_member(self.bodies, self.roles[number], self.repertoire)
+            self._member(number, members[number])
+        self._box(crowd, members.values())
+        streams = self._streams()
+        with self.sdf.ChangeBlock():
+            for place, row in enumerate(self.rows):
+                number = self.member_of[row]
+                self._person(row, number, members[number], {name: each[:, place] for name, each in streams.items()})
+
+    # ---- who
+
+    def _rows(self, wanted: Skeletons) -> list[int]:
+        """Of all who are ever there; the nearest first, where a place is told."""
+        rows = numpy.nonzero(self.there.any(axis=0))[0]
+        if wanted.near:
+            away = numpy.linalg.norm(self.bake.pos[self.frames][..., :2]
+                                     - (numpy.array(wanted.near) - self.bake.origin[:2]), axis=2)
+            nearest = numpy.where(self.there, away, math.inf).min(axis=0)
+            rows = rows[numpy.argsort(nearest[rows], kind="stable")]
+        return sorted(rows[:wanted.most].tolist())
+
+    def _streams(self) -> dict[str, numpy.ndarray]:
+        """Those frames of those people, copied once."""
+        names = ["pos", "dir", "state", *(["carriage"] if "carriage" in self.bake.streams else [])]
+        return {name: numpy.array(self.bake.stream(name)[self.frames][:, self.rows], dtype=float) for name in names}
+
+    # ---- members
+
+    def _member(self, number: int, member: Member) -> None:
+        path = f"{CROWD}/Members/member{number:02d}"
+        self.stage.CreateClassPrim(f"{CROWD}/Members")
+        root = self.stage.CreateClassPrim(path)
+        root.SetTypeName("SkelRoot")
+        root.SetMetadata("comment", f"{member.role.look}, {member.role.profile or 'anybody'}")
+        self.geom.Boundable(root).CreateExtentAttr(self.to.vectors(member.box))
+        skeleton = self.skel.Skeleton.Define(self.stage, f"{path}/skeleton")
+        skeleton.CreateJointsAttr(member.joints)
+        skeleton.CreateBindTransformsAttr(self._placed(member.places))
+        skeleton.CreateRestTransformsAttr(self._placed(numpy.array([
+            place - (member.places[parent] if parent >= 0 else 0.0)
+            for place, parent in zip(member.places, member.parents)])))
+        self.skel.BindingAPI.Apply(skeleton.GetPrim())
+        binding = self.skel.BindingAPI.Apply(root)
+        binding.CreateSkeletonRel().SetTargets([skeleton.GetPath()])
+        levels = root.GetVariantSets().AddVariantSet(LEVEL_SET)
+        for name, parts in zip(LEVELS, member.levels):
+            levels.AddVariant(name)
+            levels.SetVariantSelection(name)
+            with levels.GetVariantEditContext():
+                for part, mesh in parts.items():
+                    self._mesh(f"{path}/{part}", mesh)
+        levels.SetVariantSelection(LEVELS[0])
+
+    def _placed(self, places: numpy.ndarray):
+        whole = numpy.tile(numpy.eye(4), (len(places), 1, 1))
+        whole[:, 3, :3] = places
+        return self.vt.Matrix4dArray.FromNumpy(whole)
+
+    def _mesh(self, path: str, part: Part) -> None:
+        if not len(part.faces):
+            return
+        mesh = self.geom.Mesh.Define(self.stage, path)
+        self.to.shaped(mesh, part.points, numpy.full(len(part.faces), 3), part.faces.ravel())
+        mesh.CreateNormalsAttr(self.to.vectors(part.normals))
+        mesh.SetNormalsInterpolation(self.geom.Tokens.vertex)
+        mesh.CreateDoubleSidedAttr(True)
+        if len(part.colours):
+            colours = mesh.CreateDisplayColorPrimvar(self.geom.Tokens.uniform)
+            colours.Set(self.to.vectors(part.colours))
+            colours.SetIndices(self.vt.IntArray.FromNumpy(part.colour_of.astype(numpy.int32)))
+        binding = self.skel.BindingAPI.Apply(mesh.GetPrim())
+        binding.CreateGeomBindTransformAttr(self.gf.Matrix4d(1.0))
+        binding.CreateJointIndicesPrimvar(False, part.joints.shape[1]).Set(
+            self.vt.IntArray.FromNumpy(part.joints.astype(numpy.int32).ravel()))
+        binding.CreateJointWeightsPrimvar(False, part.weights.shape[1]).Set(
+            self.vt.FloatArray.FromNumpy(part.weights.astype(numpy.float32).ravel()))
+
+    def _box(self, crowd, members) -> None:
+        """Round everybody in the whole shot, however they are turned."""
+        places = self.bake.pos[self.frames][:, self.rows][self.there[:, self.rows]]
+        if not len(places):
+            return
+        boxes = numpy.abs([member.box for member in members])
+        largest = float(self._sizes()[self.rows].max())
+        reach, up = largest * boxes[..., :2].max() * math.sqrt(2), largest * boxes[..., 2].max()
+        self.geom.ModelAPI.Apply(crowd.GetPrim()).SetExtentsHint(self.to.vectors(numpy.array(
+            [places.min(axis=0) - [reach, reach, 0.1], places.max(axis=0) + [reach, reach, up]])))
+
+    # ---- people
+
+    def _sizes(self) -> numpy.ndarray:
+        people = self.bake.people
+        told = people["scale"] if "scale" in people.dtype.names else numpy.ones(len(people))
+        return numpy.where(numpy.isfinite(told) & (told > 0.0), numpy.minimum(told, LARGEST), 1.0)
+
+    def _person(self, row: int, number: int, member: Member, streams: dict[str, numpy.ndarray]) -> None:
+        """Xform, moved and turned; in it `figure`, an instance of the member, and `motion`."""
+        there = self.there[:, row]
+        codes = self.frames + 1
+        path = f"{CROWD}/person{row:05d}"
+        prim = self._prim(path, "Xform")
+        prim.SetInfo("kind", "component")
+        self._moved(path, row, codes[there], {name: each[there] for name, each in streams.items()})
+        if not there.all():
+            self._visibility(path, codes, there)
+        self._figure(f"{path}/figure", row, number)
+        self._motion(f"{path}/motion", row, member, codes[there],
+                     {name: each[there] for name, each in streams.items()})
+
+    def _prim(self, path: str, kind: str):
+        prim = self.sdf.CreatePrimInLayer(self.layer, path)
+        prim.specifier, prim.typeName = self.sdf.SpecifierDef, kind
+        return prim
+
+    def _attribute(self, path: str, name: str, kind, value=None, uniform: bool = False):
+        """The attribute's path."""
+        variability = self.sdf.VariabilityUniform if uniform else self.sdf.VariabilityVarying
+        made = self.sdf.AttributeSpec(self.layer.GetPrimAtPath(path), name, kind, variability)
+        if value is not None:
+            made.default = value
+        return made.path
+
+    def _moved(self, path: str, row: int, codes, streams) -> None:
+        types = self.sdf.ValueTypeNames
+        heading = numpy.degrees(numpy.unwrap(numpy.arctan2(streams["dir"][:, 1], streams["dir"][:, 0])))
+        goes = self._attribute(path, "xformOp:translate", types.Double3)
+        turns = self._attribute(path, "xformOp:rotateZ", types.Double)
+        for code, place, turn in zip(codes.tolist(), streams["pos"].tolist(), heading.tolist()):
+            self.layer.SetTimeSample(goes, code, self.gf.Vec3d(*place))
+            self.layer.SetTimeSample(turns, code, turn)
+        order, size = ["xformOp:translate", "xformOp:rotateZ"], float(self._sizes()[row])
+        if size != 1.0:
+            self._attribute(path, "xformOp:scale", types.Float3, self.gf.Vec3f(size))
+            order.append("xformOp:scale")
+        self._attribute(path, "xformOpOrder", types.TokenArray, self.vt.TokenArray(order), True)
+
+    def _visibility(self, path: str, codes, there) -> None:
+        shown = self._attribute(path, "visibility", self.sdf.ValueTypeNames.Token)
+        for place, code in enumerate(codes.tolist()):
+            if place == 0 or there[place] != there[place - 1]:
+                self.layer.SetTimeSample(shown, code, "inherited" if there[place] else "invisible")
+
+    def _figure(self, path: str, row: int, number: int) -> None:
+        prim, types = self._prim(path, "SkelRoot"), self.sdf.ValueTypeNames
+        if self.instances:
+            prim.instanceable = True
+        prim.referenceList.Prepend(self.sdf.Reference("", f"{CROWD}/Members/member{number:02d}"))
+        prim.SetInfo("apiSchemas", self.sdf.TokenListOp.Create(prependedItems=["SkelBindingAPI"]))
+        motion = self.sdf.RelationshipSpec(prim, "skel:animationSource", False)
+        motion.targetPathList.explicitItems = [self.sdf.Path(path).GetParentPath().AppendChild("motion")]
+        tint = self.vt.Vec3fArray([self.gf.Vec3f(*self._tint(row, number))])
+        self._primvar(path, "displayColor", types.Color3fArray, tint)
+        self._primvar(path, "personId", types.Int, row)
+        self._primvar(path, "crypto_object", types.String, f"{self.bake.name}/{row:05d}")
+        if not self.instances:  # nor do such programs know what is inherited
+            self.sdf.CreatePrimInLayer(self.layer, f"{path}/tinted")
+            self._primvar(f"{path}/tinted", "displayColor", types.Color3fArray, tint)
+
+    def _primvar(self, path: str, name: str, kind, value) -> None:
+        attribute = self._attribute(path, f"primvars:{name}", kind, value)
+        self.layer.GetAttributeAtPath(attribute).SetInfo("interpolation", self.geom.Tokens.constant)
+
+    def _tint(self, row: int, number: int) -> tuple[float, float, float]:
+        told = self.bake.people["tint"][row] if "tint" in self.bake.people.dtype.names else ""
+        if _COLOUR.fullmatch(told):
+            return palettes.linear(told)
+        choice = palettes.tops(self.roles[number].look)
+        return choice[int(self.tints[row] * len(choice))]
+
+    def _motion(self, path: str, row: int, member: Member, codes, streams) -> None:
+        types = self.sdf.ValueTypeNames
+        self._prim(path, "SkelAnimation")
+        track = Track(row, codes, streams["state"], streams["dir"][:, 2],
+                      streams["carriage"][:, 0] if "carriage" in streams else None)
+        joints = joints_of(matrices_of(member.poses, self.repertoire, track), member.places, member.parents)
+        self._attribute(path, "joints", types.TokenArray, self.vt.TokenArray(member.joints), True)
+        self._attribute(path, "scales", types.Half3Array, self.vt.Vec3hArray(len(member.joints), self.gf.Vec3h(1.0)))
+        turned = self._attribute(path, "rotations", types.QuatfArray)
+        moved = self._attribute(path, "translations", types.Float3Array)
+        rotations = numpy.ascontiguousarray(joints.rotations, dtype=numpy.float32)
+        for code, turns, moves in zip(codes.tolist(), rotations, joints.translations):
+            self.layer.SetTimeSample(turned, code, self.vt.QuatfArray.FromNumpy(turns))
+            self.layer.SetTimeSample(moved, code, self.to.vectors(moves))
+
+
+def tints(people: numpy.ndarray) -> numpy.ndarray:
+    """A number from 0 to 1 for each of the people, by the row: which of their look's colours they wear."""
+    return numpy.arange(len(people)) * 0.61803398875 % 1.0
