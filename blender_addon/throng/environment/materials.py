@@ -18,6 +18,11 @@ def _set_specular(shader, value):
             shader.inputs[name].default_value = value
 
 
+def emission_of(shader):
+    """The name of the input for the colour of light."""
+    return "Emission Color" if "Emission Color" in shader.inputs else "Emission"  # since Blender 4.0, and before
+
+
 def _base(name, colour, roughness):
     material = bpy.data.materials.new(f"throng {name}")
     material.use_nodes = True
@@ -192,8 +197,7 @@ def glass():
 def glow(material, strength, varied=True):
     """Lets a surface shine, warm as lit rooms are. `varied`: about half of the rooms (2.7 m wide) are dark."""
     nodes, links, shader = _nodes_of(material)
-    colour = shader.inputs["Emission Color" if "Emission Color" in shader.inputs else "Emission"]
-    colour.default_value = (1.0, 0.66, 0.34, 1.0)
+    shader.inputs[emission_of(shader)].default_value = (1.0, 0.66, 0.34, 1.0)
     not_a_lamp(material)  # hundreds of panes light little and cost much noise
     socket = shader.inputs["Emission Strength"]
     for link in [*socket.links]:
