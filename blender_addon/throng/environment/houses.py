@@ -22,17 +22,21 @@ def storeys(height):
     return [GROUND_FLOOR + i * STOREY for i in range(max(0, int((height - 0.3 - GROUND_FLOOR) / STOREY)))]
 
 
-def build_house(shape, outline, height, kind, number):
-    """A house over an outline, counter-clockwise. @param kind one of setting.houses.KINDS"""
+def build_house(shape, outline, height, kind, number, blind=()):
+    """A house over an outline, counter-clockwise.
+
+    @param kind one of setting.houses.KINDS
+    @param blind numbers of sides that have no windows, as other houses stand there
+    """
     side_of, wall, roof = _KINDS[kind]
     face, trim = wall(number), _trim()
     for index, (a, b) in enumerate(zip(outline, outline[1:] + outline[:1])):
         side = Facade(shape, a, b, number % 1000 + 37 * index)
-        if bays(side.size, BAY)[0] < 1:
+        if index in blind or bays(side.size, BAY)[0] < 1:
             side.quad((0.0, side.size), (0.0, height), 0.0, face)
         else:
             side_of(side, height, face, trim, number)
-    roof(shape, outline, height, face, trim, number)
+    roof(shape, outline, height, (face, trim), number, blind)
 
 
 def _course(side, low, high, out, material, bottom=True):

@@ -19,8 +19,9 @@ def _metal():
     return materials.mottled("roof metal", (0.20, 0.21, 0.215), (0.30, 0.31, 0.31), 1.5, 0.5)
 
 
-def flat_roof(shape, outline, height, wall, coping, number):
-    """A parapet with a coping, felt, and what stands on it."""
+def flat_roof(shape, outline, height, faces, number, _blind=()):
+    """A parapet with a coping, felt, and what stands on it. @param faces of the wall and of the coping"""
+    wall, coping = faces
     inner, top = offset_polygon(outline, -0.32), height + 0.55
     for a, b, c, d in zip(outline, outline[1:] + outline[:1], inner, inner[1:] + inner[:1]):
         shape.face([(*a, height), (*b, height), (*b, top), (*a, top)], wall)
@@ -74,12 +75,12 @@ def _turned(middle, u, half):
             for s, t in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
 
 
-def steep_roof(shape, outline, height, wall, coping, number):
+def steep_roof(shape, outline, height, faces, number, blind=()):
     """Slate that goes up steeply to a flat top, with dormers and chimneys; a flat one where there is no room."""
     top, sides = height + _RISE, [direction(a, b)[1] for a, b in zip(outline, outline[1:] + outline[:1])]
     inner = offset_polygon(outline, -_SLOPE)
     if signed_area(outline) < _LEAST or min(sides) < 4.0 * _SLOPE:
-        flat_roof(shape, outline, height, wall, coping, number)
+        flat_roof(shape, outline, height, faces, number)
         return
     slate = materials.slabs("slate", (0.070, 0.075, 0.085), (0.030, 0.032, 0.036), 0.35)
     eaves = offset_polygon(outline, 0.12)
@@ -90,8 +91,8 @@ def steep_roof(shape, outline, height, wall, coping, number):
     for index, (a, b) in enumerate(zip(outline, outline[1:] + outline[:1])):
         side = Facade(shape, a, b, number + 11 * index)
         count, margin = bays(side.size, 2.7, 2.0)
-        for bay in range(index % 2, count, 2):
-            _dormer(side, margin + bay * 2.7 + 0.6, height, wall, (bay, 9))
+        for bay in () if index in blind else range(index % 2, count, 2):
+            _dormer(side, margin + bay * 2.7 + 0.6, height, (bay, 9))
     chance, brick = random.Random(number), materials.mottled("chimney", (0.15, 0.065, 0.045), (0.24, 0.11, 0.08), 3.0)
     u, _ = direction(outline[0], outline[1])
     for a, b in list(zip(inner, inner[1:] + inner[:1]))[:3]:
@@ -104,7 +105,7 @@ def steep_roof(shape, outline, height, wall, coping, number):
             shape.prism(pot, top + 1.5, top + 1.95, materials.plain("chimney pot", (0.30, 0.13, 0.075), 0.8))
 
 
-def _dormer(side, left, height, wall, room):
+def _dormer(side, left, height, room):
     """A window in a steep roof, 1.5 m wide."""
     right, low, high = left + 1.5, height + 0.15, height + 2.05
     trim = materials.plain("dormer", (0.50, 0.49, 0.46), 0.7)

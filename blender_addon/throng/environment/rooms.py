@@ -30,7 +30,7 @@ class Form(NamedTuple):
 
 FORMS = {"flat": Form(2.7, 3.5, 4.2, 1.3, 2.70, 1.0, 0.62, 0.22, 0.0, 0.0),
          "office": Form(5.4, 3.5, 6.5, 5.4, 3.05, 1.25, 0.0, 0.38, 0.25, 1.0),
-         "shop": Form(5.4, 4.3, 5.5, 5.4, 3.40, 9.0, 0.0, 0.0, 1.0, 1.0)}
+         "shop": Form(5.4, 4.3, 5.5, 5.4, 3.40, 9.0, 0.0, 0.0, 0.75, 1.0)}
 _GIVEN = ("Width", "Height", "Depth", "Pane", "Head", "Lit", "Curtains", "Blinds", "Shelves", "Strips")
 
 
@@ -168,7 +168,7 @@ def _inside(shading, form, sight, chance, lamps):
                            shading.math("SUBTRACT", form["Height"], 0.8))
     far = shading.vector("LENGTH", shading.vector("SUBTRACT", place, hung))
     pool = shading.math("DIVIDE", 2.6, shading.math("MULTIPLY_ADD", shading.math("MULTIPLY", far, far), 0.55, 0.6))
-    even = shading.between(form["Strips"], pool, 1.2)
+    even = shading.between(form["Strips"], pool, 0.95)
     warm = shading.mix(form["Strips"], (1.0, 0.60, 0.28), (1.0, 0.86, 0.66))
     light = shading.add_colours(shading.times((0.86, 0.95, 1.05), day),
                                 shading.times(warm, shading.math("MULTIPLY", lamps, even)))
@@ -196,17 +196,26 @@ def _walls(shading, form, place, chance):
                           shading.math("COMPARE", z, 1.75, 0.36))
     drawn = shading.mix(shading.noise(shading.times(place, 3.0), 1.0, 2.0), (0.04, 0.07, 0.12), (0.62, 0.42, 0.20))
     pictures = shading.mix(framed, paint, drawn)
-    cell = shading.combine(shading.math("FLOOR", shading.math("MULTIPLY", along, 6.5)),
-                           shading.math("FLOOR", shading.math("MULTIPLY", z, 2.4)), chance[6])
+    shelf = shading.math("MULTIPLY", shading.math("LESS_THAN", chance[7], form["Shelves"]),
+                         shading.math("LESS_THAN", z, shading.math("MULTIPLY_ADD", chance[2], 0.9, 1.5)))
+    return shading.mix(shelf, pictures, _goods(shading, along, z, chance))
+
+
+def _goods(shading, along, z, chance):
+    """Shelves with boxes of one shop's sizes and colours, and gaps."""
+    across = shading.math("MULTIPLY", along, shading.math("MULTIPLY_ADD", chance[8], 9.0, 2.5))
+    up = shading.math("MULTIPLY", z, shading.math("MULTIPLY_ADD", chance[1], 1.4, 1.7))
+    cell = shading.combine(shading.math("FLOOR", across), shading.math("FLOOR", up), chance[6])
     node = shading.node("ShaderNodeTexWhiteNoise")
     shading.link(cell, node.inputs["Vector"])
-    tone = shading.mix(node.outputs["Value"], (0.055, 0.045, 0.040), (0.46, 0.40, 0.32))
-    goods = shading.mix(0.22, tone, shading.times(node.outputs["Color"], 0.55))
-    board = shading.math("LESS_THAN", shading.math("FRACT", shading.math("MULTIPLY", z, 2.4)), 0.12)
-    goods = shading.mix(board, goods, (0.30, 0.22, 0.15))
-    shelf = shading.math("MULTIPLY", shading.math("LESS_THAN", chance[7], form["Shelves"]),
-                         shading.math("LESS_THAN", z, 2.3))
-    return shading.mix(shelf, pictures, goods)
+    one, other, kind = shading.separate(node.outputs["Color"])
+    house = shading.mix(chance[3], (0.34, 0.09, 0.06), (0.07, 0.17, 0.24))
+    goods = shading.mix(shading.math("MULTIPLY", other, 0.7), shading.mix(one, (0.06, 0.05, 0.045), (0.44, 0.39, 0.32)),
+                        house)
+    # goods do not reach up to the next board, each to a height of its own
+    filled = shading.math("LESS_THAN", shading.math("FRACT", up), shading.math("MULTIPLY_ADD", kind, 0.8, 0.22))
+    goods = shading.mix(filled, (0.035, 0.030, 0.027), goods)
+    return shading.mix(shading.math("LESS_THAN", shading.math("FRACT", up), 0.10), goods, (0.26, 0.19, 0.13))
 
 
 def _furniture(shading, form, chance):

@@ -113,5 +113,5 @@ def house_mesh(number):
     (length, depth), shape = street_ends.HOUSE, Shape(name)
     s, t = 0.5 * length, 0.5 * depth
     build_house(shape, [(-s, -t), (s, -t), (s, t), (-s, t)], GROUND_FLOOR + STOREY * (2 + number // 3 % 2) + 0.6,
-                KINDS[number % len(KINDS)], number // 3)
+                KINDS[number % len(KINDS)], number // 3, blind=(1, 3))
     return shape.to_mesh()
