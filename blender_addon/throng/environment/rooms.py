@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Rooms behind windows, by ray arithmetic in the shader: where a sight goes through a pane, it is followed to the walls,
-floor, ceiling and furniture of a room that has no geometry. Panes say by the UV map `rooms`, in metres, where in which
-room they are: each room is as wide and as high as its form, side by side from u = 0, and on each other from v = 0."""
+"""Rooms behind windows, by ray arithmetic in the shader: where a sight goes through a pane, it is followed to the
+walls, floor, ceiling and furniture of a room that has no geometry. Panes say by the UV map `rooms`, in metres, where in
+which room they are: each room is as wide and as high as its form, side by side from u = 0, and on each other from
+v = 0."""
 from typing import NamedTuple
 
 import bpy
@@ -233,7 +234,8 @@ def _furniture(shading, form, chance):
     return [(shading.combine(left, front, 0.0), shading.combine(right, back, high), cloth),
             (shading.combine(tall_left, shading.math("SUBTRACT", form["Depth"], 0.55), 0.0),
              shading.combine(shading.math("ADD", tall_left, number(chance[6], 0.6, 0.7)), form["Depth"],
-                             number(chance[2], 0.9, 1.2)), shading.mix(chance[5], (0.30, 0.20, 0.12), (0.5, 0.5, 0.48))),
+                             number(chance[2], 0.9, 1.2)),
+             shading.mix(chance[5], (0.30, 0.20, 0.12), (0.5, 0.5, 0.48))),
             (shading.combine(thing_left, shading.math("ADD", front, 0.25), high),
              shading.combine(shading.math("ADD", thing_left, 0.32), shading.math("ADD", front, 0.5),
                              shading.math("ADD", high, number(chance[0], 0.35, 0.2))),
@@ -274,5 +276,4 @@ def _hangings(shading, form, sight, chance, lamps, inside):
     down = shading.math("MULTIPLY", shading.math("GREATER_THAN", hung[2], end),
                         shading.math("GREATER_THAN", chance[7], shading.math("SUBTRACT", 1.0, form["Blinds"])))
     slats = shading.math("MULTIPLY_ADD", shading.math("FRACT", shading.math("MULTIPLY", hung[2], 18.0)), 0.30, 0.50)
-    return shading.mix(shading.math("MULTIPLY", down, 0.94), colour,
-                       shading.times(light, slats))
+    return shading.mix(shading.math("MULTIPLY", down, 0.94), colour, shading.times(light, slats))
