@@ -3,14 +3,15 @@
 
 blender -b --factory-startup --python-exit-code 1 -P scripts/render_bake.py -- BAKE OUT.png [--frame N] [--samples N]
         [--width W] [--height H] [--engine cycles|eevee|workbench] [--shot crane|street|wide]
-        [--also SHOT=OUT.png]... [--light noon|overcast|late|night] [--wet [AMOUNT]] [--levels] [--close M]
-        [--denoise] [--film SECONDS] [--save FILE.blend]
+        [--view X,Y,Z,X,Y,Z] [--also SHOT=OUT.png]... [--light noon|overcast|late|night] [--wet [AMOUNT]] [--levels]
+        [--close M] [--denoise] [--film SECONDS] [--save FILE.blend]
 """
 import argparse
 import os
 import sys
 
 import bpy
+from mathutils import Vector
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "blender_addon"))
 import throng  # noqa: E402
@@ -37,6 +38,17 @@ def shot_and_picture(text):
     return shot, picture
 
 
+def from_and_to(text):
+    try:
+        numbers = [float(number) for number in text.split(",")]
+    except ValueError:
+        numbers = []
+    if len(numbers) != 6:
+        raise argparse.ArgumentTypeError(f"expected where the camera is and what it looks at, six numbers, found "
+                                         f"`{text}`")
+    return numbers[:3], numbers[3:]
+
+
 def arguments():
     parser = argparse.ArgumentParser(prog="render_bake.py")
     parser.add_argument("bake")
@@ -47,6 +59,9 @@ def arguments():
     parser.add_argument("--height", type=int, default=540)
     parser.add_argument("--engine", choices=("cycles", "eevee", "workbench"), default="cycles")
     parser.add_argument("--shot", choices=SHOTS, default="crane")
+    parser.add_argument("--view", type=from_and_to, metavar="X,Y,Z,X,Y,Z",
+                        help="from where to where the camera looks, in metres, instead of a shot; --view=-1,... where "
+                             "the first is below zero")
     parser.add_argument("--also", type=shot_and_picture, action="append", default=[], metavar="SHOT=OUT.png",
                         help="the same moment from elsewhere, as another picture")
     parser.add_argument("--light", choices=("noon", "overcast", "late", "night"), default="late")
@@ -81,6 +96,14 @@ def set_up_render(scene, options):
         cycles.use_denoising = options.denoise  # not every build has a denoiser
         cycles.max_bounces, cycles.diffuse_bounces, cycles.glossy_bounces, cycles.transmission_bounces = 4, 3, 2, 2
         cycles.caustics_reflective = cycles.caustics_refractive = False
+
+
+def look(camera, place, aim):
+    camera.constraints.clear()
+    camera.animation_data_clear()
+    camera.location, camera.rotation_mode = place, "QUATERNION"
+    camera.rotation_quaternion = (Vector(aim) - Vector(place)).to_track_quat("-Z", "Y")
+    camera.data.dof.use_dof = False
 
 
 def render(scene, frame, picture, close):
@@ -118,6 +141,8 @@ def main():
     set_up_render(scene, options)
     if options.shot != "crane":
         bpy.ops.throng.shot(kind=options.shot)
+    if options.view:
+        look(scene.camera, *options.view)
     if options.light != "late":
         bpy.ops.throng.light(time=options.light)
     if options.wet:

@@ -20,7 +20,7 @@ def build_lamps(collection, manifest, lit):
     if not places:
         return _flood(manifest) if lit else []
     if lit:
-        return _posts(places, glow(plain("lamp head", (0.9, 0.8, 0.6), 0.4).copy(), 25.0, varied=False), roads) + \
+        return _posts(places, glow(plain("lamp head", (0.9, 0.8, 0.6), 0.4).copy(), 25.0), roads) + \
             _lights(places, roads)
     return _posts(places, plain("lamp head", (0.9, 0.8, 0.6), 0.4))
 

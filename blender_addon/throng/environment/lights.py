@@ -6,7 +6,7 @@ import math
 import bpy
 
 from . import lamps
-from .materials import glow, glass
+from .rooms import light_rooms
 from .skies import AZIMUTH, build_world, light_of
 from .weather import set_haze
 
@@ -26,7 +26,7 @@ def build_light(scene, collection, time="late", manifest=None):
     collection["throng_light_time"] = time
     expose(scene, collection)
     tame_fireflies(scene)
-    glow(glass(), 0.3 if time == "night" else 0.0)
+    light_rooms(*light.rooms)
     set_colours(scene)
 
 

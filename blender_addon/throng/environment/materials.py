@@ -18,6 +18,11 @@ def _set_specular(shader, value):
             shader.inputs[name].default_value = value
 
 
+def emission_of(shader):
+    """The name of the input for the colour of light."""
+    return "Emission Color" if "Emission Color" in shader.inputs else "Emission"  # since Blender 4.0, and before
+
+
 def _base(name, colour, roughness):
     material = bpy.data.materials.new(f"throng {name}")
     material.use_nodes = True
@@ -180,7 +185,7 @@ def mown(name, dark, light, width):
 
 
 def glass():
-    """Panes as seen from the street: dark rooms behind a reflecting surface."""
+    """Panes of cars, doors and skylights: dark behind a reflecting surface. Houses have rooms.pane()."""
     found = bpy.data.materials.get("throng glass")
     if found:
         return found
@@ -189,27 +194,13 @@ def glass():
     return material
 
 
-def glow(material, strength, varied=True):
-    """Lets a surface shine, warm as lit rooms are. `varied`: about half of the rooms (2.7 m wide) are dark."""
-    nodes, links, shader = _nodes_of(material)
-    colour = shader.inputs["Emission Color" if "Emission Color" in shader.inputs else "Emission"]
-    colour.default_value = (1.0, 0.66, 0.34, 1.0)
-    not_a_lamp(material)  # hundreds of panes light little and cost much noise
+def glow(material, strength):
+    """Lets a surface shine, warm as lamps are."""
+    _, links, shader = _nodes_of(material)
+    shader.inputs[emission_of(shader)].default_value = (1.0, 0.66, 0.34, 1.0)
+    not_a_lamp(material)  # lamps stand there, too: what shines lights little and costs much noise
     socket = shader.inputs["Emission Strength"]
     for link in [*socket.links]:
         links.remove(link)
     socket.default_value = strength
-    if not varied or strength <= 0.0:
-        return material
-    snap = nodes.new("ShaderNodeVectorMath")
-    snap.operation = "SNAP"
-    snap.inputs[1].default_value = (2.7, 2.7, 3.5)
-    links.new(nodes.new("ShaderNodeTexCoord").outputs["Object"], snap.inputs[0])
-    noise = nodes.new("ShaderNodeTexWhiteNoise")
-    links.new(snap.outputs[0], noise.inputs["Vector"])
-    lit = nodes.new("ShaderNodeMapRange")
-    for slot, value in zip(("From Min", "From Max", "To Min", "To Max"), (0.45, 1.0, 0.0, strength)):
-        lit.inputs[slot].default_value = value
-    links.new(noise.outputs["Value"], lit.inputs["Value"])
-    links.new(lit.outputs[0], socket)
     return material

@@ -4,6 +4,8 @@ import bpy
 
 from ..setting.plane import along_of as direction, area as signed_area, inside  # noqa: F401  what shapes are made by
 
+UV_ROOMS = "rooms"  # the one UV map: where in which room a pane is (rooms.py)
+
 
 def counter_clockwise(polygon):
     polygon = [tuple(point[:2]) for point in polygon]
@@ -28,13 +30,16 @@ class Shape:
 
     def __init__(self, name):
         self.name, self.vertices, self.faces, self.slots, self.materials = name, [], [], [], []
+        self.places = {}  # on the UV maps of faces that have any: number of the face: the places of its corners
 
     def slot(self, material):
         if material not in self.materials:
             self.materials.append(material)
         return self.materials.index(material)
 
-    def face(self, corners, material):
+    def face(self, corners, material, places=None):
+        if places:
+            self.places[len(self.faces)] = places
         base = len(self.vertices)
         self.vertices.extend(corners)
         self.faces.append(tuple(range(base, base + len(corners))))
@@ -74,8 +79,18 @@ class Shape:
         for material in self.materials:
             mesh.materials.append(material)
         mesh.polygons.foreach_set("material_index", self.slots)
+        self._map(mesh)
         mesh.update()
         return mesh
+
+    def _map(self, mesh):
+        if not self.places:
+            return
+        flat, none = [], (0.0, 0.0)
+        for number, face in enumerate(self.faces):
+            for place in self.places.get(number) or [none] * len(face):
+                flat.extend(place)
+        mesh.uv_layers.new(name=UV_ROOMS, do_init=False).data.foreach_set("uv", flat)
 
     def to_object(self):
         return bpy.data.objects.new(self.name, self.to_mesh())

@@ -1,28 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """Walls: closed tall ones become buildings, the others walls and barriers with a coping."""
 import math
-import zlib
 
 import bpy
 
 from ..setting import street_ends
+from ..setting.houses import KINDS, kind_of, number_of
 from . import materials
+from .houses import GROUND_FLOOR, STOREY, build_house
 from .shapes import Shape, counter_clockwise, direction, offset_polygon, signed_area
 
-STOREY = 3.5        # m
-GROUND_FLOOR = 4.3  # m
-BAY = 2.7           # m from window to window
 BUILDING = 6.0      # m: closed walls at least this high are buildings
 BED, LAWN = 1.5, 60.0  # m and m^2: closed walls lower than this round more than this are the rim of a lawn
-
-_FACADES = [((0.36, 0.24, 0.17), (0.44, 0.31, 0.22)), ((0.42, 0.39, 0.33), (0.52, 0.48, 0.41)),
-            ((0.25, 0.105, 0.075), (0.32, 0.145, 0.105)), ((0.30, 0.31, 0.31), (0.38, 0.38, 0.37)),
-            ((0.47, 0.40, 0.28), (0.56, 0.48, 0.35))]
-_AWNINGS = [(0.20, 0.030, 0.030), (0.030, 0.085, 0.065), (0.040, 0.060, 0.130), (0.32, 0.25, 0.13)]
-
-
-def _number(text):
-    return zlib.crc32(text.encode())
 
 
 def build_wall(wall):
@@ -33,7 +22,7 @@ def build_wall(wall):
     shape = Shape(f"Throng wall {name}")
     if wall.get("closed"):
         if height >= BUILDING:
-            _building(shape, counter_clockwise(points), height, _number(name))
+            build_house(shape, counter_clockwise(points), height, kind_of(points), number_of(points))
         elif height < BED and abs(signed_area(points)) > LAWN:
             _lawn(shape, counter_clockwise(points), height, "pitch" in name)
         else:
@@ -123,91 +112,6 @@ def house_mesh(number):
         return found
     (length, depth), shape = street_ends.HOUSE, Shape(name)
     s, t = 0.5 * length, 0.5 * depth
-    _building(shape, [(-s, -t), (s, -t), (s, t), (-s, t)], GROUND_FLOOR + STOREY * (2 + number % 3) + 0.6, number)
+    build_house(shape, [(-s, -t), (s, -t), (s, t), (-s, t)], GROUND_FLOOR + STOREY * (2 + number // 3 % 2) + 0.6,
+                KINDS[number % len(KINDS)], number // 3, blind=(1, 3))
     return shape.to_mesh()
-
-
-def _building(shape, outline, height, number):
-    dark, light = _FACADES[number % len(_FACADES)]
-    facade = materials.mottled(f"facade {number % len(_FACADES)}", dark, light, 0.35, 0.9, 9.0)
-    trim = materials.mottled("trim", (0.44, 0.42, 0.38), (0.55, 0.53, 0.48), 1.5)
-    roof = materials.mottled("roof", (0.075, 0.075, 0.075), (0.13, 0.125, 0.12), 0.8)
-    shape.prism(outline, 0.0, height, facade, roof)
-    shape.band(outline, 0.0, 0.55, 0.05, trim)
-    shape.band(outline, GROUND_FLOOR - 0.25, GROUND_FLOOR + 0.10, 0.14, trim)
-    shape.band(outline, height - 0.45, height + 0.25, 0.22, trim)
-    for index, (a, b) in enumerate(zip(outline, outline[1:] + outline[:1])):
-        _facade(shape, a, b, height, trim, number + 7 * index)
-
-
-def _facade(shape, a, b, height, trim, number):
-    along, size = direction(a, b)
-    outward = (along[1], -along[0])
-    bays = int((size - 1.2) / BAY)
-    if bays < 1:
-        return
-    margin = 0.5 * (size - bays * BAY)
-    pane = materials.glass()
-    frame = materials.plain("window frame", (0.06, 0.058, 0.055), 0.5)
-    awning = materials.plain(f"awning {number % len(_AWNINGS)}", _AWNINGS[number % len(_AWNINGS)], 0.8)
-    for bay in range(bays):
-        start = margin + bay * BAY
-        if (bay + number) % 5 == 4 or bays == 1:
-            _door(shape, a, along, outward, start, number + bay, pane, frame, trim)
-        else:
-            _shopfront(shape, a, along, outward, start, pane, frame, awning if (bay + number) % 5 < 3 else None)
-        floor = GROUND_FLOOR
-        while floor + STOREY <= height - 0.3:
-            # A raised surround, a recessed-looking pane with a bar, and a sill.
-            shape.panel(a, along, outward, start + 0.62, BAY - 1.24, floor + 0.75, floor + 2.75, 0.020, trim)
-            shape.panel(a, along, outward, start + 0.72, BAY - 1.44, floor + 0.85, floor + 2.65, 0.030, frame)
-            for half in (0, 1):
-                width = 0.5 * (BAY - 1.44) - 0.09
-                shape.panel(a, along, outward, start + 0.78 + half * (width + 0.06), width, floor + 0.91, floor + 2.59,
-                            0.036, pane)
-            _ledge(shape, a, along, outward, start + 0.52, BAY - 1.04, floor + 0.62, floor + 0.76, 0.14, trim)
-            floor += STOREY
-
-
-def _shopfront(shape, a, along, outward, start, pane, frame, awning):
-    shape.panel(a, along, outward, start + 0.16, BAY - 0.32, 0.56, GROUND_FLOOR - 0.75, 0.055, frame)
-    shape.panel(a, along, outward, start + 0.24, BAY - 0.48, 0.66, GROUND_FLOOR - 1.35, 0.062, pane)
-    shape.panel(a, along, outward, start + 0.24, BAY - 0.48, GROUND_FLOOR - 1.27, GROUND_FLOOR - 0.83, 0.062, pane)
-    if awning:
-        def at(distance, out, z):
-            return (a[0] + along[0] * distance + outward[0] * out, a[1] + along[1] * distance + outward[1] * out, z)
-
-        near, far, high, low = start + 0.1, start + BAY - 0.1, GROUND_FLOOR - 0.55, GROUND_FLOOR - 1.05
-        shape.face([at(near, 0.06, high), at(near, 0.75, low), at(far, 0.75, low), at(far, 0.06, high)], awning)
-        shape.face([at(near, 0.75, low), at(near, 0.75, low - 0.18), at(far, 0.75, low - 0.18), at(far, 0.75, low)],
-                   awning)
-
-
-_DOORS = [(0.055, 0.012, 0.010), (0.010, 0.035, 0.026), (0.012, 0.020, 0.050), (0.085, 0.048, 0.024)]
-
-
-def _door(shape, a, along, outward, start, number, pane, frame, trim):
-    """A house's door: a surround, two leaves with panels and handles, a light above, a step."""
-    def panel(shift, width, low, high, out, material):
-        shape.panel(a, along, outward, start + 0.5 * BAY + shift - 0.5 * width, width, low, high, out, material)
-
-    leaf = materials.plain(f"door {number % len(_DOORS)}", _DOORS[number % len(_DOORS)], 0.35)
-    inset = materials.plain(f"door panel {number % len(_DOORS)}", tuple(0.55 * c for c in _DOORS[number % len(_DOORS)]),
-                            0.45)
-    brass = materials.plain("brass", (0.45, 0.30, 0.10), 0.3)
-    panel(0.0, 1.90, 0.10, 3.30, 0.060, trim)
-    panel(0.0, 1.50, 0.15, 3.10, 0.066, frame)
-    panel(0.0, 1.38, 2.45, 3.02, 0.072, pane)
-    for side in (-1.0, 1.0):
-        panel(side * 0.35, 0.67, 0.16, 2.36, 0.076, leaf)
-        for low, high in ((0.34, 0.98), (1.14, 2.20)):
-            panel(side * 0.35, 0.44, low, high, 0.082, inset)
-        panel(side * 0.06, 0.03, 1.00, 1.16, 0.120, brass)
-    _ledge(shape, a, along, outward, start + 0.5 * BAY - 1.0, 2.0, 0.0, 0.14, 0.18, trim)
-
-
-def _ledge(shape, a, along, outward, start, width, low, high, out, material):
-    def at(distance, depth):
-        return (a[0] + along[0] * distance + outward[0] * depth, a[1] + along[1] * distance + outward[1] * depth)
-
-    shape.prism([at(start, 0.0), at(start, out), at(start + width, out), at(start + width, 0.0)], low, high, material)
