@@ -48,7 +48,8 @@ class PlaneGrid {
         std::size_t work = 0;
         for (int y = line(place.y - reach); y <= line(place.y + reach) && work <= enough; ++y) {
             const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_);
-            work += static_cast<std::size_t>(x1 - x0 + 1) + starts_[first + static_cast<std::size_t>(x1) + 1] -
+            work += static_cast<std::size_t>(x1 - x0 + 1) +
+                    starts_[first + static_cast<std::size_t>(x1) + 1] -
                     starts_[first + static_cast<std::size_t>(x0)];
         }
         return work;
