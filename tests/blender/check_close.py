@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs inside Blender: people close to the camera, whose meshes have more detail in final pictures. ADDON BAKE FOLDER"""
+"""Runs inside Blender: people close to the camera have meshes of more detail in final pictures. ADDON BAKE FOLDER"""
 import json
 import os
 import sys
