@@ -7,7 +7,7 @@ from ..cast.library import shown_figures
 from . import footing
 from .names import BIGGER, FIGURE, HIDDEN, LEVEL, NATURE, NEAR
 from .near import boned_members, near_tree
-from .poses import member_of, pose_index
+from .poses import member_in, pose_index
 
 BUNCH = 4  # figures that share a node, from 4.0 on
 _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
@@ -66,10 +66,8 @@ def instancer_tree(cast, repertoire, leans, near=None, streams=(), most_close=0)
     cosine, sine, speed = maths.components("throng_dir")
     state, variation, phase = maths.components("throng_state")
     nature = maths.components(NATURE)
-    own = "throng_bodies" in cast
-    points, drawn = inputs.outputs[0], cast["throng_shipped"] if own else cast["throng_drawn"]
-    people, share = [], inputs.outputs["Share"]
-    member = member_of(maths, variation, drawn, cast["throng_variations"], own)
+    points, people, share = inputs.outputs[0], [], inputs.outputs["Share"]
+    member = member_in(maths, cast, variation)
     if near:
         who = maths.math("MULTIPLY", maths.attribute(NEAR), _present(maths, state, nature, share))
         if bent < cast["throng_variations"]:  # others who joined have poses only
@@ -78,7 +76,7 @@ def instancer_tree(cast, repertoire, leans, near=None, streams=(), most_close=0)
         maths.link(points, apart.inputs["Geometry"])
         maths.link(maths.greater(who, 0.5), apart.inputs["Selection"])
         group = maths.node("GeometryNodeGroup")
-        group.node_tree = near_tree(cast, repertoire, near, drawn, own, streams, most_close)
+        group.node_tree = near_tree(cast, repertoire, near, streams, most_close)
         maths.link(apart.outputs["Selection"], group.inputs[0])
         maths.link(inputs.outputs["Blur"], group.inputs["Blur"])
         points, people = apart.outputs["Inverted"], [if_any(maths, apart.outputs["Selection"], group.outputs[0])]

@@ -180,13 +180,13 @@ def _stands(maths, state, nature, walking):
                     _smooth(maths, maths.math("SUBTRACT", place, beat), 0.67, 1.0))
 
 
-def _people(maths, points, repertoire, count, drawn, own, is_told):
+def _people(maths, points, repertoire, cast, is_told):
     """Points of near people with all that their bones need to know of them. @param is_told by a stream, how much of
     the walk is in their poses"""
     cosine, sine, speed = maths.components("throng_dir")
     state, variation, phase = maths.components("throng_state")
     nature = maths.components(NATURE)
-    who = poses.member_of(maths, variation, drawn, count, own)
+    who = poses.member_in(maths, cast, variation)
     walks, before, gait = _walks(maths, state, phase, repertoire)
     stride = None
     for number, length in enumerate(repertoire.strides, repertoire.first):
@@ -349,7 +349,7 @@ def _close_ones(maths, people, final, most):
     return maths.math("MULTIPLY", few, final)
 
 
-def near_tree(cast, repertoire, sheet, drawn, own, streams, most_close):
+def near_tree(cast, repertoire, sheet, streams, most_close):
     """A group that makes one mesh of all points that it gets.
 
     @param sheet the object of all members' bones (bones.join_sheets); @param streams that points have; @param
@@ -363,7 +363,7 @@ def near_tree(cast, repertoire, sheet, drawn, own, streams, most_close):
     bone_count = sheet_of(figures[0])["throng_bones"]
     bones_, pose_count = socket(info.outputs, "Geometry"), repertoire.poses(0)
     people = maths.grouped("Throng near poses", [inputs.outputs[0]], lambda inner, points: _people(
-        inner, points, repertoire, cast["throng_variations"], drawn, own, "carriage" in streams))
+        inner, points, repertoire, cast, "carriage" in streams))
     hung_on = maths.grouped("Throng near bones", [people, bones_], lambda inner, points, all_: _bone_points(
         inner, points, all_, pose_count, bone_count))
     first_joint = len(figures) * pose_count * bone_count

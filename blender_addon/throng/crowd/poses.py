@@ -34,6 +34,13 @@ def member_of(maths, variation, drawn, count, own=False):
     return maths.math("MULTIPLY_ADD", taken, maths.math("SUBTRACT", joined, own), own)
 
 
+def member_in(maths, cast, variation):
+    """The same for a cast as it is."""
+    own = "throng_bodies" in cast
+    drawn = cast["throng_shipped"] if own else cast["throng_drawn"]
+    return member_of(maths, variation, drawn, cast["throng_variations"], own)
+
+
 def _walking_pose(maths, state, phase, poses, first):
     """The gait is what `state` adds to the activity, in sixteenths; the pose is the phase's.
 

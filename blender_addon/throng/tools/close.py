@@ -9,12 +9,11 @@ from ..blender.nodes import Maths, drop_tree, get_input, new_tree, set_input
 from ..blender.panels import Below
 from ..crowd import close, near, poses
 from ..crowd.names import INSTANCERS, NEAR, WHO
-from ..crowd.own import OWN
 from ..crowd.playback import cast_changed
-from ..crowd.queries import ChangesCrowds, cast_of, changed_crowds, crowds_of, repertoire_of
-from ..people.library import LibraryError
+from ..crowd.queries import cast_of, crowds_of, repertoire_of
 from . import culling
 from . import near as near_people
+from .by_camera import NO_BONES, ByCamera, Refused
 
 DISTANCE, MOST = 8.0, 24  # m, people
 STEP = 6       # frames: between two looks nobody comes nearer by more than MARGIN
@@ -25,10 +24,8 @@ _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
 def _who_tree(cast):
     """Nodes that file away which member everybody is."""
     tree, inputs, outputs = new_tree("Throng who comes close", _GEOMETRY, _GEOMETRY)
-    maths, own = Maths(tree), "throng_bodies" in cast
-    variation = maths.components("throng_state")[1]
-    who = poses.member_of(maths, variation, cast["throng_shipped"] if own else cast["throng_drawn"],
-                          cast["throng_variations"], own)
+    maths = Maths(tree)
+    who = poses.member_in(maths, cast, maths.components("throng_state")[1])
     maths.link(maths.store(inputs.outputs[0], WHO, who, "INT"), outputs.inputs[0])
     return tree
 
@@ -107,7 +104,7 @@ def _frames(scene, which):
     return sorted({*range(scene.frame_start, scene.frame_end + 1, STEP), scene.frame_end})
 
 
-class THRONG_OT_close(ChangesCrowds, bpy.types.Operator):
+class THRONG_OT_close(ByCamera, bpy.types.Operator):
     """Show the people closest to the camera in more detail, in final pictures"""
 
     bl_idname = "throng.close"
@@ -123,35 +120,21 @@ class THRONG_OT_close(ChangesCrowds, bpy.types.Operator):
     frames: EnumProperty(name="Frames", items=[("shot", "Shot", "Whoever comes close in any frame of the scene"),
                                                ("now", "This Frame", "Whoever is close now: for a still")])
 
-    def invoke(self, context, _event):
-        return context.window_manager.invoke_props_dialog(self)
+    take_back = staticmethod(remove)
 
-    def execute(self, context):
-        chosen, scene = changed_crowds(context), context.scene
-        if self.by == "none":
-            for crowd in chosen:
-                remove(crowd)
-            return {"FINISHED"}
-        if not scene.camera:
-            self.report({"ERROR"}, "The scene has no camera: add one, or choose By Nothing")
-            return {"CANCELLED"}
-        manager, frames = context.window_manager, _frames(scene, self.frames)
+    def change(self, context, crowds):
+        scene, manager = context.scene, context.window_manager
+        frames = _frames(scene, self.frames)
         manager.progress_begin(0.0, 1.0)
         try:
             made = [apply(crowd, scene, self.distance, self.most, frames,
-                          lambda done, all_: manager.progress_update(done / all_)) for crowd in chosen]
-        except LibraryError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+                          lambda done, all_: manager.progress_update(done / all_)) for crowd in crowds]
         finally:
             manager.progress_end()
         if all(each is None for each in made):
-            self.report({"ERROR"}, "Nobody here has bones to bend: people have who are shaped from a library of bodies "
-                                   "(scripts/body_library.py)")
-            return {"CANCELLED"}
-        self.report({"INFO"}, f"{sum(filter(None, made))} meshes made; at most {self.most} people within "
-                              f"{self.distance:g} m are shown in more detail")
-        return {"FINISHED"}
+            raise Refused(NO_BONES)
+        return (f"{sum(filter(None, made))} meshes made; at most {self.most} people within {self.distance:g} m are "
+                "shown in more detail")
 
 
 class VIEW3D_PT_throng_close(Below, bpy.types.Panel):

@@ -16,9 +16,9 @@ from ..cast import library
 from ..crowd import near
 from ..crowd.names import LEVEL
 from ..crowd.playback import cast_changed
-from ..crowd.queries import ChangesCrowds, cast_of, changed_crowds, crowds_of, repertoire_of
-from ..people.library import LibraryError
+from ..crowd.queries import cast_of, crowds_of, repertoire_of
 from . import culling
+from .by_camera import NO_CAMERA, ByCamera, Refused
 
 MODIFIER = "throng levels"
 TALL = 1.75           # m
@@ -83,7 +83,7 @@ def apply(crowd, camera, near, far):
     crowd.update_tag()
 
 
-class THRONG_OT_levels(ChangesCrowds, bpy.types.Operator):
+class THRONG_OT_levels(ByCamera, bpy.types.Operator):
     """Give people far from the camera coarser meshes: the selected crowds', or all"""
 
     bl_idname = "throng.levels"
@@ -97,36 +97,22 @@ class THRONG_OT_levels(ChangesCrowds, bpy.types.Operator):
     far: FloatProperty(name="Far", min=0.0, subtype="DISTANCE",
                        description="A tenth of the triangles from here on. 0: where people are 40 pixels tall")
 
-    def invoke(self, context, _event):
-        return context.window_manager.invoke_props_dialog(self)
+    take_back = staticmethod(remove)
 
-    def execute(self, context):
-        chosen = changed_crowds(context)
-        if self.by == "none":
-            for crowd in chosen:
-                remove(crowd)
-            return {"FINISHED"}
+    def change(self, context, crowds):
         camera = context.scene.camera
-        if not camera or camera.type != "CAMERA":
-            self.report({"ERROR"}, "The scene has no camera: add one, or choose By Nothing")
-            return {"CANCELLED"}
+        if camera.type != "CAMERA":
+            raise Refused(NO_CAMERA)
         if camera.data.type != "PERSP":
-            self.report({"ERROR"}, f"{camera.name} is not a perspective camera: how far somebody is says little about "
-                                   "how large they are in its picture")
-            return {"CANCELLED"}
+            raise Refused(f"{camera.name} is not a perspective camera: how far somebody is says little about how large "
+                          "they are in its picture")
         defaults = default_distances(camera, context.scene)
         near, far = (given or default for given, default in zip((self.near, self.far), defaults))
         if far < near:
-            self.report({"ERROR"}, f"Far ({far:g} m) is nearer than Near ({near:g} m)")
-            return {"CANCELLED"}
-        try:
-            for crowd in chosen:
-                apply(crowd, camera, near, far)
-        except LibraryError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        self.report({"INFO"}, f"Coarser from {near:.1f} m and {far:.1f} m on")
-        return {"FINISHED"}
+            raise Refused(f"Far ({far:g} m) is nearer than Near ({near:g} m)")
+        for crowd in crowds:
+            apply(crowd, camera, near, far)
+        return f"Coarser from {near:.1f} m and {far:.1f} m on"
 
 
 class VIEW3D_PT_throng_levels(Below, bpy.types.Panel):

@@ -8,9 +8,9 @@ from ..blender.panels import Below
 from ..cast import library
 from ..crowd import close, near
 from ..crowd.playback import cast_changed
-from ..crowd.queries import ChangesCrowds, cast_of, changed_crowds, crowds_of, repertoire_of
-from ..people.library import LibraryError
+from ..crowd.queries import cast_of, crowds_of, repertoire_of
 from . import culling, levels
+from .by_camera import NO_BONES, ByCamera, Refused
 
 REACH, MOST = 15.0, 150  # m, people
 
@@ -52,7 +52,7 @@ def remove(crowd):
     cast_changed(crowd)
 
 
-class THRONG_OT_near(ChangesCrowds, bpy.types.Operator):
+class THRONG_OT_near(ByCamera, bpy.types.Operator):
     """Bend people near the camera into the pose of the moment, instead of the next one that there is"""
 
     bl_idname = "throng.near"
@@ -67,30 +67,12 @@ class THRONG_OT_near(ChangesCrowds, bpy.types.Operator):
                       description="At most so many are: where there are more, the reach shrinks. It takes time in "
                                   "every frame")
 
-    def invoke(self, context, _event):
-        return context.window_manager.invoke_props_dialog(self)
+    take_back = staticmethod(remove)
 
-    def execute(self, context):
-        chosen = changed_crowds(context)
-        if self.by == "none":
-            for crowd in chosen:
-                remove(crowd)
-            return {"FINISHED"}
-        camera = context.scene.camera
-        if not camera:
-            self.report({"ERROR"}, "The scene has no camera: add one, or choose By Nothing")
-            return {"CANCELLED"}
-        try:
-            bent = [apply(crowd, camera, self.reach, self.most) for crowd in chosen]
-        except LibraryError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        if not any(bent):
-            self.report({"ERROR"}, "Nobody here has bones to bend: people have who are shaped from a library of bodies "
-                                   "(scripts/body_library.py)")
-            return {"CANCELLED"}
-        self.report({"INFO"}, f"At most {self.most} people within {self.reach:g} m are bent")
-        return {"FINISHED"}
+    def change(self, context, crowds):
+        if not any([apply(crowd, context.scene.camera, self.reach, self.most) for crowd in crowds]):
+            raise Refused(NO_BONES)
+        return f"At most {self.most} people within {self.reach:g} m are bent"
 
 
 class VIEW3D_PT_throng_near(Below, bpy.types.Panel):
