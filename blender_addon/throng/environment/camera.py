@@ -8,12 +8,12 @@ import bpy
 
 from ..formats import BakeError, load_bake
 from ..formats.terrain_mesh import read_mesh
-from ..setting.plane import distance_to
 from ..setting.dressing import FIELD_TREES, STREET_TREES
+from ..setting.plane import distance_to
+from ..setting.sunlight import houses_of, sunny_share
 from .lights import expose
 from .shapes import direction, inside
 from .skies import light_of, sun_way
-from .sunlight import houses_of, sunny_share
 
 _HEADER = 32
 

@@ -2,7 +2,7 @@
 """What of the ground before a camera is in the sun, between houses."""
 import math
 
-from .shapes import inside
+from .plane import inside
 
 _CHESTS = 1.2  # m above the ground
 _STEP = 0.5    # m on the way towards the sun
