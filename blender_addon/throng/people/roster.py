@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy
 
-from . import wardrobe
+from . import holding, wardrobe
 from .shape import Body
 
 LOOKS = tuple(wardrobe.LOOKS)
@@ -18,6 +18,10 @@ _MALE = (1, 0, 1, 0, 1, 0, 1, 1, 0, 0, 0, 1, 0, 1, 1, 0, 1, 0, 1, 0, 0, 1, 1, 0)
 _CHILDREN = ((6, 8, 10, 12, 14, 16, 18), (1.16, 1.28, 1.385, 1.495, 1.60, 1.67, 1.70))  # years, m
 _SKINS = {"caucasian": ("pale", "fair", "fair", "olive"), "asian": ("east", "east", "tan"),
           "african": ("brown", "dark", "brown")}
+# what the right hands of how many hold
+_HELD = {"": ((holding.PHONE, 0.09), (holding.CALL, 0.06), (holding.CARRIER, 0.09)),
+         "business": ((holding.PHONE, 0.09), (holding.CALL, 0.10), (holding.CASE, 0.28)),
+         "fans": ((holding.PHONE, 0.06), (holding.CALL, 0.03))}
 _MEN_HAIR = ("short", "side", "crop", "quiff", "short", "curtains", "curls", "side")
 _WOMEN_HAIR = ("long", "bob", "tail", "waves", "knot", "fringed bob", "long", "waves")
 
@@ -63,6 +67,8 @@ class Person:
     hat: str = ""       # beanie, cap, headscarf
     stoop: float = 0.0  # rad, that the back bends forward
     stick: bool = False  # walks with one
+    holds: str = ""     # one of holding.THINGS
+    limp: float = 0.0   # how much the left leg is spared, 0 to 1
 
     @property
     def child(self):
@@ -93,10 +99,27 @@ def draw_person(look, number, years=None, male=None, height=None, shoulders=None
         hair = "crop" if male > 0.5 or hat == "headscarf" else hair if hair in ("long", "waves", "bob", "tail") else ""
     if hat == "headscarf":
         hair = ""
+    bag = "" if runs else _bag(draw, word, years, male)
     return Person(body, look, wardrobe.order(bottom, tops, shoes),
                   str(draw.choice(_SKINS[race])), hair, colour, _beard(draw, years, male),
                   "" if draw.random() > (0.2 if years < 55 else 0.5) else str(draw.choice(["round", "square"])),
-                  "" if runs else _bag(draw, word, years, male), hat, *_frailty(number, years))
+                  bag, hat, *_manner(word, number, years, runs, bag in ("satchel", "shopper")))
+
+
+def _manner(look, number, years, runs, beside):
+    """@param beside whether a bag hangs at the right hip already. @return (how far somebody stoops, whether with a stick, what the right hand holds, how much a leg is spared)"""
+    stoop, stick = _frailty(number, years)
+    draw = numpy.random.default_rng([89, LOOKS.index(look), number])
+    limps = draw.random() < (0.12 if years >= OLD else 0.025) and not (runs or stick)
+    limp = float(draw.uniform(0.5, 1.0)) if limps else 0.0
+    share, holds = draw.random(), ""
+    if not (runs or stick or look == "sport" or years < 13.0):
+        for thing, often in _HELD.get(look, _HELD[""]):
+            is_bag = thing in holding.BAGS
+            if not holds and 0.0 <= share < (often if is_bag or years < OLD else 0.3 * often) and not (is_bag and beside):
+                holds = thing
+            share -= often
+    return stoop, stick, holds, limp
 
 
 def _frailty(number, years):
