@@ -9,8 +9,9 @@ import pytest
 from conftest import ROOT
 
 sys.path.insert(0, str(ROOT / "blender_addon"))
-from throng.cast import gait  # noqa: E402
-from throng.people import holding, levels, library, person, roster  # noqa: E402
+from throng import cast  # noqa: E402
+from throng.cast import gait, skinning  # noqa: E402
+from throng.people import holding, library, person, roster  # noqa: E402
 from throng.people.parts import normals_of  # noqa: E402
 
 WALK = gait.gait_of(1.4)
@@ -143,4 +144,13 @@ def test_the_trunk_leans_over_the_leg_that_is_spared(loaded):
     left = heads[[7, 8, 9], 1].mean()   # the left foot stands from 0.5 of the cycle on
     right = heads[[1, 2, 3], 1].mean()
     assert left > 0.02 and left > 1.5 * abs(right)
-    assert levels.NEAR < 0
+
+
+def test_all_are_bent_by_the_same_bones(holders, loaded):
+    repertoire = cast.Repertoire.of((0.9, 1.4, 2.4), (0, 2))
+    plain = person.Maker(loaded, roster.draw_person("casual", 1))
+    for maker in (plain, *(maker for maker, _ in holders.values())):
+        rig = maker.rig
+        poses = cast.poses_of_build(rig.build, repertoire)
+        leaders, _ = skinning.leaders_of(loaded.parents, rig.all_matrices(poses)[::5], rig.leading())
+        assert set(leaders) == rig.leading() and len(rig.leading()) == 19, maker.person.holds

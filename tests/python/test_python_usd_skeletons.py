@@ -77,7 +77,7 @@ def expected(bake, row, frame, bodies):
     maker, repertoire = person.Maker(bodies, roles[member_of[row]].person()), members.repertoire_of(bake)
     model = maker.model(0)
     every = maker.rig.all_matrices(poses_of_build(maker.rig.build, repertoire))
-    leaders = skinning.leaders_of(bodies.parents, every[::7])
+    leaders = skinning.leaders_of(bodies.parents, every[::7], maker.rig.leading())
     rest, weights = skinning.hinged(model.points, model.weights, leaders[0], every[::19])
     track = motions.Track(row, numpy.array([frame + 1]), bake.state[[frame], row].astype(float),
                           bake.dir[[frame], row, 2], bake.stream("carriage")[[frame], row, 0])

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What people carry: a rucksack, a bag on a strap, a shopper over the shoulder, a stick, and what hands hold. Straps are
-laid on clothes."""
+"""What people carry: a rucksack, a bag on a strap, a shopper over the shoulder, a stick, and what hands hold. Straps
+are laid on clothes."""
 import math
 
 import numpy
@@ -97,7 +97,7 @@ def held(bodies, kind, rig, level):
 def _hanging(bodies, kind, hook, level):
     """A bag below a hand: of leather with a handle, or of paper with two cords."""
     box = lambda below, half, material, round_, aside=(0.0, 0.0): _box(
-        bodies, hook - (-aside[0], -aside[1], below), numpy.array(half), "Root", material, level, round_)
+        bodies, hook - (-aside[0], -aside[1], below), numpy.array(half), "Root", material, _of_thin(level), round_)
     if kind == holding.CASE:
         found = [box(0.185, (0.195, 0.045, 0.140), "extra leather", 0.25)]
         handle = [box(0.0, (0.055, 0.011, 0.009), "extra leather", 0.3)]
@@ -107,6 +107,11 @@ def _hanging(bodies, kind, hook, level):
         handle = [box(0.050, (0.0045, 0.0045, 0.058), "extra paper", 0.3, (ahead, aside))
                   for ahead in (-0.045, 0.045) for aside in (-0.025, 0.025)]
     return found + (handle if level < 2 else [])
+
+
+def _of_thin(level):
+    """Boxes of a crowd's meshes have no soft edges where these are too thin to be seen."""
+    return level if level < 0 else 2
 
 
 _PHONE = 0.0745, 0.0365, 0.0046  # m, half of its length, width and thickness
@@ -122,7 +127,7 @@ def _phone(bodies, rig, level):
     palm = palm / numpy.linalg.norm(palm)
     across = numpy.cross(palm, along)
     centre = rig.grip_at_rest() + 0.020 * rig.scale * along + (0.016 * rig.scale + _PHONE[2]) * palm
-    return _box(bodies, centre, numpy.array(_PHONE), "hand_r", "extra phone", level, 0.08,
+    return _box(bodies, centre, numpy.array(_PHONE), "hand_r", "extra phone", _of_thin(level), 0.08,
                 numpy.stack([along, across, palm], axis=1))
 
 

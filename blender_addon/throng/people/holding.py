@@ -13,7 +13,8 @@ BAGS = (CASE, CARRIER)  # hang from the hand, on the bone of sticks
 # how much of an arm's swing is left, how far the elbow is bent (rad), and how far out the hand is held (m)
 _HANGING = {CASE: (0.30, 0.07, 0.030), CARRIER: (0.40, 0.09, 0.035)}
 _HEADS = {PHONE: (0.42, 0.0), CALL: (0.05, 0.10)}  # rad, bent forward and to the right
-_ROLLS = {PHONE: 1.15, CALL: 0.25}  # rad, of the hand about the forearm: the palm faces up, or the ear
+_ROLLS = {PHONE: 1.15, CALL: 0.25}  # rad, of the hand about the forearm: the palm faces up, or the ear;
+_TO_THIGHS = -0.22                  # where nothing is held, the thigh
 # the wrist beside the bone that it goes with, of somebody 1.74 m tall
 _WRISTS = {PHONE: ("spine_03", "neck_01", (0.285, -0.065, -0.225)), CALL: ("head", "head", (0.088, -0.142, -0.062))}
 _ELBOWS = {PHONE: (-0.20, -0.27, -0.94), CALL: (0.05, -0.42, -0.90)}  # the way that they point, beside the chest
@@ -22,11 +23,18 @@ _Y = numpy.array([0.0, 1.0, 0.0])
 
 
 def hanging(holds, swing, elbow):
-    """(swing, elbow, m further out) of the right arm."""
+    """(swing, elbow) of the right arm."""
     if holds not in _HANGING:
-        return swing, elbow, 0.0
-    share, bent, further = _HANGING[holds]
-    return share * swing, bent + 0.0 * elbow, further
+        return swing, elbow
+    share, bent, _ = _HANGING[holds]
+    return share * swing, bent + 0.0 * elbow
+
+
+def hand(holds, side):
+    """(m that a hand is further out than it needs to pass the hips, rad that it is rolled about the forearm)"""
+    if side == "l":
+        return 0.0, _TO_THIGHS
+    return _HANGING.get(holds, (0.0, 0.0, 0.0))[2], _ROLLS.get(holds, _TO_THIGHS)
 
 
 def head(holds, runs):

@@ -130,8 +130,8 @@ def _colours(slot, fabric, look):
 
 
 _PICKS = {"top": (0, 1.0), "bottom": (1, 1.0), "shirt": (0, 5.0), "shoes": (1, 9.0), "extra": (0, 11.0)}
-_ROUGH = {"leather": 0.40, "silk": 0.55, "padded": 0.55, "team": 0.6, "sole": 0.7, "frame": 0.25, "pack": 0.75, "phone": 0.12,
-          "paper": 0.6}
+_ROUGH = {"leather": 0.40, "silk": 0.55, "padded": 0.55, "team": 0.6, "sole": 0.7, "frame": 0.25, "pack": 0.75,
+          "phone": 0.12, "paper": 0.6}
 _SHEEN = {"knit": 0.5, "wool": 0.4, "fleece": 0.6}
 
 

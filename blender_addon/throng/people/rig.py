@@ -11,6 +11,8 @@ from .turns import cross, frame, length, turn, turned, vector
 _FINGERS = (("index", 0.32), ("middle", 0.40), ("ring", 0.45), ("pinky", 0.48))
 _THUMB = 0.55  # of the angle between thumb and index, by which they close
 _X, _Y, _Z = numpy.eye(3)
+_LEADING = ("Root", "pelvis", "spine_01", "spine_02", "spine_03", "neck_01", "head",
+            *(f"{bone}_{side}" for side in "lr" for bone in ("thigh", "calf", "foot", "ball", "upperarm", "lowerarm")))
 SOLE = 0.018  # m, of a shoe, below the foot
 STICK_AHEAD = 0.12  # m, of the ankle, where sticks are planted
 _DROOP = 0.18     # rad, by which collarbones sink as arms are let down, which are held out at rest
@@ -78,12 +80,17 @@ class Rig:
             if self.stoop:  # arms hang down from bent backs, and swing less
                 swing, elbow = 0.6 * swing + 0.4 * self.stoop, elbow + 0.15
             if side == "r":
-                swing, elbow, further = holding.hanging(self.holds, swing, elbow)
-            self.hang_arm(turns, places, poses.shoulder_yaw, side, swing, elbow, further if side == "r" else 0.0)
+                swing, elbow = holding.hanging(self.holds, swing, elbow)
+            self.hang_arm(turns, places, poses.shoulder_yaw, side, swing, elbow)
         if self.stick:
             self._plant(turns, places, poses)
         holding.hold(self, turns, places, poses)
         return self.of_all(turns, places)
+
+    def leading(self):
+        """Numbers of the bones that others go with: of everybody the same, though whoever carries something keeps an
+        arm still."""
+        return {self.bodies.bone[name] for name in _LEADING}
 
     def neutral(self):
         """Matrices of standing upright, arms down: where patterns of cloth are told from."""
@@ -138,15 +145,15 @@ class Rig:
         turns[ball] = toes_out @ turn(_Y, -numpy.maximum(pitch, 0.0)) @ straight  # toes stay on the ground
         places[ball] = end + turned(turns[ankle], rest)
 
-    def hang_arm(self, turns, places, yaw, side, swing, elbow, further=0.0):
-        """Adds an arm to a trunk that is turned and placed. @param yaw of the shoulders; @param further m, out than
-        hands need to pass the hips"""
+    def hang_arm(self, turns, places, yaw, side, swing, elbow):
+        """Adds an arm to a trunk that is turned and placed. @param yaw of the shoulders"""
         sign = 1.0 if side == "l" else -1.0
         clavicle, upper, lower, hand = (f"{bone}_{side}" for bone in ("clavicle", "upperarm", "lowerarm", "hand"))
         turns[clavicle] = turns["spine_03"] @ turn(_X, -sign * _DROOP)
         places[clavicle] = self._end(turns, places, "spine_03", clavicle)
         shoulder = self._end(turns, places, clavicle, upper)
         reach = math.dist(self.heads[upper], self.heads[lower]) + math.dist(self.heads[lower], self.heads[hand])
+        further, roll = holding.hand(self.holds, side)
         # outwards enough for the hand to pass beside the hips
         room = (self.widest + 0.076 * self.scale + further - abs(self.heads[upper][1])) / reach
         out = sign * min(max(0.10, room), 0.34)
@@ -164,7 +171,7 @@ class Rig:
         turns[lower] = frame(fore, hinge) @ frame(rest_lower, rest_hinge).T
         places[upper] = shoulder
         places[lower] = shoulder + turned(turns[upper], rest_upper)
-        turns[hand] = turn(fore, sign * 0.22) @ turns[lower]  # palms to the thighs
+        turns[hand] = turn(fore, -sign * roll) @ turns[lower]
         places[hand] = places[lower] + turned(turns[lower], rest_lower)
         self.bend_fingers(turns, places, side)
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Who there is: people drawn at random, each the same whenever their look and number are."""
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy
 
@@ -21,7 +21,7 @@ _SKINS = {"caucasian": ("pale", "fair", "fair", "olive"), "asian": ("east", "eas
 # what the right hands of how many hold
 _HELD = {"": ((holding.PHONE, 0.09), (holding.CALL, 0.06), (holding.CARRIER, 0.09)),
          "business": ((holding.PHONE, 0.09), (holding.CALL, 0.10), (holding.CASE, 0.28)),
-         "fans": ((holding.PHONE, 0.06), (holding.CALL, 0.03))}
+         "fans": ((holding.PHONE, 0.06), (holding.CALL, 0.03)), "sport": ()}
 _MEN_HAIR = ("short", "side", "crop", "quiff", "short", "curtains", "curls", "side")
 _WOMEN_HAIR = ("long", "bob", "tail", "waves", "knot", "fringed bob", "long", "waves")
 
@@ -99,27 +99,27 @@ def draw_person(look, number, years=None, male=None, height=None, shoulders=None
         hair = "crop" if male > 0.5 or hat == "headscarf" else hair if hair in ("long", "waves", "bob", "tail") else ""
     if hat == "headscarf":
         hair = ""
-    bag = "" if runs else _bag(draw, word, years, male)
-    return Person(body, look, wardrobe.order(bottom, tops, shoes),
-                  str(draw.choice(_SKINS[race])), hair, colour, _beard(draw, years, male),
-                  "" if draw.random() > (0.2 if years < 55 else 0.5) else str(draw.choice(["round", "square"])),
-                  bag, hat, *_manner(word, number, years, runs, bag in ("satchel", "shopper")))
+    found = Person(body, look, wardrobe.order(bottom, tops, shoes),
+                   str(draw.choice(_SKINS[race])), hair, colour, _beard(draw, years, male),
+                   "" if draw.random() > (0.2 if years < 55 else 0.5) else str(draw.choice(["round", "square"])),
+                   "" if runs else _bag(draw, word, years, male), hat, *_frailty(number, years))
+    return _with_manner(found, word, number, runs)
 
 
-def _manner(look, number, years, runs, beside):
-    """@param beside whether a bag hangs at the right hip already. @return (how far somebody stoops, whether with a stick, what the right hand holds, how much a leg is spared)"""
-    stoop, stick = _frailty(number, years)
+def _with_manner(who, look, number, runs):
+    """The same with what the right hand holds, if anything, and a limp, if they have one."""
+    if runs or who.stick:
+        return who
     draw = numpy.random.default_rng([89, LOOKS.index(look), number])
-    limps = draw.random() < (0.12 if years >= OLD else 0.025) and not (runs or stick)
-    limp = float(draw.uniform(0.5, 1.0)) if limps else 0.0
-    share, holds = draw.random(), ""
-    if not (runs or stick or look == "sport" or years < 13.0):
-        for thing, often in _HELD.get(look, _HELD[""]):
-            is_bag = thing in holding.BAGS
-            if not holds and 0.0 <= share < (often if is_bag or years < OLD else 0.3 * often) and not (is_bag and beside):
-                holds = thing
-            share -= often
-    return stoop, stick, holds, limp
+    old = who.body.years >= OLD
+    limp = float(draw.uniform(0.5, 1.0)) if draw.random() < (0.12 if old else 0.025) else 0.0
+    often = dict(_HELD.get(look, _HELD[""])) if who.body.years >= 13.0 else {}
+    if old:
+        often = {thing: share if thing in holding.BAGS else 0.3 * share for thing, share in often.items()}
+    if who.bag in ("satchel", "shopper"):  # which hang where the right hand is
+        often = {thing: share for thing, share in often.items() if thing not in holding.BAGS}
+    shares = (*often.values(), 1.0 - sum(often.values()))
+    return replace(who, holds=str(draw.choice([*often, ""], p=shares)), limp=limp)
 
 
 def _frailty(number, years):

@@ -82,7 +82,7 @@ def make_member(bodies: library.Bodies, role: roster.Role, repertoire: Repertoir
     maker = person.Maker(bodies, role.person())
     rig = maker.rig
     everything = rig.all_matrices(poses_of_build(rig.build, repertoire))
-    leaders = skinning.leaders_of(bodies.parents, everything[::_SOME_POSES])
+    leaders = skinning.leaders_of(bodies.parents, everything[::_SOME_POSES], rig.leading())
     used = numpy.unique(leaders[0]).tolist()
     hung = [(model, *skinning.hinged(model.points, model.weights, leaders[0], everything[::_FEW_POSES]))
             for model in (maker.model(level) for level in range(len(LEVELS)))]
