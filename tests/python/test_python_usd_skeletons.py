@@ -13,7 +13,7 @@ from conftest import ROOT
 from throng_io import cli
 from throng_io.cast import BEATS, POSES, Repertoire, gait, poses_of_build, skinning
 from throng_io.people import person
-from throng_io.usd import members, motions
+from throng_io.skinned import members, motions
 
 Usd = pytest.importorskip("pxr.Usd", reason="usd-core is not installed")
 UsdGeom = pytest.importorskip("pxr.UsdGeom")
