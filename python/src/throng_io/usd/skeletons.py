@@ -9,8 +9,9 @@ import math
 import numpy
 
 from ..skinned import chosen
-from ..skinned.members import LEVELS, Member, Part, bodies_of_library, cast_of, make_member, repertoire_of
+from ..skinned.members import LEVELS, Member, Part
 from ..skinned.motions import joints_of, matrices_of, track_of
+from ..skinned.shot import Shot, Wanted
 
 CROWD = "/World/Crowd"
 LEVEL_SET = "levelOfDetail"
@@ -35,14 +36,9 @@ class SkeletonCrowd:
         self.sdf, self.geom, self.usd, self.gf, self.vt = stage.sdf, stage.geom, stage.usd, stage.gf, stage.vt
         self.skel, self.stage, self.instances = stage.skel, stage.stage, wanted.instances
         self.layer = self.stage.GetRootLayer()
-        self.frames = numpy.arange(0, self.bake.frames, self.every)
-        self.there = numpy.array(self.bake.there(self.frames))
-        nearest = chosen.rows_by_nearness(self.bake, self.frames, self.there, wanted.near)
-        self.rows = sorted(nearest[:wanted.most].tolist())
-        self.repertoire = repertoire_of(self.bake)
-        self.roles, self.member_of = cast_of(self.bake)
-        self.bodies = bodies_of_library()
-        self.sizes = chosen.sizes(self.bake.people)
+        shot = Shot(self.bake, Wanted(wanted.most, wanted.near, self.every))
+        self.shot, self.frames, self.there, self.rows = shot, shot.frames, shot.there, shot.rows
+        self.repertoire, self.member_of, self.sizes = shot.repertoire, shot.member_of, shot.sizes
 
     def write(self) -> None:
         crowd = self.geom.Xform.Define(self.stage, CROWD)
@@ -50,10 +46,10 @@ class SkeletonCrowd:
         self.usd.ModelAPI(crowd.GetPrim()).SetKind("group")
         members = {}
         for number in sorted({self.member_of[row] for row in self.rows}):
-            members[number] = make_member(self.bodies, self.roles[number], self.repertoire)
+            members[number] = self.shot.member(number)
             self._member(number, members[number])
         self._box(crowd, members.values())
-        streams = chosen.streams_of(self.bake, self.frames, self.rows)
+        streams = self.shot.streams(self.rows)
         with self.sdf.ChangeBlock():
             for place, row in enumerate(self.rows):
                 number = self.member_of[row]
@@ -178,7 +174,7 @@ class SkeletonCrowd:
         prim.SetInfo("apiSchemas", self.sdf.TokenListOp.Create(prependedItems=["SkelBindingAPI"]))
         motion = self.sdf.RelationshipSpec(prim, "skel:animationSource", False)
         motion.targetPathList.explicitItems = [self.sdf.Path(path).GetParentPath().AppendChild("motion")]
-        tint = self.vt.Vec3fArray([self.gf.Vec3f(*chosen.tint(self.bake.people, row, self.roles[number].look))])
+        tint = self.vt.Vec3fArray([self.gf.Vec3f(*self.shot.tint(row))])
         self._primvar(path, "displayColor", types.Color3fArray, tint)
         self._primvar(path, "personId", types.Int, row)
         self._primvar(path, "crypto_object", types.String, f"{self.bake.name}/{row:05d}")
