@@ -14,6 +14,9 @@ from .bakes.bake import Bake
 from .base.errors import ThrongError
 from .base.whole_files import whole_file
 from .gltf.crowd import Form, export_gltf
+from .gltf.kit import export_kit
+from .gltf.textures import KINDS
+from .gltf.vat import export_vat
 from .importers.formats import read_scene
 from .importers.options import Options
 from .skinned.members import LEVELS, MOST_MEMBERS
@@ -45,8 +48,8 @@ def wanted_of(given: argparse.Namespace) -> Wanted:
                   tuple(given.seconds) if given.seconds else None, given.members)
 
 
-def form_of(given: argparse.Namespace) -> Form:
-    return Form(tuple(given.level or LEVELS[:1]), given.quantize, given.compress)
+def form_of(given: argparse.Namespace, levels: tuple[str, ...] = LEVELS[:1]) -> Form:
+    return Form(tuple(given.level or levels), given.quantize, given.compress)
 
 
 def to_gltf(given: argparse.Namespace) -> None:
@@ -55,6 +58,14 @@ def to_gltf(given: argparse.Namespace) -> None:
     if written.left_out and given.most is None:
         print(f"throng-io: {written.people} people have skeletons, {written.left_out} are left out: --most N takes "
               "more, --every N and --seconds A B fewer frames", file=sys.stderr)
+
+
+def to_kit(given: argparse.Namespace) -> None:
+    export_kit(Bake(given.bake), given.output, wanted_of(given), form_of(given, LEVELS))
+
+
+def to_vat(given: argparse.Namespace) -> None:
+    export_vat(Bake(given.bake), given.output, wanted_of(given), given.level, given.texture)
 
 
 def import_scene(given: argparse.Namespace) -> None:
@@ -105,6 +116,16 @@ def parser() -> argparse.ArgumentParser:
     command.add_argument("--others", action="store_true",
                          help="who has no skeleton is an instance that stands still (EXT_mesh_gpu_instancing)")
     command.add_argument("--no-ground", action="store_true", help="without ground, roads and walls")
+    command = of_bake(commands, "export-kit", "write members of the cast with clips as glTF, and a table of who plays "
+                      "which of them where", to_kit, "the folder to write")
+    people_options(command)
+    form_options(command)
+    command = of_bake(commands, "export-vat", "write members of the cast as meshes with vertex animation textures, and the "
+                      "same table", to_vat, "the folder to write")
+    people_options(command)
+    command.add_argument("--level", choices=LEVELS, default=LEVELS[-1], help="how fine meshes are (far)")
+    command.add_argument("--texture", choices=KINDS, default="float",
+                         help="OpenEXR of 32 bits (float) or 16 (half), or PNG of 16")
     import_options(commands.add_parser("import", help="make a layout of another program's scene"))
     return top
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy
 
 OWN = [1, 2, 0]
+QUARTER = 0.5 * numpy.pi  # of a turn: from a heading to the turn about y of who looks along +z
 
 
 def own(values: numpy.ndarray) -> numpy.ndarray:
@@ -24,6 +25,6 @@ def world(values: numpy.ndarray) -> numpy.ndarray:
 
 def facing(headings: numpy.ndarray) -> numpy.ndarray:
     """(F, 4): turns of people who look along these headings (rad, counter-clockwise from the world's +x)."""
-    half = 0.5 * (headings + 0.5 * numpy.pi)
+    half = 0.5 * (headings + QUARTER)
     none = numpy.zeros_like(half)
     return numpy.stack([none, numpy.sin(half), none, numpy.cos(half)], axis=-1)

@@ -73,7 +73,7 @@ class Instances:
         headings = numpy.arctan2(told["dir"][:, 1], told["dir"][:, 0])
         places = axes.world(told["pos"])
         if box:
-            turned = headings + 0.5 * numpy.pi
+            turned = headings + axes.QUARTER
             x, y, z = box.centre
             places = places + sizes[:, None] * numpy.stack([
                 numpy.cos(turned) * x + numpy.sin(turned) * z, numpy.full_like(turned, y),

@@ -26,6 +26,7 @@ class Shaped:
     weights: numpy.ndarray     # V x 4
     colours: numpy.ndarray     # V x 3, or none
     faces: numpy.ndarray       # F x 3
+    of: numpy.ndarray          # V: which of the part's points they are
 
 
 def shaped(part: Part, points: numpy.ndarray | None = None, normals: numpy.ndarray | None = None) -> Shaped:
@@ -33,13 +34,14 @@ def shaped(part: Part, points: numpy.ndarray | None = None, normals: numpy.ndarr
     points = axes.own(part.points if points is None else points)
     normals = axes.own(part.normals if normals is None else normals)
     if not len(part.colours):
-        return Shaped(points, normals, part.joints, part.weights, numpy.zeros((0, 3)), part.faces)
+        return Shaped(points, normals, part.joints, part.weights, numpy.zeros((0, 3)), part.faces,
+                      numpy.arange(len(points)))
     several = len(part.colours)
     corners = part.faces.ravel() * several + numpy.repeat(part.colour_of, 3)
     there, place = numpy.unique(corners, return_inverse=True)
     point = there // several
     return Shaped(points[point], normals[point], part.joints[point], part.weights[point],
-                  part.colours[there % several], place.reshape(-1, 3))
+                  part.colours[there % several], place.reshape(-1, 3), point)
 
 
 def hangs(joints: numpy.ndarray, weights: numpy.ndarray) -> tuple[numpy.ndarray, numpy.ndarray]:
