@@ -31,8 +31,8 @@ scene.add(sun);
 const loader = new GLTFLoader();
 loader.setMeshoptDecoder(MeshoptDecoder);
 let gltf, mixer;
-window.show = async (from, to, clip) => {
-    gltf = await loader.loadAsync("/crowd.glb");
+window.load = async name => {
+    gltf = await loader.loadAsync("/files/" + name);
     scene.add(gltf.scene);
     gltf.scene.traverse(node => {
         node.frustumCulled = false;
@@ -40,22 +40,26 @@ window.show = async (from, to, clip) => {
         node.receiveShadow = Boolean(node.isMesh);
     });
     mixer = new THREE.AnimationMixer(gltf.scene);
-    for (const each of gltf.animations) if (!clip || each.name === clip) mixer.clipAction(each).play();
+    for (const each of gltf.animations) mixer.clipAction(each).play();
+    return gltf.animations.map(each => each.name);
+};
+window.look = (from, to) => {
     camera.position.set(...from);
     camera.lookAt(...to);
     sun.position.add(sun.target.position.set(...to));
     scene.add(sun.target);
-    return {clips: gltf.animations.map(each => each.name)};
 };
 window.at = seconds => {
     mixer.setTime(seconds);
-    scene.updateMatrixWorld(true);
+    gltf.scene.updateMatrixWorld(true);
+};
+window.draw = () => {
     renderer.render(scene, camera);
     return renderer.info.render.triangles;
 };
 window.points = name => {  // of the meshes of a node, in the world
     const found = [], at = new THREE.Vector3();
-    scene.getObjectByName(name).traverse(node => {
+    gltf.scene.getObjectByName(name).traverse(node => {
         if (!node.isSkinnedMesh) return;
         for (let i = 0; i < node.geometry.attributes.position.count; ++i) {
             node.getVertexPosition(i, at);
@@ -66,7 +70,7 @@ window.points = name => {  // of the meshes of a node, in the world
 };
 window.instances = () => {  // the places of the nodes' instances, in the world
     const found = [], place = new THREE.Matrix4();
-    scene.traverse(node => {
+    gltf.scene.traverse(node => {
         for (let i = 0; node.isInstancedMesh && i < node.count; ++i) {
             node.getMatrixAt(i, place);
             found.push(place.premultiply(node.matrixWorld).toArray());
@@ -91,14 +95,14 @@ def chromium():
 
 
 @contextlib.contextmanager
-def page_of(playwright, glb, modules: pathlib.Path, size=(640, 360)):
-    """A page that has loaded three.js and answers window.show(from, to), at(seconds), points(node)."""
+def page_of(playwright, files: dict[str, pathlib.Path], modules: pathlib.Path, size=(320, 200)):
+    """A page that has three.js and answers load(file), at(seconds), look(from, to), draw(), points(node), instances()."""
     def answer(route):
         path = route.request.url.partition("//throng.test")[2]
         if path == "/":
             return route.fulfill(content_type="text/html", body=PAGE)
-        if path == "/crowd.glb":
-            return route.fulfill(path=glb, content_type="model/gltf-binary")
+        if path.startswith("/files/"):
+            return route.fulfill(path=files[path[7:]], content_type="application/octet-stream")
         if path.startswith("/three/"):
             return route.fulfill(path=modules / path[1:], content_type="text/javascript")
         return route.fulfill(status=404)
