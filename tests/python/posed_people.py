@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where the points of a bake's people are, by the add-on's own modules: what files with skeletons have to give again."""
+"""Where the points of a bake's people are, by the add-on's own modules: what files with skeletons give again."""
 import numpy
 
 from throng_io.cast import poses_of_build, skinning

@@ -96,7 +96,7 @@ def chromium():
 
 @contextlib.contextmanager
 def page_of(playwright, files: dict[str, pathlib.Path], modules: pathlib.Path, size=(320, 200)):
-    """A page that has three.js and answers load(file), at(seconds), look(from, to), draw(), points(node), instances()."""
+    """A page with three.js that answers load(file), at(seconds), look(from, to), draw(), points(node), instances()."""
     def answer(route):
         path = route.request.url.partition("//throng.test")[2]
         if path == "/":

@@ -120,8 +120,8 @@ def parser() -> argparse.ArgumentParser:
                       "which of them where", to_kit, "the folder to write")
     people_options(command)
     form_options(command)
-    command = of_bake(commands, "export-vat", "write members of the cast as meshes with vertex animation textures, and the "
-                      "same table", to_vat, "the folder to write")
+    command = of_bake(commands, "export-vat", "write members of the cast as meshes with vertex animation textures, "
+                      "and the same table", to_vat, "the folder to write")
     people_options(command)
     command.add_argument("--level", choices=LEVELS, default=LEVELS[-1], help="how fine meshes are (far)")
     command.add_argument("--texture", choices=KINDS, default="float",

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""From Throng's axes to glTF's: y is up there. The world's (x, y, z) is (x, z, -y). People look along +x in the cast and
-along +z in files, as glTF has it: their own (x, y, z) is (y, z, x)."""
+"""From Throng's axes to glTF's: y is up there. The world's (x, y, z) is (x, z, -y). People look along +x in the cast
+and along +z in files, as glTF has it: their own (x, y, z) is (y, z, x)."""
 from __future__ import annotations
 
 import numpy

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy
 
-from .. import __version__
 from ..base.errors import ThrongError
 from . import meshopt
 
@@ -106,7 +105,7 @@ class Document:
     # ---- the file
 
     def told(self) -> dict[str, Any]:
-        told: dict[str, Any] = {"asset": {"version": "2.0", "generator": f"throng-io {__version__}"}}
+        told: dict[str, Any] = {"asset": {"version": "2.0", "generator": "throng-io"}}
         if self.used:
             told["extensionsUsed"] = sorted(self.used)
         if self.required:

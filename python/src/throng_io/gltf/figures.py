@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A member of the cast in a glTF file: meshes at levels of detail, which all who are that member share, and skeletons."""
+"""A member of the cast in a glTF file: meshes at levels of detail, shared by all who are that member, and skeletons."""
 from __future__ import annotations
 
 import functools

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Vertex animation textures: for engines that draw crowds as instances and bend them as they draw. Of each member a mesh,
-and of each of its clips where its vertices are and how they look, a row (or some) of a texture for each key."""
+"""Vertex animation textures: for engines that draw crowds as instances and bend them as they draw. Of each member a
+mesh, and of each of its clips where its vertices are and how they look, a row (or some) of a texture for each key."""
 from __future__ import annotations
 
 import dataclasses
@@ -97,7 +97,8 @@ class Animated:
         high = numpy.max([places.max(axis=(0, 1)) for places, _ in bent.values()], axis=0).astype(numpy.float32)
         files = {}
         for name, (places, looks) in bent.items():
-            files[name] = {kind: f"{self.name}_{name}_{kind}{textures.KINDS[texture]}" for kind in ("position", "normal")}
+            files[name] = {kind: f"{self.name}_{name}_{kind}{textures.KINDS[texture]}"
+                           for kind in ("position", "normal")}
             textures.write(folder / files[name]["position"], self.layout.picture(places), texture, low, high)
             textures.write(folder / files[name]["normal"], self.layout.picture(looks), texture, -LOOKS, LOOKS)
         return {"vertices": self.layout.vertices, "width": self.layout.width, "rows": self.layout.rows,

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What members can do, as clips that go on from their last key to their first: a cycle of each gait from the right heel's
-strike on, and a round of each standing clip. Walks stay on the spot."""
+"""What members can do, as clips that go on from their last key to their first: a cycle of each gait from the right
+heel's strike on, and a round of each standing clip. Walks stay on the spot."""
 from __future__ import annotations
 
 import dataclasses
