@@ -9,8 +9,10 @@ import numpy
 import pytest
 
 import throng_io
+from conftest import ROOT
 from glb_reader import Glb
 from posed_people import model_of, off
+from three_page import chromium
 from throng_io import cli
 from throng_io.gltf import textures
 from throng_io.gltf.vat import Layout
@@ -102,6 +104,80 @@ def test_meshes_tell_where_their_points_are(written):
     assert numpy.median(numpy.abs(sides[0] - sides[1])) < 0.005
     colours = glb.accessor(primitive["attributes"]["COLOR_0"])
     assert set(colours[:, 3]) == {0.0, 1.0} and 0.1 < (colours[:, 3] == 0).mean() < 0.5
+
+
+SHADE = """([source, texels, width, height, rows, keys, places, somebody]) => {
+    const gl = document.createElement("canvas").getContext("webgl2"), program = gl.createProgram();
+    const shader = (kind, text) => {
+        const made = gl.createShader(kind);
+        gl.shaderSource(made, text);
+        gl.compileShader(made);
+        if (!gl.getShaderParameter(made, gl.COMPILE_STATUS)) throw gl.getShaderInfoLog(made);
+        gl.attachShader(program, made);
+    };
+    shader(gl.VERTEX_SHADER, source);
+    shader(gl.FRAGMENT_SHADER, "#version 300 es\\nprecision highp float; out vec4 o; void main() {o = vec4(1.0);}");
+    gl.transformFeedbackVaryings(program, ["gl_Position", "shown", "normal"], gl.INTERLEAVED_ATTRIBS);
+    gl.linkProgram(program);
+    if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw gl.getProgramInfoLog(program);
+    gl.useProgram(program);
+    texels.forEach((values, unit) => {
+        gl.activeTexture(gl.TEXTURE0 + unit);
+        gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
+        gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGB32F, width, height, 0, gl.RGB, gl.FLOAT, new Float32Array(values));
+        for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER])
+            gl.texParameteri(gl.TEXTURE_2D, name, gl.NEAREST);
+    });
+    const at = name => gl.getUniformLocation(program, name), input = name => gl.getAttribLocation(program, name);
+    gl.uniform1i(at("positions"), 0);
+    gl.uniform1i(at("normals"), 1);
+    gl.uniform2i(at("shape"), width, rows);
+    gl.uniform1i(at("keys"), keys);
+    gl.uniformMatrix4fv(at("view_projection"), false, [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);
+    gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(places), gl.STATIC_DRAW);
+    gl.enableVertexAttribArray(input("texcoord_1"));
+    gl.vertexAttribPointer(input("texcoord_1"), 2, gl.FLOAT, false, 0, 0);
+    for (const [name, value] of Object.entries(somebody)) gl.vertexAttrib4f(input(name), ...value);
+    const count = places.length / 2, out = gl.createBuffer(), found = new Float32Array(10 * count);
+    gl.bindBufferBase(gl.TRANSFORM_FEEDBACK_BUFFER, 0, out);
+    gl.bufferData(gl.TRANSFORM_FEEDBACK_BUFFER, found.byteLength, gl.STATIC_READ);
+    gl.enable(gl.RASTERIZER_DISCARD);
+    gl.beginTransformFeedback(gl.POINTS);
+    gl.drawArrays(gl.POINTS, 0, count);
+    gl.endTransformFeedback();
+    gl.getBufferSubData(gl.TRANSFORM_FEEDBACK_BUFFER, 0, found);
+    return Array.from(found);
+}"""
+
+
+def test_the_shader_of_the_docs_bends_people(written):
+    """Between two keys, turned a quarter: who looked along +z looks along +x."""
+    playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+    if not chromium():
+        pytest.skip("no Chromium here")
+    page_of_docs = (ROOT / "docs" / "how-to" / "engines.md").read_text()
+    lines = page_of_docs[page_of_docs.index("    #version 300 es"):].split("\n\n")[0].split("\n")
+    folder = written[1]["float"]
+    told = json.loads((folder / "crowd.json").read_text())
+    member, = told["textures"]["members"].values()
+    textures_of = [pixels_of(folder / member["clips"]["walk3"][kind]) for kind in ("position", "normal")]
+    keys, width, place = 24, member["width"], [3.0, 0.5, -2.0]
+    somebody = {"color_0": [0.1, 0.2, 0.3, 0.0], "place_heading": [*place, numpy.pi / 2],
+                "top_phase": [0.5, 0.25, 0.75, 23.25 / keys]}
+    with playwright.sync_playwright() as player:
+        browser = player.chromium.launch(executable_path=chromium(), args=[
+            "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"])
+        found = browser.new_page().evaluate(SHADE, [
+            "\n".join(line[4:] for line in lines), [each.ravel().tolist() for each in textures_of], width,
+            len(textures_of[0]), member["rows"], keys, Layout(member["vertices"]).places().ravel().tolist(), somebody])
+        browser.close()
+    found = numpy.array(found).reshape(-1, 10)
+    own, looks = (0.75 * each[23] + 0.25 * each[0] for each in textures_of)
+    assert numpy.abs(found[:, :3] - (own[:, [2, 1, 0]] * [1, 1, -1] + place)).max() < 1e-4
+    assert (found[:, 4:7] == [0.5, 0.25, 0.75]).all()
+    looks = looks / numpy.linalg.norm(looks, axis=1, keepdims=True)
+    assert numpy.abs(found[:, 7:] - looks[:, [2, 1, 0]] * [1, 1, -1]).max() < 1e-4
 
 
 def test_wide_meshes_take_several_rows():

@@ -26,6 +26,7 @@ const sun = new THREE.DirectionalLight(0xfff1dc, 3);
 sun.position.set(14, 22, 10);
 sun.castShadow = true;
 sun.shadow.mapSize.set(2048, 2048);
+sun.shadow.normalBias = 0.03;
 Object.assign(sun.shadow.camera, {left: -16, right: 16, top: 16, bottom: -16, far: 80});
 scene.add(sun);
 const loader = new GLTFLoader();
