@@ -46,7 +46,9 @@ def files(throng, once, bodies):
             for command, name, more in (
                     ("export-gltf", "crowd.glb", ["--most", MOST, "--level", "near", "--level", "far"]),
                     ("export-gltf", "short.glb", ["--most", MOST, "--quantize", "--others", "--seconds", 1.5, 3]),
-                    ("export-kit", "kit", ["--most", MOST])):
+                    ("export-kit", "kit", ["--most", MOST]),
+                    ("export-kit", "short-kit", ["--most", 1, "--quantize", "--level", "middle"]),
+                    ("export-vat", "vat", ["--most", 1, "--texture", "png"])):
                 assert cli.main([command, str(folder / "bake"), "-o", str(folder / name), *map(str, more)]) == 0
 
     folder = once("python-gltf", make)
@@ -203,7 +205,9 @@ def test_the_validator_finds_nothing(files, request):
     if not (MODULES / "gltf-validator").is_dir():
         pytest.skip("the npm package gltf-validator is not installed")
     _, folder = files
-    paths = [folder / "crowd.glb", folder / "short.glb", *sorted((folder / "kit" / "members").iterdir())]
+    paths = [folder / "crowd.glb", folder / "short.glb", *sorted(folder.glob("*/members/*.glb")),
+             *(folder / "vat").glob("*.glb")]
+    assert len(paths) == 2 + MOST + 2
     try:
         paths.append(request.getfixturevalue("packed"))
     except pytest.skip.Exception:
