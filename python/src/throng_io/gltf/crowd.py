@@ -100,7 +100,8 @@ class Crowd:
 
     def people(self, capped: bool) -> int:
         """How many are written: where they are capped, as many as a file of MOST_BYTES holds."""
-        order = [row for row in self.shot.nearest if row in set(self.shot.rows)]
+        wanted = set(self.shot.rows)
+        order = [row for row in self.shot.nearest if row in wanted]
         for first in range(0, len(order), 64):
             some = order[first:first + 64]
             streams = self.shot.streams(some)
