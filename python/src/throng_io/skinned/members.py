@@ -69,10 +69,10 @@ def bodies_of_library() -> library.Bodies:
         raise ThrongError(str(error)) from error
 
 
-def cast_of(bake: Bake) -> tuple[list[roster.Role], list[int]]:
+def cast_of(bake: Bake, most: int = MOST_MEMBERS) -> tuple[list[roster.Role], list[int]]:
     """(whom the members are drawn as, which of them everybody is): as the add-on casts them."""
     walkers = casting.read_walkers(bake.folder) or [casting.Walker()] * bake.agents
-    roles = casting.roles_for(walkers, min(MOST_MEMBERS, max(1, bake.agents)))
+    roles = casting.roles_for(walkers, min(most, max(1, bake.agents)))
     chosen = casting.choose(walkers, roles, max(1, int(bake.about.get("variations", 1))))
     return roles, [walker.variation % len(roles) if walker.chosen else number
                    for walker, number in zip(walkers, chosen)]
