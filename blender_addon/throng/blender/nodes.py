@@ -129,17 +129,27 @@ class Maths:
             self.feed(value, slot)
         return node.outputs[0]
 
-    def grouped(self, name, geometries, build, kind="NodeSocketGeometry"):
+    def grouped(self, name, geometries, build, kind="NodeSocketGeometry", flag=None):
         """What `build(maths, *geometries)` makes, in a tree of its own: to write a tree takes time that grows with the
-        square of its nodes. @param kind of the socket that it gives"""
+        square of its nodes. @param kind of the socket that it gives; @param flag a boolean that goes along, last"""
         sockets = [(f"Geometry {number}", "NodeSocketGeometry") for number in range(len(geometries))]
+        given = [*geometries, *([flag] if flag else [])]
+        if flag:
+            sockets.append(("Flag", "NodeSocketBool"))
         tree, inputs, outputs = new_tree(name, sockets, [("Result", kind)])
         inner = Maths(tree)
-        inner.link(build(inner, *inputs.outputs[:len(geometries)]), outputs.inputs[0])
+        inner.link(build(inner, *inputs.outputs[:len(given)]), outputs.inputs[0])
         node = self.node("GeometryNodeGroup", node_tree=tree)
-        for geometry, slot in zip(geometries, node.inputs):
-            self.link(geometry, slot)
+        for value, slot in zip(given, node.inputs):
+            self.link(value, slot)
         return node.outputs[0]
+
+    def where(self, flag, one, other):
+        """One geometry where a flag is set, or the other; what is not shown is not worked out."""
+        switch = self.node("GeometryNodeSwitch", input_type="GEOMETRY")
+        for value, name in ((flag, "Switch"), (one, "True"), (other, "False")):
+            self.link(value, socket(switch.inputs, name))
+        return socket(switch.outputs)
 
     def greater(self, value, threshold):
         node = self.node("FunctionNodeCompare", data_type="FLOAT", operation="GREATER_THAN")

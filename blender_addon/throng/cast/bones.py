@@ -231,17 +231,21 @@ def told_of(sheets, what):
     return found[0] if found[0] and all(each == found[0] for each in found) else None
 
 
-def join_sheets(name, sheets):
-    """The object of several people's sheets, one behind the other, with the columns x and y worked out. Behind them
-    come the joints of everybody's limbs, where they are at rest."""
-    joined = bpy.data.objects.new(name, bpy.data.meshes.new(name))
+def joints_of(name, sheets):
+    """The object of several people's joints, one behind the other: those of their limbs, where they are at rest."""
     joints = numpy.concatenate([numpy.array(sheet.get(JOINTS, ()), numpy.float32) for sheet in sheets])
-    joined.data.vertices.add(len(joints) // 3)
-    joined.data.vertices.foreach_set("co", joints)
-    tree, inputs, outputs = new_tree(f"{name} of all", _GEOMETRY, _GEOMETRY)
+    mesh = bpy.data.meshes.new(name)
+    mesh.vertices.add(len(joints) // 3)
+    mesh.vertices.foreach_set("co", joints)
+    return bpy.data.objects.new(name, mesh)
+
+
+def join_sheets(name, sheets):
+    """The object of several people's sheets, one behind the other, with the columns x and y worked out."""
+    joined = bpy.data.objects.new(name, bpy.data.meshes.new(name))
+    tree, _, outputs = new_tree(f"{name} of all", _GEOMETRY, _GEOMETRY)
     maths = Maths(tree)
     everybody = maths.node("GeometryNodeJoinGeometry")
-    maths.link(inputs.outputs[0], everybody.inputs[0])
     for sheet in reversed(sheets):  # what is linked to a Join Geometry last comes out first
         info = maths.node("GeometryNodeObjectInfo", transform_space="ORIGINAL")
         info.inputs["Object"].default_value = sheet

@@ -12,9 +12,10 @@ JOINTS = 8  # a member, as cast.bones.Boned has them
 @dataclass
 class BentBones:
     points: object     # geometry: a point for each bone, in the scene, one person's behind the other's
-    columns: tuple     # names of the attributes that turn with a bone: x, y and z first
-    sheet: object      # geometry: points of all members' bones in all poses, and then their joints at rest
-    first_joint: int   # the first joint's number in it
+    columns: tuple     # names of the attributes that turn with a bone: x, y and z
+    changes: tuple     # and of those that say how fast they change, which only pictures that blur ask for
+    blurs: object      # whether this is one, a socket
+    joints: object     # geometry: points of all members' joints at rest
     count: int         # bones a person
     limbs: list        # their numbers, as cast.bones.LIMBS has them
     trunk: object      # shares, as cast.bones.TRUNK has them; or None
@@ -30,11 +31,10 @@ class BentBones:
         the joint
         """
         bone = maths.math("ADD", maths.math("MULTIPLY", person, float(self.count)), bone)
-        rest = maths.math("MULTIPLY_ADD", maths.attribute(WHO, "INT"), float(JOINTS),
-                          maths.math("ADD", number, float(self.first_joint)))
-        rest = bones.sample(maths, self.sheet, place(maths), rest)
+        rest = maths.math("MULTIPLY_ADD", maths.attribute(WHO, "INT"), float(JOINTS), number)
+        rest = bones.sample(maths, self.joints, place(maths), rest)
         total = bones.sample(maths, self.points, place(maths), bone)
-        for name, along in zip(self.columns[:3], parts(maths, rest)):
+        for name, along in zip(self.columns, parts(maths, rest)):
             column = bones.sample(maths, self.points, maths.attribute(name, "FLOAT_VECTOR"), bone)
             total = vector(maths, "ADD", total, scaled(maths, column, along))
         return total
@@ -42,9 +42,15 @@ class BentBones:
     def turned(self, maths, points, turn, centre, shift):
         """`points` with their columns turned, and their places, about `centre`, and then shifted. @param turn (vector,
         place to turn about) is the vector turned"""
-        for name in self.columns:
-            points = maths.store(points, name, turn(maths.attribute(name, "FLOAT_VECTOR"), None), "FLOAT_VECTOR")
+        blurred = points = self._turned_columns(maths, points, self.columns, turn)
+        points = maths.where(self.blurs, self._turned_columns(maths, blurred, self.changes, turn), points)
         put = maths.node("GeometryNodeSetPosition")
         maths.link(points, put.inputs["Geometry"])
         maths.link(vector(maths, "ADD", turn(place(maths), centre), shift), put.inputs["Position"])
         return put.outputs[0]
+
+    @staticmethod
+    def _turned_columns(maths, points, columns, turn):
+        for name in columns:
+            points = maths.store(points, name, turn(maths.attribute(name, "FLOAT_VECTOR"), None), "FLOAT_VECTOR")
+        return points

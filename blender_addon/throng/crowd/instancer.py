@@ -7,6 +7,7 @@ from ..cast.library import shown_figures
 from . import footing
 from .names import BIGGER, FIGURE, HIDDEN, LEVEL, NATURE, NEAR
 from .near import boned_members, near_tree
+from .pose_lists import list_of
 from .poses import member_in, pose_index
 
 BUNCH = 4  # figures that share a node, from 4.0 on
@@ -49,6 +50,8 @@ def instancer_tree(cast, repertoire, leans, near=None, streams=(), most_close=0)
     (near.py), the object `near` has the bones of its members, which then need no poses at level 0. What is needed is
     filed away on the points: worked out for all at once, not by every bunch. `streams` are those that the
     points have beside those of every bake, `most_close` is of near.near_tree().
+
+    Each bunch picks from a list of poses that is there once and for all (pose_lists.py).
 
     While a crowd is on screen, Blender notes down all attributes of what goes through a socket, those of every pose
     included, which takes longer than the work itself. From 4.0 on it does so for sockets outside of groups only, so
@@ -95,12 +98,13 @@ def instancer_tree(cast, repertoire, leans, near=None, streams=(), most_close=0)
         points = remove.outputs[0]
 
     if bpy.app.version < (4, 0, 0):
-        _together(maths, [*people, _instances(maths, points, figures, leans, False, repertoire)], outputs.inputs[0])
+        _together(maths, [*people, _instances(maths, points, cast, figures, leans, False, repertoire)], outputs.inputs[0])
         return tree
     inside = maths.node("GeometryNodeGroup")
     inside.node_tree, inner_inputs, inner_outputs = new_tree("Throng figures", _GEOMETRY, _GEOMETRY)
     within = Maths(inside.node_tree)
-    within.link(_instances(within, inner_inputs.outputs[0], figures, leans, True, repertoire), inner_outputs.inputs[0])
+    everybody = _instances(within, inner_inputs.outputs[0], cast, figures, leans, True, repertoire)
+    within.link(everybody, inner_outputs.inputs[0])
     maths.link(points, inside.inputs[0])
     _together(maths, [*people, inside.outputs[0]], outputs.inputs[0])
     return tree
@@ -116,11 +120,11 @@ def _together(maths, geometries, target):
     maths.link(join.outputs[0], target)
 
 
-def _instances(maths, points, figures, leans, apart, repertoire):
+def _instances(maths, points, cast, figures, leans, apart, repertoire):
     """Everybody's pose, level by level. @param apart whether the people of each bunch are one instance"""
     levels = sorted({level for level, _ in figures})
     if len(levels) == 1:
-        return _instances_of(maths, points, figures, leans, apart, repertoire)
+        return _instances_of(maths, points, cast, figures, leans, apart, repertoire)
     everybody, figure = maths.node("GeometryNodeJoinGeometry"), maths.attribute(FIGURE, "INT")
     for number in levels:
         own = {(level, member): thing for (level, member), thing in figures.items() if level == number}
@@ -130,7 +134,7 @@ def _instances(maths, points, figures, leans, apart, repertoire):
         maths.link(maths.between(figure, _figure_number(number, 0), _figure_number(number, last)),
                    some.inputs["Selection"])
         here = some.outputs["Selection"]
-        people = _instances_of(maths, here, own, leans, apart, repertoire)
+        people = _instances_of(maths, here, cast, own, leans, apart, repertoire)
         maths.link(if_any(maths, here, people), everybody.inputs[0])
     return everybody.outputs[0]
 
@@ -156,7 +160,7 @@ def _bunches(figures):
     return found
 
 
-def _instances_of(maths, points, figures, leans, apart, repertoire):
+def _instances_of(maths, points, cast, figures, leans, apart, repertoire):
     """The people of some figures, a bunch of these at a time."""
     figure, pose, turn = (maths.attribute(name, kind)
                           for name, kind in ((FIGURE, "INT"), ("throng_pose", "INT"), ("throng_turn", "FLOAT_VECTOR")))
@@ -164,17 +168,14 @@ def _instances_of(maths, points, figures, leans, apart, repertoire):
     everybody = maths.node("GeometryNodeJoinGeometry")
     for bunch in _bunches(figures):
         (level, first), (_, last) = bunch[0][0], bunch[-1][0]
-        poses = maths.node("GeometryNodeJoinGeometry")
-        for _, thing in reversed(bunch):  # what is linked to a Join Geometry last comes out first
-            info = maths.node("GeometryNodeObjectInfo", transform_space="ORIGINAL")
-            info.inputs["Object"].default_value = thing
-            maths.link(socket(info.outputs, "Geometry"), poses.inputs[0])
+        poses = maths.node("GeometryNodeObjectInfo", transform_space="ORIGINAL")
+        poses.inputs["Object"].default_value = list_of(cast, [thing for _, thing in bunch])
         place = maths.node("GeometryNodeInstanceOnPoints")
         place.inputs["Pick Instance"].default_value = True
         maths.link(points, place.inputs["Points"])
         maths.link(maths.between(figure, _figure_number(level, first), _figure_number(level, last)),
                    place.inputs["Selection"])
-        maths.link(poses.outputs[0], place.inputs["Instance"])
+        maths.link(socket(poses.outputs, "Geometry"), place.inputs["Instance"])
         before = maths.math("SUBTRACT", figure, float(_figure_number(level, first)))
         maths.link(maths.math("MULTIPLY_ADD", before, float(repertoire.poses(level)), pose),
                    place.inputs["Instance Index"])

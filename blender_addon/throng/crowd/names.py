@@ -14,6 +14,7 @@ BIGGER = "throng_bigger"  # how much larger than 1 somebody's scale is; nobody's
 HIDDEN = "throng_hidden"  # 1 for those who are left out; see tools/culling.py
 GROUND = "throng_ground"  # slopes along the heading and to the left of it, and the height; see footing.py
 NEAR = "throng_near"      # from 1 on for those who are bent into their pose, more for those who are close; see near.py
+FINE = "throng_fine"      # 1 for those of them whose meshes are no coarser on the screen than in final pictures
 ROW = "throng_row"        # on the vertices of those: which of the bake's people
 WHO = "throng_who"        # of those: which member of the cast
 BONE = "throng_bone"      # of a point for each of their bones: which one

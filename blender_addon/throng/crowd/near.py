@@ -11,6 +11,8 @@ What comes out is one mesh, and what the people's points say of them (`tint`, an
 `id` is elsewhere) is on its vertices. It has a
 `velocity`, for the whole way of every vertex, so it blurs though it is another mesh in every frame.
 
+On the screen, where time is short, only those within some metres have meshes as fine as final pictures have.
+
 Who is near, a modifier files away on the points: whoever is within so many metres before the camera. Where these are
 more than there may be, the distance shrinks, in sixteen steps, until they are not. The nearest of them can have meshes
 of more detail in final pictures (close.py).
@@ -24,23 +26,25 @@ from ..cast.sheets import sheet_of
 from ..formats import FEET
 from . import close, heads, legs, poses, trunks
 from .bent_bones import BentBones
-from .names import BIGGER, BONE, GROUND, HIDDEN, LEVEL, NATURE, NEAR, ROW, WHO
+from .names import BIGGER, BONE, FINE, GROUND, HIDDEN, LEVEL, NATURE, NEAR, ROW, WHO
 from .own import FIRST, OWN
 
 MODIFIER = "throng near"
 STEPS = 16             # of the distance
 STANDS_BELOW = 0.03    # m/s: where no stream tells it, slower people stand, those faster than WALKS_FROM walk, and
 WALKS_FROM = 0.35      # between them both are blended
+FINE_UNTIL = 5.0       # m: on the screen, near people who are further away have coarser meshes
 _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
-_ALL, _REST = "throng_all_bones", "throng_rest"  # marks of objects in the cast
+_ALL, _JOINTS, _REST = "throng_all_bones", "throng_all_joints", "throng_rest"  # marks of objects in the cast
 _RANK, _TURN = "throng_rank", "throng_turn"
-_CLOSE = "throng_close"
+_DETAIL = "throng_detail"  # 0 for the near level, 1 for the coarser one of the screen, 2 for close people's
+_SLOTS = 6  # poses that somebody is between: two of the walk, two of the gait before, two beats
 _WALKS, _BEFORE, _STANDS, _RATES = "throng_walks", "throng_before", "throng_stands", "throng_rates"
 
 
 def selection_tree():
     """The modifier's nodes: who is near."""
-    name = "Throng near and close by distance"
+    name = "Throng near, close and fine by distance"
     found = own_tree(name)
     if found:
         return found
@@ -67,6 +71,7 @@ def selection_tree():
     near = maths.math("LESS_THAN", share, fitting(maths, points, share, given["Most"]))
     closer = maths.math("SUBTRACT", 1.0, maths.math("DIVIDE", distance, maths.math("MAXIMUM", given["Close"], 1e-3)))
     near = maths.math("MULTIPLY", near, maths.math("ADD", maths.math("MAXIMUM", closer, 0.0), 1.0))
+    points = maths.store(points, FINE, maths.math("LESS_THAN", distance, FINE_UNTIL))
     maths.link(maths.store(points, NEAR, near), outputs.inputs[0])
     return tree
 
@@ -92,10 +97,11 @@ def bones_for(crowd, cast):
     joined = next((thing for thing in cast.objects if _ALL in thing), None)
     if joined and [sheet.name for sheet in sheets] == list(joined[_ALL]) and _joins(joined) == set(sheets):
         return joined
-    _drop_bones(joined)
-    joined = bones.join_sheets(f"{cast.name} bones", sheets)
-    joined[_ALL] = [sheet.name for sheet in sheets]
-    cast.objects.link(joined)
+    _drop_bones(cast)
+    joined, joints = bones.join_sheets(f"{cast.name} bones", sheets), bones.joints_of(f"{cast.name} joints", sheets)
+    joined[_ALL], joints[_JOINTS] = [sheet.name for sheet in sheets], True
+    for thing in (joined, joints):
+        cast.objects.link(thing)
     return joined
 
 
@@ -105,12 +111,13 @@ def _joins(joined):
             if node.bl_idname == "GeometryNodeObjectInfo"}
 
 
-def _drop_bones(joined):
-    if joined:
-        mesh, tree = joined.data, joined.modifiers[0].node_group
-        bpy.data.objects.remove(joined)
+def _drop_bones(cast):
+    for thing in [each for each in cast.objects if _ALL in each or _JOINTS in each]:
+        mesh, trees = thing.data, [modifier.node_group for modifier in thing.modifiers]
+        bpy.data.objects.remove(thing)
         bpy.data.meshes.remove(mesh)
-        drop_tree(tree)
+        for tree in trees:
+            drop_tree(tree)
 
 
 def forget(cast, crowds):
@@ -120,7 +127,7 @@ def forget(cast, crowds):
     for thing in [each for each in cast.objects if _REST in each]:
         bpy.data.objects.remove(thing)
     close.forget(cast)
-    _drop_bones(next((thing for thing in cast.objects if _ALL in thing), None))
+    _drop_bones(cast)
 
 
 def boned_members(cast):
@@ -205,18 +212,45 @@ def _people(maths, points, repertoire, cast, is_told):
     return points
 
 
-def _blended(maths, sheet, at, name):
-    """(a column of everybody's bones between all six poses, how fast it changes in a second)"""
+def _poses_between(maths, people, sheet, pose_count, bone_count):
+    """A point for each bone of each of the _SLOTS poses that somebody is between, as the sheet has it: all that a person
+    needs of the sheet, in little room. Every node that samples goes over all that it samples from, in every frame."""
+    for spare in (_RATES, _TURN, _RANK, ROW):
+        people = _without(maths, people, spare)
+    copies = maths.node("GeometryNodeDuplicateElements", domain="POINT")
+    maths.link(people, copies.inputs["Geometry"])
+    copies.inputs["Amount"].default_value = _SLOTS * bone_count
+    number = copies.outputs["Duplicate Index"]
+    slot = maths.math("FLOOR", maths.math("DIVIDE", maths.math("ADD", number, 0.5), float(bone_count)))
+    bone = maths.math("SUBTRACT", number, maths.math("MULTIPLY", slot, float(bone_count)))
+    pose = 0.0
+    for first, name in enumerate((_WALKS, _BEFORE, _STANDS)):
+        for second, value in enumerate(maths.components(name)[:2]):
+            pose = maths.math("MULTIPLY_ADD", maths.math("COMPARE", slot, 2.0 * first + second, 0.5), value, pose)
+    pose = maths.math("MULTIPLY_ADD", maths.attribute(WHO, "INT"), float(pose_count), pose)
+    points = maths.store(copies.outputs["Geometry"], BONE, maths.math("MULTIPLY_ADD", pose, float(bone_count), bone), "INT")
+    index = maths.attribute(BONE, "INT")
+    points = _filed(maths, points, _COLUMNS, [bones.sample(maths, sheet, maths.attribute(name, "FLOAT_VECTOR"), index)
+                                              for name in "xy"])
+    put = maths.node("GeometryNodeSetPosition")
+    maths.link(points, put.inputs["Geometry"])
+    maths.link(bones.sample(maths, sheet, maths.node("GeometryNodeInputPosition").outputs[0], index),
+               put.inputs["Position"])
+    return put.outputs[0]
+
+
+def _blended(maths, poses, at, name):
+    """(a column of everybody's bones between all six poses, how fast it changes in a second); `name` "" is where they
+    are. @param poses as _poses_between() has them; @param at (slot) is where there"""
     value = maths.attribute(name, "FLOAT_VECTOR") if name else maths.node("GeometryNodeInputPosition").outputs[0]
-    walks, before, stands = (maths.components(each) for each in (_WALKS, _BEFORE, _STANDS))
+    here, after, was, was_after, stand, stand_after = (bones.sample(maths, poses, value, at(slot))
+                                                       for slot in range(_SLOTS))
+    walks, before, stands = (maths.components(each)[2] for each in (_WALKS, _BEFORE, _STANDS))
     walking, rate, _ = maths.components(_RATES)
-    here, after, stand, stand_after = (bones.sample(maths, sheet, value, at(each))
-                                       for each in (walks[0], walks[1], stands[0], stands[1]))
-    here, after = (between(maths, each, bones.sample(maths, sheet, value, at(was)), before[2])
-                   for each, was in ((here, before[0]), (after, before[1])))
-    walk = between(maths, here, after, walks[2])
+    here, after = between(maths, here, was, before), between(maths, after, was_after, before)
+    walk = between(maths, here, after, walks)
     change = scaled(maths, vector(maths, "SUBTRACT", after, here), maths.math("MULTIPLY", walking, rate))
-    return between(maths, between(maths, stand, stand_after, stands[2]), walk, walking), change
+    return between(maths, between(maths, stand, stand_after, stands), walk, walking), change
 
 
 def _placed(maths, value):
@@ -234,36 +268,53 @@ _COLUMNS = ("throng_x", "throng_y", "throng_z")
 _CHANGES = ("throng_x_changes", "throng_y_changes", "throng_z_changes", "throng_changes")
 
 
-def _bone_points(maths, people, sheet, pose_count, bone_count):
-    """A point for each bone of everybody: where it takes what hangs on it is its place; what it makes of x, y and z,
-    and how fast all four change, are attributes."""
+def _bone_points(maths, people, sheet, blurs, pose_count, bone_count):
+    """A point for each bone of everybody: where it takes what hangs on it is its place; what it makes of x, y and z is
+    in attributes, and where pictures blur, how fast all four change. What poses have is filed away first: an attribute
+    works out anew whatever it is made of."""
     copies = maths.node("GeometryNodeDuplicateElements", domain="POINT")
     maths.link(people, copies.inputs["Geometry"])
     copies.inputs["Amount"].default_value = bone_count
     points = maths.store(copies.outputs["Geometry"], BONE, copies.outputs["Duplicate Index"], "INT")
-    first = maths.math("MULTIPLY_ADD", maths.attribute(WHO, "INT"), float(pose_count * bone_count),
+    first = maths.math("MULTIPLY_ADD", maths.attribute(_RANK, "INT"), float(_SLOTS * bone_count),
                        maths.attribute(BONE, "INT"))
-    at = lambda pose: maths.math("MULTIPLY_ADD", pose, float(bone_count), first)
-
-    (x, x_changes), (y, y_changes), (moved, changes) = (_blended(maths, sheet, at, name) for name in ("x", "y", ""))
+    at = lambda slot: maths.math("ADD", first, float(slot * bone_count))
+    poses = _poses_between(maths, people, sheet, pose_count, bone_count)
+    blended, changes = zip(*(_blended(maths, poses, at, name) for name in (*_COLUMNS[:2], "")))
+    put = maths.node("GeometryNodeSetPosition")
+    maths.link(points, put.inputs["Geometry"])
+    here = maths.node("GeometryNodeInputPosition").outputs[0]
+    maths.link(vector(maths, "ADD", _placed(maths, blended[2]), here), put.inputs["Position"])
+    points = _filed(maths, put.outputs[0], _COLUMNS, blended[:2])
+    x, y = (maths.attribute(name, "FLOAT_VECTOR") for name in _COLUMNS[:2])
     x = vector(maths, "NORMALIZE", x)
+    points = _filed(maths, points, _COLUMNS, [x])
     y = vector(maths, "SUBTRACT", y, scaled(maths, x, vector(maths, "DOT_PRODUCT", x, y)))
-    y = vector(maths, "NORMALIZE", y)
+    points = _filed(maths, points, _COLUMNS[1:], [vector(maths, "NORMALIZE", y)])
+    x, y = (maths.attribute(name, "FLOAT_VECTOR") for name in _COLUMNS[:2])
+    points = maths.where(blurs, _with_changes(maths, points, x, y, changes), points)
     z = vector(maths, "CROSS_PRODUCT", x, y)
+    return _filed(maths, points, (_COLUMNS[2], *_COLUMNS[:2]), [_placed(maths, each) for each in (z, x, y)])
+
+
+def _filed(maths, points, names, values):
+    for name, value in zip(names, values):
+        points = maths.store(points, name, value, "FLOAT_VECTOR")
+    return points
+
+
+def _with_changes(maths, points, x, y, changes):
+    """The points of bones with how fast all changes. @param x, y of somebody's own frame, as `changes` of x, y and the
+    place are"""
+    points = _filed(maths, points, _CHANGES, changes[:2])
+    x_changes, y_changes = (maths.attribute(name, "FLOAT_VECTOR") for name in _CHANGES[:2])
     z_changes = vector(maths, "ADD", vector(maths, "CROSS_PRODUCT", x_changes, y),
                        vector(maths, "CROSS_PRODUCT", x, y_changes))
     cosine, sine, _ = maths.components(_TURN)
     goes = scaled(maths, combined(maths, cosine, sine, maths.components(GROUND)[0]), maths.components(_RATES)[2])
-    changes = vector(maths, "ADD", _placed(maths, changes), goes)
-    place = vector(maths, "ADD", _placed(maths, moved), maths.node("GeometryNodeInputPosition").outputs[0])
-    for name, value in (*zip(_COLUMNS, (_placed(maths, each) for each in (x, y, z))),
-                        *zip(_CHANGES, (*(_placed(maths, each) for each in (x_changes, y_changes, z_changes)),
-                                        changes))):
-        points = maths.store(points, name, value, "FLOAT_VECTOR")
-    put = maths.node("GeometryNodeSetPosition")
-    maths.link(points, put.inputs["Geometry"])
-    maths.link(place, put.inputs["Position"])
-    return put.outputs[0]
+    return _filed(maths, points, (_CHANGES[2], *_CHANGES[:2], _CHANGES[3]),
+                  [*(_placed(maths, each) for each in (z_changes, x_changes, y_changes)),
+                   vector(maths, "ADD", _placed(maths, changes[2]), goes)])
 
 
 def _meshes(maths, people, figures, which, kept):
@@ -298,6 +349,12 @@ def _without(maths, geometry, name):
     return remove.outputs[0]
 
 
+def _geometry_of(maths, thing):
+    info = maths.node("GeometryNodeObjectInfo", transform_space="ORIGINAL")
+    info.inputs["Object"].default_value = thing
+    return socket(info.outputs, "Geometry")
+
+
 def _hung(maths, bones_, names, bone_count):
     """What all bones that a vertex hangs on make of its place at rest. @param names of x, y, z and of what is added"""
     place = parts(maths, maths.node("GeometryNodeInputPosition").outputs[0])
@@ -320,25 +377,35 @@ def _hung(maths, bones_, names, bone_count):
     return total
 
 
-def _rest_of(name, figure):
+def _rest_of(cast, figure):
     """An object that shows a figure's mesh at rest."""
+    name = f"{figure.name} at rest"
     found = bpy.data.objects.get(name) or bpy.data.objects.new(name, figure.data)
     found.data, found[_REST] = figure.data, True
+    if found.name not in cast.objects:
+        cast.objects.link(found)
     return found
 
 
-def _bent(maths, people, points, sheet, figures, streams):
-    """The points of bones, as the streams say how feet, trunks and heads go. @param sheet (geometry, the number of its
-    first joint, bones a person)"""
+def _coarser(cast, figures):
+    """The figures that show near people on the screen, where they are not FINE_UNTIL: those of the next level."""
+    there = library.figures_of(cast)
+    return [there.get((1, member), figure) for member, figure in enumerate(figures)]
+
+
+def _bent(maths, people, points, blurs, joints, figures, streams):
+    """The points of bones, as the streams say how feet, trunks and heads go. @param joints geometry: everybody's, at
+    rest"""
     sheets = [sheet_of(figure) for figure in figures]
     limbs, trunk = (bones.told_of(sheets, what) for what in (bones.LIMBS, bones.TRUNK))
-    turns = "carriage" in streams and trunk is not None
+    turns, count = "carriage" in streams and trunk is not None, sheets[0]["throng_bones"]
     for is_told, bend in ((FEET[0] in streams, legs.with_feet_held), (turns, trunks.with_trunks_turned),
                           (turns or "gaze" in streams, heads.turning("gaze" in streams, turns))):
         if limbs and is_told:
             points = maths.grouped(
-                "Throng near limbs", [people, points, sheet[0]], lambda inner, who, bent, all_, bend=bend: bend(
-                    inner, who, BentBones(bent, (*_COLUMNS, *_CHANGES), all_, *sheet[1:], limbs, trunk), _placed))
+                "Throng near limbs", [people, points, joints], lambda inner, who, bent, rest, flag, bend=bend: bend(
+                    inner, who, BentBones(bent, _COLUMNS, _CHANGES, flag, rest, count, limbs, trunk), _placed),
+                flag=blurs)
     return points
 
 
@@ -357,44 +424,36 @@ def near_tree(cast, repertoire, sheet, streams, most_close):
     """
     figures = boned_members(cast)
     tree, inputs, outputs = new_tree("Throng near people", _GEOMETRY + [("Blur", "NodeSocketBool")], _GEOMETRY)
-    maths = Maths(tree)
-    info = maths.node("GeometryNodeObjectInfo", transform_space="ORIGINAL")
-    info.inputs["Object"].default_value = sheet
-    bone_count = sheet_of(figures[0])["throng_bones"]
-    bones_, pose_count = socket(info.outputs, "Geometry"), repertoire.poses(0)
+    maths, blurs = Maths(tree), inputs.outputs["Blur"]
+    joints = next(thing for thing in cast.objects if _JOINTS in thing)
+    bones_, joints = (_geometry_of(maths, thing) for thing in (sheet, joints))
+    bone_count, pose_count = sheet_of(figures[0])["throng_bones"], repertoire.poses(0)
     people = maths.grouped("Throng near poses", [inputs.outputs[0]], lambda inner, points: _people(
         inner, points, repertoire, cast, "carriage" in streams))
-    hung_on = maths.grouped("Throng near bones", [people, bones_], lambda inner, points, all_: _bone_points(
-        inner, points, all_, pose_count, bone_count))
-    first_joint = len(figures) * pose_count * bone_count
-    hung_on = _bent(maths, people, hung_on, (bones_, first_joint, bone_count), figures, streams)
-    rests, which = [_rest_of(f"{figure.name} at rest", figure) for figure in figures], maths.attribute(WHO, "INT")
-    for rest in rests:
-        if rest.name not in cast.objects:
-            cast.objects.link(rest)
-    spare = ("id", "throng_dir", "throng_state", NATURE, NEAR, GROUND, LEVEL, FIRST, OWN,
-             *(f"throng_{stream}" for stream in streams))
+    hung_on = maths.grouped("Throng near bones", [people, bones_], lambda inner, points, all_, flag: _bone_points(
+        inner, points, all_, flag, pose_count, bone_count), flag=blurs)
+    hung_on = _bent(maths, people, hung_on, blurs, joints, figures, streams)
+    rests, coarser = ([_rest_of(cast, figure) for figure in those] for those in (figures, _coarser(cast, figures)))
+    shapes = [*rests, *coarser]
+    detail = maths.math("LESS_THAN", maths.math("MAXIMUM", blurs, maths.attribute(FINE)), 0.5)
     finer = close.meshes_of(cast) if most_close else {}
     if finer:
-        which = maths.math("MULTIPLY_ADD", maths.attribute(_CLOSE), float(len(figures)), which)
-        people = maths.store(people, _CLOSE, _close_ones(maths, people, inputs.outputs["Blur"], most_close))
-    bodies = people
-    for name in spare:
+        shapes += [finer.get(member, rest) for member, rest in enumerate(rests)]
+        detail = maths.math("MULTIPLY_ADD", _close_ones(maths, people, blurs, most_close), 2.0, detail)
+    bodies = maths.store(people, _DETAIL, detail)
+    for name in ("id", "throng_dir", "throng_state", NATURE, NEAR, FINE, GROUND, LEVEL, FIRST, OWN,
+                 *(f"throng_{stream}" for stream in streams)):
         bodies = _without(maths, bodies, name)
-    finer = [finer.get(member, rest) for member, rest in enumerate(rests)] if finer else []
-    mesh = _meshes(maths, bodies, [*rests, *finer], which, (WHO,))
+    which = maths.math("MULTIPLY_ADD", maths.attribute(_DETAIL), float(len(figures)), maths.attribute(WHO, "INT"))
+    mesh = _meshes(maths, bodies, shapes, which, (WHO,))
     velocity, place = (maths.grouped("Throng near skin", [hung_on], lambda inner, bent, names=names: _hung(
         inner, bent, names, bone_count), "NodeSocketVector") for names in (_CHANGES, (*_COLUMNS, "")))
-    blurs = maths.node("GeometryNodeSwitch", input_type="GEOMETRY")
-    maths.link(inputs.outputs["Blur"], socket(blurs.inputs, "Switch"))
-    maths.link(mesh, socket(blurs.inputs, "False"))
-    maths.link(maths.store(mesh, "velocity", velocity, "FLOAT_VECTOR"), socket(blurs.inputs, "True"))
-    mesh = socket(blurs.outputs)
+    mesh = maths.where(blurs, maths.store(mesh, "velocity", velocity, "FLOAT_VECTOR"), mesh)
     put = maths.node("GeometryNodeSetPosition")
     maths.link(mesh, put.inputs["Geometry"])
     maths.link(place, put.inputs["Position"])
     mesh = put.outputs[0]
-    for name in (WHO, _RANK, bones.HANGS, *([_CLOSE] if finer else [])):
+    for name in (WHO, _RANK, _DETAIL, bones.HANGS):
         mesh = _without(maths, mesh, name)
     maths.link(mesh, outputs.inputs[0])
     return tree

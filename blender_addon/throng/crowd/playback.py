@@ -13,7 +13,7 @@ import bpy
 from ..blender.modifiers import move_modifier
 from ..blender.nodes import Maths, drop_tree, get_input, new_tree, set_input
 from ..formats import FEET, POSE, STREAMS
-from . import close, footing, near, own
+from . import close, footing, near, own, pose_lists
 from .instancer import instancer_tree
 from .names import INSTANCERS, NATURE
 from .queries import cast_of, crowds_of, repertoire_of
@@ -43,6 +43,7 @@ def set_cast(crowd, cast):
         set_input(modifier, "Share", share)
         set_input(modifier, "Blur", modifier.name == INSTANCERS[0])  # nothing blurs on the screen
     drop_tree(before)
+    pose_lists.drop_unused(cast)
     crowd.update_tag()
 
 
