@@ -98,7 +98,8 @@ def instancer_tree(cast, repertoire, leans, near=None, streams=(), most_close=0)
         points = remove.outputs[0]
 
     if bpy.app.version < (4, 0, 0):
-        _together(maths, [*people, _instances(maths, points, cast, figures, leans, False, repertoire)], outputs.inputs[0])
+        instances = _instances(maths, points, cast, figures, leans, False, repertoire)
+        _together(maths, [*people, instances], outputs.inputs[0])
         return tree
     inside = maths.node("GeometryNodeGroup")
     inside.node_tree, inner_inputs, inner_outputs = new_tree("Throng figures", _GEOMETRY, _GEOMETRY)

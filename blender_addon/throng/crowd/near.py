@@ -26,25 +26,25 @@ from ..cast.sheets import sheet_of
 from ..formats import FEET
 from . import close, heads, legs, poses, trunks
 from .bent_bones import BentBones
-from .names import BIGGER, BONE, FINE, GROUND, HIDDEN, LEVEL, NATURE, NEAR, ROW, WHO
+from .names import BIGGER, BONE, COARSE, GROUND, HIDDEN, LEVEL, NATURE, NEAR, ROW, WHO
 from .own import FIRST, OWN
 
 MODIFIER = "throng near"
 STEPS = 16             # of the distance
 STANDS_BELOW = 0.03    # m/s: where no stream tells it, slower people stand, those faster than WALKS_FROM walk, and
 WALKS_FROM = 0.35      # between them both are blended
-FINE_UNTIL = 5.0       # m: on the screen, near people who are further away have coarser meshes
+COARSER_FROM = (4.5, 9.0)  # m: on the screen, near people who are further away have meshes of level 1, and 2
 _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
 _ALL, _JOINTS, _REST = "throng_all_bones", "throng_all_joints", "throng_rest"  # marks of objects in the cast
 _RANK, _TURN = "throng_rank", "throng_turn"
-_DETAIL = "throng_detail"  # 0 for the near level, 1 for the coarser one of the screen, 2 for close people's
+_DETAIL = "throng_detail"  # 0 for the near level, 1 and 2 for the coarser ones of the screen, 3 for close people's
 _SLOTS = 6  # poses that somebody is between: two of the walk, two of the gait before, two beats
 _WALKS, _BEFORE, _STANDS, _RATES = "throng_walks", "throng_before", "throng_stands", "throng_rates"
 
 
 def selection_tree():
     """The modifier's nodes: who is near."""
-    name = "Throng near, close and fine by distance"
+    name = "Throng near, close and coarse by distance"
     found = own_tree(name)
     if found:
         return found
@@ -71,7 +71,8 @@ def selection_tree():
     near = maths.math("LESS_THAN", share, fitting(maths, points, share, given["Most"]))
     closer = maths.math("SUBTRACT", 1.0, maths.math("DIVIDE", distance, maths.math("MAXIMUM", given["Close"], 1e-3)))
     near = maths.math("MULTIPLY", near, maths.math("ADD", maths.math("MAXIMUM", closer, 0.0), 1.0))
-    points = maths.store(points, FINE, maths.math("LESS_THAN", distance, FINE_UNTIL))
+    points = maths.store(points, COARSE, maths.math("ADD", *(maths.math("GREATER_THAN", distance, each)
+                                                            for each in COARSER_FROM)))
     maths.link(maths.store(points, NEAR, near), outputs.inputs[0])
     return tree
 
@@ -213,8 +214,9 @@ def _people(maths, points, repertoire, cast, is_told):
 
 
 def _poses_between(maths, people, sheet, pose_count, bone_count):
-    """A point for each bone of each of the _SLOTS poses that somebody is between, as the sheet has it: all that a person
-    needs of the sheet, in little room. Every node that samples goes over all that it samples from, in every frame."""
+    """A point for each bone of each of the _SLOTS poses that somebody is between, as the sheet has it: all that a
+    person needs of the sheet, in little room: a node that samples goes over all that it samples from, in every
+    frame."""
     for spare in (_RATES, _TURN, _RANK, ROW):
         people = _without(maths, people, spare)
     copies = maths.node("GeometryNodeDuplicateElements", domain="POINT")
@@ -228,7 +230,8 @@ def _poses_between(maths, people, sheet, pose_count, bone_count):
         for second, value in enumerate(maths.components(name)[:2]):
             pose = maths.math("MULTIPLY_ADD", maths.math("COMPARE", slot, 2.0 * first + second, 0.5), value, pose)
     pose = maths.math("MULTIPLY_ADD", maths.attribute(WHO, "INT"), float(pose_count), pose)
-    points = maths.store(copies.outputs["Geometry"], BONE, maths.math("MULTIPLY_ADD", pose, float(bone_count), bone), "INT")
+    at = maths.math("MULTIPLY_ADD", pose, float(bone_count), bone)
+    points = maths.store(copies.outputs["Geometry"], BONE, at, "INT")
     index = maths.attribute(BONE, "INT")
     points = _filed(maths, points, _COLUMNS, [bones.sample(maths, sheet, maths.attribute(name, "FLOAT_VECTOR"), index)
                                               for name in "xy"])
@@ -387,10 +390,11 @@ def _rest_of(cast, figure):
     return found
 
 
-def _coarser(cast, figures):
-    """The figures that show near people on the screen, where they are not FINE_UNTIL: those of the next level."""
+def _levels(cast, figures):
+    """The figures of level 0, and those that show near people on the screen from COARSER_FROM on."""
     there = library.figures_of(cast)
-    return [there.get((1, member), figure) for member, figure in enumerate(figures)]
+    return [figures, *([there.get((level, member), figure) for member, figure in enumerate(figures)]
+                       for level in range(1, len(COARSER_FROM) + 1))]
 
 
 def _bent(maths, people, points, blurs, joints, figures, streams):
@@ -433,15 +437,15 @@ def near_tree(cast, repertoire, sheet, streams, most_close):
     hung_on = maths.grouped("Throng near bones", [people, bones_], lambda inner, points, all_, flag: _bone_points(
         inner, points, all_, flag, pose_count, bone_count), flag=blurs)
     hung_on = _bent(maths, people, hung_on, blurs, joints, figures, streams)
-    rests, coarser = ([_rest_of(cast, figure) for figure in those] for those in (figures, _coarser(cast, figures)))
-    shapes = [*rests, *coarser]
-    detail = maths.math("LESS_THAN", maths.math("MAXIMUM", blurs, maths.attribute(FINE)), 0.5)
+    rests, *coarser = ([_rest_of(cast, figure) for figure in those] for those in _levels(cast, figures))
+    shapes = sum(coarser, rests)
+    detail = maths.math("MULTIPLY", maths.attribute(COARSE), maths.math("SUBTRACT", 1.0, blurs))
     finer = close.meshes_of(cast) if most_close else {}
     if finer:
         shapes += [finer.get(member, rest) for member, rest in enumerate(rests)]
-        detail = maths.math("MULTIPLY_ADD", _close_ones(maths, people, blurs, most_close), 2.0, detail)
+        detail = maths.math("MULTIPLY_ADD", _close_ones(maths, people, blurs, most_close), 1.0 + len(coarser), detail)
     bodies = maths.store(people, _DETAIL, detail)
-    for name in ("id", "throng_dir", "throng_state", NATURE, NEAR, FINE, GROUND, LEVEL, FIRST, OWN,
+    for name in ("id", "throng_dir", "throng_state", NATURE, NEAR, COARSE, GROUND, LEVEL, FIRST, OWN,
                  *(f"throng_{stream}" for stream in streams)):
         bodies = _without(maths, bodies, name)
     which = maths.math("MULTIPLY_ADD", maths.attribute(_DETAIL), float(len(figures)), maths.attribute(WHO, "INT"))
