@@ -49,7 +49,7 @@ def box(points):
 
 counts = lambda: [len(each) for each in (bpy.data.objects, bpy.data.meshes, bpy.data.node_groups)]
 camera.location, camera.rotation_euler = (0.0, -12.0, 1.6), (1.5, 0.0, 0.0)  # looks along +y
-assert bpy.ops.throng.near(by="camera", reach=14.0, most=1000) == {"FINISHED"}
+assert bpy.ops.throng.near(by="camera", reach=14.0, most=1000, whole=True) == {"FINISHED"}
 scene.frame_set(FRAME)
 without, coarse = counts(), shown(crowd, True)
 away = {row: float(numpy.linalg.norm(pos[FRAME - 1, row] - numpy.array(camera.location))) for row in coarse}

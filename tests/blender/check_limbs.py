@@ -33,7 +33,7 @@ def crowd_of(folder):
                                        roads=False, relative=False, people=2) == {"FINISHED"}
     camera = bpy.context.scene.camera
     camera.location, camera.rotation_euler = (0.0, -12.0, 3.0), (1.35, 0.0, 0.0)
-    assert bpy.ops.throng.near(by="camera", reach=40.0, most=1000) == {"FINISHED"}
+    assert bpy.ops.throng.near(by="camera", reach=40.0, most=1000, whole=True) == {"FINISHED"}
     return crowd_objects(bpy.context.scene)[0]
 
 

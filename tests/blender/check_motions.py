@@ -58,7 +58,7 @@ crowd = crowd_objects(scene)[0]
 cast = cast_of(crowd)
 camera = scene.camera
 camera.location, camera.rotation_euler = (0.0, -12.0, 3.0), (1.35, 0.0, 0.0)
-assert bpy.ops.throng.near(by="camera", reach=14.0, most=1000) == {"FINISHED"}
+assert bpy.ops.throng.near(by="camera", reach=14.0, most=1000, whole=True) == {"FINISHED"}
 repertoire = repertoire_of(crowd)
 sheet_of = lambda member: sheets.sheet_of(library.figures_of(cast)[0, member])
 all_bones = lambda: {member: bones.bones_of(sheet_of(member)) for member in range(3)}
@@ -213,7 +213,7 @@ throng.register()
 cast = cast_of(crowd)
 
 # a hero walks as he does in the crowd
-assert bpy.ops.throng.near(by="camera", reach=100.0, most=1000) == {"FINISHED"}
+assert bpy.ops.throng.near(by="camera", reach=100.0, most=1000, whole=True) == {"FINISHED"}
 shown = seen()
 row = next(row for row in rows if goes_so(row) and member_of(row) == MAN and row in shown[0])
 assert bpy.ops.throng.promote_person(rows=str(row), hero="Ben") == {"FINISHED"}

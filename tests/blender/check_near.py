@@ -106,6 +106,13 @@ shape, camera = cast_of(crowd), scene.camera
 result["by default"] = ["throng near" in crowd.modifiers, shape["throng_levels"]]
 camera.location, camera.rotation_euler = (0.0, -12.0, 3.0), (1.35, 0.0, 0.0)  # looks along +y
 assert bpy.ops.throng.near(by="camera", reach=14.0, most=1000) == {"FINISHED"}
+on_screen, figures = bent(crowd), library.figures_of(cast_of(crowd))
+result["on screen"] = []
+for row, points in on_screen.items():
+    member = own.member_of(crowd, row, int(state[FRAME - 1, row, 1]), False)
+    result["on screen"].append([float(numpy.linalg.norm(pos[FRAME - 1, row] - numpy.array(camera.location))),
+                                len(points), [len(figures[level, member].data.vertices) for level in range(3)]])
+assert bpy.ops.throng.near(by="camera", reach=14.0, most=1000, whole=True) == {"FINISHED"}
 found = bent(crowd)
 result["bent"], result["instanced"] = sorted(found), sorted(instanced(crowd))
 result["off"] = {row: float(numpy.linalg.norm(points - expected(crowd, row), axis=1).max())
@@ -140,7 +147,7 @@ for name, shown in zip(INSTANCERS, (False, True)):
     crowd.modifiers[name].show_viewport = shown
 
 # fewer than there are: the nearest
-assert bpy.ops.throng.near(by="camera", reach=14.0, most=5) == {"FINISHED"}
+assert bpy.ops.throng.near(by="camera", reach=14.0, most=5, whole=True) == {"FINISHED"}
 few = bent(crowd)
 away = {row: float(numpy.linalg.norm(pos[FRAME - 1, row] - numpy.array(camera.location))) for row in found}
 result["few"] = [len(few), max(away[row] for row in few),
@@ -176,12 +183,12 @@ bpy.ops.throng.near(by="none")
 result["nothing is left"] = counts() == without
 
 # a member without bones, as those are who were brought along: it takes poses, however near
-bpy.ops.throng.near(by="camera", reach=14.0, most=1000)
+bpy.ops.throng.near(by="camera", reach=14.0, most=1000, whole=True)
 member = {row: own.member_of(crowd, row, int(state[FRAME - 1, row, 1]), False) for row in range(len(way[0]))}
 result["without bones"] = [sorted({member[row] for row in bent(crowd)})]
 del sheets.sheet_of(library.figures_of(cast_of(crowd))[0, 2])["throng_bones"]
 bpy.ops.throng.near(by="none")
-bpy.ops.throng.near(by="camera", reach=14.0, most=1000)
+bpy.ops.throng.near(by="camera", reach=14.0, most=1000, whole=True)
 result["without bones"] += [sorted({member[row] for row in people(crowd)}) for people in (bent, instanced)]
 
 # people without bones

@@ -67,6 +67,15 @@ def test_where_there_are_too_many_the_nearest_are_bent(seen):
     assert 1 <= count <= 5 and furthest < nearest_other and seen["all are there"]
 
 
+def test_on_the_screen_meshes_are_coarser_further_away(seen):
+    levels = []
+    for distance, count, by_level in seen["on screen"]:
+        level = (distance > 4.5) + (distance > 9.0)
+        assert count == by_level[level] and by_level[0] > by_level[1] > by_level[2], (distance, count, by_level)
+        levels.append(level)
+    assert len(levels) == len(seen["bent"]) and len(set(levels)) > 1, "the scene has some of two levels"
+
+
 def test_overrides_hold_for_them(seen):
     assert abs(seen["scaled"] - 1.25) < 0.01
 

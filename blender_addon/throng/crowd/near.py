@@ -49,7 +49,8 @@ def selection_tree():
     if found:
         return found
     tree, inputs, outputs = new_tree(name, _GEOMETRY + [("Camera", "NodeSocketObject"), ("Reach", "NodeSocketFloat"),
-                                                        ("Most", "NodeSocketInt"), ("Close", "NodeSocketFloat")],
+                                                        ("Most", "NodeSocketInt"), ("Close", "NodeSocketFloat"),
+                                                        ("Whole", "NodeSocketBool")],
                                     _GEOMETRY)
     maths, given = Maths(tree), inputs.outputs
     camera = maths.node("GeometryNodeObjectInfo", transform_space="RELATIVE")
@@ -71,8 +72,8 @@ def selection_tree():
     near = maths.math("LESS_THAN", share, fitting(maths, points, share, given["Most"]))
     closer = maths.math("SUBTRACT", 1.0, maths.math("DIVIDE", distance, maths.math("MAXIMUM", given["Close"], 1e-3)))
     near = maths.math("MULTIPLY", near, maths.math("ADD", maths.math("MAXIMUM", closer, 0.0), 1.0))
-    points = maths.store(points, COARSE, maths.math("ADD", *(maths.math("GREATER_THAN", distance, each)
-                                                            for each in COARSER_FROM)))
+    coarse = maths.math("ADD", *(maths.math("GREATER_THAN", distance, each) for each in COARSER_FROM))
+    points = maths.store(points, COARSE, maths.math("MULTIPLY", coarse, maths.math("SUBTRACT", 1.0, given["Whole"])))
     maths.link(maths.store(points, NEAR, near), outputs.inputs[0])
     return tree
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """People near the camera are bent into their pose (crowd/near.py): which, and how many."""
 import bpy
-from bpy.props import EnumProperty, FloatProperty, IntProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from ..blender.nodes import drop_tree, set_input
 from ..blender.panels import Below
@@ -15,9 +15,10 @@ from .by_camera import NO_BONES, ByCamera, Refused
 REACH, MOST = 15.0, 150  # m, people
 
 
-def apply(crowd, camera, reach=REACH, most=MOST):
+def apply(crowd, camera, reach=REACH, most=MOST, whole=False):
     """At most so many people within `reach` metres before the camera are bent. False where the crowd's cast keeps no
-    bones. Raises LibraryError where the coarser meshes of all others cannot be made."""
+    bones. Raises LibraryError where the coarser meshes of all others cannot be made. @param whole whether all have the
+    meshes of final pictures on the screen, too"""
     cast = cast_of(crowd)
     if not near.boned_members(cast):
         return False
@@ -32,6 +33,7 @@ def apply(crowd, camera, reach=REACH, most=MOST):
     set_input(modifier, "Camera", camera)
     set_input(modifier, "Reach", float(reach))
     set_input(modifier, "Most", most)
+    set_input(modifier, "Whole", whole)
     crowd.update_tag()
     return True
 
@@ -46,9 +48,9 @@ def remove(crowd):
     crowd.modifiers.remove(modifier)
     drop_tree(tree)
     cast = cast_of(crowd)
+    near.forget(cast, crowds_of(cast))  # before levels go, whose meshes it shows
     if not any(name in other.modifiers for name in (near.MODIFIER, levels.MODIFIER) for other in crowds_of(cast)):
         library.remove_levels(cast)
-    near.forget(cast, crowds_of(cast))
     cast_changed(crowd)
 
 
@@ -66,11 +68,14 @@ class THRONG_OT_near(ByCamera, bpy.types.Operator):
     most: IntProperty(name="Most", default=MOST, min=1, max=5000,
                       description="At most so many are: where there are more, the reach shrinks. It takes time in "
                                   "every frame")
+    whole: BoolProperty(name="Whole on Screen", default=False,
+                        description="On the screen, too, all have the meshes of final pictures; else those beyond some "
+                                    "metres have coarser ones there, which play faster")
 
     take_back = staticmethod(remove)
 
     def change(self, context, crowds):
-        if not any([apply(crowd, context.scene.camera, self.reach, self.most) for crowd in crowds]):
+        if not any([apply(crowd, context.scene.camera, self.reach, self.most, self.whole) for crowd in crowds]):
             raise Refused(NO_BONES)
         return f"At most {self.most} people within {self.reach:g} m are bent"
 
