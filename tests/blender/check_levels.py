@@ -35,7 +35,8 @@ def sizes():
 
 
 scene.frame_set(20)
-result = {"before": people(), "sizes": [sizes()], "lens": camera.data.lens}
+result = {"before": people(), "sizes": [sizes()], "lens": camera.data.lens,
+          "lists": sum("throng_poses_of" in thing for thing in bpy.data.objects)}
 scene.render.resolution_x, scene.render.resolution_y = 1920, 1080
 result["defaults"] = default_distances(camera, scene)
 camera.data.type = "ORTHO"

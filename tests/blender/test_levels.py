@@ -25,7 +25,9 @@ def seen(blender, tmp_path_factory):
 
 def test_coarser_figures_come_and_go(seen):
     found = seen[0]
-    once = 2 * cast.VARIATIONS  # of everybody the figure and its sheet of poses, as objects and as meshes
+    assert found["lists"] in (1, cast.VARIATIONS // 4), "of all poses, or of those of four people each"
+    # of everybody the figure and its sheet of poses, and these lists, as objects and as meshes
+    once = 2 * cast.VARIATIONS + found["lists"]
     assert found["sizes"] == [[once] * 2, [once] * 2, [cast.LEVELS * once] * 2] and found["after"] == [once] * 2
     assert found["off"] == found["before"] and not any("_l" in name for name in found["off"].values())
     assert len([name for name in found["trees"] if name.startswith("Throng instancer")]) == 1
