@@ -21,7 +21,7 @@ using Amounts = std::map<std::string, double>;
 using Asked = std::function<double(const FollowedStep&, glm::dvec2 change)>;
 
 bool isUnderWay(const FollowedStep& step) {
-    return step.doing == Doing::walking &&
+    return step.doing != Doing::arrived &&
            glm::length(glm::dvec2(step.wish)) > static_cast<double>(gpu::STANDING_SPEED);
 }
 

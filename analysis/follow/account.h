@@ -31,7 +31,7 @@ struct FollowAccount {
     std::size_t steps = 0, decisions = 0;
     double from = 0.0, to = 0.0;
     double walked = 0.0;
-    double under_way = 0.0;     ///< s in which it wished to walk
+    double under_way = 0.0;     ///< s in which it wished to walk: along its route, or in a line
     double wished_speed = 0.0;  ///< m/s, mean while under way
     double had_speed = 0.0;     ///< m/s along its wish, likewise
 
