@@ -308,8 +308,9 @@ class Drawing {
     void drawNames(const Bars& bars) const {
         const std::size_t shown = std::min(bars.named.size(), kNamedRules);
         for (std::size_t i = 0; i < shown + (bars.named.size() > shown ? 1 : 0); ++i) {
-            const double x = kRules.left + 255.0 * static_cast<double>(i % 3);
-            const double y = kRules.bottom + 45.0 + 24.0 * static_cast<double>(i / 3);
+            const std::size_t column = i % 3, line = i / 3;
+            const double x = kRules.left + 255.0 * static_cast<double>(column);
+            const double y = kRules.bottom + 45.0 + 24.0 * static_cast<double>(line);
             canvas_.use(i < shown ? groupColour(i) : kOthers);
             cairo_rectangle(pen(), x, y - 11, 14, 14);
             cairo_fill(pen());
