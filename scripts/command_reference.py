@@ -34,7 +34,11 @@ BESIDE = {
     "compare": ["../measure.md#beside-people|what is compared"],
     "generate": ["../batch.md#generators|the kinds"],
     "info": ["../bake.md|what a bake holds"],
-    "measure": ["../measure.md|what is measured", "../how-to/bars.md|how to hold a bake to bars"],
+    "measure": [
+        "../measure.md|what is measured",
+        "../follow.md|following somebody",
+        "../how-to/bars.md|how to hold a bake to bars",
+    ],
     "report": ["../report.md|what the pages show"],
     "scenarios": ["../motion-validation.md|what came of them"],
     "verify": ["../bake.md#checksums|the checksums of a bake", "../how-to/render-on-a-farm.md|rendering on a farm"],

@@ -60,6 +60,33 @@ gl::Definitions together(gl::Definitions some, const gl::Definitions& others) {
 
 }  // namespace
 
+gl::ComputeProgram makeSteer(const gl::ShaderLibrary& library, const Buffers& buffers,
+                             const TerrainSlopes* ground, const MotionSettings& rules) {
+    gl::ComputeProgram steer = buffers.connect(
+        library, kSteer,
+        together(rules.definitions(), ground ? gl::Definitions{{"TERRAIN", "1"}} : gl::Definitions{}));
+    if (ground) ground->describeTo(steer);
+    return steer;
+}
+
+gl::ComputeProgram makeAvoid(const gl::ShaderLibrary& library, const Buffers& buffers, int neighbours,
+                             const MotionSettings& rules) {
+    gl::ComputeProgram avoid = buffers.connect(
+        library, kAvoid, together(rules.definitions(), {{"NEIGHBOURS", std::to_string(neighbours)}}));
+    avoid.set("slot_capacity", buffers.slotCapacity());
+    return avoid;
+}
+
+gl::ComputeProgram makeCarryOn(const gl::ShaderLibrary& library, const Buffers& buffers,
+                               const MotionSettings& rules) {
+    return buffers.connect(library, kCarryOn, rules.definitions());
+}
+
+gl::ComputeProgram makeMove(const gl::ShaderLibrary& library, const Buffers& buffers,
+                            const MotionSettings& rules) {
+    return buffers.connect(library, kMove, rules.definitions());
+}
+
 Spawner::Spawner(const gl::ShaderLibrary& library, Buffers& buffers, const gpu::Parameters& parameters,
                  const MotionSettings& rules)
     : invocations_(std::uint64_t{parameters.queue_count} * gpu::SPAWN_GROUP_SIZE),
@@ -86,15 +113,9 @@ void WaitingLines::run() {
 Avoidance::Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, int neighbours,
                      const TerrainSlopes* ground, const MotionSettings& rules)
     : buffers_(buffers),
-      steer_(buffers.connect(
-          library, kSteer,
-          together(rules.definitions(), ground ? gl::Definitions{{"TERRAIN", "1"}} : gl::Definitions{}))),
-      avoid_(buffers.connect(library, kAvoid,
-                             together(rules.definitions(), {{"NEIGHBOURS", std::to_string(neighbours)}}))),
-      carry_on_(buffers.connect(library, kCarryOn, rules.definitions())) {
-    avoid_.set("slot_capacity", buffers.slotCapacity());
-    if (ground) ground->describeTo(steer_);
-}
+      steer_(makeSteer(library, buffers, ground, rules)),
+      avoid_(makeAvoid(library, buffers, neighbours, rules)),
+      carry_on_(makeCarryOn(library, buffers, rules)) {}
 
 void Avoidance::run(std::uint32_t steps_done) {
     steer_.setIfUsed("steps_done", steps_done);
@@ -108,7 +129,13 @@ void Avoidance::carryOn() {
 
 Contacts::Contacts(const gl::ShaderLibrary& library, Buffers& buffers, int iterations,
                    const MotionSettings& rules)
+    : Contacts(library, buffers, iterations, rules,
+               {buffers.targets, buffers.targets_after, buffers.touch_words}) {}
+
+Contacts::Contacts(const gl::ShaderLibrary& library, const Buffers& buffers, int iterations,
+                   const MotionSettings& rules, const Places& places)
     : buffers_(buffers),
+      places_(places),
       iterations_(iterations),
       braced_(static_cast<int>(iterations * rules.number("standing_fast", "rounds"))),
       spectral_radius_(rules.isOn("contact_momentum")
@@ -116,10 +143,12 @@ Contacts::Contacts(const gl::ShaderLibrary& library, Buffers& buffers, int itera
                            : 0.0f),
       forth_(buffers.connect(library, kContact, rules.definitions())),
       back_(buffers.connect(library, kContact, rules.definitions())) {
-    forth_.bind("TargetsBefore", buffers.targets);
-    forth_.bind("TargetsAfter", buffers.targets_after);
-    back_.bind("TargetsBefore", buffers.targets_after);
-    back_.bind("TargetsAfter", buffers.targets);
+    forth_.bind("TargetsBefore", places.targets);
+    forth_.bind("TargetsAfter", places.targets_after);
+    back_.bind("TargetsBefore", places.targets_after);
+    back_.bind("TargetsAfter", places.targets);
+    forth_.bind("TouchWords", places.touch_words);
+    back_.bind("TouchWords", places.touch_words);
 }
 
 void Contacts::run() {
@@ -138,7 +167,7 @@ void Contacts::run() {
 
 Motion::Motion(const gl::ShaderLibrary& library, Buffers& buffers, const gl::Buffer& targets,
                const MotionSettings& rules)
-    : buffers_(buffers), program_(buffers.connect(library, kMove, rules.definitions())) {
+    : buffers_(buffers), program_(makeMove(library, buffers, rules)) {
     program_.bind("Targets", targets);
 }
 

@@ -11,6 +11,17 @@
 /// and has one verb.
 namespace throng::sim {
 
+/// The programs by which people decide and move, by rules of one's own.
+/// @param ground as Avoidance
+gl::ComputeProgram makeSteer(const gl::ShaderLibrary& library, const Buffers& buffers,
+                             const TerrainSlopes* ground, const MotionSettings& rules);
+gl::ComputeProgram makeAvoid(const gl::ShaderLibrary& library, const Buffers& buffers, int neighbours,
+                             const MotionSettings& rules);
+gl::ComputeProgram makeCarryOn(const gl::ShaderLibrary& library, const Buffers& buffers,
+                               const MotionSettings& rules);
+gl::ComputeProgram makeMove(const gl::ShaderLibrary& library, const Buffers& buffers,
+                            const MotionSettings& rules);
+
 /// Lets people enter where there is room.
 class Spawner {
   public:
@@ -53,13 +64,20 @@ class Avoidance {
 /// Keeps bodies out of each other and out of walls.
 class Contacts {
   public:
+    /// What it moves, and what else of it may lie elsewhere.
+    struct Places {
+        const gl::Buffer &targets, &targets_after, &touch_words;
+    };
     Contacts(const gl::ShaderLibrary& library, Buffers& buffers, int iterations, const MotionSettings& rules);
+    Contacts(const gl::ShaderLibrary& library, const Buffers& buffers, int iterations,
+             const MotionSettings& rules, const Places& places);
     void run();
     /// Where run() leaves the positions.
-    const gl::Buffer& result() const { return iterations_ % 2 ? buffers_.targets_after : buffers_.targets; }
+    const gl::Buffer& result() const { return iterations_ % 2 ? places_.targets_after : places_.targets; }
 
   private:
-    Buffers& buffers_;
+    const Buffers& buffers_;
+    Places places_;
     int iterations_;
     int braced_;             // of these, the first ones, in which weights count
     float spectral_radius_;  // 0 = without momentum
