@@ -46,7 +46,7 @@ std::map<std::string, Layout> layoutsInCpp() {
              MEMBER(spawn_time), MEMBER(heading), MEMBER(phase), MEMBER(variation), MEMBER(entry),
              MEMBER(flags), MEMBER(first_stage), MEMBER(stage_count), MEMBER(first_change),
              MEMBER(change_count), MEMBER(party_first), MEMBER(party_size), MEMBER(group), MEMBER(headway),
-             MEMBER(kind)}};
+             MEMBER(kind), MEMBER(half_axis), MEMBER(reserved)}};
     }
     {
         using T = gpu::Stage;
