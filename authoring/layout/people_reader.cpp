@@ -142,7 +142,6 @@ BodySides bodyNamed(const std::string& name, SchemaRule rule) {
         if (!node) node = bodies.find(kOfAdult);
         ObjectReader reader(*node, rule, fmt::format("the body {}", name), diagnostics);
         const BodySides sides = readSides(reader, diagnostics);
-        reader.get("source");
         reader.finish();
         return sides;
     });

@@ -3,7 +3,7 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "sim/simulation.h"
+#include "sim/simulation_parts.h"
 #include "sim/wall_index.h"
 #include "tests/sim/gpu_test.h"
 #include "tests/sim/scenes.h"
