@@ -115,6 +115,10 @@ std::map<std::string, Layout> layoutsInCpp() {
              MEMBER(ticket), MEMBER(nervousness), MEMBER(way_through)}};
     }
     {
+        using T = gpu::Chest;
+        result["Chest"] = {sizeof(T), {MEMBER(angle), MEMBER(rate), MEMBER(half_axis), MEMBER(reserved)}};
+    }
+    {
         using T = gpu::Decision;
         result["Decision"] = {sizeof(T), {MEMBER(change), MEMBER(pace), MEMBER(feet)}};
     }
