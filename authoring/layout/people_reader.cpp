@@ -179,9 +179,15 @@ void readBody(ObjectReader& people_reader, const JsonNode& people_node, SchemaRu
         const std::optional<BodySides> sides = readOwnSides(*node, rule, diagnostics);
         for (PeopleShare& share : people.kinds)
             share.settings.body = sides;
-    } else if (const auto name = people_reader.word("body")) {
+    } else {
+        Meanings<std::string> names;
+        for (const char* each :
+             {kOfProfile, kOfAdult, "child", "elderly", "suitcase", "wheelchair", "pram"})
+            names.emplace_back(each, each);
+        std::string name = kOfProfile;
+        people_reader.choice("body", names, name);
         for (PeopleShare& share : people.kinds)
-            share.settings.body = bodyNamed(*name == kOfProfile ? share.profile : *name, rule);
+            share.settings.body = bodyNamed(name == kOfProfile ? share.profile : name, rule);
     }
 }
 
