@@ -229,7 +229,8 @@ void MotionRecorder::carry() {
         const Carriage carriage = (*carriages_)[row];
         // Who has a body turned its chest in the simulation; the hips take what a spine does not.
         const bool simulated = half_axes_[row] > 0.0f && !chests_.empty();
-        const float twist = simulated ? std::clamp(chests_[row * kComponents], -kMostTwist, kMostTwist) : carriage.twist;
+        const float twist =
+            simulated ? std::clamp(chests_[row * kComponents], -kMostTwist, kMostTwist) : carriage.twist;
         return std::array{carriage.walking, twist, carriage.lean};
     });
 }
