@@ -139,12 +139,12 @@ def main():
     bake = options.bake if options.bake.endswith(".json") else os.path.join(options.bake, "bake.json")
     bpy.ops.import_scene.throng(filepath=os.path.abspath(bake))
     set_up_render(scene, options)
-    if options.shot != "crane":
-        bpy.ops.throng.shot(kind=options.shot)
-    if options.view:
-        look(scene.camera, *options.view)
     if options.light != "late":
         bpy.ops.throng.light(time=options.light)
+    if options.shot != "crane":
+        bpy.ops.throng.shot(kind=options.shot)  # by the light's shadows, so after it
+    if options.view:
+        look(scene.camera, *options.view)
     if options.wet:
         bpy.ops.throng.rain(amount=options.wet)
     if options.levels:

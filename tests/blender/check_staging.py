@@ -34,6 +34,13 @@ for kind in ("street", "wide", "crane"):
                              "height": camera.location.z,
                              "nearest": min((camera.location.xy - place.xy).length for place in places),
                              "cameras": sum(thing.type == "CAMERA" for thing in scene.objects)}
+result["street by light"] = {}
+for time in ("noon", "late"):
+    assert bpy.ops.throng.light(time=time) == {"FINISHED"}
+    assert bpy.ops.throng.shot(kind="street") == {"FINISHED"}
+    looks = scene.camera.matrix_world.to_quaternion() @ Vector((0.0, 0.0, -1.0))
+    result["street by light"][time] = {"place": list(scene.camera.location.xy), "looks": list(looks.xy)}
+assert bpy.ops.throng.shot(kind="crane") == {"FINISHED"}
 dressing = collection.children[f"{collection.name} dressing"]
 tree = next(thing for thing in dressing.objects if thing.name.startswith("Throng lime tree"))
 stood, result["tree hidden"] = tree.location.copy(), []

@@ -284,7 +284,7 @@ def test_arms_swing_as_the_clip_does(tmp_path, wearers):
 
 
 def test_arms_that_a_clip_does_not_have_are_the_casts(tmp_path, wearers):
-    motion, wearer = walk_of(tmp_path, Walker()), wearers[0]
+    motion, wearer = walk_of(tmp_path, Walker()), next(each for each in wearers if not each.rig.holds)
     motion.arms[:, 0] = 0.0
     walk = retarget.walk(motion, wearer)
     poses = walk.poses(walk.plan(1.45))

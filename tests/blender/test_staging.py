@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Shots and lights of a crowd in a real Blender."""
+import json
+
 import numpy
 import pytest
 
 from results import ADDON, HERE, result_of
 from throng.setting import street_ends
+from throng.setting.sunlight import houses_of, sunny_share
 
 
 @pytest.fixture(scope="module")
@@ -19,6 +22,16 @@ def test_shots_show_the_crowd(staged):
     assert shots["street"]["height"] < 2.1 and shots["street"]["seen"] > 20 and shots["street"]["nearest"] > 0.5
     assert shots["crane"]["height"] > 4.0 and shots["crane"]["seen"] > 50
     assert {shot["cameras"] for shot in shots.values()} == {1}
+
+
+def test_the_street_is_seen_where_people_near_by_are_in_the_sun(staged, bakes):
+    geometry = json.loads((bakes("intersection") / "bake.json").read_text())["geometry"]
+    suns = {"noon": (0.418, 0.326, 0.848), "late": (0.682, 0.533, 0.5)}  # 58 and 30 degrees up, both from 128
+    for time, least in (("noon", 0.8), ("late", 0.6)):
+        shot = staged["street by light"][time]
+        assert sunny_share(houses_of(geometry), shot["place"], shot["looks"], suns[time]) >= least
+        assert shot["looks"][0] * suns[time][0] + shot["looks"][1] * suns[time][1] < 0.45, "not against the sun"
+        assert min(abs(axis) for axis in shot["place"]) < 5.6, "in a street, off its houses"
 
 
 def test_a_tree_before_the_lens_is_hidden_until_it_is_not(staged):

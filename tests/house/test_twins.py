@@ -23,11 +23,11 @@ def test_from_where_people_walk():
     header, nodes = "recording/carriages.h", "blender_addon/throng/crowd/near.py"
     assert number(header, "kStandsBelow") == number(nodes, "STANDS_BELOW")
     assert number(header, "kWalksFrom") == number(nodes, "WALKS_FROM")
-    package = "python/src/throng_io/usd/motions.py"
+    package = "python/src/throng_io/skinned/motions.py"
     assert [number(package, name) for name in ("STANDS_BELOW", "WALKS_FROM")] == [
         number(nodes, name) for name in ("STANDS_BELOW", "WALKS_FROM")]
     assert number(package, "FRAMES_A_ROUND") == number("blender_addon/throng/crowd/poses.py", "FRAMES_A_ROUND")
-    assert number("python/src/throng_io/usd/members.py", "MOST_MEMBERS") == number(
+    assert number("python/src/throng_io/skinned/members.py", "MOST_MEMBERS") == number(
         "blender_addon/throng/people/members.py", "MEMBERS")
     assert number("shaders/shared/walking.h", "STANDING_SPEED") == number("blender_addon/throng/crowd/poses.py",
                                                                           "STANDING_SPEED")

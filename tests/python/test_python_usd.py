@@ -6,9 +6,9 @@ import shapely
 
 import throng_io
 from throng_io import cli
+from throng_io.bakes.surroundings import prism
 from throng_io.usd.crowd import TOPS, costumes
 from throng_io.usd.figures import HEIGHT, PHASES, TOP, figure
-from throng_io.usd.surroundings import prism
 
 Usd = pytest.importorskip("pxr.Usd", reason="usd-core is not installed")
 UsdGeom = pytest.importorskip("pxr.UsdGeom")

@@ -10,10 +10,10 @@ import pytest
 
 import throng_io
 from conftest import ROOT
+from posed_people import expected, frames_of, off
 from throng_io import cli
-from throng_io.cast import BEATS, POSES, Repertoire, gait, poses_of_build, skinning
-from throng_io.people import person
-from throng_io.usd import members, motions
+from throng_io.cast import BEATS, POSES, Repertoire, gait
+from throng_io.skinned import members, motions
 
 Usd = pytest.importorskip("pxr.Usd", reason="usd-core is not installed")
 UsdGeom = pytest.importorskip("pxr.UsdGeom")
@@ -66,28 +66,6 @@ def skinned(prim, time):
     return found
 
 
-def frames_of(bake, row):
-    there = numpy.nonzero(bake.there()[:, row])[0]
-    return there[[0, len(there) // 3, len(there) // 2, -1]].tolist()
-
-
-def expected(bake, row, frame, bodies):
-    """Points of the add-on's person, in the world: bent as one is near the camera."""
-    roles, member_of = members.cast_of(bake)
-    maker, repertoire = person.Maker(bodies, roles[member_of[row]].person()), members.repertoire_of(bake)
-    model = maker.model(0)
-    every = maker.rig.all_matrices(poses_of_build(maker.rig.build, repertoire))
-    leaders = skinning.leaders_of(bodies.parents, every[::7])
-    rest, weights = skinning.hinged(model.points, model.weights, leaders[0], every[::19])
-    track = motions.Track(row, numpy.array([frame + 1]), bake.state[[frame], row].astype(float),
-                          bake.dir[[frame], row, 2], bake.stream("carriage")[[frame], row, 0])
-    bent = motions.matrices_of(every[:, numpy.unique(leaders[0])], repertoire, track)[0]
-    points = person.skinned(rest, weights, bent[None])[0]
-    cosine, sine = bake.dir[frame, row, :2]
-    turned = points @ numpy.array([[cosine, sine, 0], [-sine, cosine, 0], [0, 0, 1]])
-    return turned + bake.world(frame, row)
-
-
 def test_people_are_bent_as_the_cast_is(crowd, bodies, monkeypatch):
     bake, *stages = crowd
     monkeypatch.setenv("THRONG_BODIES", str(bodies))
@@ -98,9 +76,7 @@ def test_people_are_bent_as_the_cast_is(crowd, bodies, monkeypatch):
                 parts = skinned(prim, frame + 1)
                 assert set(parts) == {"dressed", "tinted"}
                 whole = expected(bake, row, frame, library)
-                off = max(numpy.linalg.norm(whole[None] - part[::9, None], axis=2).min(axis=1).max()
-                          for part in parts.values())
-                assert off < 1e-4
+                assert max(off(part[::9], whole) for part in parts.values()) < 1e-4
                 assert sum(map(len, parts.values())) == len(whole)
                 both = numpy.concatenate(list(parts.values()))
                 assert numpy.abs(both.min(axis=0) - whole.min(axis=0)).max() < 1e-4

@@ -14,7 +14,7 @@ Whatever the stride, the planted foot is under the body at phase UNDER_BODY of i
 strides there, and nowhere else.
 """
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 UNDER_BODY = 0.28     # as GAIT_UNDER_BODY of the simulation
@@ -45,6 +45,11 @@ class Gait:
     def runs(self):
         return self.stride >= RUNNING_STRIDE
 
+    def spared(self, share):
+        """The same for a leg that hurts: it stands for a shorter time and hardly pushes off, and is lifted less."""
+        return replace(self, stance=self.stance - 0.07 * share, toe_off_pitch=(1.0 - 0.45 * share) * self.toe_off_pitch,
+                       lift=(1.0 - 0.35 * share) * self.lift)
+
     @property
     def seconds(self):
         """Of a cycle, at the speed that belongs to the stride."""
@@ -64,16 +69,18 @@ def gait_of(stride):
 
 @dataclass(frozen=True)
 class Build:
-    """Lengths of one person, metres."""
+    """Lengths of one person, metres, and how much the left leg is spared in walking."""
     thigh: float = 0.435
     shank: float = 0.425
     ankle: float = 0.085        # height of the ankle joint over the sole
     heel: float = 0.065         # from the ankle back to the heel's contact point
     ball: float = 0.125         # from the ankle forward to the ball of the foot
     hip_width: float = 0.17     # between the hip joints
+    limp: float = 0.0           # 0 (none) to 1
 
     def scaled(self, factor):
-        return Build(*(getattr(self, name) * factor for name in self.__dataclass_fields__))
+        lengths = [name for name in self.__dataclass_fields__ if name != "limp"]
+        return replace(self, **{name: factor * getattr(self, name) for name in lengths})
 
 
 @dataclass(frozen=True)
@@ -92,6 +99,8 @@ class Pose:
     lean: float             # forward
     feet: tuple             # (right, left) Foot
     arms: tuple             # (right, left) of (swing forward, elbow flexion)
+    tilt: float = 0.0       # of the trunk, to the right
+    runs: bool = False
 
 
 def _smooth(t):
@@ -158,10 +167,22 @@ def _running_height(build, gait):
     return highest
 
 
+def _limp(phase, build, gait):
+    """(the gait of the left leg, how far it bears somebody who limps, from 0 to 1). Who limps gets off the leg sooner
+    and leans over it meanwhile, which takes load off the hip (antalgic gait: Perry and Burnfield 2010). Feet come down
+    where and when they do in even walking, as simulated steps are even."""
+    if gait.runs or not build.limp:
+        return gait, 0.0
+    spared = gait.spared(build.limp)
+    since = (phase + 0.5 - gait.down) % 1.0
+    return spared, build.limp * math.sin(math.pi * min(since / spared.stance, 1.0))
+
+
 def walk_pose(phase, build, gait):
     """The pose at a phase of the cycle in [0, 1)."""
     tau = 2.0 * math.pi
-    right, left = foot_at(phase, build, gait), foot_at(phase + 0.5, build, gait)
+    spared, bears = _limp(phase, build, gait)
+    right, left = foot_at(phase, build, gait), foot_at(phase + 0.5, build, spared)
     leg = build.thigh + build.shank
     if gait.runs:  # lowest over the standing leg, highest in flight
         height = _running_height(build, gait) - gait.bob * math.cos(2.0 * tau * (phase - UNDER_BODY))
@@ -169,11 +190,14 @@ def walk_pose(phase, build, gait):
         # long strides bend the knees
         top = min(0.958 * leg + build.ankle + gait.bob, _lowest_reach(build, gait) + 2.5 * gait.bob)
         height = min(top - gait.bob - gait.bob * math.cos(2.0 * tau * (phase - 0.02)), _reach((right, left), leg))
-    sway = -0.022 * math.sin(tau * phase + 0.3)  # towards the standing leg (right leg stands in the first half)
+    height -= 0.022 * bears
+    # towards the standing leg (right leg stands in the first half)
+    sway = -0.022 * math.sin(tau * phase + 0.3) + 0.012 * bears
     turn = math.cos(tau * (phase - gait.down))   # the right hip is ahead when the right foot comes down
     arms = ((-gait.swing * turn + 0.03, gait.elbow + 0.22 * max(0.0, -turn)),
             (gait.swing * turn + 0.03, gait.elbow + 0.22 * max(0.0, turn)))
-    return Pose((0.0, sway, height), gait.yaw * turn, -1.15 * gait.yaw * turn, gait.lean, (right, left), arms)
+    return Pose((0.0, sway, height), gait.yaw * turn, -1.15 * gait.yaw * turn, gait.lean + 0.03 * bears, (right, left),
+                arms, -0.11 * bears, gait.runs)
 
 
 STANDING_CLIPS = ("idle", "shift", "talk", "phone")

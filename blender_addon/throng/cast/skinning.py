@@ -17,16 +17,17 @@ def _whole(matrices):
     return numpy.concatenate([matrices, last], axis=-2)
 
 
-def leaders_of(parents, matrices):
+def leaders_of(parents, matrices, leading=()):
     """(for each bone the one that it goes with, what takes it from its own rest to that one's).
 
-    @param parents of each bone, who comes before it; @param matrices (P, B, 3, 4) in all poses
+    @param parents of each bone, who comes before it; @param matrices (P, B, 3, 4) in all poses; @param leading bones
+    that go with none, even if they never move beside another one
     """
     whole = _whole(matrices)
     leaders, turns = [], []
     for bone, parent in enumerate(parents):
         leader, turn = bone, numpy.eye(4)
-        if 0 <= parent < bone:
+        if 0 <= parent < bone and bone not in leading:
             beside = numpy.linalg.inv(whole[:, leaders[parent]]) @ whole[:, bone]
             if numpy.abs(beside - beside[0]).max() < _STILL:
                 leader, turn = leaders[parent], beside[0]

@@ -9,8 +9,11 @@ import bpy
 from ..formats import BakeError, load_bake
 from ..formats.terrain_mesh import read_mesh
 from ..setting.dressing import FIELD_TREES, STREET_TREES
+from ..setting.plane import distance_to
+from ..setting.sunlight import houses_of, sunny_share
 from .lights import expose
 from .shapes import direction, inside
+from .skies import light_of, sun_way
 
 _HEADER = 32
 
@@ -70,9 +73,12 @@ def build_camera(scene, manifest, collection, shot="crane"):
     frame = int(bake.frames * 0.4) if bake else 0
     people = positions_at(bake, frame) if bake else []
     target = _densest(people) if people else (0.0, 0.0)
-    way = _clear_way(manifest.get("geometry") or {}, target)
-    take = {"crane": _crane, "street": _street, "wide": _wide}[shot]
-    place, aim = take(manifest.get("geometry") or {}, people, target, way)
+    geometry = manifest.get("geometry") or {}
+    ways = _clear_ways(geometry, target)
+    if shot == "street":
+        place, aim = _street(geometry, people, target, ways, sun_way(light_of(collection.get("throng_light_time"))))
+    else:
+        place, aim = {"crane": _crane, "wide": _wide}[shot](geometry, people, target, ways[0])
     terrain = read_mesh(bake.terrain_path) if bake and bake.terrain_path else None
     below = _ground_at(terrain, *aim[:2])
     place = (*place[:2], place[2] + max(below, _ground_at(terrain, *place[:2])))
@@ -130,13 +136,13 @@ def _new_camera(collection):
     return holder
 
 
-def _clear_way(geometry, target, reach=24.0):
-    """A way to look from that does not begin in a building."""
+def _clear_ways(geometry, target, reach=24.0):
+    """Ways to look from that do not begin in a building."""
     solids = [[tuple(p[:2]) for p in wall["points"]] for wall in geometry.get("walls", []) if wall.get("closed")]
     ways = _directions(geometry)
     clear = [u for u in ways
              if not any(inside(s, (target[0] + u[0] * reach, target[1] + u[1] * reach)) for s in solids)]
-    return (clear or ways)[0]
+    return clear or ways
 
 
 def _crane(geometry, people, target, u):
@@ -147,15 +153,32 @@ def _crane(geometry, people, target, u):
     return place, (target[0] + u[0] * 2.0, target[1] + u[1] * 2.0, 1.6)
 
 
-def _street(_geometry, people, target, u):
-    """In the crowd, where nobody is right before the lens."""
-    def room(place):
+_OFF_WALLS = 3.0  # m
+_SUN = 4.0      # m of room before the lens, for which sun on all who are near makes up,
+_AGAINST = 3.0  # and which light that comes from ahead costs: faces are dark against it
+
+
+def _street(geometry, people, target, ways, sun):
+    """In the crowd, where nobody is right before the lens, and the sun shines on those who are near."""
+    houses = houses_of(geometry)
+
+    def clear(place):
+        return min((distance_to(a, b, place) for outline, _ in houses
+                    for a, b in zip(outline, outline[1:] + outline[:1])), default=_OFF_WALLS) >= _OFF_WALLS
+
+    def room(place, u):
         ahead = [(x - place[0], y - place[1]) for x, y in people]
         return min((math.hypot(*p) for p in ahead if p[0] * -u[0] + p[1] * -u[1] > -0.5), default=10.0)
 
-    places = [(target[0] + u[0] * along - u[1] * side, target[1] + u[1] * along + u[0] * side)
-              for along in range(8, 18) for side in (-4.0, -3.0, -2.0, -1.0, 1.0, 2.0, 3.0, 4.0)]
-    best = max(places, key=lambda place: (min(room(place), 3.4), -math.dist(place, target)))
+    def worth(place, u):
+        away = math.dist(place, target)
+        looks = (target[0] - place[0]) / away, (target[1] - place[1]) / away
+        against = max(looks[0] * sun[0] + looks[1] * sun[1], 0.0)
+        return min(room(place, u), 3.4) + _SUN * sunny_share(houses, place, looks, sun) - _AGAINST * against, -away
+
+    places = [((target[0] + u[0] * along - u[1] * side, target[1] + u[1] * along + u[0] * side), u)
+              for u in ways for along in range(8, 18) for side in (-4.0, -3.0, -2.0, -1.0, 1.0, 2.0, 3.0, 4.0)]
+    best, _ = max([each for each in places if clear(each[0])] or places, key=lambda each: worth(*each))
     return (*best, _EYES), (*target, 1.35)
 
 

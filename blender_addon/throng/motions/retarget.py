@@ -8,7 +8,7 @@ import numpy
 
 from ..cast import BEATS, POSES, gait
 from ..characters import anatomy, feet, legs, motion
-from ..people import rig as rigs
+from ..people import holding, turns as bends
 from .motion import TRUNK
 
 _SIDES = ("r", "l")
@@ -90,18 +90,18 @@ def _turns(wearer, what):
     rig, turns = wearer.rig, {}
     for number, bone in enumerate(TRUNK):
         stoop = {"spine_01": 0.4, "spine_02": 0.9, "spine_03": 1.5, "neck_01": 1.3, "head": 0.35}.get(bone, 0.0)
-        turns[bone] = what.trunk[:, number] @ rigs.turn(_Y, stoop * rig.stoop)
+        turns[bone] = what.trunk[:, number] @ bends.turn(_Y, stoop * rig.stoop)
     for index, side in enumerate(_SIDES):
         thigh, calf, foot, ball = (f"{bone}_{side}" for bone in ("thigh", "calf", "foot", "ball"))
         axis = what.legs[:, index, 2]
         for row, (bone, end) in enumerate(((thigh, calf), (calf, foot))):
-            at_rest = rigs.frame(rig.heads[end] - rig.heads[bone], _Y)
+            at_rest = bends.frame(rig.heads[end] - rig.heads[bone], _Y)
             turns[bone] = _frames(what.legs[:, index, row], axis) @ at_rest.T
         way = rig.heads[ball] - rig.heads[foot]
-        straight = rigs.turn(_Z, -float(numpy.arctan2(way[1], way[0])))
+        straight = bends.turn(_Z, -float(numpy.arctan2(way[1], way[0])))
         turns[foot] = what.feet[:, index] @ straight
         turns[ball] = _toes(what.feet[:, index]) @ straight
-        turns[f"clavicle_{side}"] = turns["spine_03"] @ rigs.turn(numpy.array([1.0, 0.0, 0.0]),
+        turns[f"clavicle_{side}"] = turns["spine_03"] @ bends.turn(numpy.array([1.0, 0.0, 0.0]),
                                                                   -_sign(side) * 0.03)
         if what.has_arm(index):
             _turn_arm(wearer, what, turns, side, index)
@@ -125,10 +125,10 @@ def _turn_arm(wearer, what, turns, side, index):
     rig = wearer.rig
     upper, lower, hand = (f"{bone}_{side}" for bone in ("upperarm", "lowerarm", "hand"))
     first, second = rig.heads[lower] - rig.heads[upper], rig.heads[hand] - rig.heads[lower]
-    hinge, aside = rigs.cross(first, second), _aside(wearer, what, turns, side, index)
+    hinge, aside = bends.cross(first, second), _aside(wearer, what, turns, side, index)
     for bone, row, at_rest in ((upper, 0, first), (lower, 1, second)):
-        turns[bone] = aside @ _frames(what.arms[:, index, row], what.arms[:, index, 2]) @ rigs.frame(at_rest, hinge).T
-    turns[hand] = turns[lower] @ rigs.turn(second, _sign(side) * 0.22)  # palms to the thighs
+        turns[bone] = aside @ _frames(what.arms[:, index, row], what.arms[:, index, 2]) @ bends.frame(at_rest, hinge).T
+    turns[hand] = turns[lower] @ bends.turn(second, _sign(side) * 0.22)  # palms to the thighs
 
 
 def _aside(wearer, what, turns, side, index):
@@ -143,7 +143,7 @@ def _aside(wearer, what, turns, side, index):
     out = abs(rig.heads[bones[0]][1]) + _sign(side) * reach[:, 1]
     needs = (rig.widest + BESIDE * rig.scale - out) / sum(lengths)
     angle = float(numpy.clip(numpy.max(needs[low], initial=0.0), 0.0, WIDEST))
-    return chest @ rigs.turn(numpy.array([1.0, 0.0, 0.0]), _sign(side) * angle) @ chest.swapaxes(1, 2)
+    return chest @ bends.turn(numpy.array([1.0, 0.0, 0.0]), _sign(side) * angle) @ chest.swapaxes(1, 2)
 
 
 def _placed(wearer, turns, hips):
@@ -263,6 +263,8 @@ def matrices(wearer, pose):
     turns["Root"], places["Root"] = numpy.eye(3), numpy.zeros(3)
     for side in _SIDES:
         wearer.rig.bend_fingers(turns, places, side)
+    if wearer.rig.holds in holding.BAGS:
+        holding.hang(wearer.rig, turns, places, 0.0)
     return wearer.rig.of_all(turns, places)
 
 

@@ -1,18 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What people carry: a rucksack, a bag on a strap, a shopper over the shoulder, a stick. Straps are laid on clothes."""
+"""What people carry: a rucksack, a bag on a strap, a shopper over the shoulder, a stick, and what hands hold. Straps
+are laid on clothes."""
 import math
 
 import numpy
 
-from . import levels, regions
+from . import holding, levels, regions
 from .head import loose
 from .parts import clipped, strap_on
 
 _UP = numpy.array([0.0, 0.0, 1.0])
 
 
-def _box(bodies, centre, half, bone, material, level, round_=0.55):
-    """A box with soft edges."""
+def _box(bodies, centre, half, bone, material, level, round_=0.55, axes=None):
+    """A box with soft edges. @param axes its own, as columns, where they are not everybody's"""
     steps = {levels.NEAR: 9, levels.CLOSE: 7, 0: 4, 1: 3, 2: 2}[level]
     line = numpy.linspace(-1.0, 1.0, steps)
     points, faces = [], []
@@ -24,7 +25,8 @@ def _box(bodies, centre, half, bone, material, level, round_=0.55):
                     spot = numpy.zeros(3)
                     spot[axis], spot[a], spot[b] = sign, u, v
                     ball = spot / numpy.linalg.norm(spot) * 1.25
-                    points.append(numpy.asarray(centre) + (spot * (1.0 - round_) + ball * round_) * half)
+                    spot = (spot * (1.0 - round_) + ball * round_) * half
+                    points.append(numpy.asarray(centre) + (spot if axes is None else axes @ spot))
             for row in range(steps - 1):
                 for column in range(steps - 1):
                     corner = first + row * steps + column
@@ -83,6 +85,50 @@ def stick(bodies, rig, level):
         line.append(top + reach * numpy.array([1.0 - math.cos(angle), 0.0, math.sin(angle)]))
         radii.append(0.0095)
     return [_tube(bodies, numpy.array(line), numpy.array(radii) * rig.scale, sides, "Root", "extra leather")]
+
+
+def held(bodies, kind, rig, level):
+    """What somebody's right hand holds (holding.py moves it)."""
+    if kind in holding.BAGS:
+        return _hanging(bodies, kind, holding.hook_at_rest(rig), level)
+    return [_phone(bodies, rig, level)] if kind else []
+
+
+def _hanging(bodies, kind, hook, level):
+    """A bag below a hand: of leather with a handle, or of paper with two cords."""
+    box = lambda below, half, material, round_, aside=(0.0, 0.0): _box(
+        bodies, hook - (-aside[0], -aside[1], below), numpy.array(half), "Root", material, _of_thin(level), round_)
+    if kind == holding.CASE:
+        found = [box(0.185, (0.195, 0.045, 0.140), "extra leather", 0.25)]
+        handle = [box(0.0, (0.055, 0.011, 0.009), "extra leather", 0.3)]
+        handle += [box(0.022, (0.010, 0.010, 0.030), "extra leather", 0.3, (ahead, 0.0)) for ahead in (-0.052, 0.052)]
+    else:
+        found = [box(0.285, (0.155, 0.055, 0.185), "extra paper", 0.12)]
+        handle = [box(0.050, (0.0045, 0.0045, 0.058), "extra paper", 0.3, (ahead, aside))
+                  for ahead in (-0.045, 0.045) for aside in (-0.025, 0.025)]
+    return found + (handle if level < 2 else [])
+
+
+def _of_thin(level):
+    """Boxes of a crowd's meshes have no soft edges where these are too thin to be seen."""
+    return level if level < 0 else 2
+
+
+_PHONE = 0.0745, 0.0365, 0.0046  # m, half of its length, width and thickness
+
+
+def _phone(bodies, rig, level):
+    """On the fingers, along them: its screen is where the palm is."""
+    hand, middle, index, little = (rig.heads[f"{name}_r"] for name in ("hand", "middle_01", "index_01", "pinky_01"))
+    along = middle - hand
+    along = along / numpy.linalg.norm(along)
+    palm = numpy.cross(index - hand, little - hand)  # of a right hand
+    palm = palm - along * (palm @ along)
+    palm = palm / numpy.linalg.norm(palm)
+    across = numpy.cross(palm, along)
+    centre = rig.grip_at_rest() + 0.020 * rig.scale * along + (0.016 * rig.scale + _PHONE[2]) * palm
+    return _box(bodies, centre, numpy.array(_PHONE), "hand_r", "extra phone", _of_thin(level), 0.08,
+                numpy.stack([along, across, palm], axis=1))
 
 
 def _tube(bodies, line, radii, sides, bone, material):

@@ -130,7 +130,8 @@ def _colours(slot, fabric, look):
 
 
 _PICKS = {"top": (0, 1.0), "bottom": (1, 1.0), "shirt": (0, 5.0), "shoes": (1, 9.0), "extra": (0, 11.0)}
-_ROUGH = {"leather": 0.40, "silk": 0.55, "padded": 0.55, "team": 0.6, "sole": 0.7, "frame": 0.25, "pack": 0.75}
+_ROUGH = {"leather": 0.40, "silk": 0.55, "padded": 0.55, "team": 0.6, "sole": 0.7, "frame": 0.25, "pack": 0.75,
+          "phone": 0.12, "paper": 0.6}
 _SHEEN = {"knit": 0.5, "wool": 0.4, "fleece": 0.6}
 
 
@@ -155,7 +156,7 @@ def _cloth(shade, tint, pattern, kind, look, _bodies):
                            shade.math("MULTIPLY", shade.noise(pattern, 700.0, 3.0), 0.45))
     shade.set(colour, "Base Color")
     shade.set(_ROUGH.get(fabric, 0.85), "Roughness")
-    shade.set(0.45 if fabric in ("leather", "frame") else 0.2, "Specular", "Specular IOR Level")
+    shade.set(0.45 if fabric in ("leather", "frame", "phone") else 0.2, "Specular", "Specular IOR Level")
     shade.set(_SHEEN.get(fabric, 0.15), "Sheen", "Sheen Weight")
     shade.set(_relief(shade, pattern, fabric, left, up, weave, wave), "Normal")
 
@@ -184,7 +185,7 @@ def _printed(shade, colour, base, tint, fabric, place, wave, club):
 
 
 def _relief(shade, pattern, fabric, left, up, weave, wave):
-    if fabric in ("frame", "sole"):
+    if fabric in ("frame", "sole", "phone", "paper"):
         return shade.bump(shade.noise(pattern, 200.0), 0.05, 0.001)
     if fabric == "knit":
         ribs = shade.math("ADD", wave(left, 640.0), wave(up, 520.0))

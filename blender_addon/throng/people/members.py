@@ -53,7 +53,8 @@ def _of_all_poses(role, repertoire):
 @lru_cache(maxsize=_KEPT)
 def _leaders(role, repertoire):
     """Which bones go with which (skinning.leaders_of): a few poses tell."""
-    return skinning.leaders_of(bodies().parents, _of_all_poses(role, repertoire)[::_SOME])
+    return skinning.leaders_of(bodies().parents, _of_all_poses(role, repertoire)[::_SOME],
+                               maker_of(role).rig.leading())
 
 
 def leading(role, repertoire):

@@ -32,7 +32,8 @@ class Maker:
     def __init__(self, bodies, person):
         self.bodies, self.person = bodies, person
         self.shape = shape_of(bodies, person.body)
-        self.rig = Rig(bodies, self.shape, person.body.height, stoop=person.stoop, stick=person.stick)
+        self.rig = Rig(bodies, self.shape, person.body.height, stoop=person.stoop, stick=person.stick,
+                       holds=person.holds, limp=person.limp)
         self._surfaces = {}
 
     def model(self, level):
@@ -71,6 +72,7 @@ class Maker:
         tops = [part for part in upper if part.material.startswith("top")] or upper
         if person.stick:
             parts += bags.stick(bodies, self.rig, level)
+        parts += bags.held(bodies, person.holds, self.rig, level)
         return [part for part in parts + bags.bag(bodies, person.bag, tops, self.rig, level) if len(part.faces)]
 
 

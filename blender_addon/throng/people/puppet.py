@@ -60,7 +60,7 @@ class Puppet:
         """(V, bones) in the order of the names."""
         found = numpy.zeros((len(self.model.points), len(names)))
         for number, bone in enumerate(self.rig.bodies.bones):
-            leader = "forearm.R" if bone == "Root" and self.rig.stick else _leader(bone)
+            leader = "forearm.R" if bone == "Root" else _leader(bone)  # what hangs on it is in the hand
             found[:, names.index(leader)] += self.model.weights[:, number]
         return found
 

@@ -5,54 +5,18 @@ import math
 import numpy
 
 from ..cast import gait
+from . import holding
+from .turns import cross, frame, length, turn, turned, vector
 
 _FINGERS = (("index", 0.32), ("middle", 0.40), ("ring", 0.45), ("pinky", 0.48))
 _THUMB = 0.55  # of the angle between thumb and index, by which they close
 _X, _Y, _Z = numpy.eye(3)
+_LEADING = ("Root", "pelvis", "spine_01", "spine_02", "spine_03", "neck_01", "head",
+            *(f"{bone}_{side}" for side in "lr" for bone in ("thigh", "calf", "foot", "ball", "upperarm", "lowerarm")))
 SOLE = 0.018  # m, of a shoe, below the foot
 STICK_AHEAD = 0.12  # m, of the ankle, where sticks are planted
 _DROOP = 0.18     # rad, by which collarbones sink as arms are let down, which are held out at rest
 _ROUNDS = 10      # of looking for an elbow's angle: to a millimetre of the stick's tip
-
-
-# Vectors are (..., 3) and turns (..., 3, 3): of one pose, or of many at once.
-
-
-def vector(*parts):
-    return numpy.stack(numpy.broadcast_arrays(*parts), axis=-1)
-
-
-def cross(one, other):
-    """As numpy.cross, in a tenth of the time."""
-    (a, b, c), (x, y, z) = numpy.moveaxis(one, -1, 0), numpy.moveaxis(other, -1, 0)
-    return vector(b * z - c * y, c * x - a * z, a * y - b * x)
-
-
-def length(value):
-    return numpy.sqrt((value * value).sum(axis=-1))
-
-
-def turned(turns, value):
-    """Vectors, turned."""
-    return (turns @ value[..., None])[..., 0]
-
-
-def turn(axis, angle):
-    """What turns by an angle about an axis."""
-    x, y, z = numpy.moveaxis(numpy.asarray(axis) / numpy.maximum(length(axis), 1e-12)[..., None], -1, 0)
-    s, c = numpy.sin(angle), numpy.cos(angle)
-    d = 1.0 - c
-    return numpy.stack([vector(c + d * x * x, d * x * y - s * z, d * x * z + s * y),
-                        vector(d * x * y + s * z, c + d * y * y, d * y * z - s * x),
-                        vector(d * x * z - s * y, d * y * z + s * x, c + d * z * z)], axis=-2)
-
-
-def frame(along, hinge):
-    """Axes: along a bone, about its hinge, and across both."""
-    along = along / length(along)[..., None]
-    hinge = hinge - along * (hinge * along).sum(axis=-1)[..., None]
-    hinge = hinge / length(hinge)[..., None]
-    return numpy.stack([along, hinge, cross(along, hinge)], axis=-1)
 
 
 class _Poses:
@@ -66,14 +30,17 @@ class _Poses:
         self.pitches = of(lambda pose: [foot.pitch for foot in pose.feet])   # (P, 2)
         self.planted = of(lambda pose: [bool(foot.planted) for foot in pose.feet]) > 0.5
         self.arms = of(lambda pose: pose.arms)                               # (P, 2, 2)
+        self.tilt, self.runs = of(lambda pose: pose.tilt), of(lambda pose: pose.runs) > 0.5
 
 
 class Rig:
     """Somebody's bones at rest, and how they go with a pose."""
 
-    def __init__(self, bodies, shape, height, sole=SOLE, stoop=0.0, stick=False):
-        """@param stoop rad, that the back bends forward; @param stick whether somebody walks with one"""
+    def __init__(self, bodies, shape, height, sole=SOLE, stoop=0.0, stick=False, holds="", limp=0.0):
+        """@param stoop rad, that the back bends forward; @param stick whether somebody walks with one; @param holds one
+        of holding.THINGS, or nothing; @param limp how much the left leg is spared, 0 to 1"""
         self.bodies, self.sole, self.stoop, self.stick = bodies, sole, stoop, stick
+        self.holds, self.limp = holds, limp
         joints = bodies.joints(shape)
         self.heads = {bone: joints[bodies.heads[number]] for bone, number in bodies.bone.items()}
         self.tails = {bone: joints[bodies.tails[number]] for bone, number in bodies.bone.items()}
@@ -90,7 +57,8 @@ class Rig:
         foot = shape[(self.bodies.weights[:, self.bodies.bone["foot_l"]] > 0.5) & (shape[:, 2] < ankle[2])]
         return gait.Build(thigh=float(math.dist(hip, knee)), shank=float(math.dist(knee, ankle)),
                           ankle=float(ankle[2] + self.sole), heel=float(0.85 * (ankle[0] - foot[:, 0].min())),
-                          ball=float(ball[0] - ankle[0]), hip_width=float(hip[1] - self.heads["thigh_r"][1]))
+                          ball=float(ball[0] - ankle[0]), hip_width=float(hip[1] - self.heads["thigh_r"][1]),
+                          limp=self.limp)
 
     def _widest(self, shape):
         """Half the width of the hips, where hands pass."""
@@ -111,10 +79,18 @@ class Rig:
             swing, elbow = numpy.moveaxis(poses.arms[:, index], -1, 0)
             if self.stoop:  # arms hang down from bent backs, and swing less
                 swing, elbow = 0.6 * swing + 0.4 * self.stoop, elbow + 0.15
+            if side == "r":
+                swing, elbow = holding.hanging(self.holds, swing, elbow)
             self.hang_arm(turns, places, poses.shoulder_yaw, side, swing, elbow)
         if self.stick:
             self._plant(turns, places, poses)
+        holding.hold(self, turns, places, poses)
         return self.of_all(turns, places)
+
+    def leading(self):
+        """Numbers of the bones that others go with: of everybody the same, though whoever carries something keeps an
+        arm still."""
+        return {self.bodies.bone[name] for name in _LEADING}
 
     def neutral(self):
         """Matrices of standing upright, arms down: where patterns of cloth are told from."""
@@ -124,15 +100,18 @@ class Rig:
 
     def _trunk(self, poses):
         stoop, straight = self.stoop, poses.lean
+        nod, aside = holding.head(self.holds, poses.runs)
         lean = turn(_Y, straight + 0.9 * stoop)
-        shoulders = turn(_Z, poses.shoulder_yaw)
-        half = turn(_Z, 0.5 * (poses.pelvis_yaw + poses.shoulder_yaw))
+        shoulders = turn(_X, poses.tilt) @ turn(_Z, poses.shoulder_yaw)
+        half = turn(_X, 0.6 * poses.tilt) @ turn(_Z, 0.5 * (poses.pelvis_yaw + poses.shoulder_yaw))
         pelvis = turn(_Z, poses.pelvis_yaw) @ turn(_Y, 0.4 * poses.lean)
         root = numpy.broadcast_to(numpy.eye(3), pelvis.shape)
         turns = {"Root": root, "pelvis": pelvis, "spine_01": half @ turn(_Y, 0.7 * straight + 0.4 * stoop),
                  "spine_02": half @ lean, "spine_03": shoulders @ turn(_Y, straight + 1.5 * stoop),
-                 "neck_01": turn(_Z, 0.6 * poses.shoulder_yaw) @ turn(_Y, 0.6 * straight + 1.3 * stoop),
-                 "head": turn(_Z, 0.3 * poses.shoulder_yaw) @ turn(_Y, 0.35 * stoop)}
+                 "neck_01": turn(_X, 0.6 * poses.tilt + 0.5 * aside) @ turn(_Z, 0.6 * poses.shoulder_yaw)
+                 @ turn(_Y, 0.6 * straight + 1.3 * stoop + 0.45 * nod),
+                 "head": turn(_X, 0.2 * poses.tilt + aside) @ turn(_Z, 0.3 * poses.shoulder_yaw)
+                 @ turn(_Y, 0.35 * stoop + nod)}
         middle = poses.pelvis - (0.0, 0.0, gait.HIP_DROP * self.scale)
         places = {"Root": numpy.zeros_like(middle),
                   "pelvis": middle + turned(pelvis, self.heads["pelvis"] - self.hips)}
@@ -174,8 +153,9 @@ class Rig:
         places[clavicle] = self._end(turns, places, "spine_03", clavicle)
         shoulder = self._end(turns, places, clavicle, upper)
         reach = math.dist(self.heads[upper], self.heads[lower]) + math.dist(self.heads[lower], self.heads[hand])
+        further, roll = holding.hand(self.holds, side)
         # outwards enough for the hand to pass beside the hips
-        room = (self.widest + 0.076 * self.scale - abs(self.heads[upper][1])) / reach
+        room = (self.widest + 0.076 * self.scale + further - abs(self.heads[upper][1])) / reach
         out = sign * min(max(0.10, room), 0.34)
         shoulders = turn(_Z, yaw)
 
@@ -191,7 +171,7 @@ class Rig:
         turns[lower] = frame(fore, hinge) @ frame(rest_lower, rest_hinge).T
         places[upper] = shoulder
         places[lower] = shoulder + turned(turns[upper], rest_upper)
-        turns[hand] = turn(fore, sign * 0.22) @ turns[lower]  # palms to the thighs
+        turns[hand] = turn(fore, -sign * roll) @ turns[lower]
         places[hand] = places[lower] + turned(turns[lower], rest_lower)
         self.bend_fingers(turns, places, side)
 
@@ -207,16 +187,18 @@ class Rig:
         for _ in range(_ROUNDS):
             elbow = 0.5 * (low + high)
             self.hang_arm(turns, places, poses.shoulder_yaw, "r", 0.5 * poses.arms[:, 0, 0] + 0.05, elbow)
-            along = self._grip(turns, places) - tip
+            along = self.grip(turns, places) - tip
             longer = length(along) > math.dist(top, rest)
             low, high = numpy.where(longer, low, elbow), numpy.where(longer, elbow, high)
         turns["Root"] = frame(along, _Y) @ frame(_Z, _Y).T
-        places["Root"] = self._grip(turns, places) + turned(turns["Root"], self.heads["Root"] - top)
+        places["Root"] = self.grip(turns, places) + turned(turns["Root"], self.heads["Root"] - top)
 
-    def _grip(self, turns, places):
+    def grip(self, turns, places):
         """Where the right hand holds something, m."""
-        inside = 0.5 * (self.tails["middle_01_r"] + self.heads["middle_01_r"]) - self.heads["hand_r"]
-        return places["hand_r"] + turned(turns["hand_r"], inside)
+        return places["hand_r"] + turned(turns["hand_r"], self.grip_at_rest() - self.heads["hand_r"])
+
+    def grip_at_rest(self):
+        return 0.5 * (self.tails["middle_01_r"] + self.heads["middle_01_r"])
 
     def stick_at_rest(self):
         """(tip, top) of a stick where it is made: beside the right foot, upright."""

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Who there is: people drawn at random, each the same whenever their look and number are."""
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy
 
-from . import wardrobe
+from . import holding, wardrobe
 from .shape import Body
 
 LOOKS = tuple(wardrobe.LOOKS)
@@ -18,6 +18,10 @@ _MALE = (1, 0, 1, 0, 1, 0, 1, 1, 0, 0, 0, 1, 0, 1, 1, 0, 1, 0, 1, 0, 0, 1, 1, 0)
 _CHILDREN = ((6, 8, 10, 12, 14, 16, 18), (1.16, 1.28, 1.385, 1.495, 1.60, 1.67, 1.70))  # years, m
 _SKINS = {"caucasian": ("pale", "fair", "fair", "olive"), "asian": ("east", "east", "tan"),
           "african": ("brown", "dark", "brown")}
+# what the right hands of how many hold
+_HELD = {"": ((holding.PHONE, 0.09), (holding.CALL, 0.06), (holding.CARRIER, 0.09)),
+         "business": ((holding.PHONE, 0.09), (holding.CALL, 0.10), (holding.CASE, 0.28)),
+         "fans": ((holding.PHONE, 0.06), (holding.CALL, 0.03)), "sport": ()}
 _MEN_HAIR = ("short", "side", "crop", "quiff", "short", "curtains", "curls", "side")
 _WOMEN_HAIR = ("long", "bob", "tail", "waves", "knot", "fringed bob", "long", "waves")
 
@@ -63,6 +67,8 @@ class Person:
     hat: str = ""       # beanie, cap, headscarf
     stoop: float = 0.0  # rad, that the back bends forward
     stick: bool = False  # walks with one
+    holds: str = ""     # one of holding.THINGS
+    limp: float = 0.0   # how much the left leg is spared, 0 to 1
 
     @property
     def child(self):
@@ -93,10 +99,27 @@ def draw_person(look, number, years=None, male=None, height=None, shoulders=None
         hair = "crop" if male > 0.5 or hat == "headscarf" else hair if hair in ("long", "waves", "bob", "tail") else ""
     if hat == "headscarf":
         hair = ""
-    return Person(body, look, wardrobe.order(bottom, tops, shoes),
-                  str(draw.choice(_SKINS[race])), hair, colour, _beard(draw, years, male),
-                  "" if draw.random() > (0.2 if years < 55 else 0.5) else str(draw.choice(["round", "square"])),
-                  "" if runs else _bag(draw, word, years, male), hat, *_frailty(number, years))
+    found = Person(body, look, wardrobe.order(bottom, tops, shoes),
+                   str(draw.choice(_SKINS[race])), hair, colour, _beard(draw, years, male),
+                   "" if draw.random() > (0.2 if years < 55 else 0.5) else str(draw.choice(["round", "square"])),
+                   "" if runs else _bag(draw, word, years, male), hat, *_frailty(number, years))
+    return _with_manner(found, word, number, runs)
+
+
+def _with_manner(who, look, number, runs):
+    """The same with what the right hand holds, if anything, and a limp, if they have one."""
+    if runs or who.stick:
+        return who
+    draw = numpy.random.default_rng([89, LOOKS.index(look), number])
+    old = who.body.years >= OLD
+    limp = float(draw.uniform(0.5, 1.0)) if draw.random() < (0.12 if old else 0.025) else 0.0
+    often = dict(_HELD.get(look, _HELD[""])) if who.body.years >= 13.0 else {}
+    if old:
+        often = {thing: share if thing in holding.BAGS else 0.3 * share for thing, share in often.items()}
+    if who.bag in ("satchel", "shopper"):  # which hang where the right hand is
+        often = {thing: share for thing, share in often.items() if thing not in holding.BAGS}
+    shares = (*often.values(), 1.0 - sum(often.values()))
+    return replace(who, holds=str(draw.choice([*often, ""], p=shares)), limp=limp)
 
 
 def _frailty(number, years):

@@ -7,30 +7,25 @@ import pathlib
 import string
 
 import numpy
-import shapely
 
 from ..bakes.bake import Bake
+from ..bakes.surroundings import GREY, things_of
 from ..base.errors import ThrongError, need
-from ..base.geometry import road_shape
 from ..base.whole_files import whole_file
+from ..skinned.members import bodies_of_library
 from .figures import PHASES, Mesh, figure
-from .members import bodies_of_library
 from .skeletons import SkeletonCrowd, Skeletons
-from .surroundings import flat, wall_prism
 
 SUFFIXES = (".usd", ".usda", ".usdc")
 WALKING = 1
 USUAL_RADIUS = 0.25           # m, of figures as they are made
 SIZES = (0.6, 1.15)           # of bodies that are smaller or larger
-GROUND_MARGIN = 2.0           # m round everything
-ROAD_HEIGHT = 0.005           # m over the ground, so that they do not fight for the same pixels
 SKINS = ((0.62, 0.42, 0.31), (0.45, 0.27, 0.18), (0.23, 0.13, 0.08), (0.72, 0.52, 0.41))
 TROUSERS = ((0.05, 0.06, 0.1), (0.12, 0.11, 0.1), (0.16, 0.13, 0.09), (0.07, 0.08, 0.09))
 SHOES = (0.03, 0.03, 0.03)
 TOPS = ((0.42, 0.09, 0.07), (0.07, 0.16, 0.36), (0.1, 0.26, 0.16), (0.55, 0.44, 0.2), (0.5, 0.5, 0.48),
         (0.05, 0.05, 0.06), (0.3, 0.16, 0.34), (0.22, 0.36, 0.42))
 MOST_COSTUMES = 64
-GREY = {"walls": (0.55, 0.55, 0.53), "ground": (0.32, 0.33, 0.32), "roads": (0.42, 0.42, 0.41)}
 
 
 def export_usd(bake: Bake, path: str | os.PathLike, every: int = 1, skeletons: Skeletons | None = None) -> None:
@@ -99,23 +94,10 @@ class Stage:
     # ---- what stands still
 
     def surroundings(self) -> None:
-        told, origin = self.bake.about["geometry"], self.bake.origin
-        for number, wall in enumerate(told["walls"]):
-            points, faces = wall_prism(wall, origin)
-            self.mesh(f"/World/Walls/wall{number}", points, faces, GREY["walls"], wall.get("id"))
-        if self.bake.about.get("terrain"):
-            return  # which is a file of its own, terrain.glb
-        low, high = self.bake.about["bounds"]["min"], self.bake.about["bounds"]["max"]
-        shape = shapely.box(*low, *high).buffer(GROUND_MARGIN, join_style="mitre")
-        points, faces = flat(shape, 0.0)
-        self.mesh("/World/Ground/ground", points, faces, GREY["ground"])
-        for number, road in enumerate(told["roads"]):
-            points, faces = flat(road_shape(road), ROAD_HEIGHT)
-            self.mesh(f"/World/Ground/road{number}", points - origin, faces, GREY["roads"], road.get("id"))
+        for thing in things_of(self.bake.about, self.bake.origin):
+            self.mesh(f"/World/{thing.place}", thing.points, thing.faces, thing.colour, thing.name)
 
     def mesh(self, path: str, points: numpy.ndarray, faces: list[list[int]], colour, name: str | None = None) -> None:
-        if not len(points):
-            return
         self.geom.Scope.Define(self.stage, path.rpartition("/")[0])
         mesh = self.geom.Mesh.Define(self.stage, path)
         self.shaped(mesh, points, [len(face) for face in faces], [corner for face in faces for corner in face])

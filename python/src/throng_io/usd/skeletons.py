@@ -5,19 +5,16 @@ from __future__ import annotations
 
 import dataclasses
 import math
-import re
 
 import numpy
 
-from ..base.errors import ThrongError
-from ..people import palettes
-from .members import LEVELS, Member, Part, bodies_of_library, cast_of, make_member, repertoire_of
-from .motions import Track, joints_of, matrices_of
+from ..skinned import chosen
+from ..skinned.members import LEVELS, Member, Part
+from ..skinned.motions import joints_of, matrices_of, track_of
+from ..skinned.shot import Shot, Wanted
 
 CROWD = "/World/Crowd"
 LEVEL_SET = "levelOfDetail"
-LARGEST = 4.0                 # times, that scales of a table may make people larger
-_COLOUR = re.compile("#[0-9a-fA-F]{6}")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -28,10 +25,7 @@ class Skeletons:
     instances: bool = True                      # or copies, which programs bend that leave instances at rest
 
     def check(self) -> None:
-        if self.most is not None and self.most < 1:
-            raise ThrongError(f"most: expected 1 or more, found {self.most}")
-        if self.near and not all(map(math.isfinite, self.near)):
-            raise ThrongError(f"near: expected two numbers, found {self.near}")
+        chosen.check(self.most, self.near)
 
 
 class SkeletonCrowd:
@@ -42,13 +36,9 @@ class SkeletonCrowd:
         self.sdf, self.geom, self.usd, self.gf, self.vt = stage.sdf, stage.geom, stage.usd, stage.gf, stage.vt
         self.skel, self.stage, self.instances = stage.skel, stage.stage, wanted.instances
         self.layer = self.stage.GetRootLayer()
-        self.frames = numpy.arange(0, self.bake.frames, self.every)
-        self.there = numpy.array(self.bake.there(self.frames))
-        self.rows = self._rows(wanted)
-        self.repertoire = repertoire_of(self.bake)
-        self.roles, self.member_of = cast_of(self.bake)
-        self.bodies = bodies_of_library()
-        self.tints = tints(self.bake.people)
+        shot = Shot(self.bake, Wanted(wanted.most, wanted.near, self.every))
+        self.shot, self.frames, self.there, self.rows = shot, shot.frames, shot.there, shot.rows
+        self.repertoire, self.member_of, self.sizes = shot.repertoire, shot.member_of, shot.sizes
 
     def write(self) -> None:
         crowd = self.geom.Xform.Define(self.stage, CROWD)
@@ -56,31 +46,14 @@ class SkeletonCrowd:
         self.usd.ModelAPI(crowd.GetPrim()).SetKind("group")
         members = {}
         for number in sorted({self.member_of[row] for row in self.rows}):
-            members[number] = make_member(self.bodies, self.roles[number], self.repertoire)
+            members[number] = self.shot.member(number)
             self._member(number, members[number])
         self._box(crowd, members.values())
-        streams = self._streams()
+        streams = self.shot.streams(self.rows)
         with self.sdf.ChangeBlock():
             for place, row in enumerate(self.rows):
                 number = self.member_of[row]
                 self._person(row, number, members[number], {name: each[:, place] for name, each in streams.items()})
-
-    # ---- who
-
-    def _rows(self, wanted: Skeletons) -> list[int]:
-        """Of all who are ever there; the nearest first, where a place is told."""
-        rows = numpy.nonzero(self.there.any(axis=0))[0]
-        if wanted.near:
-            away = numpy.linalg.norm(self.bake.pos[self.frames][..., :2]
-                                     - (numpy.array(wanted.near) - self.bake.origin[:2]), axis=2)
-            nearest = numpy.where(self.there, away, math.inf).min(axis=0)
-            rows = rows[numpy.argsort(nearest[rows], kind="stable")]
-        return sorted(rows[:wanted.most].tolist())
-
-    def _streams(self) -> dict[str, numpy.ndarray]:
-        """Those frames of those people, copied once."""
-        names = ["pos", "dir", "state", *(["carriage"] if "carriage" in self.bake.streams else [])]
-        return {name: numpy.array(self.bake.stream(name)[self.frames][:, self.rows], dtype=float) for name in names}
 
     # ---- members
 
@@ -139,17 +112,12 @@ class SkeletonCrowd:
         if not len(places):
             return
         boxes = numpy.abs([member.box for member in members])
-        largest = float(self._sizes()[self.rows].max())
+        largest = float(self.sizes[self.rows].max())
         reach, up = largest * boxes[..., :2].max() * math.sqrt(2), largest * boxes[..., 2].max()
         self.geom.ModelAPI.Apply(crowd.GetPrim()).SetExtentsHint(self.to.vectors(numpy.array(
             [places.min(axis=0) - [reach, reach, 0.1], places.max(axis=0) + [reach, reach, up]])))
 
     # ---- people
-
-    def _sizes(self) -> numpy.ndarray:
-        people = self.bake.people
-        told = people["scale"] if "scale" in people.dtype.names else numpy.ones(len(people))
-        return numpy.where(numpy.isfinite(told) & (told > 0.0), numpy.minimum(told, LARGEST), 1.0)
 
     def _person(self, row: int, number: int, member: Member, streams: dict[str, numpy.ndarray]) -> None:
         """Xform, moved and turned; in it `figure`, an instance of the member, and `motion`."""
@@ -186,7 +154,7 @@ class SkeletonCrowd:
         for code, place, turn in zip(codes.tolist(), streams["pos"].tolist(), heading.tolist()):
             self.layer.SetTimeSample(goes, code, self.gf.Vec3d(*place))
             self.layer.SetTimeSample(turns, code, turn)
-        order, size = ["xformOp:translate", "xformOp:rotateZ"], float(self._sizes()[row])
+        order, size = ["xformOp:translate", "xformOp:rotateZ"], float(self.sizes[row])
         if size != 1.0:
             self._attribute(path, "xformOp:scale", types.Float3, self.gf.Vec3f(size))
             order.append("xformOp:scale")
@@ -206,7 +174,7 @@ class SkeletonCrowd:
         prim.SetInfo("apiSchemas", self.sdf.TokenListOp.Create(prependedItems=["SkelBindingAPI"]))
         motion = self.sdf.RelationshipSpec(prim, "skel:animationSource", False)
         motion.targetPathList.explicitItems = [self.sdf.Path(path).GetParentPath().AppendChild("motion")]
-        tint = self.vt.Vec3fArray([self.gf.Vec3f(*self._tint(row, number))])
+        tint = self.vt.Vec3fArray([self.gf.Vec3f(*self.shot.tint(row))])
         self._primvar(path, "displayColor", types.Color3fArray, tint)
         self._primvar(path, "personId", types.Int, row)
         self._primvar(path, "crypto_object", types.String, f"{self.bake.name}/{row:05d}")
@@ -218,19 +186,11 @@ class SkeletonCrowd:
         attribute = self._attribute(path, f"primvars:{name}", kind, value)
         self.layer.GetAttributeAtPath(attribute).SetInfo("interpolation", self.geom.Tokens.constant)
 
-    def _tint(self, row: int, number: int) -> tuple[float, float, float]:
-        told = self.bake.people["tint"][row] if "tint" in self.bake.people.dtype.names else ""
-        if _COLOUR.fullmatch(told):
-            return palettes.linear(told)
-        choice = palettes.tops(self.roles[number].look)
-        return choice[int(self.tints[row] * len(choice))]
-
     def _motion(self, path: str, row: int, member: Member, codes, streams) -> None:
         types = self.sdf.ValueTypeNames
         self._prim(path, "SkelAnimation")
-        track = Track(row, codes, streams["state"], streams["dir"][:, 2],
-                      streams["carriage"][:, 0] if "carriage" in streams else None)
-        joints = joints_of(matrices_of(member.poses, self.repertoire, track), member.places, member.parents)
+        bent = matrices_of(member.poses, self.repertoire, track_of(row, codes, streams))
+        joints = joints_of(bent, member.places, member.parents)
         self._attribute(path, "joints", types.TokenArray, self.vt.TokenArray(member.joints), True)
         self._attribute(path, "scales", types.Half3Array, self.vt.Vec3hArray(len(member.joints), self.gf.Vec3h(1.0)))
         turned = self._attribute(path, "rotations", types.QuatfArray)
@@ -239,8 +199,3 @@ class SkeletonCrowd:
         for code, turns, moves in zip(codes.tolist(), rotations, joints.translations):
             self.layer.SetTimeSample(turned, code, self.vt.QuatfArray.FromNumpy(turns))
             self.layer.SetTimeSample(moved, code, self.to.vectors(moves))
-
-
-def tints(people: numpy.ndarray) -> numpy.ndarray:
-    """A number from 0 to 1 for each of the people, by the row: which of their look's colours they wear."""
-    return numpy.arange(len(people)) * 0.61803398875 % 1.0

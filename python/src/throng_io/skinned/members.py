@@ -15,13 +15,14 @@ from ..bakes.bake import Bake
 from ..base.errors import ThrongError
 from ..cast import Repertoire, poses_of_build, skinning
 from ..people import casting, library, palettes, parts, person, roster
+from ..people.holding import BAGS
 
 MOST_MEMBERS = 64              # as many as the add-on makes of a crowd
 LEVELS = ("near", "middle", "far")
 _SOME_POSES = 7                # of so many, one tells which bones go with others
 _FEW_POSES = 19                # and one is looked at for where vertices hang best
 MARGIN = 0.02                  # m, of boxes: turns between poses are made turns again, which bends a little more
-_STICK = "Root"                # the bone that a stick is on, where somebody has one
+_STICK = "Root"                # the bone that a stick or a bag in the hand is on
 _PICKS = {"bottom": 1.0, "shirt": 5.0, "shoes": 9.0, "extra": 11.0, "skin": 3.0, "hair": 7.0, "grey": 7.0, "eyes": 13.0}
 _LASHES = (0.012, 0.010, 0.009)
 _STEP = 0.618034               # of a palette, from one member to the next
@@ -68,10 +69,10 @@ def bodies_of_library() -> library.Bodies:
         raise ThrongError(str(error)) from error
 
 
-def cast_of(bake: Bake) -> tuple[list[roster.Role], list[int]]:
+def cast_of(bake: Bake, most: int = MOST_MEMBERS) -> tuple[list[roster.Role], list[int]]:
     """(whom the members are drawn as, which of them everybody is): as the add-on casts them."""
     walkers = casting.read_walkers(bake.folder) or [casting.Walker()] * bake.agents
-    roles = casting.roles_for(walkers, min(MOST_MEMBERS, max(1, bake.agents)))
+    roles = casting.roles_for(walkers, min(most, max(1, bake.agents)))
     chosen = casting.choose(walkers, roles, max(1, int(bake.about.get("variations", 1))))
     return roles, [walker.variation % len(roles) if walker.chosen else number
                    for walker, number in zip(walkers, chosen)]
@@ -81,11 +82,11 @@ def make_member(bodies: library.Bodies, role: roster.Role, repertoire: Repertoir
     maker = person.Maker(bodies, role.person())
     rig = maker.rig
     everything = rig.all_matrices(poses_of_build(rig.build, repertoire))
-    leaders = skinning.leaders_of(bodies.parents, everything[::_SOME_POSES])
+    leaders = skinning.leaders_of(bodies.parents, everything[::_SOME_POSES], rig.leading())
     used = numpy.unique(leaders[0]).tolist()
     hung = [(model, *skinning.hinged(model.points, model.weights, leaders[0], everything[::_FEW_POSES]))
             for model in (maker.model(level) for level in range(len(LEVELS)))]
-    if not rig.stick:  # nothing hangs on the stick's bone
+    if not (rig.stick or rig.holds in BAGS):  # nothing hangs on the stick's bone
         hung = [(model, points, numpy.delete(weights, used.index(bodies.bone[_STICK]), axis=1))
                 for model, points, weights in hung]
         used.remove(bodies.bone[_STICK])

@@ -2,11 +2,43 @@
 """Walls and ground as meshes."""
 from __future__ import annotations
 
+import dataclasses
+from typing import Any
+
 import numpy
 import shapely
 import shapely.geometry
 
-from ..base.geometry import polygons, wall_shape
+from ..base.geometry import polygons, road_shape, wall_shape
+
+GROUND_MARGIN = 2.0           # m round everything
+ROAD_HEIGHT = 0.005           # m over the ground, so that they do not fight for the same pixels
+GREY = {"walls": (0.55, 0.55, 0.53), "ground": (0.32, 0.33, 0.32), "roads": (0.42, 0.42, 0.41)}
+
+
+@dataclasses.dataclass(frozen=True)
+class Thing:
+    """What stands or lies there, m from the bake's origin."""
+    place: str                 # "Walls/wall0"
+    points: numpy.ndarray      # V x 3
+    faces: list[list[int]]     # corners of each, of any number
+    colour: tuple[float, float, float]  # linear
+    name: str | None = None    # in the layout
+
+
+def things_of(about: dict[str, Any], origin: numpy.ndarray) -> list[Thing]:
+    """Walls, and where there is no terrain, which is a file of its own, ground and roads. @param about bake.json"""
+    told = about["geometry"]
+    found = [Thing(f"Walls/wall{number}", *wall_prism(wall, origin), GREY["walls"], wall.get("id"))
+             for number, wall in enumerate(told["walls"])]
+    if not about.get("terrain"):
+        low, high = about["bounds"]["min"], about["bounds"]["max"]
+        shape = shapely.box(*low, *high).buffer(GROUND_MARGIN, join_style="mitre")
+        found.append(Thing("Ground/ground", *flat(shape, 0.0), GREY["ground"]))
+        for number, road in enumerate(told["roads"]):
+            points, faces = flat(road_shape(road), ROAD_HEIGHT)
+            found.append(Thing(f"Ground/road{number}", points - origin, faces, GREY["roads"], road.get("id")))
+    return [thing for thing in found if len(thing.points)]
 
 
 def prism(shape: shapely.Geometry, low: float, high: float) -> tuple[numpy.ndarray, list[list[int]]]:

@@ -35,6 +35,12 @@ class Joints:
     translations: Array        # F x J x 3, m
 
 
+def track_of(row: int, times: Array, streams: dict[str, Array]) -> Track:
+    """@param streams of this person in these frames"""
+    return Track(row, times, streams["state"], streams["dir"][:, 2],
+                 streams["carriage"][:, 0] if "carriage" in streams else None)
+
+
 def smooth(value: Array, low: float, high: float) -> Array:
     share = numpy.clip((value - low) / (high - low), 0.0, 1.0)
     return share * share * (3.0 - 2.0 * share)
@@ -43,34 +49,57 @@ def smooth(value: Array, low: float, high: float) -> Array:
 def matrices_of(poses: Array, repertoire: Repertoire, track: Track) -> Array:
     """F x J x 3 x 4: where joints take what hangs on them. @param poses P x J x 3 x 4"""
     walk = _walk(poses, repertoire, track.state)
-    walking = smooth(track.speed, STANDS_BELOW, WALKS_FROM) if track.walking is None else track.walking
-    return _upright(_mix(_stand(poses, repertoire, track), walk, walking))
+    return _upright(_mix(_stand(poses, repertoire, track), walk, walking_of(track)))
+
+
+def walking_of(track: Track) -> Array:
+    """F: how much of a walk is in the poses, 0 to 1."""
+    return smooth(track.speed, STANDS_BELOW, WALKS_FROM) if track.walking is None else track.walking
 
 
 def _mix(one: Array, other: Array, share: Array) -> Array:
     return one + (other - one) * share[:, None, None, None]
 
 
-def _walk(poses: Array, repertoire: Repertoire, state: Array) -> Array:
-    """Between two poses of the gait, and what is left of the gait before (docs/bake.md: `state`)."""
+@dataclasses.dataclass(frozen=True)
+class Walks:
+    """In which gaits somebody walks, in F frames."""
+    gait: Array                # F: of a repertoire's
+    before: Array              # F: what it was before
+    left: Array                # F: how much of that is left, 0 to 1
+
+
+def walks_of(repertoire: Repertoire, state: Array) -> Walks:
+    """docs/bake.md: `state`"""
     told = (state[:, 0] % 1.0) * 16.0
     number = numpy.rint(told)
     rest = numpy.maximum((told - number) * 32.0 + 1e-3, 0.0)
-    before, left = numpy.floor(rest), smooth(rest % 1.0, 0.0, 1.0)
+    gait, before = (numpy.clip(each - repertoire.first, 0, len(repertoire.strides) - 1).astype(int)
+                    for each in (number, numpy.floor(rest)))
+    return Walks(gait, before, smooth(rest % 1.0, 0.0, 1.0))
+
+
+def _walk(poses: Array, repertoire: Repertoire, state: Array) -> Array:
+    """Between two poses of the gait, and what is left of the gait before."""
+    walks = walks_of(repertoire, state)
     place = (state[:, 2] % 1.0) * POSES
     pose = numpy.minimum(numpy.floor(place), POSES - 1).astype(int)
-    after = (pose + 1) % POSES
-    first, first_before = (POSES * numpy.clip(each - repertoire.first, 0, len(repertoire.strides) - 1).astype(int)
-                           for each in (number, before))
-    here, there = (_mix(poses[first + each], poses[first_before + each], left) for each in (pose, after))
+    here, there = (_mix(poses[POSES * walks.gait + each], poses[POSES * walks.before + each], walks.left)
+                   for each in (pose, (pose + 1) % POSES))
     return _mix(here, there, place - pose)
 
 
+def stands_of(row: int, times: Array, state: Array) -> tuple[Array, Array]:
+    """(which standing clip, where in its round, 0 to 1) of F frames: those who gather talk or look at their phones,
+    others shift their weight."""
+    kinds = numpy.where(numpy.floor(state[:, 0]) == GATHERS, len(gait.STANDING_CLIPS), 2)
+    return row % 4 % kinds, (row * 0.618034 + times / FRAMES_A_ROUND) % 1.0
+
+
 def _stand(poses: Array, repertoire: Repertoire, track: Track) -> Array:
-    """Between two beats of a clip: those who gather talk or look at their phones, others shift their weight."""
-    kinds = numpy.where(numpy.floor(track.state[:, 0]) == GATHERS, len(gait.STANDING_CLIPS), 2)
-    clip = track.row % 4 % kinds
-    place = (track.row * 0.618034 + track.times / FRAMES_A_ROUND) % 1.0 * BEATS
+    """Between two beats of a clip."""
+    clip, place = stands_of(track.row, track.times, track.state)
+    place = place * BEATS
     beat = numpy.minimum(numpy.floor(place), BEATS - 1).astype(int)
     first = repertoire.walking() + BEATS * clip
     return _mix(poses[first + beat], poses[first + (beat + 1) % BEATS], smooth(place - beat, STAYS_UNTIL, 1.0))
