@@ -6,11 +6,12 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-/// Bodies that are no discs, as shaders/motion/body_shape.glsl has them: all that is within so much of a segment.
+/// Bodies that are no discs, as shaders/motion/body_shape.glsl has them: all that is within so much of a
+/// segment.
 namespace throng {
 
-/// How broad a body is from shoulder to shoulder and how deep from chest to back, m; zero: it is a disc. What is deeper
-/// than broad is no walker but a wheelchair or a pram.
+/// How broad a body is from shoulder to shoulder and how deep from chest to back, m; zero: it is a disc. What
+/// is deeper than broad is no walker but a wheelchair or a pram.
 struct BodySize {
     double breadth = 0.0;
     double depth = 0.0;

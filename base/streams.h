@@ -160,15 +160,16 @@ inline constexpr std::array kStreams = {
                                {"pitch", "rad", BackFill::zero, Between::linear, kFine},
                                {"at", "1", BackFill::zero, Between::nearest, 1.0, !kRate, kWhole}}},
                .source = StreamSource::pose},
-    StreamInfo{.id = Stream::chest,
-               .name = "chest",
-               .about = "which way the chests of people with bodies point, from where they face, and how much room "
-                        "they take",
-               .components = {{{"twist", "rad", BackFill::keep, Between::linear, kFine},
-                               {"turning", "rad/s", BackFill::keep, Between::linear, kFair, kRate},
-                               {"width", "m", BackFill::keep, Between::linear, kFine}}},
-               .source = StreamSource::device,
-               .shader = "shaders/frame/pack_chest.comp"},
+    StreamInfo{
+        .id = Stream::chest,
+        .name = "chest",
+        .about = "which way the chests of people with bodies point, from where they face, and how much room "
+                 "they take",
+        .components = {{{"twist", "rad", BackFill::keep, Between::linear, kFine},
+                        {"turning", "rad/s", BackFill::keep, Between::linear, kFair, kRate},
+                        {"width", "m", BackFill::keep, Between::linear, kFine}}},
+        .source = StreamSource::device,
+        .shader = "shaders/frame/pack_chest.comp"},
 };
 
 /// Something for each stream.

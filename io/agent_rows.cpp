@@ -71,7 +71,8 @@ class Columns {
 
     /// m, of a body that is no disc; 0 where there is none.
     double side(const std::vector<std::string>& fields, std::size_t which, std::size_t line) const {
-        if (!side_at_[which] || *side_at_[which] >= fields.size() || fields[*side_at_[which]].empty()) return 0.0;
+        if (!side_at_[which] || *side_at_[which] >= fields.size() || fields[*side_at_[which]].empty())
+            return 0.0;
         const std::optional<double> value = finiteNumber(fields[*side_at_[which]]);
         if (!value || *value < 0.0 || *value > kLargest)
             throw InputError(path_, fmt::format("line {}: `{}` is no `{}` of a body", line,

@@ -17,7 +17,7 @@ struct MovedBody {
     glm::dvec2 simulated{0.0};  ///< where the simulation had it: clear of walls
     glm::dvec2 place{0.0};      ///< where it is to be shown
     double radius = 0.0;        ///< m
-    glm::dvec2 axis{0.0};       ///< m, of a body that is no disc: half of its segment; `radius` holds all of it
+    glm::dvec2 axis{0.0};  ///< m, of a body that is no disc: half of its segment; `radius` holds all of it
 
     Capsule shapeAt(glm::dvec2 middle) const { return {middle, axis, radius - glm::length(axis)}; }
 };

@@ -111,9 +111,10 @@ void MotionRecorder::average(const KeptFrame& frame) {
         const std::size_t at = row * kComponents;
         const Average average = window_.average(row);
         present_.push_back(row);
-        bodies_.push_back(
-            {{positions_[at], positions_[at + 1]}, {average.position[0], average.position[1]}, radii_[row],
-             axisOf(frame, row)});
+        bodies_.push_back({{positions_[at], positions_[at + 1]},
+                           {average.position[0], average.position[1]},
+                           radii_[row],
+                           axisOf(frame, row)});
         positions_[at + 2] = static_cast<float>(average.position[2]);
         directions_[at] = static_cast<float>(average.heading[0]);
         directions_[at + 1] = static_cast<float>(average.heading[1]);
@@ -130,8 +131,8 @@ void MotionRecorder::average(const KeptFrame& frame) {
 glm::dvec2 MotionRecorder::axisOf(const KeptFrame& frame, std::size_t row) const {
     if (half_axes_[row] == 0.0f || frame[Stream::chest].empty()) return glm::dvec2(0.0);
     const auto facing = rowOf(std::span(frame[Stream::dir]), row);
-    const double angle = std::atan2(double{facing[1]}, double{facing[0]}) +
-                         double{frame[Stream::chest][row * kComponents]};
+    const double angle =
+        std::atan2(double{facing[1]}, double{facing[0]}) + double{frame[Stream::chest][row * kComponents]};
     return capsuleOf({}, {std::cos(angle), std::sin(angle)}, radii_[row], half_axes_[row]).axis;
 }
 

@@ -226,7 +226,8 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
 
     site_slots = gl::makeBuffer("site slots", initialSiteSlots(scene), kSite);
     bodies = gl::Buffer("bodies", {rows, sizeof(gpu::Body), kPerson});
-    walkers = gl::Buffer("walkers", {rows, sizeof(gpu::Walker) + (has_bodies_ ? gpu::MORE_OF_A_WALKER : 0), kPerson});
+    walkers = gl::Buffer("walkers",
+                         {rows, sizeof(gpu::Walker) + (has_bodies_ ? gpu::MORE_OF_A_WALKER : 0), kPerson});
     sites = gl::Buffer("sites", {rows + scene.wall_tiles.size(), sizeof(gpu::DiagramSite), kSite});
     const std::vector<gpu::DiagramSite> fixed = wallSites(scene, parameter_values);
     if (!fixed.empty()) sites.upload(std::span<const gpu::DiagramSite>(fixed), rows);

@@ -86,11 +86,12 @@ void WaitingLines::run() {
 Avoidance::Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, int neighbours,
                      const TerrainSlopes* ground, const MotionSettings& rules)
     : buffers_(buffers),
-      steer_(buffers.connect(
-          library, kSteer,
-          together(buffers.definitions(rules), ground ? gl::Definitions{{"TERRAIN", "1"}} : gl::Definitions{}))),
-      avoid_(buffers.connect(library, kAvoid,
-                             together(buffers.definitions(rules), {{"NEIGHBOURS", std::to_string(neighbours)}}))),
+      steer_(buffers.connect(library, kSteer,
+                             together(buffers.definitions(rules),
+                                      ground ? gl::Definitions{{"TERRAIN", "1"}} : gl::Definitions{}))),
+      avoid_(buffers.connect(
+          library, kAvoid,
+          together(buffers.definitions(rules), {{"NEIGHBOURS", std::to_string(neighbours)}}))),
       carry_on_(buffers.connect(library, kCarryOn, buffers.definitions(rules))) {
     avoid_.set("slot_capacity", buffers.slotCapacity());
     if (ground) ground->describeTo(steer_);

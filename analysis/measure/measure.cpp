@@ -298,7 +298,7 @@ class Measurer {
     PlaneGrid grid_;
     double dt_;
     double largest_radius_ = 0.0;
-    std::vector<Capsule> bodies_;  // of those present
+    std::vector<Capsule> bodies_;         // of those present
     std::deque<io::CrowdFrame> history_;  // newest first
     std::vector<std::uint32_t> present_;  // rows alive now
     std::vector<glm::dvec2> places_;      // of those

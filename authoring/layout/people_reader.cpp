@@ -159,16 +159,17 @@ std::optional<BodySides> readOwnSides(const JsonNode& node, SchemaRule rule, Dia
     const BodySides sides = readSides(reader, diagnostics);
     reader.finish();
     if (sides.depth.maximum > sides.breadth.minimum)
-        diagnostics.error(node.where,
-                          fmt::format("a body is no deeper than broad: `depth` goes up to {:.6g} m, and `breadth` "
-                                      "begins at {:.6g} m",
-                                      sides.depth.maximum, sides.breadth.minimum),
-                          "give both `min` and `max`, or name one: for example \"body\": \"adult\"");
+        diagnostics.error(
+            node.where,
+            fmt::format("a body is no deeper than broad: `depth` goes up to {:.6g} m, and `breadth` "
+                        "begins at {:.6g} m",
+                        sides.depth.maximum, sides.breadth.minimum),
+            "give both `min` and `max`, or name one: for example \"body\": \"adult\"");
     return sides;
 }
 
-void readBody(ObjectReader& people_reader, const JsonNode& people_node, SchemaRule people_rule, People& people,
-              Diagnostics& diagnostics) {
+void readBody(ObjectReader& people_reader, const JsonNode& people_node, SchemaRule people_rule,
+              People& people, Diagnostics& diagnostics) {
     const JsonNode* node = people_reader.get("body");
     if (!node) return;
     if (people_node.find("radius"))
@@ -181,8 +182,7 @@ void readBody(ObjectReader& people_reader, const JsonNode& people_node, SchemaRu
             share.settings.body = sides;
     } else {
         Meanings<std::string> names;
-        for (const char* each :
-             {kOfProfile, kOfAdult, "child", "elderly", "suitcase", "wheelchair", "pram"})
+        for (const char* each : {kOfProfile, kOfAdult, "child", "elderly", "suitcase", "wheelchair", "pram"})
             names.emplace_back(each, each);
         std::string name = kOfProfile;
         people_reader.choice("body", names, name);

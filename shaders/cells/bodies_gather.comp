@@ -20,7 +20,7 @@ uniform uint ids_are_rows;  // 0: slots
 #include "shaders/cells/cell_starts.glsl"
 #ifdef BODIES
 layout(std430) readonly buffer Chests { Chest chests[]; };
-#include "shaders/motion/body_shape.glsl"
+#include "shaders/shared/body_shape.glsl"
 #define SHAPE , chests[row].half_axis, chests[row].angle, chests[row].rate, axis.x, axis.y
 #else
 #define SHAPE

@@ -19,7 +19,7 @@ layout(std430) readonly buffer WallStarts { uint wall_starts[]; };
 layout(std430) readonly buffer WallItems { uint wall_items[]; };
 layout(std430) readonly buffer RoadDistances { float road_distances[]; };
 layout(std430) writeonly buffer Targets { TARGET targets[]; };  // where each person will be unless bodies touch
-layout(std430) writeonly buffer TargetsAfter { TARGET targets_after[]; };  // the same, for those whom contact passes over
+layout(std430) writeonly buffer TargetsAfter { TARGET targets_after[]; };  // the same, where contact passes over
 layout(std430) writeonly buffer Ways { vec2 ways[]; };  // m: what is meant to be added to places; on wide sites
 layout(std430) writeonly buffer Decisions { Decision decisions[]; };
 uniform uint slot_capacity;
@@ -31,7 +31,7 @@ uniform uint slot_capacity;
 #include "shaders/cells/cells.glsl"
 #include "shaders/shared/walls.glsl"
 #include "shaders/motion/linear_program.glsl"
-#include "shaders/motion/body_shape.glsl"
+#include "shaders/shared/body_shape.glsl"
 #include "shaders/motion/half_width.glsl"
 #include "shaders/motion/drive.glsl"
 #include "shaders/motion/among_all.glsl"

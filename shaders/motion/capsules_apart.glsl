@@ -3,7 +3,7 @@
 // push there moves them and turns them, each by what its mass and its moment of inertia make of it (position-based
 // dynamics of rigid bodies: Mueller, Macklin, Chentanez, Jeschke and Kim 2020).
 // Needs the blocks ParametersBlock, Bodies, Walkers, TouchLists and TargetsBefore, shaders/cells/cells.glsl and
-// cell_runs.glsl, shaders/motion/body_shape.glsl, shoulders.glsl, standing_fast.glsl and nearest_first.glsl.
+// cell_runs.glsl, shaders/shared/body_shape.glsl, shoulders.glsl, standing_fast.glsl and nearest_first.glsl.
 
 /// What others make of somebody in a round: it is moved, turned, by how many.
 struct Push {

@@ -2,7 +2,7 @@
 // Out of walls, for bodies that are no discs: the middle of a body stays on the side of a wall on which it began the
 // step, and so do its shoulders. A wall turns a body as far as its chest turns in a step, and moves it by the rest.
 // Needs the blocks WallSegments, WallStarts and WallItems, shaders/cells/cells.glsl, shaders/shared/walls.glsl,
-// shaders/motion/body_shape.glsl and shoulders.glsl.
+// shaders/shared/body_shape.glsl and shoulders.glsl.
 
 /// The place, less where a step from `before` has passed through the wall itself, not only round its end.
 vec2 notThroughWall(WallSegment wall, vec2 before, vec2 position, out float side_before) {

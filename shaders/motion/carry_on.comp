@@ -20,7 +20,7 @@ layout(std430) writeonly buffer Ways { vec2 ways[]; };
 #include "shaders/motion/under_way.glsl"
 #include "shaders/motion/planted_feet.glsl"
 #include "shaders/motion/wide_site.glsl"
-#include "shaders/motion/body_shape.glsl"
+#include "shaders/shared/body_shape.glsl"
 #ifdef BODIES
 layout(std430) readonly buffer Chests { Chest chests[]; };
 #include "shaders/motion/shoulders.glsl"

@@ -24,7 +24,7 @@ layout(std430) readonly buffer WallSegments { WallSegment wall_segments[]; };
 layout(std430) readonly buffer WallStarts { uint wall_starts[]; };
 layout(std430) readonly buffer WallItems { uint wall_items[]; };
 layout(std430) readonly buffer TargetsBefore { TARGET targets_before[]; };
-layout(std430) buffer TargetsAfter { TARGET targets_after[]; };  // those of the round before the last; then the new ones
+layout(std430) buffer TargetsAfter { TARGET targets_after[]; };  // those before the last round's; then new ones
 uniform float momentum;  // 1 = none
 uniform float bracing;   // 1 = who is carried off its way gives less than others, 0 = all give alike
 
@@ -39,7 +39,7 @@ uniform float bracing;   // 1 = who is carried off its way gives less than other
 #include "shaders/motion/taking_turns.glsl"
 #include "shaders/motion/nearest_first.glsl"
 #ifdef BODIES
-#include "shaders/motion/body_shape.glsl"
+#include "shaders/shared/body_shape.glsl"
 #include "shaders/motion/shoulders.glsl"
 #include "shaders/motion/capsules_apart.glsl"
 #include "shaders/motion/capsules_out_of_walls.glsl"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How broad a body is, seen from a direction: what rules that look ahead mean by its radius.
-// Needs the blocks Bodies and Walkers, and shaders/motion/body_shape.glsl.
+// Needs the blocks Bodies and Walkers, and shaders/shared/body_shape.glsl.
 
 /// m.
 /// @param direction of unit length

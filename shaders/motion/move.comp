@@ -36,7 +36,7 @@ uniform uint steps_done;  // counted with this one
 #include "shaders/motion/wide_site.glsl"
 #ifdef BODIES
 layout(std430) writeonly buffer Chests { Chest chests[]; };
-#include "shaders/motion/body_shape.glsl"
+#include "shaders/shared/body_shape.glsl"
 
 /// The chest, as contact has left it.
 Chest chestAfter(Walker walker, vec2 axis) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shoulders: which way a chest points. It follows the heading, no faster than a trunk turns. Before a gap between walls
 // that is narrower than about 1.3 shoulder breadths people turn their shoulders (Warren and Whang 1987), the further
-// the narrower it is, and go sideways through one that just takes their chest. Where others or walls push a shoulder, it
-// gives way (shaders/motion/capsules_apart.glsl).
-// Needs the block ParametersBlock and shaders/motion/body_shape.glsl.
+// the narrower it is, and go sideways through one that just takes their chest. Where others or walls push a shoulder,
+// it gives way (shaders/motion/capsules_apart.glsl).
+// Needs the block ParametersBlock and shaders/shared/body_shape.glsl.
 
 #ifdef BODIES
 

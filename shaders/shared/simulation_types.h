@@ -99,8 +99,8 @@ struct Walker {
 #endif
 };
 
-/// Which way the chest of a row points: it follows the heading, and turns aside before gaps and where others push it.
-/// Only crowds with bodies that are no discs use it.
+/// Which way the chest of a row points: it follows the heading, and turns aside before gaps and where others
+/// push it. Only crowds with bodies that are no discs use it.
 struct Chest {
     float angle;      // rad
     float rate;       // rad/s
@@ -122,7 +122,8 @@ struct Decision {
 #endif
 };
 
-/// What a program of a crowd with bodies that are no discs (BODIES) has more of each person than C++ says, bytes.
+/// What a program of a crowd with bodies that are no discs (BODIES) has more of each person than C++ says,
+/// bytes.
 const uint MORE_OF_A_WALKER = 20u;
 const uint MORE_OF_A_DECISION = 8u;
 

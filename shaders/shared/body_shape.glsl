@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The shape of a body: a capsule, which is all that is within so much of a segment: of somebody who walks, from
-// shoulder to shoulder; of a wheelchair or a pram, along the way it faces. Discs are capsules whose segment is a point, and
-// crowds of nothing else (no BODIES) know of no segment.
+// shoulder to shoulder; of a wheelchair or a pram, along the way it faces. Discs are capsules whose segment is a point,
+// and crowds of nothing else (no BODIES) know of no segment.
 //
 // `Body.radius` is half of the longer side, so the disc of that radius holds all of the body, whichever way it turns:
 // what looks for those near by needs to know no more.
