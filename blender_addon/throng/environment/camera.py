@@ -138,10 +138,9 @@ def _new_camera(collection):
 
 def _clear_ways(geometry, target, reach=24.0):
     """Ways to look from that do not begin in a building."""
-    solids = [[tuple(p[:2]) for p in wall["points"]] for wall in geometry.get("walls", []) if wall.get("closed")]
     ways = _directions(geometry)
-    clear = [u for u in ways
-             if not any(inside(s, (target[0] + u[0] * reach, target[1] + u[1] * reach)) for s in solids)]
+    clear = [u for u in ways if not any(inside(outline, (target[0] + u[0] * reach, target[1] + u[1] * reach))
+                                        for outline, _ in houses_of(geometry))]
     return clear or ways
 
 

@@ -102,7 +102,7 @@ def _turns(wearer, what):
         turns[foot] = what.feet[:, index] @ straight
         turns[ball] = _toes(what.feet[:, index]) @ straight
         turns[f"clavicle_{side}"] = turns["spine_03"] @ bends.turn(numpy.array([1.0, 0.0, 0.0]),
-                                                                  -_sign(side) * 0.03)
+                                                                   -_sign(side) * 0.03)
         if what.has_arm(index):
             _turn_arm(wearer, what, turns, side, index)
     return turns

@@ -13,7 +13,7 @@ from ..bakes.bake import Bake
 from ..bakes.surroundings import Thing, things_of
 from ..base.errors import ThrongError
 from ..base.whole_files import whole_file
-from ..skinned.members import LEVELS, bodies_of_library
+from ..skinned.members import LEVELS
 from ..skinned.motions import joints_of, matrices_of, track_of
 from ..skinned.shot import Shot, Wanted
 from . import axes, meshopt
@@ -60,8 +60,6 @@ def export_gltf(bake: Bake, path: str | os.PathLike, wanted: Wanted = Wanted(), 
     if pathlib.Path(path).suffix.lower() != SUFFIX:
         raise ThrongError(f"{os.fspath(path)}: expected a name that ends in {SUFFIX}")
     form.check()
-    wanted.check()
-    bodies_of_library()
     crowd = Crowd(Shot(bake, wanted), form)
     if ground:
         crowd.surroundings()

@@ -13,8 +13,8 @@ import numpy
 from ..bakes.bake import Bake
 from ..base.whole_files import whole_folder
 from ..people import palettes
-from ..skinned.clips import Clip, clips_of, poses_of_clip
-from ..skinned.members import LEVELS, Member, bodies_of_library
+from ..skinned.clips import Clip, poses_of_clip
+from ..skinned.members import LEVELS, Member
 from ..skinned.motions import joints_of
 from ..skinned.shot import Shot, Wanted
 from . import placements
@@ -37,11 +37,8 @@ class Written:
 def export_kit(bake: Bake, folder: str | os.PathLike, wanted: Wanted = Wanted(), form: Form = ALL_LEVELS) -> Written:
     """The folder must not be there yet."""
     form.check()
-    wanted.check()
-    bodies_of_library()
     shot = Shot(bake, wanted)
-    clips = clips_of(shot.repertoire, bake.fps)
-    numbers = sorted({shot.member_of[row] for row in shot.rows})
+    clips, numbers = shot.clips, shot.members
     with whole_folder(folder) as beside:
         (beside / "members").mkdir()
         for number in numbers:

@@ -12,8 +12,8 @@ import numpy
 from ..bakes.bake import Bake
 from ..base.errors import ThrongError
 from ..base.whole_files import whole_folder
-from ..skinned.clips import Clip, clips_of, poses_of_clip
-from ..skinned.members import LEVELS, Member, bodies_of_library
+from ..skinned.clips import Clip, poses_of_clip
+from ..skinned.members import LEVELS, Member
 from ..skinned.posed import posed
 from ..skinned.shot import Shot, Wanted
 from . import axes, textures
@@ -65,11 +65,8 @@ def export_vat(bake: Bake, folder: str | os.PathLike, wanted: Wanted = Wanted(),
     textures.check(texture)
     if level not in LEVELS:
         raise ThrongError(f"level: expected one of {', '.join(LEVELS)}, found {level!r}")
-    wanted.check()
-    bodies_of_library()
     shot = Shot(bake, wanted)
-    clips = clips_of(shot.repertoire, bake.fps)
-    numbers = sorted({shot.member_of[row] for row in shot.rows})
+    clips, numbers = shot.clips, shot.members
     with whole_folder(folder) as beside:
         told = {}
         for number in numbers:

@@ -10,6 +10,7 @@ import numpy
 from ..bakes.bake import Bake
 from ..base.errors import ThrongError
 from . import chosen
+from .clips import Clip, clips_of
 from .members import MOST_MEMBERS, Member, bodies_of_library, cast_of, make_member, repertoire_of
 
 
@@ -35,6 +36,7 @@ class Wanted:
 class Shot:
     def __init__(self, bake: Bake, wanted: Wanted):
         wanted.check()
+        self.bodies = bodies_of_library()  # first: all else takes its time
         self.bake, self.every = bake, wanted.every
         self.frames = self._frames(wanted.seconds)
         self.there = numpy.array(bake.there(self.frames))
@@ -47,7 +49,6 @@ class Shot:
         self.repertoire = repertoire_of(bake)
         self.roles, self.member_of = cast_of(bake, wanted.members)
         self.sizes = chosen.sizes(bake.people)
-        self.bodies = bodies_of_library()
         self._made: dict[int, Member] = {}
 
     def _frames(self, seconds: tuple[float, float] | None) -> numpy.ndarray:
@@ -64,6 +65,15 @@ class Shot:
     def seconds(self) -> numpy.ndarray:
         """Of each frame, from the first one."""
         return (self.frames - self.frames[0]) / self.bake.fps
+
+    @property
+    def clips(self) -> list[Clip]:
+        return clips_of(self.repertoire, self.bake.fps)
+
+    @property
+    def members(self) -> list[int]:
+        """Numbers of those whom the people who are written appear as."""
+        return sorted({self.member_of[row] for row in self.rows})
 
     def member(self, number: int) -> Member:
         if number not in self._made:
