@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-/// Bodies that are no discs, as shaders/motion/body_shape.glsl has them: all that is within so much of a
+/// Bodies that are no discs, as shaders/shared/body_shape.glsl has them: all that is within so much of a
 /// segment.
 namespace throng {
 

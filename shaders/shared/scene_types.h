@@ -36,7 +36,7 @@ struct Person {
     float headway;     // s of free way kept to those walked behind; 0 = pushes on
     uint kind;         // of its group's people, as the layout lists them: nothing here depends on it
     float half_axis;   // m: half of the segment that all of the body is near to; 0 = a disc, above 0 = from
-                      // shoulder to shoulder, below 0 = the way it faces
+                       // shoulder to shoulder, below 0 = the way it faces
     uint reserved;
 };
 
