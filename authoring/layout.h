@@ -33,6 +33,12 @@ struct Distribution {
     bool operator==(const Distribution&) const = default;
 };
 
+/// A body that is no disc: from shoulder to shoulder, and from chest to back, m.
+struct BodySides {
+    Distribution breadth, depth;
+    bool operator==(const BodySides&) const = default;
+};
+
 /// How a person differs from the next. Speeds in m/s, lengths in metres.
 struct PersonSettings {
     /// Preferred walking speed, 0.05 to 10 m/s. Free walking of adults: mean 1.34, deviation 0.26 (Weidmann
@@ -40,12 +46,18 @@ struct PersonSettings {
     Distribution speed{Distribution::Kind::normal, 1.34, 0.26, 0.6, 2.2};
     /// Body radius, 0.1 to 1 m: half the shoulder breadth.
     Distribution radius{Distribution::Kind::uniform, 0.25, 0.0, 0.22, 0.28};
+    /// In place of the radius; none: a disc.
+    std::optional<BodySides> body;
     /// Highest speed as a multiple of the preferred one, 1 to 3.
     double maximum_speed_factor = 1.4;
     /// s, 0 to 5: the free way kept to those walked behind. 0: people press on.
     double headway = 0.0;
     /// s, 0 to 3600: how long it takes to set off when an event sends people somewhere else.
     Distribution reaction;
+
+    double largestRadius() const {
+        return body ? 0.5 * std::max(body->breadth.maximum, body->depth.maximum) : radius.maximum;
+    }
 };
 
 /// A kind of people and how large its share is.
@@ -68,7 +80,7 @@ struct People {
     double largestRadius() const {
         double largest = 0.0;
         for (const PeopleShare& share : kinds)
-            largest = std::max(largest, share.settings.radius.maximum);
+            largest = std::max(largest, share.settings.largestRadius());
         return largest;
     }
 };

@@ -97,7 +97,7 @@ struct Scene {
 
     std::shared_ptr<const Terrain> terrain;  ///< null: the ground is flat
 
-    float smallest_radius = 0.0f;  ///< of all people, m
+    float smallest_radius = 0.0f;  ///< of all people, m; of bodies that are no discs, half of the longer side
     float largest_radius = 0.0f;
 };
 

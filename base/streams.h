@@ -17,7 +17,7 @@ namespace throng {
 inline constexpr std::size_t kComponents = 3;  ///< point caches know no other number
 
 /// In the order of kStreams.
-enum class Stream { pos, dir, state, density, ground, wish, left_foot, right_foot, carriage, gaze };
+enum class Stream { pos, dir, state, density, ground, wish, left_foot, right_foot, carriage, gaze, chest };
 
 /// What a row holds in the frames before it is first alive.
 enum class BackFill {
@@ -160,6 +160,16 @@ inline constexpr std::array kStreams = {
                                {"pitch", "rad", BackFill::zero, Between::linear, kFine},
                                {"at", "1", BackFill::zero, Between::nearest, 1.0, !kRate, kWhole}}},
                .source = StreamSource::pose},
+    StreamInfo{
+        .id = Stream::chest,
+        .name = "chest",
+        .about = "which way the chests of people with bodies point, from where they face, and how much room "
+                 "they take",
+        .components = {{{"twist", "rad", BackFill::keep, Between::linear, kFine},
+                        {"turning", "rad/s", BackFill::keep, Between::linear, kFair, kRate},
+                        {"width", "m", BackFill::keep, Between::linear, kFine}}},
+        .source = StreamSource::device,
+        .shader = "shaders/frame/pack_chest.comp"},
 };
 
 /// Something for each stream.

@@ -25,6 +25,9 @@ class Columns {
             if (found == names.end()) throw InputError(path, fmt::format("has no column `{}`", kNames[i]));
             at_[i] = static_cast<std::size_t>(found - names.begin());
         }
+        for (std::size_t i = 0; i < kSides.size(); ++i)
+            if (const auto found = std::ranges::find(names, kSides[i]); found != names.end())
+                side_at_[i] = static_cast<std::size_t>(found - names.begin());
     }
     enum Name {
         group,
@@ -45,6 +48,8 @@ class Columns {
         if (size < 0.0 || size > kLargest)
             throw InputError(path_, fmt::format("line {}: {} m is no radius of a body", line, size));
         result.radius = static_cast<float>(size);
+        result.body = {side(fields, 0, line), side(fields, 1, line)};
+        if (result.body.isDisc() || result.body.depth <= 0.0) result.body = {};
         result.preferred_speed = static_cast<float>(number(fields, preferred_speed, line));
         result.outcome = text(fields, outcome, line);
         result.shortest_way = number(fields, shortest_way, line);
@@ -62,6 +67,19 @@ class Columns {
                                           "spawn_frame", "arrival_frame", "outcome",
                                           "goal_x",      "goal_y",        "shortest_way"};
 
+    static constexpr std::array kSides = {"breadth", "depth"};
+
+    /// m, of a body that is no disc; 0 where there is none.
+    double side(const std::vector<std::string>& fields, std::size_t which, std::size_t line) const {
+        if (!side_at_[which] || *side_at_[which] >= fields.size() || fields[*side_at_[which]].empty())
+            return 0.0;
+        const std::optional<double> value = finiteNumber(fields[*side_at_[which]]);
+        if (!value || *value < 0.0 || *value > kLargest)
+            throw InputError(path_, fmt::format("line {}: `{}` is no `{}` of a body", line,
+                                                fields[*side_at_[which]], kSides[which]));
+        return *value;
+    }
+
     const std::string& text(const std::vector<std::string>& fields, Name name, std::size_t line) const {
         if (at_[name] >= fields.size())
             throw InputError(path_, fmt::format("line {} is short of fields", line));
@@ -78,6 +96,7 @@ class Columns {
 
     const std::filesystem::path& path_;
     std::array<std::size_t, kNames.size()> at_{};
+    std::array<std::optional<std::size_t>, 2> side_at_{};  ///< bakes of discs have none
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/capsule.h"
 #include "io/bake_reader.h"
 
 namespace throng::io {
@@ -13,12 +14,16 @@ namespace throng::io {
 struct AgentRow {
     std::string group;
     float radius = 0.0f;                        ///< m
+    BodySize body;                              ///< where it is no disc
     float preferred_speed = 0.0f;               ///< m/s
     std::uint32_t spawn_frame = 0xffffffffu;    ///< from 0; all bits set: never
     std::uint32_t arrival_frame = 0xffffffffu;  ///< likewise
     std::string outcome;                        ///< walking, arrived or refused
     double shortest_way = 0.0;                  ///< m, round walls
     glm::dvec2 goal{0.0};                       ///< m, in the frame of the streams
+
+    /// m, of the disc that holds all of it
+    double reach() const { return body.isDisc() ? static_cast<double>(radius) : body.radius(); }
 };
 
 /// Reads agents.csv. Throws InputError, with the line, when a field is missing or not what it should be.

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 #include <stdexcept>
 
@@ -48,21 +49,28 @@ AccountTotals countOutcomes(const Account& account) {
 std::string agentTable(const recording::BakeDescription& description, const Account& account) {
     if (account.agents.size() != description.agents.size())
         throw std::invalid_argument("the account and the description differ in their number of people");
+    const bool has_bodies = std::ranges::any_of(
+        description.agents, [](const recording::BakeAgent& agent) { return !agent.body.isDisc(); });
     std::string table =
         "id,group,kind,radius,preferred_speed,variation,party,spawn_frame,arrival_frame,outcome,reason,goal_"
         "x,goal_"
         "y,"
-        "distance_walked,shortest_way,profile,look,colours\n";
+        "distance_walked,shortest_way,profile,look,colours";
+    table += has_bodies ? ",breadth,depth\n" : "\n";
     for (std::size_t row = 0; row < description.agents.size(); ++row) {
         const recording::BakeAgent& agent = description.agents[row];
         const recording::BakeGroup& group = description.groups.at(agent.group);
         const AgentOutcome& outcome = account.agents[row];
-        fmt::format_to(std::back_inserter(table), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
+        fmt::format_to(std::back_inserter(table), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
                        row, csvField(group.id), group.is_flow ? "flow" : "formation", agent.radius,
                        agent.preferred_speed, agent.variation, agent.party, frameNumber(outcome.spawn_frame),
                        frameNumber(outcome.arrival_frame), outcomeName(outcome.status),
                        csvField(reasonOf(outcome)), agent.goal.x, agent.goal.y, outcome.distance_walked,
                        outcome.shortest_way, agent.profile, group.look, group.colours);
+        if (has_bodies && agent.body.isDisc()) table += ",,";
+        if (has_bodies && !agent.body.isDisc())
+            fmt::format_to(std::back_inserter(table), ",{:.4g},{:.4g}", agent.body.breadth, agent.body.depth);
+        table += '\n';
     }
     return table;
 }

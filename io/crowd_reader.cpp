@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -17,6 +18,15 @@ std::span<const float> CrowdFrame::operator[](Stream stream) const {
         values = std::move(read);
     }
     return values;
+}
+
+Capsule CrowdFrame::body(std::size_t row, const AgentRow& person) const {
+    if (person.body.isDisc()) return {place(row), glm::dvec2(0.0), person.radius};
+    const bool is_told = held_->streams.has(Stream::chest);
+    const double twist = is_told ? static_cast<double>((*this)[Stream::chest][row * kComponents]) : 0.0;
+    const glm::dvec2 facing = this->facing(row);
+    const glm::dvec2 chest = facing * std::cos(twist) + glm::dvec2(-facing.y, facing.x) * std::sin(twist);
+    return capsuleOf(place(row), chest, person.body.radius(), person.body.halfAxis());
 }
 
 CrowdReader::CrowdReader(Bake bake)

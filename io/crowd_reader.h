@@ -26,6 +26,8 @@ class CrowdFrame {
         return inPlane(Stream::pos, row);
     }  ///< m, from the bake's origin
     glm::dvec2 facing(std::size_t row) const { return inPlane(Stream::dir, row); }
+    /// The body of somebody, as its chest is turned.
+    Capsule body(std::size_t row, const AgentRow& person) const;
     float speed(std::size_t row) const { return (*this)[Stream::dir][row * kComponents + 2]; }  ///< m/s
 
   private:

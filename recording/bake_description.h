@@ -12,6 +12,7 @@
 #include "authoring/layout.h"
 #include "authoring/terrain/terrain.h"
 #include "authoring/terrain/terrain_mesh.h"
+#include "base/capsule.h"
 #include "base/stream_formats.h"
 #include "base/streams.h"
 
@@ -35,6 +36,7 @@ struct BakeAgent {
     glm::dvec2 goal{0.0};     ///< m, world
     double scale = 1.0;       ///< of the figure, beyond what the radius says
     std::optional<std::uint32_t> colour = {};  ///< 0xRRGGBB, instead of the group's
+    BodySize body = {};                        ///< where it is no disc; `radius` is that of the figure then
     std::string profile = {};                  ///< as the layout names it; empty: it names none
 };
 

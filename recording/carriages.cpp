@@ -14,7 +14,6 @@ namespace {
 constexpr float kLimbs = 11.0f, kTrunk = 10.0f, kShoulders = 9.0f;  // 1/s, stiffness of springs
 constexpr float kLeans = 0.06f;                           // rad per m/s^2; 0.1 would keep balance alone
 constexpr float kMostForward = 0.12f, kMostBack = 0.07f;  // rad
-constexpr float kMostTwist = 0.7f;                        // rad
 constexpr double kRoom = 0.25;                            // m: with so much between bodies nobody turns
 constexpr double kAnticipates = 0.25;                     // s
 constexpr double kPasses = 0.25, kPassesFully = 0.8;      // m/s, between two people along the way of one

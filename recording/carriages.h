@@ -15,6 +15,8 @@ namespace throng::recording {
 /// both are blended. m/s. Renderers that know no Carriage have the same (blender_addon/throng/crowd/near.py).
 inline constexpr double kStandsBelow = 0.03, kWalksFrom = 0.35;
 
+inline constexpr float kMostTwist = 0.7f;  ///< rad, of shoulders over hips
+
 /// How somebody carries the body over the feet.
 struct Carriage {
     float walking = 0.0f;  ///< share of the walk in the pose; the rest is how it stands

@@ -15,6 +15,16 @@ constexpr double kMargin = 0.05;   // m: pairs this far apart may be pushed toge
 constexpr double kDeep = 0.005;    // of the sum of radii, beyond kSlack: not to be left
 constexpr int kRounds = 8, kAttempts = 3, kHalvings = 12;
 
+/// From the first to the second, where they are nearest to each other: for discs, between their middles.
+glm::dvec2 between(const MovedBody& a, const MovedBody& b) {
+    return segmentsGap(b.place - a.place, b.axis, a.axis);
+}
+
+/// m: how long that is where they touch.
+double reachOf(const MovedBody& a, const MovedBody& b) {
+    return a.radius - glm::length(a.axis) + b.radius - glm::length(b.axis);
+}
+
 }  // namespace
 
 KeepApart::KeepApart(std::vector<authoring::Wall> walls, glm::dvec2 minimum, glm::dvec2 maximum)
@@ -39,7 +49,7 @@ bool KeepApart::takeBack(std::vector<MovedBody>& bodies) const {
     for (const Pair& pair : pairs_) {
         MovedBody& a = bodies[pair.first];
         MovedBody& b = bodies[pair.second];
-        if (glm::distance(a.place, b.place) >= pair.reach * (1.0 - kDeep)) continue;
+        if (glm::length(between(a, b)) >= pair.reach * (1.0 - kDeep)) continue;
         any = true;
         for (MovedBody* body : {&a, &b})
             body->place = glm::mix(body->simulated, body->place, 0.5);
@@ -64,8 +74,8 @@ void KeepApart::findPairs(const std::vector<MovedBody>& bodies) {
         if (!moved(i)) continue;
         grid_.near(places_[i], bodies[i].radius + largest + kMargin, [&](std::uint32_t j) {
             if (j == i || (j < i && moved(j))) return;
-            const double reach = bodies[i].radius + bodies[j].radius;
-            if (glm::distance(places_[i], places_[j]) < reach + kMargin)
+            const double reach = reachOf(bodies[i], bodies[j]);
+            if (glm::length(between(bodies[i], bodies[j])) < reach + kMargin)
                 pairs_.push_back({i, j, reach * (1.0 - kSlack)});
         });
     }
@@ -75,11 +85,12 @@ void KeepApart::separate(std::vector<MovedBody>& bodies) const {
     for (const Pair& pair : pairs_) {
         glm::dvec2& a = bodies[pair.first].place;
         glm::dvec2& b = bodies[pair.second].place;
-        const double apart = glm::distance(a, b);
+        const glm::dvec2 gap = between(bodies[pair.first], bodies[pair.second]);
+        const double apart = glm::length(gap);
         if (apart >= pair.reach) continue;
         // Two in the same place go the way they are apart in the simulation.
         const glm::dvec2 way = apart > 1.0e-9
-                                   ? (b - a) / apart
+                                   ? gap / apart
                                    : glm::normalize(bodies[pair.second].simulated -
                                                     bodies[pair.first].simulated + glm::dvec2(1.0e-12, 0.0));
         const glm::dvec2 push = 0.5 * (pair.reach - apart) * way;
@@ -97,9 +108,9 @@ void KeepApart::clearWalls(std::vector<MovedBody>& bodies) const {
 /// As near to its average place as walls let it be, on the straight way from where the simulation had it.
 void KeepApart::clearWalls(MovedBody& body) const {
     constexpr double kTouches = 1.0e-4;  // m
-    const double allowed = std::max(kTouches, walls_.penetration(body.simulated, body.radius));
+    const double allowed = std::max(kTouches, walls_.penetration(body.shapeAt(body.simulated)));
     const auto clear = [&](glm::dvec2 place) {
-        return walls_.penetration(place, body.radius) <= allowed && !walls_.crosses(body.simulated, place);
+        return walls_.penetration(body.shapeAt(place)) <= allowed && !walls_.crosses(body.simulated, place);
     };
     if (clear(body.place)) return;
     double free = 0.0, blocked = 1.0;

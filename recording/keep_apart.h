@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "authoring/layout.h"
+#include "base/capsule.h"
 #include "base/plane_grid.h"
 #include "recording/wall_watch.h"
 
@@ -16,6 +17,9 @@ struct MovedBody {
     glm::dvec2 simulated{0.0};  ///< where the simulation had it: clear of walls
     glm::dvec2 place{0.0};      ///< where it is to be shown
     double radius = 0.0;        ///< m
+    glm::dvec2 axis{0.0};  ///< m, of a body that is no disc: half of its segment; `radius` holds all of it
+
+    Capsule shapeAt(glm::dvec2 middle) const { return {middle, axis, radius - glm::length(axis)}; }
 };
 
 /// Averages cut corners: of walls, and of other people who are walked round. This puts whoever got too near

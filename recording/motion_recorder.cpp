@@ -45,7 +45,8 @@ MotionRecorder::MotionRecorder(const BakeDescription& description, Sink sink)
     }
     for (const BakeAgent& agent : description.agents) {
         parties_.push_back(agent.party);
-        radii_.push_back(agent.radius);
+        radii_.push_back(agent.body.isDisc() ? agent.radius : static_cast<float>(agent.body.radius()));
+        half_axes_.push_back(static_cast<float>(agent.body.halfAxis()));
         speeds_.push_back(agent.preferred_speed);
         scales_.push_back(static_cast<float>(agent.scale));
     }
@@ -81,7 +82,9 @@ void MotionRecorder::giveOut() {
     positions_ = frame[Stream::pos];
     directions_ = frame[Stream::dir];
     states_ = frame[Stream::state];
+    chests_ = frame[Stream::chest];
     if (window_.reach() > 0) average(frame);
+    turnChests(frame);
     record(frame);
     if (carriages_ || gazes_) findOnlookers(frame);
     if (carriages_) carry();
@@ -95,6 +98,7 @@ void MotionRecorder::giveOut() {
     shown[Stream::right_foot] = feet_[1];
     shown[Stream::carriage] = carriage_values_;
     shown[Stream::gaze] = gaze_values_;
+    shown[Stream::chest] = chests_;
     sink_(shown);
     window_.advance();
 }
@@ -107,8 +111,10 @@ void MotionRecorder::average(const KeptFrame& frame) {
         const std::size_t at = row * kComponents;
         const Average average = window_.average(row);
         present_.push_back(row);
-        bodies_.push_back(
-            {{positions_[at], positions_[at + 1]}, {average.position[0], average.position[1]}, radii_[row]});
+        bodies_.push_back({{positions_[at], positions_[at + 1]},
+                           {average.position[0], average.position[1]},
+                           radii_[row],
+                           axisOf(frame, row)});
         positions_[at + 2] = static_cast<float>(average.position[2]);
         directions_[at] = static_cast<float>(average.heading[0]);
         directions_[at + 1] = static_cast<float>(average.heading[1]);
@@ -118,6 +124,27 @@ void MotionRecorder::average(const KeptFrame& frame) {
     for (std::size_t i = 0; i < present_.size(); ++i) {
         positions_[present_[i] * kComponents] = static_cast<float>(bodies_[i].place.x);
         positions_[present_[i] * kComponents + 1] = static_cast<float>(bodies_[i].place.y);
+    }
+}
+
+/// Half of the segment of somebody's body as it was simulated, m; zero of discs.
+glm::dvec2 MotionRecorder::axisOf(const KeptFrame& frame, std::size_t row) const {
+    if (half_axes_[row] == 0.0f || frame[Stream::chest].empty()) return glm::dvec2(0.0);
+    const auto facing = rowOf(std::span(frame[Stream::dir]), row);
+    const double angle =
+        std::atan2(double{facing[1]}, double{facing[0]}) + double{frame[Stream::chest][row * kComponents]};
+    return capsuleOf({}, {std::cos(angle), std::sin(angle)}, radii_[row], half_axes_[row]).axis;
+}
+
+/// Chests point where they were simulated to, whichever way the average faces.
+void MotionRecorder::turnChests(const KeptFrame& frame) {
+    if (chests_.empty() || window_.reach() == 0) return;
+    for (std::size_t row = 0; row < walkers_.size(); ++row) {
+        if (!frame.isAlive(row) || half_axes_[row] == 0.0f) continue;
+        const auto before = rowOf(std::span(frame[Stream::dir]), row);
+        const auto after = rowOf(std::span(std::as_const(directions_)), row);
+        chests_[row * kComponents] += std::atan2(after[0] * before[1] - after[1] * before[0],
+                                                 after[0] * before[0] + after[1] * before[1]);
     }
 }
 
@@ -201,7 +228,11 @@ void MotionRecorder::carry() {
     carriages_->squeeze(onlookers_);
     putAll(carriage_values_, [this](std::size_t row) {
         const Carriage carriage = (*carriages_)[row];
-        return std::array{carriage.walking, carriage.twist, carriage.lean};
+        // Who has a body turned its chest in the simulation; the hips take what a spine does not.
+        const bool simulated = half_axes_[row] > 0.0f && !chests_.empty();
+        const float twist =
+            simulated ? std::clamp(chests_[row * kComponents], -kMostTwist, kMostTwist) : carriage.twist;
+        return std::array{carriage.walking, twist, carriage.lean};
     });
 }
 

@@ -50,6 +50,8 @@ class MotionRecorder {
     void average(const KeptFrame& frame);
     void record(const KeptFrame& frame);
     void putStance(std::size_t at, const Stance& stance);
+    glm::dvec2 axisOf(const KeptFrame& frame, std::size_t row) const;
+    void turnChests(const KeptFrame& frame);
     void findOnlookers(const KeptFrame& frame);
     void carry();
     void look();
@@ -74,7 +76,8 @@ class MotionRecorder {
     std::vector<float> positions_, directions_, states_, grounds_;  ///< of the frame being given out
     std::array<std::vector<float>, 2> feet_;                        ///< likewise: left, right
     std::vector<std::uint32_t> present_;
-    std::vector<float> gaze_values_, carriage_values_;
+    std::vector<float> gaze_values_, carriage_values_, chests_;
+    std::vector<float> half_axes_;  ///< by row, m: as gpu::Person has it
     std::vector<MovedBody> bodies_;
     std::vector<Onlooker> onlookers_;
     std::vector<std::uint32_t> parties_;  ///< by row

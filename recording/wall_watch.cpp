@@ -93,4 +93,16 @@ double WallWatch::penetration(glm::dvec2 place, double radius) const {
     return deepest;
 }
 
+double WallWatch::penetration(const Capsule& body) const {
+    if (body.axis == glm::dvec2(0.0)) return penetration(body.middle, body.thickness);
+    double deepest = 0.0;
+    near(body.middle, body.thickness + glm::length(body.axis), [&](const Segment& wall) {
+        const double gap =
+            segmentsDistance(body.middle - 0.5 * (wall.a + wall.b), body.axis, 0.5 * (wall.b - wall.a)) -
+            wall.half_thickness;
+        deepest = std::max(deepest, body.thickness - gap);
+    });
+    return deepest;
+}
+
 }  // namespace throng::recording

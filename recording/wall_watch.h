@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "authoring/layout.h"
+#include "base/capsule.h"
 #include "base/plane_grid.h"
 
 namespace throng::recording {
@@ -21,6 +22,7 @@ class WallWatch {
     bool crosses(glm::dvec2 before, glm::dvec2 after) const;
     /// How far a body is inside a wall, m; 0 where it is clear.
     double penetration(glm::dvec2 place, double radius) const;
+    double penetration(const Capsule& body) const;
 
   private:
     struct Segment {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/vec4.hpp>
 #include <stdexcept>
 
 #include "base/wide_site.h"
@@ -44,6 +45,18 @@ std::vector<gpu::AgentState> initialStates(const authoring::Scene& scene) {
         states.push_back(state);
     }
     return states;
+}
+
+std::vector<gpu::Chest> initialChests(const authoring::Scene& scene) {
+    std::vector<gpu::Chest> chests;
+    chests.reserve(scene.people.size());
+    for (const gpu::Person& person : scene.people)
+        chests.push_back({person.heading, 0.0f, person.half_axis, 0});
+    return chests;
+}
+
+bool isDisc(const gpu::Person& person) {
+    return person.half_axis == 0.0f;
 }
 
 std::vector<std::uint32_t> initialSiteSlots(const authoring::Scene& scene) {
@@ -156,6 +169,7 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
     : parameters(gl::makeBuffer("parameters", std::vector{parameter_values})),
       people(gl::makeBuffer("people", scene.people, kPerson)),
       states(gl::makeBuffer("states", initialStates(scene), kPerson)),
+      chests(gl::makeBuffer("chests", initialChests(scene), kPerson)),
       stages(gl::makeBuffer("stages", scene.stages, "stage")),
       plan_changes(gl::makeBuffer("plan changes", scene.plan_changes, "change of plans")),
       fields(makeFields(scene.fields)),
@@ -173,7 +187,8 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
       proposals("spawn proposals",
                 {scene.queues.size(), sizeof(gpu::SpawnProposal) * gpu::SPAWN_GROUP_SIZE, "queue"}),
       wall_segments(gl::makeBuffer("wall segments", scene.wall_segments, "wall segment")),
-      wall_tiles(gl::makeBuffer("wall tiles", scene.wall_tiles, "wall tile")) {
+      wall_tiles(gl::makeBuffer("wall tiles", scene.wall_tiles, "wall tile")),
+      has_bodies_(!std::ranges::all_of(scene.people, isDisc)) {
     const std::size_t rows = scene.people.size();
     const std::size_t cells = std::size_t{parameter_values.cells_width} * parameter_values.cells_height;
     const WallIndex walls = indexWalls(scene.wall_segments, parameter_values,
@@ -211,7 +226,8 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
 
     site_slots = gl::makeBuffer("site slots", initialSiteSlots(scene), kSite);
     bodies = gl::Buffer("bodies", {rows, sizeof(gpu::Body), kPerson});
-    walkers = gl::Buffer("walkers", {rows, sizeof(gpu::Walker), kPerson});
+    walkers = gl::Buffer("walkers",
+                         {rows, sizeof(gpu::Walker) + (has_bodies_ ? gpu::MORE_OF_A_WALKER : 0), kPerson});
     sites = gl::Buffer("sites", {rows + scene.wall_tiles.size(), sizeof(gpu::DiagramSite), kSite});
     const std::vector<gpu::DiagramSite> fixed = wallSites(scene, parameter_values);
     if (!fixed.empty()) sites.upload(std::span<const gpu::DiagramSite>(fixed), rows);
@@ -224,10 +240,12 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
     touch_slots = gl::Buffer("touch slots", {rows, kWord, kPerson});
     touch_dispatch = gl::Buffer("touch dispatch", kWord * 4);
     preferred_velocities = gl::Buffer("preferred velocities", {rows, sizeof(glm::vec2), kPerson});
-    decisions = gl::Buffer("decisions", {rows, sizeof(gpu::Decision), kPerson});
+    decisions = gl::Buffer(
+        "decisions", {rows, sizeof(gpu::Decision) + (has_bodies_ ? gpu::MORE_OF_A_DECISION : 0), kPerson});
     ways = gl::Buffer("ways", {rows, sizeof(glm::vec2), kPerson});
-    targets = gl::Buffer("targets", {rows, sizeof(glm::vec2), kPerson});
-    targets_after = gl::Buffer("targets after contact", {rows, sizeof(glm::vec2), kPerson});
+    const std::size_t target_bytes = has_bodies_ ? sizeof(glm::vec4) : sizeof(glm::vec2);
+    targets = gl::Buffer("targets", {rows, target_bytes, kPerson});
+    targets_after = gl::Buffer("targets after contact", {rows, target_bytes, kPerson});
     queue_heads.fill(0);
     tickets.fill(0);
     detour_slopes.fill(0);
@@ -241,10 +259,17 @@ gl::ComputeProgram Buffers::connect(const gl::ShaderLibrary& library, const gl::
     return program;
 }
 
+gl::Definitions Buffers::definitions(const MotionSettings& rules) const {
+    gl::Definitions all = rules.definitions();
+    if (has_bodies_) all.emplace_back("BODIES", "1");
+    return all;
+}
+
 std::vector<std::pair<std::string, const gl::Buffer*>> Buffers::named() const {
     return {{"ParametersBlock", &parameters},
             {"People", &people},
             {"States", &states},
+            {"Chests", &chests},
             {"Stages", &stages},
             {"PlanChanges", &plan_changes},
             {"WaitingLines", &lines},

@@ -25,6 +25,7 @@ struct Buffers {
     gl::Buffer parameters;
 
     gl::Buffer people, states;        // per row
+    gl::Buffer chests;                // likewise
     gl::Buffer stages, plan_changes;  // routes
     gl::Buffer fields;                // may be larger than a storage block: read through field_cells
     gl::WordTexture field_cells;
@@ -47,10 +48,17 @@ struct Buffers {
     gl::ComputeProgram connect(const gl::ShaderLibrary& library, const gl::Declaration& declaration,
                                const gl::Definitions& definitions = {}) const;
     std::vector<std::pair<std::string, const gl::Buffer*>> named() const;
+    /// Whether anybody is no disc.
+    bool hasBodies() const { return has_bodies_; }
+    /// What programs that move people are compiled with.
+    gl::Definitions definitions(const MotionSettings& rules) const;
     /// Slots that per-slot lists are laid out for.
     std::uint32_t slotCapacity() const {
         return static_cast<std::uint32_t>(bodies.bytes() / sizeof(gpu::Body));
     }
+
+  private:
+    bool has_bodies_;
 };
 
 /// Cells, windows and limits that follow from a scene.

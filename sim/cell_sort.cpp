@@ -26,7 +26,7 @@ const gl::Declaration kScatter = {"cells",
 const gl::Declaration kGather = {"cells",
                                  {"shaders/cells/bodies_gather.comp"},
                                  {"ParametersBlock", "LiveDispatch", "People", "States", "RowCells",
-                                  "LooseRows", "StripStarts", "CellOffsets"},
+                                  "LooseRows", "StripStarts", "CellOffsets", "Chests"},
                                  {"SiteSlots", "Bodies", "Walkers", "Sites"}};
 
 }  // namespace
@@ -39,7 +39,8 @@ CellSort::CellSort(const gl::ShaderLibrary& library, Buffers& buffers, const gpu
       scan_(buffers.connect(library, kScan)),
       fill_(buffers.connect(library, kFill)),
       scatter_(buffers.connect(library, kScatter)),
-      gather_(buffers.connect(library, kGather)) {
+      gather_(buffers.connect(library, kGather,
+                              buffers.hasBodies() ? gl::Definitions{{"BODIES", "1"}} : gl::Definitions{})) {
     const auto strips = static_cast<std::uint32_t>(buffers.strip_counts.bytes() / sizeof(std::uint32_t));
     sum_.set("count_total", strips);
     scan_.set("count_total", strips);

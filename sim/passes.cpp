@@ -16,7 +16,7 @@ const gl::Declaration kAccept = {"spawn",
                                  {"shaders/motion/spawn_accept.comp"},
                                  {"ParametersBlock", "People", "Stages", "field_cells", "DetourSlopes",
                                   "WaitingLines", "LinePoints", "Proposals", "States"},
-                                 {"States"}};
+                                 {"States", "Chests"}};
 const gl::Declaration kLines = {"motion",
                                 {"shaders/motion/lines.comp"},
                                 {"Stages", "WaitingLines", "Tickets", "States"},
@@ -36,7 +36,7 @@ const gl::Declaration kAvoid = {
 const gl::Declaration kCarryOn = {
     "avoidance",
     {"shaders/motion/carry_on.comp"},
-    {"ParametersBlock", "LiveDispatch", "States", "Decisions", "Bodies", "Walkers"},
+    {"ParametersBlock", "LiveDispatch", "States", "Chests", "Decisions", "Bodies", "Walkers"},
     {"Bodies", "Walkers", "Targets", "TargetsAfter", "Ways"}};
 const gl::Declaration kContact = {
     "contacts",
@@ -51,7 +51,7 @@ const gl::Declaration kMove = {
     {"ParametersBlock", "LiveDispatch", "People", "Bodies", "Walkers", "PreferredVelocities", "TouchWords",
      "Decisions", "Ways", "Targets", "Stages", "field_cells", "DetourSlopes", "PlanChanges", "WaitingLines",
      "LinePoints", "States"},
-    {"WaitingLines", "States"}};
+    {"WaitingLines", "States", "Chests"}};
 
 gl::Definitions together(gl::Definitions some, const gl::Definitions& others) {
     some.insert(some.end(), others.begin(), others.end());
@@ -64,7 +64,7 @@ gl::ComputeProgram makeSteer(const gl::ShaderLibrary& library, const Buffers& bu
                              const TerrainSlopes* ground, const MotionSettings& rules) {
     gl::ComputeProgram steer = buffers.connect(
         library, kSteer,
-        together(rules.definitions(), ground ? gl::Definitions{{"TERRAIN", "1"}} : gl::Definitions{}));
+        together(buffers.definitions(rules), ground ? gl::Definitions{{"TERRAIN", "1"}} : gl::Definitions{}));
     if (ground) ground->describeTo(steer);
     return steer;
 }
@@ -72,26 +72,26 @@ gl::ComputeProgram makeSteer(const gl::ShaderLibrary& library, const Buffers& bu
 gl::ComputeProgram makeAvoid(const gl::ShaderLibrary& library, const Buffers& buffers, int neighbours,
                              const MotionSettings& rules) {
     gl::ComputeProgram avoid = buffers.connect(
-        library, kAvoid, together(rules.definitions(), {{"NEIGHBOURS", std::to_string(neighbours)}}));
+        library, kAvoid, together(buffers.definitions(rules), {{"NEIGHBOURS", std::to_string(neighbours)}}));
     avoid.set("slot_capacity", buffers.slotCapacity());
     return avoid;
 }
 
 gl::ComputeProgram makeCarryOn(const gl::ShaderLibrary& library, const Buffers& buffers,
                                const MotionSettings& rules) {
-    return buffers.connect(library, kCarryOn, rules.definitions());
+    return buffers.connect(library, kCarryOn, buffers.definitions(rules));
 }
 
 gl::ComputeProgram makeMove(const gl::ShaderLibrary& library, const Buffers& buffers,
                             const MotionSettings& rules) {
-    return buffers.connect(library, kMove, rules.definitions());
+    return buffers.connect(library, kMove, buffers.definitions(rules));
 }
 
 Spawner::Spawner(const gl::ShaderLibrary& library, Buffers& buffers, const gpu::Parameters& parameters,
                  const MotionSettings& rules)
     : invocations_(std::uint64_t{parameters.queue_count} * gpu::SPAWN_GROUP_SIZE),
-      propose_(buffers.connect(library, kPropose, rules.definitions())),
-      accept_(buffers.connect(library, kAccept, rules.definitions())) {}
+      propose_(buffers.connect(library, kPropose, buffers.definitions(rules))),
+      accept_(buffers.connect(library, kAccept, buffers.definitions(rules))) {}
 
 void Spawner::run(float now, std::uint32_t steps_done) {
     propose_.set("now", now);
@@ -141,8 +141,8 @@ Contacts::Contacts(const gl::ShaderLibrary& library, const Buffers& buffers, int
       spectral_radius_(rules.isOn("contact_momentum")
                            ? static_cast<float>(rules.number("contact_momentum", "spectral_radius"))
                            : 0.0f),
-      forth_(buffers.connect(library, kContact, rules.definitions())),
-      back_(buffers.connect(library, kContact, rules.definitions())) {
+      forth_(buffers.connect(library, kContact, buffers.definitions(rules))),
+      back_(buffers.connect(library, kContact, buffers.definitions(rules))) {
     forth_.bind("TargetsBefore", places.targets);
     forth_.bind("TargetsAfter", places.targets_after);
     back_.bind("TargetsBefore", places.targets_after);

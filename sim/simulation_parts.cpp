@@ -155,6 +155,7 @@ std::vector<std::pair<std::string, gl::Buffer*>> Simulation::Parts::remembered()
                                                               {"tickets", &buffers.tickets},
                                                               {"queue heads", &buffers.queue_heads},
                                                               {"detour slopes", &buffers.detour_slopes}};
+    if (buffers.hasBodies()) found.emplace_back("chests", &buffers.chests);
     for (const auto& each : congestion.remembered())
         found.push_back(each);
     return found;

@@ -46,7 +46,7 @@ class Measurer {
           start_(rows_.size()),
           straight_(rows_.size(), 0.0) {
         for (const io::AgentRow& row : rows_)
-            largest_radius_ = std::max(largest_radius_, static_cast<double>(row.radius));
+            largest_radius_ = std::max(largest_radius_, row.reach());
     }
 
     Measurement run() {
@@ -84,10 +84,12 @@ class Measurer {
     void gatherPresent() {
         present_.clear();
         places_.clear();
+        bodies_.clear();
         for (std::uint32_t row = 0; row < rows_.size(); ++row)
             if (now().isThere(row)) {
                 present_.push_back(row);
                 places_.push_back(now().place(row));
+                bodies_.push_back(now().body(row, rows_[row]));
             }
         grid_.sort(places_);
     }
@@ -95,11 +97,9 @@ class Measurer {
     void observeOverlaps(std::uint32_t frame) {
         std::uint64_t pairs = 0;
         for (std::uint32_t i = 0; i < present_.size(); ++i) {
-            const double radius = rows_[present_[i]].radius;
-            grid_.near(places_[i], radius + largest_radius_, [&](std::uint32_t j) {
+            grid_.near(places_[i], rows_[present_[i]].reach() + largest_radius_, [&](std::uint32_t j) {
                 if (j <= i) return;
-                const double reach = radius + rows_[present_[j]].radius;
-                const double depth = 1.0 - glm::distance(places_[i], places_[j]) / reach;
+                const double depth = overlapOf(bodies_[i], bodies_[j]);
                 result_.deepest_overlap_percent = std::max(result_.deepest_overlap_percent, 100.0 * depth);
                 pairs += depth > kOverlap ? 1 : 0;
             });
@@ -123,10 +123,10 @@ class Measurer {
     void observeSteps(std::uint32_t frame) {
         std::uint64_t across = 0;
         walls_.look((frame - 1.0) * dt_, frame * dt_);
-        for (const std::uint32_t row : present_) {
-            result_.deepest_wall_penetration =
-                std::max(result_.deepest_wall_penetration,
-                         walls_.empty() ? 0.0 : walls_.penetration(now().place(row), rows_[row].radius));
+        for (std::size_t i = 0; i < present_.size(); ++i) {
+            const std::uint32_t row = present_[i];
+            result_.deepest_wall_penetration = std::max(
+                result_.deepest_wall_penetration, walls_.empty() ? 0.0 : walls_.penetration(bodies_[i]));
             if (!aliveSince(row, 1)) continue;
             const glm::dvec2 from = before(1).place(row);
             const glm::dvec2 to = now().place(row);
@@ -298,6 +298,7 @@ class Measurer {
     PlaneGrid grid_;
     double dt_;
     double largest_radius_ = 0.0;
+    std::vector<Capsule> bodies_;         // of those present
     std::deque<io::CrowdFrame> history_;  // newest first
     std::vector<std::uint32_t> present_;  // rows alive now
     std::vector<glm::dvec2> places_;      // of those

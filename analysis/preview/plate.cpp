@@ -84,7 +84,8 @@ std::string firstLetters(const std::string& text, std::size_t count) {
 Plate::Plate(const std::filesystem::path& bake, const PreviewOptions& options)
     : crowd_(io::loadBake(bake)),
       bake_(crowd_.bake()),
-      groups_(io::groupsOf(crowd_.people())),
+      people_(crowd_.people()),
+      groups_(io::groupsOf(people_)),
       options_(options) {
     crowd_.keep(framesToKeep(bake_, options));
     const glm::dvec2 extent = bake_.maximum - bake_.minimum;
@@ -303,15 +304,33 @@ void Plate::drawGates(cairo_t* context, std::uint32_t frame) const {
     }
 }
 
+/// Discs all alike; bodies that are none as they are, from above.
+double Plate::drawBody(cairo_t* context, glm::dvec2 at, const Capsule& body) const {
+    if (body.axis == glm::dvec2(0.0)) {
+        const double radius = std::max(1.6, 0.25 * scale_);
+        cairo_arc(context, at.x, at.y, radius, 0.0, 2.0 * std::numbers::pi);
+        cairo_fill(context);
+        return radius;
+    }
+    const double thickness = std::max(1.6, body.thickness * scale_);
+    const glm::dvec2 axis = scale_ * glm::dvec2(body.axis.x, -body.axis.y);
+    cairo_save(context);
+    cairo_set_line_width(context, 2.0 * thickness);
+    cairo_set_line_cap(context, CAIRO_LINE_CAP_ROUND);
+    cairo_move_to(context, at.x - axis.x, at.y - axis.y);
+    cairo_line_to(context, at.x + axis.x, at.y + axis.y);
+    cairo_stroke(context);
+    cairo_restore(context);
+    return thickness;
+}
+
 void Plate::drawPeople(cairo_t* context, const io::CrowdFrame& now) const {
-    const double radius = std::max(1.6, 0.25 * scale_);
     for (std::size_t row = 0; row < bake_.agents; ++row) {
         if (!now.isThere(row)) continue;
         const glm::dvec2 at = toPixel(now.place(row).x, now.place(row).y);
         const glm::dvec2 ahead(now.facing(row).x, -now.facing(row).y);
         setColour(context, groupColour(groups_.group_of[row]));
-        cairo_arc(context, at.x, at.y, radius, 0.0, 2.0 * std::numbers::pi);
-        cairo_fill(context);
+        const double radius = drawBody(context, at, now.body(row, people_[row]));
         // A nose: a white wedge tells which way somebody looks.
         cairo_set_source_rgba(context, 1.0, 1.0, 1.0, 0.9);
         cairo_move_to(context, at.x + ahead.x * radius, at.y + ahead.y * radius);

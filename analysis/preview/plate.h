@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "analysis/preview/preview.h"
+#include "base/capsule.h"
 #include "base/palette.h"
 #include "io/crowd_reader.h"
 
@@ -42,6 +43,8 @@ class Plate {
     void drawGates(cairo_t* context, std::uint32_t frame) const;
     void drawDensity(cairo_t* context, const io::CrowdFrame& now) const;
     void drawTrails(cairo_t* context, const io::CrowdFrame& now);
+    /// @returns how far it reaches ahead, px
+    double drawBody(cairo_t* context, glm::dvec2 at, const Capsule& body) const;
     void drawPeople(cairo_t* context, const io::CrowdFrame& now) const;
     void drawCaption(cairo_t* context, const io::CrowdFrame& now) const;
     void drawScaleBar(cairo_t* context) const;
@@ -52,6 +55,7 @@ class Plate {
 
     io::CrowdReader crowd_;
     const io::Bake& bake_;
+    const std::vector<io::AgentRow>& people_;
     io::GroupTable groups_;
     PreviewOptions options_;
     /// Where a group's colour and name stand, px from the legend's left and upper corner.

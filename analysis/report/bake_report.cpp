@@ -62,7 +62,7 @@ class Watch {
           per_second_(static_cast<std::uint32_t>(std::max(1.0, std::round(bake.fps)))),
           grid_(bake.minimum, bake.maximum, 1.0, cellsFor(rows.size())) {
         for (const io::AgentRow& row : rows)
-            largest_radius_ = std::max(largest_radius_, static_cast<double>(row.radius));
+            largest_radius_ = std::max(largest_radius_, row.reach());
     }
 
     void look(const io::CrowdFrame& frame) {
@@ -100,10 +100,12 @@ class Watch {
     void gatherPresent(const io::CrowdFrame& frame) {
         present_.clear();
         bodies_.clear();
+        shapes_.clear();
         for (std::uint32_t row = 0; row < frame.rows(); ++row) {
             if (!frame.isThere(row)) continue;
             present_.push_back(row);
             bodies_.push_back(frame.place(row));
+            shapes_.push_back(frame.body(row, rows_[row]));
         }
     }
 
@@ -122,12 +124,10 @@ class Watch {
         grid_.sort(bodies_);
         for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
             const std::uint32_t row = present_[i];
-            grid_.near(bodies_[i], rows_[row].radius + largest_radius_, [&](std::uint32_t j) {
+            grid_.near(bodies_[i], rows_[row].reach() + largest_radius_, [&](std::uint32_t j) {
                 if (j <= i) return;
                 const std::uint32_t other = present_[j];
-                const double sum = static_cast<double>(rows_[row].radius) + rows_[other].radius;
-                const double depth =
-                    1.0 - std::hypot(bodies_[i].x - bodies_[j].x, bodies_[i].y - bodies_[j].y) / sum;
+                const double depth = overlapOf(shapes_[i], shapes_[j]);
                 if (depth <= kCounts) return;
                 auto& found = overlaps_[std::uint64_t{row} << 32 | other];
                 if (depth > found.first) found = {depth, frame};
@@ -140,6 +140,7 @@ class Watch {
     std::uint32_t per_second_;
     std::vector<std::uint32_t> present_;
     std::vector<glm::dvec2> bodies_;  // of those present
+    std::vector<Capsule> shapes_;
     PlaneGrid grid_;
     double largest_radius_ = 0.0;
     std::map<std::uint64_t, std::pair<double, std::uint32_t>> overlaps_;

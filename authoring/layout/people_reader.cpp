@@ -125,6 +125,72 @@ PersonSettings profileNamed(const std::string& name, SchemaRule people_rule) {
     });
 }
 
+constexpr const char* kOfProfile = "profile";
+constexpr const char* kOfAdult = "adult";
+
+BodySides readSides(ObjectReader& reader, Diagnostics& diagnostics) {
+    const Distribution unread;
+    return {readDistribution(reader, "breadth", unread, diagnostics),
+            readDistribution(reader, "depth", unread, diagnostics)};
+}
+
+/// The schema has the sides of every body that has a name; whoever has none of its own has an adult's.
+BodySides bodyNamed(const std::string& name, SchemaRule rule) {
+    return readOurs([&](Diagnostics& diagnostics) {
+        const JsonNode& bodies = rule.remark("x-bodies");
+        const JsonNode* node = bodies.find(name);
+        if (!node) node = bodies.find(kOfAdult);
+        ObjectReader reader(*node, rule, fmt::format("the body {}", name), diagnostics);
+        const BodySides sides = readSides(reader, diagnostics);
+        reader.finish();
+        return sides;
+    });
+}
+
+/// Breadth and depth as a layout writes them. What is longer than broad has a name.
+std::optional<BodySides> readOwnSides(const JsonNode& node, SchemaRule rule, Diagnostics& diagnostics) {
+    ObjectReader reader(node, rule, "`body`", diagnostics);
+    constexpr const char* kWhy = "a number or a distribution, m";
+    const bool complete = reader.require("breadth", kWhy) && reader.require("depth", kWhy);
+    if (!complete) {
+        reader.finish();
+        return std::nullopt;
+    }
+    const BodySides sides = readSides(reader, diagnostics);
+    reader.finish();
+    if (sides.depth.maximum > sides.breadth.minimum)
+        diagnostics.error(
+            node.where,
+            fmt::format("a body is no deeper than broad: `depth` goes up to {:.6g} m, and `breadth` "
+                        "begins at {:.6g} m",
+                        sides.depth.maximum, sides.breadth.minimum),
+            "give both `min` and `max`, or name one: for example \"body\": \"adult\"");
+    return sides;
+}
+
+void readBody(ObjectReader& people_reader, const JsonNode& people_node, SchemaRule people_rule,
+              People& people, Diagnostics& diagnostics) {
+    const JsonNode* node = people_reader.get("body");
+    if (!node) return;
+    if (people_node.find("radius"))
+        diagnostics.error(node->where, "people are discs (`radius`) or have a `body`, not both",
+                          "leave out one of the two");
+    const SchemaRule rule = people_rule.property("body");
+    if (node->kind == JsonNode::Kind::object) {
+        const std::optional<BodySides> sides = readOwnSides(*node, rule, diagnostics);
+        for (PeopleShare& share : people.kinds)
+            share.settings.body = sides;
+    } else {
+        Meanings<std::string> names;
+        for (const char* each : {kOfProfile, kOfAdult, "child", "elderly", "suitcase", "wheelchair", "pram"})
+            names.emplace_back(each, each);
+        std::string name = kOfProfile;
+        people_reader.choice("body", names, name);
+        for (PeopleShare& share : people.kinds)
+            share.settings.body = bodyNamed(name == kOfProfile ? share.profile : name, rule);
+    }
+}
+
 void readProfile(ObjectReader& people_reader, const JsonNode& node, SchemaRule people_rule, People& people,
                  Diagnostics& diagnostics) {
     const SchemaRule rule = people_rule.property("profile");
@@ -240,6 +306,7 @@ People readPeople(ObjectReader& owner, Diagnostics& diagnostics) {
         readProfile(reader, *profile, rule, people, diagnostics);
     readPartySizes(reader, people, diagnostics);
     readLook(reader, people, diagnostics);
+    readBody(reader, *node, rule, people, diagnostics);
     PersonSettings common;
     readPerson(reader, common, diagnostics);
     reader.number("maximum_speed_factor", common.maximum_speed_factor);

@@ -34,7 +34,8 @@ struct WalkGeometry {
     std::vector<LocalPolygon> solids;  ///< closed walls: nobody is inside
     std::vector<LocalRoad> roads;
     std::vector<LocalPolygon> areas;
-    float smallest_radius = 0.25f;  ///< of all people, m
+    float smallest_radius =
+        0.25f;  ///< of all people, m; of bodies that are no discs, half of the shorter side
     float largest_radius = 0.25f;
     float wall_comfort = kWallComfort;  ///< m beyond the largest radius: nearer to a wall, walking costs more
     std::shared_ptr<const WallGrid> wall_grid = {};  ///< where there are very many walls

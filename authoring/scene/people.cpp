@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "base/capsule.h"
+
 namespace throng::authoring {
 namespace {
 
@@ -33,6 +35,12 @@ gpu::Person drawPerson(const People& people, const GroupRandom& random, std::uin
     const PersonSettings& settings = people.kinds[person.kind].settings;
     const double speed = random.draw(settings.speed, index, Purpose::speed);
     person.radius = static_cast<float>(random.draw(settings.radius, index, Purpose::radius));
+    if (settings.body) {
+        const BodySize size{random.draw(settings.body->breadth, index, Purpose::breadth),
+                            random.draw(settings.body->depth, index, Purpose::depth)};
+        person.radius = static_cast<float>(size.radius());
+        person.half_axis = static_cast<float>(size.halfAxis());
+    }
     person.preferred_speed = static_cast<float>(speed);
     person.maximum_speed = static_cast<float>(speed * settings.maximum_speed_factor);
     person.headway = static_cast<float>(settings.headway);

@@ -29,7 +29,9 @@ enum class Purpose : std::uint64_t {
     party,
     reaction,
     choice,
-    wait
+    wait,
+    breadth,
+    depth
 };
 
 class GroupRandom {

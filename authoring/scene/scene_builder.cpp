@@ -20,6 +20,7 @@
 #include "authoring/scene/terrain_check.h"
 #include "authoring/scene/walls.h"
 #include "authoring/scene/ways_check.h"
+#include "base/capsule.h"
 
 namespace throng::authoring {
 namespace {
@@ -29,22 +30,38 @@ constexpr float kEntryClearance = 0.02f;  // m beyond the body
 constexpr float kPauseTolerance = 1.0f;   // m: who is pushed about before setting off does not mind
 constexpr std::uint64_t kPauseDraw = 900;
 
+Capsule shapeOf(const gpu::Person& person) {
+    const double heading = person.heading;
+    return capsuleOf(person.spawn_position, {std::cos(heading), std::sin(heading)}, person.radius,
+                     person.half_axis);
+}
+
+/// m: half of what it needs to get through somewhere.
+float thicknessOf(const gpu::Person& person) {
+    return person.radius - std::abs(person.half_axis);
+}
+
 /// Bodies already placed, so that nobody starts inside another.
 class PlacedBodies {
   public:
-    bool hasRoom(glm::vec2 position, float radius) const {
+    bool hasRoom(const gpu::Person& person) const {
+        const glm::vec2 position = person.spawn_position;
         for (int y = -1; y <= 1; ++y)
             for (int x = -1; x <= 1; ++x) {
                 const auto cell = cells_.find(key(position, x, y));
                 if (cell == cells_.end()) continue;
-                for (const auto& [other, other_radius] : cell->second)
-                    if (glm::distance(other, position) < other_radius + radius) return false;
+                for (const gpu::Person& other : cell->second)
+                    if (areInEachOther(person, other)) return false;
             }
         return true;
     }
-    void add(glm::vec2 position, float radius) { cells_[key(position, 0, 0)].emplace_back(position, radius); }
+    void add(const gpu::Person& person) { cells_[key(person.spawn_position, 0, 0)].push_back(person); }
 
   private:
+    static bool areInEachOther(const gpu::Person& a, const gpu::Person& b) {
+        if (glm::distance(b.spawn_position, a.spawn_position) >= b.radius + a.radius) return false;
+        return (a.half_axis == 0.0f && b.half_axis == 0.0f) || freeBetween(shapeOf(a), shapeOf(b)) < 0.0;
+    }
     static constexpr float kCell = 2.0f;  // m: bodies have radii of up to one
     static std::uint64_t key(glm::vec2 position, int dx, int dy) {
         const auto x = static_cast<std::int32_t>(std::floor(position.x / kCell)) + dx;
@@ -52,7 +69,7 @@ class PlacedBodies {
         return static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) << 32 |
                static_cast<std::uint32_t>(y);
     }
-    std::unordered_map<std::uint64_t, std::vector<std::pair<glm::vec2, float>>> cells_;
+    std::unordered_map<std::uint64_t, std::vector<gpu::Person>> cells_;
 };
 
 class Builder {
@@ -222,7 +239,10 @@ class Builder {
     }
 
     static void overrideListed(const ListedAgent& agent, gpu::Person& person) {
-        if (agent.radius) person.radius = static_cast<float>(*agent.radius);
+        if (agent.radius) {
+            person.radius = static_cast<float>(*agent.radius);
+            person.half_axis = 0.0f;
+        }
         if (!agent.speed) return;
         person.maximum_speed *= static_cast<float>(*agent.speed) / person.preferred_speed;
         person.preferred_speed = static_cast<float>(*agent.speed);
@@ -239,6 +259,7 @@ class Builder {
         const bool first = scene_.people.empty();
         scene_.smallest_radius = first ? person.radius : std::min(scene_.smallest_radius, person.radius);
         scene_.largest_radius = first ? person.radius : std::max(scene_.largest_radius, person.radius);
+        thinnest_ = first ? thicknessOf(person) : std::min(thinnest_, thicknessOf(person));
         scene_.people.push_back(person);
         ++scene_.queues.back().row_count;
     }
@@ -260,12 +281,12 @@ class Builder {
 
     void buildGeometry() {
         checkResolution();
-        if (scene_.people.empty()) scene_.smallest_radius = scene_.largest_radius = 0.25f;
+        if (scene_.people.empty()) scene_.smallest_radius = scene_.largest_radius = thinnest_ = 0.25f;
         geometry_.minimum = scene_.minimum;
         geometry_.maximum = scene_.maximum;
         // In whole centimetres, so that the ground is the same whoever is drawn to walk on it.
         constexpr float kHair = 0.01f;  // cm: sizes that are whole centimetres stay what they are
-        geometry_.smallest_radius = std::floor(100.0f * scene_.smallest_radius + kHair) / 100.0f;
+        geometry_.smallest_radius = std::floor(100.0f * thinnest_ + kHair) / 100.0f;
         geometry_.largest_radius = std::ceil(100.0f * scene_.largest_radius - kHair) / 100.0f;
         buildWalls(layout_, rebase_, geometry_);
         for (const Road& road : layout_.roads)
@@ -467,37 +488,52 @@ class Builder {
                 const glm::vec2 goal = rebase_.local(goalOf(formation, places, i, traveller.leader));
                 scene_.stages.push_back(stageOf(formation, i, person, goal, routes));
             }
-            checkStart(formation, i, person, bodies);
             const glm::vec2 goal = scene_.stages.back().point;
             scene_.goals.push_back(goal);
             turn(formation, i, goal, routes, person);
+            checkStart(formation, i, person, bodies);
             addChanges(formation.id, formation.people, formation.where,
                        {{person.spawn_position, person.spawn_position, person.spawn_position}}, random, i,
                        index, person, itineraries);
-            if (bodies.hasRoom(person.spawn_position, person.radius)) {
+            if (bodies.hasRoom(person)) {
                 if (formation.start == 0.0) person.flags |= gpu::PERSON_PRESENT_AT_START;
-                bodies.add(person.spawn_position, person.radius);
+                bodies.add(person);
             }
             ++i;
         });
         reportComplaints(formation);
     }
 
+    /// m: how far into walls somebody stands.
+    float depthInWalls(const gpu::Person& person) const {
+        const Capsule shape = shapeOf(person);
+        float depth = -kUnreachable;
+        for (const double along : {-1.0, 0.0, 1.0})
+            depth = std::max(depth, wallDepth(geometry_, glm::vec2(shape.middle + along * shape.axis),
+                                              static_cast<float>(shape.thickness)));
+        return depth;
+    }
+
+    static double wallGap(const Capsule& shape, const gpu::WallSegment& wall) {
+        const glm::dvec2 half = 0.5 * glm::dvec2(wall.b - wall.a);
+        return segmentsDistance(shape.middle - 0.5 * glm::dvec2(wall.a + wall.b), shape.axis, half) -
+               shape.thickness - wall.half_thickness;
+    }
+
     void checkStart(const Formation& formation, std::uint64_t i, const gpu::Person& person,
                     const PlacedBodies& bodies) {
-        if (const float depth = wallDepth(geometry_, person.spawn_position, person.radius); depth > 0.0f)
+        if (const float depth = depthInWalls(person); depth > 0.0f)
             complain(formation, i, "stands in a wall", "move it, or the wall",
                      fmt::format(" ({:.2f} m deep)", depth));
         if (formation.start == 0.0)
             for (const gpu::WallSegment& gate : closed_gates_)
-                if (segmentDistance(person.spawn_position, gate.a, gate.b) <
-                    person.radius + gate.half_thickness) {
+                if (wallGap(shapeOf(person), gate) < 0.0) {
                     complain(formation, i,
                              fmt::format("stands in the closed gate `{}`", layout_.walls[gate.wall].id),
                              "move it, or open the gate at the start");
                     break;
                 }
-        if (!bodies.hasRoom(person.spawn_position, person.radius))
+        if (!bodies.hasRoom(person))
             complain(
                 formation, i,
                 "starts where somebody else stands: it comes in once there is room, or is refused in the end",
@@ -589,16 +625,16 @@ class Builder {
     std::optional<std::string> whyUnattainable(const Formation& formation, const gpu::Person& person,
                                                glm::vec2 goal) const {
         constexpr float kHair = 1.0e-4f;  // m, of rounding
-        const float depth = wallDepth(geometry_, goal, person.radius);
+        const float depth = wallDepth(geometry_, goal, thicknessOf(person));
         if (depth <= static_cast<float>(formation.goal_tolerance) + kHair &&
             wallDepth(geometry_, goal, 0.0f) <= 0.0f && !isInSolid(goal))
             return std::nullopt;
-        const float apart = person.radius - depth;  // from the wall
+        const float apart = thicknessOf(person) - depth;  // from the wall
         if (apart > 0.0f && !isInSolid(goal))
             return fmt::format(
                 ", or nearer to one than its body can come: {:.2f} m from it, with a radius of {:.2f} m and "
                 "a `goal_tolerance` of {:.2f} m",
-                apart, person.radius, formation.goal_tolerance);
+                apart, thicknessOf(person), formation.goal_tolerance);
         return "";
     }
 
@@ -659,6 +695,7 @@ class Builder {
     DistanceSolver* solver_;
     Rebase rebase_;
     WalkGeometry geometry_;
+    float thinnest_ = 0.0f;  // m: half of the narrowest that anybody gets through
     std::shared_ptr<Ground> ground_;
     std::vector<gpu::WallSegment> closed_gates_;  // at the start
     PlacedBodies bodies_;

@@ -68,9 +68,12 @@ class Checker {
     Kind kindOf(std::size_t group, double start) const {
         Kind kind;
         const gpu::SpawnQueue& queue = scene_.queues[group];
-        for (std::uint32_t row = queue.first_row; row < queue.first_row + queue.row_count; ++row)
-            kind.radius =
-                std::max(kind.radius, static_cast<int>(std::floor(100.0f * scene_.people[row].radius)));
+        for (std::uint32_t row = queue.first_row; row < queue.first_row + queue.row_count; ++row) {
+            const gpu::Person& person = scene_.people[row];
+            // Who is broader than deep goes sideways where that helps.
+            const float thickness = person.radius - std::abs(person.half_axis);
+            kind.radius = std::max(kind.radius, static_cast<int>(std::floor(100.0f * thickness)));
+        }
         for (std::uint32_t i = 0; i < layout_.walls.size(); ++i)
             if (const Wall& wall = layout_.walls[i]; !wall.toggles.empty() && !opens(wall, start))
                 kind.closed_gates.push_back(i);

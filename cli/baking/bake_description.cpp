@@ -16,6 +16,8 @@
 namespace throng::cli {
 namespace {
 
+constexpr double kFigureBesideThings = 0.25;  // m: half the shoulder breadth of who is with a thing
+
 std::vector<recording::BakeAgent> describeAgents(const authoring::Scene& scene) {
     std::vector<recording::BakeAgent> agents;
     agents.reserve(scene.people.size());
@@ -23,6 +25,15 @@ std::vector<recording::BakeAgent> describeAgents(const authoring::Scene& scene) 
         const gpu::Person& person = scene.people[row];
         agents.push_back({person.group, person.radius, person.preferred_speed, person.variation,
                           person.party_first, scene.origin + glm::dvec2(scene.goals[row])});
+        if (person.half_axis != 0.0f) {
+            const double thickness = double{person.radius} - std::abs(double{person.half_axis});
+            const double longer = 2.0 * double{person.radius};
+            agents.back().body = person.half_axis > 0.0f ? BodySize{longer, 2.0 * thickness}
+                                                         : BodySize{2.0 * thickness, longer};
+            // Whoever is with a wheelchair or a suitcase is no larger for it.
+            if (person.half_axis < 0.0f)
+                agents.back().radius = static_cast<float>(std::min(thickness, kFigureBesideThings));
+        }
         agents.back().profile = scene.groups[person.group].profiles[person.kind];
     }
     return agents;

@@ -113,7 +113,7 @@ class Run {
           frames_(description.frames),
           substeps_(static_cast<std::uint32_t>(settings.substeps)),
           warmup_(sim::warmupSteps(settings)),
-          pump_(simulation, {job.diagram_every > 0, job.seconds, fromDevice(job.streams)},
+          pump_(simulation, {job.diagram_every > 0, job.seconds, fromDevice(description.asked)},
                 [this](const Frame& frame) { receive(frame); }) {}
 
     void goOnFrom(const io::Checkpoint& checkpoint) {
@@ -249,6 +249,9 @@ BakeRun Baker::bake(const LoadedLayout& loaded, const BakeJob& job, const Interr
     recording::BakeDescription description = describeBake(loaded, job.options, device());
     description.diagram_every = job.diagram_every;
     description.asked = job.streams;
+    // Without it nobody knows where the shoulders of people with bodies are.
+    for (const recording::BakeAgent& agent : description.agents)
+        description.asked[Stream::chest] = description.asked[Stream::chest] || !agent.body.isDisc();
     const std::uint32_t frames = description.frames;
     const std::string identity = identityOf(loaded, job, device());
     description.inputs = identity;

@@ -18,6 +18,13 @@ layout(std430) writeonly buffer Sites { DiagramSite sites[]; };
 uniform uint ids_are_rows;  // 0: slots
 
 #include "shaders/cells/cell_starts.glsl"
+#ifdef BODIES
+layout(std430) readonly buffer Chests { Chest chests[]; };
+#include "shaders/shared/body_shape.glsl"
+#define SHAPE , chests[row].half_axis, chests[row].angle, chests[row].rate, axis.x, axis.y
+#else
+#define SHAPE
+#endif
 
 void main() {
     uint loose = gl_GlobalInvocationID.x;
@@ -39,9 +46,12 @@ void main() {
     body.row = row;
     body.maximum_speed = person.maximum_speed;
     bodies[slot] = body;
+#ifdef BODIES
+    vec2 axis = axisAt(chests[row].angle, chests[row].half_axis);
+#endif
     walkers[slot] = Walker(person.preferred_speed, person.headway, person.flags, person.party_first, person.party_size,
                            person.change_count, state.status, state.stage, state.stage_end, state.leave_step,
-                           state.ticket, state.nervousness, 0u);
+                           state.ticket, state.nervousness, 0u SHAPE);
 
     precise vec2 pixel = (body.position - parameters.diagram_minimum) * parameters.pixels_per_metre;
     DiagramSite site;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rules about one other person, over everybody sensed.
-// Needs the blocks Bodies, Neighbours, NeighbourCounts, PreferredVelocities, and the uniform slot_capacity.
+// Needs the blocks Bodies, Neighbours, NeighbourCounts, PreferredVelocities, the uniform slot_capacity, and
+// shaders/motion/half_width.glsl.
 #include "shaders/motion/room.glsl"
 #include "shaders/motion/headway_in_peace.glsl"
 
@@ -14,8 +15,8 @@ float paceAmongAll(Body self, uint slot, vec2 way, float speed, float headway) {
         uint key = neighbourKey(slot, i);
         if ((key & NEIGHBOUR_IS_WALL) != 0u) continue;
         Body other = bodies[key];
-        pace = min(pace, paceBehind(way, speed, headway, other.position - self.position, self.radius + other.radius,
-                                    preferred_velocities[key]));
+        pace = min(pace, paceBehind(way, speed, headway, other.position - self.position,
+                                    reachBetween(self, slot, other, key), preferred_velocities[key]));
     }
     return pace;
 }
@@ -35,7 +36,7 @@ Surroundings lookAround(Body self, uint slot, vec2 wish, Manners manners) {
         Body other = bodies[key];
         vec2 its_wish = preferred_velocities[key];
         around.room += roomFor(manners, self.position - other.position, self.velocity - other.velocity,
-                               wish - other.velocity, self.radius + other.radius, its_wish);
+                               wish - other.velocity, reachBetween(self, slot, other, key), its_wish);
         around.in_peace = around.in_peace && isPeaceful(likeness(manners.way, its_wish));
         around.in_traffic = around.in_traffic || length(its_wish) > STANDING_SPEED;
     }

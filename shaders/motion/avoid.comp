@@ -18,8 +18,8 @@ layout(std430) readonly buffer WallSegments { WallSegment wall_segments[]; };
 layout(std430) readonly buffer WallStarts { uint wall_starts[]; };
 layout(std430) readonly buffer WallItems { uint wall_items[]; };
 layout(std430) readonly buffer RoadDistances { float road_distances[]; };
-layout(std430) writeonly buffer Targets { vec2 targets[]; };  // where each person will be unless bodies touch
-layout(std430) writeonly buffer TargetsAfter { vec2 targets_after[]; };  // the same, for those whom contact passes over
+layout(std430) writeonly buffer Targets { TARGET targets[]; };  // where each person will be unless bodies touch
+layout(std430) writeonly buffer TargetsAfter { TARGET targets_after[]; };  // the same, where contact passes over
 layout(std430) writeonly buffer Ways { vec2 ways[]; };  // m: what is meant to be added to places; on wide sites
 layout(std430) writeonly buffer Decisions { Decision decisions[]; };
 uniform uint slot_capacity;
@@ -31,6 +31,8 @@ uniform uint slot_capacity;
 #include "shaders/cells/cells.glsl"
 #include "shaders/shared/walls.glsl"
 #include "shaders/motion/linear_program.glsl"
+#include "shaders/shared/body_shape.glsl"
+#include "shaders/motion/half_width.glsl"
 #include "shaders/motion/drive.glsl"
 #include "shaders/motion/among_all.glsl"
 #include "shaders/motion/taking_turns.glsl"
@@ -40,6 +42,13 @@ uniform uint slot_capacity;
 #include "shaders/motion/under_way.glsl"
 #include "shaders/motion/planted_feet.glsl"
 #include "shaders/motion/wide_site.glsl"
+#include "shaders/motion/shoulders.glsl"
+#include "shaders/motion/gap_ahead.glsl"
+#ifdef BODIES
+#define TWIST , twist, 0u
+#else
+#define TWIST
+#endif
 #include "shaders/motion/stride.glsl"
 
 /// Of those sensed who are under way.
@@ -85,7 +94,8 @@ void main() {
     vec2 velocity = nearestAllowed(hard, count, self.maximum_speed, wanted);
     velocity = limitChange(legs, velocity, parameters.maximum_acceleration * parameters.decision_seconds);
     vec2 change = (velocity - legs) * (parameters.step_seconds / parameters.decision_seconds);
-    decisions[slot] = Decision(change, pace, feet);
+    float twist = twistAhead(self, walker, way);
+    decisions[slot] = Decision(change, pace, feet TWIST);
     if (parameters.decision_seconds > parameters.step_seconds) velocity = legs + change;
-    stride(slot, self.position, velocity, parameters.is_wide != 0u ? states[self.row].rest : vec2(0.0));
+    stride(slot, self.position, velocity, parameters.is_wide != 0u ? states[self.row].rest : vec2(0.0), twist);
 }

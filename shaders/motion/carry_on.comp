@@ -10,8 +10,8 @@ layout(std430) readonly buffer States { AgentState states[]; };
 layout(std430) readonly buffer Decisions { Decision decisions[]; };
 layout(std430) buffer Bodies { Body bodies[]; };
 layout(std430) buffer Walkers { Walker walkers[]; };
-layout(std430) writeonly buffer Targets { vec2 targets[]; };
-layout(std430) writeonly buffer TargetsAfter { vec2 targets_after[]; };
+layout(std430) writeonly buffer Targets { TARGET targets[]; };
+layout(std430) writeonly buffer TargetsAfter { TARGET targets_after[]; };
 layout(std430) writeonly buffer Ways { vec2 ways[]; };
 
 #include "shaders/shared/alive.glsl"
@@ -20,6 +20,14 @@ layout(std430) writeonly buffer Ways { vec2 ways[]; };
 #include "shaders/motion/under_way.glsl"
 #include "shaders/motion/planted_feet.glsl"
 #include "shaders/motion/wide_site.glsl"
+#include "shaders/shared/body_shape.glsl"
+#ifdef BODIES
+layout(std430) readonly buffer Chests { Chest chests[]; };
+#include "shaders/motion/shoulders.glsl"
+#define TWIST decisions[slot].twist
+#else
+#define TWIST 0.0
+#endif
 #include "shaders/motion/stride.glsl"
 
 /// What the last step has changed.
@@ -33,6 +41,14 @@ void takeOver(uint slot, AgentState state) {
     walkers[slot].leave_step = state.leave_step;
     walkers[slot].ticket = state.ticket;
     walkers[slot].nervousness = state.nervousness;
+#ifdef BODIES
+    Chest chest = chests[bodies[slot].row];
+    vec2 axis = axisAt(chest.angle, chest.half_axis);
+    walkers[slot].chest = chest.angle;
+    walkers[slot].chest_rate = chest.rate;
+    walkers[slot].axis_x = axis.x;
+    walkers[slot].axis_y = axis.y;
+#endif
 }
 
 vec2 asDecided(Body self, Walker walker, Decision decision) {
@@ -50,5 +66,5 @@ void main() {
     takeOver(slot, state);
     // Who has left stays where it was last, for a step.
     vec2 velocity = isAlive(state.status) ? asDecided(bodies[slot], walkers[slot], decisions[slot]) : vec2(0.0);
-    stride(slot, state.position, velocity, state.rest);
+    stride(slot, state.position, velocity, state.rest, TWIST);
 }

@@ -23,8 +23,8 @@ layout(std430) readonly buffer TouchLists { uint touch_lists[]; };
 layout(std430) readonly buffer WallSegments { WallSegment wall_segments[]; };
 layout(std430) readonly buffer WallStarts { uint wall_starts[]; };
 layout(std430) readonly buffer WallItems { uint wall_items[]; };
-layout(std430) readonly buffer TargetsBefore { vec2 targets_before[]; };
-layout(std430) buffer TargetsAfter { vec2 targets_after[]; };  // those of the round before the last; then the new ones
+layout(std430) readonly buffer TargetsBefore { TARGET targets_before[]; };
+layout(std430) buffer TargetsAfter { TARGET targets_after[]; };  // those before the last round's; then new ones
 uniform float momentum;  // 1 = none
 uniform float bracing;   // 1 = who is carried off its way gives less than others, 0 = all give alike
 
@@ -38,8 +38,15 @@ uniform float bracing;   // 1 = who is carried off its way gives less than other
 #include "shaders/motion/headway.glsl"
 #include "shaders/motion/taking_turns.glsl"
 #include "shaders/motion/nearest_first.glsl"
+#ifdef BODIES
+#include "shaders/shared/body_shape.glsl"
+#include "shaders/motion/shoulders.glsl"
+#include "shaders/motion/capsules_apart.glsl"
+#include "shaders/motion/capsules_out_of_walls.glsl"
+#else
 #include "shaders/motion/bodies_apart.glsl"
 #include "shaders/motion/out_of_walls.glsl"
+#endif
 
 void main() {
     // Only those who may touch something are listed; for all others the two target buffers already agree.
@@ -48,9 +55,20 @@ void main() {
     uint touch_word = touch_words[slot];
     uint touching = touch_word & TOUCH_COUNT_MASK;
     Body self = bodies[slot];
+#ifdef BODIES
+    vec2 start = vec2(walkers[slot].axis_x, walkers[slot].axis_y);
+    vec4 target = targets_before[slot];
+    Push push = pushFromNeighbours(self, slot, touching, target);
+    target.xy += atMost(push.way, CONTACT_MOST_PUSH * self.radius);
+    target.zw = turnedBy(target.zw, push.turn);
+    target = mix(targets_after[slot], target, momentum);
+    target.zw = withinATurn(target.zw, start);
+    targets_after[slot] = (touch_word & TOUCH_WALL_NEAR) != 0u ? keepOutOfWalls(self, start, target) : target;
+#else
     vec2 position = targets_before[slot];
     vec2 push = pushFromNeighbours(self, slot, touching, position);
     position += atMost(push, CONTACT_MOST_PUSH * self.radius);
     position = mix(targets_after[slot], position, momentum);
     targets_after[slot] = (touch_word & TOUCH_WALL_NEAR) != 0u ? keepOutOfWalls(self, position) : position;
+#endif
 }

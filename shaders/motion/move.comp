@@ -12,7 +12,7 @@ layout(std430) readonly buffer PreferredVelocities { vec2 preferred_velocities[]
 layout(std430) readonly buffer TouchWords { uint touch_words[]; };
 layout(std430) readonly buffer Decisions { Decision decisions[]; };
 layout(std430) readonly buffer Ways { vec2 ways[]; };
-layout(std430) readonly buffer Targets { vec2 targets[]; };
+layout(std430) readonly buffer Targets { TARGET targets[]; };
 layout(std430) readonly buffer Stages { Stage stages[]; };
 uniform usamplerBuffer field_cells;  // FieldCell
 layout(std430) readonly buffer DetourSlopes { vec2 detour_slopes[]; };
@@ -34,6 +34,17 @@ uniform uint steps_done;  // counted with this one
 #include "shaders/motion/turning.glsl"
 #include "shaders/motion/plans.glsl"
 #include "shaders/motion/wide_site.glsl"
+#ifdef BODIES
+layout(std430) writeonly buffer Chests { Chest chests[]; };
+#include "shaders/shared/body_shape.glsl"
+
+/// The chest, as contact has left it.
+Chest chestAfter(Walker walker, vec2 axis) {
+    vec2 start = vec2(walker.axis_x, walker.axis_y);
+    float turn = walker.half_axis != 0.0 ? atan(crossOf(start, axis), dot(start, axis)) : 0.0;
+    return Chest(wrapAngle(walker.chest + turn), turn / parameters.step_seconds, walker.half_axis, 0u);
+}
+#endif
 
 void main() {
     uint slot = gl_GlobalInvocationID.x;
@@ -43,9 +54,13 @@ void main() {
     if (!isAlive(state.status)) return;  // it left after the last decision
     Stage stage = stageOf(state.stage, state.ticket);
 
-    vec2 moved = targets[slot] - self.position;
-    state.position = targets[slot];
-    if (parameters.is_wide != 0u) moved = goFinely(state, self.position, ways[slot], targets[slot]);
+    vec2 target = targets[slot].xy;
+    vec2 moved = target - self.position;
+    state.position = target;
+    if (parameters.is_wide != 0u) moved = goFinely(state, self.position, ways[slot], target);
+#ifdef BODIES
+    chests[self.row] = chestAfter(walkers[slot], targets[slot].zw);
+#endif
     float distance_moved = length(moved);
     state.velocity = moved / parameters.step_seconds;
     float speed = length(state.velocity);

@@ -15,6 +15,10 @@ layout(std430) buffer States { AgentState states[]; };
 uniform usamplerBuffer field_cells;  // FieldCell
 uniform uint steps_done;  // counted with this one
 
+#ifdef BODIES
+layout(std430) writeonly buffer Chests { Chest chests[]; };
+#endif
+
 #include "shaders/routes/route.glsl"
 #include "shaders/motion/waiting_line.glsl"
 
@@ -38,4 +42,8 @@ void main() {
     state.status = STATUS_WALKING;
     state.spawn_step = steps_done;
     states[mine.row] = state;
+#ifdef BODIES
+    chests[mine.row].angle = state.heading;
+    chests[mine.row].rate = 0.0;
+#endif
 }

@@ -2,18 +2,18 @@
 // Walls ahead: a wall allows no more speed towards its nearest point than reaches it at the horizon. Bodies inside
 // walls are to leave them soon; the contact pass takes them out in any case.
 // Needs the blocks TouchWords, Neighbours, NeighbourCounts, WallSegments, WallStarts and WallItems,
-// shaders/cells/cells.glsl, shaders/shared/walls.glsl and shaders/motion/linear_program.glsl.
+// shaders/cells/cells.glsl, shaders/shared/walls.glsl, and shaders/motion/linear_program.glsl and half_width.glsl.
 
 /// s: in narrow passages people do not slow down for a wall that they will not walk into.
 float wallHorizon(bool takes_turns) {
     return takes_turns ? min(parameters.wall_time_horizon, WALLS_AHEAD_IN_NARROWS) : parameters.wall_time_horizon;
 }
 
-vec3 wallConstraint(Body self, WallSegment wall, float horizon) {
+vec3 wallConstraint(Body self, uint slot, WallSegment wall, float horizon) {
     vec2 offset = nearestOnSegment(self.position, wall.a, wall.b) - self.position;
     float size = length(offset);
     vec2 normal = size > 1.0e-6 ? -offset / size : normalize(vec2(wall.a.y - wall.b.y, wall.b.x - wall.a.x));
-    float gap = size - self.radius - wall.half_thickness + WALLS_AHEAD_SLACK;
+    float gap = size - halfWidth(self, slot, normal) - wall.half_thickness + WALLS_AHEAD_SLACK;
     return vec3(normal, -gap / (gap > 0.0 ? horizon : WALLS_AHEAD_WAY_OUT));
 }
 
@@ -52,7 +52,7 @@ int gatherWalls(Body self, Walker walker, uint slot) {
         distances[at] = gap;
     }
     float horizon = wallHorizon(takesTurns(walker, touch_words[slot]));
-    for (int i = 0; i < count; ++i) setConstraint(i, wallConstraint(self, wall_segments[kept[i]], horizon));
+    for (int i = 0; i < count; ++i) setConstraint(i, wallConstraint(self, slot, wall_segments[kept[i]], horizon));
     return count;
 }
 

@@ -17,7 +17,7 @@ const uint PERSON_FIXED_SPAWN = 8u;       // appears at spawn_position; otherwis
 /// One row per lifetime; the row index is the agent's stable id.
 struct Person {
     vec2 spawn_position;    // m, scene frame; only with PERSON_FIXED_SPAWN
-    float radius;           // m
+    float radius;           // m; of a body that is no disc, half of its longer side
     float preferred_speed;  // m/s
     float maximum_speed;    // m/s
     float spawn_time;       // s; rows of one queue are sorted by it
@@ -35,6 +35,9 @@ struct Person {
     uint group;        // flow or formation, index into the scene's groups
     float headway;     // s of free way kept to those walked behind; 0 = pushes on
     uint kind;         // of its group's people, as the layout lists them: nothing here depends on it
+    float half_axis;   // m: half of the segment that all of the body is near to; 0 = a disc, above 0 = from
+                       // shoulder to shoulder, below 0 = the way it faces
+    uint reserved;
 };
 
 /// A step of somebody's route: walk until at most `tolerance` metres are left, and perhaps stop there.

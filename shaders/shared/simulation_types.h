@@ -90,6 +90,22 @@ struct Walker {
     uint ticket;
     float nervousness;
     uint way_through;  // where its way leads beyond a narrow passage: a direction, packed (snorm 2 x 16)
+#ifdef BODIES
+    float half_axis;   // m, as in Person
+    float chest;       // rad, at the start of the step, as in Chest
+    float chest_rate;  // rad/s
+    float axis_x;      // m: from the middle of the body's segment to its end
+    float axis_y;
+#endif
+};
+
+/// Which way the chest of a row points: it follows the heading, and turns aside before gaps and where others
+/// push it. Only crowds with bodies that are no discs use it.
+struct Chest {
+    float angle;      // rad
+    float rate;       // rad/s
+    float half_axis;  // m, as in Person
+    uint reserved;
 };
 
 const uint FEET_IN_TRAFFIC = 1u;  // it senses others who are under way
@@ -100,7 +116,16 @@ struct Decision {
     vec2 change;  // m/s, of its velocity in a step
     float pace;   // m/s: how fast it wants to walk behind others
     uint feet;    // 0 or more of FEET_*
+#ifdef BODIES
+    float twist;  // rad: how far the shoulders are to be turned from the heading, to either side
+    uint reserved;
+#endif
 };
+
+/// What a program of a crowd with bodies that are no discs (BODIES) has more of each person than C++ says,
+/// bytes.
+const uint MORE_OF_A_WALKER = 20u;
+const uint MORE_OF_A_DECISION = 8u;
 
 /// A site of the diagram, in pixels from the window's corner.
 struct DiagramSite {
@@ -169,5 +194,14 @@ struct Parameters {
 };
 
 THRONG_SHARED_END
+
+#ifndef __cplusplus
+// Where contact takes somebody: a place, and for bodies that are no discs the axis, as in Walker.
+#ifdef BODIES
+#define TARGET vec4
+#else
+#define TARGET vec2
+#endif
+#endif
 
 #endif

@@ -349,6 +349,19 @@ def test_previews_are_drawn(throng, bakes, tmp_path):
     assert (tmp_path / "film.mp4").read_bytes()[4:8] == b"ftyp"
 
 
+def test_previews_show_bodies_as_they_are(throng, tmp_path):
+    def picture(people):
+        layout = write(tmp_path / "one.json", {"throng": 1, "simulation": {"duration": 1}, "formations": [
+            {"id": "one", "type": "grid", "origin": [0, 0], "rows": 1, "columns": 1, "goal": {"offset": [9, 0]},
+             "people": {"speed": 1.3, **people}}]})
+        throng("bake", layout, "-o", tmp_path / "one", "-q", "--no-gltf", "--force")
+        throng("preview", tmp_path / "one", "-o", tmp_path / "one.png", "--frame", "12", "--width", "900", "--trails",
+               "0", "--no-density")
+        return (tmp_path / "one.png").read_bytes()
+    assert picture({"radius": 0.3}) == picture({"radius": 0.29}), "discs are drawn alike"
+    assert picture({"body": {"breadth": 0.6, "depth": 0.3}}) != picture({"body": {"breadth": 0.6, "depth": 0.2}})
+
+
 @pytest.mark.parametrize("kilometres", [1, 4, 16, 20])
 def test_people_walk_at_their_speed_on_sites_however_wide(throng, tmp_path, kilometres):
     far = 1000.0 * kilometres

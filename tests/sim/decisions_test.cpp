@@ -2,7 +2,7 @@
 // People look round and decide once in several steps; bodies move and touch in each.
 #include <cstring>
 
-#include "sim/simulation.h"
+#include "sim/simulation_parts.h"
 #include "tests/sim/gpu_test.h"
 #include "tests/sim/scenes.h"
 

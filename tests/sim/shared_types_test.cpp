@@ -40,13 +40,13 @@ std::map<std::string, Layout> layoutsInCpp() {
     std::map<std::string, Layout> result;
     {
         using T = gpu::Person;
-        result["Person"] = {
-            sizeof(T),
-            {MEMBER(spawn_position), MEMBER(radius), MEMBER(preferred_speed), MEMBER(maximum_speed),
-             MEMBER(spawn_time), MEMBER(heading), MEMBER(phase), MEMBER(variation), MEMBER(entry),
-             MEMBER(flags), MEMBER(first_stage), MEMBER(stage_count), MEMBER(first_change),
-             MEMBER(change_count), MEMBER(party_first), MEMBER(party_size), MEMBER(group), MEMBER(headway),
-             MEMBER(kind)}};
+        result["Person"] = {sizeof(T), {MEMBER(spawn_position), MEMBER(radius),       MEMBER(preferred_speed),
+                                        MEMBER(maximum_speed),  MEMBER(spawn_time),   MEMBER(heading),
+                                        MEMBER(phase),          MEMBER(variation),    MEMBER(entry),
+                                        MEMBER(flags),          MEMBER(first_stage),  MEMBER(stage_count),
+                                        MEMBER(first_change),   MEMBER(change_count), MEMBER(party_first),
+                                        MEMBER(party_size),     MEMBER(group),        MEMBER(headway),
+                                        MEMBER(kind),           MEMBER(half_axis),    MEMBER(reserved)}};
     }
     {
         using T = gpu::Stage;
@@ -113,6 +113,10 @@ std::map<std::string, Layout> layoutsInCpp() {
             {MEMBER(preferred_speed), MEMBER(headway), MEMBER(flags), MEMBER(party_first), MEMBER(party_size),
              MEMBER(change_count), MEMBER(status), MEMBER(stage), MEMBER(stage_end), MEMBER(leave_step),
              MEMBER(ticket), MEMBER(nervousness), MEMBER(way_through)}};
+    }
+    {
+        using T = gpu::Chest;
+        result["Chest"] = {sizeof(T), {MEMBER(angle), MEMBER(rate), MEMBER(half_axis), MEMBER(reserved)}};
     }
     {
         using T = gpu::Decision;

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Out of walls, for bodies that are no discs: the middle of a body stays on the side of a wall on which it began the
+// step, and so do its shoulders. A wall turns a body as far as its chest turns in a step, and moves it by the rest.
+// Needs the blocks WallSegments, WallStarts and WallItems, shaders/cells/cells.glsl, shaders/shared/walls.glsl,
+// shaders/shared/body_shape.glsl and shoulders.glsl.
+
+/// The place, less where a step from `before` has passed through the wall itself, not only round its end.
+vec2 notThroughWall(WallSegment wall, vec2 before, vec2 position, out float side_before) {
+    vec2 axis = wall.b - wall.a;
+    side_before = crossOf(axis, before - wall.a);
+    float side_after = crossOf(axis, position - wall.a);
+    if (side_before * side_after >= 0.0) return position;
+    vec2 crossing = mix(before, position, side_before / (side_before - side_after));
+    float along = dot(crossing - wall.a, axis) / max(dot(axis, axis), 1.0e-12);
+    return along >= 0.0 && along <= 1.0 ? crossing + (before - crossing) * 1.0e-3 : position;
+}
+
+/// @param start the body's axis at the start of the step
+/// @param turns whether the wall may turn it
+void pushFromWall(WallSegment wall, Body self, vec2 start, bool turns, inout vec4 target) {
+    float side;
+    target.xy = notThroughWall(wall, self.position, target.xy, side);
+    float thickness = thicknessOf(self.radius, start);
+    vec2 half_wall = 0.5 * (wall.b - wall.a);
+    vec2 offset = target.xy - 0.5 * (wall.a + wall.b);
+    vec2 along = nearestAlong(offset, target.zw, half_wall);
+    vec2 at = along.x * target.zw;
+    vec2 gap = offset + at - along.y * half_wall;
+    float size = length(gap);
+    float depth = thickness + wall.half_thickness - size;
+    if (depth <= 0.0) return;
+    vec2 outward = gap / max(size, 1.0e-6);
+    if (size <= 1.0e-5) {  // a shoulder is through the wall: it comes back
+        float length_of_wall = length(half_wall);
+        outward = length_of_wall > 0.0 ? vec2(-half_wall.y, half_wall.x) / length_of_wall : vec2(1.0, 0.0);
+        if (side < 0.0) outward = -outward;
+        at = dot(target.zw, outward) > 0.0 ? -target.zw : target.zw;
+        depth -= dot(at - along.x * target.zw, outward);
+    }
+    float arm = crossOf(at, outward);
+    float turn = turns ? arm / inertiaOf(self.radius, thickness) : 0.0;
+    float push = depth / (1.0 + arm * turn);
+    target.xy += outward * push;
+    if (turns) target.zw = withinATurn(turnedBy(target.zw, turn * push), start);
+}
+
+vec4 keepOutOfWalls(Body self, vec2 start, vec4 target) {
+    uint cell = cellIndex(cellOf(self.position));
+    uint first = wall_starts[cell];
+    uint last = wall_starts[cell + 1u];
+    // Leaving one wall may lead into the next: a few rounds settle corners, the last ones without turning.
+    for (int round = 0; round < 4; ++round)
+        for (uint i = first; i < last; ++i)
+            pushFromWall(wall_segments[wall_items[i]], self, start, round < 2, target);
+    return target;
+}

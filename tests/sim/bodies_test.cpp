@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <numbers>
+
+#include "base/capsule.h"
+#include "sim/simulation_parts.h"
+#include "tests/sim/gpu_test.h"
+#include "tests/sim/observe.h"
+#include "tests/sim/scenes.h"
+
+namespace throng::test {
+namespace {
+
+constexpr float kBreadth = 0.47f, kDepth = 0.25f;  // m
+
+/// People with bodies that are no discs.
+class BodiesTest : public GpuTest {
+  protected:
+    static gpu::Person& addBody(authoring::Scene& scene, glm::vec2 place, glm::vec2 goal, float heading) {
+        gpu::Person& person = addPerson(scene, place, goal, 1.2f, 0.5f * kBreadth);
+        person.half_axis = 0.5f * (kBreadth - kDepth);
+        person.heading = heading;
+        return person;
+    }
+    static Capsule bodyOf(sim::Simulation& simulation, const authoring::Scene& scene, std::size_t row) {
+        sim::Buffers& buffers = simulation.parts().buffers;
+        const auto state = buffers.states.download<gpu::AgentState>(scene.people.size())[row];
+        const auto chest = buffers.chests.download<gpu::Chest>(scene.people.size())[row];
+        return capsuleOf(state.position, {std::cos(chest.angle), std::sin(chest.angle)},
+                         scene.people[row].radius, scene.people[row].half_axis);
+    }
+    /// Who wants to stay where it is, overlapping another: how much is free between them after some steps, m.
+    double freeAfterwards(glm::vec2 offset, float heading, float its_heading) {
+        authoring::Scene scene = emptyScene({-10, -10}, {10, 10});
+        addBody(scene, {0, 0}, {0, 0}, heading);
+        addBody(scene, offset, offset, its_heading);
+        sim::Simulation simulation(scene, library);
+        for (int step = 0; step < 24; ++step)
+            simulation.step();
+        return freeBetween(bodyOf(simulation, scene, 0), bodyOf(simulation, scene, 1));
+    }
+    /// Whether somebody comes through a door so wide, m.
+    bool comesThrough(float door) {
+        authoring::Scene scene = emptyScene({-10, -10}, {10, 10});
+        addBody(scene, {-3, 0}, {3, 0}, 0.0f);
+        addWall(scene, {0, 0.5f * door + 0.1f}, {0, 8}, 0.1f);
+        addWall(scene, {0, -0.5f * door - 0.1f}, {0, -8}, 0.1f);
+        sim::Simulation simulation(scene, library);
+        for (int step = 0; step < 12 * 48; ++step)
+            simulation.step();
+        return bodyOf(simulation, scene, 0).middle.x > 1.0;
+    }
+};
+
+TEST_F(BodiesTest, NobodyStaysInAnybodyHoweverTheyAreTurned) {
+    const float quarter = 0.5f * std::numbers::pi_v<float>;
+    EXPECT_GT(freeAfterwards({0.0f, 0.4f}, 0.0f, 0.0f), -0.005) << "end to end";
+    EXPECT_GT(freeAfterwards({0.2f, 0.0f}, 0.0f, 0.0f), -0.005) << "chest to back";
+    EXPECT_GT(freeAfterwards({0.2f, 0.1f}, 0.0f, quarter), -0.005) << "across";
+    EXPECT_GT(freeAfterwards({0.05f, 0.02f}, 0.0f, quarter), -0.005) << "crossed";
+}
+
+TEST_F(BodiesTest, WhoIsChestToBackNeedsNoMoreRoomThanChestsAreDeep) {
+    EXPECT_LT(freeAfterwards({kDepth + 0.01f, 0.0f}, 0.0f, 0.0f), 0.05);
+}
+
+TEST_F(BodiesTest, DoorsNarrowerThanShouldersArePassedSideways) {
+    EXPECT_TRUE(comesThrough(0.36f));
+}
+
+TEST_F(BodiesTest, NobodyComesThroughADoorNarrowerThanItsChest) {
+    EXPECT_FALSE(comesThrough(0.22f));
+}
+
+TEST_F(BodiesTest, WithoutTurningShouldersDoNotFitThroughNarrowDoors) {
+    authoring::Scene scene = emptyScene({-10, -10}, {10, 10});
+    addBody(scene, {-3, 0}, {3, 0}, 0.0f);
+    addWall(scene, {0, 0.28f}, {0, 8}, 0.1f);
+    addWall(scene, {0, -0.28f}, {0, -8}, 0.1f);
+    setRule(scene, "shoulders", "enabled", 0.0);
+    sim::Simulation simulation(scene, library);
+    for (int step = 0; step < 6 * 48; ++step)
+        simulation.step();
+    EXPECT_LT(bodyOf(simulation, scene, 0).middle.x, 0.1);
+}
+
+}  // namespace
+}  // namespace throng::test
