@@ -142,7 +142,8 @@ def test_a_bake_without_its_layout(throng, hall, tmp_path):
 
 
 def test_people_who_are_no_discs(throng, tmp_path):
-    layout = {**HALL, "simulation": {"duration": 2, "seed": 2}, "people": {"body": "adult"}}
+    visitors = {**HALL["flows"][0], "people": {"body": "adult"}}
+    layout = {**HALL, "simulation": {"duration": 2, "seed": 2}, "flows": [visitors]}
     (tmp_path / "layout.json").write_text(json.dumps(layout))
     throng("bake", tmp_path / "layout.json", "-o", tmp_path / "bake", "--no-gltf", "-q")
     assert "no discs (people.body)" in throng("measure", tmp_path / "bake", "--follow", 0, expect=3).stderr
