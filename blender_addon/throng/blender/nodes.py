@@ -55,6 +55,21 @@ def get_input(modifier, name):
     return modifier[_identifier(modifier, name)] if slot is None else slot.value
 
 
+def objects_read(tree):
+    """The objects whose geometry a tree of nodes reads."""
+    return {node.inputs["Object"].default_value for node in tree.nodes if node.bl_idname == "GeometryNodeObjectInfo"}
+
+
+def drop_object(thing):
+    """Removes an object with its mesh and the trees of its modifiers, where nobody else uses these."""
+    mesh, trees = thing.data, [modifier.node_group for modifier in thing.modifiers]
+    bpy.data.objects.remove(thing)
+    if not mesh.users:
+        bpy.data.meshes.remove(mesh)
+    for tree in trees:
+        drop_tree(tree)
+
+
 def of_person(tree, name, output="Vector"):
     """What a crowd's points say of a person, in a material: of an instance, or on the vertices of those who are bent
     (crowd/near.py); where it is not there it is 0. Returns (nodes, socket)."""
@@ -143,6 +158,19 @@ class Maths:
         for value, slot in zip(given, node.inputs):
             self.link(value, slot)
         return node.outputs[0]
+
+    def geometry_of(self, thing):
+        """An object's geometry, as it is in its own space."""
+        info = self.node("GeometryNodeObjectInfo", transform_space="ORIGINAL")
+        info.inputs["Object"].default_value = thing
+        return socket(info.outputs, "Geometry")
+
+    def joined(self, things):
+        """The geometry of several objects, one behind the other."""
+        everything = self.node("GeometryNodeJoinGeometry")
+        for thing in reversed(things):  # what is linked to a Join Geometry last comes out first
+            self.link(self.geometry_of(thing), everything.inputs[0])
+        return everything.outputs[0]
 
     def where(self, flag, one, other):
         """One geometry where a flag is set, or the other; what is not shown is not worked out."""

@@ -245,11 +245,6 @@ def join_sheets(name, sheets):
     joined = bpy.data.objects.new(name, bpy.data.meshes.new(name))
     tree, _, outputs = new_tree(f"{name} of all", _GEOMETRY, _GEOMETRY)
     maths = Maths(tree)
-    everybody = maths.node("GeometryNodeJoinGeometry")
-    for sheet in reversed(sheets):  # what is linked to a Join Geometry last comes out first
-        info = maths.node("GeometryNodeObjectInfo", transform_space="ORIGINAL")
-        info.inputs["Object"].default_value = sheet
-        maths.link(socket(info.outputs, "Geometry"), everybody.inputs[0])
-    maths.link(_columns(maths, everybody.outputs[0]), outputs.inputs[0])
+    maths.link(_columns(maths, maths.joined(sheets)), outputs.inputs[0])
     joined.modifiers.new("throng bones", "NODES").node_group = tree
     return joined

@@ -42,8 +42,8 @@ class BentBones:
     def turned(self, maths, points, turn, centre, shift):
         """`points` with their columns turned, and their places, about `centre`, and then shifted. @param turn (vector,
         place to turn about) is the vector turned"""
-        blurred = points = self._turned_columns(maths, points, self.columns, turn)
-        points = maths.where(self.blurs, self._turned_columns(maths, blurred, self.changes, turn), points)
+        points = self._turned_columns(maths, points, self.columns, turn)
+        points = maths.where(self.blurs, self._turned_columns(maths, points, self.changes, turn), points)
         put = maths.node("GeometryNodeSetPosition")
         maths.link(points, put.inputs["Geometry"])
         maths.link(vector(maths, "ADD", turn(place(maths), centre), shift), put.inputs["Position"])

@@ -3,6 +3,7 @@
 them): of members of the cast, at rest, on the same bones as the coarser ones. Only those are made that a shot needs."""
 import bpy
 
+from ..blender.nodes import drop_object
 from ..cast import bones
 from ..people import levels, members
 
@@ -26,6 +27,4 @@ def add(cast, member, repertoire):
 
 def forget(cast):
     for thing in meshes_of(cast).values():
-        mesh = thing.data
-        bpy.data.objects.remove(thing)
-        bpy.data.meshes.remove(mesh)
+        drop_object(thing)

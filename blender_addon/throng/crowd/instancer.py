@@ -169,14 +169,12 @@ def _instances_of(maths, points, cast, figures, leans, apart, repertoire):
     everybody = maths.node("GeometryNodeJoinGeometry")
     for bunch in _bunches(figures):
         (level, first), (_, last) = bunch[0][0], bunch[-1][0]
-        poses = maths.node("GeometryNodeObjectInfo", transform_space="ORIGINAL")
-        poses.inputs["Object"].default_value = list_of(cast, [thing for _, thing in bunch])
         place = maths.node("GeometryNodeInstanceOnPoints")
         place.inputs["Pick Instance"].default_value = True
         maths.link(points, place.inputs["Points"])
         maths.link(maths.between(figure, _figure_number(level, first), _figure_number(level, last)),
                    place.inputs["Selection"])
-        maths.link(socket(poses.outputs, "Geometry"), place.inputs["Instance"])
+        maths.link(maths.geometry_of(list_of(cast, [thing for _, thing in bunch])), place.inputs["Instance"])
         before = maths.math("SUBTRACT", figure, float(_figure_number(level, first)))
         maths.link(maths.math("MULTIPLY_ADD", before, float(repertoire.poses(level)), pose),
                    place.inputs["Instance Index"])

@@ -19,7 +19,7 @@ of more detail in final pictures (close.py).
 """
 import bpy
 
-from ..blender.nodes import Maths, drop_tree, new_tree, own_tree, socket
+from ..blender.nodes import Maths, drop_object, new_tree, objects_read, own_tree, socket
 from ..blender.vectors import between, combined, parts, scaled, vector
 from ..cast import BEATS, POSES, bones, library
 from ..cast.sheets import sheet_of
@@ -97,7 +97,9 @@ def bones_for(crowd, cast):
         return None
     sheets = [sheet_of(figure) for figure in figures]
     joined = next((thing for thing in cast.objects if _ALL in thing), None)
-    if joined and [sheet.name for sheet in sheets] == list(joined[_ALL]) and _joins(joined) == set(sheets):
+    # of members who were made anew there are others of the same name
+    if joined and [sheet.name for sheet in sheets] == list(joined[_ALL]) \
+            and objects_read(joined.modifiers[0].node_group) == set(sheets):
         return joined
     _drop_bones(cast)
     joined, joints = bones.join_sheets(f"{cast.name} bones", sheets), bones.joints_of(f"{cast.name} joints", sheets)
@@ -107,19 +109,9 @@ def bones_for(crowd, cast):
     return joined
 
 
-def _joins(joined):
-    """The sheets that it joins: of members who were made anew there are others of the same name."""
-    return {node.inputs["Object"].default_value for node in joined.modifiers[0].node_group.nodes
-            if node.bl_idname == "GeometryNodeObjectInfo"}
-
-
 def _drop_bones(cast):
     for thing in [each for each in cast.objects if _ALL in each or _JOINTS in each]:
-        mesh, trees = thing.data, [modifier.node_group for modifier in thing.modifiers]
-        bpy.data.objects.remove(thing)
-        bpy.data.meshes.remove(mesh)
-        for tree in trees:
-            drop_tree(tree)
+        drop_object(thing)
 
 
 def forget(cast, crowds):
@@ -353,12 +345,6 @@ def _without(maths, geometry, name):
     return remove.outputs[0]
 
 
-def _geometry_of(maths, thing):
-    info = maths.node("GeometryNodeObjectInfo", transform_space="ORIGINAL")
-    info.inputs["Object"].default_value = thing
-    return socket(info.outputs, "Geometry")
-
-
 def _hung(maths, bones_, names, bone_count):
     """What all bones that a vertex hangs on make of its place at rest. @param names of x, y, z and of what is added"""
     place = parts(maths, maths.node("GeometryNodeInputPosition").outputs[0])
@@ -431,7 +417,7 @@ def near_tree(cast, repertoire, sheet, streams, most_close):
     tree, inputs, outputs = new_tree("Throng near people", _GEOMETRY + [("Blur", "NodeSocketBool")], _GEOMETRY)
     maths, blurs = Maths(tree), inputs.outputs["Blur"]
     joints = next(thing for thing in cast.objects if _JOINTS in thing)
-    bones_, joints = (_geometry_of(maths, thing) for thing in (sheet, joints))
+    bones_, joints = (maths.geometry_of(thing) for thing in (sheet, joints))
     bone_count, pose_count = sheet_of(figures[0])["throng_bones"], repertoire.poses(0)
     people = maths.grouped("Throng near poses", [inputs.outputs[0]], lambda inner, points: _people(
         inner, points, repertoire, cast, "carriage" in streams))

@@ -3,7 +3,7 @@
 figures itself would go over every pose of theirs in every frame, twelve thousand of a cast of 64."""
 import bpy
 
-from ..blender.nodes import Maths, drop_tree, new_tree, socket
+from ..blender.nodes import Maths, drop_object, new_tree, objects_read
 
 _OF = "throng_poses_of"  # of an object in the cast: the names of its figures
 _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
@@ -13,7 +13,8 @@ def list_of(cast, figures):
     """The object whose instances are the poses of these figures, one figure's behind the other's."""
     names = [figure.name for figure in figures]
     for thing in cast.objects:
-        if list(thing.get(_OF, ())) == names and _figures(thing) == set(figures):
+        # of members who were made anew there are others of the same name
+        if list(thing.get(_OF, ())) == names and objects_read(thing.modifiers[0].node_group) == set(figures):
             return thing
     name = f"{names[0]} to {names[-1]} poses"
     made = bpy.data.objects.new(name, bpy.data.meshes.new(name))
@@ -26,25 +27,11 @@ def list_of(cast, figures):
 def drop_unused(cast):
     """Throws away the lists that no instancer shows."""
     for thing in [each for each in cast.objects if _OF in each and each.users == 1]:  # the cast itself is one
-        mesh, tree = thing.data, thing.modifiers[0].node_group
-        bpy.data.objects.remove(thing)
-        bpy.data.meshes.remove(mesh)
-        drop_tree(tree)
-
-
-def _figures(thing):
-    """Those that it joins: of members who were made anew there are others of the same name."""
-    return {node.inputs["Object"].default_value for node in thing.modifiers[0].node_group.nodes
-            if node.bl_idname == "GeometryNodeObjectInfo"}
+        drop_object(thing)
 
 
 def _joining(name, figures):
     tree, _, outputs = new_tree(name, _GEOMETRY, _GEOMETRY)
     maths = Maths(tree)
-    poses = maths.node("GeometryNodeJoinGeometry")
-    for figure in reversed(figures):  # what is linked to a Join Geometry last comes out first
-        info = maths.node("GeometryNodeObjectInfo", transform_space="ORIGINAL")
-        info.inputs["Object"].default_value = figure
-        maths.link(socket(info.outputs, "Geometry"), poses.inputs[0])
-    maths.link(poses.outputs[0], outputs.inputs[0])
+    maths.link(maths.joined(figures), outputs.inputs[0])
     return tree
