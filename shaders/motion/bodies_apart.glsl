@@ -1,14 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bodies apart: those that overlap are pushed away from each other, each by its share.
 // Needs the blocks Bodies, TouchLists and TargetsBefore, shaders/cells/cells.glsl and cell_runs.glsl, and
-// shaders/motion/standing_fast.glsl and nearest_first.glsl.
-
-vec2 apartDirection(vec2 offset, float size, uint row, uint other_row) {
-    if (size > 1.0e-6) return offset / size;
-    // Two bodies in exactly the same place part along a direction that both agree on.
-    float angle = float((row ^ other_row) % 64u) * 0.098174770;
-    return (row < other_row ? 1.0 : -1.0) * vec2(cos(angle), sin(angle));
-}
+// shaders/motion/standing_fast.glsl, nearest_first.glsl and apart_direction.glsl.
 
 /// What one neighbour adds to the push: direction and depth, and one more to average over.
 void addPush(Body self, uint self_slot, float weight, uint slot, vec2 position, inout vec3 push) {

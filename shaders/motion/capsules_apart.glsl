@@ -3,7 +3,8 @@
 // push there moves them and turns them, each by what its mass and its moment of inertia make of it (position-based
 // dynamics of rigid bodies: Mueller, Macklin, Chentanez, Jeschke and Kim 2020).
 // Needs the blocks ParametersBlock, Bodies, Walkers, TouchLists and TargetsBefore, shaders/cells/cells.glsl and
-// cell_runs.glsl, shaders/shared/body_shape.glsl, shoulders.glsl, standing_fast.glsl and nearest_first.glsl.
+// cell_runs.glsl, shaders/shared/body_shape.glsl, shoulders.glsl, standing_fast.glsl, nearest_first.glsl and
+// apart_direction.glsl.
 
 /// What others make of somebody in a round: it is moved, turned, by how many.
 struct Push {
@@ -11,13 +12,6 @@ struct Push {
     float turn;
     float count;
 };
-
-vec2 apartDirection(vec2 offset, float size, uint row, uint other_row) {
-    if (size > 1.0e-6) return offset / size;
-    // Two bodies in exactly the same place part along a direction that both agree on.
-    float angle = float((row ^ other_row) % 64u) * 0.098174770;
-    return (row < other_row ? 1.0 : -1.0) * vec2(cos(angle), sin(angle));
-}
 
 /// How much of a push at this arm turns a body, per metre that the same push moves it.
 float turnPerMetre(float arm, float radius, float thickness) { return arm / inertiaOf(radius, thickness); }

@@ -38,6 +38,7 @@ uniform float bracing;   // 1 = who is carried off its way gives less than other
 #include "shaders/motion/headway.glsl"
 #include "shaders/motion/taking_turns.glsl"
 #include "shaders/motion/nearest_first.glsl"
+#include "shaders/motion/apart_direction.glsl"
 #ifdef BODIES
 #include "shaders/shared/body_shape.glsl"
 #include "shaders/motion/shoulders.glsl"
