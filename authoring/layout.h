@@ -131,18 +131,39 @@ struct SimulationSettings {
     }
 };
 
+/// A floor; levels may lie above each other.
+struct Level {
+    std::string id;
+    double height = 0.0;            ///< m
+    std::vector<glm::dvec2> floor;  ///< simple, any winding, not closed by a repeated point
+    SourcePosition where;
+};
+
+/// A straight way between two levels, with a railing on either side.
+struct Link {
+    enum class Kind { stairs, ramp };
+    std::string id;
+    Kind kind = Kind::stairs;
+    std::size_t from = 0, to = 0;  ///< index into levels
+    glm::dvec2 begin{0.0}, end{0.0};
+    double width = 2.0;  ///< m, between the railings
+    SourcePosition where;
+};
+
 struct Road {
     std::string id;
     std::vector<glm::dvec2> centreline;  ///< at least two points
     double width = 3.0;                  ///< m
     bool one_way = false;                ///< true: walked from the centreline's first point to its last only
     SourcePosition where;
+    std::size_t level = 0;  ///< that it lies on, index into levels if there are any
 };
 
 struct Area {
     std::string id;
     std::vector<glm::dvec2> polygon;  ///< simple, any winding, not closed by a repeated point
     SourcePosition where;
+    std::size_t level = 0;
 };
 
 struct Wall {
@@ -154,6 +175,7 @@ struct Wall {
     SourcePosition where;
     bool open_at_start = false;     ///< a gate that is closed later
     std::vector<double> toggles{};  ///< s, increasing: when events open or close it, in turn
+    std::size_t level = 0;
     bool isOpen(double time) const {
         const auto passed =
             std::count_if(toggles.begin(), toggles.end(), [&](double at) { return at <= time; });
@@ -275,6 +297,7 @@ struct Formation {
     People people;
     Arrival arrival = Arrival::stay;
     double goal_tolerance = 0.3;  ///< m: this near a point goal is arrived
+    std::size_t level = 0;
     SourcePosition where;
 };
 
@@ -299,6 +322,8 @@ struct Event {
 struct Layout {
     std::string name;
     SimulationSettings simulation;
+    std::vector<Level> levels;  ///< none: one ground without an end
+    std::vector<Link> links;
     std::vector<Road> roads;
     std::vector<Area> areas;
     std::vector<Wall> walls;

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "authoring/layout.h"
+#include "authoring/storeys/charts.h"
 #include "authoring/terrain/terrain.h"
+#include "shaders/shared/chart_types.h"
 #include "shaders/shared/scene_types.h"
 
 namespace throng::authoring {
@@ -58,6 +60,24 @@ struct Detours {
     std::vector<float> distances;  ///< m, field after field; gpu::BLOCKED_COST where no path leads
 };
 
+/// The charts of a layout with levels as the device has them: a raster over the plane, and what takes people
+/// from one chart to another.
+struct ChartMap {
+    FieldGrid grid;
+    std::vector<gpu::ChartCell> cells;
+    std::vector<glm::vec2> shifts;  ///< m, by chart: place in the plane - home
+    std::vector<bool> is_link;      ///< by chart
+    std::uint32_t most_images = 0;  ///< of one person
+
+    bool empty() const { return cells.empty(); }
+    /// The cell around a place in the plane.
+    const gpu::ChartCell& at(glm::vec2 place) const;
+    /// The chart in whose part of the plane a place is; gpu::NO_CHART between them.
+    std::uint32_t chartAt(glm::vec2 place) const { return at(place).charts & gpu::NO_CHART; }
+    /// From the plane to home coordinates.
+    glm::vec2 home(glm::vec2 place) const;
+};
+
 /// Everything the simulation needs, in the scene frame: single precision, metres from `origin`.
 ///
 /// `origin` is a whole number of metres near the middle of the layout, and local coordinates are multiples of
@@ -95,7 +115,10 @@ struct Scene {
     std::vector<float> road_distance;  ///< m, per grid cell: positive on roads and areas, negative off them;
                                        ///< empty without roads
 
-    std::shared_ptr<const Terrain> terrain;  ///< null: the ground is flat
+    std::shared_ptr<const Terrain> terrain;  ///< null: the ground is flat; with charts, in the plane
+
+    std::shared_ptr<const Charts> charts;  ///< null: a layout without levels; then everything is in the plane
+    ChartMap chart_map;
 
     float smallest_radius = 0.0f;  ///< of all people, m; of bodies that are no discs, half of the longer side
     float largest_radius = 0.0f;

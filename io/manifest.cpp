@@ -70,14 +70,24 @@ Json streamToJson(const StreamInfo& info, const StreamFormats& formats) {
     return json;
 }
 
-Json terrainToJson(const recording::BakeTerrain& terrain) {
+Json levelsToJson(const recording::BakeDescription& description) {
+    Json list = Json::array();
+    for (const authoring::Level& level : description.levels)
+        list.push_back({{"id", level.id},
+                        {"height", level.height},
+                        {"floor", pointsToJson(level.floor, description.output_origin)}});
+    return list;
+}
+
+/// @param storeys whether people walk on several surfaces above each other
+Json terrainToJson(const recording::BakeTerrain& terrain, bool storeys) {
     const auto [low, high] =
         std::minmax_element(terrain.mesh->positions.begin(), terrain.mesh->positions.end(),
                             [](const glm::dvec3& a, const glm::dvec3& b) { return a.z < b.z; });
     return {{"file", "terrain.glb"},
             {"source", terrain.source},
             {"hash", "xxh3:" + terrain.hash},
-            {"surface", terrain.surface->highest() ? "highest" : "lowest"},
+            {"surface", storeys ? "levels" : terrain.surface->highest() ? "highest" : "lowest"},
             {"triangles", terrain.mesh->indices.size() / 3},
             {"lowest", low->z},
             {"highest", high->z}};
@@ -212,7 +222,8 @@ Json bakeManifest(const recording::BakeDescription& description, const BakeOutco
     json["bounds"] = {{"min", pointToJson(description.minimum - origin)},
                       {"max", pointToJson(description.maximum - origin)}};
     json["streams"] = streamsToJson(description.streams(), description.formats);
-    if (description.terrain) json["terrain"] = terrainToJson(*description.terrain);
+    if (description.terrain) json["terrain"] = terrainToJson(*description.terrain, !description.levels.empty());
+    if (!description.levels.empty()) json["levels"] = levelsToJson(description);
     json["table"] = "agents.csv";
     json["gltf"] = gltfToJson(outcome.gltf);
     json["diagrams"] = diagramsToJson(description, outcome.diagrams);

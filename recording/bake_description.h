@@ -56,6 +56,13 @@ struct BakeTerrain {
     std::vector<glm::dvec2> along_walls;  ///< per wall, the lowest and the highest ground along it, m
 };
 
+/// How the simulation's plane and the places of a layout with levels belong together (authoring/storeys/charts.h).
+struct BakeCharts {
+    std::vector<glm::dvec2> shifts;      ///< m, by chart: place in the plane - home
+    std::vector<authoring::Wall> walls;  ///< in the plane
+    glm::dvec2 minimum{0.0}, maximum{0.0};  ///< of the plane
+};
+
 /// All that a bake's files say besides the frames. World coordinates unless told otherwise; metres and
 /// seconds.
 struct BakeDescription {
@@ -86,7 +93,9 @@ struct BakeDescription {
     std::vector<authoring::Road> roads;
     std::vector<authoring::Area> areas;
     std::vector<authoring::Wall> walls;
-    std::optional<BakeTerrain> terrain;  ///< none: flat ground at height 0
+    std::optional<BakeTerrain> terrain;  ///< none: flat ground at height 0; floors and links of layouts with levels
+    std::vector<authoring::Level> levels;
+    std::optional<BakeCharts> charts;  ///< with levels: then frames hold, behind places in the plane, charts
 
     std::string renderer;  ///< GL_RENDERER
     std::string driver;    ///< GL_VERSION

@@ -20,11 +20,20 @@ constexpr double kPerMetre = 65536.0;
 /// The walls in the frame of reference of the frames, as finely as the simulation has them: a layout that is
 /// moved by whole metres then has the very same.
 std::vector<authoring::Wall> localWalls(const BakeDescription& description) {
-    std::vector<authoring::Wall> walls = description.walls;
+    std::vector<authoring::Wall> walls = description.charts ? description.charts->walls : description.walls;
     for (authoring::Wall& wall : walls)
         for (glm::dvec2& point : wall.points)
             point = glm::round((point - description.scene_origin) * kPerMetre) / kPerMetre;
     return walls;
+}
+
+/// Bounds of what people are kept apart in.
+glm::dvec2 lowerOf(const BakeDescription& description) {
+    return (description.charts ? description.charts->minimum : description.minimum) - description.scene_origin;
+}
+
+glm::dvec2 upperOf(const BakeDescription& description) {
+    return (description.charts ? description.charts->maximum : description.maximum) - description.scene_origin;
 }
 
 }  // namespace
@@ -35,10 +44,13 @@ MotionRecorder::MotionRecorder(const BakeDescription& description, Sink sink)
                        description.maximum - description.scene_origin)),
       sink_(std::move(sink)),
       window_(description.smoothing, description.fps),
-      apart_(localWalls(description), description.minimum - description.scene_origin,
-             description.maximum - description.scene_origin),
+      apart_(localWalls(description), lowerOf(description), upperOf(description)),
       walkers_(description.agents.size()),
       carried_(fromDevice(description.asked)) {
+    if (description.charts) {
+        shifts_ = description.charts->shifts;
+        charts_.resize(walkers_.size());
+    }
     if (description.terrain) {
         footing_.emplace(description.terrain->surface, walkers_.size(), fps_);
         grounds_.resize(walkers_.size() * kComponents);
@@ -67,9 +79,33 @@ MotionRecorder::MotionRecorder(const BakeDescription& description, Sink sink)
 void MotionRecorder::take(const Frame& frame) {
     if (frame.index != taken_) throw std::invalid_argument("frames come in order");
     ++taken_;
-    window_.push(frame);
+    if (shifts_.empty()) {
+        window_.push(frame);
+    } else {
+        goHome(frame);
+        Frame at_home = frame;
+        at_home[Stream::pos] = homes_;
+        window_.push(at_home);
+    }
     while (window_.isReady())
         giveOut();
+}
+
+/// Who walks over a seam moves from one part of the plane to another, but nowhere at home.
+void MotionRecorder::goHome(const Frame& frame) {
+    homes_.assign(frame[Stream::pos].begin(), frame[Stream::pos].end());
+    for (std::size_t at = 0; at < homes_.size(); at += kComponents) {
+        const auto chart = static_cast<std::size_t>(homes_[at + 2]);
+        if (chart >= shifts_.size()) continue;
+        homes_[at] -= static_cast<float>(shifts_[chart].x);
+        homes_[at + 1] -= static_cast<float>(shifts_[chart].y);
+    }
+}
+
+/// From home coordinates to where the frame being given out has somebody in the plane, m.
+glm::dvec2 MotionRecorder::toPlane(std::size_t row) const {
+    if (shifts_.empty() || charts_[row] >= shifts_.size()) return glm::dvec2(0.0);
+    return shifts_[charts_[row]];
 }
 
 void MotionRecorder::finish() {
@@ -83,6 +119,8 @@ void MotionRecorder::giveOut() {
     directions_ = frame[Stream::dir];
     states_ = frame[Stream::state];
     chests_ = frame[Stream::chest];
+    for (std::size_t row = 0; row < charts_.size(); ++row)
+        charts_[row] = static_cast<std::uint32_t>(std::exchange(positions_[row * kComponents + 2], 0.0f));
     if (window_.reach() > 0) average(frame);
     turnChests(frame);
     record(frame);
@@ -111,19 +149,20 @@ void MotionRecorder::average(const KeptFrame& frame) {
         const std::size_t at = row * kComponents;
         const Average average = window_.average(row);
         present_.push_back(row);
-        bodies_.push_back({{positions_[at], positions_[at + 1]},
-                           {average.position[0], average.position[1]},
+        bodies_.push_back({glm::dvec2(positions_[at], positions_[at + 1]) + toPlane(row),
+                           glm::dvec2(average.position[0], average.position[1]) + toPlane(row),
                            radii_[row],
                            axisOf(frame, row)});
-        positions_[at + 2] = static_cast<float>(average.position[2]);
+        if (shifts_.empty()) positions_[at + 2] = static_cast<float>(average.position[2]);
         directions_[at] = static_cast<float>(average.heading[0]);
         directions_[at + 1] = static_cast<float>(average.heading[1]);
         directions_[at + 2] = static_cast<float>(average.speed);
     }
     apart_.settle(bodies_, (frame.index - 1.0) / fps_, frame.index / fps_);
     for (std::size_t i = 0; i < present_.size(); ++i) {
-        positions_[present_[i] * kComponents] = static_cast<float>(bodies_[i].place.x);
-        positions_[present_[i] * kComponents + 1] = static_cast<float>(bodies_[i].place.y);
+        const glm::dvec2 home = bodies_[i].place - toPlane(present_[i]);
+        positions_[present_[i] * kComponents] = static_cast<float>(home.x);
+        positions_[present_[i] * kComponents + 1] = static_cast<float>(home.y);
     }
 }
 
@@ -183,7 +222,8 @@ void MotionRecorder::record(const KeptFrame& frame) {
             putFeet(at, footsteps_->step(
                             row, {place, heading, moved, speed, carriages_->step(row, speed), scales_[row]},
                             walker.gait));
-        if (footing_) putStance(at, footing_->stand(row, place, heading, moved, walker.gait));
+        if (footing_)
+            putStance(at, footing_->stand(row, place + glm::vec2(toPlane(row)), heading, moved, walker.gait));
     }
 }
 

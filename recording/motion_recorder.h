@@ -47,6 +47,8 @@ class MotionRecorder {
         std::uint32_t walks = 0;  ///< 1: there in the frame before
     };
     void giveOut();
+    void goHome(const Frame& frame);
+    glm::dvec2 toPlane(std::size_t row) const;
     void average(const KeptFrame& frame);
     void record(const KeptFrame& frame);
     void putStance(std::size_t at, const Stance& stance);
@@ -75,6 +77,9 @@ class MotionRecorder {
 
     std::vector<float> positions_, directions_, states_, grounds_;  ///< of the frame being given out
     std::array<std::vector<float>, 2> feet_;                        ///< likewise: left, right
+    std::vector<glm::dvec2> shifts_;  ///< by chart, m: place in the plane - home; none without charts
+    std::vector<std::uint32_t> charts_;
+    std::vector<float> homes_;  ///< places of the frame being taken, in home coordinates, and charts
     std::vector<std::uint32_t> present_;
     std::vector<float> gaze_values_, carriage_values_, chests_;
     std::vector<float> half_axes_;  ///< by row, m: as gpu::Person has it

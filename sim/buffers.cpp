@@ -59,8 +59,7 @@ bool isDisc(const gpu::Person& person) {
     return person.half_axis == 0.0f;
 }
 
-std::vector<std::uint32_t> initialSiteSlots(const authoring::Scene& scene) {
-    const std::size_t rows = scene.people.size();
+std::vector<std::uint32_t> initialSiteSlots(const authoring::Scene& scene, std::size_t rows) {
     std::vector<std::uint32_t> slots(rows + scene.wall_tiles.size(), gpu::NO_INDEX);
     for (std::size_t tile = 0; tile < scene.wall_tiles.size(); ++tile)
         slots[rows + tile] = static_cast<std::uint32_t>(rows + tile);
@@ -148,6 +147,11 @@ gpu::Parameters makeParameters(const authoring::Scene& scene) {
     parameters.detour_width = scene.detours.grid.width;
     parameters.detour_height = scene.detours.grid.height;
     parameters.is_wide = isWideSite(scene.minimum, scene.maximum) ? 1 : 0;
+    const authoring::ChartMap& charts = scene.chart_map;
+    parameters.site_rows = parameters.row_count * (1 + charts.most_images);
+    parameters.chart_cell = charts.grid.cell_size;
+    parameters.chart_width = charts.grid.width;
+    parameters.chart_height = charts.grid.height;
     parameters.has_roads = scene.road_distance.empty() ? 0 : 1;
     return parameters;
 }
@@ -159,7 +163,7 @@ std::vector<gpu::DiagramSite> wallSites(const authoring::Scene& scene, const gpu
         gpu::DiagramSite site{};
         site.position = (tile.position - parameters.diagram_minimum) * parameters.pixels_per_metre;
         site.radius = tile.tile_radius * parameters.pixels_per_metre;
-        site.id = static_cast<std::uint32_t>(parameters.row_count + sites.size());
+        site.id = static_cast<std::uint32_t>(parameters.site_rows + sites.size());
         sites.push_back(site);
     }
     return sites;
@@ -188,8 +192,11 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
                 {scene.queues.size(), sizeof(gpu::SpawnProposal) * gpu::SPAWN_GROUP_SIZE, "queue"}),
       wall_segments(gl::makeBuffer("wall segments", scene.wall_segments, "wall segment")),
       wall_tiles(gl::makeBuffer("wall tiles", scene.wall_tiles, "wall tile")),
-      has_bodies_(!std::ranges::all_of(scene.people, isDisc)) {
-    const std::size_t rows = scene.people.size();
+      chart_cells(gl::makeBuffer("chart cells", scene.chart_map.cells, "cell of a chart")),
+      chart_shifts(gl::makeBuffer("chart shifts", scene.chart_map.shifts, "chart")),
+      has_bodies_(!std::ranges::all_of(scene.people, isDisc)),
+      has_charts_(!scene.chart_map.empty()) {
+    const std::size_t rows = parameter_values.site_rows;
     const std::size_t cells = std::size_t{parameter_values.cells_width} * parameter_values.cells_height;
     const WallIndex walls = indexWalls(scene.wall_segments, parameter_values,
                                        parameter_values.contact_range + scene.largest_radius);
@@ -224,7 +231,7 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
     live_dispatch = gl::Buffer("live dispatch", kWord * 4);
     live_dispatch.fill(0);
 
-    site_slots = gl::makeBuffer("site slots", initialSiteSlots(scene), kSite);
+    site_slots = gl::makeBuffer("site slots", initialSiteSlots(scene, rows), kSite);
     bodies = gl::Buffer("bodies", {rows, sizeof(gpu::Body), kPerson});
     walkers = gl::Buffer("walkers",
                          {rows, sizeof(gpu::Walker) + (has_bodies_ ? gpu::MORE_OF_A_WALKER : 0), kPerson});
@@ -246,6 +253,10 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
     const std::size_t target_bytes = has_bodies_ ? sizeof(glm::vec4) : sizeof(glm::vec2);
     targets = gl::Buffer("targets", {rows, target_bytes, kPerson});
     targets_after = gl::Buffer("targets after contact", {rows, target_bytes, kPerson});
+    if (hasCharts()) {
+        slot_images = gl::Buffer("slot images", {rows, sizeof(gpu::SlotImage), kPerson});
+        row_slots = gl::Buffer("row slots", {scene.people.size(), kWord, kPerson});
+    }
     queue_heads.fill(0);
     tickets.fill(0);
     detour_slopes.fill(0);
@@ -261,7 +272,15 @@ gl::ComputeProgram Buffers::connect(const gl::ShaderLibrary& library, const gl::
 
 gl::Definitions Buffers::definitions(const MotionSettings& rules) const {
     gl::Definitions all = rules.definitions();
+    for (const auto& definition : definitions())
+        all.push_back(definition);
+    return all;
+}
+
+gl::Definitions Buffers::definitions() const {
+    gl::Definitions all;
     if (has_bodies_) all.emplace_back("BODIES", "1");
+    if (hasCharts()) all.emplace_back("CHARTS", "1");
     return all;
 }
 
@@ -276,6 +295,10 @@ std::vector<std::pair<std::string, const gl::Buffer*>> Buffers::named() const {
             {"LinePoints", &line_points},
             {"Tickets", &tickets},
             {"RoadDistances", &road_distances},
+            {"ChartCells", &chart_cells},
+            {"ChartShifts", &chart_shifts},
+            {"SlotImages", &slot_images},
+            {"RowSlots", &row_slots},
             {"DetourSlopes", &detour_slopes},
             {"Queues", &queues},
             {"QueueHeads", &queue_heads},

@@ -34,6 +34,8 @@ struct Buffers {
     gl::Buffer detour_slopes;                                          // what jams add to them
     gl::Buffer queues, queue_heads, entries, entry_points, proposals;  // entering
     gl::Buffer wall_segments, wall_tiles, wall_starts, wall_items, narrow_cells;
+    gl::Buffer chart_cells, chart_shifts;
+    gl::Buffer slot_images, row_slots;  // none without charts
 
     gl::Buffer cell_counts, cell_offsets, cell_cursors;                    // per cell
     gl::Buffer strip_counts, strip_marks, strip_starts, strip_group_sums;  // per strip of cells
@@ -50,6 +52,10 @@ struct Buffers {
     std::vector<std::pair<std::string, const gl::Buffer*>> named() const;
     /// Whether anybody is no disc.
     bool hasBodies() const { return has_bodies_; }
+    /// Whether the ground is cut into charts.
+    bool hasCharts() const { return has_charts_; }
+    /// What programs are compiled with that know what people and ground there are.
+    gl::Definitions definitions() const;
     /// What programs that move people are compiled with.
     gl::Definitions definitions(const MotionSettings& rules) const;
     /// Slots that per-slot lists are laid out for.
@@ -58,7 +64,7 @@ struct Buffers {
     }
 
   private:
-    bool has_bodies_;
+    bool has_bodies_, has_charts_;
 };
 
 /// Cells, windows and limits that follow from a scene.

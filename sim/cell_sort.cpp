@@ -7,7 +7,7 @@ namespace {
 const gl::Declaration kCount = {
     "cells",
     {"shaders/cells/cells_count.comp"},
-    {"ParametersBlock", "States", "CellCounts", "StripCounts", "StripMarks", "StripListEnd", "RowCells"},
+    {"ParametersBlock", "States", "ChartCells", "ChartShifts", "CellCounts", "StripCounts", "StripMarks", "StripListEnd", "RowCells"},
     {"CellCounts", "StripCounts", "StripMarks", "StripListEnd", "StripList", "RowCells"}};
 const gl::Declaration kSum = {"cells", {"shaders/cells/counts_sum.comp"}, {"Counts"}, {"GroupSums"}};
 const gl::Declaration kScan = {
@@ -26,21 +26,20 @@ const gl::Declaration kScatter = {"cells",
 const gl::Declaration kGather = {"cells",
                                  {"shaders/cells/bodies_gather.comp"},
                                  {"ParametersBlock", "LiveDispatch", "People", "States", "RowCells",
-                                  "LooseRows", "StripStarts", "CellOffsets", "Chests"},
-                                 {"SiteSlots", "Bodies", "Walkers", "Sites"}};
+                                  "LooseRows", "StripStarts", "CellOffsets", "Chests", "ChartCells", "ChartShifts"},
+                                 {"SiteSlots", "Bodies", "Walkers", "Sites", "SlotImages", "RowSlots"}};
 
 }  // namespace
 
 CellSort::CellSort(const gl::ShaderLibrary& library, Buffers& buffers, const gpu::Parameters& parameters)
     : buffers_(buffers),
-      rows_(parameters.row_count),
-      count_(buffers.connect(library, kCount)),
+      rows_(parameters.site_rows),
+      count_(buffers.connect(library, kCount, buffers.definitions())),
       sum_(buffers.connect(library, kSum)),
       scan_(buffers.connect(library, kScan)),
       fill_(buffers.connect(library, kFill)),
       scatter_(buffers.connect(library, kScatter)),
-      gather_(buffers.connect(library, kGather,
-                              buffers.hasBodies() ? gl::Definitions{{"BODIES", "1"}} : gl::Definitions{})) {
+      gather_(buffers.connect(library, kGather, buffers.definitions())) {
     const auto strips = static_cast<std::uint32_t>(buffers.strip_counts.bytes() / sizeof(std::uint32_t));
     sum_.set("count_total", strips);
     scan_.set("count_total", strips);

@@ -111,8 +111,9 @@ void WaitingLines::run() {
 }
 
 Avoidance::Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, int neighbours,
-                     const TerrainSlopes* ground, const MotionSettings& rules)
+                     const TerrainSlopes* ground, const MotionSettings& rules, Seams* seams)
     : buffers_(buffers),
+      seams_(seams),
       steer_(makeSteer(library, buffers, ground, rules)),
       avoid_(makeAvoid(library, buffers, neighbours, rules)),
       carry_on_(makeCarryOn(library, buffers, rules)) {}
@@ -120,17 +121,22 @@ Avoidance::Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, int nei
 void Avoidance::run(std::uint32_t steps_done) {
     steer_.setIfUsed("steps_done", steps_done);
     steer_.dispatchIndirect(buffers_.live_dispatch);
+    if (seams_) seams_->takeAlong(Seams::After::steering);
     avoid_.dispatchIndirect(buffers_.live_dispatch);
+    if (seams_) seams_->takeAlong(Seams::After::avoiding);
 }
 
 void Avoidance::carryOn() {
     carry_on_.dispatchIndirect(buffers_.live_dispatch);
+    if (seams_) seams_->takeAlong(Seams::After::carrying_on);
 }
 
 Contacts::Contacts(const gl::ShaderLibrary& library, Buffers& buffers, int iterations,
-                   const MotionSettings& rules)
+                   const MotionSettings& rules, Seams* seams)
     : Contacts(library, buffers, iterations, rules,
-               {buffers.targets, buffers.targets_after, buffers.touch_words}) {}
+               {buffers.targets, buffers.targets_after, buffers.touch_words}) {
+    seams_ = seams;
+}
 
 Contacts::Contacts(const gl::ShaderLibrary& library, const Buffers& buffers, int iterations,
                    const MotionSettings& rules, const Places& places)
@@ -162,6 +168,7 @@ void Contacts::run() {
         round.set("momentum", momentum);
         round.setIfUsed("bracing", iteration < braced_ ? 1.0f : 0.0f);
         round.dispatchIndirect(buffers_.touch_dispatch);
+        if (seams_) seams_->takeAlong(iteration % 2 ? Seams::After::round_back : Seams::After::round_forth);
     }
 }
 

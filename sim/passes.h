@@ -5,6 +5,7 @@
 
 #include "sim/buffers.h"
 #include "sim/gl/program.h"
+#include "sim/seams.h"
 #include "sim/terrain_slopes.h"
 
 /// The passes that move people. Each owns its programs, says what they touch, binds them to the buffers once,
@@ -50,14 +51,16 @@ class WaitingLines {
 class Avoidance {
   public:
     /// @param ground that slows people down where it slopes, or null where it is flat
+    /// @param seams null: there are none
     Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, int neighbours, const TerrainSlopes* ground,
-              const MotionSettings& rules);
+              const MotionSettings& rules, Seams* seams = nullptr);
     void run(std::uint32_t steps_done);
     /// Steps between two decisions: as was decided.
     void carryOn();
 
   private:
     Buffers& buffers_;
+    Seams* seams_;
     gl::ComputeProgram steer_, avoid_, carry_on_;
 };
 
@@ -68,7 +71,8 @@ class Contacts {
     struct Places {
         const gl::Buffer &targets, &targets_after, &touch_words;
     };
-    Contacts(const gl::ShaderLibrary& library, Buffers& buffers, int iterations, const MotionSettings& rules);
+    Contacts(const gl::ShaderLibrary& library, Buffers& buffers, int iterations, const MotionSettings& rules,
+             Seams* seams = nullptr);
     Contacts(const gl::ShaderLibrary& library, const Buffers& buffers, int iterations,
              const MotionSettings& rules, const Places& places);
     void run();
@@ -78,6 +82,7 @@ class Contacts {
   private:
     const Buffers& buffers_;
     Places places_;
+    Seams* seams_ = nullptr;
     int iterations_;
     int braced_;             // of these, the first ones, in which weights count
     float spectral_radius_;  // 0 = without momentum

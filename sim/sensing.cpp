@@ -9,13 +9,13 @@ namespace {
 const gl::Declaration kMarch = {
     "sensing",
     {"shaders/sensing/sense.comp"},
-    {"ParametersBlock", "LiveDispatch", "Bodies", "StripStarts", "CellOffsets", "WallSegments", "WallStarts",
+    {"ParametersBlock", "LiveDispatch", "SlotImages", "Bodies", "StripStarts", "CellOffsets", "WallSegments", "WallStarts",
      "NarrowCells", "WallTiles", "owners", "page_table", "TouchDispatch"},
     {"Neighbours", "NeighbourCounts", "TouchWords", "TouchLists", "TouchSlots", "TouchDispatch"}};
 const gl::Declaration kCompare = {
     "sensing",
     {"shaders/sensing/sense_exact.comp"},
-    {"ParametersBlock", "LiveDispatch", "Bodies", "StripStarts", "CellOffsets", "WallSegments", "WallStarts",
+    {"ParametersBlock", "LiveDispatch", "SlotImages", "Bodies", "StripStarts", "CellOffsets", "WallSegments", "WallStarts",
      "NarrowCells", "FarWallStarts", "FarWallItems", "TouchDispatch"},
     {"Neighbours", "NeighbourCounts", "TouchWords", "TouchLists", "TouchSlots", "TouchDispatch"}};
 
@@ -36,6 +36,7 @@ void Sensing::marchRays(const gl::ShaderLibrary& library, const Diagram& diagram
                         const SensingOptions& options) {
     const std::vector<glm::vec2> pattern = thinnedPattern(options.geometry, options.felt_range);
     gl::Definitions definitions = {{"NEIGHBOURS", std::to_string(options.neighbours)}};
+    if (buffers_.hasCharts()) definitions.emplace_back("CHARTS", "1");
     definitions.emplace_back("SENSING_SAMPLES", std::to_string(pattern.size()));
     for (const auto& definition : diagram.lookupDefinitions())
         definitions.push_back(definition);
@@ -49,6 +50,7 @@ void Sensing::compareExactly(const gl::ShaderLibrary& library, const SensingOpti
     const float reach = sensingReach(options.geometry);
     const bool everybody = proximity_ == authoring::Proximity::brute;
     gl::Definitions definitions = {{"NEIGHBOURS", std::to_string(options.neighbours)}};
+    if (buffers_.hasCharts()) definitions.emplace_back("CHARTS", "1");
     if (everybody) definitions.emplace_back("EVERYBODY", "1");
     program_ = buffers_.connect(library, kCompare, definitions);
     program_.set("reach", reach);

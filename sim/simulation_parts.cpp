@@ -9,7 +9,7 @@ namespace {
 
 const gl::Declaration kPack = {"frame",
                                {"shaders/frame/pack_frame.comp"},
-                               {"ParametersBlock", "People", "States", "Stages"},
+                               {"ParametersBlock", "People", "States", "Stages", "ChartCells", "ChartShifts"},
                                {"FrameBlock"}};
 
 SensingOptions sensingFor(const authoring::Scene& scene, const gpu::Parameters& parameters) {
@@ -56,7 +56,7 @@ Diagram diagramFor(const authoring::Scene& scene, const gpu::Parameters& paramet
     options.cone_sides = static_cast<std::uint32_t>(scene.settings.cone_sides);
     options.width = parameters.diagram_width;
     options.height = parameters.diagram_height;
-    options.live_capacity = parameters.row_count;
+    options.live_capacity = parameters.site_rows;
     options.largest_radius =
         std::max(parameters.tile_radius, scene.largest_radius) * parameters.pixels_per_metre;
     options.look = lookOf(scene, parameters);
@@ -79,12 +79,15 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
       sensing(library, buffers, diagram, sensingFor(scene, parameters), scene, parameters),
       slopes(scene.terrain && settings.motion.isOn("slope_pace") ? std::optional<TerrainSlopes>(scene.terrain)
                                                                  : std::nullopt),
-      avoidance(library, buffers, settings.neighbours, slopes ? &*slopes : nullptr, settings.motion),
-      contacts(library, buffers, settings.contact_iterations, settings.motion),
+      seams(buffers.hasCharts() ? std::optional<Seams>(std::in_place, library, buffers, settings.motion)
+                                : std::nullopt),
+      avoidance(library, buffers, settings.neighbours, slopes ? &*slopes : nullptr, settings.motion,
+                seams ? &*seams : nullptr),
+      contacts(library, buffers, settings.contact_iterations, settings.motion, seams ? &*seams : nullptr),
       motion(library, buffers, contacts.result(), settings.motion),
       lines(library, buffers, static_cast<std::uint32_t>(scene.lines.size())),
       gates(scene, buffers, diagram, parameters),
-      pack(buffers.connect(library, kPack)),
+      pack(buffers.connect(library, kPack, buffers.definitions())),
       costs(cost_model),
       look(double{lookOf(scene, parameters)}),
       rows(parameters.row_count),
@@ -125,7 +128,11 @@ std::vector<Pass> Simulation::Parts::passesOfStep() {
         motion.run(steps_done);
         lines.run();
     };
-    return {{"cells", when_deciding([this] { cells.run(); })},
+    const auto sort = [this] {
+        if (seams) seams->cross();
+        cells.run();
+    };
+    return {{"cells", when_deciding(sort)},
             {"routes", when_deciding([this] { congestion.run(); })},
             {"spawn", when_deciding(enter)},
             {"diagram", when_deciding(build)},

@@ -39,6 +39,7 @@ struct Simulation::Parts {
     Spawner spawner;
     Sensing sensing;
     std::optional<TerrainSlopes> slopes;  // none on flat ground
+    std::optional<Seams> seams;           // none without charts
     Avoidance avoidance;
     Contacts contacts;
     Motion motion;

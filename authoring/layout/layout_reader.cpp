@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "authoring/layout/level_reader.h"
 #include "authoring/layout/object_reader.h"
 #include "authoring/layout/people_reader.h"
 #include "authoring/layout/place_reader.h"
@@ -30,6 +31,8 @@ class Reader {
         reader.text("name", layout_.name);
         if (const JsonNode* node = reader.get("simulation")) readSimulation(*node, reader.rule("simulation"));
         if (const JsonNode* node = reader.get("motion")) readMotion(*node, reader.rule("motion"));
+        eachOf(reader, "levels", [this](const JsonNode& node) { levels_.readLevel(node); });
+        eachOf(reader, "links", [this](const JsonNode& node) { levels_.readLink(node); });
         eachOf(reader, "roads", [this](const JsonNode& node) { readRoad(node); });
         eachOf(reader, "areas", [this](const JsonNode& node) { readArea(node); });
         eachOf(reader, "walls", [this](const JsonNode& node) { readWall(node); });
@@ -194,6 +197,7 @@ class Reader {
         road.centreline = reader.points("centreline");
         reader.number("width", road.width);
         reader.boolean("one_way", road.one_way);
+        road.level = levels_.levelOf(reader);
         reader.finish();
         claimId(node, road.id, roads_, layout_.roads.size(), "a road");
         layout_.roads.push_back(std::move(road));
@@ -206,8 +210,9 @@ class Reader {
         if (!reader.isObject()) return;
         reader.requiredText("id", "the name that flows use", area.id);
         area.polygon = reader.points("polygon");
+        area.level = levels_.levelOf(reader);
         reader.finish();
-        checkPolygon(area.polygon, node.find("polygon"));
+        checkPolygon(area.polygon, node.find("polygon"), diagnostics_);
         claimId(node, area.id, areas_, layout_.areas.size(), "an area");
         layout_.areas.push_back(std::move(area));
     }
@@ -229,6 +234,7 @@ class Reader {
         if (thickness && wall.closed)
             diagnostics_.warning(thickness->where, "a closed wall is solid: its thickness has no effect");
         reader.number("height", wall.height);
+        wall.level = levels_.levelOf(reader);
         reader.finish();
         if (wall.closed) mendObstacle(wall, node.find("points"));
         claimId(node, wall.id, walls_, layout_.walls.size(), "a wall");
@@ -273,7 +279,7 @@ class Reader {
         std::vector<glm::dvec2> mended = wall.points;
         const std::size_t removed = removeSpikes(mended);
         if (mended.size() < 3 || std::abs(signedArea(mended)) < 1.0e-6) {
-            if (selfCrossing(wall.points, false)) return checkPolygon(wall.points, node);
+            if (selfCrossing(wall.points, false)) return checkPolygon(wall.points, node, diagnostics_);
             wall.closed = false;
             wall.thickness = 0.0;
             wall.points.push_back(wall.points.front());
@@ -286,7 +292,7 @@ class Reader {
             diagnostics_.warning(node->where, fmt::format("the outline runs back over itself: {} of its "
                                                           "points are left out",
                                                           removed));
-        if (selfCrossing(wall.points, false)) return checkPolygon(wall.points, node);
+        if (selfCrossing(wall.points, false)) return checkPolygon(wall.points, node, diagnostics_);
         if (const auto touching = selfCrossing(wall.points))
             diagnostics_.warning(
                 node->where,
@@ -294,19 +300,6 @@ class Reader {
                             touching->point.x, touching->point.y, touching->first_edge,
                             touching->second_edge),
                 "what lies between is solid all the same, but may not be what was meant");
-    }
-
-    void checkPolygon(std::vector<glm::dvec2>& polygon, const JsonNode* node) {
-        if (!node || polygon.size() < 3) return;
-        if (polygon.front() == polygon.back()) polygon.pop_back();  // closed by hand, as many tools write it
-        if (const auto crossing = selfCrossing(polygon))
-            diagnostics_.error(node->where,
-                               fmt::format("the polygon crosses itself at [{:.6g}, {:.6g}] (edges {} and {})",
-                                           crossing->point.x, crossing->point.y, crossing->first_edge,
-                                           crossing->second_edge),
-                               "reorder its points so that they run once round the outline");
-        else if (std::abs(signedArea(polygon)) < 1.0e-6)
-            diagnostics_.error(node->where, "the polygon has no area");
     }
 
     void readArrival(ObjectReader& reader, Arrival& arrival) {
@@ -488,6 +481,7 @@ class Reader {
         formation.people = readPeople(reader, diagnostics_);
         readArrival(reader, formation.arrival);
         reader.number("goal_tolerance", formation.goal_tolerance);
+        formation.level = levels_.levelOf(reader);
         if (type) reader.finish();
         claimId(node, formation.id, groups_, std::string::npos, "a flow or formation");
         layout_.formations.push_back(std::move(formation));
@@ -659,6 +653,7 @@ class Reader {
     std::optional<SourcePosition> simulation_where_;
     std::map<std::string, std::size_t> roads_, areas_, walls_, groups_;  // groups: flows by index, formations
     PlaceReader places_{schema_, roads_, areas_, diagnostics_};
+    LevelReader levels_{schema_, layout_, diagnostics_};
 };
 
 }  // namespace

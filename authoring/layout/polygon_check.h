@@ -6,6 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "authoring/layout/json_document.h"
+
 namespace throng::authoring {
 
 struct Crossing {
@@ -21,6 +23,10 @@ std::optional<Crossing> selfCrossing(const std::vector<glm::dvec2>& polygon, boo
 /// Takes points out that are there twice in a row, and those at which the outline runs back over itself: they
 /// bound nothing. @returns how many
 std::size_t removeSpikes(std::vector<glm::dvec2>& polygon);
+
+/// Drops a point that closes it by hand, as many tools write it, and tells of outlines that cross themselves or
+/// bound nothing. @param node where it stands; null, or of less than three points: nothing is told
+void checkPolygon(std::vector<glm::dvec2>& polygon, const JsonNode* node, Diagnostics& diagnostics);
 
 /// Positive for counter-clockwise polygons, m^2.
 double signedArea(const std::vector<glm::dvec2>& polygon);

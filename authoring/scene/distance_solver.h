@@ -4,12 +4,24 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "authoring/scene.h"
 
 /// Ground to walk on as a grid, and who works distances out on it.
 namespace throng::authoring {
+
+/// What a grid's cells have to do with charts (authoring/storeys/charts.h).
+struct SeamCells {
+    std::vector<std::uint8_t> blocked;  ///< 1: nobody's ground, or another chart's; per cell
+    /// A cell that shows another chart's ground, and the cell that it shows: these are one place.
+    struct Shown {
+        std::uint32_t image, owner;
+    };
+    std::vector<Shown> shown;             ///< in the order of their owners
+    std::vector<std::uint32_t> owner_of;  ///< per cell: itself, or what it shows
+};
 
 /// How hard it is to walk, cell by cell.
 struct WalkMap {
@@ -19,6 +31,8 @@ struct WalkMap {
         one_way;  ///< unit direction that may not be walked against, or zero; empty when there is none
     std::vector<std::uint8_t>
         open_sides;  ///< gpu::OPEN_TO_X, OPEN_TO_Y: where one may go to the next cell; empty = all
+
+    std::shared_ptr<const SeamCells> seams = {};  ///< null: there are no charts
 
     /// Whether there are closed sides or one-way roads.
     bool isBound() const { return !open_sides.empty() || !one_way.empty(); }

@@ -92,13 +92,8 @@ class Marcher {
         while (!fronts_.empty()) {
             const Front front = fronts_.pop();
             if (settled_[front.cell] < kUnreachable) continue;
-            settled_[front.cell] = front.distance;
-            for (const std::uint32_t cell :
-                 {front.cell - 1, front.cell + 1, front.cell - width_, front.cell + width_}) {
-                if (settled_[cell] < kUnreachable || steps_[cell] == kUnreachable) continue;
-                const float found = solve(cell);
-                if (found < tentative_[cell]) push(cell, found);
-            }
+            settle(front.cell, front.distance);
+            if (map_.seams) settleImages(front);
         }
     }
 
@@ -117,6 +112,24 @@ class Marcher {
     std::uint32_t padded(std::uint32_t x, std::uint32_t y) const { return (y + 1) * width_ + x + 1; }
     std::uint32_t unpadded(std::uint32_t cell) const {
         return (cell / width_ - 1) * grid_.width + cell % width_ - 1;
+    }
+
+    void settle(std::uint32_t at, float distance) {
+        settled_[at] = distance;
+        for (const std::uint32_t cell : {at - 1, at + 1, at - width_, at + width_}) {
+            if (settled_[cell] < kUnreachable || steps_[cell] == kUnreachable) continue;
+            const float found = solve(cell);
+            if (found < tentative_[cell]) push(cell, found);
+        }
+    }
+
+    /// Where other charts show the cell, the way goes on from there as well.
+    void settleImages(const Front& front) {
+        const auto& shown = map_.seams->shown;
+        const std::uint32_t owner = unpadded(front.cell);
+        auto next = std::ranges::lower_bound(shown, owner, {}, &SeamCells::Shown::owner);
+        for (; next != shown.end() && next->owner == owner; ++next)
+            settle(padded(next->image % grid_.width, next->image / grid_.width), front.distance);
     }
 
     void push(std::uint32_t cell, float distance) {
@@ -247,8 +260,9 @@ void fillBlocked(const FieldGrid& grid, Solved& field) {
 }
 
 /// Downhill everywhere. Inside a wide target all is zero: there it points at its middle.
-std::vector<glm::vec2> directionsOf(const FieldGrid& grid, const std::vector<float>& distance,
+std::vector<glm::vec2> directionsOf(const WalkMap& map, const std::vector<float>& distance,
                                     std::span<const std::uint32_t> targets) {
+    const FieldGrid& grid = map.grid;
     glm::vec2 middle(0.0f);
     for (const std::uint32_t cell : targets)
         middle += cellCentre(grid, cell % grid.width, cell / grid.width) / static_cast<float>(targets.size());
@@ -260,6 +274,9 @@ std::vector<glm::vec2> directionsOf(const FieldGrid& grid, const std::vector<flo
         const glm::vec2 inward = middle - cellCentre(grid, cell % grid.width, cell / grid.width);
         if (glm::length(inward) > 1.0e-4f) direction[cell] = glm::normalize(inward);
     }
+    if (map.seams)
+        for (const auto& [image, owner] : map.seams->shown)
+            direction[image] = direction[owner];
     return direction;
 }
 
@@ -279,7 +296,7 @@ Field solveField(const WalkMap& map, std::span<const std::uint32_t> targets, Dis
                       : map.isBound() ? marchFrom<true>(map, start)
                                       : marchFrom<false>(map, start);
     solved.length = wayLengths(map, solved.distance, start);
-    solved.direction = directionsOf(map.grid, solved.distance, targets);
+    solved.direction = directionsOf(map, solved.distance, targets);
     if (straight) solved.straight = straight->from;
     Field field;
     field.reachable = solved.distance;

@@ -64,6 +64,10 @@ std::string keyOf(const WalkGeometry& geometry, const GroundResolution& resoluti
     }
     for (const LocalPolygon& area : geometry.areas)
         appendAll(key, area);
+    if (geometry.charts) {
+        appendAll(key, geometry.charts->cells);
+        appendAll(key, geometry.charts->shifts);
+    }
     return key;
 }
 
@@ -82,7 +86,7 @@ GroundResolution resolutionFor(const WalkGeometry& geometry, std::size_t fields)
     GroundResolution resolution;
     resolution.grid = makeGrid(geometry, std::clamp(needed, kSmallestCell, kDoorCell));
     // Without walls there are no doors.
-    if (resolution.grid.cell_size > kDoorCell && !geometry.walls.empty()) {
+    if (resolution.grid.cell_size > kDoorCell && !geometry.walls.empty() && !geometry.charts) {
         resolution.block_cell = fields > 16 ? kDoorCell : kBlockCell;
         resolution.most_block_cells = static_cast<std::uint32_t>(
             std::clamp(kMostCellsOfBlocks / count, kFewestBlockCells, kMostBlockCells));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "authoring/scene/chart_map.h"
 #include "authoring/scene/raster.h"
 
 namespace throng::authoring {
@@ -65,6 +66,16 @@ std::vector<float> distanceTo(const std::vector<bool>& mask, bool wanted, const 
     return squared;
 }
 
+/// Links have no kerbs, and what lies beyond a seam goes on.
+void goOnOverSeams(const ChartMap& charts, const FieldGrid& grid, std::vector<bool>& inside) {
+    for (std::uint32_t cell = 0; cell < inside.size(); ++cell) {
+        const std::uint32_t chart = charts.chartAt(cellCentre(grid, cell % grid.width, cell / grid.width));
+        if (chart != gpu::NO_CHART && charts.is_link[chart]) inside[cell] = true;
+    }
+    for (const auto& [image, owner] : seamCellsOf(charts, grid).shown)
+        inside[image] = inside[owner];
+}
+
 }  // namespace
 
 // The union is rasterised first and measured afterwards: pieces that only share an edge (a road that ends at
@@ -78,6 +89,8 @@ std::vector<float> roadDistance(const WalkGeometry& geometry, const FieldGrid& g
     for (const LocalPolygon& area : geometry.areas)
         for (const std::uint32_t cell : cellsInPolygon(grid, area))
             inside[cell] = true;
+
+    if (geometry.charts) goOnOverSeams(*geometry.charts, grid, inside);
 
     const std::vector<float> to_outside = distanceTo(inside, false, grid);
     const std::vector<float> to_inside = distanceTo(inside, true, grid);

@@ -11,6 +11,7 @@
 #include <unordered_map>
 
 #include "authoring/layout/layout_reader.h"
+#include "authoring/scene/chart_map.h"
 #include "authoring/scene/itineraries.h"
 #include "authoring/scene/narrow_places.h"
 #include "authoring/scene/people.h"
@@ -75,7 +76,7 @@ class PlacedBodies {
 class Builder {
   public:
     Builder(const Layout& layout, Diagnostics& diagnostics, GroundCache& cache, const TerrainMesh* terrain,
-            DistanceSolver* solver)
+            DistanceSolver* solver, std::shared_ptr<const Charts> charts)
         : layout_(layout),
           diagnostics_(diagnostics),
           cache_(cache),
@@ -87,6 +88,7 @@ class Builder {
         scene_.output_origin = rebase_.outputOrigin();
         scene_.minimum = rebase_.minimum();
         scene_.maximum = rebase_.maximum();
+        if (charts) mapCharts(std::move(charts));
     }
 
     std::optional<Scene> build() {
@@ -118,6 +120,16 @@ class Builder {
     }
 
   private:
+    /// The plane begins where a cell of every grid does.
+    void mapCharts(std::shared_ptr<const Charts> charts) {
+        const auto step = static_cast<float>(kShiftStep);
+        scene_.minimum = glm::floor((scene_.minimum - static_cast<float>(charts->reach)) / step) * step;
+        scene_.maximum = glm::ceil((scene_.maximum + static_cast<float>(charts->reach)) / step) * step;
+        scene_.chart_map = makeChartMap(*charts, scene_.minimum, scene_.maximum, scene_.origin);
+        geometry_.charts = std::make_shared<const ChartMap>(scene_.chart_map);
+        scene_.charts = std::move(charts);
+    }
+
     /// Floats keep a centimetre up to here, and everything has as many parts as it is long.
     bool isOfSensibleSize() {
         const double most = layoutRules().rule().remark("x-most-extent").number;
@@ -140,7 +152,7 @@ class Builder {
             const std::size_t needed =
                 std::max<std::size_t>(1, routes.plan(goals) + Itineraries::destinationCount(layout_));
             if (fields > 1 || resolutionFor(geometry_, needed) == resolutionFor(geometry_, 1)) {
-                ground_->solveWith(solver_);
+                ground_->solveWith(scene_.charts ? nullptr : solver_);
                 scene_.grid = ground_->grid();
                 return routes;
             }
@@ -321,6 +333,9 @@ class Builder {
     }
 
     void buildTerrain() {
+        if (scene_.charts)
+            scene_.terrain = std::make_shared<const Terrain>(scene_.charts->plane_mesh, true, scene_.origin,
+                                                             scene_.minimum, scene_.maximum);
         if (!layout_.terrain || !terrain_mesh_) return;
         try {
             scene_.terrain = std::make_shared<const Terrain>(*terrain_mesh_, layout_.terrain->highest,
@@ -678,7 +693,8 @@ class Builder {
 
     void finish(Routes& routes) {
         scene_.field_count = routes.fieldCount();
-        if (layout_.simulation.avoid_congestion && layout_.simulation.motion.isOn("routes_round_jams"))
+        if (layout_.simulation.avoid_congestion && layout_.simulation.motion.isOn("routes_round_jams") &&
+            !scene_.charts)
             scene_.detours = routes.detours();
         scene_.fields = routes.store();
         scene_.road_distance = ground_->roadDistances();
@@ -708,7 +724,13 @@ class Builder {
 std::optional<Scene> buildScene(const Layout& layout, Diagnostics& diagnostics, GroundCache* cache,
                                 const TerrainMesh* terrain, DistanceSolver* solver) {
     GroundCache own;
-    return Builder(layout, diagnostics, cache ? *cache : own, terrain, solver).build();
+    std::shared_ptr<const Charts> charts;
+    if (!layout.levels.empty()) {
+        charts = layOut(layout, diagnostics);
+        if (!charts) return std::nullopt;
+    }
+    const Layout& plane = charts ? charts->plane : layout;
+    return Builder(plane, diagnostics, cache ? *cache : own, terrain, solver, charts).build();
 }
 
 }  // namespace throng::authoring

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <functional>
 
+#include "authoring/scene/chart_map.h"
 #include "authoring/scene/raster.h"
 
 namespace throng::authoring {
@@ -55,6 +56,20 @@ void markOneWays(const WalkGeometry& geometry, WalkMap& map) {
         visitInside(map.grid, area, release);
 }
 
+/// Cells of the grids of charts fit together wherever shifts take them; doors stay open on cells of a quarter metre.
+float chartCellSize(float wanted) {
+    constexpr float kDoorCell = 0.25f;
+    const float size = std::exp2(std::ceil(std::log2(wanted) - 1.0e-4f));
+    return wanted <= 2.0f * kDoorCell ? std::min(size, kDoorCell) : size;
+}
+
+/// People walk on their own chart's ground, and over seams.
+void blockOthers(const ChartMap& charts, WalkMap& map) {
+    map.seams = std::make_shared<const SeamCells>(seamCellsOf(charts, map.grid));
+    for (std::size_t cell = 0; cell < map.cost.size(); ++cell)
+        if (map.seams->blocked[cell]) map.cost[cell] = kUnreachable;
+}
+
 }  // namespace
 
 // How near to a wall a cell's centre may be: at least so that walls without thickness leave no gap between
@@ -83,6 +98,7 @@ FieldGrid makeGrid(const WalkGeometry& geometry, float smallest_cell, double mos
     };
     while (along(extent.x) * along(extent.y) > 2.0 * most_cells)
         grid.cell_size *= 1.25f;
+    if (geometry.charts) grid.cell_size = chartCellSize(grid.cell_size);
     grid.width = std::max(2u, static_cast<std::uint32_t>(std::ceil(extent.x / grid.cell_size)));
     grid.height = std::max(2u, static_cast<std::uint32_t>(std::ceil(extent.y / grid.cell_size)));
     return grid;
@@ -99,6 +115,7 @@ WalkMap makeWalkMap(const WalkGeometry& geometry, const FieldGrid& grid, bool ke
         markOneWays(geometry, map);
     }
     blockWalls(geometry, map);
+    if (geometry.charts) blockOthers(*geometry.charts, map);
     return map;
 }
 

@@ -20,7 +20,11 @@ class LengthTracer {
 
     std::vector<float> run() {
         for (std::uint32_t cell = 0; cell < lengths_.size(); ++cell)
-            if (distance_[cell] < kUnreachable && lengths_[cell] == kUnreachable) trace(cell);
+            if (distance_[cell] < kUnreachable && lengths_[cell] == kUnreachable && ownerOf(cell) == cell)
+                trace(cell);
+        if (map_.seams)
+            for (const auto& [image, owner] : map_.seams->shown)
+                lengths_[image] = lengths_[owner];
         return std::move(lengths_);
     }
 
@@ -63,12 +67,14 @@ class LengthTracer {
         Neighbour best;
         const auto look = [&](std::uint32_t next, glm::vec2 step) {
             const float fall = distance_[cell] - distance_[next];
-            if (fall > best.fall && mayGo(cell, next, step)) best = {next, fall};
+            if (fall > best.fall && mayGo(cell, next, step)) best = {ownerOf(next), fall};
         };
         if (has_low) look(cell - stride, -axis);
         if (has_high) look(cell + stride, axis);
         return best;
     }
+
+    std::uint32_t ownerOf(std::uint32_t cell) const { return map_.seams ? map_.seams->owner_of[cell] : cell; }
 
     bool mayGo(std::uint32_t cell, std::uint32_t next, glm::vec2 step) const {
         const std::uint8_t side = step.x != 0.0f ? gpu::OPEN_TO_X : gpu::OPEN_TO_Y;

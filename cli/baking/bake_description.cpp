@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <tuple>
 
 #include "authoring/layout/layout_reader.h"
 #include "authoring/scene/terrain_check.h"
@@ -24,7 +26,7 @@ std::vector<recording::BakeAgent> describeAgents(const authoring::Scene& scene) 
     for (std::size_t row = 0; row < scene.people.size(); ++row) {
         const gpu::Person& person = scene.people[row];
         agents.push_back({person.group, person.radius, person.preferred_speed, person.variation,
-                          person.party_first, scene.origin + glm::dvec2(scene.goals[row])});
+                          person.party_first, scene.origin + glm::dvec2(scene.chart_map.home(scene.goals[row]))});
         if (person.half_axis != 0.0f) {
             const double thickness = double{person.radius} - std::abs(double{person.half_axis});
             const double longer = 2.0 * double{person.radius};
@@ -37,6 +39,29 @@ std::vector<recording::BakeAgent> describeAgents(const authoring::Scene& scene) 
         agents.back().profile = scene.groups[person.group].profiles[person.kind];
     }
     return agents;
+}
+
+/// Of a layout with levels: its floors and links are the ground, and end in railings.
+void describeCharts(const LoadedLayout& loaded, recording::BakeDescription& bake) {
+    constexpr double kMargin = 3.0;  // m
+    const authoring::Scene& scene = loaded.scene;
+    const authoring::Charts& charts = *scene.charts;
+    bake.charts.emplace();
+    bake.charts->walls = charts.plane.walls;
+    bake.charts->minimum = bake.minimum;
+    bake.charts->maximum = bake.maximum;
+    std::tie(bake.minimum, bake.maximum) = charts.charts.front().bounds();
+    for (const authoring::Chart& chart : charts.charts) {
+        bake.charts->shifts.push_back(chart.shift);
+        const auto [lower, upper] = chart.bounds();
+        bake.minimum = glm::min(bake.minimum, lower - kMargin);
+        bake.maximum = glm::max(bake.maximum, upper + kMargin);
+    }
+    bake.levels = loaded.layout.levels;
+    bake.walls = charts.walls;
+    bake.terrain = recording::BakeTerrain{
+        std::shared_ptr<const authoring::TerrainMesh>(scene.charts, &charts.home_mesh), scene.terrain, "levels", "",
+        charts.ground_along_walls};
 }
 
 }  // namespace
@@ -80,6 +105,7 @@ recording::BakeDescription describeBake(const LoadedLayout& loaded, const BakeOp
     bake.roads = loaded.layout.roads;
     bake.areas = loaded.layout.areas;
     bake.walls = loaded.layout.walls;
+    if (scene.charts) describeCharts(loaded, bake);
     if (loaded.terrain) {
         const authoring::Rebase rebase(loaded.layout);
         bake.terrain = recording::BakeTerrain{

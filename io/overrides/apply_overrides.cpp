@@ -133,7 +133,9 @@ class Application {
                 source_.manifest["geometry"]["walls"].at(i).value("ground", Json::array({0.0, 0.0}));
             terrain_->along_walls.emplace_back(ground.at(0).get<double>(), ground.at(1).get<double>());
         }
-        footing_.emplace(terrain_->surface, source_.agents, source_.fps);
+        // Of floors above each other, nobody knows any more who walks on which: heights stay what they are.
+        if (!source_.manifest.contains("levels"))
+            footing_.emplace(terrain_->surface, source_.agents, source_.fps);
     }
 
     void stand(ChangedRow& each, const RowSample& sample) {

@@ -18,6 +18,12 @@ layout(std430) writeonly buffer Sites { DiagramSite sites[]; };
 uniform uint ids_are_rows;  // 0: slots
 
 #include "shaders/cells/cell_starts.glsl"
+#include "shaders/shared/charts.glsl"
+#include "shaders/shared/images.glsl"
+#ifdef CHARTS
+layout(std430) writeonly buffer SlotImages { SlotImage slot_images[]; };
+layout(std430) writeonly buffer RowSlots { uint row_slots[]; };
+#endif
 #ifdef BODIES
 layout(std430) readonly buffer Chests { Chest chests[]; };
 #include "shaders/shared/body_shape.glsl"
@@ -29,17 +35,25 @@ layout(std430) readonly buffer Chests { Chest chests[]; };
 void main() {
     uint loose = gl_GlobalInvocationID.x;
     if (loose >= live_count) return;
-    uint row = loose_rows[loose];
-    uint cell = row_cells[row];
+    uint site_row = loose_rows[loose];
+    uint cell = row_cells[site_row];
     uint first = cellStart(cell);
     uint last = cellStart(cell + 1u);
     uint slot = first;
-    for (uint other = first; other < last; ++other) slot += loose_rows[other] < row ? 1u : 0u;
+    for (uint other = first; other < last; ++other) slot += loose_rows[other] < site_row ? 1u : 0u;
 
+    uint row = personOf(site_row);
     AgentState state = states[row];
     Person person = people[row];
+    vec2 shift;
+    imageShift(site_row, state.position, shift);
+#ifdef CHARTS
+    bool is_image = site_row != row;
+    slot_images[slot] = SlotImage(shift, is_image ? row : NO_INDEX, 0u);
+    if (!is_image) row_slots[row] = slot;
+#endif
     Body body;
-    body.position = state.position;
+    body.position = state.position + shift;
     body.velocity = state.velocity;
     body.radius = person.radius;
     body.heading = state.heading;
@@ -49,7 +63,11 @@ void main() {
 #ifdef BODIES
     vec2 axis = axisAt(chests[row].angle, chests[row].half_axis);
 #endif
-    walkers[slot] = Walker(person.preferred_speed, person.headway, person.flags, person.party_first, person.party_size,
+    uint flags = person.flags;
+#ifdef CHARTS
+    if (is_image) flags |= WALKER_IS_IMAGE;
+#endif
+    walkers[slot] = Walker(person.preferred_speed, person.headway, flags, person.party_first, person.party_size,
                            person.change_count, state.status, state.stage, state.stage_end, state.leave_step,
                            state.ticket, state.nervousness, 0u SHAPE);
 
@@ -57,7 +75,7 @@ void main() {
     DiagramSite site;
     site.position = pixel;
     site.radius = max(parameters.tile_radius, body.radius) * parameters.pixels_per_metre;
-    site.id = ids_are_rows != 0u ? row : slot;
+    site.id = ids_are_rows != 0u ? site_row : slot;
     sites[slot] = site;
     site_slots[site.id] = slot;
 }

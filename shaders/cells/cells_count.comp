@@ -15,6 +15,7 @@ layout(std430) buffer RowCells { uint row_cells[]; };
 
 #include "shaders/cells/cells.glsl"
 #include "shaders/shared/alive.glsl"
+#include "shaders/shared/charts.glsl"
 
 void list(uint strip) {
     if (strip_marks[strip] == 0u && atomicExchange(strip_marks[strip], 1u) == 0u)
@@ -23,12 +24,14 @@ void list(uint strip) {
 
 void main() {
     uint row = gl_GlobalInvocationID.x;
-    if (row >= parameters.row_count) return;
+    if (row >= parameters.site_rows) return;
     uint before = row_cells[row];
     if (before != NO_INDEX) list(before / CELLS_PER_STRIP);
     uint cell = NO_INDEX;
-    if (isAlive(states[row].status)) {
-        cell = cellIndex(cellOf(states[row].position));
+    uint person = personOf(row);
+    vec2 shift;
+    if (isAlive(states[person].status) && imageShift(row, states[person].position, shift)) {
+        cell = cellIndex(cellOf(states[person].position + shift));
         atomicAdd(cell_counts[cell], 1u);
         atomicAdd(strip_counts[cell / CELLS_PER_STRIP], 1u);
         list(cell / CELLS_PER_STRIP);

@@ -13,7 +13,7 @@ uniform uint ids_are_rows;  // of the sites, see bodies_gather.comp
 
 void main() {
     uint row = gl_GlobalInvocationID.x;
-    if (row >= parameters.row_count) return;
+    if (row >= parameters.site_rows) return;
     uint cell = row_cells[row];
     bool site_exists = ids_are_rows != 0u ? cell != NO_INDEX : row < live_count;
     if (!site_exists) site_slots[row] = NO_INDEX;

@@ -11,6 +11,16 @@ layout(std430) readonly buffer Stages { Stage stages[]; };
 layout(std430) writeonly buffer FrameBlock { float frame[]; };  // positions of all rows, then directions, then states
 
 #include "shaders/shared/alive.glsl"
+#include "shaders/shared/charts.glsl"
+
+/// Recordings go back to home coordinates by it; 0 where there are no charts.
+float chartNumberAt(vec2 position) {
+#ifdef CHARTS
+    return float(chartOf(chartCellAt(position)));
+#else
+    return 0.0;
+#endif
+}
 
 void put(uint stream, uint row, vec3 value) {
     uint at = (stream * parameters.row_count + row) * 3u;
@@ -31,7 +41,7 @@ void main() {
     if (row >= parameters.row_count) return;
     AgentState state = states[row];
     bool alive = isAlive(state.status);
-    put(0u, row, vec3(state.position, 0.0));
+    put(0u, row, vec3(state.position, chartNumberAt(state.position)));
     put(1u, row, vec3(cos(state.heading), sin(state.heading), alive ? length(state.velocity) : 0.0));
     put(2u, row, vec3(alive ? float(activityOf(state)) : 0.0, float(people[row].variation), people[row].phase));
 }

@@ -28,6 +28,7 @@ uniform uint slot_capacity;
 #define CONSTRAINT_CAPACITY (int(WALL_CONSTRAINTS) + 1)
 
 #include "shaders/shared/at_most.glsl"
+#include "shaders/shared/images.glsl"
 #include "shaders/cells/cells.glsl"
 #include "shaders/shared/walls.glsl"
 #include "shaders/motion/linear_program.glsl"
@@ -64,7 +65,7 @@ bool anybodyIsOncoming(uint slot) {
 
 void main() {
     uint slot = gl_GlobalInvocationID.x;
-    if (slot >= live_count) return;
+    if (slot >= live_count || isImage(walkers[slot].flags)) return;
     Body self = bodies[slot];
     Walker walker = walkers[slot];
     vec2 wish = preferred_velocities[slot];

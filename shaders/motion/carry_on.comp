@@ -16,6 +16,7 @@ layout(std430) writeonly buffer Ways { vec2 ways[]; };
 
 #include "shaders/shared/alive.glsl"
 #include "shaders/shared/at_most.glsl"
+#include "shaders/shared/images.glsl"
 #include "shaders/motion/drive.glsl"
 #include "shaders/motion/under_way.glsl"
 #include "shaders/motion/planted_feet.glsl"
@@ -61,7 +62,7 @@ vec2 asDecided(Body self, Walker walker, Decision decision) {
 
 void main() {
     uint slot = gl_GlobalInvocationID.x;
-    if (slot >= live_count) return;
+    if (slot >= live_count || isImage(walkers[slot].flags)) return;
     AgentState state = states[bodies[slot].row];
     takeOver(slot, state);
     // Who has left stays where it was last, for a step.

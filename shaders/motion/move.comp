@@ -23,6 +23,7 @@ layout(std430) buffer States { AgentState states[]; };
 uniform uint steps_done;  // counted with this one
 
 #include "shaders/shared/alive.glsl"
+#include "shaders/shared/images.glsl"
 #include "shaders/routes/route.glsl"
 #include "shaders/motion/waiting_line.glsl"
 #include "shaders/motion/under_way.glsl"
@@ -48,7 +49,7 @@ Chest chestAfter(Walker walker, vec2 axis) {
 
 void main() {
     uint slot = gl_GlobalInvocationID.x;
-    if (slot >= live_count) return;
+    if (slot >= live_count || isImage(walkers[slot].flags)) return;
     Body self = bodies[slot];
     AgentState state = states[self.row];
     if (!isAlive(state.status)) return;  // it left after the last decision

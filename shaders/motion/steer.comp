@@ -20,6 +20,7 @@ layout(std430) writeonly buffer PreferredVelocities { vec2 preferred_velocities[
 uniform uint steps_done;  // counted with this one
 
 #include "shaders/shared/random.glsl"
+#include "shaders/shared/images.glsl"
 #include "shaders/routes/route.glsl"
 #include "shaders/motion/waiting_line.glsl"
 #include "shaders/motion/symmetry_breaking.glsl"
@@ -38,7 +39,7 @@ uniform uint steps_done;  // counted with this one
 
 void main() {
     uint slot = gl_GlobalInvocationID.x;
-    if (slot >= live_count) return;
+    if (slot >= live_count || isImage(walkers[slot].flags)) return;
     uint row = bodies[slot].row;
     vec2 position = bodies[slot].position;
     Walker walker = walkers[slot];

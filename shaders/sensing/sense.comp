@@ -16,6 +16,9 @@
 
 #include "shaders/sensing/neighbour_list.glsl"
 #include "shaders/diagram/owners.glsl"
+#ifdef CHARTS
+layout(std430) readonly buffer SlotImages { SlotImage slot_images[]; };
+#endif
 
 layout(std430) readonly buffer WallTiles { WallTile wall_tiles[]; };
 uniform vec2 pattern[SENSING_SAMPLES];  // m, in the person's own frame: where it looks
@@ -54,16 +57,19 @@ void weighBody(Body self, uint slot) {
 void main() {
     uint slot = gl_GlobalInvocationID.x;
     if (slot >= live_count) return;
+#ifdef CHARTS
+    if (slot_images[slot].person != NO_INDEX) return;
+#endif
     Body self = bodies[slot];
     forgetEverybody();
     uint touch_word = feelContacts(self, slot);
     int count = marchRays(self, slot);
     for (int i = 0; i < count; ++i) {
         uint site = candidates[i];
-        if (site < parameters.row_count)
+        if (site < parameters.site_rows)
             weighBody(self, site);
         else
-            weighWall(self.position, wall_tiles[site - parameters.row_count].segment);
+            weighWall(self.position, wall_tiles[site - parameters.site_rows].segment);
     }
     publish(slot, touch_word);
 }

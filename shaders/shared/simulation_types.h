@@ -122,6 +122,13 @@ struct Decision {
 #endif
 };
 
+/// Whether the person in a slot is one itself, or the image of one beside a seam (shaders/shared/charts.glsl).
+struct SlotImage {
+    vec2 shift;   // m: from the person to the image
+    uint person;  // the row of the person whose image it is; NO_INDEX: it is no image
+    uint reserved;
+};
+
 /// What a program of a crowd with bodies that are no discs (BODIES) has more of each person than C++ says,
 /// bytes.
 const uint MORE_OF_A_WALKER = 20u;
@@ -191,6 +198,10 @@ struct Parameters {
                               // next decision
     float maximum_acceleration;  // m/s^2
     uint is_wide;                // 1 = places are too coarse for steps (base/wide_site.h)
+    uint site_rows;              // rows of people, and as many for each image that one may have
+    float chart_cell;            // m, of the raster of charts, which begins where the fields' grid does
+    uint chart_width;            // cells
+    uint chart_height;
 };
 
 THRONG_SHARED_END

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "authoring/layout/level_reader.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "authoring/layout/polygon_check.h"
+
+namespace throng::authoring {
+namespace {
+
+constexpr double kSteepestRamp = 0.25, kSteepestStairs = 1.2;  // rise over run
+constexpr double kFlattestStairs = 0.2;
+
+}  // namespace
+
+void LevelReader::readLevel(const JsonNode& node) {
+    Level level;
+    level.where = node.where;
+    ObjectReader reader(node, schema_.definition("level"), "a level", diagnostics_);
+    if (!reader.isObject()) return;
+    reader.requiredText("id", "the name that others use", level.id);
+    reader.number("height", level.height);
+    level.floor = reader.points("floor");
+    reader.finish();
+    checkPolygon(level.floor, node.find("floor"), diagnostics_);
+    if (!level.id.empty() && !levels_.emplace(level.id, layout_.levels.size()).second)
+        diagnostics_.error(node.find("id")->where, fmt::format("there already is a level `{}`", level.id),
+                           "ids have to differ");
+    layout_.levels.push_back(std::move(level));
+}
+
+std::size_t LevelReader::levelNamed(const JsonNode& node) const {
+    if (node.kind != JsonNode::Kind::text) {
+        diagnostics_.error(node.where, fmt::format("expected a level's id, found {}", node.kindName()));
+        return 0;
+    }
+    if (const auto known = levels_.find(node.text); known != levels_.end()) return known->second;
+    std::vector<std::string> ids;
+    for (const auto& [id, index] : levels_)
+        ids.push_back(id);
+    diagnostics_.error(node.where, fmt::format("there is no level `{}`", node.text),
+                       ids.empty() ? "list it under `levels`" : hintFor(node.text, ids));
+    return 0;
+}
+
+std::size_t LevelReader::levelOf(ObjectReader& reader) const {
+    const JsonNode* node = reader.get("level");
+    return node ? levelNamed(*node) : 0;
+}
+
+void LevelReader::readLink(const JsonNode& node) {
+    Link link;
+    link.where = node.where;
+    ObjectReader reader(node, schema_.definition("link"), "a link", diagnostics_);
+    if (!reader.isObject()) return;
+    reader.requiredText("id", "its name", link.id);
+    reader.choice("type", {{"stairs", Link::Kind::stairs}, {"ramp", Link::Kind::ramp}}, link.kind);
+    const JsonNode* from = reader.require("from", "the level at which it begins");
+    const JsonNode* to = reader.require("to", "the level at which it ends");
+    const std::vector<glm::dvec2> path = reader.points("path");
+    reader.number("width", link.width);
+    reader.finish();
+    if (from) link.from = levelNamed(*from);
+    if (to) link.to = levelNamed(*to);
+    if (path.size() > 2)
+        diagnostics_.error(node.find("path")->where, "a link is straight: `path` is two points",
+                           "for stairs with a landing write two links, and a level for the landing");
+    if (!link.id.empty() && !links_.emplace(link.id, layout_.links.size()).second)
+        diagnostics_.error(node.find("id")->where, fmt::format("there already is a link `{}`", link.id),
+                           "ids have to differ");
+    if (path.size() != 2 || !from || !to || diagnostics_.hasErrors()) return;
+    link.begin = path[0];
+    link.end = path[1];
+    checkLink(link, node);
+    layout_.links.push_back(std::move(link));
+}
+
+void LevelReader::checkLink(const Link& link, const JsonNode& node) const {
+    if (link.from == link.to) {
+        diagnostics_.error(node.find("to")->where,
+                           fmt::format("link `{}` begins and ends at the same level", link.id));
+        return;
+    }
+    const double rise = std::abs(layout_.levels[link.to].height - layout_.levels[link.from].height);
+    const double run = glm::distance(link.begin, link.end);
+    const bool stairs = link.kind == Link::Kind::stairs;
+    const double steepest = stairs ? kSteepestStairs : kSteepestRamp;
+    if (rise > steepest * run)
+        diagnostics_.error(
+            node.find("path")->where,
+            fmt::format("link `{}` climbs {:.2f} m over {:.2f} m: {} climb at most {:.0f} %", link.id, rise,
+                        run, stairs ? "stairs" : "ramps", 100.0 * steepest),
+            fmt::format("make its `path` {:.1f} m long or more", std::ceil(10.0 * rise / steepest) / 10.0));
+    if (stairs && rise < kFlattestStairs * run)
+        diagnostics_.error(
+            node.find("path")->where,
+            fmt::format("link `{}` climbs {:.2f} m over {:.2f} m: stairs climb {:.0f} % or more", link.id,
+                        rise, run, 100.0 * kFlattestStairs),
+            R"(make it shorter, or write "type": "ramp")");
+}
+
+}  // namespace throng::authoring

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "authoring/layout.h"
+#include "authoring/layout/object_reader.h"
+
+namespace throng::authoring {
+
+/// Reads floors, what joins them, and which of them something is on.
+class LevelReader {
+  public:
+    LevelReader(const Schema& schema, Layout& layout, Diagnostics& diagnostics)
+        : schema_(schema), layout_(layout), diagnostics_(diagnostics) {}
+
+    void readLevel(const JsonNode& node);
+    /// After all levels.
+    void readLink(const JsonNode& node);
+    /// The object's `level`.
+    std::size_t levelOf(ObjectReader& reader) const;
+
+  private:
+    std::size_t levelNamed(const JsonNode& node) const;
+    void checkLink(const Link& link, const JsonNode& node) const;
+
+    const Schema& schema_;
+    Layout& layout_;
+    Diagnostics& diagnostics_;
+    std::map<std::string, std::size_t> levels_, links_;
+};
+
+}  // namespace throng::authoring

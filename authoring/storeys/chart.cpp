@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "authoring/storeys/chart.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace throng::authoring {
+namespace {
+
+/// A point's abscissa on an edge at some height, whichever way the edge runs.
+double crossingOf(glm::dvec2 a, glm::dvec2 b, double y) {
+    if (a.y > b.y) std::swap(a, b);
+    return a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
+}
+
+Chart floorChart(const Level& level, std::size_t index) {
+    Chart chart;
+    chart.name = level.id;
+    chart.index = index;
+    chart.height = level.height;
+    chart.floor = level.floor;
+    return chart;
+}
+
+Chart linkChart(const Layout& layout, std::size_t index) {
+    const Link& link = layout.links[index];
+    Chart chart;
+    chart.name = link.id;
+    chart.is_link = true;
+    chart.index = index;
+    chart.link_from = link.from;
+    chart.link_to = link.to;
+    chart.link.begin = link.begin;
+    chart.link.length = glm::distance(link.begin, link.end);
+    chart.link.along = (link.end - link.begin) / chart.link.length;
+    chart.link.half_width = 0.5 * (link.width + kRailing);
+    chart.link.low = layout.levels[link.from].height;
+    chart.link.high = layout.levels[link.to].height;
+    return chart;
+}
+
+/// Which part of a link is nearer to a height than headroom; nothing where none is.
+std::optional<std::pair<double, double>> tooNear(const Footprint& link, double height) {
+    const double rise = (link.high - link.low) / link.length;
+    double from = 0.0, to = link.length;
+    if (rise == 0.0) {
+        if (std::abs(link.low - height) >= kHeadroom) return std::nullopt;
+    } else {
+        const double a = (height - kHeadroom - link.low) / rise, b = (height + kHeadroom - link.low) / rise;
+        from = std::max(from, std::min(a, b));
+        to = std::min(to, std::max(a, b));
+    }
+    return to - from > 1.0e-6 ? std::optional(std::pair(from, to)) : std::nullopt;
+}
+
+/// @param end that the level is at: 0 where the link begins, 1 where it ends
+bool isBeyond(const Footprint& link, int end, glm::dvec2 in_link, glm::dvec2 on_floor) {
+    constexpr double kNear = 0.5;  // m: the two points are beside each other
+    const double inside = link.alongOf(in_link), outside = link.alongOf(on_floor);
+    if (std::abs(link.asideOf(on_floor)) > link.half_width + kNear) return false;
+    return end == 0 ? outside <= 0.0 && inside < kNear : outside >= link.length && inside > link.length - kNear;
+}
+
+}  // namespace
+
+double Footprint::alongOf(glm::dvec2 point) const {
+    return glm::dot(point - begin, along);
+}
+
+double Footprint::asideOf(glm::dvec2 point) const {
+    return glm::dot(point - begin, glm::dvec2(-along.y, along.x));
+}
+
+glm::dvec2 Footprint::at(double forward, double aside) const {
+    return begin + forward * along + aside * glm::dvec2(-along.y, along.x);
+}
+
+std::vector<glm::dvec2> Footprint::outline(double from, double to) const {
+    return {at(from, -half_width), at(to, -half_width), at(to, half_width), at(from, half_width)};
+}
+
+bool isWithin(const std::vector<glm::dvec2>& polygon, glm::dvec2 point) {
+    bool inside = false;
+    for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+        const glm::dvec2 a = polygon[i], b = polygon[j];
+        if ((a.y > point.y) != (b.y > point.y) && point.x < crossingOf(a, b, point.y)) inside = !inside;
+    }
+    return inside;
+}
+
+bool Chart::contains(glm::dvec2 home) const {
+    if (is_link) {
+        constexpr double kHair = 1.0e-9;  // m: no gap is left between it and the floor
+        const double forward = link.alongOf(home);
+        return forward >= -kHair && forward <= link.length + kHair &&
+               std::abs(link.asideOf(home)) <= link.half_width;
+    }
+    return isWithin(floor, home) &&
+           std::none_of(openings.begin(), openings.end(),
+                        [&](const std::vector<glm::dvec2>& opening) { return isWithin(opening, home); });
+}
+
+double Chart::heightAt(glm::dvec2 home) const {
+    return is_link ? link.heightAt(std::clamp(link.alongOf(home), 0.0, link.length)) : height;
+}
+
+std::pair<glm::dvec2, glm::dvec2> Chart::bounds() const {
+    const std::vector<glm::dvec2>& corners = is_link ? link.outline(0.0, link.length) : floor;
+    glm::dvec2 lower = corners.front(), upper = corners.front();
+    for (const glm::dvec2 corner : corners) {
+        lower = glm::min(lower, corner);
+        upper = glm::max(upper, corner);
+    }
+    return {lower, upper};
+}
+
+bool areJoined(const Chart& a, std::size_t a_index, glm::dvec2 in_a, const Chart& b, std::size_t b_index,
+               glm::dvec2 in_b) {
+    if (a.is_link && b.is_link) return false;
+    if (b.is_link) return areJoined(b, b_index, in_b, a, a_index, in_a);
+    if (!a.is_link) return std::abs(a.height - b.height) <= kMostStep;
+    if (a.link_from == b_index) return isBeyond(a.link, 0, in_a, in_b);
+    return a.link_to == b_index && isBeyond(a.link, 1, in_a, in_b);
+}
+
+std::vector<Chart> chartsOf(const Layout& layout) {
+    std::vector<Chart> charts;
+    for (std::size_t i = 0; i < layout.levels.size(); ++i)
+        charts.push_back(floorChart(layout.levels[i], i));
+    for (std::size_t i = 0; i < layout.links.size(); ++i)
+        charts.push_back(linkChart(layout, i));
+    for (std::size_t level = 0; level < layout.levels.size(); ++level)
+        for (std::size_t i = layout.levels.size(); i < charts.size(); ++i)
+            if (const auto part = tooNear(charts[i].link, charts[level].height))
+                charts[level].openings.push_back(charts[i].link.outline(part->first, part->second));
+    return charts;
+}
+
+}  // namespace throng::authoring

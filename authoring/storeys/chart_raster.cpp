@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "authoring/storeys/chart_raster.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <queue>
+
+namespace throng::authoring {
+namespace {
+
+constexpr std::array kSides = {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)};
+
+}  // namespace
+
+glm::ivec2 chartCellOf(glm::dvec2 home) {
+    return glm::ivec2(glm::floor(home / kChartCell));
+}
+
+ChartRaster::ChartRaster(const std::vector<Chart>& charts, std::size_t chart, double reach) {
+    const auto [lower, upper] = charts[chart].bounds();
+    first_ = chartCellOf(lower - reach) - 1;
+    size_ = chartCellOf(upper + reach) + 2 - first_;
+    owners_.assign(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y), gpu::NO_CHART);
+    images_.assign(owners_.size(), gpu::NO_IMAGES);
+    claimOwn(charts[chart], chart);
+    goOn(charts, chart, reach);
+    castImages(reach);
+}
+
+std::size_t ChartRaster::indexOf(glm::ivec2 cell) const {
+    const glm::ivec2 at = cell - first_;
+    return static_cast<std::size_t>(at.y) * static_cast<std::size_t>(size_.x) + static_cast<std::size_t>(at.x);
+}
+
+bool ChartRaster::isInside(glm::ivec2 cell) const {
+    const glm::ivec2 at = cell - first_;
+    return at.x >= 0 && at.y >= 0 && at.x < size_.x && at.y < size_.y;
+}
+
+std::uint32_t ChartRaster::ownerAt(glm::ivec2 cell) const {
+    return isInside(cell) ? owners_[indexOf(cell)] : gpu::NO_CHART;
+}
+
+std::uint32_t ChartRaster::ownerOf(glm::dvec2 home) const {
+    return ownerAt(chartCellOf(home));
+}
+
+std::uint32_t ChartRaster::imagesAt(glm::ivec2 cell) const {
+    return isInside(cell) ? images_[indexOf(cell)] : gpu::NO_IMAGES;
+}
+
+bool ChartRaster::isJoinedTo(std::size_t other) const {
+    return std::any_of(gates_.begin(), gates_.end(), [&](const Gate& gate) { return gate.chart == other; });
+}
+
+void ChartRaster::claimOwn(const Chart& chart, std::size_t index) {
+    for (int y = 0; y < size_.y; ++y)
+        for (int x = 0; x < size_.x; ++x) {
+            const glm::ivec2 cell = first_ + glm::ivec2(x, y);
+            if (chart.contains(chartCellMiddle(cell)))
+                owners_[indexOf(cell)] = static_cast<std::uint8_t>(index);
+        }
+}
+
+/// Goes on over seams, and over the seams of the charts beyond these, from cell to cell: ground that lies above or
+/// below is not reached that way, nor what is beyond a railing's end further than somebody there would sense.
+void ChartRaster::goOn(const std::vector<Chart>& charts, std::size_t own, double reach) {
+    struct Reached {
+        glm::ivec2 cell, seam;
+    };
+    std::queue<Reached> reached;
+    const auto enter = [&](glm::ivec2 from, std::size_t from_chart, glm::ivec2 cell) {
+        const glm::dvec2 here = chartCellMiddle(from), there = chartCellMiddle(cell);
+        for (std::size_t chart = 0; chart < charts.size(); ++chart) {
+            if (chart == from_chart || !charts[chart].contains(there) ||
+                !areJoined(charts[from_chart], from_chart, here, charts[chart], chart, there))
+                continue;
+            owners_[indexOf(cell)] = static_cast<std::uint8_t>(chart);
+            gates_.push_back({cell, static_cast<std::uint32_t>(chart)});
+            return true;
+        }
+        return false;
+    };
+    for (int y = 0; y < size_.y; ++y)
+        for (int x = 0; x < size_.x; ++x) {
+            const glm::ivec2 cell = first_ + glm::ivec2(x, y);
+            if (ownerAt(cell) != own) continue;
+            for (const glm::ivec2 side : kSides)
+                if (isInside(cell + side) && ownerAt(cell + side) == gpu::NO_CHART &&
+                    enter(cell, own, cell + side))
+                    reached.push({cell + side, cell});
+        }
+    while (!reached.empty()) {
+        const auto [cell, seam] = reached.front();
+        reached.pop();
+        const std::size_t chart = ownerAt(cell);
+        for (const glm::ivec2 side : kSides) {
+            const glm::ivec2 next = cell + side;
+            if (!isInside(next) || ownerAt(next) != gpu::NO_CHART ||
+                glm::distance(glm::dvec2(next), glm::dvec2(seam)) * kChartCell > reach)
+                continue;
+            if (charts[chart].contains(chartCellMiddle(next)))
+                owners_[indexOf(next)] = static_cast<std::uint8_t>(chart);
+            else if (!enter(cell, chart, next))
+                continue;
+            reached.push({next, seam});
+        }
+    }
+}
+
+void ChartRaster::castImages(double reach) {
+    const int cells = static_cast<int>(std::ceil(reach / kChartCell));
+    for (const Gate& gate : gates_)
+        for (int dy = -cells; dy <= cells; ++dy)
+            for (int dx = -cells; dx <= cells; ++dx) {
+                const glm::ivec2 cell = gate.cell + glm::ivec2(dx, dy);
+                if (dx * dx + dy * dy > cells * cells || !isInside(cell)) continue;
+                std::uint32_t& images = images_[indexOf(cell)];
+                for (std::uint32_t place = 0; place < gpu::MOST_IMAGES; ++place) {
+                    const std::uint32_t there = images >> (8 * place) & gpu::NO_CHART;
+                    if (there == gate.chart) break;
+                    if (there != gpu::NO_CHART) continue;
+                    images &= ~(gpu::NO_CHART << (8 * place));
+                    images |= gate.chart << (8 * place);
+                    most_images_ = std::max(most_images_, place + 1);
+                    break;
+                }
+            }
+}
+
+}  // namespace throng::authoring

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "authoring/storeys/charts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <numeric>
+
+#include "authoring/storeys/chart_mesh.h"
+#include "authoring/storeys/railings.h"
+
+namespace throng::authoring {
+namespace {
+
+constexpr double kRailingHeight = 1.1;  // m
+constexpr std::size_t kMostCharts = gpu::NO_CHART;
+
+/// m: as far as people sense, and the tiles of those whom they sense there.
+double reachOf(const Layout& layout) {
+    double largest = 0.3;
+    for (const Flow& flow : layout.flows)
+        largest = std::max(largest, flow.people.largestRadius());
+    for (const Formation& formation : layout.formations)
+        largest = std::max(largest, formation.people.largestRadius());
+    const double tile = std::max(layout.simulation.tile_radius, largest);
+    const double sight = largest + layout.simulation.samples_per_ray * tile;
+    return std::max(sight, layout.simulation.contact_range + 2.0 * largest) + tile;
+}
+
+double upwards(double value) {
+    return std::ceil(value / kShiftStep) * kShiftStep;
+}
+
+/// Side by side in rows, the first chart where it is: of two margins and a little more between any two, so that
+/// nobody senses from one into the other.
+void shiftCharts(std::vector<Chart>& charts, double reach) {
+    const double margin = reach + 2.0;
+    double area = 0.0, widest = 0.0;
+    for (const Chart& chart : charts) {
+        const auto [lower, upper] = chart.bounds();
+        const glm::dvec2 size = upper - lower + 2.0 * margin;
+        area += size.x * size.y;
+        widest = std::max(widest, size.x);
+    }
+    const double row_width = std::max(widest, std::sqrt(area));
+    const auto [origin, first_upper] = charts.front().bounds();
+    glm::dvec2 corner(origin.x - margin, origin.y - margin);
+    double row_height = 0.0, x = corner.x, y = corner.y;
+    for (Chart& chart : charts) {
+        const auto [lower, upper] = chart.bounds();
+        const glm::dvec2 size = upper - lower + 2.0 * margin;
+        if (x > corner.x && x + size.x > corner.x + row_width) {
+            x = corner.x;
+            y += row_height;
+            row_height = 0.0;
+        }
+        chart.shift = {upwards(x + margin - lower.x), upwards(y + margin - lower.y)};
+        if (&chart == &charts.front()) chart.shift = glm::dvec2(0.0);
+        x += size.x + kShiftStep;
+        row_height = std::max(row_height, size.y + kShiftStep);
+    }
+}
+
+void move(std::vector<glm::dvec2>& points, glm::dvec2 by) {
+    for (glm::dvec2& point : points)
+        point += by;
+}
+
+void moveFormation(Formation& formation, glm::dvec2 by) {
+    if (auto* circle = std::get_if<CircleFormation>(&formation.shape)) circle->centre += by;
+    if (auto* grid = std::get_if<GridFormation>(&formation.shape)) {
+        grid->origin += by;
+        if (auto* line = std::get_if<Line>(&grid->goal)) *line = {line->a + by, line->b + by};
+        if (auto* box = std::get_if<Extent>(&grid->goal)) *box = {box->a + by, box->b + by};
+    }
+    if (auto* list = std::get_if<ListFormation>(&formation.shape))
+        for (ListedAgent& agent : list->agents) {
+            agent.position += by;
+            agent.goal += by;
+        }
+}
+
+std::size_t levelOf(const Layout& layout, const Place& place) {
+    return place.kind == Place::Kind::area ? layout.areas[place.index].level : layout.roads[place.index].level;
+}
+
+/// Everything of the layout to where its chart lies.
+Layout moved(const Layout& layout, const std::vector<Chart>& charts) {
+    Layout plane = layout;
+    for (Road& road : plane.roads)
+        move(road.centreline, charts[road.level].shift);
+    for (Area& area : plane.areas)
+        move(area.polygon, charts[area.level].shift);
+    for (Wall& wall : plane.walls)
+        move(wall.points, charts[wall.level].shift);
+    for (Flow& flow : plane.flows)
+        for (Stop& stop : flow.via) {
+            const glm::dvec2 shift = charts[levelOf(layout, stop.at.places.front())].shift;
+            move(stop.line, shift);
+            if (stop.facing) *stop.facing += shift;
+        }
+    for (Formation& formation : plane.formations)
+        moveFormation(formation, charts[formation.level].shift);
+    return plane;
+}
+
+class LayingOut {
+  public:
+    LayingOut(const Layout& layout, Diagnostics& diagnostics) : layout_(layout), diagnostics_(diagnostics) {}
+
+    std::shared_ptr<const Charts> run() {
+        if (layout_.terrain)
+            diagnostics_.error(layout_.terrain->where, "a layout has levels or a terrain, not both",
+                               "leave one of the two out");
+        if (layout_.levels.size() + layout_.links.size() >= kMostCharts)
+            diagnostics_.error(layout_.levels.back().where,
+                               fmt::format("there are {} levels and links, more than the {} that can be",
+                                           layout_.levels.size() + layout_.links.size(), kMostCharts - 1));
+        if (diagnostics_.hasErrors()) return nullptr;
+        result_->charts = chartsOf(layout_);
+        result_->reach = reachOf(layout_);
+        checkStoreys();
+        if (diagnostics_.hasErrors()) return nullptr;
+        shiftCharts(result_->charts, result_->reach);
+        for (std::size_t i = 0; i < result_->charts.size(); ++i) {
+            result_->rasters.emplace_back(result_->charts, i, result_->reach);
+            result_->most_images = std::max(result_->most_images, result_->rasters[i].mostImages());
+        }
+        checkLinks();
+        if (diagnostics_.hasErrors()) return nullptr;
+        result_->plane = moved(layout_, result_->charts);
+        raiseWalls();
+        copyWallsIntoMargins();
+        result_->home_mesh = homeMesh(result_->charts, layout_);
+        result_->plane_mesh = planeMesh(result_->charts, layout_, result_->reach);
+        return result_;
+    }
+
+  private:
+    /// Two floors at nearly the same height may not lie over each other, nor so that nobody can stand between.
+    void checkStoreys() {
+        const auto& charts = result_->charts;
+        for (std::size_t i = 0; i < layout_.levels.size(); ++i)
+            for (std::size_t j = 0; j < i; ++j) {
+                const double apart = std::abs(charts[i].height - charts[j].height);
+                if (apart >= kHeadroom) continue;
+                if (const auto at = commonPoint(charts[i], charts[j]))
+                    diagnostics_.error(
+                        layout_.levels[i].where,
+                        fmt::format("levels `{}` and `{}` lie over each other at [{:.2f}, {:.2f}], {:.2f} m apart",
+                                    charts[j].name, charts[i].name, at->x, at->y, apart),
+                        fmt::format("people need {} m over their heads", kHeadroom));
+            }
+    }
+
+    static std::optional<glm::dvec2> commonPoint(const Chart& a, const Chart& b) {
+        const auto [lower_a, upper_a] = a.bounds();
+        const auto [lower_b, upper_b] = b.bounds();
+        const glm::dvec2 lower = glm::max(lower_a, lower_b), upper = glm::min(upper_a, upper_b);
+        const double step = std::max(kChartCell, std::max(upper.x - lower.x, upper.y - lower.y) / 400.0);
+        for (double y = lower.y + 0.5 * step; y < upper.y; y += step)
+            for (double x = lower.x + 0.5 * step; x < upper.x; x += step)
+                if (a.contains({x, y}) && b.contains({x, y})) return glm::dvec2(x, y);
+        return std::nullopt;
+    }
+
+    void checkLinks() {
+        for (std::size_t i = layout_.levels.size(); i < result_->charts.size(); ++i) {
+            const Chart& link = result_->charts[i];
+            for (const std::size_t level : {link.link_from, link.link_to}) {
+                if (result_->rasters[i].isJoinedTo(level)) continue;
+                const glm::dvec2 end = level == link.link_from ? link.link.at(0.0, 0.0)
+                                                               : link.link.at(link.link.length, 0.0);
+                diagnostics_.error(
+                    layout_.links[link.index].where,
+                    fmt::format("link `{}` does not reach the floor of level `{}` at [{:.2f}, {:.2f}]",
+                                link.name, result_->charts[level].name, end.x, end.y),
+                    "its path has to end on the floor's edge, or on the floor");
+            }
+        }
+    }
+
+    void addWall(std::size_t chart, Wall wall) {
+        wall.level = chart;
+        standing_.push_back({result_->walls.size(), chart});
+        result_->walls.push_back(wall);
+    }
+
+    /// The layout's walls stand on their levels; floors and links end in railings.
+    void raiseWalls() {
+        for (const Wall& wall : layout_.walls) {
+            result_->ground_along_walls.emplace_back(result_->charts[wall.level].height);
+            addWall(wall.level, wall);
+        }
+        for (std::size_t chart = 0; chart < result_->charts.size(); ++chart) {
+            std::size_t count = 0;
+            for (const Railing& railing : railingsOf(result_->charts, chart)) {
+                Wall wall;
+                wall.id = fmt::format("railing:{}:{}", result_->charts[chart].name, count++);
+                wall.points = railing.points;
+                wall.thickness = kRailing;
+                wall.height = kRailingHeight;
+                wall.where = result_->charts[chart].is_link ? layout_.links[result_->charts[chart].index].where
+                                                            : layout_.levels[chart].where;
+                result_->ground_along_walls.emplace_back(railing.low, railing.high);
+                addWall(chart, wall);
+                move(wall.points, result_->charts[chart].shift);
+                result_->plane.walls.push_back(std::move(wall));
+            }
+        }
+    }
+
+    void copyWallsIntoMargins() {
+        for (std::size_t chart = 0; chart < result_->charts.size(); ++chart) {
+            const ChartRaster& raster = result_->rasters[chart];
+            for (const auto& [index, owner] : standing_) {
+                if (owner == chart || !raster.isJoinedTo(owner)) continue;
+                const Wall& wall = result_->walls[index];
+                if (!wall.toggles.empty()) continue;
+                std::vector<glm::dvec2> line = wall.points;
+                if (wall.closed) line.push_back(line.front());
+                const double thickness = wall.closed ? 0.0 : wall.thickness;
+                for (std::vector<glm::dvec2>& part : partsInMargin(raster, owner, line, 0.5 * thickness)) {
+                    Wall copy = wall;
+                    copy.id = fmt::format("{}:{}:{}", wall.id, result_->charts[chart].name,
+                                          result_->plane.walls.size());
+                    copy.closed = false;
+                    copy.thickness = thickness;
+                    copy.points = std::move(part);
+                    move(copy.points, result_->charts[chart].shift);
+                    result_->plane.walls.push_back(std::move(copy));
+                }
+            }
+        }
+    }
+
+    struct Standing {
+        std::size_t wall, chart;
+    };
+    const Layout& layout_;
+    Diagnostics& diagnostics_;
+    std::shared_ptr<Charts> result_ = std::make_shared<Charts>();
+    std::vector<Standing> standing_;
+};
+
+}  // namespace
+
+std::shared_ptr<const Charts> layOut(const Layout& layout, Diagnostics& diagnostics) {
+    return LayingOut(layout, diagnostics).run();
+}
+
+}  // namespace throng::authoring

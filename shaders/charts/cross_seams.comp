@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whoever has walked over a seam goes on where the other chart lies in the plane. Between two decisions people stay
+// where they are: each chart goes on beyond its seams.
+#include "shaders/shared/simulation_types.h"
+
+layout(local_size_x = AGENT_GROUP_SIZE) in;
+layout(std140) uniform ParametersBlock { Parameters parameters; };
+layout(std430) buffer States { AgentState states[]; };
+
+#include "shaders/shared/alive.glsl"
+#include "shaders/shared/charts.glsl"
+
+void main() {
+    uint row = gl_GlobalInvocationID.x;
+    if (row >= parameters.row_count || !isAlive(states[row].status)) return;
+    vec2 position = states[row].position;
+    ChartCell cell = chartCellAt(position);
+    uint chart = chartOf(cell), owner = ownerOf(cell);
+    if (owner == chart || owner == NO_CHART || chart == NO_CHART) return;
+    states[row].position = position + (chart_shifts[owner] - chart_shifts[chart]);
+}
