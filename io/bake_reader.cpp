@@ -141,7 +141,16 @@ void readGeometry(const ManifestReader& reader, Bake& bake) {
     reader.each("/geometry/areas", [&](const ManifestReader& area) {
         bake.areas.push_back({area.text("/id"), area.points("/polygon", 3), {}});
     });
-    reader.each("/geometry/walls", [&](const ManifestReader& wall) { bake.walls.push_back(wallOf(wall)); });
+    bake.has_storeys = reader.has("/levels");
+    reader.each("/geometry/walls", [&](const ManifestReader& wall) {
+        bake.walls.push_back(wallOf(wall));
+        if (bake.has_storeys) bake.wall_ground.push_back(wall.point("/ground"));
+    });
+    if (bake.has_storeys) reader.each("/levels", [](const ManifestReader& level) {
+        level.text("/id");
+        level.number("/height", -kFurthest, kFurthest);
+        level.points("/floor", 3);
+    });
 }
 
 void readExtent(const ManifestReader& reader, Bake& bake) {

@@ -31,6 +31,9 @@ struct Bake {
     std::vector<authoring::Road> roads;
     std::vector<authoring::Area> areas;
     std::vector<authoring::Wall> walls;
+    /// Whether people walk on floors above each other; then also the lowest and highest ground along each wall, m.
+    bool has_storeys = false;
+    std::vector<glm::dvec2> wall_ground;
 
     struct Account {
         std::uint32_t agents = 0;

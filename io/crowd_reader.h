@@ -25,6 +25,7 @@ class CrowdFrame {
     glm::dvec2 place(std::size_t row) const {
         return inPlane(Stream::pos, row);
     }  ///< m, from the bake's origin
+    double height(std::size_t row) const { return (*this)[Stream::pos][row * kComponents + 2]; }  ///< m
     glm::dvec2 facing(std::size_t row) const { return inPlane(Stream::dir, row); }
     /// The body of somebody, as its chest is turned.
     Capsule body(std::size_t row, const AgentRow& person) const;

@@ -20,8 +20,9 @@ double cross(glm::dvec2 a, glm::dvec2 b) {
 
 }  // namespace
 
-WallWatch::WallWatch(std::vector<authoring::Wall> walls, glm::dvec2 minimum, glm::dvec2 maximum)
-    : walls_(std::move(walls)), open_(walls_.size()), grid_(minimum, maximum, 2.0) {
+WallWatch::WallWatch(std::vector<authoring::Wall> walls, glm::dvec2 minimum, glm::dvec2 maximum,
+                     std::vector<glm::dvec2> ground)
+    : walls_(std::move(walls)), ground_(std::move(ground)), open_(walls_.size()), grid_(minimum, maximum, 2.0) {
     for (std::size_t index = 0; index < walls_.size(); ++index) {
         const authoring::Wall& wall = walls_[index];
         const std::size_t count = wall.points.size() - (wall.closed ? 0 : 1);
@@ -43,6 +44,15 @@ WallWatch::WallWatch(std::vector<authoring::Wall> walls, glm::dvec2 minimum, glm
     grid_.sort(samples_);
 }
 
+/// Gates that are open do not, nor walls of other storeys.
+bool WallWatch::counts(const Segment& segment) const {
+    constexpr double kHigher = 1.5;  // m: less than headroom, more than anybody is above its own walls
+    if (open_[segment.wall]) return false;
+    if (ground_.empty()) return true;
+    const glm::dvec2 ground = ground_[segment.wall];
+    return height_ > ground.x - kHigher && height_ < ground.y + kHigher;
+}
+
 template <class Visit>
 void WallWatch::near(glm::dvec2 place, double reach, Visit&& visit) const {
     const double around = reach + spacing_ + kThickest;
@@ -50,13 +60,13 @@ void WallWatch::near(glm::dvec2 place, double reach, Visit&& visit) const {
     const std::size_t all = segments_.size() + kFewCells;
     if (grid_.workNear(place, around, all) > all) {
         for (const Segment& each : segments_)
-            if (!open_[each.wall]) visit(each);
+            if (counts(each)) visit(each);
         return;
     }
     std::uint32_t last = ~0u;
     grid_.near(place, around, [&](std::uint32_t sample) {
         const std::uint32_t segment = sample_segment_[sample];
-        if (segment != last && !open_[segments_[segment].wall]) visit(segments_[segment]);
+        if (segment != last && counts(segments_[segment])) visit(segments_[segment]);
         last = segment;
     });
 }

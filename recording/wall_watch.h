@@ -13,11 +13,15 @@ namespace throng::recording {
 /// Walls as segments, and what bodies do to them.
 class WallWatch {
   public:
-    WallWatch(std::vector<authoring::Wall> walls, glm::dvec2 minimum, glm::dvec2 maximum);
+    /// @param ground m: the lowest and the highest ground along each wall, where floors lie above each other
+    WallWatch(std::vector<authoring::Wall> walls, glm::dvec2 minimum, glm::dvec2 maximum,
+              std::vector<glm::dvec2> ground = {});
     bool empty() const { return segments_.empty(); }
 
     /// Looks at a frame and the one before: gates that are open in either are not there.
     void look(double before, double now);
+    /// Whose walls count from here on: those of who stands at this height, m. Matters with `ground` only.
+    void standAt(double height) { height_ = height; }
     /// Whether the straight line between two frames goes through a wall's axis or outline.
     bool crosses(glm::dvec2 before, glm::dvec2 after) const;
     /// How far a body is inside a wall, m; 0 where it is clear.
@@ -30,10 +34,13 @@ class WallWatch {
         double half_thickness;
         std::size_t wall;
     };
+    bool counts(const Segment& segment) const;
     template <class Visit>
     void near(glm::dvec2 place, double reach, Visit&& visit) const;
 
     std::vector<authoring::Wall> walls_;
+    std::vector<glm::dvec2> ground_;  // by wall; empty: all is one storey
+    double height_ = 0.0;
     std::vector<bool> open_;  // by wall
     std::vector<Segment> segments_;
     double spacing_ = 1.0;             // m

@@ -127,6 +127,9 @@ gpu::Parameters makeParameters(const authoring::Scene& scene) {
     parameters.pixels_per_metre = settings.pixels_per_metre > 0.0
                                       ? static_cast<float>(settings.pixels_per_metre)
                                       : defaultPixelsPerMetre(scene);
+    // Pixels of all charts fit together, too: shifts are multiples of four metres.
+    if (!scene.chart_map.empty())
+        parameters.pixels_per_metre = std::ceil(4.0f * parameters.pixels_per_metre) / 4.0f;
     parameters.diagram_width = pixels(extent.x, parameters.pixels_per_metre);
     parameters.diagram_height = pixels(extent.y, parameters.pixels_per_metre);
     parameters.tile_radius = static_cast<float>(settings.tile_radius);

@@ -38,7 +38,7 @@ class Measurer {
           bake_(crowd.bake()),
           options_(options),
           rows_(crowd.people()),
-          walls_(bake_.walls, bake_.minimum, bake_.maximum),
+          walls_(bake_.walls, bake_.minimum, bake_.maximum, bake_.wall_ground),
           grid_(bake_.minimum, bake_.maximum, 1.0, cellsFor(rows_.size())),
           dt_(1.0 / bake_.fps),
           way_(rows_.size(), 0.0),
@@ -85,11 +85,13 @@ class Measurer {
         present_.clear();
         places_.clear();
         bodies_.clear();
+        heights_.clear();
         for (std::uint32_t row = 0; row < rows_.size(); ++row)
             if (now().isThere(row)) {
                 present_.push_back(row);
                 places_.push_back(now().place(row));
                 bodies_.push_back(now().body(row, rows_[row]));
+                heights_.push_back(bake_.has_storeys ? now().height(row) : 0.0);
             }
         grid_.sort(places_);
     }
@@ -98,7 +100,7 @@ class Measurer {
         std::uint64_t pairs = 0;
         for (std::uint32_t i = 0; i < present_.size(); ++i) {
             grid_.near(places_[i], rows_[present_[i]].reach() + largest_radius_, [&](std::uint32_t j) {
-                if (j <= i) return;
+                if (j <= i || !areOnOneGround(heights_[i], heights_[j])) return;
                 const double depth = overlapOf(bodies_[i], bodies_[j]);
                 result_.deepest_overlap_percent = std::max(result_.deepest_overlap_percent, 100.0 * depth);
                 pairs += depth > kOverlap ? 1 : 0;
@@ -125,6 +127,7 @@ class Measurer {
         walls_.look((frame - 1.0) * dt_, frame * dt_);
         for (std::size_t i = 0; i < present_.size(); ++i) {
             const std::uint32_t row = present_[i];
+            walls_.standAt(heights_[i]);
             result_.deepest_wall_penetration = std::max(
                 result_.deepest_wall_penetration, walls_.empty() ? 0.0 : walls_.penetration(bodies_[i]));
             if (!aliveSince(row, 1)) continue;
@@ -191,7 +194,7 @@ class Measurer {
             int same = 0, opposite = 0;
             grid_.near(places_[i], kAlong, [&](std::uint32_t j) {
                 const glm::dvec2 offset = places_[j] - places_[i];
-                if (j == i || std::abs(way.x * offset.y - way.y * offset.x) > kHalfLane ||
+                if (j == i || !areOnOneGround(heights_[i], heights_[j]) || std::abs(way.x * offset.y - way.y * offset.x) > kHalfLane ||
                     std::abs(glm::dot(way, offset)) > kAlong)
                     return;
                 const double agreement = glm::dot(way, now().facing(present_[j]));
@@ -210,7 +213,7 @@ class Measurer {
 
     void observeDensity() {
         for (std::uint32_t i = 0; i < present_.size(); ++i)
-            addDensity(i, voronoiDensity(grid_, places_, i));
+            addDensity(i, voronoiDensity(grid_, places_, i, heights_));
     }
 
     void addDensity(std::uint32_t i, double density) {
@@ -302,6 +305,7 @@ class Measurer {
     std::deque<io::CrowdFrame> history_;  // newest first
     std::vector<std::uint32_t> present_;  // rows alive now
     std::vector<glm::dvec2> places_;      // of those
+    std::vector<double> heights_;         // likewise, m; all zero where there is one storey
     std::optional<io::CrowdFrame> long_before_;
     std::vector<double> way_, effort_;
     std::vector<std::optional<glm::dvec2>> start_;  // where somebody was first seen

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <vector>
@@ -10,16 +11,24 @@
 
 namespace throng::analysis {
 
+/// Whether people at two heights (m) can touch, or one is above the other. On stairs, neighbours are half a metre apart.
+inline bool areOnOneGround(double height, double other) {
+    constexpr double kStorey = 1.1;
+    return std::abs(height - other) < kStorey;
+}
+
 /// persons/m^2: one over the area of a person's Voronoi cell, truncated at a metre and counted in squares of
 /// 0.1 m around it (Steffen and Seyfried 2010).
+/// @param heights m, of all places; empty: there is one storey
 /// @param grid holds `places`; the person is `places[self]`
 inline double voronoiDensity(const PlaneGrid& grid, const std::vector<glm::dvec2>& places,
-                             std::uint32_t self) {
+                             std::uint32_t self, const std::vector<double>& heights = {}) {
     constexpr double kRadius = 1.0, kSquare = 0.1;
     constexpr int kReach = 10;
     std::vector<glm::dvec2> others;
     grid.near(places[self], 2.0 * kRadius, [&](std::uint32_t other) {
         const glm::dvec2 offset = places[other] - places[self];
+        if (!heights.empty() && !areOnOneGround(heights[self], heights[other])) return;
         if (other != self && glm::dot(offset, offset) < 4.0 * kRadius * kRadius) others.push_back(offset);
     });
     int owned = 0;

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+// Levels and links as charts in the plane: who owns which ground, where it ends, and that routes go on over seams.
+#include "authoring/storeys/charts.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "authoring/layout/layout_reader.h"
+#include "authoring/scene/chart_map.h"
+#include "authoring/scene/raster.h"
+#include "authoring/scene/scene_builder.h"
+#include "authoring/storeys/chart_mesh.h"
+#include "authoring/storeys/railings.h"
+
+namespace throng::authoring {
+namespace {
+
+using Points = std::vector<glm::dvec2>;
+
+Points box(double x0, double y0, double x1, double y1) {
+    return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
+}
+
+Level level(const std::string& id, double height, Points floor) {
+    return {id, height, std::move(floor), {}};
+}
+
+Link stairs(std::size_t from, std::size_t to, glm::dvec2 begin, glm::dvec2 end, double width = 2.0) {
+    return {"stairs", Link::Kind::stairs, from, to, begin, end, width, {}};
+}
+
+/// A hall with a gallery over half of it, and stairs within the hall.
+Layout hallWithGallery() {
+    Layout layout;
+    layout.levels = {level("hall", 0.0, box(-10, -5, 10, 5)), level("gallery", 3.0, box(2, -5, 10, 5))};
+    layout.links = {stairs(0, 1, {-4, 1}, {2, 1})};
+    return layout;
+}
+
+std::shared_ptr<const Charts> chartsIn(const Layout& layout) {
+    Diagnostics diagnostics;
+    auto charts = layOut(layout, diagnostics);
+    for (const Diagnostic& entry : diagnostics.entries)
+        ADD_FAILURE() << entry.message;
+    return charts;
+}
+
+double railingLength(const std::vector<Chart>& charts, std::size_t index) {
+    double length = 0.0;
+    for (const Railing& railing : railingsOf(charts, index))
+        length += glm::distance(railing.points[0], railing.points[1]);
+    return length;
+}
+
+double areaOf(const TerrainMesh& mesh, double height) {
+    double area = 0.0;
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        const glm::dvec3 a = mesh.positions[mesh.indices[i]], b = mesh.positions[mesh.indices[i + 1]],
+                         c = mesh.positions[mesh.indices[i + 2]];
+        const glm::dvec3 twice = glm::cross(b - a, c - a);
+        if (twice.z > 0.0 && std::abs(a.z - height) + std::abs(b.z - height) + std::abs(c.z - height) < 1e-9)
+            area += 0.5 * twice.z;
+    }
+    return area;
+}
+
+TEST(Charts, RailingsStandWhereGroundEndsAndNoOtherBegins) {
+    const auto charts = chartsIn(hallWithGallery());
+    // The stairs are open at both ends; the hall is closed all round, and round the stairs where these are too low.
+    const double low = kHeadroom / 3.0 * 6.0, width = 2.0 + kRailing;
+    EXPECT_NEAR(railingLength(charts->charts, 2), 2 * 6.0, 0.02);
+    EXPECT_NEAR(railingLength(charts->charts, 0), 60.0 + 2 * low + width, 0.02);
+    // The gallery's edge is open where the stairs end.
+    EXPECT_NEAR(railingLength(charts->charts, 1), 36.0 - width, 0.02);
+}
+
+TEST(Charts, FloorsThatMeetAtTheSameHeightHaveNoRailingBetweenThem) {
+    Layout layout;
+    layout.levels = {level("a", 0.0, box(0, 0, 5, 4)), level("b", 0.1, box(5, 1, 9, 4)),
+                     level("c", 1.0, box(-3, 0, 0, 4))};
+    const auto charts = chartsIn(layout);
+    EXPECT_NEAR(railingLength(charts->charts, 0), 18.0 - 3.0, 0.02);
+    EXPECT_NEAR(railingLength(charts->charts, 1), 14.0 - 3.0, 0.02);
+    EXPECT_NEAR(railingLength(charts->charts, 2), 14.0, 0.02);
+}
+
+/// What a chart shows beyond its seams is what is there, seen from the chart that owns it.
+TEST(ChartRaster, ShowsBeyondSeamsWhatOthersOwn) {
+    const auto charts = chartsIn(hallWithGallery());
+    std::size_t shown = 0;
+    for (std::size_t chart = 0; chart < charts->rasters.size(); ++chart) {
+        const ChartRaster& raster = charts->rasters[chart];
+        for (int y = 0; y < raster.size().y; ++y)
+            for (int x = 0; x < raster.size().x; ++x) {
+                const glm::ivec2 cell = raster.first() + glm::ivec2(x, y);
+                const std::uint32_t owner = raster.ownerAt(cell);
+                if (owner == gpu::NO_CHART) continue;
+                EXPECT_EQ(charts->rasters[owner].ownerAt(cell), owner);
+                shown += owner != chart ? 1 : 0;
+            }
+    }
+    EXPECT_GT(shown, 300u);
+    // The gallery and the hall below it know nothing of each other.
+    EXPECT_FALSE(charts->rasters[0].isJoinedTo(1));
+    EXPECT_EQ(charts->rasters[0].ownerOf({6.0, 0.0}), 0u);
+    EXPECT_EQ(charts->rasters[1].ownerOf({6.0, 0.0}), 1u);
+    // Up the stairs from the hall, down them from the gallery.
+    EXPECT_EQ(charts->rasters[0].ownerOf({-3.6, 1.0}), 2u);
+    EXPECT_EQ(charts->rasters[1].ownerOf({1.6, 1.0}), 2u);
+    EXPECT_EQ(charts->rasters[2].ownerOf({-4.4, 1.0}), 0u);
+    EXPECT_EQ(charts->rasters[2].ownerOf({2.4, 1.0}), 1u);
+}
+
+TEST(ChartRaster, CastsImagesOfThoseWhoAreNearASeamOnly) {
+    const auto charts = chartsIn(hallWithGallery());
+    const auto images = [&](std::size_t chart, glm::dvec2 at) {
+        return charts->rasters[chart].imagesAt(chartCellOf(at));
+    };
+    EXPECT_EQ(images(0, {-4.5, 1.0}) & gpu::NO_CHART, 2u);
+    EXPECT_EQ(images(0, {8.0, -4.0}), gpu::NO_IMAGES);
+    EXPECT_EQ(images(1, {2.5, 1.0}) & gpu::NO_CHART, 2u);
+    // In the middle of six metres of stairs, both ends are near.
+    const std::uint32_t middle = images(2, {-1.0, 1.0});
+    EXPECT_EQ((middle & gpu::NO_CHART) + (middle >> 8 & gpu::NO_CHART), 0u + 1u);
+    EXPECT_EQ(charts->most_images, 2u);
+}
+
+TEST(Charts, LieApartByMoreThanPeopleSense) {
+    Layout layout = hallWithGallery();
+    for (int i = 0; i < 20; ++i)
+        layout.levels.push_back(level("storey " + std::to_string(i), 6.0 + 3.0 * i, box(-20, -3, 20, 5 + i)));
+    const auto charts = chartsIn(layout);
+    for (std::size_t i = 0; i < charts->charts.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j) {
+            const auto [lower_i, upper_i] = charts->charts[i].bounds();
+            const auto [lower_j, upper_j] = charts->charts[j].bounds();
+            const glm::dvec2 a = charts->charts[i].shift, b = charts->charts[j].shift;
+            const glm::dvec2 gap = glm::max(lower_i + a - upper_j - b, lower_j + b - upper_i - a);
+            EXPECT_GE(std::max(gap.x, gap.y), 2.0 * charts->reach) << i << " " << j;
+        }
+    EXPECT_EQ(std::fmod(charts->charts.back().shift.x, kShiftStep), 0.0);
+}
+
+TEST(ChartMesh, FloorsHaveTheOpeningsOfLinksAndStairsTheirTreads) {
+    const Layout layout = hallWithGallery();
+    const auto charts = chartsIn(layout);
+    const double low = kHeadroom / 3.0 * 6.0, width = 2.0 + kRailing;
+    EXPECT_NEAR(areaOf(charts->home_mesh, 0.0), 200.0 - low * width, 1e-6);
+    EXPECT_EQ(treadsOf(charts->charts[2], layout), 18u);
+    // The last tread is level with the gallery.
+    EXPECT_NEAR(areaOf(charts->home_mesh, 3.0), 80.0 + 6.0 / 18.0 * width, 1e-6);
+    for (int tread = 1; tread < 18; ++tread)
+        EXPECT_NEAR(areaOf(charts->home_mesh, 3.0 * tread / 18.0), 6.0 / 18.0 * width, 1e-6) << tread;
+}
+
+/// A plain with a wall across it, uncut and cut: the same ways.
+TEST(Fields, GoOnOverSeamsAsIfThereWereNone) {
+    const auto sceneOf = [](std::vector<Level> levels, std::size_t goal_level) {
+        Layout layout;
+        layout.levels = std::move(levels);
+        layout.areas = {{"goal", box(7, 3, 9, 5), {}, goal_level}};
+        layout.walls = {{"wall", {{2, -4}, {2, 6}}, false, 0.2, 3.0, {}}};
+        Formation walker;
+        walker.id = "walker";
+        GridFormation grid;
+        grid.origin = {-8, 0};
+        Destination destination;
+        destination.places = {{Place::Kind::area, 0, {}}};
+        grid.goal = destination;
+        walker.shape = grid;
+        layout.formations = {walker};
+        Diagnostics diagnostics;
+        std::optional<Scene> scene = buildScene(layout, diagnostics);
+        for (const Diagnostic& entry : diagnostics.entries)
+            ADD_FAILURE() << entry.message;
+        return std::move(*scene);
+    };
+    const Scene whole = sceneOf({level("all", 0, box(-10, -8, 10, 8))}, 0);
+    const Scene cut = sceneOf({level("west", 0, {{-10, -8}, {1.1, -8}, {-2.2, 8}, {-10, 8}}),
+                               level("east", 0, {{1.1, -8}, {10, -8}, {10, 8}, {-2.2, 8}})},
+                              1);
+    ASSERT_EQ(whole.grid.cell_size, cut.grid.cell_size);
+    const auto lengthAt = [](const Scene& scene, glm::dvec2 home, std::uint32_t chart) {
+        const glm::vec2 place = glm::vec2(home - scene.origin) + scene.chart_map.shifts[chart];
+        return std::abs((*scene.fields.fields.front())[cellAt(scene.grid, place)].distance);
+    };
+    int compared = 0;
+    for (double y = -7.0; y < 7.0; y += 0.5)
+        for (double x = -9.0; x < 9.0; x += 0.5) {
+            const glm::dvec2 home(x + 0.06, y + 0.06);
+            const double seam = 1.1 - 3.3 * (home.y + 8.0) / 16.0;
+            const std::uint32_t chart = home.x < seam ? 0 : 1;
+            EXPECT_FLOAT_EQ(lengthAt(cut, home, chart), lengthAt(whole, home, 0)) << home.x << " " << home.y;
+            if (std::abs(home.x - seam) < 2.0)
+                EXPECT_FLOAT_EQ(lengthAt(cut, home, 1 - chart), lengthAt(whole, home, 0)) << home.x << " " << home.y;
+            ++compared;
+        }
+    EXPECT_GT(compared, 900);
+}
+
+std::vector<std::string> complaintsAbout(const std::string& members) {
+    Diagnostics diagnostics;
+    const std::string text = R"({"throng": 1, "simulation": {"duration": 1},
+ "formations": [{"id": "p", "type": "grid", "origin": [0, 0], "rows": 1, "columns": 1, "goal": {"offset": [1, 0]}}],
+ )" + members + "}";
+    if (const auto layout = readLayout(text, {}, diagnostics)) buildScene(*layout, diagnostics);
+    std::vector<std::string> found;
+    for (const Diagnostic& entry : diagnostics.entries)
+        found.push_back(std::to_string(entry.where.line) + ": " + entry.message);
+    return found;
+}
+
+TEST(Storeys, MistakesAreToldWhereTheyAre) {
+    const std::string ground = R"({"id": "ground", "floor": [[-9, -5], [9, -5], [9, 5], [-9, 5]]})";
+    const std::string upper = R"({"id": "upper", "height": 3, "floor": [[4, -5], [9, -5], [9, 5], [4, 5]]})";
+    const std::string levels = "\"levels\": [" + ground + ", " + upper + "],\n";
+    using Texts = std::vector<std::string>;
+    EXPECT_EQ(complaintsAbout(levels + R"("links": [{"id": "s", "from": "ground", "to": "uper", "path": [[0, 0], [4, 0]]}])"),
+              Texts{"4: there is no level `uper`"});
+    EXPECT_EQ(complaintsAbout(levels + R"("links": [{"id": "s", "from": "ground", "to": "upper", "path": [[3, 0], [4, 0]]}])"),
+              Texts{"4: link `s` climbs 3.00 m over 1.00 m: stairs climb at most 120 %"});
+    EXPECT_EQ(complaintsAbout(levels + R"("links": [{"id": "s", "from": "ground", "to": "upper", "path": [[-3, 0], [3, 0]]}])"),
+              Texts{"4: link `s` does not reach the floor of level `upper` at [3.00, 0.00]"});
+    EXPECT_EQ(complaintsAbout("\"levels\": [" + ground +
+                              ",\n{\"id\": \"mezzanine\", \"height\": 1.5, \"floor\": [[0, 0], [5, 0], [5, 5]]}]"),
+              Texts{"4: levels `ground` and `mezzanine` lie over each other at [0.12, 0.12], 1.50 m apart"});
+    EXPECT_EQ(complaintsAbout(levels + R"("terrain": {"file": "ground.glb"})"),
+              Texts{"4: a layout has levels or a terrain, not both"});
+    EXPECT_EQ(complaintsAbout(levels + R"("walls": [{"points": [[0, 1], [1, 1]], "level": "cellar"}])"),
+              Texts{"4: there is no level `cellar`"});
+}
+
+}  // namespace
+}  // namespace throng::authoring
