@@ -77,6 +77,15 @@ float defaultPixelsPerMetre(const authoring::Scene& scene) {
     return std::max(2.0f / smallest_tile, 1.0f / std::max(scene.smallest_radius, 0.05f));
 }
 
+/// Two to the power of something, or half as much again, so that places in pixels are exact: a little less will do.
+float roundPixels(float per_metre) {
+    constexpr float kEnough = 0.85f;
+    const float power = std::exp2(std::floor(std::log2(kEnough * per_metre)));
+    for (const float factor : {1.0f, 1.5f})
+        if (factor * power >= kEnough * per_metre) return factor * power;
+    return 2.0f * power;
+}
+
 /// Cells that one storage block of every device holds, whole strips of them.
 constexpr double kMostCells = 33'554'432.0 - gpu::CELLS_PER_STRIP;
 
@@ -119,6 +128,9 @@ gpu::Parameters makeParameters(const authoring::Scene& scene) {
                                         2.0f * scene.largest_radius + parameters.contact_slack);
     parameters.cells_minimum = scene.minimum;
     parameters.cell_size = parameters.contact_range;
+    // Of charts, whole numbers of cells make a shift.
+    const auto step = static_cast<float>(authoring::kShiftStep);
+    if (!scene.chart_map.empty()) parameters.cell_size = step / std::floor(step / parameters.cell_size);
     checkCells(extent, parameters.cell_size);
     parameters.cells_width = std::max(1u, pixels(extent.x, 1.0f / parameters.cell_size));
     parameters.cells_height = std::max(1u, pixels(extent.y, 1.0f / parameters.cell_size));
@@ -128,8 +140,8 @@ gpu::Parameters makeParameters(const authoring::Scene& scene) {
                                       ? static_cast<float>(settings.pixels_per_metre)
                                       : defaultPixelsPerMetre(scene);
     // Pixels of all charts fit together, too: shifts are multiples of four metres.
-    if (!scene.chart_map.empty())
-        parameters.pixels_per_metre = std::ceil(4.0f * parameters.pixels_per_metre) / 4.0f;
+    if (!scene.chart_map.empty() && settings.pixels_per_metre <= 0.0)
+        parameters.pixels_per_metre = roundPixels(parameters.pixels_per_metre);
     parameters.diagram_width = pixels(extent.x, parameters.pixels_per_metre);
     parameters.diagram_height = pixels(extent.y, parameters.pixels_per_metre);
     parameters.tile_radius = static_cast<float>(settings.tile_radius);

@@ -397,7 +397,7 @@ class Builder {
                 person.stage_count = itineraries.appendStages(journey, random, travellerOf(person, index, i));
             }
             const glm::vec2 goal = scene_.stages[person.first_stage + person.stage_count - 1].point;
-            const glm::vec2 ahead = goal - scene_.entry_points[scene_.entries[entry].first_point];
+            const glm::vec2 ahead = wayBetween(scene_.entry_points[scene_.entries[entry].first_point], goal);
             person.heading = std::atan2(ahead.y, ahead.x);
             scene_.goals.push_back(goal);
             addChanges(flow.id, flow.people, flow.where, {start}, random, i, index, person, itineraries);
@@ -588,10 +588,15 @@ class Builder {
         return stage;
     }
 
+    /// m, from one place in the plane to another as they lie at home.
+    glm::vec2 wayBetween(glm::vec2 from, glm::vec2 to) const {
+        return scene_.chart_map.home(to) - scene_.chart_map.home(from);
+    }
+
     /// People look where their way leads.
     void turn(const Formation& formation, std::size_t i, glm::vec2 goal, const Routes& routes,
               gpu::Person& person) const {
-        glm::vec2 ahead = goal - person.spawn_position;
+        glm::vec2 ahead = wayBetween(person.spawn_position, goal);
         const gpu::Stage& stage = scene_.stages.back();
         if (stage.field != gpu::NO_INDEX && (stage.field & gpu::FIELD_THEN_POINT) != 0)
             if (const glm::vec2 way =

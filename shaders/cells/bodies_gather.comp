@@ -40,7 +40,7 @@ void main() {
     uint first = cellStart(cell);
     uint last = cellStart(cell + 1u);
     uint slot = first;
-    for (uint other = first; other < last; ++other) slot += loose_rows[other] < site_row ? 1u : 0u;
+    for (uint other = first; other < last; ++other) slot += personOf(loose_rows[other]) < personOf(site_row) ? 1u : 0u;
 
     uint row = personOf(site_row);
     AgentState state = states[row];

@@ -29,6 +29,7 @@ uniform float momentum;  // 1 = none
 uniform float bracing;   // 1 = who is carried off its way gives less than others, 0 = all give alike
 
 #include "shaders/shared/at_most.glsl"
+#include "shaders/charts/snap.glsl"
 #include "shaders/cells/cells.glsl"
 #include "shaders/cells/cell_runs.glsl"
 #include "shaders/shared/walls.glsl"
@@ -49,6 +50,27 @@ uniform float bracing;   // 1 = who is carried off its way gives less than other
 #include "shaders/motion/out_of_walls.glsl"
 #endif
 
+/// On in the direction of the last two rounds.
+TARGET goneOn(TARGET before, TARGET now) {
+#ifdef CHARTS
+    TARGET way = momentum * (now - before);
+    way.xy = snapped(way.xy);
+    return before + way;
+#else
+    return mix(before, now, momentum);
+#endif
+}
+
+#ifndef BODIES
+vec2 outOfWalls(Body self, vec2 position) {
+#ifdef CHARTS
+    return self.position + snapped(keepOutOfWalls(self, position) - self.position);
+#else
+    return keepOutOfWalls(self, position);
+#endif
+}
+#endif
+
 void main() {
     // Only those who may touch something are listed; for all others the two target buffers already agree.
     if (gl_GlobalInvocationID.x >= touch_count) return;
@@ -60,16 +82,16 @@ void main() {
     vec2 start = vec2(walkers[slot].axis_x, walkers[slot].axis_y);
     vec4 target = targets_before[slot];
     Push push = pushFromNeighbours(self, slot, touching, target);
-    target.xy += atMost(push.way, CONTACT_MOST_PUSH * self.radius);
+    target.xy += snapped(atMost(push.way, CONTACT_MOST_PUSH * self.radius));
     target.zw = turnedBy(target.zw, push.turn);
-    target = mix(targets_after[slot], target, momentum);
+    target = goneOn(targets_after[slot], target);
     target.zw = withinATurn(target.zw, start);
     targets_after[slot] = (touch_word & TOUCH_WALL_NEAR) != 0u ? keepOutOfWalls(self, start, target) : target;
 #else
     vec2 position = targets_before[slot];
     vec2 push = pushFromNeighbours(self, slot, touching, position);
-    position += atMost(push, CONTACT_MOST_PUSH * self.radius);
-    position = mix(targets_after[slot], position, momentum);
-    targets_after[slot] = (touch_word & TOUCH_WALL_NEAR) != 0u ? keepOutOfWalls(self, position) : position;
+    position += snapped(atMost(push, CONTACT_MOST_PUSH * self.radius));
+    position = goneOn(targets_after[slot], position);
+    targets_after[slot] = (touch_word & TOUCH_WALL_NEAR) != 0u ? outOfWalls(self, position) : position;
 #endif
 }

@@ -11,12 +11,15 @@ def box(x0, y0, x1, y1):
     return [[x0, y0], [x1, y0], [x1, y1], [x0, y1]]
 
 
-# A square of 24 m, uncut and cut at different lines.
-WHOLE = {"whole": box(-12, -12, 12, 12)}
+# A square of 24 m cut at different lines, and uncut, with corners where the cuts end: railings then consist of the same
+# pieces.
 STRAIGHT = {"west": box(-12, -12, 1.3, 12), "east": box(1.3, -12, 12, 12)}
 OBLIQUE = {"below": [[-12, -12], [12, -12], [12, 7.1], [-12, -5.3]], "above": [[12, 7.1], [12, 12], [-12, 12], [-12, -5.3]]}
 MEETING = {"west": box(-12, -12, 0.6, 12), "south": box(0.6, -12, 12, 1.7), "north": box(0.6, 1.7, 12, 12)}
 CUTS = {"straight": STRAIGHT, "oblique": OBLIQUE, "three meet": MEETING}
+WHOLE = {"straight": [[-12, -12], [1.3, -12], [12, -12], [12, 12], [1.3, 12], [-12, 12]],
+         "oblique": [[-12, -12], [12, -12], [12, 7.1], [12, 12], [-12, 12], [-12, -5.3]],
+         "three meet": [[-12, -12], [0.6, -12], [12, -12], [12, 1.7], [12, 12], [0.6, 12], [-12, 12]]}
 
 
 def within(polygon, point):
@@ -46,19 +49,18 @@ def crossing(floors, duration):
 
 
 def corridor(floors, duration):
+    """Two streams between walls that end, cut or not, where seams may be."""
     layout = crossing(floors, duration)
-    layout["walls"] += [{"id": f"wall {level} {y}", "level": level, "points": [[max(a, -9), y], [min(b, 9), y]]}
-                        for y in (-2.5, 2.5) for level, a, b in pieces(floors, y)]
+    for y in (-2.5, 2.5):
+        ends = [-9, *sorted({seam(y) for seam in SEAMS}), 9]
+        layout["walls"] += [{"id": f"{y} {a}", "level": level_at(floors, (0.5 * (a + b), y)), "points": [[a, y], [b, y]]}
+                            for a, b in zip(ends, ends[1:])]
     layout["flows"] = layout["flows"][:2]
     return layout
 
 
-def pieces(floors, y):
-    """Where each floor lies along a line, to a millimetre."""
-    xs = numpy.arange(-12, 12, 0.001) + 0.0005
-    at = [level_at(floors, (x, y)) for x in xs]
-    ends = [0, *(numpy.flatnonzero(numpy.array(at[1:]) != numpy.array(at[:-1])) + 1), len(xs)]
-    return [(at[i], round(xs[i] - 0.0005, 3), round(xs[j - 1] + 0.0005, 3)) for i, j in zip(ends[:-1], ends[1:])]
+# Where the cuts are, from a line's y to its x.
+SEAMS = (lambda y: 1.3, lambda y: 0.6, lambda y: round(-12 + 24 * (y + 5.3) / 12.4, 6))
 
 
 def at_random(floors, duration):
@@ -100,7 +102,8 @@ def measured(throng, folder):
 def test_nobody_notices_a_seam(throng, once, tmp_path, scene, cut):
     """Everybody within a millimetre of where they are on uncut ground for 5 s; by the end, the same have arrived and
     nobody was in anybody or went through a wall at a seam."""
-    whole = once(f"uncut {scene}", lambda folder: bake(throng, folder, SCENES[scene](WHOLE, 60))) / "bake"
+    uncut = {"whole": WHOLE[cut]}
+    whole = once(f"uncut {scene} {cut}", lambda folder: bake(throng, folder, SCENES[scene](uncut, 60))) / "bake"
     parts = bake(throng, tmp_path, SCENES[scene](CUTS[cut], 60))
     until = 5 * 24 + 1
     there = stream(whole, "state")[:until, :, 0] > 0

@@ -151,7 +151,7 @@ TEST(Routes, CrowdsShareFieldsAndStillComeToTheirOwnGoals) {
     grid.spacing = 0.6;
     grid.origin = {0.0, -9.0};
     grid.goal = glm::dvec2(60.0, 0.0);
-    layout.formations.push_back({"crowd", grid, 0.0, {}, {}, Arrival::stay, 0.3, {}});
+    layout.formations.push_back({"crowd", grid, 0.0, {}, {}, Arrival::stay, 0.3, 0, {}});
     const Scene scene = sceneWith(layout);
     EXPECT_LT(scene.field_count, 100u);
     for (std::size_t i = 0; i < scene.people.size(); i += 37)

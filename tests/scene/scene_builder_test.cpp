@@ -256,7 +256,7 @@ TEST(SceneBuilder, ScattersGoalsOverABox) {
     grid.columns = 40;
     grid.spacing = 1.0;
     grid.goal = Extent{{10, 50}, {-10, 20}};
-    layout.formations.push_back({"scattered", grid, 0.0, {}, {}, Arrival::stay, 0.3, {}});
+    layout.formations.push_back({"scattered", grid, 0.0, {}, {}, Arrival::stay, 0.3, 0, {}});
     const Scene scene = built(layout);
     glm::dvec2 mean(0.0);
     for (const glm::vec2 goal : scene.goals) {
