@@ -311,7 +311,8 @@ class Builder {
         sortWalls(geometry_);
         if (!hasRoomForTiles()) return;
         scene_.wall_tiles = wallTiles(geometry_.walls, scene_.smallest_radius,
-                                      static_cast<float>(layout_.simulation.tile_radius));
+                                      static_cast<float>(layout_.simulation.tile_radius),
+                                      scene_.charts != nullptr);
     }
 
     bool hasRoomForTiles() {

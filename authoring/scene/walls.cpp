@@ -2,6 +2,7 @@
 #include "authoring/scene/walls.h"
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <span>
 #include <unordered_map>
 
@@ -80,30 +81,47 @@ double tilesNeeded(const gpu::WallSegment& segment, float spacing) {
     return ((round > 0.0 ? 2.0 : 1.0) * length + round) / double{spacing} + 1.0;
 }
 
+namespace {
+
+/// Those of one wall.
+void tilesOf(const gpu::WallSegment& segment, std::uint32_t index, float spacing, float tile_radius,
+             std::vector<gpu::WallTile>& tiles) {
+    const float length = glm::distance(segment.a, segment.b);
+    if (segment.half_thickness <= kThin || length <= 0.0f) {
+        tilesAlong(segment.a, segment.b, spacing, tile_radius, index, tiles);
+        return;
+    }
+    const glm::vec2 along = (segment.b - segment.a) / length;
+    const glm::vec2 aside = glm::vec2(-along.y, along.x) * segment.half_thickness;
+    tilesAlong(segment.a + aside, segment.b + aside, spacing, tile_radius, index, tiles);
+    tilesAlong(segment.a - aside, segment.b - aside, spacing, tile_radius, index, tiles);
+    // The rounded ends, half a circle each.
+    const int steps =
+        std::max(1, static_cast<int>(std::ceil(3.14159265f * segment.half_thickness / spacing)));
+    for (int i = 1; i < steps; ++i) {
+        const float angle = 3.14159265f * static_cast<float>(i) / static_cast<float>(steps);
+        const glm::vec2 outward = along * (std::sin(angle) * segment.half_thickness);
+        const glm::vec2 round = aside * std::cos(angle);
+        tiles.push_back({segment.b + outward + round, tile_radius, index});
+        tiles.push_back({segment.a - outward + round, tile_radius, index});
+    }
+}
+
+}  // namespace
+
 std::vector<gpu::WallTile> wallTiles(const std::vector<gpu::WallSegment>& segments, float spacing,
-                                     float tile_radius) {
+                                     float tile_radius, bool on_charts) {
+    constexpr float kPerMetre = 65'536.0f;
     std::vector<gpu::WallTile> tiles;
     for (std::uint32_t index = 0; index < segments.size(); ++index) {
-        const gpu::WallSegment& segment = segments[index];
-        const float length = glm::distance(segment.a, segment.b);
-        if (segment.half_thickness <= kThin || length <= 0.0f) {
-            tilesAlong(segment.a, segment.b, spacing, tile_radius, index, tiles);
-            continue;
-        }
-        const glm::vec2 along = (segment.b - segment.a) / length;
-        const glm::vec2 aside = glm::vec2(-along.y, along.x) * segment.half_thickness;
-        tilesAlong(segment.a + aside, segment.b + aside, spacing, tile_radius, index, tiles);
-        tilesAlong(segment.a - aside, segment.b - aside, spacing, tile_radius, index, tiles);
-        // The rounded ends, half a circle each.
-        const int steps =
-            std::max(1, static_cast<int>(std::ceil(3.14159265f * segment.half_thickness / spacing)));
-        for (int i = 1; i < steps; ++i) {
-            const float angle = 3.14159265f * static_cast<float>(i) / static_cast<float>(steps);
-            const glm::vec2 outward = along * (std::sin(angle) * segment.half_thickness);
-            const glm::vec2 round = aside * std::cos(angle);
-            tiles.push_back({segment.b + outward + round, tile_radius, index});
-            tiles.push_back({segment.a - outward + round, tile_radius, index});
-        }
+        gpu::WallSegment segment = segments[index];
+        const glm::vec2 corner = on_charts ? segment.a : glm::vec2(0.0f);
+        segment.a -= corner;
+        segment.b -= corner;
+        const std::size_t first = tiles.size();
+        tilesOf(segment, index, spacing, tile_radius, tiles);
+        for (std::size_t tile = first; on_charts && tile < tiles.size(); ++tile)
+            tiles[tile].position = corner + glm::round(tiles[tile].position * kPerMetre) / kPerMetre;
     }
     removeRepeated(tiles);
     return tiles;

@@ -37,6 +37,11 @@ int marchRays(Body self, uint self_slot) {
         vec2 local = pattern[i];
         vec2 pixel = centre + vec2(forward.x * local.x - forward.y * local.y,
                                    forward.y * local.x + forward.x * local.y);
+#ifdef CHARTS
+        // In single precision, sums differ from one part of the plane to another.
+        pixel = floor(centre) + floor(fract(centre) + vec2(forward.x * local.x - forward.y * local.y,
+                                                           forward.y * local.x + forward.x * local.y));
+#endif
         uvec2 at = uvec2(clamp(pixel, vec2(0.0), upper));
         uint owner = ownerAt(at);
         bool fresh = owner != NO_INDEX && owner != self_slot && owner != recent.x && owner != recent.y &&
