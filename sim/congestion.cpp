@@ -33,6 +33,11 @@ const gl::Declaration kSlope = {
     {"ParametersBlock", "FreeDistances", "Ground", "DetourDistances", "FieldMaps", "ListedBlocks"},
     {"DetourSlopes"}};
 
+const gl::Declaration kShow = {"routes",
+                               {"shaders/routes/detour_seams.comp"},
+                               {"ParametersBlock", "ShownCells", "DetourDistances", "DetourSlopes"},
+                               {"DetourDistances", "DetourSlopes", "ChangedBlocks"}};
+
 }  // namespace
 
 Congestion::Congestion(const gl::ShaderLibrary& library, Buffers& buffers, const authoring::Scene& scene,
@@ -86,9 +91,31 @@ Congestion::Congestion(const gl::ShaderLibrary& library, Buffers& buffers, const
         program->bindAll(own);
     }
     relax_.bind("ChangedBlocks", changed_now_);
+    if (!detours.shown.empty()) showOverSeams(library, buffers, detours.shown);
     const auto memory = static_cast<float>(rules.number("routes_round_jams", "memory"));
     flow_.set("fading",
               1.0f - std::exp(-static_cast<float>(runs_per_round_) * parameters.decision_seconds / memory));
+}
+
+void Congestion::showOverSeams(const gl::ShaderLibrary& library, const Buffers& buffers,
+                               const std::vector<glm::uvec2>& shown) {
+    shown_count_ = static_cast<std::uint32_t>(shown.size());
+    shown_cells_ = gl::makeBuffer("cells shown over seams", shown, "shown cell");
+    show_distances_ = buffers.connect(library, kShow, {});
+    show_slopes_ = buffers.connect(library, kShow, {{"SLOPES", "1"}});
+    show_distances_.bind("DetourDistances", distances_);
+    show_distances_.bind("ChangedBlocks", changed_now_);
+    for (gl::ComputeProgram* program : {&show_distances_, &show_slopes_}) {
+        program->bind("ShownCells", shown_cells_);
+        program->set("shown_count", shown_count_);
+    }
+}
+
+void Congestion::show(gl::ComputeProgram& program, std::uint32_t count) {
+    if (shown_count_ == 0) return;
+    program.set("first_field", clock_.next_field);
+    program.set("field_count", count);
+    program.dispatch(std::uint64_t{shown_count_} * count);
 }
 
 void Congestion::run() {
@@ -104,8 +131,10 @@ void Congestion::run() {
     listBlocks(changed_before_, true);
     relax_.dispatchIndirect(block_dispatch_);
     keep_.dispatchIndirect(block_dispatch_);
+    show(show_distances_, count);
     listBlocks(changed_now_, false);
     slope_.dispatchIndirect(block_dispatch_);
+    show(show_slopes_, count);
     clock_.next_field += count;
     if (clock_.next_field < fields_) return;
     clock_.next_field = 0;

@@ -30,6 +30,9 @@ class Congestion {
 
   private:
     void listBlocks(const gl::Buffer& changed, bool dense_too);
+    void showOverSeams(const gl::ShaderLibrary& library, const Buffers& buffers,
+                       const std::vector<glm::uvec2>& shown);
+    void show(gl::ComputeProgram& program, std::uint32_t count);
 
     std::uint32_t cells_ = 0, blocks_ = 0;  // of one map
     std::uint32_t fields_ = 0;
@@ -41,6 +44,9 @@ class Congestion {
     gl::Buffer changed_before_, changed_now_;  // blocks of each field, the last time round and this time
     gl::Buffer listed_, block_dispatch_, no_blocks_;
     gl::ComputeProgram flow_, list_, relax_, keep_, slope_;
+    std::uint32_t shown_count_ = 0;  // cells that show others over a seam
+    gl::Buffer shown_cells_;
+    gl::ComputeProgram show_distances_, show_slopes_;
 };
 
 }  // namespace throng::sim

@@ -74,6 +74,9 @@ class WallCost {
 /// bind
 WalkMap makeWalkMap(const WalkGeometry& geometry, const FieldGrid& grid, bool keep_to_roads);
 
+/// Makes a map that of charts: people walk on their own chart's ground, and over seams.
+void blockOthers(const ChartMap& charts, WalkMap& map);
+
 /// The same ground in larger cells.
 struct CoarseMap {
     WalkMap map;

@@ -116,8 +116,19 @@ const WalkMap& Ground::mapFor(Purpose purpose) {
 const CoarseMap& Ground::coarse(bool keep_to_roads) {
     const std::lock_guard lock(making_);
     std::optional<CoarseMap>& coarse = coarse_[keep_to_roads ? 1 : 0];
-    if (!coarse) coarse = coarsen(map(keep_to_roads), coarseGrid());
+    if (!coarse) coarse = geometry_.charts ? coarsenCharts(map(keep_to_roads)) : coarsen(map(keep_to_roads), coarseGrid());
     return *coarse;
+}
+
+/// Whether one may go from a coarse cell to the next is the same within a chart and over its seams.
+CoarseMap Ground::coarsenCharts(WalkMap fine) const {
+    for (const auto& [image, owner] : fine.seams->shown) {
+        fine.cost[image] = fine.cost[owner];
+        if (!fine.one_way.empty()) fine.one_way[image] = fine.one_way[owner];
+    }
+    CoarseMap coarse = coarsen(fine, coarseGrid());
+    blockOthers(*geometry_.charts, coarse.map);
+    return coarse;
 }
 
 FieldGrid Ground::coarseGrid() const {

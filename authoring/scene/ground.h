@@ -94,6 +94,7 @@ class Ground {
     Field solveFine(Purpose purpose, const Targets& targets, const StraightWays* straight);
     std::optional<glm::vec2> freeCellNear(glm::vec2 point);
     StraightWays straightTo(const GoalBox& goals, glm::vec2 middle, const GoalBox& room);
+    CoarseMap coarsenCharts(WalkMap fine) const;
     template <class Visit>
     void visitSpots(glm::vec2 lower, glm::vec2 upper, Visit visit) const;
 

@@ -264,6 +264,9 @@ FieldStore Routes::store() const {
 Detours Routes::detours() {
     Detours detours;
     detours.grid = ground_.coarseGrid();
+    if (!fields_.empty() && ground_.coarse(false).map.seams)
+        for (const auto& [image, owner] : ground_.coarse(false).map.seams->shown)
+            detours.shown.emplace_back(image, owner);
     std::optional<std::uint32_t> map_index[2];
     for (std::size_t field = 0; field < fields_.size(); ++field) {
         detours.has_choice.push_back(fields_[field].has_choice);

@@ -699,8 +699,7 @@ class Builder {
 
     void finish(Routes& routes) {
         scene_.field_count = routes.fieldCount();
-        if (layout_.simulation.avoid_congestion && layout_.simulation.motion.isOn("routes_round_jams") &&
-            !scene_.charts)
+        if (layout_.simulation.avoid_congestion && layout_.simulation.motion.isOn("routes_round_jams"))
             scene_.detours = routes.detours();
         scene_.fields = routes.store();
         scene_.road_distance = ground_->roadDistances();

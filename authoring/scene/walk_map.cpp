@@ -63,14 +63,14 @@ float chartCellSize(float wanted) {
     return wanted <= 2.0f * kDoorCell ? std::min(size, kDoorCell) : size;
 }
 
-/// People walk on their own chart's ground, and over seams.
+
+}  // namespace
+
 void blockOthers(const ChartMap& charts, WalkMap& map) {
     map.seams = std::make_shared<const SeamCells>(seamCellsOf(charts, map.grid));
     for (std::size_t cell = 0; cell < map.cost.size(); ++cell)
         if (map.seams->blocked[cell]) map.cost[cell] = kUnreachable;
 }
-
-}  // namespace
 
 // How near to a wall a cell's centre may be: at least so that walls without thickness leave no gap between
 // cells, and less than the smallest body needs by half a cell, so that rasterising never closes a door that
