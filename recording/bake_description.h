@@ -58,9 +58,7 @@ struct BakeTerrain {
 
 /// How the simulation's plane and the places of a layout with levels belong together (authoring/storeys/charts.h).
 struct BakeCharts {
-    std::vector<glm::dvec2> shifts;      ///< m, by chart: place in the plane - home
-    std::vector<authoring::Wall> walls;  ///< in the plane
-    glm::dvec2 minimum{0.0}, maximum{0.0};  ///< of the plane
+    std::vector<glm::dvec2> shifts;  ///< m, by chart: place in the plane - home
 };
 
 /// All that a bake's files say besides the frames. World coordinates unless told otherwise; metres and

@@ -6,6 +6,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "base/storeys.h"
+
 namespace throng::recording {
 namespace {
 
@@ -27,8 +29,9 @@ double reachOf(const MovedBody& a, const MovedBody& b) {
 
 }  // namespace
 
-KeepApart::KeepApart(std::vector<authoring::Wall> walls, glm::dvec2 minimum, glm::dvec2 maximum)
-    : walls_(std::move(walls), minimum, maximum), grid_(minimum, maximum, 1.0) {}
+KeepApart::KeepApart(std::vector<authoring::Wall> walls, glm::dvec2 minimum, glm::dvec2 maximum,
+                     std::vector<glm::dvec2> ground)
+    : walls_(std::move(walls), minimum, maximum, std::move(ground)), grid_(minimum, maximum, 1.0) {}
 
 void KeepApart::settle(std::vector<MovedBody>& bodies, double before, double now) {
     findPairs(bodies);
@@ -73,7 +76,7 @@ void KeepApart::findPairs(const std::vector<MovedBody>& bodies) {
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {
         if (!moved(i)) continue;
         grid_.near(places_[i], bodies[i].radius + largest + kMargin, [&](std::uint32_t j) {
-            if (j == i || (j < i && moved(j))) return;
+            if (j == i || (j < i && moved(j)) || !areOnOneGround(bodies[i].height, bodies[j].height)) return;
             const double reach = reachOf(bodies[i], bodies[j]);
             if (glm::length(between(bodies[i], bodies[j])) < reach + kMargin)
                 pairs_.push_back({i, j, reach * (1.0 - kSlack)});
@@ -99,14 +102,15 @@ void KeepApart::separate(std::vector<MovedBody>& bodies) const {
     }
 }
 
-void KeepApart::clearWalls(std::vector<MovedBody>& bodies) const {
+void KeepApart::clearWalls(std::vector<MovedBody>& bodies) {
     if (walls_.empty()) return;
     for (MovedBody& body : bodies)
         if (glm::distance(body.simulated, body.place) > kMoved) clearWalls(body);
 }
 
 /// As near to its average place as walls let it be, on the straight way from where the simulation had it.
-void KeepApart::clearWalls(MovedBody& body) const {
+void KeepApart::clearWalls(MovedBody& body) {
+    walls_.standAt(body.height);
     constexpr double kTouches = 1.0e-4;  // m
     const double allowed = std::max(kTouches, walls_.penetration(body.shapeAt(body.simulated)));
     const auto clear = [&](glm::dvec2 place) {

@@ -18,6 +18,7 @@ struct MovedBody {
     glm::dvec2 place{0.0};      ///< where it is to be shown
     double radius = 0.0;        ///< m
     glm::dvec2 axis{0.0};  ///< m, of a body that is no disc: half of its segment; `radius` holds all of it
+    double height = 0.0;   ///< m, of the ground; matters where floors lie above each other
 
     Capsule shapeAt(glm::dvec2 middle) const { return {middle, axis, radius - glm::length(axis)}; }
 };
@@ -28,7 +29,9 @@ struct MovedBody {
 class KeepApart {
   public:
     /// @param walls in the frame of reference of the places
-    KeepApart(std::vector<authoring::Wall> walls, glm::dvec2 minimum, glm::dvec2 maximum);
+    /// @param ground as WallWatch's
+    KeepApart(std::vector<authoring::Wall> walls, glm::dvec2 minimum, glm::dvec2 maximum,
+              std::vector<glm::dvec2> ground = {});
 
     /// @param before, now s, of the frame before and of this one: gates open in either are not there
     void settle(std::vector<MovedBody>& bodies, double before, double now);
@@ -40,8 +43,8 @@ class KeepApart {
     };
     void findPairs(const std::vector<MovedBody>& bodies);
     void separate(std::vector<MovedBody>& bodies) const;
-    void clearWalls(std::vector<MovedBody>& bodies) const;
-    void clearWalls(MovedBody& body) const;
+    void clearWalls(std::vector<MovedBody>& bodies);
+    void clearWalls(MovedBody& body);
     bool takeBack(std::vector<MovedBody>& bodies) const;
 
     WallWatch walls_;

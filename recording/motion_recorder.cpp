@@ -20,20 +20,16 @@ constexpr double kPerMetre = 65536.0;
 /// The walls in the frame of reference of the frames, as finely as the simulation has them: a layout that is
 /// moved by whole metres then has the very same.
 std::vector<authoring::Wall> localWalls(const BakeDescription& description) {
-    std::vector<authoring::Wall> walls = description.charts ? description.charts->walls : description.walls;
+    std::vector<authoring::Wall> walls = description.walls;
     for (authoring::Wall& wall : walls)
         for (glm::dvec2& point : wall.points)
             point = glm::round((point - description.scene_origin) * kPerMetre) / kPerMetre;
     return walls;
 }
 
-/// Bounds of what people are kept apart in.
-glm::dvec2 lowerOf(const BakeDescription& description) {
-    return (description.charts ? description.charts->minimum : description.minimum) - description.scene_origin;
-}
-
-glm::dvec2 upperOf(const BakeDescription& description) {
-    return (description.charts ? description.charts->maximum : description.maximum) - description.scene_origin;
+/// Which storey a wall is on, where there are several.
+std::vector<glm::dvec2> groundAlongWalls(const BakeDescription& description) {
+    return description.charts && description.terrain ? description.terrain->along_walls : std::vector<glm::dvec2>{};
 }
 
 }  // namespace
@@ -44,7 +40,8 @@ MotionRecorder::MotionRecorder(const BakeDescription& description, Sink sink)
                        description.maximum - description.scene_origin)),
       sink_(std::move(sink)),
       window_(description.smoothing, description.fps),
-      apart_(localWalls(description), lowerOf(description), upperOf(description)),
+      apart_(localWalls(description), description.minimum - description.scene_origin,
+             description.maximum - description.scene_origin, groundAlongWalls(description)),
       walkers_(description.agents.size()),
       carried_(fromDevice(description.asked)) {
     if (description.charts) {
@@ -52,7 +49,8 @@ MotionRecorder::MotionRecorder(const BakeDescription& description, Sink sink)
         charts_.resize(walkers_.size());
     }
     if (description.terrain) {
-        footing_.emplace(description.terrain->surface, walkers_.size(), fps_);
+        ground_ = description.terrain->surface;
+        footing_.emplace(ground_, walkers_.size(), fps_);
         grounds_.resize(walkers_.size() * kComponents);
     }
     for (const BakeAgent& agent : description.agents) {
@@ -108,6 +106,14 @@ glm::dvec2 MotionRecorder::toPlane(std::size_t row) const {
     return shifts_[charts_[row]];
 }
 
+/// Of the ground under somebody, where floors lie above each other: others there are in its way, and those above are
+/// not. m
+double MotionRecorder::heightOf(std::size_t row) const {
+    if (shifts_.empty() || !ground_) return 0.0;
+    const std::size_t at = row * kComponents;
+    return double{ground_->smoothAt(glm::vec2(glm::dvec2(positions_[at], positions_[at + 1]) + toPlane(row)))};
+}
+
 void MotionRecorder::finish() {
     while (!window_.isEmpty())
         giveOut();
@@ -149,10 +155,11 @@ void MotionRecorder::average(const KeptFrame& frame) {
         const std::size_t at = row * kComponents;
         const Average average = window_.average(row);
         present_.push_back(row);
-        bodies_.push_back({glm::dvec2(positions_[at], positions_[at + 1]) + toPlane(row),
-                           glm::dvec2(average.position[0], average.position[1]) + toPlane(row),
+        bodies_.push_back({{positions_[at], positions_[at + 1]},
+                           {average.position[0], average.position[1]},
                            radii_[row],
-                           axisOf(frame, row)});
+                           axisOf(frame, row),
+                           heightOf(row)});
         if (shifts_.empty()) positions_[at + 2] = static_cast<float>(average.position[2]);
         directions_[at] = static_cast<float>(average.heading[0]);
         directions_[at + 1] = static_cast<float>(average.heading[1]);
@@ -160,9 +167,8 @@ void MotionRecorder::average(const KeptFrame& frame) {
     }
     apart_.settle(bodies_, (frame.index - 1.0) / fps_, frame.index / fps_);
     for (std::size_t i = 0; i < present_.size(); ++i) {
-        const glm::dvec2 home = bodies_[i].place - toPlane(present_[i]);
-        positions_[present_[i] * kComponents] = static_cast<float>(home.x);
-        positions_[present_[i] * kComponents + 1] = static_cast<float>(home.y);
+        positions_[present_[i] * kComponents] = static_cast<float>(bodies_[i].place.x);
+        positions_[present_[i] * kComponents + 1] = static_cast<float>(bodies_[i].place.y);
     }
 }
 

@@ -49,6 +49,7 @@ class MotionRecorder {
     void giveOut();
     void goHome(const Frame& frame);
     glm::dvec2 toPlane(std::size_t row) const;
+    double heightOf(std::size_t row) const;
     void average(const KeptFrame& frame);
     void record(const KeptFrame& frame);
     void putStance(std::size_t at, const Stance& stance);
@@ -69,6 +70,7 @@ class MotionRecorder {
     KeepApart apart_;
     std::vector<Walker> walkers_;
     std::optional<Footing> footing_;      // none on flat ground
+    std::shared_ptr<const authoring::Terrain> ground_;  // likewise
     std::optional<Footsteps> footsteps_;  // none unless asked for
     std::optional<Carriages> carriages_;  // likewise, with them
     std::optional<Gazes> gazes_;          // likewise

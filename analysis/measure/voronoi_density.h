@@ -2,20 +2,14 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <vector>
 
 #include "base/plane_grid.h"
+#include "base/storeys.h"
 
 namespace throng::analysis {
-
-/// Whether people at two heights (m) can touch, or one is above the other. On stairs, neighbours are half a metre apart.
-inline bool areOnOneGround(double height, double other) {
-    constexpr double kStorey = 1.1;
-    return std::abs(height - other) < kStorey;
-}
 
 /// persons/m^2: one over the area of a person's Voronoi cell, truncated at a metre and counted in squares of
 /// 0.1 m around it (Steffen and Seyfried 2010).

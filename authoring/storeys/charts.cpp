@@ -222,7 +222,8 @@ class LayingOut {
                 std::vector<glm::dvec2> line = wall.points;
                 if (wall.closed) line.push_back(line.front());
                 const double thickness = wall.closed ? 0.0 : wall.thickness;
-                for (std::vector<glm::dvec2>& part : partsInMargin(raster, owner, line, 0.5 * thickness)) {
+                for (std::vector<glm::dvec2>& part : partsInMargin(result_->charts[chart], raster, owner, line,
+                                                                          0.5 * thickness)) {
                     Wall copy = wall;
                     copy.id = fmt::format("{}:{}:{}", wall.id, result_->charts[chart].name,
                                           result_->plane.walls.size());

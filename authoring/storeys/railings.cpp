@@ -100,9 +100,10 @@ std::vector<Railing> railingsOf(const std::vector<Chart>& charts, std::size_t in
     return railings;
 }
 
-std::vector<std::vector<glm::dvec2>> partsInMargin(const ChartRaster& raster, std::size_t owner,
+std::vector<std::vector<glm::dvec2>> partsInMargin(const Chart& chart, const ChartRaster& raster, std::size_t owner,
                                                    const std::vector<glm::dvec2>& line, double half_thickness) {
     const auto is_near = [&](glm::dvec2 point) {
+        if (chart.contains(point)) return false;
         const int cells = 1 + static_cast<int>(std::ceil(half_thickness / kChartCell));
         const glm::ivec2 cell = chartCellOf(point);
         for (int dy = -cells; dy <= cells; ++dy)

@@ -47,9 +47,6 @@ void describeCharts(const LoadedLayout& loaded, recording::BakeDescription& bake
     const authoring::Scene& scene = loaded.scene;
     const authoring::Charts& charts = *scene.charts;
     bake.charts.emplace();
-    bake.charts->walls = charts.plane.walls;
-    bake.charts->minimum = bake.minimum;
-    bake.charts->maximum = bake.maximum;
     std::tie(bake.minimum, bake.maximum) = charts.charts.front().bounds();
     for (const authoring::Chart& chart : charts.charts) {
         bake.charts->shifts.push_back(chart.shift);

@@ -114,6 +114,23 @@ TEST(ChartRaster, ShowsBeyondSeamsWhatOthersOwn) {
     EXPECT_EQ(charts->rasters[2].ownerOf({2.4, 1.0}), 1u);
 }
 
+/// In the hall the stairs' opening ends in a railing, under the stairs: nobody on these is in its way.
+TEST(Charts, NoWallOfOneStoreyStandsInTheWayOnAnother) {
+    const auto charts = chartsIn(hallWithGallery());
+    const Footprint& link = charts->charts[2].link;
+    std::size_t beside = 0;
+    for (std::size_t i = charts->walls.size(); i < charts->plane.walls.size(); ++i)
+        for (const glm::dvec2 point : charts->plane.walls[i].points) {
+            const glm::dvec2 home = point - charts->charts[2].shift;
+            const double along = link.alongOf(home), aside = std::abs(link.asideOf(home));
+            if (along < -charts->reach || along > link.length + charts->reach || aside > charts->reach) continue;
+            EXPECT_FALSE(along > 0.2 && along < link.length - 0.2 && aside < link.half_width - 0.01)
+                << charts->plane.walls[i].id << " " << along << " " << aside;
+            ++beside;
+        }
+    EXPECT_GT(beside, 4u);
+}
+
 TEST(ChartRaster, CastsImagesOfThoseWhoAreNearASeamOnly) {
     const auto charts = chartsIn(hallWithGallery());
     const auto images = [&](std::size_t chart, glm::dvec2 at) {
