@@ -130,26 +130,39 @@ authoring::Wall wallOf(const ManifestReader& reader) {
     return wall;
 }
 
+void readLevels(const ManifestReader& reader, Bake& bake) {
+    if (!reader.has("/levels")) return;
+    reader.each("/levels", [&](const ManifestReader& level) {
+        bake.levels.push_back(
+            {level.text("/id"), level.number("/height", -kFurthest, kFurthest), level.points("/floor", 3), {}});
+    });
+}
+
+/// The level that something says it lies on.
+std::size_t levelOf(const ManifestReader& reader, const Bake& bake) {
+    if (!reader.has("/level")) return 0;
+    const std::string id = reader.text("/level");
+    const auto known = std::ranges::find(bake.levels, id, &authoring::Level::id);
+    if (known == bake.levels.end()) reader.fail("/level", "the id of a level");
+    return static_cast<std::size_t>(known - bake.levels.begin());
+}
+
 void readGeometry(const ManifestReader& reader, Bake& bake) {
+    readLevels(reader, bake);
     reader.each("/geometry/roads", [&](const ManifestReader& road) {
         bake.roads.push_back({road.text("/id"),
                               road.points("/centreline", 2),
                               road.length("/width"),
                               road.flag("/one_way"),
-                              {}});
+                              {},
+                              levelOf(road, bake)});
     });
     reader.each("/geometry/areas", [&](const ManifestReader& area) {
-        bake.areas.push_back({area.text("/id"), area.points("/polygon", 3), {}});
+        bake.areas.push_back({area.text("/id"), area.points("/polygon", 3), {}, levelOf(area, bake)});
     });
-    bake.has_storeys = reader.has("/levels");
     reader.each("/geometry/walls", [&](const ManifestReader& wall) {
         bake.walls.push_back(wallOf(wall));
-        if (bake.has_storeys) bake.wall_ground.push_back(wall.point("/ground"));
-    });
-    if (bake.has_storeys) reader.each("/levels", [](const ManifestReader& level) {
-        level.text("/id");
-        level.number("/height", -kFurthest, kFurthest);
-        level.points("/floor", 3);
+        if (bake.hasStoreys()) bake.wall_ground.push_back(wall.point("/ground"));
     });
 }
 

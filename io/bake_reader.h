@@ -31,9 +31,10 @@ struct Bake {
     std::vector<authoring::Road> roads;
     std::vector<authoring::Area> areas;
     std::vector<authoring::Wall> walls;
-    /// Whether people walk on floors above each other; then also the lowest and highest ground along each wall, m.
-    bool has_storeys = false;
+    /// Floors above each other, if there are any; then also the lowest and highest ground along each wall, m.
+    std::vector<authoring::Level> levels;
     std::vector<glm::dvec2> wall_ground;
+    bool hasStoreys() const { return !levels.empty(); }
 
     struct Account {
         std::uint32_t agents = 0;

@@ -49,6 +49,11 @@ Json geometryToJson(const recording::BakeDescription& description) {
                                      {"one_way", road.one_way}});
     for (const authoring::Area& area : description.areas)
         geometry["areas"].push_back({{"id", area.id}, {"polygon", pointsToJson(area.polygon, origin)}});
+    if (description.levels.empty()) return geometry;
+    for (std::size_t i = 0; i < description.roads.size(); ++i)
+        geometry["roads"][i]["level"] = description.levels.at(description.roads[i].level).id;
+    for (std::size_t i = 0; i < description.areas.size(); ++i)
+        geometry["areas"][i]["level"] = description.levels.at(description.areas[i].level).id;
     return geometry;
 }
 

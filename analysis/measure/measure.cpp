@@ -91,7 +91,7 @@ class Measurer {
                 present_.push_back(row);
                 places_.push_back(now().place(row));
                 bodies_.push_back(now().body(row, rows_[row]));
-                heights_.push_back(bake_.has_storeys ? now().height(row) : 0.0);
+                heights_.push_back(bake_.hasStoreys() ? now().height(row) : 0.0);
             }
         grid_.sort(places_);
     }

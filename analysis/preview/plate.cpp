@@ -2,6 +2,7 @@
 #include "analysis/preview/plate.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,6 +23,7 @@ constexpr double kLegendSize = 12.0;  // px, of its letters
 constexpr double kDensityCell = 1.0;  // m
 constexpr double kTallest = 32767.0;  // px that Cairo can draw
 constexpr double kMostCells = 4.0e6;  // of the density layer
+constexpr double kHalfStorey = 1.6;   // m: who is this near to a level's height is drawn with it
 constexpr double kMostDensity = 3.0;  // persons per m^2 at the warm end of the scale
 constexpr Colour kPaper = colourFromHex(0xf6f4ef), kInk = colourFromHex(0x22252b),
                  kRoad = colourFromHex(0xe2dfd6), kArea = colourFromHex(0xece6d3),
@@ -90,6 +92,7 @@ Plate::Plate(const std::filesystem::path& bake, const PreviewOptions& options)
     crowd_.keep(framesToKeep(bake_, options));
     const glm::dvec2 extent = bake_.maximum - bake_.minimum;
     if (bake_.frames == 0) throw InputError(bake, "has no frames: there is nothing to draw");
+    chooseLevel();
     width_ = options.width / 2 * 2;  // video encoders want even sizes
     scale_ = (width_ - 2.0 * kMargin) / std::max(extent.x, 1.0);
     placeLegend();
@@ -169,7 +172,9 @@ void Plate::drawLayout() {
     cairo_t* context = scope.context;
     setColour(context, kPaper);
     cairo_paint(context);
+    drawFloors(context);
     for (const authoring::Road& road : bake_.roads) {
+        if (!isShown(road.level)) continue;
         path(context, road.centreline, false);
         cairo_set_line_width(context, road.width * scale_);
         cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
@@ -177,15 +182,52 @@ void Plate::drawLayout() {
         cairo_stroke(context);
     }
     for (const authoring::Area& area : bake_.areas) {
+        if (!isShown(area.level)) continue;
         path(context, area.polygon, true);
         setColour(context, kArea);
         cairo_fill(context);
     }
-    for (const authoring::Wall& wall : bake_.walls)
-        if (wall.toggles.empty()) drawWall(context, wall);
+    for (std::size_t i = 0; i < bake_.walls.size(); ++i)
+        if (bake_.walls[i].toggles.empty() && isWallShown(i)) drawWall(context, bake_.walls[i]);
     setColour(context, kInk);
     text(context, kMargin, 38.0, 22.0, bake_.name, true);
     drawScaleBar(context);
+}
+
+/// Floors above each other get lighter towards the top.
+void Plate::drawFloors(cairo_t* context) const {
+    for (std::size_t i = 0; i < bake_.levels.size(); ++i) {
+        if (!isShown(i)) continue;
+        path(context, bake_.levels[i].floor, true);
+        setColour(context, kRoad, 0.45);
+        cairo_fill(context);
+    }
+}
+
+/// Nobody on a level of its own is drawn with another, but those on a link with both of its ends, half of the way.
+bool Plate::isShown(const io::CrowdFrame& frame, std::size_t row) const {
+    return frame.isThere(row) && (!level_ || std::abs(frame.height(row) - bake_.levels[*level_].height) < kHalfStorey);
+}
+
+bool Plate::isWallShown(std::size_t wall) const {
+    if (!level_) return true;
+    const double height = bake_.levels[*level_].height;
+    return bake_.wall_ground[wall].x < height + kHalfStorey && bake_.wall_ground[wall].y > height - kHalfStorey;
+}
+
+void Plate::chooseLevel() {
+    if (options_.level.empty()) return;
+    const auto known = std::ranges::find(bake_.levels, options_.level, &authoring::Level::id);
+    if (known != bake_.levels.end()) {
+        level_ = static_cast<std::size_t>(known - bake_.levels.begin());
+        return;
+    }
+    std::vector<std::string> ids;
+    for (const authoring::Level& level : bake_.levels)
+        ids.push_back(fmt::format("`{}`", level.id));
+    throw InputError(bake_.folder, ids.empty() ? fmt::format("has no level `{}`: its ground is one", options_.level)
+                                               : fmt::format("has no level `{}`: there are {}", options_.level,
+                                                             fmt::join(ids, ", ")));
 }
 
 void Plate::drawScaleBar(cairo_t* context) const {
@@ -226,7 +268,7 @@ void Plate::drawDensity(cairo_t* context, const io::CrowdFrame& now) const {
     // layer.
     std::vector<double> density(columns * rows, 0.0), smooth(columns * rows, 0.0);
     for (std::size_t row = 0; row < bake_.agents; ++row) {
-        if (!now.isThere(row)) continue;
+        if (!isShown(now, row)) continue;
         const glm::dvec2 at = glm::max((now.place(row) - bake_.minimum) / cell, glm::dvec2(0.0));
         if (at.x >= static_cast<double>(columns) || at.y >= static_cast<double>(rows)) continue;
         density[static_cast<std::size_t>(at.y) * columns + static_cast<std::size_t>(at.x)] +=
@@ -262,7 +304,7 @@ void Plate::drawTrails(cairo_t* context, const io::CrowdFrame& now) {
         const io::CrowdFrame earlier = crowd_.frame(now.index() - back);
         const double alpha = 0.42 * (1.0 - static_cast<double>(back) / length);
         for (std::size_t row = 0; row < bake_.agents; ++row) {
-            if (!later.isThere(row) || !earlier.isThere(row)) continue;
+            if (!isShown(later, row) || !isShown(earlier, row)) continue;
             const glm::dvec2 a = toPixel(later.place(row).x, later.place(row).y);
             const glm::dvec2 b = toPixel(earlier.place(row).x, earlier.place(row).y);
             setColour(context, groupColour(groups_.group_of[row]), alpha);
@@ -288,8 +330,9 @@ void Plate::drawWall(cairo_t* context, const authoring::Wall& wall) const {
 
 /// Gates that are closed; of open ones, the posts.
 void Plate::drawGates(cairo_t* context, std::uint32_t frame) const {
-    for (const authoring::Wall& wall : bake_.walls) {
-        if (wall.toggles.empty()) continue;
+    for (std::size_t i = 0; i < bake_.walls.size(); ++i) {
+        const authoring::Wall& wall = bake_.walls[i];
+        if (wall.toggles.empty() || !isWallShown(i)) continue;
         if (!wall.isOpen(frame / bake_.fps)) {
             drawWall(context, wall);
             continue;
@@ -326,7 +369,7 @@ double Plate::drawBody(cairo_t* context, glm::dvec2 at, const Capsule& body) con
 
 void Plate::drawPeople(cairo_t* context, const io::CrowdFrame& now) const {
     for (std::size_t row = 0; row < bake_.agents; ++row) {
-        if (!now.isThere(row)) continue;
+        if (!isShown(now, row)) continue;
         const glm::dvec2 at = toPixel(now.place(row).x, now.place(row).y);
         const glm::dvec2 ahead(now.facing(row).x, -now.facing(row).y);
         setColour(context, groupColour(groups_.group_of[row]));

@@ -5,6 +5,7 @@
 
 #include <glm/vec2.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,7 +39,12 @@ class Plate {
     using Surface = std::unique_ptr<cairo_surface_t, SurfaceFree>;
 
     glm::dvec2 toPixel(double x, double y) const;
+    void chooseLevel();
+    bool isShown(std::size_t level) const { return !level_ || *level_ == level; }
+    bool isShown(const io::CrowdFrame& frame, std::size_t row) const;
+    bool isWallShown(std::size_t wall) const;
     void drawLayout();
+    void drawFloors(cairo_t* context) const;
     void drawWall(cairo_t* context, const authoring::Wall& wall) const;
     void drawGates(cairo_t* context, std::uint32_t frame) const;
     void drawDensity(cairo_t* context, const io::CrowdFrame& now) const;
@@ -58,6 +64,7 @@ class Plate {
     const std::vector<io::AgentRow>& people_;
     io::GroupTable groups_;
     PreviewOptions options_;
+    std::optional<std::size_t> level_;  // the only one shown
     /// Where a group's colour and name stand, px from the legend's left and upper corner.
     struct LegendEntry {
         std::string name;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
 
 namespace throng::analysis {
 
@@ -14,6 +15,7 @@ struct PreviewOptions {
     int width = 1400;                    ///< px, [200, 8000]; the height follows from the layout
     double trail_seconds = 6.0;          ///< s, 0 = no trails
     bool density = true;                 ///< persons per m^2 as a heat layer
+    std::string level = {};              ///< only what is on this one; empty: all levels over each other
 };
 
 /// Draws one frame into a PNG. @throws InputError (the bake), OutputError (the picture)
