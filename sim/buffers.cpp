@@ -161,7 +161,7 @@ gpu::Parameters makeParameters(const authoring::Scene& scene) {
     parameters.detour_cell = scene.detours.grid.cell_size;
     parameters.detour_width = scene.detours.grid.width;
     parameters.detour_height = scene.detours.grid.height;
-    parameters.is_wide = isWideSite(scene.minimum, scene.maximum) ? 1 : 0;
+    parameters.is_wide = isWideSite(scene.minimum, scene.maximum) && scene.chart_map.empty() ? 1 : 0;
     const authoring::ChartMap& charts = scene.chart_map;
     parameters.site_rows = parameters.row_count * (1 + charts.most_images);
     parameters.chart_cell = charts.grid.cell_size;

@@ -49,6 +49,7 @@ struct FramePump::State {
     std::size_t rows = 0;
     DiagramImage image;  // all but the pixels
     std::vector<float> metres;
+    std::vector<std::uint32_t> sites, seconds;  // with charts
 
     std::deque<Slot*> in_flight;  // GL thread only: submitted, fence not yet seen
 
@@ -66,6 +67,8 @@ struct FramePump::State {
     void packStreams(Slot& slot, bool of_diagram);
     void receiveAll();
     void deliver(const Slot& slot);
+    std::span<const std::uint32_t> ofPeople(std::span<const std::uint32_t> ids,
+                                            std::vector<std::uint32_t>& kept) const;
     void handOver(bool wait);
     void rethrow();
 };
@@ -243,6 +246,18 @@ void FramePump::State::receiveAll() {
     }
 }
 
+/// Images of people beside seams own pixels as these people do.
+std::span<const std::uint32_t> FramePump::State::ofPeople(std::span<const std::uint32_t> ids,
+                                                          std::vector<std::uint32_t>& kept) const {
+    const auto people = static_cast<std::uint32_t>(rows);
+    const std::uint32_t all = simulation.parameters().site_rows;
+    if (all == people) return ids;
+    kept.assign(ids.begin(), ids.end());
+    for (std::uint32_t& id : kept)
+        if (id != gpu::NO_INDEX) id = id < all ? id % people : id - all + people;
+    return kept;
+}
+
 void FramePump::State::deliver(const Slot& slot) {
     Frame frame;
     frame.index = slot.index;
@@ -255,13 +270,13 @@ void FramePump::State::deliver(const Slot& slot) {
     DiagramImage diagram = image;
     if (slot.has_diagram) {
         const std::size_t pixels = std::size_t{image.width} * image.height;
-        diagram.site = view<std::uint32_t>(slot.owners, 0, pixels);
+        diagram.site = ofPeople(view<std::uint32_t>(slot.owners, 0, pixels), sites);
         const std::span<const float> squared = view<float>(slot.distances, 0, pixels);
         metres.resize(pixels);
         for (std::size_t i = 0; i < pixels; ++i)
             metres[i] = std::sqrt(squared[i]) / image.pixels_per_metre;
         diagram.distance = metres;
-        if (cargo.seconds) diagram.second = view<std::uint32_t>(slot.seconds, 0, pixels);
+        if (cargo.seconds) diagram.second = ofPeople(view<std::uint32_t>(slot.seconds, 0, pixels), seconds);
         frame.diagram = &diagram;
     }
     receiver(frame);

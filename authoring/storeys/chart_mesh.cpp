@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kTread = 0.17;  // m: about as high
 constexpr double kSlab = 0.25;   // m: as thick
+constexpr double kAhead = 1.0;   // m: as far as feet step over a seam before they are on the other chart
 
 class MeshMaker {
   public:
@@ -228,9 +229,9 @@ TerrainMesh planeMesh(const std::vector<Chart>& charts, const Layout& layout, do
             if (next.is_link) {
                 const std::size_t treads = treadsOf(next, layout);
                 if (next.link_from == i)
-                    addTreads(next, treads, 0.0, std::min(reach, next.link.length), false, maker);
+                    addTreads(next, treads, 0.0, std::min(kAhead, next.link.length), false, maker);
                 if (next.link_to == i)
-                    addTreads(next, treads, std::max(0.0, next.link.length - reach), next.link.length, false, maker);
+                    addTreads(next, treads, std::max(0.0, next.link.length - kAhead), next.link.length, false, maker);
             } else if (other != i && std::abs(next.height - chart.height) <= kMostStep) {
                 addFloor(next, margin, maker);
             }

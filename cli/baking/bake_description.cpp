@@ -57,7 +57,8 @@ void describeCharts(const LoadedLayout& loaded, recording::BakeDescription& bake
     bake.levels = loaded.layout.levels;
     bake.walls = charts.walls;
     bake.terrain = recording::BakeTerrain{
-        std::shared_ptr<const authoring::TerrainMesh>(scene.charts, &charts.home_mesh), scene.terrain, "levels", "",
+        std::shared_ptr<const authoring::TerrainMesh>(scene.charts, &charts.home_mesh), scene.terrain, "levels",
+        hashText(loaded.text),
         charts.ground_along_walls};
 }
 

@@ -16,6 +16,8 @@ void main() {
     vec2 position = states[row].position;
     ChartCell cell = chartCellAt(position);
     uint chart = chartOf(cell), owner = ownerOf(cell);
-    if (owner == chart || owner == NO_CHART || chart == NO_CHART) return;
+    if (chart == NO_CHART) return;
+    if (owner == NO_CHART) owner = chart;
     states[row].position = position + (chart_shifts[owner] - chart_shifts[chart]);
+    states[row].rest = chart_shifts[owner];  // way_between.glsl
 }

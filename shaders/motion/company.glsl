@@ -5,6 +5,7 @@
 // away is no company to walk beside; one waits for it and looks for it instead
 // (shaders/motion/waiting_for_company.glsl).
 // Needs the block States.
+#include "shaders/charts/way_between.glsl"
 
 /// m/s^2: what walking with those from row `first` on makes of somebody's way.
 vec2 besideParty(Body self, uint first, uint size, vec2 way) {
@@ -12,7 +13,7 @@ vec2 besideParty(Body self, uint first, uint size, vec2 way) {
     float others = 0.0;
     for (uint row = first; row < first + size; ++row) {
         if (row == self.row || states[row].status != STATUS_WALKING) continue;
-        vec2 offset = states[row].position - self.position;
+        vec2 offset = wayTo(row, self.row, self.position);
         float distance = length(offset);
         if (distance > COMPANY_OUT_OF_REACH || distance < 1.0e-3) continue;
         sum += offset;

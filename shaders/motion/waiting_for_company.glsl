@@ -2,6 +2,7 @@
 // Nobody leaves their company behind: who is ahead of somebody slows down, who is behind hurries, who has lost its
 // company walks towards it as much as to its goal, and where two ways are as good, a party takes the one of its first.
 // Walking abreast is another rule (shaders/motion/company.glsl). Needs the block States and shaders/routes/route.glsl.
+#include "shaders/charts/way_between.glsl"
 
 /// A way towards the nearest of the party, for who has lost it; not for long where something is in between.
 vec2 towardsParty(uint row, Walker walker, vec2 position, vec2 direction) {
@@ -9,7 +10,7 @@ vec2 towardsParty(uint row, Walker walker, vec2 position, vec2 direction) {
     vec2 nearest = vec2(10.0 * NOBODY);
     for (uint other = walker.party_first; other < walker.party_first + walker.party_size; ++other) {
         if (other == row || states[other].status != STATUS_WALKING || states[other].leave_step != 0u) continue;
-        vec2 offset = states[other].position - position;
+        vec2 offset = wayTo(other, row, position);
         if (dot(offset, offset) < dot(nearest, nearest)) nearest = offset;
     }
     float distance = length(nearest);
@@ -25,7 +26,7 @@ vec2 towardsParty(uint row, Walker walker, vec2 position, vec2 direction) {
 vec2 wayOfParty(uint row, Walker walker, Stage stage, vec2 position, vec2 direction) {
     for (uint first = walker.party_first; first < row; ++first) {
         if (states[first].status != STATUS_WALKING || states[first].leave_step != 0u) continue;
-        if (distance(states[first].position, position) > 2.0 * WAITING_FOR_COMPANY_QUITE_LOST) return direction;
+        if (length(wayTo(first, row, position)) > 2.0 * WAITING_FOR_COMPANY_QUITE_LOST) return direction;
         vec2 its_direction = routeAhead(stage, states[first].position).direction;
         return dot(its_direction, direction) < WAITING_FOR_COMPANY_SAME_WAY ? its_direction : direction;
     }

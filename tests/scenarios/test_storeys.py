@@ -2,6 +2,9 @@
 """Layouts with levels: charts side by side in the simulation's plane, and seams that nobody notices."""
 import csv
 import json
+import signal
+import subprocess
+import time
 
 import numpy
 import pytest
@@ -115,3 +118,111 @@ def test_nobody_notices_a_seam(throng, once, tmp_path, scene, cut):
     assert after["arrived"] == before["arrived"] == after["agents"]
     assert after["wall_crossings"] == 0
     assert after["deepest_overlap_percent"] <= max(2.0, 1.5 * before["deepest_overlap_percent"])
+
+
+STAIRS = {
+    "throng": 1, "simulation": {"duration": 30},
+    "levels": [{"id": "ground", "floor": box(-14, -5, 14, 5)}, {"id": "upper", "height": 3.4, "floor": box(-3, -5, 14, 5)}],
+    "links": [{"id": "stairs", "from": "ground", "to": "upper", "path": [[-9, 2], [-3, 2]], "width": 2.4}],
+    "areas": [{"id": "door", "polygon": box(-13, -4, -12, 4)}, {"id": "below", "polygon": box(12, -4, 13, 4)},
+              {"id": "above", "level": "upper", "polygon": box(12, -4, 13, 4)},
+              {"id": "under the stairs", "polygon": box(-4.6, 1.2, -3.4, 2.8)}],
+}
+
+
+def test_people_walk_above_each_other(throng, tmp_path):
+    """On the gallery and under it at once: in the same places of the plan, in nobody's way, and nobody in between."""
+    flows = [{"id": a + b, "from": a, "to": b, "count": 25, "end": 12}
+             for a, b in (("door", "above"), ("above", "door"), ("door", "below"), ("below", "under the stairs"))]
+    folder = bake(throng, tmp_path, {**STAIRS, "flows": flows, "simulation": {"duration": 60}})
+    figures = measured(throng, folder)
+    assert figures["arrived"] == 100 and figures["wall_crossings"] == 0
+    assert figures["deepest_overlap_percent"] < 2
+    places, there = stream(folder, "pos"), stream(folder, "state")[..., 0] > 0
+    heights = places[..., 2]
+    off_floors = numpy.minimum(abs(heights), abs(heights - 3.4))
+    assert off_floors[there & (abs(places[..., 1] - 2) > 1.4)].max() < 0.05
+    under_stairs = there & (places[..., 0] > -4.9) & (places[..., 0] < -3.2) & (abs(places[..., 1] - 2) < 1.2)
+    between = (heights > 0.05) & (heights < 1.5)
+    assert (under_stairs & (heights < 0.05)).sum() > 20 and not (under_stairs & between).any()
+    above = sum(
+        (numpy.linalg.norm(up[:, None, :2] - down[None, :, :2], axis=2) < 0.4).any()
+        for up, down in ((frame[alive & (frame[:, 2] > 3.3)], frame[alive & (frame[:, 2] < 0.1)])
+                         for frame, alive in zip(places, there)) if len(up) and len(down))
+    assert above > 50  # frames in which somebody is right above somebody else
+    steps = numpy.linalg.norm(numpy.diff(places, axis=0), axis=2)[there[1:] & there[:-1]]
+    assert steps.max() < 0.2  # m a frame: nobody jumps
+
+
+@pytest.mark.parametrize("start, to, pace", [("door", "above", 0.61), ("above", "door", 0.694)])
+def test_stairs_are_climbed_as_weidmann_measured(throng, tmp_path, start, to, pace):
+    """Weidmann (1993): 0.610 m/s up and 0.694 m/s down, in plan, of people who walk at 1.34 m/s on the flat."""
+    flow = {"id": "one", "from": start, "to": to, "count": 1, "end": 1,
+            "people": {"speed": 1.34, "radius": 0.25}}
+    folder = bake(throng, tmp_path, {**STAIRS, "flows": [flow]})
+    x = stream(folder, "pos")[:, 0, 0][stream(folder, "state")[:, 0, 0] > 0]
+    on_stairs = (x > -8) & (x < -4)
+    assert abs(numpy.diff(x)[on_stairs[1:]]).mean() * 24 == pytest.approx(pace, rel=0.05)
+
+
+@pytest.mark.parametrize("cut", [False, True])
+def test_a_jam_beyond_a_seam_is_avoided(throng, tmp_path, cut):
+    """A hall with two doors in its middle wall, the nearer one full of people who stand, and the wall on a seam or not."""
+    floors = {"west": box(-12, -12, -1, 12), "east": box(-1, -12, 12, 12)} if cut else {"all": box(-12, -12, 12, 12)}
+    walls = [[[0, -12], [0, -1]], [[0, 1], [0, 4]], [[0, 6], [0, 12]]]
+    layout = {
+        "throng": 1, "simulation": {"duration": 25},
+        "levels": [{"id": name, "floor": floor} for name, floor in floors.items()],
+        "walls": [{"points": points, "level": level_at(floors, points[0])} for points in walls],
+        "areas": [{"id": "beyond", "polygon": box(9, -2, 11, 2), "level": level_at(floors, (10, 0))}],
+        "formations": [
+            {"id": "walker", "type": "grid", "origin": [-10, 0], "rows": 1, "columns": 1, "goal": "beyond",
+             "level": level_at(floors, (-10, 0)), "people": {"speed": 1.3, "radius": 0.25}},
+            {"id": "waiting", "type": "grid", "origin": [-0.9, -0.65], "rows": 3, "columns": 6, "spacing": 0.6,
+             "level": level_at(floors, (-0.9, 0)), "goal": {"offset": [0, 0]}, "people": {"radius": 0.25}}]}
+    way = stream(bake(throng, tmp_path, layout), "pos")[:, 0, :2]
+    assert way[numpy.argmin(abs(way[:, 0]))][1] == pytest.approx(5.0, abs=1.1)
+
+
+def test_a_bake_on_levels_that_was_stopped_goes_on_to_the_same_bytes(throng, tmp_path):
+    flows = [{"id": "up", "from": "door", "to": "above", "count": 30, "end": 10},
+             {"id": "down", "from": "above", "to": "door", "count": 30, "end": 10}]
+    (tmp_path / "layout.json").write_text(json.dumps({**STAIRS, "flows": flows}))
+    throng("bake", tmp_path / "layout.json", "-o", tmp_path / "whole", "-q", "--no-gltf")
+    stopped = subprocess.Popen([throng.binary, "bake", str(tmp_path / "layout.json"), "-o", str(tmp_path / "parts"), "-q",
+                                "--no-gltf", "--checkpoint", "0.0001"])
+    unfinished = tmp_path / "parts.unfinished"
+    while stopped.poll() is None and len(list(unfinished.glob("checkpoint.[ab]"))) < 2:
+        time.sleep(0.005)
+    stopped.send_signal(signal.SIGTERM)
+    stopped.communicate()
+    throng("bake", tmp_path / "layout.json", "-o", tmp_path / "parts", "-q", "--no-gltf", "--resume")
+    assert (stream(tmp_path / "whole", "pos") == stream(tmp_path / "parts", "pos")).all()
+
+
+def test_previews_show_one_level_or_all(throng, tmp_path):
+    flows = [{"id": "up", "from": "door", "to": "above", "count": 3, "end": 1}]
+    folder = bake(throng, tmp_path, {**STAIRS, "flows": flows, "simulation": {"duration": 2}})
+    pictures = {}
+    for name, *options in (("ground", "--level", "ground"), ("upper", "--level", "upper"), ("all",)):
+        throng("preview", folder, "-o", tmp_path / f"{name}.png", *options)
+        pictures[name] = (tmp_path / f"{name}.png").read_bytes()
+    assert len(set(pictures.values())) == 3
+    failed = throng("preview", folder, "-o", tmp_path / "x.png", "--level", "cellar", expect=None)
+    assert failed.returncode != 0 and "has no level `cellar`: there are `ground`, `upper`" in failed.stderr
+    assert not (tmp_path / "x.png").exists()
+
+
+def test_the_table_of_people_and_the_manifest_are_in_home_coordinates(throng, tmp_path):
+    flows = [{"id": "up", "from": "door", "to": "above", "count": 3, "end": 1}]
+    folder = bake(throng, tmp_path, {**STAIRS, "flows": flows})
+    manifest = json.loads((folder / "bake.json").read_text())
+    assert manifest["bounds"] == {"min": [-17, -8], "max": [17, 8]}
+    assert manifest["levels"] == [{"id": level["id"], "height": level.get("height", 0), "floor": level["floor"]}
+                                  for level in STAIRS["levels"]]
+    assert [area["level"] for area in manifest["geometry"]["areas"]] == ["ground", "ground", "upper", "ground"]
+    assert {wall["id"].rpartition(":")[0] for wall in manifest["geometry"]["walls"]} == {
+        "railing:ground", "railing:upper", "railing:stairs"}
+    with open(folder / "agents.csv", newline="") as file:
+        for row in csv.DictReader(file):
+            assert 12 <= float(row["goal_x"]) <= 13
