@@ -56,8 +56,8 @@ struct Detours {
     FieldGrid grid;
     std::vector<gpu::GroundCell> ground;         ///< one map after the other
     std::vector<std::uint32_t> ground_of_field;  ///< which of the maps, per distance field
-    std::vector<bool> has_choice;  ///< per field: whether it leads to the nearest of several places
-    std::vector<float> distances;  ///< m, field after field; gpu::BLOCKED_COST where no path leads
+    std::vector<bool> has_choice;   ///< per field: whether it leads to the nearest of several places
+    std::vector<float> distances;   ///< m, field after field; gpu::BLOCKED_COST where no path leads
     std::vector<glm::uvec2> shown;  ///< cells that show another chart's ground, and those that they show
 };
 

@@ -5,8 +5,8 @@
 
 namespace throng {
 
-/// Whether people at two heights (m) can touch each other, or one is above the other. On stairs, neighbours are half a
-/// metre apart.
+/// Whether people at two heights (m) can touch each other, or one is above the other. On stairs, neighbours
+/// are half a metre apart.
 inline bool areOnOneGround(double height, double other) {
     constexpr double kStorey = 1.1;
     return std::abs(height - other) < kStorey;

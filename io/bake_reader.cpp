@@ -133,8 +133,10 @@ authoring::Wall wallOf(const ManifestReader& reader) {
 void readLevels(const ManifestReader& reader, Bake& bake) {
     if (!reader.has("/levels")) return;
     reader.each("/levels", [&](const ManifestReader& level) {
-        bake.levels.push_back(
-            {level.text("/id"), level.number("/height", -kFurthest, kFurthest), level.points("/floor", 3), {}});
+        bake.levels.push_back({level.text("/id"),
+                               level.number("/height", -kFurthest, kFurthest),
+                               level.points("/floor", 3),
+                               {}});
     });
 }
 

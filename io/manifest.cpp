@@ -92,7 +92,9 @@ Json terrainToJson(const recording::BakeTerrain& terrain, bool storeys) {
     return {{"file", "terrain.glb"},
             {"source", terrain.source},
             {"hash", "xxh3:" + terrain.hash},
-            {"surface", storeys ? "levels" : terrain.surface->highest() ? "highest" : "lowest"},
+            {"surface", storeys                      ? "levels"
+                        : terrain.surface->highest() ? "highest"
+                                                     : "lowest"},
             {"triangles", terrain.mesh->indices.size() / 3},
             {"lowest", low->z},
             {"highest", high->z}};
@@ -227,7 +229,8 @@ Json bakeManifest(const recording::BakeDescription& description, const BakeOutco
     json["bounds"] = {{"min", pointToJson(description.minimum - origin)},
                       {"max", pointToJson(description.maximum - origin)}};
     json["streams"] = streamsToJson(description.streams(), description.formats);
-    if (description.terrain) json["terrain"] = terrainToJson(*description.terrain, !description.levels.empty());
+    if (description.terrain)
+        json["terrain"] = terrainToJson(*description.terrain, !description.levels.empty());
     if (!description.levels.empty()) json["levels"] = levelsToJson(description);
     json["table"] = "agents.csv";
     json["gltf"] = gltfToJson(outcome.gltf);

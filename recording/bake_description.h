@@ -56,7 +56,8 @@ struct BakeTerrain {
     std::vector<glm::dvec2> along_walls;  ///< per wall, the lowest and the highest ground along it, m
 };
 
-/// How the simulation's plane and the places of a layout with levels belong together (authoring/storeys/charts.h).
+/// How the simulation's plane and the places of a layout with levels belong together
+/// (authoring/storeys/charts.h).
 struct BakeCharts {
     std::vector<glm::dvec2> shifts;  ///< m, by chart: place in the plane - home
 };
@@ -91,7 +92,8 @@ struct BakeDescription {
     std::vector<authoring::Road> roads;
     std::vector<authoring::Area> areas;
     std::vector<authoring::Wall> walls;
-    std::optional<BakeTerrain> terrain;  ///< none: flat ground at height 0; floors and links of layouts with levels
+    std::optional<BakeTerrain>
+        terrain;  ///< none: flat ground at height 0; floors and links of layouts with levels
     std::vector<authoring::Level> levels;
     std::optional<BakeCharts> charts;  ///< with levels: then frames hold, behind places in the plane, charts
 

@@ -29,7 +29,8 @@ std::vector<authoring::Wall> localWalls(const BakeDescription& description) {
 
 /// Which storey a wall is on, where there are several.
 std::vector<glm::dvec2> groundAlongWalls(const BakeDescription& description) {
-    return description.charts && description.terrain ? description.terrain->along_walls : std::vector<glm::dvec2>{};
+    return description.charts && description.terrain ? description.terrain->along_walls
+                                                     : std::vector<glm::dvec2>{};
 }
 
 }  // namespace
@@ -106,12 +107,13 @@ glm::dvec2 MotionRecorder::toPlane(std::size_t row) const {
     return shifts_[charts_[row]];
 }
 
-/// Of the ground under somebody, where floors lie above each other: others there are in its way, and those above are
-/// not. m
+/// Of the ground under somebody, where floors lie above each other: others there are in its way, and those
+/// above are not. m
 double MotionRecorder::heightOf(std::size_t row) const {
     if (shifts_.empty() || !ground_) return 0.0;
     const std::size_t at = row * kComponents;
-    return double{ground_->smoothAt(glm::vec2(glm::dvec2(positions_[at], positions_[at + 1]) + toPlane(row)))};
+    return double{
+        ground_->smoothAt(glm::vec2(glm::dvec2(positions_[at], positions_[at + 1]) + toPlane(row)))};
 }
 
 void MotionRecorder::finish() {

@@ -69,12 +69,12 @@ class MotionRecorder {
     FrameWindow window_;
     KeepApart apart_;
     std::vector<Walker> walkers_;
-    std::optional<Footing> footing_;      // none on flat ground
+    std::optional<Footing> footing_;                    // none on flat ground
     std::shared_ptr<const authoring::Terrain> ground_;  // likewise
-    std::optional<Footsteps> footsteps_;  // none unless asked for
-    std::optional<Carriages> carriages_;  // likewise, with them
-    std::optional<Gazes> gazes_;          // likewise
-    StreamChoice carried_;                // from the device, past all this
+    std::optional<Footsteps> footsteps_;                // none unless asked for
+    std::optional<Carriages> carriages_;                // likewise, with them
+    std::optional<Gazes> gazes_;                        // likewise
+    StreamChoice carried_;                              // from the device, past all this
     std::uint32_t taken_ = 0;
 
     std::vector<float> positions_, directions_, states_, grounds_;  ///< of the frame being given out

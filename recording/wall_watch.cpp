@@ -22,7 +22,10 @@ double cross(glm::dvec2 a, glm::dvec2 b) {
 
 WallWatch::WallWatch(std::vector<authoring::Wall> walls, glm::dvec2 minimum, glm::dvec2 maximum,
                      std::vector<glm::dvec2> ground)
-    : walls_(std::move(walls)), ground_(std::move(ground)), open_(walls_.size()), grid_(minimum, maximum, 2.0) {
+    : walls_(std::move(walls)),
+      ground_(std::move(ground)),
+      open_(walls_.size()),
+      grid_(minimum, maximum, 2.0) {
     for (std::size_t index = 0; index < walls_.size(); ++index) {
         const authoring::Wall& wall = walls_[index];
         const std::size_t count = wall.points.size() - (wall.closed ? 0 : 1);

@@ -77,7 +77,8 @@ float defaultPixelsPerMetre(const authoring::Scene& scene) {
     return std::max(2.0f / smallest_tile, 1.0f / std::max(scene.smallest_radius, 0.05f));
 }
 
-/// Two to the power of something, or half as much again, so that places in pixels are exact: a little less will do.
+/// Two to the power of something, or half as much again, so that places in pixels are exact: a little less
+/// will do.
 float roundPixels(float per_metre) {
     constexpr float kEnough = 0.85f;
     const float power = std::exp2(std::floor(std::log2(kEnough * per_metre)));

@@ -7,7 +7,8 @@ namespace {
 const gl::Declaration kCount = {
     "cells",
     {"shaders/cells/cells_count.comp"},
-    {"ParametersBlock", "States", "ChartCells", "ChartShifts", "CellCounts", "StripCounts", "StripMarks", "StripListEnd", "RowCells"},
+    {"ParametersBlock", "States", "ChartCells", "ChartShifts", "CellCounts", "StripCounts", "StripMarks",
+     "StripListEnd", "RowCells"},
     {"CellCounts", "StripCounts", "StripMarks", "StripListEnd", "StripList", "RowCells"}};
 const gl::Declaration kSum = {"cells", {"shaders/cells/counts_sum.comp"}, {"Counts"}, {"GroupSums"}};
 const gl::Declaration kScan = {
@@ -23,11 +24,12 @@ const gl::Declaration kScatter = {"cells",
                                   {"shaders/cells/cells_scatter.comp"},
                                   {"ParametersBlock", "RowCells", "LiveDispatch", "CellCursors"},
                                   {"CellCursors", "LooseRows", "SiteSlots"}};
-const gl::Declaration kGather = {"cells",
-                                 {"shaders/cells/bodies_gather.comp"},
-                                 {"ParametersBlock", "LiveDispatch", "People", "States", "RowCells",
-                                  "LooseRows", "StripStarts", "CellOffsets", "Chests", "ChartCells", "ChartShifts"},
-                                 {"SiteSlots", "Bodies", "Walkers", "Sites", "SlotImages", "RowSlots"}};
+const gl::Declaration kGather = {
+    "cells",
+    {"shaders/cells/bodies_gather.comp"},
+    {"ParametersBlock", "LiveDispatch", "People", "States", "RowCells", "LooseRows", "StripStarts",
+     "CellOffsets", "Chests", "ChartCells", "ChartShifts"},
+    {"SiteSlots", "Bodies", "Walkers", "Sites", "SlotImages", "RowSlots"}};
 
 }  // namespace
 

@@ -19,10 +19,12 @@ gl::Definitions whatFollows(Seams::After pass) {
     switch (pass) {
         case Seams::After::steering:
             return {{"FOLLOW_WALKERS", "1"}, {"FOLLOW_WISHES", "1"}, {"FOLLOW_TOUCH", "1"}};
-        case Seams::After::avoiding: return {{"FOLLOW_TOUCH", "1"}, {"FOLLOW_TARGETS", "1"}};
+        case Seams::After::avoiding:
+            return {{"FOLLOW_TOUCH", "1"}, {"FOLLOW_TARGETS", "1"}};
         case Seams::After::carrying_on:
             return {{"FOLLOW_BODIES", "1"}, {"FOLLOW_WALKERS", "1"}, {"FOLLOW_TARGETS", "1"}};
-        default: return {{"FOLLOW_ROUND", "1"}};
+        default:
+            return {{"FOLLOW_ROUND", "1"}};
     }
 }
 

@@ -9,14 +9,14 @@ namespace {
 const gl::Declaration kMarch = {
     "sensing",
     {"shaders/sensing/sense.comp"},
-    {"ParametersBlock", "LiveDispatch", "SlotImages", "Bodies", "StripStarts", "CellOffsets", "WallSegments", "WallStarts",
-     "NarrowCells", "WallTiles", "owners", "page_table", "TouchDispatch"},
+    {"ParametersBlock", "LiveDispatch", "SlotImages", "Bodies", "StripStarts", "CellOffsets", "WallSegments",
+     "WallStarts", "NarrowCells", "WallTiles", "owners", "page_table", "TouchDispatch"},
     {"Neighbours", "NeighbourCounts", "TouchWords", "TouchLists", "TouchSlots", "TouchDispatch"}};
 const gl::Declaration kCompare = {
     "sensing",
     {"shaders/sensing/sense_exact.comp"},
-    {"ParametersBlock", "LiveDispatch", "SlotImages", "Bodies", "StripStarts", "CellOffsets", "WallSegments", "WallStarts",
-     "NarrowCells", "FarWallStarts", "FarWallItems", "TouchDispatch"},
+    {"ParametersBlock", "LiveDispatch", "SlotImages", "Bodies", "StripStarts", "CellOffsets", "WallSegments",
+     "WallStarts", "NarrowCells", "FarWallStarts", "FarWallItems", "TouchDispatch"},
     {"Neighbours", "NeighbourCounts", "TouchWords", "TouchLists", "TouchSlots", "TouchDispatch"}};
 
 }  // namespace

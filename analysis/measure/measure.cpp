@@ -194,7 +194,8 @@ class Measurer {
             int same = 0, opposite = 0;
             grid_.near(places_[i], kAlong, [&](std::uint32_t j) {
                 const glm::dvec2 offset = places_[j] - places_[i];
-                if (j == i || !areOnOneGround(heights_[i], heights_[j]) || std::abs(way.x * offset.y - way.y * offset.x) > kHalfLane ||
+                if (j == i || !areOnOneGround(heights_[i], heights_[j]) ||
+                    std::abs(way.x * offset.y - way.y * offset.x) > kHalfLane ||
                     std::abs(glm::dot(way, offset)) > kAlong)
                     return;
                 const double agreement = glm::dot(way, now().facing(present_[j]));

@@ -15,8 +15,8 @@ namespace throng::analysis {
 /// 0.1 m around it (Steffen and Seyfried 2010).
 /// @param heights m, of all places; empty: there is one storey
 /// @param grid holds `places`; the person is `places[self]`
-inline double voronoiDensity(const PlaneGrid& grid, const std::vector<glm::dvec2>& places,
-                             std::uint32_t self, const std::vector<double>& heights = {}) {
+inline double voronoiDensity(const PlaneGrid& grid, const std::vector<glm::dvec2>& places, std::uint32_t self,
+                             const std::vector<double>& heights = {}) {
     constexpr double kRadius = 1.0, kSquare = 0.1;
     constexpr int kReach = 10;
     std::vector<glm::dvec2> others;

@@ -204,15 +204,18 @@ void Plate::drawFloors(cairo_t* context) const {
     }
 }
 
-/// Nobody on a level of its own is drawn with another, but those on a link with both of its ends, half of the way.
+/// Nobody on a level of its own is drawn with another, but those on a link with both of its ends, half of the
+/// way.
 bool Plate::isShown(const io::CrowdFrame& frame, std::size_t row) const {
-    return frame.isThere(row) && (!level_ || std::abs(frame.height(row) - bake_.levels[*level_].height) < kHalfStorey);
+    return frame.isThere(row) &&
+           (!level_ || std::abs(frame.height(row) - bake_.levels[*level_].height) < kHalfStorey);
 }
 
 bool Plate::isWallShown(std::size_t wall) const {
     if (!level_) return true;
     const double height = bake_.levels[*level_].height;
-    return bake_.wall_ground[wall].x < height + kHalfStorey && bake_.wall_ground[wall].y > height - kHalfStorey;
+    return bake_.wall_ground[wall].x < height + kHalfStorey &&
+           bake_.wall_ground[wall].y > height - kHalfStorey;
 }
 
 void Plate::chooseLevel() {
@@ -225,9 +228,10 @@ void Plate::chooseLevel() {
     std::vector<std::string> ids;
     for (const authoring::Level& level : bake_.levels)
         ids.push_back(fmt::format("`{}`", level.id));
-    throw InputError(bake_.folder, ids.empty() ? fmt::format("has no level `{}`: its ground is one", options_.level)
-                                               : fmt::format("has no level `{}`: there are {}", options_.level,
-                                                             fmt::join(ids, ", ")));
+    throw InputError(
+        bake_.folder,
+        ids.empty() ? fmt::format("has no level `{}`: its ground is one", options_.level)
+                    : fmt::format("has no level `{}`: there are {}", options_.level, fmt::join(ids, ", ")));
 }
 
 void Plate::drawScaleBar(cairo_t* context) const {

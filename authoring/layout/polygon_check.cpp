@@ -112,11 +112,11 @@ void checkPolygon(std::vector<glm::dvec2>& polygon, const JsonNode* node, Diagno
     if (!node || polygon.size() < 3) return;
     if (polygon.front() == polygon.back()) polygon.pop_back();
     if (const auto crossing = selfCrossing(polygon))
-        diagnostics.error(node->where,
-                          fmt::format("the polygon crosses itself at [{:.6g}, {:.6g}] (edges {} and {})",
-                                      crossing->point.x, crossing->point.y, crossing->first_edge,
-                                      crossing->second_edge),
-                          "reorder its points so that they run once round the outline");
+        diagnostics.error(
+            node->where,
+            fmt::format("the polygon crosses itself at [{:.6g}, {:.6g}] (edges {} and {})", crossing->point.x,
+                        crossing->point.y, crossing->first_edge, crossing->second_edge),
+            "reorder its points so that they run once round the outline");
     else if (std::abs(signedArea(polygon)) < 1.0e-6)
         diagnostics.error(node->where, "the polygon has no area");
 }

@@ -24,8 +24,8 @@ std::optional<Crossing> selfCrossing(const std::vector<glm::dvec2>& polygon, boo
 /// bound nothing. @returns how many
 std::size_t removeSpikes(std::vector<glm::dvec2>& polygon);
 
-/// Drops a point that closes it by hand, as many tools write it, and tells of outlines that cross themselves or
-/// bound nothing. @param node where it stands; null, or of less than three points: nothing is told
+/// Drops a point that closes it by hand, as many tools write it, and tells of outlines that cross themselves
+/// or bound nothing. @param node where it stands; null, or of less than three points: nothing is told
 void checkPolygon(std::vector<glm::dvec2>& polygon, const JsonNode* node, Diagnostics& diagnostics);
 
 /// Positive for counter-clockwise polygons, m^2.

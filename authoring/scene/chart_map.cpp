@@ -40,8 +40,8 @@ ChartMap makeChartMap(const Charts& charts, glm::vec2 minimum, glm::vec2 maximum
                 if (at.x < 0 || at.y < 0 || at.x >= static_cast<int>(map.grid.width) ||
                     at.y >= static_cast<int>(map.grid.height))
                     continue;
-                map.cells[static_cast<std::size_t>(at.y) * map.grid.width + static_cast<std::size_t>(at.x)] = {
-                    chart | raster.ownerAt(cell) << 8, raster.imagesAt(cell)};
+                map.cells[static_cast<std::size_t>(at.y) * map.grid.width + static_cast<std::size_t>(at.x)] =
+                    {chart | raster.ownerAt(cell) << 8, raster.imagesAt(cell)};
             }
     }
     return map;
@@ -64,9 +64,10 @@ SeamCells seamCellsOf(const ChartMap& map, const FieldGrid& grid) {
             seams.owner_of[cell] = cellAt(grid, middle + map.shifts[owner] - map.shifts[chart]);
             seams.shown.push_back({cell, seams.owner_of[cell]});
         }
-    std::sort(seams.shown.begin(), seams.shown.end(), [](const SeamCells::Shown& a, const SeamCells::Shown& b) {
-        return std::pair(a.owner, a.image) < std::pair(b.owner, b.image);
-    });
+    std::sort(seams.shown.begin(), seams.shown.end(),
+              [](const SeamCells::Shown& a, const SeamCells::Shown& b) {
+                  return std::pair(a.owner, a.image) < std::pair(b.owner, b.image);
+              });
     return seams;
 }
 

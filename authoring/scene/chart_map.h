@@ -14,8 +14,8 @@ namespace throng::authoring {
 /// @param minimum, maximum the scene's bounds; @param origin the scene's
 ChartMap makeChartMap(const Charts& charts, glm::vec2 minimum, glm::vec2 maximum, glm::dvec2 origin);
 
-/// @param grid whose cells are as large as those of the map or a power of two smaller or larger, and which begins
-/// where the map does
+/// @param grid whose cells are as large as those of the map or a power of two smaller or larger, and which
+/// begins where the map does
 SeamCells seamCellsOf(const ChartMap& map, const FieldGrid& grid);
 
 }  // namespace throng::authoring

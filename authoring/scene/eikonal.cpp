@@ -56,7 +56,8 @@ std::vector<float> startOf(const WalkMap& map, std::span<const std::uint32_t> ta
                 start[cell] = glm::distance(
                     straight->to, cellCentre(map.grid, cell % map.grid.width, cell / map.grid.width));
     for (const std::uint32_t target : targets) {
-        const std::uint32_t cell = map.seams ? map.seams->owner_of[target] : target;  // areas may reach over seams
+        const std::uint32_t cell =
+            map.seams ? map.seams->owner_of[target] : target;  // areas may reach over seams
         if (map.cost[cell] < kUnreachable) start[cell] = 0.0f;
     }
     if (targets.size() <= 4 && !map.isBound())

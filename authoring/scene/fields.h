@@ -42,15 +42,15 @@ struct WalkGeometry {
     struct Box {
         glm::vec2 lower, upper;
     };
-    std::vector<Box> solid_boxes = {};  ///< of each solid, if sortWalls() has made them
+    std::vector<Box> solid_boxes = {};            ///< of each solid, if sortWalls() has made them
     std::shared_ptr<const ChartMap> charts = {};  ///< null: a layout without levels
 };
 
 inline constexpr float kSmallestCell = 0.1f;     ///< m
 inline constexpr double kMostCells = 400'000.0;  ///< about
 
-/// A grid over all the ground: cells of at least `smallest_cell` (m), at most `most_cells` of them. With charts,
-/// cells are a power of two of a metre, and there may be more.
+/// A grid over all the ground: cells of at least `smallest_cell` (m), at most `most_cells` of them. With
+/// charts, cells are a power of two of a metre, and there may be more.
 FieldGrid makeGrid(const WalkGeometry& geometry, float smallest_cell = kSmallestCell,
                    double most_cells = kMostCells);
 

@@ -116,7 +116,9 @@ const WalkMap& Ground::mapFor(Purpose purpose) {
 const CoarseMap& Ground::coarse(bool keep_to_roads) {
     const std::lock_guard lock(making_);
     std::optional<CoarseMap>& coarse = coarse_[keep_to_roads ? 1 : 0];
-    if (!coarse) coarse = geometry_.charts ? coarsenCharts(map(keep_to_roads)) : coarsen(map(keep_to_roads), coarseGrid());
+    if (!coarse)
+        coarse =
+            geometry_.charts ? coarsenCharts(map(keep_to_roads)) : coarsen(map(keep_to_roads), coarseGrid());
     return *coarse;
 }
 

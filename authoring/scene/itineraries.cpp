@@ -61,7 +61,8 @@ std::optional<glm::vec2> Itineraries::Spread::next() {
         if (i % 512 == 0) inset_ *= 0.5f;
         x_ = std::fmod(x_ + 0.7548776662466927, 1.0);
         y_ = std::fmod(y_ + 0.5698402909980532, 1.0);
-        glm::vec2 within = (box.upper - box.lower) * glm::vec2(static_cast<float>(x_), static_cast<float>(y_));
+        glm::vec2 within =
+            (box.upper - box.lower) * glm::vec2(static_cast<float>(x_), static_cast<float>(y_));
         if (geometry_->charts) within = glm::round(within * kPerMetre) / kPerMetre;  // the same on all charts
         const glm::vec2 point = box.lower + within;
         if (insidePolygon(outline_, point) && edgeDistance(outline_, point) >= inset_ &&

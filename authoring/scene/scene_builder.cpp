@@ -310,9 +310,9 @@ class Builder {
         openGates();
         sortWalls(geometry_);
         if (!hasRoomForTiles()) return;
-        scene_.wall_tiles = wallTiles(geometry_.walls, scene_.smallest_radius,
-                                      static_cast<float>(layout_.simulation.tile_radius),
-                                      scene_.charts != nullptr);
+        scene_.wall_tiles =
+            wallTiles(geometry_.walls, scene_.smallest_radius,
+                      static_cast<float>(layout_.simulation.tile_radius), scene_.charts != nullptr);
     }
 
     bool hasRoomForTiles() {

@@ -56,13 +56,13 @@ void markOneWays(const WalkGeometry& geometry, WalkMap& map) {
         visitInside(map.grid, area, release);
 }
 
-/// Cells of the grids of charts fit together wherever shifts take them; doors stay open on cells of a quarter metre.
+/// Cells of the grids of charts fit together wherever shifts take them; doors stay open on cells of a quarter
+/// metre.
 float chartCellSize(float wanted) {
     constexpr float kDoorCell = 0.25f;
     const float size = std::exp2(std::ceil(std::log2(wanted) - 1.0e-4f));
     return wanted <= 2.0f * kDoorCell ? std::min(size, kDoorCell) : size;
 }
-
 
 }  // namespace
 

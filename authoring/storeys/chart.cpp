@@ -63,7 +63,8 @@ bool isBeyond(const Footprint& link, int end, glm::dvec2 in_link, glm::dvec2 on_
     constexpr double kNear = 0.5;  // m: the two points are beside each other
     const double inside = link.alongOf(in_link), outside = link.alongOf(on_floor);
     if (std::abs(link.asideOf(on_floor)) > link.half_width + kNear) return false;
-    return end == 0 ? outside <= 0.0 && inside < kNear : outside >= link.length && inside > link.length - kNear;
+    return end == 0 ? outside <= 0.0 && inside < kNear
+                    : outside >= link.length && inside > link.length - kNear;
 }
 
 }  // namespace

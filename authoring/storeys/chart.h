@@ -36,9 +36,9 @@ struct Footprint {
 struct Chart {
     std::string name;  ///< of the level or link
     bool is_link = false;
-    std::size_t index = 0;          ///< of the level or link in the layout
-    double height = 0.0;            ///< m, of a floor
-    std::vector<glm::dvec2> floor;  ///< outline of a floor
+    std::size_t index = 0;                          ///< of the level or link in the layout
+    double height = 0.0;                            ///< m, of a floor
+    std::vector<glm::dvec2> floor;                  ///< outline of a floor
     std::vector<std::vector<glm::dvec2>> openings;  ///< where links leave no headroom over or under it
     Footprint link;
     std::size_t link_from = 0, link_to = 0;  ///< the levels of a link, which are charts of the same index

@@ -46,7 +46,8 @@ struct Trapezoid {
     double left0, right0, left1, right1;
 };
 
-void addCrossings(const std::vector<glm::dvec2>& a, const std::vector<glm::dvec2>& b, std::vector<double>& heights) {
+void addCrossings(const std::vector<glm::dvec2>& a, const std::vector<glm::dvec2>& b,
+                  std::vector<double>& heights) {
     for (std::size_t i = 0; i < a.size(); ++i)
         for (std::size_t j = 0; j < b.size(); ++j) {
             const glm::dvec2 p = a[i], r = a[(i + 1) % a.size()] - p;
@@ -59,8 +60,8 @@ void addCrossings(const std::vector<glm::dvec2>& a, const std::vector<glm::dvec2
         }
 }
 
-/// A floor without its openings as trapezoids: cut at the ordinates of all corners and crossings, nothing changes
-/// between two of them but along straight edges.
+/// A floor without its openings as trapezoids: cut at the ordinates of all corners and crossings, nothing
+/// changes between two of them but along straight edges.
 std::vector<Trapezoid> trapezoidsOf(const Chart& chart) {
     std::vector<const std::vector<glm::dvec2>*> outlines = {&chart.floor};
     for (const auto& opening : chart.openings)
@@ -108,7 +109,11 @@ Trapezoid clipped(const Trapezoid& t, const Box& box) {
     const auto at = [&](double lower, double upper, double y) {
         return std::clamp(lower + (upper - lower) * (y - t.y0) / (t.y1 - t.y0), box.first.x, box.second.x);
     };
-    return {y0, y1, at(t.left0, t.left1, y0), at(t.right0, t.right1, y0), at(t.left0, t.left1, y1),
+    return {y0,
+            y1,
+            at(t.left0, t.left1, y0),
+            at(t.right0, t.right1, y0),
+            at(t.left0, t.left1, y1),
             at(t.right0, t.right1, y1)};
 }
 
@@ -136,7 +141,8 @@ void addSlab(const Chart& chart, MeshMaker& maker) {
             const bool has_left = chart.contains(middle + left), has_right = chart.contains(middle - left);
             if (has_left == has_right) continue;
             if (has_right) std::swap(a, b);  // the ground is on the left of a to b
-            maker.add({glm::dvec3(a, z), glm::dvec3(b, z), glm::dvec3(b, chart.height), glm::dvec3(a, chart.height)});
+            maker.add({glm::dvec3(a, z), glm::dvec3(b, z), glm::dvec3(b, chart.height),
+                       glm::dvec3(a, chart.height)});
         }
     };
     side(chart.floor);
@@ -145,7 +151,8 @@ void addSlab(const Chart& chart, MeshMaker& maker) {
 }
 
 /// The treads of a link between two distances along it; ramps are one.
-void addTreads(const Chart& chart, std::size_t treads, double from, double to, bool risers, MeshMaker& maker) {
+void addTreads(const Chart& chart, std::size_t treads, double from, double to, bool risers,
+               MeshMaker& maker) {
     const Footprint& link = chart.link;
     const double half = link.half_width;
     const auto quad = [&](double t0, double z0, double t1, double z1) {
@@ -177,8 +184,11 @@ void addLink(const Chart& chart, std::size_t treads, MeshMaker& maker) {
     };
     maker.add({below(0.0, half), below(link.length, half), below(link.length, -half), below(0.0, -half)});
     for (const double side : {-half, half}) {
-        const auto above = [&](double t) { return glm::dvec3(link.at(t, side), link.heightAt(t) + 0.5 * kTread); };
-        std::array<glm::dvec3, 4> cheek = {below(0.0, side), below(link.length, side), above(link.length), above(0.0)};
+        const auto above = [&](double t) {
+            return glm::dvec3(link.at(t, side), link.heightAt(t) + 0.5 * kTread);
+        };
+        std::array<glm::dvec3, 4> cheek = {below(0.0, side), below(link.length, side), above(link.length),
+                                           above(0.0)};
         if (side > 0.0) std::swap(cheek[1], cheek[3]);
         maker.add(cheek);
     }
@@ -188,7 +198,8 @@ void addLink(const Chart& chart, std::size_t treads, MeshMaker& maker) {
 
 std::size_t treadsOf(const Chart& chart, const Layout& layout) {
     if (!chart.is_link || layout.links[chart.index].kind == Link::Kind::ramp) return 0;
-    return static_cast<std::size_t>(std::max(1.0, std::round(std::abs(chart.link.high - chart.link.low) / kTread)));
+    return static_cast<std::size_t>(
+        std::max(1.0, std::round(std::abs(chart.link.high - chart.link.low) / kTread)));
 }
 
 TerrainMesh homeMesh(const std::vector<Chart>& charts, const Layout& layout) {
@@ -231,7 +242,8 @@ TerrainMesh planeMesh(const std::vector<Chart>& charts, const Layout& layout, do
                 if (next.link_from == i)
                     addTreads(next, treads, 0.0, std::min(kAhead, next.link.length), false, maker);
                 if (next.link_to == i)
-                    addTreads(next, treads, std::max(0.0, next.link.length - kAhead), next.link.length, false, maker);
+                    addTreads(next, treads, std::max(0.0, next.link.length - kAhead), next.link.length, false,
+                              maker);
             } else if (other != i && std::abs(next.height - chart.height) <= kMostStep) {
                 addFloor(next, margin, maker);
             }

@@ -32,7 +32,8 @@ ChartRaster::ChartRaster(const std::vector<Chart>& charts, std::size_t chart, do
 
 std::size_t ChartRaster::indexOf(glm::ivec2 cell) const {
     const glm::ivec2 at = cell - first_;
-    return static_cast<std::size_t>(at.y) * static_cast<std::size_t>(size_.x) + static_cast<std::size_t>(at.x);
+    return static_cast<std::size_t>(at.y) * static_cast<std::size_t>(size_.x) +
+           static_cast<std::size_t>(at.x);
 }
 
 bool ChartRaster::isInside(glm::ivec2 cell) const {
@@ -65,8 +66,9 @@ void ChartRaster::claimOwn(const Chart& chart, std::size_t index) {
         }
 }
 
-/// Goes on over seams, and over the seams of the charts beyond these, from cell to cell: ground that lies above or
-/// below is not reached that way, nor what is beyond a railing's end further than somebody there would sense.
+/// Goes on over seams, and over the seams of the charts beyond these, from cell to cell: ground that lies
+/// above or below is not reached that way, nor what is beyond a railing's end further than somebody there
+/// would sense.
 void ChartRaster::goOn(const std::vector<Chart>& charts, std::size_t own, double reach) {
     struct Reached {
         glm::ivec2 cell, seam;

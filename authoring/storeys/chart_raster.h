@@ -23,7 +23,8 @@ class ChartRaster {
 
     glm::ivec2 first() const { return first_; }
     glm::ivec2 size() const { return size_; }
-    /// The chart that owns a cell of the lattice, gpu::NO_CHART where nobody can stand or that is out of reach.
+    /// The chart that owns a cell of the lattice, gpu::NO_CHART where nobody can stand or that is out of
+    /// reach.
     std::uint32_t ownerAt(glm::ivec2 cell) const;
     /// As ownerAt(), of the cell around a point.
     std::uint32_t ownerOf(glm::dvec2 home) const;

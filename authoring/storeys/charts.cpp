@@ -33,8 +33,8 @@ double upwards(double value) {
     return std::ceil(value / kShiftStep) * kShiftStep;
 }
 
-/// Side by side in rows, the first chart where it is: of two margins and a little more between any two, so that
-/// nobody senses from one into the other.
+/// Side by side in rows, the first chart where it is: of two margins and a little more between any two, so
+/// that nobody senses from one into the other.
 void shiftCharts(std::vector<Chart>& charts, double reach) {
     const double margin = reach + 2.0;
     double area = 0.0, widest = 0.0;
@@ -83,7 +83,8 @@ void moveFormation(Formation& formation, glm::dvec2 by) {
 }
 
 std::size_t levelOf(const Layout& layout, const Place& place) {
-    return place.kind == Place::Kind::area ? layout.areas[place.index].level : layout.roads[place.index].level;
+    return place.kind == Place::Kind::area ? layout.areas[place.index].level
+                                           : layout.roads[place.index].level;
 }
 
 /// Everything of the layout to where its chart lies.
@@ -139,7 +140,8 @@ class LayingOut {
     }
 
   private:
-    /// Two floors at nearly the same height may not lie over each other, nor so that nobody can stand between.
+    /// Two floors at nearly the same height may not lie over each other, nor so that nobody can stand
+    /// between.
     void checkStoreys() {
         const auto& charts = result_->charts;
         for (std::size_t i = 0; i < layout_.levels.size(); ++i)
@@ -149,8 +151,9 @@ class LayingOut {
                 if (const auto at = commonPoint(charts[i], charts[j]))
                     diagnostics_.error(
                         layout_.levels[i].where,
-                        fmt::format("levels `{}` and `{}` lie over each other at [{:.2f}, {:.2f}], {:.2f} m apart",
-                                    charts[j].name, charts[i].name, at->x, at->y, apart),
+                        fmt::format(
+                            "levels `{}` and `{}` lie over each other at [{:.2f}, {:.2f}], {:.2f} m apart",
+                            charts[j].name, charts[i].name, at->x, at->y, apart),
                         fmt::format("people need {} m over their heads", kHeadroom));
             }
     }
@@ -171,8 +174,8 @@ class LayingOut {
             const Chart& link = result_->charts[i];
             for (const std::size_t level : {link.link_from, link.link_to}) {
                 if (result_->rasters[i].isJoinedTo(level)) continue;
-                const glm::dvec2 end = level == link.link_from ? link.link.at(0.0, 0.0)
-                                                               : link.link.at(link.link.length, 0.0);
+                const glm::dvec2 end =
+                    level == link.link_from ? link.link.at(0.0, 0.0) : link.link.at(link.link.length, 0.0);
                 diagnostics_.error(
                     layout_.links[link.index].where,
                     fmt::format("link `{}` does not reach the floor of level `{}` at [{:.2f}, {:.2f}]",
@@ -202,8 +205,9 @@ class LayingOut {
                 wall.points = railing.points;
                 wall.thickness = kRailing;
                 wall.height = kRailingHeight;
-                wall.where = result_->charts[chart].is_link ? layout_.links[result_->charts[chart].index].where
-                                                            : layout_.levels[chart].where;
+                wall.where = result_->charts[chart].is_link
+                                 ? layout_.links[result_->charts[chart].index].where
+                                 : layout_.levels[chart].where;
                 result_->ground_along_walls.emplace_back(railing.low, railing.high);
                 addWall(chart, wall);
                 move(wall.points, result_->charts[chart].shift);
@@ -222,8 +226,8 @@ class LayingOut {
                 std::vector<glm::dvec2> line = wall.points;
                 if (wall.closed) line.push_back(line.front());
                 const double thickness = wall.closed ? 0.0 : wall.thickness;
-                for (std::vector<glm::dvec2>& part : partsInMargin(result_->charts[chart], raster, owner, line,
-                                                                          0.5 * thickness)) {
+                for (std::vector<glm::dvec2>& part :
+                     partsInMargin(result_->charts[chart], raster, owner, line, 0.5 * thickness)) {
                     Wall copy = wall;
                     copy.id = fmt::format("{}:{}:{}", wall.id, result_->charts[chart].name,
                                           result_->plane.walls.size());

@@ -14,19 +14,20 @@
 
 // People above people, in a simulation that is flat
 //
-// Everything that people sense with - the diagram, the cells, the distance fields - lies in a plane, and there
-// is one person at most in a place. So the ground is cut into *charts* of which each has one height at a place,
-// floors and links, and these are laid out side by side in the plane, each moved by its *shift* as a whole.
+// Everything that people sense with - the diagram, the cells, the distance fields - lies in a plane, and
+// there is one person at most in a place. So the ground is cut into *charts* of which each has one height at
+// a place, floors and links, and these are laid out side by side in the plane, each moved by its *shift* as a
+// whole.
 //
-// Where two charts meet there is a *seam*. Beyond it, each has a margin as wide as people sense, in which it shows
-// the other's ground: the walls that stand there are copied into it, its cells of the distance fields are those of
-// the other chart, and everybody who is that near to the seam on the other side is present in it, too, as an
-// *image*. Images are sensed, felt in contact and counted like anybody else; nobody asks what they want, and they
-// move as the person does whose image they are. Who has walked over a seam is moved by the difference of the two
-// shifts before people look round the next time, and notices nothing of it.
+// Where two charts meet there is a *seam*. Beyond it, each has a margin as wide as people sense, in which it
+// shows the other's ground: the walls that stand there are copied into it, its cells of the distance fields
+// are those of the other chart, and everybody who is that near to the seam on the other side is present in
+// it, too, as an *image*. Images are sensed, felt in contact and counted like anybody else; nobody asks what
+// they want, and they move as the person does whose image they are. Who has walked over a seam is moved by
+// the difference of the two shifts before people look round the next time, and notices nothing of it.
 //
-// The plane is nobody's business but the simulation's: layouts, recordings and reports are in home coordinates, in
-// which floors lie above each other.
+// The plane is nobody's business but the simulation's: layouts, recordings and reports are in home
+// coordinates, in which floors lie above each other.
 namespace throng::authoring {
 
 /// The railing of a floor or link, or the piece of one.

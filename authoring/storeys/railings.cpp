@@ -10,9 +10,9 @@
 namespace throng::authoring {
 namespace {
 
-constexpr double kSample = 0.1;  // m
+constexpr double kSample = 0.1;   // m
 constexpr double kBeside = 0.02;  // m: beyond an edge
-constexpr double kPiece = 1.0;   // m: railings of links go up in pieces
+constexpr double kPiece = 1.0;    // m: railings of links go up in pieces
 
 using Test = std::function<bool(double)>;
 
@@ -100,8 +100,9 @@ std::vector<Railing> railingsOf(const std::vector<Chart>& charts, std::size_t in
     return railings;
 }
 
-std::vector<std::vector<glm::dvec2>> partsInMargin(const Chart& chart, const ChartRaster& raster, std::size_t owner,
-                                                   const std::vector<glm::dvec2>& line, double half_thickness) {
+std::vector<std::vector<glm::dvec2>> partsInMargin(const Chart& chart, const ChartRaster& raster,
+                                                   std::size_t owner, const std::vector<glm::dvec2>& line,
+                                                   double half_thickness) {
     const auto is_near = [&](glm::dvec2 point) {
         if (chart.contains(point)) return false;
         const int cells = 1 + static_cast<int>(std::ceil(half_thickness / kChartCell));

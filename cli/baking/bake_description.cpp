@@ -26,7 +26,8 @@ std::vector<recording::BakeAgent> describeAgents(const authoring::Scene& scene) 
     for (std::size_t row = 0; row < scene.people.size(); ++row) {
         const gpu::Person& person = scene.people[row];
         agents.push_back({person.group, person.radius, person.preferred_speed, person.variation,
-                          person.party_first, scene.origin + glm::dvec2(scene.chart_map.home(scene.goals[row]))});
+                          person.party_first,
+                          scene.origin + glm::dvec2(scene.chart_map.home(scene.goals[row]))});
         if (person.half_axis != 0.0f) {
             const double thickness = double{person.radius} - std::abs(double{person.half_axis});
             const double longer = 2.0 * double{person.radius};
@@ -56,10 +57,9 @@ void describeCharts(const LoadedLayout& loaded, recording::BakeDescription& bake
     }
     bake.levels = loaded.layout.levels;
     bake.walls = charts.walls;
-    bake.terrain = recording::BakeTerrain{
-        std::shared_ptr<const authoring::TerrainMesh>(scene.charts, &charts.home_mesh), scene.terrain, "levels",
-        hashText(loaded.text),
-        charts.ground_along_walls};
+    bake.terrain =
+        recording::BakeTerrain{std::shared_ptr<const authoring::TerrainMesh>(scene.charts, &charts.home_mesh),
+                               scene.terrain, "levels", hashText(loaded.text), charts.ground_along_walls};
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Charts: parts of the walkable ground that lie side by side in the simulation's plane (authoring/storeys/charts.h),
-// shared by C++ and GLSL (std430).
+// Charts: parts of the walkable ground that lie side by side in the simulation's plane
+// (authoring/storeys/charts.h), shared by C++ and GLSL (std430).
 #ifndef THRONG_SHARED_CHART_TYPES_H
 #define THRONG_SHARED_CHART_TYPES_H
 
@@ -14,8 +14,8 @@ const uint MOST_IMAGES = 4u;  // charts on which one person may be present besid
 
 /// One cell of the raster over the plane.
 struct ChartCell {
-    uint charts;  // byte 0: the chart whose part of the plane this is; byte 1: the chart whose ground it shows.
-                  // NO_CHART: none
+    uint charts;  // byte 0: the chart whose part of the plane this is; byte 1: the chart whose ground it
+                  // shows. NO_CHART: none
     uint images;  // bytes: the charts on which people who are here are present, too
 };
 

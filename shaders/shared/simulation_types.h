@@ -122,7 +122,8 @@ struct Decision {
 #endif
 };
 
-/// Whether the person in a slot is one itself, or the image of one beside a seam (shaders/shared/charts.glsl).
+/// Whether the person in a slot is one itself, or the image of one beside a seam
+/// (shaders/shared/charts.glsl).
 struct SlotImage {
     vec2 shift;   // m: from the person to the image
     uint person;  // the row of the person whose image it is; NO_INDEX: it is no image

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Levels and links as charts in the plane: who owns which ground, where it ends, and that routes go on over seams.
-#include "authoring/storeys/charts.h"
-
+// Levels and links as charts in the plane: who owns which ground, where it ends, and that routes go on over
+// seams.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,6 +12,7 @@
 #include "authoring/scene/raster.h"
 #include "authoring/scene/scene_builder.h"
 #include "authoring/storeys/chart_mesh.h"
+#include "authoring/storeys/charts.h"
 #include "authoring/storeys/railings.h"
 
 namespace throng::authoring {
@@ -69,7 +69,8 @@ double areaOf(const TerrainMesh& mesh, double height) {
 
 TEST(Charts, RailingsStandWhereGroundEndsAndNoOtherBegins) {
     const auto charts = chartsIn(hallWithGallery());
-    // The stairs are open at both ends; the hall is closed all round, and round the stairs where these are too low.
+    // The stairs are open at both ends; the hall is closed all round, and round the stairs where these are
+    // too low.
     const double low = kHeadroom / 3.0 * 6.0, width = 2.0 + kRailing;
     EXPECT_NEAR(railingLength(charts->charts, 2), 2 * 6.0, 0.02);
     EXPECT_NEAR(railingLength(charts->charts, 0), 60.0 + 2 * low + width, 0.02);
@@ -123,7 +124,8 @@ TEST(Charts, NoWallOfOneStoreyStandsInTheWayOnAnother) {
         for (const glm::dvec2 point : charts->plane.walls[i].points) {
             const glm::dvec2 home = point - charts->charts[2].shift;
             const double along = link.alongOf(home), aside = std::abs(link.asideOf(home));
-            if (along < -charts->reach || along > link.length + charts->reach || aside > charts->reach) continue;
+            if (along < -charts->reach || along > link.length + charts->reach || aside > charts->reach)
+                continue;
             EXPECT_FALSE(along > 0.2 && along < link.length - 0.2 && aside < link.half_width - 0.01)
                 << charts->plane.walls[i].id << " " << along << " " << aside;
             ++beside;
@@ -245,15 +247,22 @@ TEST(Storeys, MistakesAreToldWhereTheyAre) {
     const std::string upper = R"({"id": "upper", "height": 3, "floor": [[4, -5], [9, -5], [9, 5], [4, 5]]})";
     const std::string levels = "\"levels\": [" + ground + ", " + upper + "],\n";
     using Texts = std::vector<std::string>;
-    EXPECT_EQ(complaintsAbout(levels + R"("links": [{"id": "s", "from": "ground", "to": "uper", "path": [[0, 0], [4, 0]]}])"),
-              Texts{"4: there is no level `uper`"});
-    EXPECT_EQ(complaintsAbout(levels + R"("links": [{"id": "s", "from": "ground", "to": "upper", "path": [[3, 0], [4, 0]]}])"),
-              Texts{"4: link `s` climbs 3.00 m over 1.00 m: stairs climb at most 120 %"});
-    EXPECT_EQ(complaintsAbout(levels + R"("links": [{"id": "s", "from": "ground", "to": "upper", "path": [[-3, 0], [3, 0]]}])"),
-              Texts{"4: link `s` does not reach the floor of level `upper` at [3.00, 0.00]"});
-    EXPECT_EQ(complaintsAbout("\"levels\": [" + ground +
-                              ",\n{\"id\": \"mezzanine\", \"height\": 1.5, \"floor\": [[0, 0], [5, 0], [5, 5]]}]"),
-              Texts{"4: levels `ground` and `mezzanine` lie over each other at [0.12, 0.12], 1.50 m apart"});
+    EXPECT_EQ(
+        complaintsAbout(
+            levels + R"("links": [{"id": "s", "from": "ground", "to": "uper", "path": [[0, 0], [4, 0]]}])"),
+        Texts{"4: there is no level `uper`"});
+    EXPECT_EQ(
+        complaintsAbout(
+            levels + R"("links": [{"id": "s", "from": "ground", "to": "upper", "path": [[3, 0], [4, 0]]}])"),
+        Texts{"4: link `s` climbs 3.00 m over 1.00 m: stairs climb at most 120 %"});
+    EXPECT_EQ(
+        complaintsAbout(
+            levels + R"("links": [{"id": "s", "from": "ground", "to": "upper", "path": [[-3, 0], [3, 0]]}])"),
+        Texts{"4: link `s` does not reach the floor of level `upper` at [3.00, 0.00]"});
+    EXPECT_EQ(
+        complaintsAbout("\"levels\": [" + ground +
+                        ",\n{\"id\": \"mezzanine\", \"height\": 1.5, \"floor\": [[0, 0], [5, 0], [5, 5]]}]"),
+        Texts{"4: levels `ground` and `mezzanine` lie over each other at [0.12, 0.12], 1.50 m apart"});
     EXPECT_EQ(complaintsAbout(levels + R"("terrain": {"file": "ground.glb"})"),
               Texts{"4: a layout has levels or a terrain, not both"});
     EXPECT_EQ(complaintsAbout(levels + R"("walls": [{"points": [[0, 1], [1, 1]], "level": "cellar"}])"),

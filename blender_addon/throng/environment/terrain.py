@@ -56,7 +56,9 @@ def _terrain(positions, corners, manifest):
     if bpy.app.version < (4, 1, 0):
         mesh.polygons.foreach_set("loop_total", [3] * faces)
     mesh.polygons.foreach_set("use_smooth", [True] * faces)
-    shares = _shares(positions, manifest.get("geometry") or {})
+    # Floors above each other are paved.
+    shares = ([1.0] * (len(positions) // 3) if manifest.get("levels")
+              else _shares(positions, manifest.get("geometry") or {}))
     mesh.attributes.new(ROAD, "FLOAT", "POINT").data.foreach_set("value", shares)
     mesh.materials.append(_material())
     mesh.validate()
