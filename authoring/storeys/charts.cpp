@@ -191,9 +191,29 @@ class LayingOut {
         result_->walls.push_back(wall);
     }
 
+    /// A wall that nobody can come near to was meant for another level, or is out of place.
+    void tellOfWallBeside(const Wall& wall) const {
+        constexpr double kBeside = 0.5;  // m
+        const Chart& chart = result_->charts[wall.level];
+        for (std::size_t i = 0; i + 1 < wall.points.size() + (wall.closed ? 1 : 0); ++i)
+            for (const double along : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+                const glm::dvec2 at =
+                    glm::mix(wall.points[i], wall.points[(i + 1) % wall.points.size()], along);
+                for (const glm::dvec2 aside :
+                     {glm::dvec2(0.0), glm::dvec2(kBeside, 0.0), glm::dvec2(-kBeside, 0.0),
+                      glm::dvec2(0.0, kBeside), glm::dvec2(0.0, -kBeside)})
+                    if (chart.contains(at + aside)) return;
+            }
+        diagnostics_.warning(
+            wall.where,
+            fmt::format("wall `{}` does not stand on the floor of level `{}`", wall.id, chart.name),
+            "it is on the first level where it names no other");
+    }
+
     /// The layout's walls stand on their levels; floors and links end in railings.
     void raiseWalls() {
         for (const Wall& wall : layout_.walls) {
+            tellOfWallBeside(wall);
             result_->ground_along_walls.emplace_back(result_->charts[wall.level].height);
             addWall(wall.level, wall);
         }

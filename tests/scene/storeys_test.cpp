@@ -265,6 +265,9 @@ TEST(Storeys, MistakesAreToldWhereTheyAre) {
         Texts{"4: levels `ground` and `mezzanine` lie over each other at [0.12, 0.12], 1.50 m apart"});
     EXPECT_EQ(complaintsAbout(levels + R"("terrain": {"file": "ground.glb"})"),
               Texts{"4: a layout has levels or a terrain, not both"});
+    EXPECT_EQ(
+        complaintsAbout(levels + R"("walls": [{"id": "w", "points": [[0, 1], [1, 1]], "level": "upper"}])"),
+        Texts{"4: wall `w` does not stand on the floor of level `upper`"});
     EXPECT_EQ(complaintsAbout(levels + R"("walls": [{"points": [[0, 1], [1, 1]], "level": "cellar"}])"),
               Texts{"4: there is no level `cellar`"});
 }

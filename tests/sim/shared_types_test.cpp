@@ -10,6 +10,7 @@
 #include <regex>
 #include <set>
 
+#include "shaders/shared/chart_types.h"
 #include "shaders/shared/simulation_types.h"
 #include "shaders/shared/terrain_types.h"
 #include "sim/gl/embedded_shaders.h"
@@ -139,45 +140,38 @@ std::map<std::string, Layout> layoutsInCpp() {
         result["FieldMap"] = {sizeof(T), {MEMBER(ground_map), MEMBER(has_choice)}};
     }
     {
+        using T = gpu::ChartCell;
+        result["ChartCell"] = {sizeof(T), {MEMBER(charts), MEMBER(images)}};
+    }
+    {
+        using T = gpu::SlotImage;
+        result["SlotImage"] = {sizeof(T), {MEMBER(shift), MEMBER(person), MEMBER(reserved)}};
+    }
+    {
         using T = gpu::TerrainNode;
         result["TerrainNode"] = {sizeof(T), {MEMBER(height), MEMBER(steps)}};
     }
     {
         using T = gpu::Parameters;
-        result["Parameters"] = {sizeof(T),
-                                {MEMBER(cells_minimum),
-                                 MEMBER(diagram_minimum),
-                                 MEMBER(grid_minimum),
-                                 MEMBER(cell_size),
-                                 MEMBER(cells_width),
-                                 MEMBER(cells_height),
-                                 MEMBER(pixels_per_metre),
-                                 MEMBER(diagram_width),
-                                 MEMBER(diagram_height),
-                                 MEMBER(grid_cell),
-                                 MEMBER(grid_width),
-                                 MEMBER(grid_height),
-                                 MEMBER(field_cell),
-                                 MEMBER(field_blocks_across),
-                                 MEMBER(field_blocks_up),
-                                 MEMBER(cells_per_field),
-                                 MEMBER(detour_cell),
-                                 MEMBER(detour_width),
-                                 MEMBER(detour_height),
-                                 MEMBER(row_count),
-                                 MEMBER(queue_count),
-                                 MEMBER(seed),
-                                 MEMBER(has_roads),
-                                 MEMBER(tile_radius),
-                                 MEMBER(largest_radius),
-                                 MEMBER(step_seconds),
-                                 MEMBER(decision_seconds),
-                                 MEMBER(time_horizon),
-                                 MEMBER(wall_time_horizon),
-                                 MEMBER(contact_range),
-                                 MEMBER(contact_slack),
-                                 MEMBER(maximum_acceleration),
-                                 MEMBER(is_wide)}};
+        result["Parameters"] = {sizeof(T), {MEMBER(cells_minimum),     MEMBER(diagram_minimum),
+                                            MEMBER(grid_minimum),      MEMBER(cell_size),
+                                            MEMBER(cells_width),       MEMBER(cells_height),
+                                            MEMBER(pixels_per_metre),  MEMBER(diagram_width),
+                                            MEMBER(diagram_height),    MEMBER(grid_cell),
+                                            MEMBER(grid_width),        MEMBER(grid_height),
+                                            MEMBER(field_cell),        MEMBER(field_blocks_across),
+                                            MEMBER(field_blocks_up),   MEMBER(cells_per_field),
+                                            MEMBER(detour_cell),       MEMBER(detour_width),
+                                            MEMBER(detour_height),     MEMBER(row_count),
+                                            MEMBER(queue_count),       MEMBER(seed),
+                                            MEMBER(has_roads),         MEMBER(tile_radius),
+                                            MEMBER(largest_radius),    MEMBER(step_seconds),
+                                            MEMBER(decision_seconds),  MEMBER(time_horizon),
+                                            MEMBER(wall_time_horizon), MEMBER(contact_range),
+                                            MEMBER(contact_slack),     MEMBER(maximum_acceleration),
+                                            MEMBER(is_wide),           MEMBER(site_rows),
+                                            MEMBER(chart_cell),        MEMBER(chart_width),
+                                            MEMBER(chart_height)}};
     }
     return result;
 }
