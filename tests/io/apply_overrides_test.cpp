@@ -8,18 +8,19 @@
 #include <fstream>
 #include <numbers>
 
+#include "applied_crowd.h"
 #include "io/agent_rows.h"
 #include "io/overrides/agent_table_edit.h"
 #include "io/overrides/row_sampler.h"
 #include "io/streams/stream_reader.h"
 #include "io/streams/stream_writer.h"
 #include "io/verify_bake.h"
-#include "sample_crowd.h"
 
 namespace throng::io {
 namespace {
 
 using authoring::PersonChange;
+using test::applyOverrides;
 using test::contentOf;
 using test::SampleCrowd;
 using test::TemporaryFolder;
