@@ -121,6 +121,12 @@ Json layersJson(const Loaded& loaded, bool with_rows) {
                      {"copies", loaded.results[i].copies},
                      {"changes", authoring::operationWords(layer.operations)},
                      {"remarks", loaded.results[i].remarks}};
+        if (loaded.layers[i].operations.bend) {
+            item["sharp_bends"] = Json::array();
+            for (const io::SharpBend& each : loaded.results[i].sharp)
+                item["sharp_bends"].push_back(
+                    {{"row", each.row}, {"acceleration", each.acceleration}, {"frame", each.frame}});
+        }
         if (with_rows) item["rows"] = loaded.results[i].rows;
         list.push_back(std::move(item));
     }

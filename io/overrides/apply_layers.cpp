@@ -3,12 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numbers>
 
 #include "base/files/errors.h"
 #include "base/random.h"
+#include "io/overrides/bend_track.h"
 #include "io/overrides/selection.h"
 
 namespace throng::io {
@@ -17,6 +20,8 @@ namespace {
 using authoring::Duplicate;
 using authoring::Operations;
 using authoring::PersonChange;
+
+constexpr double kMostBent = 2097152.0;  // frames of people, of 132 bytes each
 
 /// One layer on its way.
 class LayerWork {
@@ -33,6 +38,7 @@ class LayerWork {
         if (result_.rows.empty()) result_.remarks.emplace_back("means nobody");
         const Operations& operations = layer_.operations;
         retime(operations.change);
+        if (operations.bend) bend(*operations.bend);
         changeTheRest(operations);
         for (const std::uint32_t row : result_.rows)
             crowd_.addWords(row, authoring::operationWords(operations));
@@ -49,6 +55,35 @@ class LayerWork {
         step.change.speed = change.speed;
         for (const std::uint32_t row : result_.rows)
             crowd_.add(row, step);
+    }
+
+    void bend(const authoring::Bend& bend) {
+        if (static_cast<double>(result_.rows.size()) * crowd_.frames() > kMostBent)
+            throw InputError(
+                crowd_.bake().folder,
+                fmt::format("the layer `{}` bends the ways of {} people over {} frames: at most {:.0f} "
+                            "frames of people can be bent in a layer",
+                            layer_.name, result_.rows.size(), crowd_.frames(), kMostBent));
+        std::size_t unbent = 0;
+        for (const std::uint32_t row : result_.rows) {
+            BentTrack track = bendTrack(crowd_, row, bend);
+            unbent += track.samples.empty();
+            if (track.samples.empty()) continue;
+            if (track.acceleration > bend.most_acceleration * (1.0 + 1.0e-6))
+                result_.sharp.push_back({row, track.acceleration, track.frame});
+            crowd_.setTrack(row, std::move(track.samples));
+        }
+        if (unbent)
+            result_.remarks.push_back(
+                fmt::format("{} people are not there when their ways would be bent", unbent));
+        std::ranges::stable_sort(result_.sharp, std::ranges::greater(), &SharpBend::acceleration);
+        if (!result_.sharp.empty())
+            result_.remarks.push_back(
+                fmt::format("the bend adds more than {} m/s^2 to {} people, most of all to {}: {:.2f} in "
+                            "frame {}; give it more "
+                            "time or way",
+                            bend.most_acceleration, result_.sharp.size(), result_.sharp.front().row,
+                            result_.sharp.front().acceleration, result_.sharp.front().frame));
     }
 
     void changeTheRest(const Operations& operations) {

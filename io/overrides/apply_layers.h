@@ -11,11 +11,19 @@
 
 namespace throng::io {
 
+/// A bend that adds more acceleration than it may.
+struct SharpBend {
+    std::uint32_t row = 0;
+    double acceleration = 0.0;  ///< m/s^2
+    std::uint32_t frame = 0;
+};
+
 /// What came of a layer.
 struct LayerResult {
     std::vector<std::uint32_t> rows{};   ///< whom it means
     std::uint32_t copies = 0;            ///< people that it made
     std::vector<std::string> remarks{};  ///< names that nobody has, and what could not be done
+    std::vector<SharpBend> sharp{};      ///< the sharpest first
 };
 
 /// Does to a crowd what the layers say, one after the other; those that are not enabled mean nobody. Throws

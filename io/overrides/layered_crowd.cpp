@@ -77,6 +77,7 @@ void LayeredCrowd::add(std::uint32_t row, Step step, std::optional<glm::dvec2> a
 
 void LayeredCrowd::setTrack(std::uint32_t row, std::vector<RowSample> track) {
     plans_[row].track = std::make_shared<const std::vector<RowSample>>(std::move(track));
+    plans_[row].in_track = plans_[row].steps.size();
     plans_[row].stands_anew = true;
 }
 
@@ -114,7 +115,7 @@ RowMoment LayeredCrowd::evaluate(std::uint32_t row, double frame, bool with_look
     std::vector<double> times(plan.steps.size());
     double at = frame, pace = 1.0;
     bool is_retimed = false;
-    for (std::size_t i = plan.steps.size(); i-- > 0;) {
+    for (std::size_t i = plan.steps.size(); i-- > plan.in_track;) {
         const Step& step = plan.steps[i];
         times[i] = at;
         if (!step.change.retimes() || !step.first) continue;
@@ -125,7 +126,7 @@ RowMoment LayeredCrowd::evaluate(std::uint32_t row, double frame, bool with_look
     const bool is_beyond = at < 0.0 || at > static_cast<double>(frames() - 1);
     const bool is_whole = !is_retimed && !is_beyond && at == std::floor(at);
     RowMoment moment{base(plan, at, pace, is_whole), is_beyond};
-    for (std::size_t i = 0; i < plan.steps.size(); ++i) {
+    for (std::size_t i = plan.in_track; i < plan.steps.size(); ++i) {
         const Step& step = plan.steps[i];
         changeSample(moment.sample, step.pivot, step.change);
         if (step.hidden && step.hidden->holds(std::round(times[i]))) hideSample(moment.sample);

@@ -36,6 +36,7 @@ struct Step {
 struct RowPlan {
     std::uint32_t source = 0;                               ///< row of the bake
     std::shared_ptr<const std::vector<RowSample>> track{};  ///< frame by frame, instead of the bake's
+    std::size_t in_track = 0;                               ///< the first steps, which the track has in it
     std::vector<Step> steps{};
     std::uint64_t identity = 0;  ///< what draws are made of: the how-manieth of its group, and which copy
     std::string copy_of{};       ///< the layer that made it

@@ -188,3 +188,62 @@ def test_the_add_on_keeps_the_layers_of_a_file(tmp_path):
     assert document["overrides"] == [entry] and document["layers"] == [layer({"rows": [0, 1]}, {"hide": True})]
     override_file.write(str(path), [])
     assert json.loads(path.read_text())["layers"] == document["layers"]
+
+
+def slides_of(bake, row, first, last):
+    """How far the feet of somebody go in the world in each frame while they and their clip's are on the ground, m: of a
+    clip whose planted foot goes backwards as fast as its stride goes forwards."""
+    strides = json.loads((bake / "bake.json").read_text())["strides"]
+    got = {name: values[:, row] for name, values in streams(
+        bake, ("pos", "dir", "state", "left_foot", "right_foot", "carriage")).items()}
+    gait = numpy.round((got["state"][:, 0] % 1) * 16).astype(int)
+    stride, heading = numpy.array(strides)[gait], got["dir"][:, 0] + 1j * got["dir"][:, 1]
+    place, slides = got["pos"][:, 0] + 1j * got["pos"][:, 1], []
+    blends = numpy.abs((got["state"][:, 0] % 1) * 16 - gait) > 1e-4  # between two strides, of which this knows one
+    for side, (name, beside, shift) in enumerate((("left_foot", 0.06, 0.5), ("right_foot", -0.06, 0.0))):
+        own = (got["state"][:, 2] + shift) % 1.0
+        stands = (own < 0.62 - 0.09 * (stride / 1.446 - 1)) & (got[name][:, 2] % 1 < 1e-6) & ~blends
+        foot = place + heading * (got["carriage"][:, 0] * (0.28 - own) * stride + got[name][:, 0]
+                                  + 1j * (beside + got[name][:, 1]))
+        planted = stands[1:] & stands[:-1] & (own[1:] > own[:-1]) & (gait[1:] == gait[:-1])
+        slides += list(numpy.abs(numpy.diff(foot))[first:last][planted[first:last]])
+    return numpy.array(slides)
+
+
+def test_feet_of_those_whose_way_is_bent_stay_planted(throng, street, tmp_path):
+    rows = [row for row, person in enumerate(table(street / "street")[:30]) if int(person["spawn_frame"] or 999) < 15]
+    who = {"rows": [rows[0], rows[-1]], "group": "f"}
+    path = write(tmp_path / "l.json", layer(who, {"bend": {"points": [{"frame": 60, "by": [0, 0.6]}]}}, "bend"))
+    told = throng("apply", street / "street", "--overrides", path, "-o", tmp_path / "out", "-q")
+    assert "m/s^2" not in told.stderr and "bend" in table(tmp_path / "out")[rows[0]]["overrides"]
+    before, after = streams(street / "street"), streams(tmp_path / "out")
+    off = after["pos"][:, rows] - before["pos"][:, rows]
+    assert numpy.allclose(off[60], [0, 0.6, 0], atol=1e-5)
+    seconds = numpy.sqrt(10 / numpy.sqrt(3) * 0.6)
+    assert (off[: int(60 - 24 * seconds)] == 0).all()
+    added = numpy.linalg.norm(numpy.diff(off, n=2, axis=0), axis=2) * 24 ** 2
+    assert 0.8 < added[:60].max() <= 1.0 + 0.02, "m/s^2; a little more where single precision rounds"
+    bent = numpy.concatenate([slides_of(tmp_path / "out", row, 20, 95) for row in rows])
+    straight = numpy.concatenate([slides_of(street / "street", row, 20, 95) for row in rows])
+    naive = tmp_path / "naive"
+    throng("convert", tmp_path / "out", "-o", naive, "--streams", "npy", "-q")
+    for name in ("left_foot", "right_foot", "carriage", "state"):  # the feet of before under the bent way
+        (naive / "streams" / f"{name}.npy").write_bytes((street / "street" / "streams" / f"{name}.npy").read_bytes())
+    kept = numpy.concatenate([slides_of(naive, row, 20, 95) for row in rows])
+    share = lambda slides: (slides > 0.01).mean()
+    assert len(bent) > 300 and share(bent) < share(straight) + 0.01 and share(kept) > 10 * max(share(bent), 0.005)
+
+
+def test_overlaps_that_changes_make_are_told(throng, street, tmp_path, manifest_of):
+    before = streams(street / "street")
+    there = before["state"][60, :, 0] > 0.5
+    one, other = numpy.nonzero(there)[0][:2]
+    by = (before["pos"][60, other] - before["pos"][60, one])[:2]
+    path = write(tmp_path / "l.json", layer({"rows": [int(one)] * 2}, {"bend": {
+        "points": [{"frame": 60, "by": [float(by[0]), float(by[1])]}], "falloff": 40, "most_acceleration": 20}}))
+    told = throng("apply", street / "street", "--overrides", path, "-o", tmp_path / "out", "-q").stdout
+    overlaps = manifest_of(tmp_path / "out")["applied"]["overlaps"]
+    radii = [float(person["radius"]) for person in table(street / "street")]
+    found = [each for each in overlaps["deepest"] if each["rows"] == sorted((int(one), int(other)))]
+    assert found and found[0]["depth"] == pytest.approx(radii[one] + radii[other], abs=0.02)
+    assert found[0]["frames"][0] <= 60 <= found[0]["frames"][1] and f"{min(one, other)} and {max(one, other)}: " in told

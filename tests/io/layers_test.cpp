@@ -13,7 +13,7 @@ namespace {
 
 using test::AppliedLayers;
 
-constexpr std::uint32_t kFrames = 48;
+constexpr std::uint32_t kLayerFrames = 48;
 
 TEST(Layers, HideInSomeFramesOnly) {
     const AppliedLayers applied(
@@ -21,7 +21,7 @@ TEST(Layers, HideInSomeFramesOnly) {
             {"name": "late", "who": {"rows": [2, 2]}, "do": {"hide": {"frames": [0, 5]}}},
             {"name": "never", "who": {"rows": [3, 3]}, "do": {"hide": true}}])");
     EXPECT_TRUE(applied.problems.empty());
-    for (std::uint32_t frame = 0; frame < kFrames; ++frame) {
+    for (std::uint32_t frame = 0; frame < kLayerFrames; ++frame) {
         EXPECT_EQ(applied.row(Stream::state, frame, 0)[0] > 0.5f, frame < 10 || frame > 20) << frame;
         EXPECT_EQ(applied.row(Stream::state, frame, 2)[0] > 0.5f, frame > 5) << frame;
         EXPECT_EQ(applied.row(Stream::state, frame, 3)[0], 0.0f);

@@ -15,7 +15,7 @@ namespace {
 
 using test::SampleCrowd;
 
-constexpr std::uint32_t kRows = 64, kFrames = 48;
+constexpr std::uint32_t kSampleRows = 64, kSampleFrames = 48;
 
 /// Whom one selector means among the sample's people, after some layers before it.
 class SelectionTest : public testing::Test {
@@ -36,7 +36,7 @@ class SelectionTest : public testing::Test {
 
     static std::set<std::uint32_t> those(const std::function<bool(std::uint32_t)>& are) {
         std::set<std::uint32_t> rows;
-        for (std::uint32_t row = 0; row < kRows; ++row)
+        for (std::uint32_t row = 0; row < kSampleRows; ++row)
             if (are(row)) rows.insert(row);
         return rows;
     }
@@ -56,14 +56,14 @@ class SelectionTest : public testing::Test {
 };
 
 TEST_F(SelectionTest, WordsAndRows) {
-    EXPECT_EQ(whom(R"({"everybody": true})").size(), kRows);
+    EXPECT_EQ(whom(R"({"everybody": true})").size(), kSampleRows);
     EXPECT_EQ(whom(R"({"group": "eastbound"})"), those([](auto row) { return row % 2 == 0; }));
     EXPECT_EQ(whom(R"({"rows": [60, 900]})"), (std::set<std::uint32_t>{60, 61, 62, 63}));
     EXPECT_TRUE(remarks_.empty());
-    EXPECT_EQ(whom(R"({"group": ["westbound", "eastbound"]})").size(), kRows / 2);
+    EXPECT_EQ(whom(R"({"group": ["westbound", "eastbound"]})").size(), kSampleRows / 2);
     EXPECT_EQ(remarks_, std::vector<std::string>{"there is no group `westbound` in this bake"});
     EXPECT_TRUE(whom(R"({"profile": "child"})").empty());
-    EXPECT_EQ(whom(R"({"party": [1, 1]})").size(), kRows);
+    EXPECT_EQ(whom(R"({"party": [1, 1]})").size(), kSampleRows);
     EXPECT_TRUE(whom(R"({"party": [2, 9]})").empty());
 }
 
@@ -81,14 +81,15 @@ TEST_F(SelectionTest, AndOrNot) {
 TEST_F(SelectionTest, PlacesInFrames) {
     const auto in_box = [](glm::dvec2 p) { return p.x > -14.8 && p.x < -14.2 && std::abs(p.y) < 2.0; };
     const std::string polygon = R"("polygon": [[-14.8, -2], [-14.2, -2], [-14.2, 2], [-14.8, 2]])";
-    EXPECT_EQ(whom(R"({"region": {)" + polygon + "}}"), ever(0, kFrames - 1, in_box));
+    EXPECT_EQ(whom(R"({"region": {)" + polygon + "}}"), ever(0, kSampleFrames - 1, in_box));
     EXPECT_EQ(whom(R"({"region": {"frames": [10, 10], )" + polygon + "}}"), ever(10, 10, in_box));
-    EXPECT_LT(ever(10, 10, in_box).size(), ever(0, kFrames - 1, in_box).size());
+    EXPECT_LT(ever(10, 10, in_box).size(), ever(0, kSampleFrames - 1, in_box).size());
     const glm::dvec2 point(-13.0, 0.4);
     EXPECT_EQ(whom(R"({"near": {"point": [-13, 0.4], "within": 1.5, "frames": [3, 9]}})"),
               ever(3, 9, [&](glm::dvec2 p) { return glm::distance(p, point) <= 1.5; }));
     // The wall `corner` runs along y = 5.2 up to x = -5.2, is 0.3 m thick, and goes up from there.
-    EXPECT_EQ(whom(R"({"near": {"wall": "corner", "within": 1.6}})"), ever(0, kFrames - 1, [](glm::dvec2 p) {
+    EXPECT_EQ(whom(R"({"near": {"wall": "corner", "within": 1.6}})"),
+              ever(0, kSampleFrames - 1, [](glm::dvec2 p) {
                   const double right = std::max(p.x + 5.2, 0.0), below = 5.2 - p.y;
                   return p.x >= -16 && p.y < 5.2 && std::hypot(right, below) <= 1.6 + 0.15;
               }));
@@ -149,7 +150,7 @@ TEST_F(SelectionTest, SharesAreDrawnByWhoSomebodyIs) {
     EXPECT_LT(half.size(), 44u);
     EXPECT_EQ(whom(R"({"share": {"of": 0.5}})"), half);
     EXPECT_NE(whom(R"({"share": {"of": 0.5, "seed": 1}})"), half);
-    EXPECT_EQ(whom(R"({"share": {"of": 1}})").size(), kRows);
+    EXPECT_EQ(whom(R"({"share": {"of": 1}})").size(), kSampleRows);
     EXPECT_TRUE(whom(R"({"share": {"of": 0}})").empty());
     for (const std::uint32_t row : whom(R"({"share": {"of": 0.3}})"))
         EXPECT_TRUE(half.contains(row)) << "who is among fewer is among more";
