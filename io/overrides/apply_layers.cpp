@@ -75,11 +75,11 @@ class LayerWork {
         }
         if (unbent)
             result_.remarks.push_back(
-                fmt::format("{} people are not there when their ways would be bent", unbent));
+                fmt::format("{} of them are not there when their ways would be bent", unbent));
         std::ranges::stable_sort(result_.sharp, std::ranges::greater(), &SharpBend::acceleration);
         if (!result_.sharp.empty())
             result_.remarks.push_back(
-                fmt::format("the bend adds more than {} m/s^2 to {} people, most of all to {}: {:.2f} in "
+                fmt::format("the bend adds more than {} m/s^2 to {} of them, most of all to {}: {:.2f} in "
                             "frame {}; give it more "
                             "time or way",
                             bend.most_acceleration, result_.sharp.size(), result_.sharp.front().row,

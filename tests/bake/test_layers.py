@@ -153,7 +153,8 @@ LAYERS = [(layer({"everybody": True}, {"hide": True}), True), (layer({}, {"hide"
           (layer({"rows": [0]}, {"hide": True}), False), (layer({"rows": [0, 3]}, {"hide": {}}), False),
           (layer({"share": {"of": 2}}, {"hide": True}), False), (layer({"share": {}}, {"hide": True}), False),
           (layer({"region": {"polygon": [[0, 0], [1, 0]]}}, {"hide": True}), False),
-          (layer({"not": {"or": [{"rows": [0, 1]}]}}, {"hide": True}), True), (layer({"or": []}, {"hide": True}), False),
+          (layer({"not": {"or": [{"rows": [0, 1]}]}}, {"hide": True}), True),
+          (layer({"or": []}, {"hide": True}), False),
           (layer({"near": {"point": [0, 0]}}, {"hide": True}), False),
           (layer({"rows": [0, 1]}, {"move": {"about": [0, 1], "turn": 4}}), True),
           (layer({"rows": [0, 1]}, {"move": {"about": [0, 1, 2]}}), False), (layer({"rows": [0, 1]}, {}), True),
@@ -163,7 +164,8 @@ LAYERS = [(layer({"everybody": True}, {"hide": True}), True), (layer({}, {"hide"
           (layer({"rows": [0, 1]}, {"duplicate": {"copies": 0}}), False),
           (layer({"rows": [0, 1]}, {"bend": {"points": []}}), False),
           (layer({"rows": [0, 1]}, {"bend": {"points": [{"frame": 3, "by": [0, 1]}], "falloff": 0}}), False),
-          (layer({"rows": [0, 1]}, {"hide": True}, enabled=1), False), (layer({"rows": [0, 1]}, {"hide": True}, ""), False),
+          (layer({"rows": [0, 1]}, {"hide": True}, enabled=1), False),
+          (layer({"rows": [0, 1]}, {"hide": True}, ""), False),
           ({"name": "a", "who": {"rows": [0, 1]}}, False), (layer({"rows": [0, 1]}, {"hide": True}, extra=1), False)]
 
 

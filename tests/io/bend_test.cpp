@@ -99,7 +99,7 @@ TEST(Bend, AccelerationIsBoundByItselfAndToldWhereItIsNot) {
     ASSERT_EQ(sharp.results[0].sharp.size(), 4u);
     EXPECT_NEAR(sharp.results[0].sharp[0].acceleration, most, 1e-9);
     EXPECT_GT(most, 7.0);
-    EXPECT_NE(sharp.results[0].remarks.at(0).find("more than 2 m/s^2 to 4 people"), std::string::npos);
+    EXPECT_NE(sharp.results[0].remarks.at(0).find("more than 2 m/s^2 to 4 of them"), std::string::npos);
 }
 
 TEST(Bend, WhatComesAfterwardsComesOnTop) {
@@ -120,7 +120,7 @@ TEST(Bend, WhatComesAfterwardsComesOnTop) {
     EXPECT_NEAR(placeOf(twice, 24, 0).y, twice.crowd.position(0, 24).y, 1e-5) << "and back";
     const AppliedLayers absent(
         R"([{"name": "bend", "who": {"rows": [63, 63]}, "do": {"bend": {"points": [{"frame": 9, "by": [0, 1]}]}}}])");
-    EXPECT_EQ(absent.results[0].remarks.at(0), "1 people are not there when their ways would be bent");
+    EXPECT_EQ(absent.results[0].remarks.at(0), "1 of them are not there when their ways would be bent");
 }
 
 TEST(Bend, OverlapsThatItMakesAreToldWithTheirFrames) {
