@@ -137,6 +137,16 @@ def test_what_is_written_and_what_is_told(throng, street, tmp_path, manifest_of)
 
 
 @pytest.mark.quick
+def test_copies_of_those_who_walk_together_walk_together(throng, street, tmp_path):
+    path = write(tmp_path / "l.json", layer({"party": [2, 2]}, {"duplicate": {"copies": 2, "by": [0, 9, 0]}}))
+    throng("apply", street / "street", "--overrides", path, "-o", tmp_path / "out", "-q")
+    people = table(tmp_path / "out")
+    copies = people[37:]
+    assert len(copies) >= 8 and {person["party"] for person in copies} == {person["id"] for person in copies[::2]}
+    assert all(one["party"] == other["party"] == one["id"] for one, other in zip(copies[::2], copies[1::2]))
+
+
+@pytest.mark.quick
 def test_packed_bakes_take_layers_too(throng, street, tmp_path):
     throng("convert", street / "street", "-o", tmp_path / "packed", "--streams", "packed", "-q")
     path = write(tmp_path / "l.json", layer({"group": "ring"}, {"duplicate": {"by": [20, 0, 0]}}))
@@ -234,6 +244,31 @@ def test_feet_of_those_whose_way_is_bent_stay_planted(throng, street, tmp_path):
     kept = numpy.concatenate([slides_of(naive, row, 20, 95) for row in rows])
     share = lambda slides: (slides > 0.01).mean()
     assert len(bent) > 300 and share(bent) < share(straight) + 0.01 and share(kept) > 10 * max(share(bent), 0.005)
+
+
+def test_clips_and_looks_in_real_streams(throng, street, tmp_path):
+    path = write(tmp_path / "l.json",
+                 layer({"group": "f"}, {"clip": {"activity": "looks", "frames": [50, 60]},
+                                        "look_at": {"point": [12, 60, 1.6], "frames": [40, 80], "ease": 8}}))
+    throng("apply", street / "street", "--overrides", path, "-o", tmp_path / "out", "-q")
+    names = ("pos", "dir", "state", "gaze")
+    before, after = streams(street / "street", names), streams(tmp_path / "out", names)
+    there = before["state"][..., 0] > 0.5
+    there[:, 30:] = False
+    inside = there & (numpy.arange(len(there)) >= 50)[:, None] & (numpy.arange(len(there)) <= 60)[:, None]
+    assert (before["state"][inside][:, 0] % 1 > 0).any(), "their gaits"
+    assert (numpy.floor(after["state"][inside][:, 0]) == 3).all()
+    assert (after["state"][..., 0] % 1 == before["state"][..., 0] % 1).all()
+    assert (after["state"][~inside] == before["state"][~inside]).all()
+    held = inside  # eight frames after the look has begun, eight before it ends
+    way = numpy.array([12, 60]) - before["pos"][held][:, :2]
+    yaw = numpy.angle((way[:, 0] + 1j * way[:, 1]) / (before["dir"][held][:, 0] + 1j * before["dir"][held][:, 1]))
+    most = numpy.radians(70)
+    assert numpy.abs(after["gaze"][held][:, 0] - yaw.clip(-most, most)).max() < 1e-4
+    outside = (numpy.arange(len(there)) < 40) | (numpy.arange(len(there)) > 80)
+    assert (after["gaze"][outside] == before["gaze"][outside]).all()
+    assert numpy.abs(numpy.diff(after["gaze"][38:84, :, 0] - before["gaze"][38:84, :, 0], axis=0))[:, there[38:84].all(
+        axis=0)].max() < 0.6, "heads do not jump"
 
 
 def test_overlaps_that_changes_make_are_told(throng, street, tmp_path, manifest_of):

@@ -118,6 +118,9 @@ TEST(Bend, WhatComesAfterwardsComesOnTop) {
     const AppliedLayers twice("[" + bend + R"(, {"name": "back", "who": {"rows": [0, 0]}, "do": {"bend": {
         "points": [{"frame": 24, "by": [0, -1]}], "falloff": 16, "most_acceleration": 50}}}])");
     EXPECT_NEAR(placeOf(twice, 24, 0).y, twice.crowd.position(0, 24).y, 1e-5) << "and back";
+    const AppliedLayers before(
+        R"([{"name": "move", "who": {"rows": [0, 0]}, "do": {"move": {"by": [0, 7, 0]}}}, )" + bend + "]");
+    EXPECT_NEAR(placeOf(before, 24, 0).y, before.crowd.position(0, 24).y + 8.0, 1e-5) << "moved once";
     const AppliedLayers absent(
         R"([{"name": "bend", "who": {"rows": [63, 63]}, "do": {"bend": {"points": [{"frame": 9, "by": [0, 1]}]}}}])");
     EXPECT_EQ(absent.results[0].remarks.at(0), "1 of them are not there when their ways would be bent");
