@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <glm/geometric.hpp>
 #include <map>
 #include <numbers>
 
@@ -65,13 +66,16 @@ class LayerWork {
                             "frames of people can be bent in a layer",
                             layer_.name, result_.rows.size(), crowd_.frames(), kMostBent));
         std::size_t unbent = 0;
+        double furthest = 0.0;
+        for (const authoring::BendPoint& point : bend.points)
+            furthest = std::max(furthest, glm::length(point.by));
         for (const std::uint32_t row : result_.rows) {
             BentTrack track = bendTrack(crowd_, row, bend);
             unbent += track.samples.empty();
             if (track.samples.empty()) continue;
             if (track.acceleration > bend.most_acceleration * (1.0 + 1.0e-6))
                 result_.sharp.push_back({row, track.acceleration, track.frame});
-            crowd_.setTrack(row, std::move(track.samples));
+            crowd_.setTrack(row, std::move(track.samples), furthest);
         }
         if (unbent)
             result_.remarks.push_back(

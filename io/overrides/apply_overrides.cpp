@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <map>
 
 #include "base/build_name.h"
@@ -64,9 +65,10 @@ class Application {
     /// False when it was stopped.
     bool writeStreams() {
         for (std::uint32_t frame = 0; frame < source_.frames; ++frame) {
-            read(crowd_.source().frame(frame));
+            const CrowdFrame now = crowd_.source().frame(frame);
+            read(now);
             for (ChangedRow& each : rows_)
-                change(each, frame);
+                change(each, now);
             if (watch_) watch_->see(frame, frame_);
             for (StreamFiles& stream : files_)
                 stream.append(frame_[stream.info().id]);
@@ -155,13 +157,18 @@ class Application {
 
     /// m, along both axes, that somebody may come to be outside of the site.
     glm::dvec2 reachOf(const RowPlan& plan) const {
-        glm::dvec2 reach(0.0);
-        for (const Step& step : plan.steps)
+        glm::dvec2 reach(plan.bent);
+        for (const Step& step : plan.steps) {
             reach += glm::abs(glm::dvec2(step.change.move));
+            if (!step.is_of_layer || step.change.turn == 0.0) continue;
+            const glm::dvec2 pivot(step.pivot[0], step.pivot[1]);  // round it, from the furthest corner
+            reach += 2.0 * glm::length(glm::max(glm::abs(source_.minimum - pivot),
+                                                glm::abs(source_.maximum - pivot)));
+        }
         return reach;
     }
 
-    void change(ChangedRow& each, std::uint32_t frame) {
+    void change(ChangedRow& each, const CrowdFrame& frame) {
         const RowMoment moment = crowd_.at(each.row, frame);
         const RowSample& sample = moment.sample;
         const RowPlan& plan = crowd_.plan(each.row);
@@ -170,7 +177,7 @@ class Application {
             std::ranges::copy(sample[stream.info().id], row(stream.info().id, each.row).begin());
         if (footing_ && plan.stands_anew) stand(each, sample);
         if (sample[Stream::state][0] <= 0.5f) return;
-        each.first_alive = std::min(each.first_alive, frame);
+        each.first_alive = std::min(each.first_alive, frame.index());
         const glm::dvec2 place(sample[Stream::pos][0], sample[Stream::pos][1]);
         minimum_ = glm::dvec2(std::min(minimum_.x, place.x), std::min(minimum_.y, place.y));
         maximum_ = glm::dvec2(std::max(maximum_.x, place.x), std::max(maximum_.y, place.y));

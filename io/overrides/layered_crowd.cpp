@@ -69,15 +69,16 @@ void LayeredCrowd::add(std::uint32_t row, Step step, std::optional<glm::dvec2> a
         const glm::dvec2 place = *about - bake().origin;
         step.pivot = {static_cast<float>(place.x), static_cast<float>(place.y), 0.0f};
     } else if (step.first) {
-        step.pivot = evaluate(row, *step.first, false).sample[Stream::pos];
+        step.pivot = evaluate(row, *step.first, false, nullptr).sample[Stream::pos];
     }
     plan.stands_anew = plan.stands_anew || step.change.moves() || step.change.retimes();
     plan.steps.push_back(std::move(step));
 }
 
-void LayeredCrowd::setTrack(std::uint32_t row, std::vector<RowSample> track) {
+void LayeredCrowd::setTrack(std::uint32_t row, std::vector<RowSample> track, double bent) {
     plans_[row].track = std::make_shared<const std::vector<RowSample>>(std::move(track));
     plans_[row].in_track = plans_[row].steps.size();
+    plans_[row].bent += bent;
     plans_[row].stands_anew = true;
 }
 
@@ -96,21 +97,23 @@ std::uint32_t LayeredCrowd::copy(std::uint32_t row, const std::string& layer, st
     return table_.copyRow(row);
 }
 
-RowSample LayeredCrowd::base(const RowPlan& plan, double frame, double pace, bool is_whole) const {
+RowSample LayeredCrowd::base(const RowPlan& plan, double frame, double pace, bool is_whole,
+                             const CrowdFrame* known) const {
     const auto whole = [&](std::uint32_t index) {
         if (plan.track) return (*plan.track)[index];
+        if (!known || known->index() != index) return sampler_.whole(plan.source, index);
         RowSample sample;
-        const CrowdFrame values = crowd_.frame(index);
         for (const StreamInfo& info : kStreams)
             if (crowd_.streams().has(info.id))
-                std::ranges::copy(rowOf(values[info.id], plan.source), sample[info.id].begin());
+                std::ranges::copy(rowOf((*known)[info.id], plan.source), sample[info.id].begin());
         return sample;
     };
     if (is_whole) return whole(static_cast<std::uint32_t>(frame));
-    return plan.track ? sampleBetween(whole, frames(), frame, pace) : sampler_.at(plan.source, frame, pace);
+    return sampleBetween(whole, frames(), frame, pace);
 }
 
-RowMoment LayeredCrowd::evaluate(std::uint32_t row, double frame, bool with_looks) const {
+RowMoment LayeredCrowd::evaluate(std::uint32_t row, double frame, bool with_looks,
+                                 const CrowdFrame* known) const {
     const RowPlan& plan = plans_[row];
     std::vector<double> times(plan.steps.size());
     double at = frame, pace = 1.0;
@@ -125,7 +128,7 @@ RowMoment LayeredCrowd::evaluate(std::uint32_t row, double frame, bool with_look
     }
     const bool is_beyond = at < 0.0 || at > static_cast<double>(frames() - 1);
     const bool is_whole = !is_retimed && !is_beyond && at == std::floor(at);
-    RowMoment moment{base(plan, at, pace, is_whole), is_beyond};
+    RowMoment moment{base(plan, at, pace, is_whole, known), is_beyond};
     for (std::size_t i = plan.in_track; i < plan.steps.size(); ++i) {
         const Step& step = plan.steps[i];
         changeSample(moment.sample, step.pivot, step.change);
@@ -133,18 +136,19 @@ RowMoment LayeredCrowd::evaluate(std::uint32_t row, double frame, bool with_look
         float& state = moment.sample[Stream::state][0];
         if (step.clip && state > 0.5f && step.clip->frames.holds(std::round(times[i])))
             state += static_cast<float>(step.clip->activity) - std::floor(state);
-        if (step.look && with_looks) turnHead(moment.sample, *step.look, times[i], scaleOf(row));
+        if (step.look && with_looks) turnHead(moment.sample, *step.look, times[i], scaleOf(row), known);
     }
     return moment;
 }
 
 /// Of bakes without the stream nothing is kept of this.
-void LayeredCrowd::turnHead(RowSample& sample, const LookTarget& look, double frame, double scale) const {
+void LayeredCrowd::turnHead(RowSample& sample, const LookTarget& look, double frame, double scale,
+                            const CrowdFrame* known) const {
     const double share = shareOf(look, frame);
     if (share == 0.0 || sample[Stream::state][0] <= 0.5f) return;
     glm::dvec3 target = look.point;
     if (look.row) {
-        const RowSample other = evaluate(*look.row, frame, false).sample;
+        const RowSample other = evaluate(*look.row, frame, false, known).sample;
         if (other[Stream::state][0] <= 0.5f) return;
         target = {other[Stream::pos][0], other[Stream::pos][1],
                   static_cast<double>(other[Stream::pos][2]) + kEyes * scaleOf(*look.row)};
@@ -175,7 +179,7 @@ void LayeredCrowd::places(std::uint32_t frame, std::vector<PersonPlace>& result)
             result[row] = {{place[0], place[1], place[2]}, whole.isThere(row)};
             continue;
         }
-        const RowSample sample = evaluate(row, frame, false).sample;
+        const RowSample sample = evaluate(row, frame, false, &whole).sample;
         const std::array<float, kComponents>& place = sample[Stream::pos];
         result[row] = {{place[0], place[1], place[2]}, sample[Stream::state][0] > 0.5f};
     }

@@ -41,6 +41,7 @@ struct RowPlan {
     std::uint64_t identity = 0;  ///< what draws are made of: the how-manieth of its group, and which copy
     std::string copy_of{};       ///< the layer that made it
     std::vector<std::string> words{};  ///< what is done to it
+    double bent = 0.0;                 ///< m, by which its way is bent at most
     bool stands_anew = false;          ///< it is not where it was, or not when
 
     bool isChanged() const { return track || !steps.empty() || !copy_of.empty(); }
@@ -78,19 +79,27 @@ class LayeredCrowd {
 
     /// @param about m, world: what is turned about; without, the place of the entry
     void add(std::uint32_t row, Step step, std::optional<glm::dvec2> about = {});
-    void setTrack(std::uint32_t row, std::vector<RowSample> track);
+    /// @param bent m, by which the way is bent at most
+    void setTrack(std::uint32_t row, std::vector<RowSample> track, double bent);
     void addWords(std::uint32_t row, const std::vector<std::string>& words);
     /// Another one like this, as it is so far. @returns its row
     std::uint32_t copy(std::uint32_t row, const std::string& layer, std::uint64_t number);
 
-    RowMoment at(std::uint32_t row, double frame) const { return evaluate(row, frame, true); }
+    /// Somebody at any time. Reads single rows.
+    RowMoment at(std::uint32_t row, double frame) const { return evaluate(row, frame, true, nullptr); }
+    /// The same in a frame of the source that has been read.
+    RowMoment at(std::uint32_t row, const CrowdFrame& frame) const {
+        return evaluate(row, frame.index(), true, &frame);
+    }
     /// Everybody's place in one frame.
     void places(std::uint32_t frame, std::vector<PersonPlace>& result) const;
 
   private:
-    RowMoment evaluate(std::uint32_t row, double frame, bool with_looks) const;
-    RowSample base(const RowPlan& plan, double frame, double pace, bool is_whole) const;
-    void turnHead(RowSample& sample, const LookTarget& look, double frame, double scale) const;
+    RowMoment evaluate(std::uint32_t row, double frame, bool with_looks, const CrowdFrame* known) const;
+    RowSample base(const RowPlan& plan, double frame, double pace, bool is_whole,
+                   const CrowdFrame* known) const;
+    void turnHead(RowSample& sample, const LookTarget& look, double frame, double scale,
+                  const CrowdFrame* known) const;
 
     CrowdReader& crowd_;
     AgentTableEdit table_;

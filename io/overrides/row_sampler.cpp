@@ -98,9 +98,4 @@ RowSample RowSampler::whole(std::uint32_t row, std::uint32_t frame) const {
     return sample;
 }
 
-RowSample RowSampler::at(std::uint32_t row, double frame, double pace) const {
-    return sampleBetween([&](std::uint32_t index) { return whole(row, index); }, streams_.frames(), frame,
-                         pace);
-}
-
 }  // namespace throng::io

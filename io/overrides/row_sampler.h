@@ -31,17 +31,14 @@ void hideSample(RowSample& sample);
 RowSample sampleBetween(const std::function<RowSample(std::uint32_t)>& whole, std::uint32_t frames,
                         double frame, double pace);
 
-/// People at times between the frames.
+/// Single people of a bake.
 class RowSampler {
   public:
     explicit RowSampler(const StreamSet& streams) : streams_(streams) {}
 
-    /// As sampleBetween().
-    RowSample at(std::uint32_t row, double frame, double pace) const;
-
-  private:
     RowSample whole(std::uint32_t row, std::uint32_t frame) const;
 
+  private:
     const StreamSet& streams_;
 };
 

@@ -158,13 +158,16 @@ TEST(ApplyOverrides, HeadingsGoTheShorterWayRound) {
     write(Stream::state, {1, 2, 0.5f, 2, 3, 1.5f});
     const StreamSet streams(folder.path(), streamsOf(false, {}), StreamFormats::standard(), 2, 1);
     const RowSampler sampler(streams);
-    EXPECT_NEAR(sampler.at(0, 0.5, 1.0)[Stream::dir][0], -1.0, 1e-6);
-    EXPECT_NEAR(sampler.at(0, 0.25, 2.0)[Stream::dir][2], 2.0, 1e-6);
-    EXPECT_EQ(sampler.at(0, 0.49, 1.0)[Stream::state][0], 1.0f);
-    EXPECT_EQ(sampler.at(0, 0.5, 1.0)[Stream::state][1], 3.0f);
-    EXPECT_FLOAT_EQ(sampler.at(0, 0.25, 1.0)[Stream::state][2], 0.75f);
-    EXPECT_EQ(sampler.at(0, -3.0, 1.0)[Stream::pos][0], 0.0f);
-    EXPECT_EQ(sampler.at(0, 7.0, 1.0)[Stream::dir][2], 0.0f);
+    const auto at = [&](double frame, double pace) {
+        return sampleBetween([&](std::uint32_t index) { return sampler.whole(0, index); }, 2, frame, pace);
+    };
+    EXPECT_NEAR(at(0.5, 1.0)[Stream::dir][0], -1.0, 1e-6);
+    EXPECT_NEAR(at(0.25, 2.0)[Stream::dir][2], 2.0, 1e-6);
+    EXPECT_EQ(at(0.49, 1.0)[Stream::state][0], 1.0f);
+    EXPECT_EQ(at(0.5, 1.0)[Stream::state][1], 3.0f);
+    EXPECT_FLOAT_EQ(at(0.25, 1.0)[Stream::state][2], 0.75f);
+    EXPECT_EQ(at(-3.0, 1.0)[Stream::pos][0], 0.0f);
+    EXPECT_EQ(at(7.0, 1.0)[Stream::dir][2], 0.0f);
 }
 
 TEST(ApplyOverrides, LooksGoIntoTheTableTheManifestAndTheGltf) {
