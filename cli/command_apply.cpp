@@ -225,6 +225,10 @@ void printResult(const Options& options, const Loaded& loaded, const io::ApplyRe
     for (std::size_t i = 0; i < loaded.layers.size(); ++i)
         say(stdout, "{}\n", layerLine(loaded, i));
     printOverlaps(result.overlaps);
+    for (std::size_t i = 0; i < std::min<std::size_t>(result.in_walls.size(), 10); ++i)
+        say(stdout, "{} is in the wall `{}`, where it was not before: frames {} to {}\n",
+            result.in_walls[i].row, result.in_walls[i].wall, result.in_walls[i].first,
+            result.in_walls[i].last);
     if (result.held)
         say(stdout, "{} retimed people stand still where the bake has no frames for them\n", result.held);
 }

@@ -85,7 +85,8 @@ class Application {
         const Json gltf = options_.gltf ? writeGltf() : Json(nullptr);
         ApplyResult result;
         if (watch_) result.overlaps = watch_->found();
-        writeManifest(gltf, result.overlaps);
+        if (watch_) result.in_walls = watch_->inWalls();
+        writeManifest(gltf, result);
         result.held = static_cast<std::uint32_t>(
             std::ranges::count_if(rows_, [](const ChangedRow& each) { return each.is_held; }));
         result.path = folder_.commit();
@@ -268,6 +269,13 @@ class Application {
                 {"refused_reasons", reasons.empty() ? Json::object() : Json(reasons)}};
     }
 
+    static Json inWallsJson(std::span<const InWall> people) {
+        Json list = Json::array();
+        for (const InWall& each : people.first(std::min(people.size(), kMostTold)))
+            list.push_back({{"row", each.row}, {"wall", each.wall}, {"frames", {each.first, each.last}}});
+        return list;
+    }
+
     static Json overlapsJson(std::span<const Overlap> overlaps) {
         Json list = Json::array();
         for (const Overlap& each : overlaps.first(std::min(overlaps.size(), kMostTold)))
@@ -278,7 +286,7 @@ class Application {
         return {{"pairs", overlaps.size()}, {"deepest", list}};
     }
 
-    void writeManifest(const Json& gltf, std::span<const Overlap> overlaps) {
+    void writeManifest(const Json& gltf, const ApplyResult& result) {
         Json manifest = source_.manifest;
         manifest["generator"] = "throng " THRONG_VERSION;
         manifest["build"] = buildName();
@@ -294,7 +302,8 @@ class Application {
         manifest["account"] = account();
         manifest["agents"] = crowd_.rows();
         manifest["applied"] = options_.applied;
-        if (watch_) manifest["applied"]["overlaps"] = overlapsJson(overlaps);
+        if (watch_) manifest["applied"]["overlaps"] = overlapsJson(result.overlaps);
+        if (watch_) manifest["applied"]["in_walls"] = inWallsJson(result.in_walls);
         std::vector<std::string> files{"agents.csv"};
         files.insert(files.end(), copied_.begin(), copied_.end());
         for (const std::string& file : filesOf(files_))

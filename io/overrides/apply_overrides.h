@@ -36,6 +36,7 @@ struct ApplyResult {
     std::uint32_t held =
         0;  ///< people whose new times reach beyond the bake while they are there: they stand
     std::vector<Overlap> overlaps{};
+    std::vector<InWall> in_walls{};
 };
 
 /// Does to some rows what their overrides say.

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "base/capsule.h"
+#include "io/overrides/flat_shapes.h"
 
 namespace throng::io {
 
@@ -15,6 +18,14 @@ OverlapWatch::OverlapWatch(const LayeredCrowd& crowd) : crowd_(crowd) {
         if (crowd.plan(row).stands_anew) moved_.push_back(row);
     }
     const Bake& bake = crowd.bake();
+    for (const authoring::Wall& wall : bake.walls) {
+        Box box{wall.points.front(), wall.points.front()};
+        for (const glm::dvec2 point : wall.points) {
+            box.minimum = glm::min(box.minimum, point - 0.5 * wall.thickness);
+            box.maximum = glm::max(box.maximum, point + 0.5 * wall.thickness);
+        }
+        wall_boxes_.push_back(box);
+    }
     if (!moved_.empty())
         grid_.emplace(bake.minimum, bake.maximum, std::max(widest_, 0.5), cellsFor(crowd.rows()));
 }
@@ -57,6 +68,7 @@ void OverlapWatch::see(std::uint32_t index, const PerStream<std::vector<float>>&
     for (const std::uint32_t row : moved_) {
         if (!is_there[row]) continue;
         const Capsule body = bodyIn(frame, row);
+        seeWalls(index, body, row, before);
         grid_->near(body.middle, widest_, [&](std::uint32_t i) {
             const std::uint32_t other = rows[i];
             if (other == row || (other < row && crowd_.plan(other).stands_anew)) return;
@@ -70,6 +82,31 @@ void OverlapWatch::see(std::uint32_t index, const PerStream<std::vector<float>>&
             if (depth > overlap.depth) overlap.depth = depth, overlap.deepest = index;
         });
     }
+}
+
+/// By the disc that fits into the body: shoulders may brush along a wall.
+void OverlapWatch::seeWalls(std::uint32_t index, const Capsule& body, std::uint32_t row,
+                            const CrowdFrame& before) {
+    const std::vector<authoring::Wall>& walls = crowd_.bake().walls;
+    for (std::size_t i = 0; i < walls.size(); ++i) {
+        const glm::dvec2 nearest = glm::clamp(body.middle, wall_boxes_[i].minimum, wall_boxes_[i].maximum);
+        if (glm::distance(nearest, body.middle) >= body.thickness) continue;
+        if (walls[i].isOpen(index / crowd_.bake().fps)) continue;
+        const double depth = body.thickness - distanceToWall(walls[i], body.middle);
+        if (depth <= kLeast) continue;
+        const bool was_there = row < before.rows() && before.isThere(row);
+        if (was_there && depth <= body.thickness - distanceToWall(walls[i], before.place(row)) + kLeast)
+            continue;
+        const auto [known, is_new] = in_walls_.try_emplace({row, i}, InWall{row, walls[i].id, index, index});
+        known->second.last = index;
+    }
+}
+
+std::vector<InWall> OverlapWatch::inWalls() const {
+    std::vector<InWall> result;
+    for (const auto& [where, each] : in_walls_)
+        result.push_back(each);
+    return result;
 }
 
 std::vector<Overlap> OverlapWatch::found() const {

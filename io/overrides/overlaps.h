@@ -4,6 +4,7 @@
 #include <glm/vec2.hpp>
 #include <map>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "base/plane_grid.h"
@@ -19,6 +20,13 @@ struct Overlap {
     std::uint32_t deepest = 0;          ///< frame of that
 };
 
+/// Somebody in a wall who was not in it before, or less.
+struct InWall {
+    std::uint32_t row = 0;
+    std::string wall;
+    std::uint32_t first = 0, last = 0;  ///< frames
+};
+
 /// Watches out for overlaps that changes make: nobody makes room for who has been moved.
 class OverlapWatch {
   public:
@@ -31,9 +39,12 @@ class OverlapWatch {
     void see(std::uint32_t index, const PerStream<std::vector<float>>& frame);
     /// The deepest first.
     std::vector<Overlap> found() const;
+    /// By row.
+    std::vector<InWall> inWalls() const;
 
   private:
     Capsule bodyIn(const PerStream<std::vector<float>>& frame, std::uint32_t row) const;
+    void seeWalls(std::uint32_t index, const Capsule& body, std::uint32_t row, const CrowdFrame& before);
     double depthBefore(const CrowdFrame& frame, std::uint32_t row, std::uint32_t other) const;
 
     const LayeredCrowd& crowd_;
@@ -42,6 +53,11 @@ class OverlapWatch {
     std::optional<PlaneGrid> grid_;
     std::vector<std::uint32_t> moved_;
     std::map<std::pair<std::uint32_t, std::uint32_t>, Overlap> overlaps_;
+    struct Box {
+        glm::dvec2 minimum, maximum;
+    };
+    std::vector<Box> wall_boxes_;  ///< m, with half of the thickness
+    std::map<std::pair<std::uint32_t, std::size_t>, InWall> in_walls_;
 };
 
 }  // namespace throng::io

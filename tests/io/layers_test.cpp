@@ -189,6 +189,22 @@ TEST(Layers, HeadsTurnToAPointAndToSomebody) {
     EXPECT_NE(without.results[0].remarks.at(0).find("no stream `gaze`"), std::string::npos);
 }
 
+TEST(Layers, OnATerrainWhoIsTakenElsewhereStandsOnTheGround) {
+    test::SampleOptions options;
+    options.every_stream = true;  // on a square that rises by a tenth along x
+    const AppliedLayers applied(
+        R"([{"name": "bend", "who": {"rows": [1, 1]},
+             "do": {"bend": {"points": [{"frame": 24, "by": [2, 0]}], "falloff": 20, "most_acceleration": 50}}},
+            {"name": "copies", "who": {"rows": [0, 1]}, "do": {"duplicate": {"by": [6, 0, 0.5]}}},
+            {"name": "across", "who": {"rows": [2, 2]}, "do": {"move": {"turn": 180, "about": [0, 0]}}}])",
+        options);
+    for (const auto& [row, over] : {std::pair{1u, 0.0}, {64u, 0.5}, {65u, 0.5}, {2u, 0.0}}) {
+        const auto place = applied.row(Stream::pos, 24, row);
+        EXPECT_NEAR(place[2], 0.1 * place[0] + over, 0.02) << row;
+        EXPECT_NEAR(applied.row(Stream::ground, 24, row)[2], 0.1 * place[0], 1e-4) << row;
+    }
+}
+
 TEST(Layers, HeroesHaveANameEach) {
     const AppliedLayers applied(
         R"([{"name": "guards", "who": {"rows": [5, 6]}, "do": {"hero": "Guard"}},
@@ -198,6 +214,18 @@ TEST(Layers, HeroesHaveANameEach) {
     EXPECT_EQ(table.at(5, "reason"), "a hero outside the crowd");
     EXPECT_EQ(table.at(8, "overrides"), "hero");
     EXPECT_EQ(applied.row(Stream::state, 20, 6)[0], 0.0f);
+}
+
+TEST(Layers, WhoIsPutIntoAWallIsTold) {
+    // Row 0 walks along y = -3.6; the wall `corner` runs along y = 5.2, 0.3 m thick, up to x = -5.2.
+    const AppliedLayers applied(
+        R"([{"name": "in", "who": {"rows": [0, 0]}, "do": {"move": {"by": [0, 8.8, 0]}}},
+                                    {"name": "beside", "who": {"rows": [2, 2]}, "do": {"move": {"by": [0, 0.1, 0]}}}])");
+    ASSERT_EQ(applied.result->in_walls.size(), 1u);
+    EXPECT_EQ(applied.result->in_walls[0].row, 0u);
+    EXPECT_EQ(applied.result->in_walls[0].wall, "corner");
+    EXPECT_EQ(applied.result->in_walls[0].first, 0u);
+    EXPECT_EQ(applied.made.manifest["applied"]["in_walls"][0]["frames"][1], kLayerFrames - 1);
 }
 
 TEST(Layers, OverlapsThatTheyMakeAreTold) {
