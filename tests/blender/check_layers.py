@@ -3,6 +3,7 @@
 import json
 import math
 import os
+import shutil
 import sys
 
 import bpy
@@ -15,6 +16,7 @@ from throng.crowd.queries import bake_path, crowd_objects  # noqa: E402
 from throng.crowd.verify import verify  # noqa: E402
 from throng.layers import applying, scene_values  # noqa: E402
 from throng.overrides import operators as override_operators, picking  # noqa: E402
+from throng.overrides.override_file import read_layers  # noqa: E402
 
 BAKE, FILE = os.path.join(folder, "street"), os.path.join(folder, "street.overrides.json")
 bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -131,6 +133,16 @@ result["theirs"] = [item.name for item in crowd.throng_layers]
 ops.hide_people(rows="8")
 result["kept"] = [[entry["id"] for entry in written()["overrides"]], len(written()["layers"])]
 ops.clear_people(rows="6 8")
+shutil.copytree(BAKE, os.path.join(folder, "retake"))
+applying.compare(scene, crowd, False)
+again.select_set(False)
+crowd.select_set(True)
+assert ops.relink(filepath=os.path.join(folder, "retake", "bake.json")) == {"FINISHED"}
+result["retake"] = [os.path.basename(applying.save(crowd)),
+                    [each["name"] for each in read_layers(os.path.join(folder, "retake.overrides.json"))]]
+applying.compare(scene, crowd, True)
+bpy.data.objects.remove(again)
+result["gone"] = [refused(ops.compare_layers), crowd.hide_viewport]
 bpy.ops.wm.save_as_mainfile(filepath=os.path.join(folder, "scene.blend"))
 throng.unregister()
 print("RESULT " + json.dumps(result))

@@ -92,3 +92,9 @@ def test_what_others_have_written_is_kept(found):
     found = found[0]
     assert found["reloaded"] == found["order"] and "somebody else has changed the layers" in found["others"]
     assert found["theirs"] == found["order"][:1] and found["kept"] == [[6, 8], 1]
+
+
+def test_layers_go_along_to_another_bake(found):
+    found = found[0]
+    assert found["retake"] == ["retake.overrides.json", found["theirs"]]
+    assert "Apply Layers first" in found["gone"][0] and found["gone"][1] is False, "the crowd itself is to be seen"

@@ -17,7 +17,7 @@ from ..overrides.override_file import check_layers, read, read_layers, write
 from ..tools.update import reload
 from .wording import parsed
 
-_KNOWN = "throng_layers_known"  # the file's layers when scene and file were last brought together
+_KNOWN = "throng_layers_known"  # the file, and its layers when scene and file were last brought together
 SUFFIX = ".layered"
 
 
@@ -52,13 +52,24 @@ def append(crowd, made):
     crowd.throng_layer_index = len(crowd.throng_layers) - 1
 
 
+def _note(crowd, path, layers):
+    crowd[_KNOWN] = json.dumps([path, layers])
+
+
+def _known(crowd, path):
+    """What the scene knows of a file: nothing of one that it has not read, beside another bake, say."""
+    noted, layers = json.loads(crowd.get(_KNOWN, '["", []]'))
+    return layers if noted == path else []
+
+
 def load(crowd):
     """Takes the file's layers instead of the scene's."""
-    layers = read_layers(overrides.file_of(crowd))
+    path = overrides.file_of(crowd)
+    layers = read_layers(path)
     crowd.throng_layers.clear()
     for made in layers:
         append(crowd, made)
-    crowd[_KNOWN] = json.dumps(layers)
+    _note(crowd, path, layers)
 
 
 def load_once(crowd):
@@ -72,13 +83,13 @@ def save(crowd):
     overwritten."""
     layers, path = layers_of(crowd), overrides.file_of(crowd)
     with exclusive(path):
-        theirs, known = read_layers(path), json.loads(crowd.get(_KNOWN, "[]"))
-        if theirs not in (known, layers):
+        theirs = read_layers(path)
+        if theirs not in (_known(crowd, path), layers):
             raise BakeError(f"{path}: somebody else has changed the layers, so nothing is written: Re-load Layers "
                             "shows what they did")
         if theirs != layers or not os.path.exists(path):
             write(path, read(path) if os.path.exists(path) else overrides.entries_of(crowd), layers)
-    crowd[_KNOWN] = json.dumps(layers)
+    _note(crowd, path, layers)
     return path
 
 
@@ -144,6 +155,7 @@ def _twin(scene, crowd):
     made[LAYERED_OF] = crowd
     made.throng_overrides.clear()  # they are in the bake that it will play
     made.throng_layers.clear()
+    made.pop(_KNOWN, None)
     collection = bpy.data.collections.new(made.name)
     collection["throng_bake"] = overrides.bake_path(crowd)
     collection["throng_origin"] = list(overrides.bake_of(crowd).origin)

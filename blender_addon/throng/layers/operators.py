@@ -235,9 +235,9 @@ class THRONG_OT_compare_layers(_OnLayers, bpy.types.Operator):
     bl_label = "Without / With Layers"
 
     def change(self, context, crowd):
-        if applying.layered_crowd(context.scene, crowd) is None:
-            raise BakeError("Nothing has been applied yet: Apply Layers first")
         applying.compare(context.scene, crowd, not crowd.hide_viewport)
+        if applying.layered_crowd(context.scene, crowd) is None:
+            raise BakeError("There is no crowd with the layers: Apply Layers first")
 
 
 def _words(text, tell):
