@@ -12,6 +12,7 @@ from conftest import ROOT
 
 sys.path.insert(0, str(ROOT / "blender_addon"))
 from throng.overrides import override_file  # noqa: E402
+from throng.people import casting  # noqa: E402
 
 STREET = {"throng": 1, "name": "street", "simulation": {"duration": 4, "seed": 7},
           "roads": [{"id": "road", "centreline": [[0, 0], [24, 0]], "width": 6},
@@ -134,6 +135,19 @@ def test_what_is_written_and_what_is_told(throng, street, tmp_path, manifest_of)
     for name in ("pos", "dir", "state", "gaze"):
         assert (tmp_path / "twin" / "streams" / f"{name}.npy").read_bytes() == (
             tmp_path / "out" / "streams" / f"{name}.npy").read_bytes(), "the same bytes again"
+
+
+@pytest.mark.quick
+def test_who_is_changed_keeps_its_body_unless_it_is_swapped(throng, street, tmp_path):
+    """Of casts that are shaped from bodies: somebody tinted, bent or copied is no other person."""
+    path = write(tmp_path / "l.json", layer({"rows": [0, 3]}, {"tint": "#a01020", "duplicate": {}}, "a"),
+                 layer({"rows": [4, 5]}, {"hide": True}, "b"), layer({"rows": [6, 7]}, {"character": 3}, "c"))
+    throng("apply", street / "street", "--overrides", path, "-o", tmp_path / "out", "-q")
+    before, after = casting.read_walkers(street / "street"), casting.read_walkers(tmp_path / "out")
+    assert [row for row, walker in enumerate(after) if walker.chosen] == [6, 7]
+    roles = casting.roles_for(before, 24)
+    one, other = casting.choose(before, roles, 24), casting.choose(after, roles, 24)
+    assert one[:6] == other[:6] and len(other) == 41
 
 
 @pytest.mark.quick
