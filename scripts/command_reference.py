@@ -18,7 +18,8 @@ SECTION = re.compile(r"^(Positionals|Options|Subcommands):$")
 # Where else to read about a command, from docs/commands/.
 BESIDE = {
     "convert": ["../bake.md#forms|the forms of streams"],
-    "apply": ["../how-to/change-people.md|how to change single people", "../overrides.md|the file of overrides"],
+    "apply": ["../how-to/change-people.md|how to change single people", "../overrides.md|the file of overrides",
+              "../layers.md|layers of changes"],
     "bake": [
         "../layout.md|layouts",
         "../bake.md|what a bake holds",

@@ -65,6 +65,13 @@ void AgentTableEdit::set(std::uint32_t row, const std::string& column, std::stri
     rows_.at(row)[indexOf(column)] = std::move(value);
 }
 
+std::uint32_t AgentTableEdit::copyRow(std::uint32_t row) {
+    rows_.push_back(std::vector<std::string>(rows_.at(row)));
+    const std::uint32_t made = rows() - 1;
+    if (has("id")) set(made, "id", std::to_string(made));
+    return made;
+}
+
 std::string AgentTableEdit::text() const {
     std::string text;
     const auto add = [&](const std::vector<std::string>& fields) {

@@ -28,6 +28,8 @@ class AgentTableEdit {
 
     void addColumn(const std::string& column, const std::string& value);
     void set(std::uint32_t row, const std::string& column, std::string value);
+    /// Another line like this, with an id of its own, at the end. @returns its row
+    std::uint32_t copyRow(std::uint32_t row);
     std::string text() const;
 
   private:

@@ -5,11 +5,9 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <glm/common.hpp>
-#include <limits>
+#include <glm/geometric.hpp>
 #include <map>
-#include <numbers>
 
 #include "base/build_name.h"
 #include "base/files/hash.h"
@@ -19,8 +17,7 @@
 #include "io/gltf/crowd_glb.h"
 #include "io/gltf/terrain_file.h"
 #include "io/manifest.h"
-#include "io/overrides/agent_table_edit.h"
-#include "io/overrides/row_sampler.h"
+#include "io/overrides/applied_rows.h"
 #include "io/streams/stream_files.h"
 #include "recording/footing.h"
 
@@ -29,20 +26,6 @@ namespace fs = std::filesystem;
 namespace {
 
 using Json = nlohmann::ordered_json;
-using authoring::PersonChange;
-
-constexpr std::uint32_t kNever = std::numeric_limits<std::uint32_t>::max();
-
-/// A row that changes, and what came of it.
-struct ChangedRow {
-    std::uint32_t row = 0;
-    PersonChange change;
-    std::optional<std::uint32_t> first = {};  ///< frame of its entry in the source
-    std::array<float, kComponents> pivot{};   ///< its place there
-    std::uint32_t first_alive = kNever;       ///< in the new bake
-    glm::vec2 place{0.0f};                    ///< in the frame before
-    bool is_held = false;
-};
 
 /// Of a tint that is a colour.
 std::optional<std::uint32_t> colourOf(const std::string& tint) {
@@ -55,36 +38,38 @@ std::optional<std::uint32_t> colourOf(const std::string& tint) {
 
 class Application {
   public:
-    Application(CrowdReader& crowd, std::span<const RowChange> changes, const ApplyOptions& options)
+    Application(LayeredCrowd& crowd, const ApplyOptions& options)
         : crowd_(crowd),
           source_(crowd.bake()),
           options_(options),
           folder_(options.output, options.force),
-          table_(source_),
-          sampler_(crowd.streams()),
+          table_(crowd.table()),
           minimum_(source_.minimum),
           maximum_(source_.maximum) {
         folder_.addFolder("streams");
         for (const StreamInfo& info : kStreams)
             if (source_.streams[info.id])
-                files_.emplace_back(folder_.path(), info, source_.formats, source_.agents, source_.frames);
+                files_.emplace_back(folder_.path(), info, source_.formats, crowd.rows(), source_.frames);
         requireInside(source_, source_.manifest.contains("terrain")
                                    ? std::vector<std::string>{"agents.csv", "terrain.glb"}
                                    : std::vector<std::string>{"agents.csv"});
         requireSound(source_, [this](const std::string& path) {
             return !isWrittenAnew(path) || path == "agents.csv" || isReadStream(source_, path);
         });
-        for (const RowChange& each : changes)
-            rows_.push_back(prepared(each));
+        for (std::uint32_t row = 0; row < crowd.rows(); ++row)
+            if (crowd.plan(row).isChanged()) rows_.push_back({row});
+        if (options.watch_overlaps) watch_.emplace(crowd);
         if (source_.manifest.contains("terrain")) readTerrainBack();
     }
 
     /// False when it was stopped.
     bool writeStreams() {
         for (std::uint32_t frame = 0; frame < source_.frames; ++frame) {
-            read(crowd_.frame(frame));
+            const CrowdFrame now = crowd_.source().frame(frame);
+            read(now);
             for (ChangedRow& each : rows_)
-                change(each, frame);
+                change(each, now);
+            if (watch_) watch_->see(frame, frame_);
             for (StreamFiles& stream : files_)
                 stream.append(frame_[stream.info().id]);
             if (!options_.go_on(frame + 1)) return false;
@@ -98,9 +83,14 @@ class Application {
         writeTable();
         copyTheRest();
         const Json gltf = options_.gltf ? writeGltf() : Json(nullptr);
-        writeManifest(gltf);
-        const auto held = std::ranges::count_if(rows_, [](const ChangedRow& each) { return each.is_held; });
-        return {folder_.commit(), static_cast<std::uint32_t>(held)};
+        ApplyResult result;
+        if (watch_) result.overlaps = watch_->found();
+        if (watch_) result.in_walls = watch_->inWalls();
+        writeManifest(gltf, result);
+        result.held = static_cast<std::uint32_t>(
+            std::ranges::count_if(rows_, [](const ChangedRow& each) { return each.is_held; }));
+        result.path = folder_.commit();
+        return result;
     }
 
   private:
@@ -108,6 +98,7 @@ class Application {
         for (const StreamFiles& stream : files_) {
             const std::span<const float> values = frame[stream.info().id];
             frame_[stream.info().id].assign(values.begin(), values.end());
+            frame_[stream.info().id].resize(crowd_.rows() * kComponents);
         }
     }
 
@@ -123,7 +114,7 @@ class Application {
             readTerrain(source_.folder / "terrain.glb", authoring::TerrainSettings{}));
         glm::dvec2 furthest(0.0);
         for (const ChangedRow& each : rows_)
-            furthest = glm::max(furthest, glm::abs(glm::dvec2(each.change.move.x, each.change.move.y)));
+            furthest = glm::max(furthest, reachOf(crowd_.plan(each.row)));
         terrain_->surface = std::make_shared<const authoring::Terrain>(
             *terrain_->mesh, facts.value("surface", "highest") == "highest", source_.origin,
             glm::vec2(source_.minimum - furthest), glm::vec2(source_.maximum + furthest));
@@ -135,7 +126,15 @@ class Application {
         }
         // Of floors above each other, nobody knows any more who walks on which: heights stay what they are.
         if (!source_.manifest.contains("levels"))
-            footing_.emplace(terrain_->surface, source_.agents, source_.fps);
+            footing_.emplace(terrain_->surface, crowd_.rows(), source_.fps);
+    }
+
+    /// m over the ground.
+    static double liftOf(const RowPlan& plan) {
+        double lift = 0.0;
+        for (const Step& step : plan.steps)
+            lift += step.change.move.z;
+        return lift;
     }
 
     void stand(ChangedRow& each, const RowSample& sample) {
@@ -152,41 +151,36 @@ class Application {
         } else if (!was_alive) {
             stance = footing_->entering(place, heading);
         }
-        row(Stream::pos, each.row)[2] = stance.height + static_cast<float>(each.change.move.z);
+        row(Stream::pos, each.row)[2] = stance.height + static_cast<float>(liftOf(crowd_.plan(each.row)));
         const auto ground = row(Stream::ground, each.row);
         ground[0] = stance.along;
         ground[1] = stance.across;
         ground[2] = stance.ground;
     }
 
-    ChangedRow prepared(const RowChange& each) const {
-        ChangedRow changed{each.row, each.change};
-        changed.first = table_.frame(each.row, "spawn_frame");
-        if (changed.first && *changed.first >= source_.frames) changed.first.reset();
-        if (changed.first) crowd_.streams()[Stream::pos].readRows(*changed.first, each.row, changed.pivot);
-        return changed;
+    /// m, along both axes, that somebody may come to be outside of the site.
+    glm::dvec2 reachOf(const RowPlan& plan) const {
+        glm::dvec2 reach(plan.bent);
+        for (const Step& step : plan.steps) {
+            reach += glm::abs(glm::dvec2(step.change.move));
+            if (!step.is_of_layer || step.change.turn == 0.0) continue;
+            const glm::dvec2 pivot(step.pivot[0], step.pivot[1]);  // round it, from the furthest corner
+            reach += 2.0 * glm::length(glm::max(glm::abs(source_.minimum - pivot),
+                                                glm::abs(source_.maximum - pivot)));
+        }
+        return reach;
     }
 
-    /// In the frame under way.
-    RowSample asItIs(std::uint32_t index) {
-        RowSample sample;
-        for (const StreamFiles& stream : files_)
-            std::ranges::copy(row(stream.info().id, index), sample[stream.info().id].begin());
-        return sample;
-    }
-
-    void change(ChangedRow& each, std::uint32_t frame) {
-        const bool is_retimed = each.change.retimes() && each.first;
-        const double at = is_retimed ? sourceFrame(frame, *each.first, each.change) : frame;
-        RowSample sample = is_retimed ? sampler_.at(each.row, at, each.change.speed) : asItIs(each.row);
-        const bool is_beyond = at < 0.0 || at > static_cast<double>(source_.frames - 1);
-        each.is_held = each.is_held || (is_beyond && sample[Stream::state][0] > 0.5f);
-        changeSample(sample, each.pivot, each.change);
+    void change(ChangedRow& each, const CrowdFrame& frame) {
+        const RowMoment moment = crowd_.at(each.row, frame);
+        const RowSample& sample = moment.sample;
+        const RowPlan& plan = crowd_.plan(each.row);
+        each.is_held = each.is_held || (moment.is_beyond && sample[Stream::state][0] > 0.5f);
         for (const StreamFiles& stream : files_)
             std::ranges::copy(sample[stream.info().id], row(stream.info().id, each.row).begin());
-        if (footing_ && (each.change.moves() || each.change.retimes())) stand(each, sample);
+        if (footing_ && plan.stands_anew) stand(each, sample);
         if (sample[Stream::state][0] <= 0.5f) return;
-        each.first_alive = std::min(each.first_alive, frame);
+        each.first_alive = std::min(each.first_alive, frame.index());
         const glm::dvec2 place(sample[Stream::pos][0], sample[Stream::pos][1]);
         minimum_ = glm::dvec2(std::min(minimum_.x, place.x), std::min(minimum_.y, place.y));
         maximum_ = glm::dvec2(std::max(maximum_.x, place.x), std::max(maximum_.y, place.y));
@@ -197,54 +191,8 @@ class Application {
         table_.addColumn("tint", "");
         table_.addColumn("overrides", "");
         for (const ChangedRow& each : rows_)
-            editRow(each);
+            writeAppliedRow(crowd_, each);
         writeFile(folder_.path() / "agents.csv", table_.text());
-    }
-
-    void editRow(const ChangedRow& each) {
-        const PersonChange& change = each.change;
-        const std::uint32_t row = each.row;
-        table_.set(row, "overrides", fmt::format("{}", fmt::join(authoring::changeWords(change), " ")));
-        if (change.scale) table_.set(row, "scale", fmt::format("{}", *change.scale));
-        if (change.tint) table_.set(row, "tint", change.tint->text);
-        if (change.character) table_.set(row, "variation", fmt::format("{}", *change.character));
-        if (change.moves()) moveGoal(each);
-        if (change.hides())
-            refuse(row, change.hide ? "hidden by an override" : "a hero outside the crowd");
-        else if (change.retimes() && each.first)
-            retimeRow(each);
-    }
-
-    void refuse(std::uint32_t row, const std::string& reason) {
-        table_.set(row, "outcome", "refused");
-        table_.set(row, "reason", reason);
-        table_.set(row, "spawn_frame", "");
-        table_.set(row, "arrival_frame", "");
-    }
-
-    void retimeRow(const ChangedRow& each) {
-        if (each.first_alive == kNever) return refuse(each.row, "retimed out of the shot");
-        table_.set(each.row, "spawn_frame", std::to_string(each.first_alive));
-        const std::optional<std::uint32_t> arrival = table_.frame(each.row, "arrival_frame");
-        if (!arrival) return;
-        const double first = *each.first;
-        const double frame =
-            std::ceil(first + each.change.delay + (*arrival - first) / each.change.speed - 1.0e-9);
-        const bool is_in_shot = frame < static_cast<double>(source_.frames);
-        table_.set(each.row, "arrival_frame", is_in_shot ? fmt::format("{:.0f}", std::max(frame, 0.0)) : "");
-        if (!is_in_shot) table_.set(each.row, "outcome", "walking");
-    }
-
-    /// Goals are the world's, where the streams start from the bake's origin.
-    void moveGoal(const ChangedRow& each) {
-        const glm::dvec2 pivot = source_.origin + glm::dvec2(each.pivot[0], each.pivot[1]);
-        const glm::dvec2 goal(table_.number(each.row, "goal_x"), table_.number(each.row, "goal_y"));
-        const double angle = each.change.turn * std::numbers::pi / 180.0;
-        const glm::dvec2 arm = goal - pivot;
-        const double x = pivot.x + std::cos(angle) * arm.x - std::sin(angle) * arm.y + each.change.move.x;
-        const double y = pivot.y + std::sin(angle) * arm.x + std::cos(angle) * arm.y + each.change.move.y;
-        table_.set(each.row, "goal_x", fmt::format("{}", x));
-        table_.set(each.row, "goal_y", fmt::format("{}", y));
     }
 
     static bool isWrittenAnew(const std::string& path) {
@@ -264,7 +212,7 @@ class Application {
         const recording::BakeDescription description = describe();
         const GltfSummary summary =
             writeCrowdGlb(folder_.path() / "crowd.glb", description,
-                          {folder_.path(), source_.streams, source_.formats, source_.frames, source_.agents});
+                          {folder_.path(), source_.streams, source_.formats, source_.frames, crowd_.rows()});
         return {{"file", "crowd.glb"}, {"agents", summary.agents}, {"of", summary.of}};
     }
 
@@ -323,20 +271,41 @@ class Application {
                 {"refused_reasons", reasons.empty() ? Json::object() : Json(reasons)}};
     }
 
-    void writeManifest(const Json& gltf) {
+    static Json inWallsJson(std::span<const InWall> people) {
+        Json list = Json::array();
+        for (const InWall& each : people.first(std::min(people.size(), kMostTold)))
+            list.push_back({{"row", each.row}, {"wall", each.wall}, {"frames", {each.first, each.last}}});
+        return list;
+    }
+
+    static Json overlapsJson(std::span<const Overlap> overlaps) {
+        Json list = Json::array();
+        for (const Overlap& each : overlaps.first(std::min(overlaps.size(), kMostTold)))
+            list.push_back({{"rows", {each.row, each.other}},
+                            {"frames", {each.first, each.last}},
+                            {"depth", each.depth},
+                            {"deepest", each.deepest}});
+        return {{"pairs", overlaps.size()}, {"deepest", list}};
+    }
+
+    void writeManifest(const Json& gltf, const ApplyResult& result) {
         Json manifest = source_.manifest;
         manifest["generator"] = "throng " THRONG_VERSION;
         manifest["build"] = buildName();
         manifest["inputs"] = "xxh3:" + hashText(manifest.value("inputs", "") + "\n" + options_.identity);
         std::uint32_t variations = manifest.value("variations", 1u);
         for (const ChangedRow& each : rows_)
-            if (each.change.character) variations = std::max(variations, *each.change.character + 1);
+            for (const Step& step : crowd_.plan(each.row).steps)
+                if (step.change.character) variations = std::max(variations, *step.change.character + 1);
         manifest["variations"] = variations;
         manifest["bounds"] = {{"min", {minimum_.x, minimum_.y}}, {"max", {maximum_.x, maximum_.y}}};
         manifest["gltf"] = gltf;
         manifest["diagrams"] = nullptr;
         manifest["account"] = account();
+        manifest["agents"] = crowd_.rows();
         manifest["applied"] = options_.applied;
+        if (watch_) manifest["applied"]["overlaps"] = overlapsJson(result.overlaps);
+        if (watch_) manifest["applied"]["in_walls"] = inWallsJson(result.in_walls);
         std::vector<std::string> files{"agents.csv"};
         files.insert(files.end(), copied_.begin(), copied_.end());
         for (const std::string& file : filesOf(files_))
@@ -346,12 +315,14 @@ class Application {
         writeFile(folder_.path() / "bake.json", manifestText(std::move(manifest)));
     }
 
-    CrowdReader& crowd_;
+    static constexpr std::size_t kMostTold = 1000;  // overlaps
+
+    LayeredCrowd& crowd_;
     const Bake& source_;
     const ApplyOptions& options_;
     BakeFolder folder_;
-    AgentTableEdit table_;
-    RowSampler sampler_;
+    AgentTableEdit& table_;
+    std::optional<OverlapWatch> watch_;
     std::vector<StreamFiles> files_;
     PerStream<std::vector<float>> frame_;            ///< the one under way
     std::optional<recording::BakeTerrain> terrain_;  // none on flat ground
@@ -364,9 +335,17 @@ class Application {
 
 }  // namespace
 
-std::optional<ApplyResult> applyOverrides(CrowdReader& source, std::span<const RowChange> changes,
-                                          const ApplyOptions& options) {
-    Application application(source, changes, options);
+void changeRows(LayeredCrowd& crowd, std::span<const RowChange> changes) {
+    for (const RowChange& each : changes) {
+        Step step;
+        step.change = each.change;
+        crowd.add(each.row, std::move(step));
+        crowd.addWords(each.row, authoring::changeWords(each.change));
+    }
+}
+
+std::optional<ApplyResult> writeApplied(LayeredCrowd& crowd, const ApplyOptions& options) {
+    Application application(crowd, options);
     if (!application.writeStreams()) return std::nullopt;
     return application.finish();
 }

@@ -8,8 +8,8 @@
 #include <span>
 #include <string>
 
-#include "authoring/overrides/overrides.h"
-#include "io/crowd_reader.h"
+#include "io/overrides/layered_crowd.h"
+#include "io/overrides/overlaps.h"
 
 namespace throng::io {
 
@@ -22,6 +22,7 @@ struct RowChange {
 struct ApplyOptions {
     std::filesystem::path output;  ///< the bake to make
     bool force = false;            ///< replace an existing bake
+    bool watch_overlaps = false;   ///< tell who is in whom for being moved
     bool gltf = false;             ///< write crowd.glb
     std::uint32_t gltf_agents = 2000;
     std::string identity;              ///< what is applied, for the hash of the bake's inputs
@@ -31,15 +32,19 @@ struct ApplyOptions {
 };
 
 struct ApplyResult {
-    std::filesystem::path path;
+    std::filesystem::path path{};
     std::uint32_t held =
         0;  ///< people whose new times reach beyond the bake while they are there: they stand
+    std::vector<Overlap> overlaps{};
+    std::vector<InWall> in_walls{};
 };
 
-/// Writes a bake with some rows changed: streams, agents.csv, crowd.glb and manifest anew, everything else as
-/// it is in the source; diagrams are left out, as they show people where they were. The new bake appears when
-/// it is complete. @returns nothing when `go_on` said no. Throws InputError and OutputError.
-std::optional<ApplyResult> applyOverrides(CrowdReader& source, std::span<const RowChange> changes,
-                                          const ApplyOptions& options);
+/// Does to some rows what their overrides say.
+void changeRows(LayeredCrowd& crowd, std::span<const RowChange> changes);
+
+/// Writes a bake of a crowd that was changed: streams, agents.csv, crowd.glb and manifest anew, everything
+/// else as it is in the source; diagrams are left out, as they show people where they were. The new bake
+/// appears when it is complete. @returns nothing when `go_on` said no. Throws InputError and OutputError.
+std::optional<ApplyResult> writeApplied(LayeredCrowd& crowd, const ApplyOptions& options);
 
 }  // namespace throng::io

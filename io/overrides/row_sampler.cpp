@@ -72,23 +72,29 @@ void changeSample(RowSample& sample, const Values& pivot, const authoring::Perso
     }
 }
 
-RowSample RowSampler::whole(std::uint32_t row, std::uint32_t frame) const {
-    RowSample sample;
+void hideSample(RowSample& sample) {
     for (const StreamInfo& info : kStreams)
-        if (streams_.has(info.id)) streams_[info.id].readRows(frame, row, sample[info.id]);
-    return sample;
+        hide(sample[info.id], info);
 }
 
-RowSample RowSampler::at(std::uint32_t row, double frame, double pace) const {
-    const double inside = std::clamp(frame, 0.0, static_cast<double>(streams_.frames() - 1));
+RowSample sampleBetween(const std::function<RowSample(std::uint32_t)>& whole, std::uint32_t frames,
+                        double frame, double pace) {
+    const double inside = std::clamp(frame, 0.0, static_cast<double>(frames - 1));
     const auto low = static_cast<std::uint32_t>(std::floor(inside));
     const double share = inside - static_cast<double>(low);
-    const RowSample before = whole(row, low);
-    const RowSample after = share > 0.0 ? whole(row, low + 1) : before;
+    const RowSample before = whole(low);
+    const RowSample after = share > 0.0 ? whole(low + 1) : before;
     RowSample sample;
     for (const StreamInfo& info : kStreams)
         sample[info.id] =
             valuesBetween(info, before[info.id], after[info.id], share, inside == frame ? pace : 0.0);
+    return sample;
+}
+
+RowSample RowSampler::whole(std::uint32_t row, std::uint32_t frame) const {
+    RowSample sample;
+    for (const StreamInfo& info : kStreams)
+        if (streams_.has(info.id)) streams_[info.id].readRows(frame, row, sample[info.id]);
     return sample;
 }
 

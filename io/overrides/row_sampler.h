@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 
 #include "authoring/overrides/overrides.h"
 #include "io/streams/stream_set.h"
@@ -21,18 +22,23 @@ inline double sourceFrame(double frame, double first, const authoring::PersonCha
 void changeSample(RowSample& sample, const std::array<float, kComponents>& pivot,
                   const authoring::PersonChange& change);
 
-/// People at times between the frames.
+/// As if nobody were there.
+void hideSample(RowSample& sample);
+
+/// Between frames as the table of streams says. Beyond the bake's ends people stand as they did there.
+/// @param whole the row in one of so many frames; @param pace how fast time goes: speeds and other rates are
+/// scaled by it
+RowSample sampleBetween(const std::function<RowSample(std::uint32_t)>& whole, std::uint32_t frames,
+                        double frame, double pace);
+
+/// Single people of a bake.
 class RowSampler {
   public:
     explicit RowSampler(const StreamSet& streams) : streams_(streams) {}
 
-    /// Between frames as the table of streams says. Beyond the bake's ends people stand as they did there.
-    /// @param pace how fast time goes: speeds and other rates are scaled by it
-    RowSample at(std::uint32_t row, double frame, double pace) const;
-
-  private:
     RowSample whole(std::uint32_t row, std::uint32_t frame) const;
 
+  private:
     const StreamSet& streams_;
 };
 

@@ -47,8 +47,8 @@ TEST(OverridesReader, ReadsEveryKindOfChange) {
         diagnostics);
     ASSERT_TRUE(read);
     EXPECT_TRUE(diagnostics.entries.empty());
-    ASSERT_EQ(read->size(), 2u);
-    const Override& one = (*read)[0];
+    ASSERT_EQ(read->people.size(), 2u);
+    const Override& one = read->people[0];
     EXPECT_EQ(one.id, 3u);
     EXPECT_EQ(one.group, "f");
     EXPECT_EQ(one.spawn_frame, 7u);
@@ -56,7 +56,7 @@ TEST(OverridesReader, ReadsEveryKindOfChange) {
     EXPECT_EQ(changeWords(one.change), (std::vector<std::string>{"hide", "character", "tint", "scale"}));
     EXPECT_EQ(one.change.tint->text, "0.25 0.5 1");
     EXPECT_FALSE(one.change.tint->colour);
-    const PersonChange& two = (*read)[1].change;
+    const PersonChange& two = read->people[1].change;
     EXPECT_EQ(two.tint->colour, 0xa01020u);
     EXPECT_EQ(two.tint->text, "#a01020");
     EXPECT_EQ(two.move, glm::dvec3(1.0, 2.0, 3.0));

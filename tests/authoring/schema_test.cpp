@@ -62,7 +62,22 @@ std::vector<Format> formats() {
          overridesSchema(),
          {R"({"throng_overrides": 1, "overrides": [
              {"id": 1, "group": "f", "spawn": {"frame": 0, "position": [0, 0, 0]}, "hide": true,
-              "tint": [0, 0, 0], "move": {"by": [1, 0, 0]}, "retime": {"offset": 1}}]})"},
+              "tint": [0, 0, 0], "move": {"by": [1, 0, 0]}, "retime": {"offset": 1}}],
+              "layers": [
+                {"name": "a", "who": {"everybody": true, "group": "f", "profile": ["p", "q"], "look": "l",
+                  "party": [2, 4], "with": {"rows": [0, 3]}, "changed": true,
+                  "people": [{"id": 1, "group": "f", "spawn": {"frame": 0, "position": [0, 0, 0]}}],
+                  "region": {"polygon": [[0, 0], [1, 0], [1, 1]], "frames": [1, 2]}, "share": {"of": 0.5},
+                  "seen": {"views": [{"matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1], "size": [1, 1],
+                                      "shift": [0, 0]}]},
+                  "near": {"point": [1, 2], "within": 1}},
+                 "do": {"hide": {"frames": [0, 5]}, "move": {"by": [1, 0, 0]}, "clip": {"activity": "stands"},
+                        "look_at": {"point": [0, 0, 1]}, "duplicate": {"by": [1, 0, 0]},
+                        "bend": {"points": [{"frame": 3, "by": [1, 0]}]}, "retime": {"speed": 2}}},
+                {"name": "b", "do": {"hide": true, "character": 1, "tint": "#000000", "scale": 1, "hero": "h",
+                  "look_at": {"person": {"id": 1, "group": "f", "spawn": {"frame": 0, "position": [0, 0, 0]}}}},
+                 "who": {"and": [{"near": {"wall": "w", "within": 1}}, {"near": {"who": {"copies": "a"}, "within": 1}}],
+                  "or": [{"everybody": true}], "not": {"everybody": true}}}]})"},
          [](const std::string& text, const Schema& schema, Diagnostics& diagnostics) {
              readOverrides(text, diagnostics, schema);
          }},

@@ -117,6 +117,23 @@ def overrides():
         yield compact({"throng_overrides": 1, "overrides": [
             {"id": row, "group": group, "spawn": {"frame": frame, "position": place}, **change}
             for row, group, frame, place in people]})
+    person = {"id": 0, "group": "eastbound", "spawn": {"frame": 0, "position": [-15, -3.6, 0]}}
+    selectors = [{"everybody": True}, {"group": ["eastbound", "x"], "rows": [0, 3]}, {"party": [1, 2]},
+                 {"with": {"people": [person]}},
+                 {"region": {"polygon": [[-20, -9], [0, -9], [0, 9]], "frames": [0, 5]}},
+                 {"share": {"of": 0.5, "seed": 2}}, {"near": {"point": [-15, 0], "within": 4}},
+                 {"near": {"wall": "corner", "within": 9}}, {"near": {"who": {"rows": [0, 0]}, "within": 3}},
+                 {"seen": {"views": [{"matrix": [1, 0, 0, -12, 0, 1, 0, 0, 0, 0, 1, 10, 0, 0, 0, 1], "size": [1, 1]}]}},
+                 {"and": [{"profile": "a"}, {"look": "b"}], "not": {"changed": True}}, {"or": [{"copies": "before"}]}]
+    operations = [{"hide": {"frames": [1, 3]}}, {"move": {"turn": 20, "about": [0, 0]}, "retime": {"offset": 2}},
+                  {"clip": {"activity": "queues"}}, {"look_at": {"person": person}}, {"hero": "she", "scale": 1.2},
+                  {"duplicate": {"copies": 2, "by": [1, 0, 0], "scatter": 1}},
+                  {"bend": {"points": [{"frame": 3, "by": [0, 1]}, {"frame": 6, "by": [0, -1]}], "falloff": 2}},
+                  {"bend": {"points": [{"way": 0.2, "by": [0, 0.1]}]}}]
+    before = {"name": "before", "who": {"rows": [0, 1]}, "do": {"duplicate": {}}}
+    for index, who in enumerate(selectors):
+        yield compact({"throng_overrides": 1, "overrides": [], "layers": [
+            before, {"name": "then", "who": who, "do": operations[index % len(operations)]}]})
 
 
 def terrains():

@@ -3,6 +3,7 @@
 #include "authoring/overrides/matching.h"
 #include "authoring/overrides/overrides_reader.h"
 #include "io/overrides/agent_table_edit.h"
+#include "io/overrides/apply_layers.h"
 #include "io/overrides/apply_overrides.h"
 #include "support/custom_json.h"
 #include "support/small_scene.h"
@@ -13,6 +14,8 @@ using namespace throng;
 THRONG_FUZZ_JSON(authoring::overridesSchema())
 
 namespace {
+
+constexpr std::uint32_t kMostPeople = 100;
 
 std::filesystem::path sampleBake() {
     test::SampleOptions options;
@@ -31,17 +34,25 @@ void fuzz::readOne(std::string_view input) {
     if (!overrides) return;
     io::CrowdReader crowd(io::loadBake(bake));
     const std::vector<authoring::Entrant> people = io::loadEntrants(crowd);
-    const std::vector<authoring::Match> matches = authoring::matchOverrides(*overrides, people);
+    const std::vector<authoring::Match> matches = authoring::matchOverrides(overrides->people, people);
     std::vector<io::RowChange> changes;
     for (std::size_t i = 0; i < matches.size(); ++i)
         if (matches[i].kind == authoring::Match::Kind::orphaned)
-            static_cast<void>(authoring::orphanReason((*overrides)[i], people));
-        else if (!(*overrides)[i].change.changesNothing())
-            changes.push_back({matches[i].row, (*overrides)[i].change});
-    if (changes.empty()) return;
+            static_cast<void>(authoring::orphanReason(overrides->people[i], people));
+        else if (!overrides->people[i].change.changesNothing())
+            changes.push_back({matches[i].row, overrides->people[i].change});
+    io::LayeredCrowd layered(crowd);
+    io::changeRows(layered, changes);
+    try {
+        static_cast<void>(io::applyLayers(layered, overrides->layers, people, kMostPeople));
+    } catch (const InputError&) {  // too many copies
+        return;
+    }
+    if (changes.empty() && overrides->layers.empty()) return;
     io::ApplyOptions options;
     options.output = folder() / "applied";
     options.force = true;
     options.gltf = true;
-    static_cast<void>(io::applyOverrides(crowd, changes, options));
+    options.watch_overlaps = true;
+    static_cast<void>(io::writeApplied(layered, options));
 }

@@ -8,18 +8,19 @@
 #include <fstream>
 #include <numbers>
 
+#include "applied_crowd.h"
 #include "io/agent_rows.h"
 #include "io/overrides/agent_table_edit.h"
 #include "io/overrides/row_sampler.h"
 #include "io/streams/stream_reader.h"
 #include "io/streams/stream_writer.h"
 #include "io/verify_bake.h"
-#include "sample_crowd.h"
 
 namespace throng::io {
 namespace {
 
 using authoring::PersonChange;
+using test::applyOverrides;
 using test::contentOf;
 using test::SampleCrowd;
 using test::TemporaryFolder;
@@ -157,13 +158,16 @@ TEST(ApplyOverrides, HeadingsGoTheShorterWayRound) {
     write(Stream::state, {1, 2, 0.5f, 2, 3, 1.5f});
     const StreamSet streams(folder.path(), streamsOf(false, {}), StreamFormats::standard(), 2, 1);
     const RowSampler sampler(streams);
-    EXPECT_NEAR(sampler.at(0, 0.5, 1.0)[Stream::dir][0], -1.0, 1e-6);
-    EXPECT_NEAR(sampler.at(0, 0.25, 2.0)[Stream::dir][2], 2.0, 1e-6);
-    EXPECT_EQ(sampler.at(0, 0.49, 1.0)[Stream::state][0], 1.0f);
-    EXPECT_EQ(sampler.at(0, 0.5, 1.0)[Stream::state][1], 3.0f);
-    EXPECT_FLOAT_EQ(sampler.at(0, 0.25, 1.0)[Stream::state][2], 0.75f);
-    EXPECT_EQ(sampler.at(0, -3.0, 1.0)[Stream::pos][0], 0.0f);
-    EXPECT_EQ(sampler.at(0, 7.0, 1.0)[Stream::dir][2], 0.0f);
+    const auto at = [&](double frame, double pace) {
+        return sampleBetween([&](std::uint32_t index) { return sampler.whole(0, index); }, 2, frame, pace);
+    };
+    EXPECT_NEAR(at(0.5, 1.0)[Stream::dir][0], -1.0, 1e-6);
+    EXPECT_NEAR(at(0.25, 2.0)[Stream::dir][2], 2.0, 1e-6);
+    EXPECT_EQ(at(0.49, 1.0)[Stream::state][0], 1.0f);
+    EXPECT_EQ(at(0.5, 1.0)[Stream::state][1], 3.0f);
+    EXPECT_FLOAT_EQ(at(0.25, 1.0)[Stream::state][2], 0.75f);
+    EXPECT_EQ(at(-3.0, 1.0)[Stream::pos][0], 0.0f);
+    EXPECT_EQ(at(7.0, 1.0)[Stream::dir][2], 0.0f);
 }
 
 TEST(ApplyOverrides, LooksGoIntoTheTableTheManifestAndTheGltf) {

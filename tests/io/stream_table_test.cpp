@@ -8,8 +8,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "applied_crowd.h"
 #include "io/crowd_reader.h"
-#include "io/overrides/apply_overrides.h"
 #include "io/verify_bake.h"
 #include "recording/motion_recorder.h"
 #include "sample_crowd.h"
@@ -162,7 +162,7 @@ TEST_P(EveryStream, GoesThroughApplyAndWhoHidesIsGoneFromIt) {
     options.output = folder / "applied";
     authoring::PersonChange hide;
     hide.hide = true;
-    ASSERT_TRUE(applyOverrides(source, std::vector<RowChange>{{0, hide}}, options));
+    ASSERT_TRUE(test::applyOverrides(source, std::vector<RowChange>{{0, hide}}, options));
     CrowdReader made(loadBake(options.output));
     EXPECT_TRUE(verifyBake(options.output).isWhole());
     for (std::uint32_t frame = 0; frame < source.frames(); ++frame)

@@ -9,6 +9,8 @@ from ..blender.polls import available
 from ..cast import library
 from .names import CACHES
 
+LAYERED_OF = "throng_layered_of"  # on a crowd that shows the layers of another: that one
+
 
 def caches(crowd):
     """The modifiers that read a crowd's streams."""

@@ -7,7 +7,7 @@ from bpy.props import (BoolProperty, CollectionProperty, EnumProperty, FloatProp
                        StringProperty)
 
 from ..blender.polls import available
-from ..crowd.queries import crowd_objects, why_fixed, why_no_crowd
+from ..crowd.queries import LAYERED_OF, crowd_objects, why_fixed, why_no_crowd
 from ..formats import BakeError
 from ..blender.panels import InSidebar
 from . import hero, layer, picking
@@ -29,7 +29,7 @@ def _crowd(context):
     if active in crowds:
         return active
     with_picks = [crowd for crowd in crowds if crowd.get(picking.PICKED)]
-    own = [crowd for crowd in crowds if not why_fixed(crowd)] or crowds
+    own = [crowd for crowd in crowds if not why_fixed(crowd) and LAYERED_OF not in crowd] or crowds
     return with_picks[0] if with_picks else own[0] if len(own) == 1 else None
 
 

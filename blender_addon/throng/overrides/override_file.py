@@ -143,10 +143,30 @@ def person_of(entry):
     return entry["id"], entry["group"], entry["spawn"]["frame"]
 
 
+def check_layers(layers, path):
+    """What all layers have. What selects and what is done is for `throng apply` to judge, which knows how."""
+    checker, seen = _Checker(path), {}
+    if not isinstance(layers, list):
+        checker.fail("/layers", f"expected a list, found {layers!r}")
+    for index, layer in enumerate(layers):
+        at = f"/layers/{index}"
+        checker.members(layer, at, ("name", "who", "do"), ("enabled", "note"))
+        checker.text(layer["name"], f"{at}/name")
+        if not isinstance(layer.get("enabled", True), bool):
+            checker.fail(f"{at}/enabled", "expected true or false")
+        for key in ("who", "do"):
+            if not isinstance(layer[key], dict):
+                checker.fail(f"{at}/{key}", f"expected an object, found {layer[key]!r}")
+        first = seen.setdefault(layer["name"], index)
+        if first != index:
+            checker.fail(f"{at}/name", f"there is a layer `{layer['name']}` already, /layers/{first}")
+    return layers
+
+
 def check(document, path):
     """The entries of a document; raises OverrideError."""
     checker = _Checker(path)
-    checker.members(document, "", ("throng_overrides", "overrides"), ("$schema",))
+    checker.members(document, "", ("throng_overrides", "overrides"), ("$schema", "layers"))
     if document["throng_overrides"] != VERSION:
         checker.fail("/throng_overrides",
                      f"this add-on reads version {VERSION}, found {document['throng_overrides']!r}")
@@ -164,18 +184,30 @@ def check(document, path):
     return entries
 
 
-def read(path):
-    """The entries of a file."""
+def _document(path):
     try:
         with open(path, encoding="utf-8") as file:
-            document = json.load(file)
+            return json.load(file)
     except OSError as error:
         raise OverrideError(f"{path} cannot be read: {error.strerror}") from None
     except json.JSONDecodeError as error:
         raise OverrideError(f"{path}:{error.lineno}:{error.colno}: not JSON: {error.msg}") from None
     except (ValueError, RecursionError) as error:
         raise OverrideError(f"{path} is not JSON: {error}") from None
-    return check(document, path)
+
+
+def read(path):
+    """The entries of a file."""
+    return check(_document(path), path)
+
+
+def read_layers(path):
+    """The layers of a file, as `throng apply` reads them; none where there is no file."""
+    if not os.path.exists(path):
+        return []
+    document = _document(path)
+    check(document, path)
+    return check_layers(document.get("layers", []), path)
 
 
 def read_beside(folder):
@@ -184,17 +216,23 @@ def read_beside(folder):
     return read(path) if os.path.exists(path) else None
 
 
-def text_of(entries):
-    """One line a person, so that files can be compared and merged."""
-    lines = ",\n".join("  " + json.dumps(entry, ensure_ascii=False) for entry in entries)
-    return f'{{\n "throng_overrides": {VERSION},\n "overrides": [\n{lines}\n ]\n}}\n' if entries else \
-        f'{{\n "throng_overrides": {VERSION},\n "overrides": []\n}}\n'
+def _lines(key, items):
+    lines = ",\n".join("  " + json.dumps(item, ensure_ascii=False) for item in items)
+    return f' "{key}": [\n{lines}\n ]' if items else f' "{key}": []'
 
 
-def write(path, entries):
-    """Replaces a file: it has its old content or the new one, never something in between."""
+def text_of(entries, layers=()):
+    """One line a person and a layer, so that files can be compared and merged."""
+    lists = [_lines("overrides", entries)] + ([_lines("layers", layers)] if layers else [])
+    return f'{{\n "throng_overrides": {VERSION},\n' + ",\n".join(lists) + "\n}\n"
+
+
+def write(path, entries, layers=None):
+    """Replaces a file: it has its old content or the new one, never something in between. Layers stay as they are in
+    the file where none are given."""
     check({"throng_overrides": VERSION, "overrides": entries}, path)
+    kept = read_layers(path) if layers is None else check_layers(layers, path)
     try:
-        write_whole(path, text_of(entries).encode())
+        write_whole(path, text_of(entries, kept).encode())
     except OSError as error:
         raise OverrideError(f"{path} cannot be written: {error.strerror}") from None

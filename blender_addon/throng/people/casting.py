@@ -118,7 +118,8 @@ def read_walkers(folder):
     try:
         with open(os.path.join(folder, "agents.csv"), newline="", encoding="utf-8") as table:
             return [Walker(float(line["radius"]), int(line["variation"]), _known(line.get("profile"), roster.AGES, ""),
-                           _look(line), bool(line.get("overrides"))) for line in csv.DictReader(table)]
+                           _look(line), "character" in (line.get("overrides") or "").split())
+                    for line in csv.DictReader(table)]
     except (OSError, KeyError, ValueError, TypeError):
         return None
 
