@@ -4,12 +4,17 @@
 // Needs the blocks ParametersBlock, People, PlanChanges and WaitingLines, the uniform steps_done,
 // shaders/routes/route.glsl and shaders/motion/waiting_line.glsl.
 
+/// Who waits at a spot in an area stays where it has come to rest (shaders/motion/at_rest.glsl): only then is it there.
+bool standsThere(Stage stage) {
+    return AT_REST_ENABLED && (stage.flags & STAGE_IN_AREA) != 0u && stage.dwell > 0.0;
+}
+
 /// Whether somebody is where its stage leads. Where there are too many for a place, near by will do in the end.
 bool isThere(AgentState state, Stage stage) {
     RouteAhead ahead = routeAhead(stage, state.position);
     if (stage.line != NO_INDEX && (state.ticket == NO_INDEX || state.ticket != waiting_lines[stage.line].served))
         return false;
-    if (ahead.remaining <= stage.tolerance) return true;
+    if (ahead.remaining <= stage.tolerance) return !standsThere(stage) || length(state.velocity) <= STANDING_SPEED;
     bool in_area = (stage.flags & STAGE_IN_AREA) != 0u && ahead.straight;
     return (stage.flags & STAGE_ANYWHERE) != 0u && (in_area || ahead.remaining < ARRIVING_NEAR_BY) &&
            state.nervousness > ARRIVING_GIVES_UP;
