@@ -9,10 +9,9 @@ bool standsThere(Stage stage) {
     return AT_REST_ENABLED && (stage.flags & STAGE_IN_AREA) != 0u && stage.dwell > 0.0;
 }
 
-/// How nervous somebody gets before it gives up getting nearer: the more so the further it is, within limits in an area.
-float patienceBefore(Stage stage, float remaining, bool in_area) {
-    if (!standsThere(stage)) return ARRIVING_GIVES_UP;
-    return mix(ARRIVING_GIVES_UP, 1.0, min(remaining / ARRIVING_NEAR_BY, in_area ? 0.5 : 1.0));
+/// How nervous somebody gets before it gives up getting nearer: outside of an area, the more so the further it is.
+float patienceBefore(Stage stage, float remaining) {
+    return standsThere(stage) ? mix(ARRIVING_GIVES_UP, 1.0, remaining / ARRIVING_NEAR_BY) : ARRIVING_GIVES_UP;
 }
 
 /// Whether somebody is where its stage leads. Where there are too many for a place, near by will do in the end.
@@ -20,12 +19,11 @@ bool isThere(AgentState state, Stage stage) {
     RouteAhead ahead = routeAhead(stage, state.position);
     if (stage.line != NO_INDEX && (state.ticket == NO_INDEX || state.ticket != waiting_lines[stage.line].served))
         return false;
-    if (standsThere(stage) && length(state.velocity) > STANDING_SPEED) return false;
-    if (ahead.remaining <= stage.tolerance) return true;
+    if (ahead.remaining <= stage.tolerance) return !standsThere(stage) || length(state.velocity) <= STANDING_SPEED;
     if ((stage.flags & STAGE_ANYWHERE) == 0u) return false;
     bool in_area = (stage.flags & STAGE_IN_AREA) != 0u && ahead.straight;
     return (in_area || ahead.remaining < ARRIVING_NEAR_BY) &&
-           state.nervousness > patienceBefore(stage, ahead.remaining, in_area);
+           state.nervousness > patienceBefore(stage, in_area ? 0.0 : ahead.remaining);
 }
 
 /// Who comes to the end of a line joins it at the end of the step; of several, the smallest row.

@@ -149,16 +149,17 @@ def test_who_stays_has_arrived_when_it_stands_in_its_place(waiting, once):
         with open(once("waiting-station", None) / str(seed) / "agents.csv", newline="") as file:
             people = {row: person for row, person in enumerate(csv.DictReader(file)) if person["group"] == "friends"}
         last = round(70 * each.fps)  # then they are sent elsewhere
-        off, moved = [], []
+        speeds, off, moved = [], [], []
         for row, person in people.items():
             stood = numpy.flatnonzero(each.doing[:last, row] == STOOD)
             if not len(stood):
                 continue  # a slow one, who is about to
             frame = stood[0]
-            assert each.speeds[frame, row] < 0.3
+            speeds.append(each.speeds[frame, row])
             goal = numpy.array([float(person["goal_x"]), float(person["goal_y"])])
             off.append(numpy.linalg.norm(each.places[frame, row] - goal))
             moved.append(numpy.linalg.norm(each.places[last, row] - each.places[frame, row]))
         assert len(off) >= 23
-        assert numpy.percentile(off, 80) < 0.4, off
-        assert numpy.percentile(moved, 90) < 0.5, moved
+        assert numpy.percentile(speeds, 90) < 0.3, speeds  # 0.58 for half of them before
+        assert numpy.median(off) < 0.25, off  # 0.29
+        assert numpy.median(moved) < 0.1 and numpy.percentile(moved, 90) < 0.5, moved  # 0.29, 0.3 to 0.8
