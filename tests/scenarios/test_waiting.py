@@ -116,13 +116,14 @@ def test_who_looks_at_a_stall_stands(waiting):
 
 
 @pytest.mark.slow
-def test_who_waits_in_a_line_faces_the_one_before_it_or_the_end_of_the_line(waiting):
+def test_who_waits_in_a_line_stands_still_and_faces_the_one_before_it(waiting):
     for each in waiting("lines"):
-        still = (each.doing[1:] == QUEUED) & (each.speeds < 0.1)
-        front = numpy.array([6, -8])  # of any line, and its end
-        place = each.places[1:][still]
-        y = 4 * numpy.clip(numpy.round(place[:, 1] / 4), -1, 1)
-        in_line = (abs(place[:, 1] - y) < 0.3) & (place[:, 0] > front[1] + 0.5) & (place[:, 0] < front[0] - 0.5)
+        queued = each.doing[1:] == QUEUED
+        still = queued & (each.speeds < 0.1)
+        assert still.sum() > 0.42 * queued.sum(), "0.29 to 0.35 before; now and then a line moves up"
+        x, y = each.places[1:][still].T
+        nearest = 4 * numpy.clip(numpy.round(y / 4), -1, 1)  # line
+        in_line = (abs(y - nearest) < 0.3) & (x > -7.5) & (x < 5.5)
         east = each.facing[1:][still][in_line, 0]
         assert in_line.sum() > 10_000
         assert numpy.mean(east > 0.9) > 0.97
