@@ -41,6 +41,7 @@ class Measurer {
           walls_(bake_.walls, bake_.minimum, bake_.maximum, bake_.wall_ground),
           grid_(bake_.minimum, bake_.maximum, 1.0, cellsFor(rows_.size())),
           dt_(1.0 / bake_.fps),
+          stuck_(crowd),
           way_(rows_.size(), 0.0),
           effort_(rows_.size(), 0.0),
           start_(rows_.size()),
@@ -61,7 +62,7 @@ class Measurer {
                 observeLanes();
                 observeDensity();
             }
-            rememberForStuck(frame);
+            stuck_.look(now());
         }
         account();
         summarise();
@@ -226,15 +227,6 @@ class Measurer {
         ++count;
     }
 
-    void rememberForStuck(std::uint32_t frame) {
-        const auto wait = static_cast<std::uint32_t>(kStuckSeconds * bake_.fps);
-        if (bake_.frames > wait && frame == bake_.frames - 1 - wait) long_before_ = now();
-    }
-
-    bool isStuck(std::size_t row) const {
-        return long_before_ && analysis::isStuck(rows_[row], *long_before_, now(), row);
-    }
-
     void account() {
         result_.agents = static_cast<std::uint32_t>(rows_.size());
         result_.duration = bake_.frames * dt_;
@@ -247,7 +239,7 @@ class Measurer {
             result_.walking += agent.outcome == wordFor(Fate::walking) ? 1 : 0;
             result_.refused += agent.outcome == wordFor(Fate::refused) ? 1 : 0;
             if (way_[row] > 1.0) efforts.push_back(effort_[row] / way_[row]);
-            result_.stuck += isStuck(row) ? 1 : 0;
+            result_.stuck += stuck_.isStuck(row) ? 1 : 0;
             if (agent.outcome != wordFor(Fate::arrived)) continue;
             arrival_frames.push_back(agent.arrival_frame);
             last = std::max(last, agent.arrival_frame);
@@ -307,7 +299,7 @@ class Measurer {
     std::vector<std::uint32_t> present_;  // rows alive now
     std::vector<glm::dvec2> places_;      // of those
     std::vector<double> heights_;         // likewise, m; all zero where there is one storey
-    std::optional<io::CrowdFrame> long_before_;
+    StuckWatch stuck_;
     std::vector<double> way_, effort_;
     std::vector<std::optional<glm::dvec2>> start_;  // where somebody was first seen
     std::vector<double> straight_;                  // m, from there to where it arrived

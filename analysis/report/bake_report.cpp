@@ -147,22 +147,20 @@ class Watch {
 };
 
 /// Who is stuck at the end, and since when: all that time within half a metre of where they are.
-Json stuckOnes(io::CrowdReader& crowd) {
+Json stuckOnes(io::CrowdReader& crowd, const StuckWatch& stuck) {
     const io::Bake& bake = crowd.bake();
-    const std::vector<io::AgentRow>& rows = crowd.people();
     Json list = Json::array();
-    const auto wait = static_cast<std::uint32_t>(kStuckSeconds * bake.fps);
-    if (bake.frames <= wait) return list;
-    const io::CrowdFrame end = crowd.frame(bake.frames - 1), before = crowd.frame(bake.frames - 1 - wait);
     std::vector<std::uint32_t> still;
-    for (std::uint32_t row = 0; row < rows.size(); ++row)
-        if (isStuck(rows[row], before, end, row)) still.push_back(row);
+    for (std::uint32_t row = 0; row < crowd.rows(); ++row)
+        if (stuck.isStuck(row)) still.push_back(row);
+    if (still.empty()) return list;
+    const io::CrowdFrame end = crowd.frame(bake.frames - 1);
     const auto step = static_cast<std::uint32_t>(std::max(1.0, std::round(bake.fps / 4.0)));
-    for (std::uint32_t since = before.index(); !still.empty();) {
+    for (std::uint32_t since = *stuck.firstFrame(); !still.empty();) {
         const std::uint32_t earlier = since - std::min(since, step);
         const io::CrowdFrame then = crowd.frame(earlier);
         std::erase_if(still, [&](std::uint32_t row) {
-            const bool was_there = since > 0 && then.isThere(row) &&
+            const bool was_there = since > 0 && isUnderWay(then, row) &&
                                    glm::distance(then.place(row), end.place(row)) < kStuckMetres;
             if (!was_there) list.push_back({{"agent", row}, {"frame", since}});
             return !was_there;
@@ -212,9 +210,11 @@ std::string bakeReport(io::CrowdReader& crowd, const Measurement& measured,
     const io::Bake& bake = crowd.bake();
     WayPacker packer(bake);
     Watch watch(bake, crowd.people());
+    StuckWatch stuck(crowd);
     for (std::uint32_t frame = 0; frame < crowd.frames(); ++frame) {
         packer.add(crowd.frame(frame));
         watch.look(crowd.frame(frame));
+        stuck.look(crowd.frame(frame));
     }
     const PackedWays ways = packer.finish();
     const io::GroupTable groups = io::groupsOf(crowd.people());
@@ -244,7 +244,7 @@ std::string bakeReport(io::CrowdReader& crowd, const Measurement& measured,
     data["series"] = watch.series;
     data["overlaps"] = watch.overlaps();
     data["overlap_pairs"] = watch.overlapCount();
-    data["stuck"] = stuckOnes(crowd);
+    data["stuck"] = stuckOnes(crowd, stuck);
     data["ways"] = {{"every", ways.every},
                     {"moments", ways.moments},
                     {"quantum", ways.quantum},

@@ -43,6 +43,8 @@ uniform uint slot_capacity;
 #include "shaders/motion/company.glsl"
 #include "shaders/motion/under_way.glsl"
 #include "shaders/motion/planted_feet.glsl"
+#include "shaders/motion/at_rest.glsl"
+#include "shaders/motion/wanting_past.glsl"
 #include "shaders/motion/wide_site.glsl"
 #include "shaders/motion/shoulders.glsl"
 #include "shaders/motion/gap_ahead.glsl"
@@ -89,7 +91,9 @@ void main() {
     vec2 wanted = self.velocity + acceleration * parameters.decision_seconds;
     vec2 legs = self.velocity;  // what they start from
     uint feet = (around.in_traffic ? FEET_IN_TRAFFIC : 0u) | (around.in_peace && headway > 0.0 ? FEET_WAIT : 0u);
+    if ((walker.flags & WALKER_AT_REST) != 0u && !somebodyWantsPast(self, slot)) feet |= FEET_STILL;
     plantFeet(self, walker, feet, wanted, legs);
+    keepFeetStill(feet, wanted, legs);
 
     int hard = wallsAhead(self, walker, slot);
     int count = hard + kerbBeside(self, walker, hard);

@@ -21,6 +21,7 @@ layout(std430) writeonly buffer Ways { vec2 ways[]; };
 #include "shaders/motion/drive.glsl"
 #include "shaders/motion/under_way.glsl"
 #include "shaders/motion/planted_feet.glsl"
+#include "shaders/motion/at_rest.glsl"
 #include "shaders/motion/wide_site.glsl"
 #include "shaders/shared/body_shape.glsl"
 #ifdef BODIES
@@ -57,6 +58,7 @@ vec2 asDecided(Body self, Walker walker, Decision decision) {
     vec2 wanted = self.velocity + decision.change;
     vec2 legs = self.velocity;
     plantFeet(self, walker, decision.feet, wanted, legs);
+    keepFeetStill(decision.feet, wanted, legs);
     vec2 velocity = limitChange(legs, wanted, parameters.maximum_acceleration * parameters.step_seconds);
     return atMost(velocity, self.maximum_speed);
 }

@@ -9,3 +9,12 @@ float speedBeforeRest(float speed, Stage stage, RouteAhead ahead, bool stopped) 
     return min(speed, min(sqrt(2.0 * COMING_TO_REST_BRAKING * ahead.remaining),
                           ahead.remaining / COMING_TO_REST_SETTLING));
 }
+
+/// Somebody who stands in an area, or has its place in a line; or is a little past that, and waits for the line to move
+/// up instead of stepping back.
+bool hasComeToRest(Walker walker, Stage stage, RouteAhead ahead, bool stopped, float heading) {
+    if (!AT_REST_ENABLED) return false;
+    if (stopped && (stage.flags & STAGE_IN_AREA) != 0u) return true;
+    bool past = dot(ahead.direction, vec2(cos(heading), sin(heading))) < 0.0;
+    return walker.ticket != NO_INDEX && ahead.remaining <= (past ? AT_REST_PAST : AT_REST_CONTENT);
+}

@@ -53,7 +53,7 @@ void main() {
     Body self = bodies[slot];
     AgentState state = states[self.row];
     if (!isAlive(state.status)) return;  // it left after the last decision
-    Stage stage = stageOf(state.stage, state.ticket);
+    Stage stage = stageOf(state.stage, state.ticket, self.position);
 
     vec2 target = targets[slot].xy;
     vec2 moved = target - self.position;
@@ -77,7 +77,7 @@ void main() {
         state.walked += distance_moved;
     if (state.shortest_way <= 0.0) state.shortest_way = routeAhead(stage, self.position).remaining + stage.beyond;
     if (changePlans(state, walkers[slot].change_count, self.row)) {
-        stage = stageOf(state.stage, state.ticket);
+        stage = stageOf(state.stage, state.ticket, state.position);
         state.shortest_way = state.walked + routeAhead(stage, state.position).remaining + stage.beyond;
     } else {
         followRoute(state, stage, self.row);

@@ -4,15 +4,26 @@
 // Needs the blocks ParametersBlock, People, PlanChanges and WaitingLines, the uniform steps_done,
 // shaders/routes/route.glsl and shaders/motion/waiting_line.glsl.
 
+/// Who waits at a spot in an area stays where it has come to rest (shaders/motion/at_rest.glsl): only then is it there.
+bool standsThere(Stage stage) {
+    return AT_REST_ENABLED && (stage.flags & STAGE_IN_AREA) != 0u && stage.dwell > 0.0;
+}
+
+/// How nervous somebody gets before it gives up getting nearer: outside of an area, the more so the further it is.
+float patienceBefore(Stage stage, float remaining) {
+    return standsThere(stage) ? mix(ARRIVING_GIVES_UP, 1.0, remaining / ARRIVING_NEAR_BY) : ARRIVING_GIVES_UP;
+}
+
 /// Whether somebody is where its stage leads. Where there are too many for a place, near by will do in the end.
 bool isThere(AgentState state, Stage stage) {
     RouteAhead ahead = routeAhead(stage, state.position);
     if (stage.line != NO_INDEX && (state.ticket == NO_INDEX || state.ticket != waiting_lines[stage.line].served))
         return false;
-    if (ahead.remaining <= stage.tolerance) return true;
+    if (ahead.remaining <= stage.tolerance) return !standsThere(stage) || length(state.velocity) <= STANDING_SPEED;
+    if ((stage.flags & STAGE_ANYWHERE) == 0u) return false;
     bool in_area = (stage.flags & STAGE_IN_AREA) != 0u && ahead.straight;
-    return (stage.flags & STAGE_ANYWHERE) != 0u && (in_area || ahead.remaining < ARRIVING_NEAR_BY) &&
-           state.nervousness > ARRIVING_GIVES_UP;
+    return (in_area || ahead.remaining < ARRIVING_NEAR_BY) &&
+           state.nervousness > patienceBefore(stage, in_area ? 0.0 : ahead.remaining);
 }
 
 /// Who comes to the end of a line joins it at the end of the step; of several, the smallest row.

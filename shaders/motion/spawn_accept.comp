@@ -33,7 +33,7 @@ void main() {
     }
     Person person = people[mine.row];
     AgentState state = states[mine.row];
-    RouteAhead ahead = routeAhead(stageOf(state.stage, state.ticket), mine.position);
+    RouteAhead ahead = routeAhead(stageOf(state.stage, state.ticket, mine.position), mine.position);
     bool turned = (person.flags & PERSON_FIXED_SPAWN) == 0u && ahead.direction != vec2(0.0);
     state.heading = turned ? atan(ahead.direction.y, ahead.direction.x) : person.heading;
     state.position = mine.position;

@@ -43,7 +43,7 @@ void main() {
     uint row = bodies[slot].row;
     vec2 position = bodies[slot].position;
     Walker walker = walkers[slot];
-    Stage stage = stageOf(walker.stage, walker.ticket);
+    Stage stage = stageOf(walker.stage, walker.ticket, position);
     RouteAhead ahead = wayAhead(stage, position, bodies[slot].velocity,
                                 neighbour_counts[slot], walker.nervousness);
 
@@ -61,5 +61,10 @@ void main() {
 #endif
     if (in_party) speed *= paceInParty(row, walker, stage, ahead.remaining);
     bool stopped = walker.status == STATUS_ARRIVED || walker.leave_step != 0u;
-    preferred_velocities[slot] = direction * speedBeforeRest(speed, stage, ahead, stopped);
+    speed = speedBeforeRest(speed, stage, ahead, stopped);
+    if (hasComeToRest(walker, stage, ahead, stopped, bodies[slot].heading)) {
+        walkers[slot].flags |= WALKER_AT_REST;
+        speed = 0.0;
+    }
+    preferred_velocities[slot] = direction * speed;
 }

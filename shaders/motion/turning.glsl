@@ -18,7 +18,7 @@ float turnTowards(float heading, vec2 direction) {
 vec2 nextInLine(AgentState state, Stage stage) {
     WaitingLine line = waiting_lines[stage.line];
     if (state.ticket == NO_INDEX || state.ticket == line.served) return stage.facing;
-    return placeInLine(line, state.ticket - line.served - 1u);
+    return placeInLine(line, state.ticket - line.served - 1u).point;
 }
 
 /// The heading after one more step.

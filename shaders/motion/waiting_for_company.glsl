@@ -4,8 +4,14 @@
 // Walking abreast is another rule (shaders/motion/company.glsl). Needs the block States and shaders/routes/route.glsl.
 #include "shaders/charts/way_between.glsl"
 
-/// A way towards the nearest of the party, for who has lost it; not for long where something is in between.
-vec2 towardsParty(uint row, Walker walker, vec2 position, vec2 direction) {
+/// Whether one's own way is longer than it would be straight over to a place and on from there.
+bool isBehindWall(Stage stage, float remaining, vec2 position, vec2 place) {
+    return remaining > distance(position, place) + routeAhead(stage, place).remaining + WAITING_FOR_COMPANY_BEHIND_WALL;
+}
+
+/// A way towards the nearest of the party, for who has lost it; not for long where somebody is in between, and not at
+/// all where a wall is.
+vec2 towardsParty(uint row, Walker walker, Stage stage, vec2 position, RouteAhead ahead, vec2 direction) {
     const float NOBODY = 1.0e5;
     vec2 nearest = vec2(10.0 * NOBODY);
     for (uint other = walker.party_first; other < walker.party_first + walker.party_size; ++other) {
@@ -15,6 +21,7 @@ vec2 towardsParty(uint row, Walker walker, vec2 position, vec2 direction) {
     }
     float distance = length(nearest);
     if (distance <= WAITING_FOR_COMPANY_LOST || distance > NOBODY) return direction;
+    if (isBehindWall(stage, ahead.remaining, position, position + nearest)) return direction;
     float pull = smoothstep(WAITING_FOR_COMPANY_LOST, WAITING_FOR_COMPANY_QUITE_LOST, distance) *
                  (1.0 - smoothstep(WAITING_FOR_COMPANY_GIVES_UP, WAITING_FOR_COMPANY_GIVEN_UP, walker.nervousness));
     vec2 result = direction + pull * nearest / distance;
@@ -23,10 +30,12 @@ vec2 towardsParty(uint row, Walker walker, vec2 position, vec2 direction) {
 }
 
 /// Whoever is near the first of its party and would turn off does not.
-vec2 wayOfParty(uint row, Walker walker, Stage stage, vec2 position, vec2 direction) {
+vec2 wayOfParty(uint row, Walker walker, Stage stage, vec2 position, RouteAhead ahead) {
+    vec2 direction = ahead.direction;
     for (uint first = walker.party_first; first < row; ++first) {
         if (states[first].status != STATUS_WALKING || states[first].leave_step != 0u) continue;
         if (length(wayTo(first, row, position)) > 2.0 * WAITING_FOR_COMPANY_QUITE_LOST) return direction;
+        if (isBehindWall(stage, ahead.remaining, position, states[first].position)) return direction;
         vec2 its_direction = routeAhead(stage, states[first].position).direction;
         return dot(its_direction, direction) < WAITING_FOR_COMPANY_SAME_WAY ? its_direction : direction;
     }
@@ -34,10 +43,10 @@ vec2 wayOfParty(uint row, Walker walker, Stage stage, vec2 position, vec2 direct
 }
 
 vec2 wayWithParty(uint row, Walker walker, Stage stage, vec2 position, RouteAhead ahead) {
-    vec2 direction = wayOfParty(row, walker, stage, position, ahead.direction);
+    vec2 direction = wayOfParty(row, walker, stage, position, ahead);
     // Near one's own place, one goes there, wherever the others' are.
     bool arrives = stage.dwell > 0.0 && ahead.remaining < WAITING_FOR_COMPANY_QUITE_LOST;
-    return arrives ? direction : towardsParty(row, walker, position, direction);
+    return arrives ? direction : towardsParty(row, walker, stage, position, ahead, direction);
 }
 
 /// The factor on somebody's speed.

@@ -74,6 +74,9 @@ struct Body {
     float maximum_speed;  // m/s
 };
 
+/// Beside PERSON_* in the flags of a walker: it has come to rest where it waits.
+const uint WALKER_AT_REST = 0x80000000u;
+
 /// What else moving somebody takes, by slot, too: looked up once by row, and read in order by the passes that
 /// follow.
 struct Walker {
@@ -110,6 +113,7 @@ struct Chest {
 
 const uint FEET_IN_TRAFFIC = 1u;  // it senses others who are under way
 const uint FEET_WAIT = 2u;        // it waits for its turn in a stream that goes one way
+const uint FEET_STILL = 4u;       // it has come to rest, and nobody wants to get past
 
 /// What somebody has decided, until it looks round again.
 struct Decision {

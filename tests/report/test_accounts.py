@@ -10,7 +10,7 @@ import pytest
 from conftest import ROOT
 from test_report import browser, visit  # noqa: F401
 
-AGENTS, WALKING, ARRIVED, STUCK, REFUSED = 18, 6, 8, 1, 4
+AGENTS, WALKING, ARRIVED, STUCK, REFUSED = 19, 7, 8, 1, 4
 SPAWNED = WALKING + ARRIVED
 
 
@@ -18,8 +18,8 @@ def square(x, y, size=3):
     return [[x, y], [x + size, y], [x + size, y + size], [x, y + size]]
 
 
-# Eight arrive; one is shut in before a gate; one stands at a stop and three in a line until the end; one has far to
-# go; four would enter too late.
+# Eight arrive; one is shut in before a gate; one stands at a stop and three in a line until the end; one has just set
+# off from a stop again; one has far to go; four would enter too late.
 LAYOUT = {
     "throng": 1,
     "name": "every fate",
@@ -29,7 +29,8 @@ LAYOUT = {
               {"id": "corner", "polygon": square(0, 40)}, {"id": "board", "polygon": square(6, 40)},
               {"id": "door", "polygon": square(0, 60)}, {"id": "desk", "polygon": square(10, 60)},
               {"id": "home", "polygon": square(30, 60)},
-              {"id": "start", "polygon": square(0, 80)}, {"id": "far", "polygon": square(200, 80)}],
+              {"id": "start", "polygon": square(0, 80)}, {"id": "far", "polygon": square(200, 80)},
+              {"id": "seat", "polygon": square(0, 100, 1)}, {"id": "bench", "polygon": square(2, 100, 1)}],
     "walls": [{"id": "pen", "points": [[1, 20], [0, 20], [0, 21], [1, 21]]},
               {"id": "gate", "points": [[1, 20], [1, 21]]}],
     "flows": [{"id": "forth", "from": "west", "to": "east", "count": 8, "end": 5},
@@ -39,6 +40,8 @@ LAYOUT = {
               {"id": "customers", "from": "door", "to": "home", "count": 3, "end": 3,
                "via": [{"at": "desk", "wait": 1000, "activity": "queue",
                         "line": [[12.5, 62], [12.5, 60.5], [10.5, 60.5]]}]},
+              {"id": "stroller", "from": "seat", "to": "far", "count": 1, "end": 0.1, "people": {"speed": 0.3},
+               "via": [{"at": "bench", "wait": 22.8}]},
               {"id": "pilgrim", "from": "start", "to": "far", "count": 1, "end": 1},
               {"id": "late", "from": "west", "to": "east", "count": 4, "start": 100, "end": 110}],
     "events": [{"at": 3600, "open": "gate"}],

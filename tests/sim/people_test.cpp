@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 
 #include "authoring/layout/layout_reader.h"
@@ -71,6 +72,7 @@ TEST_F(PeopleTest, StopForAsLongAsTheyAreToldAndLookWhereTheyAreTold) {
                 continue;
             }
             came.try_emplace(row, now);
+            EXPECT_LT(glm::length(state.velocity), 0.15f) << "m/s: who stops has come to rest";
             const glm::dvec2 at = world(scene, state);
             EXPECT_GT(at.x, 17.5);
             EXPECT_LT(at.x, 24.5);
@@ -143,6 +145,112 @@ TEST_F(PeopleTest, QueueInTheOrderTheyComeAndAreServedOneAfterTheOther) {
     ASSERT_EQ(served.size(), 9u);
     for (std::uint32_t ticket = 1; ticket < 9; ++ticket)
         EXPECT_GT(served[ticket] - served[ticket - 1], 3.9f);
+}
+
+/// Where in a line somebody is to stand, worked out plainly, and how far round that will do.
+std::pair<glm::dvec2, double> placeByHand(std::vector<glm::dvec2> line, double spacing, std::uint32_t nth) {
+    double left = nth * spacing;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        const double piece = glm::distance(line[i], line[i + 1]);
+        if (left <= piece) return {line[i] + (line[i + 1] - line[i]) * (left / piece), 0.0};
+        left -= piece;
+    }
+    return {line.back(), spacing * std::sqrt(left / spacing)};
+}
+
+TEST_F(PeopleTest, WhoFindsNoPlaceInALineStandsRoundItsEndWithFeetStill) {
+    const authoring::Scene scene =
+        sceneOf(kStreet + R"("flows": [{"id": "f", "from": "a", "to": "b", "count": 16, "end": 12,
+ "via": [{"at": "shop", "wait": 500, "activity": "queue", "line": [[23, 2], [21, 2], [21, 0.2]], "spacing": 0.7}]}]})");
+    const glm::dvec2 end(21.0, 0.2);
+    std::size_t waiting = 0, round_the_end = 0;
+    watch(scene, 60.0f, [&](float now, const States& states) {
+        if (now < 50.0f) return;
+        waiting = round_the_end = 0;
+        for (const gpu::AgentState& state : states) {
+            if (state.ticket == gpu::NO_INDEX) continue;
+            ++waiting;
+            const auto [place, reach] = placeByHand({{23, 2}, {21, 2}, end}, 0.7, state.ticket);
+            const glm::dvec2 at = world(scene, state);
+            EXPECT_LT(glm::distance(at, place), reach + 0.35) << state.ticket;
+            EXPECT_LT(glm::length(state.velocity), 0.05f) << state.ticket;
+            if (reach == 0.0) continue;
+            ++round_the_end;
+            const glm::dvec2 facing(std::cos(state.heading), std::sin(state.heading));
+            const double looks = glm::dot(facing, glm::normalize(end - at));
+            EXPECT_TRUE(looks > 0.9 || glm::distance(at, end) < 0.3) << state.ticket << ": " << looks;
+        }
+    });
+    EXPECT_EQ(waiting, 16u);
+    EXPECT_EQ(round_the_end, 10u);
+}
+
+/// Somebody who stops in the shop, and perhaps somebody else.
+class AtRestTest : public PeopleTest {
+  protected:
+    struct Other {
+        float nervousness = 0.0f;
+        float goes_to = 1.0f;  // 1: through the one who stands, -1: away
+    };
+    /// m/s: of who stands, a step after a push gave it a velocity towards the east.
+    float velocityAfter(float push, std::optional<Other> other) {
+        authoring::Scene scene =
+            sceneOf(kStreet + R"("flows": [{"id": "f", "from": "a", "to": "b", "count": 2, "end": 0.01,
+ "people": {"radius": 0.25}, "via": [{"at": "shop", "wait": 60, "facing": [21, 9]}]}]})");
+        scene.settings.decision_interval = 0.0;
+        sim::Simulation simulation(scene, library);
+        for (int step = 0; step < 48; ++step)
+            simulation.step();
+        sim::Buffers& buffers = simulation.parts().buffers;
+        States states = buffers.states.download<gpu::AgentState>(2);
+        const auto local = [&](double x, double y) { return glm::vec2(glm::dvec2(x, y) - scene.origin); };
+        states[0].position = local(21, 0);
+        states[0].velocity = {push, 0.0f};
+        states[0].leave_step = 1'000'000;
+        states[1].position = other ? local(20.45, 0) : local(2, 0);
+        states[1].velocity = {0.0f, 0.0f};
+        states[1].nervousness = other ? other->nervousness : 0.0f;
+        if (other) states[1].stage = states[1].stage_end - 1;  // walks on to b
+        if (other && other->goes_to < 0.0f) states[1].position = local(21.55, 0);
+        buffers.states.upload(states);
+        simulation.step();
+        return buffers.states.download<gpu::AgentState>(2)[0].velocity.x;
+    }
+};
+
+TEST_F(AtRestTest, FeetHoldAgainstASmallPushAndGoAlongWithAHardOne) {
+    EXPECT_NEAR(velocityAfter(0.2f, {}), 0.0f, 0.001f);
+    EXPECT_GT(velocityAfter(0.8f, {}), 0.7f);
+}
+
+TEST_F(AtRestTest, FeetMoveForWhoIsHeldUpAndWantsPast) {
+    EXPECT_NEAR(velocityAfter(0.2f, Other{0.1f, 1.0f}), 0.0f, 0.01f) << "not held up";
+    EXPECT_GT(velocityAfter(0.2f, Other{0.9f, 1.0f}), 0.15f);
+    EXPECT_NEAR(velocityAfter(0.2f, Other{0.9f, -1.0f}), 0.0f, 0.01f) << "is past already";
+}
+
+TEST_F(PeopleTest, WhoGivesUpBeforeAFullAreaTriesTheLongerTheFurtherAwayItIs) {
+    const auto stops = [&](double x, float nervousness) {
+        authoring::Scene scene = sceneOf(
+            kStreet + R"("flows": [{"id": "f", "from": "a", "to": "shop", "arrival": "stay", "count": 1}]})");
+        scene.stages.front().point = glm::vec2(glm::dvec2(18.3, 0.0) - scene.origin);
+        sim::Simulation simulation(scene, library);
+        for (int step = 0; step < 600; ++step)
+            simulation.step();
+        States states = simulation.parts().buffers.states.download<gpu::AgentState>(1);
+        states[0].status = gpu::STATUS_WALKING;
+        states[0].position = glm::vec2(glm::dvec2(x, 0.0) - scene.origin);
+        states[0].velocity = {0.0f, 0.0f};
+        states[0].nervousness = nervousness;
+        simulation.parts().buffers.states.upload(states);
+        simulation.step();
+        return simulation.parts().buffers.states.download<gpu::AgentState>(1)[0].status ==
+               gpu::STATUS_ARRIVED;
+    };
+    EXPECT_FALSE(stops(15.3, 0.75f)) << "3 m before its place";
+    EXPECT_TRUE(stops(15.3, 0.9f));
+    EXPECT_TRUE(stops(17.6, 0.75f)) << "right before it";
+    EXPECT_FALSE(stops(17.6, 0.5f));
 }
 
 /// With a wall across it, and a gate in the wall.
