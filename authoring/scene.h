@@ -7,12 +7,13 @@
 #include <vector>
 
 #include "authoring/layout.h"
-#include "authoring/storeys/charts.h"
 #include "authoring/terrain/terrain.h"
 #include "shaders/shared/chart_types.h"
 #include "shaders/shared/scene_types.h"
 
 namespace throng::authoring {
+
+struct Charts;  // authoring/storeys/charts.h
 
 /// The raster of the road distance, and on small sites of the distance fields. Cell (i, j) has its centre at
 /// minimum + (i + 0.5, j + 0.5) * cell_size and the index j * width + i.

@@ -130,7 +130,7 @@ gpu::Parameters makeParameters(const authoring::Scene& scene) {
     parameters.cells_minimum = scene.minimum;
     parameters.cell_size = parameters.contact_range;
     // Of charts, whole numbers of cells make a shift.
-    const auto step = static_cast<float>(authoring::kShiftStep);
+    const auto step = gpu::SHIFT_STEP;
     if (!scene.chart_map.empty()) parameters.cell_size = step / std::floor(step / parameters.cell_size);
     checkCells(extent, parameters.cell_size);
     parameters.cells_width = std::max(1u, pixels(extent.x, 1.0f / parameters.cell_size));

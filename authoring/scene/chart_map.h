@@ -7,6 +7,7 @@
 
 #include "authoring/scene.h"
 #include "authoring/scene/distance_solver.h"
+#include "authoring/storeys/charts.h"
 
 namespace throng::authoring {
 

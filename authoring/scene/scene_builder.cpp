@@ -21,6 +21,7 @@
 #include "authoring/scene/terrain_check.h"
 #include "authoring/scene/walls.h"
 #include "authoring/scene/ways_check.h"
+#include "authoring/storeys/charts.h"
 #include "base/capsule.h"
 
 namespace throng::authoring {
@@ -122,7 +123,7 @@ class Builder {
   private:
     /// The plane begins where a cell of every grid does.
     void mapCharts(std::shared_ptr<const Charts> charts) {
-        const auto step = static_cast<float>(kShiftStep);
+        const auto step = gpu::SHIFT_STEP;
         scene_.minimum = glm::floor((scene_.minimum - static_cast<float>(charts->reach)) / step) * step;
         scene_.maximum = glm::ceil((scene_.maximum + static_cast<float>(charts->reach)) / step) * step;
         scene_.chart_map = makeChartMap(*charts, scene_.minimum, scene_.maximum, scene_.origin);

@@ -30,7 +30,7 @@ double reachOf(const Layout& layout) {
 }
 
 double upwards(double value) {
-    return std::ceil(value / kShiftStep) * kShiftStep;
+    return std::ceil(value / double{gpu::SHIFT_STEP}) * double{gpu::SHIFT_STEP};
 }
 
 /// Side by side in rows, the first chart where it is: of two margins and a little more between any two, so
@@ -58,8 +58,8 @@ void shiftCharts(std::vector<Chart>& charts, double reach) {
         }
         chart.shift = {upwards(x + margin - lower.x), upwards(y + margin - lower.y)};
         if (&chart == &charts.front()) chart.shift = glm::dvec2(0.0);
-        x += size.x + kShiftStep;
-        row_height = std::max(row_height, size.y + kShiftStep);
+        x += size.x + double{gpu::SHIFT_STEP};
+        row_height = std::max(row_height, size.y + double{gpu::SHIFT_STEP});
     }
 }
 

@@ -53,9 +53,6 @@ struct Charts {
     std::uint32_t most_images = 0;
 };
 
-/// Shifts are multiples of this, m, and so the lattices of everything in the plane fit together.
-inline constexpr double kShiftStep = 4.0;
-
 /// @returns null where the layout has mistakes, which are told
 std::shared_ptr<const Charts> layOut(const Layout& layout, Diagnostics& diagnostics);
 

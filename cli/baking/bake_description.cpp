@@ -10,6 +10,7 @@
 
 #include "authoring/layout/layout_reader.h"
 #include "authoring/scene/terrain_check.h"
+#include "authoring/storeys/charts.h"
 #include "base/files/errors.h"
 #include "base/files/hash.h"
 #include "base/text/printable.h"

@@ -160,7 +160,7 @@ TEST(Charts, LieApartByMoreThanPeopleSense) {
             const glm::dvec2 gap = glm::max(lower_i + a - upper_j - b, lower_j + b - upper_i - a);
             EXPECT_GE(std::max(gap.x, gap.y), 2.0 * charts->reach) << i << " " << j;
         }
-    EXPECT_EQ(std::fmod(charts->charts.back().shift.x, kShiftStep), 0.0);
+    EXPECT_EQ(std::fmod(charts->charts.back().shift.x, double{gpu::SHIFT_STEP}), 0.0);
 }
 
 TEST(ChartMesh, FloorsHaveTheOpeningsOfLinksAndStairsTheirTreads) {
