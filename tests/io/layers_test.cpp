@@ -220,7 +220,7 @@ TEST(Layers, WhoIsPutIntoAWallIsTold) {
     // Row 0 walks along y = -3.6; the wall `corner` runs along y = 5.2, 0.3 m thick, up to x = -5.2.
     const AppliedLayers applied(
         R"([{"name": "in", "who": {"rows": [0, 0]}, "do": {"move": {"by": [0, 8.8, 0]}}},
-                                    {"name": "beside", "who": {"rows": [2, 2]}, "do": {"move": {"by": [0, 0.1, 0]}}}])");
+            {"name": "beside", "who": {"rows": [2, 2]}, "do": {"move": {"by": [0, 0.1, 0]}}}])");
     ASSERT_EQ(applied.result->in_walls.size(), 1u);
     EXPECT_EQ(applied.result->in_walls[0].row, 0u);
     EXPECT_EQ(applied.result->in_walls[0].wall, "corner");

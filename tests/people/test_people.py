@@ -294,7 +294,8 @@ def test_profiles_say_how_old_people_are_and_runners_run_in_what_one_runs_in():
 def test_bakes_tell_who_people_are(tmp_path):
     (tmp_path / "agents.csv").write_text(
         "id,radius,variation,profile,look,colours,overrides\n0,0.25,3,elderly,fans,#a01020 #ffffff,\n"
-        "1,0.17,4,,winter,,tint character\n2,0.24,5,ghost,beach,#a01020 #ffffff,tint move\n3,0.24,5,adult,fans,red white,\n")
+        "1,0.17,4,,winter,,tint character\n2,0.24,5,ghost,beach,#a01020 #ffffff,tint move\n"
+        "3,0.24,5,adult,fans,red white,\n")
     assert casting.read_walkers(tmp_path) == [
         casting.Walker(0.25, 3, "elderly", "fans #a01020 #ffffff"), casting.Walker(0.17, 4, "", "winter", True),
         casting.Walker(0.24, 5), casting.Walker(0.24, 5, "adult", "fans")]
