@@ -24,8 +24,9 @@ inline constexpr std::array kFates = {
              "In the scene at the end and not arrived, also who stands at a stop or in a line."},
     FateWord{Fate::waiting, "waiting", "Not yet in the scene; who still waits when a bake ends is refused."},
     FateWord{Fate::arrived, "arrived", "Came to its goal, and left there or stayed."},
-    FateWord{Fate::stuck, "stuck",
-             "Walking at the end, for five seconds at no stop and in no line, and not half a metre on in them."},
+    FateWord{
+        Fate::stuck, "stuck",
+        "Walking at the end, for five seconds at no stop and in no line, and not half a metre on in them."},
     FateWord{Fate::refused, "refused", "Never came into the scene; the reason is told."},
 };
 

@@ -13,7 +13,8 @@ SCHEMA = ROOT / "authoring" / "layout" / "throng-layout.schema.json"
 # Where the page speaks of a definition, and what one of them is called.
 SECTIONS = {"point": ("point", "places-and-points"), "destination": ("destination", "destinations"),
             "stop": ("stop", "stops"), "people": ("people", "people"), "bar": ("bar", "expectations"),
-            "expect": ("bars", "expectations"), "terrain": ("terrain", "terrain"), "level": ("level", "levels"), "link": ("link", "links"), "road": ("road", "roads"),
+            "expect": ("bars", "expectations"), "terrain": ("terrain", "terrain"), "level": ("level", "levels"),
+            "link": ("link", "links"), "road": ("road", "roads"),
             "area": ("area", "areas"), "wall": ("wall", "walls"), "flow": ("flow", "flows"),
             "formation": ("formation", "formations"), "event": ("event", "events")}
 LINKED_KEYS = ("simulation", "motion")  # of the layout itself, which are no definitions

@@ -8,7 +8,8 @@
 
 THRONG_SHARED_BEGIN
 
-const float SHIFT_STEP = 4.0;  // m: shifts are multiples of it, and so the lattices of everything fit together
+const float SHIFT_STEP =
+    4.0;  // m: shifts are multiples of it, and so the lattices of everything fit together
 const uint NO_CHART = 0xffu;
 const uint NO_IMAGES = 0xffffffffu;
 const uint MOST_IMAGES = 4u;  // charts on which one person may be present besides its own

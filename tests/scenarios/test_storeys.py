@@ -17,7 +17,8 @@ def box(x0, y0, x1, y1):
 # A square of 24 m cut at different lines, and uncut, with corners where the cuts end: railings then consist of the same
 # pieces.
 STRAIGHT = {"west": box(-12, -12, 1.3, 12), "east": box(1.3, -12, 12, 12)}
-OBLIQUE = {"below": [[-12, -12], [12, -12], [12, 7.1], [-12, -5.3]], "above": [[12, 7.1], [12, 12], [-12, 12], [-12, -5.3]]}
+OBLIQUE = {"below": [[-12, -12], [12, -12], [12, 7.1], [-12, -5.3]],
+           "above": [[12, 7.1], [12, 12], [-12, 12], [-12, -5.3]]}
 MEETING = {"west": box(-12, -12, 0.6, 12), "south": box(0.6, -12, 12, 1.7), "north": box(0.6, 1.7, 12, 12)}
 CUTS = {"straight": STRAIGHT, "oblique": OBLIQUE, "three meet": MEETING}
 WHOLE = {"straight": [[-12, -12], [1.3, -12], [12, -12], [12, 12], [1.3, 12], [-12, 12]],
@@ -56,8 +57,8 @@ def corridor(floors, duration):
     layout = crossing(floors, duration)
     for y in (-2.5, 2.5):
         ends = [-9, *sorted({seam(y) for seam in SEAMS}), 9]
-        layout["walls"] += [{"id": f"{y} {a}", "level": level_at(floors, (0.5 * (a + b), y)), "points": [[a, y], [b, y]]}
-                            for a, b in zip(ends, ends[1:])]
+        layout["walls"] += [{"id": f"{y} {a}", "points": [[a, y], [b, y]],
+                             "level": level_at(floors, (0.5 * (a + b), y))} for a, b in zip(ends, ends[1:])]
     layout["flows"] = layout["flows"][:2]
     return layout
 
@@ -69,7 +70,7 @@ SEAMS = (lambda y: 1.3, lambda y: 0.6, lambda y: round(-12 + 24 * (y + 5.3) / 12
 def at_random(floors, duration):
     """People all over the place, each to an area at one of the sides."""
     random = numpy.random.default_rng(4)
-    points = [p for p in random.uniform(-9, 9, (400, 2)) if not within([[-4.5, 2.5], [-2.5, 2.5], [-2.5, 4.5], [-4.5, 4.5]], p)]
+    points = [point for point in random.uniform(-9, 9, (400, 2)) if not within(box(-4.5, 2.5, -2.5, 4.5), point)]
     kept = []
     for point in points:
         if all(numpy.hypot(*(point - other)) > 0.6 for other in kept):
@@ -122,7 +123,8 @@ def test_nobody_notices_a_seam(throng, once, tmp_path, scene, cut):
 
 STAIRS = {
     "throng": 1, "simulation": {"duration": 30},
-    "levels": [{"id": "ground", "floor": box(-14, -5, 14, 5)}, {"id": "upper", "height": 3.4, "floor": box(-3, -5, 14, 5)}],
+    "levels": [{"id": "ground", "floor": box(-14, -5, 14, 5)},
+               {"id": "upper", "height": 3.4, "floor": box(-3, -5, 14, 5)}],
     "links": [{"id": "stairs", "from": "ground", "to": "upper", "path": [[-9, 2], [-3, 2]], "width": 2.4}],
     "areas": [{"id": "door", "polygon": box(-13, -4, -12, 4)}, {"id": "below", "polygon": box(12, -4, 13, 4)},
               {"id": "above", "level": "upper", "polygon": box(12, -4, 13, 4)},
@@ -168,7 +170,7 @@ def test_stairs_are_climbed_as_weidmann_measured(throng, tmp_path, start, to, pa
 
 @pytest.mark.parametrize("cut", [False, True])
 def test_a_jam_beyond_a_seam_is_avoided(throng, tmp_path, cut):
-    """A hall with two doors in its middle wall, the nearer one full of people who stand, and the wall on a seam or not."""
+    """A hall with two doors in its middle wall, the nearer one full of people who stand, beside a seam or not."""
     floors = {"west": box(-12, -12, -1, 12), "east": box(-1, -12, 12, 12)} if cut else {"all": box(-12, -12, 12, 12)}
     walls = [[[0, -12], [0, -1]], [[0, 1], [0, 4]], [[0, 6], [0, 12]]]
     layout = {
@@ -190,8 +192,8 @@ def test_a_bake_on_levels_that_was_stopped_goes_on_to_the_same_bytes(throng, tmp
              {"id": "down", "from": "above", "to": "door", "count": 30, "end": 10}]
     (tmp_path / "layout.json").write_text(json.dumps({**STAIRS, "flows": flows}))
     throng("bake", tmp_path / "layout.json", "-o", tmp_path / "whole", "-q", "--no-gltf")
-    stopped = subprocess.Popen([throng.binary, "bake", str(tmp_path / "layout.json"), "-o", str(tmp_path / "parts"), "-q",
-                                "--no-gltf", "--checkpoint", "0.0001"])
+    stopped = subprocess.Popen([throng.binary, "bake", str(tmp_path / "layout.json"), "-o", str(tmp_path / "parts"),
+                                "-q", "--no-gltf", "--checkpoint", "0.0001"])
     unfinished = tmp_path / "parts.unfinished"
     while stopped.poll() is None and len(list(unfinished.glob("checkpoint.[ab]"))) < 2:
         time.sleep(0.005)
