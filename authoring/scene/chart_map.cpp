@@ -19,6 +19,20 @@ glm::vec2 ChartMap::home(glm::vec2 place) const {
     return chart == gpu::NO_CHART ? place : place - shifts[chart];
 }
 
+float costOfLink(const MotionSettings& motion, bool stairs, double slope) {
+    constexpr double kFlat = 1.34;  // m/s
+    if (!motion.isOn("slope_pace")) return 1.0f;
+    const auto number = [&](const char* name) { return motion.number("slope_pace", name); };
+    const auto pace = [&](double rise) {
+        if (!stairs)
+            return std::exp(-number("hiking") *
+                            (std::abs(rise + number("fastest_down")) - number("fastest_down")));
+        const double least = number(rise > 0.0 ? "stairs_up" : "stairs_down") / kFlat;
+        return 1.0 + (least - 1.0) * std::min(std::abs(rise) / number("stairs_rise"), 1.0);
+    };
+    return static_cast<float>(std::max(1.0, 0.5 * (1.0 / pace(slope) + 1.0 / pace(-slope))));
+}
+
 ChartMap makeChartMap(const Charts& charts, glm::vec2 minimum, glm::vec2 maximum, glm::dvec2 origin) {
     ChartMap map;
     map.grid.minimum = minimum;
@@ -31,7 +45,13 @@ ChartMap makeChartMap(const Charts& charts, glm::vec2 minimum, glm::vec2 maximum
     for (std::uint32_t chart = 0; chart < charts.charts.size(); ++chart) {
         const ChartRaster& raster = charts.rasters[chart];
         map.shifts.emplace_back(charts.charts[chart].shift);
-        map.is_link.push_back(charts.charts[chart].is_link);
+        const Chart& each = charts.charts[chart];
+        map.is_link.push_back(each.is_link);
+        map.costs.push_back(each.is_link
+                                ? costOfLink(charts.plane.simulation.motion,
+                                             charts.plane.links[each.index].kind == Link::Kind::stairs,
+                                             (each.link.high - each.link.low) / each.link.length)
+                                : 1.0f);
         const glm::ivec2 shift(glm::round(charts.charts[chart].shift / kChartCell));
         for (int y = 0; y < raster.size().y; ++y)
             for (int x = 0; x < raster.size().x; ++x) {

@@ -64,6 +64,15 @@ float chartCellSize(float wanted) {
     return wanted <= 2.0f * kDoorCell ? std::min(size, kDoorCell) : size;
 }
 
+/// Stairs and ramps cost the time that they take.
+void chargeLinks(const ChartMap& charts, WalkMap& map) {
+    for (std::uint32_t cell = 0; cell < map.cost.size(); ++cell) {
+        const std::uint32_t chart =
+            charts.chartAt(cellCentre(map.grid, cell % map.grid.width, cell / map.grid.width));
+        if (chart != gpu::NO_CHART) map.cost[cell] *= charts.costs[chart];
+    }
+}
+
 }  // namespace
 
 void blockOthers(const ChartMap& charts, WalkMap& map) {
@@ -115,7 +124,10 @@ WalkMap makeWalkMap(const WalkGeometry& geometry, const FieldGrid& grid, bool ke
         markOneWays(geometry, map);
     }
     blockWalls(geometry, map);
-    if (geometry.charts) blockOthers(*geometry.charts, map);
+    if (geometry.charts) {
+        blockOthers(*geometry.charts, map);
+        chargeLinks(*geometry.charts, map);
+    }
     return map;
 }
 

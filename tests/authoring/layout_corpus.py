@@ -7,6 +7,7 @@ import pathlib
 from typing import NamedTuple
 
 EVERY_OBJECT = pathlib.Path(__file__).parent / "layouts" / "every_object.json"
+LEVELS = EVERY_OBJECT.with_name("levels.json")  # which are none where there is a terrain
 UNKNOWN_KEY = "zzz"
 
 
@@ -164,7 +165,9 @@ def cases_of_key(rules, place, key, entry):
 
 def base_of(schema):
     """The layout from which all cases grow."""
-    return Rules(schema).fill(schema, json.loads(EVERY_OBJECT.read_text("utf-8")))
+    levels = json.loads(LEVELS.read_text("utf-8"))
+    every_object = json.loads(EVERY_OBJECT.read_text("utf-8"))
+    return Rules(schema).fill(schema, {**every_object, **{key: levels[key] for key in ("levels", "links")}})
 
 
 def cases_of(schema):

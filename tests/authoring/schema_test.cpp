@@ -27,9 +27,9 @@ struct Format {
     void (*read)(const std::string& text, const Schema& schema, Diagnostics& diagnostics);
 };
 
-std::string everyObject() {
+std::string layoutNamed(const std::string& name) {
     std::ostringstream text;
-    text << std::ifstream(THRONG_TEST_LAYOUTS "/every_object.json").rdbuf();
+    text << std::ifstream(THRONG_TEST_LAYOUTS "/" + name + ".json").rdbuf();
     return text.str();
 }
 
@@ -37,7 +37,7 @@ std::vector<Format> formats() {
     return {
         {"Layouts",
          layoutSchema(),
-         {everyObject()},
+         {layoutNamed("every_object"), layoutNamed("levels")},
          [](const std::string& text, const Schema& schema, Diagnostics& diagnostics) {
              readLayout(text, {}, diagnostics, schema);
          }},

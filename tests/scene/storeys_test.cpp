@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/packing.hpp>
 #include <numbers>
 
 #include "authoring/layout/layout_reader.h"
@@ -228,6 +229,39 @@ TEST(Fields, GoOnOverSeamsAsIfThereWereNone) {
             }
         EXPECT_GT(compared, 20'000);
     }
+}
+
+/// Along a ramp the way is shorter, up the stairs it takes less time.
+TEST(Storeys, RoutesCountTheTimeThatLinksTake) {
+    const MotionSettings motion;
+    EXPECT_NEAR(costOfLink(motion, true, 0.5), 0.5 * (1.34 / 0.61 + 1.34 / 0.694), 0.01);
+    EXPECT_NEAR(costOfLink(motion, false, 0.2), 0.5 * (std::exp(3.5 * 0.2) + std::exp(3.5 * 0.1)), 0.01);
+    EXPECT_EQ(costOfLink(motion, false, 0.0), 1.0f);
+    Layout layout;
+    layout.levels = {level("ground", 0.0, box(-20, -6, 0, 6)), level("upper", 3.0, box(0, -6, 10, 6))};
+    layout.links = {stairs(0, 1, {-6, 3}, {0, 3})};
+    layout.links.push_back({"ramp", Link::Kind::ramp, 0, 1, {-13, -3}, {0, -3}, 2.0, {}});
+    layout.areas = {{"goal", box(8, -1, 9, 1), {}, 1}};
+    Formation walker;
+    walker.id = "walker";
+    GridFormation grid;
+    grid.origin = {-18, 0};
+    Destination destination;
+    destination.places = {{Place::Kind::area, 0, {}}};
+    grid.goal = destination;
+    walker.shape = grid;
+    layout.formations = {walker};
+    const auto firstWay = [&] {
+        Diagnostics diagnostics;
+        const Scene scene = *buildScene(layout, diagnostics);
+        const glm::vec2 place = glm::vec2(glm::dvec2(-17.0, -3.0) - scene.origin);
+        return glm::unpackSnorm2x16((*scene.fields.fields.front())[cellAt(scene.grid, place)].direction);
+    };
+    EXPECT_GT(firstWay().y, 0.3f);
+    for (std::size_t row = 0; row < motionParameters().size(); ++row)
+        if (motionParameters()[row].rule == "slope_pace" && motionParameters()[row].is_switch)
+            layout.simulation.motion.set(row, 0.0);
+    EXPECT_LT(std::abs(firstWay().y), 0.1f);
 }
 
 std::vector<std::string> complaintsAbout(const std::string& members) {
