@@ -14,7 +14,7 @@ void buildWalls(const Layout& layout, const Rebase& rebase, WalkGeometry& geomet
 
 /// Sites of the diagram along the walls' perimeter, `spacing` apart or less (m): at most a body's radius, so
 /// that no body fits between two of them.
-/// @param on_charts whether tiles are to lie the same in every part of the plane (shaders/charts/snap.glsl)
+/// @param on_charts whether tiles are to lie the same in every part of the plane (shaders/shared/snap.glsl)
 std::vector<gpu::WallTile> wallTiles(const std::vector<gpu::WallSegment>& segments, float spacing,
                                      float tile_radius, bool on_charts = false);
 

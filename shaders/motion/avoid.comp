@@ -29,7 +29,7 @@ uniform uint slot_capacity;
 
 #include "shaders/shared/at_most.glsl"
 #include "shaders/shared/images.glsl"
-#include "shaders/charts/snap.glsl"
+#include "shaders/shared/snap.glsl"
 #include "shaders/cells/cells.glsl"
 #include "shaders/shared/walls.glsl"
 #include "shaders/motion/linear_program.glsl"

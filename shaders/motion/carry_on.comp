@@ -17,7 +17,7 @@ layout(std430) writeonly buffer Ways { vec2 ways[]; };
 #include "shaders/shared/alive.glsl"
 #include "shaders/shared/at_most.glsl"
 #include "shaders/shared/images.glsl"
-#include "shaders/charts/snap.glsl"
+#include "shaders/shared/snap.glsl"
 #include "shaders/motion/drive.glsl"
 #include "shaders/motion/under_way.glsl"
 #include "shaders/motion/planted_feet.glsl"

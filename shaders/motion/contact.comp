@@ -29,7 +29,7 @@ uniform float momentum;  // 1 = none
 uniform float bracing;   // 1 = who is carried off its way gives less than others, 0 = all give alike
 
 #include "shaders/shared/at_most.glsl"
-#include "shaders/charts/snap.glsl"
+#include "shaders/shared/snap.glsl"
 #include "shaders/cells/cells.glsl"
 #include "shaders/cells/cell_runs.glsl"
 #include "shaders/shared/walls.glsl"

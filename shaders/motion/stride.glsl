@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Stride: where a velocity takes somebody in a step, unless bodies touch.
-// Needs shaders/charts/snap.glsl, the blocks ParametersBlock, Targets, TargetsAfter and Ways, and
+// Needs shaders/shared/snap.glsl, the blocks ParametersBlock, Targets, TargetsAfter and Ways, and
 // shaders/motion/wide_site.glsl; for bodies that are no discs also the blocks Bodies and Walkers, and
 // shaders/shared/body_shape.glsl and shoulders.glsl.
 

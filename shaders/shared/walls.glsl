@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Walls are chains of capsules; everything about them starts from the nearest point of a segment's axis.
 
-#include "shaders/charts/snap.glsl"
+#include "shaders/shared/snap.glsl"
 
 /// Where along a-b (0 to 1) the point nearest to `position` lies.
 float alongSegment(vec2 position, vec2 a, vec2 b) {

@@ -7,7 +7,8 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 
 
 def words():
-    found = dict(re.findall(r'FateWord\{Fate::\w+, "(\w+)",\s*"([^"]*)"\}', (ROOT / "base" / "outcomes.h").read_text()))
+    text = (ROOT / "base" / "outcomes.h").read_text()
+    found = dict(re.findall(r'FateWord\{\s*Fate::\w+, "(\w+)",\s*"([^"]*)"\}', text))
     assert len(found) == 6
     return found
 
