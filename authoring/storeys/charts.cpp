@@ -163,9 +163,12 @@ class LayingOut {
         const auto [lower_b, upper_b] = b.bounds();
         const glm::dvec2 lower = glm::max(lower_a, lower_b), upper = glm::min(upper_a, upper_b);
         const double step = std::max(kChartCell, std::max(upper.x - lower.x, upper.y - lower.y) / 400.0);
-        for (double y = lower.y + 0.5 * step; y < upper.y; y += step)
-            for (double x = lower.x + 0.5 * step; x < upper.x; x += step)
-                if (a.contains({x, y}) && b.contains({x, y})) return glm::dvec2(x, y);
+        const glm::ivec2 count(glm::ceil((upper - lower) / step));
+        for (int y = 0; y < count.y; ++y)
+            for (int x = 0; x < count.x; ++x)
+                if (const glm::dvec2 at = lower + (glm::dvec2(x, y) + 0.5) * step;
+                    a.contains(at) && b.contains(at))
+                    return at;
         return std::nullopt;
     }
 

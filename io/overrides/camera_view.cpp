@@ -15,7 +15,7 @@ CameraView::CameraView(const authoring::View& view, glm::dvec3 origin, double ma
     glm::dmat4 to_world(1.0);
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 3; ++row)
-            to_world[column][row] = m[static_cast<std::size_t>(4 * row + column)];
+            to_world[column][row] = m[4 * static_cast<std::size_t>(row) + static_cast<std::size_t>(column)];
     for (int axis = 0; axis < 3; ++axis) {  // a camera that is scaled looks no other way
         to_world[axis] /= glm::length(glm::dvec3(to_world[axis]));
         to_world[3][axis] -= origin[axis];
