@@ -15,8 +15,8 @@ namespace throng::authoring {
 /// @param minimum, maximum the scene's bounds; @param origin the scene's
 ChartMap makeChartMap(const Charts& charts, glm::vec2 minimum, glm::vec2 maximum, glm::dvec2 origin);
 
-/// How many metres on the flat take as long as one metre, in plan, of a link that rises so much over its run: the mean
-/// of up and down, as people walk there (shaders/motion/slope_pace.glsl).
+/// How many metres on the flat take as long as one metre, in plan, of a link that rises so much over its run:
+/// the mean of up and down, as people walk there (shaders/motion/slope_pace.glsl).
 float costOfLink(const MotionSettings& motion, bool stairs, double slope);
 
 /// @param grid whose cells are as large as those of the map or a power of two smaller or larger, and which
