@@ -2,8 +2,6 @@
 // Images do not decide anything: they are taken along by those whose images they are (shaders/charts/follow.comp).
 
 #ifdef CHARTS
-/// A walker's flag, which no row of people has.
-const uint WALKER_IS_IMAGE = 0x80000000u;
 bool isImage(uint walker_flags) { return (walker_flags & WALKER_IS_IMAGE) != 0u; }
 #else
 bool isImage(uint walker_flags) { return false; }

@@ -74,8 +74,10 @@ struct Body {
     float maximum_speed;  // m/s
 };
 
-/// Beside PERSON_* in the flags of a walker: it has come to rest where it waits.
-const uint WALKER_AT_REST = 0x80000000u;
+// Beside PERSON_* in the flags of a walker:
+const uint WALKER_AT_REST = 0x80000000u;  // it has come to rest where it waits
+const uint WALKER_IS_IMAGE =
+    0x40000000u;  // it is the image of somebody beside a seam (shaders/shared/images.glsl)
 
 /// What else moving somebody takes, by slot, too: looked up once by row, and read in order by the passes that
 /// follow.

@@ -203,6 +203,13 @@ def test_a_bake_on_levels_that_was_stopped_goes_on_to_the_same_bytes(throng, tmp
     assert (stream(tmp_path / "whole", "pos") == stream(tmp_path / "parts", "pos")).all()
 
 
+def test_who_has_waited_on_a_level_goes_on(throng, tmp_path):
+    stop = {"at": "above", "wait": 3}
+    flows = [{"id": "and back", "from": "door", "to": "below", "via": [stop], "count": 8, "end": 4}]
+    figures = measured(throng, bake(throng, tmp_path, {**STAIRS, "flows": flows, "simulation": {"duration": 150}}))
+    assert (figures["arrived"], figures["stuck"]) == (8, 0)
+
+
 def test_previews_show_one_level_or_all(throng, tmp_path):
     flows = [{"id": "up", "from": "door", "to": "above", "count": 3, "end": 1}]
     folder = bake(throng, tmp_path, {**STAIRS, "flows": flows, "simulation": {"duration": 2}})
