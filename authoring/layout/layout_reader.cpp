@@ -179,15 +179,6 @@ class Reader {
         return std::nullopt;
     }
 
-    void claimId(const JsonNode& node, const std::string& id, std::map<std::string, std::size_t>& ids,
-                 std::size_t index, const char* kind) {
-        if (id.empty()) return;
-        const JsonNode* where = node.find("id");
-        if (!ids.emplace(id, index).second && where)
-            diagnostics_.error(where->where, fmt::format("there already is {} `{}`", kind, id),
-                               "ids have to differ");
-    }
-
     void readRoad(const JsonNode& node) {
         Road road;
         road.where = node.where;
@@ -199,7 +190,7 @@ class Reader {
         reader.boolean("one_way", road.one_way);
         road.level = levels_.levelOf(reader);
         reader.finish();
-        claimId(node, road.id, roads_, layout_.roads.size(), "a road");
+        claimId(node, road.id, roads_, layout_.roads.size(), "a road", diagnostics_);
         layout_.roads.push_back(std::move(road));
     }
 
@@ -213,7 +204,7 @@ class Reader {
         area.level = levels_.levelOf(reader);
         reader.finish();
         checkPolygon(area.polygon, node.find("polygon"), diagnostics_);
-        claimId(node, area.id, areas_, layout_.areas.size(), "an area");
+        claimId(node, area.id, areas_, layout_.areas.size(), "an area", diagnostics_);
         layout_.areas.push_back(std::move(area));
     }
 
@@ -237,7 +228,7 @@ class Reader {
         wall.level = levels_.levelOf(reader);
         reader.finish();
         if (wall.closed) mendObstacle(wall, node.find("points"));
-        claimId(node, wall.id, walls_, layout_.walls.size(), "a wall");
+        claimId(node, wall.id, walls_, layout_.walls.size(), "a wall", diagnostics_);
         layout_.walls.push_back(std::move(wall));
     }
 
@@ -330,7 +321,7 @@ class Reader {
         flow.people = readPeople(reader, diagnostics_);
         readArrival(reader, flow.arrival);
         reader.finish();
-        claimId(node, flow.id, groups_, layout_.flows.size(), "a flow or formation");
+        claimId(node, flow.id, groups_, layout_.flows.size(), "a flow or formation", diagnostics_);
         if (!from_place || !destination) return;
         flow.from = *from_place;
         flow.to = *destination;
@@ -483,7 +474,7 @@ class Reader {
         reader.number("goal_tolerance", formation.goal_tolerance);
         formation.level = levels_.levelOf(reader);
         if (type) reader.finish();
-        claimId(node, formation.id, groups_, std::string::npos, "a flow or formation");
+        claimId(node, formation.id, groups_, std::string::npos, "a flow or formation", diagnostics_);
         layout_.formations.push_back(std::move(formation));
     }
 

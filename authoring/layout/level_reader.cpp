@@ -26,9 +26,7 @@ void LevelReader::readLevel(const JsonNode& node) {
     level.floor = reader.points("floor");
     reader.finish();
     checkPolygon(level.floor, node.find("floor"), diagnostics_);
-    if (!level.id.empty() && !levels_.emplace(level.id, layout_.levels.size()).second)
-        diagnostics_.error(node.find("id")->where, fmt::format("there already is a level `{}`", level.id),
-                           "ids have to differ");
+    claimId(node, level.id, levels_, layout_.levels.size(), "a level", diagnostics_);
     layout_.levels.push_back(std::move(level));
 }
 
@@ -68,9 +66,7 @@ void LevelReader::readLink(const JsonNode& node) {
     if (path.size() > 2)
         diagnostics_.error(node.find("path")->where, "a link is straight: `path` is two points",
                            "for stairs with a landing write two links, and a level for the landing");
-    if (!link.id.empty() && !links_.emplace(link.id, layout_.links.size()).second)
-        diagnostics_.error(node.find("id")->where, fmt::format("there already is a link `{}`", link.id),
-                           "ids have to differ");
+    claimId(node, link.id, links_, layout_.links.size(), "a link", diagnostics_);
     if (path.size() != 2 || !from || !to || diagnostics_.hasErrors()) return;
     link.begin = path[0];
     link.end = path[1];

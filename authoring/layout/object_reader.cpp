@@ -43,6 +43,15 @@ std::optional<double> numberOf(const JsonNode& node, Limits limits, Diagnostics&
     return node.number;
 }
 
+void claimId(const JsonNode& node, const std::string& id, std::map<std::string, std::size_t>& ids,
+             std::size_t index, const char* kind, Diagnostics& diagnostics) {
+    if (id.empty()) return;
+    const JsonNode* where = node.find("id");
+    if (!ids.emplace(id, index).second && where)
+        diagnostics.error(where->where, fmt::format("there already is {} `{}`", kind, id),
+                          "ids have to differ");
+}
+
 ObjectReader::ObjectReader(const JsonNode& node, SchemaRule rule, std::string what, Diagnostics& diagnostics)
     : node_(node),
       rule_(rule),

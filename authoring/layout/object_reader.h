@@ -3,6 +3,7 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,6 +22,11 @@ using Meanings = std::vector<std::pair<std::string_view, Value>>;
 
 /// A number within its limits; anything else is an error.
 std::optional<double> numberOf(const JsonNode& node, Limits limits, Diagnostics& diagnostics);
+
+/// Keeps under which index an object is found by its id; tells of one that is taken already.
+/// @param kind "a road", for messages
+void claimId(const JsonNode& node, const std::string& id, std::map<std::string, std::size_t>& ids,
+             std::size_t index, const char* kind, Diagnostics& diagnostics);
 
 /// Reads the members of one object, telling every mistake and going on. What a member has to be like is what
 /// the schema says of its key. A value that is handed in to be read is what holds where nothing is written:

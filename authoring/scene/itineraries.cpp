@@ -55,7 +55,6 @@ Itineraries::Spread::Spread(LocalPolygon outline, const WalkGeometry& geometry, 
 
 std::optional<glm::vec2> Itineraries::Spread::next() {
     constexpr int kTries = 16'384;
-    constexpr float kPerMetre = 65'536.0f;
     const Box box = boundsOf(outline_, 0.0f);
     for (int i = 1; i <= kTries; ++i) {
         if (i % 512 == 0) inset_ *= 0.5f;
@@ -63,7 +62,7 @@ std::optional<glm::vec2> Itineraries::Spread::next() {
         y_ = std::fmod(y_ + 0.5698402909980532, 1.0);
         glm::vec2 within =
             (box.upper - box.lower) * glm::vec2(static_cast<float>(x_), static_cast<float>(y_));
-        if (geometry_->charts) within = glm::round(within * kPerMetre) / kPerMetre;  // the same on all charts
+        if (geometry_->charts) within = snapped(within);
         const glm::vec2 point = box.lower + within;
         if (insidePolygon(outline_, point) && edgeDistance(outline_, point) >= inset_ &&
             wallDepth(*geometry_, point, clearance_) <= 0.0f)

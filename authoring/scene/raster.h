@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <span>
@@ -70,6 +71,12 @@ void visitAlong(const FieldGrid& grid, glm::vec2 a, glm::vec2 b, float reach, Vi
         for (std::uint32_t x = column(grid, std::min(from, to) - reach - hair); x <= end; ++x)
             visit(y * grid.width + x, cellCentre(grid, x, y));
     }
+}
+
+/// What is added to a place in the plane of charts, the same in every part of it (shaders/shared/snap.glsl).
+inline glm::vec2 snapped(glm::vec2 way) {
+    constexpr float kPerMetre = 65'536.0f;
+    return glm::round(way * kPerMetre) / kPerMetre;
 }
 
 inline glm::vec2 nearestOnSegment(glm::vec2 point, glm::vec2 a, glm::vec2 b) {

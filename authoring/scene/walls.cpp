@@ -111,7 +111,6 @@ void tilesOf(const gpu::WallSegment& segment, std::uint32_t index, float spacing
 
 std::vector<gpu::WallTile> wallTiles(const std::vector<gpu::WallSegment>& segments, float spacing,
                                      float tile_radius, bool on_charts) {
-    constexpr float kPerMetre = 65'536.0f;
     std::vector<gpu::WallTile> tiles;
     for (std::uint32_t index = 0; index < segments.size(); ++index) {
         gpu::WallSegment segment = segments[index];
@@ -121,7 +120,7 @@ std::vector<gpu::WallTile> wallTiles(const std::vector<gpu::WallSegment>& segmen
         const std::size_t first = tiles.size();
         tilesOf(segment, index, spacing, tile_radius, tiles);
         for (std::size_t tile = first; on_charts && tile < tiles.size(); ++tile)
-            tiles[tile].position = corner + glm::round(tiles[tile].position * kPerMetre) / kPerMetre;
+            tiles[tile].position = corner + snapped(tiles[tile].position);
     }
     removeRepeated(tiles);
     return tiles;

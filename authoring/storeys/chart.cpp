@@ -9,14 +9,10 @@
 #include <optional>
 #include <utility>
 
+#include "base/polygon.h"
+
 namespace throng::authoring {
 namespace {
-
-/// A point's abscissa on an edge at some height, whichever way the edge runs.
-double crossingOf(glm::dvec2 a, glm::dvec2 b, double y) {
-    if (a.y > b.y) std::swap(a, b);
-    return a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
-}
 
 Chart floorChart(const Level& level, std::size_t index) {
     Chart chart;
@@ -83,15 +79,6 @@ glm::dvec2 Footprint::at(double forward, double aside) const {
 
 std::vector<glm::dvec2> Footprint::outline(double from, double to) const {
     return {at(from, -half_width), at(to, -half_width), at(to, half_width), at(from, half_width)};
-}
-
-bool isWithin(const std::vector<glm::dvec2>& polygon, glm::dvec2 point) {
-    bool inside = false;
-    for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-        const glm::dvec2 a = polygon[i], b = polygon[j];
-        if ((a.y > point.y) != (b.y > point.y) && point.x < crossingOf(a, b, point.y)) inside = !inside;
-    }
-    return inside;
 }
 
 bool Chart::contains(glm::dvec2 home) const {

@@ -50,9 +50,6 @@ struct Chart {
     std::pair<glm::dvec2, glm::dvec2> bounds() const;
 };
 
-/// Even-odd rule; two polygons with a common edge never share a point beside it, nor leave one out.
-bool isWithin(const std::vector<glm::dvec2>& polygon, glm::dvec2 point);
-
 /// Whether one walks from a point of one chart to a point beside it of another.
 bool areJoined(const Chart& a, std::size_t a_index, glm::dvec2 in_a, const Chart& b, std::size_t b_index,
                glm::dvec2 in_b);

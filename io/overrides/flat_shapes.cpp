@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "base/polygon.h"
+
 namespace throng::io {
 namespace {
 
@@ -18,18 +20,8 @@ double distanceTo(glm::dvec2 a, glm::dvec2 b, glm::dvec2 place) {
 
 }  // namespace
 
-bool isInside(std::span<const glm::dvec2> polygon, glm::dvec2 place) {
-    bool inside = false;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const glm::dvec2 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-        if ((a.y > place.y) == (b.y > place.y)) continue;
-        if (place.x < a.x + (place.y - a.y) / (b.y - a.y) * (b.x - a.x)) inside = !inside;
-    }
-    return inside;
-}
-
 double distanceToWall(const authoring::Wall& wall, glm::dvec2 place) {
-    if (wall.closed && isInside(wall.points, place)) return 0.0;
+    if (wall.closed && isWithin(wall.points, place)) return 0.0;
     double least = std::numeric_limits<double>::max();
     const std::size_t pieces = wall.closed ? wall.points.size() : wall.points.size() - 1;
     for (std::size_t i = 0; i < pieces; ++i)

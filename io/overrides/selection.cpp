@@ -10,6 +10,7 @@
 #include <set>
 
 #include "base/plane_grid.h"
+#include "base/polygon.h"
 #include "base/random.h"
 #include "io/overrides/camera_view.h"
 #include "io/overrides/flat_shapes.h"
@@ -144,7 +145,7 @@ std::vector<bool> Selection::meant(const authoring::Region& region) {
     for (glm::dvec2& point : polygon)
         point -= crowd_.bake().origin;
     return whoEver(region.frames, [&](std::uint32_t, std::uint32_t, glm::dvec3 place) {
-        return isInside(polygon, glm::dvec2(place));
+        return isWithin(polygon, glm::dvec2(place));
     });
 }
 

@@ -6,8 +6,7 @@ layout(local_size_x = AGENT_GROUP_SIZE) in;
 layout(std430) readonly buffer LiveDispatch { uint live_groups[3]; uint live_count; };
 layout(std430) readonly buffer RowSlots { uint row_slots[]; };
 
-layout(std430) readonly buffer SlotImages { SlotImage slot_images[]; };
-
+#include "shaders/charts/slot_images.glsl"
 #include "shaders/shared/images.glsl"
 
 #ifdef FOLLOW_BODIES
@@ -37,9 +36,8 @@ TARGET shifted(TARGET target, vec2 shift) {
 
 void main() {
     uint slot = gl_GlobalInvocationID.x;
-    if (slot >= live_count) return;
+    if (slot >= live_count || !holdsImage(slot)) return;
     SlotImage image = slot_images[slot];
-    if (image.person == NO_INDEX) return;
     uint person = row_slots[image.person];
 #ifdef FOLLOW_BODIES
     Body body = bodies[person];

@@ -16,9 +16,7 @@
 
 #include "shaders/sensing/neighbour_list.glsl"
 #include "shaders/diagram/owners.glsl"
-#ifdef CHARTS
-layout(std430) readonly buffer SlotImages { SlotImage slot_images[]; };
-#endif
+#include "shaders/charts/slot_images.glsl"
 
 layout(std430) readonly buffer WallTiles { WallTile wall_tiles[]; };
 uniform vec2 pattern[SENSING_SAMPLES];  // m, in the person's own frame: where it looks
@@ -61,10 +59,7 @@ void weighBody(Body self, uint slot) {
 
 void main() {
     uint slot = gl_GlobalInvocationID.x;
-    if (slot >= live_count) return;
-#ifdef CHARTS
-    if (slot_images[slot].person != NO_INDEX) return;
-#endif
+    if (slot >= live_count || holdsImage(slot)) return;
     Body self = bodies[slot];
     forgetEverybody();
     uint touch_word = feelContacts(self, slot);

@@ -5,9 +5,7 @@
 #include "shaders/shared/simulation_types.h"
 
 #include "shaders/sensing/neighbour_list.glsl"
-#ifdef CHARTS
-layout(std430) readonly buffer SlotImages { SlotImage slot_images[]; };
-#endif
+#include "shaders/charts/slot_images.glsl"
 
 #ifdef EVERYBODY
 uniform uint wall_count;
@@ -63,10 +61,7 @@ void weighSlots(Body self, vec2 forward, uint first, uint last) {
 
 void main() {
     uint slot = gl_GlobalInvocationID.x;
-    if (slot >= live_count) return;
-#ifdef CHARTS
-    if (slot_images[slot].person != NO_INDEX) return;
-#endif
+    if (slot >= live_count || holdsImage(slot)) return;
     Body self = bodies[slot];
     forgetEverybody();
     uint touch_word = feelContacts(self, slot);

@@ -12,6 +12,7 @@ from mathutils import Matrix
 addon, bake, folder = sys.argv[-3:]
 sys.path[:0] = [addon, os.path.dirname(os.path.abspath(__file__))]
 import throng  # noqa: E402
+from asking import refused  # noqa: E402
 from pose_names import Names  # noqa: E402
 from throng.cast import library, poses_of_build, sheets  # noqa: E402
 from throng.crowd.queries import cast_of, crowd_objects, figure, repertoire_of  # noqa: E402
@@ -28,14 +29,6 @@ scene, result = bpy.context.scene, {}
 def load():
     return bpy.ops.import_scene.throng(filepath=os.path.join(bake, "bake.json"), scenery=False, walls=False,
                                        roads=False, relative=False, people=PEOPLE, bend=False)
-
-
-def refused(call, **arguments):
-    try:
-        call(**arguments)
-        return "no error"
-    except RuntimeError as error:
-        return str(error)
 
 
 def shown():

@@ -12,6 +12,7 @@ from mathutils import Matrix
 addon, folder = sys.argv[-2:]
 sys.path[:0] = [addon, os.path.dirname(os.path.abspath(__file__))]
 import throng  # noqa: E402
+from asking import refused  # noqa: E402
 from throng.crowd.queries import bake_path, crowd_objects  # noqa: E402
 from throng.crowd.verify import verify  # noqa: E402
 from throng.layers import applying, scene_values  # noqa: E402
@@ -35,14 +36,6 @@ def people(of):
     graph = bpy.context.evaluated_depsgraph_get()
     return {i.persistent_id[1]: [round(v, 4) for v in i.matrix_world.translation[:2]] for i in graph.object_instances
             if i.is_instance and i.parent and i.parent.original == of}
-
-
-def refused(call, **arguments):
-    try:
-        call(**arguments)
-        return "no error"
-    except RuntimeError as error:
-        return str(error)
 
 
 def whom(index=-1):

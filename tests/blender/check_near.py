@@ -10,6 +10,7 @@ import numpy
 addon, bake, folder = sys.argv[-3:]
 sys.path[:0] = [addon, os.path.dirname(os.path.abspath(__file__))]
 import throng  # noqa: E402
+from asking import refused  # noqa: E402
 from throng.cast import library, sheets  # noqa: E402
 from throng.crowd import own, poses  # noqa: E402
 from throng.crowd.names import INSTANCERS  # noqa: E402
@@ -29,14 +30,6 @@ pos, way, state = (numpy.load(os.path.join(bake, "streams", f"{name}.npy")) for 
 def load(**options):
     return bpy.ops.import_scene.throng(filepath=os.path.join(bake, "bake.json"), scenery=False, walls=False,
                                        roads=False, relative=False, people=len(PEOPLE), **options)
-
-
-def refused(call, **arguments):
-    try:
-        call(**arguments)
-        return "no error"
-    except RuntimeError as error:
-        return str(error)
 
 
 def bent(crowd, frame=FRAME, values="position"):

@@ -12,6 +12,7 @@ import bpy
 addon, folder = sys.argv[-2:]
 sys.path[:0] = [addon, os.path.dirname(os.path.abspath(__file__))]
 import throng  # noqa: E402
+from asking import refused  # noqa: E402
 from throng.cast import gait, people as cast_people  # noqa: E402
 from pose_names import Names  # noqa: E402
 from throng.crowd.queries import crowd_objects, figure  # noqa: E402
@@ -46,14 +47,6 @@ def shots(of=None):
         scene.frame_set(frame)
         shown[frame] = people(of)
     return shown
-
-
-def refused(call, **arguments):
-    try:
-        call(**arguments)
-        return "no error"
-    except RuntimeError as error:
-        return str(error)
 
 
 result["before"] = shots()
