@@ -13,6 +13,7 @@
 #include "cli/bench_report.h"
 #include "cli/commands.h"
 #include "cli/terminal/say.h"
+#include "sim/benchmarks/launch_benchmark.h"
 #include "sim/gl/context.h"
 #include "sim/gl/timer.h"
 
@@ -202,6 +203,76 @@ void addStep(CLI::App& bench) {
     command->callback([options] { runStep(*options); });
 }
 
+struct LaunchOptions {
+    std::uint32_t people = 16384;
+    std::string proximity = "voronoi";
+    int steps = 48;
+    int device = -1;
+    bool json = false;
+};
+
+nlohmann::ordered_json toJson(const sim::LaunchTimes& times, const LaunchOptions& options,
+                              const gl::Device& device) {
+    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+    for (const sim::LaunchTime& row : times.rows)
+        rows.push_back({{"pass", row.pass},
+                        {"what", row.what},
+                        {"launches", row.launches},
+                        {"step_ms", row.step_ms},
+                        {"bytes_per_person", row.bytes}});
+    return {{"device", device.name},    {"people", options.people},     {"proximity", options.proximity},
+            {"step_ms", times.step_ms}, {"asking_ms", times.asking_ms}, {"launches", rows}};
+}
+
+void print(const sim::LaunchTimes& times, const LaunchOptions& options, const gl::Device& device) {
+    fmt::print("{} people, {}: {:.4f} ms a step ({:.0f} steps/s), of which asking for it takes {:.4f}\n",
+               options.people, device.name, times.step_ms, 1000.0 / times.step_ms, times.asking_ms);
+    fmt::print("{:<10} {:<48} {:>8} {:>9} {:>9} {:>8}\n", "pass", "program or transfer", "launches",
+               "us each", "us a step", "GB/s");
+    double launches = 0.0, sum = 0.0;
+    for (const sim::LaunchTime& row : times.rows) {
+        const double each_us = 1000.0 * row.step_ms / row.launches;
+        const double rate = static_cast<double>(row.bytes) * options.people / each_us * 1.0e-3;
+        fmt::print("{:<10} {:<48} {:>8.3f} {:>9.2f} {:>9.2f} {:>8.1f}\n", row.pass, row.what, row.launches,
+                   each_us, 1000.0 * row.step_ms, rate);
+        launches += row.launches;
+        sum += 1000.0 * row.step_ms;
+    }
+    fmt::print("{:<10} {:<48} {:>8.3f} {:>9} {:>9.2f}\n", "a step", "", launches, "", sum);
+}
+
+void runLaunches(const LaunchOptions& options) {
+    const gl::Context context({options.device, false});
+    authoring::Scene scene = sim::ProximityBenchmark{}.crowd(options.people);
+    scene.settings.proximity =
+        options.proximity == "grid" ? authoring::Proximity::grid : authoring::Proximity::voronoi;
+    sim::Simulation simulation(scene, gl::ShaderLibrary(), costsFor(context.device()));
+    const sim::LaunchTimes times = sim::timeLaunches(simulation, context.device().software, options.steps);
+    context.check("timing launches");
+    if (options.json)
+        sayJson(toJson(times, options, context.device()));
+    else
+        print(times, options, context.device());
+}
+
+void addLaunches(CLI::App& bench) {
+    CLI::App* command = bench.add_subcommand(
+        "launches", "Where the time of a step goes: every program and transfer on the device's own clock");
+    auto options = std::make_shared<LaunchOptions>();
+    command->add_option("--people", options->people, "One per 4 m^2, on their way to random goals")
+        ->check(CLI::Range(1, 4'000'000))
+        ->capture_default_str();
+    command->add_option("--proximity", options->proximity, "What finds neighbours")
+        ->check(CLI::IsMember({"voronoi", "grid"}))
+        ->capture_default_str();
+    command->add_option("--steps", options->steps, "How many steps are timed")
+        ->check(CLI::Range(1, 10000))
+        ->capture_default_str();
+    command->add_option("--device", options->device, "Run on this device (`throng devices` lists them)");
+    command->add_flag("--json", options->json, "Print a JSON document");
+    command->callback([options] { runLaunches(*options); });
+}
+
 CLI::App* addKind(CLI::App& bench, const char* name, const char* what, void (*run)(const Options&)) {
     CLI::App* command = bench.add_subcommand(name, what);
     auto options = std::make_shared<Options>();
@@ -226,6 +297,7 @@ void addBench(CLI::App& app) {
     addKind(*bench, "proximity", "Finding neighbours by the diagram, by a grid, and by comparing everybody",
             runProximity);
     addStep(*bench);
+    addLaunches(*bench);
     bench->footer("Example:\n  throng bench diagrams -o bench");
 }
 

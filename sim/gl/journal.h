@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -35,7 +36,14 @@ struct Command {
 /// most one is kept at a time.
 class Journal {
   public:
-    Journal();
+    /// What is kept beside the commands.
+    enum class Times {
+        none,
+        of_device,  ///< the device's clock is read before each command; nothing waits
+        of_wall,    ///< each command is waited for: software renderers have no clock of their own
+    };
+
+    explicit Journal(Times times = Times::none);
     ~Journal();
     Journal(const Journal&) = delete;
     Journal& operator=(const Journal&) = delete;
@@ -43,6 +51,8 @@ class Journal {
     /// Commands that follow belong to this pass.
     void beginPass(const std::string& pass) { pass_ = pass; }
     const std::vector<Command>& commands() const { return commands_; }
+    /// Waits for the device. @returns ms that each command took, until the next one began; needs Times
+    std::vector<double> milliseconds();
 
     /// The one that is being kept, or null.
     static Journal* kept();
@@ -51,8 +61,13 @@ class Journal {
     void noteAlso(const Touch& touch);
 
   private:
+    void readClock();
+
+    Times times_;
     std::string pass_;
     std::vector<Command> commands_;
+    std::vector<std::uint32_t> queries_;  ///< of the device's clock, one a command
+    std::vector<double> wall_;            ///< ms, one a command
 };
 
 }  // namespace throng::gl
