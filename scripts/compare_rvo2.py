@@ -1,26 +1,18 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Times whole steps of Throng and of RVO2 (pyrvo) in turn, over the same crowd, and prints tables.
+"""Times whole steps of Throng and of RVO2 in turn, over the same crowd, and prints tables.
 
-Usage: compare_rvo2.py THRONG [--people 4096 16384 ...] [--rounds 15]   (needs pyrvo; `scripts/figures rvo2` runs it)
+RVO2 is built from source with -O3 and OpenMP (scripts/rvo2_peer.py) and uses all threads.
+
+Usage: compare_rvo2.py THRONG RVO2_STEP [--people 4096 16384 ...] [--rounds 15]   (`scripts/figures rvo2` runs it)
 """
 import argparse
-import csv
 import os
 import statistics
 import subprocess
 import tempfile
-import time
 
-import pyrvo
-
-STEP = 1.0 / 30.0     # s
-SIGHT = 3.3           # m: what Throng's rays reach (body radius 0.3 m, six samples 0.6 m apart)
-NEIGHBOURS = 10
-HORIZON = 2.0         # s
-
-
-def memory_kib(process="self", key="VmRSS"):
+def memory_kib(process, key="VmRSS"):
     with open(f"/proc/{process}/status") as file:
         return int(next(line for line in file if line.startswith(key)).split()[1])
 
@@ -48,41 +40,19 @@ class Throng:
 
 
 class Rvo2:
-    """The reference library; everybody keeps the velocity it prefers at first, so that setting it is not timed."""
+    """`rvo2_step`: the reference library as those who use it from C++ build it, on all threads."""
 
-    def __init__(self, crowd):
-        before = memory_kib()
-        self.simulator = pyrvo.RVOSimulator(STEP, SIGHT, NEIGHBOURS, HORIZON, HORIZON, 0.3, 2.0)
-        with open(crowd, newline="") as file:
-            for row, person in enumerate(csv.DictReader(file)):
-                x, y = float(person["x"]), float(person["y"])
-                away = (float(person["goal_x"]) - x, float(person["goal_y"]) - y)
-                size = max((away[0] ** 2 + away[1] ** 2) ** 0.5, 1e-6)
-                speed = float(person["speed"])
-                self.simulator.add_agent((x, y))
-                self.simulator.set_agent_max_speed(row, 1.5 * speed)
-                self.simulator.set_agent_pref_velocity(row, (away[0] / size * speed, away[1] / size * speed))
-        self.simulator.do_step()
-        self.kib = memory_kib() - before
+    def __init__(self, program, crowd):
+        self.process = subprocess.Popen([program, crowd], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        self.threads = int(self.process.stdout.readline().split()[0])
 
-    def step(self):
-        start = time.perf_counter()
-        self.simulator.do_step()
-        return 1000.0 * (time.perf_counter() - start)
+    step, memory_kib, close = Throng.step, Throng.memory_kib, Throng.close
 
 
-def threads_while(simulator):
-    """How many threads this process has once the library has stepped."""
-    simulator.do_step()
-    with open("/proc/self/status") as file:
-        return int(next(line for line in file if line.startswith("Threads")).split()[1])
-
-
-def compare(program, people, rounds, folder):
+def compare(program, peer, people, rounds, folder):
     crowd = os.path.join(folder, f"crowd-{people}.csv")
     contestants = {"diagram": Throng(program, people, "voronoi", crowd), "grid": Throng(program, people, "grid")}
-    memory = {name: 0 for name in contestants}
-    contestants["RVO2"] = Rvo2(crowd)
+    contestants["RVO2"] = Rvo2(peer, crowd)
     for _ in range(2):
         for contestant in contestants.values():
             contestant.step()
@@ -90,12 +60,10 @@ def compare(program, people, rounds, folder):
     for _ in range(rounds):
         for name, contestant in contestants.items():
             times[name].append(contestant.step())
-    for name in memory:
-        memory[name] = contestants[name].memory_kib()
-    memory["RVO2"] = contestants["RVO2"].kib
-    device, threads = contestants["diagram"].device, threads_while(contestants["RVO2"].simulator)
-    for name in ("diagram", "grid"):
-        contestants[name].close()
+    memory = {name: contestant.memory_kib() for name, contestant in contestants.items()}
+    device, threads = contestants["diagram"].device, contestants["RVO2"].threads
+    for contestant in contestants.values():
+        contestant.close()
     return {"people": people, "device": device, "threads": threads, "memory": memory,
             "ms": {name: statistics.median(values) for name, values in times.items()}}
 
@@ -140,29 +108,31 @@ def table(results, base_memory):
     for r in results:
         ms, n = r["ms"], r["people"]
         each = [f"{1000 * ms[k] / n:.3f}" for k in ("diagram", "grid", "RVO2")]
-        kib = [f"{(r['memory'][k] - base_memory[k]) / n:.2f}" for k in ("diagram", "grid")]
-        kib.append(f"{r['memory']['RVO2'] / n:.2f}")
+        kib = [f"{(r['memory'][k] - base_memory[k]) / n:.2f}" for k in ("diagram", "grid", "RVO2")]
         whole = [f"{ms[k]:.2f}" for k in ("diagram", "grid", "RVO2")]
         ratios = [f"{ms[k] / ms['RVO2']:.2f}" for k in ("diagram", "grid")]
         lines.append(f"| {n:,} | " + " | ".join(whole + ratios + each + kib) + " |")
     return "\n".join(lines)
 
 
-def base_memory_of(program):
-    """What the program needs for one person: driver and shaders, kept out of the memory a person."""
+def base_memory_of(program, peer):
+    """What the programs need for one person: driver, shaders and threads, kept out of the memory a person."""
     base = {}
-    for name, proximity in (("diagram", "voronoi"), ("grid", "grid")):
-        throng = Throng(program, 1, proximity)
-        throng.step()
-        base[name] = throng.memory_kib()
-        throng.close()
+    with tempfile.TemporaryDirectory() as folder:
+        crowd = os.path.join(folder, "one.csv")
+        contestants = {"diagram": Throng(program, 1, "voronoi", crowd), "grid": Throng(program, 1, "grid")}
+        contestants["RVO2"] = Rvo2(peer, crowd)
+        for name, contestant in contestants.items():
+            contestant.step()
+            base[name] = contestant.memory_kib()
+            contestant.close()
     return base
 
 
 def tables(results, base_memory, flat, rounds):
     """What docs/benchmarks/llvmpipe/rvo2.md holds."""
-    version, threads = pyrvo_version(), results[0]["threads"]
-    return f"""RVO2 through pyrvo {version}, threads in its process: {threads}. Medians of {rounds} rounds, ms a step.
+    threads = results[0]["threads"]
+    return f"""RVO2 built with -O3 and OpenMP, {threads} threads. Medians of {rounds} rounds, ms a step.
 
 {table(results, base_memory)}
 
@@ -174,20 +144,17 @@ def tables(results, base_memory, flat, rounds):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
+    parser.add_argument("peer")
     parser.add_argument("--people", type=int, nargs="+", default=[4096, 16384, 65536, 262144, 1048576])
     parser.add_argument("--rounds", type=int, default=15)
     options = parser.parse_args()
-    base_memory_of(options.program)  # fills the driver's cache of shaders: compiling takes memory, too
+    base_memory_of(options.program, options.peer)  # fills the driver's cache of shaders: compiling takes memory, too
     with tempfile.TemporaryDirectory() as folder:
-        results = [compare(options.program, people, options.rounds, folder) for people in options.people]
+        results = [compare(options.program, options.peer, people, options.rounds, folder)
+                   for people in options.people]
     large = [people for people in options.people if people >= 16384] or options.people[:1]
     flat = flatness(options.program, large, options.rounds)
-    print(tables(results, base_memory_of(options.program), flat, options.rounds))
-
-
-def pyrvo_version():
-    from importlib.metadata import version
-    return version("pyrvo")
+    print(tables(results, base_memory_of(options.program, options.peer), flat, options.rounds))
 
 
 if __name__ == "__main__":

@@ -56,7 +56,7 @@ void CellSort::run(SiteIds ids) {
     scan_.dispatch(scan_threads_);
     fill_.dispatchIndirect(buffers_.fill_dispatch);
     scatter_.dispatch(rows_);
-    gather_.dispatchIndirect(buffers_.live_dispatch);
+    gather_.dispatchUpTo(buffers_.slotCapacity(), buffers_.live_dispatch);
 }
 
 }  // namespace throng::sim

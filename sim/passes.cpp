@@ -120,14 +120,14 @@ Avoidance::Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, int nei
 
 void Avoidance::run(std::uint32_t steps_done) {
     steer_.setIfUsed("steps_done", steps_done);
-    steer_.dispatchIndirect(buffers_.live_dispatch);
+    steer_.dispatchUpTo(buffers_.slotCapacity(), buffers_.live_dispatch);
     if (seams_) seams_->takeAlong(Seams::After::steering);
-    avoid_.dispatchIndirect(buffers_.live_dispatch);
+    avoid_.dispatchUpTo(buffers_.slotCapacity(), buffers_.live_dispatch);
     if (seams_) seams_->takeAlong(Seams::After::avoiding);
 }
 
 void Avoidance::carryOn() {
-    carry_on_.dispatchIndirect(buffers_.live_dispatch);
+    carry_on_.dispatchUpTo(buffers_.slotCapacity(), buffers_.live_dispatch);
     if (seams_) seams_->takeAlong(Seams::After::carrying_on);
 }
 
@@ -167,7 +167,7 @@ void Contacts::run() {
         gl::ComputeProgram& round = iteration % 2 ? back_ : forth_;
         round.set("momentum", momentum);
         round.setIfUsed("bracing", iteration < braced_ ? 1.0f : 0.0f);
-        round.dispatchIndirect(buffers_.touch_dispatch);
+        round.dispatchUpTo(buffers_.slotCapacity(), buffers_.touch_dispatch);
         if (seams_) seams_->takeAlong(iteration % 2 ? Seams::After::round_back : Seams::After::round_forth);
     }
 }
@@ -180,7 +180,7 @@ Motion::Motion(const gl::ShaderLibrary& library, Buffers& buffers, const gl::Buf
 
 void Motion::run(std::uint32_t steps_done) {
     program_.set("steps_done", steps_done);
-    program_.dispatchIndirect(buffers_.live_dispatch);
+    program_.dispatchUpTo(buffers_.slotCapacity(), buffers_.live_dispatch);
 }
 
 }  // namespace throng::sim

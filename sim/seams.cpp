@@ -48,7 +48,7 @@ void Seams::cross() {
 }
 
 void Seams::takeAlong(After pass) {
-    follow_[static_cast<std::size_t>(pass)].dispatchIndirect(buffers_.live_dispatch);
+    follow_[static_cast<std::size_t>(pass)].dispatchUpTo(buffers_.slotCapacity(), buffers_.live_dispatch);
 }
 
 }  // namespace throng::sim

@@ -10,7 +10,7 @@ const gl::Declaration kMarch = {
     "sensing",
     {"shaders/sensing/sense.comp"},
     {"ParametersBlock", "LiveDispatch", "SlotImages", "Bodies", "StripStarts", "CellOffsets", "WallSegments",
-     "WallStarts", "NarrowCells", "WallTiles", "owners", "page_table", "TouchDispatch"},
+     "WallStarts", "NarrowCells", "WallTiles", "owners", "page_table", "SensingPattern", "TouchDispatch"},
     {"Neighbours", "NeighbourCounts", "TouchWords", "TouchLists", "TouchSlots", "TouchDispatch"}};
 const gl::Declaration kCompare = {
     "sensing",
@@ -34,7 +34,9 @@ Sensing::Sensing(const gl::ShaderLibrary& library, Buffers& buffers, const Diagr
 
 void Sensing::marchRays(const gl::ShaderLibrary& library, const Diagram& diagram,
                         const SensingOptions& options) {
-    const std::vector<glm::vec2> pattern = thinnedPattern(options.geometry, options.felt_range);
+    std::vector<glm::vec2> pattern = thinnedPattern(options.geometry, options.felt_range);
+    // Elements hold two samples: one that comes twice shows nobody new.
+    if (pattern.size() % 2 != 0) pattern.push_back(pattern.back());
     gl::Definitions definitions = {{"NEIGHBOURS", std::to_string(options.neighbours)}};
     if (buffers_.hasCharts()) definitions.emplace_back("CHARTS", "1");
     definitions.emplace_back("SENSING_SAMPLES", std::to_string(pattern.size()));
@@ -42,7 +44,8 @@ void Sensing::marchRays(const gl::ShaderLibrary& library, const Diagram& diagram
         definitions.push_back(definition);
     program_ = buffers_.connect(library, kMarch, definitions);
     diagram.describeTo(program_);
-    program_.set("pattern", pattern);
+    pattern_ = gl::makeBuffer("sensing pattern", pattern);
+    program_.bind("SensingPattern", pattern_);
 }
 
 void Sensing::compareExactly(const gl::ShaderLibrary& library, const SensingOptions& options,
@@ -67,7 +70,7 @@ void Sensing::compareExactly(const gl::ShaderLibrary& library, const SensingOpti
 }
 
 void Sensing::run() {
-    program_.dispatchIndirect(buffers_.live_dispatch);
+    program_.dispatchUpTo(buffers_.slotCapacity(), buffers_.live_dispatch);
 }
 
 }  // namespace throng::sim

@@ -32,6 +32,7 @@ class Sensing {
 
     Buffers& buffers_;
     authoring::Proximity proximity_;
+    gl::Buffer pattern_;  ///< where people look: what rays are marched with
     gl::Buffer far_wall_starts_, far_wall_items_;
     gl::ComputeProgram program_;
 };

@@ -119,7 +119,8 @@ std::optional<sim::CostModel> loadCalibration(const gl::Device& device) {
 }
 
 sim::CostModel costsFor(const gl::Device& device) {
-    return loadCalibration(device).value_or(sim::CostModel::builtIn());
+    return loadCalibration(device).value_or(device.software ? sim::CostModel::builtIn()
+                                                            : sim::CostModel::builtInOfGpu());
 }
 
 }  // namespace throng::cli

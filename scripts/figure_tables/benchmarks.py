@@ -12,6 +12,9 @@ from pages import paragraph, table
 from runs import ROOT, output_of
 
 sys.path.insert(0, str(ROOT / "scripts"))
+import compare_rvo2  # noqa: E402
+import rvo2_peer  # noqa: E402
+
 DRAWING_ALONE = "gradient1, drawing alone"
 
 
@@ -100,22 +103,20 @@ def proximity(runs):
 
 
 def rvo2(runs):
-    import compare_rvo2  # it needs pyrvo
-
     counts = [1024, 4096] if runs.quick else [4096, 16384, 65536, 262144, 1048576]
     rounds = 2 if runs.quick else 15
-    program = str(runs.program)
+    program, peer = str(runs.program), str(rvo2_peer.build(ROOT / "build" / "rvo2"))
 
     def memory():  # twice: the first fills the driver's cache of shaders, and compiling takes memory, too
-        compare_rvo2.base_memory_of(program)
-        return compare_rvo2.base_memory_of(program)
+        compare_rvo2.base_memory_of(program, peer)
+        return compare_rvo2.base_memory_of(program, peer)
 
     base = runs.known("memory of one person", memory, "base memory")
     with tempfile.TemporaryDirectory() as folder:
         found = [
             runs.known(
                 f"{people:,} people beside RVO2",
-                lambda people=people: compare_rvo2.compare(program, people, rounds, folder),
+                lambda people=people: compare_rvo2.compare(program, peer, people, rounds, folder),
                 "rvo2",
                 people,
                 rounds,

@@ -133,24 +133,18 @@ void main() {
     float reach = largest_radius + 0.01;
     uvec2 lower = binOf(corner - reach);
     uvec2 upper = binOf(corner + vec2(BLOCK_WIDTH, BLOCK_HEIGHT) + reach);
-    bool touched = false;
     for (uint line = lower.y; line <= upper.y; ++line) {
         uint bins = line * uint(bin_count.x);
         uint first = cellStart(bins + lower.x);
         uint last = cellStart(bins + upper.x + 1u);
-        touched = touched || first < last;
         for (uint i = first; i < last; ++i) offer(corner, texelFetch(binned_sites, int(i)));
 #ifdef FIXED_SITES
         first = fixed_bin_starts[bins + lower.x];
         last = fixed_bin_starts[bins + upper.x + 1u];
-        touched = touched || first < last;
         for (uint i = first; i < last; ++i) offer(corner, texelFetch(fixed_binned_sites, int(i)));
 #endif
     }
 
-#ifdef CLEARED_BEFORE
-    if (!touched) return;
-#endif
     for (uint y = 0u; y < BLOCK_HEIGHT; ++y) {
 #ifndef PAGED
         if (block_corner.y + y >= uint(diagram_size.y)) break;

@@ -19,36 +19,43 @@
 #include "shaders/charts/slot_images.glsl"
 
 layout(std430) readonly buffer WallTiles { WallTile wall_tiles[]; };
-uniform vec2 pattern[SENSING_SAMPLES];  // m, in the person's own frame: where it looks
+/// m, in the person's own frame: where it looks, two samples to an element. Uniforms of no block would not do: devices
+/// have room for as few as 512 of them.
+layout(std140) uniform SensingPattern { vec4 pattern[SENSING_SAMPLES / 2]; };
 
 /// Site ids met by the samples, without those met among the last three; at most one per sample. The samples come in the
 /// order of their angle, so what lies in one direction is met in one go and few ids come twice.
 uint candidates[SENSING_SAMPLES];
 
-int marchRays(Body self, uint self_slot) {
+int candidate_count;
+uvec3 recent;
+
+/// @param offset px, from `centre`, in the plane
+void lookAt(vec2 centre, vec2 offset, uint self_slot) {
+    vec2 upper = vec2(parameters.diagram_width, parameters.diagram_height) - 1.0;
+    vec2 pixel = centre + offset;
+#ifdef CHARTS
+    // In single precision, sums differ from one part of the plane to another.
+    pixel = floor(centre) + floor(fract(centre) + offset);
+#endif
+    uvec2 at = uvec2(clamp(pixel, vec2(0.0), upper));
+    uint owner = ownerAt(at);
+    bool fresh = owner != NO_INDEX && owner != self_slot && owner != recent.x && owner != recent.y && owner != recent.z;
+    candidates[candidate_count] = owner;
+    candidate_count += fresh ? 1 : 0;
+    recent = fresh ? uvec3(owner, recent.xy) : recent;
+}
+
+void marchRays(Body self, uint self_slot) {
     vec2 centre = (self.position - parameters.diagram_minimum) * parameters.pixels_per_metre;
     vec2 forward = vec2(cos(self.heading), sin(self.heading)) * parameters.pixels_per_metre;
-    vec2 upper = vec2(parameters.diagram_width, parameters.diagram_height) - 1.0;
-    int count = 0;
-    uvec3 recent = uvec3(self_slot);
-    for (int i = 0; i < SENSING_SAMPLES; ++i) {
-        vec2 local = pattern[i];
-        vec2 pixel = centre + vec2(forward.x * local.x - forward.y * local.y,
-                                   forward.y * local.x + forward.x * local.y);
-#ifdef CHARTS
-        // In single precision, sums differ from one part of the plane to another.
-        pixel = floor(centre) + floor(fract(centre) + vec2(forward.x * local.x - forward.y * local.y,
-                                                           forward.y * local.x + forward.x * local.y));
-#endif
-        uvec2 at = uvec2(clamp(pixel, vec2(0.0), upper));
-        uint owner = ownerAt(at);
-        bool fresh = owner != NO_INDEX && owner != self_slot && owner != recent.x && owner != recent.y &&
-                     owner != recent.z;
-        candidates[count] = owner;
-        count += fresh ? 1 : 0;
-        recent = fresh ? uvec3(owner, recent.xy) : recent;
+    candidate_count = 0;
+    recent = uvec3(self_slot);
+    for (int i = 0; i < SENSING_SAMPLES / 2; ++i) {
+        vec4 two = pattern[i];
+        lookAt(centre, vec2(forward.x * two.x - forward.y * two.y, forward.y * two.x + forward.x * two.y), self_slot);
+        lookAt(centre, vec2(forward.x * two.z - forward.y * two.w, forward.y * two.z + forward.x * two.w), self_slot);
     }
-    return count;
 }
 
 void weighBody(Body self, uint slot) {
@@ -63,8 +70,8 @@ void main() {
     Body self = bodies[slot];
     forgetEverybody();
     uint touch_word = feelContacts(self, slot);
-    int count = marchRays(self, slot);
-    for (int i = 0; i < count; ++i) {
+    marchRays(self, slot);
+    for (int i = 0; i < candidate_count; ++i) {
         uint site = candidates[i];
         if (site < parameters.site_rows)
             weighBody(self, site);

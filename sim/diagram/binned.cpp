@@ -33,7 +33,6 @@ gl::Definitions definitionsFor(const DiagramOptions& options, bool fixed_sites, 
     if (fixed_sites) definitions.emplace_back(paged ? "FIXED_SITES" : "FIXED_LAYERS", "1");
     if (paged) definitions.emplace_back("PAGED", "1");
     if (gathering == Gathering::near_people) definitions.emplace_back("LISTED", "1");
-    if (gathering == Gathering::whole) definitions.emplace_back("CLEARED_BEFORE", "1");
     const bool lines_of_fours = paged || options.width % 4 == 0;
     if (lines_of_fours && options.gather.block_width % 4 == 0) definitions.emplace_back("STORE_BY_FOUR", "1");
     return definitions;
@@ -185,11 +184,6 @@ void BinnedDiagram::build(Extent extent) {
     } else if (extent == Extent::near_people && canBuildNear()) {
         buildNear();
     } else {
-        // Blocks out of reach of all that move are not even written.
-        if (fixed_)
-            owners_.copyFrom(fixed_->owners());
-        else
-            owners_.fill(gpu::NO_INDEX);
         gather_.dispatch(blocks_);
     }
 }

@@ -80,4 +80,15 @@ CostModel CostModel::builtIn() {
     return model;
 }
 
+CostModel CostModel::builtInOfGpu() {
+    CostModel model;
+    model.device = "built in, of an NVIDIA H100";
+    model.costs = {{DiagramMethod::gradient1, {}, 0.0515, 0.2906, 3.350, 0.5053},
+                   {DiagramMethod::gradient2, {}, 0.0608, 0.2996, 3.615, 1.106},
+                   {DiagramMethod::per_site, {}, 0.0580, 0.1137, 0.0, 0.0993},
+                   {DiagramMethod::binned, {8, 4, 1.5f}, 0.0458, 0.00224, 0.2738, 0.01277},
+                   {DiagramMethod::binned, {4, 4, 2.0f}, 0.0441, 0.00080, 0.1705, 0.01813}};
+    return model;
+}
+
 }  // namespace throng::sim

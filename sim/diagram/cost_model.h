@@ -55,6 +55,8 @@ struct CostModel {
 
     /// Measured on Mesa llvmpipe, two cores: what is used where nobody has calibrated.
     static CostModel builtIn();
+    /// The same of one GPU: the gather is ahead of all else there, whatever the crowd.
+    static CostModel builtInOfGpu();
 };
 
 }  // namespace throng::sim

@@ -178,6 +178,14 @@ bool hasRealDevice() {
                        [](const Candidate& candidate) { return !candidate.software; });
 }
 
+namespace {
+thread_local bool current_is_software = false;
+}  // namespace
+
+bool Context::currentIsSoftware() {
+    return current_is_software;
+}
+
 struct Context::State {
     EGLDisplay display = EGL_NO_DISPLAY;
     EGLContext context = EGL_NO_CONTEXT;
@@ -212,6 +220,7 @@ Context::Context(const Options& options) : state_(std::make_unique<State>()) {
         state_->display = candidate.display;
         state_->context = context;
         state_->device = describe(candidate, index, true);
+        current_is_software = state_->device.software;
         break;
     }
     if (state_->context == EGL_NO_CONTEXT)

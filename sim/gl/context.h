@@ -55,6 +55,8 @@ class Context {
     Context& operator=(const Context&) = delete;
 
     const Device& device() const;
+    /// Whether what is current on this thread is a CPU renderer.
+    static bool currentIsSoftware();
 
     /// Messages of KHR_debug (errors, undefined behaviour, portability) since the context was made. Needs
     /// Options::debug.
