@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Steps a crowd by RVO2 for every line of the standard input and prints how long that took, as `throng bench step` does:
-// so both can be timed in turn. The crowd is the one that `throng bench step --crowd` writes. Everybody keeps the
-// velocity that it prefers at first, so that setting it is not timed.
+// Steps a crowd by RVO2 for every line of the standard input and prints how long that took, as `throng bench
+// step` does: so both can be timed in turn. The crowd is the one that `throng bench step --crowd` writes.
+// Everybody keeps the velocity that it prefers at first, so that setting it is not timed.
 //
 // Usage: rvo2_step CROWD.csv
 #include <omp.h>
@@ -30,12 +30,12 @@ void addAgent(RVO::RVOSimulator& simulator, std::string line) {
         if (letter == ',') letter = ' ';
     std::istringstream fields(line);
     float x, y, goal_x, goal_y, speed, radius;
-    if (!(fields >> x >> y >> goal_x >> goal_y >> speed >> radius)) throw std::runtime_error("bad line: " + line);
+    if (!(fields >> x >> y >> goal_x >> goal_y >> speed >> radius))
+        throw std::runtime_error("bad line: " + line);
     const float away_x = goal_x - x, away_y = goal_y - y;
     const float size = std::max(std::hypot(away_x, away_y), 1.0e-6f);
-    const std::size_t agent =
-        simulator.addAgent(RVO::Vector2(x, y), kSight, kNeighbours, kHorizon, kHorizon, radius, 1.5f * speed,
-                           RVO::Vector2());
+    const std::size_t agent = simulator.addAgent(RVO::Vector2(x, y), kSight, kNeighbours, kHorizon, kHorizon,
+                                                 radius, 1.5f * speed, RVO::Vector2());
     simulator.setAgentPrefVelocity(agent, RVO::Vector2(away_x / size * speed, away_y / size * speed));
 }
 
@@ -43,7 +43,8 @@ void readCrowd(RVO::RVOSimulator& simulator, const char* path) {
     std::ifstream table(path);
     std::string line;
     if (!std::getline(table, line)) throw std::runtime_error(std::string("cannot read ") + path);
-    while (std::getline(table, line)) addAgent(simulator, line);
+    while (std::getline(table, line))
+        addAgent(simulator, line);
 }
 
 }  // namespace

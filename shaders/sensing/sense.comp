@@ -27,8 +27,8 @@ layout(std140) uniform SensingPattern { vec4 pattern[SENSING_SAMPLES / 2]; };
 /// order of their angle, so what lies in one direction is met in one go and few ids come twice.
 uint candidates[SENSING_SAMPLES];
 
-int candidate_count;
-uvec3 recent;
+int candidate_count = 0;
+uvec3 recent = uvec3(NO_INDEX);  // met last
 
 /// @param offset px, from `centre`, in the plane
 void lookAt(vec2 centre, vec2 offset, uint self_slot) {

@@ -120,6 +120,20 @@ def test_benchmarks_write_markdown_and_csv(throng, tmp_path):
             assert all(float(row["recall"]) > 0.99 for row in rows)
 
 
+@pytest.mark.parametrize("way", ["voronoi", "grid"])
+def test_launches_are_those_of_the_table_of_passes(throng, way):
+    told = json.loads(throng("bench", "launches", "--people", "63", "--steps", "4", "--proximity", way, "--json").stdout)
+    launches = {row["what"]: row for row in told["launches"]}
+    assert told["people"] == 63 and 0 < told["asking_ms"] <= told["step_ms"]
+    assert all(row["step_ms"] > 0 for row in launches.values())
+    # Eight rounds of contact a step; people decide in every second one.
+    assert launches["shaders/motion/contact.comp"]["launches"] == 8
+    assert launches["shaders/motion/move.comp"]["launches"] == 1
+    assert launches["shaders/motion/avoid.comp"]["launches"] == 0.5
+    assert ("shaders/sensing/sense.comp" in launches) == (way == "voronoi")
+    assert launches["shaders/motion/move.comp"]["bytes_per_person"] > 300
+
+
 def far_apart(shift):
     """Two small crowds, the second `shift` metres away."""
     people = [{"id": f"ring{i}", "type": "circle", "centre": [x, x], "radius": 5, "count": 31} for i,

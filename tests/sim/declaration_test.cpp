@@ -148,5 +148,21 @@ TEST_F(DeclarationTest, AJournalKeepsWhatWasAskedOfTheDevice) {
     EXPECT_EQ(counts.contents()->element_bytes, 4u);
 }
 
+TEST_F(DeclarationTest, AJournalTimesEachCommandWhereItIsTold) {
+    gl::Buffer large("large", gl::Room{1 << 24, 4, "cell"}), small("small", gl::Room{4, 4, "cell"});
+    gl::Journal journal(gl::Journal::Times::of_wall);
+    large.fill(1);
+    small.fill(2);
+    const std::vector<double> times = journal.milliseconds();
+    ASSERT_EQ(times.size(), 2u);
+    EXPECT_GT(times[0], times[1]) << "64 MiB beside 16 bytes";
+    EXPECT_GE(times[1], 0.0);
+}
+
+TEST_F(DeclarationTest, AJournalWithoutAClockHasNoTimes) {
+    gl::Journal journal;
+    EXPECT_THROW(journal.milliseconds(), std::logic_error);
+}
+
 }  // namespace
 }  // namespace throng::test
