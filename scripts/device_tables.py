@@ -22,8 +22,8 @@ WAYS = {"diagram": "voronoi", "grid": "grid"}
 
 def launches(options, people, way):
     """What `throng bench launches` says; of three runs the one that is median by the time of a step."""
-    command = [options.program, "bench", "launches", "--people", str(people), "--proximity", WAYS[way], "--steps", "240",
-               "--json"]
+    command = [options.program, "bench", "launches", "--people", str(people), "--proximity", WAYS[way], "--steps",
+               "240", "--json"]
     command += ["--device", str(options.device)] if options.device >= 0 else []
     runs = [json.loads(subprocess.run(command, check=True, capture_output=True).stdout) for _ in range(3)]
     return sorted(runs, key=lambda run: run["step_ms"])[1]
@@ -104,8 +104,8 @@ def main():
 
 ## Whole steps
 
-ms a step among 240 that nothing waits between, two steps to a decision; "asking" is what the CPU needs to ask for a step
-with the diagram. RVO2: one `doStep`, built with -O3 and OpenMP, {found[COUNTS[0], 'RVO2'][1]} threads.
+ms a step among 240 that nothing waits between, two steps to a decision; "asking" is what the CPU needs to ask for a
+step with the diagram. RVO2: one `doStep`, built with -O3 and OpenMP, {found[COUNTS[0], 'RVO2'][1]} threads.
 
 {whole_steps(options, found)}
 """)

@@ -4,6 +4,8 @@
 // Everybody keeps the velocity that it prefers at first, so that setting it is not timed.
 //
 // Usage: rvo2_step CROWD.csv
+#include <RVOSimulator.h>
+#include <Vector2.h>
 #include <omp.h>
 
 #include <chrono>
@@ -13,9 +15,6 @@
 #include <iostream>
 #include <sstream>
 #include <string>
-
-#include "RVOSimulator.h"
-#include "Vector2.h"
 
 namespace {
 
