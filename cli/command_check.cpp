@@ -6,12 +6,16 @@
 
 #include "authoring/layout/layout_reader.h"
 #include "base/files/input_file.h"
+#include "base/numbers.h"
+#include "base/streams.h"
+#include "cli/baking/bake_description.h"
 #include "cli/baking/load_layout.h"
 #include "cli/batch/check_family.h"
 #include "cli/commands.h"
 #include "cli/terminal/exit_codes.h"
 #include "cli/terminal/failure.h"
 #include "cli/terminal/say.h"
+#include "io/room_on_disk.h"
 
 namespace throng::cli {
 namespace {
@@ -22,9 +26,19 @@ struct Options {
     bool json = false;
 };
 
+/// Of the streams that every bake of it has, in the forms that are written unless told.
+std::uint64_t bytesOfBake(const authoring::Scene& scene) {
+    const StreamChoice streams = streamsOf(scene.terrain != nullptr, {});
+    return io::bytesOfStreams(countOf(streams), StreamFormats::standard(), framesOf(scene.settings),
+                              scene.people.size());
+}
+
 nlohmann::ordered_json toJson(const LoadAttempt& attempt) {
     nlohmann::ordered_json result = {{"file", attempt.loaded.diagnostics.file}, {"valid", attempt.valid}};
-    if (attempt.valid) result["agents"] = attempt.loaded.scene.people.size();
+    if (attempt.valid) {
+        result["agents"] = attempt.loaded.scene.people.size();
+        result["stream_bytes"] = bytesOfBake(attempt.loaded.scene);
+    }
     result["diagnostics"] = diagnosticsJson(attempt.loaded.diagnostics);
     return result;
 }
@@ -62,10 +76,11 @@ bool checkFamilyFile(const std::string& path, const Options& options, nlohmann::
 void printSummary(const LoadedLayout& loaded) {
     const authoring::Scene& scene = loaded.scene;
     say(stdout,
-        "{}: ok: {} people in {} groups, {} wall segments, {:.0f} x {:.0f} m, {:.4g} s at {:.4g} frames/s\n",
+        "{}: ok: {} people in {} groups, {} wall segments, {:.0f} x {:.0f} m, {:.4g} s at {:.4g} frames/s; "
+        "its streams will take {}\n",
         loaded.diagnostics.file, scene.people.size(), scene.groups.size(), scene.wall_segments.size(),
         scene.maximum.x - scene.minimum.x, scene.maximum.y - scene.minimum.y, scene.settings.duration,
-        scene.settings.fps);
+        scene.settings.fps, readableBytes(bytesOfBake(scene)));
 }
 
 bool checkLayoutText(const std::string& path, std::string text, const Options& options,

@@ -11,6 +11,7 @@
 
 #include "base/files/output_file.h"
 #include "io/diagram/diagram_exr.h"
+#include "io/room_on_disk.h"
 #include "recording/gaits.h"
 
 namespace throng::io {
@@ -99,6 +100,8 @@ BakeWriter::BakeWriter(recording::BakeDescription description, std::unique_ptr<B
         removeLeftovers(*go_on_from);
     else
         folder_->addFolder("streams");
+    requireRoom(folder_->path(), countOf(description_.streams()), description_.formats,
+                description_.frames - (go_on_from ? go_on_from->frames : 0), description_.agents.size());
     openStreams(go_on_from);
     if (go_on_from)
         goOnFrom(*go_on_from);

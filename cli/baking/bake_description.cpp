@@ -73,6 +73,10 @@ std::string outputOf(const LoadedLayout& loaded, const BakeOptions& options) {
                                  printable(loaded.layout.name)));
 }
 
+std::uint32_t framesOf(const authoring::SimulationSettings& settings) {
+    return static_cast<std::uint32_t>(std::max(1l, std::lround(settings.duration * settings.fps)));
+}
+
 recording::BakeDescription describeBake(const LoadedLayout& loaded, const BakeOptions& options,
                                         const gl::Device& device) {
     const authoring::Scene& scene = loaded.scene;
@@ -84,8 +88,7 @@ recording::BakeDescription describeBake(const LoadedLayout& loaded, const BakeOp
     bake.source = {loaded.file, hashText(loaded.text), loaded.overrides};
     bake.seed = scene.settings.seed;
     bake.fps = scene.settings.fps;
-    bake.frames =
-        static_cast<std::uint32_t>(std::max(1l, std::lround(scene.settings.duration * scene.settings.fps)));
+    bake.frames = framesOf(scene.settings);
     bake.substeps = static_cast<std::uint32_t>(scene.settings.substeps);
     bake.duration = scene.settings.duration;
     bake.warmup = scene.settings.warmup;

@@ -24,6 +24,9 @@ struct BakeOptions {
 /// nowhere else. @throws InputError
 std::string outputOf(const LoadedLayout& loaded, const BakeOptions& options);
 
+/// How many frames a bake of it has.
+std::uint32_t framesOf(const authoring::SimulationSettings& settings);
+
 /// All that the writers have to know of a layout and its scene.
 recording::BakeDescription describeBake(const LoadedLayout& loaded, const BakeOptions& options,
                                         const gl::Device& device);

@@ -71,3 +71,20 @@ def test_what_is_no_error_is_json_too(throng, bakes, tmp_path):
                   ["generate", "crossing", "-o", tmp_path / "c.json"], ["generate", "crossing"],
                   ["scenarios", "--list"], ["info", bakes("circle")]):
         assert json.loads(throng(*words, "--json").stdout), words
+
+
+def test_what_a_bake_takes_on_the_disk_is_known_before(throng, bakes, tmp_path):
+    [told] = json.loads(throng("check", bakes("circle") / "layout.json", "--json").stdout)
+    streams = list((bakes("circle") / "streams").iterdir())
+    assert told["stream_bytes"] == sum(file.stat().st_size for file in streams) > 0
+    assert "its streams will take" in throng("check", bakes("circle") / "layout.json").stdout
+
+
+def test_a_bake_that_the_disk_cannot_hold_does_not_begin(throng, tmp_path):
+    layout = write(tmp_path / "l.json", {
+        "throng": 1, "simulation": {"duration": 86400, "fps": 60},
+        "formations": [{"id": "f", "type": "grid", "origin": [0, 0], "rows": 200, "columns": 200,
+                        "goal": {"offset": [9, 0]}}]})
+    told = throng("bake", layout, "-o", tmp_path / "bake", expect=5).stderr
+    assert "the disk has room for" in told and "--streams packed" in told
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["l.json"]
