@@ -42,7 +42,7 @@ void requireRoom(const std::filesystem::path& folder, std::size_t streams, const
     throw OutputError(
         folder, fmt::format("the disk has room for {}, and {} streams of {} frames of {} people take {}. "
                             "`--streams npy` or `--streams pc2` writes half of what both take, `--streams "
-                            "packed` about a tenth; `--seconds` bakes less",
+                            "packed` about a tenth; `--set simulation.duration=SECONDS` bakes less",
                             readableBytes(disk.available), streams, frames, rows, readableBytes(needed)));
 }
 

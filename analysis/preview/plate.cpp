@@ -303,7 +303,8 @@ void Plate::drawTrails(cairo_t* context, const io::CrowdFrame& now) {
     if (length == 0) return;
     io::CrowdFrame later = now;
     cairo_set_line_width(context, std::max(1.0, 0.10 * scale_));
-    cairo_set_line_cap(context, CAIRO_LINE_CAP_ROUND);
+    cairo_set_line_cap(context, CAIRO_LINE_CAP_BUTT);  // they join
+    cairo_set_antialias(context, CAIRO_ANTIALIAS_FAST);
     for (std::uint32_t back = stride; back <= length && back <= now.index(); back += stride) {
         const io::CrowdFrame earlier = crowd_.frame(now.index() - back);
         const double alpha = 0.42 * (1.0 - static_cast<double>(back) / length);
@@ -318,6 +319,7 @@ void Plate::drawTrails(cairo_t* context, const io::CrowdFrame& now) {
         }
         later = earlier;
     }
+    cairo_set_antialias(context, CAIRO_ANTIALIAS_DEFAULT);
 }
 
 void Plate::drawWall(cairo_t* context, const authoring::Wall& wall) const {

@@ -42,7 +42,8 @@ class Encoder {
         add({"-f", "rawvideo", "-pix_fmt", "bgr0", "-s",
              fmt::format("{}x{}", plate.width(), plate.height())});
         add({"-r", fmt::format("{}", plate.fps()), "-i", "-"});
-        add({"-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "20", "-f", "mp4", path.string()});
+        add({"-c:v", "libx264", "-preset", "veryfast", "-pix_fmt", "yuv420p", "-crf", "20", "-f", "mp4",
+             path.string()});
         try {
             process_.emplace(words, ProcessOptions{.input = StandardStream::pipe});
         } catch (const std::system_error& error) {
