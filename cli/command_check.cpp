@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "authoring/layout/layout_reader.h"
+#include "authoring/scene/audience.h"
 #include "base/files/input_file.h"
 #include "cli/baking/load_layout.h"
 #include "cli/batch/check_family.h"
@@ -22,9 +23,14 @@ struct Options {
     bool json = false;
 };
 
+/// With those who have seats.
+std::size_t peopleIn(const LoadedLayout& loaded) {
+    return loaded.scene.people.size() + authoring::audienceOf(loaded.layout).size();
+}
+
 nlohmann::ordered_json toJson(const LoadAttempt& attempt) {
     nlohmann::ordered_json result = {{"file", attempt.loaded.diagnostics.file}, {"valid", attempt.valid}};
-    if (attempt.valid) result["agents"] = attempt.loaded.scene.people.size();
+    if (attempt.valid) result["agents"] = peopleIn(attempt.loaded);
     result["diagnostics"] = diagnosticsJson(attempt.loaded.diagnostics);
     return result;
 }
@@ -63,7 +69,8 @@ void printSummary(const LoadedLayout& loaded) {
     const authoring::Scene& scene = loaded.scene;
     say(stdout,
         "{}: ok: {} people in {} groups, {} wall segments, {:.0f} x {:.0f} m, {:.4g} s at {:.4g} frames/s\n",
-        loaded.diagnostics.file, scene.people.size(), scene.groups.size(), scene.wall_segments.size(),
+        loaded.diagnostics.file, peopleIn(loaded), scene.groups.size() + loaded.layout.seats.size(),
+        scene.wall_segments.size(),
         scene.maximum.x - scene.minimum.x, scene.maximum.y - scene.minimum.y, scene.settings.duration,
         scene.settings.fps);
 }
