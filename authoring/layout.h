@@ -323,7 +323,7 @@ struct SeatBlock {
 struct Show {
     enum class Kind { clap, cheer, sing, wave };
     Kind kind = Kind::clap;
-    Distribution at;  ///< s: everybody's own, so that it may be a window
+    Distribution at;                  ///< s: everybody's own, so that it may be a window
     std::vector<std::size_t> blocks;  ///< of seats; a wave runs along them in this order
     double share = 1.0;               ///< of the people there
     Distribution lasts{Distribution::Kind::constant, 6.0, 0.0, 6.0, 6.0};  ///< s; not of a wave

@@ -70,9 +70,8 @@ void printSummary(const LoadedLayout& loaded) {
     say(stdout,
         "{}: ok: {} people in {} groups, {} wall segments, {:.0f} x {:.0f} m, {:.4g} s at {:.4g} frames/s\n",
         loaded.diagnostics.file, peopleIn(loaded), scene.groups.size() + loaded.layout.seats.size(),
-        scene.wall_segments.size(),
-        scene.maximum.x - scene.minimum.x, scene.maximum.y - scene.minimum.y, scene.settings.duration,
-        scene.settings.fps);
+        scene.wall_segments.size(), scene.maximum.x - scene.minimum.x, scene.maximum.y - scene.minimum.y,
+        scene.settings.duration, scene.settings.fps);
 }
 
 bool checkLayoutText(const std::string& path, std::string text, const Options& options,

@@ -9,9 +9,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/activities.h"
 #include "base/files/output_file.h"
 #include "io/diagram/diagram_exr.h"
-#include "base/activities.h"
 #include "recording/gaits.h"
 
 namespace throng::io {

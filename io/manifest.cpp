@@ -31,7 +31,8 @@ Json seatsToJson(const recording::BakeDescription& description) {
     for (const recording::BakeSeats& seats : description.seats) {
         Json rows = Json::array();
         for (const recording::BakeSeatRow& row : seats.rows)
-            rows.push_back({{"line", pointsToJson(row.line, description.output_origin)}, {"height", row.height}});
+            rows.push_back(
+                {{"line", pointsToJson(row.line, description.output_origin)}, {"height", row.height}});
         list.push_back({{"id", seats.id},
                         {"pitch", seats.pitch},
                         {"width", seats.width},

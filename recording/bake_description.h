@@ -110,7 +110,7 @@ struct BakeDescription {
     glm::dvec2 maximum{0.0};
 
     std::vector<BakeGroup> groups;
-    std::vector<BakeAgent> agents;  ///< one per row
+    std::vector<BakeAgent> agents;        ///< one per row
     std::vector<BakeSpectator> audience;  ///< of the last rows: they are not simulated
     std::vector<BakeSeats> seats;
     std::vector<authoring::Road> roads;

@@ -27,11 +27,12 @@ void SeatReader::readBlock(const JsonNode& node) {
     const JsonNode* front = reader.get("front");
     const JsonNode* arc = reader.get("arc");
     if ((front != nullptr) == (arc != nullptr))
-        diagnostics_.error(node.where,
-                           fmt::format("a block of seats needs exactly one of `front` (the first row's points) "
-                                       "and `arc` (part of a circle), this one has {}",
-                                       front ? "both" : "neither"),
-                           R"(for example "front": [[0, 0], [10, 0]])");
+        diagnostics_.error(
+            node.where,
+            fmt::format("a block of seats needs exactly one of `front` (the first row's points) "
+                        "and `arc` (part of a circle), this one has {}",
+                        front ? "both" : "neither"),
+            R"(for example "front": [[0, 0], [10, 0]])");
     if (front) block.front = reader.points("front");
     if (arc) readArc(reader, *arc, block);
     reader.integer("rows", block.rows);
@@ -71,12 +72,13 @@ void SeatReader::readArc(ObjectReader& reader, const JsonNode& node, SeatBlock& 
     const auto [radius, from, to] = numbers;
     if (!complete || diagnostics_.hasErrors()) return;
     if (to <= from || to - from > kWholeRound) {
-        diagnostics_.error(node.find("to")->where,
-                           fmt::format("the arc goes from {:.6g} to {:.6g} degrees: counter-clockwise, at most "
-                                       "a whole round",
-                                       from, to),
-                           to <= from ? fmt::format("write \"to\": {:.6g}", to + kWholeRound)
-                                      : fmt::format("write \"to\": {:.6g}", from + kWholeRound));
+        diagnostics_.error(
+            node.find("to")->where,
+            fmt::format("the arc goes from {:.6g} to {:.6g} degrees: counter-clockwise, at most "
+                        "a whole round",
+                        from, to),
+            to <= from ? fmt::format("write \"to\": {:.6g}", to + kWholeRound)
+                       : fmt::format("write \"to\": {:.6g}", from + kWholeRound));
         return;
     }
     block.front = arcFront(centre, radius, from, to);
@@ -170,8 +172,8 @@ void SeatReader::readWave(ObjectReader& reader, const JsonNode& node, Show& show
     reader.point("from", show.from);
     reader.integer("laps", show.laps);
     const bool is_wave = show.kind == Show::Kind::wave;
-    const std::array wrong = is_wave ? std::array{"for", "for", "for", "for"}
-                                     : std::array{"speed", "width", "from", "laps"};
+    const std::array wrong =
+        is_wave ? std::array{"for", "for", "for", "for"} : std::array{"speed", "width", "from", "laps"};
     for (std::size_t i = 0; i < (is_wave ? 1 : wrong.size()); ++i)
         if (const JsonNode* key = node.find(wrong[i]))
             diagnostics_.error(key->where,

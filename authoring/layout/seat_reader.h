@@ -13,9 +13,10 @@ namespace throng::authoring {
 class SeatReader {
   public:
     using Indices = std::map<std::string, std::size_t>;  // by id
-    /// @param groups ids of flows and formations, to which those of blocks are added; @param walls likewise, of
-    /// walls
-    SeatReader(const Schema& schema, Layout& layout, Indices& groups, Indices& walls, Diagnostics& diagnostics)
+    /// @param groups ids of flows and formations, to which those of blocks are added; @param walls likewise,
+    /// of walls
+    SeatReader(const Schema& schema, Layout& layout, Indices& groups, Indices& walls,
+               Diagnostics& diagnostics)
         : schema_(schema), layout_(layout), groups_(groups), walls_(walls), diagnostics_(diagnostics) {}
 
     void readBlock(const JsonNode& node);

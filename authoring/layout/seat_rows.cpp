@@ -9,7 +9,7 @@
 namespace throng::authoring {
 namespace {
 
-constexpr double kArcStep = 1.0;     // degrees: of 100 m, the middle of a chord is 4 mm off
+constexpr double kArcStep = 1.0;       // degrees: of 100 m, the middle of a chord is 4 mm off
 constexpr double kOutlineTurn = 0.14;  // rad that a piece of an outline turns at most
 
 /// To the left of a direction.
@@ -134,10 +134,14 @@ std::vector<Seat> seatsOf(const SeatBlock& block) {
             const double spare = line.lengthBetween(sections[number].from, sections[number].to) -
                                  static_cast<double>(count) * block.width;
             for (std::size_t i = 0; i < count; ++i) {
-                const double share = line.advance(
-                    sections[number].from, 0.5 * spare + (static_cast<double>(i) + 0.5) * block.width);
-                Seat seat{line.at(share), block.height + static_cast<double>(row) * block.rise,
-                          line.aheadAt(share), static_cast<std::size_t>(row), number, share * whole};
+                const double share = line.advance(sections[number].from,
+                                                  0.5 * spare + (static_cast<double>(i) + 0.5) * block.width);
+                Seat seat{line.at(share),
+                          block.height + static_cast<double>(row) * block.rise,
+                          line.aheadAt(share),
+                          static_cast<std::size_t>(row),
+                          number,
+                          share * whole};
                 if (block.facing && *block.facing != seat.place)
                     seat.ahead = glm::normalize(*block.facing - seat.place);
                 seats.push_back(seat);

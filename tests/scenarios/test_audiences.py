@@ -127,7 +127,7 @@ def test_a_bake_that_goes_on_is_the_same(bake, throng, tmp_path):
     given = layout([{"at": 1, "do": "cheer", "for": 2}], 5)
     one, other = bake("one", given), bake("other", given)
     for name in ("pos", "dir", "state"):
-        assert (one.path / "streams" / f"{name}.npy").read_bytes() == (other.path / "streams" / f"{name}.npy").read_bytes()
+        assert len({(each.path / "streams" / f"{name}.npy").read_bytes() for each in (one, other)}) == 1
     assert throng("verify", one.path).returncode == 0
 
 
