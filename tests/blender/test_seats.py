@@ -92,16 +92,16 @@ def test_only_casts_of_bakes_with_seats_sit():
         assert with_seats.upright(level) == without.poses(level)
 
 
-def seated_bake(folder):
+def seated_bake(folder, agents=24, frames=40):
     """A sample bake all of whose people have a seat, each in another clip. Returns the states."""
-    _, direction, state = write_bake(folder, agents=24, **SMALL_CAST)
-    rows = numpy.arange(24)
+    _, direction, state = write_bake(folder, agents=agents, frames=frames, **SMALL_CAST)
+    rows = numpy.arange(agents)
     state[..., 0] = sitting.FIRST + rows % len(sitting.CLIPS)
     state[..., 2] = 0.03 * numpy.arange(len(state))[:, None] + 0.37 * rows
     direction[..., 2] = 0.0
     for name, stream in (("state", state), ("dir", direction)):
         with open(folder / "streams" / f"{name}.pc2", "wb") as file:
-            file.write(struct.pack("<12siiffi", b"POINTCACHE2\0", 1, 24, 1.0, 1.0, len(state)) + stream.tobytes())
+            file.write(struct.pack("<12siiffi", b"POINTCACHE2\0", 1, agents, 1.0, 1.0, frames) + stream.tobytes())
     manifest = json.loads((folder / "bake.json").read_text())
     manifest["geometry"]["seats"] = [{"id": "north", "pitch": 0.8, "width": 0.5, "rise": 0.4, "rows": [
         {"line": [[0, 0], [5, 0]], "height": 0.5}, {"line": [[0, -0.8], [5, -0.8]], "height": 0.9}]}]
@@ -137,3 +137,10 @@ def test_blender_shows_everybody_in_the_pose_of_the_moment(blender, tmp_path):
     assert result["stands"]["Throng stand north"]["faces"] > 20 * 8
     assert result["stands"]["Throng stand north"]["top"] == pytest.approx(0.9 + 0.42 + 0.36, abs=0.01)
     assert "Throng wall north stand" not in result["walls"] and len(result["walls"]) == 3
+
+
+def test_a_full_stadium_scrubs_as_quickly_as_a_walking_crowd(blender, tmp_path):
+    """The bar that 16,384 who walk have, in processor time."""
+    seated_bake(tmp_path / "bake", agents=16384, frames=28)
+    found = result_of(blender(HERE / "check_speed.py", ADDON, tmp_path / "bake"))
+    assert found["people"] == 16384 and 1000.0 * found["frame"] < 18.0, found

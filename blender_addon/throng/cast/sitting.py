@@ -15,7 +15,7 @@ from .gait import HIP_DROP, Foot, Pose
 FIRST = 5     # the bake's activity of the first clip
 SEAT = 0.42   # m, of the seat over the floor
 _FLESH = 0.095  # m, of the hip joints over the seat, of an average adult
-_BACK = -0.17   # m, of the hips from the middle of the seat
+_BACK = -0.20   # m, of the hips from the middle of the seat
 _SLOPE = 0.06   # m that knees may be lower than hips for feet to reach the floor
 _AVERAGE = 0.86  # m, of thigh and shank
 

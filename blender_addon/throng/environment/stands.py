@@ -7,10 +7,11 @@ from . import materials
 from .shapes import Shape, direction
 
 _SHELL = 0.04                      # m, of what seats are made of
-_FRONT, _BACK, _TOP = 0.12, 0.30, 0.36  # m: of a seat, before and behind its middle, and of its back over it
+_FRONT, _BACK, _TOP = 0.10, 0.33, 0.36  # m: of a seat, before and behind its middle, and of its back over it
 _SIDE = 0.44                       # of a seat's width: the rest is between two
 _COLOURS = ((0.035, 0.085, 0.20), (0.045, 0.11, 0.26))
-_LINE = 1e-6
+_HAIR = 1e-6   # m
+_LEDGE = 0.12  # m, before the feet of the first row
 
 
 def stand_names(geometry):
@@ -28,12 +29,14 @@ def _build(block):
     stone = materials.mottled("stand", (0.24, 0.235, 0.225), (0.33, 0.325, 0.31), 1.6)
     shells = [materials.plain(f"seat {number}", colour, 0.45) for number, colour in enumerate(_COLOURS)]
     pitch, rise, width = (float(block[key]) for key in ("pitch", "rise", "width"))
+    lowest = min((float(row["height"]) for row in block["rows"]), default=0.0)
     for row in block["rows"]:
         line = [tuple(point[:2]) for point in row["line"]]
         ahead, height = _ahead(line), float(row["height"])
-        _step(shape, line, ahead, pitch, height, stone)
+        ledge = _LEDGE if height - lowest < _HAIR else 0.0
+        _step(shape, line, ahead, (0.5 * pitch + ledge, 0.5 * pitch), height, stone)
         for number, (place, way) in enumerate(_places(line, width)):
-            _seat(shape, place, way, height, _SIDE * width, shells[number % len(shells)])
+            add_seat(shape, place, way, height, _SIDE * width, shells[number % len(shells)])
     return shape.to_object()
 
 
@@ -48,16 +51,17 @@ def _ahead(line):
     return found
 
 
-def _step(shape, line, ahead, pitch, height, stone):
-    """From the ground up: what is behind it is higher, and hides the rest."""
-    edge = lambda share: [(x + share * pitch * u, y + share * pitch * v) for (x, y), (u, v) in zip(line, ahead)]
-    front, back = edge(0.5), edge(-0.5)
+def _step(shape, line, ahead, depths, height, stone):
+    """From the ground up: what is behind it is higher, and hides the rest. @param depths m, before and behind the
+    middle"""
+    edge = lambda off: [(x + off * u, y + off * v) for (x, y), (u, v) in zip(line, ahead)]
+    front, back = edge(depths[0]), edge(-depths[1])
     for (a, b), (c, d) in zip(zip(front, front[1:]), zip(back, back[1:])):
         shape.face([(*a, height), (*c, height), (*d, height), (*b, height)], stone)
-        if height > _LINE:
+        if height > _HAIR:
             shape.face([(*b, 0.0), (*a, 0.0), (*a, height), (*b, height)], stone)
             shape.face([(*c, 0.0), (*d, 0.0), (*d, height), (*c, height)], stone)
-    if height > _LINE:
+    if height > _HAIR:
         shape.face([(*front[0], 0.0), (*back[0], 0.0), (*back[0], height), (*front[0], height)], stone)
         shape.face([(*back[-1], 0.0), (*front[-1], 0.0), (*front[-1], height), (*back[-1], height)], stone)
 
@@ -77,7 +81,7 @@ def _places(line, width):
     return found
 
 
-def _seat(shape, place, along, height, half, shell):
+def add_seat(shape, place, along, height, half, shell):
     """A shell with a back, which leans a little."""
     def at(forward, aside, up):
         return (place[0] + along[0] * aside - along[1] * forward, place[1] + along[1] * aside + along[0] * forward,
