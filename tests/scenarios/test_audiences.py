@@ -3,6 +3,8 @@
 import csv
 import json
 import math
+import subprocess
+import time
 
 import numpy
 import pytest
@@ -124,11 +126,20 @@ def test_measure_and_bars_know_who_has_a_seat(throng, clapping):
 
 def test_a_bake_that_goes_on_is_the_same(bake, throng, tmp_path):
     """What audiences do follows from the time alone, so a checkpoint needs to say nothing of it."""
-    given = layout([{"at": 1, "do": "cheer", "for": 2}], 5)
-    one, other = bake("one", given), bake("other", given)
+    given = layout([{"at": 1, "do": "cheer", "for": 2}], 30)
+    whole = bake("whole", given)
+    (tmp_path / "layout.json").write_text(json.dumps(given))
+    command = ["bake", tmp_path / "layout.json", "-o", tmp_path / "bake", "--no-gltf", "-q", "--checkpoint", "0.002"]
+    process = subprocess.Popen([throng.binary, *map(str, command)], stdout=subprocess.DEVNULL)
+    while not (tmp_path / "bake.unfinished" / "checkpoint.a").exists():
+        assert process.poll() is None
+        time.sleep(0.002)
+    process.kill()
+    process.wait()
+    throng(*command, "--resume")
     for name in ("pos", "dir", "state"):
-        assert len({(each.path / "streams" / f"{name}.npy").read_bytes() for each in (one, other)}) == 1
-    assert throng("verify", one.path).returncode == 0
+        files = [(folder / "streams" / f"{name}.npy").read_bytes() for folder in (whole.path, tmp_path / "bake")]
+        assert files[0] == files[1]
 
 
 def test_all_forms_and_readers_take_it(throng, clapping, tmp_path):
@@ -136,3 +147,10 @@ def test_all_forms_and_readers_take_it(throng, clapping, tmp_path):
     throng("info", tmp_path / "packed")
     throng("report", clapping.path, "-o", tmp_path / "page.html")
     assert (tmp_path / "page.html").exists()
+
+
+def test_only_who_walks_can_be_followed(throng, clapping, tmp_path):
+    told = json.loads(throng("measure", clapping.path, "--follow", 3, "--plots", tmp_path / "why", "--json").stdout)
+    assert told["people"][0]["row"] == 3
+    refused = throng("measure", clapping.path, "--follow", 100, "--plots", tmp_path / "why", expect=None)
+    assert refused.returncode != 0 and "row 100 of clapping has a seat" in refused.stderr
