@@ -4,6 +4,8 @@ import json
 import os
 import sys
 
+from types import SimpleNamespace
+
 import bpy
 
 addon, bake = sys.argv[-2:]
@@ -11,6 +13,7 @@ sys.path[:0] = [addon, os.path.dirname(os.path.abspath(__file__))]
 import throng  # noqa: E402
 from pose_names import Names  # noqa: E402
 from throng.crowd.queries import crowd_objects, repertoire_of  # noqa: E402
+from throng.overrides import hero  # noqa: E402
 
 bpy.ops.wm.read_factory_settings(use_empty=True)
 throng.register()
@@ -32,7 +35,12 @@ for frame in (1, 9, 17, 25):
 assert bpy.ops.throng.levels(by="camera", near=1e-3, far=2e-3) == {"FINISHED"}
 scene.frame_set(17)
 shots.append({"frame": 17, "level": 2, "people": people()})
+who = hero.shipped_person(crowd, 0)
+hips = [hero._bones_at(who, SimpleNamespace(state=(activity, 0.0, phase), direction=(1.0, 0.0, 0.0)), 1, (1.0,),
+                       (0, 0.0))["hips"].head[2]
+        for activity, phase in ((5.0, 0.0), (8.0, 0.5), (9.0, 3.0), (2.0, 0.0))]
 stands = {thing.name: {"faces": len(thing.data.polygons), "top": max(v.co.z for v in thing.data.vertices)}
           for thing in bpy.data.objects if thing.name.startswith("Throng stand")}
 walls = [thing.name for thing in bpy.data.objects if thing.name.startswith("Throng wall")]
-print("RESULT " + json.dumps({"shots": shots, "stands": stands, "walls": walls, "count": repertoire_of(crowd).count}))
+print("RESULT " + json.dumps({"shots": shots, "stands": stands, "walls": walls, "hips": hips,
+                               "count": repertoire_of(crowd).count}))

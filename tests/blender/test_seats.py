@@ -133,6 +133,8 @@ def test_blender_shows_everybody_in_the_pose_of_the_moment(blender, tmp_path):
         for row, name in shot["people"].items():
             wanted = expected(state[shot["frame"] - 1], int(row), shot["level"])
             assert not wanted.isdisjoint(name.split("|")), (shot["frame"], row, name, wanted)
+    sits, risen, cheers, stands = result["hips"]
+    assert sits < stands - 0.3 and abs(risen - stands) < 0.03 and abs(cheers - stands) < 0.03, "heroes do the same"
     assert list(result["stands"]) == ["Throng stand north"]
     assert result["stands"]["Throng stand north"]["faces"] > 20 * 8
     assert result["stands"]["Throng stand north"]["top"] == pytest.approx(0.9 + 0.42 + 0.36, abs=0.01)

@@ -107,6 +107,12 @@ def _singing(build, phase):
                       (_UP[0], (upper - 0.30 * sway, fore - 0.42 * sway)))
 
 
+def place_at(activity, phase):
+    """(clip, share) of seated_pose() at a moment, as the bake has it."""
+    clip, place = min(max(int(activity) - FIRST, 0), len(CLIPS) - 1), phase % 1.0
+    return clip, 1.0 - abs(2.0 * place - 1.0) if CLIPS[clip].there_and_back else place
+
+
 def seated_pose(clip, share, build):
     """@param clip by number; @param share of a cycle, or of the way there"""
     name, wave = CLIPS[clip].name, math.sin(2.0 * math.pi * share)
