@@ -301,6 +301,41 @@ struct Formation {
     SourcePosition where;
 };
 
+/// Rows of seats, one behind the other. People look to the left of the first row, from its first point to its
+/// last, unless there is something to look at.
+struct SeatBlock {
+    std::string id;
+    std::vector<glm::dvec2> front;  ///< the first row, at least two points; of an arc, finely enough
+    std::uint64_t rows = 1;
+    double pitch = 0.8;   ///< m from row to row
+    double width = 0.5;   ///< m of a seat
+    double rise = 0.0;    ///< m that each row is higher than the one before it
+    double height = 0.0;  ///< m, of the first row
+    std::optional<glm::dvec2> facing;
+    std::uint64_t aisles = 0;  ///< through all rows, at even distances
+    double aisle_width = 1.2;  ///< m
+    double occupancy = 1.0;    ///< share of the seats
+    People people;
+    SourcePosition where;
+};
+
+/// What an audience does, from a time on.
+struct Show {
+    enum class Kind { clap, cheer, sing, wave };
+    Kind kind = Kind::clap;
+    Distribution at;                  ///< s: everybody's own, so that it may be a window
+    std::vector<std::size_t> blocks;  ///< of seats; a wave runs along them in this order
+    double share = 1.0;               ///< of the people there
+    Distribution lasts{Distribution::Kind::constant, 6.0, 0.0, 6.0, 6.0};  ///< s; not of a wave
+    /// s, [0, 60]: median 0.3, right-skewed, as times of reaction are (Luce 1986).
+    Distribution reaction{Distribution::Kind::log_normal, -1.2, 0.4, 0.0, 60.0};
+    double speed = 12.0;             ///< wave: m/s along the middle row (Farkas, Helbing and Vicsek 2002)
+    double width = 15.0;             ///< wave: seats
+    std::optional<glm::dvec2> from;  ///< wave: it begins at the seat nearest to it
+    std::uint64_t laps = 1;          ///< wave
+    SourcePosition where;
+};
+
 /// Something that happens at a time.
 struct Event {
     enum class Kind {
@@ -331,6 +366,8 @@ struct Layout {
     std::vector<Flow> flows;
     std::vector<Formation> formations;
     std::vector<Event> events;  ///< in the order of their times
+    std::vector<SeatBlock> seats;
+    std::vector<Show> shows;
     std::vector<Expectation> expectations;
     std::optional<Line> flow_line;  ///< across which people are counted for the bar on `flow`
 };

@@ -10,7 +10,7 @@
 /// Blender add-on all mean this by them (docs/bake.md has the same table, and a test compares the two).
 namespace throng {
 
-enum class Fate { spawned, walking, waiting, arrived, stuck, refused };
+enum class Fate { spawned, walking, waiting, arrived, seated, stuck, refused };
 
 struct FateWord {
     Fate fate;
@@ -24,6 +24,7 @@ inline constexpr std::array kFates = {
              "In the scene at the end and not arrived, also who stands at a stop or in a line."},
     FateWord{Fate::waiting, "waiting", "Not yet in the scene; who still waits when a bake ends is refused."},
     FateWord{Fate::arrived, "arrived", "Came to its goal, and left there or stayed."},
+    FateWord{Fate::seated, "seated", "Has a seat, and sits in it or stands before it; arrived, too."},
     FateWord{
         Fate::stuck, "stuck",
         "Walking at the end, for five seconds at no stop and in no line, and not half a metre on in them."},

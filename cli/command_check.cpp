@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "authoring/layout/layout_reader.h"
+#include "authoring/scene/audience.h"
 #include "base/files/input_file.h"
 #include "base/numbers.h"
 #include "base/streams.h"
@@ -26,18 +27,23 @@ struct Options {
     bool json = false;
 };
 
+/// With those who have seats.
+std::size_t peopleIn(const LoadedLayout& loaded) {
+    return loaded.scene.people.size() + authoring::audienceOf(loaded.layout).size();
+}
+
 /// Of the streams that every bake of it has, in the forms that are written unless told.
-std::uint64_t bytesOfBake(const authoring::Scene& scene) {
-    const StreamChoice streams = streamsOf(scene.terrain != nullptr, {});
-    return io::bytesOfStreams(countOf(streams), StreamFormats::standard(), framesOf(scene.settings),
-                              scene.people.size());
+std::uint64_t bytesOfBake(const LoadedLayout& loaded) {
+    const StreamChoice streams = streamsOf(loaded.scene.terrain != nullptr, {});
+    return io::bytesOfStreams(countOf(streams), StreamFormats::standard(), framesOf(loaded.scene.settings),
+                              peopleIn(loaded));
 }
 
 nlohmann::ordered_json toJson(const LoadAttempt& attempt) {
     nlohmann::ordered_json result = {{"file", attempt.loaded.diagnostics.file}, {"valid", attempt.valid}};
     if (attempt.valid) {
-        result["agents"] = attempt.loaded.scene.people.size();
-        result["stream_bytes"] = bytesOfBake(attempt.loaded.scene);
+        result["agents"] = peopleIn(attempt.loaded);
+        result["stream_bytes"] = bytesOfBake(attempt.loaded);
     }
     result["diagnostics"] = diagnosticsJson(attempt.loaded.diagnostics);
     return result;
@@ -78,9 +84,9 @@ void printSummary(const LoadedLayout& loaded) {
     say(stdout,
         "{}: ok: {} people in {} groups, {} wall segments, {:.0f} x {:.0f} m, {:.4g} s at {:.4g} frames/s; "
         "its streams will take {}\n",
-        loaded.diagnostics.file, scene.people.size(), scene.groups.size(), scene.wall_segments.size(),
-        scene.maximum.x - scene.minimum.x, scene.maximum.y - scene.minimum.y, scene.settings.duration,
-        scene.settings.fps, readableBytes(bytesOfBake(scene)));
+        loaded.diagnostics.file, peopleIn(loaded), scene.groups.size() + loaded.layout.seats.size(),
+        scene.wall_segments.size(), scene.maximum.x - scene.minimum.x, scene.maximum.y - scene.minimum.y,
+        scene.settings.duration, scene.settings.fps, readableBytes(bytesOfBake(loaded)));
 }
 
 bool checkLayoutText(const std::string& path, std::string text, const Options& options,

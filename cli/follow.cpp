@@ -13,6 +13,7 @@
 #include "analysis/follow/account.h"
 #include "analysis/follow/plot.h"
 #include "analysis/follow/table.h"
+#include "authoring/scene/audience.h"
 #include "base/files/output_file.h"
 #include "cli/baking/baker.h"
 #include "cli/baking/device_fields.h"
@@ -48,9 +49,15 @@ LoadedLayout layoutOf(const io::Bake& bake, const FollowRequest& request) {
         throw InputError(bake.folder, "has no layout.json, which --follow simulates anew");
     LoadedLayout loaded = loadLayout(
         path.string(), {}, [&] { return makeDeviceFields(FieldsBy::automatic, request.device, ""); });
-    if (loaded.scene.people.size() != bake.agents)
+    const std::size_t walkers = loaded.scene.people.size();
+    const std::size_t people = walkers + authoring::audienceOf(loaded.layout).size();
+    if (people != bake.agents)
         throw InputError(path, fmt::format("makes {} people, and the bake has {}: it is not its layout",
-                                           loaded.scene.people.size(), bake.agents));
+                                           people, bake.agents));
+    for (const std::uint32_t row : request.rows)
+        if (row >= walkers)
+            throw CLI::ValidationError(
+                "--follow", fmt::format("row {} of {} has a seat: it decides nothing", row, bake.name));
     return loaded;
 }
 

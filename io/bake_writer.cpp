@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/activities.h"
 #include "base/files/output_file.h"
 #include "io/diagram/diagram_exr.h"
 #include "io/room_on_disk.h"
@@ -20,6 +21,7 @@ namespace {
 constexpr const char* kFirstAlive = "first alive";
 constexpr const char* kDiagrams = "diagrams";
 constexpr const char* kDiagramHashes = "diagram hashes";
+constexpr double kFreeWalk = 1.34;  // m/s
 constexpr const char* kGaitsWalked = "gaits walked";
 
 /// A file as a checkpoint remembers it.
@@ -243,7 +245,7 @@ void BakeWriter::trackPeople(const Frame& frame) {
         const float activity = frame[Stream::state][row * kComponents];
         if (activity <= 0.5f) continue;
         if (first_alive_[row] == kNone) first_alive_[row] = frame.index;
-        gaits_ |= 1u << recording::gaitOf(activity);
+        if (!hasSeat(activity)) gaits_ |= 1u << recording::gaitOf(activity);
     }
 }
 
@@ -270,6 +272,8 @@ BakeOutcome BakeWriter::writeAll(const Account& account, const BakeTiming& timin
     outcome.account = countOutcomes(account);
     outcome.timing = timing;
     outcome.gaits = gaits_;
+    // Where everybody sits: figures are made of walks, too.
+    if (gaits_ == 0 && !description_.seats.empty()) outcome.gaits = 1u << recording::gaitFor(kFreeWalk);
     outcome.diagrams = diagrams_;
     std::vector<std::string> files{"layout.json", "agents.csv"};
     writeFile(folder_->path() / files[0], description_.layout_text);

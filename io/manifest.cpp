@@ -26,6 +26,22 @@ Json pointsToJson(const std::vector<glm::dvec2>& points, glm::dvec2 origin) {
     return list;
 }
 
+Json seatsToJson(const recording::BakeDescription& description) {
+    Json list = Json::array();
+    for (const recording::BakeSeats& seats : description.seats) {
+        Json rows = Json::array();
+        for (const recording::BakeSeatRow& row : seats.rows)
+            rows.push_back(
+                {{"line", pointsToJson(row.line, description.output_origin)}, {"height", row.height}});
+        list.push_back({{"id", seats.id},
+                        {"pitch", seats.pitch},
+                        {"width", seats.width},
+                        {"rise", seats.rise},
+                        {"rows", std::move(rows)}});
+    }
+    return list;
+}
+
 Json geometryToJson(const recording::BakeDescription& description) {
     const glm::dvec2 origin = description.output_origin;
     Json geometry{{"walls", Json::array()}, {"roads", Json::array()}, {"areas", Json::array()}};
@@ -49,6 +65,7 @@ Json geometryToJson(const recording::BakeDescription& description) {
                                      {"one_way", road.one_way}});
     for (const authoring::Area& area : description.areas)
         geometry["areas"].push_back({{"id", area.id}, {"polygon", pointsToJson(area.polygon, origin)}});
+    if (!description.seats.empty()) geometry["seats"] = seatsToJson(description);
     if (description.levels.empty()) return geometry;
     for (std::size_t i = 0; i < description.roads.size(); ++i)
         geometry["roads"][i]["level"] = description.levels.at(description.roads[i].level).id;

@@ -12,6 +12,7 @@
 #include "authoring/layout.h"
 #include "authoring/terrain/terrain.h"
 #include "authoring/terrain/terrain_mesh.h"
+#include "base/activities.h"
 #include "base/capsule.h"
 #include "base/stream_formats.h"
 #include "base/streams.h"
@@ -38,6 +39,27 @@ struct BakeAgent {
     std::optional<std::uint32_t> colour = {};  ///< 0xRRGGBB, instead of the group's
     BodySize body = {};                        ///< where it is no disc; `radius` is that of the figure then
     std::string profile = {};                  ///< as the layout names it; empty: it names none
+};
+
+/// Somebody who has a seat, in the frame of reference of the frames.
+struct BakeSpectator {
+    glm::vec2 place{0.0f}, ahead{1.0f, 0.0f};
+    float height = 0.0f;  ///< m
+    std::uint32_t variation = 0;
+    std::vector<Deed> deeds;  ///< in the order of their times
+};
+
+/// A line of seats from aisle to aisle, for whoever shows it.
+struct BakeSeatRow {
+    std::vector<glm::dvec2> line;  ///< m, in the middle of the seats
+    double height = 0.0;           ///< m, of the floor before them
+};
+
+/// A block of seats.
+struct BakeSeats {
+    std::string id;
+    double pitch = 0.8, width = 0.5, rise = 0.0;  ///< m
+    std::vector<BakeSeatRow> rows;
 };
 
 /// What the layout was made from.
@@ -88,7 +110,9 @@ struct BakeDescription {
     glm::dvec2 maximum{0.0};
 
     std::vector<BakeGroup> groups;
-    std::vector<BakeAgent> agents;  ///< one per row
+    std::vector<BakeAgent> agents;        ///< one per row
+    std::vector<BakeSpectator> audience;  ///< of the last rows: they are not simulated
+    std::vector<BakeSeats> seats;
     std::vector<authoring::Road> roads;
     std::vector<authoring::Area> areas;
     std::vector<authoring::Wall> walls;
@@ -107,6 +131,7 @@ struct BakeDescription {
     StreamFormats formats = StreamFormats::standard();  ///< in which all streams are written
 
     StreamChoice streams() const { return streamsOf(terrain.has_value(), asked); }
+    std::size_t walkers() const { return agents.size() - audience.size(); }
 };
 
 }  // namespace throng::recording

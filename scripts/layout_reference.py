@@ -16,7 +16,8 @@ SECTIONS = {"point": ("point", "places-and-points"), "destination": ("destinatio
             "expect": ("bars", "expectations"), "terrain": ("terrain", "terrain"), "level": ("level", "levels"),
             "link": ("link", "links"), "road": ("road", "roads"),
             "area": ("area", "areas"), "wall": ("wall", "walls"), "flow": ("flow", "flows"),
-            "formation": ("formation", "formations"), "event": ("event", "events")}
+            "formation": ("formation", "formations"), "event": ("event", "events"),
+            "seat_block": ("block of seats", "seats"), "show": ("show", "shows")}
 LINKED_KEYS = ("simulation", "motion")  # of the layout itself, which are no definitions
 COLUMNS = ("key", "type", "default", "limits", "unit", "meaning")
 SOURCE = "source"  # a column more where a table has any
@@ -67,7 +68,7 @@ class Reference:
             return "list of numbers"
         if "$ref" in items:
             word, anchor = SECTIONS[items["$ref"].rpartition("/")[2]]
-            return f"list of [{word}s](#{anchor})"
+            return f"list of [{plural(word)}](#{anchor})"
         return f"list of {self.type_of(items)}s"
 
     def limits_of(self, rule):
@@ -194,6 +195,11 @@ def condition_of(case):
 def anchor_of(rule):
     """Of the section that an object with a title has."""
     return re.sub(r"[^\w -]", "", rule.get("title", "").lower()).replace(" ", "-")
+
+
+def plural(word):
+    first, _, rest = word.partition(" ")
+    return f"{first}s {rest}".rstrip()
 
 
 def is_distribution(rule):

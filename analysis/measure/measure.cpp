@@ -9,6 +9,7 @@
 #include "analysis/measure/histogram.h"
 #include "analysis/measure/voronoi_density.h"
 #include "analysis/stuck.h"
+#include "base/activities.h"
 #include "base/plane_grid.h"
 #include "recording/wall_watch.h"
 #include "shaders/shared/walking.h"
@@ -88,7 +89,7 @@ class Measurer {
         bodies_.clear();
         heights_.clear();
         for (std::uint32_t row = 0; row < rows_.size(); ++row)
-            if (now().isThere(row)) {
+            if (now().isThere(row) && !hasSeat(now().activity(row))) {
                 present_.push_back(row);
                 places_.push_back(now().place(row));
                 bodies_.push_back(now().body(row, rows_[row]));
@@ -240,6 +241,7 @@ class Measurer {
             result_.refused += agent.outcome == wordFor(Fate::refused) ? 1 : 0;
             if (way_[row] > 1.0) efforts.push_back(effort_[row] / way_[row]);
             result_.stuck += stuck_.isStuck(row) ? 1 : 0;
+            result_.seated += hasSeat(now().activity(row)) ? 1 : 0;
             if (agent.outcome != wordFor(Fate::arrived)) continue;
             arrival_frames.push_back(agent.arrival_frame);
             last = std::max(last, agent.arrival_frame);

@@ -25,9 +25,10 @@ struct Spread {
 /// How well a crowd moves, from the written files alone (docs/measure.md). Metres, seconds, degrees.
 struct Measurement {
     std::uint32_t agents = 0, arrived = 0, walking = 0, refused = 0;
-    std::uint32_t stuck = 0;  ///< StuckWatch
-    double seconds = 0.0;     ///< until the last arrival; the bake's length where somebody has not arrived
-    double duration = 0.0;    ///< of the bake
+    std::uint32_t seated = 0;  ///< at the end; figures of motion, density and overlaps are of the others
+    std::uint32_t stuck = 0;   ///< StuckWatch
+    double seconds = 0.0;      ///< until the last arrival; the bake's length where somebody has not arrived
+    double duration = 0.0;     ///< of the bake
 
     double overlapping_percent = 0.0;        ///< pairs deeper than 1 %, per person present, mean over frames
     double worst_overlapping_percent = 0.0;  ///< likewise in the worst frame

@@ -33,6 +33,7 @@ std::optional<double> figureNamed(const Measurement& m, const std::string& name)
     const std::pair<std::string_view, double> figures[] = {
         {wordFor(Fate::arrived), share(m.arrived)},
         {wordFor(Fate::stuck), share(m.stuck)},
+        {wordFor(Fate::seated), share(m.seated)},
         {wordFor(Fate::refused), share(m.refused)},
         {"seconds", m.seconds},
         {"overlapping_percent", m.overlapping_percent},
@@ -92,6 +93,7 @@ Json measurementJson(const Measurement& m) {
                  {"mean_density", readable(m.mean_density)},
                  {"high_density", readable(m.high_density)},
                  {"mean_speed", readable(m.mean_speed)}};
+    if (m.seated > 0) json[keyFor(Fate::seated)] = m.seated;
     if (m.flow) json["flow"] = readable(*m.flow);
     if (m.specific_flow) json["specific_flow"] = readable(*m.specific_flow);
     json["speed_by_density"] = Json::array();
@@ -108,6 +110,7 @@ std::string measurementText(const Measurement& m) {
     line("people", fmt::format("{}: {} {}, {} {} ({} of them {}), {} {}", m.agents, m.arrived,
                                wordFor(Fate::arrived), m.walking, wordFor(Fate::walking), m.stuck,
                                wordFor(Fate::stuck), m.refused, wordFor(Fate::refused)));
+    if (m.seated > 0) line(wordFor(Fate::seated).data(), fmt::format("{} of those arrived", m.seated));
     line("time", fmt::format("{:.1f} s{} of {:.1f} s", m.seconds,
                              m.arrived == m.agents ? " until the last arrived," : "", m.duration));
     line("overlaps",

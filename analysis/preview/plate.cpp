@@ -9,6 +9,7 @@
 #include <glm/common.hpp>
 #include <numbers>
 
+#include "base/activities.h"
 #include "base/text/printable.h"
 
 namespace throng::analysis {
@@ -79,6 +80,19 @@ std::string firstLetters(const std::string& text, std::size_t count) {
     for (; end < text.size() && (count > 0 || isInside(text[end])); ++end)
         if (!isInside(text[end])) --count;
     return text.substr(0, end);
+}
+
+/// How strongly somebody is drawn: who sits in a seat is pale, who stands before it is not.
+double strengthOf(const io::CrowdFrame& now, std::size_t row) {
+    constexpr double kSits = 0.45, kClaps = 0.7;
+    if (!hasSeat(now.activity(row))) return 1.0;
+    const auto activity = static_cast<ActivityCode>(static_cast<int>(now.activity(row)));
+    if (activity == ActivityCode::sits) return kSits;
+    if (activity == ActivityCode::readies || activity == ActivityCode::claps) return kClaps;
+    if (activity != ActivityCode::rises) return 1.0;
+    const double phase = now[Stream::state][row * kComponents + 2];
+    const double up = 1.0 - std::abs(2.0 * (phase - std::floor(phase)) - 1.0);
+    return kSits + (1.0 - kSits) * up;
 }
 
 }  // namespace
@@ -378,7 +392,7 @@ void Plate::drawPeople(cairo_t* context, const io::CrowdFrame& now) const {
         if (!isShown(now, row)) continue;
         const glm::dvec2 at = toPixel(now.place(row).x, now.place(row).y);
         const glm::dvec2 ahead(now.facing(row).x, -now.facing(row).y);
-        setColour(context, groupColour(groups_.group_of[row]));
+        setColour(context, groupColour(groups_.group_of[row]), strengthOf(now, row));
         const double radius = drawBody(context, at, now.body(row, people_[row]));
         // A nose: a white wedge tells which way somebody looks.
         cairo_set_source_rgba(context, 1.0, 1.0, 1.0, 0.9);

@@ -14,6 +14,8 @@
 #include "authoring/layout/people_reader.h"
 #include "authoring/layout/place_reader.h"
 #include "authoring/layout/polygon_check.h"
+#include "authoring/layout/seat_reader.h"
+#include "authoring/layout/seat_rows.h"
 
 namespace throng::authoring {
 namespace {
@@ -40,7 +42,9 @@ class Reader {
         if (const JsonNode* node = reader.get("terrain")) readTerrain(*node);
         eachOf(reader, "flows", [this](const JsonNode& node) { readFlow(node); });
         eachOf(reader, "formations", [this](const JsonNode& node) { readFormation(node); });
+        eachOf(reader, "seats", [this](const JsonNode& node) { seats_.readBlock(node); });
         eachOf(reader, "events", [this](const JsonNode& node) { readEvent(node); });
+        eachOf(reader, "shows", [this](const JsonNode& node) { seats_.readShow(node); });
         sortEvents();
         if (const JsonNode* node = reader.get("expect")) readExpectations(*node);
         reader.finish();
@@ -400,7 +404,11 @@ class Reader {
             known.reserve(groups_.size());
             for (const auto& [id, index] : groups_)
                 known.push_back(id);
-            if (item.kind == JsonNode::Kind::text && groups_.count(item.text))
+            if (item.kind == JsonNode::Kind::text && seats_.hasBlock(item.text))
+                diagnostics_.error(item.where,
+                                   fmt::format("`{}` is a block of seats: its people keep them", item.text),
+                                   "what they do is told under `shows`");
+            else if (item.kind == JsonNode::Kind::text && groups_.count(item.text))
                 event.who.push_back(item.text);
             else
                 diagnostics_.error(item.where, fmt::format("there is no flow or formation `{}`", item.text),
@@ -582,6 +590,9 @@ class Reader {
                 for (const ListedAgent& agent : list->agents)
                     largest = std::max(largest, agent.radius.value_or(0.0));
         }
+        if (!diagnostics_.hasErrors())
+            for (const SeatBlock& block : layout_.seats)
+                people += static_cast<double>(countSeats(block)) * block.occupancy;
         const double most = schema_.definition("flow").property("count").limits().most;
         if (people > most)
             diagnostics_.error(
@@ -617,6 +628,10 @@ class Reader {
                                  : flow.rate.value_or(0.0) * (flow.end - flow.start));
         for (const Formation& formation : layout_.formations)
             plans += (1.0 + sent(formation.id)) * countOf(formation);
+        if (!diagnostics_.hasErrors())
+            for (const Show& show : layout_.shows)
+                for (const std::size_t block : show.blocks)
+                    plans += static_cast<double>(show.laps * countSeats(layout_.seats.at(block)));
         const double most = schema_.rule().remark("x-most-plans").number;
         if (plans > most)
             diagnostics_.error(
@@ -645,6 +660,7 @@ class Reader {
     std::map<std::string, std::size_t> roads_, areas_, walls_, groups_;  // groups: flows by index, formations
     PlaceReader places_{schema_, roads_, areas_, diagnostics_};
     LevelReader levels_{schema_, layout_, diagnostics_};
+    SeatReader seats_{schema_, layout_, groups_, walls_, diagnostics_};
 };
 
 }  // namespace

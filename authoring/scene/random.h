@@ -31,7 +31,11 @@ enum class Purpose : std::uint64_t {
     choice,
     wait,
     breadth,
-    depth
+    depth,
+    seat,
+    show,
+    lasts,
+    pace
 };
 
 class GroupRandom {

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "authoring/layout/layout_reader.h"
+#include "authoring/scene/audience.h"
 #include "authoring/scene/terrain_check.h"
 #include "authoring/storeys/charts.h"
 #include "base/files/errors.h"
@@ -41,6 +42,35 @@ std::vector<recording::BakeAgent> describeAgents(const authoring::Scene& scene) 
         agents.back().profile = scene.groups[person.group].profiles[person.kind];
     }
     return agents;
+}
+
+/// Those who have seats come after all who are simulated.
+void describeAudience(const authoring::Layout& layout, const authoring::Scene& scene,
+                      recording::BakeDescription& bake) {
+    const std::size_t first_group = bake.groups.size(), first_row = bake.agents.size();
+    for (const authoring::SeatBlock& block : layout.seats) {
+        bake.groups.push_back(
+            {block.id, false, block.people.look, fmt::format("{}", fmt::join(block.people.colours, " "))});
+        bake.seats.push_back({block.id, block.pitch, block.width, block.rise, {}});
+        for (const authoring::SeatRow& row : authoring::seatRows(block))
+            bake.seats.back().rows.push_back({row.line, row.height});
+    }
+    for (authoring::Spectator& each : authoring::audienceOf(layout)) {
+        const authoring::SeatBlock& block = layout.seats[each.block];
+        recording::BakeAgent agent;
+        agent.group = static_cast<std::uint32_t>(first_group + each.block);
+        agent.radius = each.person.radius;
+        agent.preferred_speed = each.person.preferred_speed;
+        agent.variation = each.person.variation;
+        agent.party = static_cast<std::uint32_t>(first_row) + each.party;
+        agent.goal = each.seat.place;
+        agent.profile = block.people.kinds[each.person.kind].profile;
+        bake.agents.push_back(std::move(agent));
+        bake.audience.push_back({glm::vec2(each.seat.place - scene.origin), glm::vec2(each.seat.ahead),
+                                 static_cast<float>(each.seat.height), each.person.variation,
+                                 std::move(each.deeds)});
+        bake.variations = std::max(bake.variations, each.person.variation + 1);
+    }
 }
 
 /// Of a layout with levels: its floors and links are the ground, and end in railings.
@@ -104,6 +134,7 @@ recording::BakeDescription describeBake(const LoadedLayout& loaded, const BakeOp
         bake.groups.push_back(
             {group.id, group.is_flow, group.look, fmt::format("{}", fmt::join(group.colours, " "))});
     bake.agents = describeAgents(scene);
+    describeAudience(loaded.layout, scene, bake);
     bake.roads = loaded.layout.roads;
     bake.areas = loaded.layout.areas;
     bake.walls = loaded.layout.walls;

@@ -16,6 +16,7 @@
 #include "io/bake_reader.h"
 #include "io/checkpoint.h"
 #include "io/verify_bake.h"
+#include "recording/audience.h"
 #include "recording/motion_recorder.h"
 
 namespace throng::cli {
@@ -98,6 +99,24 @@ std::unique_ptr<io::BakeWriter> makeWriter(const recording::BakeDescription& des
     return std::make_unique<io::BakeWriter>(description);
 }
 
+/// Those who are simulated.
+recording::BakeDescription withoutAudience(recording::BakeDescription description) {
+    description.agents.resize(description.walkers());
+    description.audience.clear();
+    return description;
+}
+
+/// With those who have had their seats all along.
+Account withAudience(Account account, std::size_t seated) {
+    account.spawned += static_cast<std::uint32_t>(seated);
+    account.arrived += static_cast<std::uint32_t>(seated);
+    AgentOutcome outcome;
+    outcome.status = AgentStatus::arrived;
+    outcome.spawn_frame = outcome.arrival_frame = 0;
+    account.agents.resize(account.agents.size() + seated, outcome);
+    return account;
+}
+
 /// One bake under way.
 class Run {
   public:
@@ -108,7 +127,10 @@ class Run {
           simulation_(simulation),
           job_(job),
           writer_(writer),
-          recorder_(description, [&writer](const Frame& frame) { writer.write(frame); }),
+          audience_(description),
+          seated_(static_cast<std::uint32_t>(description.audience.size())),
+          recorder_(withoutAudience(description),
+                    [this, &writer](const Frame& frame) { writer.write(audience_.with(frame)); }),
           identity_(std::move(identity)),
           frames_(description.frames),
           substeps_(static_cast<std::uint32_t>(settings.substeps)),
@@ -139,14 +161,14 @@ class Run {
         for (std::uint32_t frame = recorder_.framesTaken(); frame < frames_ && !interrupt.signal(); ++frame) {
             if (!makeFrame(frame)) break;
             simulation_.adaptTo(present_);
-            progress.update(frame + 1, present_, simulation_.stepsDone());
+            progress.update(frame + 1, present_ + seated_, simulation_.stepsDone());
             if (job_.checkpoint_seconds > 0.0 && frame + 1 < frames_ &&
                 secondsSince(last_checkpoint_) >= job_.checkpoint_seconds)
                 save();
         }
         pump_.finish();
         const std::uint32_t taken = recorder_.framesTaken();
-        progress.update(taken, present_, warmup_ + taken * substeps_);
+        progress.update(taken, present_ + seated_, warmup_ + taken * substeps_);
         return taken < frames_ ? interrupt.signal() : 0;
     }
 
@@ -201,6 +223,8 @@ class Run {
     sim::Simulation& simulation_;
     const BakeJob& job_;
     io::BakeWriter& writer_;
+    recording::Audience audience_;
+    std::uint32_t seated_;
     recording::MotionRecorder recorder_;
     std::string identity_;
     std::uint32_t frames_, substeps_, warmup_;
@@ -281,7 +305,7 @@ BakeRun Baker::bake(const LoadedLayout& loaded, const BakeJob& job, const Interr
     run.timing.wall_seconds = running.seconds();
     run.timing.steps = simulation.stepsDone();
     run.frames = running.frames();
-    run.account = simulation.account();
+    run.account = withAudience(simulation.account(), description.audience.size());
     context_.check("reading what became of everybody");
     if (run.signal)
         stop(run, running, *writer, job.when_stopped(run.signal, run.timing.wall_seconds));

@@ -9,7 +9,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 def words():
     text = (ROOT / "base" / "outcomes.h").read_text()
     found = dict(re.findall(r'FateWord\{\s*Fate::\w+, "(\w+)",\s*"([^"]*)"\}', text))
-    assert len(found) == 6
+    assert len(found) == 7
     return found
 
 

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy
 
-from . import gait, people
+from . import gait, people, sitting
 from .mesh_builder import Plan
 
 VARIATIONS = len(people.CAST)
@@ -30,19 +30,24 @@ class Repertoire:
     """What everybody in a cast can do, and which pose is where, at each level of detail."""
     strides: tuple  # m, of each gait that there is
     first: int = 0  # the number that the bake gives the first of them
+    seats: bool = False  # whether somebody has one
 
     @classmethod
-    def of(cls, strides, gaits):
+    def of(cls, strides, gaits, seats=False):
         """@param strides of all gaits that the bake knows of; @param gaits the first and the last that the cast has"""
         first, last = gaits
-        return cls(tuple(strides[first:last + 1]), first)
+        return cls(tuple(strides[first:last + 1]), first, bool(seats))
 
     def walking(self, level=0):
-        """How many poses walk; the standing ones come after."""
+        """How many poses walk; the standing ones come after, and those of who has a seat last."""
         return len(self.strides) * LEVEL_POSES[level]
 
-    def poses(self, level=0):
+    def upright(self, level=0):
+        """How many walk or stand."""
         return self.walking(level) + len(gait.STANDING_CLIPS) * LEVEL_BEATS[level]
+
+    def poses(self, level=0):
+        return self.upright(level) + (sitting.POSES * LEVEL_BEATS[level] // BEATS if self.seats else 0)
 
     @property
     def count(self):
@@ -73,7 +78,8 @@ def poses_of_build(build, repertoire):
     """The same of whoever is built so."""
     gaits = [gait.gait_of(stride) for stride in repertoire.strides]
     return ([gait.walk_pose(index / POSES, build, each) for each in gaits for index in range(POSES)]
-            + [gait.standing_pose(clip, beat / BEATS, build) for clip in gait.STANDING_CLIPS for beat in range(BEATS)])
+            + [gait.standing_pose(clip, beat / BEATS, build) for clip in gait.STANDING_CLIPS for beat in range(BEATS)]
+            + (sitting.poses_of(build) if repertoire.seats else []))
 
 
 def plan_of(figures, repertoire, level):

@@ -12,6 +12,7 @@ from .people import BOTTOM, TOP
 BULK = {"coat": 1.10, "jacket": 1.06, "hoodie": 1.08}
 _FLARE = {"coat": 1.1, "dress": 1.12}
 _OPEN = (False, False)
+_LAP = 0.06  # m that it is pushed forward there
 _LOOSE = ("jacket", "hoodie", "tee")  # over the hips, where no skirt holds them
 
 
@@ -159,7 +160,11 @@ def add_hem(figure):
     for height, deep, wide in ((0.0, 0.121, 0.172), (-0.055, 0.124, 0.178)):
         x, y, z = figure.at(height, -0.006, 0.0, 0.0)
         spans.append([x + deep * g * bulk * s, x - deep * g * bulk * s, y, z, wide * p.hips * bulk * s])
+    fronts = [each[0] for each in spans]
     _cover_legs(figure, spans, _CLOTH)
+    if figure.pose.seated:  # it ends in the lap
+        for each, front in zip(spans, fronts):
+            each[0] = min(each[0], front + _LAP * s)
     _hang(figure, [above, waist], spans, TOP, _OPEN)
 
 

@@ -37,7 +37,7 @@ class Figure:
         self.skirts = []  # of what hangs over the hips, rings of points from the waist down
         self._trunk()
         self._head()
-        wrists = [self._arm(side, *pose.arms[index]) for index, side in enumerate((-1, 1))]
+        wrists = [self._arm(side, *pose.arms[index], pose.aside[index]) for index, side in enumerate((-1, 1))]
         hips, knees, ankles = zip(*(self._leg(side, pose.feet[index]) for index, side in enumerate((-1, 1))))
         cloth.add_hem(self)
         cloth.add_skirts(self, hips, knees, ankles)
@@ -111,7 +111,7 @@ class Figure:
                 self.mesh.ball(at(0.0, side * 0.074, -0.005), (0.020 * s, 0.009 * s, 0.030 * s), SKIN, 6, 3, until=0)
         hair.add_hair(hair.Head(self, at, x, y, s))
 
-    def _arm(self, side, swing, elbow):
+    def _arm(self, side, swing, elbow, aside):
         p, s, mesh = self.person, self.s, self.mesh
         turn = self.yaw(1.0)
         bulk = outfit.SLEEVES.get(p.top, 1.0) * self.g ** 0.5
@@ -122,13 +122,13 @@ class Figure:
         share, held, more = _CARRYING.get((p.extra, side), (1.0, 0.0, 0.0))
         swing, elbow = swing * share + held, elbow * share + more
 
-        def hang(angle):
+        def hang(angle, further):
             down = turn_y((0, 0, -1), -angle)
-            return turn_z(unit((down[0], down[1] + out * (1.0 - 0.4 * abs(angle)), down[2])), turn)
+            return turn_z(unit((down[0], down[1] + out * (1.0 - 0.4 * abs(angle)) + side * further, down[2])), turn)
 
-        upper = hang(swing)
+        upper = hang(swing, aside[0])
         elbow_at = add(shoulder, scale(upper, 0.285 * s))
-        fore = unit(add(hang(swing + elbow), (0.0, -side * 0.09, 0.0)))
+        fore = unit(add(hang(swing + elbow, aside[1]), (0.0, -side * 0.09, 0.0)))
         wrist = add(elbow_at, scale(fore, 0.245 * s))
         self.arms.append((shoulder, elbow_at, wrist))
         mesh.ball(shoulder, (0.0485 * s * bulk, 0.0485 * s * bulk, 0.052 * s * bulk), TOP, 8, 4, until=1)

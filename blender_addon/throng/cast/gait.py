@@ -101,6 +101,8 @@ class Pose:
     arms: tuple             # (right, left) of (swing forward, elbow flexion)
     tilt: float = 0.0       # of the trunk, to the right
     runs: bool = False
+    aside: tuple = ((0.0, 0.0), (0.0, 0.0))  # of the arms: how far upper arm and forearm go outwards, of their length
+    seated: bool = False    # has a seat, and free hands
 
 
 def _smooth(t):

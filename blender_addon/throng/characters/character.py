@@ -62,6 +62,7 @@ def make(armature, repertoire, name, options):
         plans = [motion.plan(_nearest(cycles, stride), body, stride) for stride in repertoire.strides]
         bones = [motion.pose_of(plan, body, index / POSES) for plan in plans for index in range(POSES)]
         bones += _standing(reader, chosen, cycles, body, report)
+        bones += [bones[repertoire.walking()]] * (repertoire.poses() - repertoire.upright())  # nobody's own clips sit
         puppet = posing.Puppet(rig, stage, reader.placement)
         try:
             levels = _levels(puppet, reader, bones, repertoire, report, plans)

@@ -181,6 +181,21 @@ def _stands(maths, state, nature, walking):
                     _smooth(maths, maths.math("SUBTRACT", place, beat), 0.67, 1.0))
 
 
+def _rests(maths, state, phase, nature, repertoire):
+    """The same of whoever does not walk, in a seat or not."""
+    stands = _stands(maths, state, nature, repertoire.walking())
+    if not repertoire.seats:
+        return stands
+    first, along, count, returns = poses.seated_place(maths, state, phase)
+    first = maths.math("ADD", first, float(repertoire.upright()))
+    last = maths.math("SUBTRACT", count, maths.math("ADD", returns, 1.0))  # there and back, the last is only gone to
+    pose = maths.math("MINIMUM", maths.math("FLOOR", along), last)
+    after = maths.math("MODULO", maths.math("ADD", pose, 1.0), count)
+    sits = combined(maths, maths.math("ADD", first, pose), maths.math("ADD", first, after),
+                    maths.math("SUBTRACT", along, pose))
+    return between(maths, stands, sits, poses.has_seat(maths, state))
+
+
 def _people(maths, points, repertoire, cast, is_told):
     """Points of near people with all that their bones need to know of them. @param is_told by a stream, how much of
     the walk is in their poses"""
@@ -198,7 +213,7 @@ def _people(maths, points, repertoire, cast, is_told):
     for name, value, kind in ((WHO, who, "INT"), (_RANK, maths.node("GeometryNodeInputIndex").outputs[0], "INT"),
                               (ROW, maths.node("GeometryNodeInputID").outputs[0], "INT"),
                               (_WALKS, walks, "FLOAT_VECTOR"), (_BEFORE, before, "FLOAT_VECTOR"),
-                              (_STANDS, _stands(maths, state, nature, repertoire.walking()), "FLOAT_VECTOR"),
+                              (_STANDS, _rests(maths, state, phase, nature, repertoire), "FLOAT_VECTOR"),
                               (_RATES, combined(maths, walking, rate, speed), "FLOAT_VECTOR"),
                               (_TURN, combined(maths, cosine, sine, maths.math("ADD", maths.attribute(BIGGER), 1.0)),
                                "FLOAT_VECTOR")):

@@ -15,7 +15,7 @@ from ..blender.nodes import Maths, drop_tree, get_input, new_tree, set_input
 from ..formats import FEET, POSE, STREAMS
 from . import close, footing, near, own, pose_lists
 from .instancer import instancer_tree
-from .names import INSTANCERS, NATURE
+from .names import INSTANCERS, NATURE, SEATS
 from .queries import cast_of, crowds_of, repertoire_of
 
 _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
@@ -122,6 +122,7 @@ def build_crowd(bake, name, cast, frame_start, paths):
     for name, hidden in zip(INSTANCERS, ("show_viewport", "show_render")):
         setattr(crowd.modifiers.new(name, "NODES"), hidden, False)
     crowd["throng_strides"], cast["throng_gaits"] = list(bake.strides), list(bake.gaits)
+    cast[SEATS] = bake.has_seats
     cast["throng_drawn"], cast["throng_shipped"] = bake.variations, cast["throng_variations"]
     crowd["throng_frame_start"], crowd["throng_offset"], crowd["throng_percent"] = frame_start, 0, 100.0
     own.give(crowd, cast, bake.folder)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Who somebody appears as, and in which pose, as nodes that work it out for all at once."""
-from ..cast import LEVEL_BEATS, LEVEL_POSES
+from ..cast import BEATS, LEVEL_BEATS, LEVEL_POSES, sitting
 from ..blender.nodes import socket
 from .own import OWN
 
@@ -69,7 +69,49 @@ def _standing_pose(maths, state, nature, beats, walking):
     return maths.math("ADD", maths.math("MULTIPLY_ADD", clip, beats, walking), beat)
 
 
+def has_seat(maths, state):
+    """1 for whoever has one."""
+    return maths.math("GREATER_THAN", state, sitting.FIRST - 0.5)
+
+
+def _of_clip(maths, clip, values):
+    """The value of everybody's clip, by number."""
+    total = 0.0
+    for number, value in enumerate(values):
+        total = maths.math("MULTIPLY_ADD", maths.math("COMPARE", clip, float(number), 0.1), float(value), total)
+    return total
+
+
+def seated_place(maths, state, phase, share=1):
+    """(the first pose of everybody's clip behind the standing ones, how far in it somebody is, how many it has, whether
+    it goes there and back); one pose in `share` is kept."""
+    clip = maths.math("SUBTRACT", maths.math("FLOOR", state), float(sitting.FIRST))
+    count = _of_clip(maths, clip, [each.poses // share for each in sitting.CLIPS])
+    first = _of_clip(maths, clip, [sitting.first_pose(number) // share for number in range(len(sitting.CLIPS))])
+    returns = _of_clip(maths, clip, [each.there_and_back for each in sitting.CLIPS])
+    place = maths.math("FRACT", phase)
+    there = maths.math("SUBTRACT", 1.0, maths.math("ABSOLUTE", maths.math("MULTIPLY_ADD", place, 2.0, -1.0)))
+    cycle, way = maths.math("MULTIPLY", place, count), maths.math("MULTIPLY", there, maths.math("SUBTRACT", count, 1.0))
+    along = maths.math("MULTIPLY_ADD", returns, maths.math("SUBTRACT", way, cycle), cycle)
+    return first, along, count, returns
+
+
+def _seated_pose(maths, state, phase, share, upright):
+    first, along, count, returns = seated_place(maths, state, phase, share)
+    nearest = maths.math("FLOOR", maths.math("MULTIPLY_ADD", returns, 0.5, along))
+    pose = maths.math("MINIMUM", nearest, maths.math("SUBTRACT", count, 1.0))
+    return maths.math("ADD", maths.math("ADD", first, pose), float(upright))
+
+
 def pose_index(maths, speed, state, phase, nature, repertoire, level):
+    upright = _upright_pose(maths, speed, state, phase, nature, repertoire, level)
+    if not repertoire.seats:
+        return upright
+    seated = _seated_pose(maths, state, phase, BEATS // LEVEL_BEATS[level], repertoire.upright(level))
+    return maths.math("MULTIPLY_ADD", has_seat(maths, state), maths.math("SUBTRACT", seated, upright), upright)
+
+
+def _upright_pose(maths, speed, state, phase, nature, repertoire, level):
     walks = maths.math("GREATER_THAN", speed, STANDING_SPEED)
     walking = _walking_pose(maths, state, phase, LEVEL_POSES[level], repertoire.first)
     standing = _standing_pose(maths, state, nature, LEVEL_BEATS[level], repertoire.walking(level))

@@ -7,7 +7,7 @@ import bpy
 from .. import cast
 from ..blender.polls import available
 from ..cast import library
-from .names import CACHES
+from .names import CACHES, SEATS
 
 LAYERED_OF = "throng_layered_of"  # on a crowd that shows the layers of another: that one
 
@@ -130,7 +130,7 @@ def gaits_of(crowd):
 
 def repertoire_of(crowd):
     """What everybody in a crowd's cast can do."""
-    return cast.Repertoire.of(tuple(crowd["throng_strides"]), gaits_of(crowd))
+    return cast.Repertoire.of(tuple(crowd["throng_strides"]), gaits_of(crowd), cast_of(crowd).get(SEATS, False))
 
 
 def figure(crowd, number, level=0):

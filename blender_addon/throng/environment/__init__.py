@@ -2,7 +2,7 @@
 """What the crowd walks among: walls, roads, ground, light and a camera, all from the bake's manifest."""
 from ..formats.terrain_mesh import read_mesh
 from . import camera as camera_module
-from . import dressing, lights, streets, terrain as terrain_module, walls as walls_module
+from . import dressing, lights, stands, streets, terrain as terrain_module, walls as walls_module
 
 
 def read_terrain(bake):
@@ -19,9 +19,14 @@ def build_environment(context, manifest, collection, *, walls=True, roads=True, 
     """
     geometry = manifest.get("geometry") or {}
     if walls:
+        outlines = stands.stand_names(geometry)
         for wall in geometry.get("walls", []):
+            if wall.get("id", "").rstrip("_") in outlines:
+                continue
             thing = walls_module.build_wall(wall)
             walls_module.key_gate(thing, wall, float(manifest["fps"]), frame_start)
+            collection.objects.link(thing)
+        for thing in stands.build_stands(geometry):
             collection.objects.link(thing)
     if roads and not manifest.get("terrain"):
         for thing in streets.build_streets(geometry):

@@ -32,6 +32,8 @@ class Bake:
         self.strides = _strides(manifest)
         self.gaits = _gaits(manifest, len(self.strides))
         self.variations = max(1, int(manifest.get("variations", 1)))
+        geometry = manifest.get("geometry")
+        self.has_seats = bool(isinstance(geometry, dict) and geometry.get("seats"))
         self.complete = bool(manifest.get("complete", False))
         self.origin = tuple(float(value) for value in manifest.get("origin", (0.0, 0.0, 0.0)))
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The words of a bake's account, as base/outcomes.h has them. Pure Python."""
-SPAWNED, WALKING, WAITING, ARRIVED, STUCK, REFUSED = "spawned", "walking", "waiting", "arrived", "stuck", "refused"
+SPAWNED, WALKING, WAITING, ARRIVED, SEATED, STUCK, REFUSED = ("spawned", "walking", "waiting", "arrived", "seated",
+                                                             "stuck", "refused")
 
 
 def account_text(account):

@@ -8,7 +8,7 @@ import bpy
 from mathutils import Matrix, Vector
 
 from .. import cast
-from ..cast import gait, library, people
+from ..cast import gait, library, people, sitting
 from ..cast.bones import bones_of
 from ..cast.materials import cast_materials
 from ..cast.sheets import sheet_of
@@ -69,6 +69,8 @@ class _Curves:
 def _bones_at(who, sample, frame, strides, nature):
     """As the instancer picks poses, but at the phase itself instead of the nearest of its steps."""
     activity, _, phase = sample.state
+    if activity > sitting.FIRST - 0.5:
+        return who.seated(*sitting.place_at(activity, phase))
     if sample.direction[2] > STANDING_SPEED:
         return who.walking(min(len(strides) - 1, round((activity % 1.0) * 16.0)), strides, phase % 1.0)
     clip = int(nature[0] % (4 if int(activity) == 2 else 2))
@@ -83,6 +85,9 @@ class _ByGaits:
 
     def standing(self, clip, beat):
         return self.bones(gait.standing_pose(gait.STANDING_CLIPS[clip], beat, self.build))
+
+    def seated(self, clip, share):
+        return self.bones(sitting.seated_pose(clip, share, self.build))
 
 
 class Lofted(_ByGaits):

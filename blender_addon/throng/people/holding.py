@@ -18,16 +18,17 @@ _TO_THIGHS = -0.22                  # where nothing is held, the thigh
 # the wrist beside the bone that it goes with, of somebody 1.74 m tall
 _WRISTS = {PHONE: ("spine_03", "neck_01", (0.285, -0.065, -0.225)), CALL: ("head", "head", (0.088, -0.142, -0.062))}
 _ELBOWS = {PHONE: (-0.20, -0.27, -0.94), CALL: (0.05, -0.42, -0.90)}  # the way that they point, beside the chest
+_BESIDE_SEAT = (0.16, 0.10, -0.30)  # m, from where bags are made
 _BAG_SWINGS = 0.5  # of the arm's angle
 _Y = numpy.array([0.0, 1.0, 0.0])
 
 
-def hanging(holds, swing, elbow):
-    """(swing, elbow) of the right arm."""
+def hanging(holds, swing, elbow, seated=False):
+    """(swing, elbow) of the right arm. @param seated by pose: who has a seat has put bags down"""
     if holds not in _HANGING:
         return swing, elbow
     share, bent, _ = _HANGING[holds]
-    return share * swing, bent + 0.0 * elbow
+    return numpy.where(seated, swing, share * swing), numpy.where(seated, elbow, bent)
 
 
 def hand(holds, side):
@@ -38,7 +39,8 @@ def hand(holds, side):
 
 
 def head(holds, runs):
-    """How far the head is bent forward and to the right, rad; runners look ahead. @param runs by pose"""
+    """How far the head is bent forward and to the right, rad; runners, and who has a seat, look ahead. @param runs by
+    pose: either of these"""
     nod, aside = _HEADS.get(holds, (0.0, 0.0))
     return numpy.where(runs, 0.0, nod), numpy.where(runs, 0.0, aside)
 
@@ -51,9 +53,10 @@ def hook_at_rest(rig):
 def hold(rig, turns, places, poses):
     """Puts the right arm, which hangs, where what is held needs it, and what hangs from the hand below it."""
     if rig.holds in _WRISTS:
-        _raise(rig, turns, places, poses.runs)
+        _raise(rig, turns, places, poses.runs | poses.seated)
     if rig.holds in BAGS:
         hang(rig, turns, places, _BAG_SWINGS * _HANGING[rig.holds][0] * poses.arms[:, 0, 0])
+        _put_down(rig, turns, places, poses.seated)
 
 
 def hang(rig, turns, places, swing):
@@ -62,15 +65,22 @@ def hang(rig, turns, places, swing):
     places["Root"] = rig.grip(turns, places) + turned(turns["Root"], rig.heads["Root"] - hook_at_rest(rig))
 
 
-def _raise(rig, turns, places, runs):
-    """The hand to its place, but of those who run."""
+def _put_down(rig, turns, places, seated):
+    """A bag stands on the floor beside who has a seat."""
+    floor = rig.heads["Root"] + rig.scale * numpy.array(_BESIDE_SEAT)
+    turns["Root"] = numpy.where(seated[:, None, None], numpy.eye(3), turns["Root"])
+    places["Root"] = numpy.where(seated[:, None], floor, places["Root"])
+
+
+def _raise(rig, turns, places, free):
+    """The hand to its place, but of those whose hands are free for something else."""
     bone, at, beside = _WRISTS[rig.holds]
     wrist = places[bone] + turned(turns[bone], rig.heads[at] - rig.heads[bone] + rig.scale * numpy.array(beside))
     raised, there = dict(turns), dict(places)
     _reach(rig, raised, there, wrist)
     for name in raised:
-        turns[name] = numpy.where(runs[:, None, None], turns[name], raised[name])
-        places[name] = numpy.where(runs[:, None], places[name], there[name])
+        turns[name] = numpy.where(free[:, None, None], turns[name], raised[name])
+        places[name] = numpy.where(free[:, None], places[name], there[name])
 
 
 def _reach(rig, turns, places, wrist):

@@ -16,6 +16,7 @@ _LEADING = ("Root", "pelvis", "spine_01", "spine_02", "spine_03", "neck_01", "he
 SOLE = 0.018  # m, of a shoe, below the foot
 STICK_AHEAD = 0.12  # m, of the ankle, where sticks are planted
 _DROOP = 0.18     # rad, by which collarbones sink as arms are let down, which are held out at rest
+_LIFTS_FROM, _LIFT = 1.3, 0.55  # rad of swing, from which collarbones rise with the arm, and how far
 _ROUNDS = 10      # of looking for an elbow's angle: to a millimetre of the stick's tip
 
 
@@ -31,6 +32,8 @@ class _Poses:
         self.planted = of(lambda pose: [bool(foot.planted) for foot in pose.feet]) > 0.5
         self.arms = of(lambda pose: pose.arms)                               # (P, 2, 2)
         self.tilt, self.runs = of(lambda pose: pose.tilt), of(lambda pose: pose.runs) > 0.5
+        self.aside = of(lambda pose: pose.aside)                             # (P, 2, 2)
+        self.seated = of(lambda pose: pose.seated) > 0.5
 
 
 class Rig:
@@ -78,10 +81,12 @@ class Rig:
             self._leg(turns, places, poses, side, index)
             swing, elbow = numpy.moveaxis(poses.arms[:, index], -1, 0)
             if self.stoop:  # arms hang down from bent backs, and swing less
-                swing, elbow = 0.6 * swing + 0.4 * self.stoop, elbow + 0.15
+                bent = ~poses.seated
+                swing, elbow = (numpy.where(bent, 0.6 * swing + 0.4 * self.stoop, swing),
+                                numpy.where(bent, elbow + 0.15, elbow))
             if side == "r":
-                swing, elbow = holding.hanging(self.holds, swing, elbow)
-            self.hang_arm(turns, places, poses.shoulder_yaw, side, swing, elbow)
+                swing, elbow = holding.hanging(self.holds, swing, elbow, poses.seated)
+            self.hang_arm(turns, places, poses.shoulder_yaw, side, swing, elbow, poses.aside[:, index])
         if self.stick:
             self._plant(turns, places, poses)
         holding.hold(self, turns, places, poses)
@@ -100,7 +105,7 @@ class Rig:
 
     def _trunk(self, poses):
         stoop, straight = self.stoop, poses.lean
-        nod, aside = holding.head(self.holds, poses.runs)
+        nod, aside = holding.head(self.holds, poses.runs | poses.seated)
         lean = turn(_Y, straight + 0.9 * stoop)
         shoulders = turn(_X, poses.tilt) @ turn(_Z, poses.shoulder_yaw)
         half = turn(_X, 0.6 * poses.tilt) @ turn(_Z, 0.5 * (poses.pelvis_yaw + poses.shoulder_yaw))
@@ -145,25 +150,29 @@ class Rig:
         turns[ball] = toes_out @ turn(_Y, -numpy.maximum(pitch, 0.0)) @ straight  # toes stay on the ground
         places[ball] = end + turned(turns[ankle], rest)
 
-    def hang_arm(self, turns, places, yaw, side, swing, elbow):
-        """Adds an arm to a trunk that is turned and placed. @param yaw of the shoulders"""
+    def hang_arm(self, turns, places, yaw, side, swing, elbow, aside=None):
+        """Adds an arm to a trunk that is turned and placed. @param yaw of the shoulders; @param aside (P, 2) as
+        gait.Pose has it"""
         sign = 1.0 if side == "l" else -1.0
         clavicle, upper, lower, hand = (f"{bone}_{side}" for bone in ("clavicle", "upperarm", "lowerarm", "hand"))
-        turns[clavicle] = turns["spine_03"] @ turn(_X, -sign * _DROOP)
+        lifted = numpy.clip((swing - _LIFTS_FROM) / (math.pi - _LIFTS_FROM), 0.0, 1.0)
+        turns[clavicle] = turns["spine_03"] @ turn(_X, sign * (_LIFT * lifted - _DROOP))
         places[clavicle] = self._end(turns, places, "spine_03", clavicle)
         shoulder = self._end(turns, places, clavicle, upper)
         reach = math.dist(self.heads[upper], self.heads[lower]) + math.dist(self.heads[lower], self.heads[hand])
-        further, roll = holding.hand(self.holds, side)
+        held_out, roll = holding.hand(self.holds, side)
         # outwards enough for the hand to pass beside the hips
-        room = (self.widest + 0.076 * self.scale + further - abs(self.heads[upper][1])) / reach
+        room = (self.widest + 0.076 * self.scale + held_out - abs(self.heads[upper][1])) / reach
         out = sign * min(max(0.10, room), 0.34)
         shoulders = turn(_Z, yaw)
 
-        def hang(angle):
-            return turned(shoulders, vector(numpy.sin(angle), out * (1.0 - 0.4 * numpy.abs(angle)),
+        further = numpy.zeros((1, 2)) if aside is None else sign * aside
+
+        def hang(angle, part):
+            return turned(shoulders, vector(numpy.sin(angle), out * (1.0 - 0.4 * numpy.abs(angle)) + further[:, part],
                                             -numpy.cos(angle)))
 
-        down, fore = hang(swing), hang(swing + elbow)
+        down, fore = hang(swing, 0), hang(swing + elbow, 1)
         rest_upper = self.heads[lower] - self.heads[upper]
         rest_lower = self.heads[hand] - self.heads[lower]
         hinge, rest_hinge = -turned(shoulders, _Y), cross(rest_upper, rest_lower)

@@ -54,7 +54,7 @@ def import_bake(context, path, *, frame_start=1, walls=True, roads=True, scenery
     collection["throng_bake"] = os.path.join(bake.folder, "bake.json")
     collection["throng_origin"] = bake.origin
 
-    repertoire, dress = cast.Repertoire.of(bake.strides, bake.gaits), None
+    repertoire, dress = cast.Repertoire.of(bake.strides, bake.gaits, bake.has_seats), None
     variations = min(bake.variations, cast.VARIATIONS)
     if members.found():
         variations = min(people, max(1, bake.agents))

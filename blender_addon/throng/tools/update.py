@@ -6,7 +6,8 @@ from ..blender.nodes import set_input
 from ..blender.paths import stored_path
 from ..characters import members
 from ..crowd import own, playback
-from ..crowd.queries import bake_path, caches, collection_of
+from ..crowd.names import SEATS
+from ..crowd.queries import bake_path, caches, cast_of, collection_of
 from ..formats import POSE, BakeError, load_bake
 from ..overrides import native
 from ..overrides.layer import Arrival
@@ -41,6 +42,8 @@ def reload(crowd, scene, path=None):
     played = {cache.name.removeprefix("throng ") for cache in caches(crowd)}
     if played - set(POSE) != set(bake.streams) - set(POSE):
         raise BakeError("one of the two bakes has a terrain and the other has none: import it anew")
+    if bake.has_seats and not cast_of(crowd).get(SEATS):
+        raise BakeError("in this bake people sit, and nobody in the cast was made for it: import it anew")
     overrides = Arrival(bake, crowd)
     members.widen(crowd, bake.gaits)
     mesh = crowd.data

@@ -55,7 +55,8 @@ class Member:
 def repertoire_of(bake: Bake) -> Repertoire:
     strides = [float(stride) for stride in bake.about.get("strides") or [1.446]]
     gaits = bake.about.get("gaits") or range(len(strides))
-    return Repertoire.of(strides, (min(gaits), min(max(gaits), len(strides) - 1)))
+    seats = bake.about["geometry"].get("seats")
+    return Repertoire.of(strides, (min(gaits), min(max(gaits), len(strides) - 1)), bool(seats))
 
 
 def bodies_of_library() -> library.Bodies:

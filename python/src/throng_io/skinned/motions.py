@@ -7,7 +7,7 @@ import dataclasses
 
 import numpy
 
-from ..cast import BEATS, POSES, Repertoire, gait
+from ..cast import BEATS, POSES, Repertoire, gait, sitting
 
 STANDS_BELOW = 0.03                    # m/s, where no stream tells how much of a walk is in a pose
 WALKS_FROM = 0.35
@@ -49,7 +49,7 @@ def smooth(value: Array, low: float, high: float) -> Array:
 def matrices_of(poses: Array, repertoire: Repertoire, track: Track) -> Array:
     """F x J x 3 x 4: where joints take what hangs on them. @param poses P x J x 3 x 4"""
     walk = _walk(poses, repertoire, track.state)
-    return _upright(_mix(_stand(poses, repertoire, track), walk, walking_of(track)))
+    return _upright(_mix(_rest(poses, repertoire, track), walk, walking_of(track)))
 
 
 def walking_of(track: Track) -> Array:
@@ -103,6 +103,31 @@ def _stand(poses: Array, repertoire: Repertoire, track: Track) -> Array:
     beat = numpy.minimum(numpy.floor(place), BEATS - 1).astype(int)
     first = repertoire.walking() + BEATS * clip
     return _mix(poses[first + beat], poses[first + (beat + 1) % BEATS], smooth(place - beat, STAYS_UNTIL, 1.0))
+
+
+def seats_of(state: Array) -> tuple[Array, Array, Array, Array]:
+    """(whether somebody has a seat, two poses behind the standing ones, how far from the one to the other) in F frames
+    (docs/bake.md)."""
+    has = state[:, 0] > sitting.FIRST - 0.5
+    clip = numpy.clip(numpy.floor(state[:, 0]) - sitting.FIRST, 0, len(sitting.CLIPS) - 1).astype(int)
+    first, count, returns = (numpy.array(each)[clip] for each in (
+        [sitting.first_pose(number) for number in range(len(sitting.CLIPS))],
+        [each.poses for each in sitting.CLIPS], [each.there_and_back for each in sitting.CLIPS]))
+    phase = state[:, 2] % 1.0
+    place = numpy.where(returns, (1.0 - numpy.abs(2.0 * phase - 1.0)) * (count - 1), phase * count)
+    pose = numpy.minimum(numpy.floor(place), count - 1 - returns).astype(int)
+    return has, first + pose, first + (pose + 1) % count, place - pose
+
+
+def _rest(poses: Array, repertoire: Repertoire, track: Track) -> Array:
+    """Of who does not walk, in a seat or not."""
+    stands = _stand(poses, repertoire, track)
+    if not repertoire.seats:
+        return stands
+    has, here, there, share = seats_of(track.state)
+    first = repertoire.upright()
+    sits = _mix(poses[first + here], poses[first + there], share)
+    return numpy.where(has[:, None, None, None], sits, stands)
 
 
 def _upright(matrices: Array) -> Array:

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "authoring/layout/seat_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "authoring/layout/people_reader.h"
+#include "authoring/layout/seat_rows.h"
+
+namespace throng::authoring {
+namespace {
+
+constexpr double kStandHeight = 0.01;  // m, of the outline: what is seen of a stand are its rows
+constexpr double kWholeRound = 360.0;
+
+}  // namespace
+
+void SeatReader::readBlock(const JsonNode& node) {
+    SeatBlock block;
+    block.where = node.where;
+    ObjectReader reader(node, schema_.definition("seat_block"), "a block of seats", diagnostics_);
+    if (!reader.isObject()) return;
+    reader.requiredText("id", "its name, for shows and in the account", block.id);
+    const JsonNode* front = reader.get("front");
+    const JsonNode* arc = reader.get("arc");
+    if ((front != nullptr) == (arc != nullptr))
+        diagnostics_.error(
+            node.where,
+            fmt::format("a block of seats needs exactly one of `front` (the first row's points) "
+                        "and `arc` (part of a circle), this one has {}",
+                        front ? "both" : "neither"),
+            R"(for example "front": [[0, 0], [10, 0]])");
+    if (front) block.front = reader.points("front");
+    if (arc) readArc(reader, *arc, block);
+    reader.integer("rows", block.rows);
+    reader.number("pitch", block.pitch);
+    reader.number("width", block.width);
+    reader.number("rise", block.rise);
+    reader.number("height", block.height);
+    reader.point("facing", block.facing);
+    reader.integer("aisles", block.aisles);
+    reader.number("aisle_width", block.aisle_width);
+    reader.number("occupancy", block.occupancy);
+    block.people = readPeople(reader, diagnostics_);
+    reader.finish();
+    claimId(node, block.id, blocks_, layout_.seats.size(), "a block of seats", diagnostics_);
+    claimId(node, block.id, groups_, std::string::npos, "a flow, formation or block of seats", diagnostics_);
+    if (block.front.size() >= 2 && !diagnostics_.hasErrors()) {
+        checkBlock(block, node);
+        if (!diagnostics_.hasErrors()) addStands(block);
+    }
+    layout_.seats.push_back(std::move(block));
+}
+
+void SeatReader::readArc(ObjectReader& reader, const JsonNode& node, SeatBlock& block) {
+    ObjectReader arc(node, reader.rule("arc"), "`arc`", diagnostics_);
+    if (!arc.isObject()) return;
+    glm::dvec2 centre(0.0);
+    arc.point("centre", "the middle, [x, y] in metres", centre);
+    std::array<double, 3> numbers{1.0, 0.0, 0.0};
+    constexpr std::array kNames = {std::pair{"radius", "metres"}, std::pair{"from", "degrees"},
+                                   std::pair{"to", "degrees"}};
+    bool complete = node.find("centre") != nullptr;
+    for (std::size_t i = 0; i < kNames.size(); ++i) {
+        complete = arc.require(kNames[i].first, kNames[i].second) && complete;
+        arc.number(kNames[i].first, numbers[i]);
+    }
+    arc.finish();
+    const auto [radius, from, to] = numbers;
+    if (!complete || diagnostics_.hasErrors()) return;
+    if (to <= from || to - from > kWholeRound) {
+        diagnostics_.error(
+            node.find("to")->where,
+            fmt::format("the arc goes from {:.6g} to {:.6g} degrees: counter-clockwise, at most "
+                        "a whole round",
+                        from, to),
+            to <= from ? fmt::format("write \"to\": {:.6g}", to + kWholeRound)
+                       : fmt::format("write \"to\": {:.6g}", from + kWholeRound));
+        return;
+    }
+    block.front = arcFront(centre, radius, from, to);
+    block.facing = centre;
+}
+
+void SeatReader::checkBlock(const SeatBlock& block, const JsonNode& node) const {
+    if (foldsBack(block)) {
+        diagnostics_.error(
+            node.where,
+            fmt::format("block `{}`: rows so far behind a first row that bends so sharply cross themselves",
+                        block.id),
+            "people look to the left of `front`: turn its points round, or take fewer rows");
+        return;
+    }
+    if (countSeats(block) == 0)
+        diagnostics_.error(node.where, fmt::format("block `{}` has room for no seat", block.id),
+                           "make its first row longer, its seats or aisles narrower, or its aisles fewer");
+}
+
+/// Others walk round the stand and through its aisles.
+void SeatReader::addStands(const SeatBlock& block) {
+    for (std::vector<glm::dvec2>& outline : standOutlines(block)) {
+        Wall wall;
+        wall.id = block.id + " stand";
+        while (!walls_.emplace(wall.id, layout_.walls.size()).second)
+            wall.id += "_";
+        wall.points = std::move(outline);
+        wall.closed = true;
+        wall.height = kStandHeight;
+        wall.where = block.where;
+        layout_.walls.push_back(std::move(wall));
+    }
+}
+
+void SeatReader::readShow(const JsonNode& node) {
+    Show show;
+    show.where = node.where;
+    ObjectReader reader(node, schema_.definition("show"), "a show", diagnostics_);
+    if (!reader.isObject()) return;
+    reader.require("at", "when, in seconds");
+    show.at = readDistribution(reader, "at", show.at, diagnostics_);
+    reader.require("do", "clap, cheer, sing or wave");
+    reader.choice("do",
+                  {{"clap", Show::Kind::clap},
+                   {"cheer", Show::Kind::cheer},
+                   {"sing", Show::Kind::sing},
+                   {"wave", Show::Kind::wave}},
+                  show.kind);
+    readAudience(reader.get("who"), show);
+    reader.number("share", show.share);
+    show.lasts = readDistribution(reader, "for", show.lasts, diagnostics_);
+    show.reaction = readDistribution(reader, "reaction", show.reaction, diagnostics_);
+    readWave(reader, node, show);
+    reader.finish();
+    layout_.shows.push_back(std::move(show));
+}
+
+void SeatReader::readAudience(const JsonNode* list, Show& show) const {
+    std::vector<std::string> known;
+    for (const auto& [id, index] : blocks_)
+        known.push_back(id);
+    if (known.empty() && !diagnostics_.hasErrors())
+        diagnostics_.error(show.where, "there is no audience: this layout has no seats",
+                           "list blocks of seats under `seats`");
+    if (!list) {
+        show.blocks.resize(layout_.seats.size());
+        std::iota(show.blocks.begin(), show.blocks.end(), std::size_t{0});
+        return;
+    }
+    if (list->kind != JsonNode::Kind::array || list->items.empty()) {
+        diagnostics_.error(list->where, "expected a list of ids of blocks of seats",
+                           R"(for example "who": ["north", "west"])");
+        return;
+    }
+    for (const JsonNode& item : list->items) {
+        const auto found = blocks_.find(item.text);
+        if (item.kind != JsonNode::Kind::text || found == blocks_.end())
+            diagnostics_.error(item.where, fmt::format("there is no block of seats `{}`", item.text),
+                               known.empty() ? "list it under `seats`" : hintFor(item.text, known));
+        else if (std::ranges::find(show.blocks, found->second) != show.blocks.end())
+            diagnostics_.error(item.where, fmt::format("block `{}` is named twice", item.text));
+        else
+            show.blocks.push_back(found->second);
+    }
+}
+
+void SeatReader::readWave(ObjectReader& reader, const JsonNode& node, Show& show) const {
+    reader.number("speed", show.speed);
+    reader.number("width", show.width);
+    reader.point("from", show.from);
+    reader.integer("laps", show.laps);
+    const bool is_wave = show.kind == Show::Kind::wave;
+    const std::array wrong =
+        is_wave ? std::array{"for", "for", "for", "for"} : std::array{"speed", "width", "from", "laps"};
+    for (std::size_t i = 0; i < (is_wave ? 1 : wrong.size()); ++i)
+        if (const JsonNode* key = node.find(wrong[i]))
+            diagnostics_.error(key->where,
+                               fmt::format("`{}` is {} a wave", wrong[i], is_wave ? "not of" : "only of"),
+                               is_wave ? "a wave is as long as it takes to run round"
+                                       : R"(write "do": "wave", or leave it out)");
+}
+
+}  // namespace throng::authoring

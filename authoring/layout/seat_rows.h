@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <glm/vec2.hpp>
+#include <vector>
+
+#include "authoring/layout.h"
+
+namespace throng::authoring {
+
+/// One seat of a block.
+struct Seat {
+    glm::dvec2 place{0.0};  ///< m, world
+    double height = 0.0;    ///< m, of the floor before it
+    glm::dvec2 ahead{0.0};  ///< unit: which way one looks
+    std::size_t row = 0;
+    std::size_t section = 0;  ///< between two aisles
+    double along = 0.0;       ///< m along the middle row
+};
+
+/// All seats, row by row from the first, and in each along it.
+std::vector<Seat> seatsOf(const SeatBlock& block);
+
+/// m, along the middle row.
+double lengthOf(const SeatBlock& block);
+
+/// How many seats there are.
+std::size_t countSeats(const SeatBlock& block);
+
+/// What nobody walks through: convex polygons, of each section by itself.
+std::vector<std::vector<glm::dvec2>> standOutlines(const SeatBlock& block);
+
+/// Of each row, from aisle to aisle: where its seats are, as a line in their middle.
+struct SeatRow {
+    std::vector<glm::dvec2> line;
+    double height = 0.0;  ///< m
+};
+std::vector<SeatRow> seatRows(const SeatBlock& block);
+
+/// The first row of an arc. @param from, to: degrees, counter-clockwise
+std::vector<glm::dvec2> arcFront(glm::dvec2 centre, double radius, double from, double to);
+
+/// Whether rows behind the first one would turn back on themselves.
+bool foldsBack(const SeatBlock& block);
+
+}  // namespace throng::authoring

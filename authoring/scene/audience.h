@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "authoring/layout.h"
+#include "authoring/layout/seat_rows.h"
+#include "base/activities.h"
+#include "shaders/shared/scene_types.h"
+
+namespace throng::authoring {
+
+/// Somebody who has a seat.
+struct Spectator {
+    std::size_t block = 0;  ///< of the layout's seats
+    Seat seat;
+    gpu::Person person;       ///< what it draws; it is not simulated
+    std::uint32_t party = 0;  ///< the first of those whom it sits with, in this list
+    std::vector<Deed> deeds;  ///< the first begins before the shot does
+};
+
+/// Who sits where from the beginning, block by block and row by row, and what they do.
+std::vector<Spectator> audienceOf(const Layout& layout);
+
+/// How long one stands up, and how long one sits down, s.
+inline constexpr double kRisesFor = 0.6, kSitsDownFor = 0.8;
+
+}  // namespace throng::authoring

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+
+/// What people do, as whole numbers of the first component of the stream of states (docs/bake.md).
+namespace throng {
+
+enum class ActivityCode {
+    away = 0,
+    under_way = 1,
+    stands = 2,
+    looks = 3,
+    queues = 4,
+    sits = 5,
+    readies = 6,  ///< raises its hands to clap, and lets them down again
+    claps = 7,
+    rises = 8,  ///< stands up, arms up, and sits down again
+    cheers = 9,
+    sings = 10,
+};
+
+/// Whether a value of that component is of somebody who has a seat: it sits in it, or stands before it.
+inline bool hasSeat(float state) {
+    return std::floor(state) >= static_cast<float>(ActivityCode::sits);
+}
+
+/// Something that somebody does for a while. The phase goes evenly from the one to the other.
+struct Deed {
+    double begin = 0.0;  ///< s; it ends when the next begins
+    ActivityCode activity = ActivityCode::sits;
+    double phase = 0.0;  ///< cycles, at its beginning
+    double rate = 0.0;   ///< cycles/s
+};
+
+}  // namespace throng

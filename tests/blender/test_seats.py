@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: Apache-2.0
+"""People who have a seat: their poses, and which of them Blender shows when."""
+import json
+import math
+import pathlib
+import struct
+
+import numpy
+import pytest
+
+from pose_names import pose_name
+from results import result_of
+from sample_bake import SMALL_CAST, write_bake
+from throng import cast
+from throng.cast import gait, people, sitting
+
+HERE = pathlib.Path(__file__).resolve().parent
+ADDON = HERE.parent.parent / "blender_addon"
+BUILD = gait.Build()
+
+
+def angle(a, b, c):
+    """At b, degrees."""
+    u, v = numpy.subtract(a, b), numpy.subtract(c, b)
+    return math.degrees(math.acos(u @ v / (numpy.linalg.norm(u) * numpy.linalg.norm(v))))
+
+
+def leg_of(pose, build):
+    hip = (pose.pelvis[0], pose.pelvis[2] - gait.HIP_DROP)
+    ankle = pose.feet[0].ankle
+    return hip, gait.knee_of(hip, ankle, build), ankle
+
+
+@pytest.mark.parametrize("size", [0.92, 1.0, 1.08])
+def test_who_sits_has_bent_knees_level_thighs_and_feet_on_the_ground(size):
+    build = BUILD.scaled(size)
+    for pose in sitting.poses_of(build)[:4]:
+        hip, knee, ankle = leg_of(pose, build)
+        assert abs(angle(hip, knee, ankle) - 90.0) < 10.0
+        assert abs(math.degrees(math.asin((knee[1] - hip[1]) / build.thigh))) < 9.0
+        assert ankle[1] == pytest.approx(build.ankle, abs=0.001)
+
+
+def test_a_childs_feet_dangle():
+    build = people.build_of(people.CAST[11])
+    hip, knee, ankle = leg_of(sitting.sitting(build), build)
+    assert ankle[1] > build.ankle + 0.01 and knee[1] > hip[1] - 0.1
+
+
+def test_clips_begin_and_end_where_others_do():
+    first = {clip.name: sitting.first_pose(number) for number, clip in enumerate(sitting.CLIPS)}
+    last = {clip.name: sitting.first_pose(number) + clip.poses - 1 for number, clip in enumerate(sitting.CLIPS)}
+    poses = sitting.poses_of(BUILD)
+    apart = lambda one, other: max(abs(a - b) for a, b in zip(flat(poses[one]), flat(poses[other])))
+    assert apart(first["sit"], first["ready"]) < 0.01 and apart(first["sit"], first["rise"]) < 0.01
+    assert apart(last["ready"], first["clap"]) < 0.01
+    assert apart(last["rise"], first["cheer"]) < 0.01 and apart(last["rise"], first["sing"]) < 0.01
+    assert apart(first["sit"], last["rise"]) > 0.3
+
+
+def test_nobody_jumps_within_a_clip():
+    poses = sitting.poses_of(BUILD)
+    for number, clip in enumerate(sitting.CLIPS):
+        own = [flat(each) for each in poses[sitting.first_pose(number):][:clip.poses]]
+        steps = [max(abs(a - b) for a, b in zip(one, other)) for one, other in zip(own, own[1:])]
+        assert max(steps) < 0.55, clip.name
+
+
+def flat(value):
+    if isinstance(value, (int, float)):
+        return [float(value)]
+    if isinstance(value, gait.Foot):
+        return flat(value.ankle)
+    if isinstance(value, gait.Pose):
+        return [number for each in (value.pelvis, value.lean, value.tilt, value.feet, value.arms, value.aside)
+                for number in flat(each)]
+    return [number for each in value for number in flat(each)]
+
+
+def test_clips_are_the_activities_of_the_bake():
+    text = (HERE.parent.parent / "base" / "activities.h").read_text()
+    for number, word in enumerate(("sits", "readies", "claps", "rises", "cheers", "sings")):
+        assert f"{word} = {sitting.FIRST + number}," in text
+    assert all(clip.poses % cast.BEATS == 0 for clip in sitting.CLIPS)
+
+
+def test_only_casts_of_bakes_with_seats_sit():
+    with_seats, without = cast.Repertoire((1.4,), 0, True), cast.Repertoire((1.4,), 0)
+    assert with_seats.count == without.count + sitting.POSES
+    for level in range(cast.LEVELS):
+        assert len(with_seats.sources(level)) == with_seats.poses(level)
+        assert with_seats.upright(level) == without.poses(level)
+
+
+def seated_bake(folder, agents=24, frames=40):
+    """A sample bake all of whose people have a seat, each in another clip. Returns the states."""
+    _, direction, state = write_bake(folder, agents=agents, frames=frames, **SMALL_CAST)
+    rows = numpy.arange(agents)
+    state[..., 0] = sitting.FIRST + rows % len(sitting.CLIPS)
+    state[..., 2] = 0.03 * numpy.arange(len(state))[:, None] + 0.37 * rows
+    direction[..., 2] = 0.0
+    for name, stream in (("state", state), ("dir", direction)):
+        with open(folder / "streams" / f"{name}.pc2", "wb") as file:
+            file.write(struct.pack("<12siiffi", b"POINTCACHE2\0", 1, agents, 1.0, 1.0, frames) + stream.tobytes())
+    manifest = json.loads((folder / "bake.json").read_text())
+    manifest["geometry"]["seats"] = [{"id": "north", "pitch": 0.8, "width": 0.5, "rise": 0.4, "rows": [
+        {"line": [[0, 0], [5, 0]], "height": 0.5}, {"line": [[0, -0.8], [5, -0.8]], "height": 0.9}]}]
+    manifest["geometry"]["walls"].append({"id": "north stand", "closed": True, "height": 0.01, "thickness": 0.2,
+                                          "points": [[0, 0.4], [5, 0.4], [5, -1.2], [0, -1.2]]})
+    (folder / "bake.json").write_text(json.dumps(manifest))
+    return state
+
+
+def expected(state, row, level):
+    clip = int(state[row, 0]) - sitting.FIRST
+    phase, share = float(state[row, 2]) % 1.0, cast.BEATS // cast.LEVEL_BEATS[level]
+    count = sitting.CLIPS[clip].poses // share
+    if sitting.CLIPS[clip].there_and_back:
+        place = (1.0 - abs(2.0 * phase - 1.0)) * (count - 1)
+        near = {math.floor(place + 0.5 + hair) for hair in (-1e-3, 0.0, 1e-3)}
+    else:
+        near = {min(math.floor(phase * count + hair), count - 1) for hair in (-1e-3, 0.0, 1e-3)}
+    repertoire = cast.Repertoire((1.0,), 1, True)
+    first = repertoire.upright(level) + sitting.first_pose(clip) // share
+    return {pose_name(int(state[row, 1]), first + each, level) for each in near}
+
+
+def test_blender_shows_everybody_in_the_pose_of_the_moment(blender, tmp_path):
+    state = seated_bake(tmp_path / "bake")
+    result = result_of(blender(HERE / "check_seats.py", ADDON, tmp_path / "bake"))
+    for shot in result["shots"]:
+        assert len(shot["people"]) == 24
+        for row, name in shot["people"].items():
+            wanted = expected(state[shot["frame"] - 1], int(row), shot["level"])
+            assert not wanted.isdisjoint(name.split("|")), (shot["frame"], row, name, wanted)
+    sits, risen, cheers, stands = result["hips"]
+    assert sits < stands - 0.3 and abs(risen - stands) < 0.03 and abs(cheers - stands) < 0.03, "heroes do the same"
+    assert list(result["stands"]) == ["Throng stand north"]
+    assert result["stands"]["Throng stand north"]["faces"] > 20 * 8
+    assert result["stands"]["Throng stand north"]["top"] == pytest.approx(0.9 + 0.42 + 0.36, abs=0.01)
+    assert "Throng wall north stand" not in result["walls"] and len(result["walls"]) == 3
+
+
+def test_a_full_stadium_scrubs_as_quickly_as_a_walking_crowd(blender, tmp_path):
+    """The bar that 16,384 who walk have, in processor time."""
+    seated_bake(tmp_path / "bake", agents=16384, frames=28)
+    found = result_of(blender(HERE / "check_speed.py", ADDON, tmp_path / "bake"))
+    assert found["people"] == 16384 and 1000.0 * found["frame"] < 18.0, found
