@@ -60,6 +60,7 @@ struct BakeTerrain {
 /// (authoring/storeys/charts.h).
 struct BakeCharts {
     std::vector<glm::dvec2> shifts;  ///< m, by chart: place in the plane - home
+    std::vector<glm::dvec2> belts = {};  ///< m/s, by chart: how its ground moves; empty: none does
 };
 
 /// All that a bake's files say besides the frames. World coordinates unless told otherwise; metres and
@@ -95,6 +96,7 @@ struct BakeDescription {
     std::optional<BakeTerrain>
         terrain;  ///< none: flat ground at height 0; floors and links of layouts with levels
     std::vector<authoring::Level> levels;
+    std::vector<authoring::Link> links;
     std::optional<BakeCharts> charts;  ///< with levels: then frames hold, behind places in the plane, charts
 
     std::string renderer;  ///< GL_RENDERER

@@ -12,7 +12,8 @@ constexpr std::uint32_t kStepsPerRound = 4;
 const gl::Declaration kFlow = {
     "routes",
     {"shaders/routes/detour_flow.comp"},
-    {"ParametersBlock", "Ground", "Bodies", "StripStarts", "CellOffsets", "CrowdFlows"},
+    {"ParametersBlock", "Ground", "Bodies", "StripStarts", "CellOffsets", "CrowdFlows", "ChartCells",
+     "ChartShifts", "Belts"},
     {"CrowdFlows", "DenseBlocks"}};
 const gl::Declaration kList = {"routes",
                                {"shaders/routes/detour_list.comp"},
@@ -87,7 +88,7 @@ Congestion::Congestion(const gl::ShaderLibrary& library, Buffers& buffers, const
     for (const auto& [program, declaration] :
          {std::pair{&flow_, &kFlow}, std::pair{&list_, &kList}, std::pair{&relax_, &kRelax},
           std::pair{&keep_, &kKeep}, std::pair{&slope_, &kSlope}}) {
-        *program = buffers.connect(library, *declaration, rules.definitions());
+        *program = buffers.connect(library, *declaration, buffers.definitions(rules));
         program->bindAll(own);
     }
     relax_.bind("ChangedBlocks", changed_now_);

@@ -53,6 +53,11 @@ uniform uint slot_capacity;
 #else
 #define TWIST
 #endif
+#ifdef BELTS
+#include "shaders/charts/belts.glsl"
+#include "shaders/motion/riding.glsl"
+#include "shaders/motion/spacing_on_belts.glsl"
+#endif
 #include "shaders/motion/stride.glsl"
 
 /// Of those sensed who are under way.
@@ -84,6 +89,9 @@ void main() {
     Surroundings around = lookAround(self, slot, wish, manners);
     if (HEADWAY_IN_PEACE_ENABLED && around.in_peace && headway <= 0.0)
         pace = paceAmongAll(self, slot, way, speed, headwayInPeace(impatience));
+#ifdef BELTS
+    if (RIDING_ENABLED) pace = paceOnBelt(self, walker.flags, slot, pace);
+#endif
     if ((touch_words[slot] & TOUCH_IN_NARROWS) != 0u && anybodyIsOncoming(slot)) touch_words[slot] &= ~TOUCH_IN_NARROWS;
 
     vec2 acceleration = drive(wish, speed, pace, self.velocity) + around.room * shareOfRoom(speed) +

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// How fast somebody closes up to those before it on a belt, who is on it or about to step on
+// (shaders/motion/riding.glsl).
+// Needs the blocks States, Bodies, Neighbours and NeighbourCounts, and shaders/motion/riding.glsl and among_all.glsl.
+
+/// m/s: at most `pace`.
+float paceOnBelt(Body self, uint flags, uint slot, float pace) {
+    if ((flags & WALKER_RIDES) == 0u) return pace;
+    // `rest` has the shift of its chart (shaders/charts/way_between.glsl).
+    Ride ride = rideOn(beltOf(flags), (flags & WALKER_IS_CARRIED) != 0u, self.position - states[self.row].rest);
+    if (ride.on && stepsOff(ride)) return pace;
+    vec2 forward = belts[ride.chart].along;
+    for (uint i = 0u; i < neighbour_counts[slot]; ++i) {
+        uint key = neighbourKey(slot, i);
+        if ((key & NEIGHBOUR_IS_WALL) != 0u) continue;
+        vec2 offset = bodies[key].position - self.position;
+        float ahead = dot(offset, forward), aside = forward.x * offset.y - forward.y * offset.x;
+        float its_along = ride.along + ahead;
+        if (ahead <= 0.0 || abs(aside) > RIDING_BESIDE || its_along < 0.0 || its_along > belts[ride.chart].length)
+            continue;
+        pace = min(pace, max(dot(bodies[key].velocity, forward) + (ahead - RIDING_SPACING) / RIDING_SETTLING, 0.0));
+    }
+    return pace;
+}

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// What somebody wants on a belt, and before it (shaders/motion/riding.glsl).
+// Needs shaders/shared/charts.glsl and random.glsl, shaders/charts/belts.glsl and shaders/motion/riding.glsl.
+
+const uint PURPOSE_RIDING = 0x71de5u;
+
+/// @param way unit vector: where it wants to go
+Ride rideAt(vec2 position, vec2 way) {
+    uint own = chartOf(chartCellAt(position)), chart = own;
+    for (float share = 0.5; !isBelt(chart) && share <= 1.0; share += 0.5)
+        chart = ownerOf(chartCellAt(position + way * (RIDING_SEES * share)));
+    if (own == NO_CHART || !isBelt(chart)) return Ride(NO_CHART, false, 0.0, 0.0);
+    Ride ride = rideOn(chart, own == chart, position - chart_shifts[own]);
+    if (!ride.on && (ride.along > 0.0 || dot(way, belts[chart].along) <= 0.0)) ride.chart = NO_CHART;
+    return ride;
+}
+
+/// For a walker's flags.
+uint flagsOf(Ride ride) {
+    if (ride.chart == NO_CHART) return 0u;
+    return ride.chart << WALKER_CHART_AT | WALKER_RIDES | (ride.on ? WALKER_IS_CARRIED : 0u);
+}
+
+/// Whether it walks on the belt. @param party the first row of its company
+bool walksOnBelt(Ride ride, uint party) {
+    return randomUnit(parameters.seed ^ PURPOSE_RIDING, party, ride.chart) < belts[ride.chart].walking;
+}
+
+/// m to the left of the middle: where it rides.
+float laneOf(Ride ride, bool walks) {
+    float side = walks ? -belts[ride.chart].stand : belts[ride.chart].stand;
+    if (side == 0.0) side = ride.aside >= 0.0 ? 1.0 : -1.0;
+    return side * belts[ride.chart].lane;
+}
+
+vec2 onBelt(Ride ride, float along, float aside) {
+    vec2 forward = belts[ride.chart].along;
+    return forward * along + vec2(-forward.y, forward.x) * aside;
+}
+
+/// Where somebody before a belt makes for, if it gets there between the railings; otherwise `way`.
+vec2 wayOntoBelt(Ride ride, bool walks, vec2 way) {
+    const float WITHIN = 0.5, CLEAR = 0.3;  // m: on the belt; from its railings
+    float ahead = WITHIN - ride.along, aside = laneOf(ride, walks) - ride.aside;
+    float crosses = ride.aside + aside * (-ride.along / ahead);
+    return abs(crosses) > belts[ride.chart].half_width - CLEAR ? way : normalize(onBelt(ride, ahead, aside));
+}
+
+/// m/s, relative to the ground: what somebody on a belt wants. @param speed m/s: as fast as it would walk there
+vec2 wishOnBelt(Ride ride, bool walks, float speed) {
+    const float THERE = 0.06, WITHIN = 0.5;  // m, s: it is on its side; else it gets there
+    float aside = laneOf(ride, walks) - ride.aside;
+    float over = abs(aside) > THERE ? clamp(aside / WITHIN, -RIDING_ASIDE, RIDING_ASIDE) : 0.0;
+    if (stepsOff(ride)) return onBelt(ride, speed, 0.0);
+    return onBelt(ride, walks || ride.along < RIDING_STEPS_ON ? speed : 0.0, over);
+}
