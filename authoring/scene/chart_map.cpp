@@ -79,7 +79,7 @@ float costOfLink(const MotionSettings& motion, bool stairs, double slope) {
 }
 
 float costOfBelt(const MotionSettings& motion, bool stairs, double slope, double speed) {
-    return static_cast<float>(std::max(1.0, kFlat / (kFlat * paceOn(motion, stairs, slope) + speed)));
+    return static_cast<float>(kFlat / (kFlat * paceOn(motion, stairs, slope) + speed));
 }
 
 ChartMap makeChartMap(const Charts& charts, glm::vec2 minimum, glm::vec2 maximum, glm::dvec2 origin) {

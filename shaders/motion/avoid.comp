@@ -77,21 +77,29 @@ void main() {
     Body self = bodies[slot];
     Walker walker = walkers[slot];
     vec2 wish = preferred_velocities[slot];
+#ifdef BELTS
+    float allowed = RIDING_ENABLED ? paceOnBelt(self, walker.flags, slot, length(wish)) : length(wish);
+    wish = keepingBehind(walker.flags, wish, allowed);
+#endif
     float speed = length(wish);
     vec2 way = speed > STANDING_SPEED ? wish / speed : vec2(cos(self.heading), sin(self.heading));
 
     // Manners depend on the pace of those with a headway of their own only; the others look at everybody just once.
     float headway = headwayOf(walker);
+#ifdef BELTS
+    float pace = paceAmongAll(self, slot, way, speed, max(headway, headwayBeforeBelt(walker.flags)));
+#else
     float pace = paceAmongAll(self, slot, way, speed, headway);
+#endif
     float impatience = impatienceOf(walker.nervousness);
+#ifdef BELTS
+    if (RIDING_ENABLED && (walker.flags & WALKER_RIDES) != 0u) impatience = 0.0;  // people queue, and do not press
+#endif
     Manners manners = Manners(way, impatience, crowdingAmong(neighbour_counts[slot]), headway > 0.0 ? 1.0 : 0.0,
                               freedomAt(pace / max(speed, STANDING_SPEED)));
     Surroundings around = lookAround(self, slot, wish, manners);
     if (HEADWAY_IN_PEACE_ENABLED && around.in_peace && headway <= 0.0)
         pace = paceAmongAll(self, slot, way, speed, headwayInPeace(impatience));
-#ifdef BELTS
-    if (RIDING_ENABLED) pace = paceOnBelt(self, walker.flags, slot, pace);
-#endif
     if ((touch_words[slot] & TOUCH_IN_NARROWS) != 0u && anybodyIsOncoming(slot)) touch_words[slot] &= ~TOUCH_IN_NARROWS;
 
     vec2 acceleration = drive(wish, speed, pace, self.velocity) + around.room * shareOfRoom(speed) +
@@ -109,6 +117,9 @@ void main() {
     velocity = limitChange(legs, velocity, parameters.maximum_acceleration * parameters.decision_seconds);
     vec2 change = (velocity - legs) * (parameters.step_seconds / parameters.decision_seconds);
     float twist = twistAhead(self, walker, way);
+#ifdef BELTS
+    pace = min(pace, allowed);  // which is not being held up
+#endif
     decisions[slot] = Decision(change, pace, feet TWIST);
     if (parameters.decision_seconds > parameters.step_seconds) velocity = legs + change;
     stride(slot, self.position, velocity, parameters.is_wide != 0u ? states[self.row].rest : vec2(0.0), twist);

@@ -3,7 +3,13 @@
 // (shaders/motion/riding.glsl).
 // Needs the blocks States, Bodies, Neighbours and NeighbourCounts, and shaders/motion/riding.glsl and among_all.glsl.
 
-/// m/s: at most `pace`.
+/// s: those who are about to step on queue and do not press.
+float headwayBeforeBelt(uint flags) {
+    bool queues = RIDING_ENABLED && (flags & (WALKER_RIDES | WALKER_IS_CARRIED)) == WALKER_RIDES;
+    return queues ? RIDING_QUEUEING : 0.0;
+}
+
+/// m/s along the belt: at most `pace`.
 float paceOnBelt(Body self, uint flags, uint slot, float pace) {
     if ((flags & WALKER_RIDES) == 0u) return pace;
     // `rest` has the shift of its chart (shaders/charts/way_between.glsl).
@@ -21,4 +27,11 @@ float paceOnBelt(Body self, uint flags, uint slot, float pace) {
         pace = min(pace, max(dot(bodies[key].velocity, forward) + (ahead - RIDING_SPACING) / RIDING_SETTLING, 0.0));
     }
     return pace;
+}
+
+/// A wish that goes along the belt no faster than that; going over to one's side is free.
+vec2 keepingBehind(uint flags, vec2 wish, float pace) {
+    if ((flags & WALKER_RIDES) == 0u) return wish;
+    vec2 forward = belts[beltOf(flags)].along;
+    return wish - forward * max(dot(wish, forward) - pace, 0.0);
 }

@@ -67,7 +67,7 @@ void main() {
     walkers[slot].flags |= flagsOf(ride);
     bool rides = RIDING_ENABLED && ride.chart != NO_CHART;
     bool walks = rides && walksOnBelt(ride, walker.party_first);
-    if (rides && !ride.on) direction = wayOntoBelt(ride, walks, direction);
+    if (rides) direction = wayOnBelt(ride, walks, direction);
 #endif
 
     float speed = walker.preferred_speed;

@@ -4,15 +4,30 @@
 
 const uint PURPOSE_RIDING = 0x71de5u;
 
+/// Whether somebody before a belt is about to step on: its way leads there.
+bool makesFor(Ride ride, vec2 way) {
+    const float TOWARDS = 0.7;  // cosine
+    if (ride.along > 0.0) return false;
+    vec2 to = belts[ride.chart].along * (RIDING_STEPS_ON - ride.along) +
+              vec2(belts[ride.chart].along.y, -belts[ride.chart].along.x) * ride.aside;
+    float far = length(to);
+    return far < RIDING_SEES && dot(way, to) > TOWARDS * far;
+}
+
 /// @param way unit vector: where it wants to go
 Ride rideAt(vec2 position, vec2 way) {
-    uint own = chartOf(chartCellAt(position)), chart = own;
-    for (float share = 0.5; !isBelt(chart) && share <= 1.0; share += 0.5)
-        chart = ownerOf(chartCellAt(position + way * (RIDING_SEES * share)));
-    if (own == NO_CHART || !isBelt(chart)) return Ride(NO_CHART, false, 0.0, 0.0);
-    Ride ride = rideOn(chart, own == chart, position - chart_shifts[own]);
-    if (!ride.on && (ride.along > 0.0 || dot(way, belts[chart].along) <= 0.0)) ride.chart = NO_CHART;
-    return ride;
+    ChartCell cell = chartCellAt(position);
+    uint own = chartOf(cell);
+    if (own == NO_CHART) return Ride(NO_CHART, false, 0.0, 0.0);
+    vec2 home = position - chart_shifts[own];
+    if (isBelt(own)) return rideOn(own, true, home);
+    for (uint image = 0u; image < MOST_IMAGES; ++image) {  // whoever is near a belt has an image on it
+        uint chart = (cell.images >> (8u * image)) & NO_CHART;
+        if (!isBelt(chart)) continue;
+        Ride ride = rideOn(chart, false, home);
+        if (makesFor(ride, way)) return ride;
+    }
+    return Ride(NO_CHART, false, 0.0, 0.0);
 }
 
 /// For a walker's flags.
@@ -38,8 +53,9 @@ vec2 onBelt(Ride ride, float along, float aside) {
     return forward * along + vec2(-forward.y, forward.x) * aside;
 }
 
-/// Where somebody before a belt makes for, if it gets there between the railings; otherwise `way`.
-vec2 wayOntoBelt(Ride ride, bool walks, vec2 way) {
+/// Along a belt; before it, to where it rides, if it gets there between the railings; otherwise `way`.
+vec2 wayOnBelt(Ride ride, bool walks, vec2 way) {
+    if (ride.on) return belts[ride.chart].along;
     const float WITHIN = 0.5, CLEAR = 0.3;  // m: on the belt; from its railings
     float ahead = WITHIN - ride.along, aside = laneOf(ride, walks) - ride.aside;
     float crosses = ride.aside + aside * (-ride.along / ahead);

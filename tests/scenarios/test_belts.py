@@ -50,12 +50,13 @@ def measured(throng, folder):
 
 def on_belt(folder, margin=1.0):
     """Frames by people: who is on the escalator's middle part."""
-    x = stream(folder, "pos")[..., 0]
-    return (stream(folder, "state")[..., 0] > 0) & (x > BEGIN + margin) & (x < END - margin)
+    x, height = stream(folder, "pos")[..., 0], stream(folder, "pos")[..., 2]
+    is_there = (stream(folder, "state")[..., 0] > 0) & (height > 0.2)  # not beside it, below
+    return is_there & (x > BEGIN + margin) & (x < END - margin)
 
 
 def test_who_stands_is_carried_and_keeps_its_feet(throng, tmp_path):
-    folder = bake(throng, tmp_path, hall([escalator(walking=0)], up(1)), "--streams", "left_foot,right_foot")
+    folder = bake(throng, tmp_path, hall([escalator(walking=0)], up(1)), "--feet")
     rides = on_belt(folder, 1.5)[:, 0]
     places, speeds = stream(folder, "pos")[:, 0], stream(folder, "dir")[:, 0, 2]
     steps = numpy.diff(places, axis=0)[rides[1:] & rides[:-1]]
@@ -85,16 +86,16 @@ def test_who_walks_is_as_much_faster_as_the_ground(throng, tmp_path):
 
 @pytest.mark.parametrize("side", ["right", "left"])
 def test_people_stand_on_one_side_a_step_apart_and_walk_on_the_other(throng, tmp_path, side):
-    folder = bake(throng, tmp_path, hall([escalator(stand=side, walking=0.4)], up(60, 60), duration=150))
+    folder = bake(throng, tmp_path, hall([escalator(stand=side, walking=0.4)], up(40, 40), duration=75))
     figures = measured(throng, folder)
-    assert (figures["arrived"], figures["stuck"], figures["wall_crossings"]) == (60, 0, 0)
+    assert (figures["arrived"], figures["stuck"], figures["wall_crossings"]) == (40, 0, 0)
     assert figures["deepest_overlap_percent"] < 2
     places, speeds, rides = stream(folder, "pos"), stream(folder, "dir")[..., 2], on_belt(folder, 1.5)
-    walks = numpy.array([speeds[rides[:, row], row].mean() > 0.2 for row in range(60)])
-    assert 12 <= walks.sum() <= 36  # 24 of 60, and four times as much as chance makes of it
+    walks = numpy.array([speeds[rides[:, row], row].mean() > 0.2 for row in range(40)])
+    assert 6 <= walks.sum() <= 26  # 16 of 40, give or take three standard deviations
     sign = -1 if side == "right" else 1  # y: to the left of who goes up
-    sides = numpy.array([places[rides[:, row], row, 1].mean() * sign for row in range(60)])
-    assert (sides[~walks] > 0.15).all()
+    sides = numpy.array([places[rides[:, row], row, 1].mean() * sign for row in range(40)])
+    assert (sides[~walks] > 0.1).all()
     assert (sides[walks] < -0.05).mean() > 0.9
     gaps = []
     for frame in range(0, len(places), 12):
@@ -130,7 +131,6 @@ def test_a_travelator_carries_people_on_one_level(throng, tmp_path):
     layout = hall([belt], [{"id": "along", "from": "door", "to": "east", "count": 10, "end": 10,
                             "people": {"speed": 1.34, "radius": 0.25}}])
     layout["levels"] = layout["levels"][:1]
-    layout["walls"] = [{"points": [[-11, y], [8, y]]} for y in (-0.8, 0.8)]  # there is no other way
     layout["areas"] = [layout["areas"][0], {"id": "east", "polygon": box(12, -4, 13, 4)}]
     folder = bake(throng, tmp_path, layout)
     figures = measured(throng, folder)
@@ -142,9 +142,9 @@ def test_a_travelator_carries_people_on_one_level(throng, tmp_path):
 
 def test_nobody_is_faster_in_a_crowd_than_alone(throng, tmp_path):
     """A crowd before an escalator: what it takes is at most one person a step in each lane."""
-    folder = bake(throng, tmp_path, hall([escalator(walking=0)], up(120, 30), duration=150))
+    folder = bake(throng, tmp_path, hall([escalator(walking=0)], up(70, 15), duration=100))
     figures = measured(throng, folder)
-    assert figures["arrived"] == 120 and figures["stuck"] == 0
+    assert figures["arrived"] == 70 and figures["stuck"] == 0
     assert figures["deepest_overlap_percent"] < 5
     per_lane = IN_PLAN / 0.8
     assert 1.2 * per_lane < figures["links"][0]["flow"] < 2.1 * per_lane
