@@ -147,10 +147,10 @@ struct Link {
     Kind kind = Kind::stairs;
     std::size_t from = 0, to = 0;  ///< index into levels; the same only of a travelator
     glm::dvec2 begin{0.0}, end{0.0};
-    double width = 2.0;  ///< m, between the railings; of the steps of an escalator, the pallets of a travelator
+    double width = 2.0;  ///< m, between the railings; of the steps of what moves
     SourcePosition where;
-    double speed = 0.5;    ///< m/s along its slope, of ground that moves
-    double walking = 0.4;  ///< share of its people who walk on it
+    double speed = 0.5;             ///< m/s along its slope, of ground that moves
+    double walking = 0.4;           ///< share of its people who walk on it
     Stand stand = Stand::anywhere;  ///< on which side those stand who do not
 
     /// Whether its ground moves, from where it begins to where it ends.

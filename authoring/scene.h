@@ -69,7 +69,7 @@ struct ChartMap {
     std::vector<gpu::ChartCell> cells;
     std::vector<glm::vec2> shifts;  ///< m, by chart: place in the plane - home
     std::vector<bool> is_link;      ///< by chart
-    std::vector<float> costs;       ///< by chart: how many metres on the flat take as long as one of it, >= 1
+    std::vector<float> costs;       ///< by chart: how many metres on the flat take as long as one of it
     std::vector<gpu::Belt> belts;   ///< by chart; empty: no ground moves
     std::uint32_t most_images = 0;  ///< of one person
 

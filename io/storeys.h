@@ -28,8 +28,8 @@ class Storeys {
     /// Of a link's middle at so many metres along it.
     double heightOf(std::size_t link, double along) const;
 
-    /// Whether what stands along a line at these heights, lowest and highest, is on or beside a level's floor,
-    /// or on a link from or to it.
+    /// Whether what stands along a line at these heights, lowest and highest, is on or beside a level's
+    /// floor, or on a link from or to it.
     bool isBeside(std::size_t level, glm::dvec2 place, glm::dvec2 heights) const;
 
   private:

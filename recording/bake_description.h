@@ -59,7 +59,7 @@ struct BakeTerrain {
 /// How the simulation's plane and the places of a layout with levels belong together
 /// (authoring/storeys/charts.h).
 struct BakeCharts {
-    std::vector<glm::dvec2> shifts;  ///< m, by chart: place in the plane - home
+    std::vector<glm::dvec2> shifts;      ///< m, by chart: place in the plane - home
     std::vector<glm::dvec2> belts = {};  ///< m/s, by chart: how its ground moves; empty: none does
 };
 

@@ -70,9 +70,8 @@ Stance Footing::stand(std::size_t row, const Walker& walker, const GaitTrack& ga
     const glm::vec2 walking(
         slope(heading, kReach) + (feet.step_to - feet.step_from) / static_cast<float>(step_length),
         slope(left, kSideReach));
-    const glm::vec2 standing = is_carried
-                                   ? glm::vec2(0.0f)
-                                   : glm::vec2(glm::dot(here.slope, heading), glm::dot(here.slope, left));
+    const glm::vec2 standing =
+        is_carried ? glm::vec2(0.0f) : glm::vec2(glm::dot(here.slope, heading), glm::dot(here.slope, left));
     const glm::vec2 slopes = glm::clamp(glm::mix(walking, standing, feet.standing), -kSteepest, kSteepest);
     feet.stance = {smooth + glm::mix(walking_step, step_here, feet.standing), slopes.x, slopes.y,
                    here.height};

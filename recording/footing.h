@@ -37,8 +37,8 @@ class Footing {
     struct Walker {
         glm::vec2 place{0.0f};
         glm::vec2 heading{1.0f, 0.0f};  ///< unit vector
-        glm::vec2 moved{0.0f};  ///< m, since the frame before, on the ground; zero in the first one
-        bool is_carried = false;  ///< by ground that moves: who stands there stands level, on a step
+        glm::vec2 moved{0.0f};          ///< m, since the frame before, on the ground; zero in the first one
+        bool is_carried = false;        ///< by ground that moves: who stands there stands level, on a step
     };
     /// The next frame of somebody.
     Stance stand(std::size_t row, const Walker& walker, const GaitTrack& gait);

@@ -236,13 +236,15 @@ void MotionRecorder::record(const KeptFrame& frame) {
         const glm::vec2 heading(directions_[at], directions_[at + 1]);
         const float speed = directions_[at + 2];
         if (footsteps_)
-            putFeet(at, footsteps_->step(
-                            row, {place, heading, moved, speed, carriages_->step(row, speed), scales_[row], carried},
-                            walker.gait));
+            putFeet(at, footsteps_->step(row,
+                                         {place, heading, moved, speed, carriages_->step(row, speed),
+                                          scales_[row], carried},
+                                         walker.gait));
         if (footing_)
-            putStance(at, footing_->stand(
-                              row, {place + glm::vec2(toPlane(row)), heading, moved, carried != glm::vec2(0.0f)},
-                              walker.gait));
+            putStance(at,
+                      footing_->stand(
+                          row, {place + glm::vec2(toPlane(row)), heading, moved, carried != glm::vec2(0.0f)},
+                          walker.gait));
     }
 }
 

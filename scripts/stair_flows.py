@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""How many people stairs and an escalator take, and how fast they walk there at which density, beside published figures:
-the table of docs/motion-validation.md.
+"""How many people stairs and an escalator take, and how fast they walk there at which density, beside published
+figures: the table of docs/motion-validation.md.
 
 Usage: stair_flows.py THRONG [--seeds 1 2 3]
 """

@@ -25,7 +25,8 @@ const gl::Declaration kSteer = {
     "avoidance",
     {"shaders/motion/steer.comp"},
     {"ParametersBlock", "LiveDispatch", "States", "Bodies", "Walkers", "Stages", "field_cells",
-     "DetourSlopes", "WaitingLines", "LinePoints", "NeighbourCounts", "TouchWords", "TerrainNodes", "ChartCells", "ChartShifts", "Belts"},
+     "DetourSlopes", "WaitingLines", "LinePoints", "NeighbourCounts", "TouchWords", "TerrainNodes",
+     "ChartCells", "ChartShifts", "Belts"},
     {"Walkers", "PreferredVelocities"}};
 const gl::Declaration kAvoid = {
     "avoidance",

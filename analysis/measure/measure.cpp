@@ -17,8 +17,8 @@
 namespace throng::analysis {
 namespace {
 
-constexpr double kOverlap = 0.01;    // share of the sum of radii from which a pair counts
-constexpr std::size_t kHistory = 4;  // frames, for the jerk
+constexpr double kOverlap = 0.01;     // share of the sum of radii from which a pair counts
+constexpr std::size_t kHistory = 4;   // frames, for the jerk
 constexpr double kBesideLinks = 0.3;  // m: railings stand less far from a link's width
 
 double median(std::vector<double> values) {

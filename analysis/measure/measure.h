@@ -25,9 +25,9 @@ struct Spread {
 /// Who went over a link of a layout with levels: counted at its middle.
 struct LinkFlow {
     std::string id;
-    double width = 0.0;                     ///< m
-    std::uint64_t forward = 0, back = 0;    ///< persons, from where it begins and from where it ends
-    std::optional<double> flow = {};        ///< persons/s, while anybody crosses
+    double width = 0.0;                        ///< m
+    std::uint64_t forward = 0, back = 0;       ///< persons, from where it begins and from where it ends
+    std::optional<double> flow = {};           ///< persons/s, while anybody crosses
     std::optional<double> specific_flow = {};  ///< persons/(s m)
 };
 

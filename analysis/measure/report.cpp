@@ -135,10 +135,10 @@ std::string measurementText(const Measurement& m) {
     line("speed", fmt::format("{:.2f} m/s (mean of all present)", m.mean_speed));
     if (m.specific_flow) line("flow over the line", fmt::format("{:.2f} persons/(s m)", *m.specific_flow));
     for (const LinkFlow& link : m.links)
-        line("link", fmt::format("{}: {} forward, {} back{}", link.id, link.forward, link.back,
-                                 link.specific_flow
-                                     ? fmt::format(", {:.2f} persons/(s m)", *link.specific_flow)
-                                     : ""));
+        line("link",
+             fmt::format(
+                 "{}: {} forward, {} back{}", link.id, link.forward, link.back,
+                 link.specific_flow ? fmt::format(", {:.2f} persons/(s m)", *link.specific_flow) : ""));
     return text;
 }
 

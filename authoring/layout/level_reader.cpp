@@ -112,10 +112,10 @@ void LevelReader::readBelt(ObjectReader& reader, const JsonNode& node, Link& lin
     if (link.moves()) return;
     for (const char* key : {"speed", "walking", "stand"})
         if (const JsonNode* given = node.find(key))
-            diagnostics_.error(given->where,
-                               fmt::format("`{}` is of ground that moves, and {} do not", key,
-                                           climbOf(link.kind).many),
-                               R"(write "type": "escalator", or leave it out)");
+            diagnostics_.error(
+                given->where,
+                fmt::format("`{}` is of ground that moves, and {} do not", key, climbOf(link.kind).many),
+                R"(write "type": "escalator", or leave it out)");
 }
 
 void LevelReader::checkLink(const Link& link, const JsonNode& node) const {
@@ -128,10 +128,11 @@ void LevelReader::checkLink(const Link& link, const JsonNode& node) const {
     const double run = glm::distance(link.begin, link.end);
     const Climb climb = climbOf(link.kind);
     const auto tell = [&](const char* most_or_least, double share, const std::string& hint) {
-        diagnostics_.error(node.find("path")->where,
-                           fmt::format("link `{}` climbs {:.2f} m over {:.2f} m: {} climb {}", link.id, rise,
-                                       run, climb.many, fmt::format(fmt::runtime(most_or_least), 100.0 * share)),
-                           hint);
+        diagnostics_.error(
+            node.find("path")->where,
+            fmt::format("link `{}` climbs {:.2f} m over {:.2f} m: {} climb {}", link.id, rise, run,
+                        climb.many, fmt::format(fmt::runtime(most_or_least), 100.0 * share)),
+            hint);
     };
     if (rise > climb.steepest * run)
         tell("at most {:.0f} %", climb.steepest,

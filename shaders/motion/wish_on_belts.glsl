@@ -6,12 +6,11 @@ const uint PURPOSE_RIDING = 0x71de5u;
 
 /// Whether somebody before a belt is about to step on: its way leads there.
 bool makesFor(Ride ride, vec2 way) {
-    const float TOWARDS = 0.7;  // cosine
     if (ride.along > 0.0) return false;
     vec2 to = belts[ride.chart].along * (RIDING_STEPS_ON - ride.along) +
               vec2(belts[ride.chart].along.y, -belts[ride.chart].along.x) * ride.aside;
     float far = length(to);
-    return far < RIDING_SEES && dot(way, to) > TOWARDS * far;
+    return far < RIDING_SEES && dot(way, to) > RIDING_TOWARDS * far;
 }
 
 /// @param way unit vector: where it wants to go
@@ -56,17 +55,17 @@ vec2 onBelt(Ride ride, float along, float aside) {
 /// Along a belt; before it, to where it rides, if it gets there between the railings; otherwise `way`.
 vec2 wayOnBelt(Ride ride, bool walks, vec2 way) {
     if (ride.on) return belts[ride.chart].along;
-    const float WITHIN = 0.5, CLEAR = 0.3;  // m: on the belt; from its railings
+    const float WITHIN = 0.5;  // m: on the belt
     float ahead = WITHIN - ride.along, aside = laneOf(ride, walks) - ride.aside;
     float crosses = ride.aside + aside * (-ride.along / ahead);
-    return abs(crosses) > belts[ride.chart].half_width - CLEAR ? way : normalize(onBelt(ride, ahead, aside));
+    return abs(crosses) > belts[ride.chart].half_width - RIDING_CLEAR ? way : normalize(onBelt(ride, ahead, aside));
 }
 
 /// m/s, relative to the ground: what somebody on a belt wants. @param speed m/s: as fast as it would walk there
 vec2 wishOnBelt(Ride ride, bool walks, float speed) {
-    const float THERE = 0.06, WITHIN = 0.5;  // m, s: it is on its side; else it gets there
+    const float WITHIN = 0.5;  // s: it gets there
     float aside = laneOf(ride, walks) - ride.aside;
-    float over = abs(aside) > THERE ? clamp(aside / WITHIN, -RIDING_ASIDE, RIDING_ASIDE) : 0.0;
+    float over = abs(aside) > RIDING_THERE ? clamp(aside / WITHIN, -RIDING_ASIDE, RIDING_ASIDE) : 0.0;
     if (stepsOff(ride)) return onBelt(ride, speed, 0.0);
     return onBelt(ride, walks || ride.along < RIDING_STEPS_ON ? speed : 0.0, over);
 }

@@ -320,8 +320,7 @@ TEST(Belts, MoveAlongTheirSlope) {
     Diagnostics diagnostics;
     Link up = escalator(0, 1, {-5.5, 3}, {0, 3});
     up.stand = Link::Stand::right;
-    const auto scene =
-        buildScene(upAndDown({up, escalator(1, 0, {0, -3}, {-5.5, -3})}), diagnostics);
+    const auto scene = buildScene(upAndDown({up, escalator(1, 0, {0, -3}, {-5.5, -3})}), diagnostics);
     ASSERT_TRUE(scene);
     const gpu::Belt& belt = scene->chart_map.belts[2];
     EXPECT_NEAR(belt.velocity.x, 0.5 * 5.5 / std::hypot(5.5, 3.0), 1e-6);
