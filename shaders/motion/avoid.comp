@@ -54,6 +54,7 @@ uniform uint slot_capacity;
 #define TWIST
 #endif
 #ifdef BELTS
+#include "shaders/shared/random.glsl"
 #include "shaders/charts/belts.glsl"
 #include "shaders/motion/riding.glsl"
 #include "shaders/motion/spacing_on_belts.glsl"
@@ -78,8 +79,10 @@ void main() {
     Walker walker = walkers[slot];
     vec2 wish = preferred_velocities[slot];
 #ifdef BELTS
-    float allowed = RIDING_ENABLED ? paceOnBelt(self, walker.flags, slot, length(wish)) : length(wish);
+    float allowed = RIDING_ENABLED ? paceOnBelt(self, walker, slot, length(wish)) : length(wish);
+    bool wants = length(wish) > STANDING_SPEED;
     wish = keepingBehind(walker.flags, wish, allowed);
+    bool waits = wants && length(wish) <= STANDING_SPEED;
 #endif
     float speed = length(wish);
     vec2 way = speed > STANDING_SPEED ? wish / speed : vec2(cos(self.heading), sin(self.heading));
@@ -108,6 +111,9 @@ void main() {
     vec2 legs = self.velocity;  // what they start from
     uint feet = (around.in_traffic ? FEET_IN_TRAFFIC : 0u) | (around.in_peace && headway > 0.0 ? FEET_WAIT : 0u);
     if ((walker.flags & WALKER_AT_REST) != 0u && !somebodyWantsPast(self, slot)) feet |= FEET_STILL;
+#ifdef BELTS
+    if (waits) feet |= FEET_STILL;  // it does not let itself be pushed on
+#endif
     plantFeet(self, walker, feet, wanted, legs);
     keepFeetStill(feet, wanted, legs);
 

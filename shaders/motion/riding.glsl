@@ -6,7 +6,9 @@
 // Velocities are relative to the ground (shaders/charts/belts.glsl): who stands wants nothing. How many a belt takes
 // follows from the room that people leave to each other, from the moment at which they step on: who is about to waits
 // until the one before has been carried on by a step more than its own depth (spacing_on_belts.glsl).
-// Needs the block ParametersBlock and shaders/charts/belts.glsl.
+// Needs the block ParametersBlock, shaders/charts/belts.glsl and shaders/shared/random.glsl.
+
+const uint PURPOSE_RIDING = 0x71de5u;
 
 /// Where somebody is on a belt, or before it.
 struct Ride {
@@ -23,3 +25,15 @@ Ride rideOn(uint chart, bool on, vec2 home) {
 }
 
 bool stepsOff(Ride ride) { return ride.along > belts[ride.chart].length - RIDING_STEPS_OFF; }
+
+/// Whether it walks on the belt. @param party the first row of its company
+bool walksOnBelt(Ride ride, uint party) {
+    return randomUnit(parameters.seed ^ PURPOSE_RIDING, party, ride.chart) < belts[ride.chart].walking;
+}
+
+/// m to the left of the middle: where it rides.
+float laneOf(Ride ride, bool walks) {
+    float side = walks ? -belts[ride.chart].stand : belts[ride.chart].stand;
+    if (side == 0.0) side = ride.aside >= 0.0 ? 1.0 : -1.0;
+    return side * belts[ride.chart].lane;
+}

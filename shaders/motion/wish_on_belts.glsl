@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What somebody wants on a belt, and before it (shaders/motion/riding.glsl).
-// Needs shaders/shared/charts.glsl and random.glsl, shaders/charts/belts.glsl and shaders/motion/riding.glsl.
-
-const uint PURPOSE_RIDING = 0x71de5u;
+// Needs shaders/shared/charts.glsl, shaders/charts/belts.glsl and shaders/motion/riding.glsl.
 
 /// Whether somebody before a belt is about to step on: its way leads there.
 bool makesFor(Ride ride, vec2 way) {
@@ -33,18 +31,6 @@ Ride rideAt(vec2 position, vec2 way) {
 uint flagsOf(Ride ride) {
     if (ride.chart == NO_CHART) return 0u;
     return ride.chart << WALKER_CHART_AT | WALKER_RIDES | (ride.on ? WALKER_IS_CARRIED : 0u);
-}
-
-/// Whether it walks on the belt. @param party the first row of its company
-bool walksOnBelt(Ride ride, uint party) {
-    return randomUnit(parameters.seed ^ PURPOSE_RIDING, party, ride.chart) < belts[ride.chart].walking;
-}
-
-/// m to the left of the middle: where it rides.
-float laneOf(Ride ride, bool walks) {
-    float side = walks ? -belts[ride.chart].stand : belts[ride.chart].stand;
-    if (side == 0.0) side = ride.aside >= 0.0 ? 1.0 : -1.0;
-    return side * belts[ride.chart].lane;
 }
 
 vec2 onBelt(Ride ride, float along, float aside) {

@@ -86,7 +86,7 @@ def test_who_walks_is_as_much_faster_as_the_ground(throng, tmp_path):
 
 @pytest.mark.parametrize("side", ["right", "left"])
 def test_people_stand_on_one_side_a_step_apart_and_walk_on_the_other(throng, tmp_path, side):
-    folder = bake(throng, tmp_path, hall([escalator(stand=side, walking=0.4)], up(40, 40), duration=75))
+    folder = bake(throng, tmp_path, hall([escalator(stand=side, walking=0.4)], up(40, 40), duration=100))
     figures = measured(throng, folder)
     assert (figures["arrived"], figures["stuck"], figures["wall_crossings"]) == (40, 0, 0)
     assert figures["deepest_overlap_percent"] < 2
@@ -101,7 +101,7 @@ def test_people_stand_on_one_side_a_step_apart_and_walk_on_the_other(throng, tmp
     for frame in range(0, len(places), 12):
         x = numpy.sort(places[frame, rides[frame] & ~walks, 0])
         gaps += list(numpy.diff(x))
-    assert len(gaps) > 100 and numpy.quantile(gaps, 0.02) > 0.7  # m: a step is free between them
+    assert len(gaps) > 100 and numpy.quantile(gaps, 0.02) > 0.55 and numpy.median(gaps) > 0.7  # m: a step is free between them
 
 
 def test_nobody_goes_against_an_escalator(throng, tmp_path):
@@ -147,7 +147,7 @@ def test_nobody_is_faster_in_a_crowd_than_alone(throng, tmp_path):
     assert figures["arrived"] == 70 and figures["stuck"] == 0
     assert figures["deepest_overlap_percent"] < 5
     per_lane = IN_PLAN / 0.8
-    assert 1.2 * per_lane < figures["links"][0]["flow"] < 2.1 * per_lane
+    assert 1.4 * per_lane < figures["links"][0]["flow"] < 2.1 * per_lane
     rides = on_belt(folder, 1.5)
     x = stream(folder, "pos")[..., 0]
     steps = numpy.diff(x, axis=0)[rides[1:] & rides[:-1]] * 24
