@@ -141,13 +141,20 @@ struct Level {
 
 /// A straight way between two levels, with a railing on either side.
 struct Link {
-    enum class Kind { stairs, ramp };
+    enum class Kind { stairs, ramp, escalator, travelator };
+    enum class Stand { anywhere, right, left };
     std::string id;
     Kind kind = Kind::stairs;
-    std::size_t from = 0, to = 0;  ///< index into levels
+    std::size_t from = 0, to = 0;  ///< index into levels; the same only of a travelator
     glm::dvec2 begin{0.0}, end{0.0};
-    double width = 2.0;  ///< m, between the railings
+    double width = 2.0;  ///< m, between the railings; of the steps of what moves
     SourcePosition where;
+    double speed = 0.5;             ///< m/s along its slope, of ground that moves
+    double walking = 0.4;           ///< share of its people who walk on it
+    Stand stand = Stand::anywhere;  ///< on which side those stand who do not
+
+    /// Whether its ground moves, from where it begins to where it ends.
+    bool moves() const { return kind == Kind::escalator || kind == Kind::travelator; }
 };
 
 struct Road {

@@ -69,7 +69,8 @@ struct ChartMap {
     std::vector<gpu::ChartCell> cells;
     std::vector<glm::vec2> shifts;  ///< m, by chart: place in the plane - home
     std::vector<bool> is_link;      ///< by chart
-    std::vector<float> costs;       ///< by chart: how many metres on the flat take as long as one of it, >= 1
+    std::vector<float> costs;       ///< by chart: how many metres on the flat take as long as one of it
+    std::vector<gpu::Belt> belts;   ///< by chart; empty: no ground moves
     std::uint32_t most_images = 0;  ///< of one person
 
     bool empty() const { return cells.empty(); }
@@ -79,6 +80,10 @@ struct ChartMap {
     std::uint32_t chartAt(glm::vec2 place) const { return at(place).charts & gpu::NO_CHART; }
     /// From the plane to home coordinates.
     glm::vec2 home(glm::vec2 place) const;
+    bool isBelt(std::uint32_t chart) const { return !belts.empty() && belts[chart].length > 0.0f; }
+    /// Whether a cell that shows another chart's ground shows what one would have to go to against ground
+    /// that moves: what is before its beginning, seen from it, or its end, seen from beyond.
+    bool leadsAgainstBelt(glm::vec2 image) const;
 };
 
 /// Everything the simulation needs, in the scene frame: single precision, metres from `origin`.

@@ -85,8 +85,10 @@ void addPreview(CLI::App& app) {
         ->check(CLI::Range(0.0, 600.0))
         ->capture_default_str();
     command->add_flag("!--no-density", options->preview.density, "Leave out the density layer");
-    command->add_option("--level", options->preview.level,
-                        "Of a layout with levels, only this one; by default all of them over each other");
+    command->add_option(
+        "--level", options->preview.level,
+        "Of a layout with levels, only this one: its floor, who is on it, and who is on a link "
+        "nearer to it than to the other end; by default all levels over each other");
     command->add_flag("--json", options->json, "Print a JSON document");
     command->footer("Example:\n  throng preview bakes/intersection -o intersection.png --frame 800");
     command->callback([options] { run(*options); });

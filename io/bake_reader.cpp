@@ -15,7 +15,12 @@ namespace fs = std::filesystem;
 namespace {
 
 using Json = nlohmann::ordered_json;
+using Kind = authoring::Link::Kind;
 
+constexpr std::pair<std::string_view, Kind> kKinds[] = {{"stairs", Kind::stairs},
+                                                        {"ramp", Kind::ramp},
+                                                        {"escalator", Kind::escalator},
+                                                        {"travelator", Kind::travelator}};
 constexpr std::uint64_t kMostBytes = std::uint64_t{32} << 20;  // of bake.json
 constexpr double kFurthest = 4.0e9;                            // m from the origin, of anything
 constexpr double kLeastRate = 1.0, kMostRate = 1000.0;         // frames/s
@@ -140,17 +145,41 @@ void readLevels(const ManifestReader& reader, Bake& bake) {
     });
 }
 
+std::size_t levelNamed(const ManifestReader& reader, const Bake& bake, const std::string& member) {
+    const std::string id = reader.text(member);
+    const auto known = std::ranges::find(bake.levels, id, &authoring::Level::id);
+    if (known == bake.levels.end()) reader.fail(member, "the id of a level");
+    return static_cast<std::size_t>(known - bake.levels.begin());
+}
+
 /// The level that something says it lies on.
 std::size_t levelOf(const ManifestReader& reader, const Bake& bake) {
-    if (!reader.has("/level")) return 0;
-    const std::string id = reader.text("/level");
-    const auto known = std::ranges::find(bake.levels, id, &authoring::Level::id);
-    if (known == bake.levels.end()) reader.fail("/level", "the id of a level");
-    return static_cast<std::size_t>(known - bake.levels.begin());
+    return reader.has("/level") ? levelNamed(reader, bake, "/level") : 0;
+}
+
+void readLinks(const ManifestReader& reader, Bake& bake) {
+    if (!reader.has("/links")) return;
+    reader.each("/links", [&](const ManifestReader& each) {
+        authoring::Link link;
+        link.id = each.text("/id");
+        link.from = levelNamed(each, bake, "/from");
+        link.to = levelNamed(each, bake, "/to");
+        const std::vector<glm::dvec2> path = each.points("/path", 2);
+        link.begin = path.front();
+        link.end = path.back();
+        if (link.begin == link.end) each.fail("/path", "a path of two places");
+        link.width = each.length("/width");
+        const std::string type = each.text("/type");
+        const auto kind = std::ranges::find(kKinds, type, &std::pair<std::string_view, Kind>::first);
+        if (kind == std::end(kKinds)) each.fail("/type", "what links can be");
+        link.kind = kind->second;
+        bake.links.push_back(std::move(link));
+    });
 }
 
 void readGeometry(const ManifestReader& reader, Bake& bake) {
     readLevels(reader, bake);
+    readLinks(reader, bake);
     reader.each("/geometry/roads", [&](const ManifestReader& road) {
         bake.roads.push_back({road.text("/id"),
                               road.points("/centreline", 2),

@@ -33,6 +33,7 @@ struct Bake {
     std::vector<authoring::Wall> walls;
     /// Floors above each other, if there are any; then also the lowest and highest ground along each wall, m.
     std::vector<authoring::Level> levels;
+    std::vector<authoring::Link> links;
     std::vector<glm::dvec2> wall_ground;
     bool hasStoreys() const { return !levels.empty(); }
 

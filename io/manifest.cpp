@@ -101,6 +101,31 @@ Json levelsToJson(const recording::BakeDescription& description) {
     return list;
 }
 
+const char* nameOf(authoring::Link::Kind kind) {
+    switch (kind) {
+        case authoring::Link::Kind::stairs:
+            return "stairs";
+        case authoring::Link::Kind::ramp:
+            return "ramp";
+        case authoring::Link::Kind::escalator:
+            return "escalator";
+        default:
+            return "travelator";
+    }
+}
+
+Json linksToJson(const recording::BakeDescription& description) {
+    Json list = Json::array();
+    for (const authoring::Link& link : description.links)
+        list.push_back({{"id", link.id},
+                        {"type", nameOf(link.kind)},
+                        {"from", description.levels.at(link.from).id},
+                        {"to", description.levels.at(link.to).id},
+                        {"path", pointsToJson({link.begin, link.end}, description.output_origin)},
+                        {"width", link.width}});
+    return list;
+}
+
 /// @param storeys whether people walk on several surfaces above each other
 Json terrainToJson(const recording::BakeTerrain& terrain, bool storeys) {
     const auto [low, high] =
@@ -249,6 +274,7 @@ Json bakeManifest(const recording::BakeDescription& description, const BakeOutco
     if (description.terrain)
         json["terrain"] = terrainToJson(*description.terrain, !description.levels.empty());
     if (!description.levels.empty()) json["levels"] = levelsToJson(description);
+    if (!description.links.empty()) json["links"] = linksToJson(description);
     json["table"] = "agents.csv";
     json["gltf"] = gltfToJson(outcome.gltf);
     json["diagrams"] = diagramsToJson(description, outcome.diagrams);

@@ -81,7 +81,8 @@ struct BakeTerrain {
 /// How the simulation's plane and the places of a layout with levels belong together
 /// (authoring/storeys/charts.h).
 struct BakeCharts {
-    std::vector<glm::dvec2> shifts;  ///< m, by chart: place in the plane - home
+    std::vector<glm::dvec2> shifts;      ///< m, by chart: place in the plane - home
+    std::vector<glm::dvec2> belts = {};  ///< m/s, by chart: how its ground moves; empty: none does
 };
 
 /// All that a bake's files say besides the frames. World coordinates unless told otherwise; metres and
@@ -119,6 +120,7 @@ struct BakeDescription {
     std::optional<BakeTerrain>
         terrain;  ///< none: flat ground at height 0; floors and links of layouts with levels
     std::vector<authoring::Level> levels;
+    std::vector<authoring::Link> links;
     std::optional<BakeCharts> charts;  ///< with levels: then frames hold, behind places in the plane, charts
 
     std::string renderer;  ///< GL_RENDERER

@@ -34,8 +34,8 @@ Stance Footing::entering(glm::vec2 place, glm::vec2 heading) const {
             glm::clamp(slopes.y, -kSteepest, kSteepest), here.height};
 }
 
-Stance Footing::stand(std::size_t row, glm::vec2 place, glm::vec2 heading, glm::vec2 moved,
-                      const GaitTrack& gait) {
+Stance Footing::stand(std::size_t row, const Walker& walker, const GaitTrack& gait) {
+    const auto& [place, heading, moved, is_carried] = walker;
     Feet& feet = feet_[row];
     const glm::vec2 left(-heading.y, heading.x);
     const authoring::Terrain::Face here = terrain_->faceAt(place);
@@ -70,7 +70,8 @@ Stance Footing::stand(std::size_t row, glm::vec2 place, glm::vec2 heading, glm::
     const glm::vec2 walking(
         slope(heading, kReach) + (feet.step_to - feet.step_from) / static_cast<float>(step_length),
         slope(left, kSideReach));
-    const glm::vec2 standing(glm::dot(here.slope, heading), glm::dot(here.slope, left));
+    const glm::vec2 standing =
+        is_carried ? glm::vec2(0.0f) : glm::vec2(glm::dot(here.slope, heading), glm::dot(here.slope, left));
     const glm::vec2 slopes = glm::clamp(glm::mix(walking, standing, feet.standing), -kSteepest, kSteepest);
     feet.stance = {smooth + glm::mix(walking_step, step_here, feet.standing), slopes.x, slopes.y,
                    here.height};

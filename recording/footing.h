@@ -34,9 +34,14 @@ class Footing {
   public:
     Footing(std::shared_ptr<const authoring::Terrain> terrain, std::size_t rows, double fps);
 
-    /// The next frame of somebody. @param heading unit vector; @param moved m, since the frame before; zero
-    /// in the first one
-    Stance stand(std::size_t row, glm::vec2 place, glm::vec2 heading, glm::vec2 moved, const GaitTrack& gait);
+    struct Walker {
+        glm::vec2 place{0.0f};
+        glm::vec2 heading{1.0f, 0.0f};  ///< unit vector
+        glm::vec2 moved{0.0f};          ///< m, since the frame before, on the ground; zero in the first one
+        bool is_carried = false;        ///< by ground that moves: who stands there stands level, on a step
+    };
+    /// The next frame of somebody.
+    Stance stand(std::size_t row, const Walker& walker, const GaitTrack& gait);
     /// As stand() begins, of somebody who has yet to come.
     Stance entering(glm::vec2 place, glm::vec2 heading) const;
     /// The last one, of somebody who has left.

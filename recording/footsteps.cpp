@@ -124,6 +124,8 @@ std::array<FootMove, 2> Footsteps::step(std::size_t row, const Walker& walker, c
     person.walking = now.walking;
     person.known = 1;
 
+    for (Foot& foot : person.feet)
+        foot.anchor += walker.carried;
     std::array<FootMove, 2> moves;
     if (!is_new) lift(person, now);
     for (const std::size_t side : {0u, 1u}) {

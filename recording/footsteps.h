@@ -42,10 +42,11 @@ class Footsteps {
     struct Walker {
         glm::vec2 place{0.0f};  ///< m
         glm::vec2 heading{1.0f, 0.0f};
-        glm::vec2 moved{0.0f};  ///< m, since the frame before
-        float speed = 0.0f;     ///< m/s, as the stream has it
-        float walking = 0.0f;   ///< share of the walk in the clip's pose (Carriage)
-        float scale = 1.0f;     ///< of the figure
+        glm::vec2 moved{0.0f};    ///< m, since the frame before, on the ground
+        float speed = 0.0f;       ///< m/s, as the stream has it
+        float walking = 0.0f;     ///< share of the walk in the clip's pose (Carriage)
+        float scale = 1.0f;       ///< of the figure
+        glm::vec2 carried{0.0f};  ///< m: how far the ground under the feet has moved since the frame before
     };
 
     Footsteps(std::size_t rows, double fps);

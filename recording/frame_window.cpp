@@ -112,6 +112,19 @@ Average FrameWindow::average(std::size_t row) const {
     return average;
 }
 
+glm::dvec2 FrameWindow::averageOfCharts(std::size_t row, std::span<const glm::dvec2> by_chart) const {
+    const std::uint32_t reach = room(row);
+    const std::vector<double>& weights = weights_[reach];
+    const auto valueIn = [&](const KeptFrame& frame) {
+        const auto chart = static_cast<std::size_t>(frame[Stream::pos][row * kComponents + 2]);
+        return chart < by_chart.size() ? by_chart[chart] : glm::dvec2(0.0);
+    };
+    glm::dvec2 sum = weights[0] * valueIn(frames_[middle_]);
+    for (std::uint32_t i = 1; i <= reach; ++i)
+        sum += weights[i] * (valueIn(frames_[middle_ - i]) + valueIn(frames_[middle_ + i]));
+    return sum;
+}
+
 void FrameWindow::save(std::vector<std::byte>& bytes) const {
     std::uint64_t counts[] = {frames_.size(), middle_, 0};
     for (const StreamInfo& info : kStreams)

@@ -59,6 +59,10 @@ class FrameWindow {
     /// A row of the middle frame, in which it is alive.
     Average average(std::size_t row) const;
 
+    /// The mean over the same frames of what belongs to the charts that the row is on, behind its places;
+    /// zero on charts without a value.
+    glm::dvec2 averageOfCharts(std::size_t row, std::span<const glm::dvec2> by_chart) const;
+
     /// All that average() and what follows depend on, as bytes.
     void save(std::vector<std::byte>& bytes) const;
     /// @param carried the streams that the frames have besides those of every bake

@@ -47,6 +47,8 @@ MotionRecorder::MotionRecorder(const BakeDescription& description, Sink sink)
       carried_(fromDevice(description.asked)) {
     if (description.charts) {
         shifts_ = description.charts->shifts;
+        for (const glm::dvec2 velocity : description.charts->belts)
+            belts_.push_back(velocity / fps_);
         charts_.resize(walkers_.size());
     }
     if (description.terrain) {
@@ -114,6 +116,10 @@ double MotionRecorder::heightOf(std::size_t row) const {
     const std::size_t at = row * kComponents;
     return double{
         ground_->smoothAt(glm::vec2(glm::dvec2(positions_[at], positions_[at + 1]) + toPlane(row)))};
+}
+
+glm::dvec2 MotionRecorder::carriedBy(std::size_t row) const {
+    return belts_.empty() ? glm::dvec2(0.0) : window_.averageOfCharts(row, belts_);
 }
 
 void MotionRecorder::finish() {
@@ -211,10 +217,13 @@ void MotionRecorder::record(const KeptFrame& frame) {
             if (footsteps_) putFeet(at, {});
             continue;
         }
-        const glm::vec2 moved = walker.walks ? place - walker.place : glm::vec2(0.0f);
+        // What the ground carries is not walked.
+        const glm::vec2 carried = walker.walks ? glm::vec2(carriedBy(row)) : glm::vec2(0.0f);
+        const glm::vec2 moved = walker.walks ? place - walker.place - carried : glm::vec2(0.0f);
         if (walker.walks) {
-            const double way = wide_ ? directions_[at + 2] / fps_
-                                     : glm::distance(glm::dvec2(walker.place), glm::dvec2(place));
+            const double way =
+                wide_ ? directions_[at + 2] / fps_
+                      : glm::distance(glm::dvec2(walker.place) + glm::dvec2(carried), glm::dvec2(place));
             if (window_.reach() > 0 && !wide_) directions_[at + 2] = static_cast<float>(way * fps_);
             walker.gait.advance(way, 1.0 / fps_);
         } else {
@@ -227,11 +236,15 @@ void MotionRecorder::record(const KeptFrame& frame) {
         const glm::vec2 heading(directions_[at], directions_[at + 1]);
         const float speed = directions_[at + 2];
         if (footsteps_)
-            putFeet(at, footsteps_->step(
-                            row, {place, heading, moved, speed, carriages_->step(row, speed), scales_[row]},
-                            walker.gait));
+            putFeet(at, footsteps_->step(row,
+                                         {place, heading, moved, speed, carriages_->step(row, speed),
+                                          scales_[row], carried},
+                                         walker.gait));
         if (footing_)
-            putStance(at, footing_->stand(row, place + glm::vec2(toPlane(row)), heading, moved, walker.gait));
+            putStance(at,
+                      footing_->stand(
+                          row, {place + glm::vec2(toPlane(row)), heading, moved, carried != glm::vec2(0.0f)},
+                          walker.gait));
     }
 }
 

@@ -50,6 +50,8 @@ class MotionRecorder {
     void goHome(const Frame& frame);
     glm::dvec2 toPlane(std::size_t row) const;
     double heightOf(std::size_t row) const;
+    /// How far the ground has carried somebody since the frame before, m.
+    glm::dvec2 carriedBy(std::size_t row) const;
     void average(const KeptFrame& frame);
     void record(const KeptFrame& frame);
     void putStance(std::size_t at, const Stance& stance);
@@ -80,6 +82,7 @@ class MotionRecorder {
     std::vector<float> positions_, directions_, states_, grounds_;  ///< of the frame being given out
     std::array<std::vector<float>, 2> feet_;                        ///< likewise: left, right
     std::vector<glm::dvec2> shifts_;  ///< by chart, m: place in the plane - home; none without charts
+    std::vector<glm::dvec2> belts_;   ///< by chart, m in a frame: how far its ground moves; none: none does
     std::vector<std::uint32_t> charts_;
     std::vector<float> homes_;  ///< places of the frame being taken, in home coordinates, and charts
     std::vector<std::uint32_t> present_;

@@ -114,6 +114,12 @@ gl::Buffer makeFields(const authoring::FieldStore& store) {
     return buffer;
 }
 
+/// A uniform block is as large as its shader says.
+std::vector<gpu::Belt> roomForAll(std::vector<gpu::Belt> belts) {
+    if (!belts.empty()) belts.resize(gpu::NO_CHART);
+    return belts;
+}
+
 }  // namespace
 
 gpu::Parameters makeParameters(const authoring::Scene& scene) {
@@ -210,8 +216,10 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
       wall_tiles(gl::makeBuffer("wall tiles", scene.wall_tiles, "wall tile")),
       chart_cells(gl::makeBuffer("chart cells", scene.chart_map.cells, "cell of a chart")),
       chart_shifts(gl::makeBuffer("chart shifts", scene.chart_map.shifts, "chart")),
+      belts(gl::makeBuffer("belts", roomForAll(scene.chart_map.belts), "chart")),
       has_bodies_(!std::ranges::all_of(scene.people, isDisc)),
-      has_charts_(!scene.chart_map.empty()) {
+      has_charts_(!scene.chart_map.empty()),
+      has_belts_(!scene.chart_map.belts.empty()) {
     const std::size_t rows = parameter_values.site_rows;
     const std::size_t cells = std::size_t{parameter_values.cells_width} * parameter_values.cells_height;
     const WallIndex walls = indexWalls(scene.wall_segments, parameter_values,
@@ -297,6 +305,7 @@ gl::Definitions Buffers::definitions() const {
     gl::Definitions all;
     if (has_bodies_) all.emplace_back("BODIES", "1");
     if (hasCharts()) all.emplace_back("CHARTS", "1");
+    if (has_belts_) all.emplace_back("BELTS", "1");
     return all;
 }
 
@@ -313,6 +322,7 @@ std::vector<std::pair<std::string, const gl::Buffer*>> Buffers::named() const {
             {"RoadDistances", &road_distances},
             {"ChartCells", &chart_cells},
             {"ChartShifts", &chart_shifts},
+            {"Belts", &belts},
             {"SlotImages", &slot_images},
             {"RowSlots", &row_slots},
             {"DetourSlopes", &detour_slopes},

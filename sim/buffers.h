@@ -34,7 +34,7 @@ struct Buffers {
     gl::Buffer detour_slopes;                                          // what jams add to them
     gl::Buffer queues, queue_heads, entries, entry_points, proposals;  // entering
     gl::Buffer wall_segments, wall_tiles, wall_starts, wall_items, narrow_cells;
-    gl::Buffer chart_cells, chart_shifts;
+    gl::Buffer chart_cells, chart_shifts, belts;
     gl::Buffer slot_images, row_slots;  // none without charts
 
     gl::Buffer cell_counts, cell_offsets, cell_cursors;                    // per cell
@@ -64,7 +64,7 @@ struct Buffers {
     }
 
   private:
-    bool has_bodies_, has_charts_;
+    bool has_bodies_, has_charts_, has_belts_;
 };
 
 /// Cells, windows and limits that follow from a scene.

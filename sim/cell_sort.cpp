@@ -28,7 +28,7 @@ const gl::Declaration kGather = {
     "cells",
     {"shaders/cells/bodies_gather.comp"},
     {"ParametersBlock", "LiveDispatch", "People", "States", "RowCells", "LooseRows", "StripStarts",
-     "CellOffsets", "Chests", "ChartCells", "ChartShifts"},
+     "CellOffsets", "Chests", "ChartCells", "ChartShifts", "Belts"},
     {"SiteSlots", "Bodies", "Walkers", "Sites", "SlotImages", "RowSlots"}};
 
 }  // namespace

@@ -9,11 +9,11 @@ namespace {
 
 constexpr std::uint32_t kStepsPerRound = 4;
 
-const gl::Declaration kFlow = {
-    "routes",
-    {"shaders/routes/detour_flow.comp"},
-    {"ParametersBlock", "Ground", "Bodies", "StripStarts", "CellOffsets", "CrowdFlows"},
-    {"CrowdFlows", "DenseBlocks"}};
+const gl::Declaration kFlow = {"routes",
+                               {"shaders/routes/detour_flow.comp"},
+                               {"ParametersBlock", "Ground", "Bodies", "StripStarts", "CellOffsets",
+                                "CrowdFlows", "ChartCells", "ChartShifts", "Belts"},
+                               {"CrowdFlows", "DenseBlocks"}};
 const gl::Declaration kList = {"routes",
                                {"shaders/routes/detour_list.comp"},
                                {"ParametersBlock", "ChangedBlocks", "DenseBlocks", "BlockDispatch"},
@@ -87,7 +87,7 @@ Congestion::Congestion(const gl::ShaderLibrary& library, Buffers& buffers, const
     for (const auto& [program, declaration] :
          {std::pair{&flow_, &kFlow}, std::pair{&list_, &kList}, std::pair{&relax_, &kRelax},
           std::pair{&keep_, &kKeep}, std::pair{&slope_, &kSlope}}) {
-        *program = buffers.connect(library, *declaration, rules.definitions());
+        *program = buffers.connect(library, *declaration, buffers.definitions(rules));
         program->bindAll(own);
     }
     relax_.bind("ChangedBlocks", changed_now_);

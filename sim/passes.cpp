@@ -25,18 +25,19 @@ const gl::Declaration kSteer = {
     "avoidance",
     {"shaders/motion/steer.comp"},
     {"ParametersBlock", "LiveDispatch", "States", "Bodies", "Walkers", "Stages", "field_cells",
-     "DetourSlopes", "WaitingLines", "LinePoints", "NeighbourCounts", "TouchWords", "TerrainNodes"},
+     "DetourSlopes", "WaitingLines", "LinePoints", "NeighbourCounts", "TouchWords", "TerrainNodes",
+     "ChartCells", "ChartShifts", "Belts"},
     {"Walkers", "PreferredVelocities"}};
 const gl::Declaration kAvoid = {
     "avoidance",
     {"shaders/motion/avoid.comp"},
     {"ParametersBlock", "LiveDispatch", "States", "Bodies", "Walkers", "PreferredVelocities", "Neighbours",
-     "NeighbourCounts", "TouchWords", "WallSegments", "WallStarts", "WallItems", "RoadDistances"},
+     "NeighbourCounts", "TouchWords", "WallSegments", "WallStarts", "WallItems", "RoadDistances", "Belts"},
     {"TouchWords", "Targets", "TargetsAfter", "Decisions", "Ways"}};
 const gl::Declaration kCarryOn = {
     "avoidance",
     {"shaders/motion/carry_on.comp"},
-    {"ParametersBlock", "LiveDispatch", "States", "Chests", "Decisions", "Bodies", "Walkers"},
+    {"ParametersBlock", "LiveDispatch", "States", "Chests", "Decisions", "Bodies", "Walkers", "Belts"},
     {"Bodies", "Walkers", "Targets", "TargetsAfter", "Ways"}};
 const gl::Declaration kContact = {
     "contacts",
@@ -50,7 +51,7 @@ const gl::Declaration kMove = {
     {"shaders/motion/move.comp"},
     {"ParametersBlock", "LiveDispatch", "People", "Bodies", "Walkers", "PreferredVelocities", "TouchWords",
      "Decisions", "Ways", "Targets", "Stages", "field_cells", "DetourSlopes", "PlanChanges", "WaitingLines",
-     "LinePoints", "States"},
+     "LinePoints", "States", "Belts"},
     {"WaitingLines", "States", "Chests"}};
 
 gl::Definitions together(gl::Definitions some, const gl::Definitions& others) {

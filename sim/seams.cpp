@@ -6,13 +6,13 @@ namespace {
 
 const gl::Declaration kCross = {"seams",
                                 {"shaders/charts/cross_seams.comp"},
-                                {"ParametersBlock", "States", "ChartCells", "ChartShifts"},
+                                {"ParametersBlock", "States", "ChartCells", "ChartShifts", "Belts"},
                                 {"States"}};
 const gl::Declaration kFollow = {
     "seams",
     {"shaders/charts/follow.comp"},
     {"LiveDispatch", "RowSlots", "SlotImages", "Bodies", "Walkers", "PreferredVelocities", "TouchWords",
-     "Targets", "TargetsAfter"},
+     "Targets", "TargetsAfter", "ParametersBlock", "ChartCells", "ChartShifts", "Belts"},
     {"Bodies", "Walkers", "PreferredVelocities", "TouchWords", "Targets", "TargetsAfter"}};
 
 gl::Definitions whatFollows(Seams::After pass) {

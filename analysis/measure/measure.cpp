@@ -11,14 +11,16 @@
 #include "analysis/stuck.h"
 #include "base/activities.h"
 #include "base/plane_grid.h"
+#include "io/storeys.h"
 #include "recording/wall_watch.h"
 #include "shaders/shared/walking.h"
 
 namespace throng::analysis {
 namespace {
 
-constexpr double kOverlap = 0.01;    // share of the sum of radii from which a pair counts
-constexpr std::size_t kHistory = 4;  // frames, for the jerk
+constexpr double kOverlap = 0.01;     // share of the sum of radii from which a pair counts
+constexpr std::size_t kHistory = 4;   // frames, for the jerk
+constexpr double kBesideLinks = 0.3;  // m: railings stand less far from a link's width
 
 double median(std::vector<double> values) {
     if (values.empty()) return 0.0;
@@ -46,7 +48,8 @@ class Measurer {
           way_(rows_.size(), 0.0),
           effort_(rows_.size(), 0.0),
           start_(rows_.size()),
-          straight_(rows_.size(), 0.0) {
+          straight_(rows_.size(), 0.0),
+          crossings_(bake_.links.size()) {
         for (const io::AgentRow& row : rows_)
             largest_radius_ = std::max(largest_radius_, row.reach());
     }
@@ -139,6 +142,7 @@ class Measurer {
             const double speed = step / dt_;
             if (!walls_.empty() && walls_.crosses(from, to)) ++result_.wall_crossings;
             if (options_.line) across += crossesLine(from, to) ? 1 : 0;
+            countOverLinks(from, to, heights_[i], frame);
             speed_sum_ += speed;
             ++speed_count_;
             if (hasArrived(row, frame)) continue;
@@ -170,6 +174,34 @@ class Measurer {
         if (!aliveSince(row, 3)) return;
         const glm::dvec2 earlier = (velocity(row, 1) - velocity(row, 2)) / dt_;
         jerk_.add(glm::length(acceleration - earlier) / dt_);
+    }
+
+    /// Who passes the middle of a link at about its height.
+    void countOverLinks(glm::dvec2 from, glm::dvec2 to, double height, std::uint32_t frame) {
+        for (std::size_t i = 0; i < bake_.links.size(); ++i) {
+            const double middle = 0.5 * storeys_.lengthOf(i);
+            const glm::dvec2 was = storeys_.onLink(i, from), is = storeys_.onLink(i, to);
+            const bool forward = was.x < middle && is.x >= middle, back = was.x >= middle && is.x < middle;
+            if ((!forward && !back) || std::abs(is.y) > 0.5 * bake_.links[i].width + kBesideLinks ||
+                !areOnOneGround(storeys_.heightOf(i, middle), height))
+                continue;
+            Crossings& crossings = crossings_[i];
+            (forward ? crossings.forward : crossings.back) += 1;
+            crossings.first = std::min(crossings.first, frame);
+            crossings.last = frame;
+        }
+    }
+
+    void summariseLinks() {
+        for (std::size_t i = 0; i < bake_.links.size(); ++i) {
+            const Crossings& crossings = crossings_[i];
+            LinkFlow flow{bake_.links[i].id, bake_.links[i].width, crossings.forward, crossings.back, {}, {}};
+            const std::uint64_t all = flow.forward + flow.back;
+            if (all > 1 && crossings.last > crossings.first)
+                flow.flow = static_cast<double>(all - 1) / ((crossings.last - crossings.first) * dt_);
+            if (flow.flow && flow.width > 0.0) flow.specific_flow = *flow.flow / flow.width;
+            result_.links.push_back(std::move(flow));
+        }
     }
 
     bool crossesLine(glm::dvec2 from, glm::dvec2 to) const {
@@ -270,6 +302,7 @@ class Measurer {
         result_.heading_rate = spreadOf(heading_rate_);
         result_.acceleration = spreadOf(acceleration_);
         result_.jerk = spreadOf(jerk_);
+        summariseLinks();
         result_.backward_percent = 100.0 * mean(static_cast<double>(backward_frames_), walked_frames_);
         result_.lane_order = mean(lane_sum_, lane_frames_);
         result_.mean_density = mean(density_sum_, density_.count());
@@ -313,6 +346,12 @@ class Measurer {
                   backward_frames_ = 0;
     std::uint64_t crossed_ = 0;
     std::uint32_t first_across_ = ~0u, last_across_ = 0;
+    struct Crossings {
+        std::uint64_t forward = 0, back = 0;
+        std::uint32_t first = ~0u, last = 0;
+    };
+    io::Storeys storeys_{bake_};
+    std::vector<Crossings> crossings_;  // of each link
     Measurement result_;
 };
 

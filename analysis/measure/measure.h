@@ -22,6 +22,15 @@ struct Spread {
     double median = 0.0, high = 0.0, worst = 0.0;
 };
 
+/// Who went over a link of a layout with levels: counted at its middle.
+struct LinkFlow {
+    std::string id;
+    double width = 0.0;                        ///< m
+    std::uint64_t forward = 0, back = 0;       ///< persons, from where it begins and from where it ends
+    std::optional<double> flow = {};           ///< persons/s, while anybody crosses
+    std::optional<double> specific_flow = {};  ///< persons/(s m)
+};
+
 /// How well a crowd moves, from the written files alone (docs/measure.md). Metres, seconds, degrees.
 struct Measurement {
     std::uint32_t agents = 0, arrived = 0, walking = 0, refused = 0;
@@ -49,6 +58,8 @@ struct Measurement {
     double mean_speed = 0.0;                        ///< m/s, of those present
     std::optional<double> flow;                     ///< persons/s across the line, while anybody crosses
     std::optional<double> specific_flow;            ///< persons/(s m) across the line, while anybody crosses
+
+    std::vector<LinkFlow> links;  ///< none where there are no levels
 
     std::vector<glm::dvec2> speed_by_density;  ///< (persons/m^2, mean m/s)
     std::vector<glm::dvec2> arrivals;          ///< (s, people arrived)

@@ -96,6 +96,12 @@ Json measurementJson(const Measurement& m) {
     if (m.seated > 0) json[keyFor(Fate::seated)] = m.seated;
     if (m.flow) json["flow"] = readable(*m.flow);
     if (m.specific_flow) json["specific_flow"] = readable(*m.specific_flow);
+    for (const LinkFlow& link : m.links) {
+        Json each = {{"id", link.id}, {"width", link.width}, {"forward", link.forward}, {"back", link.back}};
+        if (link.flow) each["flow"] = readable(*link.flow);
+        if (link.specific_flow) each["specific_flow"] = readable(*link.specific_flow);
+        json["links"].push_back(std::move(each));
+    }
     json["speed_by_density"] = Json::array();
     for (const glm::dvec2 point : m.speed_by_density)
         json["speed_by_density"].push_back({readable(point.x), readable(point.y)});
@@ -131,6 +137,11 @@ std::string measurementText(const Measurement& m) {
          fmt::format("{:.2f} persons/m^2 (mean), {:.2f} (99th percentile)", m.mean_density, m.high_density));
     line("speed", fmt::format("{:.2f} m/s (mean of all present)", m.mean_speed));
     if (m.specific_flow) line("flow over the line", fmt::format("{:.2f} persons/(s m)", *m.specific_flow));
+    for (const LinkFlow& link : m.links)
+        line("link",
+             fmt::format(
+                 "{}: {} forward, {} back{}", link.id, link.forward, link.back,
+                 link.specific_flow ? fmt::format(", {:.2f} persons/(s m)", *link.specific_flow) : ""));
     return text;
 }
 

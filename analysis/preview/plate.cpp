@@ -24,7 +24,7 @@ constexpr double kLegendSize = 12.0;  // px, of its letters
 constexpr double kDensityCell = 1.0;  // m
 constexpr double kTallest = 32767.0;  // px that Cairo can draw
 constexpr double kMostCells = 4.0e6;  // of the density layer
-constexpr double kHalfStorey = 1.6;   // m: who is this near to a level's height is drawn with it
+constexpr double kHalfStorey = 1.6;   // m: who is nowhere is drawn with a level that is so near in height
 constexpr double kMostDensity = 3.0;  // persons per m^2 at the warm end of the scale
 constexpr Colour kPaper = colourFromHex(0xf6f4ef), kInk = colourFromHex(0x22252b),
                  kRoad = colourFromHex(0xe2dfd6), kArea = colourFromHex(0xece6d3),
@@ -100,6 +100,7 @@ double strengthOf(const io::CrowdFrame& now, std::size_t row) {
 Plate::Plate(const std::filesystem::path& bake, const PreviewOptions& options)
     : crowd_(io::loadBake(bake)),
       bake_(crowd_.bake()),
+      storeys_(bake_),
       people_(crowd_.people()),
       groups_(io::groupsOf(people_)),
       options_(options) {
@@ -218,18 +219,23 @@ void Plate::drawFloors(cairo_t* context) const {
     }
 }
 
-/// Nobody on a level of its own is drawn with another, but those on a link with both of its ends, half of the
-/// way.
+/// Who is on a floor is drawn with that one only; who is on a link, with the end that is nearer.
 bool Plate::isShown(const io::CrowdFrame& frame, std::size_t row) const {
-    return frame.isThere(row) &&
-           (!level_ || std::abs(frame.height(row) - bake_.levels[*level_].height) < kHalfStorey);
+    if (!frame.isThere(row)) return false;
+    if (!level_) return true;
+    const double height = frame.height(row);
+    if (const auto level = storeys_.levelAt(frame.place(row), height)) return *level == *level_;
+    const auto link = storeys_.linkAt(frame.place(row), height);
+    const auto apart = [&](std::size_t level) { return std::abs(height - bake_.levels[level].height); };
+    if (!link) return apart(*level_) < kHalfStorey;
+    const std::size_t from = bake_.links[*link].from, to = bake_.links[*link].to;
+    return (*level_ == from || *level_ == to) && apart(*level_) <= std::min(apart(from), apart(to));
 }
 
 bool Plate::isWallShown(std::size_t wall) const {
-    if (!level_) return true;
-    const double height = bake_.levels[*level_].height;
-    return bake_.wall_ground[wall].x < height + kHalfStorey &&
-           bake_.wall_ground[wall].y > height - kHalfStorey;
+    return !level_ || std::ranges::any_of(bake_.walls[wall].points, [&](glm::dvec2 point) {
+        return storeys_.isBeside(*level_, point, bake_.wall_ground[wall]);
+    });
 }
 
 void Plate::chooseLevel() {

@@ -13,6 +13,7 @@
 #include "base/capsule.h"
 #include "base/palette.h"
 #include "io/crowd_reader.h"
+#include "io/storeys.h"
 
 namespace throng::analysis {
 
@@ -61,6 +62,7 @@ class Plate {
 
     io::CrowdReader crowd_;
     const io::Bake& bake_;
+    io::Storeys storeys_;
     const std::vector<io::AgentRow>& people_;
     io::GroupTable groups_;
     PreviewOptions options_;

@@ -12,6 +12,8 @@
 #include "analysis/stuck.h"
 #include "base/palette.h"
 #include "base/plane_grid.h"
+#include "base/storeys.h"
+#include "io/storeys.h"
 
 namespace throng::analysis {
 namespace {
@@ -31,6 +33,28 @@ Json pointsOf(const std::vector<glm::dvec2>& points) {
     return list;
 }
 
+/// Floors, links between them, and on which level everything else is.
+void addLevels(const io::Bake& bake, Json& geometry) {
+    for (const authoring::Level& level : bake.levels)
+        geometry["levels"].push_back({{"id", level.id}, {"points", pointsOf(level.floor)}});
+    geometry["links"] = Json::array();
+    for (const authoring::Link& link : bake.links)
+        geometry["links"].push_back({{"id", link.id}, {"levels", {link.from, link.to}}});
+    for (std::size_t i = 0; i < bake.roads.size(); ++i)
+        geometry["roads"][i]["levels"] = {bake.roads[i].level};
+    for (std::size_t i = 0; i < bake.areas.size(); ++i)
+        geometry["areas"][i]["levels"] = {bake.areas[i].level};
+    const io::Storeys storeys(bake);
+    for (std::size_t i = 0; i < bake.walls.size(); ++i) {
+        Json& levels = geometry["walls"][i]["levels"] = Json::array();
+        for (std::size_t level = 0; level < bake.levels.size(); ++level)
+            if (std::ranges::any_of(bake.walls[i].points, [&](glm::dvec2 point) {
+                    return storeys.isBeside(level, point, bake.wall_ground[i]);
+                }))
+                levels.push_back(level);
+    }
+}
+
 Json geometryOf(const io::Bake& bake) {
     Json geometry = {{"roads", Json::array()}, {"areas", Json::array()}, {"walls", Json::array()}};
     for (const authoring::Road& road : bake.roads)
@@ -45,6 +69,7 @@ Json geometryOf(const io::Bake& bake) {
                                      {"points", pointsOf(wall.points)},
                                      {"open", wall.open_at_start},
                                      {"toggles", wall.toggles}});
+    if (bake.hasStoreys()) addLevels(bake, geometry);
     return geometry;
 }
 
@@ -101,11 +126,13 @@ class Watch {
         present_.clear();
         bodies_.clear();
         shapes_.clear();
+        heights_.clear();
         for (std::uint32_t row = 0; row < frame.rows(); ++row) {
             if (!frame.isThere(row)) continue;
             present_.push_back(row);
             bodies_.push_back(frame.place(row));
             shapes_.push_back(frame.body(row, rows_[row]));
+            heights_.push_back(bake_.hasStoreys() ? frame.height(row) : 0.0);
         }
     }
 
@@ -125,7 +152,7 @@ class Watch {
         for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
             const std::uint32_t row = present_[i];
             grid_.near(bodies_[i], rows_[row].reach() + largest_radius_, [&](std::uint32_t j) {
-                if (j <= i) return;
+                if (j <= i || !areOnOneGround(heights_[i], heights_[j])) return;
                 const std::uint32_t other = present_[j];
                 const double depth = overlapOf(shapes_[i], shapes_[j]);
                 if (depth <= kCounts) return;
@@ -141,6 +168,7 @@ class Watch {
     std::vector<std::uint32_t> present_;
     std::vector<glm::dvec2> bodies_;  // of those present
     std::vector<Capsule> shapes_;
+    std::vector<double> heights_;  // m
     PlaneGrid grid_;
     double largest_radius_ = 0.0;
     std::map<std::uint64_t, std::pair<double, std::uint32_t>> overlaps_;
@@ -251,6 +279,7 @@ std::string bakeReport(io::CrowdReader& crowd, const Measurement& measured,
                     {"largest_error", rounded(ways.largest_error, 0.0001)},
                     {"usual_error", rounded(ways.usual_error, 0.0001)},
                     {"deflated", base64(ways.deflated)}};
+    if (!ways.deflated_storeys.empty()) data["ways"]["storeys"] = base64(ways.deflated_storeys);
     return makePage("bake", bake.name, data);
 }
 

@@ -8,6 +8,8 @@
 #include <new>
 #include <stdexcept>
 
+#include "io/storeys.h"
+
 namespace throng::analysis {
 namespace {
 
@@ -102,6 +104,7 @@ class WayPacker::State {
 
     PackedWays finish() {
         packed_.deflated = packer_.finish();
+        if (bake_.hasStoreys()) packed_.deflated_storeys = storey_bytes_.finish();
         packed_.usual_error = seen_ ? std::sqrt(squares_ / static_cast<double>(seen_)) : 0.0;
         return std::move(packed_);
     }
@@ -115,9 +118,19 @@ class WayPacker::State {
         for (std::size_t i = packed_.moments ? 1 : 0; i < held_.size(); ++i)
             compare(held_[i], to, held_.size() == 1 ? 1.0 : static_cast<double>(i) / span);
         packer_.add(to);
+        if (bake_.hasStoreys()) addStoreys(held_.back());
         ++packed_.moments;
         from_ = to;
         held_.erase(held_.begin(), held_.end() - 1);
+    }
+
+    void addStoreys(const io::CrowdFrame& frame) {
+        constexpr std::size_t kNowhere = 255;
+        std::vector<unsigned char> bytes;
+        for (std::size_t row = 0; row < frame.rows(); ++row)
+            bytes.push_back(static_cast<unsigned char>(std::min(
+                storeys_.storeyAt(frame.place(row), frame.height(row)).value_or(kNowhere), kNowhere)));
+        storey_bytes_.add(bytes);
     }
 
     std::vector<std::uint16_t> rounded(const io::CrowdFrame& frame) const {
@@ -148,7 +161,9 @@ class WayPacker::State {
     }
 
     const io::Bake& bake_;
+    io::Storeys storeys_{bake_};
     Packer packer_;
+    Deflater storey_bytes_;
     PackedWays packed_;
     std::vector<io::CrowdFrame> held_;  // since the last moment, it included
     std::vector<std::uint16_t> from_;

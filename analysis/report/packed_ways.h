@@ -20,6 +20,9 @@ struct PackedWays {
     std::uint32_t moments = 0;
     double quantum = 0.0;  ///< m
     std::vector<unsigned char> deflated;
+    /// Where there are levels, deflated as well: for one moment after the other, everybody's level by its
+    /// number, or behind those the link that it is on (io::Storeys).
+    std::vector<unsigned char> deflated_storeys;
     double largest_error = 0.0;  ///< m, of all people present in all frames, straight lines included
     double usual_error = 0.0;    ///< m, root of the mean square
     std::vector<std::uint32_t> first, last;  ///< frames in which each row is there; first > last: never

@@ -13,6 +13,27 @@ namespace {
 
 constexpr double kSteepestRamp = 0.25, kSteepestStairs = 1.2;  // rise over run
 constexpr double kFlattestStairs = 0.2;
+constexpr double kSteepestEscalator = 0.71, kSteepestTravelator = 0.22;  // 35 and 12 degrees: EN 115-1
+constexpr double kWidthOfSteps = 1.0;                                    // m: the usual ones
+
+/// What links of one kind are called, and how they may climb: rise over run.
+struct Climb {
+    const char* many;
+    double flattest, steepest;
+};
+
+Climb climbOf(Link::Kind kind) {
+    switch (kind) {
+        case Link::Kind::stairs:
+            return {"stairs", kFlattestStairs, kSteepestStairs};
+        case Link::Kind::escalator:
+            return {"escalators", kFlattestStairs, kSteepestEscalator};
+        case Link::Kind::travelator:
+            return {"travelators", 0.0, kSteepestTravelator};
+        default:
+            return {"ramps", 0.0, kSteepestRamp};
+    }
+}
 
 }  // namespace
 
@@ -55,11 +76,18 @@ void LevelReader::readLink(const JsonNode& node) {
     ObjectReader reader(node, schema_.definition("link"), "a link", diagnostics_);
     if (!reader.isObject()) return;
     reader.requiredText("id", "its name", link.id);
-    reader.choice("type", {{"stairs", Link::Kind::stairs}, {"ramp", Link::Kind::ramp}}, link.kind);
+    reader.choice("type",
+                  {{"stairs", Link::Kind::stairs},
+                   {"ramp", Link::Kind::ramp},
+                   {"escalator", Link::Kind::escalator},
+                   {"travelator", Link::Kind::travelator}},
+                  link.kind);
     const JsonNode* from = reader.require("from", "the level at which it begins");
     const JsonNode* to = reader.require("to", "the level at which it ends");
     const std::vector<glm::dvec2> path = reader.points("path");
     reader.number("width", link.width);
+    if (link.moves() && !node.find("width")) link.width = kWidthOfSteps;
+    readBelt(reader, node, link);
     reader.finish();
     if (from) link.from = levelNamed(*from);
     if (to) link.to = levelNamed(*to);
@@ -74,28 +102,45 @@ void LevelReader::readLink(const JsonNode& node) {
     layout_.links.push_back(std::move(link));
 }
 
+void LevelReader::readBelt(ObjectReader& reader, const JsonNode& node, Link& link) const {
+    reader.number("speed", link.speed);
+    reader.number("walking", link.walking);
+    reader.choice(
+        "stand",
+        {{"anywhere", Link::Stand::anywhere}, {"right", Link::Stand::right}, {"left", Link::Stand::left}},
+        link.stand);
+    if (link.moves()) return;
+    for (const char* key : {"speed", "walking", "stand"})
+        if (const JsonNode* given = node.find(key))
+            diagnostics_.error(
+                given->where,
+                fmt::format("`{}` is of ground that moves, and {} do not", key, climbOf(link.kind).many),
+                R"(write "type": "escalator", or leave it out)");
+}
+
 void LevelReader::checkLink(const Link& link, const JsonNode& node) const {
-    if (link.from == link.to) {
+    if (link.from == link.to && link.kind != Link::Kind::travelator) {
         diagnostics_.error(node.find("to")->where,
                            fmt::format("link `{}` begins and ends at the same level", link.id));
         return;
     }
     const double rise = std::abs(layout_.levels[link.to].height - layout_.levels[link.from].height);
     const double run = glm::distance(link.begin, link.end);
-    const bool stairs = link.kind == Link::Kind::stairs;
-    const double steepest = stairs ? kSteepestStairs : kSteepestRamp;
-    if (rise > steepest * run)
+    const Climb climb = climbOf(link.kind);
+    const auto tell = [&](const char* most_or_least, double share, const std::string& hint) {
         diagnostics_.error(
             node.find("path")->where,
-            fmt::format("link `{}` climbs {:.2f} m over {:.2f} m: {} climb at most {:.0f} %", link.id, rise,
-                        run, stairs ? "stairs" : "ramps", 100.0 * steepest),
-            fmt::format("make its `path` {:.1f} m long or more", std::ceil(10.0 * rise / steepest) / 10.0));
-    if (stairs && rise < kFlattestStairs * run)
-        diagnostics_.error(
-            node.find("path")->where,
-            fmt::format("link `{}` climbs {:.2f} m over {:.2f} m: stairs climb {:.0f} % or more", link.id,
-                        rise, run, 100.0 * kFlattestStairs),
-            R"(make it shorter, or write "type": "ramp")");
+            fmt::format("link `{}` climbs {:.2f} m over {:.2f} m: {} climb {}", link.id, rise, run,
+                        climb.many, fmt::format(fmt::runtime(most_or_least), 100.0 * share)),
+            hint);
+    };
+    if (rise > climb.steepest * run)
+        tell("at most {:.0f} %", climb.steepest,
+             fmt::format("make its `path` {:.1f} m long or more",
+                         std::ceil(10.0 * rise / climb.steepest) / 10.0));
+    if (rise < climb.flattest * run)
+        tell("{:.0f} % or more", climb.flattest,
+             fmt::format(R"(make it shorter, or write "type": "{}")", link.moves() ? "travelator" : "ramp"));
 }
 
 }  // namespace throng::authoring

@@ -23,6 +23,8 @@ class LevelReader {
 
   private:
     std::size_t levelNamed(const JsonNode& node) const;
+    /// What is said of ground that moves.
+    void readBelt(ObjectReader& reader, const JsonNode& node, Link& link) const;
     void checkLink(const Link& link, const JsonNode& node) const;
 
     const Schema& schema_;

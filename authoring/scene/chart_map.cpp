@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "authoring/scene/raster.h"
 
@@ -19,18 +20,66 @@ glm::vec2 ChartMap::home(glm::vec2 place) const {
     return chart == gpu::NO_CHART ? place : place - shifts[chart];
 }
 
-float costOfLink(const MotionSettings& motion, bool stairs, double slope) {
-    constexpr double kFlat = 1.34;  // m/s
-    if (!motion.isOn("slope_pace")) return 1.0f;
+namespace {
+
+constexpr double kFlat = 1.34;  // m/s, on flat ground
+
+/// Speed in plan over that on flat ground (shaders/motion/slope_pace.glsl).
+double paceOn(const MotionSettings& motion, bool stairs, double rise) {
+    if (!motion.isOn("slope_pace")) return 1.0;
     const auto number = [&](const char* name) { return motion.number("slope_pace", name); };
-    const auto pace = [&](double rise) {
-        if (!stairs)
-            return std::exp(-number("hiking") *
-                            (std::abs(rise + number("fastest_down")) - number("fastest_down")));
-        const double least = number(rise > 0.0 ? "stairs_up" : "stairs_down") / kFlat;
-        return 1.0 + (least - 1.0) * std::min(std::abs(rise) / number("stairs_rise"), 1.0);
-    };
-    return static_cast<float>(std::max(1.0, 0.5 * (1.0 / pace(slope) + 1.0 / pace(-slope))));
+    if (!stairs)
+        return std::exp(-number("hiking") *
+                        (std::abs(rise + number("fastest_down")) - number("fastest_down")));
+    const double least = number(rise > 0.0 ? "stairs_up" : "stairs_down") / kFlat;
+    return 1.0 + (least - 1.0) * std::min(std::abs(rise) / number("stairs_rise"), 1.0);
+}
+
+double slopeOf(const Chart& link) {
+    return (link.link.high - link.link.low) / link.link.length;
+}
+
+/// m/s, in plan.
+double beltSpeed(const Link& link, const Chart& chart) {
+    return link.speed / std::sqrt(1.0 + slopeOf(chart) * slopeOf(chart));
+}
+
+float costOf(const Chart& chart, const Layout& layout) {
+    if (!chart.is_link) return 1.0f;
+    const MotionSettings& motion = layout.simulation.motion;
+    const Link& link = layout.links[chart.index];
+    const double slope = slopeOf(chart);
+    if (!link.moves()) return costOfLink(motion, link.kind == Link::Kind::stairs, slope);
+    return costOfBelt(motion, link.kind == Link::Kind::escalator, slope, beltSpeed(link, chart));
+}
+
+gpu::Belt beltOf(const Chart& chart, const Layout& layout, glm::dvec2 origin) {
+    constexpr double kShoulder = 0.2;   // m: the middle of a lane from the edge of the steps
+    constexpr double kTwoLanes = 0.85;  // m: steps from so wide on have room for two beside each other
+    gpu::Belt belt{};
+    if (!chart.is_link || !layout.links[chart.index].moves()) return belt;
+    const Link& link = layout.links[chart.index];
+    belt.velocity = glm::vec2(beltSpeed(link, chart) * chart.link.along);
+    belt.begin = glm::vec2(chart.link.begin - origin);
+    belt.along = glm::vec2(chart.link.along);
+    belt.length = static_cast<float>(chart.link.length);
+    belt.half_width = static_cast<float>(chart.link.half_width);
+    belt.lane = link.width < kTwoLanes ? 0.0f : static_cast<float>(0.5 * link.width - kShoulder);
+    belt.stand = link.stand == Link::Stand::left ? 1.0f : link.stand == Link::Stand::right ? -1.0f : 0.0f;
+    belt.walking = static_cast<float>(link.walking);
+    belt.has_steps = link.kind == Link::Kind::escalator ? 1 : 0;
+    return belt;
+}
+
+}  // namespace
+
+float costOfLink(const MotionSettings& motion, bool stairs, double slope) {
+    const double up = paceOn(motion, stairs, slope), down = paceOn(motion, stairs, -slope);
+    return static_cast<float>(std::max(1.0, 0.5 * (1.0 / up + 1.0 / down)));
+}
+
+float costOfBelt(const MotionSettings& motion, bool stairs, double slope, double speed) {
+    return static_cast<float>(kFlat / (kFlat * paceOn(motion, stairs, slope) + speed));
 }
 
 ChartMap makeChartMap(const Charts& charts, glm::vec2 minimum, glm::vec2 maximum, glm::dvec2 origin) {
@@ -47,11 +96,8 @@ ChartMap makeChartMap(const Charts& charts, glm::vec2 minimum, glm::vec2 maximum
         map.shifts.emplace_back(charts.charts[chart].shift);
         const Chart& each = charts.charts[chart];
         map.is_link.push_back(each.is_link);
-        map.costs.push_back(each.is_link
-                                ? costOfLink(charts.plane.simulation.motion,
-                                             charts.plane.links[each.index].kind == Link::Kind::stairs,
-                                             (each.link.high - each.link.low) / each.link.length)
-                                : 1.0f);
+        map.costs.push_back(costOf(each, charts.plane));
+        map.belts.push_back(beltOf(each, charts.plane, origin));
         const glm::ivec2 shift(glm::round(charts.charts[chart].shift / kChartCell));
         for (int y = 0; y < raster.size().y; ++y)
             for (int x = 0; x < raster.size().x; ++x) {
@@ -64,7 +110,19 @@ ChartMap makeChartMap(const Charts& charts, glm::vec2 minimum, glm::vec2 maximum
                     {chart | raster.ownerAt(cell) << 8, raster.imagesAt(cell)};
             }
     }
+    if (std::ranges::none_of(charts.plane.links, &Link::moves)) map.belts.clear();
     return map;
+}
+
+bool ChartMap::leadsAgainstBelt(glm::vec2 image) const {
+    if (belts.empty()) return false;
+    const gpu::ChartCell& cell = at(image);
+    const std::uint32_t chart = cell.charts & gpu::NO_CHART, owner = cell.charts >> 8 & gpu::NO_CHART;
+    if (chart == gpu::NO_CHART || owner == gpu::NO_CHART || chart == owner) return false;
+    const glm::vec2 there = home(image);
+    const auto along = [&](const gpu::Belt& belt) { return glm::dot(there - belt.begin, belt.along); };
+    if (isBelt(chart) && along(belts[chart]) < 0.5f * belts[chart].length) return true;
+    return isBelt(owner) && along(belts[owner]) > 0.5f * belts[owner].length;
 }
 
 SeamCells seamCellsOf(const ChartMap& map, const FieldGrid& grid) {

@@ -26,7 +26,7 @@ struct SeamCells {
 /// How hard it is to walk, cell by cell.
 struct WalkMap {
     FieldGrid grid;
-    std::vector<float> cost;  ///< >= 1 per metre walked; infinity where nobody can stand
+    std::vector<float> cost;  ///< per metre walked, 1 on open ground; infinity where nobody can stand
     std::vector<glm::vec2>
         one_way;  ///< unit direction that may not be walked against, or zero; empty when there is none
     std::vector<std::uint8_t>

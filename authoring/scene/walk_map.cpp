@@ -76,7 +76,13 @@ void chargeLinks(const ChartMap& charts, WalkMap& map) {
 }  // namespace
 
 void blockOthers(const ChartMap& charts, WalkMap& map) {
-    map.seams = std::make_shared<const SeamCells>(seamCellsOf(charts, map.grid));
+    SeamCells seams = seamCellsOf(charts, map.grid);
+    // There is no way against ground that moves.
+    std::erase_if(seams.shown, [&](const SeamCells::Shown& shown) {
+        return charts.leadsAgainstBelt(
+            cellCentre(map.grid, shown.image % map.grid.width, shown.image / map.grid.width));
+    });
+    map.seams = std::make_shared<const SeamCells>(std::move(seams));
     for (std::size_t cell = 0; cell < map.cost.size(); ++cell)
         if (map.seams->blocked[cell]) map.cost[cell] = kUnreachable;
 }

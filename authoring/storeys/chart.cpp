@@ -34,7 +34,7 @@ Chart linkChart(const Layout& layout, std::size_t index) {
     chart.link.begin = link.begin;
     chart.link.length = glm::distance(link.begin, link.end);
     chart.link.along = (link.end - link.begin) / chart.link.length;
-    chart.link.half_width = 0.5 * (link.width + kRailing);
+    chart.link.half_width = 0.5 * (link.width + kRailing) + (link.moves() ? kBesideSteps : 0.0);
     chart.link.low = layout.levels[link.from].height;
     chart.link.high = layout.levels[link.to].height;
     return chart;
@@ -112,8 +112,8 @@ bool areJoined(const Chart& a, std::size_t a_index, glm::dvec2 in_a, const Chart
     if (a.is_link && b.is_link) return false;
     if (b.is_link) return areJoined(b, b_index, in_b, a, a_index, in_a);
     if (!a.is_link) return std::abs(a.height - b.height) <= kMostStep;
-    if (a.link_from == b_index) return isBeyond(a.link, 0, in_a, in_b);
-    return a.link_to == b_index && isBeyond(a.link, 1, in_a, in_b);
+    return (a.link_from == b_index && isBeyond(a.link, 0, in_a, in_b)) ||
+           (a.link_to == b_index && isBeyond(a.link, 1, in_a, in_b));
 }
 
 std::vector<Chart> chartsOf(const Layout& layout) {

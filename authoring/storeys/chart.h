@@ -16,6 +16,8 @@ inline constexpr double kMostStep = 0.25;
 inline constexpr double kHeadroom = 2.2;
 /// m: railings stand on the outer side of what they bound.
 inline constexpr double kRailing = 0.1;
+/// m: shoulders reach so far over either side of the steps of an escalator, below its handrails.
+inline constexpr double kBesideSteps = 0.1;
 
 /// The ground under a link: a rectangle from where it begins to where it ends, that rises evenly.
 struct Footprint {

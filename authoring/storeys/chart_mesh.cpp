@@ -197,7 +197,7 @@ void addLink(const Chart& chart, std::size_t treads, MeshMaker& maker) {
 }  // namespace
 
 std::size_t treadsOf(const Chart& chart, const Layout& layout) {
-    if (!chart.is_link || layout.links[chart.index].kind == Link::Kind::ramp) return 0;
+    if (!chart.is_link || layout.links[chart.index].kind != Link::Kind::stairs) return 0;
     return static_cast<std::size_t>(
         std::max(1.0, std::round(std::abs(chart.link.high - chart.link.low) / kTread)));
 }

@@ -86,7 +86,10 @@ void describeCharts(const LoadedLayout& loaded, recording::BakeDescription& bake
         bake.minimum = glm::min(bake.minimum, lower - kMargin);
         bake.maximum = glm::max(bake.maximum, upper + kMargin);
     }
+    for (const gpu::Belt& belt : scene.chart_map.belts)
+        bake.charts->belts.emplace_back(belt.velocity);
     bake.levels = loaded.layout.levels;
+    bake.links = loaded.layout.links;
     bake.walls = charts.walls;
     bake.terrain =
         recording::BakeTerrain{std::shared_ptr<const authoring::TerrainMesh>(scene.charts, &charts.home_mesh),

@@ -145,8 +145,8 @@ class Application {
         recording::Stance stance = footing_->last(each.row);
         if (is_alive) {
             const recording::GaitTrack gait{state[2], recording::gaitOf(state[0])};
-            stance = footing_->stand(each.row, place, heading,
-                                     was_alive ? place - each.place : glm::vec2(0.0f), gait);
+            const glm::vec2 moved = was_alive ? place - each.place : glm::vec2(0.0f);
+            stance = footing_->stand(each.row, {place, heading, moved}, gait);
             each.place = place;
         } else if (!was_alive) {
             stance = footing_->entering(place, heading);

@@ -20,6 +20,10 @@ uniform uint ids_are_rows;  // 0: slots
 #include "shaders/cells/cell_starts.glsl"
 #include "shaders/shared/charts.glsl"
 #include "shaders/shared/images.glsl"
+#ifdef BELTS
+#include "shaders/shared/snap.glsl"
+#include "shaders/charts/moving_ground.glsl"
+#endif
 #ifdef CHARTS
 layout(std430) writeonly buffer SlotImages { SlotImage slot_images[]; };
 layout(std430) writeonly buffer RowSlots { uint row_slots[]; };
@@ -55,6 +59,9 @@ void main() {
     Body body;
     body.position = state.position + shift;
     body.velocity = state.velocity;
+#ifdef BELTS
+    body.velocity += velocitySeenFrom(body.position, state.position);
+#endif
     body.radius = person.radius;
     body.heading = state.heading;
     body.row = row;

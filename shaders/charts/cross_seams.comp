@@ -9,6 +9,10 @@ layout(std430) buffer States { AgentState states[]; };
 
 #include "shaders/shared/alive.glsl"
 #include "shaders/shared/charts.glsl"
+#ifdef BELTS
+#include "shaders/shared/snap.glsl"
+#include "shaders/charts/moving_ground.glsl"
+#endif
 
 void main() {
     uint row = gl_GlobalInvocationID.x;
@@ -19,5 +23,8 @@ void main() {
     if (chart == NO_CHART) return;
     if (owner == NO_CHART) owner = chart;
     states[row].position = position + (chart_shifts[owner] - chart_shifts[chart]);
+#ifdef BELTS
+    states[row].velocity += velocitySeenFrom(states[row].position, position);
+#endif
     states[row].rest = chart_shifts[owner];  // way_between.glsl
 }

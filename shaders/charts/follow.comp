@@ -8,8 +8,14 @@ layout(std430) readonly buffer RowSlots { uint row_slots[]; };
 
 #include "shaders/charts/slot_images.glsl"
 #include "shaders/shared/images.glsl"
+#ifdef BELTS
+layout(std140) uniform ParametersBlock { Parameters parameters; };
+#include "shaders/shared/charts.glsl"
+#include "shaders/shared/snap.glsl"
+#include "shaders/charts/moving_ground.glsl"
+#endif
 
-#ifdef FOLLOW_BODIES
+#if defined(FOLLOW_BODIES) || (defined(FOLLOW_WISHES) && defined(BELTS))
 layout(std430) buffer Bodies { Body bodies[]; };
 #endif
 #ifdef FOLLOW_WALKERS
@@ -42,6 +48,9 @@ void main() {
 #ifdef FOLLOW_BODIES
     Body body = bodies[person];
     body.position += image.shift;
+#ifdef BELTS
+    body.velocity += velocitySeenFrom(body.position, bodies[person].position);
+#endif
     bodies[slot] = body;
 #endif
 #ifdef FOLLOW_WALKERS
@@ -50,6 +59,9 @@ void main() {
 #endif
 #ifdef FOLLOW_WISHES
     preferred_velocities[slot] = preferred_velocities[person];
+#ifdef BELTS
+    preferred_velocities[slot] += velocitySeenFrom(bodies[slot].position, bodies[person].position);
+#endif
 #endif
 #ifdef FOLLOW_TOUCH
     touch_words[slot] = touch_words[person];

@@ -53,6 +53,12 @@ uniform uint slot_capacity;
 #else
 #define TWIST
 #endif
+#ifdef BELTS
+#include "shaders/shared/random.glsl"
+#include "shaders/charts/belts.glsl"
+#include "shaders/motion/riding.glsl"
+#include "shaders/motion/spacing_on_belts.glsl"
+#endif
 #include "shaders/motion/stride.glsl"
 
 /// Of those sensed who are under way.
@@ -72,13 +78,26 @@ void main() {
     Body self = bodies[slot];
     Walker walker = walkers[slot];
     vec2 wish = preferred_velocities[slot];
+#ifdef BELTS
+    float allowed = RIDING_ENABLED ? paceOnBelt(self, walker, slot, length(wish)) : length(wish);
+    bool wants = length(wish) > STANDING_SPEED;
+    wish = keepingBehind(walker.flags, wish, allowed);
+    bool waits = wants && length(wish) <= STANDING_SPEED;
+#endif
     float speed = length(wish);
     vec2 way = speed > STANDING_SPEED ? wish / speed : vec2(cos(self.heading), sin(self.heading));
 
     // Manners depend on the pace of those with a headway of their own only; the others look at everybody just once.
     float headway = headwayOf(walker);
+#ifdef BELTS
+    float pace = paceAmongAll(self, slot, way, speed, max(headway, headwayBeforeBelt(walker.flags)));
+#else
     float pace = paceAmongAll(self, slot, way, speed, headway);
+#endif
     float impatience = impatienceOf(walker.nervousness);
+#ifdef BELTS
+    if (RIDING_ENABLED && (walker.flags & WALKER_RIDES) != 0u) impatience = 0.0;  // people queue, and do not press
+#endif
     Manners manners = Manners(way, impatience, crowdingAmong(neighbour_counts[slot]), headway > 0.0 ? 1.0 : 0.0,
                               freedomAt(pace / max(speed, STANDING_SPEED)));
     Surroundings around = lookAround(self, slot, wish, manners);
@@ -92,6 +111,9 @@ void main() {
     vec2 legs = self.velocity;  // what they start from
     uint feet = (around.in_traffic ? FEET_IN_TRAFFIC : 0u) | (around.in_peace && headway > 0.0 ? FEET_WAIT : 0u);
     if ((walker.flags & WALKER_AT_REST) != 0u && !somebodyWantsPast(self, slot)) feet |= FEET_STILL;
+#ifdef BELTS
+    if (waits) feet |= FEET_STILL;  // it does not let itself be pushed on
+#endif
     plantFeet(self, walker, feet, wanted, legs);
     keepFeetStill(feet, wanted, legs);
 
@@ -101,6 +123,9 @@ void main() {
     velocity = limitChange(legs, velocity, parameters.maximum_acceleration * parameters.decision_seconds);
     vec2 change = (velocity - legs) * (parameters.step_seconds / parameters.decision_seconds);
     float twist = twistAhead(self, walker, way);
+#ifdef BELTS
+    pace = min(pace, allowed);  // which is not being held up
+#endif
     decisions[slot] = Decision(change, pace, feet TWIST);
     if (parameters.decision_seconds > parameters.step_seconds) velocity = legs + change;
     stride(slot, self.position, velocity, parameters.is_wide != 0u ? states[self.row].rest : vec2(0.0), twist);

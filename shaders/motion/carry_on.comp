@@ -31,6 +31,9 @@ layout(std430) readonly buffer Chests { Chest chests[]; };
 #else
 #define TWIST 0.0
 #endif
+#ifdef BELTS
+#include "shaders/charts/belts.glsl"
+#endif
 #include "shaders/motion/stride.glsl"
 
 /// What the last step has changed.

@@ -35,6 +35,10 @@ uniform uint steps_done;  // counted with this one
 #include "shaders/motion/turning.glsl"
 #include "shaders/motion/plans.glsl"
 #include "shaders/motion/wide_site.glsl"
+#ifdef BELTS
+#include "shaders/shared/snap.glsl"
+#include "shaders/charts/belts.glsl"
+#endif
 #ifdef BODIES
 layout(std430) writeonly buffer Chests { Chest chests[]; };
 #include "shaders/shared/body_shape.glsl"
@@ -59,6 +63,9 @@ void main() {
     vec2 moved = target - self.position;
     state.position = target;
     if (parameters.is_wide != 0u) moved = goFinely(state, self.position, ways[slot], target);
+#ifdef BELTS
+    moved -= carriedInStep(walkers[slot].flags);
+#endif
 #ifdef BODIES
     chests[self.row] = chestAfter(walkers[slot], targets[slot].zw);
 #endif
@@ -70,7 +77,13 @@ void main() {
     float held_up = heldUp(preferred_velocities[slot], decisions[slot].pace, state.velocity);
     state.nervousness = grownNervous(state.nervousness, held_up, parameters.step_seconds);
     bool takes_turns = takesTurns(walkers[slot], touch_words[slot]);
-    state.heading = turned(state, stage, walkers[slot], preferred_velocities[slot], takes_turns, speed);
+#ifdef BELTS
+    vec2 ground = groundUnder(walkers[slot].flags);
+    bool rides = ground != vec2(0.0);  // facing ahead
+    if (rides) state.heading = turnTowards(state.heading, ground);
+    if (!rides)
+#endif
+        state.heading = turned(state, stage, walkers[slot], preferred_velocities[slot], takes_turns, speed);
     if (parameters.is_wide != 0u)
         addFinely(state.walked, state.walked_rest, distance_moved);
     else

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Slopes: how much slower people walk uphill, and faster or slower downhill, as a factor on their speed in plan.
-// Needs shaders/shared/terrain.glsl.
+// Needs shaders/shared/terrain.glsl, and where ground moves shaders/charts/belts.glsl.
 
 /// Tobler's hiking function (1993), 6 exp(-3.5 |slope + 0.05|) km/h, over its value on flat ground: fastest at 5 %
 /// down.
@@ -19,5 +19,9 @@ float stairPace(float slope) {
 float slopePace(vec2 position, vec2 direction) {
     float slope = smoothSlope(position, direction, SLOPE_PACE_REACH);
     float stairs = smoothstep(SLOPE_PACE_STAIRS_BEGIN, SLOPE_PACE_STAIRS_COMPLETE, smoothGround(position).y);
+#ifdef BELTS
+    uint chart = chartOf(chartCellAt(position));
+    if (isBelt(chart)) stairs = float(belts[chart].has_steps);
+#endif
     return mix(hikingPace(slope), stairPace(slope), stairs);
 }

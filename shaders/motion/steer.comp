@@ -32,6 +32,13 @@ uniform uint steps_done;  // counted with this one
 #include "shaders/motion/foresight.glsl"
 #include "shaders/motion/waiting_for_company.glsl"
 #include "shaders/motion/coming_to_rest.glsl"
+#ifdef BELTS
+#include "shaders/shared/charts.glsl"
+#include "shaders/shared/snap.glsl"
+#include "shaders/charts/moving_ground.glsl"
+#include "shaders/motion/riding.glsl"
+#include "shaders/motion/wish_on_belts.glsl"
+#endif
 #ifdef TERRAIN
 #include "shaders/shared/terrain.glsl"
 #include "shaders/motion/slope_pace.glsl"
@@ -55,6 +62,14 @@ void main() {
     float angle = ownAngle(row) + searchAngle(row, walker, touch_words[slot], steps_done);
     vec2 direction = mat2(cos(angle), sin(angle), -sin(angle), cos(angle)) * ahead.direction;
 
+#ifdef BELTS
+    Ride ride = rideAt(position, direction);
+    walkers[slot].flags |= flagsOf(ride);
+    bool rides = RIDING_ENABLED && ride.chart != NO_CHART;
+    bool walks = rides && walksOnBelt(ride, walker.party_first);
+    if (rides) direction = wayOnBelt(ride, walks, direction);
+#endif
+
     float speed = walker.preferred_speed;
 #ifdef TERRAIN
     speed *= slopePace(position, direction);
@@ -66,5 +81,12 @@ void main() {
         walkers[slot].flags |= WALKER_AT_REST;
         speed = 0.0;
     }
-    preferred_velocities[slot] = direction * speed;
+    vec2 wish = direction * speed;
+#ifdef BELTS
+    if (rides && ride.on) {
+        wish = wishOnBelt(ride, walks, speed);
+        if (wish == vec2(0.0)) walkers[slot].flags |= WALKER_AT_REST;
+    }
+#endif
+    preferred_velocities[slot] = wish;
 }

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Stride: where a velocity takes somebody in a step, unless bodies touch.
 // Needs shaders/shared/snap.glsl, the blocks ParametersBlock, Targets, TargetsAfter and Ways, and
-// shaders/motion/wide_site.glsl; for bodies that are no discs also the blocks Bodies and Walkers, and
-// shaders/shared/body_shape.glsl and shoulders.glsl.
+// shaders/motion/wide_site.glsl; where ground moves, the block Walkers and shaders/charts/belts.glsl; for bodies that
+// are no discs also the blocks Bodies and Walkers, and shaders/shared/body_shape.glsl and shoulders.glsl.
 
 /// @param rest m that rounding has dropped from the position; wide sites only
 /// @param twist rad: how far the shoulders are to be turned
 void stride(uint slot, vec2 position, vec2 velocity, vec2 rest, float twist) {
     vec2 way = snapped(velocity * parameters.step_seconds);
+#ifdef BELTS
+    way += carriedInStep(walkers[slot].flags);
+#endif
     vec2 target = position + way;
     if (parameters.is_wide != 0u) {
         way += rest;

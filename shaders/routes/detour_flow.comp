@@ -13,6 +13,19 @@ uniform float fading;  // 0 to 1: how much of what was known is replaced
 #include "shaders/cells/cells.glsl"
 #include "shaders/cells/cell_starts.glsl"
 #include "shaders/shared/flat_index.glsl"
+#ifdef BELTS
+#include "shaders/shared/charts.glsl"
+#include "shaders/shared/snap.glsl"
+#include "shaders/charts/moving_ground.glsl"
+
+/// Who is carried gets on, standing or not: what ground that moves makes of the way, routes know already.
+vec2 progressOf(Body body) {
+    uint chart = chartOf(chartCellAt(body.position));
+    return isBelt(chart) ? body.velocity + belts[chart].along * ROUTES_ROUND_JAMS_FREE_SPEED : body.velocity;
+}
+#else
+vec2 progressOf(Body body) { return body.velocity; }
+#endif
 
 /// Walls take part of some cells, and people crowd in the rest. Everybody within one coarse cell of the middle counts,
 /// the nearer the more (a tent, whose integral is the area of one coarse cell).
@@ -24,7 +37,7 @@ CrowdFlow flowAround(vec2 middle, float free_share) {
         uint end = cellStart(cellIndex(ivec2(high.x, y)) + 1u);
         for (uint slot = cellStart(cellIndex(ivec2(low.x, y))); slot < end; ++slot) {
             vec2 near = max(1.0 - abs(bodies[slot].position - middle) / parameters.detour_cell, vec2(0.0));
-            sum += near.x * near.y * vec3(bodies[slot].velocity, 1.0);
+            sum += near.x * near.y * vec3(progressOf(bodies[slot]), 1.0);
         }
     }
     float area = parameters.detour_cell * parameters.detour_cell * max(free_share, ROUTES_ROUND_JAMS_LEAST_SHARE);

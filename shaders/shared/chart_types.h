@@ -21,6 +21,19 @@ struct ChartCell {
     uint images;  // bytes: the charts on which people who are here are present, too
 };
 
+/// Ground that moves, of one chart: an escalator or a travelator. In the scene frame, at home.
+struct Belt {
+    vec2 velocity;     // m/s, in plan; zero: the ground stands
+    vec2 begin;        // m: the middle of where people step on
+    vec2 along;        // unit vector
+    float length;      // m, in plan
+    float half_width;  // m, to its railings
+    float lane;        // m: the middle of what is left or right of the middle; 0: there is one lane only
+    float stand;       // the side where people stand: 1 left, -1 right, 0 both
+    float walking;     // share of its people who walk
+    uint has_steps;    // 1 = it is climbed as stairs are
+};
+
 THRONG_SHARED_END
 
 #endif

@@ -264,6 +264,83 @@ TEST(Storeys, RoutesCountTheTimeThatLinksTake) {
     EXPECT_LT(std::abs(firstWay().y), 0.1f);
 }
 
+Link escalator(std::size_t from, std::size_t to, glm::dvec2 begin, glm::dvec2 end) {
+    Link link = stairs(from, to, begin, end, 1.0);
+    link.id = "escalator";
+    link.kind = Link::Kind::escalator;
+    return link;
+}
+
+/// Somebody in the hall who wants to get up, and somebody on the gallery who wants to get down.
+Layout upAndDown(std::vector<Link> links) {
+    Layout layout;
+    layout.levels = {level("ground", 0.0, box(-20, -6, 0, 6)), level("upper", 3.0, box(0, -6, 10, 6))};
+    layout.links = std::move(links);
+    layout.areas = {{"above", box(8, -1, 9, 1), {}, 1}, {"below", box(-18, -1, -17, 1), {}, 0}};
+    for (const std::size_t goal : {0u, 1u}) {
+        Formation walker;
+        walker.id = goal == 0 ? "up" : "down";
+        walker.level = goal;
+        GridFormation grid;
+        grid.origin = goal == 0 ? glm::dvec2(-19, 0) : glm::dvec2(9.5, 0);
+        Destination destination;
+        destination.places = {{Place::Kind::area, goal, {}}};
+        grid.goal = destination;
+        walker.shape = grid;
+        layout.formations.push_back(walker);
+    }
+    return layout;
+}
+
+/// One way only: beyond its seams an escalator shows where it leads, and is shown where it begins.
+TEST(Belts, AreNoWayBack) {
+    const Link up = escalator(0, 1, {-5.5, 3}, {0, 3}), down = escalator(1, 0, {0, -3}, {-5.5, -3});
+    Diagnostics diagnostics;
+    const auto both = buildScene(upAndDown({up, down}), diagnostics);
+    EXPECT_TRUE(both && diagnostics.entries.empty());
+    Diagnostics nobody_gets_down;
+    buildScene(upAndDown({up}), nobody_gets_down);
+    ASSERT_FALSE(nobody_gets_down.entries.empty());
+    EXPECT_NE(nobody_gets_down.entries.front().message.find("down"), std::string::npos)
+        << nobody_gets_down.entries.front().message;
+
+    const ChartMap& map = both->chart_map;
+    const auto leads = [&](std::uint32_t chart, glm::dvec2 home) {
+        return map.leadsAgainstBelt(glm::vec2(home - both->origin) + map.shifts[chart]);
+    };
+    EXPECT_FALSE(leads(0, {-5.1, 3}));  // on to it from below
+    EXPECT_FALSE(leads(2, {0.4, 3}));   // off it
+    EXPECT_TRUE(leads(2, {-5.9, 3}));   // back down
+    EXPECT_TRUE(leads(1, {-0.4, 3}));   // on to its end
+    EXPECT_TRUE(leads(0, {-5.1, -3}));
+    EXPECT_FALSE(leads(1, {-0.4, -3}));
+}
+
+TEST(Belts, MoveAlongTheirSlope) {
+    Diagnostics diagnostics;
+    Link up = escalator(0, 1, {-5.5, 3}, {0, 3});
+    up.stand = Link::Stand::right;
+    const auto scene = buildScene(upAndDown({up, escalator(1, 0, {0, -3}, {-5.5, -3})}), diagnostics);
+    ASSERT_TRUE(scene);
+    const gpu::Belt& belt = scene->chart_map.belts[2];
+    EXPECT_NEAR(belt.velocity.x, 0.5 * 5.5 / std::hypot(5.5, 3.0), 1e-6);
+    EXPECT_NEAR(belt.velocity.y, 0.0, 1e-6);
+    EXPECT_NEAR(belt.lane, 0.3, 1e-6);
+    EXPECT_EQ(belt.stand, -1.0f);
+    EXPECT_FALSE(scene->chart_map.isBelt(0));
+    EXPECT_TRUE(scene->chart_map.isBelt(3));
+    // Nothing moves where no link does.
+    EXPECT_TRUE(buildScene(upAndDown({stairs(0, 1, {-6, 3}, {0, 3})}), diagnostics)->chart_map.belts.empty());
+}
+
+/// A metre of it takes who walks on it as long as so many on the flat.
+TEST(Belts, CostTheTimeOfThoseWhoWalkOnThem) {
+    const MotionSettings motion;
+    EXPECT_NEAR(costOfBelt(motion, true, 0.577, 0.433), 1.34 / (0.61 + 0.433), 0.01);
+    EXPECT_LT(costOfBelt(motion, true, 0.577, 0.433), costOfLink(motion, true, 0.577));
+    EXPECT_NEAR(costOfBelt(motion, false, 0.0, 0.75), 1.34 / 2.09, 1e-6);  // less than on the flat
+}
+
 std::vector<std::string> complaintsAbout(const std::string& members) {
     Diagnostics diagnostics;
     const std::string text = R"({"throng": 1, "simulation": {"duration": 1},
@@ -293,6 +370,15 @@ TEST(Storeys, MistakesAreToldWhereTheyAre) {
         complaintsAbout(
             levels + R"("links": [{"id": "s", "from": "ground", "to": "upper", "path": [[-3, 0], [3, 0]]}])"),
         Texts{"4: link `s` does not reach the floor of level `upper` at [3.00, 0.00]"});
+    EXPECT_EQ(complaintsAbout(levels + R"("links": [{"id": "s", "type": "escalator", "from": "ground",
+ "to": "upper", "path": [[1, 0], [4, 0]]}])"),
+              Texts{"5: link `s` climbs 3.00 m over 3.00 m: escalators climb at most 71 %"});
+    EXPECT_EQ(complaintsAbout(levels + R"("links": [{"id": "s", "from": "ground", "to": "upper", "speed": 1,
+ "path": [[0, 0], [4, 0]]}])"),
+              Texts{"4: `speed` is of ground that moves, and stairs do not"});
+    EXPECT_EQ(complaintsAbout(levels + R"("links": [{"id": "s", "type": "escalator", "from": "ground",
+ "to": "ground", "path": [[0, 0], [4, 0]]}])"),
+              Texts{"5: link `s` begins and ends at the same level"});
     EXPECT_EQ(
         complaintsAbout("\"levels\": [" + ground +
                         ",\n{\"id\": \"mezzanine\", \"height\": 1.5, \"floor\": [[0, 0], [5, 0], [5, 5]]}]"),

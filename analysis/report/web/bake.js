@@ -2,13 +2,18 @@
 const agents = data.agents, count = agents.group.length, ways = data.ways;
 const duration = Math.max(0, (data.frames - 1) / data.fps);
 const momentSeconds = ways.every / data.fps;
-let moments = null;
+let moments = null, storeys = null;
 
-async function unpack() {
-  const text = atob(ways.deflated), bytes = new Uint8Array(text.length);
+async function inflated(packed) {
+  const text = atob(packed), bytes = new Uint8Array(text.length);
   for (let i = 0; i < text.length; i++) bytes[i] = text.charCodeAt(i);
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-  const raw = new Uint8Array(await new Response(stream).arrayBuffer());
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+async function unpack() {
+  if (ways.storeys) storeys = await inflated(ways.storeys);
+  const raw = await inflated(ways.deflated);
   const numbers = 2 * count;
   moments = new Uint16Array(numbers * ways.moments);
   for (let m = 0; m < ways.moments; m++) {
@@ -21,6 +26,7 @@ async function unpack() {
     }
   }
   delete ways.deflated;
+  delete ways.storeys;
 }
 
 // Where the last moment may come sooner than the others.
@@ -34,7 +40,15 @@ const isThere = (row, frame) => agents.first[row] !== null && frame >= agents.fi
 
 const first = Float64Array.from(agents.first, f => f === null ? Infinity : f), last = Float64Array.from(agents.last, f => f === null ? -1 : f);
 const radii = Float32Array.from(agents.radius);
-const state = {time: 0, playing: false, rate: 1, colour: "group", density: "off", trails: true, chosen: null, partner: null};
+const state = {time: 0, playing: false, rate: 1, colour: "group", density: "off", trails: true, chosen: null, partner: null, level: null};
+// Of a layout with levels: who is on the chosen one, or on a link from or to it; and what stands there.
+const levels = data.geometry.levels || [], links = data.geometry.links || [];
+const isOnLevel = thing => state.level === null || thing.levels.includes(state.level);
+function isShown(row, m) {
+  if (state.level === null) return true;
+  const storey = storeys[m * count + row];
+  return storey < levels.length ? storey === state.level : storey - levels.length < links.length && isOnLevel(links[storey - levels.length]);
+}
 const view = {x: 0, y: 0, scale: 1};  // the world's point in the middle, px per metre
 const stage = $("stage"), canvases = ["ground", "heat", "people", "marks"].map($);
 let width = 1, height = 1, pixel = 1, image = null, words = null;
@@ -66,12 +80,16 @@ function drawGround() {
   const context = $("ground").getContext("2d");
   context.clearRect(0, 0, width, height);
   context.lineJoin = "round";
-  for (const road of data.geometry.roads) {
+  for (const [i, level] of levels.entries()) {
+    if (state.level !== null && state.level !== i) continue;
+    trace(context, level.points, true); context.fillStyle = "rgba(228,226,217,.45)"; context.fill();
+  }
+  for (const road of data.geometry.roads.filter(isOnLevel)) {
     trace(context, road.points, false);
     context.lineWidth = road.width * view.scale; context.strokeStyle = "#e4e2d9"; context.stroke();
   }
-  for (const area of data.geometry.areas) { trace(context, area.points, true); context.fillStyle = "rgba(31,95,168,.07)"; context.fill(); }
-  for (const wall of data.geometry.walls) {
+  for (const area of data.geometry.areas.filter(isOnLevel)) { trace(context, area.points, true); context.fillStyle = "rgba(31,95,168,.07)"; context.fill(); }
+  for (const wall of data.geometry.walls.filter(isOnLevel)) {
     const toggled = wall.toggles.filter(at => at <= state.time).length % 2 === 1;
     if (wall.open !== toggled) continue;
     trace(context, wall.points, wall.closed);
@@ -88,12 +106,12 @@ cells.width = Math.ceil(cells.width / cells.side); cells.height = Math.ceil(cell
 function countInto(grid, m, frame) {
   const from = m * 2 * count, toCell = ways.quantum / cells.side;
   for (let row = 0; row < count; row++) {
-    if (frame < first[row] || frame > last[row]) continue;
+    if (frame < first[row] || frame > last[row] || !isShown(row, m)) continue;
     const x = Math.min(cells.width - 1, moments[from + 2 * row] * toCell | 0), y = Math.min(cells.height - 1, moments[from + 2 * row + 1] * toCell | 0);
     grid[y * cells.width + x]++;
   }
 }
-const kept = {};
+let kept = {};
 function densityGrid(kind, m) {
   if (kind !== "now" && kept[kind]) return kept[kind];
   const grid = new Float32Array(cells.width * cells.height);
@@ -194,7 +212,7 @@ function drawPeople({m, share}, frame) {
     for (let behind = back; behind >= 0; behind--) {
       const from = (m - behind) * 2 * count, alpha = 40 + Math.round(90 * (1 - behind / (back + 1))), then = (m - behind) * ways.every;
       for (let row = 0; row < count; row++) {
-        if (frame < first[row] || frame > last[row] || then < first[row]) continue;
+        if (frame < first[row] || frame > last[row] || then < first[row] || !isShown(row, m)) continue;
         // Dots between two moments, close enough to look like a line.
         const ax = offsetX + scaleX * moments[from + 2 * row], ay = offsetY - scaleX * moments[from + 2 * row + 1];
         if (ax < 0 || ay < 0 || ax >= width || ay >= height) continue;
@@ -209,7 +227,7 @@ function drawPeople({m, share}, frame) {
     }
   }
   for (let row = 0; row < count; row++) {
-    if (frame < first[row] || frame > last[row]) continue;
+    if (frame < first[row] || frame > last[row] || !isShown(row, m)) continue;
     const {x, y} = placeOf(row, m, share);
     stamp(toX(x), toY(y), maskFor(Math.max(0.8 * pixel, radii[row] * view.scale)), wordFor(row));
   }
@@ -287,6 +305,7 @@ function choose(row, partner, frame) {
   state.chosen = row; state.partner = partner;
   seek(frame / data.fps);
   const {m, share} = momentAt(state.time), at = placeOf(row, m, share);
+  if (!isShown(row, m)) { state.level = null; kept = {}; $("level").value = ""; }
   view.x = at.x; view.y = at.y; view.scale = Math.max(view.scale, 30 * pixel);
   stage.scrollIntoView({block: "nearest"});
 }
@@ -320,6 +339,9 @@ $("scrub").addEventListener("input", event => { play(false); seek(Number(event.t
 $("rate").addEventListener("change", event => { state.rate = Number(event.target.value); });
 $("colour").addEventListener("change", event => { state.colour = event.target.value; redraw(); });
 $("density").addEventListener("change", event => { state.density = event.target.value; redraw(); });
+$("floors").hidden = !levels.length;
+$("level").append(...levels.map((level, i) => element("option", {value: i}, level.id)));
+$("level").addEventListener("change", event => { state.level = event.target.value === "" ? null : Number(event.target.value); kept = {}; redraw(); });
 $("trails").addEventListener("change", event => { state.trails = event.target.checked; redraw(); });
 
 // ---- the rest of the page
