@@ -53,7 +53,8 @@ def measured(program, scene):
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
         (folder / "layout.json").write_text(json.dumps(scene))
-        subprocess.run([program, "bake", folder / "layout.json", "-o", folder / "bake", "-q", "--no-gltf"], check=True)
+        subprocess.run([program, "bake", folder / "layout.json", "-o", folder / "bake", "-q", "--no-gltf"],
+                       check=True, stdout=subprocess.DEVNULL)
         told = subprocess.run([program, "measure", folder / "bake", "--json"], stdout=subprocess.PIPE, check=True)
         places = numpy.load(folder / "bake" / "streams" / "pos.npy")
         there = numpy.load(folder / "bake" / "streams" / "state.npy")[..., 0] > 0

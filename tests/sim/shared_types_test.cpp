@@ -144,6 +144,12 @@ std::map<std::string, Layout> layoutsInCpp() {
         result["ChartCell"] = {sizeof(T), {MEMBER(charts), MEMBER(images)}};
     }
     {
+        using T = gpu::Belt;
+        result["Belt"] = {sizeof(T),
+                          {MEMBER(velocity), MEMBER(begin), MEMBER(along), MEMBER(length), MEMBER(half_width),
+                           MEMBER(lane), MEMBER(stand), MEMBER(walking), MEMBER(has_steps)}};
+    }
+    {
         using T = gpu::SlotImage;
         result["SlotImage"] = {sizeof(T), {MEMBER(shift), MEMBER(person), MEMBER(reserved)}};
     }
@@ -189,10 +195,13 @@ std::map<std::string, std::string> structuresOfHeaders() {
     return result;
 }
 
-/// What a struct is laid out by: everything in storage buffers, and the parameters as uniforms.
+/// What a struct is laid out by: everything in storage buffers, and the parameters and belts as uniforms.
 bool isUniform(const std::string& structure) {
-    return structure == "Parameters";
+    return structure == "Parameters" || structure == "Belt";
 }
+
+/// In a uniform block, what an array's items are laid out by.
+static_assert(sizeof(gpu::Belt) % 16 == 0);
 
 class SharedTypesTest : public GpuTest {
   protected:
