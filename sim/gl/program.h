@@ -136,8 +136,8 @@ class ComputeProgram : public Program {
     void dispatch(std::uint64_t invocations) const;
     /// The same with the number of groups read on the device: three words at `offset` of `arguments`.
     void dispatchIndirect(const Buffer& arguments, std::size_t offset = 0) const;
-    /// The same for a program whose invocations know themselves whether there is work for them, and never more
-    /// than `most`: a GPU starts that many for nothing sooner than it waits for the arguments.
+    /// The same for a program whose invocations know themselves whether there is work for them, and never
+    /// more than `most`: a GPU starts that many for nothing sooner than it waits for the arguments.
     void dispatchUpTo(std::uint64_t most, const Buffer& arguments) const;
 
   private:
