@@ -8,6 +8,7 @@ import subprocess
 import sys
 
 import pytest
+from test_belts import hall, up
 
 SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "ablate.py"
 FIGURES = ("arrived", "seconds", "deepest_overlap_percent", "acceleration_p99", "backward_percent", "way")
@@ -47,11 +48,19 @@ def door_for_bodies(folder):
     return str(folder / "bodies.json")
 
 
+def escalator(folder):
+    """Twelve people who ride, most of them at rest."""
+    layout = hall([{"id": "escalator", "type": "escalator", "from": "ground", "to": "upper", "path": [[-9, 0], [-2, 0]],
+                    "walking": 0.2}], up(12, 10), duration=30)
+    (folder / "escalator.json").write_text(json.dumps(layout))
+    return str(folder / "escalator.json")
+
+
 @pytest.mark.slow
 def test_every_switch_of_a_rule_changes_what_people_do_somewhere(tmp_path):
     module = ablate_module()
     left = set(module.variants()) - {"all"}
-    for scenario, seconds in {**PLACES, door_for_bodies(tmp_path): 10}.items():
+    for scenario, seconds in {**PLACES, door_for_bodies(tmp_path): 10, escalator(tmp_path): 30}.items():
         names = sorted(left & set(module.chosen(module.layout_of(scenario), [])))
         if names:
             left -= seen_at_work(tmp_path / f"at {pathlib.Path(scenario).stem}", scenario, seconds, names)
