@@ -30,7 +30,8 @@ def fetch(folder):
         if hashlib.sha256(package).hexdigest() != SHA256:
             raise SystemExit(f"{SOURCE} is not the package that was expected (sha256 {SHA256})")
         with tarfile.open(fileobj=io.BytesIO(package)) as archive:
-            archive.extractall(folder, filter="data")
+            inside = f"pyrvo-{VERSION}/pyrvo/src/"
+            archive.extractall(folder, [each for each in archive if each.isfile() and each.name.startswith(inside)])
     return source
 
 
