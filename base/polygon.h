@@ -20,4 +20,10 @@ inline bool isWithin(std::span<const glm::dvec2> polygon, glm::dvec2 point) {
     return inside;
 }
 
+/// To the first `pieces` pieces of a line; behind its last point comes the first one.
+double distanceToPieces(std::span<const glm::dvec2> points, std::size_t pieces, glm::dvec2 place);
+
+/// 0 within.
+double distanceToPolygon(std::span<const glm::dvec2> polygon, glm::dvec2 place);
+
 }  // namespace throng

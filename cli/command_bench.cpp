@@ -142,12 +142,37 @@ void runProximity(const Options& options) {
         fmt::print("{}/proximity.md, .csv\n", options.output);
 }
 
-struct StepOptions {
+/// A crowd whose steps are timed, and where.
+struct CrowdOptions {
     std::uint32_t people = 4096;
     std::string proximity = "voronoi";
-    std::string crowd;
     int device = -1;
 };
+
+struct StepOptions {
+    CrowdOptions crowd;
+    std::string table;  ///< of the crowd
+};
+
+void addCrowd(CLI::App& command, CrowdOptions& options) {
+    command.add_option("--people", options.people, "One per 4 m^2, on their way to random goals")
+        ->check(CLI::Range(1, 4'000'000))
+        ->capture_default_str();
+    command.add_option("--proximity", options.proximity, "What finds neighbours")
+        ->check(CLI::IsMember({"voronoi", "grid"}))
+        ->capture_default_str();
+}
+
+void addDevice(CLI::App& command, int& device) {
+    command.add_option("--device", device, "Run on this device (`throng devices` lists them)");
+}
+
+authoring::Scene crowdOf(const CrowdOptions& options) {
+    authoring::Scene scene = sim::ProximityBenchmark{}.crowd(options.people);
+    scene.settings.proximity =
+        options.proximity == "grid" ? authoring::Proximity::grid : authoring::Proximity::voronoi;
+    return scene;
+}
 
 /// One row per person: where it is, where it goes, how fast and how large it is.
 void writeCrowd(const std::string& path, const authoring::Scene& scene) {
@@ -164,11 +189,9 @@ void writeCrowd(const std::string& path, const authoring::Scene& scene) {
 /// Steps when told to, so that another program can be timed in turn: for a line of the standard input, as
 /// many as there are from one decision of people to the next.
 void runStep(const StepOptions& options) {
-    const gl::Context context({options.device, false});
-    authoring::Scene scene = sim::ProximityBenchmark{}.crowd(options.people);
-    scene.settings.proximity =
-        options.proximity == "grid" ? authoring::Proximity::grid : authoring::Proximity::voronoi;
-    if (!options.crowd.empty()) writeCrowd(options.crowd, scene);
+    const gl::Context context({options.crowd.device, false});
+    const authoring::Scene scene = crowdOf(options.crowd);
+    if (!options.table.empty()) writeCrowd(options.table, scene);
     sim::Simulation simulation(scene, gl::ShaderLibrary(), costsFor(context.device()));
     const int steps = scene.settings.stepsPerDecision();
     for (int step = 0; step < steps; ++step)
@@ -192,22 +215,15 @@ void addStep(CLI::App& bench) {
                                              "Whole steps, those of a frame for each line of the standard "
                                              "input: their mean time in ms, a line each");
     auto options = std::make_shared<StepOptions>();
-    command->add_option("--people", options->people, "One per 4 m^2, on their way to random goals")
-        ->check(CLI::Range(1, 4'000'000))
-        ->capture_default_str();
-    command->add_option("--proximity", options->proximity, "What finds neighbours")
-        ->check(CLI::IsMember({"voronoi", "grid"}))
-        ->capture_default_str();
-    command->add_option("--crowd", options->crowd, "Write where everybody is and goes into this file (CSV)");
-    command->add_option("--device", options->device, "Run on this device (`throng devices` lists them)");
+    addCrowd(*command, options->crowd);
+    command->add_option("--crowd", options->table, "Write where everybody is and goes into this file (CSV)");
+    addDevice(*command, options->crowd.device);
     command->callback([options] { runStep(*options); });
 }
 
 struct LaunchOptions {
-    std::uint32_t people = 16384;
-    std::string proximity = "voronoi";
+    CrowdOptions crowd{.people = 16384};
     int steps = 48;
-    int device = -1;
     bool json = false;
 };
 
@@ -220,19 +236,20 @@ nlohmann::ordered_json toJson(const sim::LaunchTimes& times, const LaunchOptions
                         {"launches", row.launches},
                         {"step_ms", row.step_ms},
                         {"bytes_per_person", row.bytes}});
-    return {{"device", device.name},    {"people", options.people},     {"proximity", options.proximity},
-            {"step_ms", times.step_ms}, {"asking_ms", times.asking_ms}, {"launches", rows}};
+    return {
+        {"device", device.name},    {"people", options.crowd.people}, {"proximity", options.crowd.proximity},
+        {"step_ms", times.step_ms}, {"asking_ms", times.asking_ms},   {"launches", rows}};
 }
 
 void print(const sim::LaunchTimes& times, const LaunchOptions& options, const gl::Device& device) {
     fmt::print("{} people, {}: {:.4f} ms a step ({:.0f} steps/s), of which asking for it takes {:.4f}\n",
-               options.people, device.name, times.step_ms, 1000.0 / times.step_ms, times.asking_ms);
+               options.crowd.people, device.name, times.step_ms, 1000.0 / times.step_ms, times.asking_ms);
     fmt::print("{:<10} {:<48} {:>8} {:>9} {:>9} {:>8}\n", "pass", "program or transfer", "launches",
                "us each", "us a step", "GB/s");
     double launches = 0.0, sum = 0.0;
     for (const sim::LaunchTime& row : times.rows) {
         const double each_us = 1000.0 * row.step_ms / row.launches;
-        const double rate = static_cast<double>(row.bytes) * options.people / each_us * 1.0e-3;
+        const double rate = static_cast<double>(row.bytes) * options.crowd.people / each_us * 1.0e-3;
         fmt::print("{:<10} {:<48} {:>8.3f} {:>9.2f} {:>9.2f} {:>8.1f}\n", row.pass, row.what, row.launches,
                    each_us, 1000.0 * row.step_ms, rate);
         launches += row.launches;
@@ -242,11 +259,8 @@ void print(const sim::LaunchTimes& times, const LaunchOptions& options, const gl
 }
 
 void runLaunches(const LaunchOptions& options) {
-    const gl::Context context({options.device, false});
-    authoring::Scene scene = sim::ProximityBenchmark{}.crowd(options.people);
-    scene.settings.proximity =
-        options.proximity == "grid" ? authoring::Proximity::grid : authoring::Proximity::voronoi;
-    sim::Simulation simulation(scene, gl::ShaderLibrary(), costsFor(context.device()));
+    const gl::Context context({options.crowd.device, false});
+    sim::Simulation simulation(crowdOf(options.crowd), gl::ShaderLibrary(), costsFor(context.device()));
     const sim::LaunchTimes times = sim::timeLaunches(simulation, context.device().software, options.steps);
     context.check("timing launches");
     if (options.json)
@@ -259,16 +273,11 @@ void addLaunches(CLI::App& bench) {
     CLI::App* command = bench.add_subcommand(
         "launches", "Where the time of a step goes: every program and transfer on the device's own clock");
     auto options = std::make_shared<LaunchOptions>();
-    command->add_option("--people", options->people, "One per 4 m^2, on their way to random goals")
-        ->check(CLI::Range(1, 4'000'000))
-        ->capture_default_str();
-    command->add_option("--proximity", options->proximity, "What finds neighbours")
-        ->check(CLI::IsMember({"voronoi", "grid"}))
-        ->capture_default_str();
+    addCrowd(*command, options->crowd);
     command->add_option("--steps", options->steps, "How many steps are timed")
         ->check(CLI::Range(1, 10000))
         ->capture_default_str();
-    command->add_option("--device", options->device, "Run on this device (`throng devices` lists them)");
+    addDevice(*command, options->crowd.device);
     command->add_flag("--json", options->json, "Print a JSON document");
     command->callback([options] { runLaunches(*options); });
 }
@@ -278,7 +287,7 @@ CLI::App* addKind(CLI::App& bench, const char* name, const char* what, void (*ru
     auto options = std::make_shared<Options>();
     command->add_option("-o,--output", options->output, "The folder to write the report into")
         ->capture_default_str();
-    command->add_option("--device", options->device, "Run on this device (`throng devices` lists them)");
+    addDevice(*command, options->device);
     command->add_option("--rounds", options->rounds, "How often everything is timed")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "authoring/link_kinds.h"
 #include "base/files/input_file.h"
 #include "base/json_shape.h"
 
@@ -15,12 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Kind = authoring::Link::Kind;
 
-constexpr std::pair<std::string_view, Kind> kKinds[] = {{"stairs", Kind::stairs},
-                                                        {"ramp", Kind::ramp},
-                                                        {"escalator", Kind::escalator},
-                                                        {"travelator", Kind::travelator}};
 constexpr std::uint64_t kMostBytes = std::uint64_t{32} << 20;  // of bake.json
 constexpr double kFurthest = 4.0e9;                            // m from the origin, of anything
 constexpr double kLeastRate = 1.0, kMostRate = 1000.0;         // frames/s
@@ -170,8 +166,9 @@ void readLinks(const ManifestReader& reader, Bake& bake) {
         if (link.begin == link.end) each.fail("/path", "a path of two places");
         link.width = each.length("/width");
         const std::string type = each.text("/type");
-        const auto kind = std::ranges::find(kKinds, type, &std::pair<std::string_view, Kind>::first);
-        if (kind == std::end(kKinds)) each.fail("/type", "what links can be");
+        const auto kind = std::ranges::find_if(authoring::kLinkKinds,
+                                               [&](const auto& known) { return known.first == type; });
+        if (kind == authoring::kLinkKinds.end()) each.fail("/type", "what links can be");
         link.kind = kind->second;
         bake.links.push_back(std::move(link));
     });

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "authoring/link_kinds.h"
 #include "base/build_name.h"
 #include "base/outcomes.h"
 #include "io/streams/stream_format.h"
@@ -101,17 +102,10 @@ Json levelsToJson(const recording::BakeDescription& description) {
     return list;
 }
 
-const char* nameOf(authoring::Link::Kind kind) {
-    switch (kind) {
-        case authoring::Link::Kind::stairs:
-            return "stairs";
-        case authoring::Link::Kind::ramp:
-            return "ramp";
-        case authoring::Link::Kind::escalator:
-            return "escalator";
-        default:
-            return "travelator";
-    }
+std::string_view nameOf(authoring::Link::Kind kind) {
+    return std::ranges::find_if(authoring::kLinkKinds,
+                                [&](const auto& known) { return known.second == kind; })
+        ->first;
 }
 
 Json linksToJson(const recording::BakeDescription& description) {

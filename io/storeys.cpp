@@ -15,16 +15,6 @@ constexpr double kBeside = 0.2;    // m: railings stand on the outer side of flo
 constexpr double kOnStairs = 0.6;  // m: heights on a link differ by less
 constexpr double kShoulder = 0.3;  // m: from a link's width to its railings, or more
 
-double distanceToOutline(const std::vector<glm::dvec2>& outline, glm::dvec2 place) {
-    double least = 1.0e9;
-    for (std::size_t i = 0; i < outline.size(); ++i) {
-        const glm::dvec2 a = outline[i], way = outline[(i + 1) % outline.size()] - a;
-        const double along = std::clamp(glm::dot(place - a, way) / glm::dot(way, way), 0.0, 1.0);
-        least = std::min(least, glm::distance(place, a + along * way));
-    }
-    return least;
-}
-
 }  // namespace
 
 std::optional<std::size_t> Storeys::levelAt(glm::dvec2 place, double height) const {
@@ -74,10 +64,16 @@ double Storeys::heightOf(std::size_t link, double along) const {
 bool Storeys::isBeside(std::size_t level, glm::dvec2 place, glm::dvec2 heights) const {
     const authoring::Level& floor = bake_.levels[level];
     if (heights.x - kStep < floor.height && heights.y + kStep > floor.height &&
-        (isWithin(floor.floor, place) || distanceToOutline(floor.floor, place) < kBeside))
+        distanceToPolygon(floor.floor, place) < kBeside)
         return true;
     const auto link = linkAt(place, 0.5 * (heights.x + heights.y));
     return link && (bake_.links[*link].from == level || bake_.links[*link].to == level);
+}
+
+bool Storeys::isWallBeside(std::size_t level, std::size_t wall) const {
+    return std::ranges::any_of(bake_.walls[wall].points, [&](glm::dvec2 point) {
+        return isBeside(level, point, bake_.wall_ground[wall]);
+    });
 }
 
 }  // namespace throng::io

@@ -28,11 +28,13 @@ class Storeys {
     /// Of a link's middle at so many metres along it.
     double heightOf(std::size_t link, double along) const;
 
-    /// Whether what stands along a line at these heights, lowest and highest, is on or beside a level's
-    /// floor, or on a link from or to it.
-    bool isBeside(std::size_t level, glm::dvec2 place, glm::dvec2 heights) const;
+    /// Whether a wall is on or beside a level's floor, or on a link from or to it.
+    bool isWallBeside(std::size_t level, std::size_t wall) const;
 
   private:
+    /// @param heights lowest and highest, of what stands there
+    bool isBeside(std::size_t level, glm::dvec2 place, glm::dvec2 heights) const;
+
     const Bake& bake_;
 };
 

@@ -58,10 +58,9 @@ std::size_t StepRow::bytesWrittenPerPerson() const {
     return bytesPerPerson(touches, &gl::Touch::writes);
 }
 
-std::vector<StepPass> tabulateStep(Simulation& simulation) {
+void noteSteps(Simulation& simulation, gl::Journal& journal, int steps) {
     Simulation::Parts& parts = simulation.parts();
-    gl::Journal journal;
-    for (int step = 0; step < kSteps; ++step) {
+    for (int step = 0; step < steps; ++step) {
         journal.beginPass(kGates);
         parts.beginStep();
         for (const Pass& pass : parts.passes) {
@@ -69,6 +68,12 @@ std::vector<StepPass> tabulateStep(Simulation& simulation) {
             pass.run();
         }
     }
+}
+
+std::vector<StepPass> tabulateStep(Simulation& simulation) {
+    const Simulation::Parts& parts = simulation.parts();
+    gl::Journal journal;
+    noteSteps(simulation, journal, kSteps);
     std::vector<StepPass> table = {{kGates, {}}};
     for (const Pass& pass : parts.passes)
         table.push_back({pass.name, {}});

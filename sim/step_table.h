@@ -27,6 +27,10 @@ struct StepPass {
     std::vector<StepRow> rows;  ///< in the order in which they first came; none: it has nothing to do
 };
 
+/// A few more steps of `simulation`, each command noted with its pass; what the CPU uploads for gates comes
+/// first.
+void noteSteps(Simulation& simulation, gl::Journal& journal, int steps);
+
 /// The step pass by pass, what the CPU uploads for gates first: from what the programs declare, and from the
 /// launches of a few more steps of `simulation`.
 std::vector<StepPass> tabulateStep(Simulation& simulation);

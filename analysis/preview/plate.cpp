@@ -233,9 +233,7 @@ bool Plate::isShown(const io::CrowdFrame& frame, std::size_t row) const {
 }
 
 bool Plate::isWallShown(std::size_t wall) const {
-    return !level_ || std::ranges::any_of(bake_.walls[wall].points, [&](glm::dvec2 point) {
-        return storeys_.isBeside(*level_, point, bake_.wall_ground[wall]);
-    });
+    return !level_ || storeys_.isWallBeside(*level_, wall);
 }
 
 void Plate::chooseLevel() {

@@ -48,10 +48,7 @@ void addLevels(const io::Bake& bake, Json& geometry) {
     for (std::size_t i = 0; i < bake.walls.size(); ++i) {
         Json& levels = geometry["walls"][i]["levels"] = Json::array();
         for (std::size_t level = 0; level < bake.levels.size(); ++level)
-            if (std::ranges::any_of(bake.walls[i].points, [&](glm::dvec2 point) {
-                    return storeys.isBeside(level, point, bake.wall_ground[i]);
-                }))
-                levels.push_back(level);
+            if (storeys.isWallBeside(level, i)) levels.push_back(level);
     }
 }
 

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "authoring/layout/polygon_check.h"
+#include "authoring/link_kinds.h"
 
 namespace throng::authoring {
 namespace {
@@ -76,12 +77,7 @@ void LevelReader::readLink(const JsonNode& node) {
     ObjectReader reader(node, schema_.definition("link"), "a link", diagnostics_);
     if (!reader.isObject()) return;
     reader.requiredText("id", "its name", link.id);
-    reader.choice("type",
-                  {{"stairs", Link::Kind::stairs},
-                   {"ramp", Link::Kind::ramp},
-                   {"escalator", Link::Kind::escalator},
-                   {"travelator", Link::Kind::travelator}},
-                  link.kind);
+    reader.choice("type", {kLinkKinds.begin(), kLinkKinds.end()}, link.kind);
     const JsonNode* from = reader.require("from", "the level at which it begins");
     const JsonNode* to = reader.require("to", "the level at which it ends");
     const std::vector<glm::dvec2> path = reader.points("path");

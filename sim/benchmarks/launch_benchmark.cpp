@@ -5,7 +5,6 @@
 #include <chrono>
 
 #include "sim/gl/journal.h"
-#include "sim/simulation_parts.h"
 #include "sim/step_table.h"
 
 namespace throng::sim {
@@ -58,15 +57,7 @@ LaunchTimes timeLaunches(Simulation& simulation, bool software, int steps) {
     timeWhole(simulation, steps, times);
     {
         gl::Journal journal(software ? gl::Journal::Times::of_wall : gl::Journal::Times::of_device);
-        Simulation::Parts& parts = simulation.parts();
-        for (int step = 0; step < steps; ++step) {
-            journal.beginPass("gates");
-            parts.beginStep();
-            for (const Pass& pass : parts.passes) {
-                journal.beginPass(pass.name);
-                pass.run();
-            }
-        }
+        noteSteps(simulation, journal, steps);
         const std::vector<double> milliseconds = journal.milliseconds();
         for (std::size_t i = 0; i < milliseconds.size(); ++i)
             add(times.rows, journal.commands()[i], milliseconds[i], steps);

@@ -256,11 +256,6 @@ void Program::set(const std::string& name, glm::vec2 value) {
 void Program::set(const std::string& name, glm::uvec2 value) {
     glProgramUniform2ui(handle(), uniform(name).location, value.x, value.y);
 }
-void Program::set(const std::string& name, const std::vector<glm::vec2>& values) {
-    if (values.empty()) return;
-    glProgramUniform2fv(handle(), uniform(name + "[0]").location, static_cast<GLsizei>(values.size()),
-                        &values.front().x);
-}
 
 void Program::use() const {
     for (const Block& each : blocks_) {

@@ -70,7 +70,6 @@ class Program {
     void set(const std::string& uniform, float value);
     void set(const std::string& uniform, glm::vec2 value);
     void set(const std::string& uniform, glm::uvec2 value);
-    void set(const std::string& uniform, const std::vector<glm::vec2>& values);
     /// The same where the compiler has found a use for the uniform.
     template <class Value>
     void setIfUsed(const std::string& uniform, Value value) {
