@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <iterator>
@@ -10,6 +11,7 @@
 
 #include "base/files/output_file.h"
 #include "cli/baking/calibration_file.h"
+#include "cli/baking/load_layout.h"
 #include "cli/bench_report.h"
 #include "cli/commands.h"
 #include "cli/terminal/say.h"
@@ -223,6 +225,8 @@ void addStep(CLI::App& bench) {
 
 struct LaunchOptions {
     CrowdOptions crowd{.people = 16384};
+    std::string layout;   ///< instead of a crowd, if not empty
+    double after = 10.0;  ///< s from its beginning
     int steps = 48;
     bool json = false;
 };
@@ -258,9 +262,23 @@ void print(const sim::LaunchTimes& times, const LaunchOptions& options, const gl
     fmt::print("{:<10} {:<48} {:>8.3f} {:>9} {:>9.2f}\n", "a step", "", launches, "", sum);
 }
 
-void runLaunches(const LaunchOptions& options) {
+/// Goes on to a time of the scene as a bake would.
+void stepUntil(sim::Simulation& simulation, const authoring::SimulationSettings& settings, double seconds) {
+    const auto steps = static_cast<std::uint32_t>(std::lround(seconds * settings.fps * settings.substeps));
+    while (simulation.stepsDone() < steps)
+        simulation.step();
+    simulation.wait();
+}
+
+void runLaunches(LaunchOptions options) {
     const gl::Context context({options.crowd.device, false});
-    sim::Simulation simulation(crowdOf(options.crowd), gl::ShaderLibrary(), costsFor(context.device()));
+    const authoring::Scene scene =
+        options.layout.empty() ? crowdOf(options.crowd) : loadLayout(options.layout, {}).scene;
+    sim::Simulation simulation(scene, gl::ShaderLibrary(), costsFor(context.device()));
+    if (!options.layout.empty()) {
+        stepUntil(simulation, scene.settings, options.after);
+        options.crowd.people = static_cast<std::uint32_t>(scene.people.size());
+    }
     const sim::LaunchTimes times = sim::timeLaunches(simulation, context.device().software, options.steps);
     context.check("timing launches");
     if (options.json)
@@ -274,6 +292,14 @@ void addLaunches(CLI::App& bench) {
         "launches", "Where the time of a step goes: every program and transfer on the device's own clock");
     auto options = std::make_shared<LaunchOptions>();
     addCrowd(*command, options->crowd);
+    CLI::Option* layout =
+        command->add_option("--layout", options->layout, "Of this layout instead of such a crowd")
+            ->excludes("--people")
+            ->excludes("--proximity");
+    command->add_option("--after", options->after, "Seconds of the layout that go before")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str()
+        ->needs(layout);
     command->add_option("--steps", options->steps, "How many steps are timed")
         ->check(CLI::Range(1, 10000))
         ->capture_default_str();

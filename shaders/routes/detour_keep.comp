@@ -12,8 +12,8 @@ uniform uint first_field;  // of this round
 #include "shaders/routes/detour_blocks.glsl"
 
 void main() {
-    uint listed = listed_blocks[gl_WorkGroupID.x], field = listed / blocksOfMap();
-    uint cell = listed % blocksOfMap() * PIXEL_GROUP_SIZE + gl_LocalInvocationID.x;
-    if (cell >= cellsOfMap()) return;
-    detour_distances[field * cellsOfMap() + cell] = next_distances[(field - first_field) * cellsOfMap() + cell];
+    ListedCell mine = cellOfBlock(listed_blocks[gl_WorkGroupID.x]);
+    if (mine.cell >= cellsOfMap()) return;
+    detour_distances[mine.field * cellsOfMap() + mine.cell] =
+        next_distances[(mine.field - first_field) * cellsOfMap() + mine.cell];
 }

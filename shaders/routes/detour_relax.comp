@@ -23,49 +23,43 @@ layout(std430) writeonly buffer NextDistances { float next_distances[]; };  // o
 uniform uint first_field;     // of this round
 
 #include "shaders/routes/detour_blocks.glsl"
-
-float detourOr(uint field, uint cell, bool exists, float otherwise) {
-    float distance = exists ? detour_distances[field * cellsOfMap() + cell] : otherwise;
-    return distance < BLOCKED_COST ? distance : otherwise;
-}
+#include "shaders/routes/open_sides.glsl"
 
 /// Which way the nearest of the places is, by the last distances; a unit vector or zero.
-vec2 downhill(uint field, uint cell) {
-    uint width = parameters.detour_width, x = cell % width;
-    float here = detour_distances[field * cellsOfMap() + cell];
-    vec2 slope = vec2(detourOr(field, cell - 1u, x > 0u, here) - detourOr(field, cell + 1u, x + 1u < width, here),
-                      detourOr(field, cell - width, cell >= width, here) -
-                          detourOr(field, cell + width, cell + width < cellsOfMap(), here));
+vec2 downhill(float here, vec4 beside) {
+    vec4 known = mix(vec4(here), beside, lessThan(beside, vec4(BLOCKED_COST)));
+    vec2 slope = known.xz - known.yw;
     float size = length(slope);
     return size > 1.0e-6 ? slope / size : vec2(0.0);
 }
 
-/// Metres of free walking that leaving a cell in this direction is worth. Even through a jam that stands, one gets some
-/// time. Who may choose between several places takes a jam for what it is: a door that hundreds wait for is worth a
-/// walk to the next one. What counts then is how fast the crowd gets nearer to any of the places; or people would
+/// Metres of free walking that leaving a cell to each of its sides is worth. Even through a jam that stands, one gets
+/// some time. Who may choose between several places takes a jam for what it is: a door that hundreds wait for is worth
+/// a walk to the next one. What counts then is how fast the crowd gets nearer to any of the places; or people would
 /// circle with those who circle.
-float costTowards(uint field, uint cell, GroundCell here, vec2 direction) {
-    if (dot(unpackSnorm2x16(here.one_way), direction) < AGAINST_ONE_WAY) return BLOCKED_COST;
+vec4 costsOfLeaving(uint cell, GroundCell ground_here, bool choice, float here, vec4 beside) {
     CrowdFlow crowd = crowd_flows[cell];
-    bool choice = field_maps[field].has_choice != 0u;
-    float along = dot(crowd.velocity, choice ? downhill(field, cell) : direction);
-    float slowest = choice ? ROUTES_ROUND_JAMS_SLOWEST_WITH_CHOICE : ROUTES_ROUND_JAMS_SLOWEST;
-    float with_crowd = clamp(along / ROUTES_ROUND_JAMS_FREE_SPEED, slowest, 1.0);
-    float speed = mix(1.0, with_crowd, smoothstep(ROUTES_ROUND_JAMS_THIN, ROUTES_ROUND_JAMS_THICK, crowd.density));
-    return here.cost * parameters.detour_cell / speed;
+    vec4 cost = vec4(ground_here.cost * parameters.detour_cell);
+    if (crowd.density > ROUTES_ROUND_JAMS_THIN) {
+        vec4 along = choice ? vec4(dot(crowd.velocity, downhill(here, beside)))
+                            : vec4(-crowd.velocity.x, crowd.velocity.x, -crowd.velocity.y, crowd.velocity.y);
+        float slowest = choice ? ROUTES_ROUND_JAMS_SLOWEST_WITH_CHOICE : ROUTES_ROUND_JAMS_SLOWEST;
+        vec4 with_crowd = clamp(along / ROUTES_ROUND_JAMS_FREE_SPEED, slowest, 1.0);
+        cost /= mix(vec4(1.0), with_crowd,
+                    smoothstep(ROUTES_ROUND_JAMS_THIN, ROUTES_ROUND_JAMS_THICK, crowd.density));
+    }
+    if (ground_here.one_way != 0u) {
+        vec2 way = unpackSnorm2x16(ground_here.one_way);
+        cost = mix(cost, vec4(BLOCKED_COST), lessThan(vec4(-way.x, way.x, -way.y, way.y), vec4(AGAINST_ONE_WAY)));
+    }
+    return cost;
 }
 
 /// The better neighbour on one axis: its distance, and the cost of going there.
-vec2 betterSide(uint field, uint cell, GroundCell here, bool has_low, bool has_high, uint stride, vec2 axis) {
+vec2 betterSide(vec2 low, vec2 high, bool low_is_open, bool high_is_open) {
     vec2 best = vec2(BLOCKED_COST);
-    uint side = axis.x > 0.0 ? OPEN_TO_X : OPEN_TO_Y;
-    uint first = field * cellsOfMap();
-    if (has_low && (ground[field_maps[field].ground_map * cellsOfMap() + cell - stride].open_sides & side) != 0u)
-        best = vec2(detour_distances[first + cell - stride], costTowards(field, cell, here, -axis));
-    if (has_high && (here.open_sides & side) != 0u) {
-        vec2 high = vec2(detour_distances[first + cell + stride], costTowards(field, cell, here, axis));
-        if (high.x + high.y < best.x + best.y) best = high;
-    }
+    if (low_is_open) best = low;
+    if (high_is_open && high.x + high.y < best.x + best.y) best = high;
     return best;
 }
 
@@ -79,15 +73,20 @@ float eikonal(vec2 x, vec2 y) {
     return inside <= 0.0 ? one_axis : min(one_axis, (a * x.x + b * y.x + sqrt(inside)) / (a + b));
 }
 
-float relaxed(uint field, uint cell) {
-    float free = free_distances[field * cellsOfMap() + cell];
-    GroundCell here = ground[field_maps[field].ground_map * cellsOfMap() + cell];
+float relaxed(uint field, uint cell, float before) {
+    uint first = field * cellsOfMap(), ground_first = field_maps[field].ground_map * cellsOfMap();
+    float free = free_distances[first + cell];
+    GroundCell here = ground[ground_first + cell];
     // Targets and what nobody reaches stay as they are.
     if (free <= 0.0 || free >= BLOCKED_COST || here.cost >= BLOCKED_COST) return free;
-    uvec2 at = uvec2(cell % parameters.detour_width, cell / parameters.detour_width);
-    uint width = parameters.detour_width;
-    vec2 x = betterSide(field, cell, here, at.x > 0u, at.x + 1u < width, 1u, vec2(1.0, 0.0));
-    vec2 y = betterSide(field, cell, here, at.y > 0u, at.y + 1u < parameters.detour_height, width, vec2(0.0, 1.0));
+    CellsBeside at = cellsBeside(cell);
+    vec4 beside = vec4(detour_distances[first + at.cells.x], detour_distances[first + at.cells.y],
+                       detour_distances[first + at.cells.z], detour_distances[first + at.cells.w]);
+    beside = mix(vec4(BLOCKED_COST), beside, at.exist);
+    vec4 cost = costsOfLeaving(cell, here, field_maps[field].has_choice != 0u, before, beside);
+    bvec4 open = openBeside(ground_first, at, here.open_sides);
+    vec2 x = betterSide(vec2(beside.x, cost.x), vec2(beside.y, cost.y), open.x, open.y);
+    vec2 y = betterSide(vec2(beside.z, cost.z), vec2(beside.w, cost.w), open.z, open.w);
     return min(eikonal(x, y), BLOCKED_COST);
 }
 
@@ -96,12 +95,12 @@ float relaxed(uint field, uint cell) {
 const float SETTLED = 1.0e-3;
 
 void main() {
-    uint listed = listed_blocks[gl_WorkGroupID.x], field = listed / blocksOfMap();
-    uint cell = listed % blocksOfMap() * PIXEL_GROUP_SIZE + gl_LocalInvocationID.x;
-    if (cell >= cellsOfMap()) return;
-    float before = detour_distances[field * cellsOfMap() + cell];
-    float after = relaxed(field, cell);
-    next_distances[(field - first_field) * cellsOfMap() + cell] = after;
+    uint listed = listed_blocks[gl_WorkGroupID.x];
+    ListedCell mine = cellOfBlock(listed);
+    if (mine.cell >= cellsOfMap()) return;
+    float before = detour_distances[mine.field * cellsOfMap() + mine.cell];
+    float after = relaxed(mine.field, mine.cell, before);
+    next_distances[(mine.field - first_field) * cellsOfMap() + mine.cell] = after;
     // Several may write, all the same; a barrier would cost more.
     if (abs(after - before) > SETTLED) changed_blocks[listed] = 1u;
 }

@@ -12,18 +12,23 @@ layout(std430) readonly buffer FieldMaps { FieldMap field_maps[]; };
 layout(std430) readonly buffer ListedBlocks { uint listed_blocks[]; };
 
 #include "shaders/routes/detour_blocks.glsl"
+#include "shaders/routes/open_sides.glsl"
 #include "shaders/shared/at_most.glsl"
 
-float delay(uint field, uint cell) {
-    float free = free_distances[field * cellsOfMap() + cell];
-    return free >= BLOCKED_COST ? -1.0 : max(detour_distances[field * cellsOfMap() + cell] - free, 0.0);
+/// By how much a jam makes the way from a cell longer, or -1 where no way leads from.
+float delay(uint index) {
+    float free = free_distances[index];
+    return free >= BLOCKED_COST ? -1.0 : max(detour_distances[index] - free, 0.0);
 }
 
-/// The delay beyond one side of a cell, or -1 where there is a wall.
-float delayBeyond(uint field, uint cell, uint neighbour, bool exists, uint side) {
-    if (!exists) return -1.0;
-    bool open = (ground[field_maps[field].ground_map * cellsOfMap() + min(cell, neighbour)].open_sides & side) != 0u;
-    return open ? delay(field, neighbour) : -1.0;
+/// The same beyond each side of a cell, or -1 where there is a wall.
+vec4 delaysBeside(uint field, uint cell) {
+    uint first = field * cellsOfMap(), ground_first = field_maps[field].ground_map * cellsOfMap();
+    CellsBeside at = cellsBeside(cell);
+    bvec4 open = openBeside(ground_first, at, ground[ground_first + cell].open_sides);
+    vec4 beside = vec4(delay(first + at.cells.x), delay(first + at.cells.y), delay(first + at.cells.z),
+                       delay(first + at.cells.w));
+    return mix(vec4(-1.0), beside, open);
 }
 
 float slope(float low, float here, float high) {
@@ -33,17 +38,12 @@ float slope(float low, float here, float high) {
 }
 
 void main() {
-    uint listed = listed_blocks[gl_WorkGroupID.x], field = listed / blocksOfMap(), width = parameters.detour_width;
-    uint cell = listed % blocksOfMap() * PIXEL_GROUP_SIZE + gl_LocalInvocationID.x;
-    if (cell >= cellsOfMap()) return;
-    float here = delay(field, cell);
-    vec2 result = vec2(0.0);
-    if (here >= 0.0) {
-        uint x = cell % width;
-        result.x = slope(delayBeyond(field, cell, cell - 1u, x > 0u, OPEN_TO_X), here,
-                         delayBeyond(field, cell, cell + 1u, x + 1u < width, OPEN_TO_X));
-        result.y = slope(delayBeyond(field, cell, cell - width, cell >= width, OPEN_TO_Y), here,
-                         delayBeyond(field, cell, cell + width, cell + width < cellsOfMap(), OPEN_TO_Y));
-    }
-    detour_slopes[field * cellsOfMap() + cell] = atMost(result / parameters.detour_cell, ROUTES_ROUND_JAMS_MOST_SLOPE);
+    ListedCell mine = cellOfBlock(listed_blocks[gl_WorkGroupID.x]);
+    if (mine.cell >= cellsOfMap()) return;
+    uint index = mine.field * cellsOfMap() + mine.cell;
+    float here = delay(index);
+    vec4 beside = delaysBeside(mine.field, mine.cell);
+    vec2 result =
+        here < 0.0 ? vec2(0.0) : vec2(slope(beside.x, here, beside.y), slope(beside.z, here, beside.w));
+    detour_slopes[index] = atMost(result / parameters.detour_cell, ROUTES_ROUND_JAMS_MOST_SLOPE);
 }

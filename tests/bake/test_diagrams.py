@@ -190,20 +190,28 @@ def test_walls_out_of_reach_cost_a_step_little(throng, tmp_path):
     assert digest(tmp_path / "auto") == digest(tmp_path / "per-site")
 
 
+def taken_to_begin(throng, layout, out):
+    """Seconds of processors until the first frame is there; how many that are differs much between machines."""
+    before = taken_by_children()
+    throng("bake", layout, "-o", out, "-q", "--no-gltf", "--set", "simulation.duration=0.05")
+    return taken_by_children() - before
+
+
 @pytest.mark.slow
 def test_comparing_all_pixels_with_all_walls_can_be_stopped_within_a_step(throng, tmp_path):
     # One step takes tens of seconds.
     layout = write(tmp_path / "obstacles.json", obstacles(44, 6.7))
+    start = taken_to_begin(throng, layout, tmp_path / "first")
     bake = subprocess.Popen([throng.binary, "bake", layout, "-o", tmp_path / "out", "--no-gltf",
                              "--method", "per-pixel"], stderr=subprocess.PIPE, text=True)
     while not (tmp_path / "out.unfinished").exists():
         assert bake.poll() is None
         time.sleep(0.05)
-    assert let_work(bake, 3.0)
+    assert let_work(bake, 1.2 * start + 1.0)
     before = taken_by(bake) + taken_by_children()
     bake.send_signal(signal.SIGTERM)
     said = bake.communicate(timeout=HANGS)[1]
-    assert taken_by_children() - before < 6.0, said
+    assert taken_by_children() - before < max(6.0, 2.0 * start), said
     assert bake.returncode == 85 and "--resume" in said
 
 
@@ -211,13 +219,14 @@ def test_comparing_all_pixels_with_all_walls_can_be_stopped_within_a_step(throng
 def test_a_bake_that_was_stopped_within_a_step_goes_on_to_the_same_bytes(throng, tmp_path):
     # A second or so a step: the checkpoint is of the last whole frame.
     layout = write(tmp_path / "obstacles.json", obstacles(12, 6.7))
+    start = taken_to_begin(throng, layout, tmp_path / "first")
     options = ["-q", "--no-gltf", "--set", "simulation.duration=0.15"]
     bake = subprocess.Popen([throng.binary, "bake", layout, "-o", tmp_path / "stopped", *options,
                              "--method", "per-pixel"], stderr=subprocess.PIPE, text=True)
     while not (tmp_path / "stopped.unfinished").exists():
         assert bake.poll() is None
         time.sleep(0.05)
-    assert let_work(bake, 1.5)
+    assert let_work(bake, start + 1.0)
     bake.send_signal(signal.SIGTERM)
     bake.communicate(timeout=HANGS)
     assert bake.returncode == 85

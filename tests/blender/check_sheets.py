@@ -28,7 +28,8 @@ for member, level in ((0, 0), (3, 1), (8, 0), (11, 2)):
     person = people.CAST[member]
     figures = [build_figure(person, pose) for pose in cast.poses_of(person, repertoire)]
     plan = cast.plan_of(figures, repertoire, level)
-    flat = [numpy.array(plan.vertices(figures[source].rings), numpy.float32) for source in repertoire.sources(level)]
+    flat = [plan.vertices(figures[source].rings).astype(numpy.float32).ravel()
+            for source in repertoire.sources(level)]
     shown = []
     for instance in layer.depsgraph.object_instances:
         if not instance.is_instance:

@@ -28,8 +28,7 @@ def plans(figures):
 
 
 def points_of(plan, figure):
-    flat = plan.vertices(figure.rings)
-    return list(zip(flat[::3], flat[1::3], flat[2::3]))
+    return [tuple(point) for point in plan.vertices(figure.rings).tolist()]
 
 
 def contact_point(foot, build):
@@ -105,7 +104,7 @@ def test_all_poses_at_all_levels_stand_on_the_ground(figures, plans):
     for person, poses, levels in zip(people.CAST, figures, plans):
         for level, plan in enumerate(levels):
             for index in REPERTOIRE.sources(level):
-                lowest = min(plan.vertices(poses[index].rings)[2::3])
+                lowest = plan.vertices(poses[index].rings)[:, 2].min()
                 flies = index < REPERTOIRE.walking() and GAITS[index // cast.POSES].runs
                 assert -0.006 < lowest < (0.20 if flies else 0.012), (person, level, index)
 

@@ -108,8 +108,7 @@ def remove_levels(cast):
 
 def _posed(bodies, level, repertoire, materials):
     plan = plan_of(bodies, repertoire, level)
-    flat = [plan.vertices(bodies[index].rings) for index in repertoire.sources(level)]
-    points = numpy.array(flat, numpy.float32).reshape(len(flat), -1, 3)
+    points = numpy.array([plan.vertices(bodies[index].rings) for index in repertoire.sources(level)], numpy.float32)
     velocities = walking_velocities(points, repertoire) if level <= BLURS_UNTIL else None
     return Posed(_template(plan, points[-1], materials), points, velocities)
 

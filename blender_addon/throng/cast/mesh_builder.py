@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Lofts: rings of points joined into skins, at several levels of detail. Pure Python.
+"""Lofts: rings of points joined into skins, at several levels of detail.
 
 A ring is a flat tuple of nine numbers: its centre and two half axes, of which every point is a sum; the points are
 worked out last, and only those that a level of detail keeps. What a figure is made of (its parts, their faces and
@@ -8,6 +8,8 @@ materials) is the same in all poses.
 import math
 from dataclasses import dataclass
 from functools import lru_cache
+
+import numpy
 
 # How far (m) a level's skin may be from the full one where it leaves out rings, and how many points its rings have.
 TOLERANCES = (0.004, 0.013, 0.045)
@@ -187,17 +189,21 @@ class Plan:
     """
 
     def __init__(self, parts, samples, level):
-        self.faces, self.materials, self._rings = [], [], []
+        self.faces, self.materials = [], []
+        rings, outlines = [], []  # of each vertex
         base = 0
         for part in parts:
             if part.until < level:
                 continue
             points = outline_at(part.count, part.square, level, part.stands, part.drapes)
             kept = _kept(part, samples, TOLERANCES[level] * (0.4 if part.stands or part.drapes else 1.0))
-            self._rings += [(index, points) for index in kept]
+            rings += [index for index in kept for _ in points]
+            outlines += list(points) * len(kept)
             self._join(base, len(kept), len(points), part)
             base += len(kept) * len(points)
         self.count = base
+        self._rings = numpy.array(rings, int)
+        self._outlines = numpy.array(outlines, float).reshape(-1, 2)
 
     def _join(self, base, rings, count, part):
         faces = [(a + i, a + (i + 1) % count, a + count + (i + 1) % count, a + count + i)
@@ -214,9 +220,6 @@ class Plan:
         return sum(len(face) - 2 for face in self.faces)
 
     def vertices(self, rings):
-        """The vertices of a pose, from its rings; flat, for foreach_set."""
-        flat = []
-        for index, points in self._rings:
-            x, y, z, ax, ay, az, bx, by, bz = rings[index]
-            flat += [v for c, s in points for v in (x + ax * c + bx * s, y + ay * c + by * s, z + az * c + bz * s)]
-        return flat
+        """The vertices of a pose, (V, 3), from its rings."""
+        own = numpy.array(rings, float)[self._rings]
+        return own[:, :3] + own[:, 3:6] * self._outlines[:, :1] + own[:, 6:] * self._outlines[:, 1:]

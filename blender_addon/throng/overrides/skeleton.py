@@ -76,8 +76,7 @@ def plan_of(person):
 
 
 def vertices_of(person, pose):
-    flat = plan_of(person).vertices(_posed(person, pose).mesh.rings)
-    return list(zip(flat[::3], flat[1::3], flat[2::3]))
+    return [tuple(point) for point in plan_of(person).vertices(_posed(person, pose).mesh.rings).tolist()]
 
 
 def rest_pose(person):

@@ -2,6 +2,8 @@
 """What room there is for the things of a set: not where people walk, not in walls, not in each other."""
 import math
 
+import numpy
+
 from .plane import along_of, distance_to, inside
 
 _TAKEN = 0.4  # m, a cell of what is taken
@@ -32,6 +34,7 @@ class Space:
         for road in geometry.get("roads", []):
             line = [tuple(p[:2]) for p in road["centreline"]]
             self.roads += [(a, b, 0.5 * float(road["width"])) for a, b in zip(line, line[1:])]
+        self._ends = numpy.array([(*a, *b, half) for a, b, half in self.edges], float).reshape(-1, 5)
         self.areas = [[tuple(p[:2]) for p in area["polygon"]] for area in geometry.get("areas", [])]
 
     def fits(self, x, y, heading, length, width, *, margin, clearance=0.1, own_road=None):
@@ -47,12 +50,19 @@ class Space:
         if not self.trodden.free(points, margin):
             return False
         reach = 0.5 * math.hypot(length, width) + clearance
-        near = [(a, b, half) for a, b, half in self.edges if distance_to(a, b, (x, y)) <= reach + half]
+        near = self._edges_within(x, y, reach)
         if any(distance_to(a, b, p) < clearance + half for a, b, half in near for p in points):
             return False
         if any(inside(solid, p) for solid in self.solids for p in (points[0], points[-1], (x, y))):
             return False
         return not any(self.on_road(p, own_road) for p in points)
+
+    def _edges_within(self, x, y, reach):
+        """The walls' edges that may be as near to a place; those whose boxes are further are not."""
+        ends = self._ends
+        apart = numpy.maximum(numpy.minimum(ends[:, :2], ends[:, 2:4]) - (x, y),
+                              (x, y) - numpy.maximum(ends[:, :2], ends[:, 2:4]))
+        return [self.edges[index] for index in numpy.nonzero((apart <= reach + ends[:, 4:]).all(axis=1))[0]]
 
     def on_road(self, point, but=None):
         """Whether a place is on a road, or past its end by less than half its width."""

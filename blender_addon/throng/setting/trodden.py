@@ -10,6 +10,14 @@ _AT_ONCE = 4_000_000     # positions
 _EVERY = 0.25            # s: somebody who runs comes 1 m in that time, less than the margins of what is placed
 
 
+def _distinct(cells):
+    """Each cell once. As single numbers: whole rows are sorted ten times as slowly."""
+    low = cells.min(axis=0, initial=0)
+    width = cells[:, 1].max(initial=0) - low[1] + 1
+    keys = numpy.unique((cells[:, 0] - low[0]) * width + cells[:, 1] - low[1])
+    return numpy.stack([keys // width, keys % width], axis=1) + low
+
+
 class Trodden:
     """A grid of cells that somebody was in."""
 
@@ -42,8 +50,7 @@ class Trodden:
         for first in range(0, bake.frames, frames):
             here = places[first:first + frames:step, :, :2][states[first:first + frames:step, :, 0] > 0.5]
             # cells are few where positions are many
-            here = numpy.unique(numpy.floor(here / _CELL).astype(numpy.int32), axis=0)
-            parts.append((here + 0.5) * _CELL)
+            parts.append((_distinct(numpy.floor(here / _CELL).astype(numpy.int64)) + 0.5) * _CELL)
         everywhere = numpy.concatenate(parts)
         if len(everywhere):
             low, high = everywhere.min(axis=0), everywhere.max(axis=0)
