@@ -270,6 +270,7 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
     touch_lists = gl::Buffer("touch lists", {rows, kWord * gpu::TOUCH_CAPACITY, kPerson});
     touch_slots = gl::Buffer("touch slots", {rows, kWord, kPerson});
     touch_dispatch = gl::Buffer("touch dispatch", kWord * 4);
+    weights = gl::Buffer("weights", {rows, sizeof(glm::vec2), kPerson});
     preferred_velocities = gl::Buffer("preferred velocities", {rows, sizeof(glm::vec2), kPerson});
     decisions = gl::Buffer(
         "decisions", {rows, sizeof(gpu::Decision) + (has_bodies_ ? gpu::MORE_OF_A_DECISION : 0), kPerson});
@@ -360,6 +361,7 @@ std::vector<std::pair<std::string, const gl::Buffer*>> Buffers::named() const {
             {"TouchLists", &touch_lists},
             {"TouchSlots", &touch_slots},
             {"TouchDispatch", &touch_dispatch},
+            {"Weights", &weights},
             {"PreferredVelocities", &preferred_velocities},
             {"Decisions", &decisions},
             {"Ways", &ways},

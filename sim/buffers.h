@@ -43,7 +43,7 @@ struct Buffers {
     gl::Buffer row_cells, loose_rows, live_dispatch;
     gl::Buffer site_slots;  // by ids of sites: also the order in which gradient1 draws
     gl::Buffer bodies, walkers, sites;
-    gl::Buffer neighbours, neighbour_counts, touch_words, touch_lists, touch_slots, touch_dispatch;
+    gl::Buffer neighbours, neighbour_counts, touch_words, touch_lists, touch_slots, touch_dispatch, weights;
     gl::Buffer preferred_velocities, decisions, ways, targets, targets_after;
 
     /// A program with all of these buffers that it declares.

@@ -39,12 +39,16 @@ const gl::Declaration kCarryOn = {
     {"shaders/motion/carry_on.comp"},
     {"ParametersBlock", "LiveDispatch", "States", "Chests", "Decisions", "Bodies", "Walkers", "Belts"},
     {"Bodies", "Walkers", "Targets", "TargetsAfter", "Ways"}};
+const gl::Declaration kWeigh = {"contacts",
+                                {"shaders/motion/weigh.comp"},
+                                {"LiveDispatch", "Bodies", "Walkers", "PreferredVelocities", "TouchWords"},
+                                {"Weights"}};
 const gl::Declaration kContact = {
     "contacts",
     {"shaders/motion/contact.comp"},
     {"ParametersBlock", "TouchDispatch", "TouchSlots", "Bodies", "Walkers", "PreferredVelocities",
-     "TouchWords", "TouchLists", "WallSegments", "WallStarts", "WallItems", "StripStarts", "CellOffsets",
-     "TargetsBefore", "TargetsAfter"},
+     "TouchWords", "Weights", "TouchLists", "WallSegments", "WallStarts", "WallItems", "StripStarts",
+     "CellOffsets", "TargetsBefore", "TargetsAfter"},
     {"TargetsAfter"}};
 const gl::Declaration kMove = {
     "motion",
@@ -148,17 +152,19 @@ Contacts::Contacts(const gl::ShaderLibrary& library, const Buffers& buffers, int
       spectral_radius_(rules.isOn("contact_momentum")
                            ? static_cast<float>(rules.number("contact_momentum", "spectral_radius"))
                            : 0.0f),
+      weigh_(buffers.connect(library, kWeigh, buffers.definitions(rules))),
       forth_(buffers.connect(library, kContact, buffers.definitions(rules))),
       back_(buffers.connect(library, kContact, buffers.definitions(rules))) {
     forth_.bind("TargetsBefore", places.targets);
     forth_.bind("TargetsAfter", places.targets_after);
     back_.bind("TargetsBefore", places.targets_after);
     back_.bind("TargetsAfter", places.targets);
-    forth_.bind("TouchWords", places.touch_words);
-    back_.bind("TouchWords", places.touch_words);
+    for (gl::ComputeProgram* program : {&weigh_, &forth_, &back_})
+        program->bind("TouchWords", places.touch_words);
 }
 
 void Contacts::run() {
+    if (braced_ > 0) weigh_.dispatchUpTo(buffers_.slotCapacity(), buffers_.live_dispatch);
     const float squared = spectral_radius_ * spectral_radius_;
     float momentum = 1.0f;
     for (int iteration = 0; iteration < iterations_; ++iteration) {

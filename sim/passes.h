@@ -86,7 +86,7 @@ class Contacts {
     int iterations_;
     int braced_;             // of these, the first ones, in which weights count
     float spectral_radius_;  // 0 = without momentum
-    gl::ComputeProgram forth_, back_;
+    gl::ComputeProgram weigh_, forth_, back_;
 };
 
 /// Ends the step: positions, headings, gait, routes, arrivals.

@@ -1,32 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bodies apart: those that overlap are pushed away from each other, each by its share.
-// Needs the blocks Bodies, TouchLists and TargetsBefore, shaders/cells/cells.glsl and cell_runs.glsl, and
-// shaders/motion/standing_fast.glsl, nearest_first.glsl and apart_direction.glsl.
+// Needs the blocks Bodies, Weights, TouchLists and TargetsBefore, shaders/cells/cells.glsl and cell_runs.glsl, and
+// shaders/motion/nearest_first.glsl and apart_direction.glsl.
 
 /// What one neighbour adds to the push: direction and depth, and one more to average over.
-void addPush(Body self, uint self_slot, float weight, uint slot, vec2 position, inout vec3 push) {
+void addPush(Body self, uint self_slot, vec2 mine, uint slot, vec2 position, inout vec3 push) {
     vec2 offset = position - targets_before[slot];
     float reach = self.radius + bodies[slot].radius + CONTACT_SKIN;
     float size_squared = dot(offset, offset);
     if (size_squared >= reach * reach || slot == self_slot) return;
     float size = sqrt(size_squared);
-    float its_weight = weightOf(slot, bracing);
-    if (bracing > 0.0) its_weight /= precedence(self_slot, slot, offset);
+    float its_weight = 1.0;
+    if (bracing > 0.0) {
+        vec2 its = weights[slot];
+        its_weight = its.x / precedence(self_slot, mine.y, slot, its.y, offset);
+    }
     vec2 apart = apartDirection(offset, size, self.row, bodies[slot].row);
-    push += vec3(apart * (reach - size) * its_weight / (weight + its_weight), 1.0);
+    push += vec3(apart * (reach - size) * its_weight / (mine.x + its_weight), 1.0);
 }
 
 vec2 pushFromNeighbours(Body self, uint self_slot, uint touching, vec2 position) {
     vec3 push = vec3(0.0);
-    float weight = weightOf(self_slot, bracing);
+    vec2 mine = bracing > 0.0 ? weights[self_slot] : vec2(1.0, 0.0);
     if (touching <= TOUCH_CAPACITY) {
         for (uint i = 0u; i < touching; ++i)
-            addPush(self, self_slot, weight, touch_lists[self_slot * TOUCH_CAPACITY + i], position, push);
+            addPush(self, self_slot, mine, touch_lists[self_slot * TOUCH_CAPACITY + i], position, push);
     } else {
         ivec2 cell = cellOf(self.position);
         for (int y = cell.y - 1; y <= cell.y + 1; ++y) {
             uvec2 run = slotRun(cell.x, y);
-            for (uint slot = run.x; slot < run.y; ++slot) addPush(self, self_slot, weight, slot, position, push);
+            for (uint slot = run.x; slot < run.y; ++slot) addPush(self, self_slot, mine, slot, position, push);
         }
     }
     // Plain sums overshoot where many push: a mildly over-relaxed average converges and does not ring.

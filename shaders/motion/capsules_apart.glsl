@@ -2,8 +2,8 @@
 // Bodies apart, for bodies that are no discs: two capsules touch where their segments are nearest to each other, and a
 // push there moves them and turns them, each by what its mass and its moment of inertia make of it (position-based
 // dynamics of rigid bodies: Mueller, Macklin, Chentanez, Jeschke and Kim 2020).
-// Needs the blocks ParametersBlock, Bodies, Walkers, TouchLists and TargetsBefore, shaders/cells/cells.glsl and
-// cell_runs.glsl, shaders/shared/body_shape.glsl, shoulders.glsl, standing_fast.glsl, nearest_first.glsl and
+// Needs the blocks ParametersBlock, Bodies, Weights, TouchLists and TargetsBefore, shaders/cells/cells.glsl and
+// cell_runs.glsl, shaders/shared/body_shape.glsl, shoulders.glsl, nearest_first.glsl and
 // apart_direction.glsl.
 
 /// What others make of somebody in a round: it is moved, turned, by how many.
@@ -16,7 +16,7 @@ struct Push {
 /// How much of a push at this arm turns a body, per metre that the same push moves it.
 float turnPerMetre(float arm, float radius, float thickness) { return arm / inertiaOf(radius, thickness); }
 
-void addPush(Body self, uint self_slot, float weight, uint slot, vec4 target, inout Push push) {
+void addPush(Body self, uint self_slot, vec2 mine, uint slot, vec4 target, inout Push push) {
     vec4 other = targets_before[slot];
     float its_radius = bodies[slot].radius;
     vec2 offset = target.xy - other.xy;
@@ -35,12 +35,15 @@ void addPush(Body self, uint self_slot, float weight, uint slot, vec4 target, in
         depth += abs(dot(target.zw, apart)) + abs(dot(other.zw, apart)) - size;
         along = vec2(0.0);
     }
-    float its_weight = weightOf(slot, bracing);
-    if (bracing > 0.0) its_weight /= precedence(self_slot, slot, offset);
+    float its_weight = 1.0;
+    if (bracing > 0.0) {
+        vec2 its = weights[slot];
+        its_weight = its.x / precedence(self_slot, mine.y, slot, its.y, offset);
+    }
     float arm = crossOf(along.x * target.zw, apart), its_arm = crossOf(along.y * other.zw, apart);
     float turn = turnPerMetre(arm, self.radius, thickness);
     float its_turn = turnPerMetre(its_arm, its_radius, its_thickness);
-    float share = its_weight / (its_weight * (1.0 + arm * turn) + weight * (1.0 + its_arm * its_turn));
+    float share = its_weight / (its_weight * (1.0 + arm * turn) + mine.x * (1.0 + its_arm * its_turn));
     push.way += apart * (depth * share);
     push.turn += turn * depth * share;
     push.count += 1.0;
@@ -48,15 +51,15 @@ void addPush(Body self, uint self_slot, float weight, uint slot, vec4 target, in
 
 Push pushFromNeighbours(Body self, uint self_slot, uint touching, vec4 target) {
     Push push = Push(vec2(0.0), 0.0, 0.0);
-    float weight = weightOf(self_slot, bracing);
+    vec2 mine = bracing > 0.0 ? weights[self_slot] : vec2(1.0, 0.0);
     if (touching <= TOUCH_CAPACITY) {
         for (uint i = 0u; i < touching; ++i)
-            addPush(self, self_slot, weight, touch_lists[self_slot * TOUCH_CAPACITY + i], target, push);
+            addPush(self, self_slot, mine, touch_lists[self_slot * TOUCH_CAPACITY + i], target, push);
     } else {
         ivec2 cell = cellOf(self.position);
         for (int y = cell.y - 1; y <= cell.y + 1; ++y) {
             uvec2 run = slotRun(cell.x, y);
-            for (uint slot = run.x; slot < run.y; ++slot) addPush(self, self_slot, weight, slot, target, push);
+            for (uint slot = run.x; slot < run.y; ++slot) addPush(self, self_slot, mine, slot, target, push);
         }
     }
     // Plain sums overshoot where many push: a mildly over-relaxed average converges and does not ring.

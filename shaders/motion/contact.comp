@@ -16,9 +16,12 @@ layout(std140) uniform ParametersBlock { Parameters parameters; };
 layout(std430) readonly buffer TouchDispatch { uint touch_groups[3]; uint touch_count; };
 layout(std430) readonly buffer TouchSlots { uint touch_slots[]; };
 layout(std430) readonly buffer Bodies { Body bodies[]; };
+#ifdef BODIES
 layout(std430) readonly buffer Walkers { Walker walkers[]; };
+#endif
 layout(std430) readonly buffer PreferredVelocities { vec2 preferred_velocities[]; };
 layout(std430) readonly buffer TouchWords { uint touch_words[]; };
+layout(std430) readonly buffer Weights { vec2 weights[]; };  // weight, and urgency (urgency.glsl)
 layout(std430) readonly buffer TouchLists { uint touch_lists[]; };
 layout(std430) readonly buffer WallSegments { WallSegment wall_segments[]; };
 layout(std430) readonly buffer WallStarts { uint wall_starts[]; };
@@ -34,10 +37,7 @@ uniform float bracing;   // 1 = who is carried off its way gives less than other
 #include "shaders/cells/cell_runs.glsl"
 #include "shaders/shared/walls.glsl"
 #include "shaders/motion/walking_behind.glsl"
-#include "shaders/motion/impatience.glsl"
-#include "shaders/motion/standing_fast.glsl"
-#include "shaders/motion/headway.glsl"
-#include "shaders/motion/taking_turns.glsl"
+#include "shaders/motion/urgency.glsl"
 #include "shaders/motion/nearest_first.glsl"
 #include "shaders/motion/apart_direction.glsl"
 #ifdef BODIES

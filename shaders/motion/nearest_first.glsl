@@ -11,16 +11,13 @@
 // Only in and before narrow passages, which the scene's geometry tells (authoring/scene/narrow_places.h): where streams
 // meet beside long walls, whoever is caught between a heavy neighbour and those who come the other way has nowhere to
 // go, and bodies overlap (docs/motion-notebook.md).
-// Needs the blocks Bodies, Walkers, PreferredVelocities and TouchWords, and shaders/motion/walking_behind.glsl
-// and impatience.glsl.
-
-bool takesTurnsAt(uint slot) { return takesTurns(walkers[slot], touch_words[slot]); }
+// Needs the block PreferredVelocities, and shaders/motion/walking_behind.glsl and urgency.glsl.
 
 /// By what factor somebody is heavier (above 1) or lighter than usual beside another.
-/// @param offset from the other to oneself, m
-float precedence(uint self_slot, uint slot, vec2 offset) {
-    if (!NEAREST_FIRST_ENABLED || !(takesTurnsAt(self_slot) || takesTurnsAt(slot))) return 1.0;
-    float impatience = max(impatienceOf(walkers[self_slot].nervousness), impatienceOf(walkers[slot].nervousness));
+/// @param urgency one's own (urgency.glsl); @param its the other's; @param offset from the other to oneself, m
+float precedence(uint self_slot, float urgency, uint slot, float its_urgency, vec2 offset) {
+    if (!NEAREST_FIRST_ENABLED || !(takesTurns(urgency) || takesTurns(its_urgency))) return 1.0;
+    float impatience = max(abs(urgency), abs(its_urgency));
     vec2 mine = preferred_velocities[self_slot];
     vec2 its = preferred_velocities[slot];
     if (impatience <= 0.0 || length(mine) <= STANDING_SPEED || length(its) <= STANDING_SPEED) return 1.0;

@@ -28,8 +28,11 @@ vec2 keepOutOfWalls(Body self, vec2 position) {
     uint first = wall_starts[cell];
     uint last = wall_starts[cell + 1u];
     // Leaving one wall may lead into the next: a few rounds settle corners.
-    for (int round = 0; round < 3; ++round)
+    for (int round = 0; round < 3; ++round) {
+        vec2 was = position;
         for (uint i = first; i < last; ++i)
             position = pushFromWall(wall_segments[wall_items[i]], self.position, position, self.radius);
+        if (position == was) break;
+    }
     return position;
 }

@@ -82,8 +82,9 @@ void Ladders::makeContacts() {
             {rule, Contacts(parts_.library, parts_.buffers, parts_.settings.contact_iterations, rules,
                             {targets_, targets_after_, touch_words})});
     };
-    for (const Rung& rung : rungsOf(parts_.library, "shaders/motion/contact.comp", parts_.settings.motion,
-                                    "contact", {"contact_momentum"}))
+    for (const Rung& rung :
+         rungsOf(parts_.library, "shaders/motion/contact.comp", parts_.settings.motion, "contact",
+                 {"contact_momentum", "standing_fast", "headway", "impatience"}))
         add(rung.rule, rung.rules, touched_);
     add(kWalls, parts_.settings.motion, parts_.buffers.touch_words);
 }

@@ -97,8 +97,13 @@ def waiting(throng, once):
     return run
 
 
+def one_process(name):
+    """Those who look at the same bakes come one after the other: another process would only wait until they are made."""
+    return pytest.mark.xdist_group(f"who waits in the {name}")
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize("name", LAYOUTS)
+@pytest.mark.parametrize("name", [pytest.param(name, marks=one_process(name)) for name in LAYOUTS])
 def test_one_step_in_a_hundred_is_backwards_at_most(waiting, name):
     backward = [each.measured["backward_percent"] for each in waiting(name)]
     assert max(backward) < 1, backward
@@ -106,6 +111,7 @@ def test_one_step_in_a_hundred_is_backwards_at_most(waiting, name):
 
 
 @pytest.mark.slow
+@one_process("market")
 def test_who_looks_at_a_stall_stands(waiting):
     for each in waiting("market"):
         moved = each.moved_at_stops()
@@ -116,6 +122,7 @@ def test_who_looks_at_a_stall_stands(waiting):
 
 
 @pytest.mark.slow
+@one_process("lines")
 def test_who_waits_in_a_line_stands_still_and_faces_the_one_before_it(waiting):
     for each in waiting("lines"):
         queued = each.doing[1:] == QUEUED
@@ -130,6 +137,7 @@ def test_who_waits_in_a_line_stands_still_and_faces_the_one_before_it(waiting):
 
 
 @pytest.mark.slow
+@one_process("lines")
 def test_lines_serve_as_many_as_before(waiting):
     """55, 58 and 58 were served before people stood still."""
     served = [sum(last < len(each.doing) - 1 for _, _, last in each.spells(QUEUED)) for each in waiting("lines")]
@@ -137,6 +145,7 @@ def test_lines_serve_as_many_as_before(waiting):
 
 
 @pytest.mark.slow
+@one_process("station")
 def test_parties_get_through_the_barrier_of_the_station(waiting):
     """Who was beside its party, but for the barrier between them, stood there for good: 2, 10 and 2 people."""
     for each in waiting("station"):
@@ -145,6 +154,7 @@ def test_parties_get_through_the_barrier_of_the_station(waiting):
 
 
 @pytest.mark.slow
+@one_process("station")
 def test_who_stays_has_arrived_when_it_stands_in_its_place(waiting, once):
     for each, seed in zip(waiting("station"), SEEDS, strict=True):
         with open(once("waiting-station", None) / str(seed) / "agents.csv", newline="") as file:
