@@ -32,6 +32,7 @@ uniform uint slot_capacity;
 #include "shaders/shared/snap.glsl"
 #include "shaders/cells/cells.glsl"
 #include "shaders/shared/walls.glsl"
+#include "shaders/motion/climbing.glsl"
 #include "shaders/motion/linear_program.glsl"
 #include "shaders/shared/body_shape.glsl"
 #include "shaders/motion/half_width.glsl"
@@ -72,6 +73,17 @@ bool anybodyIsOncoming(uint slot) {
     return found;
 }
 
+/// Finds out who goes one after another: in narrow passages and on stairs, but where others come the other way.
+/// @returns whether somebody does so on stairs
+bool climbsInTurn(uint slot, uint flags) {
+    uint touch_word = touch_words[slot];
+    bool climbs = CLIMBING_ENABLED && isOnStairs(flags);
+    if (!climbs && (touch_word & TOUCH_IN_NARROWS) == 0u) return false;
+    bool in_turn = !anybodyIsOncoming(slot);
+    touch_words[slot] = in_turn ? touch_word | TOUCH_IN_NARROWS : touch_word & ~TOUCH_IN_NARROWS;
+    return climbs && in_turn;
+}
+
 void main() {
     uint slot = gl_GlobalInvocationID.x;
     if (slot >= live_count || isImage(walkers[slot].flags)) return;
@@ -89,12 +101,14 @@ void main() {
 
     // Manners depend on the pace of those with a headway of their own only; the others look at everybody just once.
     float headway = headwayOf(walker);
+    bool climbs = climbsInTurn(slot, walker.flags);
+    float kept = climbs ? max(headway, headwayOnStairs(walker.flags)) : headway;
 #ifdef BELTS
-    float pace = paceAmongAll(self, slot, way, speed, max(headway, headwayBeforeBelt(walker.flags)));
-#else
-    float pace = paceAmongAll(self, slot, way, speed, headway);
+    kept = max(kept, headwayBeforeBelt(walker.flags));
 #endif
+    float pace = paceAmongAll(self, slot, way, speed, kept);
     float impatience = impatienceOf(walker.nervousness);
+    if (climbs) impatience = 0.0;
 #ifdef BELTS
     if (RIDING_ENABLED && (walker.flags & WALKER_RIDES) != 0u) impatience = 0.0;  // people queue, and do not press
 #endif
@@ -102,9 +116,7 @@ void main() {
                               freedomAt(pace / max(speed, STANDING_SPEED)));
     Surroundings around = lookAround(self, slot, wish, manners);
     if (HEADWAY_IN_PEACE_ENABLED && around.in_peace && headway <= 0.0)
-        pace = paceAmongAll(self, slot, way, speed, headwayInPeace(impatience));
-    if ((touch_words[slot] & TOUCH_IN_NARROWS) != 0u && anybodyIsOncoming(slot)) touch_words[slot] &= ~TOUCH_IN_NARROWS;
-
+        pace = min(pace, paceAmongAll(self, slot, way, speed, headwayInPeace(impatience)));
     vec2 acceleration = drive(wish, speed, pace, self.velocity) + around.room * shareOfRoom(speed) +
                         company(self, walker, way, speed);
     vec2 wanted = self.velocity + acceleration * parameters.decision_seconds;

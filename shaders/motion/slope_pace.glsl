@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Slopes: how much slower people walk uphill, and faster or slower downhill, as a factor on their speed in plan.
-// Needs shaders/shared/terrain.glsl, and where ground moves shaders/charts/belts.glsl.
+// Needs shaders/shared/terrain.glsl and shaders/motion/climbing.glsl, and where ground moves shaders/charts/belts.glsl.
 
 /// Tobler's hiking function (1993), 6 exp(-3.5 |slope + 0.05|) km/h, over its value on flat ground: fastest at 5 %
 /// down.
@@ -16,12 +16,30 @@ float stairPace(float slope) {
     return mix(1.0, least, min(abs(slope) / SLOPE_PACE_STAIRS_RISE, 1.0));
 }
 
-float slopePace(vec2 position, vec2 direction) {
-    float slope = smoothSlope(position, direction, SLOPE_PACE_REACH);
-    float stairs = smoothstep(SLOPE_PACE_STAIRS_BEGIN, SLOPE_PACE_STAIRS_COMPLETE, smoothGround(position).y);
+/// The ground in a direction.
+struct Incline {
+    float slope;   // rise over run
+    float stairs;  // 0: a ramp, 1: stairs
+    bool is_belt;
+};
+
+Incline inclineAt(vec2 position, vec2 direction) {
+    Incline incline;
+    incline.slope = smoothSlope(position, direction, SLOPE_PACE_REACH);
+    incline.stairs = smoothstep(SLOPE_PACE_STAIRS_BEGIN, SLOPE_PACE_STAIRS_COMPLETE, smoothGround(position).y);
+    incline.is_belt = false;
 #ifdef BELTS
     uint chart = chartOf(chartCellAt(position));
-    if (isBelt(chart)) stairs = float(belts[chart].has_steps);
+    incline.is_belt = isBelt(chart);
+    if (incline.is_belt) incline.stairs = float(belts[chart].has_steps);
 #endif
-    return mix(hikingPace(slope), stairPace(slope), stairs);
+    return incline;
+}
+
+float paceOn(Incline incline) { return mix(hikingPace(incline.slope), stairPace(incline.slope), incline.stairs); }
+
+/// WALKER_CLIMBS, WALKER_DESCENDS or none: how people walk on belts is a rule of its own.
+uint climbingFlags(Incline incline) {
+    if (incline.is_belt || incline.stairs < 0.5) return 0u;
+    return incline.slope > 0.0 ? WALKER_CLIMBS : WALKER_DESCENDS;
 }

@@ -41,6 +41,7 @@ uniform uint steps_done;  // counted with this one
 #endif
 #ifdef TERRAIN
 #include "shaders/shared/terrain.glsl"
+#include "shaders/motion/climbing.glsl"
 #include "shaders/motion/slope_pace.glsl"
 #endif
 
@@ -72,7 +73,9 @@ void main() {
 
     float speed = walker.preferred_speed;
 #ifdef TERRAIN
-    speed *= slopePace(position, direction);
+    Incline incline = inclineAt(position, direction);
+    walkers[slot].flags |= climbingFlags(incline);
+    speed *= paceOn(incline);
 #endif
     if (in_party) speed *= paceInParty(row, walker, stage, ahead.remaining);
     bool stopped = walker.status == STATUS_ARRIVED || walker.leave_step != 0u;

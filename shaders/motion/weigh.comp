@@ -11,6 +11,7 @@ layout(std430) readonly buffer PreferredVelocities { vec2 preferred_velocities[]
 layout(std430) readonly buffer TouchWords { uint touch_words[]; };
 layout(std430) writeonly buffer Weights { vec2 weights[]; };
 
+#include "shaders/motion/climbing.glsl"
 #include "shaders/motion/walking_behind.glsl"
 #include "shaders/motion/headway.glsl"
 #include "shaders/motion/impatience.glsl"
@@ -21,7 +22,10 @@ layout(std430) writeonly buffer Weights { vec2 weights[]; };
 void main() {
     uint slot = gl_GlobalInvocationID.x;
     if (slot >= live_count) return;
+    // On stairs nobody is pushed on by those behind.
+    bool in_turn = (touch_words[slot] & TOUCH_IN_NARROWS) != 0u;
+    bool climbs = CLIMBING_ENABLED && in_turn && isOnStairs(walkers[slot].flags);
     weights[slot] = vec2(weightAgainst(preferred_velocities[slot], bodies[slot].velocity),
-                         urgencyOf(takesTurns(walkers[slot], touch_words[slot]),
-                                   impatienceOf(walkers[slot].nervousness)));
+                         urgencyOf(climbs || takesTurns(walkers[slot], touch_words[slot]),
+                                   climbs ? 1.0 : impatienceOf(walkers[slot].nervousness)));
 }

@@ -84,7 +84,7 @@ void Ladders::makeContacts() {
     };
     for (const Rung& rung :
          rungsOf(parts_.library, "shaders/motion/contact.comp", parts_.settings.motion, "contact",
-                 {"contact_momentum", "standing_fast", "headway", "impatience"}))
+                 {"contact_momentum", "standing_fast", "headway", "impatience", "climbing"}))
         add(rung.rule, rung.rules, touched_);
     add(kWalls, parts_.settings.motion, parts_.buffers.touch_words);
 }

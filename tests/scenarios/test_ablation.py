@@ -56,11 +56,20 @@ def escalator(folder):
     return str(folder / "escalator.json")
 
 
+def stairs(folder):
+    """Sixty people who want to go up at once."""
+    layout = hall([{"id": "link", "type": "stairs", "from": "ground", "to": "upper", "path": [[-9, 0], [-2, 0]],
+                    "width": 1.5}], up(60, 10), duration=30)
+    (folder / "stairs.json").write_text(json.dumps(layout))
+    return str(folder / "stairs.json")
+
+
 @pytest.mark.slow
 def test_every_switch_of_a_rule_changes_what_people_do_somewhere(tmp_path):
     module = ablate_module()
     left = set(module.variants()) - {"all"}
-    for scenario, seconds in {**PLACES, door_for_bodies(tmp_path): 10, escalator(tmp_path): 30}.items():
+    others = {door_for_bodies(tmp_path): 10, escalator(tmp_path): 30, stairs(tmp_path): 30}
+    for scenario, seconds in {**PLACES, **others}.items():
         names = sorted(left & set(module.chosen(module.layout_of(scenario), [])))
         if names:
             left -= seen_at_work(tmp_path / f"at {pathlib.Path(scenario).stem}", scenario, seconds, names)

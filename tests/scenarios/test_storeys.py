@@ -168,6 +168,25 @@ def test_stairs_are_climbed_as_weidmann_measured(throng, tmp_path, start, to, pa
     assert abs(numpy.diff(x)[on_stairs[1:]]).mean() * 24 == pytest.approx(pace, rel=0.05)
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("start, to, most", [("hall", "gallery", 0.88), ("gallery", "hall", 1.1)])
+def test_stairs_that_are_pressed_upon_take_no_more_than_imo_allows(throng, tmp_path, start, to, most):
+    """IMO MSC.1/Circ.1533: specific flows of 0.88 persons/(s m) up and 1.1 down at most, within the 10 % by which single
+    crowds differ; without the rule of climbing 1.6. Three in five of that many come through, or stairs would jam."""
+    layout = {
+        "throng": 1, "simulation": {"duration": 75},
+        "levels": [{"id": "below", "floor": box(-22, -6, 0, 6)},
+                   {"id": "upper", "height": 4, "floor": box(0, -6, 14, 6)}],
+        "links": [{"id": "link", "type": "stairs", "from": "below", "to": "upper", "path": [[-8, 0], [0, 0]],
+                   "width": 2}],
+        "areas": [{"id": "hall", "polygon": box(-21, -5, -13, 5)},
+                  {"id": "gallery", "level": "upper", "polygon": box(6, -5, 13, 5)}],
+        "flows": [{"id": "all", "from": start, "to": to, "count": 160, "end": 32}]}
+    figures = measured(throng, bake(throng, tmp_path, layout))
+    assert 0.6 * most < figures["links"][0]["specific_flow"] < 1.1 * most
+    assert figures["deepest_overlap_percent"] < 2 and figures["wall_crossings"] == 0
+
+
 @pytest.mark.parametrize("cut", [False, True])
 def test_a_jam_beyond_a_seam_is_avoided(throng, tmp_path, cut):
     """A hall with two doors in its middle wall, the nearer one full of people who stand, beside a seam or not."""
