@@ -39,6 +39,14 @@ uniform uint steps_done;  // counted with this one
 #include "shaders/motion/riding.glsl"
 #include "shaders/motion/wish_on_belts.glsl"
 #endif
+#ifdef TRAFFIC
+#include "shaders/shared/traffic_types.h"
+layout(std430) readonly buffer Crossings { TrafficCrossing crossings[]; };
+layout(std430) readonly buffer CrossingPoints { vec2 crossing_points[]; };
+layout(std430) readonly buffer Lights { uint lights[]; };
+#include "shaders/traffic/crossings.glsl"
+#include "shaders/traffic/held_at_red.glsl"
+#endif
 #ifdef TERRAIN
 #include "shaders/shared/terrain.glsl"
 #include "shaders/motion/slope_pace.glsl"
@@ -81,6 +89,14 @@ void main() {
         walkers[slot].flags |= WALKER_AT_REST;
         speed = 0.0;
     }
+#ifdef TRAFFIC
+    float free_way = wayToRed(position, bodies[slot].radius, row, ahead.direction);
+    if (free_way < FREE_OF_RED) {
+        walkers[slot].flags |= WALKER_HELD;
+        if (free_way <= AT_KERB) walkers[slot].flags |= WALKER_AT_REST;
+        speed = free_way <= AT_KERB ? 0.0 : min(speed, speedBeforeRed(free_way));
+    }
+#endif
     vec2 wish = direction * speed;
 #ifdef BELTS
     if (rides && ride.on) {
