@@ -37,6 +37,27 @@ double alongLine(const std::vector<glm::dvec2>& points, glm::dvec2 place) {
     return found;
 }
 
+double distanceToLine(const std::vector<glm::dvec2>& points, glm::dvec2 place) {
+    double least = 1.0e300;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const glm::dvec2 axis = points[i] - points[i - 1];
+        const double share =
+            std::clamp(glm::dot(place - points[i - 1], axis) / glm::dot(axis, axis), 0.0, 1.0);
+        least = std::min(least, glm::distance(place, points[i - 1] + share * axis));
+    }
+    return least;
+}
+
+bool isIn(const std::vector<glm::dvec2>& polygon, glm::dvec2 place) {
+    bool inside = false;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const glm::dvec2 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+        if ((a.y > place.y) != (b.y > place.y) && place.x < a.x + (b.x - a.x) * (place.y - a.y) / (b.y - a.y))
+            inside = !inside;
+    }
+    return inside;
+}
+
 /// From where to where along a line it is in a polygon, if it is.
 std::optional<std::pair<double, double>> spanIn(const std::vector<glm::dvec2>& points,
                                                 const std::vector<glm::dvec2>& polygon) {
@@ -85,9 +106,33 @@ class Builder {
         made.light = gpu::NO_LIGHT;
         for (const Signal& signal : traffic_.signals)
             if (made.light == gpu::NO_LIGHT) made.light = lightOf(signal, &Phase::crossings, index);
+        made.entries = entriesOf(crossing);
         for (const glm::dvec2 point : crossing.polygon)
             scene_.crossing_points.push_back(rebase_.local(point));
         scene_.crossings.push_back(made);
+    }
+
+    /// Its edges with walkable ground behind them, as bits; all where there is nothing to tell them by.
+    std::uint32_t entriesOf(const Zebra& crossing) const {
+        constexpr double kBeyond = 0.5;  // m
+        std::uint32_t found = 0;
+        const std::size_t count = std::min<std::size_t>(crossing.polygon.size(), gpu::MOST_ENTRIES);
+        for (std::size_t i = 0; i < count; ++i) {
+            const glm::dvec2 a = crossing.polygon[i];
+            const glm::dvec2 edge = crossing.polygon[(i + 1) % crossing.polygon.size()] - a;
+            const glm::dvec2 outward = glm::normalize(glm::dvec2(edge.y, -edge.x)) * kBeyond;
+            for (const glm::dvec2 beyond : {a + 0.5 * edge + outward, a + 0.5 * edge - outward})
+                if (!isIn(crossing.polygon, beyond) && isWalkable(beyond)) found |= 1u << i;
+        }
+        return found ? found : ~0u;
+    }
+
+    bool isWalkable(glm::dvec2 place) const {
+        return std::ranges::any_of(layout_.areas,
+                                   [&](const Area& area) { return isIn(area.polygon, place); }) ||
+               std::ranges::any_of(layout_.roads, [&](const Road& road) {
+                   return distanceToLine(road.centreline, place) <= 0.5 * road.width;
+               });
     }
 
     /// When something is green by a signal; gpu::NO_LIGHT where the signal does not have it.

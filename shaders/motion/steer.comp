@@ -90,11 +90,12 @@ void main() {
         speed = 0.0;
     }
 #ifdef TRAFFIC
-    float free_way = wayToRed(position, bodies[slot].radius, row, ahead.direction);
-    if (free_way < FREE_OF_RED) {
+    Hold hold = heldAtRed(stage, position, ahead, bodies[slot].radius, row);
+    if (hold.is_held) {
         walkers[slot].flags |= WALKER_HELD;
-        if (free_way <= AT_KERB) walkers[slot].flags |= WALKER_AT_REST;
-        speed = free_way <= AT_KERB ? 0.0 : min(speed, speedBeforeRed(free_way));
+        direction = hold.direction;
+        speed = min(speed, hold.speed);
+        if (speed == 0.0) walkers[slot].flags |= WALKER_AT_REST;
     }
 #endif
     vec2 wish = direction * speed;

@@ -81,9 +81,10 @@ struct TrafficStop {
 struct TrafficCrossing {
     uint first_point;
     uint point_count;
-    uint light;  // or NO_LIGHT: people may always cross
-    uint reserved;
+    uint light;    // or NO_LIGHT: people may always cross
+    uint entries;  // bit by bit, whether people come in over the edge from a point to the next
 };
+const uint MOST_ENTRIES = 32u;
 
 THRONG_SHARED_END
 
