@@ -16,7 +16,7 @@ const gl::Declaration kDrive = {
     {"Vehicles", "VehicleBoxesMade"}};
 const gl::Declaration kKeepOff = {
     "contacts",
-    {"shaders/traffic/keep_off.comp"},
+    {"shaders/motion/keep_off.comp"},
     {"ParametersBlock", "LiveDispatch", "Bodies", "TouchWords", "WallSegments", "WallStarts", "WallItems",
      "VehicleBoxes", "Crossings", "CrossingPoints", "Lights", "Targets"},
     {"Targets"}};

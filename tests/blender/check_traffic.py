@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs inside Blender: imports a bake with vehicles and says where they are, how wheels turn and which lamps are lit."""
+"""Runs inside Blender: imports a bake with vehicles and says where they are, how wheels turn, which lamps are lit."""
 import json
 import math
 import os

@@ -35,8 +35,7 @@ def build_environment(context, manifest, collection, *, walls=True, roads=True, 
     if ground:
         for thing in (terrain_module.build_terrain(*terrain, manifest) if terrain else streets.build_ground(manifest)):
             collection.objects.link(thing)
-    for thing in traffic.build_traffic(manifest, folder, frame_start, street=roads and not terrain):
-        collection.objects.link(thing)
+    traffic.build_traffic(collection, manifest, folder, frame_start, roads, terrain)
     if bake:
         collection["throng_dressing"] = dressing.build_dressing(bake, collection, terrain)
     if light:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Lanes, crossings, signals and the vehicles of a bake. Vehicles are objects with curves of their own, a key a frame, as
-an animator would have them: nothing runs while Blender renders."""
+"""Lanes, crossings, signals and the vehicles of a bake. Vehicles are objects with curves of their own, a key a frame,
+as an animator would have them: nothing runs while Blender renders."""
 import math
 import os
 
@@ -38,7 +38,8 @@ def read_track(folder, manifest):
 
 def build_street(traffic):
     """What is painted and paved, as objects."""
-    asphalt = weathered(materials.mottled("asphalt", (0.040, 0.041, 0.043), (0.075, 0.075, 0.076), 0.25, 0.9, 60.0, 0.12))
+    asphalt = weathered(materials.mottled("asphalt", (0.040, 0.041, 0.043), (0.075, 0.075, 0.076), 0.25, 0.9, 60.0,
+                                          0.12))
     paint = weathered(materials.mottled("paint", (0.42, 0.42, 0.40), (0.70, 0.70, 0.68), 3.0, 0.7, 30.0))
     street = Shape("Throng lanes")
     for number, lane in enumerate(traffic["lanes"]):
@@ -136,7 +137,8 @@ def _green_times(signal, lane, seconds):
 def _post(place, heading, times, fps, frame_start):
     dark = materials.plain("signal post", (0.03, 0.035, 0.03), 0.5)
     post = Shape("Throng signal")
-    post.prism([(0.05 * math.cos(t), 0.05 * math.sin(t)) for t in (math.tau * i / 10 for i in range(10))], 0.0, 2.3, dark)
+    pole = [(0.05 * math.cos(math.tau * i / 10), 0.05 * math.sin(math.tau * i / 10)) for i in range(10)]
+    post.prism(pole, 0.0, 2.3, dark)
     post.prism([(-0.06, -0.14), (0.14, -0.14), (0.14, 0.14), (-0.06, 0.14)], 2.3, 3.1, dark)
     objects = [post.to_object()]
     for name, z, colour, lit in (("red", 2.88, (0.9, 0.03, 0.02), False), ("green", 2.52, (0.03, 0.8, 0.25), True)):
@@ -160,15 +162,21 @@ def _key_hidden(thing, hidden, frame):
 
 # Vehicles
 
-def build_traffic(manifest, folder, frame_start, street=True):
-    """All of it that a bake has, as objects."""
+def build_traffic(collection, manifest, folder, frame_start, roads, terrain):
+    """All of it that a bake has.
+
+    @param roads whether the street is built; a terrain takes its place
+    """
     traffic = (manifest.get("geometry") or {}).get("traffic")
     if not traffic:
-        return []
-    objects = build_street(traffic) if street else []
+        return
+    objects = build_street(traffic) if roads and not terrain else []
     objects += build_signals(traffic, float(manifest["fps"]), frame_start, int(manifest["frames"]))
     track = read_track(folder, manifest) if folder else None
-    return objects if track is None else objects + build_vehicles(manifest, track, frame_start)
+    if track is not None:
+        objects += build_vehicles(manifest, track, frame_start)
+    for thing in objects:
+        collection.objects.link(thing)
 
 
 def build_vehicles(manifest, track, frame_start):
