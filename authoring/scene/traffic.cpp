@@ -266,13 +266,6 @@ class Builder {
 
 }  // namespace
 
-bool LightPlan::isGreen(double time) const {
-    double into = std::fmod(time + offset, cycle);
-    if (into < 0.0) into += cycle;
-    return std::ranges::any_of(green,
-                               [&](const Span& span) { return into >= span.begin && into < span.end; });
-}
-
 bool keepsToRoads(const Layout& layout) {
     return !layout.roads.empty() || !layout.traffic.crossings.empty();
 }

@@ -22,15 +22,13 @@ layout(std430) readonly buffer Lights { uint lights[]; };
 #include "shaders/shared/walls.glsl"
 #include "shaders/motion/out_of_walls.glsl"
 
-const float HAIR = 0.005;  // m
-
 vec2 outOfVehicles(vec2 place, float radius) {
     for (uint i = 0u; i < VEHICLES; ++i) {
         VehicleBox box = vehicle_boxes[i];
         if (box.half_width <= 0.0) continue;
         vec2 outward;
         float away = distanceToBox(place, box.rear, box.front, box.half_width, outward);
-        if (away < radius) place += outward * (radius + HAIR - away);
+        if (away < radius) place += outward * (radius + HAIR_FROM_VEHICLES - away);
     }
     return place;
 }

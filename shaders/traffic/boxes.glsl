@@ -2,6 +2,8 @@
 // Vehicles as people meet them: boxes on the ground. Only with TRAFFIC.
 #include "shaders/shared/traffic_types.h"
 
+const float HAIR_FROM_VEHICLES = 0.005;  // m: what is left free between them and bodies
+
 layout(std140) uniform VehicleBoxes { VehicleBox vehicle_boxes[MOST_VEHICLES]; };
 
 /// m: from a box to a place, below 0 inside.
