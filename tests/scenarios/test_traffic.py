@@ -77,13 +77,13 @@ def test_vehicles_run_over_nobody_and_get_on(throng, tmp_path, signal):
     vehicles = [{"id": "east", "lane": "east", "rate": 0.25, "end": 40},
                 {"id": "bus", "lane": "west", "kind": "bus", "times": [1, 30]},
                 {"id": "bicycle", "lane": "west", "kind": "bicycle", "times": [10, 12, 14]}]
-    folder = bake(throng, tmp_path / "driven", street(130, signal=signal, vehicles=vehicles))
+    folder = bake(throng, tmp_path / "driven", street(170, signal=signal, vehicles=vehicles))
     figures = measured(throng, folder)
     assert figures["run_over"] == 0 and figures["vehicle_clearance"] > 0.0
     assert figures["arrived"] == 30
     track = numpy.load(folder / "vehicles.npy")
     listed = json.loads((folder / "bake.json").read_text())["vehicles"]["list"]
-    assert track.shape == (130 * 24, len(listed), 8) and len(listed) > 8
+    assert track.shape == (170 * 24, len(listed), 8) and len(listed) > 8
     there = track[..., COLUMNS["state"]] > 0
     assert there.any(axis=0).all()
     assert not there[-1].any()  # all of them have left

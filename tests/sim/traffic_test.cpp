@@ -146,7 +146,7 @@ TEST_F(TrafficTest, AStreamBeforeALightIsWhatAPlainReferenceMakesOfIt) {
 }
 
 TEST_F(TrafficTest, StandsAtItsStopForItsTime) {
-    authoring::Scene scene = straightLane(500.0f);
+    authoring::Scene scene = straightLane(2000.0f);
     scene.traffic.vehicles = {carAt(0.0f)};
     scene.traffic.stops = {{100.0f, 0.0f, 12.0f, gpu::STOP_FOR_TIME, gpu::NO_LIGHT, gpu::NO_INDEX}};
     scene.traffic.lanes[0].stop_count = 1;
