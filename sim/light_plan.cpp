@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "authoring/scene_traffic.h"
+#include "authoring/scene.h"
 
 // Only simulations ask, which do without the library that builds scenes.
 namespace throng::authoring {
