@@ -109,7 +109,9 @@ void TrafficLayer::drawCrossing(cairo_t* context, const PlateView& view,
     addPath(context, view, crossing.polygon);
     cairo_clip(context);
     setColour(context, kPaint);
-    for (double at = lower.y + 0.5 * kStripe; at < upper.y; at += 2.0 * kStripe) {
+    const int stripes = static_cast<int>(std::ceil((upper.y - lower.y) / (2.0 * kStripe)));
+    for (int i = 0; i < stripes; ++i) {
+        const double at = lower.y + (2.0 * i + 0.5) * kStripe;
         const auto corner = [&](double x, double y) { return middle + along * x + aside * y; };
         addPath(context, view,
                 std::array{corner(lower.x, at), corner(upper.x, at), corner(upper.x, at + kStripe),
