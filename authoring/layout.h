@@ -14,6 +14,7 @@
 #include "authoring/diagram_method.h"
 #include "authoring/expectation.h"
 #include "authoring/source_position.h"
+#include "authoring/traffic.h"
 #include "base/motion_settings.h"
 
 /// What a layout file says, checked but not yet interpreted. World coordinates: metres, double precision,
@@ -375,6 +376,7 @@ struct Layout {
     std::vector<Event> events;  ///< in the order of their times
     std::vector<SeatBlock> seats;
     std::vector<Show> shows;
+    Traffic traffic;
     std::vector<Expectation> expectations;
     std::optional<Line> flow_line;  ///< across which people are counted for the bar on `flow`
 };

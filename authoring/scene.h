@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "authoring/layout.h"
+#include "authoring/scene_traffic.h"
 #include "authoring/terrain/terrain.h"
 #include "shaders/shared/chart_types.h"
 #include "shaders/shared/scene_types.h"
@@ -115,6 +116,7 @@ struct Scene {
     std::vector<gpu::WallTile> wall_tiles;
     std::vector<GateMove> gate_moves;          ///< in the order of their times
     std::vector<std::uint32_t> open_at_start;  ///< walls
+    SceneTraffic traffic;
 
     FieldGrid grid;
     FieldStore fields;

@@ -35,6 +35,8 @@ struct Frame {
     /// rows x 3 values each, places in the scene frame; empty where there is no such stream
     PerStream<std::span<const float>> streams{};
     const DiagramImage* diagram = nullptr;
+    /// kVehicleFloats of each vehicle, as base/vehicle_track.h has them; empty where there are none
+    std::span<const float> vehicles{};
 
     std::span<const float>& operator[](Stream stream) { return streams[stream]; }
     std::span<const float> operator[](Stream stream) const { return streams[stream]; }

@@ -194,6 +194,74 @@ void readGeometry(const ManifestReader& reader, Bake& bake) {
     });
 }
 
+template <class Thing>
+std::size_t indexNamed(const ManifestReader& reader, const std::vector<Thing>& things,
+                       const std::string& member) {
+    const auto known = std::ranges::find(things, reader.text(member), &Thing::id);
+    if (known == things.end()) reader.fail(member, "an id that the bake has");
+    return static_cast<std::size_t>(known - things.begin());
+}
+
+template <class Thing>
+std::vector<std::size_t> indicesNamed(const ManifestReader& reader, const std::vector<Thing>& things,
+                                      const std::string& member) {
+    std::vector<std::size_t> found;
+    reader.each(member, [&](const ManifestReader& name) { found.push_back(indexNamed(name, things, "")); });
+    return found;
+}
+
+void readSignals(const ManifestReader& reader, authoring::Traffic& traffic) {
+    reader.each("/geometry/traffic/signals", [&](const ManifestReader& each) {
+        authoring::Signal signal;
+        signal.id = each.text("/id");
+        signal.offset = each.number("/offset", 0.0, kLongest);
+        each.each("/phases", [&](const ManifestReader& part) {
+            authoring::Phase phase;
+            phase.name = part.text("/name");
+            phase.seconds = part.number("/seconds", 0.0, kLongest);
+            phase.crossings = indicesNamed(part, traffic.crossings, "/crossings");
+            phase.lanes = indicesNamed(part, traffic.lanes, "/lanes");
+            signal.phases.push_back(std::move(phase));
+        });
+        if (signal.phases.empty() || signal.cycle() <= 0.0) each.fail("/phases", "phases that take time");
+        traffic.signals.push_back(std::move(signal));
+    });
+}
+
+void readTraffic(const ManifestReader& reader, Bake& bake) {
+    if (!reader.has("/geometry/traffic")) return;
+    reader.each("/geometry/traffic/crossings", [&](const ManifestReader& crossing) {
+        bake.traffic.crossings.push_back({crossing.text("/id"), crossing.points("/polygon", 3), {}});
+    });
+    reader.each("/geometry/traffic/lanes", [&](const ManifestReader& each) {
+        authoring::Lane lane;
+        lane.id = each.text("/id");
+        lane.points = each.points("/points", 2);
+        lane.width = each.length("/width");
+        bake.traffic.lanes.push_back(std::move(lane));
+    });
+    readSignals(reader, bake.traffic);
+    std::size_t lane = 0;
+    reader.each("/geometry/traffic/lanes", [&](const ManifestReader& each) {
+        each.each("/stops", [&](const ManifestReader& part) {
+            authoring::LaneStop stop;
+            stop.at = part.point("/at");
+            if (part.has("/signal")) stop.signal = indexNamed(part, bake.traffic.signals, "/signal");
+            bake.traffic.lanes[lane].stops.push_back(stop);
+        });
+        ++lane;
+    });
+}
+
+void readVehicleList(const ManifestReader& reader, Bake& bake) {
+    if (!reader.has("/vehicles")) return;
+    reader.each("/vehicles/list", [&](const ManifestReader& vehicle) {
+        bake.vehicles.push_back({vehicle.text("/flow"), vehicle.text("/kind"), vehicle.length("/length"),
+                                 vehicle.length("/width"), vehicle.length("/height"),
+                                 vehicle.length("/wheel")});
+    });
+}
+
 void readExtent(const ManifestReader& reader, Bake& bake) {
     bake.fps = reader.number("/fps", kLeastRate, kMostRate);
     bake.frames = reader.count("/frames");
@@ -286,6 +354,8 @@ Bake loadBake(const fs::path& path) {
     readExtent(reader, bake);
     bake.seed = reader.count("/seed", ~std::uint64_t{0});
     readGeometry(reader, bake);
+    readTraffic(reader, bake);
+    readVehicleList(reader, bake);
     bake.account = {reader.count("/account/agents"), reader.count("/account/spawned"),
                     reader.count("/account/walking"), reader.count("/account/arrived"),
                     reader.count("/account/refused")};

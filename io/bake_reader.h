@@ -10,6 +10,7 @@
 
 #include "authoring/layout.h"
 #include "base/files/errors.h"
+#include "base/vehicle_track.h"
 #include "io/streams/stream_format.h"
 
 namespace throng::io {
@@ -31,6 +32,8 @@ struct Bake {
     std::vector<authoring::Road> roads;
     std::vector<authoring::Area> areas;
     std::vector<authoring::Wall> walls;
+    authoring::Traffic traffic;  ///< lanes, crossings and signals
+    std::vector<VehicleIdentity> vehicles;
     /// Floors above each other, if there are any; then also the lowest and highest ground along each wall, m.
     std::vector<authoring::Level> levels;
     std::vector<authoring::Link> links;

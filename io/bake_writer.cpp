@@ -13,6 +13,7 @@
 #include "base/files/output_file.h"
 #include "io/diagram/diagram_exr.h"
 #include "io/room_on_disk.h"
+#include "io/vehicle_file.h"
 #include "recording/gaits.h"
 
 namespace throng::io {
@@ -288,11 +289,17 @@ BakeOutcome BakeWriter::writeAll(const Account& account, const BakeTiming& timin
         files.push_back("terrain.glb");
         writeTerrainGlb(folder_->path() / files.back(), description_);
     }
+    const std::vector<float> vehicles = placedVehicles(description_, vehicle_track_, frames_);
+    if (!description_.vehicles.empty()) {
+        files.push_back(kVehicleFile);
+        writeVehicles(folder_->path() / files.back(), vehicles, frames_, description_.vehicles.size());
+    }
     if (description_.gltf) {
         files.push_back("crowd.glb");
         outcome.gltf = writeCrowdGlb(folder_->path() / files.back(), description_,
                                      {folder_->path(), description_.streams(), description_.formats, frames_,
-                                      static_cast<std::uint32_t>(description_.agents.size())});
+                                      static_cast<std::uint32_t>(description_.agents.size())},
+                                     vehicles);
     }
     for (const std::string& file : files)
         outcome.files.push_back({file, hashFile(folder_->path() / file)});

@@ -44,6 +44,8 @@ class BakeWriter {
     /// Writes the frame's diagram when it has one and its index is a multiple of `diagram_every`: in order,
     /// too, but as long before write() as one likes.
     void writeDiagram(const Frame& frame);
+    /// Where the vehicles of all frames were, as Frame::vehicles, before it is finished.
+    void takeVehicles(std::vector<float> track) { vehicle_track_ = std::move(track); }
 
     /// Completes the bake; std::logic_error unless all expected frames were written.
     BakeResult finish(const Account& account, const BakeTiming& timing);
@@ -85,6 +87,7 @@ class BakeWriter {
     std::vector<float> placed_;               ///< one frame of places in the output frame of reference
     std::optional<DiagramSummary> diagrams_;
     std::vector<BakeOutcome::File> diagram_files_;
+    std::vector<float> vehicle_track_;
 };
 
 }  // namespace throng::io

@@ -10,6 +10,7 @@
 #include "base/build_name.h"
 #include "base/outcomes.h"
 #include "io/streams/stream_format.h"
+#include "io/vehicle_file.h"
 
 namespace throng::io {
 namespace {
@@ -67,6 +68,7 @@ Json geometryToJson(const recording::BakeDescription& description) {
     for (const authoring::Area& area : description.areas)
         geometry["areas"].push_back({{"id", area.id}, {"polygon", pointsToJson(area.polygon, origin)}});
     if (!description.seats.empty()) geometry["seats"] = seatsToJson(description);
+    if (!description.traffic.empty()) geometry["traffic"] = trafficToJson(description.traffic, origin);
     if (description.levels.empty()) return geometry;
     for (std::size_t i = 0; i < description.roads.size(); ++i)
         geometry["roads"][i]["level"] = description.levels.at(description.roads[i].level).id;
@@ -269,6 +271,7 @@ Json bakeManifest(const recording::BakeDescription& description, const BakeOutco
         json["terrain"] = terrainToJson(*description.terrain, !description.levels.empty());
     if (!description.levels.empty()) json["levels"] = levelsToJson(description);
     if (!description.links.empty()) json["links"] = linksToJson(description);
+    if (!description.vehicles.empty()) json["vehicles"] = vehiclesToJson(description.vehicles);
     json["table"] = "agents.csv";
     json["gltf"] = gltfToJson(outcome.gltf);
     json["diagrams"] = diagramsToJson(description, outcome.diagrams);

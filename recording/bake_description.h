@@ -16,6 +16,7 @@
 #include "base/capsule.h"
 #include "base/stream_formats.h"
 #include "base/streams.h"
+#include "base/vehicle_track.h"
 
 namespace throng::recording {
 
@@ -117,6 +118,8 @@ struct BakeDescription {
     std::vector<authoring::Road> roads;
     std::vector<authoring::Area> areas;
     std::vector<authoring::Wall> walls;
+    authoring::Traffic traffic;  ///< where lanes, crossings and signals are
+    std::vector<VehicleIdentity> vehicles;
     std::optional<BakeTerrain>
         terrain;  ///< none: flat ground at height 0; floors and links of layouts with levels
     std::vector<authoring::Level> levels;

@@ -17,7 +17,10 @@ SECTIONS = {"point": ("point", "places-and-points"), "destination": ("destinatio
             "link": ("link", "links"), "road": ("road", "roads"),
             "area": ("area", "areas"), "wall": ("wall", "walls"), "flow": ("flow", "flows"),
             "formation": ("formation", "formations"), "event": ("event", "events"),
-            "seat_block": ("block of seats", "seats"), "show": ("show", "shows")}
+            "seat_block": ("block of seats", "seats"), "show": ("show", "shows"),
+            "crossing": ("crossing", "crossings"), "lane": ("lane", "lanes"), "lane_stop": ("stop of a lane", "lanes"),
+            "signal": ("signal", "signals"), "phase": ("phase", "signals"),
+            "vehicle_flow": ("flow of vehicles", "vehicles")}
 LINKED_KEYS = ("simulation", "motion")  # of the layout itself, which are no definitions
 COLUMNS = ("key", "type", "default", "limits", "unit", "meaning")
 SOURCE = "source"  # a column more where a table has any

@@ -282,9 +282,29 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
         slot_images = gl::Buffer("slot images", {rows, sizeof(gpu::SlotImage), kPerson});
         row_slots = gl::Buffer("row slots", {scene.people.size(), kWord, kPerson});
     }
+    if (!scene.traffic.empty()) makeTraffic(scene.traffic);
     queue_heads.fill(0);
     tickets.fill(0);
     detour_slopes.fill(0);
+}
+
+void Buffers::makeTraffic(const authoring::SceneTraffic& traffic) {
+    vehicles = gl::makeBuffer("vehicles", traffic.vehicles, "vehicle");
+    vehicle_boxes = gl::Buffer("vehicle boxes", {gpu::MOST_VEHICLES, sizeof(gpu::VehicleBox), "vehicle"});
+    vehicle_boxes.fill(0);
+    lanes = gl::makeBuffer("lanes", traffic.lanes, "lane");
+    lane_points = gl::makeBuffer("lane points", traffic.lane_points, "point of a lane");
+    traffic_stops = gl::makeBuffer("traffic stops", traffic.stops, "stop of a lane");
+    crossings = gl::makeBuffer("crossings", traffic.crossings, "crossing");
+    crossing_points = gl::makeBuffer("crossing points", traffic.crossing_points, "point of a crossing");
+    lights = gl::Buffer("lights", {traffic.lights.size(), kWord, "light"});
+    lights.fill(gpu::LIGHT_RED);
+    in_the_way = gl::Buffer("people in the way",
+                            {traffic.vehicles.size() + traffic.stops.size(), kWord, "vehicle or stop"});
+    traffic_ = {{"TRAFFIC", "1"},
+                {"VEHICLES", fmt::format("{}u", traffic.vehicles.size())},
+                {"LANES", fmt::format("{}u", traffic.lanes.size())},
+                {"CROSSINGS", fmt::format("{}u", traffic.crossings.size())}};
 }
 
 gl::ComputeProgram Buffers::connect(const gl::ShaderLibrary& library, const gl::Declaration& declaration,
@@ -307,6 +327,7 @@ gl::Definitions Buffers::definitions() const {
     if (has_bodies_) all.emplace_back("BODIES", "1");
     if (hasCharts()) all.emplace_back("CHARTS", "1");
     if (has_belts_) all.emplace_back("BELTS", "1");
+    all.insert(all.end(), traffic_.begin(), traffic_.end());
     return all;
 }
 
@@ -325,6 +346,16 @@ std::vector<std::pair<std::string, const gl::Buffer*>> Buffers::named() const {
             {"ChartShifts", &chart_shifts},
             {"Belts", &belts},
             {"SlotImages", &slot_images},
+            {"Vehicles", &vehicles},
+            {"VehicleBoxes", &vehicle_boxes},
+            {"VehicleBoxesMade", &vehicle_boxes},
+            {"Lanes", &lanes},
+            {"LanePoints", &lane_points},
+            {"TrafficStops", &traffic_stops},
+            {"Crossings", &crossings},
+            {"CrossingPoints", &crossing_points},
+            {"Lights", &lights},
+            {"InTheWay", &in_the_way},
             {"RowSlots", &row_slots},
             {"DetourSlopes", &detour_slopes},
             {"Queues", &queues},

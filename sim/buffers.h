@@ -36,6 +36,9 @@ struct Buffers {
     gl::Buffer wall_segments, wall_tiles, wall_starts, wall_items, narrow_cells;
     gl::Buffer chart_cells, chart_shifts, belts;
     gl::Buffer slot_images, row_slots;  // none without charts
+    // Signals and vehicles; of no use without traffic.
+    gl::Buffer vehicles, vehicle_boxes, lanes, lane_points, traffic_stops;
+    gl::Buffer crossings, crossing_points, lights, in_the_way;
 
     gl::Buffer cell_counts, cell_offsets, cell_cursors;                    // per cell
     gl::Buffer strip_counts, strip_marks, strip_starts, strip_group_sums;  // per strip of cells
@@ -64,7 +67,10 @@ struct Buffers {
     }
 
   private:
+    void makeTraffic(const authoring::SceneTraffic& traffic);
+
     bool has_bodies_, has_charts_, has_belts_;
+    gl::Definitions traffic_;  // how much of it there is
 };
 
 /// Cells, windows and limits that follow from a scene.

@@ -14,7 +14,9 @@
 #include <thread>
 #include <vector>
 
+#include "base/vehicle_track.h"
 #include "sim/gl/context.h"
+#include "sim/simulation_parts.h"
 
 namespace throng::sim {
 namespace {
@@ -27,6 +29,7 @@ struct Slot {
     gl::Buffer distances;
     gl::Buffer seconds;
     PerStream<gl::Buffer> streams;
+    gl::Buffer vehicles, vehicle_boxes;  // none without vehicles
     GLsync fence = nullptr;
     std::uint32_t index = 0;
     bool has_diagram = false;
@@ -36,6 +39,25 @@ struct Slot {
 template <class T>
 std::span<const T> view(const gl::Buffer& buffer, std::size_t first, std::size_t count) {
     return {reinterpret_cast<const T*>(buffer.mapped()) + first, count};
+}
+
+/// Places in the scene frame; the ground's height is known to those who write them.
+void trackVehicles(std::span<const gpu::Vehicle> vehicles, std::span<const gpu::VehicleBox> boxes,
+                   std::vector<float>& track) {
+    track.clear();
+    for (std::size_t i = 0; i < vehicles.size(); ++i) {
+        const gpu::Vehicle& vehicle = vehicles[i];
+        const gpu::VehicleBox& box = boxes[i];
+        if (box.half_width <= 0.0f) {
+            track.insert(track.end(), kVehicleFloats, 0.0f);
+            continue;
+        }
+        const glm::vec2 middle = 0.5f * (box.rear + box.front), way = box.front - box.rear;
+        const float state = vehicle.status == gpu::VEHICLE_STANDS ? kVehicleStands : kVehicleDrives;
+        for (const float value : {middle.x, middle.y, 0.0f, std::atan2(way.y, way.x), vehicle.speed,
+                                  vehicle.along, state, std::max(-vehicle.acceleration, 0.0f)})
+            track.push_back(value);
+    }
 }
 
 }  // namespace
@@ -50,6 +72,7 @@ struct FramePump::State {
     DiagramImage image;  // all but the pixels
     std::vector<float> metres;
     std::vector<std::uint32_t> sites, seconds;  // with charts
+    std::vector<float> vehicles;                // kVehicleFloats each
 
     std::deque<Slot*> in_flight;  // GL thread only: submitted, fence not yet seen
 
@@ -106,6 +129,13 @@ FramePump::FramePump(Simulation& simulation, const Cargo& cargo, Receiver receiv
                 slot.streams[info.id] =
                     gl::Buffer(fmt::format("{} read-back", info.name),
                                state_->rows * kComponents * sizeof(float), gl::Buffer::Use::read_back);
+        if (simulation.vehicles() > 0) {
+            const Buffers& buffers = simulation.parts().buffers;
+            slot.vehicles =
+                gl::Buffer("vehicles read-back", buffers.vehicles.bytes(), gl::Buffer::Use::read_back);
+            slot.vehicle_boxes = gl::Buffer("vehicle boxes read-back", buffers.vehicle_boxes.bytes(),
+                                            gl::Buffer::Use::read_back);
+        }
         if (!cargo.diagrams) continue;
         if (cargo.seconds)
             slot.seconds = gl::Buffer("second owners read-back", pixels * 4, gl::Buffer::Use::read_back);
@@ -142,6 +172,10 @@ bool FramePump::submit(std::uint32_t index, bool with_diagram) {
     slot.has_diagram = with_diagram;
     state.simulation.packFrame(slot.frame);
     state.packStreams(slot, false);
+    if (state.simulation.vehicles() > 0) {
+        slot.vehicles.copyFrom(state.simulation.parts().buffers.vehicles);
+        slot.vehicle_boxes.copyFrom(state.simulation.parts().buffers.vehicle_boxes);
+    }
     const Extent extent = with_diagram ? Extent::everywhere : Extent::near_people;
     if ((with_diagram || state.asksForDiagram()) && !state.simulation.buildDiagramNow(extent)) {
         state.next = (state.next + kSlots - 1) % kSlots;
@@ -267,6 +301,11 @@ void FramePump::State::deliver(const Slot& slot) {
     frame[Stream::state] = view<float>(slot.frame, 2 * floats, floats);
     for (const StreamInfo& info : kStreams)
         if (cargo.streams[info.id]) frame[info.id] = view<float>(slot.streams[info.id], 0, floats);
+    if (simulation.vehicles() > 0) {
+        trackVehicles(view<gpu::Vehicle>(slot.vehicles, 0, simulation.vehicles()),
+                      view<gpu::VehicleBox>(slot.vehicle_boxes, 0, simulation.vehicles()), vehicles);
+        frame.vehicles = vehicles;
+    }
     DiagramImage diagram = image;
     if (slot.has_diagram) {
         const std::size_t pixels = std::size_t{image.width} * image.height;

@@ -26,13 +26,14 @@ const gl::Declaration kSteer = {
     {"shaders/motion/steer.comp"},
     {"ParametersBlock", "LiveDispatch", "States", "Bodies", "Walkers", "Stages", "field_cells",
      "DetourSlopes", "WaitingLines", "LinePoints", "NeighbourCounts", "TouchWords", "TerrainNodes",
-     "ChartCells", "ChartShifts", "Belts"},
+     "ChartCells", "ChartShifts", "Belts", "Crossings", "CrossingPoints", "Lights"},
     {"Walkers", "PreferredVelocities"}};
 const gl::Declaration kAvoid = {
     "avoidance",
     {"shaders/motion/avoid.comp"},
     {"ParametersBlock", "LiveDispatch", "States", "Bodies", "Walkers", "PreferredVelocities", "Neighbours",
-     "NeighbourCounts", "TouchWords", "WallSegments", "WallStarts", "WallItems", "RoadDistances", "Belts"},
+     "NeighbourCounts", "TouchWords", "WallSegments", "WallStarts", "WallItems", "RoadDistances", "Belts",
+     "VehicleBoxes"},
     {"TouchWords", "Targets", "TargetsAfter", "Decisions", "Ways"}};
 const gl::Declaration kCarryOn = {
     "avoidance",

@@ -226,6 +226,9 @@ Account Simulation::account() const {
 const gpu::Parameters& Simulation::parameters() const {
     return parts_->parameters;
 }
+std::size_t Simulation::vehicles() const {
+    return parts_->traffic ? parts_->traffic->vehicles() : 0;
+}
 Simulation::Parts& Simulation::parts() {
     return *parts_;
 }

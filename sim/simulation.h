@@ -79,6 +79,8 @@ class Simulation {
     std::vector<std::pair<std::string, double>> profile(int steps);
 
     const gpu::Parameters& parameters() const;
+    /// How many drive in all of the bake.
+    std::size_t vehicles() const;
 
     struct Parts;
     /// The passes and their buffers, for tests of single passes.

@@ -87,6 +87,9 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
       motion(library, buffers, contacts.result(), settings.motion),
       lines(library, buffers, static_cast<std::uint32_t>(scene.lines.size())),
       gates(scene, buffers, diagram, parameters),
+      traffic(scene.traffic.empty()
+                  ? std::nullopt
+                  : std::optional<Traffic>(std::in_place, library, scene, buffers, contacts.result())),
       pack(buffers.connect(library, kPack, buffers.definitions())),
       costs(cost_model),
       look(double{lookOf(scene, parameters)}),
@@ -132,14 +135,22 @@ std::vector<Pass> Simulation::Parts::passesOfStep() {
         if (seams) seams->cross();
         cells.run();
     };
-    return {{"cells", when_deciding(sort)},
-            {"routes", when_deciding([this] { congestion.run(); })},
-            {"spawn", when_deciding(enter)},
-            {"diagram", when_deciding(build)},
-            {"sensing", when_deciding([this] { sensing.run(); })},
-            {"avoidance", decide},
-            {"contacts", [this] { contacts.run(); }},
-            {"motion", move}};
+    const auto touch = [this] {
+        contacts.run();
+        if (traffic) traffic->keepOff();
+    };
+    std::vector<Pass> all = {{"cells", when_deciding(sort)},
+                             {"routes", when_deciding([this] { congestion.run(); })},
+                             {"spawn", when_deciding(enter)},
+                             {"diagram", when_deciding(build)},
+                             {"sensing", when_deciding([this] { sensing.run(); })},
+                             {"avoidance", decide},
+                             {"contacts", touch},
+                             {"motion", move}};
+    // Before anybody looks where they are.
+    if (traffic && traffic->vehicles() > 0)
+        all.insert(all.begin(), Pass{"vehicles", [this] { traffic->drive(step_start); }});
+    return all;
 }
 
 void Simulation::Parts::beginStep() {
@@ -148,6 +159,7 @@ void Simulation::Parts::beginStep() {
     step_start = now();
     ++steps_done;
     gates.move(step_start);
+    if (traffic) traffic->switchLights(step_start);
 }
 
 float Simulation::Parts::now() const {
@@ -163,6 +175,7 @@ std::vector<std::pair<std::string, gl::Buffer*>> Simulation::Parts::remembered()
                                                               {"queue heads", &buffers.queue_heads},
                                                               {"detour slopes", &buffers.detour_slopes}};
     if (buffers.hasBodies()) found.emplace_back("chests", &buffers.chests);
+    if (traffic && traffic->vehicles() > 0) found.emplace_back("vehicles", &buffers.vehicles);
     for (const auto& each : congestion.remembered())
         found.push_back(each);
     return found;

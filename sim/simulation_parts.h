@@ -15,6 +15,7 @@
 #include "sim/passes.h"
 #include "sim/sensing.h"
 #include "sim/simulation.h"
+#include "sim/traffic.h"
 
 namespace throng::sim {
 
@@ -45,6 +46,7 @@ struct Simulation::Parts {
     Motion motion;
     WaitingLines lines;
     Gates gates;
+    std::optional<Traffic> traffic;  // none without signals and vehicles
     gl::ComputeProgram pack;
     PerStream<std::optional<gl::ComputeProgram>> pack_streams;  // made at the first asking
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "analysis/measure/histogram.h"
+#include "analysis/measure/vehicle_watch.h"
 #include "analysis/measure/voronoi_density.h"
 #include "analysis/stuck.h"
 #include "base/activities.h"
@@ -135,6 +136,7 @@ class Measurer {
             walls_.standAt(heights_[i]);
             result_.deepest_wall_penetration = std::max(
                 result_.deepest_wall_penetration, walls_.empty() ? 0.0 : walls_.penetration(bodies_[i]));
+            if (!vehicles_.empty()) vehicles_.look(frame, row, bodies_[i]);
             if (!aliveSince(row, 1)) continue;
             const glm::dvec2 from = before(1).place(row);
             const glm::dvec2 to = now().place(row);
@@ -295,6 +297,9 @@ class Measurer {
     }
 
     void summarise() {
+        result_.vehicle_clearance = vehicles_.clearance();
+        result_.run_over = vehicles_.runOver();
+        result_.vehicles = bake_.vehicles.size();
         const auto mean = [](double sum, std::uint64_t count) {
             return count ? sum / static_cast<double>(count) : 0.0;
         };
@@ -351,6 +356,7 @@ class Measurer {
         std::uint32_t first = ~0u, last = 0;
     };
     io::Storeys storeys_{bake_};
+    VehicleWatch vehicles_{bake_};
     std::vector<Crossings> crossings_;  // of each link
     Measurement result_;
 };

@@ -44,6 +44,9 @@ struct Measurement {
     double deepest_overlap_percent = 0.0;    ///< of the sum of the radii
     std::uint64_t wall_crossings = 0;
     double deepest_wall_penetration = 0.0;  ///< m that a body is inside a wall
+    std::size_t vehicles = 0;
+    std::optional<double> vehicle_clearance;  ///< m, between a body and a vehicle; none: they never met
+    std::uint32_t run_over = 0;               ///< people whom a vehicle was in
 
     double time_ratio = 0.0;        ///< time to the goal over the shortest way at the preferred speed, median
     double detour_ratio = 0.0;      ///< way walked over the shortest way, median of those who arrived

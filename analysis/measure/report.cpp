@@ -13,6 +13,7 @@ namespace throng::analysis {
 namespace {
 
 using Json = nlohmann::ordered_json;
+constexpr double kNeverMet = 1.0e6;  // m
 
 Json spreadJson(const Spread& spread) {
     return {{"median", readable(spread.median)},
@@ -40,6 +41,8 @@ std::optional<double> figureNamed(const Measurement& m, const std::string& name)
         {"deepest_overlap_percent", m.deepest_overlap_percent},
         {"wall_crossings", static_cast<double>(m.wall_crossings)},
         {"deepest_wall_penetration", m.deepest_wall_penetration},
+        {"vehicle_clearance", m.vehicle_clearance.value_or(kNeverMet)},
+        {"run_over", static_cast<double>(m.run_over)},
         {"time_ratio", m.time_ratio},
         {"detour_ratio", m.detour_ratio},
         {"heading_rate_p99", m.heading_rate.high},
@@ -94,6 +97,8 @@ Json measurementJson(const Measurement& m) {
                  {"high_density", readable(m.high_density)},
                  {"mean_speed", readable(m.mean_speed)}};
     if (m.seated > 0) json[keyFor(Fate::seated)] = m.seated;
+    if (m.vehicles > 0) json["run_over"] = m.run_over;
+    if (m.vehicle_clearance) json["vehicle_clearance"] = readable(*m.vehicle_clearance);
     if (m.flow) json["flow"] = readable(*m.flow);
     if (m.specific_flow) json["specific_flow"] = readable(*m.specific_flow);
     for (const LinkFlow& link : m.links) {
@@ -124,6 +129,11 @@ std::string measurementText(const Measurement& m) {
                      m.overlapping_percent, m.worst_overlapping_percent, m.deepest_overlap_percent));
     line("walls", fmt::format("{} crossings, deepest body in a wall {:.3f} m", m.wall_crossings,
                               m.deepest_wall_penetration));
+    if (m.vehicles > 0)
+        line("vehicles",
+             fmt::format("{}: {} people run over, {}", m.vehicles, m.run_over,
+                         m.vehicle_clearance ? fmt::format("least clearance {:.3f} m", *m.vehicle_clearance)
+                                             : "nobody came near one"));
     line("to the goal", fmt::format("{:.2f} times the free time, {:.2f} times the shortest way (medians)",
                                     m.time_ratio, m.detour_ratio));
     line("heading rate, deg/s", spreadText(m.heading_rate));

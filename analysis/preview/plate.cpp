@@ -100,6 +100,7 @@ double strengthOf(const io::CrowdFrame& now, std::size_t row) {
 Plate::Plate(const std::filesystem::path& bake, const PreviewOptions& options)
     : crowd_(io::loadBake(bake)),
       bake_(crowd_.bake()),
+      traffic_(bake_),
       storeys_(bake_),
       people_(crowd_.people()),
       groups_(io::groupsOf(people_)),
@@ -164,6 +165,10 @@ glm::dvec2 Plate::toPixel(double x, double y) const {
     return {kMargin + (x - bake_.minimum.x) * scale_, kHeader + (bake_.maximum.y - y) * scale_};
 }
 
+PlateView Plate::view() const {
+    return {kMargin, kHeader, bake_.minimum, bake_.maximum, scale_};
+}
+
 void Plate::path(cairo_t* context, const std::vector<glm::dvec2>& points, bool close) const {
     cairo_new_path(context);
     for (const glm::dvec2 point : points) {
@@ -202,6 +207,7 @@ void Plate::drawLayout() {
         setColour(context, kArea);
         cairo_fill(context);
     }
+    traffic_.drawStreet(context, view());
     for (std::size_t i = 0; i < bake_.walls.size(); ++i)
         if (bake_.walls[i].toggles.empty() && isWallShown(i)) drawWall(context, bake_.walls[i]);
     setColour(context, kInk);
@@ -450,6 +456,7 @@ cairo_surface_t* Plate::draw(std::uint32_t frame) {
     if (options_.density) drawDensity(context, now);
     drawTrails(context, now);
     drawGates(context, frame);
+    traffic_.drawFrame(context, view(), frame);
     drawPeople(context, now);
     drawCaption(context, now);
     cairo_surface_flush(canvas_.get());

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "analysis/preview/preview.h"
+#include "analysis/preview/traffic_layer.h"
 #include "base/capsule.h"
 #include "base/palette.h"
 #include "io/crowd_reader.h"
@@ -56,12 +57,14 @@ class Plate {
     void drawCaption(cairo_t* context, const io::CrowdFrame& now) const;
     void drawScaleBar(cairo_t* context) const;
     void placeLegend();
+    PlateView view() const;
     void path(cairo_t* context, const std::vector<glm::dvec2>& points, bool close) const;
     void text(cairo_t* context, double x, double y, double size, const std::string& what,
               bool bold = false) const;
 
     io::CrowdReader crowd_;
     const io::Bake& bake_;
+    TrafficLayer traffic_;
     io::Storeys storeys_;
     const std::vector<io::AgentRow>& people_;
     io::GroupTable groups_;

@@ -16,6 +16,7 @@
 #include "authoring/layout/polygon_check.h"
 #include "authoring/layout/seat_reader.h"
 #include "authoring/layout/seat_rows.h"
+#include "authoring/layout/traffic_reader.h"
 
 namespace throng::authoring {
 namespace {
@@ -39,6 +40,11 @@ class Reader {
         eachOf(reader, "areas", [this](const JsonNode& node) { readArea(node); });
         eachOf(reader, "walls", [this](const JsonNode& node) { readWall(node); });
         nameWalls();
+        eachOf(reader, "crossings", [this](const JsonNode& node) { traffic_.readCrossing(node); });
+        eachOf(reader, "lanes", [this](const JsonNode& node) { traffic_.readLane(node); });
+        eachOf(reader, "signals", [this](const JsonNode& node) { traffic_.readSignal(node); });
+        eachOf(reader, "vehicles", [this](const JsonNode& node) { traffic_.readVehicles(node); });
+        traffic_.finish();
         if (const JsonNode* node = reader.get("terrain")) readTerrain(*node);
         eachOf(reader, "flows", [this](const JsonNode& node) { readFlow(node); });
         eachOf(reader, "formations", [this](const JsonNode& node) { readFormation(node); });
@@ -661,6 +667,7 @@ class Reader {
     PlaceReader places_{schema_, roads_, areas_, diagnostics_};
     LevelReader levels_{schema_, layout_, diagnostics_};
     SeatReader seats_{schema_, layout_, groups_, walls_, diagnostics_};
+    TrafficReader traffic_{schema_, layout_, diagnostics_};
 };
 
 }  // namespace

@@ -211,7 +211,7 @@ FieldBlocks makeFieldBlocks(const WalkGeometry& geometry, float cell_size, std::
 BlockMap makeBlockMap(const WalkGeometry& geometry, const FieldBlocks& blocks, bool keep_to_roads) {
     BlockMap map;
     map.blocks = &blocks;
-    if (keep_to_roads && !geometry.roads.empty())
+    if (keep_to_roads && geometry.hasKerbs())
         keepToRoads(geometry, blocks, map);
     else
         map.cost.assign(blocks.nodeCount(), 1.0f);

@@ -34,6 +34,7 @@ struct WalkGeometry {
     std::vector<LocalPolygon> solids;  ///< closed walls: nobody is inside
     std::vector<LocalRoad> roads;
     std::vector<LocalPolygon> areas;
+    bool has_crossings = false;  ///< among the areas: then people keep to the ground without roads, too
     float smallest_radius =
         0.25f;  ///< of all people, m; of bodies that are no discs, half of the shorter side
     float largest_radius = 0.25f;
@@ -44,6 +45,9 @@ struct WalkGeometry {
     };
     std::vector<Box> solid_boxes = {};            ///< of each solid, if sortWalls() has made them
     std::shared_ptr<const ChartMap> charts = {};  ///< null: a layout without levels
+
+    /// Whether there is anything to keep to.
+    bool hasKerbs() const { return !roads.empty() || has_crossings; }
 };
 
 inline constexpr float kSmallestCell = 0.1f;     ///< m

@@ -57,6 +57,7 @@ std::string keyOf(const WalkGeometry& geometry, const GroundResolution& resoluti
     for (const LocalPolygon& solid : geometry.solids)
         appendAll(key, solid);
     append(key, geometry.roads.size());
+    append(key, geometry.has_crossings);
     for (const LocalRoad& road : geometry.roads) {
         appendAll(key, road.centreline);
         append(key, road.width);

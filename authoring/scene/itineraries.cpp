@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "authoring/scene/raster.h"
+#include "authoring/scene/traffic.h"
 #include "authoring/scene/walls.h"
 
 namespace throng::authoring {
@@ -92,8 +93,8 @@ std::array<Itineraries::Destinations, 2> Itineraries::wanted(const Layout& layou
     };
     for (const Flow& flow : layout.flows) {
         for (const Stop& stop : flow.via)
-            want(stop.at, !layout.roads.empty());
-        want(flow.to, !layout.roads.empty());
+            want(stop.at, keepsToRoads(layout));
+        want(flow.to, keepsToRoads(layout));
     }
     for (const Formation& formation : layout.formations)
         if (const auto* grid = std::get_if<GridFormation>(&formation.shape))

@@ -52,6 +52,9 @@ Bounds boundsOf(const Layout& layout) {
     for (const Area& area : layout.areas)
         for (const glm::dvec2 point : area.polygon)
             bounds.add(point, area.where);
+    for (const Zebra& crossing : layout.traffic.crossings)
+        for (const glm::dvec2 point : crossing.polygon)
+            bounds.add(point, crossing.where);
     for (const Wall& wall : layout.walls)
         for (const glm::dvec2 point : wall.points)
             bounds.add(point, wall.where, wall.closed ? 0.0 : 0.5 * wall.thickness);

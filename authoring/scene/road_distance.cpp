@@ -81,7 +81,7 @@ void goOnOverSeams(const ChartMap& charts, const FieldGrid& grid, std::vector<bo
 // The union is rasterised first and measured afterwards: pieces that only share an edge (a road that ends at
 // a plaza) then have no edge between them, which the distances to each piece would show.
 std::vector<float> roadDistance(const WalkGeometry& geometry, const FieldGrid& grid) {
-    if (geometry.roads.empty()) return {};
+    if (!geometry.hasKerbs()) return {};
     const float seam = 0.25f * grid.cell_size;
     std::vector<bool> inside(cellCount(grid), false);
     for (const LocalRoad& road : geometry.roads)

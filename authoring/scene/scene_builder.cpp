@@ -19,6 +19,7 @@
 #include "authoring/scene/rebase.h"
 #include "authoring/scene/routes.h"
 #include "authoring/scene/terrain_check.h"
+#include "authoring/scene/traffic.h"
 #include "authoring/scene/walls.h"
 #include "authoring/scene/ways_check.h"
 #include "authoring/storeys/charts.h"
@@ -97,6 +98,7 @@ class Builder {
         drawPeople();
         buildGeometry();
         if (diagnostics_.hasErrors()) return std::nullopt;
+        scene_.traffic = buildTraffic(layout_, rebase_, diagnostics_);
         buildTerrain();
         if (terrain_mesh_ && layout_.terrain && !scene_.terrain) return std::nullopt;
         Routes routes = planRoutes();
@@ -208,7 +210,7 @@ class Builder {
             for (std::uint64_t i = party.first; i < party.first + party.size; ++i) {
                 gpu::Person person = drawPerson(flow.people, random, i, group());
                 person.spawn_time = static_cast<float>(times[party.first]);
-                if (!layout_.roads.empty()) person.flags |= gpu::PERSON_KEEPS_TO_ROADS;
+                if (keepsToRoads(layout_)) person.flags |= gpu::PERSON_KEEPS_TO_ROADS;
                 addPerson(person);
             }
             bringTogether(party);
@@ -307,6 +309,9 @@ class Builder {
                 {rebase_.local(road.centreline), static_cast<float>(road.width), road.one_way});
         for (const Area& area : layout_.areas)
             geometry_.areas.push_back(rebase_.local(area.polygon));
+        for (const Zebra& crossing : layout_.traffic.crossings)
+            geometry_.areas.push_back(rebase_.local(crossing.polygon));
+        geometry_.has_crossings = !layout_.traffic.crossings.empty();
         scene_.wall_segments = geometry_.walls;
         openGates();
         sortWalls(geometry_);
@@ -379,7 +384,7 @@ class Builder {
     }
 
     void routeFlow(const Flow& flow, std::size_t index, Routes& routes, Itineraries& itineraries) {
-        Journey journey{fmt::format("flow `{}`", flow.id), flow.where, !layout_.roads.empty(), flow.via};
+        Journey journey{fmt::format("flow `{}`", flow.id), flow.where, keepsToRoads(layout_), flow.via};
         journey.stops.push_back(Journey::goalStop(flow.to, flow.arrival));
         const LocalPolygon start = routes.outline(flow.from, Routes::kEntryDepth);
         itineraries.check(journey, fmt::format("`{}`", routes.name(flow.from)), {start});
@@ -731,6 +736,7 @@ std::optional<Scene> buildScene(const Layout& layout, Diagnostics& diagnostics, 
                                 const TerrainMesh* terrain, DistanceSolver* solver) {
     GroundCache own;
     std::shared_ptr<const Charts> charts;
+    if (!layout.levels.empty() && !isWithoutTraffic(layout, diagnostics)) return std::nullopt;
     if (!layout.levels.empty()) {
         charts = layOut(layout, diagnostics);
         if (!charts) return std::nullopt;

@@ -123,7 +123,7 @@ WalkMap makeWalkMap(const WalkGeometry& geometry, const FieldGrid& grid, bool ke
     WalkMap map;
     map.grid = grid;
     map.cost.assign(cellCount(grid), 1.0f);
-    if (keep_to_roads && !geometry.roads.empty()) {
+    if (keep_to_roads && geometry.hasKerbs()) {
         const std::vector<float> distance = roadDistance(geometry, grid);
         for (std::size_t cell = 0; cell < distance.size(); ++cell)
             if (distance[cell] < 0.0f) map.cost[cell] = kOffRoadCost;

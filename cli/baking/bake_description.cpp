@@ -73,6 +73,14 @@ void describeAudience(const authoring::Layout& layout, const authoring::Scene& s
     }
 }
 
+void describeVehicles(const authoring::Scene& scene, recording::BakeDescription& bake) {
+    for (std::size_t i = 0; i < scene.traffic.vehicles.size(); ++i) {
+        const auto& type = authoring::kVehicleTypes.at(scene.traffic.vehicles[i].kind);
+        bake.vehicles.push_back({scene.traffic.flows[scene.traffic.flow_of[i]], type.name, type.length,
+                                 type.width, type.height, type.wheel});
+    }
+}
+
 /// Of a layout with levels: its floors and links are the ground, and end in railings.
 void describeCharts(const LoadedLayout& loaded, recording::BakeDescription& bake) {
     constexpr double kMargin = 3.0;  // m
@@ -141,6 +149,8 @@ recording::BakeDescription describeBake(const LoadedLayout& loaded, const BakeOp
     bake.roads = loaded.layout.roads;
     bake.areas = loaded.layout.areas;
     bake.walls = loaded.layout.walls;
+    bake.traffic = loaded.layout.traffic;
+    describeVehicles(scene, bake);
     if (scene.charts) describeCharts(loaded, bake);
     if (loaded.terrain) {
         const authoring::Rebase rebase(loaded.layout);

@@ -24,6 +24,7 @@ namespace {
 
 constexpr const char* kSeconds = "seconds";
 constexpr const char* kMotion = "motion";
+constexpr const char* kVehicleTrack = "vehicle track";
 
 /// Everything that the bytes of a bake depend on.
 std::string identityOf(const LoadedLayout& loaded, const BakeJob& job, const gl::Device& device) {
@@ -143,6 +144,10 @@ class Run {
         const std::vector<std::byte>* motion = checkpoint.find(kMotion);
         if (!motion) throw std::runtime_error("the checkpoint says nothing of the motion so far");
         recorder_.restore(*motion);
+        if (const std::vector<std::byte>* track = checkpoint.find(kVehicleTrack)) {
+            vehicles_.resize(track->size() / sizeof(float));
+            std::memcpy(vehicles_.data(), track->data(), vehicles_.size() * sizeof(float));
+        }
         if (const std::vector<std::byte>* bytes = checkpoint.find(kSeconds);
             bytes && bytes->size() == sizeof seconds_before_)
             std::memcpy(&seconds_before_, bytes->data(), sizeof seconds_before_);
@@ -173,7 +178,10 @@ class Run {
     }
 
     /// Writes the frames that wait for later ones.
-    void finish() { recorder_.finish(); }
+    void finish() {
+        recorder_.finish();
+        writer_.takeVehicles(std::move(vehicles_));
+    }
     std::uint32_t frames() const { return recorder_.framesTaken(); }
 
     void save() {
@@ -187,6 +195,7 @@ class Run {
         const double so_far = seconds();
         checkpoint.add(kSeconds, std::as_bytes(std::span(&so_far, 1)));
         checkpoint.add(kMotion, recorder_.save());
+        if (!vehicles_.empty()) checkpoint.add(kVehicleTrack, std::as_bytes(std::span(vehicles_)));
         writer_.save(std::move(checkpoint));
         last_checkpoint_ = Clock::now();
     }
@@ -216,6 +225,7 @@ class Run {
             alive += states[at] > 0.5f;
         present_ = alive;
         writer_.writeDiagram(frame);
+        vehicles_.insert(vehicles_.end(), frame.vehicles.begin(), frame.vehicles.end());
         recorder_.take(frame);
     }
 
@@ -231,7 +241,8 @@ class Run {
     std::atomic<std::uint32_t> present_{0};
     Clock::time_point start_ = Clock::now(), last_checkpoint_;
     double seconds_before_ = 0.0;
-    sim::FramePump pump_;  // last: its thread uses the others
+    std::vector<float> vehicles_;  // of all frames so far
+    sim::FramePump pump_;          // last: its thread uses the others
 };
 
 void stop(BakeRun& run, Run& running, io::BakeWriter& writer, WhenStopped what) {

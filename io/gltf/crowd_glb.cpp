@@ -12,14 +12,16 @@
 #include "io/gltf/animation_tracks.h"
 #include "io/gltf/glb_document.h"
 #include "io/gltf/meshes.h"
+#include "io/gltf/vehicle_nodes.h"
 
 namespace throng::io {
 namespace {
 
 constexpr double kGroundMargin = 5.0;  // m
 // Flat surfaces lie a little above each other, or renderers could not tell which one is on top.
-constexpr double kAreaHeight = 0.01;  // m
-constexpr double kRoadHeight = 0.02;  // m
+constexpr double kAreaHeight = 0.01;   // m
+constexpr double kRoadHeight = 0.02;   // m
+constexpr double kLaneHeight = 0.015;  // m
 
 constexpr std::uint64_t kLargestTracks = std::uint64_t{2'000} << 20;
 
@@ -68,6 +70,18 @@ void addWalls(GlbDocument& document, const recording::BakeDescription& descripti
     }
 }
 
+void addStreet(GlbDocument& document, const authoring::Traffic& traffic, glm::dvec2 origin) {
+    if (traffic.empty()) return;
+    const int lane = document.addMaterial("lane", colourFromHex(0x55565a), 0.9);
+    const int paint = document.addMaterial("crossing", colourFromHex(0xa9a9a4), 0.9);
+    for (const authoring::Lane& entry : traffic.lanes)
+        document.addMeshNode("lane " + entry.id,
+                             ribbonMesh(relative(entry.points, origin), entry.width, kLaneHeight), lane);
+    for (const authoring::Zebra& entry : traffic.crossings)
+        document.addMeshNode("crossing " + entry.id,
+                             polygonMesh(relative(entry.polygon, origin), kRoadHeight), paint);
+}
+
 /// A terrain takes the place of the ground, and of roads and areas, which are flat.
 void addScenery(GlbDocument& document, const recording::BakeDescription& description) {
     const glm::dvec2 origin = description.output_origin;
@@ -85,6 +99,7 @@ void addScenery(GlbDocument& document, const recording::BakeDescription& descrip
     for (const authoring::Area& entry : description.areas)
         document.addMeshNode("area " + entry.id, polygonMesh(relative(entry.polygon, origin), kAreaHeight),
                              area);
+    addStreet(document, description.traffic, origin);
     for (const authoring::Road& entry : description.roads)
         document.addMeshNode("road " + entry.id,
                              ribbonMesh(relative(entry.centreline, origin), entry.width, kRoadHeight), road);
@@ -130,22 +145,24 @@ std::vector<std::uint32_t> chooseRows(std::uint32_t rows, std::uint32_t frames, 
 }
 
 void addPeople(GlbDocument& document, const recording::BakeDescription& description,
-               const std::vector<TrackRow>& rows, std::uint32_t frames) {
+               const std::vector<TrackRow>& rows, std::uint32_t frames, VehicleNodes& vehicles) {
     const Bodies bodies = addBodies(document, description, rows);
-    if (rows.empty()) return;
-    const int people = document.addEmptyNode("people");
+    vehicles.addMeshes(document);
+    if (rows.empty() && vehicles.empty()) return;
+    const int people = rows.empty() ? -1 : document.addEmptyNode("people");
     const int times = document.addTimes(frames, description.fps);
     for (const TrackRow& row : rows) {
         document.addAnimatedNode(people, "person " + std::to_string(row.row),
                                  bodies.of(description.agents.at(row.row)), row.width_scale, row.height_scale,
                                  times, frames, row.is_ever_dead);
     }
+    vehicles.addNodes(document, times);
 }
 
 }  // namespace
 
 GltfSummary writeCrowdGlb(const std::filesystem::path& path, const recording::BakeDescription& description,
-                          const StreamSet& streams) {
+                          const StreamSet& streams, std::span<const float> vehicle_track) {
     const std::uint32_t frames = streams.frames();
     const std::uint32_t all_rows = streams.rows();
     std::vector<TrackRow> rows;
@@ -158,11 +175,13 @@ GltfSummary writeCrowdGlb(const std::filesystem::path& path, const recording::Ba
 
     GlbDocument document = documentFor(description);
     addScenery(document, description);
-    addPeople(document, description, rows, frames);
+    VehicleNodes vehicles(description, vehicle_track, frames);
+    addPeople(document, description, rows, frames, vehicles);
 
     OutputFile file(path);
     document.writeHead(file);
     writeTracks(file, streams, rows);
+    vehicles.writeTracks(file);
     if (file.position() != document.fileSize())
         throw OutputError(path, "came out with another size than its header says");
     file.finish();

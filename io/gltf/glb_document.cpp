@@ -182,8 +182,8 @@ void GlbDocument::addChannel(int node, const char* path, int times, int output, 
     animation.channels.push_back(std::move(channel));
 }
 
-void GlbDocument::addAnimatedNode(int parent, const std::string& name, int mesh, double width_scale,
-                                  double height_scale, int times, std::uint32_t frames, bool has_scales) {
+int GlbDocument::addAnimatedNode(int parent, const std::string& name, int mesh, double width_scale,
+                                 double height_scale, int times, std::uint32_t frames, bool has_scales) {
     tinygltf::Node node;
     node.name = name;
     node.mesh = mesh;
@@ -198,6 +198,24 @@ void GlbDocument::addAnimatedNode(int parent, const std::string& name, int mesh,
                addTrack(8, frames, TINYGLTF_COMPONENT_TYPE_SHORT, TINYGLTF_TYPE_VEC4), "LINEAR");
     if (has_scales)
         addChannel(index, "scale", times, addTrack(12, frames, kFloat, TINYGLTF_TYPE_VEC3), "STEP");
+    return index;
+}
+
+int GlbDocument::addPlacedNode(int parent, const std::string& name, int mesh,
+                               const std::array<double, 3>& place) {
+    tinygltf::Node node;
+    node.name = name;
+    node.mesh = mesh;
+    node.translation = {place[0], place[1], place[2]};
+    model_->nodes.push_back(std::move(node));
+    const int index = static_cast<int>(model_->nodes.size()) - 1;
+    model_->nodes[static_cast<std::size_t>(parent)].children.push_back(index);
+    return index;
+}
+
+void GlbDocument::addTurning(int node, int times, std::uint32_t frames) {
+    addChannel(node, "rotation", times,
+               addTrack(8, frames, TINYGLTF_COMPONENT_TYPE_SHORT, TINYGLTF_TYPE_VEC4), "LINEAR");
 }
 
 std::string GlbDocument::json() const {

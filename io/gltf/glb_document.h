@@ -46,8 +46,14 @@ class GlbDocument {
     /// Announces tracks of translations (3 floats), rotations (4 normalised shorts) and, if asked for,
     /// stepped scales (3 floats), to be written in this order after the head. All meshes come before the
     /// first of these.
-    void addAnimatedNode(int parent, const std::string& name, int mesh, double width_scale,
-                         double height_scale, int times, std::uint32_t frames, bool has_scales);
+    /// Returns the node.
+    int addAnimatedNode(int parent, const std::string& name, int mesh, double width_scale,
+                        double height_scale, int times, std::uint32_t frames, bool has_scales);
+
+    /// A node that goes along with its parent. Returns it.
+    int addPlacedNode(int parent, const std::string& name, int mesh, const std::array<double, 3>& place);
+    /// Announces a track of a node's rotations, as those of addAnimatedNode().
+    void addTurning(int node, int times, std::uint32_t frames);
 
     /// Writes all up to the first track. Throws OutputError.
     void writeHead(OutputFile& file);

@@ -19,6 +19,7 @@
 #include "io/manifest.h"
 #include "io/overrides/applied_rows.h"
 #include "io/streams/stream_files.h"
+#include "io/vehicle_file.h"
 #include "recording/footing.h"
 
 namespace throng::io {
@@ -210,9 +211,11 @@ class Application {
 
     Json writeGltf() {
         const recording::BakeDescription description = describe();
-        const GltfSummary summary =
-            writeCrowdGlb(folder_.path() / "crowd.glb", description,
-                          {folder_.path(), source_.streams, source_.formats, source_.frames, crowd_.rows()});
+        const std::vector<float> vehicles =
+            source_.vehicles.empty() ? std::vector<float>() : readVehicles(source_);
+        const GltfSummary summary = writeCrowdGlb(
+            folder_.path() / "crowd.glb", description,
+            {folder_.path(), source_.streams, source_.formats, source_.frames, crowd_.rows()}, vehicles);
         return {{"file", "crowd.glb"}, {"agents", summary.agents}, {"of", summary.of}};
     }
 
@@ -228,6 +231,8 @@ class Application {
         description.roads = source_.roads;
         description.areas = source_.areas;
         description.walls = source_.walls;
+        description.traffic = source_.traffic;
+        description.vehicles = source_.vehicles;
         const auto toWorld = [&](std::vector<glm::dvec2>& points) {
             for (glm::dvec2& point : points)
                 point += source_.origin;
@@ -238,6 +243,10 @@ class Application {
             toWorld(area.polygon);
         for (authoring::Wall& wall : description.walls)
             toWorld(wall.points);
+        for (authoring::Lane& lane : description.traffic.lanes)
+            toWorld(lane.points);
+        for (authoring::Zebra& crossing : description.traffic.crossings)
+            toWorld(crossing.polygon);
         description.terrain = terrain_;
         std::map<std::string, std::uint32_t> groups;
         for (std::uint32_t row = 0; row < table_.rows(); ++row) {

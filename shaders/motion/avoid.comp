@@ -24,8 +24,12 @@ layout(std430) writeonly buffer Ways { vec2 ways[]; };  // m: what is meant to b
 layout(std430) writeonly buffer Decisions { Decision decisions[]; };
 uniform uint slot_capacity;
 
-// Room for the nearest walls and the kerb.
+// Room for the nearest walls, vehicles and the kerb.
+#ifdef TRAFFIC
+#define CONSTRAINT_CAPACITY (int(WALL_CONSTRAINTS) + 4)
+#else
 #define CONSTRAINT_CAPACITY (int(WALL_CONSTRAINTS) + 1)
+#endif
 
 #include "shaders/shared/at_most.glsl"
 #include "shaders/shared/images.glsl"
@@ -61,6 +65,11 @@ uniform uint slot_capacity;
 #include "shaders/motion/spacing_on_belts.glsl"
 #endif
 #include "shaders/motion/stride.glsl"
+#ifdef TRAFFIC
+#include "shaders/traffic/boxes.glsl"
+#include "shaders/traffic/held.glsl"
+#include "shaders/traffic/out_of_the_way.glsl"
+#endif
 
 /// Of those sensed who are under way.
 bool anybodyIsOncoming(uint slot) {
@@ -101,6 +110,9 @@ void main() {
 
     // Manners depend on the pace of those with a headway of their own only; the others look at everybody just once.
     float headway = headwayOf(walker);
+#ifdef TRAFFIC
+    headway = max(headway, headwayBeforeRed(walker.flags));
+#endif
     bool climbs = climbsInTurn(slot, walker.flags);
     float kept = climbs ? max(headway, headwayOnStairs(walker.flags)) : headway;
 #ifdef BELTS
@@ -111,6 +123,9 @@ void main() {
     if (climbs) impatience = 0.0;
 #ifdef BELTS
     if (RIDING_ENABLED && (walker.flags & WALKER_RIDES) != 0u) impatience = 0.0;  // people queue, and do not press
+#endif
+#ifdef TRAFFIC
+    if (isHeld(walker.flags)) impatience = 0.0;
 #endif
     Manners manners = Manners(way, impatience, crowdingAmong(neighbour_counts[slot]), headway > 0.0 ? 1.0 : 0.0,
                               freedomAt(pace / max(speed, STANDING_SPEED)));
@@ -130,6 +145,9 @@ void main() {
     keepFeetStill(feet, wanted, legs);
 
     int hard = wallsAhead(self, walker, slot);
+#ifdef TRAFFIC
+    hard += vehiclesAhead(self, slot, hard);
+#endif
     int count = hard + kerbBeside(self, walker, hard);
     vec2 velocity = nearestAllowed(hard, count, self.maximum_speed, wanted);
     velocity = limitChange(legs, velocity, parameters.maximum_acceleration * parameters.decision_seconds);

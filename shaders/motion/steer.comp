@@ -39,6 +39,14 @@ uniform uint steps_done;  // counted with this one
 #include "shaders/motion/riding.glsl"
 #include "shaders/motion/wish_on_belts.glsl"
 #endif
+#ifdef TRAFFIC
+#include "shaders/shared/traffic_types.h"
+layout(std430) readonly buffer Crossings { TrafficCrossing crossings[]; };
+layout(std430) readonly buffer CrossingPoints { vec2 crossing_points[]; };
+layout(std430) readonly buffer Lights { uint lights[]; };
+#include "shaders/traffic/crossings.glsl"
+#include "shaders/traffic/held_at_red.glsl"
+#endif
 #ifdef TERRAIN
 #include "shaders/shared/terrain.glsl"
 #include "shaders/motion/climbing.glsl"
@@ -84,6 +92,15 @@ void main() {
         walkers[slot].flags |= WALKER_AT_REST;
         speed = 0.0;
     }
+#ifdef TRAFFIC
+    Hold hold = heldAtRed(stage, position, ahead, bodies[slot].radius, row);
+    if (hold.is_held) {
+        walkers[slot].flags |= WALKER_HELD;
+        direction = hold.direction;
+        speed = min(speed, hold.speed);
+        if (speed == 0.0) walkers[slot].flags |= WALKER_AT_REST;
+    }
+#endif
     vec2 wish = direction * speed;
 #ifdef BELTS
     if (rides && ride.on) {

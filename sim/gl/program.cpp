@@ -13,9 +13,11 @@
 namespace throng::gl {
 namespace {
 
-/// What a pass wrote may next be read as storage, as dispatch arguments, by copies, or through a sampler.
+/// What a pass wrote may next be read as storage or uniforms, as dispatch arguments, by copies, or through a
+/// sampler.
 constexpr GLbitfield kWritesVisible = GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
-                                      GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT;
+                                      GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                                      GL_UNIFORM_BARRIER_BIT;
 
 GLenum stageOf(const std::string& path) {
     if (path.ends_with(".comp")) return GL_COMPUTE_SHADER;

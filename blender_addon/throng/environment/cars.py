@@ -32,9 +32,38 @@ _WHEEL, _TREAD = 0.32, 0.20
 
 def build_car(kind):
     """A mesh, front towards +x."""
-    stations, shape = _BODIES[kind], Shape(f"Throng {kind}")
+    shape = _body(kind, f"Throng {kind}")
+    for x, _, half, _ in axles_of(kind):
+        for side in (-1.0, 1.0):
+            _wheel(shape, x, side, half, _dark())
+    _lights(shape, _BODIES[kind])
+    return shape.to_mesh()
+
+
+def build_body(kind):
+    """The same without wheels, for cars that drive."""
+    shape = _body(kind, f"Throng {kind} without wheels")
+    for x, radius, half, _ in axles_of(kind):
+        for side in (-1.0, 1.0):
+            _disc(shape, x, side * (half + 0.004), radius + 0.02, radius + 0.06, _dark(), side)
+    _lights(shape, _BODIES[kind])
+    return shape.to_mesh()
+
+
+def axles_of(kind):
+    """(x, radius of wheels, half of how far they are apart, how broad they are) of each."""
+    stations = _BODIES[kind]
+    return tuple((x, _WHEEL, stations[2][4], _TREAD) for x in (stations[0][0] - 0.82, stations[-1][0] + 0.80))
+
+
+def _dark():
+    return materials.plain("car trim", (0.012, 0.012, 0.012), 0.55)
+
+
+def _body(kind, name):
+    stations, shape = _BODIES[kind], Shape(name)
     paint, glass = _paint(), materials.plain("car glass", (0.012, 0.015, 0.018), 0.05)
-    dark = materials.plain("car trim", (0.012, 0.012, 0.012), 0.55)
+    dark = _dark()
     rings = [_ring(station) for station in stations]
     for front, back in zip(rings, rings[1:]):
         for i in range(len(front) - 1):
@@ -46,11 +75,7 @@ def build_car(kind):
         _windows(shape, stations[i], stations[i + 1], glass, ends=(i == first, i == last - 1 and kind != "van"))
     if kind == "van":
         _end_window(shape, stations[-2], stations[-1], glass)
-    for x in (stations[0][0] - 0.82, stations[-1][0] + 0.80):
-        for side in (-1.0, 1.0):
-            _wheel(shape, x, side, stations[2][4], dark)
-    _lights(shape, stations)
-    return shape.to_mesh()
+    return shape
 
 
 def _ring(station):

@@ -194,6 +194,18 @@ def glass():
     return material
 
 
+def glowing(name, colour, strength):
+    """A lamp of a colour that is looked at, and lights nothing."""
+    found = bpy.data.materials.get(f"throng {name}")
+    if found:
+        return found
+    material, _, _, shader = _base(name, colour, 0.3)
+    shader.inputs[emission_of(shader)].default_value = (*colour, 1.0)
+    shader.inputs["Emission Strength"].default_value = strength
+    not_a_lamp(material)
+    return material
+
+
 def glow(material, strength):
     """Lets a surface shine, warm as lamps are."""
     _, links, shader = _nodes_of(material)

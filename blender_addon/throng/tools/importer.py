@@ -66,7 +66,7 @@ def import_bake(context, path, *, frame_start=1, walls=True, roads=True, scenery
     set_up_scene(scene, bake, frame_start)
     environment.build_environment(context, bake.manifest, collection, walls=walls, roads=roads, ground=scenery,
                                   light=scenery, camera=camera, frame_start=frame_start, terrain=terrain,
-                                  bake=bake if scenery and dressing else None)
+                                  folder=bake.folder, bake=bake if scenery and dressing else None)
     if bend and dress and scene.camera:
         near.apply(crowd, scene.camera)
     collection.objects.link(crowd)  # when all is there: whatever the scene has is worked out, poses that go away, too

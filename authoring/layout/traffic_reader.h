@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "authoring/layout.h"
+#include "authoring/layout/object_reader.h"
+
+namespace throng::authoring {
+
+/// Reads crossings, lanes, signals and vehicles. Signals name crossings and lanes, and lanes name signals: so
+/// lanes are read first, and what they say of signals is looked up at the end.
+class TrafficReader {
+  public:
+    TrafficReader(const Schema& schema, Layout& layout, Diagnostics& diagnostics)
+        : schema_(schema), layout_(layout), diagnostics_(diagnostics) {}
+
+    void readCrossing(const JsonNode& node);
+    void readLane(const JsonNode& node);
+    /// After all crossings and lanes.
+    void readSignal(const JsonNode& node);
+    /// After all lanes.
+    void readVehicles(const JsonNode& node);
+    /// After everything.
+    void finish();
+
+  private:
+    using Ids = std::map<std::string, std::size_t>;
+    struct NamedSignal {
+        std::size_t lane, stop;
+        const JsonNode* name;
+    };
+
+    template <class Read>
+    void eachOf(ObjectReader& reader, const std::string& key, Read read);
+    void readStop(const JsonNode& node, Lane& lane);
+    void readPhase(const JsonNode& node, Signal& signal);
+    void readGreen(const JsonNode& node, Phase& phase);
+    void readAmount(ObjectReader& reader, const JsonNode& node, VehicleFlow& flow);
+    void checkStop(const Lane& lane, const LaneStop& stop) const;
+    void checkSignal(const Signal& signal) const;
+    void checkLights();
+
+    const Schema& schema_;
+    Layout& layout_;
+    Diagnostics& diagnostics_;
+    Ids crossings_, lanes_, signals_, flows_;
+    std::vector<NamedSignal> named_;
+};
+
+}  // namespace throng::authoring

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "authoring/diagnostics.h"
+#include "authoring/layout.h"
+#include "authoring/scene/rebase.h"
+#include "authoring/scene_traffic.h"
+
+namespace throng::authoring {
+
+/// Whether flows keep to roads, areas and crossings.
+bool keepsToRoads(const Layout& layout);
+
+/// Tells of lanes and crossings in a layout that can have none.
+bool isWithoutTraffic(const Layout& layout, Diagnostics& diagnostics);
+
+/// Lanes, stops, crossings and everybody who drives. Tells of more vehicles than a bake can hold.
+SceneTraffic buildTraffic(const Layout& layout, const Rebase& rebase, Diagnostics& diagnostics);
+
+}  // namespace throng::authoring

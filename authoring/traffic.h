@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "authoring/source_position.h"
+
+/// What a layout says of signals and vehicles. Units as in authoring/layout.h.
+namespace throng::authoring {
+
+/// Where people cross lanes. Vehicles let them over; where a signal has it, people wait at its edge while it
+/// is red.
+struct Zebra {
+    std::string id;
+    std::vector<glm::dvec2> polygon;  ///< simple, any winding
+    SourcePosition where;
+};
+
+/// A part of a signal's cycle.
+struct Phase {
+    std::string name;
+    double seconds = 0.0;
+    std::vector<std::size_t> crossings, lanes;  ///< that are green in it: indices
+};
+
+/// Goes round through its phases for ever. What is green in one of them is red in all others that do not name
+/// it.
+struct Signal {
+    std::string id;
+    double offset = 0.0;  ///< s: how far into its cycle it is at time 0
+    std::vector<Phase> phases;
+    SourcePosition where;
+
+    double cycle() const;
+    /// Index of the phase at a time, s.
+    std::size_t phaseAt(double time) const;
+};
+
+/// Where vehicles of a lane stop: at a red signal, or for a time.
+struct LaneStop {
+    glm::dvec2 at{0.0};                 ///< on the lane, or beside it
+    std::optional<std::size_t> signal;  ///< index; none: everybody stops there
+    double seconds = 0.0;               ///< s that they stand there
+    SourcePosition where;
+};
+
+/// What vehicles follow, from its first point to its last.
+struct Lane {
+    std::string id;
+    std::vector<glm::dvec2> points;
+    double width = 3.0;   ///< m
+    double speed = 13.9;  ///< m/s, the most that is allowed
+    std::vector<LaneStop> stops;
+    SourcePosition where;
+};
+
+enum class VehicleKind { car, bus, tram, bicycle };
+
+/// Sizes, and the numbers of the intelligent driver model (Treiber, Hennecke and Helbing 2000).
+struct VehicleType {
+    const char* name;
+    double length, width, height;  ///< m
+    double speed;                  ///< m/s that it would like where the lane allows more
+    double headway;                ///< s
+    double acceleration, braking;  ///< m/s^2: what is comfortable
+    double gap;                    ///< m, to what it stands behind
+    double wheel;                  ///< m, radius
+};
+
+inline constexpr std::array<VehicleType, 4> kVehicleTypes{{
+    {"car", 4.5, 1.8, 1.5, 13.9, 1.2, 1.5, 2.0, 2.0, 0.32},
+    {"bus", 12.0, 2.5, 3.1, 12.0, 1.5, 1.0, 1.5, 2.0, 0.48},
+    {"tram", 28.0, 2.4, 3.4, 14.0, 2.0, 1.0, 1.3, 2.5, 0.33},
+    {"bicycle", 1.8, 0.6, 1.75, 4.5, 1.0, 0.8, 2.0, 1.0, 0.34},
+}};
+
+inline const VehicleType& typeOf(VehicleKind kind) {
+    return kVehicleTypes[static_cast<std::size_t>(kind)];
+}
+
+/// Vehicles of one kind that come onto a lane.
+struct VehicleFlow {
+    std::string id;
+    std::size_t lane = 0;  ///< index
+    VehicleKind kind = VehicleKind::car;
+    std::optional<double> rate;  ///< vehicles/s at random moments; or
+    std::vector<double> times;   ///< s
+    double start = 0.0, end = 0.0;
+    SourcePosition where;
+};
+
+struct Traffic {
+    std::vector<Zebra> crossings;
+    std::vector<Signal> signals;
+    std::vector<Lane> lanes;
+    std::vector<VehicleFlow> vehicles;
+    bool empty() const { return crossings.empty() && lanes.empty(); }
+};
+
+}  // namespace throng::authoring

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/vehicle_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "base/files/input_file.h"
+#include "base/files/output_file.h"
+
+namespace throng::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr std::size_t kAlignment = 64;
+
+/// Of a .npy file of version 1.0.
+std::string npyHeader(std::size_t frames, std::size_t vehicles) {
+    std::string text = fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, {}, {}), }}",
+                                   frames, vehicles, kVehicleFloats);
+    constexpr std::size_t kBefore = 10;
+    text.resize((kBefore + text.size() + kAlignment) / kAlignment * kAlignment - kBefore - 1, ' ');
+    text += '\n';
+    std::string header("\x93NUMPY\x01\x00", 8);
+    header += static_cast<char>(text.size() & 0xffu);
+    header += static_cast<char>(text.size() >> 8);
+    return header + text;
+}
+
+Json pointsToJson(const std::vector<glm::dvec2>& points, glm::dvec2 origin) {
+    Json list = Json::array();
+    for (const glm::dvec2 point : points)
+        list.push_back({point.x - origin.x, point.y - origin.y});
+    return list;
+}
+
+template <class Named>
+Json namesToJson(const std::vector<std::size_t>& indices, const std::vector<Named>& things) {
+    Json list = Json::array();
+    for (const std::size_t index : indices)
+        list.push_back(things.at(index).id);
+    return list;
+}
+
+Json signalToJson(const authoring::Signal& signal, const authoring::Traffic& traffic) {
+    Json phases = Json::array();
+    for (const authoring::Phase& phase : signal.phases)
+        phases.push_back({{"name", phase.name},
+                          {"seconds", phase.seconds},
+                          {"crossings", namesToJson(phase.crossings, traffic.crossings)},
+                          {"lanes", namesToJson(phase.lanes, traffic.lanes)}});
+    return {{"id", signal.id}, {"offset", signal.offset}, {"phases", std::move(phases)}};
+}
+
+Json laneToJson(const authoring::Lane& lane, const authoring::Traffic& traffic, glm::dvec2 origin) {
+    Json stops = Json::array();
+    for (const authoring::LaneStop& stop : lane.stops) {
+        stops.push_back({{"at", pointsToJson({stop.at}, origin).front()}});
+        if (stop.signal)
+            stops.back()["signal"] = traffic.signals.at(*stop.signal).id;
+        else
+            stops.back()["seconds"] = stop.seconds;
+    }
+    return {{"id", lane.id},
+            {"points", pointsToJson(lane.points, origin)},
+            {"width", lane.width},
+            {"stops", std::move(stops)}};
+}
+
+}  // namespace
+
+std::vector<float> placedVehicles(const recording::BakeDescription& description, std::span<const float> track,
+                                  std::uint32_t frames) {
+    const std::size_t values = frames * description.vehicles.size() * kVehicleFloats;
+    const std::span<const float> known = track.first(std::min(track.size(), values));
+    std::vector<float> placed(known.begin(), known.end());
+    placed.resize(values);
+    const glm::dvec2 shift = description.scene_origin - description.output_origin;
+    for (std::size_t at = 0; at < placed.size(); at += kVehicleFloats) {
+        if (placed[at + static_cast<std::size_t>(VehicleColumn::state)] == kVehicleAway) continue;
+        if (description.terrain)
+            placed[at + 2] = description.terrain->surface->heightAt({placed[at], placed[at + 1]});
+        placed[at] = static_cast<float>(placed[at] + shift.x);
+        placed[at + 1] = static_cast<float>(placed[at + 1] + shift.y);
+    }
+    return placed;
+}
+
+void writeVehicles(const std::filesystem::path& path, std::span<const float> placed, std::uint32_t frames,
+                   std::size_t vehicles) {
+    OutputFile file(path);
+    file.write(npyHeader(frames, vehicles));
+    file.write(std::as_bytes(placed));
+    file.finish();
+}
+
+std::vector<float> readVehicles(const Bake& bake) {
+    const std::filesystem::path path = bake.folder / kVehicleFile;
+    const std::size_t count = std::size_t{bake.frames} * bake.vehicles.size() * kVehicleFloats;
+    const std::string header = npyHeader(bake.frames, bake.vehicles.size());
+    const std::string content = readFile(path, header.size() + count * sizeof(float));
+    if (content.size() != header.size() + count * sizeof(float) || !content.starts_with(header))
+        throw InputError(path,
+                         fmt::format("expected {} frames of {} vehicles", bake.frames, bake.vehicles.size()));
+    std::vector<float> values(count);
+    std::memcpy(values.data(), content.data() + header.size(), count * sizeof(float));
+    return values;
+}
+
+Json vehiclesToJson(const std::vector<VehicleIdentity>& vehicles) {
+    Json list = Json::array();
+    for (const VehicleIdentity& vehicle : vehicles)
+        list.push_back({{"flow", vehicle.flow},
+                        {"kind", vehicle.kind},
+                        {"length", vehicle.length},
+                        {"width", vehicle.width},
+                        {"height", vehicle.height},
+                        {"wheel", vehicle.wheel}});
+    return {{"file", kVehicleFile}, {"columns", kVehicleColumns}, {"list", std::move(list)}};
+}
+
+Json trafficToJson(const authoring::Traffic& traffic, glm::dvec2 origin) {
+    Json json{{"crossings", Json::array()}, {"lanes", Json::array()}, {"signals", Json::array()}};
+    for (const authoring::Zebra& crossing : traffic.crossings)
+        json["crossings"].push_back(
+            {{"id", crossing.id}, {"polygon", pointsToJson(crossing.polygon, origin)}});
+    for (const authoring::Lane& lane : traffic.lanes)
+        json["lanes"].push_back(laneToJson(lane, traffic, origin));
+    for (const authoring::Signal& signal : traffic.signals)
+        json["signals"].push_back(signalToJson(signal, traffic));
+    return json;
+}
+
+}  // namespace throng::io

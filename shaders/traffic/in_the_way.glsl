@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
+// What drivers have seen of people: for each vehicle the bits of how far along the lane the nearest person in its way
+// is (m), and after these for each stop before a crossing who is there.
+// Needs the block InTheWay.
+
+const uint SOMEBODY_IS_ON = 0u;
+const uint SOMEBODY_COMES = 1u;
+
+uint atStop(uint stop) { return VEHICLES + stop; }

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Out of the way of vehicles: nobody walks into one, or into what it may drive over within the next seconds, and who is
+// there goes to the nearer side. Drivers who are about to stop for somebody are trusted: what they drive over ends
+// there (shaders/traffic/drive.comp). Only with TRAFFIC.
+// Needs shaders/traffic/boxes.glsl, shaders/motion/linear_program.glsl and half_width.glsl.
+
+const int VEHICLE_CONSTRAINTS = 3;     // the nearest ones
+const float HEEDED_WITHIN = 4.0;       // m
+const float VEHICLE_HORIZON = 0.5;     // s
+const float ROOM_TO_VEHICLES = 0.25;   // m: what people leave
+const float BRISKLY = 1.8;             // m/s: as fast as people get out of the way
+const float MEANT_SIDE = 0.6;          // s: who crosses goes on to the other side rather than back
+
+/// Beside it, or behind it: as beside a wall that moves.
+vec3 besideVehicle(vec2 outward, float gap, float towards) {
+    float speed = gap > 0.0 ? towards - gap / VEHICLE_HORIZON : max(towards, 0.0) - gap / VEHICLE_HORIZON;
+    return vec3(outward, min(speed, BRISKLY));
+}
+
+/// @returns m to what it will drive over, or HEEDED_WITHIN where that does not concern somebody
+float beforeVehicle(Body self, VehicleBox box, float clearance, out vec3 constraint) {
+    vec2 axis = box.ahead - box.front;
+    float reach = length(axis);
+    constraint = vec3(0.0);
+    if (reach < 0.3) return HEEDED_WITHIN;
+    vec2 along = axis / reach, aside = vec2(-along.y, along.x);
+    vec2 offset = self.position - box.front;
+    float ahead = dot(offset, along), beside = dot(offset, aside);
+    if (ahead < 0.0 || ahead > reach + clearance) return HEEDED_WITHIN;
+    float half_width = box.half_width + clearance;
+    float meant = beside + dot(self.velocity, aside) * MEANT_SIDE;
+    float side = abs(beside) < half_width ? (meant < 0.0 ? -1.0 : 1.0) : (beside < 0.0 ? -1.0 : 1.0);
+    float gap = side * beside - half_width;
+    constraint = vec3(aside * side, min(-gap / VEHICLE_HORIZON, BRISKLY));
+    return max(gap, 0.0);
+}
+
+/// Sets constraints from number `index` on. @returns how many
+int vehiclesAhead(Body self, uint slot, int index) {
+    int count = 0;
+    float gaps[VEHICLE_CONSTRAINTS];
+    for (uint i = 0u; i < VEHICLES; ++i) {
+        VehicleBox box = vehicle_boxes[i];
+        if (box.half_width <= 0.0) continue;
+        vec2 outward;
+        float away = distanceToBox(self.position, box.rear, box.front, box.half_width, outward);
+        float width = halfWidth(self, slot, outward);
+        vec3 constraint;
+        float gap = beforeVehicle(self, box, width + ROOM_TO_VEHICLES, constraint);
+        if (away - width < gap) {
+            gap = away - width;
+            vec2 forward = normalize(box.front - box.rear);
+            constraint = besideVehicle(outward, gap - 0.5 * ROOM_TO_VEHICLES, box.speed * dot(forward, outward));
+        }
+        if (gap >= HEEDED_WITHIN) continue;
+        int at = count;
+        if (count < VEHICLE_CONSTRAINTS) {
+            ++count;
+        } else {
+            at = 0;
+            for (int j = 1; j < count; ++j) at = gaps[j] > gaps[at] ? j : at;
+            if (gaps[at] <= gap) continue;
+        }
+        gaps[at] = gap;
+        setConstraint(index + at, constraint);
+    }
+    return count;
+}
