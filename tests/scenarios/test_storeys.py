@@ -137,7 +137,7 @@ def test_people_walk_above_each_other(throng, tmp_path):
     flows = [{"id": a + b, "from": a, "to": b, "count": 25, "end": 12}
              for a, b in (("door", "above"), ("above", "door"), ("door", "below"), ("below", "door"))]
     flows.append({"id": "hidden", "from": "below", "to": "under the stairs", "count": 2, "end": 1, "arrival": "stay"})
-    folder = bake(throng, tmp_path, {**STAIRS, "flows": flows, "simulation": {"duration": 60}})
+    folder = bake(throng, tmp_path, {**STAIRS, "flows": flows, "simulation": {"duration": 90}})
     figures = measured(throng, folder)
     assert figures["arrived"] == 102 and figures["wall_crossings"] == 0
     assert figures["deepest_overlap_percent"] < 2
