@@ -74,6 +74,9 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
       buffers(scene, parameters),
       diagram(diagramFor(scene, parameters, library)),
       cells(library, buffers, parameters),
+      behaviour(scene.behaviours.empty()
+                    ? std::nullopt
+                    : std::optional<Behaviour>(std::in_place, library, buffers, scene, settings.motion)),
       congestion(library, buffers, scene, parameters),
       spawner(library, buffers, parameters, settings.motion),
       sensing(library, buffers, diagram, sensingFor(scene, parameters), scene, parameters),
@@ -132,14 +135,18 @@ std::vector<Pass> Simulation::Parts::passesOfStep() {
         if (seams) seams->cross();
         cells.run();
     };
-    return {{"cells", when_deciding(sort)},
-            {"routes", when_deciding([this] { congestion.run(); })},
-            {"spawn", when_deciding(enter)},
-            {"diagram", when_deciding(build)},
-            {"sensing", when_deciding([this] { sensing.run(); })},
-            {"avoidance", decide},
-            {"contacts", [this] { contacts.run(); }},
-            {"motion", move}};
+    std::vector<Pass> all = {{"cells", when_deciding(sort)},
+                             {"routes", when_deciding([this] { congestion.run(); })},
+                             {"spawn", when_deciding(enter)},
+                             {"diagram", when_deciding(build)},
+                             {"sensing", when_deciding([this] { sensing.run(); })},
+                             {"avoidance", decide},
+                             {"contacts", [this] { contacts.run(); }},
+                             {"motion", move}};
+    if (behaviour)
+        all.insert(all.begin() + 1,
+                   {"behaviour", when_deciding([this] { behaviour->run(step_start, steps_done); })});
+    return all;
 }
 
 void Simulation::Parts::beginStep() {
@@ -163,6 +170,9 @@ std::vector<std::pair<std::string, gl::Buffer*>> Simulation::Parts::remembered()
                                                               {"queue heads", &buffers.queue_heads},
                                                               {"detour slopes", &buffers.detour_slopes}};
     if (buffers.hasBodies()) found.emplace_back("chests", &buffers.chests);
+    if (behaviour)
+        for (const auto& each : behaviour->remembered())
+            found.push_back(each);
     for (const auto& each : congestion.remembered())
         found.push_back(each);
     return found;
