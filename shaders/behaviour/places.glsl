@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which of a state's places somebody goes to. Needs the block BehaviourPlaces, shaders/routes/route.glsl and
-// shaders/behaviour/draws.glsl and spots.glsl.
+// Which of a state's places somebody goes to. Needs the blocks States and BehaviourPlaces, and
+// shaders/shared/alive.glsl, shaders/routes/route.glsl and shaders/behaviour/draws.glsl and spots.glsl.
 
 uint nearestPlace(BehaviourState doing, vec2 position) {
     uint nearest = doing.first_place;
@@ -27,19 +27,34 @@ uint choosePlace(BehaviourState doing, Seeker seeker, Mind mind) {
     return doing.first_place + doing.place_count - 1u;
 }
 
-/// One of those that it has not been to.
+/// The nth of the places that it has not been to.
+uint unvisited(BehaviourState doing, Mind mind, uint nth) {
+    for (uint i = 0u; i < doing.place_count; ++i) {
+        if ((mind.visited >> i & 1u) != 0u) continue;
+        if (nth == 0u) return i;
+        nth -= 1u;
+    }
+    return 0u;
+}
+
+/// Of two of the places that it has not been to, drawn by chance, the nearer to where its party is.
 void visitNext(BehaviourState doing, Seeker seeker, inout Mind mind) {
     uint open = doing.place_count - uint(bitCount(mind.visited));
     if (open == 0u) return;
-    float chance = chanceOf(PURPOSE_PLACE, seeker.leader, mind.entered * PICKS_OF_A_STATE + mind.visits_left);
-    uint nth = min(uint(chance * float(open)), open - 1u);
-    for (uint i = 0u; i < doing.place_count; ++i) {
-        if ((mind.visited >> i & 1u) != 0u) continue;
-        if (nth-- > 0u) continue;
-        mind.visited |= 1u << i;
-        mind.place = doing.first_place + i;
-        break;
+    uint count = 2u * (mind.entered * PICKS_OF_A_STATE + mind.visits_left);
+    uint chosen = 0u;
+    float least = 1.0e30;
+    for (uint i = 0u; i < 2u; ++i) {
+        float chance = chanceOf(PURPOSE_PLACE, seeker.leader, count + i);
+        uint place = unvisited(doing, mind, min(uint(chance * float(open)), open - 1u));
+        vec2 from = isAlive(states[seeker.leader].status) ? states[seeker.leader].position : seeker.position;
+        float away = sampleField(behaviour_places[doing.first_place + place].field, from).remaining;
+        if (away >= least) continue;
+        least = away;
+        chosen = place;
     }
+    mind.visited |= 1u << chosen;
+    mind.place = doing.first_place + chosen;
     mind.visits_left -= 1u;
     mind.picks += 1u;
 }
