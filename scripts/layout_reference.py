@@ -180,8 +180,8 @@ class Reference:
 
 def choice_of(owner, key):
     """What a default's cell says of a key that is one of several of which there is exactly one."""
-    choices = next((found for found in ([part["required"] for part in owner.get(each, ())] for each in ("oneOf", "anyOf"))
-                    if any(key in keys for keys in found)), [])
+    of_each = ([part["required"] for part in owner.get(each, ())] for each in ("oneOf", "anyOf"))
+    choices = next((found for found in of_each if any(key in keys for keys in found)), [])
     if any(key in also for _, *also in choices):
         return "required with " + ", ".join(f"`{first}`" for first, *also in choices if key in also)
     if key not in (first for first, *_ in choices):

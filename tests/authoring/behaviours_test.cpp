@@ -51,7 +51,8 @@ const std::string kLeave = R"("leave": {"walk_to": "in"})";
 TEST(Behaviours, AreReadAsTheyAreWritten) {
     const Layout layout = read(withStates(R"("a": {"wander": "square", "pace": 0.8, "until": [
    {"after": {"uniform": [5, 9]}, "crowded": 1.5, "then": "shop"},
-   {"near": "people", "within": 3, "then": "leave"}, {"open": "doors", "empty": "square", "of": "people", "then": "leave"}]},
+   {"near": "people", "within": 3, "then": "leave"},
+   {"open": "doors", "empty": "square", "of": "people", "then": "leave"}]},
   "shop": {"visit": ["square", "in"], "count": [1, 2], "for": 4, "then": "leave"}, )" +
                                           kLeave));
     ASSERT_EQ(layout.behaviours.size(), 1u);
