@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "authoring/layout/behaviour_check.h"
 #include "authoring/layout/people_reader.h"
@@ -45,6 +46,15 @@ std::vector<std::string> namesOf(const std::map<std::string, std::size_t>& ids) 
     for (const auto& [id, index] : ids)
         names.push_back(id);
     return names;
+}
+
+std::optional<std::uint64_t> wholeOf(const JsonNode& node, Limits limits, Diagnostics& diagnostics) {
+    const std::optional<double> number = numberOf(node, limits, diagnostics);
+    if (number && *number != std::floor(*number)) {
+        diagnostics.error(node.where, fmt::format("expected a whole number, found {:.15g}", *number));
+        return std::nullopt;
+    }
+    return number ? std::optional(static_cast<std::uint64_t>(*number)) : std::nullopt;
 }
 
 const char* keyOf(Does does) {
@@ -197,11 +207,11 @@ void BehaviourReader::readVisits(ObjectReader& reader, const JsonNode& what, Sta
     const SchemaRule rule = reader.rule("count");
     const Limits limits = rule.item().limits();
     const bool is_range = count->kind == JsonNode::Kind::array && count->items.size() == 2;
-    const auto least = numberOf(is_range ? count->items[0] : *count, limits, diagnostics_);
-    const auto greatest = numberOf(is_range ? count->items[1] : *count, limits, diagnostics_);
+    const auto least = wholeOf(is_range ? count->items[0] : *count, limits, diagnostics_);
+    const auto greatest = wholeOf(is_range ? count->items[1] : *count, limits, diagnostics_);
     if (!least || !greatest) return;
-    state.least = static_cast<std::uint64_t>(*least);
-    state.most = static_cast<std::uint64_t>(*greatest);
+    state.least = *least;
+    state.most = *greatest;
     if (state.least > state.most)
         diagnostics_.error(count->where, "the minimum is above the maximum", "swap the two");
     else if (state.most > what.items.size())
@@ -227,8 +237,7 @@ void BehaviourReader::readFollowing(ObjectReader& reader, const JsonNode& what, 
     state.followed = {what.text, what.where};
     reader.number("distance", state.distance);
     if (const JsonNode* person = reader.get("person"))
-        if (const auto nth = numberOf(*person, reader.rule("person").limits(), diagnostics_))
-            state.person = static_cast<std::uint64_t>(*nth);
+        state.person = wholeOf(*person, reader.rule("person").limits(), diagnostics_);
 }
 
 void BehaviourReader::readManner(ObjectReader& reader, State& state) {
