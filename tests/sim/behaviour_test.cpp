@@ -219,6 +219,24 @@ TEST_P(BehaviourTest, ConditionsAreThoseOfPlainCpp) {
 
 INSTANTIATE_TEST_SUITE_P(Sizes, BehaviourTest, ::testing::Values(1u, 63u, 1'234u));
 
+TEST_P(BehaviourTest, GoesOnFromASavedState) {
+    const Crowd crowd = crowdOfAllConditions(GetParam());
+    sim::Simulation whole(crowd.scene, library), second(crowd.scene, library);
+    const auto run = [](sim::Simulation& simulation, int steps) {
+        for (int step = 0; step < steps; ++step)
+            simulation.step();
+    };
+    run(whole, 24);
+    const sim::Simulation::State saved = whole.save();
+    run(whole, 24);
+    second.restore(saved);
+    run(second, 24);
+    const auto parts = whole.save().parts, again = second.save().parts;
+    ASSERT_EQ(parts.size(), again.size());
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        EXPECT_TRUE(parts[i].second == again[i].second) << parts[i].first;
+}
+
 class BehaviourOfOne : public GpuTest {
   protected:
     /// One person at the origin, whose first state does this.
