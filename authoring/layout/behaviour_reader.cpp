@@ -341,11 +341,13 @@ void BehaviourReader::readGates(ObjectReader& reader, const JsonNode& node, Tran
         if (!gate) continue;
         const std::string& id = node.find(key)->text;
         const auto wall = walls_.find(id);
-        if (wall != walls_.end())
+        if (wall != walls_.end()) {
             gate->wall = wall->second;
-        else
-            diagnostics_.error(gate->where, fmt::format("there is no wall `{}`", id),
-                               hintFor(id, namesOf(walls_)));
+            continue;
+        }
+        gate->kind = Kind::arrived;  // so that nobody looks for the wall
+        diagnostics_.error(gate->where, fmt::format("there is no wall `{}`", id),
+                           hintFor(id, namesOf(walls_)));
     }
 }
 

@@ -25,7 +25,7 @@ gpu::Drawn drawnOf(const Distribution& distribution) {
             static_cast<float>(distribution.maximum)};
 }
 
-constexpr gpu::Drawn kWhile{0, gpu::DWELL_WHILE, 0.0f, 0.0f, 0.0f};
+const gpu::Drawn kWhile{0, gpu::DWELL_WHILE, 0.0f, 0.0f, 0.0f};
 constexpr gpu::Drawn kNothing{0, 0.0f, 0.0f, 0.0f, 0.0f};
 
 glm::vec2 middleOf(const LocalPolygon& polygon) {

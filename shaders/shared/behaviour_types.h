@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Structures of behaviours, read by the C++ compiler and by the GLSL compiler alike (std430): a table of states, of
-// the rules that lead from one to another, and what each person has in mind.
+// Structures of behaviours, read by the C++ compiler and by the GLSL compiler alike (std430): a table of
+// states, of the rules that lead from one to another, and what each person has in mind.
 #ifndef THRONG_SHARED_BEHAVIOUR_TYPES_H
 #define THRONG_SHARED_BEHAVIOUR_TYPES_H
 

@@ -98,6 +98,15 @@ TEST(Behaviours, AGateThatNeverMovesIsNone) {
                "6: wall `fence` never opens or closes");
 }
 
+TEST(Behaviours, AGateWhereThereIsNoWallIsAnError) {
+    const std::string said =
+        told(R"({"throng": 1, "areas": [{"id": "in", "polygon": [[0, 0], [4, 0], [4, 4]]}],
+ "behaviours": [{"id": "b", "start": "a", "states": {
+  "a": {"stay": true, "until": [{"open": "doors", "then": "a"}]}}}],
+ "flows": [{"id": "people", "from": "in", "behaviour": "b", "count": 4}]})");
+    EXPECT_EQ(said, "3: there is no wall `doors` (there are none)\n");
+}
+
 TEST(Behaviours, AStateDoesOneThing) {
     expectTold(R"("a": {"stay": true, "wander": "square"})", "this one has several");
     expectTold(R"("a": {"pace": 1})", "this one has none");
