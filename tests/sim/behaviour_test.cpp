@@ -83,10 +83,11 @@ gpu::BehaviourRule rule(std::uint32_t condition, float number = 0.0f) {
     return result;
 }
 
-bool inside(const std::vector<glm::vec2>& polygon, glm::vec2 point) {
+/// @param first of the four corners
+bool inside(const std::vector<glm::vec2>& polygon, glm::vec2 point, std::size_t first = 0) {
     bool odd = false;
     for (std::size_t i = 0, j = 3; i < 4; j = i++) {
-        const glm::vec2 a = polygon[i], b = polygon[j];
+        const glm::vec2 a = polygon[first + i], b = polygon[first + j];
         if ((a.y > point.y) != (b.y > point.y) && point.x < (b.x - a.x) * (point.y - a.y) / (b.y - a.y) + a.x)
             odd = !odd;
     }
@@ -121,7 +122,7 @@ bool holds(const Crowd& crowd, std::uint32_t number, std::uint32_t row, const gp
         const gpu::Census& census = crowd.scene.behaviours.censuses[rule.subject];
         std::uint32_t count = 0;
         for (std::uint32_t each = census.first_row; each < census.first_row + census.row_count; ++each)
-            count += each != self && (!only_inside || inside(points, crowd.place(each)));
+            count += each != self && (!only_inside || inside(points, crowd.place(each), census.first_corner));
         return count;
     };
     switch (rule.condition) {
@@ -159,6 +160,9 @@ bool holds(const Crowd& crowd, std::uint32_t number, std::uint32_t row, const gp
 
 class BehaviourTest : public GpuTest, public ::testing::WithParamInterface<std::uint32_t> {};
 
+/// A row whose state ends when nobody else of a census is inside: it alone is counted there.
+constexpr std::uint32_t kAlone = 18;
+
 /// Every condition, true for some and false for others.
 Crowd crowdOfAllConditions(std::uint32_t count) {
     Crowd crowd(count);
@@ -171,9 +175,9 @@ Crowd crowdOfAllConditions(std::uint32_t count) {
     gpu::BehaviourRule people = rule(gpu::IF_NEAR_PEOPLE, 1.7f);
     people.count = (count + 7) / 8;
     crowd.scene.behaviours.censuses = {
-        {0, 4, 0, count}, {0, 4, 0, 1}, {0, 4, count / 2, 1}, {0, 4, count, 0}};
+        {0, 4, 0, count}, {0, 4, 0, 1}, {0, 4, count / 2, 1}, {0, 4, count, 0}, {5, 4, kAlone, 1}};
     std::vector<gpu::BehaviourRule> counts;
-    for (std::uint32_t census = 0; census < 4; ++census)
+    for (std::uint32_t census = 0; census < 5; ++census)
         for (const std::uint32_t condition : {gpu::IF_EMPTY, gpu::IF_ALL_HERE}) {
             counts.push_back(rule(condition));
             counts.back().subject = census;
@@ -182,6 +186,8 @@ Crowd crowdOfAllConditions(std::uint32_t count) {
     open.first = closed.first = 4;
     open.count = closed.count = 1;
     crowd.scene.behaviours.points.emplace_back(-1.0f, 0.0f);
+    for (const glm::vec2 corner : {glm::vec2(-99, -99), {999, -99}, {999, 999}, {-99, 999}})
+        crowd.scene.behaviours.points.push_back(corner);
     for (const gpu::BehaviourRule& each :
          {after, drawn, at, later, place, people, rule(gpu::IF_CROWDED, 1.2f),
           rule(gpu::IF_CHANCE, 0.999999f), open, closed})
