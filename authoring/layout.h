@@ -11,7 +11,10 @@
 #include <variant>
 #include <vector>
 
+#include "authoring/behaviour.h"
+#include "authoring/destination.h"
 #include "authoring/diagram_method.h"
+#include "authoring/distribution.h"
 #include "authoring/expectation.h"
 #include "authoring/source_position.h"
 #include "authoring/traffic.h"
@@ -21,18 +24,6 @@
 /// X east, Y north, Z up. Angles in degrees, counter-clockwise from +X. Times in seconds from the first
 /// frame.
 namespace throng::authoring {
-
-/// A per-person quantity. Every draw is clamped to [minimum, maximum].
-struct Distribution {
-    enum class Kind { constant, uniform, normal, log_normal };
-    Kind kind = Kind::constant;
-    double mean =
-        0.0;  ///< the value (constant), the mean (normal) or that of its logarithm; unused by uniform
-    double standard_deviation = 0.0;  ///< normal; of the logarithm for log_normal
-    double minimum = 0.0;
-    double maximum = 0.0;
-    bool operator==(const Distribution&) const = default;
-};
 
 /// A body that is no disc: from shoulder to shoulder, and from chest to back, m.
 struct BodySides {
@@ -172,6 +163,7 @@ struct Area {
     std::vector<glm::dvec2> polygon;  ///< simple, any winding, not closed by a repeated point
     SourcePosition where;
     std::size_t level = 0;
+    std::optional<glm::dvec2> facing{};  ///< what those look at whom a behaviour brings there
 };
 
 struct Wall {
@@ -202,25 +194,7 @@ struct TerrainSettings {
     SourcePosition where, file_where, node_where;
 };
 
-/// A place that people come from or go to: an area, or one end of a road.
-struct Place {
-    enum class Kind { area, road_start, road_end };
-    Kind kind = Kind::area;
-    std::size_t index = 0;  ///< into Layout::areas or Layout::roads
-    SourcePosition where;
-};
-
 enum class Arrival { leave, stay };
-
-/// Where somebody goes: one place, whichever of several is nearest by the present routes, or one drawn by
-/// weight.
-struct Destination {
-    enum class Kind { one, nearest, choose };
-    Kind kind = Kind::one;
-    std::vector<Place> places;
-    std::vector<double> weights;  ///< choose: one per place
-    SourcePosition where;
-};
 
 /// What people do where they stop.
 enum class Activity { gather, look, queue };
@@ -249,6 +223,7 @@ struct Flow {
     People people;
     Arrival arrival = Arrival::leave;
     SourcePosition where;
+    std::optional<std::size_t> behaviour{};  ///< in place of `via` and `to`
 };
 
 /// A straight line between two points: to mirror at, or to count people across.
@@ -307,6 +282,7 @@ struct Formation {
     double goal_tolerance = 0.3;  ///< m: this near a point goal is arrived
     std::size_t level = 0;
     SourcePosition where;
+    std::optional<std::size_t> behaviour{};  ///< in place of goals
 };
 
 /// Rows of seats, one behind the other. People look to the left of the first row, from its first point to its
@@ -371,6 +347,7 @@ struct Layout {
     std::vector<Area> areas;
     std::vector<Wall> walls;
     std::optional<TerrainSettings> terrain;  ///< none: flat ground at height 0
+    std::vector<Behaviour> behaviours;
     std::vector<Flow> flows;
     std::vector<Formation> formations;
     std::vector<Event> events;  ///< in the order of their times

@@ -9,6 +9,7 @@
 #include "authoring/layout.h"
 #include "authoring/scene_traffic.h"
 #include "authoring/terrain/terrain.h"
+#include "shaders/shared/behaviour_types.h"
 #include "shaders/shared/chart_types.h"
 #include "shaders/shared/scene_types.h"
 
@@ -87,6 +88,18 @@ struct ChartMap {
     bool leadsAgainstBelt(glm::vec2 image) const;
 };
 
+/// What people do, as the device has it. Without behaviours, empty.
+struct Behaviours {
+    std::vector<gpu::BehaviourState> states;
+    std::vector<gpu::BehaviourRule> rules;
+    std::vector<gpu::BehaviourPlace> places;
+    std::vector<glm::vec2> points;  ///< spots, corners of outlines, and moments at which gates move (x)
+    std::vector<gpu::Census> censuses;
+    std::vector<gpu::Mind> minds;  ///< per row
+
+    bool empty() const { return states.empty(); }
+};
+
 /// Everything the simulation needs, in the scene frame: single precision, metres from `origin`.
 ///
 /// `origin` is a whole number of metres near the middle of the layout, and local coordinates are multiples of
@@ -110,6 +123,7 @@ struct Scene {
     std::vector<glm::vec2> entry_points;
     std::vector<gpu::SpawnQueue> queues;
     std::vector<Group> groups;
+    Behaviours behaviours;
 
     std::vector<gpu::WallSegment> wall_segments;
     std::vector<glm::vec2> narrow_places;  ///< m: middles of narrow passages, if people take turns there

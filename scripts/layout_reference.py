@@ -20,7 +20,9 @@ SECTIONS = {"point": ("point", "places-and-points"), "destination": ("destinatio
             "seat_block": ("block of seats", "seats"), "show": ("show", "shows"),
             "crossing": ("crossing", "crossings"), "lane": ("lane", "lanes"), "lane_stop": ("stop of a lane", "lanes"),
             "signal": ("signal", "signals"), "phase": ("phase", "signals"),
-            "vehicle_flow": ("flow of vehicles", "vehicles")}
+            "vehicle_flow": ("flow of vehicles", "vehicles"),
+            "behaviour": ("behaviour", "behaviours"), "behaviour_state": ("state", "behaviours"),
+            "transition": ("condition", "behaviours")}
 LINKED_KEYS = ("simulation", "motion")  # of the layout itself, which are no definitions
 COLUMNS = ("key", "type", "default", "limits", "unit", "meaning")
 SOURCE = "source"  # a column more where a table has any
@@ -181,7 +183,8 @@ class Reference:
 
 def choice_of(owner, key):
     """What a default's cell says of a key that is one of several of which there is exactly one."""
-    choices = [part["required"] for part in owner.get("oneOf", ())]
+    of_each = ([part["required"] for part in owner.get(each, ())] for each in ("oneOf", "anyOf"))
+    choices = next((found for found in of_each if any(key in keys for keys in found)), [])
     if any(key in also for _, *also in choices):
         return "required with " + ", ".join(f"`{first}`" for first, *also in choices if key in also)
     if key not in (first for first, *_ in choices):

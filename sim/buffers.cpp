@@ -114,6 +114,15 @@ gl::Buffer makeFields(const authoring::FieldStore& store) {
     return buffer;
 }
 
+/// Rows behind the last one that has a behaviour have none either.
+std::vector<gpu::Mind> mindsOf(const authoring::Scene& scene) {
+    std::vector<gpu::Mind> minds = scene.behaviours.minds;
+    gpu::Mind none{};
+    none.state = gpu::NO_INDEX;
+    if (!minds.empty()) minds.resize(scene.people.size(), none);
+    return minds;
+}
+
 /// A uniform block is as large as its shader says.
 std::vector<gpu::Belt> roomForAll(std::vector<gpu::Belt> belts) {
     if (!belts.empty()) belts.resize(gpu::NO_CHART);
@@ -204,6 +213,13 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
       lines(gl::makeBuffer("waiting lines", scene.lines, "line")),
       line_points(gl::makeBuffer("line points", scene.line_points, "point of a line")),
       tickets("tickets", {scene.ticket_count, kWord, "ticket"}),
+      behaviour_states(gl::makeBuffer("behaviour states", scene.behaviours.states, "state of a behaviour")),
+      behaviour_rules(gl::makeBuffer("behaviour rules", scene.behaviours.rules, "rule of a behaviour")),
+      behaviour_places(gl::makeBuffer("behaviour places", scene.behaviours.places, "place of a behaviour")),
+      behaviour_points(gl::makeBuffer("behaviour points", scene.behaviours.points, "point of a behaviour")),
+      censuses(gl::makeBuffer("censuses", scene.behaviours.censuses, "census")),
+      tallies("tallies", {scene.behaviours.censuses.size(), sizeof(gpu::Tally), "census"}),
+      minds(gl::makeBuffer("minds", mindsOf(scene), kPerson)),
       detour_slopes("detour slopes",
                     {scene.detours.distances.size(), sizeof(glm::vec2), "cell of a detour field"}),
       queues(gl::makeBuffer("queues", scene.queues, "queue")),
@@ -357,6 +373,13 @@ std::vector<std::pair<std::string, const gl::Buffer*>> Buffers::named() const {
             {"Lights", &lights},
             {"InTheWay", &in_the_way},
             {"RowSlots", &row_slots},
+            {"BehaviourStates", &behaviour_states},
+            {"BehaviourRules", &behaviour_rules},
+            {"BehaviourPlaces", &behaviour_places},
+            {"BehaviourPoints", &behaviour_points},
+            {"Censuses", &censuses},
+            {"Tallies", &tallies},
+            {"Minds", &minds},
             {"DetourSlopes", &detour_slopes},
             {"Queues", &queues},
             {"QueueHeads", &queue_heads},

@@ -30,7 +30,9 @@ struct Buffers {
     gl::Buffer fields;                // may be larger than a storage block: read through field_cells
     gl::WordTexture field_cells;
     gl::Buffer road_distances;
-    gl::Buffer lines, line_points, tickets;                            // people who wait in line
+    gl::Buffer lines, line_points, tickets;  // people who wait in line
+    gl::Buffer behaviour_states, behaviour_rules, behaviour_places, behaviour_points;  // what people do
+    gl::Buffer censuses, tallies, minds;
     gl::Buffer detour_slopes;                                          // what jams add to them
     gl::Buffer queues, queue_heads, entries, entry_points, proposals;  // entering
     gl::Buffer wall_segments, wall_tiles, wall_starts, wall_items, narrow_cells;

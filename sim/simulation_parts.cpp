@@ -74,6 +74,9 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
       buffers(scene, parameters),
       diagram(diagramFor(scene, parameters, library)),
       cells(library, buffers, parameters),
+      behaviour(scene.behaviours.empty()
+                    ? std::nullopt
+                    : std::optional<Behaviour>(std::in_place, library, buffers, scene, settings.motion)),
       congestion(library, buffers, scene, parameters),
       spawner(library, buffers, parameters, settings.motion),
       sensing(library, buffers, diagram, sensingFor(scene, parameters), scene, parameters),
@@ -147,6 +150,9 @@ std::vector<Pass> Simulation::Parts::passesOfStep() {
                              {"avoidance", decide},
                              {"contacts", touch},
                              {"motion", move}};
+    if (behaviour)
+        all.insert(all.begin() + 1,
+                   {"behaviour", when_deciding([this] { behaviour->run(step_start, steps_done); })});
     // Before anybody looks where they are.
     if (traffic && traffic->vehicles() > 0)
         all.insert(all.begin(), Pass{"vehicles", [this] { traffic->drive(step_start); }});
@@ -176,6 +182,9 @@ std::vector<std::pair<std::string, gl::Buffer*>> Simulation::Parts::remembered()
                                                               {"detour slopes", &buffers.detour_slopes}};
     if (buffers.hasBodies()) found.emplace_back("chests", &buffers.chests);
     if (traffic && traffic->vehicles() > 0) found.emplace_back("vehicles", &buffers.vehicles);
+    if (behaviour)
+        for (const auto& each : behaviour->remembered())
+            found.push_back(each);
     for (const auto& each : congestion.remembered())
         found.push_back(each);
     return found;

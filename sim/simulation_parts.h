@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/behaviour.h"
 #include "sim/buffers.h"
 #include "sim/cell_sort.h"
 #include "sim/congestion.h"
@@ -36,6 +37,7 @@ struct Simulation::Parts {
     Buffers buffers;
     Diagram diagram;
     CellSort cells;
+    std::optional<Behaviour> behaviour;  // none where nobody has one
     Congestion congestion;
     Spawner spawner;
     Sensing sensing;

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "authoring/layout/behaviour_reader.h"
 #include "authoring/layout/level_reader.h"
 #include "authoring/layout/object_reader.h"
 #include "authoring/layout/people_reader.h"
@@ -46,12 +47,14 @@ class Reader {
         eachOf(reader, "vehicles", [this](const JsonNode& node) { traffic_.readVehicles(node); });
         traffic_.finish();
         if (const JsonNode* node = reader.get("terrain")) readTerrain(*node);
+        eachOf(reader, "behaviours", [this](const JsonNode& node) { behaviours_.read(node); });
         eachOf(reader, "flows", [this](const JsonNode& node) { readFlow(node); });
         eachOf(reader, "formations", [this](const JsonNode& node) { readFormation(node); });
         eachOf(reader, "seats", [this](const JsonNode& node) { seats_.readBlock(node); });
         eachOf(reader, "events", [this](const JsonNode& node) { readEvent(node); });
         eachOf(reader, "shows", [this](const JsonNode& node) { seats_.readShow(node); });
         sortEvents();
+        behaviours_.finish();
         if (const JsonNode* node = reader.get("expect")) readExpectations(*node);
         reader.finish();
         checkWhole();
@@ -212,6 +215,7 @@ class Reader {
         reader.requiredText("id", "the name that flows use", area.id);
         area.polygon = reader.points("polygon");
         area.level = levels_.levelOf(reader);
+        reader.point("facing", area.facing);
         reader.finish();
         checkPolygon(area.polygon, node.find("polygon"), diagnostics_);
         claimId(node, area.id, areas_, layout_.areas.size(), "an area", diagnostics_);
@@ -315,7 +319,9 @@ class Reader {
         if (!reader.isObject()) return;
         reader.requiredText("id", "its name in the account", flow.id);
         const JsonNode* from = reader.require("from", "where people come from");
-        const JsonNode* to = reader.require("to", "where people go");
+        flow.behaviour = behaviours_.behaviourOf(reader, node, {"via", "to", "arrival"});
+        const bool behaves = node.find("behaviour") != nullptr;
+        const JsonNode* to = behaves ? reader.get("to") : reader.require("to", "where people go");
         const std::optional<Place> from_place = from ? places_.place(*from) : std::nullopt;
         const std::optional<Destination> destination = to ? places_.destination(*to) : std::nullopt;
         eachOf(reader, "via", [&](const JsonNode& item) {
@@ -332,9 +338,9 @@ class Reader {
         readArrival(reader, flow.arrival);
         reader.finish();
         claimId(node, flow.id, groups_, layout_.flows.size(), "a flow or formation", diagnostics_);
-        if (!from_place || !destination) return;
+        if (!from_place || (!destination && !behaves)) return;
         flow.from = *from_place;
-        flow.to = *destination;
+        if (destination) flow.to = *destination;
         checkEnds(flow);
         layout_.flows.push_back(std::move(flow));
     }
@@ -478,9 +484,11 @@ class Reader {
         std::optional<Shape> type;
         reader.choice("type", {{"circle", Shape::circle}, {"grid", Shape::grid}, {"agents", Shape::agents}},
                       type);
+        formation.behaviour = behaviours_.behaviourOf(reader, node, {"goal", "wait", "arrival"});
+        const bool behaves = node.find("behaviour") != nullptr;
         if (type == Shape::circle) formation.shape = readCircle(reader);
-        if (type == Shape::grid) formation.shape = readGrid(reader);
-        if (type == Shape::agents) formation.shape = readList(reader);
+        if (type == Shape::grid) formation.shape = readGrid(reader, behaves);
+        if (type == Shape::agents) formation.shape = readList(reader, behaves);
         reader.number("start", formation.start);
         formation.wait = readDistribution(reader, "wait", formation.wait, diagnostics_);
         formation.people = readPeople(reader, diagnostics_);
@@ -522,7 +530,8 @@ class Reader {
         return false;
     }
 
-    GridFormation readGrid(ObjectReader& reader) {
+    /// @param behaves a behaviour says where its people go
+    GridFormation readGrid(ObjectReader& reader, bool behaves) {
         GridFormation grid;
         reader.point("origin", "the first person, [x, y] in metres", grid.origin);
         reader.require("rows", "people along the grid's +Y");
@@ -536,7 +545,8 @@ class Reader {
                                                            grid.count, grid.rows, grid.columns));
         reader.number("jitter", grid.jitter);
         reader.number("rotation", grid.rotation);
-        const JsonNode* goal = reader.require("goal", "{\"offset\": [dx, dy]} or a place");
+        constexpr const char* kMeaning = "{\"offset\": [dx, dy]} or a place";
+        const JsonNode* goal = behaves ? reader.get("goal") : reader.require("goal", kMeaning);
         if (!goal) return grid;
         if (goal->kind != JsonNode::Kind::object || goal->find("nearest") || goal->find("choose")) {
             if (auto destination = places_.destination(*goal)) grid.goal = std::move(*destination);
@@ -561,7 +571,7 @@ class Reader {
         return grid;
     }
 
-    ListFormation readList(ObjectReader& reader) {
+    ListFormation readList(ObjectReader& reader, bool behaves) {
         ListFormation list;
         reader.require("agents", "an array of people");
         const SchemaRule rule = reader.rule("agents").item();
@@ -571,7 +581,11 @@ class Reader {
             ObjectReader inner(node, rule, "a person", diagnostics_);
             if (!inner.isObject()) return;
             inner.point("position", "[x, y] in metres", agent.position);
-            inner.point("goal", "[x, y] in metres", agent.goal);
+            agent.goal = agent.position;
+            if (!behaves || node.find("goal")) inner.point("goal", "[x, y] in metres", agent.goal);
+            if (const JsonNode* goal = node.find("goal"); goal && behaves)
+                diagnostics_.error(goal->where, "`goal` is said twice: the behaviour tells where people go",
+                                   "leave `goal` out, or `behaviour`");
             inner.number("speed", agent.speed);
             inner.number("radius", agent.radius);
             inner.number("heading", agent.heading);
@@ -668,6 +682,7 @@ class Reader {
     LevelReader levels_{schema_, layout_, diagnostics_};
     SeatReader seats_{schema_, layout_, groups_, walls_, diagnostics_};
     TrafficReader traffic_{schema_, layout_, diagnostics_};
+    BehaviourReader behaviours_{schema_, layout_, places_, groups_, walls_, diagnostics_};
 };
 
 }  // namespace

@@ -20,6 +20,10 @@ std::optional<Place> PlaceReader::place(const JsonNode& node) const {
     return std::nullopt;
 }
 
+bool PlaceReader::isPlace(const std::string& name) const {
+    return areas_.contains(name) || roads_.contains(name.substr(0, name.rfind(':')));
+}
+
 std::optional<Place> PlaceReader::placeNamed(const std::string& name, const SourcePosition& where) const {
     if (const auto area = areas_.find(name); area != areas_.end())
         return Place{Place::Kind::area, area->second, where};

@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "authoring/scene/behaviours.h"
 #include "authoring/scene/raster.h"
 #include "authoring/scene/traffic.h"
 #include "authoring/scene/walls.h"
@@ -94,8 +95,9 @@ std::array<Itineraries::Destinations, 2> Itineraries::wanted(const Layout& layou
     for (const Flow& flow : layout.flows) {
         for (const Stop& stop : flow.via)
             want(stop.at, keepsToRoads(layout));
-        want(flow.to, keepsToRoads(layout));
+        if (!flow.behaviour) want(flow.to, keepsToRoads(layout));
     }
+    BehaviourTables::destinations(layout, want);
     for (const Formation& formation : layout.formations)
         if (const auto* grid = std::get_if<GridFormation>(&formation.shape))
             if (const auto* to = std::get_if<Destination>(&grid->goal)) want(*to, false);

@@ -11,6 +11,7 @@
 #include <unordered_map>
 
 #include "authoring/layout/layout_reader.h"
+#include "authoring/scene/behaviours.h"
 #include "authoring/scene/chart_map.h"
 #include "authoring/scene/itineraries.h"
 #include "authoring/scene/narrow_places.h"
@@ -105,10 +106,11 @@ class Builder {
         Itineraries itineraries(layout_, rebase_, geometry_, routes, diagnostics_, scene_);
         itineraries.prepare();
         routes.solvePlanned();
+        BehaviourTables behaviours(layout_, rebase_, geometry_, routes, diagnostics_, scene_);
         for (std::size_t i = 0; i < layout_.flows.size(); ++i)
-            routeFlow(layout_.flows[i], i, routes, itineraries);
+            routeFlow(layout_.flows[i], i, routes, itineraries, behaviours);
         for (std::size_t i = 0; i < layout_.formations.size(); ++i)
-            placeFormation(layout_.formations[i], i, routes, itineraries);
+            placeFormation(layout_.formations[i], i, routes, itineraries, behaviours);
         numberTickets();
         if (routes.tooManyFields())
             diagnostics_.error({},
@@ -169,6 +171,7 @@ class Builder {
         if (geometry_.walls.empty()) return goals;
         for (std::size_t index = 0; index < layout_.formations.size(); ++index) {
             const Formation& formation = layout_.formations[index];
+            if (formation.behaviour) continue;
             const FormationPlaces places = formationPlaces(formation, layout_.simulation.seed);
             if (places.goals.empty()) continue;
             std::uint64_t i = 0;
@@ -383,20 +386,32 @@ class Builder {
         }
     }
 
-    void routeFlow(const Flow& flow, std::size_t index, Routes& routes, Itineraries& itineraries) {
+    /// Those who walk stop by stop; whoever has a behaviour begins in its first state.
+    void routeFlow(const Flow& flow, std::size_t index, Routes& routes, Itineraries& itineraries,
+                   BehaviourTables& behaviours) {
         Journey journey{fmt::format("flow `{}`", flow.id), flow.where, keepsToRoads(layout_), flow.via};
-        journey.stops.push_back(Journey::goalStop(flow.to, flow.arrival));
         const LocalPolygon start = routes.outline(flow.from, Routes::kEntryDepth);
-        itineraries.check(journey, fmt::format("`{}`", routes.name(flow.from)), {start});
+        const std::string from = fmt::format("`{}`", routes.name(flow.from));
+        std::uint32_t state = 0, first_field = 0;
+        if (flow.behaviour) {
+            state = behaviours.add(layout_.behaviours[*flow.behaviour],
+                                   {journey.traveller, index, journey.keep_to_roads, from, {start}});
+            first_field = behaviours.fieldOf(state);
+        } else {
+            journey.stops.push_back(Journey::goalStop(flow.to, flow.arrival));
+            itineraries.check(journey, from, {start});
+            first_field = itineraries.fieldTo(journey.stops.front().at, journey.keep_to_roads);
+        }
         const auto entry = static_cast<std::uint32_t>(scene_.entries.size());
-        scene_.entries.push_back(findEntryPoints(
-            flow, index, routes, itineraries.fieldTo(journey.stops.front().at, journey.keep_to_roads)));
+        scene_.entries.push_back(findEntryPoints(flow, index, routes, first_field));
         const GroupRandom random(layout_.simulation.seed, flow.id);
         std::uint64_t i = 0;
         gpu::Person before{};
         forEachRow(index, [&](gpu::Person& person) {
             person.entry = entry;
-            if (i > 0 && Itineraries::isShared(journey)) {
+            if (flow.behaviour) {
+                behaviours.begin(person, rowOf(person), state);
+            } else if (i > 0 && Itineraries::isShared(journey)) {
                 person.first_stage = before.first_stage;
                 person.stage_count = before.stage_count;
             } else {
@@ -464,7 +479,8 @@ class Builder {
              ++i) {
             const std::optional<glm::vec2> point = spread.next();
             if (!point) break;
-            if (routes.reachable(field, *point) < kUnreachable) scene_.entry_points.push_back(*point);
+            if (field == gpu::NO_INDEX || routes.reachable(field, *point) < kUnreachable)
+                scene_.entry_points.push_back(*point);
         }
         const auto found = static_cast<std::uint32_t>(scene_.entry_points.size()) - first;
         if (found == 0) {
@@ -484,8 +500,20 @@ class Builder {
             visit(scene_.people[row]);
     }
 
+    std::size_t rowOf(const gpu::Person& person) const {
+        return static_cast<std::size_t>(&person - scene_.people.data());
+    }
+
+    /// The state in which a formation's people begin.
+    std::uint32_t addBehaviour(const Formation& formation, std::size_t index, const Journey& journey,
+                               BehaviourTables& behaviours) const {
+        const glm::vec2 place = scene_.people[scene_.queues[index].first_row].spawn_position;
+        return behaviours.add(layout_.behaviours[*formation.behaviour],
+                              {journey.traveller, index, false, "where they stand", {{place, place, place}}});
+    }
+
     void placeFormation(const Formation& formation, std::size_t formation_index, Routes& routes,
-                        Itineraries& itineraries) {
+                        Itineraries& itineraries, BehaviourTables& behaviours) {
         const std::size_t index = layout_.flows.size() + formation_index;
         const FormationPlaces places = formationPlaces(formation, layout_.simulation.seed);
         const GroupRandom random(layout_.simulation.seed, formation.id);
@@ -493,6 +521,8 @@ class Builder {
         const auto* destination = grid ? std::get_if<Destination>(&grid->goal) : nullptr;
         Journey journey{fmt::format("formation `{}`", formation.id), formation.where};
         if (destination) journey.stops.push_back(Journey::goalStop(*destination, formation.arrival));
+        const std::uint32_t state =
+            formation.behaviour ? addBehaviour(formation, index, journey, behaviours) : 0;
         PlacedBodies later;  // who comes in when the formation does
         PlacedBodies& bodies = formation.start == 0.0 ? bodies_ : later;
         std::uint64_t i = 0;
@@ -500,7 +530,9 @@ class Builder {
             const Traveller traveller = travellerOf(person, index, i);
             person.first_stage = static_cast<std::uint32_t>(scene_.stages.size());
             addPause(formation, random, traveller, person);
-            if (destination) {
+            if (formation.behaviour) {
+                behaviours.begin(person, rowOf(person), state);
+            } else if (destination) {
                 person.stage_count += itineraries.appendStages(journey, random, traveller);
                 const std::uint32_t field = scene_.stages.back().field & ~gpu::FIELD_THEN_POINT;
                 if (routes.reachable(field, person.spawn_position) == kUnreachable)

@@ -89,6 +89,7 @@ class Checker {
     }
 
     void checkFlow(const Flow& flow, std::size_t group) {
+        if (flow.behaviour) return;
         if (scene_.queues[group].row_count == 0) return;
         const Kind kind = kindOf(group, flow.start > 0.0 ? flow.start : -layout_.simulation.warmup);
         Cells from = cellsInPolygon(grid_, routes_.outline(flow.from, Routes::kEntryDepth));
@@ -98,6 +99,7 @@ class Checker {
     }
 
     void checkFormation(const Formation& formation, std::size_t group) {
+        if (formation.behaviour) return;
         const gpu::SpawnQueue& queue = scene_.queues[group];
         if (queue.row_count == 0) return;
         const Kind kind = kindOf(group, formation.start > 0.0 ? formation.start : -layout_.simulation.warmup);

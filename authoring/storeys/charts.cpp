@@ -92,8 +92,14 @@ Layout moved(const Layout& layout, const std::vector<Chart>& charts) {
     Layout plane = layout;
     for (Road& road : plane.roads)
         move(road.centreline, charts[road.level].shift);
-    for (Area& area : plane.areas)
+    for (Area& area : plane.areas) {
         move(area.polygon, charts[area.level].shift);
+        if (area.facing) *area.facing += charts[area.level].shift;
+    }
+    for (Behaviour& behaviour : plane.behaviours)
+        for (BehaviourState& state : behaviour.states)
+            if (state.facing && !state.to.places.empty())
+                *state.facing += charts[levelOf(layout, state.to.places.front())].shift;
     for (Wall& wall : plane.walls)
         move(wall.points, charts[wall.level].shift);
     for (Flow& flow : plane.flows)

@@ -120,7 +120,11 @@ class Rules:
     def members(self, rule, value):
         """(key or index, value or None, rule) of what may stand inside a value."""
         if isinstance(value, dict):
-            return [(key, value.get(key), entry) for key, entry in self.keys(rule).items()]
+            keys = self.keys(rule)
+            others = next((part["additionalProperties"] for part in self.parts(rule)
+                           if isinstance(part.get("additionalProperties"), dict)), None)
+            return [*((key, value.get(key), entry) for key, entry in keys.items()),
+                    *((key, inside, others) for key, inside in value.items() if others and key not in keys)]
         lists = [part for part in self.parts(rule) if part.get("type") == "array" and "items" in part]
         rules = self.items(lists[0]) if lists else []
         return [(index, item, rules[min(index, len(rules) - 1)]) for index, item in enumerate(value if rules else ())]

@@ -10,6 +10,7 @@
 #include <regex>
 #include <set>
 
+#include "shaders/shared/behaviour_types.h"
 #include "shaders/shared/chart_types.h"
 #include "shaders/shared/simulation_types.h"
 #include "shaders/shared/terrain_types.h"
@@ -55,6 +56,68 @@ std::map<std::string, Layout> layoutsInCpp() {
         result["Stage"] = {sizeof(T),
                            {MEMBER(point), MEMBER(facing), MEMBER(tolerance), MEMBER(field), MEMBER(dwell),
                             MEMBER(line), MEMBER(activity), MEMBER(flags), MEMBER(beyond), MEMBER(reserved)}};
+    }
+    {
+        using T = gpu::Drawn;
+        result["Drawn"] = {sizeof(T),
+                           {MEMBER(kind), MEMBER(mean), MEMBER(deviation), MEMBER(minimum), MEMBER(maximum)}};
+    }
+    {
+        using T = gpu::BehaviourState;
+        result["BehaviourState"] = {sizeof(T),
+                                    {MEMBER(facing),
+                                     MEMBER(from),
+                                     MEMBER(does),
+                                     MEMBER(flags),
+                                     MEMBER(first_rule),
+                                     MEMBER(rule_count),
+                                     MEMBER(then),
+                                     MEMBER(first_place),
+                                     MEMBER(place_count),
+                                     MEMBER(activity),
+                                     MEMBER(least),
+                                     MEMBER(most),
+                                     MEMBER(first_row),
+                                     MEMBER(row_count),
+                                     MEMBER(distance),
+                                     MEMBER(pace),
+                                     MEMBER(lasts.kind),
+                                     MEMBER(lasts.mean),
+                                     MEMBER(lasts.deviation),
+                                     MEMBER(lasts.minimum),
+                                     MEMBER(lasts.maximum),
+                                     MEMBER(reserved)}};
+    }
+    {
+        using T = gpu::BehaviourPlace;
+        result["BehaviourPlace"] = {
+            sizeof(T),
+            {MEMBER(middle), MEMBER(facing), MEMBER(field), MEMBER(first_point), MEMBER(point_count),
+             MEMBER(first_corner), MEMBER(corner_count), MEMBER(weight)}};
+    }
+    {
+        using T = gpu::BehaviourRule;
+        result["BehaviourRule"] = {
+            sizeof(T),
+            {MEMBER(condition), MEMBER(then), MEMBER(subject), MEMBER(first), MEMBER(count), MEMBER(number),
+             MEMBER(time.kind), MEMBER(time.mean), MEMBER(time.deviation), MEMBER(time.minimum),
+             MEMBER(time.maximum), MEMBER(reserved)}};
+    }
+    {
+        using T = gpu::Census;
+        result["Census"] = {
+            sizeof(T), {MEMBER(first_corner), MEMBER(corner_count), MEMBER(first_row), MEMBER(row_count)}};
+    }
+    {
+        using T = gpu::Tally;
+        result["Tally"] = {sizeof(T), {MEMBER(present), MEMBER(inside)}};
+    }
+    {
+        using T = gpu::Mind;
+        result["Mind"] = {
+            sizeof(T),
+            {MEMBER(state), MEMBER(since), MEMBER(entered), MEMBER(visited), MEMBER(visits_left),
+             MEMBER(place), MEMBER(picks), MEMBER(flags), MEMBER(first_stage), MEMBER(followed)}};
     }
     {
         using T = gpu::PlanChange;
@@ -329,6 +392,7 @@ TEST_F(SharedTypesTest, EveryShaderDeclaresItsBlocksInTheLayoutThatIsShared) {
     }
     for (const auto& [structure, header] : structures) {
         if (structure == "FieldCell") continue;  // shaders read its words, through a texture
+        if (structure == "Drawn") continue;      // is a part of others
         EXPECT_TRUE(seen.contains(structure)) << structure << " is in no block of a shader";
     }
 }

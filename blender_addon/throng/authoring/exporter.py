@@ -158,7 +158,10 @@ def _formation(thing, world):
             result["spacing"] = short(scale * part.spacing)
     else:
         result["agents"] = _agents(thing, old.get("agents"), world)
-    return [result]
+        if "behaviour" in result:
+            result["agents"] = [{key: value for key, value in each.items() if key != "goal"}
+                                for each in result["agents"]]
+    return [places.without_goal(result, "goal")]
 
 
 def _agents(thing, raw, world):

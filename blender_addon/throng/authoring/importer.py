@@ -50,8 +50,14 @@ def _problems(document):
                 yield from _formation_problems(entry, f"/{key}/{i}")
 
 
-def _is_person(entry):
-    return isinstance(entry, dict) and is_point(entry.get("position")) and is_point(entry.get("goal"))
+def _is_person(entry, behaves):
+    """@param behaves a behaviour stands in place of goals"""
+    goes = isinstance(entry, dict) and (is_point(entry.get("goal")) or behaves and "goal" not in entry)
+    return goes and is_point(entry.get("position"))
+
+
+def _way_of(person):
+    return [person["position"], person.get("goal", person["position"])]
 
 
 def _formation_problems(entry, pointer):
@@ -60,7 +66,7 @@ def _formation_problems(entry, pointer):
         yield f"{pointer}/type", "expected circle, grid or agents"
     elif kind == "agents":
         people = entry.get("agents")
-        if not isinstance(people, list) or not all(_is_person(each) for each in people):
+        if not isinstance(people, list) or not all(_is_person(each, "behaviour" in entry) for each in people):
             yield f"{pointer}/agents", "expected people with a position and a goal [x, y]"
     elif not is_point(entry.get("centre" if kind == "circle" else "origin")):
         yield f"{pointer}/{'centre' if kind == 'circle' else 'origin'}", "expected a point [x, y]"
@@ -73,7 +79,7 @@ def _all_points(document):
     for entry in document.get("formations", []):
         yield from (entry[key] for key in ("centre", "origin") if is_point(entry.get(key)))
         for each in entry["agents"] if entry["type"] == "agents" else []:
-            yield from (each["position"], each["goal"])
+            yield from _way_of(each)
 
 
 def _origin(document):
@@ -134,8 +140,7 @@ def _shaped(world, key, kind, entry):
     if kind == "FORMATION":
         thing = bpy.data.objects.new(name, bpy.data.meshes.new("Throng formation"))
         if entry["type"] == "agents":
-            geometry.fill_people(thing.data,
-                                 [world.local([each["position"], each["goal"]]) for each in entry["agents"]])
+            geometry.fill_people(thing.data, [world.local(_way_of(each)) for each in entry["agents"]])
         else:
             thing.location = (*world.local([entry["centre" if entry["type"] == "circle" else "origin"]])[0], 0.0)
             turn = entry.get("rotation") if entry["type"] == "grid" else None

@@ -171,7 +171,12 @@ def take_flow(flow, world):
     if not flow.name and not isinstance(raw.get("id"), str):
         del result["id"]
         result.update({"id": raw["id"]} if "id" in raw else {})
-    return result
+    return without_goal(result, "to")
+
+
+def without_goal(entry, key):
+    """A behaviour stands in place of where people go, if that has not been chosen."""
+    return {name: value for name, value in entry.items() if name != key or value != "" or "behaviour" not in entry}
 
 
 _GO_TO = Destination("go_to", "destination")

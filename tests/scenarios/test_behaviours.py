@@ -1,0 +1,196 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What people do by their behaviours: a market whose visitors choose stalls, a tram that people leave before others get
+on, and gates, crowds and company that end what people do."""
+import csv
+import json
+
+import numpy
+import pytest
+
+from conftest import EXAMPLES, ROOT
+
+WALKED, STOOD, LOOKED = 1, 2, 3  # activities
+
+
+def box(x, y, width, height):
+    return [[x, y], [x + width, y], [x + width, y + height], [x, y + height]]
+
+
+class Bake:
+    def __init__(self, path, layout):
+        self.layout = layout
+        self.fps = int(json.loads((path / "bake.json").read_text())["fps"])
+        self.places = numpy.load(path / "streams" / "pos.npy")[..., :2].astype(float)
+        self.facing = numpy.load(path / "streams" / "dir.npy")[..., :2].astype(float)
+        self.doing = numpy.load(path / "streams" / "state.npy")[..., 0].astype(int)
+        with open(path / "agents.csv", encoding="utf-8", newline="") as file:
+            self.rows = list(csv.DictReader(file))
+
+    def of(self, group):
+        return numpy.array([row["group"] == group for row in self.rows])
+
+    def inside(self, area, slack=0.0):
+        """Frames by rows: who is there and in an area that is a box."""
+        polygon = numpy.array(next(each["polygon"] for each in self.layout["areas"] if each["id"] == area), float)
+        lower, upper = polygon.min(axis=0) - slack, polygon.max(axis=0) + slack
+        return ((self.places >= lower) & (self.places <= upper)).all(axis=-1) & (self.doing > 0)
+
+    def spells(self, activity):
+        """(row, first frame, last frame)"""
+        for row, does in enumerate((self.doing == activity).T):
+            edges = numpy.flatnonzero(numpy.diff(numpy.concatenate([[0], does, [0]])))
+            yield from ((row, first, last - 1) for first, last in zip(edges[::2], edges[1::2], strict=True))
+
+
+@pytest.fixture(scope="module")
+def bake(throng, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("behaviours")
+
+    def make(name, layout, *options):
+        path = folder / f"{name}.json"
+        path.write_text(json.dumps(layout), "utf-8")
+        throng("bake", path, "-o", folder / name, "--no-gltf", "-q", *options)
+        return Bake(folder / name, layout)
+
+    return make
+
+
+@pytest.fixture(scope="module")
+def market(bake):
+    return bake("market", json.loads((EXAMPLES / "market.json").read_text("utf-8")))
+
+
+def test_everybody_visits_two_to_four_stalls(market):
+    stalls = [area["id"] for area in market.layout["areas"] if area["id"].startswith("stall")]
+    inside = [market.inside(stall, slack=1.2) for stall in stalls]  # where a stall is full, people stand beside
+    visited = [set() for _ in market.rows]
+    for row, first, last in market.spells(LOOKED):
+        middle = (first + last) // 2
+        visited[row].update(stall for stall, there in zip(stalls, inside, strict=True) if there[middle, row])
+    counts = numpy.array([len(each) for each in visited])
+    assert counts.min() >= 2 and counts.max() <= 4, counts
+    assert {2, 3, 4} == set(counts)
+    assert min(sum(stall in each for each in visited) for stall in stalls) >= 10, "no stall is left out"
+
+
+def test_who_looks_at_a_stall_stands_and_looks_at_it(market):
+    facing = {area["id"]: area["facing"] for area in market.layout["areas"] if "facing" in area}
+    inside = {stall: market.inside(stall) for stall in facing}
+    drifts, cosines, seconds = [], [], []
+    for row, first, last in market.spells(LOOKED):
+        settled = first + round(0.5 * market.fps)
+        if last <= settled:
+            continue
+        drifts.append(numpy.linalg.norm(market.places[last, row] - market.places[settled, row]))
+        seconds.append((last - first) / market.fps)
+        stall = next((each for each in facing if inside[each][last, row]), None)
+        if stall:
+            sight = numpy.array(facing[stall]) - market.places[last, row]
+            cosines.append(sight @ market.facing[last, row] / numpy.linalg.norm(sight))
+    assert len(drifts) > 300
+    assert numpy.median(drifts) < 0.1, numpy.median(drifts)
+    assert numpy.percentile(cosines, 10) > 0.9, numpy.percentile(cosines, 10)
+    assert 4.5 < numpy.percentile(seconds, 5) and numpy.percentile(seconds, 95) < 12.6
+
+
+def test_they_stroll_in_the_square_first_and_all_leave(market):
+    assert {row["outcome"] for row in market.rows} == {"arrived"}
+    assert (market.doing[-1] > 0).mean() < 0.02
+    entered = (market.doing > 0).argmax(axis=0)
+    first_look = (market.doing == LOOKED).argmax(axis=0)
+    strolls = (first_look - entered) / market.fps
+    assert strolls.min() > 5
+    assert numpy.median(strolls) > 12
+
+
+def test_a_bake_repeats_and_another_seed_is_another_crowd(bake):
+    layout = json.loads((ROOT / "docs" / "examples" / "behaviours.json").read_text("utf-8"))
+    layout["simulation"]["duration"] = 20
+    one, same = bake("one", layout), bake("same", layout)
+    assert (one.places == same.places).all() and (one.doing == same.doing).all()
+    other = bake("other", layout, "--set", "simulation.seed=9")
+    assert one.places.shape != other.places.shape or (one.places != other.places).any()
+
+
+def test_those_inside_a_tram_get_off_before_others_get_on(bake):
+    tram = bake("tram", json.loads((ROOT / "docs" / "examples" / "boarding.json").read_text("utf-8")))
+    riders, inside = tram.of("riders"), tram.inside("tram", slack=0.15)
+    opens = 15 * tram.fps
+    assert inside[:opens, riders].all(), "they wait for the doors"
+    assert not inside[:opens, ~riders].any()
+    last_out = numpy.flatnonzero(inside[:, riders].any(axis=1)).max()
+    first_in = numpy.flatnonzero(inside[:, ~riders].any(axis=1)).min()
+    assert first_in > last_out, (first_in, last_out)
+    assert (first_in - last_out) / tram.fps < 4
+    assert inside[-1, ~riders].mean() == 1
+    assert not (tram.doing[-1, riders] > 0).any()
+
+
+def conditions(until, then="go", extra=None, people=6):
+    """People stand in a row until something happens, and then walk away eastwards."""
+    return {"throng": 1, "simulation": {"duration": 20},
+            "areas": [{"id": "away", "polygon": box(14, -8, 3, 16)}, {"id": "here", "polygon": box(-4, -4, 14, 8)}],
+            "behaviours": [{"id": "waits", "start": "stand", "states": {
+                "stand": {"stay": True, "until": [{**until, "then": then}]}, "go": {"walk_to": "away"}}}],
+            "formations": [{"id": "row", "type": "grid", "origin": [0, 0], "rows": 1, "columns": people, "spacing": 1.2,
+                            "behaviour": "waits"}, *(extra or [])]}
+
+
+def setting_off(baked, group="row"):
+    """s, when each first walks faster than 0.5 m/s; NaN for who never does."""
+    speeds = numpy.linalg.norm(numpy.diff(baked.places[:, baked.of(group)], axis=0), axis=-1) * baked.fps
+    return numpy.where((speeds > 0.5).any(axis=0), (speeds > 0.5).argmax(axis=0) / baked.fps, numpy.nan)
+
+
+def test_a_time_of_the_shot_ends_it_for_each_at_their_own(bake):
+    times = setting_off(bake("times", conditions({"at": {"uniform": [3, 9]}}, people=8)))
+    assert times.min() > 2.8 and times.max() < 10.2 and times.std() > 0.7, times
+
+
+def test_somebody_who_comes_near_ends_it(bake):
+    passer = {"id": "passer", "type": "agents", "agents": [{"position": [-10, 1.6], "goal": [12, 1.6], "speed": 1.3}]}
+    times = setting_off(bake("near", conditions({"near": "passer", "within": 2.5}, extra=[passer])))
+    assert (numpy.diff(times) > 0).all(), "one after the other, as it passes"
+    assert 5 < times[0] < 8, times
+
+
+def test_a_share_per_second_goes(bake):
+    times = setting_off(bake("chance", conditions({"chance": 0.2}, people=60)))
+    gone = [numpy.nansum(times < second) / 60 for second in (5, 10, 19)]
+    for share, second in zip(gone, (5, 10, 19), strict=True):
+        assert abs(share - (1 - 0.8 ** (second - 0.4))) < 0.15, gone
+
+
+def test_nobody_goes_before_all_are_here(bake):
+    late = {"id": "row2", "type": "grid", "origin": [-20, 0], "rows": 1, "columns": 2, "behaviour": "comes"}
+    layout = conditions({"all_here": "here"}, extra=[late])
+    layout["behaviours"].append({"id": "comes", "start": "come", "states": {
+        "come": {"gather": "here", "until": [{"all_here": "here", "then": "go"}]}, "go": {"walk_to": "away"}}})
+    baked = bake("all here", layout)
+    assert numpy.nanmax(setting_off(baked)) < 1, "all of the row are here at once"
+    both = baked.inside("here")[:, baked.of("row2")].all(axis=1)
+    arrived = baked.inside("away")[:, baked.of("row2")].any(axis=1)
+    assert both.any() and not arrived[:both.argmax()].any()
+
+
+def test_who_follows_somebody_is_where_it_went(bake):
+    layout = conditions({"after": 100})
+    layout["behaviours"] = [{"id": "waits", "start": "follow", "states": {
+        "follow": {"follow": "guide", "distance": 2, "until": [{"after": 100, "then": "go"}]},
+        "go": {"walk_to": "away"}}}]
+    layout["formations"].append({"id": "guide", "type": "agents", "agents": [
+        {"position": [9, 0], "goal": [9, 18], "speed": 1.0}]})
+    baked = bake("follow", layout)
+    guide = baked.places[-1, baked.of("guide")][0]
+    away = numpy.linalg.norm(baked.places[-1, baked.of("row")] - guide, axis=-1)
+    assert away.max() < 6, away
+
+
+def test_who_flees_gets_away(bake):
+    layout = conditions({"at": 2}, then="run")
+    layout["behaviours"][0]["states"] = {
+        "stand": {"stay": True, "until": [{"at": 2, "then": "run"}]},
+        "run": {"flee": [3, 0], "beyond": 12, "then": "rest"}, "rest": {"stay": True, "for_good": True}}
+    baked = bake("flee", layout)
+    away = numpy.linalg.norm(baked.places[-1] - [3, 0], axis=-1)
+    assert away.min() > 11.5 and away.max() < 16, away
