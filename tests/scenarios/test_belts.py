@@ -143,7 +143,7 @@ def test_a_travelator_carries_people_on_one_level(throng, tmp_path):
 
 def test_nobody_is_faster_in_a_crowd_than_alone(throng, tmp_path):
     """A crowd before an escalator: what it takes is at most one person a step in each lane."""
-    folder = bake(throng, tmp_path, hall([escalator(walking=0)], up(70, 15), duration=100))
+    folder = bake(throng, tmp_path, hall([escalator(walking=0)], up(70, 15), duration=115))
     figures = measured(throng, folder)
     assert figures["arrived"] == 70 and figures["stuck"] == 0
     assert figures["deepest_overlap_percent"] < 5
