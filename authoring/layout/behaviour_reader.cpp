@@ -41,13 +41,6 @@ const std::vector<KeyOf>& keysOf() {
     return keys;
 }
 
-std::vector<std::string> namesOf(const std::map<std::string, std::size_t>& ids) {
-    std::vector<std::string> names;
-    for (const auto& [id, index] : ids)
-        names.push_back(id);
-    return names;
-}
-
 std::optional<std::uint64_t> wholeOf(const JsonNode& node, Limits limits, Diagnostics& diagnostics) {
     const std::optional<double> number = numberOf(node, limits, diagnostics);
     if (number && *number != std::floor(*number)) {

@@ -68,24 +68,6 @@ class Reader {
             diagnostics_.error(node->where, "this program reads layouts of version 1", "write \"throng\": 1");
     }
 
-    template <class Read>
-    void eachOf(ObjectReader& reader, const std::string& key, Read read) {
-        const JsonNode* list = reader.get(key);
-        if (!list) return;
-        if (list->kind != JsonNode::Kind::array) {
-            diagnostics_.error(list->where,
-                               fmt::format("expected an array of {}, found {}", key, list->kindName()));
-            return;
-        }
-        if (const std::size_t most = reader.rule(key).mostOf("maxItems"); list->items.size() > most) {
-            diagnostics_.error(list->where, fmt::format("there are {} {}, more than the {} that can be",
-                                                        list->items.size(), key, most));
-            return;
-        }
-        for (const JsonNode& item : list->items)
-            read(item);
-    }
-
     void readSimulation(const JsonNode& node, SchemaRule rule) {
         SimulationSettings& s = layout_.simulation;
         ObjectReader reader(node, rule, "`simulation`", diagnostics_);
@@ -412,10 +394,6 @@ class Reader {
         if (auto destination = places_.destination(to)) event.to = std::move(*destination);
         readArrival(reader, event.arrival);
         eachOf(reader, "who", [&](const JsonNode& item) {
-            std::vector<std::string> known;
-            known.reserve(groups_.size());
-            for (const auto& [id, index] : groups_)
-                known.push_back(id);
             if (item.kind == JsonNode::Kind::text && seats_.hasBlock(item.text))
                 diagnostics_.error(item.where,
                                    fmt::format("`{}` is a block of seats: its people keep them", item.text),
@@ -424,7 +402,7 @@ class Reader {
                 event.who.push_back(item.text);
             else
                 diagnostics_.error(item.where, fmt::format("there is no flow or formation `{}`", item.text),
-                                   hintFor(item.text, known));
+                                   hintFor(item.text, namesOf(groups_)));
         });
     }
 
@@ -433,13 +411,9 @@ class Reader {
         const auto& ids = is_flow ? groups_ : walls_;
         const auto found = ids.find(node.text);
         if (node.kind != JsonNode::Kind::text || found == ids.end()) {
-            std::vector<std::string> known;
-            known.reserve(ids.size());
-            for (const auto& [id, index] : ids)
-                known.push_back(id);
             diagnostics_.error(node.where,
                                fmt::format("there is no {} `{}`", is_flow ? "flow" : "wall", node.text),
-                               hintFor(node.text, known));
+                               hintFor(node.text, namesOf(ids)));
             return false;
         }
         event.subject = found->second;

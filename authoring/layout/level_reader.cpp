@@ -58,11 +58,8 @@ std::size_t LevelReader::levelNamed(const JsonNode& node) const {
         return 0;
     }
     if (const auto known = levels_.find(node.text); known != levels_.end()) return known->second;
-    std::vector<std::string> ids;
-    for (const auto& [id, index] : levels_)
-        ids.push_back(id);
     diagnostics_.error(node.where, fmt::format("there is no level `{}`", node.text),
-                       ids.empty() ? "list it under `levels`" : hintFor(node.text, ids));
+                       levels_.empty() ? "list it under `levels`" : hintFor(node.text, namesOf(levels_)));
     return 0;
 }
 

@@ -52,6 +52,14 @@ void claimId(const JsonNode& node, const std::string& id, std::map<std::string, 
                           "ids have to differ");
 }
 
+std::vector<std::string> namesOf(const std::map<std::string, std::size_t>& ids) {
+    std::vector<std::string> names;
+    names.reserve(ids.size());
+    for (const auto& [id, index] : ids)
+        names.push_back(id);
+    return names;
+}
+
 ObjectReader::ObjectReader(const JsonNode& node, SchemaRule rule, std::string what, Diagnostics& diagnostics)
     : node_(node),
       rule_(rule),
@@ -249,6 +257,22 @@ std::optional<std::string> ObjectReader::word(const std::string& key) {
                                    is_text ? "`" + node->text + "`" : node->kindName()),
                        is_text ? hintFor(node->text, words) : "");
     return std::nullopt;
+}
+
+const std::vector<JsonNode>* ObjectReader::items(const std::string& key) {
+    const JsonNode* list = get(key);
+    if (!list) return nullptr;
+    if (list->kind != JsonNode::Kind::array) {
+        diagnostics_.error(list->where,
+                           fmt::format("expected an array of {}, found {}", key, list->kindName()));
+        return nullptr;
+    }
+    if (const std::size_t most = rule(key).mostOf("maxItems"); list->items.size() > most) {
+        diagnostics_.error(list->where, fmt::format("there are {} {}, more than the {} that can be",
+                                                    list->items.size(), key, most));
+        return nullptr;
+    }
+    return &list->items;
 }
 
 void ObjectReader::finish() {

@@ -28,6 +28,9 @@ std::optional<double> numberOf(const JsonNode& node, Limits limits, Diagnostics&
 void claimId(const JsonNode& node, const std::string& id, std::map<std::string, std::size_t>& ids,
              std::size_t index, const char* kind, Diagnostics& diagnostics);
 
+/// The ids of such objects, to tell which one was probably meant.
+std::vector<std::string> namesOf(const std::map<std::string, std::size_t>& ids);
+
 /// Reads the members of one object, telling every mistake and going on. What a member has to be like is what
 /// the schema says of its key. A value that is handed in to be read is what holds where nothing is written:
 /// the schema has to say the same. Keys, words and defaults on which the two differ are mistakes in the code:
@@ -65,6 +68,8 @@ class ObjectReader {
     /// @param repeated what becomes of neighbours at the same place
     std::vector<glm::dvec2> points(const std::string& key, std::size_t least = 0,
                                    Repeated repeated = Repeated::refused);
+    /// What is in a list, at most as much as the schema allows; null when absent, or an error.
+    const std::vector<JsonNode>* items(const std::string& key);
     /// One of the schema's words.
     std::optional<std::string> word(const std::string& key);
     template <class Value>
@@ -90,6 +95,14 @@ class ObjectReader {
     bool is_object_;
     std::vector<std::string> known_;
 };
+
+/// Calls read(node) for all that is in a list, if it is there.
+template <class Read>
+void eachOf(ObjectReader& reader, const std::string& key, Read read) {
+    if (const std::vector<JsonNode>* items = reader.items(key))
+        for (const JsonNode& item : *items)
+            read(item);
+}
 
 template <class Value>
 void ObjectReader::choice(const std::string& key, const Meanings<Value>& meanings, Value& value) {

@@ -33,9 +33,7 @@ std::optional<Place> PlaceReader::placeNamed(const std::string& name, const Sour
     const auto road = roads_.find(id);
     if (road != roads_.end() && (end == "start" || end == "end"))
         return Place{end == "start" ? Place::Kind::road_start : Place::Kind::road_end, road->second, where};
-    std::vector<std::string> known;
-    for (const auto& [area_name, index] : areas_)
-        known.push_back(area_name);
+    std::vector<std::string> known = namesOf(areas_);
     for (const auto& [road_name, index] : roads_) {
         known.push_back(road_name + ":start");
         known.push_back(road_name + ":end");

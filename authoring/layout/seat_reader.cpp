@@ -138,9 +138,7 @@ void SeatReader::readShow(const JsonNode& node) {
 }
 
 void SeatReader::readAudience(const JsonNode* list, Show& show) const {
-    std::vector<std::string> known;
-    for (const auto& [id, index] : blocks_)
-        known.push_back(id);
+    const std::vector<std::string> known = namesOf(blocks_);
     if (known.empty() && !diagnostics_.hasErrors())
         diagnostics_.error(show.where, "there is no audience: this layout has no seats",
                            "list blocks of seats under `seats`");

@@ -5,32 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 
 #include "authoring/layout/polygon_check.h"
+#include "base/polygon.h"
 #include "shaders/shared/traffic_types.h"
 
 namespace throng::authoring {
 namespace {
-
-double distanceToLine(const std::vector<glm::dvec2>& points, glm::dvec2 place) {
-    double least = 1.0e300;
-    for (std::size_t i = 1; i < points.size(); ++i) {
-        const glm::dvec2 axis = points[i] - points[i - 1];
-        const double along =
-            std::clamp(glm::dot(place - points[i - 1], axis) / glm::dot(axis, axis), 0.0, 1.0);
-        least = std::min(least, glm::distance(place, points[i - 1] + along * axis));
-    }
-    return least;
-}
-
-std::vector<std::string> namesOf(const std::map<std::string, std::size_t>& ids) {
-    std::vector<std::string> names;
-    names.reserve(ids.size());
-    for (const auto& [id, index] : ids)
-        names.push_back(id);
-    return names;
-}
 
 bool has(const std::vector<std::size_t>& indices, std::size_t index) {
     return std::ranges::find(indices, index) != indices.end();
@@ -53,22 +34,6 @@ std::size_t Signal::phaseAt(double time) const {
         into -= phases[i].seconds;
     }
     return phases.size() - 1;
-}
-
-template <class Read>
-void TrafficReader::eachOf(ObjectReader& reader, const std::string& key, Read read) {
-    const JsonNode* list = reader.get(key);
-    if (!list) return;
-    if (list->kind != JsonNode::Kind::array) {
-        diagnostics_.error(list->where, fmt::format("`{}` is a list, and this is {}", key, list->kindName()));
-        return;
-    }
-    if (const std::size_t most = reader.rule(key).mostOf("maxItems"); list->items.size() > most)
-        diagnostics_.error(list->where, fmt::format("there are {} of `{}`, more than the {} that can be",
-                                                    list->items.size(), key, most));
-    else
-        for (const JsonNode& item : list->items)
-            read(item);
 }
 
 void TrafficReader::readCrossing(const JsonNode& node) {
@@ -126,7 +91,7 @@ void TrafficReader::readStop(const JsonNode& node, Lane& lane) {
 void TrafficReader::checkStop(const Lane& lane, const LaneStop& stop) const {
     if (lane.points.size() < 2 || diagnostics_.hasErrors()) return;
     constexpr double kBeside = 10.0;  // m: where a sign or a shelter stands
-    if (const double apart = distanceToLine(lane.points, stop.at); apart > kBeside)
+    if (const double apart = distanceToPieces(lane.points, lane.points.size() - 1, stop.at); apart > kBeside)
         diagnostics_.error(stop.where, fmt::format("the stop is {:.1f} m from lane `{}`", apart, lane.id),
                            "give a point on the lane, or beside it");
 }

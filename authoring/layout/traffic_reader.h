@@ -33,8 +33,6 @@ class TrafficReader {
         const JsonNode* name;
     };
 
-    template <class Read>
-    void eachOf(ObjectReader& reader, const std::string& key, Read read);
     void readStop(const JsonNode& node, Lane& lane);
     void readPhase(const JsonNode& node, Signal& signal);
     void readGreen(const JsonNode& node, Phase& phase);

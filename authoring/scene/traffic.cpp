@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "authoring/scene/random.h"
+#include "base/polygon.h"
 
 namespace throng::authoring {
 namespace {
@@ -37,31 +38,11 @@ double alongLine(const std::vector<glm::dvec2>& points, glm::dvec2 place) {
     return found;
 }
 
-double distanceToLine(const std::vector<glm::dvec2>& points, glm::dvec2 place) {
-    double least = 1.0e300;
-    for (std::size_t i = 1; i < points.size(); ++i) {
-        const glm::dvec2 axis = points[i] - points[i - 1];
-        const double share =
-            std::clamp(glm::dot(place - points[i - 1], axis) / glm::dot(axis, axis), 0.0, 1.0);
-        least = std::min(least, glm::distance(place, points[i - 1] + share * axis));
-    }
-    return least;
-}
-
-bool isIn(const std::vector<glm::dvec2>& polygon, glm::dvec2 place) {
-    bool inside = false;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const glm::dvec2 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-        if ((a.y > place.y) != (b.y > place.y) && place.x < a.x + (b.x - a.x) * (place.y - a.y) / (b.y - a.y))
-            inside = !inside;
-    }
-    return inside;
-}
-
-/// From where to where along a line it is in a polygon, if it is.
-std::optional<std::pair<double, double>> spanIn(const std::vector<glm::dvec2>& points,
-                                                const std::vector<glm::dvec2>& polygon) {
-    double first = 1.0e300, last = -1.0e300, before = 0.0;
+/// How far along a line it comes to a polygon, if it does.
+std::optional<double> entryInto(const std::vector<glm::dvec2>& points,
+                                const std::vector<glm::dvec2>& polygon) {
+    std::optional<double> first;
+    double before = 0.0;
     for (std::size_t i = 1; i < points.size(); ++i) {
         const glm::dvec2 axis = points[i] - points[i - 1];
         for (std::size_t j = 0; j < polygon.size(); ++j) {
@@ -72,13 +53,11 @@ std::optional<std::pair<double, double>> spanIn(const std::vector<glm::dvec2>& p
             const double on_edge = crossOf(a - points[i - 1], axis) / across;
             if (on_line < 0.0 || on_line > 1.0 || on_edge < 0.0 || on_edge > 1.0) continue;
             const double along = before + on_line * glm::length(axis);
-            first = std::min(first, along);
-            last = std::max(last, along);
+            first = std::min(first.value_or(along), along);
         }
         before += glm::length(axis);
     }
-    if (first > last) return std::nullopt;
-    return std::pair(first, last);
+    return first;
 }
 
 class Builder {
@@ -122,16 +101,17 @@ class Builder {
             const glm::dvec2 edge = crossing.polygon[(i + 1) % crossing.polygon.size()] - a;
             const glm::dvec2 outward = glm::normalize(glm::dvec2(edge.y, -edge.x)) * kBeyond;
             for (const glm::dvec2 beyond : {a + 0.5 * edge + outward, a + 0.5 * edge - outward})
-                if (!isIn(crossing.polygon, beyond) && isWalkable(beyond)) found |= 1u << i;
+                if (!isWithin(crossing.polygon, beyond) && isWalkable(beyond)) found |= 1u << i;
         }
         return found ? found : ~0u;
     }
 
     bool isWalkable(glm::dvec2 place) const {
         return std::ranges::any_of(layout_.areas,
-                                   [&](const Area& area) { return isIn(area.polygon, place); }) ||
+                                   [&](const Area& area) { return isWithin(area.polygon, place); }) ||
                std::ranges::any_of(layout_.roads, [&](const Road& road) {
-                   return distanceToLine(road.centreline, place) <= 0.5 * road.width;
+                   return distanceToPieces(road.centreline, road.centreline.size() - 1, place) <=
+                          0.5 * road.width;
                });
     }
 
@@ -185,11 +165,10 @@ class Builder {
     }
 
     void addCrossingStop(const Lane& lane, std::size_t crossing) {
-        const auto span = spanIn(lane.points, traffic_.crossings[crossing].polygon);
-        if (!span) return;
+        const auto entry = entryInto(lane.points, traffic_.crossings[crossing].polygon);
+        if (!entry) return;
         gpu::TrafficStop made{};
-        made.along = static_cast<float>(span->first - kBeforeCrossing);
-        made.cleared = static_cast<float>(span->second);
+        made.along = static_cast<float>(*entry - kBeforeCrossing);
         made.kind = gpu::STOP_FOR_PEOPLE;
         made.light = scene_.crossings[crossing].light;
         made.crossing = static_cast<std::uint32_t>(crossing);

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whether somebody can walk straight from one place to another: no wall comes nearer to the way than a body.
 // Needs the blocks ParametersBlock, WallSegments, WallStarts and WallItems, and shaders/cells/cells.glsl.
-
-float pointToSegment(vec2 point, vec2 a, vec2 b) {
-    vec2 axis = b - a;
-    float along = clamp(dot(point - a, axis) / max(dot(axis, axis), 1.0e-12), 0.0, 1.0);
-    return distance(point, a + along * axis);
-}
+#include "shaders/shared/outline.glsl"
 
 float cross2(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
 
@@ -17,8 +12,8 @@ float segmentsApart(vec2 a, vec2 b, vec2 c, vec2 d) {
         float on_second = cross2(c - a, b - a) / turn;
         if (on_first >= 0.0 && on_first <= 1.0 && on_second >= 0.0 && on_second <= 1.0) return 0.0;
     }
-    return min(min(pointToSegment(a, c, d), pointToSegment(b, c, d)),
-               min(pointToSegment(c, a, b), pointToSegment(d, a, b)));
+    return min(min(distanceToEdge(a, c, d), distanceToEdge(b, c, d)),
+               min(distanceToEdge(c, a, b), distanceToEdge(d, a, b)));
 }
 
 bool wayIsClear(vec2 from, vec2 to, float radius) {

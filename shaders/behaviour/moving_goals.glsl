@@ -26,10 +26,8 @@ vec2 awayFromDanger(Seeker seeker, BehaviourState doing) {
 
 /// Whom somebody follows: the nearest who is there. It looks round again now and then.
 void chooseLeader(Seeker seeker, inout Mind mind, BehaviourState doing) {
-    const uint ONCE_IN = 16u;  // decisions
-    uint decision = uint(float(steps_done) * parameters.step_seconds / parameters.decision_seconds);
     bool gone = mind.followed == NO_INDEX || !isAlive(states[mind.followed].status);
-    if (!gone && (decision + seeker.row) % ONCE_IN != 0u) return;
+    if (!gone && !looksRoundAgain(seeker)) return;
     float least = 1.0e30;
     mind.followed = NO_INDEX;
     for (uint row = doing.first_row; row < doing.first_row + doing.row_count; ++row) {

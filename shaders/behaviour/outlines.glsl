@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Outlines of places, as corners among the behaviours' points. Needs the block BehaviourPoints.
 
-float toEdge(vec2 position, vec2 a, vec2 b) {
-    vec2 axis = b - a;
-    float along = clamp(dot(position - a, axis) / max(dot(axis, axis), 1.0e-12), 0.0, 1.0);
-    return distance(position, a + along * axis);
-}
+#include "shaders/shared/outline.glsl"
 
 /// As insidePolygon() of authoring/scene/raster.h: an odd number of edges lies to the right.
 bool isInside(vec2 position, uint first, uint count) {
@@ -13,9 +9,7 @@ bool isInside(vec2 position, uint first, uint count) {
     vec2 before = behaviour_points[first + count - 1u];
     for (uint i = first; i < first + count; ++i) {
         vec2 corner = behaviour_points[i];
-        if ((corner.y > position.y) != (before.y > position.y) &&
-            position.x < (before.x - corner.x) * (position.y - corner.y) / (before.y - corner.y) + corner.x)
-            inside = !inside;
+        if (rayGoesOver(corner, before, position)) inside = !inside;
         before = corner;
     }
     return inside;
@@ -27,7 +21,7 @@ float awayFrom(vec2 position, uint first, uint count) {
     float least = 1.0e30;
     vec2 before = behaviour_points[first + count - 1u];
     for (uint i = first; i < first + count; ++i) {
-        least = min(least, toEdge(position, before, behaviour_points[i]));
+        least = min(least, distanceToEdge(position, before, behaviour_points[i]));
         before = behaviour_points[i];
     }
     return least;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Spots of people's own in a place: drawn by counting among points that are clear of walls, the first of several on
 // which nobody stands. Who walks together stands in a ring round one of them.
-// Needs the blocks Bodies, BehaviourPlaces and BehaviourPoints, and shaders/behaviour/draws.glsl and
+// Needs the blocks Bodies, BehaviourPlaces and BehaviourPoints, the uniform steps_done, and shaders/behaviour/draws.glsl and
 // shaders/cells/cell_runs.glsl.
 
 const float RING = 0.45;        // m (authoring/scene/behaviours.cpp leaves room for it)
@@ -16,6 +16,13 @@ struct Seeker {
     vec2 ahead;  // where it looks
     float radius;
 };
+
+/// Once in some decisions, at others than its neighbours.
+bool looksRoundAgain(Seeker seeker) {
+    const uint ONCE_IN = 16u;  // decisions
+    uint decision = uint(float(steps_done) * parameters.step_seconds / parameters.decision_seconds);
+    return (decision + seeker.row) % ONCE_IN == 0u;
+}
 
 bool isOfParty(Seeker seeker, uint row) { return row - seeker.leader < seeker.party_size; }
 

@@ -40,9 +40,7 @@ vec2 nextSpot(Seeker seeker, inout Mind mind) {
 /// Whether somebody who came from outside is in, or has not got on for so long that another way is better.
 bool choosesAnew(Seeker seeker, Mind mind, float nervousness) {
     const float GIVES_UP = 0.8;
-    const uint ONCE_IN = 16u;  // decisions
     BehaviourPlace place = behaviour_places[mind.place];
     if ((mind.flags & MIND_COMES_IN) != 0u) return isIn(place, seeker.position);
-    uint decision = uint(float(steps_done) * parameters.step_seconds / parameters.decision_seconds);
-    return nervousness > GIVES_UP && (decision + seeker.row) % ONCE_IN == 0u;
+    return nervousness > GIVES_UP && looksRoundAgain(seeker);
 }

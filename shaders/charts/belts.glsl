@@ -9,11 +9,6 @@
 
 layout(std140) uniform Belts { Belt belts[NO_CHART]; };  // by chart
 
-// Beside PERSON_* and WALKER_*; the chart is in the second byte.
-const uint WALKER_RIDES = 0x10000u;    // it is on a belt, or about to step on
-const uint WALKER_IS_CARRIED = 0x20000u;  // it is on it
-const uint WALKER_CHART_AT = 8u;
-
 bool isBelt(uint chart) { return chart != NO_CHART && belts[chart].length > 0.0; }
 
 /// The belt that a walker's flags speak of.

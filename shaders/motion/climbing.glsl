@@ -3,10 +3,6 @@
 // somebody has a headway, and does not press on. Without it stairs that are pressed upon take half as many again as
 // have been counted on any (IMO MSC.1/Circ.1533; SFPE handbook: 0.3 to 0.6 m/s at 1.65 to 2.6 persons/m^2).
 
-// Beside PERSON_*, WALKER_* and those of belts (shaders/charts/belts.glsl): from one decision to the next.
-const uint WALKER_CLIMBS = 0x100000u;
-const uint WALKER_DESCENDS = 0x200000u;
-
 /// s; 0 where nobody climbs.
 float headwayOnStairs(uint walker_flags) {
     if (!CLIMBING_ENABLED) return 0.0;

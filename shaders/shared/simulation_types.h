@@ -74,7 +74,13 @@ struct Body {
     float maximum_speed;  // m/s
 };
 
-// Beside PERSON_* in the flags of a walker:
+// Beside PERSON_* in the flags of a walker, from one decision to the next:
+const uint WALKER_CHART_AT = 8u;          // where the byte begins that says on which belt
+const uint WALKER_RIDES = 0x10000u;       // it is on a belt, or about to step on
+const uint WALKER_IS_CARRIED = 0x20000u;  // it is on it
+const uint WALKER_HELD = 0x40000u;        // it waits before a red crossing
+const uint WALKER_CLIMBS = 0x100000u;     // it goes up stairs
+const uint WALKER_DESCENDS = 0x200000u;   // it goes down stairs
 const uint WALKER_AT_REST = 0x80000000u;  // it has come to rest where it waits
 const uint WALKER_IS_IMAGE =
     0x40000000u;  // it is the image of somebody beside a seam (shaders/shared/images.glsl)

@@ -71,7 +71,6 @@ struct LanePoint {
 /// Where vehicles stop, or perhaps stop.
 struct TrafficStop {
     float along;    // m: where fronts stand
-    float cleared;  // m: where a crossing ends
     float seconds;  // s
     uint kind;      // STOP_*
     uint light;     // index into the lights, or NO_LIGHT

@@ -32,8 +32,6 @@ shared float fronts[MOST_VEHICLES];
 shared float speeds[MOST_VEHICLES];
 shared uint statuses[MOST_VEHICLES];
 
-bool isThere(uint status) { return status == VEHICLE_DRIVES || status == VEHICLE_STANDS; }
-
 /// The nearest one before a place on the lane; VEHICLES where there is none.
 uint vehicleAhead(uint self, uint lane, float front) {
     uint found = VEHICLES;

@@ -2,8 +2,7 @@
 // Who is held before a red crossing (shaders/traffic/held_at_red.glsl) queues there and does not press. Only with
 // TRAFFIC.
 
-const uint WALKER_HELD = 0x40000u;  // beside PERSON_* and WALKER_*
-const float HELD_HEADWAY = 1.0;     // s
+const float HELD_HEADWAY = 1.0;  // s
 
 bool isHeld(uint walker_flags) { return (walker_flags & WALKER_HELD) != 0u; }
 

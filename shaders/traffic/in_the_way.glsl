@@ -6,4 +6,6 @@
 const uint SOMEBODY_IS_ON = 0u;
 const uint SOMEBODY_COMES = 1u;
 
+bool isThere(uint vehicle_status) { return vehicle_status == VEHICLE_DRIVES || vehicle_status == VEHICLE_STANDS; }
+
 uint atStop(uint stop) { return VEHICLES + stop; }

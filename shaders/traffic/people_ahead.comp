@@ -29,9 +29,8 @@ const float PAST = 0.6;             // m: who is further from a lane and leaves 
 
 void standInTheWay(uint lane, float along, float beside, float radius) {
     for (uint i = 0u; i < VEHICLES; ++i) {
-        if (vehicles[i].lane != lane) continue;
-        bool drives = vehicles[i].status == VEHICLE_DRIVES || vehicles[i].status == VEHICLE_STANDS;
-        if (!drives || along + radius <= vehicles[i].along || beside > vehicles[i].half_width + radius + ROOM_BESIDE)
+        if (vehicles[i].lane != lane || !isThere(vehicles[i].status)) continue;
+        if (along + radius <= vehicles[i].along || beside > vehicles[i].half_width + radius + ROOM_BESIDE)
             continue;
         atomicMin(in_the_way[i], floatBitsToUint(max(along - radius, 0.0)));
     }

@@ -247,8 +247,7 @@ std::map<std::string, Layout> layoutsInCpp() {
     {
         using T = gpu::TrafficStop;
         result["TrafficStop"] = {
-            sizeof(T),
-            {MEMBER(along), MEMBER(cleared), MEMBER(seconds), MEMBER(kind), MEMBER(light), MEMBER(crossing)}};
+            sizeof(T), {MEMBER(along), MEMBER(seconds), MEMBER(kind), MEMBER(light), MEMBER(crossing)}};
     }
     {
         using T = gpu::TrafficCrossing;

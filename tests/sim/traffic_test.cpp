@@ -106,7 +106,7 @@ TEST_F(TrafficTest, AStreamBeforeALightIsWhatAPlainReferenceMakesOfIt) {
         scene.traffic.vehicles.back().along = 100.0f - 20.0f * static_cast<float>(i);
         scene.traffic.vehicles.back().speed = 10.0f;
     }
-    scene.traffic.stops = {{kLine, 0.0f, 0.0f, gpu::STOP_AT_RED, 0, gpu::NO_INDEX}};
+    scene.traffic.stops = {{kLine, 0.0f, gpu::STOP_AT_RED, 0, gpu::NO_INDEX}};
     scene.traffic.lanes[0].stop_count = 1;
     scene.traffic.lights = {{0.0, 1000.0, {{kGreen, 1000.0}}}};
     std::vector<double> along, speed(kCars, 10.0);
@@ -148,7 +148,7 @@ TEST_F(TrafficTest, AStreamBeforeALightIsWhatAPlainReferenceMakesOfIt) {
 TEST_F(TrafficTest, StandsAtItsStopForItsTime) {
     authoring::Scene scene = straightLane(2000.0f);
     scene.traffic.vehicles = {carAt(0.0f)};
-    scene.traffic.stops = {{100.0f, 0.0f, 12.0f, gpu::STOP_FOR_TIME, gpu::NO_LIGHT, gpu::NO_INDEX}};
+    scene.traffic.stops = {{100.0f, 12.0f, gpu::STOP_FOR_TIME, gpu::NO_LIGHT, gpu::NO_INDEX}};
     scene.traffic.lanes[0].stop_count = 1;
     sim::Simulation simulation(scene, library);
     int standing = 0;

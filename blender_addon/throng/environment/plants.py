@@ -6,6 +6,7 @@ import zlib
 
 import bpy
 
+from ..cast.mesh_builder import cross
 from . import materials
 from .shading import Shading
 from .shapes import Shape
@@ -28,7 +29,7 @@ def build_plant(kind):
     chance, shape = random.Random(zlib.crc32(kind.encode())), Shape(f"Throng {kind}")
     bark = materials.mottled("bark", (0.035, 0.026, 0.019), (0.095, 0.075, 0.058), 6.0, 0.95, 30.0)
     centre = 0.5 * (begins + height)
-    _limb(shape, (0.0, 0.0, -0.3), (0.05, 0.03, centre), 0.022 * height, 0.010 * height, bark)
+    shape.limb((0.0, 0.0, -0.3), (0.05, 0.03, centre), 0.022 * height, 0.010 * height, bark)
     crowns = []
     for i in range(clumps):
         up = begins + (height - begins) * (i + 0.5) / clumps
@@ -36,7 +37,7 @@ def build_plant(kind):
         turn, out = 2.4 * i + chance.uniform(-0.3, 0.3), reach * chance.uniform(0.35, 0.66)
         crowns.append(((out * math.cos(turn), out * math.sin(turn), up), chance.uniform(0.40, 0.56) * reach + 0.25))
         if kind != "bush" and i % 2 == 0:
-            _limb(shape, (0.0, 0.0, max(0.6 * begins, up - 0.45 * (height - begins))), crowns[-1][0], 0.007 * height,
+            shape.limb((0.0, 0.0, max(0.6 * begins, up - 0.45 * (height - begins))), crowns[-1][0], 0.007 * height,
                   0.003 * height, bark)
     _leaves(shape, crowns, leaves, leaf, chance, _green(kind))
     return shape.to_mesh()
@@ -52,27 +53,6 @@ def build_planter():
     return shape.to_mesh()
 
 
-def _limb(shape, a, b, thick, thin, material, count=6):
-    """A tapered branch."""
-    way = [q - p for p, q in zip(a, b)]
-    size = math.sqrt(sum(w * w for w in way)) or 1.0
-    way = [w / size for w in way]
-    side = (1.0, 0.0, 0.0) if abs(way[0]) < 0.8 else (0.0, 1.0, 0.0)
-    u = _cross(way, side)
-    long = math.sqrt(sum(w * w for w in u))
-    u = [w / long for w in u]
-    v = _cross(way, u)
-    rings = [[tuple(p[axis] + radius * (u[axis] * math.cos(math.tau * i / count) + v[axis] * math.sin(
-        math.tau * i / count)) for axis in range(3)) for i in range(count)] for p, radius in ((a, thick), (b, thin))]
-    for i in range(count):
-        after = (i + 1) % count
-        shape.face([rings[0][i], rings[0][after], rings[1][after], rings[1][i]], material)
-
-
-def _cross(a, b):
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-
-
 def _leaves(shape, crowns, count, size, chance, material):
     """Faces on and in the clumps, turned at random, more of them outside."""
     total = sum(radius ** 2 for _, radius in crowns)
@@ -83,7 +63,7 @@ def _leaves(shape, crowns, count, size, chance, material):
             out = radius * chance.random() ** 0.28
             middle = (x + way[0] / long * out, y + way[1] / long * out, z + 0.82 * way[2] / long * out)
             u = [chance.gauss(0.0, 1.0) for _ in range(3)]
-            v = _cross(u, [chance.gauss(0.0, 1.0) for _ in range(3)])
+            v = cross(u, [chance.gauss(0.0, 1.0) for _ in range(3)])
             (lu, lv) = (math.sqrt(sum(w * w for w in axis)) or 1.0 for axis in (u, v))
             half = 0.5 * size * chance.uniform(0.7, 1.3)
             corners = [tuple(middle[axis] + s * half * u[axis] / lu + t * 0.55 * half * v[axis] / lv

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Flat polygons and boxes, gathered into one mesh."""
+import math
+
 import bpy
 
+from ..cast.mesh_builder import cross, sub, unit
 from ..setting.plane import along_of as direction, area as signed_area, inside  # noqa: F401  what shapes are made by
 
 UV_ROOMS = "rooms"  # the one UV map: where in which room a pane is (rooms.py)
@@ -47,6 +50,18 @@ class Shape:
 
     def flat(self, polygon, z, material):
         self.face([(x, y, z) for x, y in counter_clockwise(polygon)], material)
+
+    def limb(self, a, b, thick, thin, material, count=6):
+        """A tapered branch, open at both ends. @return the rings of its corners there"""
+        way = unit(sub(b, a))
+        u = unit(cross(way, (1.0, 0.0, 0.0) if abs(way[0]) < 0.8 else (0.0, 1.0, 0.0)))
+        v = cross(way, u)
+        rings = [[tuple(p[axis] + radius * (u[axis] * math.cos(math.tau * i / count) + v[axis] * math.sin(
+            math.tau * i / count)) for axis in range(3)) for i in range(count)] for p, radius in ((a, thick), (b, thin))]
+        for i in range(count):
+            after = (i + 1) % count
+            self.face([rings[0][i], rings[0][after], rings[1][after], rings[1][i]], material)
+        return rings
 
     def prism(self, polygon, low, high, material, top=None):
         """Sides and lid of an extruded polygon."""

@@ -79,28 +79,9 @@ def _ring(shape, outer, inner, y, half, material):
 
 def _rod(shape, a, b, radius, material, sides=8):
     """A rod between two places, ends flat."""
-    axis = [q - p for p, q in zip(a, b)]
-    size = math.sqrt(sum(value * value for value in axis))
-    u = [value / size for value in axis]
-    helper = (0.0, 1.0, 0.0) if abs(u[1]) < 0.9 else (1.0, 0.0, 0.0)
-    v = _unit(_cross(u, helper))
-    w = _cross(u, v)
-    rings = [[tuple(p + radius * (math.cos(t) * x + math.sin(t) * y) for p, x, y in zip(end, v, w))
-              for t, _ in _steps(sides)] for end in (a, b)]
-    for i in range(sides):
-        j = (i + 1) % sides
-        shape.face([rings[0][i], rings[0][j], rings[1][j], rings[1][i]], material)
-    shape.face(rings[0][::-1], material)
-    shape.face(rings[1], material)
-
-
-def _cross(a, b):
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-
-
-def _unit(a):
-    size = math.sqrt(sum(value * value for value in a))
-    return [value / size for value in a]
+    start, end = shape.limb(a, b, radius, radius, material, sides)
+    shape.face(start[::-1], material)
+    shape.face(end, material)
 
 
 def _ball(shape, middle, radius, material, sides=10, rings=6):
