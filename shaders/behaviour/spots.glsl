@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Spots of people's own in a place: drawn by counting among points that are clear of walls, the first of several on
 // which nobody stands. Who walks together stands in a ring round one of them.
-// Needs the blocks Bodies, BehaviourPlaces and BehaviourPoints, the uniform steps_done, and shaders/behaviour/draws.glsl and
-// shaders/cells/cell_runs.glsl.
+// Needs the blocks Bodies, BehaviourPlaces and BehaviourPoints, the uniform steps_done, and
+// shaders/behaviour/draws.glsl and shaders/cells/cell_runs.glsl.
 
 const float RING = 0.45;        // m (authoring/scene/behaviours.cpp leaves room for it)
 const float BESIDE = 0.1;       // m between two who stand

@@ -56,8 +56,9 @@ class Shape:
         way = unit(sub(b, a))
         u = unit(cross(way, (1.0, 0.0, 0.0) if abs(way[0]) < 0.8 else (0.0, 1.0, 0.0)))
         v = cross(way, u)
-        rings = [[tuple(p[axis] + radius * (u[axis] * math.cos(math.tau * i / count) + v[axis] * math.sin(
-            math.tau * i / count)) for axis in range(3)) for i in range(count)] for p, radius in ((a, thick), (b, thin))]
+        turns = [(math.cos(math.tau * i / count), math.sin(math.tau * i / count)) for i in range(count)]
+        rings = [[tuple(p[axis] + radius * (u[axis] * c + v[axis] * s) for axis in range(3)) for c, s in turns]
+                 for p, radius in ((a, thick), (b, thin))]
         for i in range(count):
             after = (i + 1) % count
             self.face([rings[0][i], rings[0][after], rings[1][after], rings[1][i]], material)
