@@ -131,9 +131,23 @@ struct Level {
     SourcePosition where;
 };
 
-/// A straight way between two levels, with a railing on either side.
+/// What a link is that is a cabin going up and down.
+struct Lift {
+    std::vector<std::size_t> levels;   ///< where it stops, index into levels
+    std::vector<bool> opposite;        ///< of each of these: whether its doors are on the other side there
+    glm::dvec2 at{0.0};                ///< m, the cabin's middle
+    glm::dvec2 size{1.6, 1.4};         ///< m: along its doors, and away from them
+    double doors = 0.0;                ///< degrees: which way out of the cabin they open
+    double door_width = 1.0;           ///< m
+    double door_time = 2.0;            ///< s, to open or to close
+    double dwell = 3.0;                ///< s: the least that doors are open, also after the last has come in
+    double speed = 1.0;                ///< m/s
+    std::optional<std::uint32_t> capacity;  ///< none: as many as there is room for
+};
+
+/// A straight way between two levels, with a railing on either side, or a lift.
 struct Link {
-    enum class Kind { stairs, ramp, escalator, travelator };
+    enum class Kind { stairs, ramp, escalator, travelator, lift };
     enum class Stand { anywhere, right, left };
     std::string id;
     Kind kind = Kind::stairs;
@@ -145,6 +159,9 @@ struct Link {
     double walking = 0.4;           ///< share of its people who walk on it
     Stand stand = Stand::anywhere;  ///< on which side those stand who do not
 
+    Lift lift{};                    ///< of that kind
+
+    bool isLift() const { return kind == Kind::lift; }
     /// Whether its ground moves, from where it begins to where it ends.
     bool moves() const { return kind == Kind::escalator || kind == Kind::travelator; }
 };

@@ -10,10 +10,11 @@
 namespace throng::authoring {
 
 /// What links can be, as layouts and bake.json call it.
-inline constexpr std::array<std::pair<std::string_view, Link::Kind>, 4> kLinkKinds = {
+inline constexpr std::array<std::pair<std::string_view, Link::Kind>, 5> kLinkKinds = {
     {{"stairs", Link::Kind::stairs},
      {"ramp", Link::Kind::ramp},
      {"escalator", Link::Kind::escalator},
-     {"travelator", Link::Kind::travelator}}};
+     {"travelator", Link::Kind::travelator},
+     {"lift", Link::Kind::lift}}};
 
 }  // namespace throng::authoring

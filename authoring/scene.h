@@ -11,6 +11,7 @@
 #include "authoring/terrain/terrain.h"
 #include "shaders/shared/behaviour_types.h"
 #include "shaders/shared/chart_types.h"
+#include "shaders/shared/lift_types.h"
 #include "shaders/shared/scene_types.h"
 
 namespace throng::authoring {
@@ -57,11 +58,26 @@ struct Group {
 /// Without cells where the layout does not ask for it.
 struct Detours {
     FieldGrid grid;
+    struct Ride {  ///< of a lift, from one cell to another
+        std::uint32_t from, to;
+        float cost;  ///< m on the flat that take as long
+    };
     std::vector<gpu::GroundCell> ground;         ///< one map after the other
     std::vector<std::uint32_t> ground_of_field;  ///< which of the maps, per distance field
     std::vector<bool> has_choice;   ///< per field: whether it leads to the nearest of several places
     std::vector<float> distances;   ///< m, field after field; gpu::BLOCKED_COST where no path leads
     std::vector<glm::uvec2> shown;  ///< cells that show another chart's ground, and those that they show
+    std::vector<Ride> rides;
+};
+
+/// Lifts, as the device has them, and where one walks out of one's route and is taken on from another place.
+struct LiftMap {
+    std::vector<gpu::LiftPlan> plans;
+    std::vector<gpu::LiftStop> stops;        ///< lift after lift
+    std::vector<std::uint32_t> stop_of;      ///< by chart: index into stops; gpu::NO_INDEX: it is no cabin
+    std::vector<std::string> names;
+
+    bool empty() const { return plans.empty(); }
 };
 
 /// The charts of a layout with levels as the device has them: a raster over the plane, and what takes people
@@ -73,6 +89,7 @@ struct ChartMap {
     std::vector<bool> is_link;      ///< by chart
     std::vector<float> costs;       ///< by chart: how many metres on the flat take as long as one of it
     std::vector<gpu::Belt> belts;   ///< by chart; empty: no ground moves
+    LiftMap lifts;
     std::uint32_t most_images = 0;  ///< of one person
 
     bool empty() const { return cells.empty(); }

@@ -37,6 +37,8 @@ struct Frame {
     const DiagramImage* diagram = nullptr;
     /// kVehicleFloats of each vehicle, as base/vehicle_track.h has them; empty where there are none
     std::span<const float> vehicles{};
+    /// kLiftFloats of each lift, as base/lift_track.h has them; empty where there are none
+    std::span<const float> lifts{};
 
     std::span<const float>& operator[](Stream stream) { return streams[stream]; }
     std::span<const float> operator[](Stream stream) const { return streams[stream]; }

@@ -12,6 +12,7 @@
 #include "base/activities.h"
 #include "base/files/output_file.h"
 #include "io/diagram/diagram_exr.h"
+#include "io/lift_file.h"
 #include "io/room_on_disk.h"
 #include "io/vehicle_file.h"
 #include "recording/gaits.h"
@@ -293,6 +294,10 @@ BakeOutcome BakeWriter::writeAll(const Account& account, const BakeTiming& timin
     if (!description_.vehicles.empty()) {
         files.push_back(kVehicleFile);
         writeVehicles(folder_->path() / files.back(), vehicles, frames_, description_.vehicles.size());
+    }
+    if (!description_.lifts.empty()) {
+        files.push_back(kLiftFile);
+        writeLifts(folder_->path() / files.back(), lift_track_, frames_, description_.lifts.size());
     }
     if (description_.gltf) {
         files.push_back("crowd.glb");

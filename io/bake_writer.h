@@ -46,6 +46,8 @@ class BakeWriter {
     void writeDiagram(const Frame& frame);
     /// Where the vehicles of all frames were, as Frame::vehicles, before it is finished.
     void takeVehicles(std::vector<float> track) { vehicle_track_ = std::move(track); }
+    /// Likewise the lifts, as Frame::lifts.
+    void takeLifts(std::vector<float> track) { lift_track_ = std::move(track); }
 
     /// Completes the bake; std::logic_error unless all expected frames were written.
     BakeResult finish(const Account& account, const BakeTiming& timing);
@@ -87,7 +89,7 @@ class BakeWriter {
     std::vector<float> placed_;               ///< one frame of places in the output frame of reference
     std::optional<DiagramSummary> diagrams_;
     std::vector<BakeOutcome::File> diagram_files_;
-    std::vector<float> vehicle_track_;
+    std::vector<float> vehicle_track_, lift_track_;
 };
 
 }  // namespace throng::io

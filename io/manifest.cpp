@@ -9,6 +9,7 @@
 #include "authoring/link_kinds.h"
 #include "base/build_name.h"
 #include "base/outcomes.h"
+#include "io/lift_file.h"
 #include "io/streams/stream_format.h"
 #include "io/vehicle_file.h"
 
@@ -271,6 +272,7 @@ Json bakeManifest(const recording::BakeDescription& description, const BakeOutco
         json["terrain"] = terrainToJson(*description.terrain, !description.levels.empty());
     if (!description.levels.empty()) json["levels"] = levelsToJson(description);
     if (!description.links.empty()) json["links"] = linksToJson(description);
+    if (!description.lifts.empty()) json["lifts"] = liftsToJson(description);
     if (!description.vehicles.empty()) json["vehicles"] = vehiclesToJson(description.vehicles);
     json["table"] = "agents.csv";
     json["gltf"] = gltfToJson(outcome.gltf);

@@ -8,25 +8,12 @@
 
 #include "base/files/input_file.h"
 #include "base/files/output_file.h"
+#include "io/npy_header.h"
 
 namespace throng::io {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr std::size_t kAlignment = 64;
-
-/// Of a .npy file of version 1.0.
-std::string npyHeader(std::size_t frames, std::size_t vehicles) {
-    std::string text = fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, {}, {}), }}",
-                                   frames, vehicles, kVehicleFloats);
-    constexpr std::size_t kBefore = 10;
-    text.resize((kBefore + text.size() + kAlignment) / kAlignment * kAlignment - kBefore - 1, ' ');
-    text += '\n';
-    std::string header("\x93NUMPY\x01\x00", 8);
-    header += static_cast<char>(text.size() & 0xffu);
-    header += static_cast<char>(text.size() >> 8);
-    return header + text;
-}
 
 Json pointsToJson(const std::vector<glm::dvec2>& points, glm::dvec2 origin) {
     Json list = Json::array();
@@ -90,7 +77,7 @@ std::vector<float> placedVehicles(const recording::BakeDescription& description,
 void writeVehicles(const std::filesystem::path& path, std::span<const float> placed, std::uint32_t frames,
                    std::size_t vehicles) {
     OutputFile file(path);
-    file.write(npyHeader(frames, vehicles));
+    file.write(npyHeader({frames, vehicles, kVehicleFloats}));
     file.write(std::as_bytes(placed));
     file.finish();
 }
@@ -98,7 +85,7 @@ void writeVehicles(const std::filesystem::path& path, std::span<const float> pla
 std::vector<float> readVehicles(const Bake& bake) {
     const std::filesystem::path path = bake.folder / kVehicleFile;
     const std::size_t count = std::size_t{bake.frames} * bake.vehicles.size() * kVehicleFloats;
-    const std::string header = npyHeader(bake.frames, bake.vehicles.size());
+    const std::string header = npyHeader({bake.frames, bake.vehicles.size(), kVehicleFloats});
     const std::string content = readFile(path, header.size() + count * sizeof(float));
     if (content.size() != header.size() + count * sizeof(float) || !content.starts_with(header))
         throw InputError(path,

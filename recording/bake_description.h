@@ -84,6 +84,11 @@ struct BakeTerrain {
 struct BakeCharts {
     std::vector<glm::dvec2> shifts;      ///< m, by chart: place in the plane - home
     std::vector<glm::dvec2> belts = {};  ///< m/s, by chart: how its ground moves; empty: none does
+    struct Cabin {
+        std::size_t lift = static_cast<std::size_t>(-1);  ///< of a chart that is none: that
+        float height = 0.0f;                              ///< m
+    };
+    std::vector<Cabin> cabins = {};  ///< by chart; empty: there are no lifts
 };
 
 /// All that a bake's files say besides the frames. World coordinates unless told otherwise; metres and
@@ -124,6 +129,7 @@ struct BakeDescription {
         terrain;  ///< none: flat ground at height 0; floors and links of layouts with levels
     std::vector<authoring::Level> levels;
     std::vector<authoring::Link> links;
+    std::vector<authoring::Link> lifts;
     std::optional<BakeCharts> charts;  ///< with levels: then frames hold, behind places in the plane, charts
 
     std::string renderer;  ///< GL_RENDERER

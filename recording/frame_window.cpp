@@ -7,6 +7,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "base/lift_track.h"
+
 namespace throng::recording {
 namespace {
 
@@ -50,6 +52,7 @@ KeptFrame::KeptFrame(const Frame& frame) : index(frame.index) {
         if (info.source == StreamSource::terrain || info.source == StreamSource::pose) continue;
         streams[info.id].assign(frame[info.id].begin(), frame[info.id].end());
     }
+    lifts.assign(frame.lifts.begin(), frame.lifts.end());
 }
 
 Frame KeptFrame::view() const {
@@ -134,10 +137,12 @@ void FrameWindow::save(std::vector<std::byte>& bytes) const {
         put<std::uint32_t>(bytes, {&frame.index, 1});
         for (const StreamInfo& info : kStreams)
             put<float>(bytes, frame[info.id]);
+        put<float>(bytes, frame.lifts);
     }
 }
 
-void FrameWindow::restore(std::span<const std::byte> bytes, std::size_t rows, const StreamChoice& carried) {
+void FrameWindow::restore(std::span<const std::byte> bytes, std::size_t rows, const StreamChoice& carried,
+                          std::size_t lifts) {
     std::uint64_t counts[3];
     take<std::uint64_t>(bytes, counts);
     const std::size_t values = rows * kComponents;
@@ -153,6 +158,8 @@ void FrameWindow::restore(std::span<const std::byte> bytes, std::size_t rows, co
             frame[info.id].resize(values);
             take<float>(bytes, frame[info.id]);
         }
+        frame.lifts.resize(lifts * kLiftFloats);
+        take<float>(bytes, frame.lifts);
     }
 }
 

@@ -23,6 +23,7 @@ struct KeptFrame {
 
     std::uint32_t index = 0;
     PerStream<std::vector<float>> streams;
+    std::vector<float> lifts;
 };
 
 /// Somebody in a frame, averaged over the frames around it.
@@ -67,7 +68,8 @@ class FrameWindow {
     void save(std::vector<std::byte>& bytes) const;
     /// @param carried the streams that the frames have besides those of every bake
     /// @throws std::runtime_error where the bytes do not fit
-    void restore(std::span<const std::byte> bytes, std::size_t rows, const StreamChoice& carried);
+    void restore(std::span<const std::byte> bytes, std::size_t rows, const StreamChoice& carried,
+                 std::size_t lifts = 0);
 
   private:
     std::uint32_t room(std::size_t row) const;

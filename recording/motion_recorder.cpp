@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/lift_track.h"
 #include "base/wide_site.h"
 
 namespace throng::recording {
@@ -50,6 +51,8 @@ MotionRecorder::MotionRecorder(const BakeDescription& description, Sink sink)
         for (const glm::dvec2 velocity : description.charts->belts)
             belts_.push_back(velocity / fps_);
         charts_.resize(walkers_.size());
+        cabins_ = description.charts->cabins;
+        lift_count_ = description.lifts.size();
     }
     if (description.terrain) {
         ground_ = description.terrain->surface;
@@ -115,7 +118,16 @@ double MotionRecorder::heightOf(std::size_t row) const {
     if (shifts_.empty() || !ground_) return 0.0;
     const std::size_t at = row * kComponents;
     return double{
-        ground_->smoothAt(glm::vec2(glm::dvec2(positions_[at], positions_[at + 1]) + toPlane(row)))};
+               ground_->smoothAt(glm::vec2(glm::dvec2(positions_[at], positions_[at + 1]) + toPlane(row)))} +
+           double{liftedBy(row)};
+}
+
+/// m: how far the cabin that somebody is in is above the stop at which the plane has it.
+float MotionRecorder::liftedBy(std::size_t row) const {
+    if (cabins_.empty() || charts_[row] >= cabins_.size()) return 0.0f;
+    const BakeCharts::Cabin& cabin = cabins_[charts_[row]];
+    const std::size_t at = cabin.lift * kLiftFloats + static_cast<std::size_t>(LiftColumn::height);
+    return at < window_.middle().lifts.size() ? window_.middle().lifts[at] - cabin.height : 0.0f;
 }
 
 glm::dvec2 MotionRecorder::carriedBy(std::size_t row) const {
@@ -245,6 +257,7 @@ void MotionRecorder::record(const KeptFrame& frame) {
                       footing_->stand(
                           row, {place + glm::vec2(toPlane(row)), heading, moved, carried != glm::vec2(0.0f)},
                           walker.gait));
+        if (footing_) positions_[at + 2] += liftedBy(row);
     }
 }
 
@@ -334,7 +347,7 @@ void MotionRecorder::restore(std::span<const std::byte> bytes) {
     if (footsteps_) take(footsteps_->state());
     if (carriages_) take(carriages_->state());
     if (gazes_) take(gazes_->state());
-    window_.restore(bytes, walkers_.size(), carried_);
+    window_.restore(bytes, walkers_.size(), carried_, lift_count_);
 }
 
 }  // namespace throng::recording

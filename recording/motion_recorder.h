@@ -50,6 +50,7 @@ class MotionRecorder {
     void goHome(const Frame& frame);
     glm::dvec2 toPlane(std::size_t row) const;
     double heightOf(std::size_t row) const;
+    float liftedBy(std::size_t row) const;
     /// How far the ground has carried somebody since the frame before, m.
     glm::dvec2 carriedBy(std::size_t row) const;
     void average(const KeptFrame& frame);
@@ -84,6 +85,8 @@ class MotionRecorder {
     std::vector<glm::dvec2> shifts_;  ///< by chart, m: place in the plane - home; none without charts
     std::vector<glm::dvec2> belts_;   ///< by chart, m in a frame: how far its ground moves; none: none does
     std::vector<std::uint32_t> charts_;
+    std::vector<BakeCharts::Cabin> cabins_;  ///< by chart; none: there are no lifts
+    std::size_t lift_count_ = 0;
     std::vector<float> homes_;  ///< places of the frame being taken, in home coordinates, and charts
     std::vector<std::uint32_t> present_;
     std::vector<float> gaze_values_, carriage_values_, chests_;

@@ -298,10 +298,31 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
         slot_images = gl::Buffer("slot images", {rows, sizeof(gpu::SlotImage), kPerson});
         row_slots = gl::Buffer("row slots", {scene.people.size(), kWord, kPerson});
     }
+    if (!scene.chart_map.lifts.empty()) makeLifts(scene.chart_map.lifts, scene.people.size());
     if (!scene.traffic.empty()) makeTraffic(scene.traffic);
     queue_heads.fill(0);
     tickets.fill(0);
     detour_slopes.fill(0);
+}
+
+void Buffers::makeLifts(const authoring::LiftMap& lifts, std::size_t people_count) {
+    std::vector<gpu::LiftState> states_at_start;
+    for (const gpu::LiftPlan& plan : lifts.plans) {
+        gpu::LiftState state{};
+        state.height = lifts.stops.at(plan.first_stop).height;
+        states_at_start.push_back(state);
+    }
+    lift_plans = gl::makeBuffer("lifts", lifts.plans, "lift");
+    lift_stops = gl::makeBuffer("stops of lifts", lifts.stops, "stop of a lift");
+    cabin_stops = gl::makeBuffer("cabins", lifts.stop_of, "chart");
+    lift_states = gl::makeBuffer("states of lifts", states_at_start, "lift");
+    lift_wishes = gl::Buffer("wishes of lifts", {lifts.plans.size(), sizeof(gpu::LiftWishes), "lift"});
+    lift_queues = gl::Buffer("queues before lifts", {lifts.stops.size(), kWord, "stop of a lift"});
+    riders = gl::Buffer("riders", {people_count, kWord, kPerson});
+    for (gl::Buffer* each : {&lift_wishes, &lift_queues, &riders})
+        each->fill(0);
+    lifts_ = {{"LIFTS", fmt::format("{}u", lifts.plans.size())},
+              {"LIFT_STOPS", fmt::format("{}u", lifts.stops.size())}};
 }
 
 void Buffers::makeTraffic(const authoring::SceneTraffic& traffic) {
@@ -343,6 +364,7 @@ gl::Definitions Buffers::definitions() const {
     if (has_bodies_) all.emplace_back("BODIES", "1");
     if (hasCharts()) all.emplace_back("CHARTS", "1");
     if (has_belts_) all.emplace_back("BELTS", "1");
+    all.insert(all.end(), lifts_.begin(), lifts_.end());
     all.insert(all.end(), traffic_.begin(), traffic_.end());
     return all;
 }
@@ -362,6 +384,13 @@ std::vector<std::pair<std::string, const gl::Buffer*>> Buffers::named() const {
             {"ChartShifts", &chart_shifts},
             {"Belts", &belts},
             {"SlotImages", &slot_images},
+            {"LiftPlans", &lift_plans},
+            {"LiftStops", &lift_stops},
+            {"CabinStops", &cabin_stops},
+            {"LiftStates", &lift_states},
+            {"LiftWishesBlock", &lift_wishes},
+            {"LiftQueues", &lift_queues},
+            {"Riders", &riders},
             {"Vehicles", &vehicles},
             {"VehicleBoxes", &vehicle_boxes},
             {"VehicleBoxesMade", &vehicle_boxes},

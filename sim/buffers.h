@@ -38,6 +38,7 @@ struct Buffers {
     gl::Buffer wall_segments, wall_tiles, wall_starts, wall_items, narrow_cells;
     gl::Buffer chart_cells, chart_shifts, belts;
     gl::Buffer slot_images, row_slots;  // none without charts
+    gl::Buffer lift_plans, lift_stops, cabin_stops, lift_states, lift_wishes, lift_queues, riders;
     // Signals and vehicles; of no use without traffic.
     gl::Buffer vehicles, vehicle_boxes, lanes, lane_points, traffic_stops;
     gl::Buffer crossings, crossing_points, lights, in_the_way;
@@ -69,10 +70,12 @@ struct Buffers {
     }
 
   private:
+    void makeLifts(const authoring::LiftMap& lifts, std::size_t people);
     void makeTraffic(const authoring::SceneTraffic& traffic);
 
     bool has_bodies_, has_charts_, has_belts_;
     gl::Definitions traffic_;  // how much of it there is
+    gl::Definitions lifts_;    // likewise
 };
 
 /// Cells, windows and limits that follow from a scene.

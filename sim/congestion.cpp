@@ -2,7 +2,9 @@
 #include "sim/congestion.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <glm/vec4.hpp>
 
 namespace throng::sim {
 namespace {
@@ -12,7 +14,8 @@ constexpr std::uint32_t kStepsPerRound = 4;
 const gl::Declaration kFlow = {"routes",
                                {"shaders/routes/detour_flow.comp"},
                                {"ParametersBlock", "Ground", "Bodies", "StripStarts", "CellOffsets",
-                                "CrowdFlows", "ChartCells", "ChartShifts", "Belts"},
+                                "CrowdFlows", "ChartCells", "ChartShifts", "Belts", "LiftPlans", "LiftStops",
+                                "CabinStops"},
                                {"CrowdFlows", "DenseBlocks"}};
 const gl::Declaration kList = {"routes",
                                {"shaders/routes/detour_list.comp"},
@@ -37,6 +40,11 @@ const gl::Declaration kShow = {"routes",
                                {"shaders/routes/detour_seams.comp"},
                                {"ParametersBlock", "ShownCells", "DetourDistances", "DetourSlopes"},
                                {"DetourDistances", "DetourSlopes", "ChangedBlocks"}};
+
+const gl::Declaration kRide = {"routes",
+                               {"shaders/routes/detour_rides.comp"},
+                               {"ParametersBlock", "RideCells", "FreeDistances", "DetourDistances"},
+                               {"DetourDistances", "ChangedBlocks"}};
 
 }  // namespace
 
@@ -92,6 +100,7 @@ Congestion::Congestion(const gl::ShaderLibrary& library, Buffers& buffers, const
     }
     relax_.bind("ChangedBlocks", changed_now_);
     if (!detours.shown.empty()) showOverSeams(library, buffers, detours.shown);
+    if (!detours.rides.empty()) takeLifts(library, buffers, detours.rides);
     const auto memory = static_cast<float>(rules.number("routes_round_jams", "memory"));
     flow_.set("fading",
               1.0f - std::exp(-static_cast<float>(runs_per_round_) * parameters.decision_seconds / memory));
@@ -109,6 +118,21 @@ void Congestion::showOverSeams(const gl::ShaderLibrary& library, const Buffers& 
         program->bind("ShownCells", shown_cells_);
         program->set("shown_count", shown_count_);
     }
+}
+
+void Congestion::takeLifts(const gl::ShaderLibrary& library, const Buffers& buffers,
+                           const std::vector<authoring::Detours::Ride>& rides) {
+    std::vector<glm::uvec4> cells;
+    for (const authoring::Detours::Ride& each : rides)
+        cells.emplace_back(each.from, each.to, std::bit_cast<std::uint32_t>(each.cost), 0u);
+    ride_count_ = static_cast<std::uint32_t>(cells.size());
+    ride_cells_ = gl::makeBuffer("rides of lifts", cells, "ride");
+    ride_ = buffers.connect(library, kRide, {});
+    ride_.bind("RideCells", ride_cells_);
+    ride_.bind("FreeDistances", free_distances_);
+    ride_.bind("DetourDistances", distances_);
+    ride_.bind("ChangedBlocks", changed_now_);
+    ride_.set("ride_count", ride_count_);
 }
 
 void Congestion::show(gl::ComputeProgram& program, std::uint32_t count) {
@@ -131,6 +155,11 @@ void Congestion::run() {
     listBlocks(changed_before_, true);
     relax_.dispatchIndirect(block_dispatch_);
     keep_.dispatchIndirect(block_dispatch_);
+    if (ride_count_ > 0) {
+        ride_.set("first_field", clock_.next_field);
+        ride_.set("field_count", count);
+        ride_.dispatch(count);
+    }
     show(show_distances_, count);
     listBlocks(changed_now_, false);
     slope_.dispatchIndirect(block_dispatch_);

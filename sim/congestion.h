@@ -32,6 +32,8 @@ class Congestion {
     void listBlocks(const gl::Buffer& changed, bool dense_too);
     void showOverSeams(const gl::ShaderLibrary& library, const Buffers& buffers,
                        const std::vector<glm::uvec2>& shown);
+    void takeLifts(const gl::ShaderLibrary& library, const Buffers& buffers,
+                   const std::vector<authoring::Detours::Ride>& rides);
     void show(gl::ComputeProgram& program, std::uint32_t count);
 
     std::uint32_t cells_ = 0, blocks_ = 0;  // of one map
@@ -47,6 +49,9 @@ class Congestion {
     std::uint32_t shown_count_ = 0;  // cells that show others over a seam
     gl::Buffer shown_cells_;
     gl::ComputeProgram show_distances_, show_slopes_;
+    std::uint32_t ride_count_ = 0;  // of lifts
+    gl::Buffer ride_cells_;
+    gl::ComputeProgram ride_;
 };
 
 }  // namespace throng::sim

@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/lift_track.h"
 #include "base/vehicle_track.h"
 #include "sim/gl/context.h"
 #include "sim/simulation_parts.h"
@@ -30,6 +31,7 @@ struct Slot {
     gl::Buffer seconds;
     PerStream<gl::Buffer> streams;
     gl::Buffer vehicles, vehicle_boxes;  // none without vehicles
+    gl::Buffer lifts;                    // likewise
     GLsync fence = nullptr;
     std::uint32_t index = 0;
     bool has_diagram = false;
@@ -73,6 +75,7 @@ struct FramePump::State {
     std::vector<float> metres;
     std::vector<std::uint32_t> sites, seconds;  // with charts
     std::vector<float> vehicles;                // kVehicleFloats each
+    std::vector<float> lifts;                   // kLiftFloats each
 
     std::deque<Slot*> in_flight;  // GL thread only: submitted, fence not yet seen
 
@@ -136,6 +139,9 @@ FramePump::FramePump(Simulation& simulation, const Cargo& cargo, Receiver receiv
             slot.vehicle_boxes = gl::Buffer("vehicle boxes read-back", buffers.vehicle_boxes.bytes(),
                                             gl::Buffer::Use::read_back);
         }
+        if (simulation.lifts() > 0)
+            slot.lifts = gl::Buffer("lifts read-back", simulation.parts().buffers.lift_states.bytes(),
+                                    gl::Buffer::Use::read_back);
         if (!cargo.diagrams) continue;
         if (cargo.seconds)
             slot.seconds = gl::Buffer("second owners read-back", pixels * 4, gl::Buffer::Use::read_back);
@@ -176,6 +182,7 @@ bool FramePump::submit(std::uint32_t index, bool with_diagram) {
         slot.vehicles.copyFrom(state.simulation.parts().buffers.vehicles);
         slot.vehicle_boxes.copyFrom(state.simulation.parts().buffers.vehicle_boxes);
     }
+    if (state.simulation.lifts() > 0) slot.lifts.copyFrom(state.simulation.parts().buffers.lift_states);
     const Extent extent = with_diagram ? Extent::everywhere : Extent::near_people;
     if ((with_diagram || state.asksForDiagram()) && !state.simulation.buildDiagramNow(extent)) {
         state.next = (state.next + kSlots - 1) % kSlots;
@@ -305,6 +312,13 @@ void FramePump::State::deliver(const Slot& slot) {
         trackVehicles(view<gpu::Vehicle>(slot.vehicles, 0, simulation.vehicles()),
                       view<gpu::VehicleBox>(slot.vehicle_boxes, 0, simulation.vehicles()), vehicles);
         frame.vehicles = vehicles;
+    }
+    if (simulation.lifts() > 0) {
+        lifts.clear();
+        for (const gpu::LiftState& lift : view<gpu::LiftState>(slot.lifts, 0, simulation.lifts()))
+            lifts.insert(lifts.end(), {lift.height, lift.open, static_cast<float>(lift.aboard),
+                                       static_cast<float>(lift.stop)});
+        frame.lifts = lifts;
     }
     DiagramImage diagram = image;
     if (slot.has_diagram) {

@@ -117,9 +117,11 @@ void WaitingLines::run() {
 }
 
 Avoidance::Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, int neighbours,
-                     const TerrainSlopes* ground, const MotionSettings& rules, Seams* seams)
+                     const TerrainSlopes* ground, const MotionSettings& rules, Seams* seams,
+                     Lifts* lifts)
     : buffers_(buffers),
       seams_(seams),
+      lifts_(lifts),
       steer_(makeSteer(library, buffers, ground, rules)),
       avoid_(makeAvoid(library, buffers, neighbours, rules)),
       carry_on_(makeCarryOn(library, buffers, rules)) {}
@@ -127,6 +129,7 @@ Avoidance::Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, int nei
 void Avoidance::run(std::uint32_t steps_done) {
     steer_.setIfUsed("steps_done", steps_done);
     steer_.dispatchUpTo(buffers_.slotCapacity(), buffers_.live_dispatch);
+    if (lifts_) lifts_->wish();
     if (seams_) seams_->takeAlong(Seams::After::steering);
     avoid_.dispatchUpTo(buffers_.slotCapacity(), buffers_.live_dispatch);
     if (seams_) seams_->takeAlong(Seams::After::avoiding);

@@ -229,6 +229,9 @@ const gpu::Parameters& Simulation::parameters() const {
 std::size_t Simulation::vehicles() const {
     return parts_->traffic ? parts_->traffic->vehicles() : 0;
 }
+std::size_t Simulation::lifts() const {
+    return parts_->lifts ? parts_->lifts->count() : 0;
+}
 Simulation::Parts& Simulation::parts() {
     return *parts_;
 }

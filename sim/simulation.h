@@ -81,6 +81,7 @@ class Simulation {
     const gpu::Parameters& parameters() const;
     /// How many drive in all of the bake.
     std::size_t vehicles() const;
+    std::size_t lifts() const;
 
     struct Parts;
     /// The passes and their buffers, for tests of single passes.

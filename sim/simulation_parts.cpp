@@ -84,8 +84,11 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
                                                                  : std::nullopt),
       seams(buffers.hasCharts() ? std::optional<Seams>(std::in_place, library, buffers, settings.motion)
                                 : std::nullopt),
+      lifts(scene.chart_map.lifts.empty()
+                ? std::nullopt
+                : std::optional<Lifts>(std::in_place, library, buffers, scene, settings.motion)),
       avoidance(library, buffers, settings.neighbours, slopes ? &*slopes : nullptr, settings.motion,
-                seams ? &*seams : nullptr),
+                seams ? &*seams : nullptr, lifts ? &*lifts : nullptr),
       contacts(library, buffers, settings.contact_iterations, settings.motion, seams ? &*seams : nullptr),
       motion(library, buffers, contacts.result(), settings.motion),
       lines(library, buffers, static_cast<std::uint32_t>(scene.lines.size())),
@@ -138,9 +141,13 @@ std::vector<Pass> Simulation::Parts::passesOfStep() {
         if (seams) seams->cross();
         cells.run();
     };
+    const auto serve = [this] {
+        if (lifts) lifts->serve();
+    };
     const auto touch = [this] {
         contacts.run();
         if (traffic) traffic->keepOff();
+        if (lifts) lifts->keepOut(contacts.result());
     };
     std::vector<Pass> all = {{"cells", when_deciding(sort)},
                              {"routes", when_deciding([this] { congestion.run(); })},
@@ -153,6 +160,7 @@ std::vector<Pass> Simulation::Parts::passesOfStep() {
     if (behaviour)
         all.insert(all.begin() + 1,
                    {"behaviour", when_deciding([this] { behaviour->run(step_start, steps_done); })});
+    if (lifts) all.insert(all.begin() + 1, {"lifts", when_deciding(serve)});
     // Before anybody looks where they are.
     if (traffic && traffic->vehicles() > 0)
         all.insert(all.begin(), Pass{"vehicles", [this] { traffic->drive(step_start); }});
@@ -182,6 +190,10 @@ std::vector<std::pair<std::string, gl::Buffer*>> Simulation::Parts::remembered()
                                                               {"detour slopes", &buffers.detour_slopes}};
     if (buffers.hasBodies()) found.emplace_back("chests", &buffers.chests);
     if (traffic && traffic->vehicles() > 0) found.emplace_back("vehicles", &buffers.vehicles);
+    if (lifts) {
+        found.emplace_back("lifts", &buffers.lift_states);
+        found.emplace_back("riders", &buffers.riders);
+    }
     if (behaviour)
         for (const auto& each : behaviour->remembered())
             found.push_back(each);

@@ -13,6 +13,7 @@
 #include "sim/congestion.h"
 #include "sim/diagram/diagram.h"
 #include "sim/gates.h"
+#include "sim/lifts.h"
 #include "sim/passes.h"
 #include "sim/sensing.h"
 #include "sim/simulation.h"
@@ -43,6 +44,7 @@ struct Simulation::Parts {
     Sensing sensing;
     std::optional<TerrainSlopes> slopes;  // none on flat ground
     std::optional<Seams> seams;           // none without charts
+    std::optional<Lifts> lifts;           // none without lifts
     Avoidance avoidance;
     Contacts contacts;
     Motion motion;

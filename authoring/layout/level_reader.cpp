@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -16,6 +17,10 @@ constexpr double kSteepestRamp = 0.25, kSteepestStairs = 1.2;  // rise over run
 constexpr double kFlattestStairs = 0.2;
 constexpr double kSteepestEscalator = 0.71, kSteepestTravelator = 0.22;  // 35 and 12 degrees: EN 115-1
 constexpr double kWidthOfSteps = 1.0;                                    // m: the usual ones
+
+/// Keys that no other link has.
+constexpr std::array kOfLifts = {"levels", "at", "size", "doors", "opposite", "door_width", "door_time", "dwell",
+                                 "capacity"};
 
 /// What links of one kind are called, and how they may climb: rise over run.
 struct Climb {
@@ -75,6 +80,12 @@ void LevelReader::readLink(const JsonNode& node) {
     if (!reader.isObject()) return;
     reader.requiredText("id", "its name", link.id);
     reader.choice("type", {kLinkKinds.begin(), kLinkKinds.end()}, link.kind);
+    if (link.isLift()) return readLift(reader, node, std::move(link));
+    for (const char* key : kOfLifts)
+        if (const JsonNode* given = reader.get(key))
+            diagnostics_.error(given->where, fmt::format("`{}` is of lifts, and {} are none", key,
+                                                         climbOf(link.kind).many),
+                               R"(write "type": "lift", or leave it out)");
     const JsonNode* from = reader.require("from", "the level at which it begins");
     const JsonNode* to = reader.require("to", "the level at which it ends");
     const std::vector<glm::dvec2> path = reader.points("path");

@@ -25,6 +25,9 @@ class LevelReader {
     std::size_t levelNamed(const JsonNode& node) const;
     /// What is said of ground that moves.
     void readBelt(ObjectReader& reader, const JsonNode& node, Link& link) const;
+    /// What is said of cabins.
+    void readLift(ObjectReader& reader, const JsonNode& node, Link link);
+    void readStops(ObjectReader& reader, const JsonNode& node, Lift& lift) const;
     void checkLink(const Link& link, const JsonNode& node) const;
 
     const Schema& schema_;

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "authoring/scene/raster.h"
+#include "authoring/storeys/cabin.h"
 
 namespace throng::authoring {
 
@@ -71,6 +72,74 @@ gpu::Belt beltOf(const Chart& chart, const Layout& layout, glm::dvec2 origin) {
     return belt;
 }
 
+LiftMap liftsOf(const Charts& charts, glm::dvec2 origin) {
+    const Layout& layout = charts.plane;
+    LiftMap map;
+    map.stop_of.assign(charts.charts.size(), gpu::NO_INDEX);
+    for (std::uint32_t chart = 0; chart < charts.charts.size(); ++chart) {
+        const Chart& each = charts.charts[chart];
+        if (!each.is_cabin) continue;
+        const Lift& lift = layout.links[each.index].lift;
+        if (each.stop == 0) {
+            const CabinSpots spots = spotsIn(layout, lift);
+            const Footprint& cabin = each.link;
+            const glm::dvec2 left(-cabin.along.y, cabin.along.x);
+            const glm::dvec2 first(cabin.length - 0.5 * (kRailing + spots.apart.y),
+                                   -0.5 * spots.apart.x * (spots.columns - 1.0));
+            gpu::LiftPlan plan{};
+            plan.corner = glm::vec2(cabin.at(first.x, first.y) - origin);
+            plan.across = glm::vec2(left * spots.apart.x);
+            plan.forward = glm::vec2(cabin.along * -spots.apart.y);
+            plan.first_stop = static_cast<gpu::uint>(map.stops.size());
+            plan.stop_count = static_cast<gpu::uint>(lift.levels.size());
+            plan.capacity = capacityOf(layout, lift);
+            plan.columns = spots.columns;
+            plan.half_door = static_cast<float>(each.half_door);
+            plan.half_width = static_cast<float>(cabin.half_width);
+            plan.depth = static_cast<float>(cabin.length);
+            plan.speed = static_cast<float>(lift.speed);
+            plan.door_time = static_cast<float>(lift.door_time);
+            plan.dwell = static_cast<float>(lift.dwell);
+            map.plans.push_back(plan);
+            map.names.push_back(each.name);
+        }
+        map.stop_of[chart] = static_cast<std::uint32_t>(map.stops.size());
+        map.stops.push_back({glm::vec2(each.link.begin - origin), glm::vec2(each.link.along), chart,
+                             static_cast<gpu::uint>(each.link_from), static_cast<float>(each.height),
+                             static_cast<gpu::uint>(map.plans.size() - 1)});
+        map.stops.back().height = static_cast<float>(each.link.low);
+    }
+    return map;
+}
+
+/// m on the flat that take as long as waiting for a lift and riding.
+float costOfRide(const gpu::LiftPlan& plan, const LiftMap& lifts, std::uint32_t from, std::uint32_t to) {
+    const auto height = [&](std::uint32_t stop) { return double{lifts.stops[stop].height}; };
+    Lift lift;
+    lift.speed = plan.speed;
+    lift.door_time = plan.door_time;
+    lift.dwell = plan.dwell;
+    const double whole = height(plan.first_stop + plan.stop_count - 1) - height(plan.first_stop);
+    return static_cast<float>(kFlat * timeByLift(lift, whole, height(to) - height(from)));
+}
+
+/// From the middle of a cabin at one stop to that at another.
+std::vector<Detours::Ride> ridesOf(const ChartMap& map, const FieldGrid& grid) {
+    const LiftMap& lifts = map.lifts;
+    const auto cellOf = [&](const gpu::LiftPlan& plan, std::uint32_t stop) {
+        const gpu::LiftStop& at = lifts.stops[stop];
+        return cellAt(grid, at.begin + at.along * (0.5f * plan.depth) + map.shifts[at.chart]);
+    };
+    std::vector<Detours::Ride> rides;
+    for (const gpu::LiftPlan& plan : lifts.plans)
+        for (std::uint32_t i = 0; i < plan.stop_count; ++i)
+            for (std::uint32_t j = 0; j < plan.stop_count; ++j) {
+                const std::uint32_t from = plan.first_stop + i, to = plan.first_stop + j;
+                if (i != j) rides.push_back({cellOf(plan, from), cellOf(plan, to), costOfRide(plan, lifts, from, to)});
+            }
+    return rides;
+}
+
 }  // namespace
 
 float costOfLink(const MotionSettings& motion, bool stairs, double slope) {
@@ -111,6 +180,7 @@ ChartMap makeChartMap(const Charts& charts, glm::vec2 minimum, glm::vec2 maximum
             }
     }
     if (std::ranges::none_of(charts.plane.links, &Link::moves)) map.belts.clear();
+    map.lifts = liftsOf(charts, origin);
     return map;
 }
 
@@ -146,6 +216,7 @@ SeamCells seamCellsOf(const ChartMap& map, const FieldGrid& grid) {
               [](const SeamCells::Shown& a, const SeamCells::Shown& b) {
                   return std::pair(a.owner, a.image) < std::pair(b.owner, b.image);
               });
+    seams.rides = ridesOf(map, grid);
     return seams;
 }
 

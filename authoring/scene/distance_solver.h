@@ -21,6 +21,7 @@ struct SeamCells {
     };
     std::vector<Shown> shown;             ///< in the order of their owners
     std::vector<std::uint32_t> owner_of;  ///< per cell: itself, or what it shows
+    std::vector<Detours::Ride> rides;     ///< of lifts, from the middle of one cabin to that of another
 };
 
 /// How hard it is to walk, cell by cell.

@@ -97,6 +97,7 @@ class Marcher {
             if (settled_[front.cell] < kUnreachable) continue;
             settle(front.cell, front.distance);
             if (map_.seams) settleImages(front);
+            if (map_.seams && !map_.seams->rides.empty()) ride(front);
         }
     }
 
@@ -133,6 +134,16 @@ class Marcher {
         auto next = std::ranges::lower_bound(shown, owner, {}, &SeamCells::Shown::owner);
         for (; next != shown.end() && next->owner == owner; ++next)
             settle(padded(next->image % grid_.width, next->image / grid_.width), front.distance);
+    }
+
+    /// Whoever is in a cabin where one may ride from is as far as one is there, and the ride.
+    void ride(const Front& front) {
+        for (const Detours::Ride& each : map_.seams->rides) {
+            if (each.to != unpadded(front.cell)) continue;
+            const std::uint32_t from = padded(each.from % grid_.width, each.from / grid_.width);
+            const float found = front.distance + each.cost;
+            if (settled_[from] == kUnreachable && found < tentative_[from]) push(from, found);
+        }
     }
 
     void push(std::uint32_t cell, float distance) {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "authoring/storeys/cabin.h"
 #include "base/polygon.h"
 
 namespace throng::authoring {
@@ -38,6 +39,37 @@ Chart linkChart(const Layout& layout, std::size_t index) {
     chart.link.low = layout.levels[link.from].height;
     chart.link.high = layout.levels[link.to].height;
     return chart;
+}
+
+/// The cabin of a lift where it stands at one of its levels, from its doors to its back.
+Chart cabinChart(const Layout& layout, std::size_t index, std::size_t stop) {
+    const Link& link = layout.links[index];
+    const Lift& lift = link.lift;
+    Chart chart;
+    chart.name = link.id;
+    chart.is_link = chart.is_cabin = true;
+    chart.index = index;
+    chart.stop = stop;
+    chart.half_door = 0.5 * lift.door_width;
+    chart.link_from = lift.levels[stop];
+    chart.link_to = kNoLevel;
+    const glm::dvec2 outward = outOfCabin(lift, stop);
+    chart.link.begin = lift.at + 0.5 * lift.size.y * outward;
+    chart.link.along = -outward;
+    chart.link.length = lift.size.y;
+    chart.link.half_width = 0.5 * lift.size.x;
+    chart.link.low = chart.link.high = layout.levels[lift.levels[stop]].height;
+    return chart;
+}
+
+/// Floors are open where a lift goes through them.
+bool goesThrough(const Lift& lift, const Layout& layout, double height) {
+    double low = layout.levels[lift.levels.front()].height, high = low;
+    for (const std::size_t level : lift.levels) {
+        low = std::min(low, layout.levels[level].height);
+        high = std::max(high, layout.levels[level].height);
+    }
+    return height > low - kHeadroom && height < high + kHeadroom;
 }
 
 /// Which part of a link is nearer to a height than headroom; nothing where none is.
@@ -112,6 +144,8 @@ bool areJoined(const Chart& a, std::size_t a_index, glm::dvec2 in_a, const Chart
     if (a.is_link && b.is_link) return false;
     if (b.is_link) return areJoined(b, b_index, in_b, a, a_index, in_a);
     if (!a.is_link) return std::abs(a.height - b.height) <= kMostStep;
+    if (a.is_cabin && std::max(std::abs(a.link.asideOf(in_a)), std::abs(a.link.asideOf(in_b))) > a.half_door)
+        return false;
     return (a.link_from == b_index && isBeyond(a.link, 0, in_a, in_b)) ||
            (a.link_to == b_index && isBeyond(a.link, 1, in_a, in_b));
 }
@@ -121,10 +155,18 @@ std::vector<Chart> chartsOf(const Layout& layout) {
     for (std::size_t i = 0; i < layout.levels.size(); ++i)
         charts.push_back(floorChart(layout.levels[i], i));
     for (std::size_t i = 0; i < layout.links.size(); ++i)
-        charts.push_back(linkChart(layout, i));
+        if (layout.links[i].isLift())
+            for (std::size_t stop = 0; stop < layout.links[i].lift.levels.size(); ++stop)
+                charts.push_back(cabinChart(layout, i, stop));
+        else
+            charts.push_back(linkChart(layout, i));
     for (std::size_t level = 0; level < layout.levels.size(); ++level)
         for (std::size_t i = layout.levels.size(); i < charts.size(); ++i)
-            if (const auto part = tooNear(charts[i].link, charts[level].height))
+            if (charts[i].is_cabin) {
+                if (charts[i].stop == 0 &&
+                    goesThrough(layout.links[charts[i].index].lift, layout, charts[level].height))
+                    charts[level].openings.push_back(charts[i].link.outline(0.0, charts[i].link.length));
+            } else if (const auto part = tooNear(charts[i].link, charts[level].height))
                 charts[level].openings.push_back(charts[i].link.outline(part->first, part->second));
     return charts;
 }

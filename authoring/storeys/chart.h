@@ -44,6 +44,9 @@ struct Chart {
     std::vector<std::vector<glm::dvec2>> openings;  ///< where links leave no headroom over or under it
     Footprint link;
     std::size_t link_from = 0, link_to = 0;  ///< the levels of a link, which are charts of the same index
+    bool is_cabin = false;   ///< of a lift, at one of the levels that it serves: it begins at the doors there
+    std::size_t stop = 0;    ///< which of them, in the lift's order
+    double half_door = 0.0;  ///< m
     glm::dvec2 shift{0.0};                   ///< plane = home + shift, m
 
     bool contains(glm::dvec2 home) const;
@@ -52,11 +55,15 @@ struct Chart {
     std::pair<glm::dvec2, glm::dvec2> bounds() const;
 };
 
+/// The end of a cabin that leads nowhere.
+inline constexpr std::size_t kNoLevel = static_cast<std::size_t>(-1);
+
 /// Whether one walks from a point of one chart to a point beside it of another.
 bool areJoined(const Chart& a, std::size_t a_index, glm::dvec2 in_a, const Chart& b, std::size_t b_index,
                glm::dvec2 in_b);
 
-/// Charts of the levels, in order, and then of the links, not yet laid out.
+/// Charts of the levels, in order, and then of the links, not yet laid out. A lift has one for each level that
+/// it serves: the cabin, as it stands there.
 std::vector<Chart> chartsOf(const Layout& layout);
 
 }  // namespace throng::authoring

@@ -194,6 +194,39 @@ void addLink(const Chart& chart, std::size_t treads, MeshMaker& maker) {
     }
 }
 
+/// An upright or lying bar, along the axes.
+void addBar(glm::dvec3 low, glm::dvec3 high, const Footprint& link, MeshMaker& maker) {
+    const auto at = [&](double x, double y, double z) { return glm::dvec3(link.at(x, y), z); };
+    const glm::dvec3 a = low, b = high;
+    maker.add({at(a.x, a.y, a.z), at(a.x, b.y, a.z), at(b.x, b.y, a.z), at(b.x, a.y, a.z)});
+    maker.add({at(a.x, a.y, b.z), at(b.x, a.y, b.z), at(b.x, b.y, b.z), at(a.x, b.y, b.z)});
+    maker.add({at(a.x, a.y, a.z), at(b.x, a.y, a.z), at(b.x, a.y, b.z), at(a.x, a.y, b.z)});
+    maker.add({at(b.x, b.y, a.z), at(a.x, b.y, a.z), at(a.x, b.y, b.z), at(b.x, b.y, b.z)});
+    maker.add({at(a.x, b.y, a.z), at(a.x, a.y, a.z), at(a.x, a.y, b.z), at(a.x, b.y, b.z)});
+    maker.add({at(b.x, a.y, a.z), at(b.x, b.y, a.z), at(b.x, b.y, b.z), at(b.x, a.y, b.z)});
+}
+
+/// The frame of a lift's shaft: posts at its corners from its lowest stop to over its highest, a ring over the
+/// doors of each, and one at the top.
+void addShaft(const Chart& lowest, const Lift& lift, const Layout& layout, MeshMaker& maker) {
+    constexpr double kBar = 0.1, kRing = 2.3, kTop = 2.9;  // m
+    const Footprint& link = lowest.link;
+    const double half = link.half_width, low = layout.levels[lift.levels.front()].height,
+                 high = layout.levels[lift.levels.back()].height + kTop;
+    for (const double x : {-kBar, link.length})
+        for (const double y : {-half - kBar, half})
+            addBar({x, y, low - kSlab}, {x + kBar, y + kBar, high}, link, maker);
+    const auto ring = [&](double z) {
+        for (const double x : {-kBar, link.length})
+            addBar({x, -half, z}, {x + kBar, half, z + kBar}, link, maker);
+        for (const double y : {-half - kBar, half})
+            addBar({0.0, y, z}, {link.length, y + kBar, z + kBar}, link, maker);
+    };
+    for (const std::size_t level : lift.levels)
+        ring(layout.levels[level].height + kRing);
+    ring(high - kBar);
+}
+
 }  // namespace
 
 std::size_t treadsOf(const Chart& chart, const Layout& layout) {
@@ -207,6 +240,8 @@ TerrainMesh homeMesh(const std::vector<Chart>& charts, const Layout& layout) {
     for (const Chart& chart : charts) {
         if (chart.is_link) {
             addLink(chart, treadsOf(chart, layout), maker);
+            if (chart.is_cabin && chart.stop == 0)
+                addShaft(chart, layout.links[chart.index].lift, layout, maker);
             continue;
         }
         addFloor(chart, chart.bounds(), maker);

@@ -8,13 +8,17 @@
 #include <glm/common.hpp>
 #include <numeric>
 
+#include "authoring/storeys/cabin.h"
 #include "authoring/storeys/chart_mesh.h"
 #include "authoring/storeys/railings.h"
+#include "base/polygon.h"
 
 namespace throng::authoring {
 namespace {
 
 constexpr double kRailingHeight = 1.1;  // m
+constexpr double kShaftHeight = 2.3;    // m, of a lift's sides at each of its stops
+constexpr double kBeforeDoors = 0.8;    // m: what stays free before a lift
 constexpr std::size_t kMostCharts = gpu::NO_CHART;
 
 /// m: as far as people sense, and the tiles of those whom they sense there.
@@ -127,6 +131,10 @@ class LayingOut {
                                            layout_.levels.size() + layout_.links.size(), kMostCharts - 1));
         if (diagnostics_.hasErrors()) return nullptr;
         result_->charts = chartsOf(layout_);
+        if (result_->charts.size() >= kMostCharts)
+            diagnostics_.error(layout_.levels.back().where,
+                               fmt::format("levels, links and the stops of lifts are {}, more than the {} that can be",
+                                           result_->charts.size(), kMostCharts - 1));
         result_->reach = reachOf(layout_);
         checkStoreys();
         if (diagnostics_.hasErrors()) return nullptr;
@@ -181,6 +189,10 @@ class LayingOut {
     void checkLinks() {
         for (std::size_t i = layout_.levels.size(); i < result_->charts.size(); ++i) {
             const Chart& link = result_->charts[i];
+            if (link.is_cabin) {
+                checkCabin(i);
+                continue;
+            }
             for (const std::size_t level : {link.link_from, link.link_to}) {
                 if (result_->rasters[i].isJoinedTo(level)) continue;
                 const glm::dvec2 end =
@@ -192,6 +204,47 @@ class LayingOut {
                     "its path has to end on the floor's edge, or on the floor");
             }
         }
+    }
+
+    /// That a lift takes people somewhere, and its cabin takes people.
+    void checkCabin(std::size_t chart) {
+        const Chart& cabin = result_->charts[chart];
+        const Link& link = layout_.links[cabin.index];
+        const std::string& level = layout_.levels[cabin.link_from].id;
+        const glm::dvec2 before = cabin.link.at(-kBeforeDoors, 0.0);
+        if (!result_->rasters[chart].isJoinedTo(cabin.link_from))
+            diagnostics_.error(link.where,
+                               fmt::format("the doors of lift `{}` open onto no floor at level `{}`, at [{:.2f}, {:.2f}]",
+                                           link.id, level, before.x, before.y),
+                               "turn its `doors`, list the level under `opposite`, or move it");
+        for (const Wall& wall : layout_.walls)
+            if (wall.level == cabin.link_from && standsBefore(wall, cabin))
+                diagnostics_.error(link.where, fmt::format("the doors of lift `{}` open into wall `{}` at level `{}`",
+                                                           link.id, wall.id, level),
+                                   fmt::format("leave {:.1f} m before them free", kBeforeDoors));
+        if (cabin.stop > 0) return;
+        const std::uint32_t fit = spotsIn(layout_, link.lift).count();
+        if (fit == 0 || link.lift.capacity.value_or(1) > fit)
+            diagnostics_.error(link.where,
+                               fmt::format("the cabin of lift `{}`, {:.2f} x {:.2f} m, has room for {} of the layout's "
+                                           "people, not for {}",
+                                           link.id, link.lift.size.x, link.lift.size.y, fit,
+                                           link.lift.capacity.value_or(1)),
+                               "enlarge its `size`, or ask for less `capacity`");
+    }
+
+    /// Whether a wall stands where people step out of a cabin.
+    static bool standsBefore(const Wall& wall, const Chart& cabin) {
+        constexpr double kStep = 0.1;  // m
+        for (double along = kStep; along <= kBeforeDoors; along += kStep)
+            for (const double aside : {-0.9, -0.5, 0.0, 0.5, 0.9}) {
+                const glm::dvec2 at = cabin.link.at(-along, aside * cabin.half_door);
+                const double away = wall.closed
+                                        ? distanceToPolygon(wall.points, at)
+                                        : distanceToPieces(wall.points, wall.points.size() - 1, at);
+                if (away < 0.5 * (kStep + (wall.closed ? 0.0 : wall.thickness))) return true;
+            }
+        return false;
     }
 
     void addWall(std::size_t chart, Wall wall) {
@@ -233,7 +286,7 @@ class LayingOut {
                 wall.id = fmt::format("railing:{}:{}", result_->charts[chart].name, count++);
                 wall.points = railing.points;
                 wall.thickness = kRailing;
-                wall.height = kRailingHeight;
+                wall.height = result_->charts[chart].is_cabin ? kShaftHeight : kRailingHeight;
                 wall.where = result_->charts[chart].is_link
                                  ? layout_.links[result_->charts[chart].index].where
                                  : layout_.levels[chart].where;

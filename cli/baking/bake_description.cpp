@@ -81,6 +81,17 @@ void describeVehicles(const authoring::Scene& scene, recording::BakeDescription&
     }
 }
 
+void describeCabins(const LoadedLayout& loaded, recording::BakeDescription& bake) {
+    const authoring::LiftMap& lifts = loaded.scene.chart_map.lifts;
+    if (lifts.empty()) return;
+    for (const std::uint32_t stop : lifts.stop_of)
+        bake.charts->cabins.push_back(
+            stop == gpu::NO_INDEX ? recording::BakeCharts::Cabin{}
+                                  : recording::BakeCharts::Cabin{lifts.stops[stop].lift, lifts.stops[stop].height});
+    for (std::size_t i = 0; i < bake.lifts.size(); ++i)
+        bake.lifts[i].lift.capacity = lifts.plans.at(i).capacity;
+}
+
 /// Of a layout with levels: its floors and links are the ground, and end in railings.
 void describeCharts(const LoadedLayout& loaded, recording::BakeDescription& bake) {
     constexpr double kMargin = 3.0;  // m
@@ -97,7 +108,9 @@ void describeCharts(const LoadedLayout& loaded, recording::BakeDescription& bake
     for (const gpu::Belt& belt : scene.chart_map.belts)
         bake.charts->belts.emplace_back(belt.velocity);
     bake.levels = loaded.layout.levels;
-    bake.links = loaded.layout.links;
+    for (const authoring::Link& link : loaded.layout.links)
+        (link.isLift() ? bake.lifts : bake.links).push_back(link);
+    describeCabins(loaded, bake);
     bake.walls = charts.walls;
     bake.terrain =
         recording::BakeTerrain{std::shared_ptr<const authoring::TerrainMesh>(scene.charts, &charts.home_mesh),

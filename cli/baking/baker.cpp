@@ -25,6 +25,7 @@ namespace {
 constexpr const char* kSeconds = "seconds";
 constexpr const char* kMotion = "motion";
 constexpr const char* kVehicleTrack = "vehicle track";
+constexpr const char* kLiftTrack = "lift track";
 
 /// Everything that the bytes of a bake depend on.
 std::string identityOf(const LoadedLayout& loaded, const BakeJob& job, const gl::Device& device) {
@@ -144,10 +145,8 @@ class Run {
         const std::vector<std::byte>* motion = checkpoint.find(kMotion);
         if (!motion) throw std::runtime_error("the checkpoint says nothing of the motion so far");
         recorder_.restore(*motion);
-        if (const std::vector<std::byte>* track = checkpoint.find(kVehicleTrack)) {
-            vehicles_.resize(track->size() / sizeof(float));
-            std::memcpy(vehicles_.data(), track->data(), vehicles_.size() * sizeof(float));
-        }
+        takeTrack(checkpoint, kVehicleTrack, vehicles_);
+        takeTrack(checkpoint, kLiftTrack, lifts_);
         if (const std::vector<std::byte>* bytes = checkpoint.find(kSeconds);
             bytes && bytes->size() == sizeof seconds_before_)
             std::memcpy(&seconds_before_, bytes->data(), sizeof seconds_before_);
@@ -181,6 +180,7 @@ class Run {
     void finish() {
         recorder_.finish();
         writer_.takeVehicles(std::move(vehicles_));
+        writer_.takeLifts(std::move(lifts_));
     }
     std::uint32_t frames() const { return recorder_.framesTaken(); }
 
@@ -196,6 +196,7 @@ class Run {
         checkpoint.add(kSeconds, std::as_bytes(std::span(&so_far, 1)));
         checkpoint.add(kMotion, recorder_.save());
         if (!vehicles_.empty()) checkpoint.add(kVehicleTrack, std::as_bytes(std::span(vehicles_)));
+        if (!lifts_.empty()) checkpoint.add(kLiftTrack, std::as_bytes(std::span(lifts_)));
         writer_.save(std::move(checkpoint));
         last_checkpoint_ = Clock::now();
     }
@@ -204,6 +205,13 @@ class Run {
     double seconds() const { return seconds_before_ + secondsSince(start_); }
 
   private:
+    static void takeTrack(const io::Checkpoint& checkpoint, const char* name, std::vector<float>& track) {
+        const std::vector<std::byte>* bytes = checkpoint.find(name);
+        if (!bytes) return;
+        track.resize(bytes->size() / sizeof(float));
+        std::memcpy(track.data(), bytes->data(), track.size() * sizeof(float));
+    }
+
     /// @returns false where it was stopped; what there is to save is then the frame before
     bool makeFrame(std::uint32_t frame) {
         std::optional<sim::Simulation::State> before;
@@ -226,6 +234,7 @@ class Run {
         present_ = alive;
         writer_.writeDiagram(frame);
         vehicles_.insert(vehicles_.end(), frame.vehicles.begin(), frame.vehicles.end());
+        lifts_.insert(lifts_.end(), frame.lifts.begin(), frame.lifts.end());
         recorder_.take(frame);
     }
 
@@ -242,6 +251,7 @@ class Run {
     Clock::time_point start_ = Clock::now(), last_checkpoint_;
     double seconds_before_ = 0.0;
     std::vector<float> vehicles_;  // of all frames so far
+    std::vector<float> lifts_;     // likewise
     sim::FramePump pump_;          // last: its thread uses the others
 };
 

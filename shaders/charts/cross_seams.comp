@@ -14,6 +14,18 @@ layout(std430) buffer States { AgentState states[]; };
 #include "shaders/charts/moving_ground.glsl"
 #endif
 
+#ifdef LIFTS
+#include "shaders/lifts/lifts.glsl"
+layout(std430) readonly buffer LiftStates { LiftState lift_states[]; };
+
+/// Who is in a cabin when it sets out is taken on to the stop to which it goes.
+uint takenOn(uint owner) {
+    if (owner == NO_CHART || cabin_stops[owner] == NO_INDEX) return owner;
+    uint lift = lift_stops[cabin_stops[owner]].lift;
+    return lift_stops[lift_plans[lift].first_stop + lift_states[lift].stop].chart;
+}
+#endif
+
 void main() {
     uint row = gl_GlobalInvocationID.x;
     if (row >= parameters.row_count || !isAlive(states[row].status)) return;
@@ -22,6 +34,9 @@ void main() {
     uint chart = chartOf(cell), owner = ownerOf(cell);
     if (chart == NO_CHART) return;
     if (owner == NO_CHART) owner = chart;
+#ifdef LIFTS
+    owner = takenOn(owner);
+#endif
     states[row].position = position + (chart_shifts[owner] - chart_shifts[chart]);
 #ifdef BELTS
     states[row].velocity += velocitySeenFrom(states[row].position, position);

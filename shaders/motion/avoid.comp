@@ -65,9 +65,11 @@ uniform uint slot_capacity;
 #include "shaders/motion/spacing_on_belts.glsl"
 #endif
 #include "shaders/motion/stride.glsl"
+#if defined(TRAFFIC) || defined(LIFTS)
+#include "shaders/traffic/held.glsl"
+#endif
 #ifdef TRAFFIC
 #include "shaders/traffic/boxes.glsl"
-#include "shaders/traffic/held.glsl"
 #include "shaders/traffic/out_of_the_way.glsl"
 #endif
 
@@ -110,7 +112,7 @@ void main() {
 
     // Manners depend on the pace of those with a headway of their own only; the others look at everybody just once.
     float headway = headwayOf(walker);
-#ifdef TRAFFIC
+#if defined(TRAFFIC) || defined(LIFTS)
     headway = max(headway, headwayBeforeRed(walker.flags));
 #endif
     bool climbs = climbsInTurn(slot, walker.flags);
@@ -124,7 +126,7 @@ void main() {
 #ifdef BELTS
     if (RIDING_ENABLED && (walker.flags & WALKER_RIDES) != 0u) impatience = 0.0;  // people queue, and do not press
 #endif
-#ifdef TRAFFIC
+#if defined(TRAFFIC) || defined(LIFTS)
     if (isHeld(walker.flags)) impatience = 0.0;
 #endif
     Manners manners = Manners(way, impatience, crowdingAmong(neighbour_counts[slot]), headway > 0.0 ? 1.0 : 0.0,

@@ -4,15 +4,7 @@
 // Needs the blocks ParametersBlock and WaitingLines, and shaders/motion/waiting_line.glsl, under_way.glsl and
 // facing_ahead.glsl.
 
-const float PI = 3.14159265358979;
-
-float wrapAngle(float angle) { return angle - 2.0 * PI * floor((angle + PI) / (2.0 * PI)); }
-
-float turnTowards(float heading, vec2 direction) {
-    float turn = wrapAngle(atan(direction.y, direction.x) - heading);
-    float most = TURNING_FASTEST * parameters.step_seconds;
-    return wrapAngle(heading + clamp(turn * (1.0 - exp(-parameters.step_seconds / TURNING_TIME)), -most, most));
-}
+#include "shaders/motion/turn_towards.glsl"
 
 /// What somebody in a line looks at: the place before its own, and in front what the stop is about.
 vec2 nextInLine(AgentState state, Stage stage) {

@@ -44,10 +44,27 @@ CrowdFlow flowAround(vec2 middle, float free_share) {
     return CrowdFlow(sum.z > 1.0e-3 ? sum.xy / sum.z : vec2(0.0), sum.z / area, 0.0);
 }
 
+#ifdef LIFTS
+#ifndef BELTS
+#include "shaders/shared/charts.glsl"
+#endif
+#include "shaders/lifts/lifts.glsl"
+
+/// Who stands in a cabin is no jam.
+bool isCabin(vec2 place) {
+    uint chart = chartOf(chartCellAt(place));
+    return chart != NO_CHART && cabin_stops[chart] != NO_INDEX;
+}
+#else
+bool isCabin(vec2 place) { return false; }
+#endif
+
 /// Brings one cell up to date. @returns its density
 float look(uint cell) {
     vec2 at = vec2(cell % parameters.detour_width, cell / parameters.detour_width) + 0.5;
-    CrowdFlow now = flowAround(parameters.grid_minimum + at * parameters.detour_cell, ground[cell].free_share);
+    vec2 middle = parameters.grid_minimum + at * parameters.detour_cell;
+    CrowdFlow now = flowAround(middle, ground[cell].free_share);
+    if (isCabin(middle)) now = CrowdFlow(vec2(0.0), 0.0, 0.0);
     CrowdFlow known = crowd_flows[cell];
     CrowdFlow mixed = CrowdFlow(mix(known.velocity, now.velocity, fading),
                                 mix(known.density, now.density, fading), 0.0);

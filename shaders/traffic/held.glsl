@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who is held before a red crossing (shaders/traffic/held_at_red.glsl) queues there and does not press. Only with
-// TRAFFIC.
+// Who is held before a red crossing (shaders/traffic/held_at_red.glsl), or has to do with a lift (shaders/lifts/wish.comp),
+// queues there and does not press. Only with TRAFFIC or LIFTS.
 
 const float HELD_HEADWAY = 1.0;  // s
 

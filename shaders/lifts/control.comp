@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// What each lift does next. It goes on in one direction as long as somebody wants to go further that way, or waits
+// there, and stops for those who get off and for those who wait to go its way; then it turns round. With nobody to
+// serve it stays where it is, doors closed. People come in one after another, the nearest first, once the last who
+// wants to has got off.
+#include "shaders/shared/simulation_types.h"
+
+layout(local_size_x = LIFT_GROUP_SIZE) in;
+layout(std140) uniform ParametersBlock { Parameters parameters; };
+
+#include "shaders/lifts/lifts.glsl"
+layout(std430) buffer LiftStates { LiftState lift_states[]; };
+layout(std430) readonly buffer LiftWishesBlock { LiftWishes lift_wishes[]; };
+layout(std430) buffer Riders { uint riders[]; };
+
+const uint MOST_AT_ONCE = 2u;     // who have been asked in and are not in yet
+const float GIVES_UP = 12.0;      // s: doors close on those who do not come in or get off
+const float CLOSES_FULL = 1.0;    // s
+
+uint stopsBeyond(uint stop, int way) { return way > 0 ? ~0u << (stop + 1u) : (1u << stop) - 1u; }
+
+/// Where somebody is wanted in one direction. @returns -1: nowhere
+int nextStop(uint stop, int way, LiftWishes wishes) {
+    uint beyond = stopsBeyond(stop, way);
+    uint on_the_way = (wishes.goals | (way > 0 ? wishes.up : wishes.down)) & beyond;
+    if (on_the_way != 0u) return way > 0 ? findLSB(on_the_way) : findMSB(on_the_way);
+    uint turning = (way > 0 ? wishes.down : wishes.up) & beyond;
+    if (turning != 0u) return way > 0 ? findMSB(turning) : findLSB(turning);
+    return -1;
+}
+
+float heightOf(LiftPlan plan, int stop) { return lift_stops[plan.first_stop + uint(stop)].height; }
+
+/// @returns -1: it stays
+int whereTo(LiftState lift, LiftPlan plan, LiftWishes wishes) {
+    int up = nextStop(lift.stop, 1, wishes), down = nextStop(lift.stop, -1, wishes);
+    if (up < 0 || down < 0) return max(up, down);
+    if (lift.heading != 0) return lift.heading > 0 ? up : down;
+    return heightOf(plan, up) - lift.height <= lift.height - heightOf(plan, down) ? up : down;
+}
+
+/// s that a way takes: it sets out and comes to rest evenly.
+float travelTime(LiftPlan plan, float way) {
+    float needed = plan.speed * plan.speed / LIFT_ACCELERATION;
+    return way < needed ? 2.0 * sqrt(way / LIFT_ACCELERATION)
+                        : way / plan.speed + plan.speed / LIFT_ACCELERATION;
+}
+
+/// m of a way after so many seconds.
+float travelled(LiftPlan plan, float way, float seconds) {
+    float whole = travelTime(plan, way), left = max(whole - seconds, 0.0);
+    float rise = min(min(seconds, left), min(plan.speed / LIFT_ACCELERATION, 0.5 * whole));
+    float at_speed = max(min(seconds, whole - rise) - rise, 0.0);
+    float ramp = 0.5 * LIFT_ACCELERATION * rise * rise;
+    if (seconds <= 0.5 * whole) return ramp + at_speed * plan.speed;
+    return way - ramp - max(left - rise, 0.0) * plan.speed;
+}
+
+void enter(inout LiftState lift, uint phase) {
+    lift.phase = phase;
+    lift.since = 0.0;
+    lift.idle = 0.0;
+}
+
+void openDoors(inout LiftState lift, LiftPlan plan) {
+    enter(lift, LIFT_OPENS);
+    lift.since = lift.open * plan.door_time;
+}
+
+void setOut(inout LiftState lift, LiftPlan plan, LiftWishes wishes) {
+    bool wanted = ((wishes.goals | wishes.up | wishes.down) >> lift.stop & 1u) != 0u;
+    bool gets_off = (wishes.goals >> lift.stop & 1u) != 0u;
+    if (gets_off || (wanted && wishes.aboard == 0u)) return openDoors(lift, plan);
+    int to = whereTo(lift, plan, wishes);
+    if (to < 0) {
+        lift.heading = 0;
+        return;
+    }
+    lift.heading = to > int(lift.stop) ? 1 : -1;
+    lift.from = lift.height;
+    lift.stop = uint(to);
+    enter(lift, LIFT_RIDES);
+}
+
+/// The free spot furthest from the doors.
+uint freeSpot(LiftState lift, LiftPlan plan, uint taken) {
+    bool from_the_front = dot(lift_stops[plan.first_stop + lift.stop].along, lift_stops[plan.first_stop].along) < 0.0;
+    uint spots = plan.capacity >= 32u ? ~0u : (1u << plan.capacity) - 1u;
+    uint free = spots & ~taken;
+    if (free == 0u) return NO_SPOT;
+    return uint(from_the_front ? findMSB(free) : findLSB(free));
+}
+
+/// @returns whether somebody has been asked in
+bool askIn(inout LiftState lift, LiftPlan plan, LiftWishes wishes) {
+    if (wishes.first == 0u || wishes.leaving > 0u || wishes.boarding >= MOST_AT_ONCE) return false;
+    if (wishes.aboard + wishes.boarding >= plan.capacity) return false;
+    uint spot = freeSpot(lift, plan, wishes.spots);
+    if (spot == NO_SPOT) return false;
+    uint row = ~wishes.first & 0xffffffu;
+    uint rider = riders[row];
+    riders[row] = riderFor(RIDER_BOARDS, liftOf(rider), waitsAt(rider), goalOf(rider), spot);
+    if (lift.heading == 0) lift.heading = goalOf(rider) > lift.stop ? 1 : -1;
+    return true;
+}
+
+void serve(inout LiftState lift, LiftPlan plan, LiftWishes wishes) {
+    bool full = wishes.aboard + wishes.boarding >= plan.capacity;
+    if (askIn(lift, plan, wishes) || wishes.aboard != lift.aboard) lift.idle = 0.0;
+    lift.aboard = wishes.aboard;
+    bool is_waited_for = wishes.leaving > 0u || wishes.boarding > 0u || wishes.in_doors > 0u;
+    float patience = is_waited_for ? GIVES_UP : full ? min(CLOSES_FULL, plan.dwell) : plan.dwell;
+    if (lift.idle >= patience && wishes.in_doors == 0u) enter(lift, LIFT_CLOSES);
+}
+
+void stepDoors(inout LiftState lift, LiftPlan plan, LiftWishes wishes) {
+    float share = clamp(lift.since / plan.door_time, 0.0, 1.0);
+    lift.open = lift.phase == LIFT_OPENS ? share : 1.0 - share;
+    if (lift.phase == LIFT_CLOSES && wishes.in_doors > 0u) return openDoors(lift, plan);
+    if (share < 1.0) return;
+    if (lift.phase == LIFT_OPENS && nextStop(lift.stop, lift.heading == 0 ? 1 : lift.heading, wishes) < 0)
+        lift.heading = 0;  // nobody wants to go further that way: whoever comes in first may choose
+    enter(lift, lift.phase == LIFT_OPENS ? LIFT_IS_OPEN : LIFT_WAITS);
+}
+
+void ride(inout LiftState lift, LiftPlan plan) {
+    float to = lift_stops[plan.first_stop + lift.stop].height, way = abs(to - lift.from);
+    lift.height = lift.from + sign(to - lift.from) * travelled(plan, way, lift.since);
+    if (lift.since < travelTime(plan, way)) return;
+    lift.height = to;
+    openDoors(lift, plan);
+}
+
+void main() {
+    for (uint number = gl_LocalInvocationID.x; number < LIFTS; number += LIFT_GROUP_SIZE) {
+        LiftState lift = lift_states[number];
+        LiftPlan plan = lift_plans[number];
+        LiftWishes wishes = lift_wishes[number];
+        lift.since += parameters.decision_seconds;
+        lift.idle += parameters.decision_seconds;
+        if (lift.phase == LIFT_WAITS)
+            setOut(lift, plan, wishes);
+        else if (lift.phase == LIFT_IS_OPEN)
+            serve(lift, plan, wishes);
+        else if (lift.phase == LIFT_RIDES)
+            ride(lift, plan);
+        else
+            stepDoors(lift, plan, wishes);
+        lift_states[number] = lift;
+    }
+}

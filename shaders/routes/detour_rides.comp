@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// In the cabin of a lift, one is as far as at the stop to which it takes one, and the ride. One invocation for a field:
+// where several stops lead to each other, their order does not show.
+#include "shaders/shared/simulation_types.h"
+
+layout(local_size_x = PIXEL_GROUP_SIZE) in;
+layout(std140) uniform ParametersBlock { Parameters parameters; };
+layout(std430) readonly buffer RideCells { uvec4 ride_cells[]; };  // from, to, bits of m that it takes, 0
+layout(std430) readonly buffer FreeDistances { float free_distances[]; };
+layout(std430) buffer DetourDistances { float detour_distances[]; };
+layout(std430) writeonly buffer ChangedBlocks { uint changed_blocks[]; };
+uniform uint ride_count;
+uniform uint first_field;  // of this round
+uniform uint field_count;
+
+#include "shaders/shared/flat_index.glsl"
+#include "shaders/routes/detour_blocks.glsl"
+
+void main() {
+    uint index = flatIndex();
+    if (index >= field_count) return;
+    uint first = (first_field + index) * cellsOfMap();
+    for (uint i = 0u; i < ride_count; ++i) {
+        uint from = first + ride_cells[i].x;
+        float found = detour_distances[first + ride_cells[i].y] + uintBitsToFloat(ride_cells[i].z);
+        if (free_distances[from] >= BLOCKED_COST || found >= detour_distances[from]) continue;
+        detour_distances[from] = found;
+        changed_blocks[(first_field + index) * blocksOfMap() + ride_cells[i].x / PIXEL_GROUP_SIZE] = 1u;
+    }
+}
