@@ -133,15 +133,15 @@ struct Level {
 
 /// What a link is that is a cabin going up and down.
 struct Lift {
-    std::vector<std::size_t> levels;   ///< where it stops, index into levels
-    std::vector<bool> opposite;        ///< of each of these: whether its doors are on the other side there
-    glm::dvec2 at{0.0};                ///< m, the cabin's middle
-    glm::dvec2 size{1.6, 1.4};         ///< m: along its doors, and away from them
-    double doors = 0.0;                ///< degrees: which way out of the cabin they open
-    double door_width = 1.0;           ///< m
-    double door_time = 2.0;            ///< s, to open or to close
-    double dwell = 3.0;                ///< s: the least that doors are open, also after the last has come in
-    double speed = 1.0;                ///< m/s
+    std::vector<std::size_t> levels;  ///< where it stops, index into levels
+    std::vector<bool> opposite;       ///< of each of these: whether its doors are on the other side there
+    glm::dvec2 at{0.0};               ///< m, the cabin's middle
+    glm::dvec2 size{1.6, 1.4};        ///< m: along its doors, and away from them
+    double doors = 0.0;               ///< degrees: which way out of the cabin they open
+    double door_width = 1.0;          ///< m
+    double door_time = 2.0;           ///< s, to open or to close
+    double dwell = 3.0;               ///< s: the least that doors are open, also after the last has come in
+    double speed = 1.0;               ///< m/s
     std::optional<std::uint32_t> capacity;  ///< none: as many as there is room for
 };
 
@@ -159,7 +159,7 @@ struct Link {
     double walking = 0.4;           ///< share of its people who walk on it
     Stand stand = Stand::anywhere;  ///< on which side those stand who do not
 
-    Lift lift{};                    ///< of that kind
+    Lift lift{};  ///< of that kind
 
     bool isLift() const { return kind == Kind::lift; }
     /// Whether its ground moves, from where it begins to where it ends.

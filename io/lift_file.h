@@ -13,7 +13,8 @@ namespace throng::io {
 
 inline constexpr const char* kLiftFile = "lifts.npy";
 
-/// Writes where cabins are and how far their doors are open, frame by frame (docs/bake.md). Throws OutputError.
+/// Writes where cabins are and how far their doors are open, frame by frame (docs/bake.md). Throws
+/// OutputError.
 void writeLifts(const std::filesystem::path& path, std::span<const float> track, std::uint32_t frames,
                 std::size_t lifts);
 

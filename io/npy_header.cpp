@@ -11,8 +11,8 @@ constexpr std::size_t kAlignment = 64;
 }  // namespace
 
 std::string npyHeader(const std::array<std::size_t, 3>& shape) {
-    std::string text = fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, {}, {}), }}", shape[0],
-                                   shape[1], shape[2]);
+    std::string text = fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, {}, {}), }}",
+                                   shape[0], shape[1], shape[2]);
     constexpr std::size_t kBefore = 10;
     text.resize((kBefore + text.size() + kAlignment) / kAlignment * kAlignment - kBefore - 1, ' ');
     text += '\n';

@@ -11,12 +11,12 @@ namespace {
 
 constexpr std::uint32_t kStepsPerRound = 4;
 
-const gl::Declaration kFlow = {"routes",
-                               {"shaders/routes/detour_flow.comp"},
-                               {"ParametersBlock", "Ground", "Bodies", "StripStarts", "CellOffsets",
-                                "CrowdFlows", "ChartCells", "ChartShifts", "Belts", "LiftPlans", "LiftStops",
-                                "CabinStops"},
-                               {"CrowdFlows", "DenseBlocks"}};
+const gl::Declaration kFlow = {
+    "routes",
+    {"shaders/routes/detour_flow.comp"},
+    {"ParametersBlock", "Ground", "Bodies", "StripStarts", "CellOffsets", "CrowdFlows", "ChartCells",
+     "ChartShifts", "Belts", "LiftPlans", "LiftStops", "CabinStops"},
+    {"CrowdFlows", "DenseBlocks"}};
 const gl::Declaration kList = {"routes",
                                {"shaders/routes/detour_list.comp"},
                                {"ParametersBlock", "ChangedBlocks", "DenseBlocks", "BlockDispatch"},

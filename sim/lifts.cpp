@@ -7,8 +7,9 @@ namespace {
 const gl::Declaration kCensus = {
     "lifts",
     {"shaders/lifts/census.comp"},
-    {"ParametersBlock", "States", "Stages", "field_cells", "DetourSlopes", "WaitingLines", "LinePoints", "ChartCells",
-     "ChartShifts", "LiftPlans", "LiftStops", "CabinStops", "LiftStates", "LiftWishesBlock", "LiftQueues", "Riders"},
+    {"ParametersBlock", "States", "Stages", "field_cells", "DetourSlopes", "WaitingLines", "LinePoints",
+     "ChartCells", "ChartShifts", "LiftPlans", "LiftStops", "CabinStops", "LiftStates", "LiftWishesBlock",
+     "LiftQueues", "Riders"},
     {"LiftWishesBlock", "LiftQueues", "Riders"}};
 const gl::Declaration kControl = {
     "lifts",
@@ -18,8 +19,8 @@ const gl::Declaration kControl = {
 const gl::Declaration kWish = {
     "avoidance",
     {"shaders/lifts/wish.comp"},
-    {"ParametersBlock", "LiveDispatch", "Bodies", "Walkers", "ChartCells", "ChartShifts", "LiftPlans", "LiftStops",
-     "CabinStops", "LiftStates", "LiftQueues", "Riders"},
+    {"ParametersBlock", "LiveDispatch", "Bodies", "Walkers", "ChartCells", "ChartShifts", "LiftPlans",
+     "LiftStops", "CabinStops", "LiftStates", "LiftQueues", "Riders"},
     {"Walkers", "PreferredVelocities"}};
 const gl::Declaration kKeepOut = {
     "contacts",

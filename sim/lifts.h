@@ -11,7 +11,8 @@ class Lifts {
   public:
     Lifts(const gl::ShaderLibrary& library, Buffers& buffers, const authoring::Scene& scene,
           const MotionSettings& rules);
-    /// Where people decide, before they do: finds out who wants what, and moves the cabins and their doors on.
+    /// Where people decide, before they do: finds out who wants what, and moves the cabins and their doors
+    /// on.
     void serve();
     /// After steering: what those want who have to do with a lift.
     void wish();

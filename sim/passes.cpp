@@ -117,8 +117,7 @@ void WaitingLines::run() {
 }
 
 Avoidance::Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, int neighbours,
-                     const TerrainSlopes* ground, const MotionSettings& rules, Seams* seams,
-                     Lifts* lifts)
+                     const TerrainSlopes* ground, const MotionSettings& rules, Seams* seams, Lifts* lifts)
     : buffers_(buffers),
       seams_(seams),
       lifts_(lifts),

@@ -6,8 +6,8 @@ namespace {
 
 const gl::Declaration kCross = {"seams",
                                 {"shaders/charts/cross_seams.comp"},
-                                {"ParametersBlock", "States", "ChartCells", "ChartShifts", "Belts", "LiftPlans",
-                                 "LiftStops", "CabinStops", "LiftStates"},
+                                {"ParametersBlock", "States", "ChartCells", "ChartShifts", "Belts",
+                                 "LiftPlans", "LiftStops", "CabinStops", "LiftStates"},
                                 {"States"}};
 const gl::Declaration kFollow = {
     "seams",

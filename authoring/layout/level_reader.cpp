@@ -19,8 +19,8 @@ constexpr double kSteepestEscalator = 0.71, kSteepestTravelator = 0.22;  // 35 a
 constexpr double kWidthOfSteps = 1.0;                                    // m: the usual ones
 
 /// Keys that no other link has.
-constexpr std::array kOfLifts = {"levels", "at", "size", "doors", "opposite", "door_width", "door_time", "dwell",
-                                 "capacity"};
+constexpr std::array kOfLifts = {"levels",     "at",        "size",  "doors",   "opposite",
+                                 "door_width", "door_time", "dwell", "capacity"};
 
 /// What links of one kind are called, and how they may climb: rise over run.
 struct Climb {
@@ -83,8 +83,8 @@ void LevelReader::readLink(const JsonNode& node) {
     if (link.isLift()) return readLift(reader, node, std::move(link));
     for (const char* key : kOfLifts)
         if (const JsonNode* given = reader.get(key))
-            diagnostics_.error(given->where, fmt::format("`{}` is of lifts, and {} are none", key,
-                                                         climbOf(link.kind).many),
+            diagnostics_.error(given->where,
+                               fmt::format("`{}` is of lifts, and {} are none", key, climbOf(link.kind).many),
                                R"(write "type": "lift", or leave it out)");
     const JsonNode* from = reader.require("from", "the level at which it begins");
     const JsonNode* to = reader.require("to", "the level at which it ends");

@@ -21,7 +21,8 @@ void LevelReader::readLift(ObjectReader& reader, const JsonNode& node, Link link
     Lift& lift = link.lift;
     for (const char* key : kOfWays)
         if (const JsonNode* given = reader.get(key))
-            diagnostics_.error(given->where, fmt::format("`{}` is of links that people walk on, and a lift is none", key),
+            diagnostics_.error(given->where,
+                               fmt::format("`{}` is of links that people walk on, and a lift is none", key),
                                "a lift has `levels`, and its cabin is `at` a place");
     readStops(reader, node, lift);
     reader.point("at", "the middle of its cabin", lift.at);
@@ -40,15 +41,10 @@ void LevelReader::readLift(ObjectReader& reader, const JsonNode& node, Link link
     reader.finish();
     claimId(node, link.id, links_, layout_.links.size(), "a link", diagnostics_);
     if (diagnostics_.hasErrors()) return;
-    for (const double side : {lift.size.x, lift.size.y})
-        if (side < 0.8 || side > 6.0)
-            diagnostics_.error(node.find("size") ? node.find("size")->where : node.where,
-                               fmt::format("a cabin of {:.2f} x {:.2f} m: its sides are 0.8 to 6 m long",
-                                           lift.size.x, lift.size.y));
     if (lift.door_width > lift.size.x - 2.0 * kAlongDoors + 1.0e-9)
         diagnostics_.error(node.find("door_width") ? node.find("door_width")->where : node.where,
-                           fmt::format("the doors of lift `{}` are {:.2f} m wide, and its cabin {:.2f} m", link.id,
-                                       lift.door_width, lift.size.x),
+                           fmt::format("the doors of lift `{}` are {:.2f} m wide, and its cabin {:.2f} m",
+                                       link.id, lift.door_width, lift.size.x),
                            fmt::format("`door_width` can be {:.2f} here", lift.size.x - 2.0 * kAlongDoors));
     link.where = node.where;
     link.from = lift.levels.front();
@@ -89,10 +85,11 @@ void LevelReader::readStops(ObjectReader& reader, const JsonNode& node, Lift& li
         lift.levels[i] = stops[i].first;
         lift.opposite[i] = stops[i].second;
         if (i > 0 && height(stops[i]) - height(stops[i - 1]) < kLeastRise)
-            diagnostics_.error(node.find("levels")->where,
-                               fmt::format("levels `{}` and `{}` are {:.2f} m apart: the stops of a lift are {} m or more",
-                                           layout_.levels[stops[i - 1].first].id, layout_.levels[stops[i].first].id,
-                                           height(stops[i]) - height(stops[i - 1]), kLeastRise));
+            diagnostics_.error(
+                node.find("levels")->where,
+                fmt::format("levels `{}` and `{}` are {:.2f} m apart: the stops of a lift are {} m or more",
+                            layout_.levels[stops[i - 1].first].id, layout_.levels[stops[i].first].id,
+                            height(stops[i]) - height(stops[i - 1]), kLeastRise));
     }
 }
 

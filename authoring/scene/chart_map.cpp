@@ -135,7 +135,9 @@ std::vector<Detours::Ride> ridesOf(const ChartMap& map, const FieldGrid& grid) {
         for (std::uint32_t i = 0; i < plan.stop_count; ++i)
             for (std::uint32_t j = 0; j < plan.stop_count; ++j) {
                 const std::uint32_t from = plan.first_stop + i, to = plan.first_stop + j;
-                if (i != j) rides.push_back({cellOf(plan, from), cellOf(plan, to), costOfRide(plan, lifts, from, to)});
+                if (i != j)
+                    rides.push_back(
+                        {cellOf(plan, from), cellOf(plan, to), costOfRide(plan, lifts, from, to)});
             }
     return rides;
 }

@@ -267,7 +267,8 @@ Detours Routes::detours() {
     if (!fields_.empty() && ground_.coarse(false).map.seams)
         for (const auto& [image, owner] : ground_.coarse(false).map.seams->shown)
             detours.shown.emplace_back(image, owner);
-    if (!fields_.empty() && ground_.coarse(false).map.seams) detours.rides = ground_.coarse(false).map.seams->rides;
+    if (!fields_.empty() && ground_.coarse(false).map.seams)
+        detours.rides = ground_.coarse(false).map.seams->rides;
     std::optional<std::uint32_t> map_index[2];
     for (std::size_t field = 0; field < fields_.size(); ++field) {
         detours.has_choice.push_back(fields_[field].has_choice);

@@ -20,8 +20,9 @@ glm::dvec2 largestBody(const Layout& layout) {
     const auto look = [&](const People& people) {
         for (const PeopleShare& share : people.kinds) {
             const PersonSettings& each = share.settings;
-            const glm::dvec2 size = each.body ? glm::dvec2(each.body->breadth.maximum, each.body->depth.maximum)
-                                              : glm::dvec2(2.0 * each.radius.maximum);
+            const glm::dvec2 size = each.body
+                                        ? glm::dvec2(each.body->breadth.maximum, each.body->depth.maximum)
+                                        : glm::dvec2(2.0 * each.radius.maximum);
             largest = glm::max(largest, size);
         }
     };

@@ -47,7 +47,7 @@ struct Chart {
     bool is_cabin = false;   ///< of a lift, at one of the levels that it serves: it begins at the doors there
     std::size_t stop = 0;    ///< which of them, in the lift's order
     double half_door = 0.0;  ///< m
-    glm::dvec2 shift{0.0};                   ///< plane = home + shift, m
+    glm::dvec2 shift{0.0};   ///< plane = home + shift, m
 
     bool contains(glm::dvec2 home) const;
     double heightAt(glm::dvec2 home) const;
@@ -62,8 +62,8 @@ inline constexpr std::size_t kNoLevel = static_cast<std::size_t>(-1);
 bool areJoined(const Chart& a, std::size_t a_index, glm::dvec2 in_a, const Chart& b, std::size_t b_index,
                glm::dvec2 in_b);
 
-/// Charts of the levels, in order, and then of the links, not yet laid out. A lift has one for each level that
-/// it serves: the cabin, as it stands there.
+/// Charts of the levels, in order, and then of the links, not yet laid out. A lift has one for each level
+/// that it serves: the cabin, as it stands there.
 std::vector<Chart> chartsOf(const Layout& layout);
 
 }  // namespace throng::authoring

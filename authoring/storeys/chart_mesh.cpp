@@ -206,8 +206,8 @@ void addBar(glm::dvec3 low, glm::dvec3 high, const Footprint& link, MeshMaker& m
     maker.add({at(b.x, a.y, a.z), at(b.x, b.y, a.z), at(b.x, b.y, b.z), at(b.x, a.y, b.z)});
 }
 
-/// The frame of a lift's shaft: posts at its corners from its lowest stop to over its highest, a ring over the
-/// doors of each, and one at the top.
+/// The frame of a lift's shaft: posts at its corners from its lowest stop to over its highest, a ring over
+/// the doors of each, and one at the top.
 void addShaft(const Chart& lowest, const Lift& lift, const Layout& layout, MeshMaker& maker) {
     constexpr double kBar = 0.1, kRing = 2.3, kTop = 2.9;  // m
     const Footprint& link = lowest.link;

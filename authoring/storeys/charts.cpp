@@ -132,9 +132,10 @@ class LayingOut {
         if (diagnostics_.hasErrors()) return nullptr;
         result_->charts = chartsOf(layout_);
         if (result_->charts.size() >= kMostCharts)
-            diagnostics_.error(layout_.levels.back().where,
-                               fmt::format("levels, links and the stops of lifts are {}, more than the {} that can be",
-                                           result_->charts.size(), kMostCharts - 1));
+            diagnostics_.error(
+                layout_.levels.back().where,
+                fmt::format("levels, links and the stops of lifts are {}, more than the {} that can be",
+                            result_->charts.size(), kMostCharts - 1));
         result_->reach = reachOf(layout_);
         checkStoreys();
         if (diagnostics_.hasErrors()) return nullptr;
@@ -213,24 +214,26 @@ class LayingOut {
         const std::string& level = layout_.levels[cabin.link_from].id;
         const glm::dvec2 before = cabin.link.at(-kBeforeDoors, 0.0);
         if (!result_->rasters[chart].isJoinedTo(cabin.link_from))
-            diagnostics_.error(link.where,
-                               fmt::format("the doors of lift `{}` open onto no floor at level `{}`, at [{:.2f}, {:.2f}]",
-                                           link.id, level, before.x, before.y),
-                               "turn its `doors`, list the level under `opposite`, or move it");
+            diagnostics_.error(
+                link.where,
+                fmt::format("the doors of lift `{}` open onto no floor at level `{}`, at [{:.2f}, {:.2f}]",
+                            link.id, level, before.x, before.y),
+                "turn its `doors`, list the level under `opposite`, or move it");
         for (const Wall& wall : layout_.walls)
             if (wall.level == cabin.link_from && standsBefore(wall, cabin))
-                diagnostics_.error(link.where, fmt::format("the doors of lift `{}` open into wall `{}` at level `{}`",
-                                                           link.id, wall.id, level),
+                diagnostics_.error(link.where,
+                                   fmt::format("the doors of lift `{}` open into wall `{}` at level `{}`",
+                                               link.id, wall.id, level),
                                    fmt::format("leave {:.1f} m before them free", kBeforeDoors));
         if (cabin.stop > 0) return;
         const std::uint32_t fit = spotsIn(layout_, link.lift).count();
         if (fit == 0 || link.lift.capacity.value_or(1) > fit)
-            diagnostics_.error(link.where,
-                               fmt::format("the cabin of lift `{}`, {:.2f} x {:.2f} m, has room for {} of the layout's "
-                                           "people, not for {}",
-                                           link.id, link.lift.size.x, link.lift.size.y, fit,
-                                           link.lift.capacity.value_or(1)),
-                               "enlarge its `size`, or ask for less `capacity`");
+            diagnostics_.error(
+                link.where,
+                fmt::format("the cabin of lift `{}`, {:.2f} x {:.2f} m, has room for {} of the layout's "
+                            "people, not for {}",
+                            link.id, link.lift.size.x, link.lift.size.y, fit, link.lift.capacity.value_or(1)),
+                "enlarge its `size`, or ask for less `capacity`");
     }
 
     /// Whether a wall stands where people step out of a cabin.
@@ -239,9 +242,8 @@ class LayingOut {
         for (double along = kStep; along <= kBeforeDoors; along += kStep)
             for (const double aside : {-0.9, -0.5, 0.0, 0.5, 0.9}) {
                 const glm::dvec2 at = cabin.link.at(-along, aside * cabin.half_door);
-                const double away = wall.closed
-                                        ? distanceToPolygon(wall.points, at)
-                                        : distanceToPieces(wall.points, wall.points.size() - 1, at);
+                const double away = wall.closed ? distanceToPolygon(wall.points, at)
+                                                : distanceToPieces(wall.points, wall.points.size() - 1, at);
                 if (away < 0.5 * (kStep + (wall.closed ? 0.0 : wall.thickness))) return true;
             }
         return false;

@@ -86,8 +86,9 @@ void describeCabins(const LoadedLayout& loaded, recording::BakeDescription& bake
     if (lifts.empty()) return;
     for (const std::uint32_t stop : lifts.stop_of)
         bake.charts->cabins.push_back(
-            stop == gpu::NO_INDEX ? recording::BakeCharts::Cabin{}
-                                  : recording::BakeCharts::Cabin{lifts.stops[stop].lift, lifts.stops[stop].height});
+            stop == gpu::NO_INDEX
+                ? recording::BakeCharts::Cabin{}
+                : recording::BakeCharts::Cabin{lifts.stops[stop].lift, lifts.stops[stop].height});
     for (std::size_t i = 0; i < bake.lifts.size(); ++i)
         bake.lifts[i].lift.capacity = lifts.plans.at(i).capacity;
 }

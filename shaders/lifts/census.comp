@@ -26,7 +26,7 @@ const float SEES = 7.0;      // m: from so far off people make for the doors
 const float STRIDE = 0.5;    // m along the way
 const float AT_DOORS = 0.8;  // m
 const float BEFORE = 0.5;    // m: where the way at the doors is asked for
-const float BETWEEN_DOORS = 0.4;  // m before and behind them
+const float BETWEEN_DOORS = 0.25;  // m before and behind them
 
 /// The way at the doors of a stop, from the floor before them.
 RouteAhead wayAtDoors(LiftStop stop, Stage stage) {

@@ -4,6 +4,7 @@
 // serve it stays where it is, doors closed. People come in one after another, the nearest first, once the last who
 // wants to has got off.
 #include "shaders/shared/simulation_types.h"
+#include "shaders/shared/lift_types.h"
 
 layout(local_size_x = LIFT_GROUP_SIZE) in;
 layout(std140) uniform ParametersBlock { Parameters parameters; };
@@ -70,7 +71,10 @@ void openDoors(inout LiftState lift, LiftPlan plan) {
 void setOut(inout LiftState lift, LiftPlan plan, LiftWishes wishes) {
     bool wanted = ((wishes.goals | wishes.up | wishes.down) >> lift.stop & 1u) != 0u;
     bool gets_off = (wishes.goals >> lift.stop & 1u) != 0u;
-    if (gets_off || (wanted && wishes.aboard == 0u)) return openDoors(lift, plan);
+    if (gets_off || (wanted && wishes.aboard == 0u)) {
+        openDoors(lift, plan);
+        return;
+    }
     int to = whereTo(lift, plan, wishes);
     if (to < 0) {
         lift.heading = 0;
@@ -116,7 +120,10 @@ void serve(inout LiftState lift, LiftPlan plan, LiftWishes wishes) {
 void stepDoors(inout LiftState lift, LiftPlan plan, LiftWishes wishes) {
     float share = clamp(lift.since / plan.door_time, 0.0, 1.0);
     lift.open = lift.phase == LIFT_OPENS ? share : 1.0 - share;
-    if (lift.phase == LIFT_CLOSES && wishes.in_doors > 0u) return openDoors(lift, plan);
+    if (lift.phase == LIFT_CLOSES && wishes.in_doors > 0u) {
+        openDoors(lift, plan);
+        return;
+    }
     if (share < 1.0) return;
     if (lift.phase == LIFT_OPENS && nextStop(lift.stop, lift.heading == 0 ? 1 : lift.heading, wishes) < 0)
         lift.heading = 0;  // nobody wants to go further that way: whoever comes in first may choose

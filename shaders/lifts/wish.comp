@@ -8,7 +8,7 @@ layout(std140) uniform ParametersBlock { Parameters parameters; };
 layout(std430) readonly buffer LiveDispatch { uint live_groups[3]; uint live_count; };
 layout(std430) readonly buffer Bodies { Body bodies[]; };
 layout(std430) buffer Walkers { Walker walkers[]; };
-layout(std430) buffer PreferredVelocities { vec2 preferred_velocities[]; };
+layout(std430) writeonly buffer PreferredVelocities { vec2 preferred_velocities[]; };
 
 #include "shaders/lifts/lifts.glsl"
 layout(std430) readonly buffer LiftStates { LiftState lift_states[]; };

@@ -13,8 +13,8 @@ uniform float fading;  // 0 to 1: how much of what was known is replaced
 #include "shaders/cells/cells.glsl"
 #include "shaders/cells/cell_starts.glsl"
 #include "shaders/shared/flat_index.glsl"
-#ifdef BELTS
 #include "shaders/shared/charts.glsl"
+#ifdef BELTS
 #include "shaders/shared/snap.glsl"
 #include "shaders/charts/moving_ground.glsl"
 
@@ -45,9 +45,6 @@ CrowdFlow flowAround(vec2 middle, float free_share) {
 }
 
 #ifdef LIFTS
-#ifndef BELTS
-#include "shaders/shared/charts.glsl"
-#endif
 #include "shaders/lifts/lifts.glsl"
 
 /// Who stands in a cabin is no jam.

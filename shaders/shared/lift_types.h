@@ -7,8 +7,8 @@
 
 THRONG_SHARED_BEGIN
 
-const uint LIFT_GROUP_SIZE = 64u;  // one group steps all lifts
-const uint MOST_SPOTS = 32u;       // in a cabin: bits of a word
+const uint LIFT_GROUP_SIZE = 64u;      // one group steps all lifts
+const uint MOST_SPOTS = 32u;           // in a cabin: bits of a word
 const float LIFT_ACCELERATION = 0.8f;  // m/s^2: comfortable (CIBSE Guide D)
 
 const uint LIFT_WAITS = 0u;    // with its doors closed
@@ -46,24 +46,24 @@ struct LiftPlan {
 
 /// Where a lift is, and what it does.
 struct LiftState {
-    float height;      // m, of its cabin's floor
-    float open;        // 0 to 1: its doors
-    uint stop;         // among its own: where it is or will be next
-    uint phase;        // LIFT_*
-    float since;       // s in that phase
-    float idle;        // s, with its doors open, since somebody has come or gone
-    float from;        // m: where it set out from
-    int heading;       // 1 up, -1 down, 0 neither
+    float height;  // m, of its cabin's floor
+    float open;    // 0 to 1: its doors
+    uint stop;     // among its own: where it is or will be next
+    uint phase;    // LIFT_*
+    float since;   // s in that phase
+    float idle;    // s, with its doors open, since somebody has come or gone
+    float from;    // m: where it set out from
+    int heading;   // 1 up, -1 down, 0 neither
     uint aboard;
     uint reserved;
 };
 
 /// What people want of a lift, counted anew before it decides; bits are stops.
 struct LiftWishes {
-    uint up;        // stops at which somebody waits to go up
+    uint up;  // stops at which somebody waits to go up
     uint down;
-    uint goals;     // where those in the cabin get off
-    uint spots;     // in the cabin that are taken, or kept for somebody
+    uint goals;  // where those in the cabin get off
+    uint spots;  // in the cabin that are taken, or kept for somebody
     uint aboard;
     uint leaving;   // those in the cabin who get off here
     uint boarding;  // those who have been asked in and are not in it yet
@@ -72,8 +72,8 @@ struct LiftWishes {
     uint waiting;   // at the stop at which it is
 };
 
-// Of each row, what it has to do with a lift: bits 0 to 7 the lift, 8 to 11 where it waits, 12 to 15 where it gets off,
-// 16 to 21 its spot, and above them:
+// Of each row, what it has to do with a lift: bits 0 to 7 the lift, 8 to 11 where it waits, 12 to 15 where it
+// gets off, 16 to 21 its spot, and above them:
 const uint RIDER_NONE = 0u;
 const uint RIDER_WAITS = 0x1000000u;
 const uint RIDER_BOARDS = 0x2000000u;  // it has been asked in
