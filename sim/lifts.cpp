@@ -11,11 +11,11 @@ const gl::Declaration kCensus = {
      "ChartCells", "ChartShifts", "LiftPlans", "LiftStops", "CabinStops", "LiftStates", "LiftWishesBlock",
      "LiftQueues", "Riders"},
     {"LiftWishesBlock", "LiftQueues", "Riders"}};
-const gl::Declaration kControl = {
-    "lifts",
-    {"shaders/lifts/control.comp"},
-    {"ParametersBlock", "LiftPlans", "LiftStops", "CabinStops", "LiftStates", "LiftWishesBlock", "Riders"},
-    {"LiftStates", "Riders"}};
+const gl::Declaration kControl = {"lifts",
+                                  {"shaders/lifts/control.comp"},
+                                  {"ParametersBlock", "LiftPlans", "LiftStops", "CabinStops", "LiftStates",
+                                   "LiftWishesBlock", "Riders", "States", "ChartShifts"},
+                                  {"LiftStates", "Riders"}};
 const gl::Declaration kWish = {
     "avoidance",
     {"shaders/lifts/wish.comp"},

@@ -73,6 +73,7 @@ uint ridesOn(uint rider, uint stop_index, Stage stage) {
     bool knows = rider != RIDER_NONE && liftOf(rider) == stop.lift;
     uint goal = knows ? goalOf(rider) : stopToGetOff(plan, here, stage);
     if (goal == NO_INDEX) goal = here;
+    if ((rider & RIDER_PHASE) == RIDER_BOARDS) knows = false;  // it finds its spot now
     return riderFor(RIDER_RIDES, stop.lift, here, goal, knows ? spotOf(rider) : NO_SPOT);
 }
 
@@ -111,17 +112,13 @@ void countWaiting(uint rider, uint row, vec2 home) {
     atomicMax(lift_wishes[lift].first, ~(away << 24u | (row & 0xffffffu)));
 }
 
-void countInCabin(uint rider) {
+void countInCabin(uint rider, uint row) {
     uint lift = liftOf(rider);
+    if (spotOf(rider) == NO_SPOT) atomicMax(lift_wishes[lift].entering, ~row);
     atomicAdd(lift_wishes[lift].aboard, 1u);
     atomicOr(lift_wishes[lift].goals, 1u << goalOf(rider));
     if (spotOf(rider) != NO_SPOT) atomicOr(lift_wishes[lift].spots, 1u << spotOf(rider));
     if (goalOf(rider) == lift_states[lift].stop) atomicAdd(lift_wishes[lift].leaving, 1u);
-}
-
-void countAsked(uint rider) {
-    atomicAdd(lift_wishes[liftOf(rider)].boarding, 1u);
-    atomicOr(lift_wishes[liftOf(rider)].spots, 1u << spotOf(rider));
 }
 
 /// Doors do not close on anybody.
@@ -151,7 +148,7 @@ void main() {
                                   : waitsOn(riders[row], chart, state.position, stage);
     riders[row] = rider;
     countBetweenDoors(chart, home);
-    if ((rider & RIDER_PHASE) == RIDER_RIDES) countInCabin(rider);
-    if ((rider & RIDER_PHASE) == RIDER_BOARDS) countAsked(rider);
+    if ((rider & RIDER_PHASE) == RIDER_RIDES) countInCabin(rider, row);
+    if ((rider & RIDER_PHASE) == RIDER_BOARDS) atomicAdd(lift_wishes[liftOf(rider)].boarding, 1u);
     if ((rider & RIDER_PHASE) == RIDER_WAITS) countWaiting(rider, row, home);
 }

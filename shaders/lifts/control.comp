@@ -13,8 +13,10 @@ layout(std140) uniform ParametersBlock { Parameters parameters; };
 layout(std430) buffer LiftStates { LiftState lift_states[]; };
 layout(std430) readonly buffer LiftWishesBlock { LiftWishes lift_wishes[]; };
 layout(std430) buffer Riders { uint riders[]; };
+layout(std430) readonly buffer States { AgentState states[]; };
+layout(std430) readonly buffer ChartShifts { vec2 chart_shifts[]; };  // m, by chart
 
-const uint MOST_AT_ONCE = 2u;     // who have been asked in and are not in yet
+const uint MOST_AT_ONCE = 3u;     // who have been asked in and are not in yet
 const float GIVES_UP = 12.0;      // s: doors close on those who do not come in or get off
 const float CLOSES_FULL = 1.0;    // s
 
@@ -86,29 +88,48 @@ void setOut(inout LiftState lift, LiftPlan plan, LiftWishes wishes) {
     enter(lift, LIFT_RIDES);
 }
 
-/// The free spot furthest from the doors.
-uint freeSpot(LiftState lift, LiftPlan plan, uint taken) {
-    bool from_the_front = dot(lift_stops[plan.first_stop + lift.stop].along, lift_stops[plan.first_stop].along) < 0.0;
-    uint spots = plan.capacity >= 32u ? ~0u : (1u << plan.capacity) - 1u;
-    uint free = spots & ~taken;
-    if (free == 0u) return NO_SPOT;
-    return uint(from_the_front ? findMSB(free) : findLSB(free));
+/// Of the free spots in the row that is furthest from the doors, the one nearest to a place in the cabin. Where several
+/// come in at once, nobody has to get past anybody.
+uint freeSpot(LiftState lift, LiftPlan plan, uint taken, vec2 home) {
+    bool backwards = dot(lift_stops[plan.first_stop + lift.stop].along, lift_stops[plan.first_stop].along) < 0.0;
+    uint best = NO_SPOT, best_row = NO_SPOT;
+    float least = 1.0e30;
+    for (uint i = 0u; i < plan.capacity; ++i) {
+        uint spot = backwards ? plan.capacity - 1u - i : i, at_row = spot / plan.columns;
+        if ((taken >> spot & 1u) != 0u) continue;
+        if (best != NO_SPOT && at_row != best_row) break;
+        float away = distance(home, spotPlace(plan, spot));
+        if (away >= least) continue;
+        least = away;
+        best = spot;
+        best_row = at_row;
+    }
+    return best;
 }
 
 /// @returns whether somebody has been asked in
 bool askIn(inout LiftState lift, LiftPlan plan, LiftWishes wishes) {
     if (wishes.first == 0u || wishes.leaving > 0u || wishes.boarding >= MOST_AT_ONCE) return false;
     if (wishes.aboard + wishes.boarding >= plan.capacity) return false;
-    uint spot = freeSpot(lift, plan, wishes.spots);
-    if (spot == NO_SPOT) return false;
     uint row = ~wishes.first & 0xffffffu;
     uint rider = riders[row];
-    riders[row] = riderFor(RIDER_BOARDS, liftOf(rider), waitsAt(rider), goalOf(rider), spot);
+    riders[row] = riderFor(RIDER_BOARDS, liftOf(rider), waitsAt(rider), goalOf(rider), NO_SPOT);
     if (lift.heading == 0) lift.heading = goalOf(rider) > lift.stop ? 1 : -1;
     return true;
 }
 
+/// Who comes in goes to the free spot that is furthest from the doors.
+void giveSpot(LiftState lift, LiftPlan plan, LiftWishes wishes) {
+    if (wishes.entering == 0u) return;
+    uint row = ~wishes.entering, rider = riders[row];
+    vec2 home = states[row].position - chart_shifts[lift_stops[plan.first_stop + lift.stop].chart];
+    uint spot = freeSpot(lift, plan, wishes.spots, home);
+    if (spot == NO_SPOT) return;
+    riders[row] = riderFor(RIDER_RIDES, liftOf(rider), waitsAt(rider), goalOf(rider), spot);
+}
+
 void serve(inout LiftState lift, LiftPlan plan, LiftWishes wishes) {
+    giveSpot(lift, plan, wishes);
     bool full = wishes.aboard + wishes.boarding >= plan.capacity;
     if (askIn(lift, plan, wishes) || wishes.aboard != lift.aboard) lift.idle = 0.0;
     lift.aboard = wishes.aboard;

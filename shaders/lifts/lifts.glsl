@@ -29,6 +29,11 @@ vec2 atDoors(LiftStop stop, vec2 along_and_aside) {
     return stop.begin + stop.along * along_and_aside.x + vec2(-stop.along.y, stop.along.x) * along_and_aside.y;
 }
 
+/// m, at home: a spot in a cabin.
+vec2 spotPlace(LiftPlan plan, uint spot) {
+    return plan.corner + plan.across * float(spot % plan.columns) + plan.forward * float(spot / plan.columns);
+}
+
 /// m to either side of the middle of the doors: as far as somebody fits through.
 float roomInDoors(LiftPlan plan, float radius) { return max(plan.half_door - radius - 0.05, 0.0); }
 

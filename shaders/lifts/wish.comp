@@ -26,16 +26,12 @@ const float STROLL = 0.9;       // m/s, in and before cabins
 const float SETTLING = 0.5;     // s
 const float OUTSIDE = 1.2;      // m before the doors: who gets off makes for there
 const float WITHIN = 0.4;       // m behind them
+const float PAST_JAMBS = 0.06;  // m
 
 struct Way {
     vec2 to;      // m, at home
     float there;  // m: near enough to stand
 };
-
-vec2 spotInCabin(LiftPlan plan, uint spot, vec2 home) {
-    if (spot == NO_SPOT) return home;
-    return plan.corner + plan.across * float(spot % plan.columns) + plan.forward * float(spot / plan.columns);
-}
 
 /// Through the doors: first to before them, where one fits between them.
 vec2 throughTo(LiftStop stop, LiftPlan plan, float radius, vec2 at, float side, float end) {
@@ -58,7 +54,11 @@ Way wayOf(uint rider, uint row, vec2 home, float radius) {
     if (phase == RIDER_BOARDS) return Way(throughTo(stop, plan, radius, at, -1.0, WITHIN), 0.0);
     if (goalOf(rider) == state.stop && doorsAreOpen(state))
         return Way(throughTo(stop, plan, radius, at, 1.0, -OUTSIDE), 0.0);
-    return Way(spotInCabin(plan, spotOf(rider), home), THERE);
+    if (at.x < radius + PAST_JAMBS) {  // beside the doors there are walls
+        float room = roomInDoors(plan, radius);
+        return Way(atDoors(stop, vec2(radius + WITHIN, clamp(at.y, -room, room))), 0.01);
+    }
+    return Way(spotOf(rider) == NO_SPOT ? home : spotPlace(plan, spotOf(rider)), THERE);
 }
 
 void main() {
@@ -70,10 +70,11 @@ void main() {
     Way way = wayOf(rider, row, home, bodies[slot].radius);
     vec2 offset = way.to - home;
     float left = length(offset);
-    walkers[slot].flags |= WALKER_HELD;
+    bool walks_through = way.there == 0.0;
+    if (!walks_through) walkers[slot].flags |= WALKER_HELD;
     bool stands = left <= way.there;
     if (stands) walkers[slot].flags |= WALKER_AT_REST;
     float speed = min(walkers[slot].preferred_speed, STROLL);
-    if (way.there > 0.0) speed = min(speed, left / SETTLING);
+    if (!walks_through) speed = min(speed, left / SETTLING);
     preferred_velocities[slot] = stands ? vec2(0.0) : offset * (speed / max(left, 1.0e-6));
 }

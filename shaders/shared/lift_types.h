@@ -63,13 +63,13 @@ struct LiftWishes {
     uint up;  // stops at which somebody waits to go up
     uint down;
     uint goals;  // where those in the cabin get off
-    uint spots;  // in the cabin that are taken, or kept for somebody
+    uint spots;     // in the cabin that are taken
     uint aboard;
     uint leaving;   // those in the cabin who get off here
     uint boarding;  // those who have been asked in and are not in it yet
     uint in_doors;  // those who stand between the doors
-    uint first;     // who is next to come in: how far from the doors, and the row; NO_INDEX: nobody
-    uint waiting;   // at the stop at which it is
+    uint first;     // who is next to come in: how far from the doors, and the row; 0 = nobody
+    uint entering;  // who has come into the cabin and has no spot yet: the row; 0 = nobody
 };
 
 // Of each row, what it has to do with a lift: bits 0 to 7 the lift, 8 to 11 where it waits, 12 to 15 where it
