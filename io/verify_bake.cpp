@@ -10,6 +10,7 @@
 
 #include "base/files/beneath.h"
 #include "base/files/hash.h"
+#include "io/bake_copy.h"
 #include "io/checkpoint.h"
 #include "io/manifest.h"
 #include "io/streams/stream_reader.h"
@@ -22,12 +23,6 @@ using Json = nlohmann::ordered_json;
 using Kind = BakeProblem::Kind;
 
 constexpr const char* kManifest = "bake.json";
-
-bool isStream(const std::string& path) {
-    return std::ranges::any_of(kStreamFormats, [&](const StreamFormatInfo& format) {
-        return path.ends_with(fmt::format(".{}", format.name));
-    });
-}
 
 /// Whether a manifest has a checksum for every file it should have one for.
 bool listsChecksums(const Json& manifest) {
@@ -140,7 +135,7 @@ std::optional<BakeProblem> problemOf(const Bake& bake, const Bake::File& file,
     }
     if (hashFile(opened, advance).xxh3 != file.xxh3)
         return BakeProblem{Kind::changed, file.path, "changed: its checksum is not the one in bake.json"};
-    if (!isStream(file.path)) return std::nullopt;
+    if (!isStreamFile(file.path)) return std::nullopt;
     const StreamReader stream(path);
     if (stream.frames() == bake.frames && stream.rows() == bake.agents) return std::nullopt;
     return BakeProblem{Kind::changed, file.path,

@@ -58,7 +58,9 @@ Way wayOf(uint rider, uint row, vec2 home, float radius) {
         float room = roomInDoors(plan, radius);
         return Way(atDoors(stop, vec2(radius + WITHIN, clamp(at.y, -room, room))), 0.01);
     }
-    return Way(spotOf(rider) == NO_SPOT ? home : spotPlace(plan, spotOf(rider)), THERE);
+    // Once doors close, everybody stands where it is.
+    bool settles = state.phase != LIFT_IS_OPEN && state.phase != LIFT_OPENS;
+    return Way(spotOf(rider) == NO_SPOT ? home : spotPlace(plan, spotOf(rider)), settles ? plan.depth : THERE);
 }
 
 void main() {

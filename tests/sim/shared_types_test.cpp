@@ -12,6 +12,7 @@
 
 #include "shaders/shared/behaviour_types.h"
 #include "shaders/shared/chart_types.h"
+#include "shaders/shared/lift_types.h"
 #include "shaders/shared/simulation_types.h"
 #include "shaders/shared/terrain_types.h"
 #include "shaders/shared/traffic_types.h"
@@ -206,6 +207,34 @@ std::map<std::string, Layout> layoutsInCpp() {
     {
         using T = gpu::ChartCell;
         result["ChartCell"] = {sizeof(T), {MEMBER(charts), MEMBER(images)}};
+    }
+    {
+        using T = gpu::LiftStop;
+        result["LiftStop"] = {
+            sizeof(T),
+            {MEMBER(begin), MEMBER(along), MEMBER(chart), MEMBER(landing), MEMBER(height), MEMBER(lift)}};
+    }
+    {
+        using T = gpu::LiftPlan;
+        result["LiftPlan"] = {
+            sizeof(T),
+            {MEMBER(corner), MEMBER(across), MEMBER(forward), MEMBER(first_stop), MEMBER(stop_count),
+             MEMBER(capacity), MEMBER(columns), MEMBER(half_door), MEMBER(half_width), MEMBER(depth),
+             MEMBER(speed), MEMBER(door_time), MEMBER(dwell)}};
+    }
+    {
+        using T = gpu::LiftState;
+        result["LiftState"] = {
+            sizeof(T),
+            {MEMBER(height), MEMBER(open), MEMBER(stop), MEMBER(phase), MEMBER(since), MEMBER(idle),
+             MEMBER(from), MEMBER(heading), MEMBER(aboard), MEMBER(reserved)}};
+    }
+    {
+        using T = gpu::LiftWishes;
+        result["LiftWishes"] = {
+            sizeof(T),
+            {MEMBER(up), MEMBER(down), MEMBER(goals), MEMBER(spots), MEMBER(aboard), MEMBER(leaving),
+             MEMBER(boarding), MEMBER(in_doors), MEMBER(first), MEMBER(entering)}};
     }
     {
         using T = gpu::Belt;
