@@ -32,8 +32,7 @@ class Congestion {
     void listBlocks(const gl::Buffer& changed, bool dense_too);
     void showOverSeams(const gl::ShaderLibrary& library, const Buffers& buffers,
                        const std::vector<glm::uvec2>& shown);
-    void takeLifts(const gl::ShaderLibrary& library, const Buffers& buffers,
-                   const std::vector<authoring::Detours::Ride>& rides);
+    void takeLifts(const gl::ShaderLibrary& library, const Buffers& buffers, const authoring::Scene& scene);
     void show(gl::ComputeProgram& program, std::uint32_t count);
 
     std::uint32_t cells_ = 0, blocks_ = 0;  // of one map
@@ -50,7 +49,7 @@ class Congestion {
     gl::Buffer shown_cells_;
     gl::ComputeProgram show_distances_, show_slopes_;
     std::uint32_t ride_count_ = 0;  // of lifts
-    gl::Buffer ride_cells_;
+    gl::Buffer ride_cells_, ride_costs_;
     gl::ComputeProgram ride_;
 };
 

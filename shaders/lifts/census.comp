@@ -23,6 +23,7 @@ layout(std430) buffer Riders { uint riders[]; };           // by row: RIDER_*
 #include "shaders/motion/waiting_line.glsl"
 
 const float SEES = 7.0;      // m: from so far off people make for the doors
+const float STRAIGHT = 1.2;  // the way to them is hardly longer than the straight line
 const float STRIDE = 0.5;    // m along the way
 const float AT_DOORS = 0.8;  // m
 const float BEFORE = 0.5;    // m: where the way at the doors is asked for
@@ -55,7 +56,8 @@ uint stopToGetOff(LiftPlan plan, uint from, Stage stage) {
 bool leadsToDoors(LiftStop stop, Stage stage, vec2 position, bool waits) {
     if (stage.field == NO_INDEX || dot(wayAtDoors(stop, stage).direction, stop.along) < 0.5) return false;
     vec2 doors = stop.begin + chart_shifts[stop.landing];
-    for (float walked = 0.0; walked < 1.5 * SEES; walked += STRIDE) {
+    float most = STRAIGHT * distance(position, doors) + AT_DOORS;  // otherwise something is between
+    for (float walked = 0.0; walked < most; walked += STRIDE) {
         if (distance(position, doors) < AT_DOORS) return true;
         RouteAhead ahead = freeRouteAhead(stage, position);
         if (!waits) ahead = heedingJams(stage, position, ahead);
@@ -84,7 +86,7 @@ uint waitsOn(uint rider, uint chart, vec2 position, Stage stage) {
     if (asked && doorsAreOpen(lift_states[liftOf(rider)])) return rider;
     for (uint i = 0u; i < LIFT_STOPS; ++i) {
         LiftStop stop = lift_stops[i];
-        if (stop.landing != chart || distance(home, stop.begin) > SEES) continue;
+        if (stop.landing != chart || distance(home, stop.begin) > SEES || throughDoors(stop, home).x > 0.0) continue;
         LiftPlan plan = lift_plans[stop.lift];
         uint here = i - plan.first_stop;
         bool waits = (rider & RIDER_PHASE) != RIDER_NONE && (rider & RIDER_PHASE) != RIDER_RIDES &&

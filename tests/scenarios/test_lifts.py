@@ -146,7 +146,7 @@ def test_those_who_wait_leave_the_way_out_free_and_do_not_press(up):
     doors = AT[1] - SIZE[1] / 2
     rides = (ridden.height > 0.5) & (ridden.height < 3.5)
     waits = ridden.there & (ridden.places[..., 2] < 0.1) & (numpy.abs(ridden.places[..., 0]) < 4)
-    in_the_way = waits & (numpy.abs(ridden.places[..., 0]) < 0.6) & (ridden.places[..., 1] > doors - 1.5)
+    in_the_way = waits & (numpy.abs(ridden.places[..., 0]) < 0.6) & (ridden.places[..., 1] > doors - 2.2)
     assert in_the_way[rides].sum() < 0.02 * waits[rides].sum()
     speeds = numpy.load(up / "streams" / "dir.npy")[..., 2]
     assert numpy.median(speeds[waits & rides[:, None]]) < 0.1
