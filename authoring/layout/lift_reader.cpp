@@ -29,7 +29,7 @@ void LevelReader::readLift(ObjectReader& reader, const JsonNode& node, Link link
     std::optional<glm::dvec2> size;
     reader.point("size", size);
     lift.size = size.value_or(lift.size);
-    if (reader.require("doors", "which way its doors open, degrees")) reader.number("doors", lift.doors);
+    reader.number("doors", lift.doors);
     reader.number("door_width", lift.door_width);
     reader.number("door_time", lift.door_time);
     reader.number("dwell", lift.dwell);
