@@ -82,6 +82,11 @@ void blockOthers(const ChartMap& charts, WalkMap& map) {
         return charts.leadsAgainstBelt(
             cellCentre(map.grid, shown.image % map.grid.width, shown.image / map.grid.width));
     });
+    // Where a wall stands on one side of what another chart shows, as round the opening over a flight of
+    // stairs, there is no way over it either.
+    std::erase_if(seams.shown, [&](const SeamCells::Shown& shown) {
+        return map.cost[shown.image] == kUnreachable && map.cost[shown.owner] < kUnreachable;
+    });
     map.seams = std::make_shared<const SeamCells>(std::move(seams));
     for (std::size_t cell = 0; cell < map.cost.size(); ++cell)
         if (map.seams->blocked[cell]) map.cost[cell] = kUnreachable;
