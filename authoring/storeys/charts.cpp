@@ -149,6 +149,7 @@ class LayingOut {
         result_->plane = moved(layout_, result_->charts);
         raiseWalls();
         copyWallsIntoMargins();
+        thinRailingsBesideLinks();
         result_->home_mesh = homeMesh(result_->charts, layout_);
         result_->plane_mesh = planeMesh(result_->charts, layout_, result_->reach);
         return result_;
@@ -292,12 +293,39 @@ class LayingOut {
                 wall.where = result_->charts[chart].is_link
                                  ? layout_.links[result_->charts[chart].index].where
                                  : layout_.levels[chart].where;
-                result_->ground_along_walls.emplace_back(railing.low, railing.high);
-                addWall(chart, wall);
+                // Round a cabin there are its own sides: two in one place would be drawn through each other.
+                const Chart* link = linkAlong(chart, railing);
+                if (!link || !link->is_cabin) {
+                    if (link) beside_links_.push_back(result_->walls.size());
+                    result_->ground_along_walls.emplace_back(railing.low, railing.high);
+                    addWall(chart, wall);
+                }
                 move(wall.points, result_->charts[chart].shift);
                 result_->plane.walls.push_back(std::move(wall));
             }
         }
+    }
+
+    /// The link whose side a railing of a floor stands along: as high as its cabin, or below its railing.
+    const Chart* linkAlong(std::size_t floor, const Railing& railing) const {
+        constexpr double kHair = 1.0e-6;  // m
+        if (result_->charts[floor].is_link) return nullptr;
+        const glm::dvec2 middle = 0.5 * (railing.points.front() + railing.points.back());
+        for (const Chart& chart : result_->charts) {
+            if (!chart.is_link || (chart.is_cabin && chart.link_from != floor)) continue;
+            const double along = chart.link.alongOf(middle), aside = std::abs(chart.link.asideOf(middle));
+            if (along > -kHair && along < chart.link.length + kHair && aside < chart.link.half_width + kHair)
+                return &chart;
+        }
+        return nullptr;
+    }
+
+    /// Where two railings are in one place they would be drawn through each other: that of the floor is
+    /// within that of the link.
+    void thinRailingsBesideLinks() {
+        constexpr double kShare = 0.6;
+        for (const std::size_t wall : beside_links_)
+            result_->walls[wall].thickness *= kShare;
     }
 
     void copyWallsIntoMargins() {
@@ -332,6 +360,7 @@ class LayingOut {
     Diagnostics& diagnostics_;
     std::shared_ptr<Charts> result_ = std::make_shared<Charts>();
     std::vector<Standing> standing_;
+    std::vector<std::size_t> beside_links_;  // of the walls: railings of floors
 };
 
 }  // namespace
