@@ -255,3 +255,34 @@ def test_the_table_of_people_and_the_manifest_are_in_home_coordinates(throng, tm
     with open(folder / "agents.csv", newline="") as file:
         for row in csv.DictReader(file):
             assert 12 <= float(row["goal_x"]) <= 13
+
+
+def test_nobody_climbs_out_of_the_opening_over_a_flight_of_stairs(throng, tmp_path):
+    """A landing over the ground, 0.4 m higher than people need: the ground goes on below the end of the first flight,
+    less than a cell of the fields behind the railing."""
+    layout = {"throng": 1, "simulation": {"duration": 30},
+              "levels": [{"id": "ground", "floor": box(-32, -22, 40, 22)},
+                         {"id": "landing", "height": 2.6, "floor": box(-20, -2, -17, 2)},
+                         {"id": "deck", "height": 5.2, "floor": box(-13, -2, -6, 2)}],
+              "links": [{"id": "low", "from": "ground", "to": "landing", "path": [[-24, 0], [-20, 0]], "width": 3},
+                        {"id": "high", "from": "landing", "to": "deck", "path": [[-17, 0], [-13, 0]], "width": 3}],
+              "areas": [{"id": "west", "polygon": box(-29, -3, -27, 3)},
+                        {"id": "end", "level": "deck", "polygon": box(-8, -1.5, -6.5, 1.5)}],
+              "flows": [{"id": "up", "from": "west", "to": "end", "count": 3, "end": 1}]}
+    figures = measured(throng, bake(throng, tmp_path, layout))
+    assert (figures["arrived"], figures["stuck"]) == (3, 0)
+
+
+def test_people_go_over_and_under_a_bridge(throng, bakes):
+    """All of examples/bridge.json arrive; at one moment people are above others on stairs, a ramp, a deck and a lift."""
+    folder = bakes("bridge")
+    figures = measured(throng, folder)
+    assert (figures["arrived"], figures["stuck"], figures["wall_crossings"]) == (figures["agents"], 0, 0)
+    there = stream(folder, "state")[..., 0] > 0
+    places = stream(folder, "pos")
+    under = there & (places[..., 2] < 0.1) & (numpy.abs(places[..., 1]) < 2) & (numpy.abs(places[..., 0]) < 8)
+    over = there & (places[..., 2] > 5.1) & (numpy.abs(places[..., 0]) < 8)
+    assert (under.sum(axis=1) * (over.sum(axis=1) > 4)).max() > 4
+    assert numpy.load(folder / "lifts.npy")[:, 0, 2].max() >= 2
+    assert {link["id"] for link in figures["links"] if link["forward"] + link["back"] > 0} == {
+        link["id"] for link in json.loads((folder / "bake.json").read_text())["links"]}
