@@ -240,9 +240,10 @@ class LayingOut {
     /// Whether a wall stands where people step out of a cabin.
     static bool standsBefore(const Wall& wall, const Chart& cabin) {
         constexpr double kStep = 0.1;  // m
-        for (double along = kStep; along <= kBeforeDoors; along += kStep)
+        const int steps = static_cast<int>(std::lround(kBeforeDoors / kStep));
+        for (int step = 1; step <= steps; ++step)
             for (const double aside : {-0.9, -0.5, 0.0, 0.5, 0.9}) {
-                const glm::dvec2 at = cabin.link.at(-along, aside * cabin.half_door);
+                const glm::dvec2 at = cabin.link.at(-kStep * step, aside * cabin.half_door);
                 const double away = wall.closed ? distanceToPolygon(wall.points, at)
                                                 : distanceToPieces(wall.points, wall.points.size() - 1, at);
                 if (away < 0.5 * (kStep + (wall.closed ? 0.0 : wall.thickness))) return true;

@@ -15,7 +15,7 @@ layout(std430) buffer States { AgentState states[]; };
 #endif
 
 #ifdef LIFTS
-#include "shaders/lifts/lifts.glsl"
+#include "shaders/charts/lifts.glsl"
 layout(std430) readonly buffer LiftStates { LiftState lift_states[]; };
 
 /// Who is in a cabin when it sets out is taken on to the stop to which it goes.

@@ -11,7 +11,7 @@ layout(std430) readonly buffer DetourSlopes { vec2 detour_slopes[]; };
 layout(std430) readonly buffer WaitingLines { WaitingLine waiting_lines[]; };
 layout(std430) readonly buffer LinePoints { vec2 line_points[]; };
 
-#include "shaders/lifts/lifts.glsl"
+#include "shaders/charts/lifts.glsl"
 layout(std430) readonly buffer LiftStates { LiftState lift_states[]; };
 layout(std430) buffer LiftWishesBlock { LiftWishes lift_wishes[]; };
 layout(std430) buffer LiftQueues { uint lift_queues[]; };  // by stop of all lifts: how many wait

@@ -9,7 +9,7 @@
 layout(local_size_x = LIFT_GROUP_SIZE) in;
 layout(std140) uniform ParametersBlock { Parameters parameters; };
 
-#include "shaders/lifts/lifts.glsl"
+#include "shaders/charts/lifts.glsl"
 layout(std430) buffer LiftStates { LiftState lift_states[]; };
 layout(std430) readonly buffer LiftWishesBlock { LiftWishes lift_wishes[]; };
 layout(std430) buffer Riders { uint riders[]; };

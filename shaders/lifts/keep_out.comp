@@ -11,7 +11,7 @@ layout(std430) readonly buffer Walkers { Walker walkers[]; };
 layout(std430) buffer States { AgentState states[]; };
 layout(std430) buffer Targets { TARGET targets[]; };
 
-#include "shaders/lifts/lifts.glsl"
+#include "shaders/charts/lifts.glsl"
 layout(std430) readonly buffer LiftStates { LiftState lift_states[]; };
 layout(std430) readonly buffer Riders { uint riders[]; };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where people wait for a lift: round its doors, the more of them the further out, and on both sides of the way that
 // those take who get off.
-// Needs shaders/lifts/lifts.glsl, shaders/shared/charts.glsl and random.glsl.
+// Needs shaders/charts/lifts.glsl, shaders/shared/charts.glsl and random.glsl.
 
 const uint PURPOSE_LIFT = 0x11f7u;
 const float ROOM_OF_ONE = 0.5;      // m^2

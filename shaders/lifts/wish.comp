@@ -10,7 +10,7 @@ layout(std430) readonly buffer Bodies { Body bodies[]; };
 layout(std430) buffer Walkers { Walker walkers[]; };
 layout(std430) writeonly buffer PreferredVelocities { vec2 preferred_velocities[]; };
 
-#include "shaders/lifts/lifts.glsl"
+#include "shaders/charts/lifts.glsl"
 layout(std430) readonly buffer LiftStates { LiftState lift_states[]; };
 layout(std430) readonly buffer LiftQueues { uint lift_queues[]; };
 layout(std430) readonly buffer Riders { uint riders[]; };

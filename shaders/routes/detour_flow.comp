@@ -45,7 +45,7 @@ CrowdFlow flowAround(vec2 middle, float free_share) {
 }
 
 #ifdef LIFTS
-#include "shaders/lifts/lifts.glsl"
+#include "shaders/charts/lifts.glsl"
 
 /// Who stands in a cabin is no jam.
 bool isCabin(vec2 place) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who is held before a red crossing (shaders/traffic/held_at_red.glsl), or has to do with a lift (shaders/lifts/wish.comp),
+// Who is held before a red crossing (shaders/traffic/held_at_red.glsl), or waits for a lift (shaders/lifts/wish.comp),
 // queues there and does not press. Only with TRAFFIC or LIFTS.
 
 const float HELD_HEADWAY = 1.0;  // s

@@ -3,7 +3,7 @@
 //
 // A lift has a chart for each of its stops: the cabin, as it stands there. Who is in it when it sets out goes on on the
 // chart of the stop to which it goes (shaders/charts/cross_seams.comp); how high it is on the way only the recording
-// knows. People keep out of cabins that are not there (keep_out.comp).
+// knows. People keep out of cabins that are not there (shaders/lifts/keep_out.comp).
 #include "shaders/shared/lift_types.h"
 
 layout(std430) readonly buffer LiftPlans { LiftPlan lift_plans[]; };
