@@ -22,12 +22,12 @@ constexpr const char* kHouse = R"({{"throng": 1,
                     "spacing": 0.7, "count": {}, "goal": "above"}}]}})";
 
 authoring::Scene house(std::uint32_t people) {
-    Diagnostics diagnostics;
+    authoring::Diagnostics diagnostics;
     const auto layout = authoring::readLayout(fmt::format(fmt::runtime(kHouse), people), {}, diagnostics);
     std::optional<authoring::Scene> scene;
     if (layout) scene = authoring::buildScene(*layout, diagnostics);
-    for (const Diagnostic& entry : diagnostics.entries)
-        if (entry.severity == Severity::error) ADD_FAILURE() << entry.message;
+    for (const authoring::Diagnostic& entry : diagnostics.entries)
+        if (entry.severity == authoring::Severity::error) ADD_FAILURE() << entry.message;
     return scene.value();
 }
 
@@ -86,7 +86,9 @@ TEST_P(LiftsTest, CountsAsPlainCppDoesAndGivesEverybodyASpotOfItsOwn) {
         ASSERT_EQ(queues[0] + queues[1], counted.waiting) << step;
         // Two on one spot would be one bit.
         const bool all_have_spots = wishes.entering == 0;
-        if (all_have_spots) ASSERT_EQ(std::popcount(wishes.spots), static_cast<int>(wishes.aboard)) << step;
+        if (all_have_spots) {
+            ASSERT_EQ(std::popcount(wishes.spots), static_cast<int>(wishes.aboard)) << step;
+        }
         ASSERT_LE(wishes.aboard + wishes.boarding, 8u);
         most_aboard = std::max(most_aboard, counted.aboard);
         most_waiting = std::max(most_waiting, counted.waiting);
