@@ -2,7 +2,7 @@
 """What the crowd walks among: walls, roads, ground, light and a camera, all from the bake's manifest."""
 from ..formats.terrain_mesh import read_mesh
 from . import camera as camera_module
-from . import dressing, lights, stands, streets, traffic, terrain as terrain_module, walls as walls_module
+from . import dressing, lifts, lights, stands, streets, traffic, terrain as terrain_module, walls as walls_module
 
 
 def read_terrain(bake):
@@ -15,7 +15,7 @@ def build_environment(context, manifest, collection, *, walls=True, roads=True, 
     """Everything in the bake's own frame (metres from its origin). A terrain takes the place of the flat ground,
     and of roads and areas.
 
-    @param folder the bake's, where it has vehicles
+    @param folder the bake's, where it has vehicles or lifts
     @param bake what the set is dressed for, with cars, trees and the like where nobody walks; not dressed without
     """
     geometry = manifest.get("geometry") or {}
@@ -36,6 +36,7 @@ def build_environment(context, manifest, collection, *, walls=True, roads=True, 
         for thing in (terrain_module.build_terrain(*terrain, manifest) if terrain else streets.build_ground(manifest)):
             collection.objects.link(thing)
     traffic.build_traffic(collection, manifest, folder, frame_start, roads, terrain)
+    lifts.build_lifts(collection, manifest, folder, frame_start)
     if bake:
         collection["throng_dressing"] = dressing.build_dressing(bake, collection, terrain)
     if light:

@@ -2,38 +2,19 @@
 """Lanes, crossings, signals and the vehicles of a bake. Vehicles are objects with curves of their own, a key a frame,
 as an animator would have them: nothing runs while Blender renders."""
 import math
-import os
 
 import bpy
 import numpy
 
-from ..blender.actions import curves_of
-from ..formats import BakeError
 from . import materials
 from .shapes import Shape, counter_clockwise, direction
 from .streets import MARK_Z, ROAD_Z
+from .tracks import fill, read_track
 from .vehicle_shapes import body_of, build_axle
 from .weather import weathered
 
-_LINEAR = 1  # of the interpolations of keys
 _STRIPE = 0.5  # m, of a zebra
 _X, _Y, _Z, _HEADING, _SPEED, _ALONG, _STATE, _BRAKING = range(8)
-
-
-def read_track(folder, manifest):
-    """(frames, vehicles, columns) of a bake's vehicles, or None. Raises formats.BakeError."""
-    vehicles = manifest.get("vehicles")
-    if not vehicles:
-        return None
-    path = os.path.join(folder, os.path.basename(vehicles["file"]))
-    try:
-        track = numpy.load(path, allow_pickle=False)
-    except (OSError, ValueError) as error:
-        raise BakeError(f"{path}: cannot be read ({error})") from error
-    wanted = (int(manifest["frames"]), len(vehicles["list"]), len(vehicles["columns"]))
-    if track.shape != wanted:
-        raise BakeError(f"{path}: holds {track.shape} values, expected {wanted}")
-    return track
 
 
 def build_street(traffic):
@@ -172,7 +153,7 @@ def build_traffic(collection, manifest, folder, frame_start, roads, terrain):
         return
     objects = build_street(traffic) if roads and not terrain else []
     objects += build_signals(traffic, float(manifest["fps"]), frame_start, int(manifest["frames"]))
-    track = read_track(folder, manifest) if folder else None
+    track = read_track(folder, manifest, "vehicles") if folder else None
     if track is not None:
         objects += build_vehicles(manifest, track, frame_start)
     for thing in objects:
@@ -194,10 +175,10 @@ def build_vehicles(manifest, track, frame_start):
         thing = bpy.data.objects.new(f"Throng {kind} {number}", mesh)
         frames = there + frame_start
         rows = track[there, number]
-        _fill(thing, "location", frames, rows[:, [_X, _Y, _Z]])
+        fill(thing, "location", frames, rows[:, [_X, _Y, _Z]])
         turns = numpy.zeros((len(there), 3))
         turns[:, 2] = numpy.unwrap(rows[:, _HEADING])
-        _fill(thing, "rotation_euler", frames, turns)
+        fill(thing, "rotation_euler", frames, turns)
         _hide_while_away(thing, frames, frame_start)
         objects.append(thing)
         for x, radius, half_track, broad in places:
@@ -208,7 +189,7 @@ def build_vehicles(manifest, track, frame_start):
             axle.parent, axle.location = thing, (x, 0.0, radius)
             turns = numpy.zeros((len(there), 3))
             turns[:, 1] = rows[:, _ALONG] / radius
-            _fill(axle, "rotation_euler", frames, turns)
+            fill(axle, "rotation_euler", frames, turns)
             _hide_while_away(axle, frames, frame_start)
             objects.append(axle)
     return objects
@@ -219,17 +200,3 @@ def _hide_while_away(thing, frames, frame_start):
         _key_hidden(thing, True, frame_start)
     _key_hidden(thing, False, int(frames[0]))
     _key_hidden(thing, True, int(frames[-1]) + 1)
-
-
-def _fill(thing, path, frames, values):
-    """A key a frame on each of the three curves of a path, straight lines between them."""
-    thing.keyframe_insert(path, frame=int(frames[0]))
-    for curve in curves_of(thing.animation_data.action):
-        if curve.data_path != path:
-            continue
-        points = curve.keyframe_points
-        points.add(len(frames) - len(points))
-        places = numpy.stack([frames, values[:, curve.array_index]], axis=1).astype(numpy.float32)
-        points.foreach_set("co", places.ravel())
-        points.foreach_set("interpolation", numpy.full(len(frames), _LINEAR, dtype=numpy.int32))
-        curve.update()
