@@ -167,6 +167,17 @@ def test_routes_take_stairs_unless_the_lift_is_sooner(throng, tmp_path):
     assert shares == {"near": 0.0, "far": 1.0}
 
 
+def test_where_many_wait_others_take_the_stairs(throng, tmp_path):
+    stairs = {"id": "stairs", "from": "ground", "to": "upper", "path": [[-24, -3], [-16, -3]]}
+    layout = house(2, [flow("ground", "upper", 40, 40)], 120, [lift(["ground", "upper"]), stairs])
+    for level in layout["levels"]:
+        level["floor"] = box(-32, -6, 8, 6)
+    folder = bake(throng, tmp_path, layout)
+    climbed = json.loads(throng("measure", folder, "--json").stdout)["links"][0]["forward"]
+    rode = {person for _, person in Ridden(folder).passages(True)}
+    assert climbed >= 8 and len(rode) >= 8
+
+
 def test_a_bake_that_was_stopped_goes_on_to_the_same_bytes(throng, tmp_path, up):
     layout = up.parent / "layout.json"
     stopped = subprocess.Popen([throng.binary, "bake", str(layout), "-o", str(tmp_path / "parts"), "-q", "--no-gltf",
