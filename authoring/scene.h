@@ -70,12 +70,11 @@ struct Detours {
     std::vector<Ride> rides;
 };
 
-/// Lifts, as the device has them, and where one walks out of one's route and is taken on from another place.
+/// Lifts, as the device has them.
 struct LiftMap {
     std::vector<gpu::LiftPlan> plans;
     std::vector<gpu::LiftStop> stops;    ///< lift after lift
     std::vector<std::uint32_t> stop_of;  ///< by chart: index into stops; gpu::NO_INDEX: it is no cabin
-    std::vector<std::string> names;
 
     bool empty() const { return plans.empty(); }
 };

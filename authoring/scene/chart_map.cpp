@@ -101,7 +101,6 @@ LiftMap liftsOf(const Charts& charts, glm::dvec2 origin) {
             plan.door_time = static_cast<float>(lift.door_time);
             plan.dwell = static_cast<float>(lift.dwell);
             map.plans.push_back(plan);
-            map.names.push_back(each.name);
         }
         map.stop_of[chart] = static_cast<std::uint32_t>(map.stops.size());
         map.stops.push_back({glm::vec2(each.link.begin - origin), glm::vec2(each.link.along), chart,
