@@ -186,6 +186,7 @@ const Sight& Ground::sight() {
                 sight_->setTileOpen(x / FieldBlocks::kSide, y / FieldBlocks::kSide);
             }
         }
+    sight_->finish();
     return *sight_;
 }
 
@@ -274,14 +275,16 @@ StraightWays Ground::straightTo(const GoalBox& goals, glm::vec2 middle, const Go
     std::vector<glm::vec2> corners = {middle};
     if (goals.lower != goals.upper)
         corners = {goals.lower, goals.upper, {goals.lower.x, goals.upper.y}, {goals.upper.x, goals.lower.y}};
+    const GoalBox ends = corners.size() > 1 ? goals : GoalBox{middle, middle};
     const glm::vec2 lower = glm::min(goals.lower, room.lower), upper = glm::max(goals.upper, room.upper);
     visitSpots(lower - kStraight, upper + kStraight, [&](std::uint32_t spot, glm::vec2 at) {
         if (cost[spot] == kUnreachable) return;
         const bool is_inside =
             at.x > room.lower.x && at.x < room.upper.x && at.y > room.lower.y && at.y < room.upper.y;
-        const bool is_clear = is_inside || std::all_of(corners.begin(), corners.end(), [&](glm::vec2 corner) {
-                                  return sight_->isClear(at, corner, close);
-                              });
+        const bool is_clear =
+            is_inside || sight_->isOpen(glm::min(at, ends.lower), glm::max(at, ends.upper)) ||
+            std::all_of(corners.begin(), corners.end(),
+                        [&](glm::vec2 corner) { return sight_->isClear(at, corner, close); });
         if (is_clear || glm::distance(at, middle) < 1.5f * cell) ways.from[spot] = 1;
     });
     return ways;

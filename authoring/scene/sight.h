@@ -18,6 +18,11 @@ class Sight {
     void setFree(std::uint32_t x, std::uint32_t y) { free_[tileOf(x, y)] |= bitOf(x, y); }
     void setRoomy(std::uint32_t x, std::uint32_t y) { roomy_[tileOf(x, y)] |= bitOf(x, y); }
     void setTileOpen(std::uint32_t tile_x, std::uint32_t tile_y);
+    void finish();  ///< all is set; before the first question
+
+    /// Nothing in the box or beside it is closed: from anywhere in it the straight way to anywhere in it is
+    /// clear. It may say no where that is so, too.
+    bool isOpen(glm::vec2 lower, glm::vec2 upper) const;
 
     /// Somebody can stand there, however small.
     bool isFree(std::uint32_t x, std::uint32_t y) const { return (free_[tileOf(x, y)] & bitOf(x, y)) != 0; }
@@ -34,6 +39,7 @@ class Sight {
     std::size_t tileOf(std::uint32_t x, std::uint32_t y) const {
         return std::size_t{y / kSide} * across_ + x / kSide;
     }
+    bool isPieceOpen(std::uint32_t first_x, std::uint32_t first_y) const;
     static std::uint64_t bitOf(std::uint32_t x, std::uint32_t y) {
         return std::uint64_t{1} << (y % kSide * kSide + x % kSide);
     }
@@ -41,6 +47,9 @@ class Sight {
     FieldGrid grid_;
     std::uint32_t across_;
     Tiles free_, roomy_;
+    std::uint32_t piece_ = 1;  ///< cells along a side of what is counted
+    glm::uvec2 pieces_{0};
+    std::vector<std::uint32_t> closed_before_;  ///< closed pieces left of a corner and below it, line by line
 };
 
 }  // namespace throng::authoring
