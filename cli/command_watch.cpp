@@ -89,15 +89,15 @@ class LayoutWatch {
         Json texts = Json::array();
         for (const authoring::Diagnostic& entry : loaded.diagnostics.entries)
             texts.push_back(authoring::formatDiagnostic(entry, loaded.diagnostics.file, loaded.text));
-        log_.tell({{"state", valid ? "read" : "mistaken"},
-                   {"diagnostics", diagnosticsJson(loaded.diagnostics)},
-                   {"texts", std::move(texts)}});
+        log_.note({{"diagnostics", diagnosticsJson(loaded.diagnostics)}, {"texts", std::move(texts)}});
+        log_.tell({{"state", valid ? "read" : "mistaken"}});
     }
 
     /// @param what is wrong, of what has no line
     void tellFailure(const std::string& what) {
         say(stderr, "throng: {}\n", what);
-        log_.tell({{"state", "mistaken"}, {"diagnostics", Json::array()}, {"texts", {what}}});
+        log_.note({{"diagnostics", Json::array()}, {"texts", Json::array({what})}});
+        log_.tell({{"state", "mistaken"}});
     }
 
     void simulate(const LoadedLayout& loaded) try {

@@ -71,6 +71,7 @@ Json MomentPacker::about(const std::vector<io::AgentRow>& people, bool with_vehi
     const io::GroupTable groups = io::groupsOf(people);
     Json about = crowdJson(bake_, groups);
     about["seed"] = bake_.seed;
+    about["origin"] = {bake_.origin.x, bake_.origin.y};  // m, in the world
     about["every"] = every_;
     about["quantum"] = quantum_;
     about["group"] = groups.group_of;

@@ -25,7 +25,8 @@ Json pointsOf(const std::vector<glm::dvec2>& points) {
 /// Floors, links between them, and on which level everything else is.
 void addLevels(const io::Bake& bake, Json& geometry) {
     for (const authoring::Level& level : bake.levels)
-        geometry["levels"].push_back({{"id", level.id}, {"points", pointsOf(level.floor)}});
+        geometry["levels"].push_back(
+            {{"id", level.id}, {"height", level.height}, {"points", pointsOf(level.floor)}});
     geometry["links"] = Json::array();
     for (const authoring::Link& link : bake.links)
         geometry["links"].push_back({{"id", link.id}, {"levels", {link.from, link.to}}});

@@ -20,11 +20,17 @@ constexpr double kBetweenWords = 0.5;  // s
 /// A bake as it was opened, and how much of it has been shown.
 class Shown {
   public:
-    Shown(const fs::path& path, double per_second, LiveLog& log)
+    /// @param before whose place it takes, or null
+    Shown(const fs::path& path, double per_second, LiveLog& log, const Shown* before)
         : growing_(path), packer_(growing_.bake(), per_second), log_(log) {
         if (!growing_.isUnderWay() && !growing_.bake().vehicles.empty())
             vehicles_ = io::readVehicles(growing_.bake());
-        log_.begin(packer_.about(growing_.people(), !vehicles_.empty()));
+        nlohmann::ordered_json about = packer_.about(growing_.people(), !vehicles_.empty());
+        const auto inputs = [](const Shown& shown) {
+            return shown.growing_.bake().manifest.value("inputs", "");
+        };
+        about["continues"] = before && inputs(*before) == inputs(*this);
+        log_.begin(about);
     }
 
     /// Shows what has come. @returns whether there may be more
@@ -78,8 +84,9 @@ fs::path finalPath(const fs::path& path) {
 }
 
 /// The bake that has taken the place of one, if there is one yet.
-std::unique_ptr<Shown> openAgain(const fs::path& path, double per_second, LiveLog& log) try {
-    return std::make_unique<Shown>(path, per_second, log);
+std::unique_ptr<Shown> openAgain(const fs::path& path, double per_second, LiveLog& log,
+                                 const Shown& before) try {
+    return std::make_unique<Shown>(path, per_second, log, &before);
 } catch (const InputError&) {
     return nullptr;
 }
@@ -87,7 +94,7 @@ std::unique_ptr<Shown> openAgain(const fs::path& path, double per_second, LiveLo
 }  // namespace
 
 void followBake(const fs::path& path, double per_second, LiveLog& log, const std::function<bool()>& stop) {
-    auto shown = std::make_unique<Shown>(path, per_second, log);
+    auto shown = std::make_unique<Shown>(path, per_second, log, nullptr);
     bool goes_on = true;
     while (!stop()) {
         // Asked before what is there is read: at its end, a bake is closed after its last frame.
@@ -98,7 +105,7 @@ void followBake(const fs::path& path, double per_second, LiveLog& log, const std
             if (!over && !shown->isOver()) throw;
         }
         if (over) {
-            if (auto next = openAgain(finalPath(path), per_second, log)) {
+            if (auto next = openAgain(finalPath(path), per_second, log, *shown)) {
                 shown = std::move(next);
                 goes_on = true;
                 continue;

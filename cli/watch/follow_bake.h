@@ -10,7 +10,7 @@ namespace throng::cli {
 
 /// Shows a bake as far as it has come, and whatever is written of it from here on, until it is told to stop.
 /// A bake that is begun anew is shown anew.
-/// @param first already told to be one; @param per_second moments kept of a second
+/// @param per_second moments kept of a second
 /// @throws InputError where there is no such bake
 void followBake(const std::filesystem::path& path, double per_second, LiveLog& log,
                 const std::function<bool()>& stop);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 
 namespace throng::cli {
 namespace {
@@ -42,9 +43,15 @@ bool LiveLog::add(const std::string& moment) {
     return true;
 }
 
-void LiveLog::tell(const Json& how_it_goes) {
-    Message message = messageOf("TELL", textOf(how_it_goes));
+void LiveLog::note(Json members) {
     const std::lock_guard lock(mutex_);
+    noted_ = std::move(members);
+}
+
+void LiveLog::tell(Json how_it_goes) {
+    const std::lock_guard lock(mutex_);
+    if (noted_.is_object()) how_it_goes.update(noted_);
+    Message message = messageOf("TELL", textOf(how_it_goes));
     ++told_;
     last_told_ = std::move(message);
     changed_.notify_all();
@@ -72,7 +79,8 @@ LiveLog::News LiveLog::read(Place& place, std::chrono::milliseconds patience) co
         news.messages.push_back(messages_[place.next]);
         bytes += messages_[place.next]->size();
     }
-    if (place.told != told_) {
+    // Who hears that there is no more has all of it.
+    if (place.told != told_ && place.next == messages_.size()) {
         news.messages.push_back(last_told_);
         place.told = told_;
     }

@@ -29,7 +29,9 @@ class LiveLog {
     /// @returns false where there is no room: the moment is not kept
     bool add(const std::string& moment);
     /// Takes the place of what was told before.
-    void tell(const nlohmann::ordered_json& how_it_goes);
+    void tell(nlohmann::ordered_json how_it_goes);
+    /// From here on, these members are in all that is told: who comes late has to know them, too.
+    void note(nlohmann::ordered_json members);
     /// Nobody waits any more.
     void close();
 
@@ -54,6 +56,7 @@ class LiveLog {
     std::uint64_t crowd_ = 0, told_ = 0;  ///< count them
     std::vector<Message> messages_;       ///< the crowd's
     Message last_told_;
+    nlohmann::ordered_json noted_;
     bool closed_ = false;
 };
 

@@ -88,6 +88,9 @@ LiveServer::LiveServer(const LiveLog& log, std::string page, int port) : state_(
         throw OutputError(fmt::format("port {}", port),
                           "cannot be listened on: it is taken, or not yours to take; --port names another");
     state.thread = std::thread([&server] { server.listen_after_bind(); });
+    // One that does not run yet cannot be stopped.
+    while (!server.is_running())
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
 LiveServer::~LiveServer() {
