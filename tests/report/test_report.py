@@ -111,7 +111,8 @@ def test_places_in_the_page_are_those_of_the_streams_within_the_stated_error(vis
         there = states[frame, :, 0] > 0.5
         if there.any():
             worst = max(worst, numpy.abs(got[there] - positions[frame, there, :2]).max())
-        assert page.evaluate(f"Array.from({{length: count}}, (_, row) => crowd.isThere(row, {frame}))") == there.tolist()
+        asked = f"Array.from({{length: count}}, (_, row) => crowd.isThere(row, {frame}))"
+        assert page.evaluate(asked) == there.tolist()
     assert worst <= said + 1e-4
 
 

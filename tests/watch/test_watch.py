@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`throng watch LAYOUT`: what is seen is what would be baked, at once when the layout changes, and mistakes are told."""
+"""`throng watch LAYOUT`: what is seen is what would be baked, at once when the layout changes; mistakes are told."""
 import copy
 import http.client
 import json

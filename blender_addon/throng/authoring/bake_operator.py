@@ -113,7 +113,8 @@ class LayoutFile:
                            if pointer.startswith("/walls/") and thing.type == "MESH"]
         beside = folder_of_files(context.scene, document)
         self.folder = None if beside else tempfile.mkdtemp(prefix="throng-")
-        self.path = os.path.join(self.folder or beside, "layout.json" if self.folder else f"{hidden_name}-{os.getpid()}.json")
+        name = "layout.json" if self.folder else f"{hidden_name}-{os.getpid()}.json"
+        self.path = os.path.join(self.folder or beside, name)
         try:
             write_text(self.path, layout_text(document))
         except AuthoringError:
