@@ -86,13 +86,13 @@ selected = [thing.name for thing in bpy.context.selected_objects]
 road.throng_layout.width = 0.0
 road.throng_layout["width"] = 0.0
 changed(road)
-until(lambda: told() == "mistaken")
+until(lambda: told() == "mistaken" and len(problems()))
 result["mistake"] = [[each.pointer, each.target.name if each.target else ""] for each in problems()]
 result["selected"] = selected == [thing.name for thing in bpy.context.selected_objects]
 result["kept"] = preview.running().job.crowd is shown
 road.throng_layout.width = 6.0
 changed(road)
-until(lambda: told() == "complete")
+until(lambda: told() == "complete" and not len(problems()))
 result["mended"] = len(problems())
 
 # ---- nothing is left

@@ -78,9 +78,10 @@ def test_a_bake_that_is_stopped_stays_in_view(throng, tmp_path):
 
 def test_a_checkpoint_is_gone_on_from_as_ever(throng, tmp_path):
     baking = bake_of(throng, tmp_path, "--checkpoint", "0.001")
-    until(lambda: list(tmp_path.glob("bake.unfinished/under-way.json")))
+    places = tmp_path / "bake.unfinished" / "streams" / "pos.npy"
+    until(lambda: places.exists() and places.stat().st_size > 100_000)
     baking.send_signal(signal.SIGTERM)
-    assert baking.wait(60) in (85, 0, 143)
+    assert baking.wait(60) in (85, 0), "it may have been quicker"
     with watching(throng, tmp_path / "bake") as job:
         until(lambda: state_of(job) in ("baking", "baked"), job)
         again = bake_of(throng, tmp_path, "--checkpoint", "0.001", "--resume")
