@@ -47,7 +47,7 @@ function drawGround() {
     trace(context, lane.points, false);
     context.lineWidth = lane.width * view.scale; context.strokeStyle = "#cfcdc8"; context.stroke();
   }
-  for (const crossing of geometry.crossings || []) { trace(context, crossing.points, true); context.fillStyle = "#fbfaf7"; context.fill(); }
+  for (const crossing of geometry.crossings || []) drawZebra(context, crossing.points);
   for (const area of geometry.areas.filter(onLevel)) { trace(context, area.points, true); context.fillStyle = "rgba(31,95,168,.07)"; context.fill(); }
   for (const wall of geometry.walls.filter(onLevel)) {
     const toggled = wall.toggles.filter(at => at <= state.time).length % 2 === 1;
@@ -57,6 +57,30 @@ function drawGround() {
     context.lineWidth = wall.closed ? Math.max(1, pixel) : Math.max(pixel, wall.width * view.scale);
     context.strokeStyle = "#55544f"; context.stroke();
   }
+}
+
+// Stripes along the lane that is nearest to its middle.
+function drawZebra(context, points) {
+  const corners = Array.from({length: points.length / 2}, (_, i) => [points[2 * i], points[2 * i + 1]]);
+  const middle = [0, 1].map(i => corners.reduce((sum, corner) => sum + corner[i], 0) / corners.length);
+  let along = [1, 0], least = Infinity;
+  for (const lane of crowd.geometry.lanes || []) for (let i = 0; i + 3 < lane.points.length; i += 2) {
+    const [x, y] = lane.points.slice(i, i + 2), dx = lane.points[i + 2] - x, dy = lane.points[i + 3] - y, length = Math.hypot(dx, dy) || 1;
+    const at = Math.min(1, Math.max(0, ((middle[0] - x) * dx + (middle[1] - y) * dy) / length ** 2));
+    const far = Math.hypot(x + at * dx - middle[0], y + at * dy - middle[1]);
+    if (far < least) { least = far; along = [dx / length, dy / length]; }
+  }
+  const reach = Math.max(...corners.map(([x, y]) => Math.hypot(x - middle[0], y - middle[1])));
+  context.save();
+  trace(context, points, true);
+  context.clip();
+  context.lineWidth = 0.5 * view.scale; context.strokeStyle = "#fbfaf7";
+  for (let aside = -Math.ceil(reach); aside <= reach; aside++) {
+    const x = middle[0] - along[1] * aside, y = middle[1] + along[0] * aside;
+    trace(context, [x - along[0] * reach, y - along[1] * reach, x + along[0] * reach, y + along[1] * reach], false);
+    context.stroke();
+  }
+  context.restore();
 }
 
 // ---- density: people in squares of a metre, smeared over the neighbours
