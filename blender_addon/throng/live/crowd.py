@@ -10,7 +10,7 @@ import numpy
 
 _HEAD = 8          # bytes: four letters, and the length of what follows
 _NOWHERE = 255     # of levels
-_LIFT = 0.02       # m above its floor
+_LIFT = 0.3         # m above its floor: over all that is drawn of a layout
 
 
 class Crowd:

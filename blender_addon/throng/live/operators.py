@@ -10,7 +10,6 @@ from ..authoring.bake_operator import program_path
 from ..authoring.executable import ExecutableError
 from ..authoring.geometry import AuthoringError
 from ..authoring.operators import refused
-from ..blender.panels import Below
 from ..blender.polls import available, in_object_mode
 from . import preview
 
@@ -69,26 +68,7 @@ class THRONG_OT_live_stop(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class VIEW3D_PT_throng_live(Below, bpy.types.Panel):
-    bl_label = "Live Preview"
-    bl_options = set()
-
-    def draw(self, context):
-        layout, shown = self.layout, preview.running()
-        if shown is None:
-            row = layout.row(align=True)
-            row.operator("throng.live", icon="PLAY")
-            row.operator("throng.live_bake", text="", icon="FILE_FOLDER")
-            if context.scene.throng_live_message:
-                layout.label(text=context.scene.throng_live_message, icon="ERROR")
-            return
-        row = layout.row(align=True)
-        row.prop(context.scene, "throng_live_clock", expand=True)
-        row.operator("throng.live_stop", text="", icon="X")
-        layout.label(text=shown.status())
-
-
-CLASSES = (THRONG_OT_live, THRONG_OT_live_bake, THRONG_OT_live_stop, VIEW3D_PT_throng_live)
+CLASSES = (THRONG_OT_live, THRONG_OT_live_bake, THRONG_OT_live_stop)
 
 _register_classes, _unregister_classes = bpy.utils.register_classes_factory(CLASSES)
 
