@@ -9,6 +9,7 @@ from gpu_extras.batch import batch_for_shader
 
 _ROUND, _PLAIN = 10, 4     # corners of a disc
 _MANY = 5000               # people, from which on discs are plain
+_RIM, _BELOW = 1.35, 0.01  # a pale disc below each tells it from whatever it lies on: times its radius; m
 _handle = {}
 
 
@@ -27,10 +28,11 @@ def draw(places, radii, colours):
     """For draw handlers."""
     if not len(places):
         return
-    corners, shades = triangles(places, radii, colours)
     shader = gpu.shader.from_builtin("SMOOTH_COLOR" if bpy.app.version >= (3, 6, 0) else "3D_SMOOTH_COLOR")
     gpu.state.depth_test_set("LESS_EQUAL")
-    batch_for_shader(shader, "TRIS", {"pos": corners, "color": shades}).draw(shader)
+    for lower, larger, shades in ((_BELOW, _RIM, numpy.ones_like(colours)), (0.0, 1.0, colours)):
+        corners, each = triangles(places - (0.0, 0.0, lower), larger * radii, shades)
+        batch_for_shader(shader, "TRIS", {"pos": corners, "color": each}).draw(shader)
     gpu.state.depth_test_set("NONE")
 
 

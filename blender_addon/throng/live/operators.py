@@ -14,7 +14,7 @@ from ..blender.polls import available, in_object_mode
 from . import preview
 
 _CLOCKS = [("LIVE", "By Itself", "From the beginning of each new crowd, at its own pace"),
-           ("TIMELINE", "With the Timeline", "The scene's frame, as far as the crowd has come")]
+           ("TIMELINE", "Timeline", "The scene's frame, as far as the crowd has come")]
 
 
 class THRONG_OT_live(bpy.types.Operator):
