@@ -5,7 +5,6 @@ import textwrap
 import bpy
 
 from ..blender.panels import InSidebar
-from ..live import panel as live_panel
 from . import fields
 from .bake_operator import described, running
 from .codecs import MIX, UNSET
@@ -344,7 +343,6 @@ class VIEW3D_PT_throng_bake(InSidebar, bpy.types.Panel):
             row.scale_y = 1.4
             row.operator("throng.bake", icon="RENDER_ANIMATION")
             row.operator("throng.check", icon="CHECKMARK")
-        live_panel.draw(context, layout)
         _problems_of(context, layout, lambda _problem: True)
 
     @staticmethod

@@ -9,7 +9,7 @@ from gpu_extras.batch import batch_for_shader
 
 _ROUND, _PLAIN = 10, 4     # corners of a disc
 _MANY = 5000               # people, from which on discs are plain
-_RIM, _BELOW = 1.35, 0.01  # a pale disc below each tells it from whatever it lies on: times its radius; m
+_RIM = 1.35                # of a pale disc below each, which tells it from whatever it lies on: times its radius
 _handle = {}
 
 
@@ -30,8 +30,9 @@ def draw(places, radii, colours):
         return
     shader = gpu.shader.from_builtin("SMOOTH_COLOR" if bpy.app.version >= (3, 6, 0) else "3D_SMOOTH_COLOR")
     gpu.state.depth_test_set("LESS_EQUAL")
-    for lower, larger, shades in ((_BELOW, _RIM, numpy.ones_like(colours)), (0.0, 1.0, colours)):
-        corners, each = triangles(places - (0.0, 0.0, lower), larger * radii, shades)
+    gpu.state.depth_mask_set(False)  # so that no disc hides what is drawn over it
+    for larger, shades in ((_RIM, numpy.ones_like(colours)), (1.0, colours)):
+        corners, each = triangles(places, larger * radii, shades)
         batch_for_shader(shader, "TRIS", {"pos": corners, "color": each}).draw(shader)
     gpu.state.depth_test_set("NONE")
 
