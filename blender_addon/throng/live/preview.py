@@ -41,7 +41,8 @@ class Preview:
     # ---- the layout
 
     def _layout(self, context):
-        document, self._sources = export_layout(context)
+        document, sources = export_layout(context)
+        self._sources = remembered(sources)
         document.setdefault("name", default_name(context.scene))
         return layout_text(document)
 
@@ -92,7 +93,7 @@ class Preview:
             self._problems = diagnostics
             list_problems(context, [Diagnostic(each["severity"], each["pointer"], each["message"], each["hint"],
                                                each["line"], each["column"]) for each in diagnostics],
-                          {} if self.bake else remembered(self._sources))
+                          {} if self.bake else self._sources)
 
     def frame(self, scene):
         """Of the crowd, from 0: what the timeline shows, or what has been played since it began."""
