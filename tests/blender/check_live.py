@@ -100,7 +100,11 @@ assert bpy.ops.throng.live_stop() == {"FINISHED"}
 result["left"] = [os.path.exists(file), preview.running() is None, preview._on_change in
                   bpy.app.handlers.depsgraph_update_post]
 
-# ---- a bake under way
+# ---- a bake under way, which no import plays
+try:
+    bpy.ops.import_scene.throng(filepath=os.path.join(folder, "bake.unfinished", "under-way.json"))
+except RuntimeError as error:
+    result["imported"] = str(error)
 assert bpy.ops.throng.live_bake(filepath=os.path.join(folder, "bake.unfinished", "under-way.json")) == {"FINISHED"}
 until(lambda: told() == "baking" and preview.running().job.crowd.frames)
 result["baking"] = [preview.running().status(), preview.running().job.crowd.count]

@@ -49,6 +49,7 @@ def test_the_crowd_follows_the_layout_and_a_bake(blender, throng, baking):
     assert seen["mistake"] == [["/roads/0/width", "Road"]] and seen["selected"] and seen["kept"]
     assert seen["mended"] == 0
     assert seen["left"] == [False, True, False]
+    assert "shows it as far as it has come" in seen["imported"]
     assert seen["baking"][0].startswith("Being baked: played as far as it has come") and seen["baking"][1] > 10
     assert seen["baked"] == ["A complete bake", 1439]
     assert seen["over"]
