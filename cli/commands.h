@@ -24,6 +24,7 @@ void addGenerate(CLI::App& app);
 void addBatch(CLI::App& app);
 void addReport(CLI::App& app);
 void addVerify(CLI::App& app);
+void addWatch(CLI::App& app);
 void addCompletions(CLI::App& app);
 void addManual(CLI::App& app);
 void addBatchQuery(CLI::App& batch);

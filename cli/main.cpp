@@ -89,6 +89,7 @@ int main(int argc, char** argv) {
     cli::addGenerate(app);
     cli::addBatch(app);
     cli::addReport(app);
+    cli::addWatch(app);
     cli::addCompletions(app);
     cli::addManual(app);
     const bool json = cli::asksForJson(argc, argv);

@@ -16,6 +16,7 @@
 
 #include "base/files/output_file.h"
 #include "io/checkpoint.h"
+#include "io/under_way.h"
 
 namespace throng::io {
 namespace fs = std::filesystem;
@@ -53,7 +54,7 @@ void requireReplaceable(const fs::path& path) {
 /// A folder that happens to have the name of an unfinished bake must not be emptied.
 void requireOurs(const fs::path& folder) {
     const std::set<std::string> ours = {"streams",   "diagrams",    "layout.json", "agents.csv",
-                                        "crowd.glb", "terrain.glb", "bake.json"};
+                                        "crowd.glb", "terrain.glb", "bake.json",   kUnderWayFile};
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
         const std::string name = entry.path().filename().string();
         if (!ours.contains(name) && !isCheckpoint(entry.path()))

@@ -341,7 +341,10 @@ ManifestFile readManifest(const fs::path& path) {
 }
 
 Bake loadBake(const fs::path& path) {
-    ManifestFile file = readManifest(path);
+    return bakeOf(readManifest(path));
+}
+
+Bake bakeOf(ManifestFile file) {
     const fs::path& manifest_path = file.path;
     Bake bake;
     bake.folder = manifest_path.has_parent_path() ? manifest_path.parent_path() : fs::path(".");

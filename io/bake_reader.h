@@ -77,5 +77,7 @@ ManifestFile readManifest(const std::filesystem::path& path);
 /// Reads the manifest of a bake: `path` is the folder or its bake.json. Throws InputError, which says what is
 /// missing or wrong; reads no other file.
 Bake loadBake(const std::filesystem::path& path);
+/// The same of a manifest that has been read, or was never written.
+Bake bakeOf(ManifestFile file);
 
 }  // namespace throng::io

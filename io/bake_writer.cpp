@@ -14,6 +14,7 @@
 #include "io/diagram/diagram_exr.h"
 #include "io/lift_file.h"
 #include "io/room_on_disk.h"
+#include "io/under_way.h"
 #include "io/vehicle_file.h"
 #include "recording/gaits.h"
 
@@ -111,6 +112,7 @@ BakeWriter::BakeWriter(recording::BakeDescription description, std::unique_ptr<B
         goOnFrom(*go_on_from);
     else if (description_.diagram_every > 0)
         folder_->addFolder("diagrams");
+    writeFile(folder_->path() / kUnderWayFile, underWayText(description_));
 }
 
 /// Those that were asked for come last, as bake.json has always listed their files.
@@ -309,6 +311,7 @@ BakeOutcome BakeWriter::writeAll(const Account& account, const BakeTiming& timin
     for (const std::string& file : files)
         outcome.files.push_back({file, hashFile(folder_->path() / file)});
     outcome.files.insert(outcome.files.end(), diagram_files_.begin(), diagram_files_.end());
+    removeFile(folder_->path() / kUnderWayFile);
     writeFile(folder_->path() / "bake.json", manifestText(bakeManifest(description_, outcome)));
     return outcome;
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <stdexcept>
 
 namespace throng::analysis {
 namespace {
@@ -53,30 +54,35 @@ std::vector<unsigned char> bytesOf(std::string_view hexadecimal) {
     return bytes;
 }
 
-/// What a browser may do with a page (Content Security Policy): run and show what is ours, by its hash, and
-/// load nothing. Styles of single elements cannot load anything then.
-std::string policyFor(std::string_view kind) {
-    const auto hashes = [&](const char* ending) {
-        return fmt::format("'sha256-{}' 'sha256-{}'",
-                           base64(bytesOf(webFileHash(fmt::format("common.{}", ending)))),
-                           base64(bytesOf(webFileHash(fmt::format("{}.{}", kind, ending)))));
-    };
-    return fmt::format(
-        "default-src 'none'; script-src {}; style-src-elem {}; style-src-attr 'unsafe-inline'; base-uri "
-        "'none'; "
-        "form-action 'none'",
-        hashes("js"), hashes("css"));
+/// Puts the files that a page names into it. @returns those of that ending, as a Content Security Policy
+/// names them
+std::string putFiles(std::string& page, std::string_view ending) {
+    std::string hashes;
+    for (const WebFile& file : webFiles()) {
+        const std::string word = fmt::format("@{}@", file.name);
+        if (!file.name.ends_with(ending) || page.find(word) == std::string::npos) continue;
+        put(page, word, file.text);
+        hashes += fmt::format(" 'sha256-{}'", base64(bytesOf(file.sha256)));
+    }
+    return hashes;
 }
 
 }  // namespace
 
-std::string makePage(std::string_view kind, const std::string& title, const nlohmann::ordered_json& data) {
-    std::string page(webFile(fmt::format("{}.html", kind)));
-    put(page, "@POLICY@", policyFor(kind));
-    put(page, "@STYLE@", webFile("common.css"));
-    put(page, "@LOOK@", webFile(fmt::format("{}.css", kind)));
-    put(page, "@COMMON@", webFile("common.js"));
-    put(page, "@SCRIPT@", webFile(fmt::format("{}.js", kind)));
+/// What a browser may do with a page (Content Security Policy): run and show what is ours, by its hash, and
+/// load nothing. Styles of single elements cannot load anything then.
+std::string makePage(std::string_view kind, const std::string& title, const nlohmann::ordered_json& data,
+                     std::string_view connections) {
+    const auto own = std::ranges::find(webFiles(), fmt::format("{}.html", kind), &WebFile::name);
+    if (own == webFiles().end()) throw std::logic_error("there is no such page");
+    std::string page(own->text);
+    putFiles(page, ".html");
+    const std::string scripts = putFiles(page, ".js"), styles = putFiles(page, ".css");
+    put(page, "@POLICY@",
+        fmt::format("default-src 'none'; script-src{}; style-src-elem{}; style-src-attr 'unsafe-inline'; {}"
+                    "base-uri 'none'; form-action 'none'",
+                    scripts, styles,
+                    connections.empty() ? "" : fmt::format("connect-src {}; ", connections)));
     put(page, "@DATA@", scriptSafe(data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)));
     put(page, "@TITLE@", escaped(title));  // last: whatever it is, nothing is put into it
     return page;

@@ -19,6 +19,7 @@ else:
     from .authoring import bake_operator, operators as authoring_operators, overlay, panels, preferences, properties
     from .characters import operators as characters_operators
     from .layers import operators as layers_operators
+    from .live import operators as live_operators, panel as live_panel
     from .motions import operators as motions_operators
     from .overrides import operators as overrides_operators
     from .tools import cells, close, export, ground, levels, near, operators, staging
@@ -26,8 +27,8 @@ else:
 
     # What registers classes of its own, in order: panels appear in it.
     _PARTS = (preferences, operators, staging, cells, levels, near, close, ground, properties, authoring_operators,
-              bake_operator, overlay, panels, characters_operators, motions_operators, overrides_operators,
-              layers_operators, export)
+              bake_operator, overlay, panels, live_operators, live_panel, characters_operators, motions_operators,
+              overrides_operators, layers_operators, export)
 
 
 def register():

@@ -181,6 +181,11 @@ recording::BakeDescription describeBake(const LoadedLayout& loaded, const BakeOp
     return bake;
 }
 
+void askForBodies(recording::BakeDescription& bake) {
+    for (const recording::BakeAgent& agent : bake.agents)
+        bake.asked[Stream::chest] = bake.asked[Stream::chest] || !agent.body.isDisc();
+}
+
 std::map<std::string, std::uint32_t> refusals(const Account& account) {
     std::map<std::string, std::uint32_t> reasons;
     for (const AgentOutcome& agent : account.agents)

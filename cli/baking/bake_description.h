@@ -31,6 +31,9 @@ std::uint32_t framesOf(const authoring::SimulationSettings& settings);
 recording::BakeDescription describeBake(const LoadedLayout& loaded, const BakeOptions& options,
                                         const gl::Device& device);
 
+/// Asks for the stream without which nobody knows where the shoulders of people with bodies are.
+void askForBodies(recording::BakeDescription& bake);
+
 /// How many people were refused for each reason.
 std::map<std::string, std::uint32_t> refusals(const Account& account);
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cstdlib>
 #include <cstring>
 #include <span>
@@ -13,11 +12,10 @@
 #include "base/files/hash.h"
 #include "base/stopwatch.h"
 #include "cli/baking/calibration_file.h"
+#include "cli/baking/frame_maker.h"
 #include "io/bake_reader.h"
 #include "io/checkpoint.h"
 #include "io/verify_bake.h"
-#include "recording/audience.h"
-#include "recording/motion_recorder.h"
 
 namespace throng::cli {
 namespace {
@@ -101,13 +99,6 @@ std::unique_ptr<io::BakeWriter> makeWriter(const recording::BakeDescription& des
     return std::make_unique<io::BakeWriter>(description);
 }
 
-/// Those who are simulated.
-recording::BakeDescription withoutAudience(recording::BakeDescription description) {
-    description.agents.resize(description.walkers());
-    description.audience.clear();
-    return description;
-}
-
 /// With those who have had their seats all along.
 Account withAudience(Account account, std::size_t seated) {
     account.spawned += static_cast<std::uint32_t>(seated);
@@ -129,22 +120,18 @@ class Run {
           simulation_(simulation),
           job_(job),
           writer_(writer),
-          audience_(description),
-          seated_(static_cast<std::uint32_t>(description.audience.size())),
-          recorder_(withoutAudience(description),
-                    [this, &writer](const Frame& frame) { writer.write(audience_.with(frame)); }),
           identity_(std::move(identity)),
           frames_(description.frames),
-          substeps_(static_cast<std::uint32_t>(settings.substeps)),
-          warmup_(sim::warmupSteps(settings)),
-          pump_(simulation, {job.diagram_every > 0, job.seconds, fromDevice(description.asked)},
-                [this](const Frame& frame) { receive(frame); }) {}
+          maker_(
+              simulation, settings, description, {job.diagram_every, job.seconds},
+              [this](const Frame& frame) { receive(frame); },
+              [&writer](const Frame& frame) { writer.write(frame); }) {}
 
     void goOnFrom(const io::Checkpoint& checkpoint) {
         simulation_.restore({checkpoint.steps, checkpoint.sections});
         const std::vector<std::byte>* motion = checkpoint.find(kMotion);
         if (!motion) throw std::runtime_error("the checkpoint says nothing of the motion so far");
-        recorder_.restore(*motion);
+        maker_.recorder().restore(*motion);
         takeTrack(checkpoint, kVehicleTrack, vehicles_);
         takeTrack(checkpoint, kLiftTrack, lifts_);
         if (const std::vector<std::byte>* bytes = checkpoint.find(kSeconds);
@@ -156,36 +143,34 @@ class Run {
     int simulate(const InterruptGuard& interrupt, Progress& progress) {
         start_ = last_checkpoint_ = Clock::now();
         simulation_.stopWhen([&] { return interrupt.signal() != 0; });
-        for (std::uint32_t step = simulation_.stepsDone(); step < warmup_ && !interrupt.signal(); ++step) {
-            if (!simulation_.step()) break;
-            if (step % substeps_ != 0) continue;
-            simulation_.wait();
+        const auto warming = [&] {
             progress.update(0, 0, simulation_.stepsDone());
-        }
-        for (std::uint32_t frame = recorder_.framesTaken(); frame < frames_ && !interrupt.signal(); ++frame) {
+            return interrupt.signal() == 0;
+        };
+        if (!interrupt.signal()) maker_.warmUp(warming);
+        for (std::uint32_t frame = maker_.frames(); frame < frames_ && !interrupt.signal(); ++frame) {
             if (!makeFrame(frame)) break;
-            simulation_.adaptTo(present_);
-            progress.update(frame + 1, present_ + seated_, simulation_.stepsDone());
+            progress.update(frame + 1, maker_.present(), simulation_.stepsDone());
             if (job_.checkpoint_seconds > 0.0 && frame + 1 < frames_ &&
                 secondsSince(last_checkpoint_) >= job_.checkpoint_seconds)
                 save();
         }
-        pump_.finish();
-        const std::uint32_t taken = recorder_.framesTaken();
-        progress.update(taken, present_ + seated_, warmup_ + taken * substeps_);
+        maker_.wait();
+        const std::uint32_t taken = maker_.frames();
+        progress.update(taken, maker_.present(), maker_.warmUpSteps() + taken * maker_.substeps());
         return taken < frames_ ? interrupt.signal() : 0;
     }
 
     /// Writes the frames that wait for later ones.
     void finish() {
-        recorder_.finish();
+        maker_.finish();
         writer_.takeVehicles(std::move(vehicles_));
         writer_.takeLifts(std::move(lifts_));
     }
-    std::uint32_t frames() const { return recorder_.framesTaken(); }
+    std::uint32_t frames() const { return maker_.frames(); }
 
     void save() {
-        pump_.finish();
+        maker_.wait();
         io::Checkpoint checkpoint;
         checkpoint.identity = identity_;
         sim::Simulation::State state = simulation_.save();
@@ -194,7 +179,7 @@ class Run {
         checkpoint.sections = std::move(state.parts);
         const double so_far = seconds();
         checkpoint.add(kSeconds, std::as_bytes(std::span(&so_far, 1)));
-        checkpoint.add(kMotion, recorder_.save());
+        checkpoint.add(kMotion, maker_.recorder().save());
         if (!vehicles_.empty()) checkpoint.add(kVehicleTrack, std::as_bytes(std::span(vehicles_)));
         if (!lifts_.empty()) checkpoint.add(kLiftTrack, std::as_bytes(std::span(lifts_)));
         writer_.save(std::move(checkpoint));
@@ -216,43 +201,28 @@ class Run {
     bool makeFrame(std::uint32_t frame) {
         std::optional<sim::Simulation::State> before;
         if (simulation_.canStopWithinStep()) before = simulation_.save();
-        const auto make = [&] {
-            for (std::uint32_t step = 0; frame > 0 && step < substeps_; ++step)
-                if (!simulation_.step()) return false;
-            return pump_.submit(frame, job_.diagram_every > 0 && frame % job_.diagram_every == 0);
-        };
-        const bool made = make();
+        const bool made = maker_.makeFrame(frame);
         if (!made && before) simulation_.restore(*before);
         return made;
     }
 
     void receive(const Frame& frame) {
-        std::uint32_t alive = 0;
-        const std::span<const float> states = frame[Stream::state];
-        for (std::size_t at = 0; at < states.size(); at += kComponents)
-            alive += states[at] > 0.5f;
-        present_ = alive;
         writer_.writeDiagram(frame);
         vehicles_.insert(vehicles_.end(), frame.vehicles.begin(), frame.vehicles.end());
         lifts_.insert(lifts_.end(), frame.lifts.begin(), frame.lifts.end());
-        recorder_.take(frame);
     }
 
     const gl::Context& context_;
     sim::Simulation& simulation_;
     const BakeJob& job_;
     io::BakeWriter& writer_;
-    recording::Audience audience_;
-    std::uint32_t seated_;
-    recording::MotionRecorder recorder_;
     std::string identity_;
-    std::uint32_t frames_, substeps_, warmup_;
-    std::atomic<std::uint32_t> present_{0};
+    std::uint32_t frames_;
     Clock::time_point start_ = Clock::now(), last_checkpoint_;
     double seconds_before_ = 0.0;
     std::vector<float> vehicles_;  // of all frames so far
     std::vector<float> lifts_;     // likewise
-    sim::FramePump pump_;          // last: its thread uses the others
+    FrameMaker maker_;             // last: its thread uses the others
 };
 
 void stop(BakeRun& run, Run& running, io::BakeWriter& writer, WhenStopped what) {
@@ -294,9 +264,7 @@ BakeRun Baker::bake(const LoadedLayout& loaded, const BakeJob& job, const Interr
     recording::BakeDescription description = describeBake(loaded, job.options, device());
     description.diagram_every = job.diagram_every;
     description.asked = job.streams;
-    // Without it nobody knows where the shoulders of people with bodies are.
-    for (const recording::BakeAgent& agent : description.agents)
-        description.asked[Stream::chest] = description.asked[Stream::chest] || !agent.body.isDisc();
+    askForBodies(description);
     const std::uint32_t frames = description.frames;
     const std::string identity = identityOf(loaded, job, device());
     description.inputs = identity;

@@ -104,14 +104,15 @@ def test_places_in_the_page_are_those_of_the_streams_within_the_stated_error(vis
     assert f"{100 * said:.1f} cm at most" in page.inner_text("#error")
     worst = 0.0
     for frame in [0, 1, 2, 47, 100, 101, 203, 286, 287]:
-        got = numpy.array(page.evaluate(f"""(() => {{ const {{m, share}} = momentAt({frame} / data.fps);
+        got = numpy.array(page.evaluate(f"""(() => {{ const {{m, share}} = crowd.momentAt({frame} / data.fps);
             return Array.from({{length: count}}, (_, row) => {{
-                const p = placeOf(row, m, share);
+                const p = crowd.placeOf(row, m, share);
                 return [p.x, p.y]; }}); }})()"""))
         there = states[frame, :, 0] > 0.5
         if there.any():
             worst = max(worst, numpy.abs(got[there] - positions[frame, there, :2]).max())
-        assert page.evaluate(f"Array.from({{length: count}}, (_, row) => isThere(row, {frame}))") == there.tolist()
+        asked = f"Array.from({{length: count}}, (_, row) => crowd.isThere(row, {frame}))"
+        assert page.evaluate(asked) == there.tolist()
     assert worst <= said + 1e-4
 
 

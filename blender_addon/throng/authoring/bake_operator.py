@@ -32,13 +32,13 @@ def _section(pointer):
     return "/".join(pointer.split("/")[:3])
 
 
-def _remembered(sources):
+def remembered(sources):
     """Sources by name: undo and deletion make references to objects invalid."""
     return {pointer: (thing.name if thing else "", where, index) for pointer, (thing, where, index) in sources.items()}
 
 
-def show_problems(context, diagnostics, sources):
-    """Lists what was said about the layout, and selects what the first error is about. `sources` by name."""
+def list_problems(context, diagnostics, sources):
+    """Lists what was said about the layout. `sources` by name."""
     layout = context.scene.throng_layout
     layout.problems.clear()
     for entry in diagnostics:
@@ -47,6 +47,12 @@ def show_problems(context, diagnostics, sources):
         problem.is_error = entry.severity == "error"
         name, problem.where, problem.index = sources.get(_section(entry.pointer), ("", "", -1))
         problem.target = bpy.data.objects.get(name) if name else None
+
+
+def show_problems(context, diagnostics, sources):
+    """The same, and selects what the first error is about."""
+    list_problems(context, diagnostics, sources)
+    layout = context.scene.throng_layout
     first = next((problem for problem in layout.problems if problem.is_error), None)
     if first:
         show(context, first)
@@ -98,16 +104,17 @@ class LayoutFile:
     diagnostics: what is wrong with it already.
     """
 
-    def __init__(self, context):
+    def __init__(self, context, hidden_name=".throng"):
         document, sources = export_layout(context)
         document.setdefault("name", default_name(context.scene))
-        self.sources = _remembered(sources)
+        self.sources = remembered(sources)
         self.diagnostics = _unchosen(document)
         self.own_meshes = [int(pointer.split("/")[2]) for pointer, (thing, _, _) in sources.items()
                            if pointer.startswith("/walls/") and thing.type == "MESH"]
         beside = folder_of_files(context.scene, document)
         self.folder = None if beside else tempfile.mkdtemp(prefix="throng-")
-        self.path = os.path.join(self.folder or beside, "layout.json" if self.folder else f".throng-{os.getpid()}.json")
+        name = "layout.json" if self.folder else f"{hidden_name}-{os.getpid()}.json"
+        self.path = os.path.join(self.folder or beside, name)
         try:
             write_text(self.path, layout_text(document))
         except AuthoringError:
@@ -137,7 +144,8 @@ def _output(scene):
     return os.path.join(os.path.abspath(bpy.path.abspath(folder)), default_name(scene))
 
 
-def _executable(context):
+def program_path(context):
+    """Of the `throng` that is run. Raises ExecutableError."""
     path = find_executable(program(context))
     check_version(path)
     return path
@@ -151,7 +159,7 @@ class Bake:
         scene = context.scene
         self.scene_name, self.file = scene.name, file
         try:
-            executable, output = _executable(context), _output(scene)
+            executable, output = program_path(context), _output(scene)
         except (AuthoringError, ExecutableError):
             file.remove()
             raise
@@ -338,7 +346,7 @@ class THRONG_OT_check(bpy.types.Operator):
 
     def execute(self, context):
         try:
-            executable = _executable(context)
+            executable = program_path(context)
             file = LayoutFile(context)
         except (AuthoringError, ExecutableError) as error:
             _complain(context, str(error), getattr(error, "target", None))

@@ -7,6 +7,7 @@ import struct
 STREAMS = ("pos", "dir", "state")
 FEET = ("left_foot", "right_foot")
 POSE = (*FEET, "carriage", "gaze")  # that bakes are asked for
+UNDER_WAY = "under-way.json"        # beside the streams of a bake that is not one yet
 _PC2 = struct.Struct("<12siiffi")
 _PC2_MAGIC = b"POINTCACHE2\0"
 
@@ -120,6 +121,9 @@ def read_manifest(path):
     """The content of a bake.json (or of the folder that holds it). Raises BakeError."""
     if os.path.isdir(path):
         path = os.path.join(path, "bake.json")
+    beside = os.path.join(os.path.dirname(path), UNDER_WAY)
+    if os.path.exists(beside) and (os.path.basename(path) == UNDER_WAY or not os.path.exists(path)):
+        raise BakeError("this bake is under way: File > Import > Throng bake under way shows it as far as it has come")
     try:
         with open(path, encoding="utf-8") as file:
             manifest = json.load(file)

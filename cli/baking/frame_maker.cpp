@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/baking/frame_maker.h"
+
+#include <span>
+#include <utility>
+
+namespace throng::cli {
+namespace {
+
+/// Those who are simulated.
+recording::BakeDescription withoutAudience(recording::BakeDescription description) {
+    description.agents.resize(description.walkers());
+    description.audience.clear();
+    return description;
+}
+
+}  // namespace
+
+FrameMaker::FrameMaker(sim::Simulation& simulation, const authoring::SimulationSettings& settings,
+                       const recording::BakeDescription& description, const Diagrams& diagrams,
+                       Receiver simulated, Receiver shown)
+    : simulation_(simulation),
+      diagrams_(diagrams),
+      simulated_(std::move(simulated)),
+      audience_(description),
+      seated_(static_cast<std::uint32_t>(description.audience.size())),
+      warmup_(sim::warmupSteps(settings)),
+      substeps_(static_cast<std::uint32_t>(settings.substeps)),
+      recorder_(withoutAudience(description),
+                [this, to = std::move(shown)](const Frame& frame) { to(audience_.with(frame)); }),
+      pump_(simulation, {diagrams.every > 0, diagrams.seconds, fromDevice(description.asked)},
+            [this](const Frame& frame) { receive(frame); }) {}
+
+bool FrameMaker::warmUp(const std::function<bool()>& goes_on) {
+    for (std::uint32_t step = simulation_.stepsDone(); step < warmup_; ++step) {
+        if (!simulation_.step()) return false;
+        // Once in a while it is waited for: nobody could stop what has only been asked for.
+        if (step % substeps_ == 0) simulation_.wait();
+        if (!goes_on()) return false;
+    }
+    return true;
+}
+
+bool FrameMaker::makeFrame(std::uint32_t frame) {
+    for (std::uint32_t step = 0; frame > 0 && step < substeps_; ++step)
+        if (!simulation_.step()) return false;
+    if (!pump_.submit(frame, diagrams_.every > 0 && frame % diagrams_.every == 0)) return false;
+    simulation_.adaptTo(walking_);
+    return true;
+}
+
+void FrameMaker::receive(const Frame& frame) {
+    std::uint32_t alive = 0;
+    const std::span<const float> states = frame[Stream::state];
+    for (std::size_t at = 0; at < states.size(); at += kComponents)
+        alive += states[at] > 0.5f;
+    walking_ = alive;
+    simulated_(frame);
+    recorder_.take(frame);
+}
+
+}  // namespace throng::cli
