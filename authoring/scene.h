@@ -60,7 +60,9 @@ struct Detours {
     FieldGrid grid;
     struct Ride {  ///< of a lift, from one cell to another
         std::uint32_t from, to;
-        float cost;  ///< m on the flat that take as long
+        float cost;          ///< m on the flat that take as long
+        float cost_of_each;  ///< m, for each who waits already
+        std::uint32_t stop;  ///< where one gets in: index into LiftMap::stops
     };
     std::vector<gpu::GroundCell> ground;         ///< one map after the other
     std::vector<std::uint32_t> ground_of_field;  ///< which of the maps, per distance field

@@ -233,12 +233,8 @@ void BakeWriter::write(const Frame& frame) {
 
 /// Places in the output frame of reference.
 std::span<const float> BakeWriter::placed(std::span<const float> places) {
-    const glm::dvec2 shift = description_.scene_origin - description_.output_origin;
-    for (std::size_t i = 0; i < places.size(); i += kComponents) {
-        placed_[i] = static_cast<float>(places[i] + shift.x);
-        placed_[i + 1] = static_cast<float>(places[i + 1] + shift.y);
-        placed_[i + 2] = places[i + 2];
-    }
+    std::ranges::copy(places, placed_.begin());
+    description_.toOutput(placed_);
     return placed_;
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/files/output_file.h"
-#include "io/npy_header.h"
+#include "io/streams/npy_header.h"
 
 namespace throng::io {
 

@@ -8,7 +8,7 @@
 
 #include "base/files/input_file.h"
 #include "base/files/output_file.h"
-#include "io/npy_header.h"
+#include "io/streams/npy_header.h"
 
 namespace throng::io {
 namespace {

@@ -6,6 +6,7 @@
 #include <glm/vec2.hpp>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -115,6 +116,15 @@ struct BakeDescription {
     glm::dvec2 output_origin{0.0};  ///< world = output_origin + what the streams hold
     glm::dvec2 minimum{0.0};        ///< bounds of all that people can reach
     glm::dvec2 maximum{0.0};
+
+    /// Makes places of frames, all components, into those that the streams hold.
+    void toOutput(std::span<float> places) const {
+        const glm::dvec2 shift = scene_origin - output_origin;
+        for (std::size_t at = 0; at < places.size(); at += kComponents) {
+            places[at] = static_cast<float>(places[at] + shift.x);
+            places[at + 1] = static_cast<float>(places[at + 1] + shift.y);
+        }
+    }
 
     std::vector<BakeGroup> groups;
     std::vector<BakeAgent> agents;        ///< one per row

@@ -101,7 +101,7 @@ Congestion::Congestion(const gl::ShaderLibrary& library, Buffers& buffers, const
     }
     relax_.bind("ChangedBlocks", changed_now_);
     if (!detours.shown.empty()) showOverSeams(library, buffers, detours.shown);
-    if (!detours.rides.empty()) takeLifts(library, buffers, scene);
+    if (!detours.rides.empty()) takeLifts(library, buffers, detours.rides);
     const auto memory = static_cast<float>(rules.number("routes_round_jams", "memory"));
     flow_.set("fading",
               1.0f - std::exp(-static_cast<float>(runs_per_round_) * parameters.decision_seconds / memory));
@@ -122,23 +122,13 @@ void Congestion::showOverSeams(const gl::ShaderLibrary& library, const Buffers& 
 }
 
 void Congestion::takeLifts(const gl::ShaderLibrary& library, const Buffers& buffers,
-                           const authoring::Scene& scene) {
-    constexpr float kPace = 1.34f, kInAndOut = 2.0f;  // m/s; s, of each
+                           std::span<const authoring::Detours::Ride> rides) {
     std::vector<glm::uvec4> cells;
     std::vector<glm::vec2> costs;
-    std::size_t next = 0;  // rides come lift by lift, from each stop to all others
-    for (const gpu::LiftPlan& plan : scene.chart_map.lifts.plans)
-        for (std::uint32_t i = 0; i < plan.stop_count * (plan.stop_count - 1); ++i) {
-            const authoring::Detours::Ride& ride = scene.detours.rides.at(next++);
-            const std::uint32_t stop = plan.first_stop + i / (plan.stop_count - 1);
-            const float whole = scene.chart_map.lifts.stops.at(plan.first_stop + plan.stop_count - 1).height -
-                                scene.chart_map.lifts.stops.at(plan.first_stop).height;
-            const float round = 2.0f * (whole / plan.speed + plan.speed / gpu::LIFT_ACCELERATION +
-                                        2.0f * plan.door_time + plan.dwell);
-            cells.emplace_back(ride.from, ride.to, stop, 0u);
-            costs.emplace_back(ride.cost,
-                               kPace * (round / static_cast<float>(std::max(plan.capacity, 1u)) + kInAndOut));
-        }
+    for (const authoring::Detours::Ride& ride : rides) {
+        cells.emplace_back(ride.from, ride.to, ride.stop, 0u);
+        costs.emplace_back(ride.cost, ride.cost_of_each);
+    }
     ride_count_ = static_cast<std::uint32_t>(cells.size());
     ride_cells_ = gl::makeBuffer("rides of lifts", cells, "ride");
     ride_costs_ = gl::makeBuffer("what rides cost", costs, "ride");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,7 +33,8 @@ class Congestion {
     void listBlocks(const gl::Buffer& changed, bool dense_too);
     void showOverSeams(const gl::ShaderLibrary& library, const Buffers& buffers,
                        const std::vector<glm::uvec2>& shown);
-    void takeLifts(const gl::ShaderLibrary& library, const Buffers& buffers, const authoring::Scene& scene);
+    void takeLifts(const gl::ShaderLibrary& library, const Buffers& buffers,
+                   std::span<const authoring::Detours::Ride> rides);
     void show(gl::ComputeProgram& program, std::uint32_t count);
 
     std::uint32_t cells_ = 0, blocks_ = 0;  // of one map

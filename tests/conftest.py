@@ -33,6 +33,22 @@ def throng():
     return run
 
 
+def chromium():
+    """The browser's program, or None."""
+    return shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+
+
+@pytest.fixture(scope="module")
+def browser():
+    playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+    if not chromium():
+        pytest.skip("Chromium is not installed")
+    with playwright.sync_playwright() as player:
+        opened = player.chromium.launch(executable_path=chromium(), args=["--no-sandbox"])
+        yield opened
+        opened.close()
+
+
 @pytest.fixture(scope="session")
 def confined(throng):
     """Like throng(), but with an end to its memory and to its time on a processor: it has to end by itself."""

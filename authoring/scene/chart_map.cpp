@@ -104,22 +104,24 @@ LiftMap liftsOf(const Charts& charts, glm::dvec2 origin) {
         }
         map.stop_of[chart] = static_cast<std::uint32_t>(map.stops.size());
         map.stops.push_back({glm::vec2(each.link.begin - origin), glm::vec2(each.link.along), chart,
-                             static_cast<gpu::uint>(each.link_from), static_cast<float>(each.height),
+                             static_cast<gpu::uint>(each.link_from), static_cast<float>(each.link.low),
                              static_cast<gpu::uint>(map.plans.size() - 1)});
-        map.stops.back().height = static_cast<float>(each.link.low);
     }
     return map;
 }
 
-/// m on the flat that take as long as waiting for a lift and riding.
-float costOfRide(const gpu::LiftPlan& plan, const LiftMap& lifts, std::uint32_t from, std::uint32_t to) {
+/// From one stop to another, in no cells yet.
+Detours::Ride rideOf(const gpu::LiftPlan& plan, const LiftMap& lifts, std::uint32_t from, std::uint32_t to) {
+    constexpr double kInAndOut = 2.0;  // s, of each who waits
     const auto height = [&](std::uint32_t stop) { return double{lifts.stops[stop].height}; };
     Lift lift;
     lift.speed = plan.speed;
     lift.door_time = plan.door_time;
     lift.dwell = plan.dwell;
     const double whole = height(plan.first_stop + plan.stop_count - 1) - height(plan.first_stop);
-    return static_cast<float>(kFlat * timeByLift(lift, whole, height(to) - height(from)));
+    const double share = roundOfLift(lift, whole) / std::max(plan.capacity, 1u);
+    return {0, 0, static_cast<float>(kFlat * timeByLift(lift, whole, height(to) - height(from))),
+            static_cast<float>(kFlat * (share + kInAndOut)), from};
 }
 
 /// From the middle of a cabin at one stop to that at another.
@@ -134,9 +136,10 @@ std::vector<Detours::Ride> ridesOf(const ChartMap& map, const FieldGrid& grid) {
         for (std::uint32_t i = 0; i < plan.stop_count; ++i)
             for (std::uint32_t j = 0; j < plan.stop_count; ++j) {
                 const std::uint32_t from = plan.first_stop + i, to = plan.first_stop + j;
-                if (i != j)
-                    rides.push_back(
-                        {cellOf(plan, from), cellOf(plan, to), costOfRide(plan, lifts, from, to)});
+                if (i == j) continue;
+                Detours::Ride& ride = rides.emplace_back(rideOf(plan, lifts, from, to));
+                ride.from = cellOf(plan, from);
+                ride.to = cellOf(plan, to);
             }
     return rides;
 }

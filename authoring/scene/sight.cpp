@@ -25,11 +25,10 @@ void Sight::setTileOpen(std::uint32_t tile_x, std::uint32_t tile_y) {
         ~std::uint64_t{0};
 }
 
-void Sight::finish() {
-    constexpr std::size_t kMostPieces = std::size_t{1} << 22;  // 16 MiB
+void Sight::finish(std::size_t most_pieces) {
     const glm::uvec2 cells(grid_.width, grid_.height);
     piece_ = 1;
-    while (std::size_t{cells.x / piece_} * (cells.y / piece_) > kMostPieces)
+    while (std::size_t{cells.x / piece_} * (cells.y / piece_) > most_pieces)
         piece_ *= 2;
     pieces_ = cells / piece_;  // what is left over at an end counts as closed
     const std::size_t line = pieces_.x + 1;

@@ -18,7 +18,9 @@ class Sight {
     void setFree(std::uint32_t x, std::uint32_t y) { free_[tileOf(x, y)] |= bitOf(x, y); }
     void setRoomy(std::uint32_t x, std::uint32_t y) { roomy_[tileOf(x, y)] |= bitOf(x, y); }
     void setTileOpen(std::uint32_t tile_x, std::uint32_t tile_y);
-    void finish();  ///< all is set; before the first question
+    /// All is set; before the first question.
+    /// @param most_pieces counted, a cell each or as many cells as it takes; 4 bytes each
+    void finish(std::size_t most_pieces = std::size_t{1} << 22);
 
     /// Nothing in the box or beside it is closed: from anywhere in it the straight way to anywhere in it is
     /// clear. It may say no where that is so, too.

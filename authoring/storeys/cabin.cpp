@@ -61,10 +61,21 @@ double travelTime(const Lift& lift, double rise) {
     return way < needed ? 2.0 * std::sqrt(way / acceleration) : way / lift.speed + lift.speed / acceleration;
 }
 
+namespace {
+
+double timeAtStop(const Lift& lift) {
+    return 2.0 * lift.door_time + lift.dwell;
+}
+
+}  // namespace
+
+double roundOfLift(const Lift& lift, double whole) {
+    return 2.0 * (travelTime(lift, whole) + timeAtStop(lift));
+}
+
 double timeByLift(const Lift& lift, double whole, double rise) {
-    const double stop = 2.0 * lift.door_time + lift.dwell;
-    const double wait = 0.5 * (travelTime(lift, whole) + stop);
-    return wait + stop + travelTime(lift, rise) + lift.door_time;
+    const double wait = 0.25 * roundOfLift(lift, whole);
+    return wait + timeAtStop(lift) + travelTime(lift, rise) + lift.door_time;
 }
 
 }  // namespace throng::authoring

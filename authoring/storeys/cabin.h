@@ -28,6 +28,10 @@ glm::dvec2 outOfCabin(const Lift& lift, std::size_t stop);
 /// s, from one height to another: it sets out and comes to rest evenly.
 double travelTime(const Lift& lift, double rise);
 
+/// s from one end to the other and back, with a stop at each.
+/// @param whole m, from its lowest stop to its highest
+double roundOfLift(const Lift& lift, double whole);
+
 /// s from coming to the doors at one stop until they have opened at another, as people reckon.
 /// @param whole m, from its lowest stop to its highest
 double timeByLift(const Lift& lift, double whole, double rise);

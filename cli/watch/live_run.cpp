@@ -72,13 +72,8 @@ class Live {
             vehicles_.pop_front();
         }
         if (full_ || !packer_.wants(frame.index)) return;
-        // As the streams of a bake have them.
-        const glm::dvec2 shift = description_.scene_origin - description_.output_origin;
         places_.assign(frame[Stream::pos].begin(), frame[Stream::pos].end());
-        for (std::size_t at = 0; at < places_.size(); at += kComponents) {
-            places_[at] = static_cast<float>(places_[at] + shift.x);
-            places_[at + 1] = static_cast<float>(places_[at + 1] + shift.y);
-        }
+        description_.toOutput(places_);
         if (!vehicles.empty()) vehicles = io::placedVehicles(description_, vehicles, 1);
         full_ = !log_.add(packer_.pack(frame.index, places_, frame[Stream::state], vehicles));
     }

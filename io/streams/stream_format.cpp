@@ -5,6 +5,8 @@
 
 #include <cstring>
 
+#include "io/streams/npy_header.h"
+
 namespace throng::io {
 namespace {
 
@@ -13,15 +15,6 @@ void append(std::string& bytes, T value) {
     char raw[sizeof(T)];
     std::memcpy(raw, &value, sizeof(T));
     bytes.append(raw, sizeof(T));
-}
-
-std::string npyHeader(std::uint64_t frames, std::uint64_t rows) {
-    constexpr std::size_t kPreamble = 10;  // magic, version, length of the description
-    std::string bytes("\x93NUMPY\x01\x00", 8);
-    append(bytes, static_cast<std::uint16_t>(headerSize(StreamFormat::npy) - kPreamble));
-    bytes += fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, {}, 3), }}", frames, rows);
-    bytes.resize(headerSize(StreamFormat::npy) - 1, ' ');
-    return bytes + '\n';
 }
 
 std::string pc2Header(std::uint64_t frames, std::uint64_t rows) {
@@ -41,7 +34,7 @@ std::string streamFile(const StreamInfo& info, StreamFormat format) {
 }
 
 std::string streamHeader(StreamFormat format, std::uint64_t frames, std::uint64_t rows) {
-    return format == StreamFormat::npy ? npyHeader(frames, rows) : pc2Header(frames, rows);
+    return format == StreamFormat::npy ? npyHeader({frames, rows, 3}) : pc2Header(frames, rows);
 }
 
 }  // namespace throng::io

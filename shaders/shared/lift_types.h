@@ -63,7 +63,7 @@ struct LiftWishes {
     uint up;  // stops at which somebody waits to go up
     uint down;
     uint goals;  // where those in the cabin get off
-    uint spots;     // in the cabin that are taken
+    uint spots;  // in the cabin that are taken
     uint aboard;
     uint leaving;   // those in the cabin who get off here
     uint boarding;  // those who have been asked in and are not in it yet

@@ -9,10 +9,9 @@ import numpy
 import pytest
 
 import throng_io
-from conftest import ROOT
+from conftest import ROOT, chromium
 from glb_reader import Glb
 from posed_people import model_of, off
-from three_page import chromium
 from throng_io import cli
 from throng_io.gltf import textures
 from throng_io.gltf.vat import Layout

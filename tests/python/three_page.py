@@ -3,9 +3,10 @@
 import contextlib
 import json
 import pathlib
-import shutil
 
 import pytest
+
+from conftest import chromium
 
 PAGE = """
 <!doctype html><meta charset="utf-8"><style>body {margin: 0}</style>
@@ -89,10 +90,6 @@ def need_three(modules: pathlib.Path) -> None:
         pytest.skip("the npm package three is not installed")
     if not chromium():
         pytest.skip("no Chromium here")
-
-
-def chromium():
-    return shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 
 
 @contextlib.contextmanager

@@ -8,7 +8,7 @@ import re
 import pytest
 
 from conftest import ROOT
-from test_report import browser, visit  # noqa: F401
+from test_report import visit  # noqa: F401
 
 AGENTS, WALKING, ARRIVED, STUCK, REFUSED = 19, 7, 8, 1, 4
 SPAWNED = WALKING + ARRIVED

@@ -3,13 +3,11 @@
 import json
 import pathlib
 import re
-import shutil
 import time
 
 import numpy
 import pytest
 
-playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 
 # Two head-on streams in a corridor, one person shut in, somebody who never finds room.
@@ -26,17 +24,6 @@ LAYOUT = {
     "events": [{"at": 3600, "open": "gate"}],
     "expect": {"arrived": {"min": 0.99}},
 }
-
-
-@pytest.fixture(scope="module")
-def browser():
-    program = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-    if not program:
-        pytest.skip("Chromium is not installed")
-    with playwright.sync_playwright() as player:
-        opened = player.chromium.launch(executable_path=program, args=["--no-sandbox"])
-        yield opened
-        opened.close()
 
 
 @pytest.fixture

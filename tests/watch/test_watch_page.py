@@ -2,25 +2,9 @@
 """The page of `throng watch` in a real, headless Chromium: people move, a changed layout begins anew, mistakes are
 shown."""
 import json
-import shutil
-
-import pytest
 
 from conftest import EXAMPLES
 from watching import LAYOUT, until, watching, write
-
-playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
-
-
-@pytest.fixture(scope="module")
-def browser():
-    program = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-    if not program:
-        pytest.skip("Chromium is not installed")
-    with playwright.sync_playwright() as player:
-        opened = player.chromium.launch(executable_path=program, args=["--no-sandbox"])
-        yield opened
-        opened.close()
 
 
 def visit(browser, job, problems):

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/npy_header.h"
+#include "io/streams/npy_header.h"
 
 #include <fmt/format.h>
 
