@@ -28,7 +28,7 @@ using authoring::Match;
 using authoring::Override;
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct ApplyOptions {
     std::string bake;
     std::string file;
     std::string output;
@@ -73,7 +73,7 @@ struct Loaded {
     }
 };
 
-Loaded load(const Options& options, const io::CrowdReader& crowd) {
+Loaded load(const ApplyOptions& options, const io::CrowdReader& crowd) {
     Loaded loaded;
     loaded.path = options.file.empty() ? overridesBeside(crowd.bake()) : fs::path(options.file);
     loaded.text = readFile(loaded.path);
@@ -213,7 +213,7 @@ void printOverlaps(const std::vector<io::Overlap>& overlaps) {
             overlaps[i].other, overlaps[i].first, overlaps[i].last, overlaps[i].depth, overlaps[i].deepest);
 }
 
-void printResult(const Options& options, const Loaded& loaded, const io::ApplyResult& result) {
+void printResult(const ApplyOptions& options, const Loaded& loaded, const io::ApplyResult& result) {
     if (options.json) {
         sayJson(io::infoJson(io::loadBake(result.path)));
         return;
@@ -233,7 +233,7 @@ void printResult(const Options& options, const Loaded& loaded, const io::ApplyRe
         say(stdout, "{} retimed people stand still where the bake has no frames for them\n", result.held);
 }
 
-void write(const Options& options, io::LayeredCrowd& crowd, const Loaded& loaded) {
+void write(const ApplyOptions& options, io::LayeredCrowd& crowd, const Loaded& loaded) {
     const io::Bake& bake = crowd.bake();
     std::error_code absent;
     if (fs::equivalent(bake.folder, options.output, absent))
@@ -271,7 +271,7 @@ void change(io::LayeredCrowd& crowd, Loaded& loaded) {
     loaded.results = io::applyLayers(crowd, loaded.layers, loaded.people);
 }
 
-void run(const Options& options) {
+void runApply(const ApplyOptions& options) {
     io::CrowdReader reader(io::loadBake(options.bake));
     Loaded loaded = load(options, reader);
     io::LayeredCrowd crowd(reader);
@@ -303,7 +303,7 @@ void run(const Options& options) {
 void addApply(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("apply", "Write a bake anew with changes to its people (overrides and layers)");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ApplyOptions>();
     command->add_option("bake", options->bake, "A bake's folder, or its bake.json")->required();
     command->add_option("--overrides", options->file,
                         "The changes; by default BAKE.overrides.json beside the bake");
@@ -326,7 +326,7 @@ void addApply(CLI::App& app) {
     command->callback([options, output, dry_run] {
         if (output->count() == 0 && dry_run->count() == 0)
             throw CLI::RequiredError("--output (or --dry-run)");
-        run(*options);
+        runApply(*options);
     });
 }
 

@@ -24,7 +24,7 @@
 namespace throng::cli {
 namespace {
 
-struct Options {
+struct BatchOptions {
     std::string family;
     std::string output;
     LocalOptions local;
@@ -123,7 +123,7 @@ nlohmann::ordered_json summaryOf(const BatchPlan& plan, const BatchFolder& folde
             {"seconds", seconds},         {"database", folder.database().string()}};
 }
 
-SlurmOptions slurmOptions(const Options& options) {
+SlurmOptions slurmOptions(const BatchOptions& options) {
     SlurmOptions slurm = options.slurm;
     slurm.time_limit_minutes = options.time_limit_minutes;
     slurm.checkpoint_minutes = options.checkpoint_minutes;
@@ -142,7 +142,7 @@ void forget(const BatchPlan& plan, const BatchFolder& folder, const std::vector<
     }
 }
 
-void bakeAll(const Options& options, const BatchPlan& plan, const BatchFolder& folder) {
+void bakeAll(const BatchOptions& options, const BatchPlan& plan, const BatchFolder& folder) {
     const InterruptGuard interrupt;
     folder.begin(plan);
     const Shard shard = shardOf(options.shard);
@@ -192,7 +192,7 @@ void bakeAll(const Options& options, const BatchPlan& plan, const BatchFolder& f
 }
 
 /// Without -o, the name that a file gives is the name of a folder here, and leads nowhere else.
-std::string folderOf(const Options& options, const std::string& name) {
+std::string folderOf(const BatchOptions& options, const std::string& name) {
     if (!options.output.empty()) return options.output;
     if (isFileName(name)) return name;
     throw InputError(options.family,
@@ -200,7 +200,7 @@ std::string folderOf(const Options& options, const std::string& name) {
                                  printable(name)));
 }
 
-void run(const Options& options) {
+void runBatch(const BatchOptions& options) {
     if (options.family.empty()) throw CLI::RequiredError("family");
     BatchPlan plan(options.family);
     const BatchFolder folder(folderOf(options, plan.family().name));
@@ -225,7 +225,7 @@ void run(const Options& options) {
 
 void addBatch(CLI::App& app) {
     CLI::App* command = app.add_subcommand("batch", "Bake and measure a whole family of scenarios");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<BatchOptions>();
     command->add_option("family", options->family, "The family file");
     command->add_option("-o,--output", options->output, "The batch's folder; by default the family's name");
     command->add_flag("--dry-run", options->dry_run,
@@ -278,7 +278,7 @@ void addBatch(CLI::App& app) {
     addBatchQuery(*command);
     command->require_subcommand(0, 1);
     command->callback([options, command] {
-        if (command->get_subcommands().empty()) run(*options);
+        if (command->get_subcommands().empty()) runBatch(*options);
     });
 }
 

@@ -15,7 +15,7 @@
 namespace throng::cli {
 namespace {
 
-struct Options {
+struct BatchQueryOptions {
     std::string batch;
     std::string columns, where, sort, sql, output;
     std::size_t limit = 0;
@@ -67,7 +67,7 @@ std::string piece(const char* option, const std::string& sql, const std::filesys
     return sql + "\n";
 }
 
-std::string sqlOf(const Options& options, const std::filesystem::path& database) {
+std::string sqlOf(const BatchQueryOptions& options, const std::filesystem::path& database) {
     if (!options.sql.empty()) return options.sql;
     const auto given = [&](const char* option, const std::string& sql, const char* before,
                            const char* after) {
@@ -95,7 +95,7 @@ std::string sqlOf(const Options& options, const std::filesystem::path& database)
     return options.limit ? sql + fmt::format(" LIMIT {}", options.limit) : sql;
 }
 
-void run(const Options& options) {
+void runBatchQuery(const BatchQueryOptions& options) {
     const std::filesystem::path given(options.batch);
     const std::filesystem::path database =
         std::filesystem::is_directory(given) ? given / "results.sqlite" : given;
@@ -112,7 +112,7 @@ void run(const Options& options) {
 
 void addBatchQuery(CLI::App& batch) {
     CLI::App* command = batch.add_subcommand("query", "Ask a batch's database");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<BatchQueryOptions>();
     command->add_option("batch", options->batch, "The batch's folder, or its results.sqlite")->required();
     command->add_option("--where", options->where, "Only scenarios for which this holds, in SQL");
     command->add_option("--columns", options->columns,
@@ -127,7 +127,7 @@ void addBatchQuery(CLI::App& batch) {
     command->add_option("-o,--output", options->output, "Into this file; .csv means CSV");
     command->footer(
         "Example:\n  throng batch query crossings --where \"arrived < agents\" --sort rate --csv");
-    command->callback([options] { run(*options); });
+    command->callback([options] { runBatchQuery(*options); });
 }
 
 }  // namespace throng::cli

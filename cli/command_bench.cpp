@@ -22,7 +22,7 @@
 namespace throng::cli {
 namespace {
 
-struct Options {
+struct BenchOptions {
     std::string output = "bench";
     int device = -1;
     int rounds = 15;
@@ -75,7 +75,7 @@ nlohmann::ordered_json timingsJson(const ProximityReport& report) {
     return list;
 }
 
-void runDiagrams(const Options& options) {
+void runDiagrams(const BenchOptions& options) {
     makeFolder(options.output);
     const gl::Context context({options.device, false});
     const gl::Timer timer(context.device().software);
@@ -117,7 +117,7 @@ void runDiagrams(const Options& options) {
         fmt::print("{}/diagrams.md, .csv\n", options.output);
 }
 
-void runProximity(const Options& options) {
+void runProximity(const BenchOptions& options) {
     makeFolder(options.output);
     const gl::Context context({options.device, false});
     const gl::Timer timer(true);  // passes are timed one by one, around waits
@@ -308,9 +308,9 @@ void addLaunches(CLI::App& bench) {
     command->callback([options] { runLaunches(*options); });
 }
 
-CLI::App* addKind(CLI::App& bench, const char* name, const char* what, void (*run)(const Options&)) {
+CLI::App* addKind(CLI::App& bench, const char* name, const char* what, void (*run)(const BenchOptions&)) {
     CLI::App* command = bench.add_subcommand(name, what);
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<BenchOptions>();
     command->add_option("-o,--output", options->output, "The folder to write the report into")
         ->capture_default_str();
     addDevice(*command, options->device);

@@ -21,7 +21,7 @@
 namespace throng::cli {
 namespace {
 
-struct Options {
+struct CheckOptions {
     std::vector<std::string> layouts;
     std::vector<std::string> overrides;
     bool json = false;
@@ -50,7 +50,7 @@ nlohmann::ordered_json toJson(const LoadAttempt& attempt) {
 }
 
 /// @returns whether it is valid
-bool checkFamilyFile(const std::string& path, const Options& options, nlohmann::ordered_json& list) {
+bool checkFamilyFile(const std::string& path, const CheckOptions& options, nlohmann::ordered_json& list) {
     if (!options.overrides.empty())
         throw CLI::ValidationError("--set", fmt::format("changes layouts; `{}` is a family of them", path));
     FamilyCheck check;
@@ -89,7 +89,7 @@ void printSummary(const LoadedLayout& loaded) {
         scene.settings.duration, scene.settings.fps, readableBytes(bytesOfBake(loaded)));
 }
 
-bool checkLayoutText(const std::string& path, std::string text, const Options& options,
+bool checkLayoutText(const std::string& path, std::string text, const CheckOptions& options,
                      nlohmann::ordered_json& list) {
     const LoadAttempt attempt =
         tryReadLayout(std::move(text), path == "-" ? "standard input" : path, options.overrides);
@@ -102,7 +102,7 @@ bool checkLayoutText(const std::string& path, std::string text, const Options& o
     return attempt.valid;
 }
 
-void run(const Options& options) {
+void runCheck(const CheckOptions& options) {
     bool all_valid = true;
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const std::string& path : options.layouts) {
@@ -121,7 +121,7 @@ void run(const Options& options) {
 void addCheck(CLI::App& app) {
     CLI::App* command = app.add_subcommand(
         "check", "Say everything that is wrong with layouts and families of them, without baking them");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<CheckOptions>();
     command
         ->add_option("layout", options->layouts,
                      "Files of layouts or families (- for a layout on standard input)")
@@ -133,7 +133,7 @@ void addCheck(CLI::App& app) {
         ->expected(1);
     command->add_flag("--json", options->json, "Print a JSON document");
     command->footer("Example:\n  throng check examples/*.json");
-    command->callback([options] { run(*options); });
+    command->callback([options] { runCheck(*options); });
 }
 
 }  // namespace throng::cli

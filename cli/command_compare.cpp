@@ -12,7 +12,7 @@
 namespace throng::cli {
 namespace {
 
-struct Options {
+struct CompareOptions {
     std::string bake, trajectories, plots;
     std::vector<double> line, area, move{0.0, 0.0};
     double rate = 0.0, turn = 0.0;
@@ -20,7 +20,7 @@ struct Options {
     bool json = false;
 };
 
-analysis::Trajectories peopleOf(const Options& options) {
+analysis::Trajectories peopleOf(const CompareOptions& options) {
     analysis::TrajectoryOptions reading;
     if (options.rate > 0.0) reading.rate = options.rate;
     if (!options.unit.empty()) reading.metres = options.unit == "cm" ? 0.01 : 1.0;
@@ -29,7 +29,7 @@ analysis::Trajectories peopleOf(const Options& options) {
     return analysis::readTrajectories(options.trajectories, reading);
 }
 
-void run(const Options& options) {
+void runCompare(const CompareOptions& options) {
     io::CrowdReader crowd(io::loadBake(options.bake));
     analysis::CompareOptions comparing;
     if (!options.area.empty())
@@ -53,7 +53,7 @@ void run(const Options& options) {
 void addCompare(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("compare", "Put a bake beside trajectories of people, or another bake");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<CompareOptions>();
     command->add_option("bake", options->bake, "A bake's folder, or its bake.json")->required();
     command
         ->add_option(
@@ -83,7 +83,7 @@ void addCompare(CLI::App& app) {
     command->footer(
         "Both are looked at ten times a second, from places alone.\n\n"
         "Example:\n  throng compare bakes/bottleneck experiment.txt --line -0.6 0 0.6 0 --plots plots");
-    command->callback([options] { run(*options); });
+    command->callback([options] { runCompare(*options); });
 }
 
 }  // namespace throng::cli

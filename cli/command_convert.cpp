@@ -16,7 +16,7 @@
 namespace throng::cli {
 namespace {
 
-struct Options {
+struct ConvertOptions {
     std::string bake;
     std::string output;
     std::string formats = wordsOf(StreamFormats::standard());
@@ -25,7 +25,7 @@ struct Options {
     bool quiet = false;
 };
 
-void run(const Options& options) {
+void runConvert(const ConvertOptions& options) {
     io::ConvertOptions convert;
     convert.output = options.output;
     convert.force = options.force;
@@ -55,7 +55,7 @@ void run(const Options& options) {
 
 void addConvert(CLI::App& app) {
     CLI::App* command = app.add_subcommand("convert", "Write a bake anew with its streams in other forms");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ConvertOptions>();
     command->add_option("bake", options->bake, "A bake's folder, or its bake.json")->required();
     command->add_option("-o,--output", options->output, "The bake to make")->required();
     addStreamsOption(*command, options->formats);
@@ -66,7 +66,7 @@ void addConvert(CLI::App& app) {
     command->footer(
         "Everything but the streams is copied as it is. Ctrl-C leaves nothing behind.\n\n"
         "Example:\n  throng convert bakes/street -o bakes/street-for-blender --streams pc2");
-    command->callback([options] { run(*options); });
+    command->callback([options] { runConvert(*options); });
 }
 
 }  // namespace throng::cli

@@ -13,7 +13,7 @@
 namespace throng::cli {
 namespace {
 
-struct Options {
+struct GenerateOptions {
     std::string kind;
     std::vector<std::string> settings;
     std::string output;
@@ -59,7 +59,7 @@ std::pair<std::string, double> settingOf(const std::string& text) {
     throw CLI::ValidationError("--set", fmt::format("expects name=number, not `{}`", text));
 }
 
-void run(const Options& options) {
+void runGenerate(const GenerateOptions& options) {
     if (options.list) return list(options.json);
     const authoring::Generator* generator = authoring::generatorNamed(options.kind);
     if (!generator) {
@@ -90,7 +90,7 @@ void run(const Options& options) {
 
 void addGenerate(CLI::App& app) {
     CLI::App* command = app.add_subcommand("generate", "Make a layout from a few numbers");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<GenerateOptions>();
     command->add_option("kind", options->kind, "crossing, corridor, streets, plaza or stadium");
     command->add_option("--set", options->settings, "A parameter, e.g. --set arms=5 (repeatable)")
         ->take_all()
@@ -101,7 +101,7 @@ void addGenerate(CLI::App& app) {
     command->add_flag("--json", options->json,
                       "What --list tells, or which file was made, as JSON; layouts are JSON anyway");
     command->footer("Example:\n  throng generate crossing --set arms=5 --set seed=3 -o crossing.json");
-    command->callback([options] { run(*options); });
+    command->callback([options] { runGenerate(*options); });
 }
 
 }  // namespace throng::cli

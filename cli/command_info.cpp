@@ -12,13 +12,13 @@
 namespace throng::cli {
 namespace {
 
-struct Options {
+struct InfoOptions {
     std::string bake;
     bool verify = false;
     bool json = false;
 };
 
-void run(const Options& options) {
+void runInfo(const InfoOptions& options) {
     const io::Bake bake = io::loadBake(options.bake);
     io::Verification found;
     if (options.verify) found = io::verifyBake(options.bake);
@@ -44,13 +44,13 @@ void run(const Options& options) {
 
 void addInfo(CLI::App& app) {
     CLI::App* command = app.add_subcommand("info", "Say what a bake holds and what became of everybody");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<InfoOptions>();
     command->add_option("bake", options->bake, "A bake's folder, or its bake.json")->required();
     command->add_flag("--verify", options->verify,
                       "Also compare every file with its checksum, as `throng verify`");
     command->add_flag("--json", options->json, "Print a JSON document");
     command->footer("Example:\n  throng info bakes/intersection --verify");
-    command->callback([options] { run(*options); });
+    command->callback([options] { runInfo(*options); });
 }
 
 }  // namespace throng::cli

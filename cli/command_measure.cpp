@@ -15,7 +15,7 @@
 namespace throng::cli {
 namespace {
 
-struct Options {
+struct MeasureOptions {
     std::string bake;
     std::string plots;
     std::vector<double> line;
@@ -23,7 +23,7 @@ struct Options {
     bool json = false;
 };
 
-void run(const Options& options) {
+void runMeasure(const MeasureOptions& options) {
     io::CrowdReader crowd(io::loadBake(options.bake));
     if (!options.follow.rows.empty()) {
         FollowRequest follow = options.follow;
@@ -57,7 +57,7 @@ void run(const Options& options) {
 void addMeasure(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("measure", "Measure how well a bake's people move, from its files alone");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<MeasureOptions>();
     command->add_option("bake", options->bake, "A bake's folder, or its bake.json")->required();
     command->add_flag("--json", options->json, "Print a JSON document");
     command->add_option("--plots", options->plots, "Also draw plots (PNG) into this folder");
@@ -82,7 +82,7 @@ void addMeasure(CLI::App& app) {
         "Exits with 1 when a bar of the layout's `expect` block is missed.\n\n"
         "Example:\n  throng measure bakes/intersection --plots plots\n"
         "  throng measure bakes/intersection --follow 12 --from 20 --to 40 --plots plots");
-    command->callback([options] { run(*options); });
+    command->callback([options] { runMeasure(*options); });
 }
 
 }  // namespace throng::cli

@@ -13,7 +13,7 @@
 namespace throng::cli {
 namespace {
 
-struct Options {
+struct PreviewOptions {
     std::string bake;
     std::string output;
     bool video = false;
@@ -38,7 +38,7 @@ bool isFilm(const std::string& output, bool film_asked) {
     return film;
 }
 
-void run(const Options& options) {
+void runPreview(const PreviewOptions& options) {
     const std::string bake = options.bake;
     const std::string output = !options.output.empty() ? options.output
                                : options.video         ? "preview.mp4"
@@ -69,7 +69,7 @@ void run(const Options& options) {
 void addPreview(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("preview", "Draw a bake from above: layout, people, trails, density (PNG or MP4)");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<PreviewOptions>();
     command->add_option("bake", options->bake, "A bake's folder, or its bake.json")->required();
     command->add_option("-o,--output", options->output,
                         "The picture: NAME.png, or NAME.mp4 for a film (default preview.png)");
@@ -91,7 +91,7 @@ void addPreview(CLI::App& app) {
         "nearer to it than to the other end; by default all levels over each other");
     command->add_flag("--json", options->json, "Print a JSON document");
     command->footer("Example:\n  throng preview bakes/intersection -o intersection.png --frame 800");
-    command->callback([options] { run(*options); });
+    command->callback([options] { runPreview(*options); });
 }
 
 }  // namespace throng::cli

@@ -23,7 +23,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-struct Options {
+struct ReportOptions {
     std::string input;
     std::string output;
     bool each = false;
@@ -114,7 +114,7 @@ void reportBatch(const fs::path& folder, const fs::path& output, bool each) {
     replaceFile(output, analysis::makePage("batch", keyed(results.about, "name"), data));
 }
 
-void run(const Options& options) {
+void runReport(const ReportOptions& options) {
     const fs::path input = fs::path(options.input).filename() == "bake.json"
                                ? fs::path(options.input).parent_path()
                                : fs::path(options.input);
@@ -141,7 +141,7 @@ void run(const Options& options) {
 void addReport(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("report", "Write a page to look at a bake or a batch in a browser");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ReportOptions>();
     command->add_option("input", options->input, "A bake's folder, or a batch's")->required();
     command->add_option("-o,--output", options->output,
                         "The page; by default NAME.html, or report.html in a batch's folder");
@@ -151,7 +151,7 @@ void addReport(CLI::App& app) {
     command->footer(
         "One file that needs no network: send it, keep it, print it.\n\n"
         "Example:\n  throng report bakes/intersection -o intersection.html");
-    command->callback([options] { run(*options); });
+    command->callback([options] { runReport(*options); });
 }
 
 }  // namespace throng::cli

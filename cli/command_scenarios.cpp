@@ -17,7 +17,7 @@
 namespace throng::cli {
 namespace {
 
-struct Options {
+struct ScenariosOptions {
     std::vector<std::string> names;
     std::string output = "scenarios-baked";
     std::vector<std::string> overrides;
@@ -36,7 +36,7 @@ const Scenario& scenarioNamed(const std::string& name) {
 }
 
 /// @returns the bars that were missed
-std::vector<std::string> runOne(const Scenario& scenario, const Options& options,
+std::vector<std::string> runOne(const Scenario& scenario, const ScenariosOptions& options,
                                 nlohmann::ordered_json& report) {
     const std::filesystem::path folder(options.output);
     const std::filesystem::path layout = folder / fmt::format("{}.json", scenario.name);
@@ -65,7 +65,7 @@ std::vector<std::string> runOne(const Scenario& scenario, const Options& options
     return missed;
 }
 
-void run(const Options& options) {
+void runScenarios(const ScenariosOptions& options) {
     if (options.list && options.json) {
         nlohmann::ordered_json names = nlohmann::ordered_json::array();
         for (const Scenario& scenario : scenarios())
@@ -98,7 +98,7 @@ void run(const Options& options) {
 void addScenarios(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("scenarios", "Bake and measure the scenarios that the motion is judged by");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ScenariosOptions>();
     command->add_flag("--list", options->list, "Only name them");
     command
         ->add_option("--run", options->names,
@@ -114,7 +114,7 @@ void addScenarios(CLI::App& app) {
     command->add_flag("--json", options->json,
                       "Print what `measure --json` prints; by name where there are several");
     command->footer("Exits with 1 when a bar is missed.\n\nExample:\n  throng scenarios --run ring --json");
-    command->callback([options] { run(*options); });
+    command->callback([options] { runScenarios(*options); });
 }
 
 }  // namespace throng::cli

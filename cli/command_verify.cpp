@@ -21,7 +21,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-struct Options {
+struct VerifyOptions {
     std::string input;
     bool json = false;
     bool quiet = false;
@@ -88,7 +88,7 @@ void tellProblems(const fs::path& bake, const io::Verification& found) {
         say(stderr, "{}: {}\n", (bake / problem.path).string(), problem.message);
 }
 
-Outcome verifyOne(const Options& options, ProgressStyle style) {
+Outcome verifyOne(const VerifyOptions& options, ProgressStyle style) {
     const fs::path given(options.input);
     const fs::path bake = given.filename() == "bake.json"
                               ? (given.has_parent_path() ? given.parent_path() : fs::path("."))
@@ -171,7 +171,7 @@ std::string totalsText(const BatchTotals& totals, const BatchList& list) {
     return text;
 }
 
-Outcome verifyBatch(const Options& options, ProgressStyle style) {
+Outcome verifyBatch(const VerifyOptions& options, ProgressStyle style) {
     const fs::path root(options.input);
     const BatchList list = bakesOf(root / "results.sqlite");
     BatchTotals totals;
@@ -203,7 +203,7 @@ Outcome verifyBatch(const Options& options, ProgressStyle style) {
     return totals.outcome();
 }
 
-void run(const Options& options) {
+void runVerify(const VerifyOptions& options) {
     const ProgressStyle style = progressStyle(options.quiet, options.json);
     const bool is_batch = fs::exists(fs::path(options.input) / "results.sqlite");
     const Outcome outcome = is_batch ? verifyBatch(options, style) : verifyOne(options, style);
@@ -216,7 +216,7 @@ void run(const Options& options) {
 void addVerify(CLI::App& app) {
     CLI::App* command = app.add_subcommand(
         "verify", "Compare every file of a bake, or of a batch's bakes, with its checksum");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<VerifyOptions>();
     command->add_option("input", options->input, "A bake's folder or its bake.json, or a batch's folder")
         ->required();
     command->add_flag("--json", options->json,
@@ -227,7 +227,7 @@ void addVerify(CLI::App& app) {
         "with 3\n"
         "when something is wrong, and with 1 when the bake is of a version that listed no checksums.\n\n"
         "Example:\n  throng verify bakes/intersection");
-    command->callback([options] { run(*options); });
+    command->callback([options] { runVerify(*options); });
 }
 
 }  // namespace throng::cli

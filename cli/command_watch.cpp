@@ -28,9 +28,9 @@ namespace fs = std::filesystem;
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr std::chrono::milliseconds kBetweenLooks{50};
+constexpr std::chrono::milliseconds kAsksEvery{50};
 
-struct Options {
+struct WatchOptions {
     std::string input;
     std::vector<std::string> overrides;
     int port = 0;
@@ -53,7 +53,7 @@ void openBrowser(const std::string& address) try {
 /// A layout that is simulated anew whenever it changes.
 class LayoutWatch {
   public:
-    LayoutWatch(const Options& options, LiveLog& log, const InterruptGuard& interrupt)
+    LayoutWatch(const WatchOptions& options, LiveLog& log, const InterruptGuard& interrupt)
         : options_(options), log_(log), interrupt_(interrupt) {}
 
     void run() {
@@ -61,7 +61,7 @@ class LayoutWatch {
             files_.watch({options_.input});
             if (const std::optional<LoadedLayout> loaded = read()) simulate(*loaded);
             while (!shouldStop())
-                std::this_thread::sleep_for(kBetweenLooks);
+                std::this_thread::sleep_for(kAsksEvery);
             if (!interrupt_.signal()) files_.settle();
         }
     }
@@ -115,7 +115,7 @@ class LayoutWatch {
         tellFailure(error.what());
     }
 
-    const Options& options_;
+    const WatchOptions& options_;
     LiveLog& log_;
     const InterruptGuard& interrupt_;
     FileWatch files_;
@@ -127,7 +127,7 @@ bool isBake(const fs::path& path) {
     return path.filename() == "bake.json" || !fs::is_regular_file(path);
 }
 
-std::string pageFor(const Options& options, bool is_bake) {
+std::string pageFor(const WatchOptions& options, bool is_bake) {
     const std::string name = fs::absolute(options.input).lexically_normal().filename().string();
     return analysis::makePage("watch", name,
                               {{"file", name},
@@ -137,7 +137,7 @@ std::string pageFor(const Options& options, bool is_bake) {
                               "'self'");
 }
 
-void run(const Options& options) {
+void runWatch(const WatchOptions& options) {
     const bool is_bake = isBake(options.input);
     // What is not there at all is said before anybody is told to look.
     if (is_bake)
@@ -169,7 +169,7 @@ void run(const Options& options) {
 void addWatch(CLI::App& app) {
     CLI::App* command = app.add_subcommand(
         "watch", "Show in a browser the crowd of a layout that is being changed, or of a bake under way");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<WatchOptions>();
     command->add_option("input", options->input, "A layout file, or a bake's folder")->required();
     command
         ->add_option("--set", options->overrides,
@@ -196,7 +196,7 @@ void addWatch(CLI::App& app) {
         "changes; mistakes are shown on the page and here. Nothing is written. The page is for this machine\n"
         "alone (127.0.0.1). Ctrl-C ends.\n\n"
         "Example:\n  throng watch examples/market.json --open");
-    command->callback([options] { run(*options); });
+    command->callback([options] { runWatch(*options); });
 }
 
 }  // namespace throng::cli

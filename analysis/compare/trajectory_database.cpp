@@ -11,8 +11,8 @@
 namespace throng::analysis {
 namespace {
 
-constexpr std::int64_t kMostFrame = 1'000'000'000;
-constexpr double kFurthest = 1.0e7;  // of the unit of length
+constexpr std::int64_t kLastFrame = 1'000'000'000;
+constexpr double kFurthestStored = 1.0e7;  // of the unit of length
 
 double rateIn(SQLite::Database& database, const std::filesystem::path& path) {
     SQLite::Statement query(database, "SELECT value FROM metadata WHERE key = 'fps'");
@@ -38,9 +38,9 @@ Trajectories readTrajectoryDatabase(const std::filesystem::path& path, const Tra
         row.person = query.getColumn(0).getInt64();
         row.frame = query.getColumn(1).getInt64();
         row.place = {query.getColumn(2).getDouble(), query.getColumn(3).getDouble()};
-        if (std::abs(row.frame) > kMostFrame)
-            throw InputError(path, fmt::format("frame {}: expected at most {}", row.frame, kMostFrame));
-        if (!(glm::length(row.place) < kFurthest))
+        if (std::abs(row.frame) > kLastFrame)
+            throw InputError(path, fmt::format("frame {}: expected at most {}", row.frame, kLastFrame));
+        if (!(glm::length(row.place) < kFurthestStored))
             throw InputError(path, fmt::format("person {} is nowhere in frame {}", row.person, row.frame));
         row.place *= options.metres.value_or(1.0);
         rows.push_back(row);

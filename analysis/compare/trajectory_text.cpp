@@ -19,7 +19,7 @@ namespace throng::analysis {
 namespace {
 
 constexpr double kFurthest = 1.0e7;                    // m: no crowd is larger
-constexpr double kMostFrame = 1.0e9;                   // of a person, and of a frame
+constexpr double kMostNumber = 1.0e9;                  // of a person, and of a frame
 constexpr double kLeastRate = 0.1, kMostRate = 1.0e4;  // frames in a second
 constexpr std::string_view kBetween = " \t,;\r";
 
@@ -103,7 +103,7 @@ class TextReader {
         row.line = line_;
         row.person = whole(fields[columns_.person], "a person");
         if (columns_.in_seconds)
-            seconds_.push_back(number(fields[columns_.moment], "seconds", kMostFrame));
+            seconds_.push_back(number(fields[columns_.moment], "seconds", kMostNumber));
         else
             row.frame = whole(fields[columns_.moment], "a frame");
         row.place = {number(fields[columns_.x], "x", kFurthest), number(fields[columns_.y], "y", kFurthest)};
@@ -152,7 +152,7 @@ class TextReader {
         return *value;
     }
     std::int64_t whole(const Field& field, const char* what) const {
-        const double value = number(field, what, kMostFrame);
+        const double value = number(field, what, kMostNumber);
         if (value != std::floor(value))
             fail(field.column, fmt::format("expected {}, a whole number, found `{}`", what,
                                            std::string(field.text.substr(0, 40))));

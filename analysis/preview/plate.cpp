@@ -9,6 +9,7 @@
 #include <glm/common.hpp>
 #include <numbers>
 
+#include "analysis/preview/colour.h"
 #include "base/activities.h"
 #include "base/text/printable.h"
 
@@ -29,10 +30,6 @@ constexpr double kMostDensity = 3.0;  // persons per m^2 at the warm end of the 
 constexpr Colour kPaper = colourFromHex(0xf6f4ef), kInk = colourFromHex(0x22252b),
                  kRoad = colourFromHex(0xe2dfd6), kArea = colourFromHex(0xece6d3),
                  kWall = colourFromHex(0x3d424c), kSolid = colourFromHex(0xc9c6be);
-
-void setColour(cairo_t* context, Colour colour, double alpha = 1.0) {
-    cairo_set_source_rgba(context, colour.red, colour.green, colour.blue, alpha);
-}
 
 /// From paper through yellow to red, transparent where nobody is.
 void setHeat(cairo_t* context, double share) {

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <span>
 
+#include "analysis/preview/colour.h"
 #include "base/palette.h"
 #include "base/vehicle_track.h"
 #include "io/vehicle_file.h"
@@ -24,10 +25,6 @@ Colour colourOf(const std::string& kind) {
     if (kind == "tram") return colourFromHex(0x7d2f3a);
     if (kind == "bicycle") return colourFromHex(0x3f6f6b);
     return colourFromHex(0x4b5563);
-}
-
-void setColour(cairo_t* context, Colour colour, double alpha = 1.0) {
-    cairo_set_source_rgba(context, colour.red, colour.green, colour.blue, alpha);
 }
 
 void addPath(cairo_t* context, const PlateView& view, std::span<const glm::dvec2> points) {

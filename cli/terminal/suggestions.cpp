@@ -11,7 +11,7 @@
 namespace throng::cli {
 namespace {
 
-std::vector<std::string> optionsOf(const CLI::App& command) {
+std::vector<std::string> optionNames(const CLI::App& command) {
     std::vector<std::string> names;
     for (const CLI::Option* option : command.get_options())
         for (const std::string& name : option->get_lnames())
@@ -43,7 +43,7 @@ std::string suggestFor(const CLI::App& app, int argc, const char* const* argv) {
             command = app.get_subcommand(word);
         } else if (word.starts_with("--")) {
             const std::string name = word.substr(0, word.find('='));
-            const std::vector<std::string> known = optionsOf(command ? *command : app);
+            const std::vector<std::string> known = optionNames(command ? *command : app);
             if (std::find(known.begin(), known.end(), name) != known.end()) continue;
             const std::string meant = authoring::nearestWord(name, known);
             if (!meant.empty()) return fmt::format("did you mean `{}`?", meant);

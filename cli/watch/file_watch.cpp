@@ -11,7 +11,7 @@
 namespace throng::cli {
 namespace {
 
-constexpr double kBetweenLooks = 0.1;              // s
+constexpr double kLooksEvery = 0.1;                // s
 constexpr std::chrono::milliseconds kSettled{50};  // without a change
 constexpr int kMostTries = 20;
 
@@ -43,7 +43,7 @@ void FileWatch::add(const std::vector<std::filesystem::path>& files) {
 }
 
 bool FileWatch::hasChanged() {
-    if (changed_ || secondsSince(looked_) < kBetweenLooks) return changed_;
+    if (changed_ || secondsSince(looked_) < kLooksEvery) return changed_;
     looked_ = Clock::now();
     changed_ = look(files_) != facts_;
     return changed_;

@@ -14,7 +14,7 @@
 namespace throng::cli {
 namespace {
 
-constexpr double kBetweenWords = 0.25;  // s
+constexpr double kTellsEvery = 0.25;  // s
 
 /// A bake's description, of what is asked for only where moments depend on it.
 recording::BakeDescription describe(const LoadedLayout& loaded, const gl::Device& device) {
@@ -79,7 +79,7 @@ class Live {
     }
 
     void tell(const char* state, bool at_once) {
-        if (!at_once && secondsSince(told_) < kBetweenWords) return;
+        if (!at_once && secondsSince(told_) < kTellsEvery) return;
         told_ = Clock::now();
         const std::uint32_t steps = simulation_.stepsDone(), warmup = maker_.warmUpSteps();
         log_.tell({{"state", state},

@@ -75,14 +75,15 @@ std::array<float, 3> colourOf(std::uint32_t row) {
 constexpr float kShade = 1.5f;
 
 /// A diagram and what is known of its owners.
-struct Content {
+struct DiagramContent {
     const DiagramImage& image;
     std::span<const float> densities;
     bool hasSecond() const { return !image.second.empty(); }
     bool hasDensity() const { return !densities.empty(); }
 };
 
-Imf::Header describe(const Content& content, glm::dvec2 scene_origin, std::uint32_t frame_index, double fps) {
+Imf::Header describe(const DiagramContent& content, glm::dvec2 scene_origin, std::uint32_t frame_index,
+                     double fps) {
     const DiagramImage& image = content.image;
     Imf::Header header(static_cast<int>(image.width), static_cast<int>(image.height));
     header.compression() = Imf::ZIP_COMPRESSION;
@@ -113,7 +114,7 @@ Imf::Header describe(const Content& content, glm::dvec2 scene_origin, std::uint3
 
 /// The pixels of up to kLines lines, top row first.
 struct Lines {
-    Lines(std::size_t width, const Content& content)
+    Lines(std::size_t width, const DiagramContent& content)
         : id(width * kLines),
           kind(width * kLines),
           second(content.hasSecond() ? width * kLines : 0),
@@ -137,7 +138,7 @@ struct Lines {
         picture[3][at] = row == kNone ? 0.0f : 1.0f;
     }
 
-    void fill(const Content& content, std::uint32_t top, std::uint32_t count) {
+    void fill(const DiagramContent& content, std::uint32_t top, std::uint32_t count) {
         const DiagramImage& image = content.image;
         for (std::uint32_t line = 0; line < count; ++line) {
             const std::size_t from = std::size_t{image.height - 1 - (top + line)} * image.width;
@@ -167,7 +168,7 @@ Imf::Slice sliceOf(Imf::PixelType type, std::vector<T>& pixels, std::uint32_t to
                             static_cast<int64_t>(width), static_cast<int64_t>(kLines));
 }
 
-void writePixels(Imf::OutputFile& output, const Content& content) {
+void writePixels(Imf::OutputFile& output, const DiagramContent& content) {
     const DiagramImage& image = content.image;
     Lines lines(image.width, content);
     for (std::uint32_t top = 0; top < image.height; top += kLines) {
@@ -202,7 +203,7 @@ void writeDiagramExr(const std::filesystem::path& path, const DiagramImage& imag
         throw std::invalid_argument("a diagram with second owners has one for each pixel");
     if (!densities.empty() && densities.size() < std::size_t{3} * image.agent_count)
         throw std::invalid_argument("densities have three values for each person");
-    const Content content{image, densities};
+    const DiagramContent content{image, densities};
     OutputFile file(path);
     CheckedStream stream(file);
     try {

@@ -14,7 +14,7 @@ SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "ablate.py"
 FIGURES = ("arrived", "seconds", "deepest_overlap_percent", "acceleration_p99", "backward_percent", "way")
 # Where rules are looked at, one place after the other until each has been seen at work, and for how many seconds. The
 # first shows all but a dozen.
-PLACES = {"trap-narrow-door": 20, "trap-head-on": 10, "imo-4": 25, "company": 20, "bidirectional": 8, "hill": 10,
+PLACES = {"trap-narrow-door": 6, "trap-head-on": 10, "imo-4": 25, "company": 20, "bidirectional": 8, "hill": 10,
           "station": 40}
 
 
