@@ -17,7 +17,7 @@ constexpr float kMostForward = 0.12f, kMostBack = 0.07f;  // rad
 constexpr double kRoom = 0.25;                            // m: with so much between bodies nobody turns
 constexpr double kAnticipates = 0.25;                     // s
 constexpr double kPasses = 0.25, kPassesFully = 0.8;      // m/s, between two people along the way of one
-constexpr double kReach = 1.6;                            // m: further away is nobody who matters so soon
+constexpr double kSightReach = 1.6;                       // m: further away is nobody who matters so soon
 
 double smooth(double value, double low, double high) {
     return eased(std::clamp((value - low) / (high - low), 0.0, 1.0));
@@ -29,7 +29,7 @@ Carriages::Carriages(std::vector<float> radii, double fps, glm::dvec2 minimum, g
     : radii_(std::move(radii)),
       interval_(static_cast<float>(1.0 / fps)),
       bodies_(radii_.size()),
-      grid_(minimum, maximum, kReach, cellsFor(radii_.size())) {}
+      grid_(minimum, maximum, kSightReach, cellsFor(radii_.size())) {}
 
 Carriage Carriages::operator[](std::size_t row) const {
     const Body& body = bodies_[row];
@@ -55,7 +55,7 @@ float Carriages::step(std::size_t row, double speed) {
 Carriages::Sides Carriages::tightness(const Onlooker& self, std::span<const Onlooker> people) const {
     Sides found;
     const glm::dvec2 left(-self.heading.y, self.heading.x);
-    grid_.near(self.place, kReach, [&](std::uint32_t index) {
+    grid_.near(self.place, kSightReach, [&](std::uint32_t index) {
         const Onlooker& other = people[index];
         if (other.row == self.row) return;
         const glm::dvec2 relative = other.speed * other.heading - self.speed * self.heading;

@@ -11,8 +11,8 @@
 namespace throng::recording {
 namespace {
 
-constexpr float kReach = 0.25f;      // m before and behind the body: about where planted feet are
-constexpr float kSideReach = 0.15f;  // m
+constexpr float kSlopeReach = 0.25f;  // m before and behind the body: about where planted feet are
+constexpr float kSideReach = 0.15f;   // m
 constexpr double kSettling =
     0.25;  // s: who comes to a stand puts its feet beside each other with this time constant
 constexpr float kSteepest = 1.2f;
@@ -68,7 +68,7 @@ Stance Footing::stand(std::size_t row, const Walker& walker, const GaitTrack& ga
                (2.0f * reach);
     };
     const glm::vec2 walking(
-        slope(heading, kReach) + (feet.step_to - feet.step_from) / static_cast<float>(step_length),
+        slope(heading, kSlopeReach) + (feet.step_to - feet.step_from) / static_cast<float>(step_length),
         slope(left, kSideReach));
     const glm::vec2 standing =
         is_carried ? glm::vec2(0.0f) : glm::vec2(glm::dot(here.slope, heading), glm::dot(here.slope, left));

@@ -18,20 +18,20 @@ using std::numbers::pi_v;
 // Feet as blender_addon/throng/cast/gait.py has them, shares of a foot's own cycle.
 constexpr double kRunningStride = 2.1;               // m: longer ones are run
 constexpr double kRunsDown = 0.15, kRunsFor = 0.33;  // comes down, is down for
-constexpr double kNormalStride = 1.446;              // m
 constexpr double kDownFor = 0.62, kLessDown = 0.09;  // at that stride; less for each time that it is longer
 constexpr float kBeside = 0.06f;                     // m, of a foot from the middle
 
 constexpr float kSwingsFrom = 0.3f;  // share of walking: below it, feet stay down but for steps of their own
-constexpr float kStiffness = 11.0f;  // 1/s, of what brings a foot in the air back to the clip's
-constexpr float kStepTime = 0.4f;    // s
+constexpr float kLegStiffness = 11.0f;  // 1/s, of what brings a foot in the air back to the clip's
+constexpr float kStepTime = 0.4f;       // s
 constexpr float kQuickStepTime = 0.28f, kQuick = 1.5f;  // s; rad/s: of who spins so fast or faster
 constexpr float kStepsAt = 0.14f;      // m: who stands makes a step at that distance from the clip's foot
 constexpr float kStepsAtTurn = 0.55f;  // rad: or if turned by that
 constexpr float kSettlesAt = 0.06f, kSettlesAtTurn = 0.25f;  // who has stood for a while puts its feet right
 constexpr float kSettlesAfter = 0.7f;                        // s
 constexpr float kLongest = 0.35f, kLongestTurn = 0.9f;       // a foot that walks leaves the ground at that
-constexpr float kReach = 0.45f, kReachTurned = 1.0f;  // m, rad: as far as legs go; then a foot is dragged
+constexpr float kLegReach = 0.45f,
+                kLegReachTurned = 1.0f;  // m, rad: as far as legs go; then a foot is dragged
 constexpr float kUrgent = 1.2f,
                 kUrgentAtRest =
                     1.8f;  // a foot that is so much too far goes while the other one is in the air
@@ -185,17 +185,17 @@ void Footsteps::lift(Person& person, const Moment& now) const {
 void Footsteps::move(Foot& foot, const Moment& now, std::size_t side) const {
     foot.since += interval_;
     if (foot.contact == Contact::planted) {
-        foot.away = atMost(foot.anchor - now.clip[side], kReach);
-        foot.turn = std::clamp(wrapped(foot.facing - now.direction), -kReachTurned, kReachTurned);
+        foot.away = atMost(foot.anchor - now.clip[side], kLegReach);
+        foot.turn = std::clamp(wrapped(foot.facing - now.direction), -kLegReachTurned, kLegReachTurned);
         foot.anchor = now.clip[side] + foot.away;
         foot.facing = now.direction + foot.turn;
         return;
     }
     foot.away += now.carries[side];  // which is no swing: the foot stays where it is, and follows
     const float half = 0.5f * now.stands_for;
-    approach(foot.away, foot.rate, atMost(half * now.slides, kMostAhead), kStiffness, interval_);
+    approach(foot.away, foot.rate, atMost(half * now.slides, kMostAhead), kLegStiffness, interval_);
     approach(foot.turn, foot.turn_rate, std::clamp(half * now.turns, -kMostTurnAhead, kMostTurnAhead),
-             kStiffness, interval_);
+             kLegStiffness, interval_);
     const bool swings = now.walking > kSwingsFrom && !now.down[side];
     const bool comes_down = foot.contact == Contact::steps ? foot.since >= foot.lasts && !swings : !swings;
     if (!comes_down) return;

@@ -26,7 +26,7 @@ void take(std::span<const std::byte>& bytes, std::span<T> items) {
     bytes = bytes.subspan(items.size_bytes());
 }
 
-std::uint32_t reachOf(double half_width, double fps) {
+std::uint32_t framesIn(double half_width, double fps) {
     const double frames = half_width * fps;
     return frames <= 1.0 ? 0 : static_cast<std::uint32_t>(std::ceil(frames - 1.0e-6)) - 1;
 }
@@ -62,7 +62,7 @@ Frame KeptFrame::view() const {
     return frame;
 }
 
-FrameWindow::FrameWindow(double half_width, double fps) : reach_(reachOf(half_width, fps)) {
+FrameWindow::FrameWindow(double half_width, double fps) : reach_(framesIn(half_width, fps)) {
     for (std::uint32_t reach = 0; reach <= reach_; ++reach)
         weights_.push_back(hann(reach));
 }

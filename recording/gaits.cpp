@@ -12,7 +12,6 @@ namespace {
 constexpr std::uint32_t kNormal = 3;      // of adults: 1.34 m/s
 constexpr std::uint32_t kSettingOff = 1;  // of those who begin to walk
 constexpr double kStandsAfter = 0.5;      // s: until then the stride that somebody stopped in is still seen
-constexpr double kNormalStride = 1.446;   // m per cycle of two steps
 constexpr double kRatio = 1.28;           // of a gait's stride to the one before
 constexpr double kStrideAtOne = 1.249;    // m at 1 m/s
 constexpr double kStays = 0.6;            // gaits: speeds jitter, one that is nearly as good stays

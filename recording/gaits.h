@@ -19,6 +19,7 @@
 namespace throng::recording {
 
 inline constexpr std::uint32_t kGaits = 6;      ///< clips of a walk; the last one: a run
+inline constexpr double kNormalStride = 1.446;  ///< m per cycle of two steps, of an adult at 1.34 m/s
 inline constexpr float kGaitInState = 0.0625f;  ///< the stream of states adds gait * this to the activity
 inline constexpr float kBeforeInState = kGaitInState / 32.0f;  ///< and of the gait before * this,
 inline constexpr float kLeftInState = kBeforeInState / 16.0f;  ///< and of the sixteenths left of it * this

@@ -4,7 +4,7 @@
 namespace throng::sim {
 namespace {
 
-const gl::Declaration kCensus = {
+const gl::Declaration kBehaviourCensus = {
     "behaviour",
     {"shaders/behaviour/census.comp"},
     {"LiveDispatch", "Bodies", "Walkers", "BehaviourPoints", "Censuses", "Tallies"},
@@ -29,7 +29,7 @@ Behaviour::Behaviour(const gl::ShaderLibrary& library, Buffers& buffers, const a
                      const MotionSettings& rules)
     : buffers_(buffers),
       census_count_(static_cast<std::uint32_t>(scene.behaviours.censuses.size())),
-      census_(buffers.connect(library, kCensus, buffers.definitions(rules))),
+      census_(buffers.connect(library, kBehaviourCensus, buffers.definitions(rules))),
       transitions_(buffers.connect(library, kTransitions, buffers.definitions(rules))),
       goals_(buffers.connect(library, kGoals, buffers.definitions(rules))) {
     census_.set("census_count", census_count_);

@@ -15,7 +15,6 @@
 namespace throng::sim {
 namespace {
 
-constexpr std::size_t kWord = sizeof(std::uint32_t);
 // How far contact may move somebody in one step and still be sure to meet everybody it is moved into, m.
 constexpr float kPushAllowance = 0.05f;
 
@@ -212,7 +211,7 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
       road_distances(gl::makeBuffer("road distances", scene.road_distance, "cell of the fields")),
       lines(gl::makeBuffer("waiting lines", scene.lines, "line")),
       line_points(gl::makeBuffer("line points", scene.line_points, "point of a line")),
-      tickets("tickets", {scene.ticket_count, kWord, "ticket"}),
+      tickets("tickets", {scene.ticket_count, gl::kWord, "ticket"}),
       behaviour_states(gl::makeBuffer("behaviour states", scene.behaviours.states, "state of a behaviour")),
       behaviour_rules(gl::makeBuffer("behaviour rules", scene.behaviours.rules, "rule of a behaviour")),
       behaviour_places(gl::makeBuffer("behaviour places", scene.behaviours.places, "place of a behaviour")),
@@ -223,7 +222,7 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
       detour_slopes("detour slopes",
                     {scene.detours.distances.size(), sizeof(glm::vec2), "cell of a detour field"}),
       queues(gl::makeBuffer("queues", scene.queues, "queue")),
-      queue_heads("queue heads", {scene.queues.size(), kWord, "queue"}),
+      queue_heads("queue heads", {scene.queues.size(), gl::kWord, "queue"}),
       entries(gl::makeBuffer("entries", scene.entries, "entry")),
       entry_points(gl::makeBuffer("entry points", scene.entry_points, "point of an entry")),
       proposals("spawn proposals",
@@ -249,7 +248,7 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
     // One cell more than there are belongs to the last strip: where it starts is how many people there are.
     const std::size_t strips = cells / gpu::CELLS_PER_STRIP + 1;
     const auto zeros = [](const char* name, std::size_t words, const char* per) {
-        gl::Buffer buffer(name, {words, kWord, per});
+        gl::Buffer buffer(name, {words, gl::kWord, per});
         buffer.fill(0);
         return buffer;
     };
@@ -261,14 +260,14 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
     strip_starts = zeros("strip starts", strips, "strip");
     const std::size_t strips_per_group = std::size_t{gpu::SCAN_GROUP_SIZE} * gpu::COUNTS_PER_THREAD;
     strip_group_sums =
-        gl::Buffer("strip group sums", {strips / strips_per_group + 1, kWord, "group of strips"});
-    strip_list = gl::Buffer("listed strips", {std::min(strips, 2 * rows), kWord, "strip"});
+        gl::Buffer("strip group sums", {strips / strips_per_group + 1, gl::kWord, "group of strips"});
+    strip_list = gl::Buffer("listed strips", {std::min(strips, 2 * rows), gl::kWord, "strip"});
     strip_list_end = gl::makeBuffer("end of listed strips", std::vector<std::uint32_t>{0});
-    fill_dispatch = gl::Buffer("fill dispatch", kWord * 4);
-    row_cells = gl::Buffer("row cells", {rows, kWord, kPerson});
+    fill_dispatch = gl::Buffer("fill dispatch", gl::kWord * 4);
+    row_cells = gl::Buffer("row cells", {rows, gl::kWord, kPerson});
     row_cells.fill(gpu::NO_INDEX);
-    loose_rows = gl::Buffer("loose rows", {rows, kWord, kPerson});
-    live_dispatch = gl::Buffer("live dispatch", kWord * 4);
+    loose_rows = gl::Buffer("loose rows", {rows, gl::kWord, kPerson});
+    live_dispatch = gl::Buffer("live dispatch", gl::kWord * 4);
     live_dispatch.fill(0);
 
     site_slots = gl::makeBuffer("site slots", initialSiteSlots(scene, rows), kSite);
@@ -280,12 +279,12 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
     if (!fixed.empty()) sites.upload(std::span<const gpu::DiagramSite>(fixed), rows);
 
     neighbours = gl::Buffer("neighbours",
-                            {rows, kWord * static_cast<std::size_t>(scene.settings.neighbours), kPerson});
-    neighbour_counts = gl::Buffer("neighbour counts", {rows, kWord, kPerson});
-    touch_words = gl::Buffer("touch words", {rows, kWord, kPerson});
-    touch_lists = gl::Buffer("touch lists", {rows, kWord * gpu::TOUCH_CAPACITY, kPerson});
-    touch_slots = gl::Buffer("touch slots", {rows, kWord, kPerson});
-    touch_dispatch = gl::Buffer("touch dispatch", kWord * 4);
+                            {rows, gl::kWord * static_cast<std::size_t>(scene.settings.neighbours), kPerson});
+    neighbour_counts = gl::Buffer("neighbour counts", {rows, gl::kWord, kPerson});
+    touch_words = gl::Buffer("touch words", {rows, gl::kWord, kPerson});
+    touch_lists = gl::Buffer("touch lists", {rows, gl::kWord * gpu::TOUCH_CAPACITY, kPerson});
+    touch_slots = gl::Buffer("touch slots", {rows, gl::kWord, kPerson});
+    touch_dispatch = gl::Buffer("touch dispatch", gl::kWord * 4);
     weights = gl::Buffer("weights", {rows, sizeof(glm::vec2), kPerson});
     preferred_velocities = gl::Buffer("preferred velocities", {rows, sizeof(glm::vec2), kPerson});
     decisions = gl::Buffer(
@@ -296,7 +295,7 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
     targets_after = gl::Buffer("targets after contact", {rows, target_bytes, kPerson});
     if (hasCharts()) {
         slot_images = gl::Buffer("slot images", {rows, sizeof(gpu::SlotImage), kPerson});
-        row_slots = gl::Buffer("row slots", {scene.people.size(), kWord, kPerson});
+        row_slots = gl::Buffer("row slots", {scene.people.size(), gl::kWord, kPerson});
     }
     if (!scene.chart_map.lifts.empty()) makeLifts(scene.chart_map.lifts, scene.people.size());
     if (!scene.traffic.empty()) makeTraffic(scene.traffic);
@@ -317,8 +316,8 @@ void Buffers::makeLifts(const authoring::LiftMap& lifts, std::size_t people_coun
     cabin_stops = gl::makeBuffer("cabins", lifts.stop_of, "chart");
     lift_states = gl::makeBuffer("states of lifts", states_at_start, "lift");
     lift_wishes = gl::Buffer("wishes of lifts", {lifts.plans.size(), sizeof(gpu::LiftWishes), "lift"});
-    lift_queues = gl::Buffer("queues before lifts", {lifts.stops.size(), kWord, "stop of a lift"});
-    riders = gl::Buffer("riders", {people_count, kWord, kPerson});
+    lift_queues = gl::Buffer("queues before lifts", {lifts.stops.size(), gl::kWord, "stop of a lift"});
+    riders = gl::Buffer("riders", {people_count, gl::kWord, kPerson});
     for (gl::Buffer* each : {&lift_wishes, &lift_queues, &riders})
         each->fill(0);
     lifts_ = {{"LIFTS", fmt::format("{}u", lifts.plans.size())},
@@ -334,10 +333,10 @@ void Buffers::makeTraffic(const authoring::SceneTraffic& traffic) {
     traffic_stops = gl::makeBuffer("traffic stops", traffic.stops, "stop of a lane");
     crossings = gl::makeBuffer("crossings", traffic.crossings, "crossing");
     crossing_points = gl::makeBuffer("crossing points", traffic.crossing_points, "point of a crossing");
-    lights = gl::Buffer("lights", {traffic.lights.size(), kWord, "light"});
+    lights = gl::Buffer("lights", {traffic.lights.size(), gl::kWord, "light"});
     lights.fill(gpu::LIGHT_RED);
     in_the_way = gl::Buffer("people in the way",
-                            {traffic.vehicles.size() + traffic.stops.size(), kWord, "vehicle or stop"});
+                            {traffic.vehicles.size() + traffic.stops.size(), gl::kWord, "vehicle or stop"});
     traffic_ = {{"TRAFFIC", "1"},
                 {"VEHICLES", fmt::format("{}u", traffic.vehicles.size())},
                 {"LANES", fmt::format("{}u", traffic.lanes.size())},

@@ -17,19 +17,19 @@ const gl::Declaration kFlow = {
     {"ParametersBlock", "Ground", "Bodies", "StripStarts", "CellOffsets", "CrowdFlows", "ChartCells",
      "ChartShifts", "Belts", "LiftPlans", "LiftStops", "CabinStops"},
     {"CrowdFlows", "DenseBlocks"}};
-const gl::Declaration kList = {"routes",
-                               {"shaders/routes/detour_list.comp"},
-                               {"ParametersBlock", "ChangedBlocks", "DenseBlocks", "BlockDispatch"},
-                               {"BlockDispatch", "ListedBlocks"}};
-const gl::Declaration kRelax = {"routes",
-                                {"shaders/routes/detour_relax.comp"},
-                                {"ParametersBlock", "CrowdFlows", "Ground", "DetourDistances",
-                                 "FreeDistances", "ListedBlocks", "FieldMaps"},
-                                {"ChangedBlocks", "NextDistances"}};
-const gl::Declaration kKeep = {"routes",
-                               {"shaders/routes/detour_keep.comp"},
-                               {"ParametersBlock", "ListedBlocks", "NextDistances"},
-                               {"DetourDistances"}};
+const gl::Declaration kJamList = {"routes",
+                                  {"shaders/routes/detour_list.comp"},
+                                  {"ParametersBlock", "ChangedBlocks", "DenseBlocks", "BlockDispatch"},
+                                  {"BlockDispatch", "ListedBlocks"}};
+const gl::Declaration kJamRelax = {"routes",
+                                   {"shaders/routes/detour_relax.comp"},
+                                   {"ParametersBlock", "CrowdFlows", "Ground", "DetourDistances",
+                                    "FreeDistances", "ListedBlocks", "FieldMaps"},
+                                   {"ChangedBlocks", "NextDistances"}};
+const gl::Declaration kJamKeep = {"routes",
+                                  {"shaders/routes/detour_keep.comp"},
+                                  {"ParametersBlock", "ListedBlocks", "NextDistances"},
+                                  {"DetourDistances"}};
 const gl::Declaration kSlope = {
     "routes",
     {"shaders/routes/detour_slope.comp"},
@@ -94,8 +94,8 @@ Congestion::Congestion(const gl::ShaderLibrary& library, Buffers& buffers, const
                                                                         {"ListedBlocks", &listed_},
                                                                         {"BlockDispatch", &block_dispatch_}};
     for (const auto& [program, declaration] :
-         {std::pair{&flow_, &kFlow}, std::pair{&list_, &kList}, std::pair{&relax_, &kRelax},
-          std::pair{&keep_, &kKeep}, std::pair{&slope_, &kSlope}}) {
+         {std::pair{&flow_, &kFlow}, std::pair{&list_, &kJamList}, std::pair{&relax_, &kJamRelax},
+          std::pair{&keep_, &kJamKeep}, std::pair{&slope_, &kSlope}}) {
         *program = buffers.connect(library, *declaration, buffers.definitions(rules));
         program->bindAll(own);
     }

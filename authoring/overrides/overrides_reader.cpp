@@ -14,9 +14,10 @@
 namespace throng::authoring {
 namespace {
 
-class Reader {
+class OverridesReader {
   public:
-    Reader(Diagnostics& diagnostics, const Schema& schema) : diagnostics_(diagnostics), schema_(schema) {}
+    OverridesReader(Diagnostics& diagnostics, const Schema& schema)
+        : diagnostics_(diagnostics), schema_(schema) {}
 
     OverrideFile read(const JsonNode& root) {
         ObjectReader reader(root, schema_.rule(), "the override file", diagnostics_);
@@ -95,7 +96,7 @@ std::optional<OverrideFile> readOverrides(std::string_view text, Diagnostics& di
                                           const Schema& schema) {
     const JsonNode root = parseJson(text, diagnostics);
     if (diagnostics.hasErrors()) return std::nullopt;
-    OverrideFile file = Reader(diagnostics, schema).read(root);
+    OverrideFile file = OverridesReader(diagnostics, schema).read(root);
     if (diagnostics.hasErrors()) return std::nullopt;
     for (const Override& entry : file.people)
         if (entry.change.changesNothing())

@@ -14,10 +14,10 @@ namespace throng::authoring {
 namespace {
 
 /// Reads one selector: each of its keys is a condition of its own.
-class Reader {
+class SelectorReader {
   public:
-    Reader(const JsonNode& node, SchemaRule rule, const std::vector<std::string>& layers,
-           Diagnostics& diagnostics)
+    SelectorReader(const JsonNode& node, SchemaRule rule, const std::vector<std::string>& layers,
+                   Diagnostics& diagnostics)
         : layers_(layers), diagnostics_(diagnostics), reader_(node, rule, "a selector", diagnostics) {}
 
     Selector read() {
@@ -240,7 +240,7 @@ class Reader {
 
 Selector readSelector(const JsonNode& node, SchemaRule rule, const std::vector<std::string>& names,
                       Diagnostics& diagnostics) {
-    return Reader(node, rule, names, diagnostics).read();
+    return SelectorReader(node, rule, names, diagnostics).read();
 }
 
 }  // namespace throng::authoring

@@ -7,6 +7,7 @@
 
 #include "authoring/scene/itineraries.h"
 #include "authoring/scene/raster.h"
+#include "authoring/scene/standing.h"
 
 namespace throng::authoring {
 namespace {
@@ -14,10 +15,7 @@ namespace {
 using Does = BehaviourState::Does;
 using Kind = Condition::Kind;
 
-constexpr std::uint32_t kSpots = 256;    // of a place
-constexpr float kStandClearance = 0.3f;  // m to walls beyond a body
-constexpr float kCircle = 0.45f;         // m: radius of the ring in which a party stands (goals.comp)
-constexpr float kPassTolerance = 0.3f;   // m
+constexpr std::uint32_t kSpots = 256;  // of a place
 
 gpu::Drawn drawnOf(const Distribution& distribution) {
     return {static_cast<gpu::uint>(distribution.kind), static_cast<float>(distribution.mean),
@@ -27,13 +25,6 @@ gpu::Drawn drawnOf(const Distribution& distribution) {
 
 const gpu::Drawn kWhile{0, gpu::DWELL_WHILE, 0.0f, 0.0f, 0.0f};
 constexpr gpu::Drawn kNothing{0, 0.0f, 0.0f, 0.0f, 0.0f};
-
-glm::vec2 middleOf(const LocalPolygon& polygon) {
-    glm::vec2 middle(0.0f);
-    for (const glm::vec2 point : polygon)
-        middle += point / static_cast<float>(polygon.size());
-    return middle;
-}
 
 gpu::Drawn stayOf(const BehaviourState& state) {
     if (state.lasts) return drawnOf(*state.lasts);

@@ -17,7 +17,6 @@ namespace throng::authoring {
 namespace {
 
 constexpr float kBetter = 1.0e-4f;      // m: less is none
-constexpr float kFillCost = 10.0f;      // per metre into what is blocked
 constexpr std::uint32_t kDeepest = 20;  // cells into what is blocked
 constexpr std::uint32_t kSide = FieldBlocks::kSide;
 

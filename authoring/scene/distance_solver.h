@@ -12,6 +12,9 @@
 /// Ground to walk on as a grid, and who works distances out on it.
 namespace throng::authoring {
 
+/// Per metre into what is blocked, so that "downhill" points out of it.
+inline constexpr float kFillCost = 10.0f;
+
 /// What a grid's cells have to do with charts (authoring/storeys/charts.h).
 struct SeamCells {
     std::vector<std::uint8_t> blocked;  ///< 1: nobody's ground, or another chart's; per cell

@@ -15,7 +15,6 @@
 namespace throng::authoring {
 namespace {
 
-constexpr float kFillCost = 10.0f;  // per metre into what is blocked, so that "downhill" points out of it
 constexpr float kFillDepth = 4.0f;  // m
 constexpr int kExactCells =
     12;  // around small targets, where fitted planes are poor, distances are taken exactly

@@ -11,23 +11,14 @@
 
 #include "authoring/scene/behaviours.h"
 #include "authoring/scene/raster.h"
+#include "authoring/scene/standing.h"
 #include "authoring/scene/traffic.h"
 #include "authoring/scene/walls.h"
 
 namespace throng::authoring {
 namespace {
 
-constexpr float kPassTolerance = 0.3f;  // m
-constexpr float kStandTolerance = 0.3f;
-constexpr float kStandClearance = 0.3f;  // m to walls beyond a body, where there is room
-constexpr float kCircle = 0.45f;         // m: radius of the ring in which a party stands and talks
-
-glm::vec2 middleOf(const LocalPolygon& polygon) {
-    glm::vec2 middle(0.0f);
-    for (const glm::vec2 point : polygon)
-        middle += point / static_cast<float>(polygon.size());
-    return middle;
-}
+constexpr float kStandTolerance = 0.3f;  // m
 
 float edgeDistance(const LocalPolygon& polygon, glm::vec2 point) {
     float least = kUnreachable;

@@ -76,10 +76,10 @@ class PlacedBodies {
     std::unordered_map<std::uint64_t, std::vector<gpu::Person>> cells_;
 };
 
-class Builder {
+class SceneAssembly {
   public:
-    Builder(const Layout& layout, Diagnostics& diagnostics, GroundCache& cache, const TerrainMesh* terrain,
-            DistanceSolver* solver, std::shared_ptr<const Charts> charts)
+    SceneAssembly(const Layout& layout, Diagnostics& diagnostics, GroundCache& cache,
+                  const TerrainMesh* terrain, DistanceSolver* solver, std::shared_ptr<const Charts> charts)
         : layout_(layout),
           diagnostics_(diagnostics),
           cache_(cache),
@@ -774,7 +774,7 @@ std::optional<Scene> buildScene(const Layout& layout, Diagnostics& diagnostics, 
         if (!charts) return std::nullopt;
     }
     const Layout& plane = charts ? charts->plane : layout;
-    return Builder(plane, diagnostics, cache ? *cache : own, terrain, solver, charts).build();
+    return SceneAssembly(plane, diagnostics, cache ? *cache : own, terrain, solver, charts).build();
 }
 
 }  // namespace throng::authoring

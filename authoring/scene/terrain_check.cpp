@@ -38,10 +38,10 @@ void walkAlong(glm::dvec2 a, glm::dvec2 b, double spacing, Visit visit) {
         visit(glm::mix(a, b, static_cast<double>(i) / pieces));
 }
 
-class Checker {
+class TerrainChecker {
   public:
-    Checker(const Layout& layout, const Rebase& rebase, const WalkGeometry& geometry, const TerrainMesh& mesh,
-            const Terrain& terrain, Diagnostics& diagnostics)
+    TerrainChecker(const Layout& layout, const Rebase& rebase, const WalkGeometry& geometry,
+                   const TerrainMesh& mesh, const Terrain& terrain, Diagnostics& diagnostics)
         : layout_(layout),
           settings_(*layout.terrain),
           rebase_(rebase),
@@ -209,7 +209,7 @@ class Checker {
 
 void checkTerrain(const Layout& layout, const Rebase& rebase, const WalkGeometry& geometry,
                   const TerrainMesh& mesh, const Terrain& terrain, Diagnostics& diagnostics) {
-    Checker(layout, rebase, geometry, mesh, terrain, diagnostics).check();
+    TerrainChecker(layout, rebase, geometry, mesh, terrain, diagnostics).check();
 }
 
 glm::dvec2 groundAlong(const Wall& wall, const Rebase& rebase, const Terrain& terrain) {

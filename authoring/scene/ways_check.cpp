@@ -40,10 +40,10 @@ struct Pieces {
     std::vector<std::uint32_t> of;  // kNone where no body can be
 };
 
-class Checker {
+class WaysChecker {
   public:
-    Checker(const Layout& layout, const Rebase& rebase, const WalkGeometry& geometry, Routes& routes,
-            const Scene& scene, Diagnostics& diagnostics)
+    WaysChecker(const Layout& layout, const Rebase& rebase, const WalkGeometry& geometry, Routes& routes,
+                const Scene& scene, Diagnostics& diagnostics)
         : layout_(layout),
           rebase_(rebase),
           geometry_(geometry),
@@ -352,7 +352,8 @@ class Checker {
 
 void checkWays(const Layout& layout, const Rebase& rebase, const WalkGeometry& geometry, Routes& routes,
                const Scene& scene, Diagnostics& diagnostics) {
-    if (!scene.wall_segments.empty()) Checker(layout, rebase, geometry, routes, scene, diagnostics).check();
+    if (!scene.wall_segments.empty())
+        WaysChecker(layout, rebase, geometry, routes, scene, diagnostics).check();
 }
 
 }  // namespace throng::authoring

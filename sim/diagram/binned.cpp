@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kPageBytes = std::size_t{4} * gpu::PAGE_SIDE * gpu::PAGE_SIDE;
 
-const gl::Declaration kGather = {
+const gl::Declaration kGatherTiles = {
     "diagram",
     {"shaders/diagram/binned.comp"},
     {"binned_sites", "StripStarts", "CellOffsets", "FixedBinStarts", "fixed_binned_sites", "FixedOwners",
@@ -71,7 +71,7 @@ BinnedDiagram::BinnedDiagram(const DiagramSetup& setup, Pages* pages)
       fixed_sites_(setup.fixed_sites),
       blocks_(blocksAcross(setup.options.width, setup.options.gather.block_width) *
               blocksAcross(setup.options.height, setup.options.gather.block_height)),
-      gather_(setup.library, kGather,
+      gather_(setup.library, kGatherTiles,
               definitionsFor(setup.options, !setup.fixed_sites.empty(),
                              pages ? Gathering::pages : Gathering::whole)),
       pages_(pages),
@@ -121,7 +121,7 @@ void BinnedDiagram::setUpNear() {
     near_->list_pages.set("look", options_.look);
     near_->list_pages.set("pages_per_group", pagesPerGroup(options_.gather));
     near_->gather = gl::ComputeProgram(
-        library_, kGather, definitionsFor(options_, !fixed_sites_.empty(), Gathering::near_people));
+        library_, kGatherTiles, definitionsFor(options_, !fixed_sites_.empty(), Gathering::near_people));
     for (gl::ComputeProgram* program : {&near_->list_pages, &near_->gather}) {
         program->bind("PageList", near_->list);
         program->bind("PageCount", near_->count);

@@ -22,10 +22,10 @@ const gl::Declaration kFindSeconds = {
     {"shaders/diagram/second.comp"},
     {"Owners", "BinStarts", "binned_sites", "FixedBinStarts", "fixed_binned_sites"},
     {"Seconds"}};
-const gl::Declaration kCount = {"densities",
-                                {"shaders/diagram/count.comp"},
-                                {"LiveDispatch", "Sites", "owners", "page_table"},
-                                {"PixelCounts"}};
+const gl::Declaration kCountLookedUp = {"densities",
+                                        {"shaders/diagram/count.comp"},
+                                        {"LiveDispatch", "Sites", "owners", "page_table"},
+                                        {"PixelCounts"}};
 
 /// One word a pixel.
 gl::Room picture(const DiagramOptions& options) {
@@ -247,7 +247,7 @@ const gl::Buffer& Diagram::countPixels() {
         extras_->counts.emplace();
         extras_->counts->counts = gl::Buffer("pixels of each site", {options_.live_capacity, 4, kSite});
         gl::ComputeProgram& count = extras_->counts->count;
-        count = gl::ComputeProgram(library_, kCount, lookupDefinitions());
+        count = gl::ComputeProgram(library_, kCountLookedUp, lookupDefinitions());
         count.bind("Sites", *input_.sites);
         count.bind("LiveDispatch", *input_.live_dispatch);
         count.bind("PixelCounts", extras_->counts->counts);

@@ -12,7 +12,6 @@
 namespace throng::sim {
 namespace {
 
-constexpr std::size_t kWord = sizeof(std::uint32_t);
 constexpr std::size_t kPagePixels = std::size_t{gpu::PAGE_SIDE} * gpu::PAGE_SIDE;
 
 const gl::Declaration kPlace = {"diagram",
@@ -36,7 +35,7 @@ gl::Room checkedTable(std::uint32_t width, std::uint32_t height) {
             "the diagram of {} x {} pixels is too large even in pages. Set "
             "simulation.pixels_per_metre to at most {:.2g} times what it is, or split the layout.",
             width, height, std::sqrt(static_cast<double>(kMostSquares) / static_cast<double>(squares))));
-    return {squares, kWord, "page of the window"};
+    return {squares, gl::kWord, "page of the window"};
 }
 
 }  // namespace
@@ -58,8 +57,8 @@ Pages::Pages(const gl::ShaderLibrary& library, std::uint32_t width, std::uint32_
       look_(look),
       table_("diagram page table", checkedTable(width, height)),
       fixed_table_("diagram page table, fixed sites", checkedTable(width, height)),
-      count_("diagram page count", 4 * kWord),
-      fixed_count_("diagram page count, fixed sites", 4 * kWord),
+      count_("diagram page count", 4 * gl::kWord),
+      fixed_count_("diagram page count, fixed sites", 4 * gl::kWord),
       // The empty page, and the group of a pass over all pages that it is in.
       empty_count_(gl::makeBuffer("no diagram pages", std::vector<std::uint32_t>{1, 1, 1, 1})),
       place_(library, kPlace),
@@ -77,7 +76,7 @@ Pages::Pages(const gl::ShaderLibrary& library, std::uint32_t width, std::uint32_
     // The fixed sites are placed once, in a list that is long enough for them, to learn how many pages they
     // take.
     const std::uint64_t fixed_bound = pagesNeeded(width, height, largest_radius, fixed_sites.size());
-    gl::Buffer fixed_list("diagram pages, fixed sites at most", {fixed_bound, kWord, "page"});
+    gl::Buffer fixed_list("diagram pages, fixed sites at most", {fixed_bound, gl::kWord, "page"});
     const gl::Buffer sites = gl::makeBuffer(
         "fixed sites", std::vector<gpu::DiagramSite>(fixed_sites.begin(), fixed_sites.end()), "fixed site");
     const gl::Buffer dispatch = gl::makeBuffer("fixed dispatch", dispatchOf(fixed_sites.size()));
@@ -88,7 +87,7 @@ Pages::Pages(const gl::ShaderLibrary& library, std::uint32_t width, std::uint32_
     fixed_table_.copyFrom(table_);
     fixed_count_.copyFrom(count_);
     const std::uint64_t fixed_pages = count_.download<std::uint32_t>(4).back();
-    fixed_list_ = gl::Buffer("diagram pages, fixed sites", {fixed_pages, kWord, "page"});
+    fixed_list_ = gl::Buffer("diagram pages, fixed sites", {fixed_pages, gl::kWord, "page"});
     fixed_list_.copyFrom(fixed_list);
 
     const std::uint64_t all = std::uint64_t{per_line_} * pagesAcross(height) + 1;
@@ -104,7 +103,7 @@ Pages::Pages(const gl::ShaderLibrary& library, std::uint32_t width, std::uint32_
             width, height, static_cast<double>(needed * kPagePixels) / 1e6,
             static_cast<double>(kMostPages * kPagePixels) / 1e6));
     capacity_ = static_cast<std::uint32_t>(needed);
-    list_ = gl::Buffer("diagram pages", {capacity_, kWord, "page"});
+    list_ = gl::Buffer("diagram pages", {capacity_, gl::kWord, "page"});
     list_.copyFrom(fixed_list_);
     place_.set("page_capacity", capacity_);
     place_.bind("PageList", list_);
@@ -113,7 +112,7 @@ Pages::Pages(const gl::ShaderLibrary& library, std::uint32_t width, std::uint32_
 }
 
 gl::Room Pages::store() const {
-    return {kPagePixels * capacity_, kWord, "pixel"};
+    return {kPagePixels * capacity_, gl::kWord, "pixel"};
 }
 
 void Pages::connect(const gl::Buffer& sites, const gl::Buffer& live_dispatch) {

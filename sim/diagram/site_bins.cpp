@@ -7,19 +7,17 @@
 namespace throng::sim {
 namespace {
 
-constexpr std::size_t kWord = sizeof(std::uint32_t);
-
-const gl::Declaration kCount = {"diagram",
-                                {"shaders/diagram/bins_count.comp"},
-                                {"LiveDispatch", "Sites", "Counts"},
-                                {"Counts", "SitePlaces"}};
-const gl::Declaration kSum = {"diagram", {"shaders/cells/counts_sum.comp"}, {"Counts"}, {"GroupSums"}};
+const gl::Declaration kBinsCount = {"diagram",
+                                    {"shaders/diagram/bins_count.comp"},
+                                    {"LiveDispatch", "Sites", "Counts"},
+                                    {"Counts", "SitePlaces"}};
+const gl::Declaration kBinsSum = {"diagram", {"shaders/cells/counts_sum.comp"}, {"Counts"}, {"GroupSums"}};
 const gl::Declaration kFindStarts = {
     "diagram", {"shaders/diagram/bins_starts.comp"}, {"Counts", "GroupSums"}, {"BinStarts"}};
-const gl::Declaration kScatter = {"diagram",
-                                  {"shaders/diagram/bins_scatter.comp"},
-                                  {"LiveDispatch", "Sites", "BinStarts", "SitePlaces"},
-                                  {"BinnedSites"}};
+const gl::Declaration kBinsScatter = {"diagram",
+                                      {"shaders/diagram/bins_scatter.comp"},
+                                      {"LiveDispatch", "Sites", "BinStarts", "SitePlaces"},
+                                      {"BinnedSites"}};
 
 std::uint32_t binsAcross(std::uint32_t pixels, float side) {
     return std::max(1u, static_cast<std::uint32_t>(std::ceil(static_cast<float>(pixels) / side)));
@@ -49,16 +47,17 @@ void BinGrid::describeTo(gl::Program& program) const {
 
 SiteBins::SiteBins(const gl::ShaderLibrary& library, const BinGrid& grid, std::uint32_t capacity)
     : grid_(grid),
-      counts_("bin counts", {grid.count(), kWord, "bin"}),
-      group_sums_("bin group sums", {scanThreads(grid) / gpu::SCAN_GROUP_SIZE + 1, kWord, "group of bins"}),
-      starts_("bin starts", {std::size_t{grid.count()} + 1, kWord, "bin"}),
-      places_("places in bins", {capacity, 2 * kWord, kSite}),
+      counts_("bin counts", {grid.count(), gl::kWord, "bin"}),
+      group_sums_("bin group sums",
+                  {scanThreads(grid) / gpu::SCAN_GROUP_SIZE + 1, gl::kWord, "group of bins"}),
+      starts_("bin starts", {std::size_t{grid.count()} + 1, gl::kWord, "bin"}),
+      places_("places in bins", {capacity, 2 * gl::kWord, kSite}),
       sites_("binned sites", {std::max<std::size_t>(1, capacity), sizeof(gpu::DiagramSite), kSite}),
       site_texture_(sites_, gl::WordTexture::Texel::four_words),
-      count_(library, kCount),
-      sum_(library, kSum),
+      count_(library, kBinsCount),
+      sum_(library, kBinsSum),
       find_starts_(library, kFindStarts),
-      scatter_(library, kScatter) {
+      scatter_(library, kBinsScatter) {
     count_.bind("Counts", counts_);
     count_.bind("SitePlaces", places_);
     grid.describeTo(count_);

@@ -12,6 +12,8 @@
 
 namespace throng::gl {
 
+inline constexpr std::size_t kWord = sizeof(std::uint32_t);  ///< bytes
+
 /// Room for so many elements, of so many bytes each.
 struct Room {
     std::size_t count = 0;
