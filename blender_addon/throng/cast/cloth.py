@@ -69,31 +69,46 @@ def _give(upper, lower, which, share, missing):
     lower[which] += missing * (1.0 - share) / weight
 
 
-def _cover(spans, x, z, side):
-    """Widens rings [front, back, y, z, half width] until the cloth between them is outside of a point; `side` is 0
-    in front and 1 behind."""
-    sign = 1.0 if side == 0 else -1.0
+def _place(spans, x, z, side):
+    """(ring above, ring below, share of the way up from that, x, side) of a point, None where no ring is beside it. Of
+    what is above all rings there is none below, and the first has to reach as far. Rings [front, back, y, z, half width]
+    move fore and aft only, so this is asked once."""
     if spans[-1][3] - 0.05 < z:  # what is just below the hem is at the hem a little higher
         z = max(z, spans[-1][3])
     for upper, lower in zip(spans, spans[1:]):
         if lower[3] <= z <= upper[3]:
-            share = (z - lower[3]) / max(upper[3] - lower[3], 1e-6)
-            near, far = (lower[end] + (upper[end] - lower[end]) * share for end in (side, 1 - side))
-            missing = sign * ((x - 0.5 * (1.0 - _BESIDE) * far) / (0.5 * (1.0 + _BESIDE)) - near)
-            if missing > 0.0:
-                _give(upper, lower, side, share, sign * missing)
-            return
-    if z > spans[0][3]:
-        spans[0][side] = sign * max(sign * spans[0][side], sign * x)
+            return upper, lower, (z - lower[3]) / max(upper[3] - lower[3], 1e-6), x, side
+    return (spans[0], None, 0.0, x, side) if z > spans[0][3] else None
+
+
+def _cover(place):
+    """Widens rings until the cloth between them is outside of a point; `side` is 0 in front and 1 behind. Returns
+    whether anything has moved."""
+    upper, lower, share, x, side = place
+    sign = 1.0 if side == 0 else -1.0
+    if lower is None:
+        if sign * x <= sign * upper[side]:
+            return False
+        upper[side] = x
+        return True
+    near = lower[side] + (upper[side] - lower[side]) * share
+    far = lower[1 - side] + (upper[1 - side] - lower[1 - side]) * share
+    missing = sign * ((x - 0.5 * (1.0 - _BESIDE) * far) / (0.5 * (1.0 + _BESIDE)) - near)
+    if missing <= 0.0:
+        return False
+    _give(upper, lower, side, share, sign * missing)
+    return True
 
 
 def _cover_legs(figure, spans, off):
     """Makes rings as deep and as wide as what is within them."""
     points = _surfaces(figure, off * figure.s)
+    places = [place for front, front_z, back, back_z, _ in points
+              for place in (_place(spans, front, front_z, 0), _place(spans, back, back_z, 1)) if place]
     for _ in range(4):  # what covers one point may move the cloth off another
-        for front, front_z, back, back_z, _ in points:
-            _cover(spans, front, front_z, 0)
-            _cover(spans, back, back_z, 1)
+        moved = [_cover(place) for place in places]
+        if not any(moved):
+            break
     _widen(spans, points)
 
 
