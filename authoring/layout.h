@@ -276,9 +276,19 @@ struct GridFormation {
     std::variant<glm::dvec2, Destination, Line, Extent> goal;
 };
 
+/// A place on the way of somebody who is listed.
+struct Waypoint {
+    glm::dvec2 point{0.0};
+    double wait = 0.0;  ///< s that the person stands there; 0: it only passes
+    SourcePosition where{};
+};
+
 struct ListedAgent {
     glm::dvec2 position{0.0};
+    std::vector<Waypoint> via{};  ///< in order, before the goal
     glm::dvec2 goal{0.0};
+    double start = 0.0;             ///< s: when the person appears
+    std::optional<double> wait{};   ///< s before it sets off; otherwise drawn
     std::optional<double> speed;    ///< m/s; otherwise drawn
     std::optional<double> radius;   ///< m; otherwise drawn
     std::optional<double> heading;  ///< degrees; otherwise towards the goal
@@ -286,7 +296,7 @@ struct ListedAgent {
 };
 
 struct ListFormation {
-    std::vector<ListedAgent> agents;
+    std::vector<ListedAgent> agents;  ///< in the order of their starts
 };
 
 struct Formation {

@@ -462,8 +462,8 @@ class Reader {
         const bool behaves = node.find("behaviour") != nullptr;
         if (type == Shape::circle) formation.shape = readCircle(reader);
         if (type == Shape::grid) formation.shape = readGrid(reader, behaves);
-        if (type == Shape::agents) formation.shape = readList(reader, behaves);
         reader.number("start", formation.start);
+        if (type == Shape::agents) formation.shape = readList(reader, behaves, formation.start);
         formation.wait = readDistribution(reader, "wait", formation.wait, diagnostics_);
         formation.people = readPeople(reader, diagnostics_);
         readArrival(reader, formation.arrival);
@@ -545,7 +545,9 @@ class Reader {
         return grid;
     }
 
-    ListFormation readList(ObjectReader& reader, bool behaves) {
+    /// @param behaves a behaviour says where its people go
+    /// @param start s: of those who name none
+    ListFormation readList(ObjectReader& reader, bool behaves, double start) {
         ListFormation list;
         reader.require("agents", "an array of people");
         const SchemaRule rule = reader.rule("agents").item();
@@ -557,16 +559,39 @@ class Reader {
             inner.point("position", "[x, y] in metres", agent.position);
             agent.goal = agent.position;
             if (!behaves || node.find("goal")) inner.point("goal", "[x, y] in metres", agent.goal);
-            if (const JsonNode* goal = node.find("goal"); goal && behaves)
-                diagnostics_.error(goal->where, "`goal` is said twice: the behaviour tells where people go",
-                                   "leave `goal` out, or `behaviour`");
+            for (const char* key : {"goal", "via", "wait"})
+                if (const JsonNode* said = node.find(key); said && behaves)
+                    diagnostics_.error(
+                        said->where,
+                        fmt::format("`{}` is said twice: the behaviour tells where people go", key),
+                        fmt::format("leave `{}` out, or `behaviour`", key));
+            readVia(inner, agent);
+            agent.start = start;
+            inner.number("start", agent.start);
+            inner.number("wait", agent.wait);
             inner.number("speed", agent.speed);
             inner.number("radius", agent.radius);
             inner.number("heading", agent.heading);
             inner.finish();
             list.agents.push_back(agent);
         });
+        // Rows of people come in one after the other.
+        std::ranges::stable_sort(list.agents, {}, &ListedAgent::start);
         return list;
+    }
+
+    void readVia(ObjectReader& reader, ListedAgent& agent) {
+        const SchemaRule rule = reader.rule("via").item();
+        eachOf(reader, "via", [&](const JsonNode& node) {
+            Waypoint waypoint;
+            waypoint.where = node.where;
+            ObjectReader inner(node, rule, "a place on the way", diagnostics_);
+            if (!inner.isObject()) return;
+            inner.point("point", "[x, y] in metres", waypoint.point);
+            inner.number("wait", waypoint.wait);
+            inner.finish();
+            agent.via.push_back(waypoint);
+        });
     }
 
     void checkWhole() {

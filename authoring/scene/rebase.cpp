@@ -68,6 +68,10 @@ Bounds boundsOf(const Layout& layout) {
             bounds.add(point, formation.where, 1.0);
         for (const glm::dvec2 point : places.goals)
             bounds.add(point, formation.where, 1.0);
+        if (const auto* list = std::get_if<ListFormation>(&formation.shape))
+            for (const ListedAgent& agent : list->agents)
+                for (const Waypoint& waypoint : agent.via)
+                    bounds.add(waypoint.point, waypoint.where, 1.0);
     }
     static const SourcePosition nowhere;
     if (bounds.lower.x > bounds.upper.x) bounds.add({0.0, 0.0}, nowhere, 1.0);

@@ -9,6 +9,7 @@
 #include <span>
 #include <stdexcept>
 #include <unordered_map>
+#include <utility>
 
 #include "authoring/layout/layout_reader.h"
 #include "authoring/scene/behaviours.h"
@@ -177,15 +178,22 @@ class SceneAssembly {
             std::uint64_t i = 0;
             forEachRow(layout_.flows.size() + index, [&](const gpu::Person& person) {
                 const Traveller traveller = travellerOf(person, layout_.flows.size() + index, i);
-                const glm::vec2 goal = rebase_.local(goalOf(formation, places, i++, traveller.leader));
-                goals.emplace_back(goal, isStraightTo(person, goal));
+                glm::vec2 from = person.spawn_position;
+                const auto goOn = [&](glm::dvec2 to) {
+                    const glm::vec2 goal = rebase_.local(to);
+                    goals.emplace_back(goal, isStraight(from, goal, person.radius));
+                    from = goal;
+                };
+                for (const Waypoint& waypoint : wayOf(formation, i))
+                    goOn(waypoint.point);
+                goOn(goalOf(formation, places, i++, traveller.leader));
             });
         }
         return goals;
     }
 
-    bool isStraightTo(const gpu::Person& person, glm::vec2 goal) const {
-        return straightIsClear(geometry_, person.spawn_position, goal, person.radius);
+    bool isStraight(glm::vec2 from, glm::vec2 to, float radius) const {
+        return straightIsClear(geometry_, from, to, radius);
     }
 
     /// Bodies and times of everybody, because the walls' clearance depends on the smallest and the largest
@@ -230,8 +238,8 @@ class SceneAssembly {
                 gpu::Person person = drawPerson(formation.people, random, i, group());
                 if (list) overrideListed(list->agents[i], person);
                 person.spawn_position = rebase_.local(places.positions[i]);
-                person.spawn_time =
-                    static_cast<float>(formation.start == 0.0 ? -layout_.simulation.warmup : formation.start);
+                const double start = startOf(formation, i);
+                person.spawn_time = static_cast<float>(start == 0.0 ? -layout_.simulation.warmup : start);
                 person.flags |= gpu::PERSON_FIXED_SPAWN;
                 addPerson(person);
             }
@@ -254,6 +262,19 @@ class SceneAssembly {
         return event.kind == Event::Kind::go_to &&
                (event.who.empty() ||
                 std::find(event.who.begin(), event.who.end(), group_id) != event.who.end());
+    }
+
+    static const ListedAgent* listed(const Formation& formation, std::uint64_t i) {
+        const auto* list = std::get_if<ListFormation>(&formation.shape);
+        return list ? &list->agents[i] : nullptr;
+    }
+    static double startOf(const Formation& formation, std::uint64_t i) {
+        const ListedAgent* agent = listed(formation, i);
+        return agent ? agent->start : formation.start;
+    }
+    static std::span<const Waypoint> wayOf(const Formation& formation, std::uint64_t i) {
+        const ListedAgent* agent = listed(formation, i);
+        return agent ? std::span<const Waypoint>(agent->via) : std::span<const Waypoint>();
     }
 
     static void overrideListed(const ListedAgent& agent, gpu::Person& person) {
@@ -523,13 +544,16 @@ class SceneAssembly {
         if (destination) journey.stops.push_back(Journey::goalStop(*destination, formation.arrival));
         const std::uint32_t state =
             formation.behaviour ? addBehaviour(formation, index, journey, behaviours) : 0;
-        PlacedBodies later;  // who comes in when the formation does
-        PlacedBodies& bodies = formation.start == 0.0 ? bodies_ : later;
+        PlacedBodies later;  // who comes in at the same time
+        double since = 0.0;
         std::uint64_t i = 0;
         forEachRow(index, [&](gpu::Person& person) {
             const Traveller traveller = travellerOf(person, index, i);
+            const double start = startOf(formation, i);
+            if (start != std::exchange(since, start)) later = {};
+            PlacedBodies& bodies = start == 0.0 ? bodies_ : later;
             person.first_stage = static_cast<std::uint32_t>(scene_.stages.size());
-            addPause(formation, random, traveller, person);
+            addPause(formation, i, random, traveller, person);
             if (formation.behaviour) {
                 behaviours.begin(person, rowOf(person), state);
             } else if (destination) {
@@ -538,19 +562,18 @@ class SceneAssembly {
                 if (routes.reachable(field, person.spawn_position) == kUnreachable)
                     complain(formation, i, "cannot reach its goal", "look for walls all round it");
             } else {
-                ++person.stage_count;
-                const glm::vec2 goal = rebase_.local(goalOf(formation, places, i, traveller.leader));
-                scene_.stages.push_back(stageOf(formation, i, person, goal, routes));
+                addWay(formation, i, rebase_.local(goalOf(formation, places, i, traveller.leader)), routes,
+                       person);
             }
-            const glm::vec2 goal = scene_.stages.back().point;
-            scene_.goals.push_back(goal);
-            turn(formation, i, goal, routes, person);
-            checkStart(formation, i, person, bodies);
+            scene_.goals.push_back(scene_.stages.back().point);
+            const std::size_t first = scene_.stages.size() - 1 - wayOf(formation, i).size();
+            turn(formation, i, scene_.stages[first], routes, person);
+            checkStart(formation, i, start, person, bodies);
             addChanges(formation.id, formation.people, formation.where,
                        {{person.spawn_position, person.spawn_position, person.spawn_position}}, random, i,
                        index, person, itineraries);
             if (bodies.hasRoom(person)) {
-                if (formation.start == 0.0) person.flags |= gpu::PERSON_PRESENT_AT_START;
+                if (start == 0.0) person.flags |= gpu::PERSON_PRESENT_AT_START;
                 bodies.add(person);
             }
             ++i;
@@ -574,12 +597,12 @@ class SceneAssembly {
                shape.thickness - wall.half_thickness;
     }
 
-    void checkStart(const Formation& formation, std::uint64_t i, const gpu::Person& person,
+    void checkStart(const Formation& formation, std::uint64_t i, double start, const gpu::Person& person,
                     const PlacedBodies& bodies) {
         if (const float depth = depthInWalls(person); depth > 0.0f)
             complain(formation, i, "stands in a wall", "move it, or the wall",
                      fmt::format(" ({:.2f} m deep)", depth));
-        if (formation.start == 0.0)
+        if (start == 0.0)
             for (const gpu::WallSegment& gate : closed_gates_)
                 if (wallGap(shapeOf(person), gate) < 0.0) {
                     complain(formation, i,
@@ -608,9 +631,12 @@ class SceneAssembly {
     }
 
     /// Those who do not set off at once first stop where they stand.
-    void addPause(const Formation& formation, const GroupRandom& random, const Traveller& traveller,
-                  gpu::Person& person) {
-        const double wait = random.draw(formation.wait, traveller.leader, Purpose::wait, kPauseDraw);
+    void addPause(const Formation& formation, std::uint64_t i, const GroupRandom& random,
+                  const Traveller& traveller, gpu::Person& person) {
+        const ListedAgent* agent = listed(formation, i);
+        const double wait = agent && agent->wait
+                                ? *agent->wait
+                                : random.draw(formation.wait, traveller.leader, Purpose::wait, kPauseDraw);
         if (wait <= 0.0) return;
         gpu::Stage pause = pointStage(person.spawn_position, kPauseTolerance);
         pause.dwell = static_cast<float>(wait);
@@ -633,49 +659,64 @@ class SceneAssembly {
     }
 
     /// People look where their way leads.
-    void turn(const Formation& formation, std::size_t i, glm::vec2 goal, const Routes& routes,
+    void turn(const Formation& formation, std::size_t i, const gpu::Stage& stage, const Routes& routes,
               gpu::Person& person) const {
-        glm::vec2 ahead = wayBetween(person.spawn_position, goal);
-        const gpu::Stage& stage = scene_.stages.back();
+        glm::vec2 ahead = wayBetween(person.spawn_position, stage.point);
         if (stage.field != gpu::NO_INDEX && (stage.field & gpu::FIELD_THEN_POINT) != 0)
             if (const glm::vec2 way =
                     routes.directionFrom(stage.field & ~gpu::FIELD_THEN_POINT, person.spawn_position);
                 way != glm::vec2(0.0f))
                 ahead = way;
         person.heading = ahead == glm::vec2(0.0f) ? 0.0f : std::atan2(ahead.y, ahead.x);
-        if (const auto* list = std::get_if<ListFormation>(&formation.shape); list && list->agents[i].heading)
-            person.heading = static_cast<float>(*list->agents[i].heading * 3.14159265358979 / 180.0);
+        if (const ListedAgent* agent = listed(formation, i); agent && agent->heading)
+            person.heading = static_cast<float>(*agent->heading * 3.14159265358979 / 180.0);
     }
 
-    gpu::Stage stageOf(const Formation& formation, std::size_t i, const gpu::Person& person, glm::vec2 goal,
-                       Routes& routes) {
-        gpu::Stage straight = pointStage(goal, static_cast<float>(formation.goal_tolerance));
-        if (formation.arrival == Arrival::stay) straight.dwell = gpu::DWELL_FOR_GOOD;
+    /// The places on the way of somebody whose goal is a point, and that.
+    void addWay(const Formation& formation, std::uint64_t i, glm::vec2 goal, Routes& routes,
+                gpu::Person& person) {
+        glm::vec2 from = person.spawn_position;
+        const auto goOn = [&](glm::vec2 to, float dwell) {
+            gpu::Stage stage = pointStage(to, static_cast<float>(formation.goal_tolerance));
+            stage.dwell = dwell;
+            findWay(formation, i, person, from, routes, stage);
+            scene_.stages.push_back(stage);
+            ++person.stage_count;
+            from = to;
+        };
+        for (const Waypoint& waypoint : wayOf(formation, i))
+            goOn(rebase_.local(waypoint.point), static_cast<float>(waypoint.wait));
+        goOn(goal, formation.arrival == Arrival::stay ? gpu::DWELL_FOR_GOOD : 0.0f);
         const auto* grid = std::get_if<GridFormation>(&formation.shape);
-        if (grid && std::holds_alternative<Extent>(grid->goal)) straight.flags |= gpu::STAGE_ANYWHERE;
-        if (geometry_.walls.empty()) return straight;
+        if (grid && std::holds_alternative<Extent>(grid->goal))
+            scene_.stages.back().flags |= gpu::STAGE_ANYWHERE;
+    }
+
+    /// By which field somebody goes from one place to that of a stage, where there are walls.
+    void findWay(const Formation& formation, std::uint64_t i, const gpu::Person& person, glm::vec2 from,
+                 Routes& routes, gpu::Stage& stage) {
+        const glm::vec2 goal = stage.point;
+        if (geometry_.walls.empty()) return;
         if (const auto near = whyUnattainable(formation, person, goal)) {
             complain(formation, i, "has its goal in a wall",
                      near->empty() ? "move the goal, or the wall"
                                    : "move the goal, or the wall, or raise `goal_tolerance`",
                      *near);
-            return straight;
+            return;
         }
         // Even where the straight way is clear, others may push somebody round a corner on the way.
-        const bool clear = isStraightTo(person, goal);
+        const bool clear = isStraight(from, goal, person.radius);
         const std::uint32_t field = routes.fieldTo({goal, clear});
         if (field == gpu::NO_INDEX) {
             if (!clear) routes.lackField();
-            return straight;
+            return;
         }
-        if (routes.reachable(field, person.spawn_position) == kUnreachable) {
+        if (routes.reachable(field, from) == kUnreachable) {
             if (!clear)
                 complain(formation, i, "cannot reach its goal", "there is a wall all round one of the two");
-            return straight;
+            return;
         }
-        gpu::Stage routed = straight;
-        routed.field = field | gpu::FIELD_THEN_POINT;
-        return routed;
+        stage.field = field | gpu::FIELD_THEN_POINT;
     }
 
     /// A goal may be nearer to a wall than a body gets to it, as long as it gets near enough.

@@ -131,6 +131,16 @@ class TerrainChecker {
                          (*points)[i]);
                 return;
             }
+        if (!list) return;
+        for (std::size_t i = 0; i < list->agents.size(); ++i)
+            for (const Waypoint& waypoint : list->agents[i].via)
+                if (!isOver(waypoint.point)) {
+                    complain(waypoint.where,
+                             fmt::format("formation `{}`: the way of person {} leads off the terrain",
+                                         formation.id, i),
+                             waypoint.point);
+                    return;
+                }
     }
 
     struct Finding {

@@ -83,6 +83,8 @@ void moveFormation(Formation& formation, glm::dvec2 by) {
         for (ListedAgent& agent : list->agents) {
             agent.position += by;
             agent.goal += by;
+            for (Waypoint& waypoint : agent.via)
+                waypoint.point += by;
         }
 }
 
