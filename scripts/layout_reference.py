@@ -136,6 +136,8 @@ class Reference:
                 about = part.get("description", "")
                 yield "\n\n".join(filter(None, (f"{what}: {about[:1].lower()}{about[1:]}" if about else f"{what}:",
                                                self.table(part))))
+                if in_list:
+                    yield from self.inner_tables(part)
 
     def profiles(self, key, part):
         """What makes each kind of people, in the words of a layout."""

@@ -15,7 +15,8 @@ pytest.importorskip("lxml", reason="lxml is not installed")
 
 UMANS = """<Simulation delta_time="0.1" end_time="30"><World type="Infinite"><Obstacles file="walls.xml"/></World>
 <Policies file="policies.xml"/><Agents>
-<Agent rad="0.2" pref_speed="1.4" remove_at_goal="true"><pos x="-5" y="0"/><goal x="6" y="0.5"/></Agent>
+<Agent rad="0.2" pref_speed="1.4" remove_at_goal="true" start_time="2"><pos x="-5" y="0"/><goal x="-3" y="4"/>
+<goal x="6" y="0.5"/></Agent>
 <Agent><pos x="5" y="0"/><goal x="-5" y="0"/></Agent></Agents></Simulation>"""
 UMANS_WALLS = """<Obstacles><Obstacle><Point x="-1" y="-1"/><Point x="1" y="-1"/><Point x="1" y="1"/>
 <Point x="-1" y="1"/>
@@ -85,7 +86,7 @@ VADERE = {"name": "corner", "release": "1.15", "scenario": {
                         "constraintsTimeEnd": 1.0, "distribution": {"type": "x.AttributesConstantDistribution",
                                                                     "updateFrequency": 1.0}}},
                     {"id": 6, "shape": box(1, 1, 1, 1), "targetIds": []}],
-        "dynamicElements": [{"type": "PEDESTRIAN", "position": {"x": 3.0, "y": 2.0}, "targetIds": [1],
+        "dynamicElements": [{"type": "PEDESTRIAN", "position": {"x": 3.0, "y": 2.0}, "targetIds": [2, 1],
                              "freeFlowSpeed": 1.4, "attributes": {"radius": 0.2}}],
         "attributesPedestrian": {"radius": 0.2, "speedDistributionMean": 1.3}}}}
 
@@ -131,7 +132,8 @@ def test_scenes_bake_and_everybody_arrives(name, people, throng, tmp_path, capsy
 def test_umans_says_what_it_says(tmp_path):
     found = read_scene(write_scene("umans", tmp_path))
     leaving, staying = found.layout["formations"]
-    assert leaving["agents"] == [{"position": [-5, 0], "goal": [6, 0.5], "speed": 1.4, "radius": 0.2}]
+    assert leaving["agents"] == [{"position": [-5, 0], "via": [{"point": [-3, 4]}], "goal": [6, 0.5], "start": 2,
+                                  "speed": 1.4, "radius": 0.2}]
     assert (leaving["arrival"], staying["arrival"]) == ("leave", "stay")
     assert staying["agents"][0]["radius"] == 0.24 and found.layout["simulation"]["duration"] == 30
     assert found.layout["walls"][0]["closed"] and len(found.layout["walls"][0]["points"]) == 4
@@ -143,8 +145,8 @@ def test_steersuite_is_turned_to_z_up(tmp_path):
     wall = found.layout["walls"][0]
     assert sorted(map(tuple, wall["points"])) == [(-1, -5), (-1, -2), (1, -5), (1, -2)] and wall["height"] == 2
     person = found.layout["formations"][0]["agents"][0]
-    assert person == {"position": [-4, -1], "goal": [5, -1], "speed": 1.2, "radius": 0.3, "heading": 90}
-    assert found.report.left["goals on the way", "people of a list have one goal"] == 1
+    assert person == {"position": [-4, -1], "via": [{"point": [0, 0]}], "goal": [5, -1], "speed": 1.2, "radius": 0.3,
+                      "heading": 90}
     assert found.report.left["<agentEmitter>", "has no counterpart"] == 1
     again = read_scene(write_scene("steersuite", tmp_path))
     assert again.layout == found.layout
@@ -157,10 +159,10 @@ def test_menge_follows_profiles_and_states(tmp_path):
     for person in grid["agents"]:
         assert 4 <= person["goal"][0] <= 6 and -4 <= person["goal"][1] <= -2
         assert 1.5 <= person["speed"] <= 1.6 and person["radius"] == 0.25
+        assert person["via"] == [{"point": [-3, 4]}]
     assert cross["agents"] == [{"position": [4, 3], "goal": [-4, -3], "speed": 1, "radius": 0.25}]
     assert [wall.get("closed", False) for wall in found.layout["walls"]] == [True, False]
     assert found.report.left["obstacles of the type nav_mesh", "are in a file of their own"] == 1
-    assert found.report.left["goals on the way", "people of a list have one goal"] == 6
 
 
 def test_vadere_brings_sources_targets_and_single_people(tmp_path):
@@ -169,7 +171,8 @@ def test_vadere_brings_sources_targets_and_single_people(tmp_path):
     assert (first["from"], first["to"], first["count"], first["end"]) == ("source 4", "target 1", 5, 6)
     assert first["via"] == [{"at": "target 2", "wait": 2.0}] and first["people"]["speed"]["normal"] == [1.3, 0.26]
     assert (second["count"], second["start"], second["arrival"]) == (1, 1, "leave")
-    assert found.layout["formations"][0]["agents"][0]["goal"] == [12, 6]
+    single = found.layout["formations"][0]["agents"][0]
+    assert single["via"] == [{"point": [6, 2], "wait": 2}] and single["goal"] == [12, 6]
     border = next(wall for wall in found.layout["walls"] if wall.get("id") == "border")
     assert min(border["points"]) == [0.4, 0.4] and border["thickness"] == 0.2
     assert found.report.left["sources", "people without a target"] == 1
@@ -180,8 +183,8 @@ def test_jupedsim_brings_ground_and_people(tmp_path):
     found = read_scene(write_scene("jupedsim", tmp_path))
     walls = shapely.union_all([shapely.Polygon(wall["points"]) for wall in found.layout["walls"]])
     assert walls.symmetric_difference(shapely.box(-0.2, -0.2, 12.2, 8.2).difference(shapely.from_wkt(ROOM))).area < 1e-6
-    now, later = found.layout["formations"]
-    assert now["agents"][0] == {"position": [1, 1], "goal": [9.75, 1], "speed": 1.25} and later["start"] == 2
+    now, later = found.layout["formations"][0]["agents"]
+    assert now == {"position": [1, 1], "goal": [9.75, 1], "speed": 1.25} and later["start"] == 2
     assert read_scene(write_scene("wkt", tmp_path)).layout["walls"] == found.layout["walls"]
 
 

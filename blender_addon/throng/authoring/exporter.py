@@ -159,7 +159,7 @@ def _formation(thing, world):
     else:
         result["agents"] = _agents(thing, old.get("agents"), world)
         if "behaviour" in result:
-            result["agents"] = [{key: value for key, value in each.items() if key != "goal"}
+            result["agents"] = [{key: value for key, value in each.items() if key not in ("goal", "via", "wait")}
                                 for each in result["agents"]]
     return [places.without_goal(result, "goal")]
 

@@ -71,8 +71,8 @@ def _give(upper, lower, which, share, missing):
 
 def _place(spans, x, z, side):
     """(ring above, ring below, share of the way up from that, x, side) of a point, None where no ring is beside it. Of
-    what is above all rings there is none below, and the first has to reach as far. Rings [front, back, y, z, half width]
-    move fore and aft only, so this is asked once."""
+    what is above all rings there is none below, and the first has to reach as far. Rings [front, back, y, z, half
+    width] move fore and aft only, so this is asked once."""
     if spans[-1][3] - 0.05 < z:  # what is just below the hem is at the hem a little higher
         z = max(z, spans[-1][3])
     for upper, lower in zip(spans, spans[1:]):

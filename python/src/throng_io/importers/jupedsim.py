@@ -2,7 +2,6 @@
 """JuPedSim: geometry as WKT, and trajectory files with geometry and people."""
 from __future__ import annotations
 
-import collections
 import contextlib
 import math
 import pathlib
@@ -80,13 +79,11 @@ def _people(rows: numpy.ndarray, fps: float, scene: Scene) -> None:
     begin = numpy.nonzero(numpy.diff(rows[:, 0], prepend=numpy.nan) != 0)[0]
     if len(begin) > MOST_PEOPLE:
         raise ImportFailed(f"more than {MOST_PEOPLE:,} people", scene.report.source)
-    groups = collections.defaultdict(list)
+    people = []
     for way in numpy.split(rows, begin[1:]):
         length = numpy.hypot(*numpy.diff(way[:, 2:], axis=0).T).sum()
         seconds = (way[-1, 1] - way[0, 1]) / fps
         speed = max(length / seconds, 0.05) if seconds > 0 and length > STANDING else None
-        start = round(float(way[0, 1] - first_frame) / fps, 4)
-        groups[start].append(scene.person(way[0, 2:], way[-1, 2:], speed))
-    for start, people in sorted(groups.items()):
-        scene.agents(f"people at {start:g} s" if start else "people", people, **({"start": start} if start else {}))
+        people.append(scene.person(way[0, 2:], way[-1, 2:], speed, start=float(way[0, 1] - first_frame) / fps))
+    scene.agents("people", people)
     scene.report.altered("people", "walk from their first to their last place, at their mean speed", len(begin))

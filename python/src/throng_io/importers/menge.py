@@ -117,7 +117,8 @@ class Experiment:
             profile, state = self.drawn(profiles), self.drawn(states)
             speed, radius = (value() if callable(value) else value for value in (
                 self.value(profile, "pref_speed", SPEED), self.value(profile, "r", RADIUS)))
-            people.append(self.scene.person(place, self.behaviour.goal(state, place), speed, radius))
+            *via, goal = self.behaviour.goals_of(state, place)
+            people.append(self.scene.person(place, goal, speed, radius, via=[(point, 0.0) for point in via]))
         self.scene.agents(profiles[0][0] or "agents", people, "stay")
 
     def drawn(self, choices: list[tuple[str, float]]) -> str:
@@ -216,8 +217,8 @@ class Behaviour:
             else:
                 self.next[state.strip()] = target
 
-    def goal(self, state: str, place: Point) -> Point:
-        """Through the states, until one comes again or no more follow: the last goal on the way."""
+    def goals_of(self, state: str, place: Point) -> list[Point]:
+        """Through the states, until one comes again or no more follow."""
         seen, found = set(), []
         while state in self.states and state not in seen:
             seen.add(state)
@@ -227,9 +228,8 @@ class Behaviour:
             state = self.next.get(state, "")
         if state and state not in self.states:
             raise ImportFailed(f"there is no state {state!r}", self.reader.file)
-        self.scene.report.left_out("goals on the way", "people of a list have one goal", max(0, len(found) - 1))
         self.scene.report.altered("people", "without a goal: they stay where they are", not found)
-        return found[-1] if found else place
+        return found or [place]
 
     def selected(self, state, place: Point) -> Point | None:
         selector = child(state, "GoalSelector")

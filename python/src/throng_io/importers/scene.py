@@ -155,10 +155,15 @@ class Scene:
         self.report.took("people", count)
 
     def person(self, position: Point, goal: Point, speed: float | None = None, radius: float | None = None,
-               heading: float | None = None) -> dict:
-        """One of a list of agents."""
+               heading: float | None = None, via: Sequence[tuple[Point, float]] = (), start: float = 0.0) -> dict:
+        """One of a list of agents. `via`: places on the way and how long to wait there; `start`: when it comes; s."""
         self._more(1)
         person: dict[str, Any] = {"position": self.point(*position[:2]), "goal": self.point(*goal[:2])}
+        if via:
+            person["via"] = [{"point": self.point(*point[:2]), **({"wait": round(wait, 4)} if wait > 0 else {})}
+                             for point, wait in via]
+        if start:
+            person["start"] = round(start, 4)
         for key, value, (least, most) in (("speed", speed, SPEEDS), ("radius", radius, RADII)):
             if value is not None:
                 self.report.altered("people", f"{key} moved into {least:g} to {most:g}", not least <= value <= most)
@@ -194,15 +199,19 @@ class Scene:
         known = [point for wall in self.walls for point in wall["points"]]
         known += [point for area in self.areas for point in area["polygon"]]
         known += [point for road in self.roads for point in road["centreline"]]
-        known += [person[key] for group in self.formations for person in group["agents"]
-                  for key in ("position", "goal")]
+        people = [person for group in self.formations for person in group["agents"]]
+        known += [person[key] for person in people for key in ("position", "goal")]
+        known += [stop["point"] for person in people for stop in person.get("via", ())]
         return math.dist(*_corners(known)) if known else 1.0
 
     def layout(self) -> dict[str, Any]:
         if self.duration is None:
+            people = [person for group in self.formations for person in group["agents"]]
+            waits = [sum(stop.get("wait", 0) for stop in person.get("via", ())) for person in people]
             last = max([flow.get("end", 0) for flow in self.flows]
-                       + [group.get("start", 0) for group in self.formations] + [0])
-            self.duration = 10 + last + SLACK * self._farthest() / PACE
+                       + [person.get("start", 0) + wait for person, wait in zip(people, waits)] + [0])
+            legs = max([1 + len(person.get("via", ())) for person in people] + [1])
+            self.duration = 10 + last + SLACK * legs * self._farthest() / PACE
             self.report.altered("duration", f"chosen: {min(self.duration, LONGEST):.0f} s")
         layout: dict[str, Any] = {"throng": 1, "name": self.name,
                                   "simulation": {"duration": round(min(self.duration, LONGEST), 2)}}

@@ -142,25 +142,23 @@ class Case:
         if direction is not None and child(direction, "random") is None:
             along_x, along_y = self.place(direction)
             heading = math.degrees(math.atan2(along_y, along_x))
-        goal, speed = self.goal(element, (x, y))
-        return self.scene.person((x, y), goal, speed, radius, heading)
+        (*via, goal), speed = self.goals(element, (x, y))
+        return self.scene.person((x, y), goal, speed, radius, heading, [(place, 0.0) for place in via])
 
-    def goal(self, element, position) -> tuple[tuple[float, float], float | None]:
-        """The last place of the sequence that stands still."""
+    def goals(self, element, position) -> tuple[list[tuple[float, float]], float | None]:
+        """The places of the sequence that stand still."""
         sequence = child(element, "goalSequence")
-        found, speed, used = None, None, 0
+        found, speed = [], None
         for goal in [] if sequence is None else sequence:
             target = child(goal, "targetLocation")
             if tag(goal) != "seekStaticTarget" or target is None:
                 self.scene.report.left_out(f"goals of the kind {tag(goal)}", "has no counterpart")
                 continue
-            used += 1
             if child(target, "random") is not None:
-                found = self.free_place(self.world, 0.5)
+                found.append(self.free_place(self.world, 0.5))
                 self.scene.report.altered("goals", "at random: placed by a seed of ours")
             else:
-                found = self.place(target)
+                found.append(self.place(target))
             speed = self.reader.text(goal, "desiredSpeed", 1.3)
-        self.scene.report.left_out("goals on the way", "people of a list have one goal", max(0, used - 1))
-        self.scene.report.altered("people", "without a goal: they stay where they are", found is None)
-        return found or position, speed
+        self.scene.report.altered("people", "without a goal: they stay where they are", not found)
+        return found or [position], speed

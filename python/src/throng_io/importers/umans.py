@@ -47,19 +47,18 @@ def _followed(reader: Reader, element, kind: str):
 def _agents(reader: Reader, element, scene: Scene) -> None:
     groups = collections.defaultdict(list)
     for agent in children(element, "Agent"):
-        position, goal = child(agent, "pos"), child(agent, "goal")
+        position, goals = child(agent, "pos"), children(agent, "goal")
         if position is None:
             raise ImportFailed("an agent without <pos>", reader.file, agent.sourceline)
-        scene.report.altered("people", "without a goal: they stay where they are", goal is None)
-        places = [(reader.attribute(each, "x"), reader.attribute(each, "y"))
-                  for each in (position, position if goal is None else goal)]
-        more = len(children(agent, "goal")) - 1
-        scene.report.left_out("further goals of agents", "people of a list have one goal", max(more, 0))
+        scene.report.altered("people", "without a goal: they stay where they are", not goals)
+        begin, *via, end = [(reader.attribute(each, "x"), reader.attribute(each, "y"))
+                            for each in (position, *(goals or [position]))]
         arrival = "leave" if (agent.get("remove_at_goal") or "").lower() in ("true", "1") else "stay"
-        groups[arrival, reader.attribute(agent, "start_time", 0.0)].append(scene.person(
-            *places, reader.attribute(agent, "pref_speed", SPEED), reader.attribute(agent, "rad", RADIUS)))
-    for (arrival, start), people in sorted(groups.items()):
-        scene.agents("agents", people, arrival, **({"start": start} if start else {}))
+        groups[arrival].append(scene.person(
+            begin, end, reader.attribute(agent, "pref_speed", SPEED), reader.attribute(agent, "rad", RADIUS),
+            via=[(point, 0.0) for point in via], start=reader.attribute(agent, "start_time", 0.0)))
+    for arrival, people in sorted(groups.items()):
+        scene.agents("agents", people, arrival)
 
 
 def _obstacles(reader: Reader, element, scene: Scene) -> None:

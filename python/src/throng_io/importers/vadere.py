@@ -195,15 +195,15 @@ class Scenario:
             position = person["position"]
             place = self.number(position, "x"), self.number(position, "y")
             ids = [each for each in person.get("targetIds") or [] if each in self.names]
-            self.scene.report.left_out("targets on the way of single people", "people of a list have one goal",
-                                       max(0, len(ids) - 1))
+            self.scene.report.altered("targets on the way of single people", "their middles", len(ids) > 1)
             if not ids:
                 self.scene.report.altered("people", "without a target: they stay where they are")
             goal = self.middle(ids[-1]) if ids else place
             speed = person.get("freeFlowSpeed")
             people.append(self.scene.person(
                 place, goal, None if speed is None else number(speed, "freeFlowSpeed", self.file),
-                self.number(person.get("attributes") or {}, "radius", 0.2)))
+                self.number(person.get("attributes") or {}, "radius", 0.2),
+                via=[(self.middle(each), self.waiting(self.targets[each])) for each in ids[:-1]]))
         self.scene.agents("dynamic elements", people)
 
     def middle(self, target: int) -> tuple[float, float]:

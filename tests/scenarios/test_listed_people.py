@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: Apache-2.0
+"""People who are listed one by one: places on their way, times of their own, and mistakes in them."""
+import csv
+import json
+
+import numpy
+import pytest
+
+TOLERANCE = 0.4
+WALL = {"id": "wall", "points": [[10, -6], [10, 6]], "thickness": 0.2}
+
+
+def layout_of(agents, **keys):
+    formation = {"id": "listed", "type": "agents", "goal_tolerance": TOLERANCE, "arrival": "leave", "agents": agents}
+    return {"throng": 1, "name": "listed", "simulation": {"duration": 60, "seed": 3}, "walls": [WALL],
+            "formations": [formation], **keys}
+
+
+class Bake:
+    def __init__(self, path):
+        self.fps = json.loads((path / "bake.json").read_text())["fps"]
+        self.places = numpy.load(path / "streams" / "pos.npy")[..., :2].astype(float)
+        self.doing = numpy.load(path / "streams" / "state.npy")[..., 0].astype(int)
+        with open(path / "agents.csv", encoding="utf-8", newline="") as file:
+            self.rows = list(csv.DictReader(file))
+
+    def near(self, row, point):
+        """Frames in which somebody is within the tolerance of a place."""
+        away = numpy.hypot(*(self.places[:, row] - point).T)
+        return numpy.flatnonzero((away <= TOLERANCE + 0.02) & (self.doing[:, row] > 0))
+
+
+@pytest.fixture
+def bake(throng, tmp_path):
+    def make(agents, name="bake", **keys):
+        (tmp_path / f"{name}.json").write_text(json.dumps(layout_of(agents, **keys)))
+        throng("bake", tmp_path / f"{name}.json", "-o", tmp_path / name, "-q", "--no-gltf")
+        return Bake(tmp_path / name)
+
+    return make
+
+
+def refusal(throng, tmp_path, agents, **keys):
+    path = tmp_path / "layout.json"
+    path.write_text(json.dumps(layout_of(agents, **keys), indent=0))
+    return throng("check", path, expect=3).stderr
+
+
+def test_places_on_the_way_are_visited_in_their_order_round_walls(bake):
+    way = [([20, 0], 4.0), ([20, 10], 0.0)]
+    found = bake([{"position": [0, 0], "via": [{"point": point, "wait": wait} for point, wait in way],
+                   "goal": [0, 10]}])
+    first, second = (found.near(0, numpy.array(point)) for point, _ in way)
+    assert first[0] < first[-1] < second[0] < int(found.rows[0]["arrival_frame"])
+    assert 4.0 <= (first[-1] - first[0]) / found.fps < 7.0, "it waits there"
+    assert (second[-1] - second[0]) / found.fps < 2.0, "it only passes"
+    assert found.rows[0]["outcome"] == "arrived"
+    beside = numpy.abs(found.places[:, 0, 0] - 10) < 0.2
+    assert (numpy.abs(found.places[beside, 0, 1]) > 6).all(), "nobody goes through the wall"
+
+
+def test_everybody_appears_and_sets_off_in_its_own_time_and_rows_are_in_the_order_of_starts(bake):
+    starts, waits = [5.0, 0.0, 2.5, 0.0], [0.0, 3.0, 0.0, 0.0]
+    found = bake([{"position": [0, 3 * n], "goal": [-9, 3 * n], "start": start, "wait": wait}
+                  for n, (start, wait) in enumerate(zip(starts, waits))])
+    order = [1, 3, 2, 0]
+    for row, n in enumerate(order):
+        assert float(found.rows[row]["goal_y"]) == 3 * n
+        assert int(found.rows[row]["spawn_frame"]) / found.fps == pytest.approx(starts[n], abs=2 / found.fps)
+        left = numpy.flatnonzero(found.places[:, row, 0] < -0.5)[0] / found.fps
+        assert 0.2 < left - starts[n] - waits[n] < 1.5
+
+
+def test_a_start_of_the_formation_is_that_of_each(bake):
+    people = [{"position": [0, 0], "goal": [-9, 0]}, {"position": [0, 3], "goal": [-9, 3]}]
+    formation = {"id": "listed", "type": "agents", "goal_tolerance": TOLERANCE, "arrival": "leave"}
+    one = bake(people, "one", formations=[{**formation, "agents": people, "start": 2}])
+    each = bake(people, "each", formations=[{**formation, "agents": [{**each, "start": 2} for each in people]}])
+    assert (one.places == each.places).all() and (one.doing == each.doing).all()
+
+
+def test_people_of_a_level_go_their_way_on_it(bake):
+    floor = [[-12, -12], [24, -12], [24, 12], [-12, 12]]
+    people = [{"position": [0, 0], "via": [{"point": [5, 8]}], "goal": [0, -8]}]
+    formation = {"id": "listed", "type": "agents", "goal_tolerance": TOLERANCE, "arrival": "leave", "agents": people,
+                 "level": "up"}
+    found = bake(people, formations=[formation], walls=[],
+                 levels=[{"id": "down", "floor": floor}, {"id": "up", "height": 4, "floor": floor}])
+    assert len(found.near(0, numpy.array([5, 8]))) and found.rows[0]["outcome"] == "arrived"
+
+
+@pytest.mark.parametrize("person, words", [
+    ({"via": [{"point": [10, 0]}]}, "person 0 has its goal in a wall"),
+    ({"via": [{"wait": 2}]}, "needs `point`"),
+    ({"via": [{"point": [1, 1], "wait": -1}]}, "at least 0"),
+    ({"via": [{"point": [1, 1], "stay": 1}]}, "no key `stay`"),
+    ({"start": -1}, "at least 0"),
+])
+def test_mistakes_are_told_at_their_place(throng, tmp_path, person, words):
+    said = refusal(throng, tmp_path, [{"position": [0, 0], "goal": [5, 5], **person}])
+    assert words in said and "layout.json:" in said
+
+
+def test_a_behaviour_tells_the_way(throng, tmp_path):
+    people = [{"position": [0, 0], "via": [{"point": [2, 2]}]}]
+    formation = {"id": "listed", "type": "agents", "agents": people, "behaviour": "stroll"}
+    behaviour = {"id": "stroll", "start": "stay", "states": {"stay": {"stay": 5}}}
+    said = refusal(throng, tmp_path, people, formations=[formation], behaviours=[behaviour])
+    assert "`via` is said twice" in said
