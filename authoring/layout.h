@@ -228,15 +228,20 @@ struct Stop {
     bool stops() const { return wait.kind != Distribution::Kind::constant || wait.mean > 0.0; }
 };
 
+/// s: two people of a flow that tells its gaps never come nearer to each other than this.
+inline constexpr double kLeastGap = 1.0e-3;
+
 struct Flow {
     std::string id;
     Place from;
     std::vector<Stop> via;
     Destination to;
     std::optional<std::uint64_t> count;  ///< people in all, spread evenly over [start, end]
-    std::optional<double> rate;  ///< people per second (Poisson arrivals, seeded); exactly one of count, rate
-    double start = 0.0;          ///< s
-    double end = 0.0;            ///< s; the reader fills in the duration where the file says nothing
+    std::optional<double> rate;          ///< people per second (Poisson arrivals, seeded)
+    std::optional<Distribution> gaps{};  ///< s from one to the next
+    std::vector<double> times{};         ///< s, ascending; exactly one of count, rate, gaps and times is told
+    double start = 0.0;                  ///< s
+    double end = 0.0;                    ///< s; the reader fills in the duration where the file says nothing
     People people;
     Arrival arrival = Arrival::leave;
     SourcePosition where;

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "authoring/layout/amounts.h"
 #include "authoring/layout/behaviour_reader.h"
 #include "authoring/layout/level_reader.h"
 #include "authoring/layout/object_reader.h"
@@ -330,16 +331,34 @@ class Reader {
     void readAmount(ObjectReader& reader, const JsonNode& node, Flow& flow) {
         const JsonNode* count = reader.get("count");
         const JsonNode* rate = reader.get("rate");
-        if ((count != nullptr) == (rate != nullptr))
-            diagnostics_.error(node.where, fmt::format("a flow needs exactly one of `count` (people in all) "
-                                                       "and `rate` (people per second), this one has {}",
-                                                       count ? "both" : "neither"));
+        const JsonNode* gaps = reader.get("gaps");
+        const JsonNode* times = reader.get("times");
+        std::vector<const char*> told;
+        for (const auto& [key, name] :
+             {std::pair{count, "`count`"}, {rate, "`rate`"}, {gaps, "`gaps`"}, {times, "`times`"}})
+            if (key) told.push_back(name);
+        if (told.size() != 1)
+            diagnostics_.error(
+                node.where,
+                fmt::format(
+                    "a flow needs exactly one of `count` (people in all), `rate` (people per second), "
+                    "`gaps` (seconds between them) and `times` (moments), this one has {}",
+                    told.empty() ? "none" : fmt::format("{}", fmt::join(told, " and "))));
         std::uint64_t people = 0;
         double per_second = 0.0;
         reader.integer("count", people);
         reader.number("rate", per_second);
         if (count) flow.count = people;
         if (rate) flow.rate = per_second;
+        if (gaps) flow.gaps = readDistribution(reader, "gaps", {}, diagnostics_);
+        if (gaps && flow.gaps->maximum <= 0.0)
+            diagnostics_.error(gaps->where, "`gaps` of 0 s: everybody would come at once",
+                               "for people who come together write a formation");
+        const Limits limits = reader.rule("times").item().limits();
+        eachOf(reader, "times", [&](const JsonNode& item) {
+            if (const auto time = numberOf(item, limits, diagnostics_)) flow.times.push_back(*time);
+        });
+        std::ranges::sort(flow.times);
     }
 
     void checkEnds(const Flow& flow) {
@@ -598,12 +617,11 @@ class Reader {
         double people = 0.0;
         double largest = 0.0;
         for (const Flow& flow : layout_.flows) {
-            people += flow.count ? static_cast<double>(*flow.count)
-                                 : flow.rate.value_or(0.0) * (flow.end - flow.start);
+            people += peopleIn(flow);
             largest = std::max(largest, flow.people.largestRadius());
         }
         for (const Formation& formation : layout_.formations) {
-            people += countOf(formation);
+            people += peopleIn(formation);
             largest = std::max(largest, formation.people.largestRadius());
             if (const auto* list = std::get_if<ListFormation>(&formation.shape))
                 for (const ListedAgent& agent : list->agents)
@@ -642,11 +660,9 @@ class Reader {
         };
         double plans = 0.0;
         for (const Flow& flow : layout_.flows)
-            plans += (1.0 + static_cast<double>(flow.via.size()) + sent(flow.id)) *
-                     (flow.count ? static_cast<double>(*flow.count)
-                                 : flow.rate.value_or(0.0) * (flow.end - flow.start));
+            plans += (1.0 + static_cast<double>(flow.via.size()) + sent(flow.id)) * peopleIn(flow);
         for (const Formation& formation : layout_.formations)
-            plans += (1.0 + sent(formation.id)) * countOf(formation);
+            plans += (1.0 + sent(formation.id)) * peopleIn(formation);
         if (!diagnostics_.hasErrors())
             for (const Show& show : layout_.shows)
                 for (const std::size_t block : show.blocks)
@@ -660,15 +676,6 @@ class Reader {
                     "that one bake can hold",
                     plans, most),
                 "let fewer people make so many");
-    }
-
-    static double countOf(const Formation& formation) {
-        if (const auto* circle = std::get_if<CircleFormation>(&formation.shape))
-            return static_cast<double>(circle->count);
-        if (const auto* grid = std::get_if<GridFormation>(&formation.shape))
-            return grid->count ? static_cast<double>(grid->count)
-                               : static_cast<double>(grid->rows) * static_cast<double>(grid->columns);
-        return static_cast<double>(std::get<ListFormation>(formation.shape).agents.size());
     }
 
     const JsonNode& root_;

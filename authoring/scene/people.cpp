@@ -117,6 +117,16 @@ std::vector<double> entryTimes(const Flow& flow, const std::vector<RateChange>& 
             if (!(time < std::min(flow.end, end))) break;
             times.push_back(time);
         }
+    } else if (flow.gaps) {
+        double time = start;
+        for (std::uint64_t i = 0; static_cast<double>(i) < kBriskest; ++i) {
+            time += std::max(random.draw(*flow.gaps, i, Purpose::time), kLeastGap);
+            if (!(time < std::min(flow.end, end))) break;
+            times.push_back(time);
+        }
+    } else {
+        for (const double time : flow.times)
+            if (time >= -warmup && time < end) times.push_back(time);
     }
     return times;
 }

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "authoring/family/family_reader.h"
+#include "authoring/layout/amounts.h"
 #include "authoring/layout/layout_reader.h"
 #include "base/files/hash.h"
 #include "base/files/input_file.h"
@@ -35,17 +36,9 @@ std::string idOf(const authoring::Scenario& scenario) {
 double peopleOf(const authoring::Layout& layout) {
     double people = 0.0;
     for (const authoring::Flow& flow : layout.flows)
-        people += flow.count ? static_cast<double>(*flow.count)
-                             : flow.rate.value_or(0.0) *
-                                   std::max(0.0, flow.end - flow.start + layout.simulation.warmup);
-    for (const authoring::Formation& formation : layout.formations) {
-        if (const auto* circle = std::get_if<authoring::CircleFormation>(&formation.shape))
-            people += static_cast<double>(circle->count);
-        else if (const auto* grid = std::get_if<authoring::GridFormation>(&formation.shape))
-            people += static_cast<double>(grid->count ? grid->count : grid->rows * grid->columns);
-        else
-            people += static_cast<double>(std::get<authoring::ListFormation>(formation.shape).agents.size());
-    }
+        people += authoring::peopleIn(flow, layout.simulation.warmup);
+    for (const authoring::Formation& formation : layout.formations)
+        people += authoring::peopleIn(formation);
     return people;
 }
 

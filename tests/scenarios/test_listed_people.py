@@ -107,3 +107,51 @@ def test_a_behaviour_tells_the_way(throng, tmp_path):
     behaviour = {"id": "stroll", "start": "stay", "states": {"stay": {"stay": 5}}}
     said = refusal(throng, tmp_path, people, formations=[formation], behaviours=[behaviour])
     assert "`via` is said twice" in said
+
+
+STREET = {"throng": 1, "name": "street", "simulation": {"duration": 120, "seed": 3, "warmup": 10},
+          "areas": [{"id": "west", "polygon": [[0, -20], [4, -20], [4, 20], [0, 20]]},
+                    {"id": "east", "polygon": [[30, -20], [34, -20], [34, 20], [30, 20]]}]}
+
+
+@pytest.fixture
+def entries(throng, tmp_path):
+    """When the people of one flow come in, s."""
+    def bake(**keys):
+        layout = {**STREET, "flows": [{"id": "f", "from": "west", "to": "east", **keys}]}
+        (tmp_path / "street.json").write_text(json.dumps(layout))
+        throng("bake", tmp_path / "street.json", "-o", tmp_path / "street", "-q", "--no-gltf", "--force")
+        found = Bake(tmp_path / "street")
+        return numpy.array([int(row["spawn_frame"]) / found.fps for row in found.rows]), found
+
+    return bake
+
+
+def test_people_come_at_the_moments_that_are_listed(entries):
+    times = [31.25, 2.5, 40, 2.5, -4]
+    found, bake = entries(times=times)
+    assert found == pytest.approx([0, 2.5, 2.5, 31.25, 40], abs=1.5 / bake.fps)
+    assert numpy.hypot(*(bake.places[0, 0] - [17, 0])) < 25 and bake.places[0, 0, 0] > 4, "it came in the warm-up"
+
+
+def test_people_come_with_the_gaps_that_are_drawn(entries):
+    found, bake = entries(gaps=2.5, start=5, end=60)
+    assert found == pytest.approx(numpy.arange(7.5, 60, 2.5), abs=1.5 / bake.fps)
+    mean, deviation = -0.5, 0.6
+    found, _ = entries(gaps={"log_normal": [mean, deviation]}, start=1)
+    gaps = numpy.log(numpy.maximum(numpy.diff(found), 1 / 24))
+    assert len(found) == pytest.approx(119 / numpy.exp(mean + deviation ** 2 / 2), rel=0.15)
+    assert numpy.exp(gaps).mean() == pytest.approx(numpy.exp(mean + deviation ** 2 / 2), rel=0.15)
+    assert gaps.std() == pytest.approx(deviation, rel=0.25)
+
+
+@pytest.mark.parametrize("keys, words", [
+    ({"gaps": 2, "count": 5}, "this one has `count` and `gaps`"),
+    ({}, "this one has none"),
+    ({"gaps": 0}, "everybody would come at once"),
+    ({"times": [1, "2"]}, "/flows/0/times/1"),
+])
+def test_one_way_of_coming_in_is_told(throng, tmp_path, keys, words):
+    layout = {**STREET, "flows": [{"id": "f", "from": "west", "to": "east", **keys}]}
+    (tmp_path / "layout.json").write_text(json.dumps(layout, indent=0))
+    assert words in throng("check", tmp_path / "layout.json", expect=3).stderr

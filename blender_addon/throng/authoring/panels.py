@@ -199,7 +199,8 @@ class VIEW3D_PT_throng_flows(InSidebar, bpy.types.Panel):
         _destination(layout, flow.to, f"{where}.to")
         row = layout.row(align=True)
         row.prop(flow, "amount", text="")
-        row.prop(flow, "count" if flow.amount == "COUNT" else "rate")
+        if flow.amount != "KEPT":
+            row.prop(flow, "count" if flow.amount == "COUNT" else "rate")
         layout.prop(flow, "start")
         _optional(layout, flow, "end")
         layout.prop(flow, "arrival")

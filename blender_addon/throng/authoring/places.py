@@ -129,7 +129,7 @@ class Place(Codec):
 
 
 class Amount(Codec):
-    """So many people in all, or so many a second."""
+    """So many people in all, or so many a second; gaps and moments that a layout tells are kept."""
 
     codecs = {"COUNT": fields.Whole("count", 100, required=True), "RATE": Number("rate", 1.0, required=True)}
 
@@ -138,6 +138,8 @@ class Amount(Codec):
 
     @staticmethod
     def shown(raw):
+        if "count" not in raw and ("gaps" in raw or "times" in raw):
+            return "KEPT"
         return "RATE" if is_number(raw.get("rate")) and "count" not in raw else "COUNT"
 
     def put_both(self, group, raw):
@@ -146,10 +148,11 @@ class Amount(Codec):
 
     def take_both(self, group, raw, result):
         if group.amount != self.shown(raw):
-            result.pop("count", None)
-            result.pop("rate", None)
-        codec = self.codecs[group.amount]
-        result[codec.key] = codec.take(group, raw.get(codec.key, MISSING))
+            for key in ("count", "rate", "gaps", "times"):
+                result.pop(key, None)
+        if group.amount != "KEPT":
+            codec = self.codecs[group.amount]
+            result[codec.key] = codec.take(group, raw.get(codec.key, MISSING))
 
 
 AMOUNT = Amount()

@@ -132,7 +132,9 @@ class ThrongFlow(bpy.types.PropertyGroup):
     via: CollectionProperty(type=ThrongStop)
     active_stop: IntProperty()
     amount: EnumProperty(name="How Many", items=[("COUNT", "Count", "People in all, spread evenly"),
-                                                 ("RATE", "Rate", "People a second, at random moments")])
+                                                 ("RATE", "Rate", "People a second, at random moments"),
+                                                 ("KEPT", "As Loaded", "At the moments, or with the gaps, that the "
+                                                                       "layout tells")])
     count: IntProperty(name="People", **limits("flow", "count"))
     rate: FloatProperty(name="People/s", **limits("flow", "rate", soft_max=1000.0))
     start: FloatProperty(name="Start", **limits("flow", "start"), description="When the first come, s")

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "authoring/layout/amounts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace throng::authoring {
+namespace {
+
+/// As if nothing were clamped but this.
+double meanOf(const Distribution& drawn) {
+    if (drawn.kind == Distribution::Kind::uniform) return 0.5 * (drawn.minimum + drawn.maximum);
+    const double mean = drawn.kind == Distribution::Kind::log_normal
+                            ? std::exp(drawn.mean + 0.5 * drawn.standard_deviation * drawn.standard_deviation)
+                            : drawn.mean;
+    return std::clamp(mean, drawn.minimum, drawn.maximum);
+}
+
+}  // namespace
+
+double peopleIn(const Flow& flow, double warmup) {
+    if (flow.count) return static_cast<double>(*flow.count);
+    if (!flow.times.empty()) return static_cast<double>(flow.times.size());
+    const double seconds = std::max(0.0, flow.end - flow.start + warmup);
+    if (flow.gaps) return seconds / std::max(meanOf(*flow.gaps), kLeastGap);
+    return flow.rate.value_or(0.0) * seconds;
+}
+
+double peopleIn(const Formation& formation) {
+    if (const auto* circle = std::get_if<CircleFormation>(&formation.shape))
+        return static_cast<double>(circle->count);
+    if (const auto* grid = std::get_if<GridFormation>(&formation.shape))
+        return grid->count ? static_cast<double>(grid->count)
+                           : static_cast<double>(grid->rows) * static_cast<double>(grid->columns);
+    return static_cast<double>(std::get<ListFormation>(formation.shape).agents.size());
+}
+
+}  // namespace throng::authoring

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "authoring/layout.h"
+
+/// How many people a layout asks for, before any of them is drawn.
+namespace throng::authoring {
+
+/// Of moments that are drawn, as many as there will be on average.
+/// @param warmup s before the start in which those of the first moment come, too
+double peopleIn(const Flow& flow, double warmup = 0.0);
+double peopleIn(const Formation& formation);
+
+}  // namespace throng::authoring
