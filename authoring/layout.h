@@ -290,14 +290,23 @@ struct Waypoint {
 
 struct ListedAgent {
     glm::dvec2 position{0.0};
-    std::vector<Waypoint> via{};  ///< in order, before the goal
     glm::dvec2 goal{0.0};
-    double start = 0.0;             ///< s: when the person appears
-    std::optional<double> wait{};   ///< s before it sets off; otherwise drawn
     std::optional<double> speed;    ///< m/s; otherwise drawn
     std::optional<double> radius;   ///< m; otherwise drawn
-    std::optional<double> heading;  ///< degrees; otherwise towards the goal
+    std::optional<double> heading;  ///< degrees; otherwise towards the first place of its way
     SourcePosition where;
+    std::vector<Waypoint> via{};   ///< in order, before the goal
+    double start = 0.0;            ///< s: when the person appears
+    std::optional<double> wait{};  ///< s before it sets off; otherwise drawn
+};
+std::vector<Waypoint> via{};  ///< in order, before the goal
+glm::dvec2 goal{0.0};
+double start = 0.0;             ///< s: when the person appears
+std::optional<double> wait{};   ///< s before it sets off; otherwise drawn
+std::optional<double> speed;    ///< m/s; otherwise drawn
+std::optional<double> radius;   ///< m; otherwise drawn
+std::optional<double> heading;  ///< degrees; otherwise towards the goal
+SourcePosition where;
 };
 
 struct ListFormation {
