@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Heads in bakes: the streams `attention` and `gaze`, and what `throng measure` says of them, beside NumPy's own sums."""
+"""Heads in bakes: the streams `attention` and `gaze`, and what `throng measure` says of them, beside NumPy's sums."""
 import csv
 import json
 
@@ -111,21 +111,30 @@ def test_a_bang_turns_everybody_in_reach_within_the_time_of_a_reaction(streams):
     assert not looked[round((BANG + 5.0) * FPS):].any()
 
 
-def test_heads_go_round_the_corner_first(streams, people):
+CORNER = {"throng": 1, "simulation": {"duration": 26, "seed": 2},
+          "areas": [{"id": "a", "polygon": [[-9, -2], [-8, -2], [-8, -1], [-9, -1]]},
+                    {"id": "b", "polygon": [[1, 8], [2, 8], [2, 9], [1, 9]]}],
+          "walls": [{"id": "house", "closed": True, "points": [[-9, 0], [0, 0], [0, 9], [-9, 9]]}],
+          "flows": [{"id": "round", "from": "a", "to": "b", "count": 6, "end": 14}]}
+
+
+def test_heads_go_round_a_corner_first(throng, tmp_path):
     """The lag at which the turning of heads (in the plane) is most like that of bodies, over all who go round it."""
+    layout = tmp_path / "corner.json"
+    layout.write_text(json.dumps(CORNER), "utf-8")
+    streams = streams_of(bake_of(throng, tmp_path / "corner", "--gaze", "--attention", layout=layout))
     facing = numpy.unwrap(numpy.arctan2(*numpy.moveaxis(streams["dir"][..., 1::-1].astype(float), 2, 0)), axis=0)
-    head = facing + streams["gaze"][..., 0]
-    lags = numpy.arange(-12, 13)
-    likeness = numpy.zeros(len(lags))
-    for row in rows_of(people, "round the house"):
-        frames = numpy.flatnonzero(there(streams)[:, row] & (streams["gaze"][:, row, 2] == -1))
-        turning = numpy.gradient(facing[:, row])
-        for frame in frames[numpy.abs(turning[frames]) > numpy.radians(20.0) / FPS]:
-            if 14 < frame < len(facing) - 14:
-                own = numpy.gradient(head[:, row])[frame]
-                likeness += [own * turning[frame + lag] for lag in lags]
-    assert likeness.any(), "somebody goes round it"
-    assert 0 < lags[likeness.argmax()] / FPS < 0.6
+    head, minds = facing + streams["gaze"][..., 0], streams["gaze"][..., 2] == -1
+    lags, likeness, around = numpy.arange(-12, 13), numpy.zeros(25), 0
+    for row in range(facing.shape[1]):
+        turning, own = numpy.gradient(facing[:, row]), numpy.gradient(head[:, row])
+        middle = int(numpy.abs(turning).argmax())
+        frames = numpy.arange(max(12, middle - 24), min(middle + 24, len(facing) - 13))
+        frames = frames[minds[frames, row] & there(streams)[frames - 12, row] & there(streams)[frames + 12, row]]
+        around += len(frames) > 30
+        likeness += [own[frames] @ turning[frames + lag] for lag in lags]
+    assert around >= 3, "people go round it, and look where they go"
+    assert 0.05 < lags[likeness.argmax()] / FPS < 0.5
 
 
 def test_measures_are_those_of_numpy(throng, bake, streams, people):
