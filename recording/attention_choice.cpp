@@ -28,6 +28,7 @@ constexpr double kTooFast = 100.0 * kDegrees;  // per second: who goes by so fas
 
 constexpr double kTurns = 10.0 * kDegrees;  // ahead: whoever turns more minds the way
 
+constexpr double kOneself = 0.6;  // m: nearer than that, one is it
 constexpr double kComes = 0.5, kOther = 0.2, kMostOthers = 0.7;
 constexpr double kOncoming = -0.3;  // cosine between headings
 
@@ -280,6 +281,7 @@ void AttentionTrack::drawThings(const Onlooker& self, Draw& draw) const {
         const EyeCatcher& thing = things_[i];
         if (time_ < thing.from || time_ > thing.until || !isBefore(self, thing.place, thing.reach, kField))
             continue;
+        if (glm::distance(self.place, thing.place) < kOneself) continue;
         const bool was = (head.target == Target::thing || head.target == Target::sound) && head.at == i;
         const double near = 1.0 - glm::distance(self.place, thing.place) / (1.2 * thing.reach);
         draw.offer(thing.weight * near * (was && !self.stands() ? 0.3 : 1.0), Target::thing, i);
