@@ -181,6 +181,8 @@ void FrameWindow::restore(std::span<const std::byte> bytes, std::size_t rows, co
         frame.lifts.resize(lifts * kLiftFloats);
         take<float>(bytes, frame.lifts);
     }
+    // What is before the frames may be of another size than it should, and zero.
+    if (!bytes.empty()) throw std::runtime_error("the checkpoint's frames do not fit this bake");
 }
 
 }  // namespace throng::recording
