@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/frame.h"
+#include "base/random.h"
 #include "recording/attention_limits.h"
 #include "recording/spring.h"
 
@@ -125,6 +126,7 @@ AttentionTrack::Aim AttentionTrack::aimOf(const Onlooker& self) const {
     } else {
         aim.yaw += std::clamp(self.turns, -kMostLead, kMostLead);
     }
+    if (head.target != Target::way) liven(self, aim);
     // What is right behind stays on the side on which it is looked for.
     aim.yaw = std::remainder(aim.yaw, 2.0 * pi);
     if (std::abs(aim.yaw) > kBehind)
@@ -133,6 +135,19 @@ AttentionTrack::Aim AttentionTrack::aimOf(const Onlooker& self) const {
     aim.yaw = std::clamp(head.share * aim.yaw, -kMostYaw, kMostYaw);
     aim.pitch = std::clamp(head.share * aim.pitch, -kMostPitch, kMostPitch);
     return aim;
+}
+
+/// Nobody holds the head quite still; who speaks moves it with what it says.
+void AttentionTrack::liven(const Onlooker& self, Aim& aim) const {
+    const bool speaks = heads_[self.row].speaks > 0 && heads_[self.row].target == Target::company;
+    const double size = (speaks ? 2.6 : 1.0) * kDegrees, pace = speaks ? 2.2 : 1.0;
+    const std::uint64_t word = scramble(seed_ ^ scramble(self.row) ^ 0x6c697665u);
+    const auto wave = [&](int which, double seconds) {
+        const double off = static_cast<double>((word >> (16 * which)) & 0xffffu) / 65536.0;
+        return std::sin(2.0 * pi * (time_ * pace / (seconds + off) + off));
+    };
+    aim.yaw += size * (0.7 * wave(0, 2.3) + 0.5 * wave(1, 4.1));
+    aim.pitch += size * (0.5 * wave(2, 1.9) + 0.4 * wave(3, 3.2));
 }
 
 /// The first frame of somebody: its head is straight.

@@ -79,9 +79,10 @@ class AttentionTrack {
         Target target = Target::way;
         std::uint32_t at = 0;  ///< somebody's row, or a thing
         std::uint32_t draws = 0;
-        std::uint32_t heard = 0;  ///< of the sounds, in their order
-        std::uint32_t turn = 0;   ///< of those who speak
-        std::uint32_t known = 0;  ///< 0: has not been here yet
+        std::uint32_t heard = 0;   ///< of the sounds, in their order
+        std::uint32_t speaks = 0;  ///< 1: it does
+        std::uint32_t turn = 0;    ///< of those who speak
+        std::uint32_t known = 0;   ///< 0: has not been here yet
     };
     static constexpr float kAtOnce =
         -1.0f;  ///< Head::settles: how long it takes to get there is not known yet
@@ -113,6 +114,7 @@ class AttentionTrack {
     const Onlooker* personAt(const Head& head) const;
     Aim aimOf(const Onlooker& self) const;
     static double keepWithin(Head& head, double chest, double rate, double least, double most);
+    void liven(const Onlooker& self, Aim& aim) const;
     void follow(const Onlooker& self);
     void weigh(Head& head, const Onlooker& self, double yaw);
 

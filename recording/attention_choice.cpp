@@ -122,9 +122,11 @@ bool AttentionTrack::isTalking(std::uint32_t index) const {
 /// Who listens looks up when somebody else begins to speak.
 void AttentionTrack::listen(std::uint32_t index) {
     const Onlooker& self = people_[index];
-    if (company_.of(index).empty() || !isTalking(index)) return;
     Head& head = heads_[self.row];
+    head.speaks = 0;
+    if (company_.of(index).empty() || !isTalking(index)) return;
     const Company::Turn turn = company_.turnAt(index, people_, time_);
+    head.speaks = turn.speaker == index ? 1 : 0;
     if (turn.number == head.turn) return;
     head.turn = turn.number;
     head.left = std::min(head.left, static_cast<float>(between(self.row, 0.15, 0.5)));
