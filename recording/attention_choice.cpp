@@ -284,6 +284,7 @@ void AttentionTrack::drawThings(const Onlooker& self, Draw& draw) const {
         if (time_ < thing.from || time_ > thing.until || !isBefore(self, thing.place, thing.reach, kField))
             continue;
         if (glm::distance(self.place, thing.place) < kOneself) continue;
+        if (thing.storey && !areOnOneGround(self.height, *thing.storey)) continue;
         const bool was = (head.target == Target::thing || head.target == Target::sound) && head.at == i;
         const double near = 1.0 - glm::distance(self.place, thing.place) / (1.2 * thing.reach);
         draw.offer(thing.weight * near * (was && !self.stands() ? 0.3 : 1.0), Target::thing, i);

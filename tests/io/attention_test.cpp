@@ -242,6 +242,8 @@ TEST(Attention, IsDrawnByThingsUnlessAWallIsBefore) {
     EXPECT_EQ(share(tell(stands, 40.0, site).of(0), looks), 0.0);
     site.walls[0].height = 1.1;
     EXPECT_GT(share(tell(stands, 40.0, site).of(0), looks), 0.2) << "it is looked over";
+    site.things[0].storey = 4.0;
+    EXPECT_EQ(share(tell(stands, 40.0, site).of(0), looks), 0.0) << "it is upstairs";
 }
 
 std::vector<Onlooker> turbulent(double t) {
