@@ -8,7 +8,7 @@
 
 #include "base/frame.h"
 #include "base/random.h"
-#include "recording/attention_limits.h"
+#include "recording/heads.h"
 #include "recording/spring.h"
 
 namespace throng::recording {

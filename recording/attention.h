@@ -10,19 +10,11 @@
 #include "recording/bake_description.h"
 #include "recording/company.h"
 #include "recording/head_turn.h"
+#include "recording/heads.h"
 #include "recording/onlooker.h"
 #include "recording/wall_watch.h"
 
 namespace throng::recording {
-
-/// What somebody's head does.
-struct Attention {
-    float yaw = 0.0f;    ///< rad, from the chest to the left
-    float pitch = 0.0f;  ///< rad, up
-    float weight =
-        0.0f;         ///< 0 to 1: how far the head is so turned; with what is left it faces where the hips do
-    float at = 0.0f;  ///< what is looked at, as the stream `gaze` tells it: lookedAt()
-};
 
 /// What somebody looks at.
 enum class Target : std::uint32_t {
@@ -34,10 +26,6 @@ enum class Target : std::uint32_t {
     thing,    ///< an EyeCatcher
     sound,    ///< an EyeCatcher that has become loud
 };
-
-/// As the stream `gaze` has it: 0 nothing, -1 where one goes, -2 the first EyeCatcher, -3 the next ...; a row
-/// and one more of somebody.
-inline constexpr int kLooksAhead = -1, kFirstThing = -2;
 
 /// What people attend to, and how their heads turn to it (docs/how-to/attention.md has the sources).
 ///

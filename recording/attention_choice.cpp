@@ -7,7 +7,7 @@
 #include "base/random.h"
 #include "base/storeys.h"
 #include "recording/attention.h"
-#include "recording/attention_limits.h"
+#include "recording/heads.h"
 
 namespace throng::recording {
 namespace {

@@ -65,6 +65,7 @@ struct EyeCatcher {
     double reach = 15.0;                ///< m
     double from = 0.0, until = 1.0e30;  ///< s
     bool loud = false;                  ///< it is heard when it begins
+    bool is_audience = false;           ///< that cheers: nobody in a seat turns to it
     std::optional<double> storey =
         {};  ///< m: nobody sees it but from a floor of this height; none: there are no floors
 };

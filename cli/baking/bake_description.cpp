@@ -81,7 +81,7 @@ recording::EyeCatcher cheering(const authoring::Show& show, const authoring::Sea
     for (const glm::dvec2 point : block.front)
         middle += point / static_cast<double>(block.front.size());
     const double height = block.height + depth * block.rise;
-    return {middle, height, 1.0, kCarries, show.at.mean, show.at.mean + show.lasts.mean, true};
+    return {middle, height, 1.0, kCarries, show.at.mean, show.at.mean + show.lasts.mean, true, true};
 }
 
 /// What draws eyes, by the layout's order; then audiences that cheer.

@@ -12,7 +12,7 @@ namespace throng::io {
 namespace {
 
 constexpr double kEyes = 1.6;                                 // m, over the ground, of who is not scaled
-constexpr double kMostYaw = 70.0 * std::numbers::pi / 180.0;  // as recording/attention_limits.h has necks
+constexpr double kMostYaw = 70.0 * std::numbers::pi / 180.0;  // as recording/heads.h has necks
 constexpr double kMostPitch = 0.6;                            // rad
 
 double eased(double share) {

@@ -9,7 +9,8 @@
 #include <numbers>
 #include <numeric>
 
-#include "recording/attention_limits.h"
+#include "recording/heads.h"
+#include "recording/seated_heads.h"
 
 namespace throng::recording {
 namespace {
@@ -320,6 +321,40 @@ TEST(Attention, GoesOnFromWhatIsKeptOfIt) {
         different += other[row].yaw != whole[row].yaw;
     }
     EXPECT_GT(different, 30) << "another seed";
+}
+
+TEST(Attention, OfThoseWhoHaveSeatsIsWithSoundsAndThings) {
+    const EyeCatcher bang{{0.0, 5.0}, 1.25, 1.0, 30.0, 20.0, 20.0, true};
+    const EyeCatcher play{{10.0, -4.0}, 1.25, 4.0, 30.0, 40.0, 200.0, false};
+    const EyeCatcher cheer{{5.0, 5.0}, 1.25, 1.0, 30.0, 8.0, 8.0, true, true};
+    const SeatedHeads heads({bang, play, cheer}, 3);
+    const BakeSpectator person;  // looks along x
+    std::size_t played = 0, all = 0;
+    std::vector<double> rates;
+    for (std::size_t number = 0; number < 40; ++number) {
+        Attention before;
+        for (int frame = 0; frame < 200 * kFps; ++frame) {
+            const double t = frame / kFps;
+            const Attention head = heads.at(person, number, t);
+            ASSERT_LE(std::abs(head.yaw), kMostYaw + 1e-5);
+            rates.push_back(kFps * std::abs(shown(head) - shown(before)));
+            if (t < 20.2) {
+                ASSERT_EQ(head.weight, 0.0f) << t;
+            }
+            if (t > 21.7 && t < 21.8) {
+                ASSERT_NEAR(shown(head), kMostYaw, 0.3) << number;
+            }
+            if (t > 46.0) {
+                ++all;
+                played += head.at == static_cast<float>(kFirstThing - 1);
+            }
+            before = head;
+        }
+    }
+    const double share = static_cast<double>(played) / static_cast<double>(all);
+    EXPECT_GT(share, 0.25);
+    EXPECT_LT(share, 0.7);
+    EXPECT_LT(percentile(rates, 1.0), 200.0 * kDegrees);
 }
 
 }  // namespace
