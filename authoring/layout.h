@@ -299,15 +299,6 @@ struct ListedAgent {
     double start = 0.0;            ///< s: when the person appears
     std::optional<double> wait{};  ///< s before it sets off; otherwise drawn
 };
-std::vector<Waypoint> via{};  ///< in order, before the goal
-glm::dvec2 goal{0.0};
-double start = 0.0;             ///< s: when the person appears
-std::optional<double> wait{};   ///< s before it sets off; otherwise drawn
-std::optional<double> speed;    ///< m/s; otherwise drawn
-std::optional<double> radius;   ///< m; otherwise drawn
-std::optional<double> heading;  ///< degrees; otherwise towards the goal
-SourcePosition where;
-};
 
 struct ListFormation {
     std::vector<ListedAgent> agents;  ///< in the order of their starts
@@ -379,6 +370,21 @@ struct Event {
     SourcePosition where;
 };
 
+/// What draws people's eyes.
+struct Attraction {
+    std::string id;
+    glm::dvec2 at{0.0};
+    double height = 1.6;  ///< m, over the ground there
+    double weight = 1.0;  ///< how much it draws eyes: somebody in one's company draws 1
+    double reach = 15.0;  ///< m: who is further away does not mind it
+    double from = 0.0;    ///< s
+    std::optional<double>
+        until;          ///< s; none: to the end, or, of what is loud, no longer than heads turn to it
+    bool loud = false;  ///< everybody in reach turns to it when it begins
+    std::size_t level = 0;
+    SourcePosition where;
+};
+
 struct Layout {
     std::string name;
     SimulationSettings simulation;
@@ -394,6 +400,7 @@ struct Layout {
     std::vector<Event> events;  ///< in the order of their times
     std::vector<SeatBlock> seats;
     std::vector<Show> shows;
+    std::vector<Attraction> attractions;
     Traffic traffic;
     std::vector<Expectation> expectations;
     std::optional<Line> flow_line;  ///< across which people are counted for the bar on `flow`

@@ -17,7 +17,20 @@ namespace throng {
 inline constexpr std::size_t kComponents = 3;  ///< point caches know no other number
 
 /// In the order of kStreams.
-enum class Stream { pos, dir, state, density, ground, wish, left_foot, right_foot, carriage, gaze, chest };
+enum class Stream {
+    pos,
+    dir,
+    state,
+    density,
+    ground,
+    wish,
+    left_foot,
+    right_foot,
+    carriage,
+    gaze,
+    chest,
+    attention
+};
 
 /// What a row holds in the frames before it is first alive.
 enum class BackFill {
@@ -170,6 +183,13 @@ inline constexpr std::array kStreams = {
                         {"width", "m", BackFill::keep, Between::linear, kFine}}},
         .source = StreamSource::device,
         .shader = "shaders/frame/pack_chest.comp"},
+    StreamInfo{.id = Stream::attention,
+               .name = "attention",
+               .about = "which way everybody's head is turned on the chest, and how far it is so turned",
+               .components = {{{"yaw", "rad", BackFill::zero, Between::linear, kFine},
+                               {"pitch", "rad", BackFill::zero, Between::linear, kFine},
+                               {"weight", "1", BackFill::zero, Between::linear, kFine}}},
+               .source = StreamSource::pose},
 };
 
 /// Something for each stream.

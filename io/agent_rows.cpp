@@ -38,7 +38,8 @@ class Columns {
         outcome,
         goal_x,
         goal_y,
-        shortest_way
+        shortest_way,
+        party
     };
 
     AgentRow row(const std::vector<std::string>& fields, std::size_t line, glm::dvec2 origin) const {
@@ -53,6 +54,7 @@ class Columns {
         result.preferred_speed = static_cast<float>(number(fields, preferred_speed, line));
         result.outcome = text(fields, outcome, line);
         result.shortest_way = number(fields, shortest_way, line);
+        result.party = static_cast<std::uint32_t>(std::clamp(number(fields, party, line), 0.0, 4294967295.0));
         for (const auto& [name, frame] :
              {std::pair{spawn_frame, &result.spawn_frame}, std::pair{arrival_frame, &result.arrival_frame}})
             if (!text(fields, name, line).empty())
@@ -63,9 +65,9 @@ class Columns {
     }
 
   private:
-    static constexpr std::array kNames = {"group",       "radius",        "preferred_speed",
-                                          "spawn_frame", "arrival_frame", "outcome",
-                                          "goal_x",      "goal_y",        "shortest_way"};
+    static constexpr std::array kNames = {"group",         "radius",  "preferred_speed", "spawn_frame",
+                                          "arrival_frame", "outcome", "goal_x",          "goal_y",
+                                          "shortest_way",  "party"};
 
     static constexpr std::array kSides = {"breadth", "depth"};
 

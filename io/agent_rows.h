@@ -16,6 +16,7 @@ struct AgentRow {
     float radius = 0.0f;                        ///< m
     BodySize body;                              ///< where it is no disc
     float preferred_speed = 0.0f;               ///< m/s
+    std::uint32_t party = 0;                    ///< row of the first of those it walks with; its own: alone
     std::uint32_t spawn_frame = 0xffffffffu;    ///< from 0; all bits set: never
     std::uint32_t arrival_frame = 0xffffffffu;  ///< likewise
     std::string outcome;                        ///< walking, arrived or refused

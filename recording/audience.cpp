@@ -14,7 +14,10 @@ ActivityNow activityAt(std::span<const Deed> deeds, double time) {
 }
 
 Audience::Audience(const BakeDescription& description)
-    : fps_(description.fps), people_(description.audience), written_(description.streams()) {}
+    : fps_(description.fps),
+      people_(description.audience),
+      heads_(description.eye_catchers, description.seed),
+      written_(description.streams()) {}
 
 Frame Audience::with(const Frame& frame) {
     if (people_.empty()) return frame;
@@ -42,6 +45,12 @@ void Audience::fill(Stream stream, std::span<float> values, double time) const {
             const ActivityNow now = activityAt(person.deeds, time);
             told = {static_cast<float>(now.activity), static_cast<float>(person.variation),
                     static_cast<float>(now.phase)};
+        }
+        if (stream == Stream::attention || stream == Stream::gaze) {
+            const Attention head = heads_.at(person, i, time);
+            told = stream == Stream::attention
+                       ? std::array{head.yaw, head.pitch, head.weight}
+                       : std::array{head.weight * head.yaw, head.weight * head.pitch, head.at};
         }
         std::ranges::copy(told, rowOf(values, i).begin());
     }

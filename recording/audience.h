@@ -6,6 +6,7 @@
 
 #include "base/frame.h"
 #include "recording/bake_description.h"
+#include "recording/seated_heads.h"
 
 namespace throng::recording {
 
@@ -24,6 +25,7 @@ class Audience {
 
     double fps_;
     std::vector<BakeSpectator> people_;
+    SeatedHeads heads_;
     PerStream<std::vector<float>> values_;
     StreamChoice written_;
 };

@@ -57,6 +57,19 @@ struct BakeSeatRow {
     double height = 0.0;           ///< m, of the floor before them
 };
 
+/// Something that draws eyes, in the frame of reference of the frames.
+struct EyeCatcher {
+    glm::dvec2 place{0.0};
+    double height = 1.6;  ///< m, of what is looked at, as those of the ground
+    double weight = 1.0;
+    double reach = 15.0;                ///< m
+    double from = 0.0, until = 1.0e30;  ///< s
+    bool loud = false;                  ///< it is heard when it begins
+    bool is_audience = false;           ///< that cheers: nobody in a seat turns to it
+    std::optional<double> storey =
+        {};  ///< m: nobody sees it but from a floor of this height; none: there are no floors
+};
+
 /// A block of seats.
 struct BakeSeats {
     std::string id;
@@ -130,6 +143,7 @@ struct BakeDescription {
     std::vector<BakeAgent> agents;        ///< one per row
     std::vector<BakeSpectator> audience;  ///< of the last rows: they are not simulated
     std::vector<BakeSeats> seats;
+    std::vector<EyeCatcher> eye_catchers;  ///< in the frame of reference of the frames
     std::vector<authoring::Road> roads;
     std::vector<authoring::Area> areas;
     std::vector<authoring::Wall> walls;

@@ -62,7 +62,8 @@ Frame KeptFrame::view() const {
     return frame;
 }
 
-FrameWindow::FrameWindow(double half_width, double fps) : reach_(framesIn(half_width, fps)) {
+FrameWindow::FrameWindow(double half_width, double fps, double foresees)
+    : reach_(framesIn(half_width, fps)), foreseen_(static_cast<std::uint32_t>(std::lround(foresees * fps))) {
     for (std::uint32_t reach = 0; reach <= reach_; ++reach)
         weights_.push_back(hann(reach));
 }
@@ -115,6 +116,25 @@ Average FrameWindow::average(std::size_t row) const {
     return average;
 }
 
+glm::dvec2 FrameWindow::headingToCome(std::size_t row) const {
+    const auto isThere = [&](std::size_t frame) {
+        return frame < frames_.size() && frames_[frame].isAlive(row);
+    };
+    std::size_t centre = middle_;
+    while (centre < middle_ + foreseen_ && isThere(centre + 1))
+        ++centre;
+    std::uint32_t reach = 0;
+    while (reach < reach_ && centre > reach && isThere(centre - reach - 1) && isThere(centre + reach + 1))
+        ++reach;
+    glm::dvec2 sum(0.0);
+    for (std::size_t frame = centre - reach; frame <= centre + reach; ++frame) {
+        const std::size_t off = frame < centre ? centre - frame : frame - centre;
+        const auto facing = rowOf(std::span(frames_[frame][Stream::dir]), row);
+        sum += weights_[reach][off] * glm::dvec2(facing[0], facing[1]);
+    }
+    return sum;
+}
+
 glm::dvec2 FrameWindow::averageOfCharts(std::size_t row, std::span<const glm::dvec2> by_chart) const {
     const std::uint32_t reach = room(row);
     const std::vector<double>& weights = weights_[reach];
@@ -146,7 +166,7 @@ void FrameWindow::restore(std::span<const std::byte> bytes, std::size_t rows, co
     std::uint64_t counts[3];
     take<std::uint64_t>(bytes, counts);
     const std::size_t values = rows * kComponents;
-    if (counts[0] > 2ull * reach_ + 1 || counts[1] > counts[0] ||
+    if (counts[0] > 2ull * reach_ + foreseen_ + 1 || counts[1] > counts[0] ||
         counts[2] != (counts[0] ? countOf(carried) * values : 0))
         throw std::runtime_error("the checkpoint's frames do not fit this bake");
     frames_.assign(counts[0], {});
@@ -161,6 +181,8 @@ void FrameWindow::restore(std::span<const std::byte> bytes, std::size_t rows, co
         frame.lifts.resize(lifts * kLiftFloats);
         take<float>(bytes, frame.lifts);
     }
+    // What is before the frames may be of another size than it should, and zero.
+    if (!bytes.empty()) throw std::runtime_error("the checkpoint's frames do not fit this bake");
 }
 
 }  // namespace throng::recording

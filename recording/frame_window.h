@@ -44,14 +44,15 @@ struct Average {
 class FrameWindow {
   public:
     /// @param half_width s; the window reaches less far than that to both sides; 0: one frame only
-    FrameWindow(double half_width, double fps);
+    /// @param foresees s: how far beyond the middle frame it is known what comes
+    FrameWindow(double half_width, double fps, double foresees = 0.0);
 
     /// Frames on either side of the one in the middle.
     std::uint32_t reach() const { return reach_; }
 
     void push(const Frame& frame);
     /// Whether the frame in the middle has all the frames that it waits for.
-    bool isReady() const { return frames_.size() > middle_ + reach_; }
+    bool isReady() const { return frames_.size() > middle_ + reach_ + foreseen_; }
     bool isEmpty() const { return frames_.size() <= middle_; }
     const KeptFrame& middle() const { return frames_[middle_]; }
     /// Makes the next frame the middle one.
@@ -59,6 +60,10 @@ class FrameWindow {
 
     /// A row of the middle frame, in which it is alive.
     Average average(std::size_t row) const;
+
+    /// Which way somebody who is alive in the middle frame will face as far ahead as is foreseen, or in the
+    /// last frame before that in which it is alive; an average, too.
+    glm::dvec2 headingToCome(std::size_t row) const;
 
     /// The mean over the same frames of what belongs to the charts that the row is on, behind its places;
     /// zero on charts without a value.
@@ -74,7 +79,7 @@ class FrameWindow {
   private:
     std::uint32_t room(std::size_t row) const;
 
-    std::uint32_t reach_ = 0;
+    std::uint32_t reach_ = 0, foreseen_ = 0;
     std::vector<std::vector<double>>
         weights_;  ///< by reach: of the middle and those further and further away
     std::deque<KeptFrame> frames_;

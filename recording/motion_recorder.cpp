@@ -34,6 +34,15 @@ std::vector<glm::dvec2> groundAlongWalls(const BakeDescription& description) {
                                                      : std::vector<glm::dvec2>{};
 }
 
+bool hasHeads(const BakeDescription& description) {
+    return description.asked[Stream::gaze] || description.asked[Stream::attention];
+}
+
+AttentionTrack::Site siteOf(const BakeDescription& description) {
+    return {description.minimum - description.scene_origin, description.maximum - description.scene_origin,
+            localWalls(description), groundAlongWalls(description), description.eye_catchers};
+}
+
 }  // namespace
 
 MotionRecorder::MotionRecorder(const BakeDescription& description, Sink sink)
@@ -41,7 +50,8 @@ MotionRecorder::MotionRecorder(const BakeDescription& description, Sink sink)
       wide_(isWideSite(description.minimum - description.scene_origin,
                        description.maximum - description.scene_origin)),
       sink_(std::move(sink)),
-      window_(description.smoothing, description.fps),
+      window_(description.smoothing, description.fps,
+              hasHeads(description) ? AttentionTrack::kForesees : 0.0),
       apart_(localWalls(description), description.minimum - description.scene_origin,
              description.maximum - description.scene_origin, groundAlongWalls(description)),
       walkers_(description.agents.size()),
@@ -74,9 +84,10 @@ MotionRecorder::MotionRecorder(const BakeDescription& description, Sink sink)
         for (std::vector<float>* values : {&feet_[0], &feet_[1], &carriage_values_})
             values->resize(walkers_.size() * kComponents);
     }
-    if (description.asked[Stream::gaze]) {
-        gazes_.emplace(walkers_.size(), fps_, minimum, maximum);
-        gaze_values_.resize(walkers_.size() * kComponents);
+    if (hasHeads(description)) {
+        attention_.emplace(walkers_.size(), fps_, description.seed, siteOf(description));
+        if (description.asked[Stream::gaze]) gaze_values_.resize(walkers_.size() * kComponents);
+        if (description.asked[Stream::attention]) attention_values_.resize(walkers_.size() * kComponents);
     }
 }
 
@@ -150,9 +161,9 @@ void MotionRecorder::giveOut() {
     if (window_.reach() > 0) average(frame);
     turnChests(frame);
     record(frame);
-    if (carriages_ || gazes_) findOnlookers(frame);
+    if (carriages_ || attention_) findOnlookers(frame);
     if (carriages_) carry();
-    if (gazes_) look();
+    if (attention_) look(frame.index);
     Frame shown = frame.view();
     shown[Stream::pos] = positions_;
     shown[Stream::dir] = directions_;
@@ -162,6 +173,7 @@ void MotionRecorder::giveOut() {
     shown[Stream::right_foot] = feet_[1];
     shown[Stream::carriage] = carriage_values_;
     shown[Stream::gaze] = gaze_values_;
+    shown[Stream::attention] = attention_values_;
     shown[Stream::chest] = chests_;
     sink_(shown);
     window_.advance();
@@ -310,12 +322,28 @@ void MotionRecorder::carry() {
     });
 }
 
-void MotionRecorder::look() {
-    gazes_->look(onlookers_);
-    putAll(gaze_values_, [this](std::size_t row) {
-        const Gaze gaze = (*gazes_)[row];
-        return std::array{gaze.yaw, gaze.pitch, gaze.at};
-    });
+void MotionRecorder::look(std::uint32_t frame) {
+    for (Onlooker& each : onlookers_) {
+        // The chest is where it is shown.
+        each.twist = carriages_ ? double{carriage_values_[each.row * kComponents + 1]} : 0.0;
+        const glm::dvec2 to_come = window_.headingToCome(each.row);
+        each.turns = std::atan2(each.heading.x * to_come.y - each.heading.y * to_come.x,
+                                glm::dot(each.heading, to_come));
+        const auto activity = static_cast<ActivityCode>(std::floor(states_[each.row * kComponents]));
+        each.has_subject = activity == ActivityCode::looks || activity == ActivityCode::queues;
+    }
+    attention_->look(onlookers_, frame);
+    if (!gaze_values_.empty())
+        putAll(gaze_values_, [this](std::size_t row) {
+            const Attention head = (*attention_)[row];
+            const float twist = carriages_ ? carriage_values_[row * kComponents + 1] : 0.0f;
+            return std::array{head.weight * (head.yaw + twist), head.weight * head.pitch, head.at};
+        });
+    if (!attention_values_.empty())
+        putAll(attention_values_, [this](std::size_t row) {
+            const Attention head = (*attention_)[row];
+            return std::array{head.yaw, head.pitch, head.weight};
+        });
 }
 
 std::vector<std::byte> MotionRecorder::save() const {
@@ -326,7 +354,7 @@ std::vector<std::byte> MotionRecorder::save() const {
     if (footing_) bytes.insert(bytes.end(), footing_->state().begin(), footing_->state().end());
     if (footsteps_) bytes.insert(bytes.end(), footsteps_->state().begin(), footsteps_->state().end());
     if (carriages_) bytes.insert(bytes.end(), carriages_->state().begin(), carriages_->state().end());
-    if (gazes_) bytes.insert(bytes.end(), gazes_->state().begin(), gazes_->state().end());
+    if (attention_) bytes.insert(bytes.end(), attention_->state().begin(), attention_->state().end());
     window_.save(bytes);
     return bytes;
 }
@@ -346,7 +374,7 @@ void MotionRecorder::restore(std::span<const std::byte> bytes) {
     if (footing_) take(footing_->state());
     if (footsteps_) take(footsteps_->state());
     if (carriages_) take(carriages_->state());
-    if (gazes_) take(gazes_->state());
+    if (attention_) take(attention_->state());
     window_.restore(bytes, walkers_.size(), carried_, lift_count_);
 }
 

@@ -6,13 +6,13 @@
 #include <span>
 #include <vector>
 
+#include "recording/attention.h"
 #include "recording/bake_description.h"
 #include "recording/carriages.h"
 #include "recording/footing.h"
 #include "recording/footsteps.h"
 #include "recording/frame_window.h"
 #include "recording/gaits.h"
-#include "recording/gazes.h"
 #include "recording/keep_apart.h"
 
 namespace throng::recording {
@@ -60,7 +60,7 @@ class MotionRecorder {
     void turnChests(const KeptFrame& frame);
     void findOnlookers(const KeptFrame& frame);
     void carry();
-    void look();
+    void look(std::uint32_t frame);
     template <class ValuesOf>
     void putAll(std::vector<float>& stream, ValuesOf&& of);
     void putFeet(std::size_t at, const std::array<FootMove, 2>& feet);
@@ -76,7 +76,7 @@ class MotionRecorder {
     std::shared_ptr<const authoring::Terrain> ground_;  // likewise
     std::optional<Footsteps> footsteps_;                // none unless asked for
     std::optional<Carriages> carriages_;                // likewise, with them
-    std::optional<Gazes> gazes_;                        // likewise
+    std::optional<AttentionTrack> attention_;           // likewise
     StreamChoice carried_;                              // from the device, past all this
     std::uint32_t taken_ = 0;
 
@@ -89,7 +89,7 @@ class MotionRecorder {
     std::size_t lift_count_ = 0;
     std::vector<float> homes_;  ///< places of the frame being taken, in home coordinates, and charts
     std::vector<std::uint32_t> present_;
-    std::vector<float> gaze_values_, carriage_values_, chests_;
+    std::vector<float> gaze_values_, attention_values_, carriage_values_, chests_;
     std::vector<float> half_axes_;  ///< by row, m: as gpu::Person has it
     std::vector<MovedBody> bodies_;
     std::vector<Onlooker> onlookers_;

@@ -18,6 +18,7 @@ SECTIONS = {"point": ("point", "places-and-points"), "destination": ("destinatio
             "area": ("area", "areas"), "wall": ("wall", "walls"), "flow": ("flow", "flows"),
             "formation": ("formation", "formations"), "event": ("event", "events"),
             "seat_block": ("block of seats", "seats"), "show": ("show", "shows"),
+            "attraction": ("attraction", "attractions"),
             "crossing": ("crossing", "crossings"), "lane": ("lane", "lanes"), "lane_stop": ("stop of a lane", "lanes"),
             "signal": ("signal", "signals"), "phase": ("phase", "signals"),
             "vehicle_flow": ("flow of vehicles", "vehicles"),

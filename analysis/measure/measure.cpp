@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 
+#include "analysis/measure/head_watch.h"
 #include "analysis/measure/histogram.h"
 #include "analysis/measure/vehicle_watch.h"
 #include "analysis/measure/voronoi_density.h"
@@ -137,6 +138,7 @@ class Measurer {
             result_.deepest_wall_penetration = std::max(
                 result_.deepest_wall_penetration, walls_.empty() ? 0.0 : walls_.penetration(bodies_[i]));
             if (!vehicles_.empty()) vehicles_.look(frame, row, bodies_[i]);
+            if (!heads_.empty()) heads_.look(now(), aliveSince(row, 1) ? &before(1) : nullptr, row);
             if (!aliveSince(row, 1)) continue;
             const glm::dvec2 from = before(1).place(row);
             const glm::dvec2 to = now().place(row);
@@ -305,6 +307,8 @@ class Measurer {
         };
         result_.overlapping_percent = mean(overlapping_sum_, overlapping_frames_);
         result_.heading_rate = spreadOf(heading_rate_);
+        if (heads_.hasRates()) result_.head_rate = spreadOf(heads_.rates());
+        result_.looks_at = heads_.shares();
         result_.acceleration = spreadOf(acceleration_);
         result_.jerk = spreadOf(jerk_);
         summariseLinks();
@@ -357,6 +361,7 @@ class Measurer {
     };
     io::Storeys storeys_{bake_};
     VehicleWatch vehicles_{bake_};
+    HeadWatch heads_{crowd_};
     std::vector<Crossings> crossings_;  // of each link
     Measurement result_;
 };

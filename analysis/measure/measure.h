@@ -48,14 +48,16 @@ struct Measurement {
     std::optional<double> vehicle_clearance;  ///< m, between a body and a vehicle; none: they never met
     std::uint32_t run_over = 0;               ///< people whom a vehicle was in
 
-    double time_ratio = 0.0;        ///< time to the goal over the shortest way at the preferred speed, median
-    double detour_ratio = 0.0;      ///< way walked over the shortest way, median of those who arrived
-    Spread heading_rate;            ///< deg/s, while walking
-    Spread acceleration;            ///< m/s^2
-    Spread jerk;                    ///< m/s^3
-    double backward_percent = 0.0;  ///< of the walked frames, moving against the own heading
-    double effort = 0.0;            ///< J/(kg m): sum of (2.23 + 1.26 v^2) dt over the way (Whittle 2007)
-    double lane_order = 0.0;        ///< Rex and Loewen 2007: 0 mixed, 1 all lanes pure; mean over seconds
+    double time_ratio = 0.0;    ///< time to the goal over the shortest way at the preferred speed, median
+    double detour_ratio = 0.0;  ///< way walked over the shortest way, median of those who arrived
+    Spread heading_rate;        ///< deg/s, while walking
+    std::optional<Spread> head_rate;  ///< deg/s, of heads on chests; none: the bake does not tell it
+    std::vector<double> looks_at;     ///< percent of the time, by LooksAt; none: likewise
+    Spread acceleration;              ///< m/s^2
+    Spread jerk;                      ///< m/s^3
+    double backward_percent = 0.0;    ///< of the walked frames, moving against the own heading
+    double effort = 0.0;              ///< J/(kg m): sum of (2.23 + 1.26 v^2) dt over the way (Whittle 2007)
+    double lane_order = 0.0;          ///< Rex and Loewen 2007: 0 mixed, 1 all lanes pure; mean over seconds
 
     double mean_density = 0.0, high_density = 0.0;  ///< persons/m^2, Voronoi; mean and 99th percentile
     double mean_speed = 0.0;                        ///< m/s, of those present

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "analysis/measure/head_watch.h"
 #include "analysis/measure/measure.h"
 #include "analysis/plot/line_plot.h"
 #include "base/numbers.h"
@@ -26,6 +27,13 @@ std::string spreadText(const Spread& spread) {
                        spread.worst);
 }
 
+std::string looksText(const std::vector<double>& shares) {
+    std::string text;
+    for (std::size_t i = 0; i < shares.size(); ++i)
+        text += fmt::format("{}{} {:.1f} %", i > 0 ? ", " : "", kLooksAt[i], shares[i]);
+    return text;
+}
+
 /// What an expectation may speak of.
 std::optional<double> figureNamed(const Measurement& m, const std::string& name) {
     const auto share = [&](std::uint32_t count) {
@@ -46,6 +54,7 @@ std::optional<double> figureNamed(const Measurement& m, const std::string& name)
         {"time_ratio", m.time_ratio},
         {"detour_ratio", m.detour_ratio},
         {"heading_rate_p99", m.heading_rate.high},
+        {"head_rate_p99", m.head_rate ? m.head_rate->high : 0.0},
         {"acceleration_p99", m.acceleration.high},
         {"backward_percent", m.backward_percent},
         {"effort", m.effort},
@@ -99,6 +108,9 @@ Json measurementJson(const Measurement& m) {
     if (m.seated > 0) json[keyFor(Fate::seated)] = m.seated;
     if (m.vehicles > 0) json["run_over"] = m.run_over;
     if (m.vehicle_clearance) json["vehicle_clearance"] = readable(*m.vehicle_clearance);
+    if (m.head_rate) json["head_rate"] = spreadJson(*m.head_rate);
+    for (std::size_t i = 0; i < m.looks_at.size(); ++i)
+        json["looks_at"][std::string(kLooksAt[i])] = readable(m.looks_at[i]);
     if (m.flow) json["flow"] = readable(*m.flow);
     if (m.specific_flow) json["specific_flow"] = readable(*m.specific_flow);
     for (const LinkFlow& link : m.links) {
@@ -137,6 +149,8 @@ std::string measurementText(const Measurement& m) {
     line("to the goal", fmt::format("{:.2f} times the free time, {:.2f} times the shortest way (medians)",
                                     m.time_ratio, m.detour_ratio));
     line("heading rate, deg/s", spreadText(m.heading_rate));
+    if (m.head_rate) line("head rate, deg/s", spreadText(*m.head_rate));
+    if (!m.looks_at.empty()) line("people look at", looksText(m.looks_at));
     line("acceleration, m/s^2", spreadText(m.acceleration));
     line("jerk, m/s^3", spreadText(m.jerk));
     line("backward steps", fmt::format("{:.2f} % of walked frames", m.backward_percent));

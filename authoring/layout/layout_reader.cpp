@@ -54,6 +54,7 @@ class Reader {
         eachOf(reader, "seats", [this](const JsonNode& node) { seats_.readBlock(node); });
         eachOf(reader, "events", [this](const JsonNode& node) { readEvent(node); });
         eachOf(reader, "shows", [this](const JsonNode& node) { seats_.readShow(node); });
+        eachOf(reader, "attractions", [this](const JsonNode& node) { readAttraction(node); });
         sortEvents();
         behaviours_.finish();
         if (const JsonNode* node = reader.get("expect")) readExpectations(*node);
@@ -203,6 +204,30 @@ class Reader {
         checkPolygon(area.polygon, node.find("polygon"), diagnostics_);
         claimId(node, area.id, areas_, layout_.areas.size(), "an area", diagnostics_);
         layout_.areas.push_back(std::move(area));
+    }
+
+    void readAttraction(const JsonNode& node) {
+        Attraction attraction;
+        attraction.where = node.where;
+        ObjectReader reader(node, schema_.definition("attraction"), "an attraction", diagnostics_);
+        if (!reader.isObject()) return;
+        reader.requiredText("id", "its name", attraction.id);
+        reader.require("at", "where it is, [x, y] in metres");
+        reader.point("at", "where it is, [x, y] in metres", attraction.at);
+        attraction.level = levels_.levelOf(reader);
+        reader.number("height", attraction.height);
+        reader.number("weight", attraction.weight);
+        reader.number("reach", attraction.reach);
+        reader.number("from", attraction.from);
+        reader.number("until", attraction.until);
+        reader.boolean("loud", attraction.loud);
+        reader.finish();
+        if (attraction.until && *attraction.until < attraction.from)
+            diagnostics_.error(node.find("until")->where,
+                               fmt::format("attraction `{}` ends before it begins", attraction.id),
+                               "`until` is a time of the shot, as `from` is");
+        claimId(node, attraction.id, attractions_, layout_.attractions.size(), "an attraction", diagnostics_);
+        layout_.attractions.push_back(std::move(attraction));
     }
 
     void readWall(const JsonNode& node) {
@@ -683,7 +708,8 @@ class Reader {
     Diagnostics& diagnostics_;
     Layout layout_;
     std::optional<SourcePosition> simulation_where_;
-    std::map<std::string, std::size_t> roads_, areas_, walls_, groups_;  // groups: flows by index, formations
+    std::map<std::string, std::size_t> roads_, areas_, walls_, attractions_;
+    std::map<std::string, std::size_t> groups_;  // flows by index, formations
     PlaceReader places_{schema_, roads_, areas_, diagnostics_};
     LevelReader levels_{schema_, layout_, diagnostics_};
     SeatReader seats_{schema_, layout_, groups_, walls_, diagnostics_};

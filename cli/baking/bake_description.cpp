@@ -73,6 +73,40 @@ void describeAudience(const authoring::Layout& layout, const authoring::Scene& s
     }
 }
 
+/// A crowd that cheers is heard all over the place.
+recording::EyeCatcher cheering(const authoring::Show& show, const authoring::SeatBlock& block) {
+    constexpr double kCarries = 100.0;  // m
+    const double depth = 0.5 * static_cast<double>(block.rows);
+    glm::dvec2 middle(0.0);
+    for (const glm::dvec2 point : block.front)
+        middle += point / static_cast<double>(block.front.size());
+    const double height = block.height + depth * block.rise;
+    return {middle, height, 1.0, kCarries, show.at.mean, show.at.mean + show.lasts.mean, true, true};
+}
+
+/// What draws eyes, by the layout's order; then audiences that cheer.
+void describeEyeCatchers(const LoadedLayout& loaded, recording::BakeDescription& bake) {
+    const authoring::Layout& layout = loaded.layout;
+    constexpr double kNever = 1.0e9;  // s
+    for (const authoring::Attraction& each : layout.attractions) {
+        const glm::dvec2 place = each.at - loaded.scene.origin;
+        const double ground = !layout.levels.empty() ? layout.levels[each.level].height
+                              : loaded.scene.terrain
+                                  ? double{loaded.scene.terrain->smoothAt(glm::vec2(place))}
+                                  : 0.0;
+        bake.eye_catchers.push_back({place, ground + each.height, each.weight, each.reach, each.from,
+                                     each.until.value_or(each.loud ? each.from : kNever), each.loud});
+        if (!layout.levels.empty()) bake.eye_catchers.back().storey = ground;
+    }
+    for (const authoring::Show& show : layout.shows) {
+        if (show.kind != authoring::Show::Kind::cheer || show.share == 0.0) continue;
+        for (const std::size_t block : show.blocks) {
+            bake.eye_catchers.push_back(cheering(show, layout.seats[block]));
+            bake.eye_catchers.back().place -= loaded.scene.origin;
+        }
+    }
+}
+
 void describeVehicles(const authoring::Scene& scene, recording::BakeDescription& bake) {
     for (std::size_t i = 0; i < scene.traffic.vehicles.size(); ++i) {
         const auto& type = authoring::kVehicleTypes.at(scene.traffic.vehicles[i].kind);
@@ -173,6 +207,7 @@ recording::BakeDescription describeBake(const LoadedLayout& loaded, const BakeOp
         for (const authoring::Wall& wall : loaded.layout.walls)
             bake.terrain->along_walls.push_back(authoring::groundAlong(wall, rebase, *scene.terrain));
     }
+    describeEyeCatchers(loaded, bake);
     bake.renderer = device.name;
     bake.driver = device.version;
     bake.gltf = options.gltf;

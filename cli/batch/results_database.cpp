@@ -67,6 +67,7 @@ constexpr Column kColumns[] = {
     {"time_ratio", "REAL", "/metrics/time_ratio"},
     {"detour_ratio", "REAL", "/metrics/detour_ratio"},
     {"heading_rate_p99", "REAL", "/metrics/heading_rate/p99"},
+    {"head_rate_p99", "REAL", "/metrics/head_rate/p99"},
     {"acceleration_p99", "REAL", "/metrics/acceleration/p99"},
     {"jerk_p99", "REAL", "/metrics/jerk/p99"},
     {"backward_percent", "REAL", "/metrics/backward_percent"},

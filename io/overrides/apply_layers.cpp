@@ -111,9 +111,11 @@ class LayerWork {
     }
 
     std::optional<LookTarget> targetOf(const authoring::LookAt& look) {
-        if (!crowd_.source().streams().has(Stream::gaze)) {
+        const auto& streams = crowd_.source().streams();
+        if (!streams.has(Stream::gaze) && !streams.has(Stream::attention)) {
             result_.remarks.emplace_back(
-                "nobody's head turns: the bake has no stream `gaze` (throng bake --gaze)");
+                "nobody's head turns: the bake has no stream `gaze`, and no "
+                "`attention` (throng bake --attention)");
             return std::nullopt;
         }
         LookTarget target;

@@ -12,7 +12,7 @@ namespace throng::io {
 namespace {
 
 constexpr double kEyes = 1.6;                                 // m, over the ground, of who is not scaled
-constexpr double kMostYaw = 70.0 * std::numbers::pi / 180.0;  // as recording/gazes.h has necks
+constexpr double kMostYaw = 70.0 * std::numbers::pi / 180.0;  // as recording/heads.h has necks
 constexpr double kMostPitch = 0.6;                            // rad
 
 double eased(double share) {
@@ -167,6 +167,11 @@ void LayeredCrowd::turnHead(RowSample& sample, const LookTarget& look, double fr
     towards(gaze[0], yaw, kMostYaw);
     towards(gaze[1], pitch, kMostPitch);
     if (share >= 0.5) gaze[2] = look.row ? static_cast<float>(*look.row + 1) : 0.0f;
+    // The same from the chest: what is told of the head is a turn of it.
+    std::array<float, kComponents>& attention = sample[Stream::attention];
+    towards(attention[0], yaw - double{sample[Stream::carriage][1]}, kMostYaw);
+    towards(attention[1], pitch, kMostPitch);
+    towards(attention[2], 1.0, 1.0);
 }
 
 void LayeredCrowd::places(std::uint32_t frame, std::vector<PersonPlace>& result) const {

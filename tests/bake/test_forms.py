@@ -22,7 +22,7 @@ from throng import formats as addon  # noqa: E402
 EXACT = ("npy", "pc2")
 FORMS = (*EXACT, "packed")
 STREAMS = ("pos", "dir", "state")
-ALL = (*STREAMS, "density", "wish", "left_foot", "right_foot", "carriage", "gaze")
+ALL = (*STREAMS, "density", "wish", "left_foot", "right_foot", "carriage", "gaze", "attention")
 SUBSETS = [",".join(some) for count in (1, 2, 3) for some in itertools.combinations(FORMS, count)]
 
 
@@ -33,7 +33,7 @@ def crowds(throng, once):
     def bake(forms):
         def make(folder):
             throng("bake", write(folder / "layout.json", SMALL), "-o", folder / "bake", "-q", "--density", "--wish",
-                   "--feet", "--gaze", *(["--streams", forms] if forms else []))
+                   "--feet", "--gaze", "--attention", *(["--streams", forms] if forms else []))
 
         return once(f"forms-{forms}", make) / "bake"
 

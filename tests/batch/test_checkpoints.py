@@ -15,10 +15,11 @@ from processor_time import HANGS, let_work, taken_by
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 
-# A bit of everything that a checkpoint has to remember: gates, queues, routes round jams, late arrivals, groups.
+# A bit of everything that a checkpoint has to remember: gates, queues, routes round jams, late arrivals, groups, heads.
 LAYOUT = json.loads((ROOT / "examples" / "station.json").read_text())
 LAYOUT["simulation"].update(duration=30, seed=11)
-OPTIONS = ["-q", "--density", "--diagrams", "120", "--gltf-agents", "20"]
+LAYOUT["attractions"] = [{"id": "bang", "at": LAYOUT["areas"][0]["polygon"][0], "from": 9, "reach": 60, "loud": True}]
+OPTIONS = ["-q", "--density", "--attention", "--diagrams", "120", "--gltf-agents", "20"]
 
 
 def files_of(bake):

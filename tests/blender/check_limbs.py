@@ -148,4 +148,16 @@ result["told"] = [problem for problem in verify(crowd, bpy.context.scene) if "fe
 update.reload(crowd, bpy.context.scene, os.path.join(bake, "bake.json"))
 problems = [problem for problem in verify(crowd, bpy.context.scene) if "is not in the list" not in problem]
 result["with"] = [same(bent(crowd), held), problems, len(bpy.data.node_groups) - trees]
+
+# and where it tells how heads turn on their chests, which counts before what it tells of gazes
+for folder, name in ((f"{bake}-turned", "attention"), (f"{bake}-straight", "no_attention")):
+    shutil.copytree(bake, folder)
+    with open(os.path.join(folder, "bake.json")) as file:
+        manifest = json.load(file)
+    manifest["streams"]["attention"] = {form: f"streams/{name}.{form}" for form in ("npy", "pc2")}
+    with open(os.path.join(folder, "bake.json"), "w") as file:
+        json.dump(manifest, file)
+    update.reload(crowd, bpy.context.scene, os.path.join(folder, "bake.json"))
+    result[name] = [sorted(each.name for each in crowd.modifiers if each.type == "MESH_CACHE"),
+                    {row: float(numpy.abs(points - held[row]).max()) for row, points in bent(crowd).items()}]
 print("RESULT " + json.dumps(result))

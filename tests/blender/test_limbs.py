@@ -41,11 +41,16 @@ def seen(blender, bodies, tmp_path_factory):
     carriage[:, STOPS, 0] = 0.0
     for row, values in CARRIAGES.items():
         carriage[:, row, 1:] = values
+    attention = numpy.stack([2.0 * (gaze[..., 0] - 0.5 * carriage[..., 1]), 2.0 * gaze[..., 1],
+                             numpy.full(gaze.shape[:2], 0.5)], 2).astype(numpy.float32)
     manifest = json.loads((folder / "bake.json").read_text())
-    for name, stream in zip(("left_foot", "right_foot", "carriage", "gaze"), (*feet, carriage, gaze)):
+    for name, stream in zip(("left_foot", "right_foot", "carriage", "gaze", "attention", "no_attention"),
+                            (*feet, carriage, gaze, attention, numpy.zeros_like(gaze))):
         numpy.save(folder / "streams" / f"{name}.npy", stream)
         (folder / "streams" / f"{name}.pc2").write_bytes(
             struct.pack("<12siiffi", b"POINTCACHE2\0", 1, AGENTS, 1.0, 1.0, len(pos)) + stream.tobytes())
+        if "attention" in name:
+            continue
         manifest["streams"][name] = {form: f"streams/{name}.{form}" for form in ("npy", "pc2")}
     (folder / "bake.json").write_text(json.dumps(manifest))
     found = result_of(blender(HERE / "check_limbs.py", ADDON, folder, environment={"THRONG_BODIES": str(bodies)}))
@@ -96,6 +101,15 @@ def test_heads_look_where_the_bake_says(seen):
                 assert head["neck"] == pytest.approx(0.4 * yaw, abs=2e-3), row
         else:
             assert head["up"] > 0.5 * numpy.sin(pitch) * head["ahead"] > 0.0, "noses go up"
+
+
+def test_heads_turn_on_chests_by_the_weight(seen):
+    """Half of twice the turn; where there is no weight heads face where hips do, whatever they would gaze at."""
+    caches, off = seen["attention"]
+    assert "throng attention" in caches and "throng gaze" not in caches
+    assert max(off.values()) < 1e-4
+    _, off = seen["no_attention"]
+    assert {int(row) for row, moved in off.items() if moved > 1e-4} == set(GAZES) & set(seen["rows"])
 
 
 def test_trunks_turn_and_lean_as_the_bake_says_over_legs_that_stay(seen):

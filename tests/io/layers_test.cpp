@@ -171,6 +171,11 @@ TEST(Layers, HeadsTurnToAPointAndToSomebody) {
     EXPECT_NEAR(gaze[0], yaw, 1e-5);
     EXPECT_NEAR(gaze[1], std::atan2(-place[2], std::hypot(100.0 - place[1], -14.0 - place[0])), 1e-5);
     EXPECT_EQ(gaze[2], 0.0f);
+    const auto head = applied.row(Stream::attention, 8, 1);
+    const double most = 70.0 * std::numbers::pi / 180.0;
+    EXPECT_NEAR(head[0], std::clamp(yaw - double{applied.row(Stream::carriage, 8, 1)[1]}, -most, most), 1e-5);
+    EXPECT_EQ(head[1], gaze[1]);
+    EXPECT_EQ(head[2], 1.0f) << "all of it";
     // Row 0 goes east: its neck turns by 70 degrees and no more.
     EXPECT_NEAR(applied.row(Stream::gaze, 8, 0)[0], 70.0 * std::numbers::pi / 180.0, 1e-5);
     const AppliedLayers at(R"([{"name": "at", "who": {"rows": [0, 4]}, "do": {"look_at": {"frames": [10, 40],

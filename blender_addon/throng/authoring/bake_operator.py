@@ -164,7 +164,7 @@ class Bake:
             file.remove()
             raise
         self.made_folder = not os.path.isdir(os.path.dirname(output))
-        self.job = BakeJob(executable, self.file.path, output, ("--feet", "--gaze"))
+        self.job = BakeJob(executable, self.file.path, output, ("--feet", "--attention"))
         self.start = time.monotonic()
         _running["bake"] = self
         self.job.start()

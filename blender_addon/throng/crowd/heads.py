@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Heads of people near the camera turn to where the bake says that they look (`--gaze`, docs/bake.md): the neck by a
+"""Heads of people near the camera turn to where the bake says (`--attention`, or `--gaze`, docs/bake.md): the neck by a
 part of it, the head by all. Where trunks turn and lean, heads turn and nod back."""
 import functools
 
@@ -8,7 +8,8 @@ from ..cast import bones
 from .names import BONE
 from .trunks import CARRIAGE
 
-GAZE = "throng_gaze"  # of points: as the stream has it
+# Of points: as the streams have it; what is told of heads counts before what is told of eyes.
+ATTENTION, GAZE = "throng_attention", "throng_gaze"
 NECK_TURNS = 0.4      # of the yaw
 _NECK, _HEAD = "throng_neck", "throng_head"
 _CENTRE, _ANGLES, _SHIFT = "throng_centre", "throng_angles", "throng_shift"
@@ -22,18 +23,29 @@ def _ends_of_necks(maths, people, all_):
     return people
 
 
-def _wanted(maths, gazes, turns):
-    """(yaw, pitch) of heads, from how trunks are. @param gazes, turns whether there are streams of gazes and trunks"""
-    yaw, pitch = parts(maths, maths.attribute(GAZE, "FLOAT_VECTOR"))[:2] if gazes else (0.0, 0.0)
+def is_told(streams):
+    """Whether the bake says anything of where heads turn."""
+    return "attention" in streams or "gaze" in streams
+
+
+def _wanted(maths, streams, turns):
+    """(yaw, pitch) of heads, from how trunks are. @param turns whether trunks do"""
+    twist, lean = parts(maths, maths.attribute(CARRIAGE, "FLOAT_VECTOR"))[1:] if turns else (0.0, 0.0)
+    yaw, pitch = 0.0, 0.0  # from where the hips are
+    if "attention" in streams:
+        yaw, pitch, weight = parts(maths, maths.attribute(ATTENTION, "FLOAT_VECTOR"))
+        yaw = maths.math("MULTIPLY", maths.math("ADD", yaw, twist), weight)
+        pitch = maths.math("MULTIPLY", pitch, weight)
+    elif "gaze" in streams:
+        yaw, pitch = parts(maths, maths.attribute(GAZE, "FLOAT_VECTOR"))[:2]
     if turns:
-        _, twist, lean = parts(maths, maths.attribute(CARRIAGE, "FLOAT_VECTOR"))
         yaw, pitch = maths.math("SUBTRACT", yaw, twist), maths.math("ADD", pitch, lean)
     return yaw, pitch
 
 
-def turning(gazes, turns):
+def turning(streams, turns):
     """What turns heads (_with_heads_turned), by the streams that there are."""
-    return functools.partial(_with_heads_turned, lambda maths: _wanted(maths, gazes, turns))
+    return functools.partial(_with_heads_turned, lambda maths: _wanted(maths, streams, turns))
 
 
 def _with_heads_turned(wanted, maths, people, all_, placed):

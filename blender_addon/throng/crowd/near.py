@@ -406,7 +406,7 @@ def _bent(maths, people, points, blurs, joints, figures, streams):
     limbs, trunk = (bones.told_of(sheets, what) for what in (bones.LIMBS, bones.TRUNK))
     turns, count = "carriage" in streams and trunk is not None, sheets[0]["throng_bones"]
     for is_told, bend in ((FEET[0] in streams, legs.with_feet_held), (turns, trunks.with_trunks_turned),
-                          (turns or "gaze" in streams, heads.turning("gaze" in streams, turns))):
+                          (turns or heads.is_told(streams), heads.turning(streams, turns))):
         if limbs and is_told:
             points = maths.grouped(
                 "Throng near limbs", [people, points, joints], lambda inner, who, bent, rest, flag, bend=bend: bend(

@@ -6,7 +6,7 @@ import struct
 
 STREAMS = ("pos", "dir", "state")
 FEET = ("left_foot", "right_foot")
-POSE = (*FEET, "carriage", "gaze")  # that bakes are asked for
+POSE = (*FEET, "carriage", "gaze", "attention")  # that bakes are asked for
 UNDER_WAY = "under-way.json"        # beside the streams of a bake that is not one yet
 _PC2 = struct.Struct("<12siiffi")
 _PC2_MAGIC = b"POINTCACHE2\0"
@@ -42,7 +42,9 @@ class Bake:
     def streams(self):
         """Those of every bake, `ground` where it has a terrain, and those of POSE that it was asked for."""
         told = self.manifest.get("streams")
-        asked = tuple(stream for stream in POSE if isinstance(told, dict) and stream in told)
+        told = told if isinstance(told, dict) else {}
+        # Where it is told how heads turn, nobody has to guess it from where people look.
+        asked = tuple(stream for stream in POSE if stream in told and not (stream == "gaze" and "attention" in told))
         return STREAMS + (("ground",) if self.manifest.get("terrain") else ()) + asked
 
     @property
