@@ -15,6 +15,11 @@ inline std::uint64_t scramble(std::uint64_t x) {
     return x ^ (x >> 31);
 }
 
+/// In [0, 1), of a random word.
+inline double fractionOf(std::uint64_t word) {
+    return static_cast<double>(word >> 11) * 0x1.0p-53;
+}
+
 /// FNV-1a.
 inline std::uint64_t wordOf(std::string_view text) {
     std::uint64_t hash = 0xcbf29ce484222325ull;

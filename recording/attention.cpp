@@ -25,10 +25,6 @@ constexpr double kSettles = 0.28;                   // s: so far behind its targ
 constexpr float kAttends = 7.0f, kLetsGo = 4.0f;    // 1/s, of the weight
 constexpr double kStraight = 0.03, kTurned = 0.15;  // rad: heads go as they would, and do not
 
-double smooth(double value, double low, double high) {
-    return eased(std::clamp((value - low) / (high - low), 0.0, 1.0));
-}
-
 double directionOf(const Onlooker& self) {
     return std::atan2(self.heading.y, self.heading.x) + self.twist;
 }
@@ -212,7 +208,7 @@ void AttentionTrack::weigh(Head& head, const Onlooker& self, double yaw) {
     const double ahead = yaw + self.twist;
     const double turned =
         std::max({std::abs(ahead), std::abs(self.turns), std::abs(double{head.pitch.angle})});
-    const double wanted = head.target == Target::way ? smooth(turned, kStraight, kTurned) : 1.0;
+    const double wanted = head.target == Target::way ? easedFrom(turned, kStraight, kTurned) : 1.0;
     approach(head.weight, head.weight_rate, static_cast<float>(wanted),
              wanted > double{head.weight} ? kAttends : kLetsGo, static_cast<float>(interval_));
 }

@@ -32,10 +32,6 @@ constexpr double kOneself = 0.6;  // m: nearer than that, one is it
 constexpr double kComes = 0.5, kOther = 0.2, kMostOthers = 0.7;
 constexpr double kOncoming = -0.3;  // cosine between headings
 
-double fraction(std::uint64_t word) {
-    return static_cast<double>(word >> 11) * 0x1.0p-53;
-}
-
 }  // namespace
 
 /// Draws one of several by their weights, one after the other, and keeps none but the one that is ahead.
@@ -61,7 +57,7 @@ struct AttentionTrack::Draw {
 
 /// From 0 to 1.
 double AttentionTrack::draw(std::uint32_t row) {
-    return fraction(scramble(scramble(seed_ ^ scramble(row)) + heads_[row].draws++));
+    return fractionOf(scramble(scramble(seed_ ^ scramble(row)) + heads_[row].draws++));
 }
 
 void AttentionTrack::turnTo(const Onlooker& self, Target target, std::uint32_t at, double seconds,
@@ -99,7 +95,7 @@ bool AttentionTrack::hear(const Onlooker& self) {
     if (head.heard >= sounds_.size()) return false;
     const std::uint32_t thing = sounds_[head.heard];
     const std::uint64_t word = scramble(seed_ ^ scramble((std::uint64_t{thing} << 32) | self.row));
-    const double reaction = 0.2 + 0.3 * fraction(word);
+    const double reaction = 0.2 + 0.3 * fractionOf(word);
     if (time_ < things_[thing].from + reaction) return false;
     ++head.heard;
     if (glm::distance(self.place, things_[thing].place) > things_[thing].reach) return false;

@@ -19,10 +19,6 @@ constexpr double kAnticipates = 0.25;                     // s
 constexpr double kPasses = 0.25, kPassesFully = 0.8;      // m/s, between two people along the way of one
 constexpr double kSightReach = 1.6;                       // m: further away is nobody who matters so soon
 
-double smooth(double value, double low, double high) {
-    return eased(std::clamp((value - low) / (high - low), 0.0, 1.0));
-}
-
 }  // namespace
 
 Carriages::Carriages(std::vector<float> radii, double fps, glm::dvec2 minimum, glm::dvec2 maximum)
@@ -39,7 +35,7 @@ Carriage Carriages::operator[](std::size_t row) const {
 float Carriages::step(std::size_t row, double speed) {
     Body& body = bodies_[row];
     const auto pace = static_cast<float>(speed);
-    const auto walking = static_cast<float>(smooth(speed, kStandsBelow, kWalksFrom));
+    const auto walking = static_cast<float>(easedFrom(speed, kStandsBelow, kWalksFrom));
     if (body.known == 0)
         body = {.walking = walking, .pace = pace, .known = 1};
     else {
@@ -63,7 +59,7 @@ Carriages::Sides Carriages::tightness(const Onlooker& self, std::span<const Onlo
         const double distance = std::max(glm::length(away), 1.0e-6);
         const double gap = distance - radii_[self.row] - radii_[other.row];
         const double aside = glm::dot(away, left) / distance;
-        const double passes = smooth(std::abs(glm::dot(relative, self.heading)), kPasses, kPassesFully);
+        const double passes = easedFrom(std::abs(glm::dot(relative, self.heading)), kPasses, kPassesFully);
         const double tight = passes * aside * aside * std::clamp(1.0 - gap / kRoom, 0.0, 1.0);
         double& side = aside > 0.0 ? found.left : found.right;
         side = std::max(side, tight);

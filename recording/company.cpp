@@ -15,10 +15,6 @@ constexpr double kFaces = 1.0;                       // rad, from the heading
 constexpr double kShortTurn = 1.6, kLongTurn = 3.2;  // s
 constexpr double kUneven = 0.4;                      // of a turn: how far its beginning may be off
 
-double fraction(std::uint64_t word) {
-    return static_cast<double>(word >> 11) * 0x1.0p-53;
-}
-
 }  // namespace
 
 void Company::gather(std::span<const Onlooker> people, const PlaneGrid& grid) {
@@ -81,11 +77,11 @@ std::span<const std::uint32_t> Company::of(std::uint32_t index) const {
 Company::Turn Company::turnAt(std::uint32_t index, std::span<const Onlooker> people, double time) const {
     const std::span<const std::uint32_t> members = of(index);
     const std::uint64_t key = scramble(seed_ ^ scramble(people[members.front()].row));
-    const double length = kShortTurn + (kLongTurn - kShortTurn) * fraction(scramble(key + 1));
+    const double length = kShortTurn + (kLongTurn - kShortTurn) * fractionOf(scramble(key + 1));
     // The clock begins before the shot does, so that there is a turn before the first one, too.
-    const double at = time / length + 2.0 + fraction(scramble(key + 2));
+    const double at = time / length + 2.0 + fractionOf(scramble(key + 2));
     auto number = static_cast<std::uint32_t>(at);
-    const auto off = [&](std::uint32_t turn) { return kUneven * (fraction(scramble(key + 3 + turn)) - 0.5); };
+    const auto off = [&](std::uint32_t turn) { return kUneven * (fractionOf(scramble(key + 3 + turn)) - 0.5); };
     const double share = at - number;
     if (share < off(number))
         --number;

@@ -17,10 +17,6 @@ constexpr double kSitsUp = 1.25;  // m, of eyes over the floor
 constexpr double kClip = 2.0;     // as much as this weighs what the clip does
 constexpr double kAside = 110.0 * kDegrees;
 
-double fraction(std::uint64_t word) {
-    return static_cast<double>(word >> 11) * 0x1.0p-53;
-}
-
 /// From 0 to 1 with the least jerk.
 double gone(double share) {
     const double x = std::clamp(share, 0.0, 1.0);
@@ -57,10 +53,10 @@ bool SeatedHeads::isSeen(const Look& look, const BakeSpectator& person, std::siz
 /// The look of somebody in the slot of time that it is in.
 SeatedHeads::Look SeatedHeads::spell(const BakeSpectator& person, std::size_t number, double time) const {
     const std::uint64_t key = scramble(seed_ ^ scramble(number ^ 0x73656174u));
-    const double slots = time / kSlot + fraction(key), slot = std::floor(slots);
+    const double slots = time / kSlot + fractionOf(key), slot = std::floor(slots);
     const std::uint64_t word = scramble(key + static_cast<std::uint64_t>(slot) + 1);
     const double begin = time - (slots - slot) * kSlot;
-    double total = kClip, drawn = fraction(word);
+    double total = kClip, drawn = fractionOf(word);
     Look found;
     for (std::size_t i = 0; i < things_.size(); ++i) {
         if (begin < things_[i].from || begin + kSlot > things_[i].until || things_[i].weight <= 0.0) continue;
@@ -71,8 +67,8 @@ SeatedHeads::Look SeatedHeads::spell(const BakeSpectator& person, std::size_t nu
         if (drawn < share) found = look;
         drawn = drawn < share ? drawn / share : (drawn - share) / (1.0 - share);
     }
-    found.begin = begin + fraction(scramble(word));
-    found.lasts = 1.5 + 1.4 * fraction(scramble(word + 1));
+    found.begin = begin + fractionOf(scramble(word));
+    found.lasts = 1.5 + 1.4 * fractionOf(scramble(word + 1));
     return found;
 }
 
@@ -87,8 +83,8 @@ Attention SeatedHeads::at(const BakeSpectator& person, std::size_t number, doubl
         Look heard = lookAt(person, i);
         if (!isSeen(heard, person, i)) continue;
         const std::uint64_t word = scramble(seed_ ^ scramble((std::uint64_t{i} << 32) | number));
-        heard.begin = things_[i].from + 0.2 + 0.3 * fraction(word);
-        heard.lasts = 1.0 + 2.0 * fraction(scramble(word));
+        heard.begin = things_[i].from + 0.2 + 0.3 * fractionOf(word);
+        heard.lasts = 1.0 + 2.0 * fractionOf(scramble(word));
         const double share = heard.share(time);
         yaw = std::lerp(yaw, heard.yaw, share);
         pitch = std::lerp(pitch, heard.pitch, share);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace throng::recording {
@@ -19,6 +20,10 @@ void approach(Value& value, Value& rate, Value target, float stiffness, float in
 /// A share from 0 to 1 without a corner at either end.
 inline double eased(double share) {
     return share * share * (3.0 - 2.0 * share);
+}
+/// That of the way of a value from one to another.
+inline double easedFrom(double value, double low, double high) {
+    return eased(std::clamp((value - low) / (high - low), 0.0, 1.0));
 }
 
 }  // namespace throng::recording

@@ -47,7 +47,7 @@ class GroupRandom {
     }
     /// In [0, 1).
     double unit(std::uint64_t person, Purpose purpose, std::uint64_t draw = 0) const {
-        return static_cast<double>(word(person, purpose, draw) >> 11) * 0x1.0p-53;
+        return fractionOf(word(person, purpose, draw));
     }
     /// @param nth tells apart draws for one purpose
     double draw(const Distribution& distribution, std::uint64_t person, Purpose purpose,

@@ -10,7 +10,7 @@ namespace throng::authoring {
 
 inline constexpr float kPassTolerance = 0.3f;   ///< m: who only passes a place has been there when this near
 inline constexpr float kStandClearance = 0.3f;  ///< m to walls beyond a body, where there is room
-inline constexpr float kCircle = 0.45f;         ///< m: radius of the ring in which a party stands (goals.comp)
+inline constexpr float kCircle = 0.45f;  ///< m: radius of the ring in which a party stands (goals.comp)
 
 /// The mean of its corners.
 inline glm::vec2 middleOf(const LocalPolygon& polygon) {

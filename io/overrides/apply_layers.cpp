@@ -163,8 +163,8 @@ class LayerWork {
         step.change.delay *= times;
         if (duplicate.scatter > 0.0) {
             const std::uint64_t word = scramble(crowd_.plan(copy).identity ^ scramble(duplicate.seed + 1));
-            const double angle = 2.0 * std::numbers::pi * static_cast<double>(word >> 11) * 0x1.0p-53;
-            const double share = static_cast<double>(scramble(word) >> 11) * 0x1.0p-53;
+            const double angle = 2.0 * std::numbers::pi * fractionOf(word);
+            const double share = fractionOf(scramble(word));
             const double far = duplicate.scatter * std::sqrt(share);  // even over the disc
             step.change.move += far * glm::dvec3(std::cos(angle), std::sin(angle), 0.0);
         }

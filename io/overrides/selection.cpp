@@ -153,7 +153,7 @@ std::vector<bool> Selection::meant(const authoring::Share& share) {
     Chosen chosen(crowd_.rows());
     for (std::uint32_t row = 0; row < crowd_.rows(); ++row) {
         const std::uint64_t word = scramble(crowd_.plan(row).identity ^ scramble(share.seed + 1));
-        chosen[row] = static_cast<double>(word >> 11) * 0x1.0p-53 < share.of;
+        chosen[row] = fractionOf(word) < share.of;
     }
     return chosen;
 }
