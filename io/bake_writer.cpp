@@ -12,6 +12,7 @@
 #include "base/activities.h"
 #include "base/files/output_file.h"
 #include "io/diagram/diagram_exr.h"
+#include "io/door_file.h"
 #include "io/lift_file.h"
 #include "io/room_on_disk.h"
 #include "io/under_way.h"
@@ -292,6 +293,10 @@ BakeOutcome BakeWriter::writeAll(const Account& account, const BakeTiming& timin
     if (!description_.vehicles.empty()) {
         files.push_back(kVehicleFile);
         writeVehicles(folder_->path() / files.back(), vehicles, frames_, description_.vehicles.size());
+    }
+    if (!description_.doors.empty()) {
+        files.push_back(kDoorFile);
+        writeDoors(folder_->path() / files.back(), door_track_, frames_, description_.doors.size());
     }
     if (!description_.lifts.empty()) {
         files.push_back(kLiftFile);

@@ -300,6 +300,7 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
     }
     if (!scene.chart_map.lifts.empty()) makeLifts(scene.chart_map.lifts, scene.people.size());
     if (!scene.traffic.empty()) makeTraffic(scene.traffic);
+    if (scene.traffic.hasDoors()) makeBoarding(scene.traffic, scene.people.size());
     queue_heads.fill(0);
     tickets.fill(0);
     detour_slopes.fill(0);
@@ -342,6 +343,24 @@ void Buffers::makeTraffic(const authoring::SceneTraffic& traffic) {
                 {"VEHICLES", fmt::format("{}u", traffic.vehicles.size())},
                 {"LANES", fmt::format("{}u", traffic.lanes.size())},
                 {"CROSSINGS", fmt::format("{}u", traffic.crossings.size())}};
+}
+
+void Buffers::makeBoarding(const authoring::SceneTraffic& traffic, std::size_t people_count) {
+    vehicle_services = gl::makeBuffer("services of vehicles", traffic.services, "vehicle");
+    vehicle_doors = gl::makeBuffer("doors of vehicles", traffic.doors, "door of a vehicle");
+    platforms = gl::makeBuffer("platforms", traffic.platforms, "platform");
+    platform_points = gl::makeBuffer("platform points", traffic.platform_points, "point of a platform");
+    calls = gl::makeBuffer("calls", traffic.calls, "call of those who get off");
+    door_states = gl::Buffer("states of doors", {traffic.doors.size(), sizeof(gpu::DoorState), "door"});
+    door_wishes = gl::Buffer("wishes of doors", {traffic.doors.size(), sizeof(gpu::DoorWishes), "door"});
+    new_aboard = gl::Buffer("new aboard", {traffic.vehicles.size(), kWord, "vehicle"});
+    call_heads = gl::Buffer("heads of calls", {traffic.calls.size(), kWord, "call"});
+    passengers = gl::Buffer("passengers", {people_count, kWord, kPerson});
+    platform_vehicles = gl::Buffer("vehicles at platforms", {traffic.platforms.size(), kWord, "platform"});
+    for (gl::Buffer* each : {&door_states, &door_wishes, &new_aboard, &call_heads, &passengers})
+        each->fill(0);
+    platform_vehicles.fill(gpu::NO_INDEX);
+    traffic_.emplace_back("DOORS", "1");
 }
 
 gl::ComputeProgram Buffers::connect(const gl::ShaderLibrary& library, const gl::Declaration& declaration,
@@ -401,6 +420,17 @@ std::vector<std::pair<std::string, const gl::Buffer*>> Buffers::named() const {
             {"CrossingPoints", &crossing_points},
             {"Lights", &lights},
             {"InTheWay", &in_the_way},
+            {"VehicleServices", &vehicle_services},
+            {"VehicleDoors", &vehicle_doors},
+            {"DoorStates", &door_states},
+            {"DoorWishesBlock", &door_wishes},
+            {"NewAboard", &new_aboard},
+            {"Passengers", &passengers},
+            {"Platforms", &platforms},
+            {"PlatformPoints", &platform_points},
+            {"PlatformVehicles", &platform_vehicles},
+            {"AlightingCalls", &calls},
+            {"CallHeads", &call_heads},
             {"RowSlots", &row_slots},
             {"BehaviourStates", &behaviour_states},
             {"BehaviourRules", &behaviour_rules},

@@ -12,13 +12,15 @@ const gl::Declaration kLook = {"vehicles",
 const gl::Declaration kDrive = {
     "vehicles",
     {"shaders/traffic/drive.comp"},
-    {"ParametersBlock", "Vehicles", "Lanes", "LanePoints", "TrafficStops", "Lights", "InTheWay"},
+    {"ParametersBlock", "Vehicles", "Lanes", "LanePoints", "TrafficStops", "Lights", "InTheWay",
+     "Platforms", "VehicleServices", "VehicleDoors"},
     {"Vehicles", "VehicleBoxesMade"}};
 const gl::Declaration kKeepOff = {
     "contacts",
     {"shaders/motion/keep_off.comp"},
     {"ParametersBlock", "LiveDispatch", "Bodies", "TouchWords", "WallSegments", "WallStarts", "WallItems",
-     "VehicleBoxes", "Crossings", "CrossingPoints", "Lights", "Targets"},
+     "VehicleBoxes", "Crossings", "CrossingPoints", "Lights", "Targets", "VehicleDoors", "Platforms",
+     "VehicleServices", "Passengers"},
     {"Targets"}};
 
 }  // namespace

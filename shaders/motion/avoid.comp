@@ -148,7 +148,7 @@ void main() {
 
     int hard = wallsAhead(self, walker, slot);
 #ifdef TRAFFIC
-    hard += vehiclesAhead(self, slot, hard);
+    hard += vehiclesAhead(self, slot, hard, (walker.flags & WALKER_IN_DOORS) != 0u);
 #endif
     int count = hard + kerbBeside(self, walker, hard);
     vec2 velocity = nearestAllowed(hard, count, self.maximum_speed, wanted);
