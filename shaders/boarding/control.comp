@@ -5,6 +5,7 @@
 // is over, and so that the vehicle goes on when its longest is. They do not close on anybody.
 #include "shaders/shared/simulation_types.h"
 #include "shaders/shared/traffic_types.h"
+#include "shaders/shared/boarding_types.h"
 
 layout(local_size_x = BOARDING_GROUP_SIZE) in;
 layout(std140) uniform ParametersBlock { Parameters parameters; };
