@@ -68,7 +68,9 @@ uint waits(uint passenger, uint row, AgentState state) {
     if (board == 0u || state.status != STATUS_WALKING) return PASSENGER_NONE;
     uint number = (board & ((1u << BOARD_LINES_AT) - 1u)) - 1u;
     uint vehicle = platform_vehicles[number];
-    if (vehicle == NO_INDEX || !isOnPlatform(platforms[number], state.position)) return PASSENGER_NONE;
+    if (vehicle == NO_INDEX) return PASSENGER_NONE;
+    // Where a platform is full, some stand beside it.
+    if (state.leave_step == 0u && !isOnPlatform(platforms[number], state.position)) return PASSENGER_NONE;
     VehicleService service = services[vehicle];
     bool comes_in = service.phase == DOORS_OPEN_UP || service.phase == DOORS_ARE_OPEN;
     if ((board & service.line) == 0u || !comes_in || service.aboard >= service.capacity) return PASSENGER_NONE;

@@ -35,6 +35,7 @@ const float GETS_UP = 0.8;      // m inside: from there somebody who gets off is
 const float BEHIND = 0.1;       // m, one behind the other
 const float COMES_OUT = 0.8;    // m/s
 const float BESIDE_MIDDLE = 0.2;  // m: people take the left and the right of a door in turn
+const float WAITS_FOR = 5.0;    // m: drivers wait for whoever is nearer than this
 const float CLEARING = 2.0;     // s: so long before doors have to close, nobody more is let through
 
 void enter(inout VehicleService service, uint phase) {
@@ -118,10 +119,14 @@ DoorWishes countedAt(VehicleService service) {
         all.going_in += wishes.going_in;
         all.in_door += wishes.in_door;
         all.waiting += wishes.waiting;
+        all.first = max(all.first, wishes.first);
         door_states[service.first_door + i].waiting = wishes.waiting;
     }
     return all;
 }
+
+/// Whether somebody is there to get on: doors do not wait for those who are far off.
+bool isNear(DoorWishes all) { return all.first != 0u && (~all.first >> 24u) < uint(10.0 * WAITS_FOR); }
 
 void standOpen(inout VehicleService service, uint vehicle) {
     Platform platform = platforms[service.platform];
@@ -131,7 +136,7 @@ void standOpen(inout VehicleService service, uint vehicle) {
     if (service.phase == DOORS_ARE_OPEN) letThrough(service, vehicle, all.going_in);
     uint call;
     bool has_room = service.aboard + all.going_in < service.capacity;
-    bool wanted = nextToGetOff(service, call) != NO_INDEX || (all.waiting > 0u && has_room);
+    bool wanted = nextToGetOff(service, call) != NO_INDEX || (isNear(all) && has_room);
     bool busy = all.coming_out + all.going_in > 0u || (wanted && service.phase == DOORS_ARE_OPEN);
     if (all.in_door == 0u && (service.stood >= latest || (!busy && service.stood + service.door_time >= platform.least)))
         enter(service, DOORS_CLOSE);

@@ -3,19 +3,26 @@
 they cover. Cars are those of cars.py."""
 import math
 
-from . import cars, materials
+from . import cars, materials, vehicle_doors
 from .shapes import Shape
 
 _AXLE_SIDES = 18
 
 
-def body_of(kind, number):
+def body_of(kind, number, what=None, doors=None):
     """(mesh without wheels, axles) of the vehicle with a number; an axle is (x, radius of its wheels, half of how far
-    apart they are, how broad they are)."""
+    apart they are, how broad they are).
+
+    @param what, doors as the manifest has them, of one whose doors open
+    """
+    if doors:
+        shape = vehicle_doors.body_with(what, doors)
+        _ends(shape, 0.5 * what["length"], 0.5 * what["width"], 1.05, 2.7)
     if kind == "bus":
-        return _bus(), ((3.35, 0.48, 1.20, 0.28), (-2.85, 0.48, 1.20, 0.28))
+        return shape.to_mesh() if doors else _bus(), ((3.35, 0.48, 1.20, 0.28), (-2.85, 0.48, 1.20, 0.28))
     if kind == "tram":
-        return _tram(), tuple((x, 0.33, 0.92, 0.14) for x in (11.1, 9.3, 0.9, -0.9, -9.3, -11.1))
+        mesh = shape.to_mesh() if doors else _tram()
+        return mesh, tuple((x, 0.33, 0.92, 0.14) for x in (11.1, 9.3, 0.9, -0.9, -9.3, -11.1))
     if kind == "bicycle":
         return _bicycle(), ((0.52, 0.34, 0.0, 0.035), (-0.52, 0.34, 0.0, 0.035))
     car = ("saloon", "hatchback", "saloon")[number % 3]
