@@ -45,16 +45,16 @@ struct Signal {
 /// Where people get on and off.
 struct StopPlatform {
     std::string id;
-    std::size_t area = 0;       ///< index: where people wait
-    double least = 10.0;        ///< s from when a vehicle stands there to when it goes on
-    double most = 40.0;         ///< likewise, while people still get on or off
+    std::size_t area = 0;  ///< index: where people wait
+    double least = 10.0;   ///< s from when a vehicle stands there to when it goes on
+    double most = 40.0;    ///< likewise, while people still get on or off
 };
 
 /// Where vehicles of a lane stop: at a red signal, for a time, or at a platform those that have doors.
 struct LaneStop {
-    glm::dvec2 at{0.0};                    ///< on the lane, or beside it
-    std::optional<std::size_t> signal;     ///< index; none: everybody stops there
-    double seconds = 0.0;                  ///< s that they stand there
+    glm::dvec2 at{0.0};                 ///< on the lane, or beside it
+    std::optional<std::size_t> signal;  ///< index; none: everybody stops there
+    double seconds = 0.0;               ///< s that they stand there
     SourcePosition where;
     std::optional<StopPlatform> platform;  ///< in place of both
 };
@@ -118,8 +118,8 @@ struct VehicleFlow {
     double start = 0.0, end = 0.0;
     SourcePosition where;
     std::optional<VehicleDoors> doors{};
-    std::uint32_t capacity = 0;              ///< people
-    std::optional<std::uint32_t> aboard{};   ///< people, as each of them comes in; none: those who get off
+    std::uint32_t capacity = 0;             ///< people
+    std::optional<std::uint32_t> aboard{};  ///< people, as each of them comes in; none: those who get off
 };
 
 /// Where people get on or off, and what.

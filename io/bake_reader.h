@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "authoring/layout.h"
-#include "base/files/errors.h"
 #include "base/door_track.h"
+#include "base/files/errors.h"
 #include "base/vehicle_track.h"
 #include "io/streams/stream_format.h"
 

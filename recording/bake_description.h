@@ -15,9 +15,9 @@
 #include "authoring/terrain/terrain_mesh.h"
 #include "base/activities.h"
 #include "base/capsule.h"
+#include "base/door_track.h"
 #include "base/stream_formats.h"
 #include "base/streams.h"
-#include "base/door_track.h"
 #include "base/vehicle_track.h"
 
 namespace throng::recording {

@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
+#include "sim/boarding.h"
 #include "sim/buffers.h"
 #include "sim/gl/program.h"
-#include "sim/boarding.h"
 #include "sim/lifts.h"
 #include "sim/seams.h"
 #include "sim/terrain_slopes.h"

@@ -9,12 +9,11 @@ const gl::Declaration kLook = {"vehicles",
                                {"ParametersBlock", "People", "States", "Vehicles", "Lanes", "LanePoints",
                                 "TrafficStops", "Crossings", "CrossingPoints", "Lights", "InTheWay"},
                                {"InTheWay"}};
-const gl::Declaration kDrive = {
-    "vehicles",
-    {"shaders/traffic/drive.comp"},
-    {"ParametersBlock", "Vehicles", "Lanes", "LanePoints", "TrafficStops", "Lights", "InTheWay",
-     "Platforms", "VehicleServices", "VehicleDoors"},
-    {"Vehicles", "VehicleBoxesMade"}};
+const gl::Declaration kDrive = {"vehicles",
+                                {"shaders/traffic/drive.comp"},
+                                {"ParametersBlock", "Vehicles", "Lanes", "LanePoints", "TrafficStops",
+                                 "Lights", "InTheWay", "Platforms", "VehicleServices", "VehicleDoors"},
+                                {"Vehicles", "VehicleBoxesMade"}};
 const gl::Declaration kKeepOff = {
     "contacts",
     {"shaders/motion/keep_off.comp"},

@@ -156,9 +156,10 @@ std::string measurementText(const Measurement& m) {
                          m.vehicle_clearance ? fmt::format("least clearance {:.3f} m", *m.vehicle_clearance)
                                              : "nobody came near one"));
     for (const VehicleCall& call : m.calls)
-        line("call", fmt::format("{} (vehicle {}) stood {:.1f} s from {:.1f} s on: {} got off, {} on, {} aboard",
-                                 call.flow, call.vehicle, call.dwell, call.begin, call.alighted, call.boarded,
-                                 call.aboard));
+        line("call",
+             fmt::format("{} (vehicle {}) stood {:.1f} s from {:.1f} s on: {} got off, {} on, {} aboard",
+                         call.flow, call.vehicle, call.dwell, call.begin, call.alighted, call.boarded,
+                         call.aboard));
     line("to the goal", fmt::format("{:.2f} times the free time, {:.2f} times the shortest way (medians)",
                                     m.time_ratio, m.detour_ratio));
     line("heading rate, deg/s", spreadText(m.heading_rate));

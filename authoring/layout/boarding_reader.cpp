@@ -85,9 +85,10 @@ void BoardingReader::readVehicle(ObjectReader& reader, VehicleFlow& flow) {
     if (!aboard) return;
     flow.aboard = static_cast<std::uint32_t>(inside);
     if (*flow.aboard > flow.capacity)
-        diagnostics_.error(aboard->where, fmt::format("{} people are aboard, and there is room for {}",
-                                                      *flow.aboard, flow.capacity),
-                           "raise `capacity`, or lower `aboard`");
+        diagnostics_.error(
+            aboard->where,
+            fmt::format("{} people are aboard, and there is room for {}", *flow.aboard, flow.capacity),
+            "raise `capacity`, or lower `aboard`");
 }
 
 void BoardingReader::readDoors(const JsonNode& node, VehicleFlow& flow) {
@@ -148,8 +149,9 @@ std::optional<AtPlatform> BoardingReader::stopNamed(const JsonNode& name) const 
                 platform && name.kind == JsonNode::Kind::text && platform->id == name.text)
                 return AtPlatform{lane, stop, {}, name.where};
     diagnostics_.error(name.where, fmt::format("there is no stop `{}` with a platform", name.text),
-                       ids_.empty() ? R"(write in `stops` of a lane {"id": ..., "at": [x, y], "platform": ...})"
-                                    : hintFor(name.text, namesOf(ids_)));
+                       ids_.empty()
+                           ? R"(write in `stops` of a lane {"id": ..., "at": [x, y], "platform": ...})"
+                           : hintFor(name.text, namesOf(ids_)));
     return std::nullopt;
 }
 
@@ -186,9 +188,9 @@ void BoardingReader::readLines(const JsonNode& list, AtPlatform& at) const {
             continue;
         }
         const std::string& stop = layout_.traffic.lanes[at.lane].stops[at.stop].platform->id;
-        diagnostics_.error(item.where, fmt::format("no vehicles `{}` stop at `{}`", item.text, stop),
-                           calling.empty() ? "no vehicles with doors come on its lane"
-                                           : hintFor(item.text, calling));
+        diagnostics_.error(
+            item.where, fmt::format("no vehicles `{}` stop at `{}`", item.text, stop),
+            calling.empty() ? "no vehicles with doors come on its lane" : hintFor(item.text, calling));
     }
 }
 

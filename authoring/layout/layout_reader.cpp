@@ -344,9 +344,10 @@ class Reader {
         if (!board) return to ? places_.destination(*to) : std::nullopt;
         for (const char* key : {"to", "arrival"})
             if (const JsonNode* other = node.find(key))
-                diagnostics_.error(other->where, fmt::format("people who `board` go nowhere else: `{}` has no "
-                                                             "meaning",
-                                                             key),
+                diagnostics_.error(other->where,
+                                   fmt::format("people who `board` go nowhere else: `{}` has no "
+                                               "meaning",
+                                               key),
                                    fmt::format("leave `{}` out", key));
         flow.boards = boarding_.atPlatform(*board);
         if (!flow.boards) return std::nullopt;

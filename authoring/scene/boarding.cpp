@@ -13,7 +13,7 @@
 namespace throng::authoring {
 namespace {
 
-constexpr double kReach = 0.4;  // m: as far as people step from a vehicle's side on to a platform
+constexpr double kReach = 0.4;    // m: as far as people step from a vehicle's side on to a platform
 constexpr double kBeside = 0.02;  // m: a platform may begin right beside the vehicle
 
 const LaneStop& stopOf(const Layout& layout, std::size_t lane, std::size_t stop) {
@@ -32,7 +32,6 @@ std::uint32_t lineNumber(const Layout& layout, std::size_t flow) {
         std::count_if(vehicles.begin(), vehicles.begin() + static_cast<std::ptrdiff_t>(flow),
                       [](const VehicleFlow& each) { return each.doors.has_value(); }));
 }
-
 
 /// m: the side of a platform's middle, seen along its lane; above 0 on the left.
 double sideOf(const Layout& layout, std::size_t lane, const LaneStop& stop) {
@@ -140,8 +139,9 @@ class Checker {
                                            : fmt::format("{} people get off each `{}`, which holds {}",
                                                          leaving, flow.id, flow.capacity),
                                "lower `count` of the flows that `alight`, or raise what it holds");
-        const bool stops = std::ranges::any_of(layout_.traffic.lanes[flow.lane].stops,
-                                               [](const LaneStop& stop) { return stop.platform.has_value(); });
+        const bool stops =
+            std::ranges::any_of(layout_.traffic.lanes[flow.lane].stops,
+                                [](const LaneStop& stop) { return stop.platform.has_value(); });
         if (stops && !used)
             diagnostics_.warning(flow.where, fmt::format("nobody gets on or off `{}`", flow.id),
                                  "it stops at a platform: let flows `board` or `alight` there");

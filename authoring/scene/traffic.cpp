@@ -149,7 +149,8 @@ class Builder {
         made.crossing = gpu::NO_INDEX;
         if (stop.platform) {
             made.kind = gpu::STOP_AT_PLATFORM;
-            made.crossing = platformNumber(layout_, index, static_cast<std::size_t>(&stop - lane.stops.data()));
+            made.crossing =
+                platformNumber(layout_, index, static_cast<std::size_t>(&stop - lane.stops.data()));
         }
         scene_.stops.push_back(made);
     }

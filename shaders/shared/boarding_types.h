@@ -39,26 +39,26 @@ struct VehicleService {
     uint door_count;
     uint first_call;  // of those who get off
     uint call_count;
-    uint line;         // its bit in Stage::board
-    uint capacity;     // people
-    float door_time;   // s, to open or to close
-    float door_flow;   // persons/s through each door
-    uint phase;        // DOORS_*
-    uint platform;     // at which it stands, or NO_INDEX
-    float open;        // 0 to 1
-    float since;       // s in that phase
-    float stood;       // s that it has stood there
-    uint aboard;       // people
-    uint boarded;      // at this platform
-    uint alighted;     // likewise
+    uint line;        // its bit in Stage::board
+    uint capacity;    // people
+    float door_time;  // s, to open or to close
+    float door_flow;  // persons/s through each door
+    uint phase;       // DOORS_*
+    uint platform;    // at which it stands, or NO_INDEX
+    float open;       // 0 to 1
+    float since;      // s in that phase
+    float stood;      // s that it has stood there
+    uint aboard;      // people
+    uint boarded;     // at this platform
+    uint alighted;    // likewise
 };
 
 /// Where people get on and off: a stop of a lane.
 struct Platform {
-    float side;   // 1: to the left of the lane, -1: to the right
-    float least;  // s from when a vehicle stands there to when it goes on
-    float most;   // likewise, unless somebody is in its doors
-    uint stop;    // index into the stops of lanes
+    float side;        // 1: to the left of the lane, -1: to the right
+    float least;       // s from when a vehicle stands there to when it goes on
+    float most;        // likewise, unless somebody is in its doors
+    uint stop;         // index into the stops of lanes
     uint first_point;  // of its outline
     uint point_count;
 };
@@ -90,7 +90,8 @@ const uint PASSENGER_BOARDS = 0x2000000u;   // it has been asked in
 const uint PASSENGER_ALIGHTS = 0x3000000u;  // it gets off
 const uint PASSENGER_PHASE = 0x3000000u;
 
-// Stage::board: bits 0 to 7 are 1 + the platform where people get on, and above them those lines that they take.
+// Stage::board: bits 0 to 7 are 1 + the platform where people get on, and above them those lines that they
+// take.
 const uint BOARD_LINES_AT = 8u;
 
 THRONG_SHARED_END

@@ -309,8 +309,8 @@ std::map<std::string, Layout> layoutsInCpp() {
     }
     {
         using T = gpu::AlightingCall;
-        result["AlightingCall"] = {
-            sizeof(T), {MEMBER(vehicle), MEMBER(platform), MEMBER(first_row), MEMBER(row_count)}};
+        result["AlightingCall"] = {sizeof(T),
+                                   {MEMBER(vehicle), MEMBER(platform), MEMBER(first_row), MEMBER(row_count)}};
     }
     {
         using T = gpu::DoorWishes;
