@@ -361,6 +361,7 @@ void Buffers::makeBoarding(const authoring::SceneTraffic& traffic, std::size_t p
         each->fill(0);
     platform_vehicles.fill(gpu::NO_INDEX);
     traffic_.emplace_back("DOORS", "1");
+    traffic_.emplace_back("PLATFORMS", fmt::format("{}u", traffic.platforms.size()));
 }
 
 gl::ComputeProgram Buffers::connect(const gl::ShaderLibrary& library, const gl::Declaration& declaration,

@@ -4,11 +4,12 @@
 namespace throng::sim {
 namespace {
 
-const gl::Declaration kLook = {"vehicles",
-                               {"shaders/traffic/people_ahead.comp"},
-                               {"ParametersBlock", "People", "States", "Vehicles", "Lanes", "LanePoints",
-                                "TrafficStops", "Crossings", "CrossingPoints", "Lights", "InTheWay"},
-                               {"InTheWay"}};
+const gl::Declaration kLook = {
+    "vehicles",
+    {"shaders/traffic/people_ahead.comp"},
+    {"ParametersBlock", "People", "States", "Vehicles", "Lanes", "LanePoints", "TrafficStops", "Crossings",
+     "CrossingPoints", "Lights", "InTheWay", "Platforms", "PlatformPoints"},
+    {"InTheWay"}};
 const gl::Declaration kDrive = {"vehicles",
                                 {"shaders/traffic/drive.comp"},
                                 {"ParametersBlock", "Vehicles", "Lanes", "LanePoints", "TrafficStops",

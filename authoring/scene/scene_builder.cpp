@@ -322,7 +322,7 @@ class Builder {
             geometry_.areas.push_back(rebase_.local(area.polygon));
         for (const Zebra& crossing : layout_.traffic.crossings)
             geometry_.areas.push_back(rebase_.local(crossing.polygon));
-        geometry_.has_crossings = !layout_.traffic.crossings.empty();
+        geometry_.has_crossings = keepsOffStreets(layout_);
         scene_.wall_segments = geometry_.walls;
         openGates();
         sortWalls(geometry_);

@@ -222,8 +222,16 @@ class Builder {
 
 }  // namespace
 
+bool keepsOffStreets(const Layout& layout) {
+    const Traffic& traffic = layout.traffic;
+    const auto has_platform = [](const Lane& lane) {
+        return std::ranges::any_of(lane.stops, [](const LaneStop& stop) { return stop.platform.has_value(); });
+    };
+    return !traffic.crossings.empty() || std::ranges::any_of(traffic.lanes, has_platform);
+}
+
 bool keepsToRoads(const Layout& layout) {
-    return !layout.roads.empty() || !layout.traffic.crossings.empty();
+    return !layout.roads.empty() || keepsOffStreets(layout);
 }
 
 bool isWithoutTraffic(const Layout& layout, Diagnostics& diagnostics) {

@@ -10,6 +10,9 @@
 
 namespace throng::authoring {
 
+/// Whether people walk over streets only where there are crossings: there are some, or platforms.
+bool keepsOffStreets(const Layout& layout);
+
 /// Whether flows keep to roads, areas and crossings.
 bool keepsToRoads(const Layout& layout);
 
