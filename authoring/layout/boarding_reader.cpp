@@ -17,7 +17,7 @@ bool callsOn(const VehicleFlow& flow, const AtPlatform& at) {
 std::optional<VehicleDoors> doorsOf(VehicleKind kind) {
     VehicleDoors doors;
     if (kind == VehicleKind::bus) {
-        doors.at = {2.1, 7.5};
+        doors.at = {1.3, 6.3};
         return doors;
     }
     if (kind != VehicleKind::tram) return std::nullopt;

@@ -37,7 +37,7 @@ bool isInDoorway(uint passenger, uint vehicle, float radius, vec2 from, inout ve
                                 platforms[service.platform].side);
     float room = roomInDoorway(doorway, radius);
     vec2 was = throughDoorway(doorway, from), at = throughDoorway(doorway, place);
-    bool is_in = was.x > -radius || abs(at.y) <= room;
+    bool is_in = (was.x > -radius && abs(was.y) <= room + HAIR_FROM_VEHICLES) || abs(at.y) <= room;
     if (!is_in) return false;
     if (at.x > -radius) place = atDoorway(doorway, vec2(at.x, clamp(at.y, -room, room)));
     return true;

@@ -77,6 +77,8 @@ def test_nobody_is_run_over_and_everybody_is_accounted_for(throng, tmp_path):
     open_ = baked.doors[..., :2].max(axis=-1) > 0
     assert not (open_ & (baked.vehicles[..., SPEED] > 0)).any()
     assert not baked.doors[..., LEFT].any() and baked.doors[..., RIGHT].max() == 1.0
+    steps = numpy.linalg.norm(numpy.diff(baked.places[..., :2], axis=0), axis=-1)
+    assert steps[baked.there[1:] & baked.there[:-1]].max() < 3.2 / FPS  # nobody is put elsewhere
 
 
 def test_who_does_not_fit_takes_the_next(throng, tmp_path):

@@ -35,21 +35,40 @@ def body_with(what, doors):
     shape.prism(outline, high - 0.12, high, paint, roof)
     shape.flat(outline, high - 0.2, materials.glowing("vehicle ceiling", (0.9, 0.86, 0.78), 0.6))
     shape.prism(outline, _FLOOR - 0.02, _FLOOR, materials.plain("vehicle floor", (0.10, 0.10, 0.11), 0.8))
+    eaves = high - 0.12
     for a, b in ((1, 0), (2, 3), (5, 4), (6, 7)):
-        _wall(shape, outline[a], outline[b], _SKIRT, high, paint)
+        _wall(shape, outline[a], outline[b], _SKIRT, eaves, paint)
     for x in (x1, -x1):
-        _wall(shape, (x, -y1 + narrow), (x, y1 - narrow), _SKIRT, high, paint)
+        _wall(shape, (x, -y1 + narrow), (x, y1 - narrow), _SKIRT, eaves, paint)
     for side in (-1.0, 1.0):
         has = doors["left"] if side > 0.0 else doors["right"]
-        _side(shape, x1 - nose, side * y1, high, _middles(what, doors) if has else [], float(doors["width"]), paint)
+        _side(shape, x1 - nose, side * y1, eaves, _middles(what, doors) if has else [], float(doors["width"]), paint)
     if kind == "tram":
         _bellows(shape, y1, high, _middles(what, doors), float(doors["width"]))
     _poles(shape, _middles(what, doors), float(doors["width"]), high)
+    for x, radius, half_track, _ in axles_of(kind):
+        _housings(shape, x, radius, half_track, y1)
     return shape
 
 
 def _middles(what, doors):
     return sorted(0.5 * what["length"] - at for at in doors["at"])
+
+
+def _housings(shape, x, radius, half_track, y):
+    """Boxes over the wheels of an axle, on which seats would stand."""
+    grey, long = materials.plain("vehicle seat", (0.05, 0.07, 0.12), 0.7), radius + 0.06
+    for side in (-1.0, 1.0):
+        box = [(x - long, side * (half_track - 0.3)), (x + long, side * (half_track - 0.3)), (x + long, side * (y - 0.02)),
+               (x - long, side * (y - 0.02))]
+        shape.prism(box, _FLOOR, 2.0 * radius + 0.06, grey)
+
+
+def axles_of(kind):
+    """As vehicle_shapes.body_of() has them, clear of doors."""
+    if kind == "bus":
+        return (3.0, 0.48, 1.20, 0.28), (-2.85, 0.48, 1.20, 0.28)
+    return tuple((x, 0.33, 0.92, 0.14) for x in (12.6, 11.4, 0.9, -0.9, -11.4, -12.6))
 
 
 def _wall(shape, a, b, low, high, material):

@@ -18,11 +18,11 @@ def body_of(kind, number, what=None, doors=None):
     if doors:
         shape = vehicle_doors.body_with(what, doors)
         _ends(shape, 0.5 * what["length"], 0.5 * what["width"], 1.05, 2.7)
+        return shape.to_mesh(), vehicle_doors.axles_of(kind)
     if kind == "bus":
-        return shape.to_mesh() if doors else _bus(), ((3.35, 0.48, 1.20, 0.28), (-2.85, 0.48, 1.20, 0.28))
+        return _bus(), ((3.35, 0.48, 1.20, 0.28), (-2.85, 0.48, 1.20, 0.28))
     if kind == "tram":
-        mesh = shape.to_mesh() if doors else _tram()
-        return mesh, tuple((x, 0.33, 0.92, 0.14) for x in (11.1, 9.3, 0.9, -0.9, -9.3, -11.1))
+        return _tram(), tuple((x, 0.33, 0.92, 0.14) for x in (11.1, 9.3, 0.9, -0.9, -9.3, -11.1))
     if kind == "bicycle":
         return _bicycle(), ((0.52, 0.34, 0.0, 0.035), (-0.52, 0.34, 0.0, 0.035))
     car = ("saloon", "hatchback", "saloon")[number % 3]
