@@ -23,7 +23,7 @@ uniform uint steps_done;  // counted with this one
 
 #include "shaders/shared/alive.glsl"
 #include "shaders/shared/outline.glsl"
-#include "shaders/boarding/platforms.glsl"
+#include "shaders/traffic/platforms.glsl"
 
 const float INSIDE = 0.75;        // m: so far in, somebody is aboard
 const float CLEAR = 0.35;         // m between a body and the vehicle's side: it has got off

@@ -138,8 +138,8 @@ void standOpen(inout VehicleService service, uint vehicle) {
     bool has_room = service.aboard + all.going_in < service.capacity;
     bool wanted = nextToGetOff(service, call) != NO_INDEX || (isNear(all) && has_room);
     bool busy = all.coming_out + all.going_in > 0u || (wanted && service.phase == DOORS_ARE_OPEN);
-    if (all.in_door == 0u && (service.stood >= latest || (!busy && service.stood + service.door_time >= platform.least)))
-        enter(service, DOORS_CLOSE);
+    bool is_done = !busy && service.stood + service.door_time >= platform.least;
+    if (all.in_door == 0u && (is_done || service.stood >= latest)) enter(service, DOORS_CLOSE);
 }
 
 void stepDoors(inout VehicleService service, uint vehicle) {

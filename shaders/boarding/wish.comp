@@ -21,7 +21,7 @@ layout(std430) readonly buffer Passengers { uint passengers[]; };
 #include "shaders/shared/images.glsl"
 #include "shaders/shared/outline.glsl"
 #include "shaders/shared/random.glsl"
-#include "shaders/boarding/platforms.glsl"
+#include "shaders/traffic/platforms.glsl"
 #include "shaders/boarding/waiting_beside.glsl"
 
 const float NEAR_SPOT = 0.3;   // m from where it waits

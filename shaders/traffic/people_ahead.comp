@@ -31,7 +31,7 @@ const float PAST = 0.6;             // m: who is further from a lane and leaves 
 #include "shaders/shared/boarding_types.h"
 layout(std430) readonly buffer Platforms { Platform platforms[]; };
 layout(std430) readonly buffer PlatformPoints { vec2 platform_points[]; };
-#include "shaders/boarding/platforms.glsl"
+#include "shaders/traffic/platforms.glsl"
 const float ROOM_BESIDE_PLATFORMS = 0.05;  // m: who stands there knows what comes, and drivers that they do
 
 float roomBeside(vec2 place) {
@@ -74,7 +74,8 @@ void main() {
         vec2 from_lane;
         float along = nearestAlongLane(lane, state.position, from_lane);
         float beside = length(from_lane);
-        if (beside <= WIDEST + radius + ROOM_BESIDE) standInTheWay(lane, along, beside, radius, roomBeside(state.position));
+        if (beside <= WIDEST + radius + ROOM_BESIDE)
+            standInTheWay(lane, along, beside, radius, roomBeside(state.position));
         uint first = lanes[lane].first_stop;
         for (uint stop = first; stop < first + lanes[lane].stop_count; ++stop)
             if (stops[stop].kind == STOP_FOR_PEOPLE) holdBeforeCrossing(stop, state, from_lane, radius);

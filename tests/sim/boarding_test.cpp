@@ -2,6 +2,9 @@
 // Boarding: what is counted of those who wait at doors of vehicles and go through them, against plain C++.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "authoring/layout/layout_reader.h"
 #include "authoring/scene/scene_builder.h"
 #include "sim/simulation_parts.h"
@@ -11,8 +14,8 @@ namespace throng::test {
 namespace {
 
 constexpr const char* kStop = R"({{"throng": 1,
-    "areas": [{{"id": "platform", "polygon": [[-30, -9], [30, -9], [30, -1.3], [-30, -1.3]]}},
-              {{"id": "corner", "polygon": [[-30, -20], [-25, -20], [-25, -9], [-30, -9]]}}],
+    "areas": [{{"id": "platform", "polygon": [[-60, -25], [60, -25], [60, -1.3], [-60, -1.3]]}},
+              {{"id": "corner", "polygon": [[-60, -30], [-50, -30], [-50, -25], [-60, -25]]}}],
     "lanes": [{{"id": "rails", "points": [[-40, 0], [200, 0]], "speed": 12,
                "stops": [{{"id": "market", "at": [14, 0], "platform": "platform"}}]}}],
     "vehicles": [{{"id": "4", "lane": "rails", "kind": "tram", "times": [0]}}],
@@ -21,7 +24,7 @@ constexpr const char* kStop = R"({{"throng": 1,
 
 authoring::Scene stopFor(std::uint32_t people) {
     authoring::Diagnostics diagnostics;
-    const std::uint32_t off = people / 10;
+    const std::uint32_t off = std::min(people / 3, 60u);
     const auto layout =
         authoring::readLayout(fmt::format(fmt::runtime(kStop), people - off, off), {}, diagnostics);
     std::optional<authoring::Scene> scene;
@@ -64,14 +67,14 @@ bool isCalled(const authoring::Scene& scene, const World& world, std::size_t row
     const gpu::AgentState& state = world.states[row];
     const gpu::VehicleService& service = world.services[0];
     const bool lets_in = service.phase == gpu::DOORS_OPEN_UP || service.phase == gpu::DOORS_ARE_OPEN;
-    const bool on_platform = state.position.x > -30.0f && state.position.x < 30.0f &&
-                             state.position.y > -9.0f && state.position.y < -1.3f;
+    const glm::dvec2 place = scene.origin + glm::dvec2(state.position);
+    const bool on_platform = std::abs(place.x) < 60.0 && place.y > -25.0 && place.y < -1.3;
     return state.status == gpu::STATUS_WALKING && scene.stages[state.stage].board != 0 &&
            world.there[0] == 0 && lets_in && service.aboard < service.capacity &&
            (on_platform || state.leave_step != 0);
 }
 
-class BoardingTest : public GpuTest, public ::testing::WithParamInterface<std::uint32_t> {
+class BoardingTest : public GpuTest {
   protected:
     /// Only the census, on what the last step has left.
     void count(const sim::Buffers& buffers, std::uint32_t people, std::uint32_t steps) {
@@ -82,7 +85,9 @@ class BoardingTest : public GpuTest, public ::testing::WithParamInterface<std::u
     }
 };
 
-TEST_P(BoardingTest, CountsAsPlainCppDoes) {
+class BoardingCensusTest : public BoardingTest, public ::testing::WithParamInterface<std::uint32_t> {};
+
+TEST_P(BoardingCensusTest, CountsAsPlainCppDoes) {
     const std::uint32_t people = GetParam();
     const authoring::Scene scene = stopFor(people);
     sim::Simulation simulation(scene, library);
@@ -139,7 +144,32 @@ TEST_P(BoardingTest, CountsAsPlainCppDoes) {
     EXPECT_TRUE(people < 63 || most_through > 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Sizes, BoardingTest, ::testing::Values(1u, 63u, 1234u),
+/// Looked at after each step: who is asked in, and who still gets off by then.
+TEST_F(BoardingTest, NobodyIsAskedInBeforeTheLastIsClearOfTheDoor) {
+    constexpr std::uint32_t kPeople = 63;
+    const authoring::Scene scene = stopFor(kPeople);
+    sim::Simulation simulation(scene, library);
+    const sim::Buffers& buffers = simulation.parts().buffers;
+    std::vector<std::uint32_t> before(kPeople, 0);
+    std::uint32_t asked_in = 0;
+    for (std::uint32_t step = 1; step <= 22 * 48; ++step) {
+        simulation.step();
+        const auto after = buffers.passengers.download<std::uint32_t>(kPeople);
+        for (std::uint32_t row = 0; row < kPeople; ++row) {
+            if (phaseOf(after[row]) != gpu::PASSENGER_BOARDS || phaseOf(before[row]) == phaseOf(after[row]))
+                continue;
+            ++asked_in;
+            ASSERT_EQ(buffers.call_heads.download<std::uint32_t>(1)[0], kPeople / 3) << step;
+            for (const std::uint32_t other : after)
+                ASSERT_FALSE(phaseOf(other) == gpu::PASSENGER_ALIGHTS && doorOf(other) == doorOf(after[row]))
+                    << step;
+        }
+        before = after;
+    }
+    EXPECT_GT(asked_in, 10u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, BoardingCensusTest, ::testing::Values(1u, 63u, 1234u),
                          [](const auto& each) { return std::to_string(each.param); });
 
 }  // namespace

@@ -59,8 +59,8 @@ def _housings(shape, x, radius, half_track, y):
     """Boxes over the wheels of an axle, on which seats would stand."""
     grey, long = materials.plain("vehicle seat", (0.05, 0.07, 0.12), 0.7), radius + 0.06
     for side in (-1.0, 1.0):
-        box = [(x - long, side * (half_track - 0.3)), (x + long, side * (half_track - 0.3)), (x + long, side * (y - 0.02)),
-               (x - long, side * (y - 0.02))]
+        near, far = side * (half_track - 0.3), side * (y - 0.02)
+        box = [(x - long, near), (x + long, near), (x + long, far), (x - long, far)]
         shape.prism(box, _FLOOR, 2.0 * radius + 0.06, grey)
 
 
