@@ -50,22 +50,31 @@ void BoardingReader::readPlatform(ObjectReader& reader, const JsonNode& node, La
     else
         diagnostics_.error(area->where, fmt::format("there is no area `{}`", area->text),
                            areas_.empty() ? "list it under `areas`" : hintFor(area->text, namesOf(areas_)));
-    const std::vector<JsonNode>* bounds = dwell ? reader.items("dwell") : nullptr;
-    if (bounds && bounds->size() == 2) {
-        const Limits limits = reader.rule("dwell").item().limits();
-        platform.least = numberOf((*bounds)[0], limits, diagnostics_).value_or(platform.least);
-        platform.most = numberOf((*bounds)[1], limits, diagnostics_).value_or(platform.most);
-        if (platform.least > platform.most)
-            diagnostics_.error(dwell->where,
-                               fmt::format("vehicles stand there for at least {:.6g} s and at most {:.6g} s",
-                                           platform.least, platform.most),
-                               "swap the two");
-    } else if (dwell) {
-        diagnostics_.error(dwell->where, "expected two numbers: the least and the most, s",
-                           R"(for example "dwell": [10, 40])");
-    }
+    readDwell(reader, platform);
     claimId(node, platform.id, ids_, ids_.size(), "a stop", diagnostics_);
     stop.platform = std::move(platform);
+}
+
+void BoardingReader::readDwell(ObjectReader& reader, StopPlatform& platform) {
+    const JsonNode* standard = reader.rule("dwell").standard();
+    reader.expectSame("dwell", !standard || (standard->items.at(0).number == platform.least &&
+                                             standard->items.at(1).number == platform.most));
+    const JsonNode* dwell = reader.get("dwell");
+    const std::vector<JsonNode>* bounds = dwell ? reader.items("dwell") : nullptr;
+    if (!bounds) return;
+    if (bounds->size() != 2) {
+        diagnostics_.error(dwell->where, "expected two numbers: the least and the most, s",
+                           R"(for example "dwell": [10, 40])");
+        return;
+    }
+    const Limits limits = reader.rule("dwell").item().limits();
+    platform.least = numberOf((*bounds)[0], limits, diagnostics_).value_or(platform.least);
+    platform.most = numberOf((*bounds)[1], limits, diagnostics_).value_or(platform.most);
+    if (platform.least > platform.most)
+        diagnostics_.error(dwell->where,
+                           fmt::format("vehicles stand there for at least {:.6g} s and at most {:.6g} s",
+                                       platform.least, platform.most),
+                           "swap the two");
 }
 
 void BoardingReader::readVehicle(ObjectReader& reader, VehicleFlow& flow) {

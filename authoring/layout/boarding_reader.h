@@ -32,6 +32,7 @@ class BoardingReader {
     Place placeOf(const AtPlatform& at) const;
 
   private:
+    void readDwell(ObjectReader& reader, StopPlatform& platform);
     void readDoors(const JsonNode& node, VehicleFlow& flow);
     void checkDoors(const JsonNode& node, const VehicleFlow& flow);
     std::optional<AtPlatform> stopNamed(const JsonNode& name) const;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "authoring/layout/layout_reader.h"
 #include "authoring/scene/scene_builder.h"
@@ -84,6 +85,33 @@ class BoardingTest : public GpuTest {
         census.dispatch(people);
     }
 };
+
+/// Who has been asked in and is pressed into the vehicle's side comes out of it where it is.
+TEST_F(BoardingTest, NobodyIsPutIntoADoorFromBesideIt) {
+    constexpr std::uint32_t kPeople = 8;
+    const authoring::Scene scene = stopFor(kPeople);
+    sim::Simulation simulation(scene, library);
+    sim::Buffers& buffers = simulation.parts().buffers;
+    World world = worldOf(buffers, kPeople);
+    for (int step = 0; step < 20 * 48 && world.services[0].phase != gpu::DOORS_ARE_OPEN; ++step) {
+        simulation.step();
+        world = worldOf(buffers, kPeople);
+    }
+    ASSERT_EQ(world.services[0].phase, gpu::DOORS_ARE_OPEN);
+    const float side = world.boxes[0].front.y - world.boxes[0].half_width, radius = scene.people[0].radius;
+    const glm::vec2 beside(world.boxes[0].front.x - 7.5f, side - radius + 0.02f);  // between two doors
+    world.states[0].position = beside;
+    world.states[0].velocity = glm::vec2(0.0f);
+    world.passengers[0] = gpu::PASSENGER_BOARDS;
+    buffers.states.upload(world.states);
+    buffers.passengers.upload(world.passengers);
+    for (int step = 0; step < 4; ++step) {
+        simulation.step();
+        const glm::vec2 at = worldOf(buffers, kPeople).states[0].position;
+        EXPECT_LT(glm::distance(at, beside), 0.25f) << step;
+        EXPECT_LT(at.y, side - radius + 0.03f) << step;
+    }
+}
 
 class BoardingCensusTest : public BoardingTest, public ::testing::WithParamInterface<std::uint32_t> {};
 
