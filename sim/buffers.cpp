@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/vec4.hpp>
@@ -327,7 +328,12 @@ void Buffers::makeLifts(const authoring::LiftMap& lifts, std::size_t people_coun
 }
 
 void Buffers::makeTraffic(const authoring::SceneTraffic& traffic) {
-    vehicles = gl::makeBuffer("vehicles", traffic.vehicles, "vehicle");
+    // Room for some that never come: programs are compiled anew for a few numbers of vehicles only.
+    std::vector<gpu::Vehicle> all = traffic.vehicles;
+    gpu::Vehicle gone{};
+    gone.status = gpu::VEHICLE_GONE;
+    if (!all.empty()) all.resize(std::bit_ceil(all.size()), gone);
+    vehicles = gl::makeBuffer("vehicles", all, "vehicle");
     vehicle_boxes = gl::Buffer("vehicle boxes", {gpu::MOST_VEHICLES, sizeof(gpu::VehicleBox), "vehicle"});
     vehicle_boxes.fill(0);
     lanes = gl::makeBuffer("lanes", traffic.lanes, "lane");
@@ -338,22 +344,24 @@ void Buffers::makeTraffic(const authoring::SceneTraffic& traffic) {
     lights = gl::Buffer("lights", {traffic.lights.size(), kWord, "light"});
     lights.fill(gpu::LIGHT_RED);
     in_the_way = gl::Buffer("people in the way",
-                            {traffic.vehicles.size() + traffic.stops.size(), kWord, "vehicle or stop"});
+                            {all.size() + traffic.stops.size(), kWord, "vehicle or stop"});
     traffic_ = {{"TRAFFIC", "1"},
-                {"VEHICLES", fmt::format("{}u", traffic.vehicles.size())},
+                {"VEHICLES", fmt::format("{}u", all.size())},
                 {"LANES", fmt::format("{}u", traffic.lanes.size())},
                 {"CROSSINGS", fmt::format("{}u", traffic.crossings.size())}};
 }
 
 void Buffers::makeBoarding(const authoring::SceneTraffic& traffic, std::size_t people_count) {
-    vehicle_services = gl::makeBuffer("services of vehicles", traffic.services, "vehicle");
+    std::vector<gpu::VehicleService> services = traffic.services;
+    services.resize(std::bit_ceil(services.size()));
+    vehicle_services = gl::makeBuffer("services of vehicles", services, "vehicle");
     vehicle_doors = gl::makeBuffer("doors of vehicles", traffic.doors, "door of a vehicle");
     platforms = gl::makeBuffer("platforms", traffic.platforms, "platform");
     platform_points = gl::makeBuffer("platform points", traffic.platform_points, "point of a platform");
     calls = gl::makeBuffer("calls", traffic.calls, "call of those who get off");
     door_states = gl::Buffer("states of doors", {traffic.doors.size(), sizeof(gpu::DoorState), "door"});
     door_wishes = gl::Buffer("wishes of doors", {traffic.doors.size(), sizeof(gpu::DoorWishes), "door"});
-    new_aboard = gl::Buffer("new aboard", {traffic.vehicles.size(), kWord, "vehicle"});
+    new_aboard = gl::Buffer("new aboard", {services.size(), kWord, "vehicle"});
     call_heads = gl::Buffer("heads of calls", {traffic.calls.size(), kWord, "call"});
     passengers = gl::Buffer("passengers", {people_count, kWord, kPerson});
     platform_vehicles = gl::Buffer("vehicles at platforms", {traffic.platforms.size(), kWord, "platform"});

@@ -8,6 +8,8 @@
 namespace throng::authoring {
 namespace {
 
+constexpr double kDoorOfCars = 2.0;  // m behind the front
+
 bool callsOn(const VehicleFlow& flow, const AtPlatform& at) {
     return flow.lane == at.lane && flow.doors.has_value();
 }
@@ -86,7 +88,7 @@ void BoardingReader::readVehicle(ObjectReader& reader, VehicleFlow& flow) {
     for (const JsonNode* each : {capacity, aboard})
         if (each && !flow.doors)
             diagnostics_.error(each->where, "nobody gets on or off: these vehicles have no doors",
-                               R"(for example "doors": {"at": [2]})");
+                               R"(for example "doors": {})");
     std::uint64_t most = flow.capacity, inside = 0;
     reader.integer("capacity", most);
     reader.integer("aboard", inside);
@@ -112,11 +114,7 @@ void BoardingReader::readDoors(const JsonNode& node, VehicleFlow& flow) {
     eachOf(reader, "at", [&](const JsonNode& item) {
         if (const auto at = numberOf(item, limits, diagnostics_)) doors.at.push_back(*at);
     });
-    if (!node.find("at") && usual)
-        doors.at = usual->at;
-    else if (!node.find("at"))
-        diagnostics_.error(node.where, "these vehicles have no doors of their own: where are they?",
-                           R"(for example "at": [2], metres behind the front)");
+    if (!node.find("at")) doors.at = usual ? usual->at : std::vector<double>{kDoorOfCars};
     reader.number("width", doors.width);
     reader.number("flow", doors.flow);
     reader.number("time", doors.time);
