@@ -1,13 +1,24 @@
 # SPDX-License-Identifier: Apache-2.0
 """Doors of vehicles: people get off first, those who wait get on while there is room, and nobody is run over."""
 import json
+import os
+import struct
+import subprocess
 
 import numpy
 import pytest
 
+from conftest import ROOT
+
 HALF, DOORS, FPS = 1.2, (3.9, 11.1, 16.9, 24.1), 24  # m: half of a tram's width, its doors behind the front
 LEFT, RIGHT, ABOARD, BOARDED, ALIGHTED = range(5)
 STATE, SPEED = 6, 4
+VALIDATE = """
+const fs = require('fs'), path = require('path');
+const validator = require(path.join(process.env.THRONG_NODE_MODULES, 'gltf-validator'));
+validator.validateBytes(new Uint8Array(fs.readFileSync(process.argv[1])))
+    .then(report => console.log(JSON.stringify(report.issues)));
+"""
 
 
 def box(x0, y0, x1, y1):
@@ -129,6 +140,38 @@ def test_a_bake_goes_on_to_the_same_bytes(throng, tmp_path):
     parts = bake(throng, tmp_path / "parts", layout, "--checkpoint", "0.001")
     for name in ("doors.npy", "vehicles.npy", "streams/pos.npy", "agents.csv"):
         assert (whole / name).read_bytes() == (parts / name).read_bytes()
+
+
+def test_doors_slide_in_crowd_glb(throng, tmp_path):
+    folder = tmp_path / "bake"
+    (tmp_path / "layout.json").write_text(json.dumps(stop(20, board=2, alight=2)))
+    throng("bake", tmp_path / "layout.json", "-o", folder, "-q")
+    content = (folder / "crowd.glb").read_bytes()
+    size = struct.unpack_from("<I", content, 12)[0]
+    document, data = json.loads(content[20:20 + size]), content[28 + size:]
+    doors = [number for number, node in enumerate(document["nodes"]) if node["name"] == "door"]
+    assert len(doors) == 2 * 2 * len(DOORS)  # two leaves, on both sides
+    animation = document["animations"][0]
+    slid = []
+    for channel in animation["channels"]:
+        if channel["target"]["node"] not in doors:
+            continue
+        accessor = document["accessors"][animation["samplers"][channel["sampler"]]["output"]]
+        first = document["bufferViews"][accessor["bufferView"]].get("byteOffset", 0) + accessor.get("byteOffset", 0)
+        places = numpy.frombuffer(data, "<f4", 3 * accessor["count"], first).reshape(-1, 3)
+        rest = document["nodes"][channel["target"]["node"]]["translation"]
+        right = rest[2] > 0.0  # z is to the right
+        slid.append((right, abs(places[:, 0] - rest[0])))
+    open_ = numpy.load(folder / "doors.npy")[:, 0, RIGHT]
+    assert open_.max() == 1.0 and len(slid) == len(doors)
+    for right, way in slid:
+        assert way == pytest.approx(0.48 * 1.3 * open_ if right else 0.0, abs=1e-4)
+    modules = os.environ.get("THRONG_NODE_MODULES", str(ROOT / "build" / "node" / "node_modules"))
+    if os.path.isdir(os.path.join(modules, "gltf-validator")):
+        told = subprocess.run(["node", "-e", VALIDATE, str(folder / "crowd.glb")], capture_output=True, text=True,
+                              env={**os.environ, "THRONG_NODE_MODULES": modules})
+        issues = json.loads(told.stdout)
+        assert issues["numErrors"] == 0, issues["messages"][:5]
 
 
 @pytest.mark.parametrize("change, expected", [

@@ -6,7 +6,7 @@ import math
 import bpy
 import numpy
 
-from . import materials, vehicle_doors
+from . import materials, rails, vehicle_doors
 from .shapes import Shape, counter_clockwise, direction
 from .streets import MARK_Z, ROAD_Z
 from .tracks import fill, read_track
@@ -155,6 +155,7 @@ def build_traffic(collection, manifest, folder, frame_start, roads, terrain):
     objects += build_signals(traffic, float(manifest["fps"]), frame_start, int(manifest["frames"]))
     track = read_track(folder, manifest, "vehicles") if folder else None
     if track is not None:
+        objects += rails.build_rails(traffic, manifest, track) if roads and not terrain else []
         objects += build_vehicles(manifest, track, frame_start, read_track(folder, manifest, "doors"))
     for thing in objects:
         collection.objects.link(thing)

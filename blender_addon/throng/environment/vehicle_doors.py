@@ -33,7 +33,7 @@ def body_with(what, doors):
     outline = [(-x1, -y1 + narrow), (-x1 + nose, -y1), (x1 - nose, -y1), (x1, -y1 + narrow),
                (x1, y1 - narrow), (x1 - nose, y1), (-x1 + nose, y1), (-x1, y1 - narrow)]
     shape.prism(outline, high - 0.12, high, paint, roof)
-    shape.flat(outline, high - 0.2, materials.glowing("vehicle ceiling", (0.9, 0.86, 0.78), 0.6))
+    shape.flat(outline, high - 0.2, materials.glowing("vehicle ceiling", (0.9, 0.86, 0.78), 2.0))
     shape.prism(outline, _FLOOR - 0.02, _FLOOR, materials.plain("vehicle floor", (0.10, 0.10, 0.11), 0.8))
     eaves = high - 0.12
     for a, b in ((1, 0), (2, 3), (5, 4), (6, 7)):
