@@ -100,6 +100,9 @@ void main() {
     if (slot >= live_count || isImage(walkers[slot].flags)) return;
     Body self = bodies[slot];
     Walker walker = walkers[slot];
+#ifdef DOORS
+    if ((walker.flags & WALKER_IN_DOORS) != 0u) walker.party_size = 1u;  // nobody waits for company in a door
+#endif
     vec2 wish = preferred_velocities[slot];
 #ifdef BELTS
     float allowed = RIDING_ENABLED ? paceOnBelt(self, walker, slot, length(wish)) : length(wish);

@@ -115,6 +115,15 @@ def test_a_tram_stands_as_long_as_it_has_to_and_no_longer_than_it_may(throng, tm
     assert (numpy.diff(right) < 0).sum() / FPS == pytest.approx(2.0, abs=0.1)
 
 
+def test_nobody_waits_for_company_in_a_door(throng, tmp_path):
+    layout = stop(75, board=60, alight=20, dwell=(10, 50))
+    for flow in layout["flows"]:
+        flow["people"] = {"body": "adult", "groups": "leisure"}
+    baked = Baked(throng, bake(throng, tmp_path / "company", layout))
+    assert baked.figures["arrived"] == 80 and baked.figures["run_over"] == 0
+    assert baked.figures["calls"][0]["dwell"] < 48
+
+
 def test_people_take_their_lines_only(throng, tmp_path):
     layout = stop(95, board=12, alight=0)
     layout["vehicles"].append({"id": "9", "lane": "rails", "kind": "tram", "times": [45]})
