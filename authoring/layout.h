@@ -246,6 +246,8 @@ struct Flow {
     Arrival arrival = Arrival::leave;
     SourcePosition where;
     std::optional<std::size_t> behaviour{};  ///< in place of `via` and `to`
+    std::optional<AtPlatform> alights{};  ///< they get off there, `count` of each vehicle: in place of `from`
+    std::optional<AtPlatform> boards{};   ///< they get on there: in place of `to`
 };
 
 /// A straight line between two points: to mirror at, or to count people across.

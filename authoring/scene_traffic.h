@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "shaders/shared/boarding_types.h"
 #include "shaders/shared/scene_types.h"
 #include "shaders/shared/traffic_types.h"
 
@@ -32,6 +33,13 @@ struct SceneTraffic {
     std::vector<LightPlan> lights;
     std::vector<std::string> flows;      ///< ids
     std::vector<std::uint32_t> flow_of;  ///< per vehicle, index into flows
+    std::vector<gpu::Platform> platforms;
+    std::vector<glm::vec2> platform_points;  ///< their outlines
+    // Empty without platforms:
+    std::vector<gpu::VehicleService> services;  ///< per vehicle
+    std::vector<gpu::VehicleDoor> doors;
+    std::vector<gpu::AlightingCall> calls;  ///< vehicle after vehicle
+    bool hasDoors() const { return !services.empty(); }
     bool empty() const { return crossings.empty() && vehicles.empty(); }
 };
 

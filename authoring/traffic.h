@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <string>
@@ -41,12 +42,21 @@ struct Signal {
     std::size_t phaseAt(double time) const;
 };
 
-/// Where vehicles of a lane stop: at a red signal, or for a time.
+/// Where people get on and off.
+struct StopPlatform {
+    std::string id;
+    std::size_t area = 0;  ///< index: where people wait
+    double least = 10.0;   ///< s from when a vehicle stands there to when it goes on
+    double most = 40.0;    ///< likewise, while people still get on or off
+};
+
+/// Where vehicles of a lane stop: at a red signal, for a time, or at a platform those that have doors.
 struct LaneStop {
     glm::dvec2 at{0.0};                 ///< on the lane, or beside it
     std::optional<std::size_t> signal;  ///< index; none: everybody stops there
     double seconds = 0.0;               ///< s that they stand there
     SourcePosition where;
+    std::optional<StopPlatform> platform;  ///< in place of both
 };
 
 /// What vehicles follow, from its first point to its last.
@@ -83,6 +93,21 @@ inline const VehicleType& typeOf(VehicleKind kind) {
     return kVehicleTypes[static_cast<std::size_t>(kind)];
 }
 
+/// Where people get on and off a vehicle.
+struct VehicleDoors {
+    enum class Sides { left = 1, right = 2, both = 3 };
+    std::vector<double> at;  ///< m behind its front: their middles
+    double width = 1.3;      ///< m
+    double flow = 1.0;       ///< persons/s through each
+    double time = 2.0;       ///< s, to open or to close
+    Sides sides = Sides::right;
+};
+
+/// Those that a vehicle has unless told otherwise; none: it has no doors.
+std::optional<VehicleDoors> doorsOf(VehicleKind kind);
+/// How many people it holds, unless told otherwise.
+std::uint32_t capacityOf(VehicleKind kind);
+
 /// Vehicles of one kind that come onto a lane.
 struct VehicleFlow {
     std::string id;
@@ -92,6 +117,16 @@ struct VehicleFlow {
     std::vector<double> times;   ///< s
     double start = 0.0, end = 0.0;
     SourcePosition where;
+    std::optional<VehicleDoors> doors{};
+    std::uint32_t capacity = 0;             ///< people
+    std::optional<std::uint32_t> aboard{};  ///< people, as each of them comes in; none: those who get off
+};
+
+/// Where people get on or off, and what.
+struct AtPlatform {
+    std::size_t lane = 0, stop = 0;    ///< indices
+    std::vector<std::size_t> lines{};  ///< of the flows of vehicles
+    SourcePosition where{};
 };
 
 struct Traffic {

@@ -39,6 +39,8 @@ struct Frame {
     std::span<const float> vehicles{};
     /// kLiftFloats of each lift, as base/lift_track.h has them; empty where there are none
     std::span<const float> lifts{};
+    /// kDoorFloats of each vehicle, as base/door_track.h has them; empty where none has doors that are used
+    std::span<const float> doors{};
 
     std::span<const float>& operator[](Stream stream) { return streams[stream]; }
     std::span<const float> operator[](Stream stream) const { return streams[stream]; }

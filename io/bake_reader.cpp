@@ -262,6 +262,22 @@ void readVehicleList(const ManifestReader& reader, Bake& bake) {
     });
 }
 
+void readDoorList(const ManifestReader& reader, Bake& bake) {
+    if (!reader.has("/doors")) return;
+    reader.each("/doors/list", [&](const ManifestReader& vehicle) {
+        DoorIdentity doors;
+        vehicle.each("/at",
+                     [&](const ManifestReader& at) { doors.at.push_back(at.number("", 0.0, 1000.0)); });
+        doors.width = vehicle.number("/width", 0.0, 1000.0);
+        doors.left = vehicle.flag("/left");
+        doors.right = vehicle.flag("/right");
+        doors.capacity = static_cast<std::uint32_t>(vehicle.count("/capacity", 100000));
+        bake.doors.push_back(std::move(doors));
+    });
+    if (bake.doors.size() != bake.vehicles.size())
+        reader.fail("/doors/list", "as many as there are vehicles");
+}
+
 void readExtent(const ManifestReader& reader, Bake& bake) {
     bake.fps = reader.number("/fps", kLeastRate, kMostRate);
     bake.frames = reader.count("/frames");
@@ -359,6 +375,7 @@ Bake bakeOf(ManifestFile file) {
     readGeometry(reader, bake);
     readTraffic(reader, bake);
     readVehicleList(reader, bake);
+    readDoorList(reader, bake);
     bake.account = {reader.count("/account/agents"), reader.count("/account/spawned"),
                     reader.count("/account/walking"), reader.count("/account/arrived"),
                     reader.count("/account/refused")};

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "authoring/layout.h"
+#include "base/door_track.h"
 #include "base/files/errors.h"
 #include "base/vehicle_track.h"
 #include "io/streams/stream_format.h"
@@ -34,6 +35,7 @@ struct Bake {
     std::vector<authoring::Wall> walls;
     authoring::Traffic traffic;  ///< lanes, crossings and signals
     std::vector<VehicleIdentity> vehicles;
+    std::vector<DoorIdentity> doors;  ///< per vehicle; empty: there is no such file
     /// Floors above each other, if there are any; then also the lowest and highest ground along each wall, m.
     std::vector<authoring::Level> levels;
     std::vector<authoring::Link> links;

@@ -12,6 +12,7 @@
 #include "base/activities.h"
 #include "base/files/output_file.h"
 #include "io/diagram/diagram_exr.h"
+#include "io/door_file.h"
 #include "io/lift_file.h"
 #include "io/room_on_disk.h"
 #include "io/under_way.h"
@@ -293,6 +294,11 @@ BakeOutcome BakeWriter::writeAll(const Account& account, const BakeTiming& timin
         files.push_back(kVehicleFile);
         writeVehicles(folder_->path() / files.back(), vehicles, frames_, description_.vehicles.size());
     }
+    door_track_.resize(frames_ * description_.doors.size() * kDoorFloats);
+    if (!description_.doors.empty()) {
+        files.push_back(kDoorFile);
+        writeDoors(folder_->path() / files.back(), door_track_, frames_, description_.doors.size());
+    }
     if (!description_.lifts.empty()) {
         files.push_back(kLiftFile);
         writeLifts(folder_->path() / files.back(), lift_track_, frames_, description_.lifts.size());
@@ -302,7 +308,7 @@ BakeOutcome BakeWriter::writeAll(const Account& account, const BakeTiming& timin
         outcome.gltf = writeCrowdGlb(folder_->path() / files.back(), description_,
                                      {folder_->path(), description_.streams(), description_.formats, frames_,
                                       static_cast<std::uint32_t>(description_.agents.size())},
-                                     vehicles);
+                                     {vehicles, door_track_});
     }
     for (const std::string& file : files)
         outcome.files.push_back({file, hashFile(folder_->path() / file)});

@@ -48,6 +48,8 @@ class BakeWriter {
     void takeVehicles(std::vector<float> track) { vehicle_track_ = std::move(track); }
     /// Likewise the lifts, as Frame::lifts.
     void takeLifts(std::vector<float> track) { lift_track_ = std::move(track); }
+    /// Likewise the doors of vehicles, as Frame::doors.
+    void takeDoors(std::vector<float> track) { door_track_ = std::move(track); }
 
     /// Completes the bake; std::logic_error unless all expected frames were written.
     BakeResult finish(const Account& account, const BakeTiming& timing);
@@ -89,7 +91,7 @@ class BakeWriter {
     std::vector<float> placed_;               ///< one frame of places in the output frame of reference
     std::optional<DiagramSummary> diagrams_;
     std::vector<BakeOutcome::File> diagram_files_;
-    std::vector<float> vehicle_track_, lift_track_;
+    std::vector<float> vehicle_track_, lift_track_, door_track_;
 };
 
 }  // namespace throng::io

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/lift_file.h"
 
-#include <algorithm>
-#include <vector>
-
-#include "base/files/output_file.h"
-#include "io/streams/npy_header.h"
+#include "io/streams/track_file.h"
 
 namespace throng::io {
 
@@ -13,13 +9,7 @@ using Json = nlohmann::ordered_json;
 
 void writeLifts(const std::filesystem::path& path, std::span<const float> track, std::uint32_t frames,
                 std::size_t lifts) {
-    const std::span<const float> known = track.first(std::min(track.size(), frames * lifts * kLiftFloats));
-    std::vector<float> values(known.begin(), known.end());
-    values.resize(frames * lifts * kLiftFloats);
-    OutputFile file(path);
-    file.write(npyHeader({frames, lifts, kLiftFloats}));
-    file.write(std::as_bytes(std::span<const float>(values)));
-    file.finish();
+    writeTrack(path, track, {frames, lifts, kLiftFloats});
 }
 
 Json liftsToJson(const recording::BakeDescription& description) {

@@ -9,6 +9,7 @@
 #include "authoring/link_kinds.h"
 #include "base/build_name.h"
 #include "base/outcomes.h"
+#include "io/door_file.h"
 #include "io/lift_file.h"
 #include "io/streams/stream_format.h"
 #include "io/vehicle_file.h"
@@ -274,6 +275,7 @@ Json bakeManifest(const recording::BakeDescription& description, const BakeOutco
     if (!description.links.empty()) json["links"] = linksToJson(description);
     if (!description.lifts.empty()) json["lifts"] = liftsToJson(description);
     if (!description.vehicles.empty()) json["vehicles"] = vehiclesToJson(description.vehicles);
+    if (!description.doors.empty()) json["doors"] = doorsToJson(description.doors);
     json["table"] = "agents.csv";
     json["gltf"] = gltfToJson(outcome.gltf);
     json["diagrams"] = diagramsToJson(description, outcome.diagrams);

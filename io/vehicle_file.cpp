@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/vehicle_file.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cstring>
 
-#include "base/files/input_file.h"
-#include "base/files/output_file.h"
-#include "io/streams/npy_header.h"
+#include "io/streams/track_file.h"
 
 namespace throng::io {
 namespace {
@@ -46,6 +41,8 @@ Json laneToJson(const authoring::Lane& lane, const authoring::Traffic& traffic, 
         stops.push_back({{"at", pointsToJson({stop.at}, origin).front()}});
         if (stop.signal)
             stops.back()["signal"] = traffic.signals.at(*stop.signal).id;
+        else if (stop.platform)
+            stops.back()["platform"] = stop.platform->id;
         else
             stops.back()["seconds"] = stop.seconds;
     }
@@ -76,23 +73,12 @@ std::vector<float> placedVehicles(const recording::BakeDescription& description,
 
 void writeVehicles(const std::filesystem::path& path, std::span<const float> placed, std::uint32_t frames,
                    std::size_t vehicles) {
-    OutputFile file(path);
-    file.write(npyHeader({frames, vehicles, kVehicleFloats}));
-    file.write(std::as_bytes(placed));
-    file.finish();
+    writeTrack(path, placed, {frames, vehicles, kVehicleFloats});
 }
 
 std::vector<float> readVehicles(const Bake& bake) {
-    const std::filesystem::path path = bake.folder / kVehicleFile;
-    const std::size_t count = std::size_t{bake.frames} * bake.vehicles.size() * kVehicleFloats;
-    const std::string header = npyHeader({bake.frames, bake.vehicles.size(), kVehicleFloats});
-    const std::string content = readFile(path, header.size() + count * sizeof(float));
-    if (content.size() != header.size() + count * sizeof(float) || !content.starts_with(header))
-        throw InputError(path,
-                         fmt::format("expected {} frames of {} vehicles", bake.frames, bake.vehicles.size()));
-    std::vector<float> values(count);
-    std::memcpy(values.data(), content.data() + header.size(), count * sizeof(float));
-    return values;
+    return readTrack(bake.folder / kVehicleFile, {bake.frames, bake.vehicles.size(), kVehicleFloats},
+                     "vehicles");
 }
 
 Json vehiclesToJson(const std::vector<VehicleIdentity>& vehicles) {

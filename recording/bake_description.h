@@ -15,6 +15,7 @@
 #include "authoring/terrain/terrain_mesh.h"
 #include "base/activities.h"
 #include "base/capsule.h"
+#include "base/door_track.h"
 #include "base/stream_formats.h"
 #include "base/streams.h"
 #include "base/vehicle_track.h"
@@ -149,6 +150,7 @@ struct BakeDescription {
     std::vector<authoring::Wall> walls;
     authoring::Traffic traffic;  ///< where lanes, crossings and signals are
     std::vector<VehicleIdentity> vehicles;
+    std::vector<DoorIdentity> doors;  ///< per vehicle; empty: none has any that are used
     std::optional<BakeTerrain>
         terrain;  ///< none: flat ground at height 0; floors and links of layouts with levels
     std::vector<authoring::Level> levels;

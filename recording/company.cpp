@@ -81,7 +81,9 @@ Company::Turn Company::turnAt(std::uint32_t index, std::span<const Onlooker> peo
     // The clock begins before the shot does, so that there is a turn before the first one, too.
     const double at = time / length + 2.0 + fractionOf(scramble(key + 2));
     auto number = static_cast<std::uint32_t>(at);
-    const auto off = [&](std::uint32_t turn) { return kUneven * (fractionOf(scramble(key + 3 + turn)) - 0.5); };
+    const auto off = [&](std::uint32_t turn) {
+        return kUneven * (fractionOf(scramble(key + 3 + turn)) - 0.5);
+    };
     const double share = at - number;
     if (share < off(number))
         --number;

@@ -21,7 +21,8 @@ SECTIONS = {"point": ("point", "places-and-points"), "destination": ("destinatio
             "attraction": ("attraction", "attractions"),
             "crossing": ("crossing", "crossings"), "lane": ("lane", "lanes"), "lane_stop": ("stop of a lane", "lanes"),
             "signal": ("signal", "signals"), "phase": ("phase", "signals"),
-            "vehicle_flow": ("flow of vehicles", "vehicles"),
+            "vehicle_flow": ("flow of vehicles", "vehicles"), "doors": ("door", "vehicles"),
+            "at_platform": ("platform", "flows"),
             "behaviour": ("behaviour", "behaviours"), "behaviour_state": ("state", "behaviours"),
             "transition": ("condition", "behaviours")}
 LINKED_KEYS = ("simulation", "motion")  # of the layout itself, which are no definitions

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/vec4.hpp>
@@ -299,6 +300,7 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
     }
     if (!scene.chart_map.lifts.empty()) makeLifts(scene.chart_map.lifts, scene.people.size());
     if (!scene.traffic.empty()) makeTraffic(scene.traffic);
+    if (scene.traffic.hasDoors()) makeBoarding(scene.traffic, scene.people.size());
     queue_heads.fill(0);
     tickets.fill(0);
     detour_slopes.fill(0);
@@ -325,7 +327,12 @@ void Buffers::makeLifts(const authoring::LiftMap& lifts, std::size_t people_coun
 }
 
 void Buffers::makeTraffic(const authoring::SceneTraffic& traffic) {
-    vehicles = gl::makeBuffer("vehicles", traffic.vehicles, "vehicle");
+    // Room for some that never come: programs are compiled anew for a few numbers of vehicles only.
+    std::vector<gpu::Vehicle> all = traffic.vehicles;
+    gpu::Vehicle gone{};
+    gone.status = gpu::VEHICLE_GONE;
+    if (!all.empty()) all.resize(std::bit_ceil(all.size()), gone);
+    vehicles = gl::makeBuffer("vehicles", all, "vehicle");
     vehicle_boxes = gl::Buffer("vehicle boxes", {gpu::MOST_VEHICLES, sizeof(gpu::VehicleBox), "vehicle"});
     vehicle_boxes.fill(0);
     lanes = gl::makeBuffer("lanes", traffic.lanes, "lane");
@@ -335,12 +342,34 @@ void Buffers::makeTraffic(const authoring::SceneTraffic& traffic) {
     crossing_points = gl::makeBuffer("crossing points", traffic.crossing_points, "point of a crossing");
     lights = gl::Buffer("lights", {traffic.lights.size(), gl::kWord, "light"});
     lights.fill(gpu::LIGHT_RED);
-    in_the_way = gl::Buffer("people in the way",
-                            {traffic.vehicles.size() + traffic.stops.size(), gl::kWord, "vehicle or stop"});
+    in_the_way =
+        gl::Buffer("people in the way", {all.size() + traffic.stops.size(), gl::kWord, "vehicle or stop"});
     traffic_ = {{"TRAFFIC", "1"},
-                {"VEHICLES", fmt::format("{}u", traffic.vehicles.size())},
+                {"VEHICLES", fmt::format("{}u", all.size())},
                 {"LANES", fmt::format("{}u", traffic.lanes.size())},
                 {"CROSSINGS", fmt::format("{}u", traffic.crossings.size())}};
+}
+
+void Buffers::makeBoarding(const authoring::SceneTraffic& traffic, std::size_t people_count) {
+    std::vector<gpu::VehicleService> services = traffic.services;
+    services.resize(std::bit_ceil(services.size()));
+    vehicle_services = gl::makeBuffer("services of vehicles", services, "vehicle");
+    vehicle_doors = gl::makeBuffer("doors of vehicles", traffic.doors, "door of a vehicle");
+    platforms = gl::makeBuffer("platforms", traffic.platforms, "platform");
+    platform_points = gl::makeBuffer("platform points", traffic.platform_points, "point of a platform");
+    calls = gl::makeBuffer("calls", traffic.calls, "call of those who get off");
+    door_states = gl::Buffer("states of doors", {traffic.doors.size(), sizeof(gpu::DoorState), "door"});
+    door_wishes = gl::Buffer("wishes of doors", {traffic.doors.size(), sizeof(gpu::DoorWishes), "door"});
+    new_aboard = gl::Buffer("new aboard", {services.size(), gl::kWord, "vehicle"});
+    call_heads = gl::Buffer("heads of calls", {traffic.calls.size(), gl::kWord, "call"});
+    passengers = gl::Buffer("passengers", {people_count, gl::kWord, kPerson});
+    platform_vehicles =
+        gl::Buffer("vehicles at platforms", {traffic.platforms.size(), gl::kWord, "platform"});
+    for (gl::Buffer* each : {&door_states, &door_wishes, &new_aboard, &call_heads, &passengers})
+        each->fill(0);
+    platform_vehicles.fill(gpu::NO_INDEX);
+    traffic_.emplace_back("DOORS", "1");
+    traffic_.emplace_back("PLATFORMS", fmt::format("{}u", traffic.platforms.size()));
 }
 
 gl::ComputeProgram Buffers::connect(const gl::ShaderLibrary& library, const gl::Declaration& declaration,
@@ -400,6 +429,17 @@ std::vector<std::pair<std::string, const gl::Buffer*>> Buffers::named() const {
             {"CrossingPoints", &crossing_points},
             {"Lights", &lights},
             {"InTheWay", &in_the_way},
+            {"VehicleServices", &vehicle_services},
+            {"VehicleDoors", &vehicle_doors},
+            {"DoorStates", &door_states},
+            {"DoorWishesBlock", &door_wishes},
+            {"NewAboard", &new_aboard},
+            {"Passengers", &passengers},
+            {"Platforms", &platforms},
+            {"PlatformPoints", &platform_points},
+            {"PlatformVehicles", &platform_vehicles},
+            {"AlightingCalls", &calls},
+            {"CallHeads", &call_heads},
             {"RowSlots", &row_slots},
             {"BehaviourStates", &behaviour_states},
             {"BehaviourRules", &behaviour_rules},

@@ -42,6 +42,9 @@ struct Buffers {
     // Signals and vehicles; of no use without traffic.
     gl::Buffer vehicles, vehicle_boxes, lanes, lane_points, traffic_stops;
     gl::Buffer crossings, crossing_points, lights, in_the_way;
+    // Doors of vehicles; of no use without platforms.
+    gl::Buffer vehicle_services, vehicle_doors, door_states, door_wishes, new_aboard, passengers;
+    gl::Buffer platforms, platform_points, platform_vehicles, calls, call_heads;
 
     gl::Buffer cell_counts, cell_offsets, cell_cursors;                    // per cell
     gl::Buffer strip_counts, strip_marks, strip_starts, strip_group_sums;  // per strip of cells
@@ -72,6 +75,7 @@ struct Buffers {
   private:
     void makeLifts(const authoring::LiftMap& lifts, std::size_t people);
     void makeTraffic(const authoring::SceneTraffic& traffic);
+    void makeBoarding(const authoring::SceneTraffic& traffic, std::size_t people);
 
     bool has_bodies_, has_charts_, has_belts_;
     gl::Definitions traffic_;  // how much of it there is

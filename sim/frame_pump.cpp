@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/door_track.h"
 #include "base/lift_track.h"
 #include "base/vehicle_track.h"
 #include "sim/gl/context.h"
@@ -32,6 +33,7 @@ struct Slot {
     PerStream<gl::Buffer> streams;
     gl::Buffer vehicles, vehicle_boxes;  // none without vehicles
     gl::Buffer lifts;                    // likewise
+    gl::Buffer services;                 // of vehicles; none without platforms
     GLsync fence = nullptr;
     std::uint32_t index = 0;
     bool has_diagram = false;
@@ -62,6 +64,18 @@ void trackVehicles(std::span<const gpu::Vehicle> vehicles, std::span<const gpu::
     }
 }
 
+void trackDoors(std::span<const gpu::VehicleService> services, std::span<const float> sides,
+                std::vector<float>& track) {
+    track.clear();
+    for (const gpu::VehicleService& service : services) {
+        const bool stands = service.platform != gpu::NO_INDEX;
+        const bool on_left = stands && sides[service.platform] > 0.0f;
+        track.insert(track.end(), {on_left ? service.open : 0.0f, stands && !on_left ? service.open : 0.0f,
+                                   static_cast<float>(service.aboard), static_cast<float>(service.boarded),
+                                   static_cast<float>(service.alighted)});
+    }
+}
+
 }  // namespace
 
 struct FramePump::State {
@@ -76,6 +90,7 @@ struct FramePump::State {
     std::vector<std::uint32_t> sites, seconds;  // with charts
     std::vector<float> vehicles;                // kVehicleFloats each
     std::vector<float> lifts;                   // kLiftFloats each
+    std::vector<float> doors;                   // kDoorFloats each
 
     std::deque<Slot*> in_flight;  // GL thread only: submitted, fence not yet seen
 
@@ -139,6 +154,10 @@ FramePump::FramePump(Simulation& simulation, const Cargo& cargo, Receiver receiv
             slot.vehicle_boxes = gl::Buffer("vehicle boxes read-back", buffers.vehicle_boxes.bytes(),
                                             gl::Buffer::Use::read_back);
         }
+        if (simulation.hasDoors())
+            slot.services =
+                gl::Buffer("services read-back", simulation.parts().buffers.vehicle_services.bytes(),
+                           gl::Buffer::Use::read_back);
         if (simulation.lifts() > 0)
             slot.lifts = gl::Buffer("lifts read-back", simulation.parts().buffers.lift_states.bytes(),
                                     gl::Buffer::Use::read_back);
@@ -182,6 +201,8 @@ bool FramePump::submit(std::uint32_t index, bool with_diagram) {
         slot.vehicles.copyFrom(state.simulation.parts().buffers.vehicles);
         slot.vehicle_boxes.copyFrom(state.simulation.parts().buffers.vehicle_boxes);
     }
+    if (state.simulation.hasDoors())
+        slot.services.copyFrom(state.simulation.parts().buffers.vehicle_services);
     if (state.simulation.lifts() > 0) slot.lifts.copyFrom(state.simulation.parts().buffers.lift_states);
     const Extent extent = with_diagram ? Extent::everywhere : Extent::near_people;
     if ((with_diagram || state.asksForDiagram()) && !state.simulation.buildDiagramNow(extent)) {
@@ -312,6 +333,11 @@ void FramePump::State::deliver(const Slot& slot) {
         trackVehicles(view<gpu::Vehicle>(slot.vehicles, 0, simulation.vehicles()),
                       view<gpu::VehicleBox>(slot.vehicle_boxes, 0, simulation.vehicles()), vehicles);
         frame.vehicles = vehicles;
+    }
+    if (simulation.hasDoors()) {
+        trackDoors(view<gpu::VehicleService>(slot.services, 0, simulation.vehicles()),
+                   simulation.parts().platform_sides, doors);
+        frame.doors = doors;
     }
     if (simulation.lifts() > 0) {
         lifts.clear();

@@ -117,10 +117,12 @@ void WaitingLines::run() {
 }
 
 Avoidance::Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, int neighbours,
-                     const TerrainSlopes* ground, const MotionSettings& rules, Seams* seams, Lifts* lifts)
+                     const TerrainSlopes* ground, const MotionSettings& rules, Seams* seams, Lifts* lifts,
+                     Boarding* boarding)
     : buffers_(buffers),
       seams_(seams),
       lifts_(lifts),
+      boarding_(boarding),
       steer_(makeSteer(library, buffers, ground, rules)),
       avoid_(makeAvoid(library, buffers, neighbours, rules)),
       carry_on_(makeCarryOn(library, buffers, rules)) {}
@@ -129,6 +131,7 @@ void Avoidance::run(std::uint32_t steps_done) {
     steer_.setIfUsed("steps_done", steps_done);
     steer_.dispatchUpTo(buffers_.slotCapacity(), buffers_.live_dispatch);
     if (lifts_) lifts_->wish();
+    if (boarding_) boarding_->wish();
     if (seams_) seams_->takeAlong(Seams::After::steering);
     avoid_.dispatchUpTo(buffers_.slotCapacity(), buffers_.live_dispatch);
     if (seams_) seams_->takeAlong(Seams::After::avoiding);

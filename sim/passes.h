@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "sim/boarding.h"
 #include "sim/buffers.h"
 #include "sim/gl/program.h"
 #include "sim/lifts.h"
@@ -52,9 +53,10 @@ class WaitingLines {
 class Avoidance {
   public:
     /// @param ground that slows people down where it slopes, or null where it is flat
-    /// @param seams, lifts null: there are none
+    /// @param seams, lifts, boarding null: there are none
     Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, int neighbours, const TerrainSlopes* ground,
-              const MotionSettings& rules, Seams* seams = nullptr, Lifts* lifts = nullptr);
+              const MotionSettings& rules, Seams* seams = nullptr, Lifts* lifts = nullptr,
+              Boarding* boarding = nullptr);
     void run(std::uint32_t steps_done);
     /// Steps between two decisions: as was decided.
     void carryOn();
@@ -63,6 +65,7 @@ class Avoidance {
     Buffers& buffers_;
     Seams* seams_;
     Lifts* lifts_;
+    Boarding* boarding_;
     gl::ComputeProgram steer_, avoid_, carry_on_;
 };
 

@@ -50,7 +50,9 @@ AgentOutcome outcomeOf(const gpu::AgentState& state, const gpu::Person& person, 
     if (state.status == gpu::STATUS_WAITING) {
         outcome.status = AgentStatus::refused;
         const bool called_off = person.change_count > 0 && end > person.spawn_time;
-        outcome.reason = person.spawn_time > end ? "the bake ended before its time to enter"
+        outcome.reason = (person.flags & gpu::PERSON_ALIGHTS) != 0
+                             ? "it could not get off before the bake ended, or before its vehicle went on"
+                         : person.spawn_time > end ? "the bake ended before its time to enter"
                          : called_off ? "no free room at its entry before it was told to go elsewhere"
                                       : "no free room at its entry before the bake ended";
     } else {
@@ -231,6 +233,9 @@ std::size_t Simulation::vehicles() const {
 }
 std::size_t Simulation::lifts() const {
     return parts_->lifts ? parts_->lifts->count() : 0;
+}
+bool Simulation::hasDoors() const {
+    return parts_->boarding.has_value();
 }
 Simulation::Parts& Simulation::parts() {
     return *parts_;

@@ -82,6 +82,7 @@ class Simulation {
     /// How many drive in all of the bake.
     std::size_t vehicles() const;
     std::size_t lifts() const;
+    bool hasDoors() const;
 
     struct Parts;
     /// The passes and their buffers, for tests of single passes.

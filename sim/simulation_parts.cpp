@@ -87,8 +87,11 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
       lifts(scene.chart_map.lifts.empty()
                 ? std::nullopt
                 : std::optional<Lifts>(std::in_place, library, buffers, scene, settings.motion)),
+      boarding(scene.traffic.hasDoors()
+                   ? std::optional<Boarding>(std::in_place, library, buffers, scene, settings.motion)
+                   : std::nullopt),
       avoidance(library, buffers, settings.neighbours, slopes ? &*slopes : nullptr, settings.motion,
-                seams ? &*seams : nullptr, lifts ? &*lifts : nullptr),
+                seams ? &*seams : nullptr, lifts ? &*lifts : nullptr, boarding ? &*boarding : nullptr),
       contacts(library, buffers, settings.contact_iterations, settings.motion, seams ? &*seams : nullptr),
       motion(library, buffers, contacts.result(), settings.motion),
       lines(library, buffers, static_cast<std::uint32_t>(scene.lines.size())),
@@ -110,6 +113,8 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
         double{std::max(parameters.tile_radius, parameters.largest_radius)} * parameters.pixels_per_metre;
     load.pixels = static_cast<double>(parameters.diagram_width) * parameters.diagram_height;
     load.fixed_sites = static_cast<double>(scene.wall_tiles.size());
+    for (const gpu::Platform& platform : scene.traffic.platforms)
+        platform_sides.push_back(platform.side);
     anybody_enters_later = std::any_of(
         scene.people.begin(), scene.people.end(),
         [](const gpu::Person& person) { return (person.flags & gpu::PERSON_PRESENT_AT_START) == 0; });
@@ -161,6 +166,9 @@ std::vector<Pass> Simulation::Parts::passesOfStep() {
         all.insert(all.begin() + 1,
                    {"behaviour", when_deciding([this] { behaviour->run(step_start, steps_done); })});
     if (lifts) all.insert(all.begin() + 1, {"lifts", when_deciding(serve)});
+    if (boarding)
+        all.insert(all.begin() + 1,
+                   {"boarding", when_deciding([this] { boarding->serve(step_start, steps_done); })});
     // Before anybody looks where they are.
     if (traffic && traffic->vehicles() > 0)
         all.insert(all.begin(), Pass{"vehicles", [this] { traffic->drive(step_start); }});
@@ -190,6 +198,13 @@ std::vector<std::pair<std::string, gl::Buffer*>> Simulation::Parts::remembered()
                                                               {"detour slopes", &buffers.detour_slopes}};
     if (buffers.hasBodies()) found.emplace_back("chests", &buffers.chests);
     if (traffic && traffic->vehicles() > 0) found.emplace_back("vehicles", &buffers.vehicles);
+    if (boarding) {
+        found.emplace_back("services of vehicles", &buffers.vehicle_services);
+        found.emplace_back("states of doors", &buffers.door_states);
+        found.emplace_back("passengers", &buffers.passengers);
+        found.emplace_back("heads of calls", &buffers.call_heads);
+        found.emplace_back("vehicles at platforms", &buffers.platform_vehicles);
+    }
     if (lifts) {
         found.emplace_back("lifts", &buffers.lift_states);
         found.emplace_back("riders", &buffers.riders);

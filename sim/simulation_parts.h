@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sim/behaviour.h"
+#include "sim/boarding.h"
 #include "sim/buffers.h"
 #include "sim/cell_sort.h"
 #include "sim/congestion.h"
@@ -45,6 +46,8 @@ struct Simulation::Parts {
     std::optional<TerrainSlopes> slopes;  // none on flat ground
     std::optional<Seams> seams;           // none without charts
     std::optional<Lifts> lifts;           // none without lifts
+    std::optional<Boarding> boarding;     // none without doors of vehicles
+    std::vector<float> platform_sides;    // above 0: left
     Avoidance avoidance;
     Contacts contacts;
     Motion motion;

@@ -4,21 +4,23 @@
 namespace throng::sim {
 namespace {
 
-const gl::Declaration kLook = {"vehicles",
-                               {"shaders/traffic/people_ahead.comp"},
-                               {"ParametersBlock", "People", "States", "Vehicles", "Lanes", "LanePoints",
-                                "TrafficStops", "Crossings", "CrossingPoints", "Lights", "InTheWay"},
-                               {"InTheWay"}};
-const gl::Declaration kDrive = {
+const gl::Declaration kLook = {
     "vehicles",
-    {"shaders/traffic/drive.comp"},
-    {"ParametersBlock", "Vehicles", "Lanes", "LanePoints", "TrafficStops", "Lights", "InTheWay"},
-    {"Vehicles", "VehicleBoxesMade"}};
+    {"shaders/traffic/people_ahead.comp"},
+    {"ParametersBlock", "People", "States", "Vehicles", "Lanes", "LanePoints", "TrafficStops", "Crossings",
+     "CrossingPoints", "Lights", "InTheWay", "Platforms", "PlatformPoints"},
+    {"InTheWay"}};
+const gl::Declaration kDrive = {"vehicles",
+                                {"shaders/traffic/drive.comp"},
+                                {"ParametersBlock", "Vehicles", "Lanes", "LanePoints", "TrafficStops",
+                                 "Lights", "InTheWay", "Platforms", "VehicleServices", "VehicleDoors"},
+                                {"Vehicles", "VehicleBoxesMade"}};
 const gl::Declaration kKeepOff = {
     "contacts",
     {"shaders/motion/keep_off.comp"},
     {"ParametersBlock", "LiveDispatch", "Bodies", "TouchWords", "WallSegments", "WallStarts", "WallItems",
-     "VehicleBoxes", "Crossings", "CrossingPoints", "Lights", "Targets"},
+     "VehicleBoxes", "Crossings", "CrossingPoints", "Lights", "Targets", "VehicleDoors", "Platforms",
+     "VehicleServices", "Passengers"},
     {"Targets"}};
 
 }  // namespace

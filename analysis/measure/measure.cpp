@@ -302,6 +302,7 @@ class Measurer {
         result_.vehicle_clearance = vehicles_.clearance();
         result_.run_over = vehicles_.runOver();
         result_.vehicles = bake_.vehicles.size();
+        result_.calls = callsIn(bake_);
         const auto mean = [](double sum, std::uint64_t count) {
             return count ? sum / static_cast<double>(count) : 0.0;
         };

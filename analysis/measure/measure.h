@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/measure/call_watch.h"
 #include "io/crowd_reader.h"
 
 namespace throng::analysis {
@@ -45,6 +46,7 @@ struct Measurement {
     std::uint64_t wall_crossings = 0;
     double deepest_wall_penetration = 0.0;  ///< m that a body is inside a wall
     std::size_t vehicles = 0;
+    std::vector<VehicleCall> calls;           ///< of vehicles at platforms
     std::optional<double> vehicle_clearance;  ///< m, between a body and a vehicle; none: they never met
     std::uint32_t run_over = 0;               ///< people whom a vehicle was in
 

@@ -34,6 +34,23 @@ std::string looksText(const std::vector<double>& shares) {
     return text;
 }
 
+double sumOf(const std::vector<VehicleCall>& calls, std::uint32_t VehicleCall::*what) {
+    double sum = 0.0;
+    for (const VehicleCall& call : calls)
+        sum += call.*what;
+    return sum;
+}
+
+Json callJson(const VehicleCall& call) {
+    return {{"flow", call.flow},
+            {"vehicle", call.vehicle},
+            {"begin", readable(call.begin)},
+            {"dwell", readable(call.dwell)},
+            {"alighted", call.alighted},
+            {"boarded", call.boarded},
+            {"aboard", call.aboard}};
+}
+
 /// What an expectation may speak of.
 std::optional<double> figureNamed(const Measurement& m, const std::string& name) {
     const auto share = [&](std::uint32_t count) {
@@ -51,6 +68,8 @@ std::optional<double> figureNamed(const Measurement& m, const std::string& name)
         {"deepest_wall_penetration", m.deepest_wall_penetration},
         {"vehicle_clearance", m.vehicle_clearance.value_or(kNeverMet)},
         {"run_over", static_cast<double>(m.run_over)},
+        {"alighted", sumOf(m.calls, &VehicleCall::alighted)},
+        {"boarded", sumOf(m.calls, &VehicleCall::boarded)},
         {"time_ratio", m.time_ratio},
         {"detour_ratio", m.detour_ratio},
         {"heading_rate_p99", m.heading_rate.high},
@@ -113,6 +132,8 @@ Json measurementJson(const Measurement& m) {
         json["looks_at"][std::string(kLooksAt[i])] = readable(m.looks_at[i]);
     if (m.flow) json["flow"] = readable(*m.flow);
     if (m.specific_flow) json["specific_flow"] = readable(*m.specific_flow);
+    for (const VehicleCall& call : m.calls)
+        json["calls"].push_back(callJson(call));
     for (const LinkFlow& link : m.links) {
         Json each = {{"id", link.id}, {"width", link.width}, {"forward", link.forward}, {"back", link.back}};
         if (link.flow) each["flow"] = readable(*link.flow);
@@ -146,6 +167,11 @@ std::string measurementText(const Measurement& m) {
              fmt::format("{}: {} people run over, {}", m.vehicles, m.run_over,
                          m.vehicle_clearance ? fmt::format("least clearance {:.3f} m", *m.vehicle_clearance)
                                              : "nobody came near one"));
+    for (const VehicleCall& call : m.calls)
+        line("call",
+             fmt::format("{} (vehicle {}) stood {:.1f} s from {:.1f} s on: {} got off, {} on, {} aboard",
+                         call.flow, call.vehicle, call.dwell, call.begin, call.alighted, call.boarded,
+                         call.aboard));
     line("to the goal", fmt::format("{:.2f} times the free time, {:.2f} times the shortest way (medians)",
                                     m.time_ratio, m.detour_ratio));
     line("heading rate, deg/s", spreadText(m.heading_rate));

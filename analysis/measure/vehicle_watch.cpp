@@ -6,6 +6,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "base/door_track.h"
+#include "io/door_file.h"
 #include "io/vehicle_file.h"
 
 namespace throng::analysis {
@@ -24,11 +26,23 @@ double distanceToBox(glm::dvec2 place, glm::dvec2 half) {
 
 VehicleWatch::VehicleWatch(const io::Bake& bake) : bake_(bake), run_over_(bake.agents, false) {
     if (!bake.vehicles.empty()) track_ = io::readVehicles(bake);
+    if (!bake.doors.empty()) doors_ = io::readDoors(bake);
 }
 
 std::span<const float> VehicleWatch::placeOf(std::uint32_t frame, std::size_t vehicle) const {
     return std::span(track_).subspan((frame * bake_.vehicles.size() + vehicle) * kVehicleFloats,
                                      kVehicleFloats);
+}
+
+bool VehicleWatch::isInDoorway(std::uint32_t frame, std::size_t vehicle, glm::dvec2 place) const {
+    if (doors_.empty()) return false;
+    const std::size_t row = (frame * bake_.vehicles.size() + vehicle) * kDoorFloats;
+    const auto side = place.y > 0.0 ? DoorColumn::left : DoorColumn::right;
+    if (doors_[row + static_cast<std::size_t>(side)] <= 0.0f) return false;
+    const DoorIdentity& doors = bake_.doors[vehicle];
+    const double behind = 0.5 * bake_.vehicles[vehicle].length - place.x;
+    return std::ranges::any_of(doors.at,
+                               [&](double at) { return std::abs(behind - at) <= 0.5 * doors.width; });
 }
 
 void VehicleWatch::look(std::uint32_t frame, std::uint32_t row, const Capsule& body) {
@@ -40,6 +54,7 @@ void VehicleWatch::look(std::uint32_t frame, std::uint32_t row, const Capsule& b
         if (glm::length(offset) > kNear + half.x) continue;
         const double heading = at[static_cast<std::size_t>(VehicleColumn::heading)];
         const glm::dvec2 along(std::cos(heading), std::sin(heading)), aside(-along.y, along.x);
+        if (isInDoorway(frame, i, {glm::dot(offset, along), glm::dot(offset, aside)})) continue;
         const auto gapAt = [&](double share) {
             const glm::dvec2 place = offset + share * body.axis;
             return distanceToBox({glm::dot(place, along), glm::dot(place, aside)}, half) - body.thickness;

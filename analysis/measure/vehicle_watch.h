@@ -11,7 +11,7 @@
 
 namespace throng::analysis {
 
-/// How near vehicles come to people, from the files of a bake.
+/// How near vehicles come to people, from the files of a bake. Who is in an open door gets on or off.
 class VehicleWatch {
   public:
     explicit VehicleWatch(const io::Bake& bake);
@@ -26,9 +26,11 @@ class VehicleWatch {
 
   private:
     std::span<const float> placeOf(std::uint32_t frame, std::size_t vehicle) const;
+    /// Whether somebody is between the open leaves of a door. @param place along the vehicle and to its left
+    bool isInDoorway(std::uint32_t frame, std::size_t vehicle, glm::dvec2 place) const;
 
     const io::Bake& bake_;
-    std::vector<float> track_;
+    std::vector<float> track_, doors_;
     std::optional<double> least_;
     std::vector<bool> run_over_;  // by row
 };

@@ -8,8 +8,10 @@
 #include <span>
 
 #include "analysis/preview/colour.h"
+#include "base/door_track.h"
 #include "base/palette.h"
 #include "base/vehicle_track.h"
+#include "io/door_file.h"
 #include "io/vehicle_file.h"
 
 namespace throng::analysis {
@@ -59,6 +61,7 @@ bool has(const std::vector<std::size_t>& indices, std::size_t index) {
 
 TrafficLayer::TrafficLayer(const io::Bake& bake) : bake_(bake) {
     if (!bake.vehicles.empty()) track_ = io::readVehicles(bake);
+    if (!bake.doors.empty()) doors_ = io::readDoors(bake);
 }
 
 void TrafficLayer::drawStreet(cairo_t* context, const PlateView& view) const {
@@ -140,6 +143,31 @@ void TrafficLayer::drawLights(cairo_t* context, const PlateView& view, double ti
         }
 }
 
+template <class Corner>
+void TrafficLayer::drawDoors(cairo_t* context, const PlateView& view, std::uint32_t frame,
+                             std::size_t vehicle, Corner corner) const {
+    if (doors_.empty()) return;
+    constexpr double kDeep = 0.35;  // m
+    const DoorIdentity& doors = bake_.doors[vehicle];
+    const VehicleIdentity& what = bake_.vehicles[vehicle];
+    for (const double side : {1.0, -1.0}) {
+        const auto column = side > 0.0 ? DoorColumn::left : DoorColumn::right;
+        const std::size_t row = (frame * bake_.vehicles.size() + vehicle) * kDoorFloats;
+        const double half = 0.5 * doors.width * double{doors_[row + static_cast<std::size_t>(column)]};
+        if (half <= 0.0) continue;
+        const double inner = side * (1.0 - 2.0 * kDeep / what.width);
+        for (const double at : doors.at) {
+            const double begin = 1.0 - 2.0 * (at + half) / what.length;
+            const double end = 1.0 - 2.0 * (at - half) / what.length;
+            addPath(
+                context, view,
+                std::array{corner(begin, side), corner(end, side), corner(end, inner), corner(begin, inner)});
+            setColour(context, kPaint);
+            cairo_fill(context);
+        }
+    }
+}
+
 void TrafficLayer::drawVehicle(cairo_t* context, const PlateView& view, std::uint32_t frame,
                                std::size_t vehicle) const {
     const std::span<const float> at =
@@ -157,6 +185,7 @@ void TrafficLayer::drawVehicle(cairo_t* context, const PlateView& view, std::uin
     setColour(context, colourOf(what.kind));
     cairo_fill(context);
     if (what.kind == "bicycle") return;
+    drawDoors(context, view, frame, vehicle, corner);
     const double glass = 1.0 - 2.0 * 1.6 / what.length;  // the windscreen tells where the front is
     addPath(context, view,
             std::array{corner(glass, -0.8), corner(glass + 0.8 / what.length, -0.75),

@@ -34,9 +34,13 @@ class TrafficLayer {
     void drawCrossing(cairo_t* context, const PlateView& view, const authoring::Zebra& crossing) const;
     void drawLights(cairo_t* context, const PlateView& view, double time) const;
     void drawVehicle(cairo_t* context, const PlateView& view, std::uint32_t frame, std::size_t vehicle) const;
+    /// Open doors, as gaps in its sides. @param corner from places relative to its middle and half sizes
+    template <class Corner>
+    void drawDoors(cairo_t* context, const PlateView& view, std::uint32_t frame, std::size_t vehicle,
+                   Corner corner) const;
 
     const io::Bake& bake_;
-    std::vector<float> track_;
+    std::vector<float> track_, doors_;
 };
 
 }  // namespace throng::analysis

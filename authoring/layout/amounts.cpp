@@ -16,10 +16,22 @@ double meanOf(const Distribution& drawn) {
     return std::clamp(mean, drawn.minimum, drawn.maximum);
 }
 
+/// How often `count` of them come: once, or with each vehicle that they get off.
+double callsOf(const Flow& flow, const Layout& layout) {
+    if (!flow.alights) return 1.0;
+    double calls = 0.0;
+    for (const std::size_t line : flow.alights->lines) {
+        const VehicleFlow& vehicles = layout.traffic.vehicles[line];
+        calls += vehicles.rate ? *vehicles.rate * (vehicles.end - vehicles.start)
+                               : static_cast<double>(vehicles.times.size());
+    }
+    return calls;
+}
+
 }  // namespace
 
-double peopleIn(const Flow& flow, double warmup) {
-    if (flow.count) return static_cast<double>(*flow.count);
+double peopleIn(const Flow& flow, const Layout& layout, double warmup) {
+    if (flow.count) return callsOf(flow, layout) * static_cast<double>(*flow.count);
     if (!flow.times.empty()) return static_cast<double>(flow.times.size());
     const double seconds = std::max(0.0, flow.end - flow.start + warmup);
     if (flow.gaps) return seconds / std::max(meanOf(*flow.gaps), kLeastGap);

@@ -8,7 +8,7 @@ namespace throng::authoring {
 
 /// Of moments that are drawn, as many as there will be on average.
 /// @param warmup s before the start in which those of the first moment come, too
-double peopleIn(const Flow& flow, double warmup = 0.0);
+double peopleIn(const Flow& flow, const Layout& layout, double warmup = 0.0);
 double peopleIn(const Formation& formation);
 
 }  // namespace throng::authoring

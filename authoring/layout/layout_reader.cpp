@@ -11,6 +11,7 @@
 
 #include "authoring/layout/amounts.h"
 #include "authoring/layout/behaviour_reader.h"
+#include "authoring/layout/boarding_reader.h"
 #include "authoring/layout/level_reader.h"
 #include "authoring/layout/object_reader.h"
 #include "authoring/layout/people_reader.h"
@@ -326,12 +327,10 @@ class Reader {
         ObjectReader reader(node, schema_.definition("flow"), "a flow", diagnostics_);
         if (!reader.isObject()) return;
         reader.requiredText("id", "its name in the account", flow.id);
-        const JsonNode* from = reader.require("from", "where people come from");
-        flow.behaviour = behaviours_.behaviourOf(reader, node, {"via", "to", "arrival"});
+        flow.behaviour = behaviours_.behaviourOf(reader, node, {"via", "to", "board", "arrival"});
         const bool behaves = node.find("behaviour") != nullptr;
-        const JsonNode* to = behaves ? reader.get("to") : reader.require("to", "where people go");
-        const std::optional<Place> from_place = from ? places_.place(*from) : std::nullopt;
-        const std::optional<Destination> destination = to ? places_.destination(*to) : std::nullopt;
+        const std::optional<Place> from_place = readBeginning(reader, node, flow);
+        const std::optional<Destination> destination = readEnd(reader, node, flow);
         eachOf(reader, "via", [&](const JsonNode& item) {
             if (auto stop = places_.stop(item)) flow.via.push_back(std::move(*stop));
         });
@@ -351,6 +350,35 @@ class Reader {
         if (destination) flow.to = *destination;
         checkEnds(flow);
         layout_.flows.push_back(std::move(flow));
+    }
+
+    /// Where people come from: a place, or out of vehicles.
+    std::optional<Place> readBeginning(ObjectReader& reader, const JsonNode& node, Flow& flow) {
+        const JsonNode* alight = reader.get("alight");
+        const JsonNode* from = alight ? reader.get("from") : reader.require("from", "where people come from");
+        if (!alight) return from ? places_.place(*from) : std::nullopt;
+        boarding_.checkAlighting(node);
+        flow.alights = boarding_.atPlatform(*alight);
+        return flow.alights ? std::optional(boarding_.placeOf(*flow.alights)) : std::nullopt;
+    }
+
+    /// Where people go: a place, or into vehicles; nothing where a behaviour tells.
+    std::optional<Destination> readEnd(ObjectReader& reader, const JsonNode& node, Flow& flow) {
+        const JsonNode* board = reader.get("board");
+        const bool told = board || node.find("behaviour") != nullptr;
+        const JsonNode* to = told ? reader.get("to") : reader.require("to", "where people go");
+        if (!board) return to ? places_.destination(*to) : std::nullopt;
+        for (const char* key : {"to", "arrival"})
+            if (const JsonNode* other = node.find(key))
+                diagnostics_.error(other->where,
+                                   fmt::format("people who `board` go nowhere else: `{}` has no "
+                                               "meaning",
+                                               key),
+                                   fmt::format("leave `{}` out", key));
+        flow.boards = boarding_.atPlatform(*board);
+        if (!flow.boards) return std::nullopt;
+        const Place platform = boarding_.placeOf(*flow.boards);
+        return Destination{Destination::Kind::one, {platform}, {}, platform.where};
     }
 
     void readAmount(ObjectReader& reader, const JsonNode& node, Flow& flow) {
@@ -387,7 +415,7 @@ class Reader {
     }
 
     void checkEnds(const Flow& flow) {
-        if (!flow.via.empty()) return;
+        if (!flow.via.empty() || flow.boards) return;
         for (const Place& to : flow.to.places) {
             if (flow.from.kind == to.kind && flow.from.index == to.index)
                 diagnostics_.error(to.where, fmt::format("flow `{}` goes to where it comes from", flow.id));
@@ -642,7 +670,7 @@ class Reader {
         double people = 0.0;
         double largest = 0.0;
         for (const Flow& flow : layout_.flows) {
-            people += peopleIn(flow);
+            people += peopleIn(flow, layout_);
             largest = std::max(largest, flow.people.largestRadius());
         }
         for (const Formation& formation : layout_.formations) {
@@ -685,7 +713,7 @@ class Reader {
         };
         double plans = 0.0;
         for (const Flow& flow : layout_.flows)
-            plans += (1.0 + static_cast<double>(flow.via.size()) + sent(flow.id)) * peopleIn(flow);
+            plans += (1.0 + static_cast<double>(flow.via.size()) + sent(flow.id)) * peopleIn(flow, layout_);
         for (const Formation& formation : layout_.formations)
             plans += (1.0 + sent(formation.id)) * peopleIn(formation);
         if (!diagnostics_.hasErrors())
@@ -713,7 +741,8 @@ class Reader {
     PlaceReader places_{schema_, roads_, areas_, diagnostics_};
     LevelReader levels_{schema_, layout_, diagnostics_};
     SeatReader seats_{schema_, layout_, groups_, walls_, diagnostics_};
-    TrafficReader traffic_{schema_, layout_, diagnostics_};
+    BoardingReader boarding_{schema_, layout_, areas_, diagnostics_};
+    TrafficReader traffic_{schema_, layout_, boarding_, diagnostics_};
     BehaviourReader behaviours_{schema_, layout_, places_, groups_, walls_, diagnostics_};
 };
 

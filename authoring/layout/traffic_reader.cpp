@@ -78,11 +78,13 @@ void TrafficReader::readStop(const JsonNode& node, Lane& lane) {
     std::optional<double> stands;
     reader.number("seconds", stands);
     stop.seconds = stands.value_or(0.0);
+    boarding_.readPlatform(reader, node, stop);
     reader.finish();
-    if ((signal != nullptr) == (seconds != nullptr))
-        diagnostics_.error(node.where,
-                           fmt::format("a stop needs exactly one of `signal` and `seconds`, this one has {}",
-                                       signal ? "both" : "neither"));
+    const int told = (signal != nullptr) + (seconds != nullptr) + stop.platform.has_value();
+    if (told != 1)
+        diagnostics_.error(node.where, fmt::format("a stop needs exactly one of `signal`, `seconds` and "
+                                                   "`platform`, this one has {}",
+                                                   told == 0 ? "none" : "several"));
     if (signal) named_.push_back({layout_.traffic.lanes.size(), lane.stops.size(), signal});
     checkStop(lane, stop);
     lane.stops.push_back(stop);
@@ -150,6 +152,7 @@ void TrafficReader::readVehicles(const JsonNode& node) {
         kinds.emplace_back(kVehicleTypes[i].name, static_cast<VehicleKind>(i));
     reader.choice("kind", kinds, flow.kind);
     readAmount(reader, node, flow);
+    boarding_.readVehicle(reader, flow);
     reader.finish();
     claimId(node, flow.id, flows_, layout_.traffic.vehicles.size(), "a flow of vehicles", diagnostics_);
     if (!lane) return;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "authoring/layout.h"
+#include "authoring/layout/boarding_reader.h"
 #include "authoring/layout/object_reader.h"
 
 namespace throng::authoring {
@@ -14,8 +15,8 @@ namespace throng::authoring {
 /// lanes are read first, and what they say of signals is looked up at the end.
 class TrafficReader {
   public:
-    TrafficReader(const Schema& schema, Layout& layout, Diagnostics& diagnostics)
-        : schema_(schema), layout_(layout), diagnostics_(diagnostics) {}
+    TrafficReader(const Schema& schema, Layout& layout, BoardingReader& boarding, Diagnostics& diagnostics)
+        : schema_(schema), layout_(layout), boarding_(boarding), diagnostics_(diagnostics) {}
 
     void readCrossing(const JsonNode& node);
     void readLane(const JsonNode& node);
@@ -43,6 +44,7 @@ class TrafficReader {
 
     const Schema& schema_;
     Layout& layout_;
+    BoardingReader& boarding_;
     Diagnostics& diagnostics_;
     Ids crossings_, lanes_, signals_, flows_;
     std::vector<NamedSignal> named_;

@@ -80,6 +80,17 @@ std::vector<Party> drawParties(const People& people, const GroupRandom& random,
     return result;
 }
 
+void splitEvery(std::uint64_t count, std::vector<Party>& parties) {
+    std::vector<Party> split;
+    for (const Party& party : parties)
+        for (std::uint64_t i = party.first; i < party.first + party.size; ++i)
+            if (i == party.first || i % count == 0)
+                split.push_back({i, 1});
+            else
+                ++split.back().size;
+    parties = std::move(split);
+}
+
 void walkTogether(std::span<gpu::Person> party) {
     if (party.size() < 2) return;
     float mean = 0.0f;

@@ -30,6 +30,8 @@ std::vector<Party> drawParties(const People& people, const GroupRandom& random, 
 /// The same for people who stand somewhere: only neighbours walk together.
 std::vector<Party> drawParties(const People& people, const GroupRandom& random,
                                const std::vector<glm::dvec2>& positions);
+/// No party goes over the end of so many people.
+void splitEvery(std::uint64_t count, std::vector<Party>& parties);
 /// Walks together: everybody as fast as the party, which is slower the larger it is.
 void walkTogether(std::span<gpu::Person> party);
 

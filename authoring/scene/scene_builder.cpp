@@ -13,6 +13,7 @@
 
 #include "authoring/layout/layout_reader.h"
 #include "authoring/scene/behaviours.h"
+#include "authoring/scene/boarding.h"
 #include "authoring/scene/chart_map.h"
 #include "authoring/scene/itineraries.h"
 #include "authoring/scene/narrow_places.h"
@@ -34,6 +35,7 @@ constexpr std::uint32_t kEntryPoints = 1024;
 constexpr float kEntryClearance = 0.02f;  // m beyond the body
 constexpr float kPauseTolerance = 1.0f;   // m: who is pushed about before setting off does not mind
 constexpr std::uint64_t kPauseDraw = 900;
+constexpr double kComesOutByVehicle = 1.0e9;  // s: at a time of its own nobody gets off
 
 Capsule shapeOf(const gpu::Person& person) {
     const double heading = person.heading;
@@ -101,6 +103,7 @@ class SceneAssembly {
         buildGeometry();
         if (diagnostics_.hasErrors()) return std::nullopt;
         scene_.traffic = buildTraffic(layout_, rebase_, diagnostics_);
+        addCalls(layout_, scene_.queues, scene_.traffic);
         buildTerrain();
         if (terrain_mesh_ && layout_.terrain && !scene_.terrain) return std::nullopt;
         Routes routes = planRoutes();
@@ -215,12 +218,17 @@ class SceneAssembly {
             // Who is told to go elsewhere does not come in any more.
             if (concerns(event, flow.id) && event.at > flow.start) end = std::min(end, event.at);
         }
-        const std::vector<double> times = entryTimes(flow, changes, random, layout_.simulation.warmup, end);
+        const std::vector<double> times =
+            flow.alights ? std::vector<double>(alightingPeople(layout_, flow), kComesOutByVehicle)
+                         : entryTimes(flow, changes, random, layout_.simulation.warmup, end);
         beginGroup(flow.id, true, flow.people);
-        for (const Party& party : drawParties(flow.people, random, times.size())) {
+        std::vector<Party> parties = drawParties(flow.people, random, times.size());
+        if (flow.alights) splitEvery(std::max<std::uint64_t>(flow.count.value_or(0), 1), parties);
+        for (const Party& party : parties) {
             for (std::uint64_t i = party.first; i < party.first + party.size; ++i) {
                 gpu::Person person = drawPerson(flow.people, random, i, group());
                 person.spawn_time = static_cast<float>(times[party.first]);
+                if (flow.alights) person.flags |= gpu::PERSON_ALIGHTS;
                 if (keepsToRoads(layout_)) person.flags |= gpu::PERSON_KEEPS_TO_ROADS;
                 addPerson(person);
             }
@@ -335,7 +343,7 @@ class SceneAssembly {
             geometry_.areas.push_back(rebase_.local(area.polygon));
         for (const Zebra& crossing : layout_.traffic.crossings)
             geometry_.areas.push_back(rebase_.local(crossing.polygon));
-        geometry_.has_crossings = !layout_.traffic.crossings.empty();
+        geometry_.has_crossings = keepsOffStreets(layout_);
         scene_.wall_segments = geometry_.walls;
         openGates();
         sortWalls(geometry_);
@@ -407,6 +415,14 @@ class SceneAssembly {
         }
     }
 
+    /// Where people wait until they get on.
+    Stop boardingStop(const Flow& flow) const {
+        Stop stop = Journey::goalStop(flow.to, Arrival::leave);
+        stop.wait = {Distribution::Kind::constant, double{gpu::DWELL_WHILE}, 0.0, 0.0, 0.0};
+        stop.facing = sightAt(layout_, *flow.boards);
+        return stop;
+    }
+
     /// Those who walk stop by stop; whoever has a behaviour begins in its first state.
     void routeFlow(const Flow& flow, std::size_t index, Routes& routes, Itineraries& itineraries,
                    BehaviourTables& behaviours) {
@@ -419,7 +435,8 @@ class SceneAssembly {
                                    {journey.traveller, index, journey.keep_to_roads, from, {start}});
             first_field = behaviours.fieldOf(state);
         } else {
-            journey.stops.push_back(Journey::goalStop(flow.to, flow.arrival));
+            journey.stops.push_back(flow.boards ? boardingStop(flow)
+                                                : Journey::goalStop(flow.to, flow.arrival));
             itineraries.check(journey, from, {start});
             first_field = itineraries.fieldTo(journey.stops.front().at, journey.keep_to_roads);
         }
@@ -438,6 +455,7 @@ class SceneAssembly {
             } else {
                 person.first_stage = static_cast<std::uint32_t>(scene_.stages.size());
                 person.stage_count = itineraries.appendStages(journey, random, travellerOf(person, index, i));
+                if (flow.boards) scene_.stages.back().board = boardWord(layout_, *flow.boards);
             }
             const glm::vec2 goal = scene_.stages[person.first_stage + person.stage_count - 1].point;
             const glm::vec2 ahead = wayBetween(scene_.entry_points[scene_.entries[entry].first_point], goal);

@@ -9,6 +9,8 @@
 #include <optional>
 #include <utility>
 
+#include "authoring/scene/boarding.h"
+#include "authoring/scene/lane_line.h"
 #include "authoring/scene/random.h"
 #include "base/polygon.h"
 
@@ -19,23 +21,6 @@ constexpr double kBeforeCrossing = 1.0;  // m: between fronts that stand and peo
 
 double crossOf(glm::dvec2 a, glm::dvec2 b) {
     return a.x * b.y - a.y * b.x;
-}
-
-/// How far along a line a place lies, m.
-double alongLine(const std::vector<glm::dvec2>& points, glm::dvec2 place) {
-    double least = 1.0e300, found = 0.0, before = 0.0;
-    for (std::size_t i = 1; i < points.size(); ++i) {
-        const glm::dvec2 axis = points[i] - points[i - 1];
-        const double length = glm::length(axis);
-        const double along = std::clamp(glm::dot(place - points[i - 1], axis) / length, 0.0, length);
-        const double apart = glm::distance(place, points[i - 1] + axis * (along / length));
-        if (apart < least) {
-            least = apart;
-            found = before + along;
-        }
-        before += length;
-    }
-    return found;
 }
 
 /// How far along a line it comes to a polygon, if it does.
@@ -73,6 +58,7 @@ class Builder {
         for (std::size_t i = 0; i < traffic_.vehicles.size(); ++i)
             addVehicles(i);
         sortVehicles();
+        addBoarding(layout_, rebase_, scene_, diagnostics_);
         return std::move(scene_);
     }
 
@@ -155,12 +141,17 @@ class Builder {
 
     void addStop(const Lane& lane, const LaneStop& stop, std::size_t index) {
         gpu::TrafficStop made{};
-        made.along = static_cast<float>(alongLine(lane.points, stop.at));
+        made.along = static_cast<float>(LaneLine(lane.points).alongAt(stop.at));
         made.seconds = static_cast<float>(stop.seconds);
         made.kind = stop.signal ? gpu::STOP_AT_RED : gpu::STOP_FOR_TIME;
         made.light =
             stop.signal ? lightOf(traffic_.signals[*stop.signal], &Phase::lanes, index) : gpu::NO_LIGHT;
         made.crossing = gpu::NO_INDEX;
+        if (stop.platform) {
+            made.kind = gpu::STOP_AT_PLATFORM;
+            made.crossing =
+                platformNumber(layout_, index, static_cast<std::size_t>(&stop - lane.stops.data()));
+        }
         scene_.stops.push_back(made);
     }
 
@@ -178,7 +169,7 @@ class Builder {
     void addVehicles(std::size_t index) {
         const VehicleFlow& flow = traffic_.vehicles[index];
         scene_.flows.push_back(flow.id);
-        for (const double time : timesOf(flow)) {
+        for (const double time : vehicleTimes(layout_, flow)) {
             const Lane& lane = traffic_.lanes[flow.lane];
             const VehicleType& type = typeOf(flow.kind);
             gpu::Vehicle vehicle{};
@@ -202,20 +193,6 @@ class Builder {
                            fmt::format("with flow `{}` there are {} vehicles: a bake holds {}", flow.id,
                                        scene_.vehicles.size(), gpu::MOST_VEHICLES),
                            "lower its `rate`, or let it end sooner");
-    }
-
-    std::vector<double> timesOf(const VehicleFlow& flow) const {
-        if (!flow.rate) return flow.times;
-        constexpr std::uint64_t kEnough = gpu::MOST_VEHICLES + 1;
-        const GroupRandom random(layout_.simulation.seed, "vehicles " + flow.id);
-        std::vector<double> times;
-        double time = flow.start == 0.0 ? -layout_.simulation.warmup : flow.start;
-        for (std::uint64_t i = 0; i < kEnough; ++i) {
-            time -= std::log(1.0 - random.unit(i, Purpose::time)) / *flow.rate;
-            if (time >= flow.end) break;
-            times.push_back(time);
-        }
-        return times;
     }
 
     /// In the order of their times: who is to come first comes first in the list.
@@ -245,8 +222,17 @@ class Builder {
 
 }  // namespace
 
+bool keepsOffStreets(const Layout& layout) {
+    const Traffic& traffic = layout.traffic;
+    const auto has_platform = [](const Lane& lane) {
+        return std::ranges::any_of(lane.stops,
+                                   [](const LaneStop& stop) { return stop.platform.has_value(); });
+    };
+    return !traffic.crossings.empty() || std::ranges::any_of(traffic.lanes, has_platform);
+}
+
 bool keepsToRoads(const Layout& layout) {
-    return !layout.roads.empty() || !layout.traffic.crossings.empty();
+    return !layout.roads.empty() || keepsOffStreets(layout);
 }
 
 bool isWithoutTraffic(const Layout& layout, Diagnostics& diagnostics) {
@@ -256,6 +242,20 @@ bool isWithoutTraffic(const Layout& layout, Diagnostics& diagnostics) {
                       "layouts with `levels` have no lanes or crossings yet",
                       "make the street a layout of its own");
     return false;
+}
+
+std::vector<double> vehicleTimes(const Layout& layout, const VehicleFlow& flow) {
+    if (!flow.rate) return flow.times;
+    constexpr std::uint64_t kEnough = gpu::MOST_VEHICLES + 1;
+    const GroupRandom random(layout.simulation.seed, "vehicles " + flow.id);
+    std::vector<double> times;
+    double time = flow.start == 0.0 ? -layout.simulation.warmup : flow.start;
+    for (std::uint64_t i = 0; i < kEnough; ++i) {
+        time -= std::log(1.0 - random.unit(i, Purpose::time)) / *flow.rate;
+        if (time >= flow.end) break;
+        times.push_back(time);
+    }
+    return times;
 }
 
 SceneTraffic buildTraffic(const Layout& layout, const Rebase& rebase, Diagnostics& diagnostics) {

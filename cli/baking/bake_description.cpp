@@ -115,6 +115,22 @@ void describeVehicles(const authoring::Scene& scene, recording::BakeDescription&
     }
 }
 
+/// Of each vehicle, where people get on and off anything at all.
+void describeDoors(const authoring::Layout& layout, const authoring::Scene& scene,
+                   recording::BakeDescription& bake) {
+    if (!scene.traffic.hasDoors()) return;
+    for (const std::uint32_t line : scene.traffic.flow_of) {
+        const authoring::VehicleFlow& flow = layout.traffic.vehicles.at(line);
+        DoorIdentity doors;
+        if (flow.doors) {
+            doors = {flow.doors->at, flow.doors->width,
+                     flow.doors->sides != authoring::VehicleDoors::Sides::right,
+                     flow.doors->sides != authoring::VehicleDoors::Sides::left, flow.capacity};
+        }
+        bake.doors.push_back(std::move(doors));
+    }
+}
+
 void describeCabins(const LoadedLayout& loaded, recording::BakeDescription& bake) {
     const authoring::LiftMap& lifts = loaded.scene.chart_map.lifts;
     if (lifts.empty()) return;
@@ -199,6 +215,7 @@ recording::BakeDescription describeBake(const LoadedLayout& loaded, const BakeOp
     bake.walls = loaded.layout.walls;
     bake.traffic = loaded.layout.traffic;
     describeVehicles(scene, bake);
+    describeDoors(loaded.layout, scene, bake);
     if (scene.charts) describeCharts(loaded, bake);
     if (loaded.terrain) {
         const authoring::Rebase rebase(loaded.layout);

@@ -24,6 +24,7 @@ constexpr const char* kSeconds = "seconds";
 constexpr const char* kMotion = "motion";
 constexpr const char* kVehicleTrack = "vehicle track";
 constexpr const char* kLiftTrack = "lift track";
+constexpr const char* kDoorTrack = "door track";
 
 /// Everything that the bytes of a bake depend on.
 std::string identityOf(const LoadedLayout& loaded, const BakeJob& job, const gl::Device& device) {
@@ -134,6 +135,7 @@ class Run {
         maker_.recorder().restore(*motion);
         takeTrack(checkpoint, kVehicleTrack, vehicles_);
         takeTrack(checkpoint, kLiftTrack, lifts_);
+        takeTrack(checkpoint, kDoorTrack, doors_);
         if (const std::vector<std::byte>* bytes = checkpoint.find(kSeconds);
             bytes && bytes->size() == sizeof seconds_before_)
             std::memcpy(&seconds_before_, bytes->data(), sizeof seconds_before_);
@@ -166,6 +168,7 @@ class Run {
         maker_.finish();
         writer_.takeVehicles(std::move(vehicles_));
         writer_.takeLifts(std::move(lifts_));
+        writer_.takeDoors(std::move(doors_));
     }
     std::uint32_t frames() const { return maker_.frames(); }
 
@@ -182,6 +185,7 @@ class Run {
         checkpoint.add(kMotion, maker_.recorder().save());
         if (!vehicles_.empty()) checkpoint.add(kVehicleTrack, std::as_bytes(std::span(vehicles_)));
         if (!lifts_.empty()) checkpoint.add(kLiftTrack, std::as_bytes(std::span(lifts_)));
+        if (!doors_.empty()) checkpoint.add(kDoorTrack, std::as_bytes(std::span(doors_)));
         writer_.save(std::move(checkpoint));
         last_checkpoint_ = Clock::now();
     }
@@ -210,6 +214,7 @@ class Run {
         writer_.writeDiagram(frame);
         vehicles_.insert(vehicles_.end(), frame.vehicles.begin(), frame.vehicles.end());
         lifts_.insert(lifts_.end(), frame.lifts.begin(), frame.lifts.end());
+        doors_.insert(doors_.end(), frame.doors.begin(), frame.doors.end());
     }
 
     const gl::Context& context_;
@@ -222,6 +227,7 @@ class Run {
     double seconds_before_ = 0.0;
     std::vector<float> vehicles_;  // of all frames so far
     std::vector<float> lifts_;     // likewise
+    std::vector<float> doors_;     // likewise
     FrameMaker maker_;             // last: its thread uses the others
 };
 

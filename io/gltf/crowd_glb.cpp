@@ -162,7 +162,7 @@ void addPeople(GlbDocument& document, const recording::BakeDescription& descript
 }  // namespace
 
 GltfSummary writeCrowdGlb(const std::filesystem::path& path, const recording::BakeDescription& description,
-                          const StreamSet& streams, std::span<const float> vehicle_track) {
+                          const StreamSet& streams, const VehicleTracks& vehicle_tracks) {
     const std::uint32_t frames = streams.frames();
     const std::uint32_t all_rows = streams.rows();
     std::vector<TrackRow> rows;
@@ -175,7 +175,7 @@ GltfSummary writeCrowdGlb(const std::filesystem::path& path, const recording::Ba
 
     GlbDocument document = documentFor(description);
     addScenery(document, description);
-    VehicleNodes vehicles(description, vehicle_track, frames);
+    VehicleNodes vehicles(description, vehicle_tracks, frames);
     addPeople(document, description, rows, frames, vehicles);
 
     OutputFile file(path);

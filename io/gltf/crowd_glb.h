@@ -3,8 +3,8 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <span>
 
+#include "io/gltf/vehicle_nodes.h"
 #include "io/streams/stream_set.h"
 #include "recording/bake_description.h"
 
@@ -19,7 +19,7 @@ struct GltfSummary {
 /// each person, at most `description.gltf_agents` of them, evenly chosen; fewer where the file would pass 2
 /// GiB. Memory stays bounded however long the bake. Throws OutputError and InputError.
 GltfSummary writeCrowdGlb(const std::filesystem::path& path, const recording::BakeDescription& description,
-                          const StreamSet& streams, std::span<const float> vehicles = {});
+                          const StreamSet& streams, const VehicleTracks& vehicles = {});
 
 /// Writes the terrain alone, as it lies in the scene: one mesh, below a node at the bake's origin. Throws
 /// OutputError.

@@ -218,6 +218,11 @@ void GlbDocument::addTurning(int node, int times, std::uint32_t frames) {
                addTrack(8, frames, TINYGLTF_COMPONENT_TYPE_SHORT, TINYGLTF_TYPE_VEC4), "LINEAR");
 }
 
+void GlbDocument::addSliding(int node, int times, std::uint32_t frames) {
+    addChannel(node, "translation", times,
+               addTrack(12, frames, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3), "LINEAR");
+}
+
 std::string GlbDocument::json() const {
     std::ostringstream stream;
     tinygltf::TinyGLTF writer;

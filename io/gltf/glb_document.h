@@ -54,6 +54,8 @@ class GlbDocument {
     int addPlacedNode(int parent, const std::string& name, int mesh, const std::array<double, 3>& place);
     /// Announces a track of a node's rotations, as those of addAnimatedNode().
     void addTurning(int node, int times, std::uint32_t frames);
+    /// Likewise of its translations.
+    void addSliding(int node, int times, std::uint32_t frames);
 
     /// Writes all up to the first track. Throws OutputError.
     void writeHead(OutputFile& file);

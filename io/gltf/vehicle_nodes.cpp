@@ -15,8 +15,9 @@
 namespace throng::io {
 namespace {
 
-constexpr int kSides = 16;             // of a wheel
-constexpr double kBicycleTyre = 0.04;  // m
+constexpr int kSides = 16;                                      // of a wheel
+constexpr double kBicycleTyre = 0.04;                           // m
+constexpr double kLeaf = 0.05, kDoorLow = 0.3, kDoorTop = 2.3;  // m: thick, and over the ground
 
 Mesh between(Mesh mesh, double low) {
     for (glm::vec3& position : mesh.positions)
@@ -104,12 +105,13 @@ Mesh cabinOf(const VehicleIdentity& vehicle) {
 
 }  // namespace
 
-VehicleNodes::VehicleNodes(const recording::BakeDescription& description, std::span<const float> track,
+VehicleNodes::VehicleNodes(const recording::BakeDescription& description, const VehicleTracks& tracks,
                            std::uint32_t frames)
-    : description_(description), track_(track), frames_(frames) {}
+    : description_(description), tracks_(tracks), frames_(frames) {}
 
 std::span<const float> VehicleNodes::at(std::uint32_t frame, std::size_t vehicle) const {
-    return track_.subspan((frame * description_.vehicles.size() + vehicle) * kVehicleFloats, kVehicleFloats);
+    return tracks_.places.subspan((frame * description_.vehicles.size() + vehicle) * kVehicleFloats,
+                                  kVehicleFloats);
 }
 
 void VehicleNodes::addMeshes(GlbDocument& document) {
@@ -130,6 +132,58 @@ void VehicleNodes::addMeshes(GlbDocument& document) {
         look.axle = add("axle", axleMesh(vehicle), tyre);
         looks_.push_back(std::move(look));
     }
+    if (tracks_.doors.empty()) return;
+    for (const DoorIdentity& doors : description_.doors)
+        if (!doors.at.empty()) leafMesh(document, doors.width);
+}
+
+int VehicleNodes::leafMesh(GlbDocument& document, double width) {
+    const auto known = std::ranges::find(leaves_, width, &std::pair<double, int>::first);
+    if (known != leaves_.end()) return known->second;
+    const double x = 0.245 * width, y = 0.5 * kLeaf;
+    const std::array<glm::dvec2, 4> outline{{{-x, -y}, {x, -y}, {x, y}, {-x, y}}};
+    const int material = document.addMaterial("door", colourFromHex(0x23282d), 0.3);
+    const Mesh mesh = between(closedWallMesh(outline, kDoorTop - kDoorLow), kDoorLow);
+    leaves_.emplace_back(width, document.addMesh("door", document.addGeometry(mesh), material));
+    return leaves_.back().second;
+}
+
+std::vector<VehicleNodes::Leaf> VehicleNodes::leavesOf(std::size_t vehicle) const {
+    std::vector<Leaf> leaves;
+    if (tracks_.doors.empty()) return leaves;
+    const VehicleIdentity& what = description_.vehicles[vehicle];
+    const DoorIdentity& doors = description_.doors.at(vehicle);
+    for (const DoorColumn side : {DoorColumn::left, DoorColumn::right}) {
+        const bool is_left = side == DoorColumn::left;
+        if (!(is_left ? doors.left : doors.right)) continue;
+        for (const double at : doors.at)
+            for (const double way : {-1.0, 1.0})
+                leaves.push_back({0.5 * what.length - at + 0.25 * way * doors.width,
+                                  (is_left ? 1.0 : -1.0) * (0.5 * what.width + kLeaf),
+                                  0.48 * way * doors.width, side, doors.width});
+    }
+    return leaves;
+}
+
+void VehicleNodes::addDoors(GlbDocument& document, int node, std::size_t vehicle, int times) {
+    for (const Leaf& leaf : leavesOf(vehicle)) {
+        const int door =
+            document.addPlacedNode(node, "door", leafMesh(document, leaf.width), {leaf.x, 0.0, -leaf.y});
+        document.addSliding(door, times, frames_);
+    }
+}
+
+void VehicleNodes::writeDoors(OutputFile& file, std::size_t vehicle) const {
+    for (const Leaf& leaf : leavesOf(vehicle)) {
+        std::vector<float> track;
+        for (std::uint32_t frame = 0; frame < frames_; ++frame) {
+            const std::size_t row = (frame * description_.vehicles.size() + vehicle) * kDoorFloats;
+            const double open = double{tracks_.doors[row + static_cast<std::size_t>(leaf.side)]};
+            track.insert(track.end(), {static_cast<float>(leaf.x + leaf.slides * open), 0.0f,
+                                       static_cast<float>(-leaf.y)});
+        }
+        file.write(std::as_bytes(std::span(track)));
+    }
 }
 
 const VehicleNodes::Look& VehicleNodes::lookOf(const VehicleIdentity& vehicle) const {
@@ -149,6 +203,7 @@ void VehicleNodes::addNodes(GlbDocument& document, int times) {
             const int axle = document.addPlacedNode(node, "axle", look.axle, {x, vehicle.wheel, 0.0});
             document.addTurning(axle, times, frames_);
         }
+        addDoors(document, node, i, times);
     }
 }
 
@@ -160,6 +215,7 @@ void VehicleNodes::writeTracks(OutputFile& file) const {
         writeScales(file, i);
         for (std::size_t axle = 0; axle < lookOf(description_.vehicles[i]).axles.size(); ++axle)
             writeRotations(file, i, true);
+        writeDoors(file, i);
     }
 }
 

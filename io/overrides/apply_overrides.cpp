@@ -14,6 +14,7 @@
 #include "base/files/output_file.h"
 #include "io/bake_copy.h"
 #include "io/bake_folder.h"
+#include "io/door_file.h"
 #include "io/gltf/crowd_glb.h"
 #include "io/gltf/terrain_file.h"
 #include "io/manifest.h"
@@ -213,9 +214,11 @@ class Application {
         const recording::BakeDescription description = describe();
         const std::vector<float> vehicles =
             source_.vehicles.empty() ? std::vector<float>() : readVehicles(source_);
-        const GltfSummary summary = writeCrowdGlb(
-            folder_.path() / "crowd.glb", description,
-            {folder_.path(), source_.streams, source_.formats, source_.frames, crowd_.rows()}, vehicles);
+        const std::vector<float> doors = source_.doors.empty() ? std::vector<float>() : readDoors(source_);
+        const GltfSummary summary =
+            writeCrowdGlb(folder_.path() / "crowd.glb", description,
+                          {folder_.path(), source_.streams, source_.formats, source_.frames, crowd_.rows()},
+                          {vehicles, doors});
         return {{"file", "crowd.glb"}, {"agents", summary.agents}, {"of", summary.of}};
     }
 
@@ -233,6 +236,7 @@ class Application {
         description.walls = source_.walls;
         description.traffic = source_.traffic;
         description.vehicles = source_.vehicles;
+        description.doors = source_.doors;
         const auto toWorld = [&](std::vector<glm::dvec2>& points) {
             for (glm::dvec2& point : points)
                 point += source_.origin;

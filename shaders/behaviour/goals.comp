@@ -66,7 +66,7 @@ Stage stageTo(vec2 point, uint field, BehaviourState doing) {
     stage.activity = doing.activity;
     stage.flags = 0u;
     stage.beyond = 0.0;
-    stage.reserved = 0u;
+    stage.board = 0u;
     return stage;
 }
 

@@ -100,6 +100,9 @@ void main() {
     if (slot >= live_count || isImage(walkers[slot].flags)) return;
     Body self = bodies[slot];
     Walker walker = walkers[slot];
+#ifdef DOORS
+    if ((walker.flags & WALKER_IN_DOORS) != 0u) walker.party_size = 1u;  // nobody waits for company in a door
+#endif
     vec2 wish = preferred_velocities[slot];
 #ifdef BELTS
     float allowed = RIDING_ENABLED ? paceOnBelt(self, walker, slot, length(wish)) : length(wish);
@@ -148,7 +151,7 @@ void main() {
 
     int hard = wallsAhead(self, walker, slot);
 #ifdef TRAFFIC
-    hard += vehiclesAhead(self, slot, hard);
+    hard += vehiclesAhead(self, slot, hard, (walker.flags & WALKER_IN_DOORS) != 0u);
 #endif
     int count = hard + kerbBeside(self, walker, hard);
     vec2 velocity = nearestAllowed(hard, count, self.maximum_speed, wanted);

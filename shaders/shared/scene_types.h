@@ -11,6 +11,7 @@ THRONG_SHARED_BEGIN
 const uint NO_INDEX = 0xffffffffu;
 
 const uint PERSON_KEEPS_TO_ROADS = 1u;    // steers back when pushed off the roads
+const uint PERSON_ALIGHTS = 2u;           // comes out of a vehicle
 const uint PERSON_PRESENT_AT_START = 4u;  // stands at spawn_position when the simulation begins
 const uint PERSON_FIXED_SPAWN = 8u;       // appears at spawn_position; otherwise at a point of its entry
 
@@ -51,7 +52,7 @@ struct Stage {
     uint activity;    // ACTIVITY_* of those who stop
     uint flags;       // STAGE_*
     float beyond;     // m of the shortest way from here to the end of the route
-    uint reserved;
+    uint board;       // where people wait to get on, and what (boarding_types.h); 0: they do not
 };
 const float DWELL_FOR_GOOD = 1.0e9f;
 

@@ -79,6 +79,7 @@ const uint WALKER_CHART_AT = 8u;          // where the byte begins that says on 
 const uint WALKER_RIDES = 0x10000u;       // it is on a belt, or about to step on
 const uint WALKER_IS_CARRIED = 0x20000u;  // it is on it
 const uint WALKER_HELD = 0x40000u;        // it waits before a red crossing
+const uint WALKER_IN_DOORS = 0x80000u;    // it gets on or off a vehicle
 const uint WALKER_CLIMBS = 0x100000u;     // it goes up stairs
 const uint WALKER_DESCENDS = 0x200000u;   // it goes down stairs
 const uint WALKER_AT_REST = 0x80000000u;  // it has come to rest where it waits

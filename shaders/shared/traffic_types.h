@@ -19,6 +19,7 @@ const uint VEHICLE_GONE = 3u;
 const uint STOP_AT_RED = 0u;
 const uint STOP_FOR_PEOPLE = 1u;  // before a crossing
 const uint STOP_FOR_TIME = 2u;
+const uint STOP_AT_PLATFORM = 3u;
 
 const uint NO_LIGHT = 0xffffffffu;
 const uint LIGHT_GREEN = 0u;
@@ -74,7 +75,7 @@ struct TrafficStop {
     float seconds;  // s
     uint kind;      // STOP_*
     uint light;     // index into the lights, or NO_LIGHT
-    uint crossing;  // index, of STOP_FOR_PEOPLE
+    uint crossing;  // index, of STOP_FOR_PEOPLE; of STOP_AT_PLATFORM the platform
 };
 
 struct TrafficCrossing {

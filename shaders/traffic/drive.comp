@@ -13,6 +13,12 @@ layout(std430) readonly buffer LanePoints { LanePoint lane_points[]; };
 layout(std430) readonly buffer TrafficStops { TrafficStop stops[]; };
 layout(std430) readonly buffer Lights { uint lights[]; };
 layout(std430) readonly buffer InTheWay { uint in_the_way[]; };
+#ifdef DOORS
+#include "shaders/shared/boarding_types.h"
+layout(std430) readonly buffer Platforms { Platform platforms[]; };
+layout(std430) readonly buffer VehicleServices { VehicleService services[]; };
+layout(std430) readonly buffer VehicleDoors { VehicleDoor vehicle_doors[]; };
+#endif
 uniform float now;  // s, at the start of the step
 
 #include "shaders/traffic/in_the_way.glsl"
@@ -60,8 +66,20 @@ void stopAt(inout Outlook outlook, Vehicle self, float to_line) {
     outlook.free = min(outlook.free, max(to_line, 0.0));
 }
 
+/// Whether a stop is one of its own: where all stand for a time, or a platform that it has doors for.
+bool standsAt(uint vehicle, uint stop) {
+#ifdef DOORS
+    if (stops[stop].kind == STOP_AT_PLATFORM) {
+        uint sides = platforms[stops[stop].crossing].side > 0.0 ? DOOR_ON_LEFT : DOOR_ON_RIGHT;
+        VehicleService service = services[vehicle];
+        return service.door_count > 0u && (vehicle_doors[service.first_door].sides & sides) != 0u;
+    }
+#endif
+    return stops[stop].kind == STOP_FOR_TIME;
+}
+
 bool stopsFor(Vehicle self, uint stop, float to_line) {
-    if (stops[stop].kind == STOP_FOR_TIME) return true;
+    if (stops[stop].kind == STOP_AT_PLATFORM) return false;
     if (stops[stop].kind == STOP_AT_RED)
         return lights[stops[stop].light] == LIGHT_RED && neededToStop(self, to_line) <= FIRM_BRAKING;
     uint people = in_the_way[atStop(stop)];
@@ -69,14 +87,15 @@ bool stopsFor(Vehicle self, uint stop, float to_line) {
                                            : people == SOMEBODY_COMES ? FIRM_BRAKING : -1.0);
 }
 
-void lookForStops(inout Outlook outlook, inout Vehicle self) {
+void lookForStops(inout Outlook outlook, inout Vehicle self, uint index) {
     uint end = lanes[self.lane].first_stop + lanes[self.lane].stop_count;
     while (self.next_stop < end && stops[self.next_stop].along < self.along - PASSED) ++self.next_stop;
     for (uint stop = self.next_stop; stop < end; ++stop) {
         float to_line = stops[stop].along - self.along;
         if (to_line > LOOK_FOR_STOPS) return;
-        if (stopsFor(self, stop, to_line)) stopAt(outlook, self, to_line);
-        if (stops[stop].kind == STOP_FOR_TIME) return;
+        bool stands = standsAt(index, stop);
+        if (stands || stopsFor(self, stop, to_line)) stopAt(outlook, self, to_line);
+        if (stands) return;
     }
 }
 
@@ -95,21 +114,22 @@ Outlook lookAhead(inout Vehicle self, uint index) {
         outlook.room = min(outlook.room, max(gap - FROM_BODIES, 0.0));
         outlook.free = min(outlook.free, outlook.room);
     }
-    lookForStops(outlook, self);
+    lookForStops(outlook, self, index);
     return outlook;
 }
 
 /// At a stop of its own: arrives, stands, and goes on. @returns whether it stands
-bool standAtStop(inout Vehicle self) {
+bool standAtStop(inout Vehicle self, uint index) {
     uint end = lanes[self.lane].first_stop + lanes[self.lane].stop_count;
     if (self.status == VEHICLE_STANDS && now >= self.stand_until) {
         self.status = VEHICLE_DRIVES;
         ++self.next_stop;
     }
-    if (self.status == VEHICLE_DRIVES && self.next_stop < end && stops[self.next_stop].kind == STOP_FOR_TIME &&
+    if (self.status == VEHICLE_DRIVES && self.next_stop < end && standsAt(index, self.next_stop) &&
         self.speed <= STANDING && abs(stops[self.next_stop].along - self.along) <= AT_LINE) {
         self.status = VEHICLE_STANDS;
         self.stand_until = now + stops[self.next_stop].seconds;
+        if (stops[self.next_stop].kind == STOP_AT_PLATFORM) self.stand_until = FAR;  // shaders/boarding/control.comp
     }
     return self.status == VEHICLE_STANDS;
 }
@@ -171,7 +191,7 @@ void main() {
         if (self.status == VEHICLE_TO_COME) {
             enter(self, i);
         } else if (isThere(self.status)) {
-            if (standAtStop(self)) {
+            if (standAtStop(self, i)) {
                 self.speed = 0.0;
                 self.acceleration = 0.0;
                 outlook.free = 0.0;

@@ -35,13 +35,16 @@ float beforeVehicle(Body self, VehicleBox box, float clearance, out vec3 constra
     return max(gap, 0.0);
 }
 
-/// Sets constraints from number `index` on. @returns how many
-int vehiclesAhead(Body self, uint slot, int index) {
+/// Sets constraints from number `index` on. @param in_doors it gets on or off. @returns how many
+int vehiclesAhead(Body self, uint slot, int index, bool in_doors) {
     int count = 0;
     float gaps[VEHICLE_CONSTRAINTS];
     for (uint i = 0u; i < VEHICLES; ++i) {
         VehicleBox box = vehicle_boxes[i];
         if (box.half_width <= 0.0) continue;
+#ifdef DOORS
+        if (in_doors && box.speed == 0.0) continue;  // shaders/motion/keep_off.comp sees to that one
+#endif
         vec2 outward;
         float away = distanceToBox(self.position, box.rear, box.front, box.half_width, outward);
         float width = halfWidth(self, slot, outward);

@@ -27,10 +27,26 @@ const float WIDEST = 1.3;           // m: half of it
 const float ABOUT_TO_STEP_ON = 1.0; // m
 const float PAST = 0.6;             // m: who is further from a lane and leaves it is no reason to wait
 
-void standInTheWay(uint lane, float along, float beside, float radius) {
+#ifdef DOORS
+#include "shaders/shared/boarding_types.h"
+layout(std430) readonly buffer Platforms { Platform platforms[]; };
+layout(std430) readonly buffer PlatformPoints { vec2 platform_points[]; };
+#include "shaders/traffic/platforms.glsl"
+const float ROOM_BESIDE_PLATFORMS = 0.05;  // m: who stands there knows what comes, and drivers that they do
+
+float roomBeside(vec2 place) {
+    for (uint i = 0u; i < PLATFORMS; ++i)
+        if (isOnPlatform(platforms[i], place)) return ROOM_BESIDE_PLATFORMS;
+    return ROOM_BESIDE;
+}
+#else
+float roomBeside(vec2 place) { return ROOM_BESIDE; }
+#endif
+
+void standInTheWay(uint lane, float along, float beside, float radius, float room) {
     for (uint i = 0u; i < VEHICLES; ++i) {
         if (vehicles[i].lane != lane || !isThere(vehicles[i].status)) continue;
-        if (along + radius <= vehicles[i].along || beside > vehicles[i].half_width + radius + ROOM_BESIDE)
+        if (along + radius <= vehicles[i].along || beside > vehicles[i].half_width + radius + room)
             continue;
         atomicMin(in_the_way[i], floatBitsToUint(max(along - radius, 0.0)));
     }
@@ -58,7 +74,8 @@ void main() {
         vec2 from_lane;
         float along = nearestAlongLane(lane, state.position, from_lane);
         float beside = length(from_lane);
-        if (beside <= WIDEST + radius + ROOM_BESIDE) standInTheWay(lane, along, beside, radius);
+        if (beside <= WIDEST + radius + ROOM_BESIDE)
+            standInTheWay(lane, along, beside, radius, roomBeside(state.position));
         uint first = lanes[lane].first_stop;
         for (uint stop = first; stop < first + lanes[lane].stop_count; ++stop)
             if (stops[stop].kind == STOP_FOR_PEOPLE) holdBeforeCrossing(stop, state, from_lane, radius);

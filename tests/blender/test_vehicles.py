@@ -12,22 +12,33 @@ from sample_bake import SMALL_CAST, write_bake
 HERE = pathlib.Path(__file__).resolve().parent
 ADDON = HERE.parent.parent / "blender_addon"
 FRAMES, SPEED, WHEEL = 48, 6.0, 0.32  # m/s, m
+DOORS, WIDTH, TRAM = (3.9, 11.1), 1.3, (40.0, 5.0)  # m: of a tram that stands there
+OPEN = {2: 0.0, 10: 0.0, 40: 1.0}  # its doors on the right, by the frames that are looked at
 
 
 @pytest.fixture(scope="module")
 def shown(blender, tmp_path_factory):
-    """A car that comes in frame 8 and drives north, and a light that turns green after a second."""
+    """A car that comes in frame 8 and drives north, a tram whose doors open, and a light that turns green after a
+    second."""
     folder = tmp_path_factory.mktemp("traffic") / "bake"
     write_bake(folder, agents=2, frames=FRAMES, **SMALL_CAST)
     manifest = json.loads((folder / "bake.json").read_text())
-    track = numpy.zeros((FRAMES, 1, 8), dtype=numpy.float32)
+    track = numpy.zeros((FRAMES, 2, 8), dtype=numpy.float32)
     for frame in range(8, FRAMES):
         along = SPEED * (frame - 8) / 24
         track[frame, 0] = (3.0, along - 2.25, 0.0, numpy.pi / 2, SPEED, along, 1.0, 0.0)
+    track[:, 1] = (*TRAM, 0.0, 0.0, 0.0, 14.0, 2.0, 0.0)
+    doors = numpy.zeros((FRAMES, 2, 5), dtype=numpy.float32)
+    doors[12:, 1, 1] = numpy.minimum(numpy.arange(FRAMES - 12) / 24, 1.0)
     numpy.save(folder / "vehicles.npy", track)
+    numpy.save(folder / "doors.npy", doors)
+    manifest["doors"] = {"file": "doors.npy", "columns": ["left", "right", "aboard", "boarded", "alighted"], "list": [
+        {"at": [], "width": 0, "left": False, "right": False, "capacity": 0},
+        {"at": DOORS, "width": WIDTH, "left": True, "right": True, "capacity": 100}]}
     manifest["vehicles"] = {
         "file": "vehicles.npy", "columns": ["x", "y", "z", "heading", "speed", "along", "state", "braking"],
-        "list": [{"flow": "cars", "kind": "car", "length": 4.5, "width": 1.8, "height": 1.5, "wheel": WHEEL}]}
+        "list": [{"flow": "cars", "kind": "car", "length": 4.5, "width": 1.8, "height": 1.5, "wheel": WHEEL},
+                 {"flow": "4", "kind": "tram", "length": 28.0, "width": 2.4, "height": 3.4, "wheel": 0.33}]}
     manifest.setdefault("geometry", {})["traffic"] = {
         "crossings": [{"id": "zebra", "polygon": [[1, 4], [5, 4], [5, 8], [1, 8]]}],
         "lanes": [{"id": "lane", "points": [[3, -30], [3, 30]], "width": 3.5,
@@ -62,3 +73,16 @@ def test_lamps_are_lit_as_the_signal_goes(shown):
     lamps = [shot["lamps"] for shot in shown[0]["shots"]]
     assert [lit["Throng red lamp"] for lit in lamps] == [True, True, False]
     assert [lit["Throng green lamp"] for lit in lamps] == [False, False, True]
+
+
+def test_doors_slide_open_on_the_side_where_the_bake_has_them_open(shown):
+    middles = numpy.array([TRAM[0] + 14.0 - at for at in DOORS])
+    for shot in shown[0]["shots"]:
+        leaves = numpy.array(shot["doors"])
+        assert len(leaves) == 8  # two a door, on both sides
+        right = leaves[leaves[:, 1] < TRAM[1]]
+        slid = abs(right[:, 0, None] - middles).min(axis=1)
+        assert slid == pytest.approx(0.48 * WIDTH * OPEN[shot["frame"]], abs=1e-3)
+        left = leaves[leaves[:, 1] > TRAM[1]]
+        assert abs(left[:, 0, None] - middles).min(axis=1) == pytest.approx(0.0, abs=1e-4)
+        assert left[:, 1] == pytest.approx(TRAM[1] + 1.2, abs=1e-4)

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "shaders/shared/behaviour_types.h"
+#include "shaders/shared/boarding_types.h"
 #include "shaders/shared/chart_types.h"
 #include "shaders/shared/lift_types.h"
 #include "shaders/shared/simulation_types.h"
@@ -56,7 +57,7 @@ std::map<std::string, Layout> layoutsInCpp() {
         using T = gpu::Stage;
         result["Stage"] = {sizeof(T),
                            {MEMBER(point), MEMBER(facing), MEMBER(tolerance), MEMBER(field), MEMBER(dwell),
-                            MEMBER(line), MEMBER(activity), MEMBER(flags), MEMBER(beyond), MEMBER(reserved)}};
+                            MEMBER(line), MEMBER(activity), MEMBER(flags), MEMBER(beyond), MEMBER(board)}};
     }
     {
         using T = gpu::Drawn;
@@ -282,6 +283,40 @@ std::map<std::string, Layout> layoutsInCpp() {
         using T = gpu::TrafficCrossing;
         result["TrafficCrossing"] = {
             sizeof(T), {MEMBER(first_point), MEMBER(point_count), MEMBER(light), MEMBER(entries)}};
+    }
+    {
+        using T = gpu::VehicleDoor;
+        result["VehicleDoor"] = {sizeof(T),
+                                 {MEMBER(behind), MEMBER(half_width), MEMBER(sides), MEMBER(reserved)}};
+    }
+    {
+        using T = gpu::DoorState;
+        result["DoorState"] = {sizeof(T), {MEMBER(next), MEMBER(waiting)}};
+    }
+    {
+        using T = gpu::VehicleService;
+        result["VehicleService"] = {
+            sizeof(T),
+            {MEMBER(first_door), MEMBER(door_count), MEMBER(first_call), MEMBER(call_count), MEMBER(line),
+             MEMBER(capacity), MEMBER(door_time), MEMBER(door_flow), MEMBER(phase), MEMBER(platform),
+             MEMBER(open), MEMBER(since), MEMBER(stood), MEMBER(aboard), MEMBER(boarded), MEMBER(alighted)}};
+    }
+    {
+        using T = gpu::Platform;
+        result["Platform"] = {sizeof(T),
+                              {MEMBER(side), MEMBER(least), MEMBER(most), MEMBER(stop), MEMBER(first_point),
+                               MEMBER(point_count)}};
+    }
+    {
+        using T = gpu::AlightingCall;
+        result["AlightingCall"] = {sizeof(T),
+                                   {MEMBER(vehicle), MEMBER(platform), MEMBER(first_row), MEMBER(row_count)}};
+    }
+    {
+        using T = gpu::DoorWishes;
+        result["DoorWishes"] = {sizeof(T),
+                                {MEMBER(coming_out), MEMBER(going_in), MEMBER(in_door), MEMBER(waiting),
+                                 MEMBER(first), MEMBER(deepest)}};
     }
     {
         using T = gpu::Parameters;

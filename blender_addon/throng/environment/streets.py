@@ -76,9 +76,9 @@ def build_streets(geometry):
         materials.mottled("paint", (0.42, 0.42, 0.40), (0.70, 0.70, 0.68), 3.0, 0.7, 30.0),
         materials.mottled("kerb", (0.30, 0.295, 0.285), (0.40, 0.395, 0.38), 2.0)))
     objects = []
-    for area in geometry.get("areas", []):
+    for i, area in enumerate(geometry.get("areas", [])):
         shape = Shape(f"Throng area {area.get('id', '')}")
-        shape.flat(counter_clockwise(area["polygon"]), AREA_Z,
+        shape.flat(counter_clockwise(area["polygon"]), AREA_Z - 0.0002 * (i % 16),  # areas may lie in each other
                    weathered(materials.slabs("plaza", (0.190, 0.175, 0.153), (0.115, 0.107, 0.096), 0.6)))
         objects.append(shape.to_object())
     junctions = _junctions(roads)

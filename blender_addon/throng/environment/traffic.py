@@ -6,7 +6,7 @@ import math
 import bpy
 import numpy
 
-from . import materials
+from . import materials, rails, vehicle_doors
 from .shapes import Shape, counter_clockwise, direction
 from .streets import MARK_Z, ROAD_Z
 from .tracks import fill, read_track
@@ -155,22 +155,24 @@ def build_traffic(collection, manifest, folder, frame_start, roads, terrain):
     objects += build_signals(traffic, float(manifest["fps"]), frame_start, int(manifest["frames"]))
     track = read_track(folder, manifest, "vehicles") if folder else None
     if track is not None:
-        objects += build_vehicles(manifest, track, frame_start)
+        objects += rails.build_rails(traffic, manifest, track) if roads and not terrain else []
+        objects += build_vehicles(manifest, track, frame_start, read_track(folder, manifest, "doors"))
     for thing in objects:
         collection.objects.link(thing)
 
 
-def build_vehicles(manifest, track, frame_start):
-    """All vehicles, with their axles, keyed."""
+def build_vehicles(manifest, track, frame_start, doors=None):
+    """All vehicles, with their axles and doors, keyed. @param doors what the bake tells of these, if anything"""
     bodies, axles, objects = {}, {}, []
     for number, what in enumerate(manifest["vehicles"]["list"]):
         there = numpy.flatnonzero(track[:, number, _STATE] > 0.0)
         if not len(there):
             continue
         kind = what["kind"]
-        look = (kind, number % 3 if kind == "car" else 0)
+        opening = vehicle_doors.opens(manifest, number) if doors is not None else None
+        look = (kind, number % 3 if kind == "car" else 0, what["flow"] if opening else "")
         if look not in bodies:
-            bodies[look] = body_of(kind, number)
+            bodies[look] = body_of(kind, number, what, opening)
         mesh, places = bodies[look]
         thing = bpy.data.objects.new(f"Throng {kind} {number}", mesh)
         frames = there + frame_start
@@ -181,6 +183,11 @@ def build_vehicles(manifest, track, frame_start):
         fill(thing, "rotation_euler", frames, turns)
         _hide_while_away(thing, frames, frame_start)
         objects.append(thing)
+        if opening:
+            leaves = vehicle_doors.leaves_of(thing, what, opening, doors[there, number], frames)
+            for leaf in leaves:
+                _hide_while_away(leaf, frames, frame_start)
+            objects += leaves
         for x, radius, half_track, broad in places:
             shape = (radius, half_track, broad)
             if shape not in axles:

@@ -3,15 +3,22 @@
 they cover. Cars are those of cars.py."""
 import math
 
-from . import cars, materials
+from . import cars, materials, vehicle_doors
 from .shapes import Shape
 
 _AXLE_SIDES = 18
 
 
-def body_of(kind, number):
+def body_of(kind, number, what=None, doors=None):
     """(mesh without wheels, axles) of the vehicle with a number; an axle is (x, radius of its wheels, half of how far
-    apart they are, how broad they are)."""
+    apart they are, how broad they are).
+
+    @param what, doors as the manifest has them, of one whose doors open
+    """
+    if doors:
+        shape = vehicle_doors.body_with(what, doors)
+        _ends(shape, 0.5 * what["length"], 0.5 * what["width"], 1.05, 2.7)
+        return shape.to_mesh(), vehicle_doors.axles_of(kind)
     if kind == "bus":
         return _bus(), ((3.35, 0.48, 1.20, 0.28), (-2.85, 0.48, 1.20, 0.28))
     if kind == "tram":
