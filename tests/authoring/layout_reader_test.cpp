@@ -285,10 +285,13 @@ TEST(LayoutReader, ExplainsWhatIsWrongWithStopsAndEvents) {
                 "all weights are zero");
 }
 
-TEST(LayoutReader, WantsExactlyOneOfCountAndRate) {
+TEST(LayoutReader, WantsExactlyOneWayOfComingIn) {
     const std::string flow = R"( "flows": [{"id": "f", "from": "a", "to": "b")";
-    expectError(kTwoAreas + flow + "}]}", 4, 12, "/flows/0", "has neither");
-    expectError(kTwoAreas + flow + R"(, "count": 1, "rate": 1}]})", 4, 12, "/flows/0", "has both");
+    expectError(kTwoAreas + flow + "}]}", 4, 12, "/flows/0", "has none");
+    expectError(kTwoAreas + flow + R"(, "count": 1, "rate": 1}]})", 4, 12, "/flows/0",
+                "has `count` and `rate`");
+    expectError(kTwoAreas + flow + R"(, "gaps": 2, "times": [1]}]})", 4, 12, "/flows/0",
+                "has `gaps` and `times`");
     expectError(kTwoAreas + flow + R"(, "count": 1, "start": 5, "end": 3}]})", 4, 79, "/flows/0/end",
                 "ends (3 s) before it starts (5 s)");
     expectError(kTwoAreas + flow + R"(, "count": 1, "start": 5, "end": 5}]})", 4, 79, "/flows/0/end",

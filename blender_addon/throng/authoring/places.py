@@ -174,12 +174,15 @@ def take_flow(flow, world):
     if not flow.name and not isinstance(raw.get("id"), str):
         del result["id"]
         result.update({"id": raw["id"]} if "id" in raw else {})
+    if result.get("from") == "" and "alight" in result:
+        del result["from"]
     return without_goal(result, "to")
 
 
 def without_goal(entry, key):
-    """A behaviour stands in place of where people go, if that has not been chosen."""
-    return {name: value for name, value in entry.items() if name != key or value != "" or "behaviour" not in entry}
+    """A behaviour, or what people get on, stands in place of where they go, if that has not been chosen."""
+    told = "behaviour" in entry or "board" in entry
+    return {name: value for name, value in entry.items() if name != key or value != "" or not told}
 
 
 _GO_TO = Destination("go_to", "destination")
