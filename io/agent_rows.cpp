@@ -15,7 +15,8 @@
 namespace throng::io {
 namespace {
 
-constexpr double kLargest = 1000.0;  // m: radius, of whatever stands for a person
+constexpr std::size_t kFirstLine = 2;  // that has a person
+constexpr double kLargest = 1000.0;    // m: radius, of whatever stands for a person
 
 class Columns {
   public:
@@ -25,6 +26,8 @@ class Columns {
             if (found == names.end()) throw InputError(path, fmt::format("has no column `{}`", kNames[i]));
             at_[i] = static_cast<std::size_t>(found - names.begin());
         }
+        if (const auto found = std::ranges::find(names, "party"); found != names.end())
+            party_at_ = static_cast<std::size_t>(found - names.begin());
         for (std::size_t i = 0; i < kSides.size(); ++i)
             if (const auto found = std::ranges::find(names, kSides[i]); found != names.end())
                 side_at_[i] = static_cast<std::size_t>(found - names.begin());
@@ -38,8 +41,7 @@ class Columns {
         outcome,
         goal_x,
         goal_y,
-        shortest_way,
-        party
+        shortest_way
     };
 
     AgentRow row(const std::vector<std::string>& fields, std::size_t line, glm::dvec2 origin) const {
@@ -54,7 +56,7 @@ class Columns {
         result.preferred_speed = static_cast<float>(number(fields, preferred_speed, line));
         result.outcome = text(fields, outcome, line);
         result.shortest_way = number(fields, shortest_way, line);
-        result.party = static_cast<std::uint32_t>(std::clamp(number(fields, party, line), 0.0, 4294967295.0));
+        result.party = party(fields, line);
         for (const auto& [name, frame] :
              {std::pair{spawn_frame, &result.spawn_frame}, std::pair{arrival_frame, &result.arrival_frame}})
             if (!text(fields, name, line).empty())
@@ -65,9 +67,9 @@ class Columns {
     }
 
   private:
-    static constexpr std::array kNames = {"group",         "radius",  "preferred_speed", "spawn_frame",
-                                          "arrival_frame", "outcome", "goal_x",          "goal_y",
-                                          "shortest_way",  "party"};
+    static constexpr std::array kNames = {"group",       "radius",        "preferred_speed",
+                                          "spawn_frame", "arrival_frame", "outcome",
+                                          "goal_x",      "goal_y",        "shortest_way"};
 
     static constexpr std::array kSides = {"breadth", "depth"};
 
@@ -80,6 +82,15 @@ class Columns {
             throw InputError(path_, fmt::format("line {}: `{}` is no `{}` of a body", line,
                                                 fields[*side_at_[which]], kSides[which]));
         return *value;
+    }
+
+    /// Without that column, everybody is alone.
+    std::uint32_t party(const std::vector<std::string>& fields, std::size_t line) const {
+        if (!party_at_) return static_cast<std::uint32_t>(line - kFirstLine);
+        const std::optional<double> first =
+            *party_at_ < fields.size() ? finiteNumber(fields[*party_at_]) : std::nullopt;
+        if (!first) throw InputError(path_, fmt::format("line {}: expected a row under `party`", line));
+        return static_cast<std::uint32_t>(std::clamp(*first, 0.0, 4294967295.0));
     }
 
     const std::string& text(const std::vector<std::string>& fields, Name name, std::size_t line) const {
@@ -99,6 +110,7 @@ class Columns {
     const std::filesystem::path& path_;
     std::array<std::size_t, kNames.size()> at_{};
     std::array<std::optional<std::size_t>, 2> side_at_{};  ///< bakes of discs have none
+    std::optional<std::size_t> party_at_;
 };
 
 }  // namespace
@@ -111,7 +123,7 @@ std::vector<AgentRow> loadAgentRows(const Bake& bake) {
     const Columns columns(path, fields);
     std::vector<AgentRow> rows;
     while (table.next(fields))
-        rows.push_back(columns.row(fields, rows.size() + 2, bake.origin));
+        rows.push_back(columns.row(fields, rows.size() + kFirstLine, bake.origin));
     if (rows.size() != bake.agents)
         throw InputError(path, fmt::format("has {} people where bake.json has {}", rows.size(), bake.agents));
     return rows;

@@ -72,8 +72,11 @@ void AttentionTrack::turnTo(const Onlooker& self, Target target, std::uint32_t a
 
 bool AttentionTrack::sees(const Onlooker& self, glm::dvec2 place) const {
     if (walls_.empty()) return true;
+    // What is in a wall, as a shop window is, is seen from before it.
+    constexpr double kBefore = 0.5;  // m
+    const double away = glm::distance(self.place, place);
     walls_.standAt(self.height);
-    return !walls_.crosses(self.place, place);
+    return away <= kBefore || !walls_.crosses(self.place, glm::mix(place, self.place, kBefore / away));
 }
 
 void AttentionTrack::decide(std::uint32_t index) {

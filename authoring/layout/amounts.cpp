@@ -7,7 +7,21 @@
 namespace throng::authoring {
 namespace {
 
-/// As if nothing were clamped but this.
+/// How often `count` of them come: once, or with each vehicle that they get off.
+double callsOf(const Flow& flow, const Layout& layout, double warmup) {
+    if (!flow.alights) return 1.0;
+    double calls = 0.0;
+    for (const std::size_t line : flow.alights->lines) {
+        const VehicleFlow& vehicles = layout.traffic.vehicles[line];
+        const double before = vehicles.start == 0.0 ? warmup : 0.0;
+        calls += vehicles.rate ? *vehicles.rate * (vehicles.end - vehicles.start + before)
+                               : static_cast<double>(vehicles.times.size());
+    }
+    return calls;
+}
+
+}  // namespace
+
 double meanOf(const Distribution& drawn) {
     if (drawn.kind == Distribution::Kind::uniform) return 0.5 * (drawn.minimum + drawn.maximum);
     const double mean = drawn.kind == Distribution::Kind::log_normal
@@ -16,24 +30,10 @@ double meanOf(const Distribution& drawn) {
     return std::clamp(mean, drawn.minimum, drawn.maximum);
 }
 
-/// How often `count` of them come: once, or with each vehicle that they get off.
-double callsOf(const Flow& flow, const Layout& layout) {
-    if (!flow.alights) return 1.0;
-    double calls = 0.0;
-    for (const std::size_t line : flow.alights->lines) {
-        const VehicleFlow& vehicles = layout.traffic.vehicles[line];
-        calls += vehicles.rate ? *vehicles.rate * (vehicles.end - vehicles.start)
-                               : static_cast<double>(vehicles.times.size());
-    }
-    return calls;
-}
-
-}  // namespace
-
 double peopleIn(const Flow& flow, const Layout& layout, double warmup) {
-    if (flow.count) return callsOf(flow, layout) * static_cast<double>(*flow.count);
+    if (flow.count) return callsOf(flow, layout, warmup) * static_cast<double>(*flow.count);
     if (!flow.times.empty()) return static_cast<double>(flow.times.size());
-    const double seconds = std::max(0.0, flow.end - flow.start + warmup);
+    const double seconds = std::max(0.0, flow.end - flow.start + (flow.start == 0.0 ? warmup : 0.0));
     if (flow.gaps) return seconds / std::max(meanOf(*flow.gaps), kLeastGap);
     return flow.rate.value_or(0.0) * seconds;
 }

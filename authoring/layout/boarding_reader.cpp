@@ -191,7 +191,11 @@ void BoardingReader::readLines(const JsonNode& list, AtPlatform& at) const {
     for (const JsonNode& item : list.items) {
         const auto found = std::ranges::find(vehicles, item.text, &VehicleFlow::id);
         if (item.kind == JsonNode::Kind::text && found != vehicles.end() && callsOn(*found, at)) {
-            at.lines.push_back(static_cast<std::size_t>(found - vehicles.begin()));
+            const auto line = static_cast<std::size_t>(found - vehicles.begin());
+            if (std::ranges::find(at.lines, line) != at.lines.end())
+                diagnostics_.error(item.where, fmt::format("`{}` is named twice", item.text));
+            else
+                at.lines.push_back(line);
             continue;
         }
         const std::string& stop = layout_.traffic.lanes[at.lane].stops[at.stop].platform->id;

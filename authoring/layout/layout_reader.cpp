@@ -407,9 +407,24 @@ class Reader {
         if (gaps && flow.gaps->maximum <= 0.0)
             diagnostics_.error(gaps->where, "`gaps` of 0 s: everybody would come at once",
                                "for people who come together write a formation");
+        if (times)
+            for (const char* key : {"start", "end"})
+                if (const JsonNode* also = node.find(key))
+                    diagnostics_.error(also->where,
+                                       fmt::format("people come at their `times`: `{}` has no meaning", key),
+                                       fmt::format("leave `{}` out", key));
+        if (times && times->items.empty())
+            diagnostics_.error(times->where, "expected one moment or more, in seconds",
+                               "for example [0, 2.5, 7]");
         const Limits limits = reader.rule("times").item().limits();
         eachOf(reader, "times", [&](const JsonNode& item) {
-            if (const auto time = numberOf(item, limits, diagnostics_)) flow.times.push_back(*time);
+            const auto time = numberOf(item, limits, diagnostics_);
+            if (time && *time < -layout_.simulation.warmup)
+                diagnostics_.error(item.where,
+                                   fmt::format("{:.6g} s is before everything begins, at {:.6g} s", *time,
+                                               0.0 - layout_.simulation.warmup),
+                                   "raise simulation.warmup");
+            if (time) flow.times.push_back(*time);
         });
         std::ranges::sort(flow.times);
     }
@@ -670,7 +685,7 @@ class Reader {
         double people = 0.0;
         double largest = 0.0;
         for (const Flow& flow : layout_.flows) {
-            people += peopleIn(flow, layout_);
+            people += peopleIn(flow, layout_, layout_.simulation.warmup);
             largest = std::max(largest, flow.people.largestRadius());
         }
         for (const Formation& formation : layout_.formations) {
@@ -713,7 +728,8 @@ class Reader {
         };
         double plans = 0.0;
         for (const Flow& flow : layout_.flows)
-            plans += (1.0 + static_cast<double>(flow.via.size()) + sent(flow.id)) * peopleIn(flow, layout_);
+            plans += (1.0 + static_cast<double>(flow.via.size()) + sent(flow.id)) *
+                     peopleIn(flow, layout_, layout_.simulation.warmup);
         for (const Formation& formation : layout_.formations)
             plans += (1.0 + sent(formation.id)) * peopleIn(formation);
         if (!diagnostics_.hasErrors())

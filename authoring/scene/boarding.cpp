@@ -71,7 +71,8 @@ class Checker {
             if (flow.lane != lane || !flow.doors) continue;
             served = true;
             checkDoors(flow, lane, stop);
-            const double needed = 2.0 * flow.doors->time + 2.0;
+            constexpr double kLetsThrough = 2.0;  // s: for one person
+            const double needed = 2.0 * flow.doors->time + double{gpu::CLEARING} + kLetsThrough;
             if (stop.platform->most < needed)
                 diagnostics_.error(
                     stop.where,

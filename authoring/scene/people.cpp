@@ -80,15 +80,16 @@ std::vector<Party> drawParties(const People& people, const GroupRandom& random,
     return result;
 }
 
-void splitEvery(std::uint64_t count, std::vector<Party>& parties) {
+std::vector<Party> splitWhere(const std::vector<Party>& parties,
+                              const std::function<bool(std::uint64_t)>& begins) {
     std::vector<Party> split;
     for (const Party& party : parties)
         for (std::uint64_t i = party.first; i < party.first + party.size; ++i)
-            if (i == party.first || i % count == 0)
+            if (i == party.first || begins(i))
                 split.push_back({i, 1});
             else
                 ++split.back().size;
-    parties = std::move(split);
+    return split;
 }
 
 void walkTogether(std::span<gpu::Person> party) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -30,8 +31,9 @@ std::vector<Party> drawParties(const People& people, const GroupRandom& random, 
 /// The same for people who stand somewhere: only neighbours walk together.
 std::vector<Party> drawParties(const People& people, const GroupRandom& random,
                                const std::vector<glm::dvec2>& positions);
-/// No party goes over the end of so many people.
-void splitEvery(std::uint64_t count, std::vector<Party>& parties);
+/// Parties that end where a person begins another one. @param begins asked of nobody's first
+std::vector<Party> splitWhere(const std::vector<Party>& parties,
+                              const std::function<bool(std::uint64_t)>& begins);
 /// Walks together: everybody as fast as the party, which is slower the larger it is.
 void walkTogether(std::span<gpu::Person> party);
 

@@ -103,6 +103,7 @@ class SceneAssembly {
         buildGeometry();
         if (diagnostics_.hasErrors()) return std::nullopt;
         scene_.traffic = buildTraffic(layout_, rebase_, diagnostics_);
+        if (diagnostics_.hasErrors()) return std::nullopt;
         addCalls(layout_, scene_.queues, scene_.traffic);
         buildTerrain();
         if (terrain_mesh_ && layout_.terrain && !scene_.terrain) return std::nullopt;
@@ -223,7 +224,10 @@ class SceneAssembly {
                          : entryTimes(flow, changes, random, layout_.simulation.warmup, end);
         beginGroup(flow.id, true, flow.people);
         std::vector<Party> parties = drawParties(flow.people, random, times.size());
-        if (flow.alights) splitEvery(std::max<std::uint64_t>(flow.count.value_or(0), 1), parties);
+        if (flow.alights) {
+            const std::uint64_t each = std::max<std::uint64_t>(flow.count.value_or(0), 1);
+            parties = splitWhere(parties, [&](std::uint64_t i) { return i % each == 0; });
+        }
         for (const Party& party : parties) {
             for (std::uint64_t i = party.first; i < party.first + party.size; ++i) {
                 gpu::Person person = drawPerson(flow.people, random, i, group());
@@ -241,7 +245,11 @@ class SceneAssembly {
         const FormationPlaces places = formationPlaces(formation, layout_.simulation.seed);
         const auto* list = std::get_if<ListFormation>(&formation.shape);
         beginGroup(formation.id, false, formation.people);
-        for (const Party& party : drawParties(formation.people, random, places.positions)) {
+        std::vector<Party> parties = drawParties(formation.people, random, places.positions);
+        if (list)  // nobody waits for company that comes later or goes another way
+            parties = splitWhere(
+                parties, [&](std::uint64_t i) { return !goAlike(list->agents[i - 1], list->agents[i]); });
+        for (const Party& party : parties) {
             for (std::uint64_t i = party.first; i < party.first + party.size; ++i) {
                 gpu::Person person = drawPerson(formation.people, random, i, group());
                 if (list) overrideListed(list->agents[i], person);
@@ -283,6 +291,12 @@ class SceneAssembly {
     static std::span<const Waypoint> wayOf(const Formation& formation, std::uint64_t i) {
         const ListedAgent* agent = listed(formation, i);
         return agent ? std::span<const Waypoint>(agent->via) : std::span<const Waypoint>();
+    }
+
+    static bool goAlike(const ListedAgent& a, const ListedAgent& b) {
+        return a.start == b.start && a.wait == b.wait &&
+               std::ranges::equal(a.via, b.via, {}, &Waypoint::point, &Waypoint::point) &&
+               std::ranges::equal(a.via, b.via, {}, &Waypoint::wait, &Waypoint::wait);
     }
 
     static void overrideListed(const ListedAgent& agent, gpu::Person& person) {
@@ -578,7 +592,7 @@ class SceneAssembly {
                 person.stage_count += itineraries.appendStages(journey, random, traveller);
                 const std::uint32_t field = scene_.stages.back().field & ~gpu::FIELD_THEN_POINT;
                 if (routes.reachable(field, person.spawn_position) == kUnreachable)
-                    complain(formation, i, "cannot reach its goal", "look for walls all round it");
+                    complain(i, "cannot reach its goal", "look for walls all round it");
             } else {
                 addWay(formation, i, rebase_.local(goalOf(formation, places, i, traveller.leader)), routes,
                        person);
@@ -586,7 +600,7 @@ class SceneAssembly {
             scene_.goals.push_back(scene_.stages.back().point);
             const std::size_t first = scene_.stages.size() - 1 - wayOf(formation, i).size();
             turn(formation, i, scene_.stages[first], routes, person);
-            checkStart(formation, i, start, person, bodies);
+            checkStart(i, start, person, bodies);
             addChanges(formation.id, formation.people, formation.where,
                        {{person.spawn_position, person.spawn_position, person.spawn_position}}, random, i,
                        index, person, itineraries);
@@ -615,22 +629,19 @@ class SceneAssembly {
                shape.thickness - wall.half_thickness;
     }
 
-    void checkStart(const Formation& formation, std::uint64_t i, double start, const gpu::Person& person,
-                    const PlacedBodies& bodies) {
+    void checkStart(std::uint64_t i, double start, const gpu::Person& person, const PlacedBodies& bodies) {
         if (const float depth = depthInWalls(person); depth > 0.0f)
-            complain(formation, i, "stands in a wall", "move it, or the wall",
-                     fmt::format(" ({:.2f} m deep)", depth));
+            complain(i, "stands in a wall", "move it, or the wall", fmt::format(" ({:.2f} m deep)", depth));
         if (start == 0.0)
             for (const gpu::WallSegment& gate : closed_gates_)
                 if (wallGap(shapeOf(person), gate) < 0.0) {
-                    complain(formation, i,
-                             fmt::format("stands in the closed gate `{}`", layout_.walls[gate.wall].id),
+                    complain(i, fmt::format("stands in the closed gate `{}`", layout_.walls[gate.wall].id),
                              "move it, or open the gate at the start");
                     break;
                 }
         if (!bodies.hasRoom(person))
             complain(
-                formation, i,
+                i,
                 "starts where somebody else stands: it comes in once there is room, or is refused in the end",
                 "move it, by both bodies' radii or more", "", Severity::warning);
     }
@@ -694,32 +705,33 @@ class SceneAssembly {
     void addWay(const Formation& formation, std::uint64_t i, glm::vec2 goal, Routes& routes,
                 gpu::Person& person) {
         glm::vec2 from = person.spawn_position;
-        const auto goOn = [&](glm::vec2 to, float dwell) {
+        const auto goOn = [&](glm::vec2 to, float dwell, const Waypoint* waypoint) {
             gpu::Stage stage = pointStage(to, static_cast<float>(formation.goal_tolerance));
             stage.dwell = dwell;
-            findWay(formation, i, person, from, routes, stage);
+            findWay(formation, i, waypoint, person, from, routes, stage);
             scene_.stages.push_back(stage);
             ++person.stage_count;
             from = to;
         };
         for (const Waypoint& waypoint : wayOf(formation, i))
-            goOn(rebase_.local(waypoint.point), static_cast<float>(waypoint.wait));
-        goOn(goal, formation.arrival == Arrival::stay ? gpu::DWELL_FOR_GOOD : 0.0f);
+            goOn(rebase_.local(waypoint.point), static_cast<float>(waypoint.wait), &waypoint);
+        goOn(goal, formation.arrival == Arrival::stay ? gpu::DWELL_FOR_GOOD : 0.0f, nullptr);
         const auto* grid = std::get_if<GridFormation>(&formation.shape);
         if (grid && std::holds_alternative<Extent>(grid->goal))
             scene_.stages.back().flags |= gpu::STAGE_ANYWHERE;
     }
 
     /// By which field somebody goes from one place to that of a stage, where there are walls.
-    void findWay(const Formation& formation, std::uint64_t i, const gpu::Person& person, glm::vec2 from,
-                 Routes& routes, gpu::Stage& stage) {
+    /// @param waypoint null: it is the goal
+    void findWay(const Formation& formation, std::uint64_t i, const Waypoint* waypoint,
+                 const gpu::Person& person, glm::vec2 from, Routes& routes, gpu::Stage& stage) {
         const glm::vec2 goal = stage.point;
         if (geometry_.walls.empty()) return;
         if (const auto near = whyUnattainable(formation, person, goal)) {
-            complain(formation, i, "has its goal in a wall",
+            complain(i, waypoint ? "has a place of its way in a wall" : "has its goal in a wall",
                      near->empty() ? "move the goal, or the wall"
                                    : "move the goal, or the wall, or raise `goal_tolerance`",
-                     *near);
+                     *near, Severity::error, waypoint);
             return;
         }
         // Even where the straight way is clear, others may push somebody round a corner on the way.
@@ -731,7 +743,8 @@ class SceneAssembly {
         }
         if (routes.reachable(field, from) == kUnreachable) {
             if (!clear)
-                complain(formation, i, "cannot reach its goal", "there is a wall all round one of the two");
+                complain(i, waypoint ? "cannot reach a place of its way" : "cannot reach its goal",
+                         "there is a wall all round one of the two", "", Severity::error, waypoint);
             return;
         }
         stage.field = field | gpu::FIELD_THEN_POINT;
@@ -766,14 +779,16 @@ class SceneAssembly {
         std::string what, hint, detail;
         Severity severity = Severity::error;
         std::uint64_t first = 0, count = 0;
+        const Waypoint* waypoint = nullptr;  // that it is about
     };
 
-    void complain(const Formation&, std::uint64_t i, const std::string& what, const std::string& hint,
-                  const std::string& detail = "", Severity severity = Severity::error) {
+    void complain(std::uint64_t i, const std::string& what, const std::string& hint,
+                  const std::string& detail = "", Severity severity = Severity::error,
+                  const Waypoint* waypoint = nullptr) {
         const auto known = std::find_if(complaints_.begin(), complaints_.end(),
                                         [&](const Complaint& complaint) { return complaint.what == what; });
         if (known == complaints_.end())
-            complaints_.push_back({what, hint, detail, severity, i, 1});
+            complaints_.push_back({what, hint, detail, severity, i, 1, waypoint});
         else
             ++known->count;
     }
@@ -781,7 +796,9 @@ class SceneAssembly {
     void reportComplaints(const Formation& formation) {
         const auto* list = std::get_if<ListFormation>(&formation.shape);
         for (const Complaint& complaint : complaints_) {
-            const SourcePosition& where = list ? list->agents[complaint.first].where : formation.where;
+            const SourcePosition& where = complaint.waypoint ? complaint.waypoint->where
+                                          : list             ? list->agents[complaint.first].where
+                                                             : formation.where;
             std::string text = fmt::format("formation `{}`: person {} {}{}", formation.id, complaint.first,
                                            complaint.what, complaint.detail);
             if (complaint.count > 1)

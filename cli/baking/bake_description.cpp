@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 #include <tuple>
 
+#include "authoring/layout/amounts.h"
 #include "authoring/layout/layout_reader.h"
 #include "authoring/scene/audience.h"
 #include "authoring/scene/terrain_check.h"
@@ -81,7 +82,8 @@ recording::EyeCatcher cheering(const authoring::Show& show, const authoring::Sea
     for (const glm::dvec2 point : block.front)
         middle += point / static_cast<double>(block.front.size());
     const double height = block.height + depth * block.rise;
-    return {middle, height, 1.0, kCarries, show.at.mean, show.at.mean + show.lasts.mean, true, true};
+    const double begin = authoring::meanOf(show.at);
+    return {middle, height, 1.0, kCarries, begin, begin + authoring::meanOf(show.lasts), true, true};
 }
 
 /// What draws eyes, by the layout's order; then audiences that cheer.

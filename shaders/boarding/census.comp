@@ -128,7 +128,8 @@ void main() {
     if (row >= parameters.row_count) return;
     AgentState state = states[row];
     uint passenger = passengers[row];
-    if (!isAlive(state.status))
+    bool is_gone = phaseOf(passenger) != PASSENGER_NONE && services[vehicleOf(passenger)].platform == NO_INDEX;
+    if (!isAlive(state.status) || is_gone)  // or the vehicle is
         passenger = PASSENGER_NONE;
     else if (phaseOf(passenger) == PASSENGER_ALIGHTS)
         passenger = getsOff(passenger, row, state);

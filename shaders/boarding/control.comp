@@ -36,7 +36,6 @@ const float BEHIND = 0.1;       // m, one behind the other
 const float COMES_OUT = 0.8;    // m/s
 const float BESIDE_MIDDLE = 0.2;  // m: people take the left and the right of a door in turn
 const float WAITS_FOR = 5.0;    // m: drivers wait for whoever is nearer than this
-const float CLEARING = 2.0;     // s: so long before doors have to close, nobody more is let through
 
 void enter(inout VehicleService service, uint phase) {
     service.phase = phase;
@@ -96,7 +95,9 @@ bool askIn(VehicleService service, DoorWishes wishes, inout uint going_in) {
 }
 
 /// Lets people through all doors on the platform's side, each as fast as it lets them.
-void letThrough(inout VehicleService service, uint vehicle, uint going_in) {
+/// @returns whether somebody has been let out or asked in, whom nobody has counted yet
+bool letThrough(inout VehicleService service, uint vehicle, uint going_in) {
+    bool anybody = false;
     float side = platforms[service.platform].side;
     for (uint i = 0u; i < service.door_count; ++i) {
         uint door = service.first_door + i;
@@ -107,7 +108,9 @@ void letThrough(inout VehicleService service, uint vehicle, uint going_in) {
         bool through = somebody_gets_off ? letOut(service, vehicle, i, door_wishes[door], doorway)
                                          : askIn(service, door_wishes[door], going_in);
         if (through) door_states[door].next = now + 1.0 / service.door_flow;
+        anybody = anybody || through;
     }
+    return anybody;
 }
 
 /// All doors of a vehicle together.
@@ -133,7 +136,7 @@ void standOpen(inout VehicleService service, uint vehicle) {
     DoorWishes all = countedAt(service);
     float latest = platform.most - service.door_time;
     if (service.phase == DOORS_ARE_OPEN && service.stood >= latest - CLEARING) enter(service, DOORS_LET_THROUGH);
-    if (service.phase == DOORS_ARE_OPEN) letThrough(service, vehicle, all.going_in);
+    if (service.phase == DOORS_ARE_OPEN && letThrough(service, vehicle, all.going_in)) return;
     uint call;
     bool has_room = service.aboard + all.going_in < service.capacity;
     bool wanted = nextToGetOff(service, call) != NO_INDEX || (isNear(all) && has_room);

@@ -8,7 +8,6 @@
 THRONG_SHARED_BEGIN
 
 const uint BOARDING_GROUP_SIZE = 64u;  // one group decides for all vehicles
-const uint MOST_DOORS = 16u;           // of one vehicle
 const uint MOST_PLATFORMS = 255u;      // in one bake
 const uint MOST_LINES = 24u;           // flows of vehicles with doors: bits of a word beside the platform
 
@@ -17,6 +16,7 @@ const uint DOORS_OPEN_UP = 1u;
 const uint DOORS_ARE_OPEN = 2u;
 const uint DOORS_LET_THROUGH = 3u;  // who is between them, and nobody else
 const uint DOORS_CLOSE = 4u;
+const float CLEARING = 2.0f;  // s: so long before doors have to close, nobody more is let through
 
 /// One door of one vehicle.
 struct VehicleDoor {

@@ -142,13 +142,29 @@ def test_a_bus_has_doors_on_the_right_and_cars_drive_past(throng, tmp_path):
     assert not (baked.vehicles[:, 1, STATE] == 2).any() and not baked.doors[:, 1].any()
 
 
-def test_a_bake_goes_on_to_the_same_bytes(throng, tmp_path):
-    layout = stop(24, board=20, alight=12)
-    layout["flows"][1]["people"] = {"body": "adult", "groups": "leisure"}
-    whole = bake(throng, tmp_path / "whole", layout)
-    parts = bake(throng, tmp_path / "parts", layout, "--checkpoint", "0.001")
-    for name in ("doors.npy", "vehicles.npy", "streams/pos.npy", "agents.csv"):
-        assert (whole / name).read_bytes() == (parts / name).read_bytes()
+SLOW = {"doors": {"flow": 0.3, "at": [3.9], "time": 0.5}}
+
+
+def test_doors_wait_for_the_last_who_gets_off(throng, tmp_path):
+    layout = stop(30, alight=3, dwell=(4, 40), tram=SLOW)
+    del layout["flows"][0]
+    found = Baked(throng, bake(throng, tmp_path, layout))
+    call = found.figures["calls"][0]
+    assert call["alighted"] == 3 and found.figures["run_over"] == 0
+
+
+def test_a_call_ends_with_its_vehicle(throng, tmp_path):
+    """Who was not clear of the doors when they shut does not hold them at the next stop, on the other side."""
+    stops = [{"id": "market", "at": [14, 0], "platform": "platform", "dwell": [4, 9]},
+             {"id": "park", "at": [90, 0], "platform": "island", "dwell": [10, 30]}]
+    layout = stop(75, alight=3, tram=SLOW)
+    layout["areas"].append({"id": "island", "polygon": box(60, 1.3, 95, 6)})
+    layout["lanes"] = [{"id": "rails", "points": [[-70, 0], [200, 0]], "speed": 11, "stops": stops}]
+    layout["flows"][0] = {"id": "on", "from": "island", "board": "park", "count": 5, "end": 5}
+    found = Baked(throng, bake(throng, tmp_path, layout))
+    calls = found.figures["calls"]
+    assert [call["boarded"] for call in calls] == [0, 5] and calls[1]["dwell"] < 28
+    assert found.figures["run_over"] == 0
 
 
 def test_doors_slide_in_crowd_glb(throng, tmp_path):

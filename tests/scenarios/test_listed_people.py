@@ -79,6 +79,16 @@ def test_a_start_of_the_formation_is_that_of_each(bake):
     assert (one.places == each.places).all() and (one.doing == each.doing).all()
 
 
+def test_nobody_waits_for_company_that_goes_another_way(bake):
+    people = [{"position": [0.6 * n, 0], "goal": [0.6 * n, -9],
+               **({"via": [{"point": [0.6 * n, 20]}]} if n % 2 else {})} for n in range(8)]
+    formation = {"id": "listed", "type": "agents", "goal_tolerance": TOLERANCE, "arrival": "leave", "agents": people,
+                 "people": {"groups": "leisure"}}
+    found = bake(people, formations=[formation], walls=[])
+    for row in range(0, 8, 2):
+        assert int(found.rows[row]["arrival_frame"]) / found.fps < 20
+
+
 def test_people_of_a_level_go_their_way_on_it(bake):
     floor = [[-12, -12], [24, -12], [24, 12], [-12, 12]]
     people = [{"position": [0, 0], "via": [{"point": [5, 8]}], "goal": [0, -8]}]
@@ -90,7 +100,7 @@ def test_people_of_a_level_go_their_way_on_it(bake):
 
 
 @pytest.mark.parametrize("person, words", [
-    ({"via": [{"point": [10, 0]}]}, "person 0 has its goal in a wall"),
+    ({"via": [{"point": [10, 0]}]}, "person 0 has a place of its way in a wall"),
     ({"via": [{"wait": 2}]}, "needs `point`"),
     ({"via": [{"point": [1, 1], "wait": -1}]}, "at least 0"),
     ({"via": [{"point": [1, 1], "stay": 1}]}, "no key `stay`"),
@@ -150,6 +160,9 @@ def test_people_come_with_the_gaps_that_are_drawn(entries):
     ({}, "this one has none"),
     ({"gaps": 0}, "everybody would come at once"),
     ({"times": [1, "2"]}, "/flows/0/times/1"),
+    ({"times": []}, "expected one moment or more"),
+    ({"times": [1, -11]}, "-11 s is before everything begins, at -10 s"),
+    ({"times": [1], "end": 20}, "`end` has no meaning"),
 ])
 def test_one_way_of_coming_in_is_told(throng, tmp_path, keys, words):
     layout = {**STREET, "flows": [{"id": "f", "from": "west", "to": "east", **keys}]}
