@@ -20,12 +20,13 @@ LAYOUT = json.loads((ROOT / "examples" / "station.json").read_text())
 LAYOUT["simulation"].update(duration=30, seed=11)
 LAYOUT["attractions"] = [{"id": "bang", "at": LAYOUT["areas"][0]["polygon"][0], "from": 9, "reach": 60, "loud": True}]
 # A tram stop beside it, too: doors, and who gets on and off.
-LAYOUT["areas"].append({"id": "stop", "polygon": [[0, 100], [34, 100], [34, 105], [0, 105]]})
-LAYOUT["lanes"] = [{"id": "rails", "points": [[-40, 98.7], [70, 98.7]], "speed": 11, "stops": [
-    {"id": "tram", "at": [31, 98.7], "platform": "stop", "dwell": [6, 16]}]}]
+LAYOUT["areas"] += [{"id": "stop", "polygon": [[0, 14], [30, 14], [30, 18], [0, 18]]},
+                    {"id": "behind it", "polygon": [[0, 18], [30, 18], [30, 20], [0, 20]]}]
+LAYOUT["lanes"] = [{"id": "rails", "points": [[-31, 12.7], [45, 12.7]], "speed": 11, "stops": [
+    {"id": "tram", "at": [29, 12.7], "platform": "stop", "dwell": [6, 16]}]}]
 LAYOUT["vehicles"] = [{"id": "4", "lane": "rails", "kind": "tram", "times": [0, 3]}]
 LAYOUT["flows"] += [{"id": "on", "from": "stop", "board": "tram", "count": 12, "end": 5},
-                    {"id": "off", "alight": "tram", "to": "stop", "count": 6}]
+                    {"id": "off", "alight": "tram", "to": "behind it", "count": 6}]
 OPTIONS = ["-q", "--density", "--attention", "--diagrams", "120", "--gltf-agents", "20"]
 
 
