@@ -114,6 +114,9 @@ void BoardingReader::readDoors(const JsonNode& node, VehicleFlow& flow) {
     eachOf(reader, "at", [&](const JsonNode& item) {
         if (const auto at = numberOf(item, limits, diagnostics_)) doors.at.push_back(*at);
     });
+    if (const JsonNode* at = node.find("at"); at && at->kind == JsonNode::Kind::array && at->items.empty())
+        diagnostics_.error(at->where, "expected one door or more: metres behind the front",
+                           "leave `doors` out where there are none");
     if (!node.find("at")) doors.at = usual ? usual->at : std::vector<double>{kDoorOfCars};
     reader.number("width", doors.width);
     reader.number("flow", doors.flow);

@@ -7,26 +7,19 @@
 #include <numbers>
 
 #include "base/random.h"
+#include "recording/heads.h"
+#include "recording/spring.h"
 
 namespace throng::io {
 namespace {
-
-constexpr double kEyes = 1.6;                                 // m, over the ground, of who is not scaled
-constexpr double kMostYaw = 70.0 * std::numbers::pi / 180.0;  // as recording/heads.h has necks
-constexpr double kMostPitch = 0.6;                            // rad
-
-double eased(double share) {
-    const double inside = std::clamp(share, 0.0, 1.0);
-    return inside * inside * (3.0 - 2.0 * inside);
-}
 
 /// How much of a look there is in a frame: none outside of its frames, all of it within, less near both ends.
 double shareOf(const LookTarget& look, double frame) {
     if (!look.frames.holds(frame)) return 0.0;
     if (look.ease <= 0.0) return 1.0;
     const double since = frame - look.frames.first, left = look.frames.last - frame;
-    return std::min(look.frames.first == 0 ? 1.0 : eased((since + 1.0) / look.ease),
-                    eased((left + 1.0) / look.ease));
+    return std::min(look.frames.first == 0 ? 1.0 : recording::easedFrom(since + 1.0, 0.0, look.ease),
+                    recording::easedFrom(left + 1.0, 0.0, look.ease));
 }
 
 }  // namespace
@@ -151,12 +144,12 @@ void LayeredCrowd::turnHead(RowSample& sample, const LookTarget& look, double fr
         const RowSample other = evaluate(*look.row, frame, false, known).sample;
         if (other[Stream::state][0] <= 0.5f) return;
         target = {other[Stream::pos][0], other[Stream::pos][1],
-                  static_cast<double>(other[Stream::pos][2]) + kEyes * scaleOf(*look.row)};
+                  static_cast<double>(other[Stream::pos][2]) + recording::kEyes * scaleOf(*look.row)};
     }
     const std::array<float, kComponents>& place = sample[Stream::pos];
     const std::array<float, kComponents>& facing = sample[Stream::dir];
     const glm::dvec3 way =
-        target - glm::dvec3(place[0], place[1], place[2]) - glm::dvec3(0.0, 0.0, kEyes * scale);
+        target - glm::dvec3(place[0], place[1], place[2]) - glm::dvec3(0.0, 0.0, recording::kEyes * scale);
     const double yaw = std::remainder(
         std::atan2(way.y, way.x) - std::atan2(double{facing[1]}, double{facing[0]}), 2.0 * std::numbers::pi);
     const double pitch = std::atan2(way.z, std::hypot(way.x, way.y));
@@ -164,13 +157,13 @@ void LayeredCrowd::turnHead(RowSample& sample, const LookTarget& look, double fr
     const auto towards = [&](float& value, double wanted, double most) {
         value = static_cast<float>(std::lerp(double{value}, std::clamp(wanted, -most, most), share));
     };
-    towards(gaze[0], yaw, kMostYaw);
-    towards(gaze[1], pitch, kMostPitch);
+    towards(gaze[0], yaw, recording::kMostYaw);
+    towards(gaze[1], pitch, recording::kMostPitch);
     if (share >= 0.5) gaze[2] = look.row ? static_cast<float>(*look.row + 1) : 0.0f;
     // The same from the chest: what is told of the head is a turn of it.
     std::array<float, kComponents>& attention = sample[Stream::attention];
-    towards(attention[0], yaw - double{sample[Stream::carriage][1]}, kMostYaw);
-    towards(attention[1], pitch, kMostPitch);
+    towards(attention[0], yaw - double{sample[Stream::carriage][1]}, recording::kMostYaw);
+    towards(attention[1], pitch, recording::kMostPitch);
     towards(attention[2], 1.0, 1.0);
 }
 

@@ -142,6 +142,11 @@ def test_a_bus_has_doors_on_the_right_and_cars_drive_past(throng, tmp_path):
     assert not (baked.vehicles[:, 1, STATE] == 2).any() and not baked.doors[:, 1].any()
 
 
+def test_there_are_doors_where_doors_are_told(throng, tmp_path):
+    (tmp_path / "layout.json").write_text(json.dumps(stop(20, tram={"doors": {"at": []}})))
+    assert "expected one door or more" in throng("check", tmp_path / "layout.json", expect=3).stderr
+
+
 SLOW = {"doors": {"flow": 0.3, "at": [3.9], "time": 0.5}}
 
 

@@ -147,11 +147,14 @@ class Amount(Codec):
         put_all(self.codecs.values(), group, raw)
 
     def take_both(self, group, raw, result):
-        if group.amount != self.shown(raw):
+        amount = group.amount
+        if amount == "KEPT" and self.shown(raw) != "KEPT":
+            amount = "COUNT"  # there is nothing to keep
+        if amount != self.shown(raw):
             for key in ("count", "rate", "gaps", "times"):
                 result.pop(key, None)
-        if group.amount != "KEPT":
-            codec = self.codecs[group.amount]
+        if amount != "KEPT":
+            codec = self.codecs[amount]
             result[codec.key] = codec.take(group, raw.get(codec.key, MISSING))
 
 
