@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace throng {
@@ -13,6 +14,11 @@ namespace throng {
 enum class DoorColumn { left, right, aboard, boarded, alighted };
 inline constexpr std::array<const char*, 5> kDoorColumns = {"left", "right", "aboard", "boarded", "alighted"};
 inline constexpr std::size_t kDoorFloats = kDoorColumns.size();
+
+/// @param row of a track of doors: frame * vehicles + vehicle
+inline float doorIn(std::span<const float> track, std::size_t row, DoorColumn column) {
+    return track[row * kDoorFloats + static_cast<std::size_t>(column)];
+}
 
 /// The doors of one vehicle.
 struct DoorIdentity {

@@ -12,8 +12,7 @@
 namespace throng::recording {
 namespace {
 
-constexpr double kField = 110.0 * kDegrees;  // from the heading: what heads and eyes reach
-constexpr double kLost = 9.0;                // m: others are looked at up to here
+constexpr double kLost = 9.0;  // m: others are looked at up to here
 
 constexpr double kListens = 0.88, kAddresses = 0.77;  // Vertegaal et al. 2001
 constexpr double kTalkReach = 3.0;                    // m

@@ -79,21 +79,22 @@ void FrameWindow::advance() {
     --middle_;
 }
 
-/// How far the window reaches for a row: as far as it is alive to both sides.
-std::uint32_t FrameWindow::room(std::size_t row) const {
+bool FrameWindow::isThere(std::size_t frame, std::size_t row) const {
+    return frame < frames_.size() && frames_[frame].isAlive(row);
+}
+
+/// How far the window reaches for a row: as far as it is alive to both sides of a frame.
+std::uint32_t FrameWindow::room(std::size_t row, std::size_t centre) const {
     std::uint32_t reach = 0;
-    while (reach < reach_) {
-        const std::size_t next = reach + 1;
-        if (next > middle_ || middle_ + next >= frames_.size()) break;
-        if (!frames_[middle_ - next].isAlive(row) || !frames_[middle_ + next].isAlive(row)) break;
+    while (reach < reach_ && reach < centre && isThere(centre - reach - 1, row) &&
+           isThere(centre + reach + 1, row))
         ++reach;
-    }
     return reach;
 }
 
 Average FrameWindow::average(std::size_t row) const {
     const std::size_t at = row * kComponents;
-    const std::uint32_t reach = room(row);
+    const std::uint32_t reach = room(row, middle_);
     const std::vector<double>& weights = weights_[reach];
     const KeptFrame& centre = frames_[middle_];
     const auto sumOf = [&](Stream stream, std::size_t component) {
@@ -117,15 +118,10 @@ Average FrameWindow::average(std::size_t row) const {
 }
 
 glm::dvec2 FrameWindow::headingToCome(std::size_t row) const {
-    const auto isThere = [&](std::size_t frame) {
-        return frame < frames_.size() && frames_[frame].isAlive(row);
-    };
     std::size_t centre = middle_;
-    while (centre < middle_ + foreseen_ && isThere(centre + 1))
+    while (centre < middle_ + foreseen_ && isThere(centre + 1, row))
         ++centre;
-    std::uint32_t reach = 0;
-    while (reach < reach_ && centre > reach && isThere(centre - reach - 1) && isThere(centre + reach + 1))
-        ++reach;
+    const std::uint32_t reach = room(row, centre);
     glm::dvec2 sum(0.0);
     for (std::size_t frame = centre - reach; frame <= centre + reach; ++frame) {
         const std::size_t off = frame < centre ? centre - frame : frame - centre;
@@ -136,7 +132,7 @@ glm::dvec2 FrameWindow::headingToCome(std::size_t row) const {
 }
 
 glm::dvec2 FrameWindow::averageOfCharts(std::size_t row, std::span<const glm::dvec2> by_chart) const {
-    const std::uint32_t reach = room(row);
+    const std::uint32_t reach = room(row, middle_);
     const std::vector<double>& weights = weights_[reach];
     const auto valueIn = [&](const KeptFrame& frame) {
         const auto chart = static_cast<std::size_t>(frame[Stream::pos][row * kComponents + 2]);

@@ -77,7 +77,8 @@ class FrameWindow {
                  std::size_t lifts = 0);
 
   private:
-    std::uint32_t room(std::size_t row) const;
+    bool isThere(std::size_t frame, std::size_t row) const;
+    std::uint32_t room(std::size_t row, std::size_t centre) const;
 
     std::uint32_t reach_ = 0, foreseen_ = 0;
     std::vector<std::vector<double>>

@@ -24,6 +24,7 @@ inline constexpr double kMostYaw = 70.0 * kDegrees;    ///< of a head on the che
 inline constexpr double kMostPitch = 35.0 * kDegrees;  ///< up and down
 inline constexpr double kMostLead = 25.0 * kDegrees;   ///< ahead of a turn
 inline constexpr double kEyes = 1.6;                   ///< m, over the ground
+inline constexpr double kField = 110.0 * kDegrees;     ///< to either side: what heads and eyes reach
 inline constexpr double kNoticed = 6.0;                ///< m: who is further away is not looked at
 
 }  // namespace throng::recording

@@ -19,7 +19,7 @@ struct Onlooker {
     glm::dvec2 heading{1.0, 0.0};
     double speed = 0.0;        ///< m/s
     double twist = 0.0;        ///< rad, of the chest, from the heading to the left
-    double turns = 0.0;        ///< rad: how far it will have turned in a moment (Attention::kForesees)
+    double turns = 0.0;        ///< rad: how far it will have turned in a moment (AttentionTrack::kForesees)
     bool has_subject = false;  ///< it stands where there is something to look at, or in a line
 
     bool stands() const { return speed < gpu::STANDING_SPEED; }

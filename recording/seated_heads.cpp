@@ -15,7 +15,6 @@ namespace {
 constexpr double kSlot = 6.0;     // s: in each of them one look, or none
 constexpr double kSitsUp = 1.25;  // m, of eyes over the floor
 constexpr double kClip = 2.0;     // as much as this weighs what the clip does
-constexpr double kAside = 110.0 * kDegrees;
 
 /// From 0 to 1 with the least jerk.
 double gone(double share) {
@@ -43,11 +42,15 @@ SeatedHeads::Look SeatedHeads::lookAt(const BakeSpectator& person, std::size_t t
             kFirstThing - static_cast<int>(thing)};
 }
 
+bool SeatedHeads::isNear(const BakeSpectator& person, std::size_t thing) const {
+    return !things_[thing].is_audience &&
+           glm::distance(things_[thing].place, glm::dvec2(person.place)) <= things_[thing].reach;
+}
+
 bool SeatedHeads::isSeen(const Look& look, const BakeSpectator& person, std::size_t thing) const {
     const glm::dvec2 away = things_[thing].place - glm::dvec2(person.place);
-    return !things_[thing].is_audience && glm::length(away) <= things_[thing].reach &&
-           (std::abs(look.yaw) < kMostYaw ||
-            glm::dot(away, glm::dvec2(person.ahead)) > glm::length(away) * std::cos(kAside));
+    return std::abs(look.yaw) < kMostYaw ||
+           glm::dot(away, glm::dvec2(person.ahead)) > glm::length(away) * std::cos(kField);
 }
 
 /// The look of somebody in the slot of time that it is in.
@@ -60,6 +63,7 @@ SeatedHeads::Look SeatedHeads::spell(const BakeSpectator& person, std::size_t nu
     Look found;
     for (std::size_t i = 0; i < things_.size(); ++i) {
         if (begin < things_[i].from || begin + kSlot > things_[i].until || things_[i].weight <= 0.0) continue;
+        if (!isNear(person, i)) continue;
         const Look look = lookAt(person, i);
         if (!isSeen(look, person, i)) continue;
         total += things_[i].weight;
@@ -79,7 +83,7 @@ Attention SeatedHeads::at(const BakeSpectator& person, std::size_t number, doubl
     double yaw = looked * look.yaw, pitch = looked * look.pitch, weight = looked;
     int at = looked > 0.0 ? look.at : 0;
     for (std::size_t i = 0; i < things_.size(); ++i) {
-        if (!things_[i].loud || time < things_[i].from) continue;
+        if (!things_[i].loud || time < things_[i].from || !isNear(person, i)) continue;
         Look heard = lookAt(person, i);
         if (!isSeen(heard, person, i)) continue;
         const std::uint64_t word = scramble(seed_ ^ scramble((std::uint64_t{i} << 32) | number));

@@ -30,6 +30,7 @@ class SeatedHeads {
         double share(double time) const;  ///< 0 to 1: how far the head is there
     };
     Look lookAt(const BakeSpectator& person, std::size_t thing) const;
+    bool isNear(const BakeSpectator& person, std::size_t thing) const;
     bool isSeen(const Look& look, const BakeSpectator& person, std::size_t thing) const;
     Look spell(const BakeSpectator& person, std::size_t number, double time) const;
 

@@ -33,6 +33,24 @@ def throng():
     return run
 
 
+VALIDATE = """
+const fs = require('fs'), path = require('path');
+const validator = require(path.join(process.env.THRONG_NODE_MODULES, 'gltf-validator'));
+validator.validateBytes(new Uint8Array(fs.readFileSync(process.argv[1])))
+    .then(report => console.log(JSON.stringify(report.issues)));
+"""
+
+
+def khronos_issues(glb):
+    """What Khronos' validator says of a file."""
+    modules = os.environ.get("THRONG_NODE_MODULES", str(ROOT / "build" / "node" / "node_modules"))
+    if not os.path.isdir(os.path.join(modules, "gltf-validator")):
+        pytest.skip("the npm package gltf-validator is not installed")
+    result = subprocess.run(["node", "-e", VALIDATE, str(glb)], capture_output=True, text=True,
+                            env={**os.environ, "THRONG_NODE_MODULES": modules})
+    return json.loads(result.stdout)
+
+
 def chromium():
     """The browser's program, or None."""
     return shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")

@@ -36,9 +36,9 @@ std::span<const float> VehicleWatch::placeOf(std::uint32_t frame, std::size_t ve
 
 bool VehicleWatch::isInDoorway(std::uint32_t frame, std::size_t vehicle, glm::dvec2 place) const {
     if (doors_.empty()) return false;
-    const std::size_t row = (frame * bake_.vehicles.size() + vehicle) * kDoorFloats;
+    const std::size_t row = frame * bake_.vehicles.size() + vehicle;
     const auto side = place.y > 0.0 ? DoorColumn::left : DoorColumn::right;
-    if (doors_[row + static_cast<std::size_t>(side)] <= 0.0f) return false;
+    if (doorIn(doors_, row, side) <= 0.0f) return false;
     const DoorIdentity& doors = bake_.doors[vehicle];
     const double behind = 0.5 * bake_.vehicles[vehicle].length - place.x;
     return std::ranges::any_of(doors.at,

@@ -152,8 +152,8 @@ void TrafficLayer::drawDoors(cairo_t* context, const PlateView& view, std::uint3
     const VehicleIdentity& what = bake_.vehicles[vehicle];
     for (const double side : {1.0, -1.0}) {
         const auto column = side > 0.0 ? DoorColumn::left : DoorColumn::right;
-        const std::size_t row = (frame * bake_.vehicles.size() + vehicle) * kDoorFloats;
-        const double half = 0.5 * doors.width * double{doors_[row + static_cast<std::size_t>(column)]};
+        const std::size_t row = frame * bake_.vehicles.size() + vehicle;
+        const double half = 0.5 * doors.width * double{doorIn(doors_, row, column)};
         if (half <= 0.0) continue;
         const double inner = side * (1.0 - 2.0 * kDeep / what.width);
         for (const double at : doors.at) {

@@ -7,14 +7,18 @@
 namespace throng::authoring {
 namespace {
 
+/// s in which those of a flow come; who comes from the first moment on does so in the warm-up, too.
+double secondsOf(const auto& flow, const Layout& layout) {
+    return flow.end - flow.start + (flow.start == 0.0 ? layout.simulation.warmup : 0.0);
+}
+
 /// How often `count` of them come: once, or with each vehicle that they get off.
-double callsOf(const Flow& flow, const Layout& layout, double warmup) {
+double callsOf(const Flow& flow, const Layout& layout) {
     if (!flow.alights) return 1.0;
     double calls = 0.0;
     for (const std::size_t line : flow.alights->lines) {
         const VehicleFlow& vehicles = layout.traffic.vehicles[line];
-        const double before = vehicles.start == 0.0 ? warmup : 0.0;
-        calls += vehicles.rate ? *vehicles.rate * (vehicles.end - vehicles.start + before)
+        calls += vehicles.rate ? *vehicles.rate * secondsOf(vehicles, layout)
                                : static_cast<double>(vehicles.times.size());
     }
     return calls;
@@ -30,10 +34,10 @@ double meanOf(const Distribution& drawn) {
     return std::clamp(mean, drawn.minimum, drawn.maximum);
 }
 
-double peopleIn(const Flow& flow, const Layout& layout, double warmup) {
-    if (flow.count) return callsOf(flow, layout, warmup) * static_cast<double>(*flow.count);
+double peopleIn(const Flow& flow, const Layout& layout) {
+    if (flow.count) return callsOf(flow, layout) * static_cast<double>(*flow.count);
     if (!flow.times.empty()) return static_cast<double>(flow.times.size());
-    const double seconds = std::max(0.0, flow.end - flow.start + (flow.start == 0.0 ? warmup : 0.0));
+    const double seconds = std::max(0.0, secondsOf(flow, layout));
     if (flow.gaps) return seconds / std::max(meanOf(*flow.gaps), kLeastGap);
     return flow.rate.value_or(0.0) * seconds;
 }

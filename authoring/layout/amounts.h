@@ -9,9 +9,8 @@ namespace throng::authoring {
 /// Of what is drawn, as if nothing were clamped but the mean itself.
 double meanOf(const Distribution& drawn);
 
-/// Of moments that are drawn, as many as there will be on average.
-/// @param warmup s before the start in which those of the first moment come, too
-double peopleIn(const Flow& flow, const Layout& layout, double warmup = 0.0);
+/// Of moments that are drawn, as many as there will be on average, the warm-up counted.
+double peopleIn(const Flow& flow, const Layout& layout);
 double peopleIn(const Formation& formation);
 
 }  // namespace throng::authoring

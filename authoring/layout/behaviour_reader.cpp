@@ -92,15 +92,16 @@ void BehaviourReader::read(const JsonNode& node) {
     layout_.behaviours.push_back(std::move(behaviour));
 }
 
+void BehaviourReader::refuseBeside(const JsonNode& owner, const std::vector<std::string>& keys) const {
+    refuseKeys(owner, keys, "`{}` is said twice: the behaviour tells where people go",
+               "leave `{}` out, or `behaviour`", diagnostics_);
+}
+
 std::optional<std::size_t> BehaviourReader::behaviourOf(ObjectReader& reader, const JsonNode& owner,
                                                         const std::vector<std::string>& instead) const {
     const JsonNode* node = reader.get("behaviour");
     if (!node) return std::nullopt;
-    for (const std::string& key : instead)
-        if (const JsonNode* found = owner.find(key))
-            diagnostics_.error(found->where,
-                               fmt::format("`{}` is said twice: the behaviour tells where people go", key),
-                               fmt::format("leave `{}` out, or `behaviour`", key));
+    refuseBeside(owner, instead);
     const auto known = behaviours_.find(node->text);
     if (node->kind == JsonNode::Kind::text && known != behaviours_.end()) return known->second;
     diagnostics_.error(

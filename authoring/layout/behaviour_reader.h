@@ -29,6 +29,8 @@ class BehaviourReader {
     /// The behaviour of a flow or formation. @param instead keys that say what the behaviour says
     std::optional<std::size_t> behaviourOf(ObjectReader& reader, const JsonNode& owner,
                                            const std::vector<std::string>& instead) const;
+    /// What is said of somebody who has a behaviour, and only that says it.
+    void refuseBeside(const JsonNode& owner, const std::vector<std::string>& keys) const;
     /// After all else: the flows, formations and gates that behaviours speak of, and what leads where.
     void finish();
 

@@ -209,13 +209,9 @@ void BoardingReader::readLines(const JsonNode& list, AtPlatform& at) const {
 }
 
 void BoardingReader::checkAlighting(const JsonNode& node) {
-    for (const char* key : {"from", "rate", "gaps", "times", "start", "end"})
-        if (const JsonNode* told = node.find(key))
-            diagnostics_.error(told->where,
-                               fmt::format("people who `alight` come as their vehicles do, `count` of each: "
-                                           "`{}` has no meaning",
-                                           key),
-                               fmt::format("leave `{}` out", key));
+    refuseKeys(node, {"from", "rate", "gaps", "times", "start", "end"},
+               "people who `alight` come as their vehicles do, `count` of each: `{}` has no meaning",
+               "leave `{}` out", diagnostics_);
 }
 
 Place BoardingReader::placeOf(const AtPlatform& at) const {

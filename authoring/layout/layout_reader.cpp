@@ -368,13 +368,8 @@ class Reader {
         const bool told = board || node.find("behaviour") != nullptr;
         const JsonNode* to = told ? reader.get("to") : reader.require("to", "where people go");
         if (!board) return to ? places_.destination(*to) : std::nullopt;
-        for (const char* key : {"to", "arrival"})
-            if (const JsonNode* other = node.find(key))
-                diagnostics_.error(other->where,
-                                   fmt::format("people who `board` go nowhere else: `{}` has no "
-                                               "meaning",
-                                               key),
-                                   fmt::format("leave `{}` out", key));
+        refuseKeys(node, {"to", "arrival"}, "people who `board` go nowhere else: `{}` has no meaning",
+                   "leave `{}` out", diagnostics_);
         flow.boards = boarding_.atPlatform(*board);
         if (!flow.boards) return std::nullopt;
         const Place platform = boarding_.placeOf(*flow.boards);
@@ -408,11 +403,8 @@ class Reader {
             diagnostics_.error(gaps->where, "`gaps` of 0 s: everybody would come at once",
                                "for people who come together write a formation");
         if (times)
-            for (const char* key : {"start", "end"})
-                if (const JsonNode* also = node.find(key))
-                    diagnostics_.error(also->where,
-                                       fmt::format("people come at their `times`: `{}` has no meaning", key),
-                                       fmt::format("leave `{}` out", key));
+            refuseKeys(node, {"start", "end"}, "people come at their `times`: `{}` has no meaning",
+                       "leave `{}` out", diagnostics_);
         if (times && times->items.empty())
             diagnostics_.error(times->where, "expected one moment or more, in seconds",
                                "for example [0, 2.5, 7]");
@@ -646,12 +638,7 @@ class Reader {
             inner.point("position", "[x, y] in metres", agent.position);
             agent.goal = agent.position;
             if (!behaves || node.find("goal")) inner.point("goal", "[x, y] in metres", agent.goal);
-            for (const char* key : {"goal", "via", "wait"})
-                if (const JsonNode* said = node.find(key); said && behaves)
-                    diagnostics_.error(
-                        said->where,
-                        fmt::format("`{}` is said twice: the behaviour tells where people go", key),
-                        fmt::format("leave `{}` out, or `behaviour`", key));
+            if (behaves) behaviours_.refuseBeside(node, {"goal", "via", "wait"});
             readVia(inner, agent);
             agent.start = start;
             inner.number("start", agent.start);
@@ -685,7 +672,7 @@ class Reader {
         double people = 0.0;
         double largest = 0.0;
         for (const Flow& flow : layout_.flows) {
-            people += peopleIn(flow, layout_, layout_.simulation.warmup);
+            people += peopleIn(flow, layout_);
             largest = std::max(largest, flow.people.largestRadius());
         }
         for (const Formation& formation : layout_.formations) {
@@ -728,8 +715,7 @@ class Reader {
         };
         double plans = 0.0;
         for (const Flow& flow : layout_.flows)
-            plans += (1.0 + static_cast<double>(flow.via.size()) + sent(flow.id)) *
-                     peopleIn(flow, layout_, layout_.simulation.warmup);
+            plans += (1.0 + static_cast<double>(flow.via.size()) + sent(flow.id)) * peopleIn(flow, layout_);
         for (const Formation& formation : layout_.formations)
             plans += (1.0 + sent(formation.id)) * peopleIn(formation);
         if (!diagnostics_.hasErrors())

@@ -275,6 +275,14 @@ const std::vector<JsonNode>* ObjectReader::items(const std::string& key) {
     return &list->items;
 }
 
+void refuseKeys(const JsonNode& owner, const std::vector<std::string>& keys, std::string_view why,
+                std::string_view hint, Diagnostics& diagnostics) {
+    for (const std::string& key : keys)
+        if (const JsonNode* found = owner.find(key))
+            diagnostics.error(found->where, fmt::format(fmt::runtime(why), key),
+                              fmt::format(fmt::runtime(hint), key));
+}
+
 void ObjectReader::finish() {
     for (const JsonNode::Member& member : node_.members)
         if (std::find(known_.begin(), known_.end(), member.key) == known_.end())

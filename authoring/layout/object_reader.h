@@ -104,6 +104,11 @@ void eachOf(ObjectReader& reader, const std::string& key, Read read) {
             read(item);
 }
 
+/// Errors for those of some keys that an object has, and that say nothing beside its others.
+/// @param why, hint with {} where the key is named
+void refuseKeys(const JsonNode& owner, const std::vector<std::string>& keys, std::string_view why,
+                std::string_view hint, Diagnostics& diagnostics);
+
 template <class Value>
 void ObjectReader::choice(const std::string& key, const Meanings<Value>& meanings, Value& value) {
     std::vector<std::string_view> words;

@@ -259,9 +259,6 @@ void addBoarding(const Layout& layout, const Rebase& rebase, SceneTraffic& traff
                 traffic.platform_points.push_back(rebase.local(point));
             traffic.platforms.push_back(made);
         }
-    for (std::size_t i = 0; i < traffic.stops.size(); ++i)
-        if (traffic.stops[i].kind == gpu::STOP_AT_PLATFORM)
-            traffic.platforms[traffic.stops[i].crossing].stop = static_cast<std::uint32_t>(i);
     for (const std::uint32_t line : traffic.flow_of)
         traffic.services.push_back(serviceOf(layout, line, traffic));
 }
@@ -275,9 +272,8 @@ void addCalls(const Layout& layout, const std::vector<gpu::SpawnQueue>& queues, 
             const std::optional<AtPlatform>& at = layout.flows[i].alights;
             if (!at || std::ranges::find(at->lines, traffic.flow_of[vehicle]) == at->lines.end()) continue;
             const auto count = static_cast<std::uint32_t>(layout.flows[i].count.value_or(0));
-            traffic.calls.push_back({static_cast<std::uint32_t>(vehicle),
-                                     platformNumber(layout, at->lane, at->stop),
-                                     queues[i].first_row + taken[i], count});
+            traffic.calls.push_back(
+                {platformNumber(layout, at->lane, at->stop), queues[i].first_row + taken[i], count});
             taken[i] += count;
         }
         service.call_count = static_cast<std::uint32_t>(traffic.calls.size()) - service.first_call;

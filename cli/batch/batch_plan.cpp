@@ -36,7 +36,7 @@ std::string idOf(const authoring::Scenario& scenario) {
 double peopleOf(const authoring::Layout& layout) {
     double people = 0.0;
     for (const authoring::Flow& flow : layout.flows)
-        people += authoring::peopleIn(flow, layout, layout.simulation.warmup);
+        people += authoring::peopleIn(flow, layout);
     for (const authoring::Formation& formation : layout.formations)
         people += authoring::peopleIn(formation);
     return people;

@@ -177,8 +177,8 @@ void VehicleNodes::writeDoors(OutputFile& file, std::size_t vehicle) const {
     for (const Leaf& leaf : leavesOf(vehicle)) {
         std::vector<float> track;
         for (std::uint32_t frame = 0; frame < frames_; ++frame) {
-            const std::size_t row = (frame * description_.vehicles.size() + vehicle) * kDoorFloats;
-            const double open = double{tracks_.doors[row + static_cast<std::size_t>(leaf.side)]};
+            const std::size_t row = frame * description_.vehicles.size() + vehicle;
+            const double open = double{doorIn(tracks_.doors, row, leaf.side)};
             track.insert(track.end(), {static_cast<float>(leaf.x + leaf.slides * open), 0.0f,
                                        static_cast<float>(-leaf.y)});
         }

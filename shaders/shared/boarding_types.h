@@ -58,14 +58,12 @@ struct Platform {
     float side;        // 1: to the left of the lane, -1: to the right
     float least;       // s from when a vehicle stands there to when it goes on
     float most;        // likewise, unless somebody is in its doors
-    uint stop;         // index into the stops of lanes
     uint first_point;  // of its outline
     uint point_count;
 };
 
 /// People who get off a vehicle at a platform: rows in this order.
 struct AlightingCall {
-    uint vehicle;
     uint platform;
     uint first_row;
     uint row_count;

@@ -6,10 +6,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "authoring/layout/layout_reader.h"
-#include "authoring/scene/scene_builder.h"
 #include "sim/simulation_parts.h"
 #include "tests/sim/gpu_test.h"
+#include "tests/sim/layout_scene.h"
 
 namespace throng::test {
 namespace {
@@ -24,15 +23,8 @@ constexpr const char* kStop = R"({{"throng": 1,
               {{"id": "off", "alight": "market", "to": "corner", "count": {}}}]}})";
 
 authoring::Scene stopFor(std::uint32_t people) {
-    authoring::Diagnostics diagnostics;
     const std::uint32_t off = std::min(people / 3, 60u);
-    const auto layout =
-        authoring::readLayout(fmt::format(fmt::runtime(kStop), people - off, off), {}, diagnostics);
-    std::optional<authoring::Scene> scene;
-    if (layout) scene = authoring::buildScene(*layout, diagnostics);
-    for (const authoring::Diagnostic& entry : diagnostics.entries)
-        if (entry.severity == authoring::Severity::error) ADD_FAILURE() << entry.message;
-    return scene.value();
+    return sceneOfLayout(fmt::format(fmt::runtime(kStop), people - off, off));
 }
 
 std::uint32_t phaseOf(std::uint32_t passenger) {

@@ -4,10 +4,9 @@
 
 #include <bit>
 
-#include "authoring/layout/layout_reader.h"
-#include "authoring/scene/scene_builder.h"
 #include "sim/simulation_parts.h"
 #include "tests/sim/gpu_test.h"
+#include "tests/sim/layout_scene.h"
 
 namespace throng::test {
 namespace {
@@ -22,13 +21,7 @@ constexpr const char* kHouse = R"({{"throng": 1,
                     "spacing": 0.7, "count": {}, "goal": "above"}}]}})";
 
 authoring::Scene house(std::uint32_t people) {
-    authoring::Diagnostics diagnostics;
-    const auto layout = authoring::readLayout(fmt::format(fmt::runtime(kHouse), people), {}, diagnostics);
-    std::optional<authoring::Scene> scene;
-    if (layout) scene = authoring::buildScene(*layout, diagnostics);
-    for (const authoring::Diagnostic& entry : diagnostics.entries)
-        if (entry.severity == authoring::Severity::error) ADD_FAILURE() << entry.message;
-    return scene.value();
+    return sceneOfLayout(fmt::format(fmt::runtime(kHouse), people));
 }
 
 std::uint32_t phaseOf(std::uint32_t rider) {

@@ -303,14 +303,12 @@ std::map<std::string, Layout> layoutsInCpp() {
     }
     {
         using T = gpu::Platform;
-        result["Platform"] = {sizeof(T),
-                              {MEMBER(side), MEMBER(least), MEMBER(most), MEMBER(stop), MEMBER(first_point),
-                               MEMBER(point_count)}};
+        result["Platform"] = {
+            sizeof(T), {MEMBER(side), MEMBER(least), MEMBER(most), MEMBER(first_point), MEMBER(point_count)}};
     }
     {
         using T = gpu::AlightingCall;
-        result["AlightingCall"] = {sizeof(T),
-                                   {MEMBER(vehicle), MEMBER(platform), MEMBER(first_row), MEMBER(row_count)}};
+        result["AlightingCall"] = {sizeof(T), {MEMBER(platform), MEMBER(first_row), MEMBER(row_count)}};
     }
     {
         using T = gpu::DoorWishes;

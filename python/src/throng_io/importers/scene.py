@@ -194,19 +194,22 @@ class Scene:
 
     # ---- the whole
 
+    def _listed(self) -> list[dict]:
+        return [person for group in self.formations for person in group["agents"]]
+
     def _farthest(self) -> float:
         """The diagonal of everything, m; never nothing."""
         known = [point for wall in self.walls for point in wall["points"]]
         known += [point for area in self.areas for point in area["polygon"]]
         known += [point for road in self.roads for point in road["centreline"]]
-        people = [person for group in self.formations for person in group["agents"]]
+        people = self._listed()
         known += [person[key] for person in people for key in ("position", "goal")]
         known += [stop["point"] for person in people for stop in person.get("via", ())]
         return math.dist(*_corners(known)) if known else 1.0
 
     def layout(self) -> dict[str, Any]:
         if self.duration is None:
-            people = [person for group in self.formations for person in group["agents"]]
+            people = self._listed()
             waits = [sum(stop.get("wait", 0) for stop in person.get("via", ())) for person in people]
             last = max([flow.get("end", 0) for flow in self.flows]
                        + [person.get("start", 0) + wait for person, wait in zip(people, waits)] + [0])
