@@ -40,7 +40,7 @@ def _box(bodies, centre, half, bone, material, level, round_=0.55, axes=None):
 
 def _strap(top, field, wide, material, scale):
     trunk = clipped(top, regions.but_arms(top.places, 1.0))
-    return strap_on(trunk, field(trunk.places), wide, 0.007 * scale, material) if len(trunk.faces) else []
+    return strap_on(trunk, field(trunk.places), wide, 0.0055 * scale, material) if len(trunk.faces) else []
 
 
 def bag(bodies, kind, tops, rig, level):

@@ -6,10 +6,15 @@ from dataclasses import dataclass, replace
 import numpy
 
 from . import drape, levels, regions
-from .parts import Part, border_of, clipped, folded, grown, laid_on, normals_of, smooth_normals, smoothed, subdivided
+from .parts import (
+    Part, border_of, clipped, evened, folded, grown, laid_on, normals_of, smooth_normals, smoothed, strap_on,
+    subdivided)
 
 NECK, CUFF, HEM, FRONT = 1, 2, 3, 4  # tags of cuts
 TUCKED_FROM = 0.09  # tops that end above are tucked in
+_HANGS = 0.5     # how much of a hem hangs on the pelvis, not on legs
+_THICK = 0.005  # m, how far edges are turned in
+_EDGE_ROUNDS = 40  # of smoothing along edges
 _OVER = 0.018   # m, that the others fall outside of what is worn below them
 SUIT, SKIRT = "helper-tights", "helper-skirt"
 _COLLARS = {  # rows of (up, away from the neck), m
@@ -159,7 +164,8 @@ class Tailor:
         else:  # it falls over trousers and skirts
             over = _ramp(0.15 - places[:, regions.Z], 0.0, 0.09) * (places[:, regions.ARM] <= 0.0)
             part = part.moved(part.points + part.normals * (_OVER * self.scale * over)[:, None])
-        part = clipped(part, regions.above(places, garment.hem), HEM)
+            part = self._hung(part)
+        part = clipped(part, self._above_hem(part, garment.hem), HEM)
         part = clipped(part, regions.sleeve(part.places, garment.sleeve), CUFF)
         part = clipped(part, regions.neckline(part.places, *garment.neck), NECK)
         if garment.vee is not None:
@@ -167,6 +173,20 @@ class Tailor:
         if garment.gap:
             part = clipped(part, regions.gap(part.places, *garment.gap, garment.hem), FRONT)
         return self._trimmed(part, garment)
+
+    def _hung(self, part):
+        """What falls over the hips goes less with a leg than cloth does that is round it, and so hems stay level."""
+        share = _HANGS * _ramp(0.13 - part.places[:, regions.Z], 0.0, 0.12) * (part.places[:, regions.ARM] <= 0.0)
+        weights = part.weights * (1.0 - share)[:, None]
+        weights[:, self.bodies.bone["pelvis"]] += share
+        return replace(part, weights=weights)
+
+    def _above_hem(self, part, hem):
+        """Positive above a hem that is level, as cloth falls, whatever the shape below it."""
+        trunk = part.places[:, regions.ARM] <= 0.0
+        there = trunk & (numpy.abs(part.places[:, regions.Z] - hem) < 0.025)
+        height = numpy.median(part.points[there, 2] - part.places[there, regions.Z]) + hem
+        return numpy.where(trunk, part.points[:, 2] - height, 1.0)
 
     def _legs(self, garment):
         part = self._part(self._surface(garment), SUIT, garment.material)
@@ -194,7 +214,7 @@ class Tailor:
     def _trimmed(self, part, garment):
         """With a collar, lapels, pockets, a belt, and edges that have a thickness."""
         if self.level < 1:  # no edge is ragged
-            part = part.moved(smoothed(part.points, part.faces, 14, 0.5, part.tags == 0))
+            part = part.moved(smoothed(part.points, part.faces, _EDGE_ROUNDS, 0.5, part.tags == 0))
         extras = []
         if self.detail.trimmed:
             for pocket in garment.pockets:
@@ -207,7 +227,7 @@ class Tailor:
             part = self._collar(part, _COLLARS[garment.collar])
         if self.detail.trimmed:
             tags = [CUFF, HEM, FRONT] if garment.collar else [NECK, CUFF, HEM, FRONT]
-            part = folded(part, 0.008 * self.scale, tags)
+            part = folded(part, _THICK * self.scale, tags)
         return [part, *extras]
 
     def _collar(self, part, rows):
@@ -218,9 +238,11 @@ class Tailor:
             return part
         rows = rows if self.detail.trimmed else rows[:1] + rows[-1:]
 
+        ends = numpy.unique(border)
+
         def rings(points, _normals):
             away = (points - neck) * (1.0, 1.0, 0.0)
-            away /= numpy.linalg.norm(away, axis=1, keepdims=True) + 1e-9
+            away = evened(away / (numpy.linalg.norm(away, axis=1, keepdims=True) + 1e-9), border, ends)
             # lower before the throat than behind
             lower = numpy.where(away[:, 0] > 0.5, 0.8, 1.0)[:, None]
             return [points + self.scale * (lower * up * numpy.array([0.0, 0.0, 1.0]) + aside * away)
@@ -240,7 +262,9 @@ class Tailor:
         share = numpy.clip((height - bottom) / (0.49 - bottom), 0.0, 1.0)
         width = garment.lapels * self.scale * numpy.where(share < 0.86, share / 0.86, 1.0 - 1.6 * (share - 0.86))
 
-        normals = smooth_normals(part)[ends]
+        normals = evened(smooth_normals(part)[ends], border, ends, 20)
+        normals /= numpy.linalg.norm(normals, axis=1, keepdims=True) + 1e-9
+        width = evened(width[:, None], border, ends, 4)[:, 0]
 
         def rings(points, _normals):
             aside = numpy.stack([0.0 * height, numpy.sign(points[:, 1]), 0.25 + 0.0 * height], axis=1)
@@ -264,9 +288,11 @@ class Tailor:
 
     def _belt(self, part, garment):
         # of coats and dresses above what the skirt covers
-        high = (garment.waist if garment.kind != "top" else 0.190) - 0.004
-        return laid_on(part, regions.box((None, None, high - 0.032), (None, None, high)), 0.005 * self.scale,
-                       garment.belt)
+        middle = (garment.waist if garment.kind != "top" else 0.190) - 0.020
+        trunk = clipped(part, regions.but_arms(part.places, 1.0))
+        if not len(trunk.faces):
+            return []
+        return strap_on(trunk, self._above_hem(trunk, middle), 0.034 * self.scale, 0.0055 * self.scale, garment.belt)
 
     def _folds(self, part, garment):
         """How far the cloth goes out, m: ridges, here and there, across limbs where joints bend and where cloth piles

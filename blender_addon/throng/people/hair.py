@@ -42,11 +42,17 @@ STYLES = {
 }
 
 
-def hair(bodies, shape, level, name, material, scale, seed):
-    """Parts of somebody's hair."""
+_PRESSED = 0.25  # of how far it is off the head, below a hat
+
+
+def hair(bodies, shape, level, name, material, scale, seed, hat=""):
+    """Parts of somebody's hair. @param hat what is worn over it, or nothing"""
     if name not in STYLES:
         return []
     style, draw = STYLES[name], numpy.random.default_rng(seed)
+    if hat:
+        style = replace(style, lift=_PRESSED * style.lift, thick=_PRESSED * style.thick, curl=min(style.curl, 0.1),
+                        comb="parted" if style.comb == "out" else style.comb, length=min(style.length, 0.035))
     skin = _skin(bodies, shape, level, style, scale, name == "ring")
     if not len(skin.faces):
         return []
@@ -182,7 +188,8 @@ def _grow(points, ways, length, style, scale, draw, pieces, collider, fringe, ch
         if style.fall >= 0.5:  # what hangs does not fly
             ways = ways * (0.70, 0.70, 1.0)
         ways = ways + numpy.array([0.0, 0.0, -1.0]) * fall * (8.0 / pieces if pieces < 8 else 1.0)
-        ways = ways + draw.normal(0.0, 0.04 + style.curl, ways.shape)
+        curl = style.curl * (piece / pieces if style.fall >= 0.3 else 1.0)  # long hair curls below
+        ways = ways + draw.normal(0.0, 0.04 + curl, ways.shape)
         ways = ways - out * numpy.minimum(0.0, (ways * out).sum(axis=1))[:, None]
         ways /= numpy.linalg.norm(ways, axis=1, keepdims=True) + 1e-9
         points = points + ways * (length * steps[piece])[:, None]

@@ -139,13 +139,16 @@ def glasses(bodies, shape, level, scale, round_ones):
     return [joined([loose(bodies, points, faces, "head", "extra frame") for points, faces in found])]
 
 
+HAT_LINES = {  # by the angle from straight ahead: height on the base mesh
+    "beanie": ((0, 90, 180), (0.796, 0.772, 0.715)), "cap": ((0, 90, 180), (0.796, 0.778, 0.735)),
+    "headscarf": ((0, 35, 60, 78, 100, 180), (0.806, 0.790, 0.700, 0.612, 0.560, 0.530))}
+
+
 def hat(bodies, shape, level, kind, scale):
     """A beanie, a cap or a headscarf, from the scalp."""
     piece = head_of(bodies, shape, min(level, 1)) if kind != "headscarf" else _scarf_skin(bodies, shape, min(level, 1))
     angle = regions.angle_of(piece.places)
-    line = {"beanie": ((0, 90, 180), (0.796, 0.772, 0.715)), "cap": ((0, 90, 180), (0.796, 0.778, 0.735)),
-            "headscarf": ((0, 35, 60, 78, 100, 180), (0.806, 0.790, 0.700, 0.612, 0.560, 0.530))}[kind]
-    field = piece.places[:, regions.Z] - numpy.interp(angle, *line)
+    field = piece.places[:, regions.Z] - numpy.interp(angle, *HAT_LINES[kind])
     piece = clipped(replace(piece, tags=numpy.zeros(len(piece.points), int)), field, 1)
     points = piece.points + 0.014 * scale * piece.normals
     points = smoothed(points, piece.faces, 14 if kind == "headscarf" else 8)

@@ -5,7 +5,7 @@ import bpy
 import numpy
 
 from ..blender.nodes import of_person
-from . import masks, palettes
+from . import fabrics, masks, palettes
 from .shades import Shade
 
 PICTURE = "throng faces"
@@ -22,7 +22,7 @@ def material_of(kind, look, bodies):
     shade.material["throng_people"] = True
     tint = shade.split(of_person(shade.tree, "tint")[1])
     pattern = shade.attribute("pattern")
-    make = {"skin": _skin, "hair": _hair, "grey": _hair, "eyes": _eyes, "lashes": _lashes}.get(slot, _cloth)
+    make = {"skin": _skin, "hair": _hair, "grey": _hair, "eyes": _eyes, "lashes": _lashes}.get(slot, fabrics.cloth)
     make(shade, tint, pattern, kind, look, bodies)
     return shade.material
 
@@ -115,92 +115,3 @@ def _eyes(shade, tint, pattern, *_):
     shade.set(colour, "Base Color")
     shade.set(0.08, "Roughness")
     shade.set(0.6, "Specular", "Specular IOR Level")
-
-
-def _colours(slot, fabric, look):
-    if slot == "top":
-        return palettes.DENIMS if fabric == "denim" else palettes.tops(look)
-    if slot == "bottom":
-        return palettes.DENIMS if fabric == "denim" else palettes.BOTTOMS.get(look, palettes.BOTTOM)
-    if slot == "shirt":
-        return palettes.SHIRTS
-    if slot == "shoes":
-        return palettes.SOLES if fabric == "sole" else palettes.SHOES[fabric]
-    return palettes.extras(look, fabric)
-
-
-_PICKS = {"top": (0, 1.0), "bottom": (1, 1.0), "shirt": (0, 5.0), "shoes": (1, 9.0), "extra": (0, 11.0)}
-_ROUGH = {"leather": 0.40, "silk": 0.55, "padded": 0.55, "team": 0.6, "sole": 0.7, "frame": 0.25, "pack": 0.75,
-          "phone": 0.12, "paper": 0.6}
-_SHEEN = {"knit": 0.5, "wool": 0.4, "fleece": 0.6}
-
-
-def _cloth(shade, tint, pattern, kind, look, _bodies):
-    slot, fabric = kind.split()
-    number, rounds = _PICKS[slot]
-    base = shade.palette(tint[number], rounds, _colours(slot, fabric, look))
-    ahead, left, up = shade.split(pattern)
-    wave = lambda value, often: shade.math("SINE", shade.math("MULTIPLY", value, often))
-    worn = shade.noise(pattern, 7.0, 3.0)
-    colour = shade.mix(shade.mix(base, (0.78, 0.78, 0.80), 1.0, "MULTIPLY"), base, worn)
-    weave = shade.math("ADD", wave(shade.math("ADD", ahead, left), 2400.0), wave(up, 2400.0))
-    if slot == "top":
-        colour = _printed(shade, colour, base, tint, fabric, (left, up), wave, palettes.club(look))
-    if fabric == "denim":
-        fade = shade.math("MAXIMUM", shade.math("SUBTRACT", shade.noise(pattern, 5.0), 0.45), 0.0)
-        twill = shade.noise(pattern, 900.0)
-        colour = shade.mix(colour, shade.mix(base, (2.3, 2.1, 1.8), 1.0, "MULTIPLY"),
-                           shade.math("ADD", shade.math("MULTIPLY", fade, 1.8), shade.math("MULTIPLY", twill, 0.25)))
-    if fabric == "wool":
-        colour = shade.mix(colour, shade.mix(base, (1.7, 1.7, 1.7), 1.0, "MULTIPLY"),
-                           shade.math("MULTIPLY", shade.noise(pattern, 700.0, 3.0), 0.45))
-    shade.set(colour, "Base Color")
-    shade.set(_ROUGH.get(fabric, 0.85), "Roughness")
-    shade.set(0.45 if fabric in ("leather", "frame", "phone") else 0.2, "Specular", "Specular IOR Level")
-    shade.set(_SHEEN.get(fabric, 0.15), "Sheen", "Sheen Weight")
-    shade.set(_relief(shade, pattern, fabric, left, up, weave, wave), "Normal")
-
-
-def _printed(shade, colour, base, tint, fabric, place, wave, club):
-    """Some have stripes or checks: those whose tint says so. @param club two colours, or None"""
-    left, up = place
-    picks = shade.math("FRACT", shade.math("MULTIPLY", tint[0], 37.0))
-    other = shade.mix(base, (0.28, 0.28, 0.30), 1.0, "MULTIPLY")
-    light = shade.mix(base, (0.75, 0.73, 0.68), 0.7)
-    if fabric == "cotton":  # checked shirts
-        squares = shade.math("ADD", shade.math("GREATER_THAN", wave(left, 95.0), 0.2),
-                             shade.math("GREATER_THAN", wave(up, 95.0), 0.2))
-        return shade.mix(colour, other, shade.math("MULTIPLY", shade.math("MULTIPLY", squares, 0.40),
-                                                   shade.math("LESS_THAN", picks, 0.40)))
-    if fabric in ("jersey", "knit", "team"):  # striped ones
-        bands = shade.math("GREATER_THAN", wave(up, 120.0 if fabric != "team" else 60.0), 0.3)
-        if fabric == "team":
-            other = shade.mix(club[0], club[1], shade.math("LESS_THAN", tint[0], 0.75)) if club else other
-        return shade.mix(colour, light if fabric != "team" else other, shade.math(
-            "MULTIPLY", bands, shade.math("LESS_THAN", picks, 0.30)))
-    if fabric == "silk":  # flowered ones
-        flowers = shade.math("GREATER_THAN", shade.noise(shade.attribute("pattern"), 42.0, 1.0), 0.60)
-        return shade.mix(colour, light, shade.math("MULTIPLY", flowers, shade.math("LESS_THAN", picks, 0.45)))
-    return colour
-
-
-def _relief(shade, pattern, fabric, left, up, weave, wave):
-    if fabric in ("frame", "sole", "phone", "paper"):
-        return shade.bump(shade.noise(pattern, 200.0), 0.05, 0.001)
-    if fabric == "knit":
-        ribs = shade.math("ADD", wave(left, 640.0), wave(up, 520.0))
-        fine = shade.bump(ribs, 0.55, 0.0016)
-    elif fabric == "padded":
-        fine = shade.bump(shade.math("ABSOLUTE", wave(up, 42.0)), 0.9, 0.020)
-    elif fabric == "leather":
-        fine = shade.bump(shade.noise(pattern, 330.0, 3.0), 0.35, 0.001)
-    else:
-        fine = shade.bump(weave, 0.07, 0.0004)
-    # creases, where a noise goes through its middle: long across limbs, short along them
-    folds = shade.noise(pattern, 9.0, 2.0, (1.0, 1.0, 1.5))
-    small = shade.noise(pattern, 30.0, 2.0, (1.0, 1.0, 0.6))
-    crease = lambda value, sharp: shade.math("POWER", shade.math("SUBTRACT", 1.0, shade.math("ABSOLUTE", shade.math(
-        "MULTIPLY_ADD", value, 2.0, -1.0))), sharp)
-    folds, small = crease(folds, 5.0), crease(small, 3.0)
-    amount = {"leather": 0.75, "silk": 0.7, "cotton": 0.65, "denim": 0.6}.get(fabric, 0.5)
-    return shade.bump(small, 0.08 * amount, 0.004, shade.bump(folds, 0.18 * amount, 0.010, fine))

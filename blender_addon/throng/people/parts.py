@@ -98,6 +98,18 @@ def smoothed(points, faces, rounds, share=0.5, fixed=None):
     return points
 
 
+def evened(values, border, numbers, rounds=12):
+    """Values of the points of a border (`numbers`, sorted), each the more like those of its neighbours along it."""
+    one, other = numpy.searchsorted(numbers, border).T
+    many = 1.0 + numpy.bincount(one, minlength=len(numbers)) + numpy.bincount(other, minlength=len(numbers))
+    for _ in range(rounds):
+        beside = values.copy()
+        numpy.add.at(beside, one, values[other])
+        numpy.add.at(beside, other, values[one])
+        values = beside / many[:, None]
+    return values
+
+
 def clipped(part, field, tag=0):
     """What of a part is where a field is positive; new vertices are on its zero, and carry the tag."""
     field = numpy.where(numpy.abs(field) < 1e-9, 1e-9, field)
@@ -171,6 +183,11 @@ def lines_on(part, field, least=8):
     return found
 
 
+# Across a strap (share of half its width, height): flat, with two edges that light shows.
+_SECTION = ((-1.0, -0.9), (-1.0, 0.55), (-0.93, 0.95), (-0.80, 1.0),
+            (0.80, 1.0), (0.93, 0.95), (1.0, 0.55), (1.0, -0.9))
+
+
 def strap_on(part, field, wide, lift, material, rounds=30):
     """A strap of even width along the lines where a field is zero."""
     found = []
@@ -189,8 +206,7 @@ def strap_on(part, field, wide, lift, material, rounds=30):
             numpy.gradient(points, axis=0)
         aside = numpy.cross(normals, along)
         aside /= numpy.linalg.norm(aside, axis=1, keepdims=True) + 1e-12
-        rows = [points + aside * (0.5 * wide * share) + normals * (lift * height)
-                for share, height in ((-1.0, -0.6), (-0.96, 0.8), (0.0, 1.0), (0.96, 0.8), (1.0, -0.6))]
+        rows = [points + aside * (0.5 * wide * share) + normals * (lift * height) for share, height in _SECTION]
         count, across = len(points), len(rows)
         columns = numpy.tile(line.columns(), (across, 1))
         columns[:, :3] = numpy.concatenate(rows)

@@ -44,7 +44,7 @@ class Maker:
         return Model(
             numpy.concatenate([part.faces + start for part, start in zip(parts, first)]),
             numpy.concatenate([part.points for part in parts]), numpy.concatenate([part.weights for part in parts]),
-            numpy.concatenate([_pattern(part, neutral) for part in parts]), names,
+            numpy.concatenate([_pattern(part, neutral, self.rig.scale) for part in parts]), names,
             numpy.concatenate([numpy.full(len(part.faces), names.index(part.material)) for part in parts]), self.rig)
 
     def _parts(self, level):
@@ -63,7 +63,7 @@ class Maker:
         parts += whiskers.brows(bodies, shape, level, colour, scale, seed)
         parts += whiskers.beard(bodies, shape, level, person.beard, colour, scale, seed)
         parts += clothes
-        parts += hair.hair(bodies, shape, level, person.hair, colour, scale, seed)
+        parts += hair.hair(bodies, shape, level, person.hair, colour, scale, seed, person.hat)
         if person.hat:
             parts += head.hat(bodies, shape, level, person.hat, scale)
         if person.glasses:
@@ -76,9 +76,9 @@ class Maker:
         return [part for part in parts + bags.bag(bodies, person.bag, tops, self.rig, level) if len(part.faces)]
 
 
-def _pattern(part, neutral):
+def _pattern(part, neutral, scale):
     if part.material.startswith("skin"):
         return part.places[:, :3]
     if part.material.startswith(("hair", "grey", "eyes")):
         return numpy.concatenate([part.flat, part.places[:, :1]], axis=1)
-    return skinned(part.points, part.weights, neutral)[0]
+    return skinned(part.points, part.weights, neutral)[0] / scale

@@ -20,12 +20,12 @@ MINI = replace(SKIRT, material="bottom denim", hem=-0.17, flare=0.12, pleats=0.0
 
 TEE = Garment("top", "top jersey", off=0.010, loose=0.17, sleeve=0.37, hem=0.005, neck=(1.06, 1.04), collar="crew")
 TANK = replace(TEE, sleeve=0.035, off=0.007, loose=0.08, neck=(1.20, 1.25), collar="")
-POLO = replace(TEE, sleeve=0.39, collar="shirt", neck=(1.0, 1.0), vee=0.515, material="top cotton")
+POLO = replace(TEE, sleeve=0.39, collar="shirt", neck=(1.0, 1.0), vee=0.515, material="top pique")
 SHIRT = Garment("top", "top cotton", off=0.010, loose=0.14, hem=-0.015, collar="shirt", vee=0.525, pockets=("chest",))
 SHORT_SHIRT = replace(SHIRT, sleeve=0.42, loose=0.20)
 BLOUSE = replace(SHIRT, loose=0.10, hem=0.02, vee=0.480, pockets=(), material="top silk")
 TUCKED = replace(SHIRT, material="shirt cotton", hem=0.12, off=0.007, loose=0.10, vee=0.535, pockets=())
-UNDER = replace(TEE, material="shirt cotton", hem=0.10, off=0.006, loose=0.05, sleeve=0.30)
+UNDER = replace(TEE, material="shirt jersey", hem=0.10, off=0.006, loose=0.05, sleeve=0.30)
 JUMPER = Garment("top", "top knit", off=0.015, loose=0.17, hem=0.01, collar="crew")
 ROLL = replace(JUMPER, collar="roll", loose=0.13)
 HOODIE = Garment("top", "top fleece", off=0.018, loose=0.20, hem=0.0, collar="hood", pockets=("kangaroo",), folds=1.3)
@@ -38,7 +38,7 @@ CARDIGAN = replace(LEATHER, material="top knit", hem=-0.03, collar="crew", gap=(
 BOMBER = replace(LEATHER, material="top padded", off=0.024, loose=0.20, hem=0.065, collar="stand", gap=(0.030, 0.040))
 TRACK = replace(BOMBER, material="top jersey", off=0.015, gap=(0.008, 0.034))
 PUFFER = Garment("top", "top padded", off=0.036, loose=0.26, hem=-0.02, collar="stand", smooth=8, folds=1.6)
-PARKA = Garment("top", "top cotton", off=0.030, loose=0.20, hem=-0.12, collar="hood", pockets=("hip",), folds=1.3)
+PARKA = Garment("top", "top shell", off=0.030, loose=0.20, hem=-0.12, collar="hood", pockets=("hip",), folds=1.3)
 COAT = Garment("top", "top wool", off=0.024, loose=0.13, hem=0.122, collar="coat", vee=0.345, lapels=0.065, folds=0.7,
                pockets=("chest",), belt="top wool")
 COAT_SKIRT = Garment("skirt", "top wool", off=0.021, hem=-0.34, waist=0.170, flare=0.08, pleats=0.006)
