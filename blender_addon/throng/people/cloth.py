@@ -165,7 +165,7 @@ class Tailor:
             over = _ramp(0.15 - places[:, regions.Z], 0.0, 0.09) * (places[:, regions.ARM] <= 0.0)
             part = part.moved(part.points + part.normals * (_OVER * self.scale * over)[:, None])
             part = self._hung(part)
-        part = clipped(part, self._above_hem(part, garment.hem), HEM)
+        part = clipped(part, self._above(part, garment, garment.hem), HEM)
         part = clipped(part, regions.sleeve(part.places, garment.sleeve), CUFF)
         part = clipped(part, regions.neckline(part.places, *garment.neck), NECK)
         if garment.vee is not None:
@@ -181,12 +181,15 @@ class Tailor:
         weights[:, self.bodies.bone["pelvis"]] += share
         return replace(part, weights=weights)
 
-    def _above_hem(self, part, hem):
-        """Positive above a hem that is level, as cloth falls, whatever the shape below it."""
-        trunk = part.places[:, regions.ARM] <= 0.0
-        there = trunk & (numpy.abs(part.places[:, regions.Z] - hem) < 0.025)
-        height = numpy.median(part.points[there, 2] - part.places[there, regions.Z]) + hem
-        return numpy.where(trunk, part.points[:, 2] - height, 1.0)
+    def _above(self, part, garment, height):
+        """Positive above a height on the base mesh, and its zero is level, as hems of what falls are, whatever the
+        shape; at all levels of detail the same. Arms are inside."""
+        group = SKIRT if garment.kind == "skirt" else SUIT
+        points, numbers = self._surface(garment, group), numpy.unique(self.bodies.triangles(group))
+        near = numbers[(self.places[numbers, regions.ARM] <= 0.0)
+                       & (numpy.abs(self.places[numbers, regions.Z] - height) < 0.03)]
+        level = numpy.median(points[near, 2] + self.scale * (height - self.places[near, regions.Z]))
+        return regions.on_trunk(part.places, part.points[:, 2] - level)
 
     def _legs(self, garment):
         part = self._part(self._surface(garment), SUIT, garment.material)
@@ -292,7 +295,7 @@ class Tailor:
         trunk = clipped(part, regions.but_arms(part.places, 1.0))
         if not len(trunk.faces):
             return []
-        return strap_on(trunk, self._above_hem(trunk, middle), 0.034 * self.scale, 0.0055 * self.scale, garment.belt)
+        return strap_on(trunk, self._above(trunk, garment, middle), 0.034 * self.scale, 0.0055 * self.scale, garment.belt)
 
     def _folds(self, part, garment):
         """How far the cloth goes out, m: ridges, here and there, across limbs where joints bend and where cloth piles

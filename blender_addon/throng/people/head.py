@@ -42,12 +42,13 @@ def head_of(bodies, shape, level):
     return Part(faces.reshape(-1, 3), shape[numbers], bodies.weights[numbers], regions.places_of(bodies)[numbers])
 
 
-def eyes(bodies, shape, level):
+def eyes(bodies, shape, level, brown):
     rings = levels.DETAILS[level].eyes
-    return [_eye(bodies, shape[bodies.vertices_of(f"helper-{side}-eye")], rings) for side in "lr"] if rings else []
+    kind = "eyes brown" if brown else "eyes"
+    return [_eye(bodies, shape[bodies.vertices_of(f"helper-{side}-eye")], rings, kind) for side in "lr" if rings]
 
 
-def _eye(bodies, points, rings):
+def _eye(bodies, points, rings, kind):
     """The front of a ball; `flat` says how far from the middle of the pupil, 1 at a right angle."""
     low, high = points.min(axis=0), points.max(axis=0)
     middle, radius = 0.5 * (low + high), 0.25 * (high - low)[1:].sum()
@@ -67,7 +68,7 @@ def _eye(bodies, points, rings):
         for ring in range(rings - 1):
             a, b = 1 + ring * spokes, 1 + (ring + 1) * spokes
             faces += [(a + spoke, b + spoke, b + after), (a + spoke, b + after, a + after)]
-    return loose(bodies, numpy.array(made), faces, "head", "eyes", numpy.array(flat))
+    return loose(bodies, numpy.array(made), faces, "head", kind, numpy.array(flat))
 
 
 def lashes(bodies, shape, level):

@@ -4,6 +4,7 @@ colours, and the attribute `pattern` of the mesh says where on the body, the str
 import bpy
 import numpy
 
+from ..blender.builds import can_denoise
 from ..blender.nodes import of_person
 from . import fabrics, masks, palettes
 from .shades import Shade
@@ -71,7 +72,12 @@ def _skin(shade, tint, pattern, kind, _look, bodies):
     colour = shade.mix(colour, shade.mix(base, (0.10, 0.085, 0.08), 1.0, "MULTIPLY"),
                        shade.math("MULTIPLY", brows, 0.60))
     shade.set(colour, "Base Color")
-    shade.set(shade.math("ADD", 0.40, shade.math("MULTIPLY", mottle, 0.18)), "Roughness")
+    shade.set(shade.math("ADD", 0.44, shade.math("MULTIPLY", mottle, 0.20)), "Roughness")
+    if can_denoise():  # what light does below skin takes more samples
+        shade.set(0.15, "Subsurface", "Subsurface Weight")
+        shade.set(colour, "Subsurface Color")
+        shade.set((1.0, 0.35, 0.18), "Subsurface Radius")
+        shade.set(0.012, "Subsurface Scale")
     shade.set(0.42, "Specular", "Specular IOR Level")
     shade.set(shade.bump(fine, 0.10, 0.0008, shade.bump(mottle, 0.10, 0.002)), "Normal")
 
@@ -101,11 +107,11 @@ def _lashes(shade, *_):
     shade.set(0.6, "Roughness")
 
 
-def _eyes(shade, tint, pattern, *_):
+def _eyes(shade, tint, pattern, kind, *_):
     across, upwards, _ = shade.split(pattern)
     away = shade.math("SQRT", shade.math("ADD", shade.math("MULTIPLY", across, across),
                                          shade.math("MULTIPLY", upwards, upwards)))
-    iris = shade.palette(tint[2], 13.0, palettes.EYES)
+    iris = shade.palette(tint[2], 13.0, palettes.BROWN_EYES if kind.endswith("brown") else palettes.EYES)
     streaks = shade.noise(pattern, 22.0, 3.0)
     colour = shade.mix(iris, shade.mix(iris, (2.2, 2.0, 1.6), 1.0, "MULTIPLY"), streaks)
     colour = shade.mix(colour, (0.003, 0.003, 0.003), shade.math("LESS_THAN", away, 0.125))
@@ -114,4 +120,4 @@ def _eyes(shade, tint, pattern, *_):
     colour = shade.mix(colour, (0.40, 0.36, 0.335), shade.math("GREATER_THAN", away, 0.315))
     shade.set(colour, "Base Color")
     shade.set(0.08, "Roughness")
-    shade.set(0.6, "Specular", "Specular IOR Level")
+    shade.set(0.4, "Specular", "Specular IOR Level")

@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy
 
-from . import bags, cloth, hair, head, regions, whiskers
+from . import bags, cloth, hair, head, palettes, regions, whiskers
 from .rig import Rig, skinned
 from .shape import shape_of
 
@@ -59,7 +59,7 @@ class Maker:
             skin = skin.kept(skin.faces[~((keep > 0) & (skin.places[:, regions.HEAD] > 0.5))[skin.faces].all(axis=1)])
         stubble = " stubble" if person.beard else ""
         parts = [replace(skin, material=f"skin {person.skin}{stubble}")]
-        parts += head.eyes(bodies, shape, level) + head.lashes(bodies, shape, level)
+        parts += head.eyes(bodies, shape, level, person.skin in palettes.BROWN_EYED) + head.lashes(bodies, shape, level)
         parts += whiskers.brows(bodies, shape, level, colour, scale, seed)
         parts += whiskers.beard(bodies, shape, level, person.beard, colour, scale, seed)
         parts += clothes

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import bpy
 from mathutils import Vector
 
+from ..blender.builds import can_denoise
 from ..blender.nodes import socket
 from ..environment.lights import lights_of, set_colours, tame_fireflies
 from . import mattes
@@ -26,15 +27,6 @@ PRESETS = {
     "final": Look(1920, 1080, 768, 0.008, True, True),
 }
 HAZE_COLOUR = (0.62, 0.68, 0.76)  # where the light is the scene's own
-
-
-def can_denoise():
-    """Not every build has Open Image Denoise: Debian's has not."""
-    try:
-        import _cycles
-    except ImportError:
-        return False
-    return bool(getattr(_cycles, "with_openimagedenoise", False))
 
 
 def apply(scene, preset, *, crane=True, haze=0.3):
