@@ -295,7 +295,8 @@ class Tailor:
         trunk = clipped(part, regions.but_arms(part.places, 1.0))
         if not len(trunk.faces):
             return []
-        return strap_on(trunk, self._above(trunk, garment, middle), 0.034 * self.scale, 0.0055 * self.scale, garment.belt)
+        line = self._above(trunk, garment, middle)
+        return strap_on(trunk, line, 0.034 * self.scale, 0.0055 * self.scale, garment.belt)
 
     def _folds(self, part, garment):
         """How far the cloth goes out, m: ridges, here and there, across limbs where joints bend and where cloth piles
