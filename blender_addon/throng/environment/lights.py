@@ -10,7 +10,8 @@ from .rooms import light_rooms
 from .skies import AZIMUTH, build_world, light_of
 from .weather import set_haze
 
-_LESS_FROM_AFAR = 0.5  # stops: from afar all the ground is in the sun
+# Stops by the shot: from afar all the ground is in the sun, and among people in a street half of it is in the shade.
+_EXPOSURES = {"wide": -0.5, "street": 0.35}
 
 
 def build_light(scene, collection, time="late", manifest=None):
@@ -34,7 +35,7 @@ def expose(scene, collection):
     """Exposure for the collection's light and shot."""
     time, shot = collection.get("throng_light_time"), collection.get("throng_shot", "crane")
     if time:
-        scene.view_settings.exposure = light_of(time).exposure - (_LESS_FROM_AFAR if shot == "wide" else 0.0)
+        scene.view_settings.exposure = light_of(time).exposure + _EXPOSURES.get(shot, 0.0)
 
 
 def lights_of(scene):

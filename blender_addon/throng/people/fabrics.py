@@ -12,7 +12,7 @@ _ROUGH = {"leather": 0.42, "silk": 0.50, "padded": 0.55, "shell": 0.62, "team": 
 _SHEEN = {"knit": 0.5, "wool": 0.4, "fleece": 0.6, "jersey": 0.25, "pique": 0.2}
 _HARD = ("frame", "sole", "phone", "paper")
 # How deep creases are, beside the deepest.
-_CREASED = {"leather": 1.0, "silk": 0.8, "cotton": 1.0, "denim": 0.9, "shell": 0.9, "jersey": 0.75, "pique": 0.6,
+_CREASED = {"leather": 0.6, "silk": 0.8, "cotton": 1.0, "denim": 0.9, "shell": 0.9, "jersey": 0.75, "pique": 0.6,
             "wool": 0.45, "fleece": 0.5, "knit": 0.35, "padded": 0.8, "team": 0.8, "pack": 0.5}
 _STITCH = 0.0075, 0.0062     # m, of knitwear: across, upwards
 _BUTTONS = {  # m: from one to the next, from which height to which, half as wide as that
