@@ -35,7 +35,8 @@ LEATHER = Garment("top", "top leather", off=0.018, loose=0.12, hem=0.055, collar
                   folds=0.6)
 DENIM = replace(LEATHER, folds=1.0, material="top denim", hem=0.045, pockets=("chest",), loose=0.14)
 CARDIGAN = replace(LEATHER, folds=1.0, material="top knit", hem=-0.03, collar="crew", gap=(0.035, 0.050), loose=0.12)
-BOMBER = replace(LEATHER, folds=1.0, material="top padded", off=0.024, loose=0.20, hem=0.065, collar="stand", gap=(0.030, 0.040))
+BOMBER = replace(LEATHER, folds=1.0, material="top padded", off=0.024, loose=0.20, hem=0.065, collar="stand",
+                 gap=(0.030, 0.040))
 TRACK = replace(BOMBER, material="top jersey", off=0.015, gap=(0.008, 0.034))
 PUFFER = Garment("top", "top padded", off=0.036, loose=0.26, hem=-0.02, collar="stand", smooth=8, folds=1.6)
 PARKA = Garment("top", "top shell", off=0.030, loose=0.20, hem=-0.12, collar="hood", pockets=("hip",), folds=1.3)
