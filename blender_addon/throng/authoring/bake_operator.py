@@ -63,8 +63,8 @@ def described(layout, problem):
     owner = ""
     if problem.target:
         owner = problem.target.name
-    elif problem.where == "flows" and problem.index < len(layout.flows):
-        owner = layout.flows[problem.index].name
+    elif problem.where in ("flows", "behaviours") and problem.index < len(getattr(layout, problem.where)):
+        owner = getattr(layout, problem.where)[problem.index].name
     about = " ".join([owner] + problem.pointer.split("/")[3:]).strip()
     return f"{about}: {problem.message}" if about else problem.message
 
@@ -78,6 +78,8 @@ def show(context, problem):
         layout.active_flow = problem.index
     elif problem.where == "events":
         layout.active_event = problem.index
+    elif problem.where == "behaviours":
+        layout.active_behaviour = problem.index
 
 
 def _complain(context, message, target=None, pointer=""):

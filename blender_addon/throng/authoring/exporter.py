@@ -7,13 +7,13 @@ import os
 import bpy
 
 from ..formats.whole_files import write_whole
-from . import fields, places
+from . import behaviours, fields, places
 from .codecs import take_all
 from .geometry import AuthoringError, outlines_of, people_of, splines_of
 from .values import MISSING, are_points, is_number, is_point, keep_points, short, world_point
 
 LISTS = {"ROAD": "roads", "AREA": "areas", "WALL": "walls", "FORMATION": "formations"}
-LISTED = ("roads", "areas", "walls", "flows", "formations", "events")
+LISTED = ("roads", "areas", "walls", "behaviours", "flows", "formations", "events")
 
 
 def origin_of(scene):
@@ -144,7 +144,8 @@ def _scaled(result, thing, keys):
 def _formation(thing, world):
     part, raw = thing.throng_layout.formation, _raw(thing)
     old = raw if raw.get("type") == part.type else {key: raw[key] for key in ("id",) if key in raw}
-    result = take_all(fields.FORMATION[part.type], part, {**_named(thing, old), "type": part.type}, world)
+    codecs = (*fields.FORMATION[part.type], places.Behaviour())
+    result = take_all(codecs, part, {**_named(thing, old), "type": part.type}, world)
     if part.type == "circle":
         result["centre"] = world.point_of(thing, old.get("centre"))
         _scaled(result, thing, ("radius", "ring_spacing", "along"))
@@ -161,7 +162,7 @@ def _formation(thing, world):
         if "behaviour" in result:
             result["agents"] = [{key: value for key, value in each.items() if key not in ("goal", "via", "wait")}
                                 for each in result["agents"]]
-    return [places.without_goal(result, "goal")]
+    return [places.without_goal(places.in_place_of(result, raw, ("goal", "arrival", "wait")), "goal")]
 
 
 def _agents(thing, raw, world):
@@ -200,7 +201,8 @@ def export_layout(context):
             for entry in _WRITERS[kind](thing, world):
                 sources[f"/{key}/{len(lists[key])}"] = (thing, "", -1)
                 lists[key].append(entry)
-    for key, group, take in (("flows", layout.flows, places.take_flow), ("events", layout.events, places.take_event)):
+    for key, group, take in (("behaviours", layout.behaviours, behaviours.take_behaviour),
+                             ("flows", layout.flows, places.take_flow), ("events", layout.events, places.take_event)):
         for index, item in enumerate(group):
             sources[f"/{key}/{index}"] = (None, key, index)
             lists[key].append(take(item, world))

@@ -6,7 +6,7 @@ import os
 
 import bpy
 
-from . import codecs, display, fields, geometry, places
+from . import behaviours, codecs, display, fields, geometry, places
 from .exporter import LISTED, LISTS, parts_of
 from .geometry import AuthoringError
 from .values import MISSING, are_points, is_number, is_point
@@ -152,7 +152,7 @@ def _shaped(world, key, kind, entry):
 
 def _put_formation(part, entry, world):
     part.type = entry["type"]
-    codecs.put_all(fields.FORMATION[part.type], part, entry, world)
+    codecs.put_all((*fields.FORMATION[part.type], places.Behaviour()), part, entry, world)
     if part.type == "grid":
         places.put_goal(part, entry.get("goal", MISSING), world)
 
@@ -189,7 +189,7 @@ def clear(scene):
         else:
             bpy.data.objects.remove(thing)
     layout = scene.throng_layout
-    for group in (layout.flows, layout.events, layout.bars, layout.problems):
+    for group in (layout.behaviours, layout.flows, layout.events, layout.bars, layout.problems):
         group.clear()
     for name in ("raw", "source", "origin", "name"):
         setattr(layout, name, "")
@@ -208,7 +208,7 @@ def layout_collection(scene):
 
 def is_empty(scene):
     layout = scene.throng_layout
-    return not (authored(scene) or len(layout.flows) or len(layout.events))
+    return not (authored(scene) or len(layout.behaviours) or len(layout.flows) or len(layout.events))
 
 
 def import_layout(context, path, replace=False):
@@ -227,6 +227,8 @@ def import_layout(context, path, replace=False):
         things = _add_objects(world, document)
         for codec in fields.SETTINGS:
             codec.put(layout, document.get(codec.key, MISSING))
+        for behaviour in document.get("behaviours", []):
+            behaviours.put_behaviour(layout.behaviours.add(), behaviour, world)
         for flow in document.get("flows", []):
             places.put_flow(layout.flows.add(), flow, world)
         for event in document.get("events", []):

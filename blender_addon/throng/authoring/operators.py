@@ -232,7 +232,7 @@ class THRONG_OT_list(bpy.types.Operator):
         group = owner.path_resolve(self.where)
         index = self.index if self.index >= 0 else len(group) - 1
         if self.action == "ADD":
-            group.add()
+            self._name(group, group.add())
         elif not 0 <= index < len(group):
             return {"CANCELLED"}
         elif self.action == "REMOVE":
@@ -240,6 +240,19 @@ class THRONG_OT_list(bpy.types.Operator):
         else:
             group.move(index, max(0, min(len(group) - 1, index + (-1 if self.action == "UP" else 1))))
         return {"FINISHED"}
+
+
+    def _name(self, group, added):
+        """Behaviours and states are spoken of by name, and a behaviour begins with its first state."""
+        what = self.where.rpartition(".")[2]
+        if what not in ("behaviours", "states"):
+            return
+        names, word = {each.name for each in group}, what[:-1].capitalize()
+        added.name = next(name for name in (f"{word} {number}" for number in range(len(group), 2**30))
+                          if name not in names)
+        if what == "states" and len(group) == 1:
+            owner = self.where.rpartition(".")[0]
+            bpy.context.scene.throng_layout.path_resolve(owner).start = added.name
 
 
 class THRONG_OT_settings_from_scene(bpy.types.Operator):

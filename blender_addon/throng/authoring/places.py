@@ -159,7 +159,20 @@ class Amount(Codec):
 
 
 AMOUNT = Amount()
-FLOW = (Place("from", "source"), Stops("via"), Destination("to")) + fields.FLOW
+class Behaviour(Codec):
+    """The name of one; none is no key."""
+
+    def __init__(self):
+        super().__init__("behaviour")
+
+    def shown(self, raw):
+        return raw if isinstance(raw, str) else ""
+
+    def written(self, value):
+        return value or MISSING
+
+
+FLOW = (Place("from", "source"), Stops("via"), Destination("to"), Behaviour()) + fields.FLOW
 
 
 def put_flow(flow, raw, world):
@@ -179,7 +192,14 @@ def take_flow(flow, world):
         result.update({"id": raw["id"]} if "id" in raw else {})
     if result.get("from") == "" and "alight" in result:
         del result["from"]
-    return without_goal(result, "to")
+    return without_goal(in_place_of(result, raw, ("to", "via")), "to")
+
+
+def in_place_of(entry, raw, goals):
+    """A flow's or formation's object, without the goals that it had before it got a behaviour."""
+    if "behaviour" not in entry or "behaviour" in raw:
+        return entry
+    return {key: value for key, value in entry.items() if key not in goals}
 
 
 def without_goal(entry, key):

@@ -8,8 +8,11 @@ import bpy
 from bpy.props import (BoolProperty, CollectionProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty,
                        PointerProperty, StringProperty)
 
-from . import display, fields
+from . import behaviour_properties, common_properties, display, fields
 from .codecs import GROUPS, LOOKS, MIX, PROFILES, UNSET, Flag, Whole
+from .behaviour_properties import ThrongBehaviour
+from .common_properties import (
+    ThrongDestination, ThrongDistribution, ThrongMember, ThrongPlace, is_kind, words_items)
 from .fields import limits
 
 KINDS = (("NONE", "None", "No part of the layout"), ("ROAD", "Road", "A curve with a width, on which people walk"),
@@ -18,11 +21,6 @@ KINDS = (("NONE", "None", "No part of the layout"), ("ROAD", "Road", "A curve wi
          ("FORMATION", "Formation", "People who stand here at a given moment"),
          ("LINE", "Line", "A queue, a mirror, the corners of a box, or where people are counted"),
          ("POINT", "Point", "Something to look at"))
-
-
-def _words(words, unset=None):
-    items = [(word, word.replace("_", " ").capitalize(), "") for word in words]
-    return ([(UNSET, unset, "The layout says nothing about it")] if unset else []) + items
 
 
 def _refresh(group, _context):
@@ -35,29 +33,7 @@ def _show_solid(layout, _context):
             thing.display_type = "TEXTURED" if layout.show_solid else "WIRE"
 
 
-def _is_place(_group, thing):
-    return thing.throng_layout.kind in ("ROAD", "AREA")
-
-
-def _is_kind(kind):
-    return lambda _group, thing: thing.throng_layout.kind == kind
-
-
-_ENDS = [("start", "Start", "Where the road's curve begins"), ("end", "End", "Where it ends")]
 _ARRIVAL = [("leave", "Leave", "People leave the scene at their goal"), ("stay", "Stay", "People stay and stand there")]
-
-
-class ThrongDistribution(bpy.types.PropertyGroup):
-    kind: EnumProperty(name="Kind",
-                       items=[(UNSET, "Default", "As Throng has it"), ("NUMBER", "Number", "The same for all"),
-                              ("uniform", "Uniform", "From a to b"), ("normal", "Normal", "Mean a, deviation b"),
-                              ("log_normal", "Log-normal", "Mean a and deviation b of the logarithm")])
-    a: FloatProperty(name="A")
-    b: FloatProperty(name="B")
-    use_least: BoolProperty(name="At Least")
-    least: FloatProperty(name="At Least")
-    use_most: BoolProperty(name="At Most")
-    most: FloatProperty(name="At Most")
 
 
 class ThrongPeople(bpy.types.PropertyGroup):
@@ -69,29 +45,14 @@ class ThrongPeople(bpy.types.PropertyGroup):
                                         description="Highest speed as a multiple of the preferred one")
     headway: FloatProperty(name="Headway", **limits("people", "headway"),
                            description="Free way kept to those walked behind, s")
-    profile: EnumProperty(name="Profile", items=_words(PROFILES, "Default") + [(MIX, "Mix", "Several, by weight")])
+    profile: EnumProperty(name="Profile", items=words_items(PROFILES, "Default") + [(MIX, "Mix", "Several, by weight")])
     profile_weights: FloatVectorProperty(name="Weights", size=4, default=(1.0, 0.0, 0.0, 0.0), soft_min=0.0,
                                          description="Adults, children, elderly, runners")
-    groups: EnumProperty(name="Groups", items=_words(GROUPS, "Default")
+    groups: EnumProperty(name="Groups", items=words_items(GROUPS, "Default")
                                         + [(MIX, "Weights", "Of those who walk alone, in twos, threes and fours")])
     group_weights: FloatVectorProperty(name="Weights", size=4, default=(1.0, 0.0, 0.0, 0.0), soft_min=0.0,
                                        description="Alone, twos, threes, fours")
-    look: EnumProperty(name="Look", items=_words(LOOKS), description="What they wear")
-
-
-class ThrongPlace(bpy.types.PropertyGroup):
-    target: PointerProperty(type=bpy.types.Object, name="Place", poll=_is_place, description="A road or an area")
-    end: EnumProperty(name="End", items=_ENDS, description="Which end of the road")
-    text: StringProperty(name="By Name", description="A place that is no object of this scene")
-    weight: FloatProperty(name="Weight", default=1.0, soft_min=0.0)
-
-
-class ThrongDestination(bpy.types.PropertyGroup):
-    mode: EnumProperty(name="To", items=[("PLACE", "Place", "One place"),
-                                         ("NEAREST", "Nearest", "Whichever is nearest, jams considered"),
-                                         ("CHOOSE", "Choose", "One of these, by weight")])
-    place: PointerProperty(type=ThrongPlace)
-    places: CollectionProperty(type=ThrongPlace)
+    look: EnumProperty(name="Look", items=words_items(LOOKS), description="What they wear")
 
 
 class ThrongStop(bpy.types.PropertyGroup):
@@ -103,9 +64,9 @@ class ThrongStop(bpy.types.PropertyGroup):
                            items=[("gather", "Gather", "Everybody stands at a spot of their own"),
                                   ("look", "Look", "The same, looking at something"),
                                   ("queue", "Queue", "People stand in line, and the first one is served")])
-    facing: PointerProperty(type=bpy.types.Object, name="Facing", poll=_is_kind("POINT"),
+    facing: PointerProperty(type=bpy.types.Object, name="Facing", poll=is_kind("POINT"),
                             description="What people look at")
-    line: PointerProperty(type=bpy.types.Object, name="Line", poll=_is_kind("LINE"),
+    line: PointerProperty(type=bpy.types.Object, name="Line", poll=is_kind("LINE"),
                           description="Where people queue, from the front on")
     spacing: FloatProperty(name="Spacing", **limits("stop", "spacing"),
                            description="Queue: metres from one to the next")
@@ -120,6 +81,7 @@ def _renamed(flow, context):
             for member in event.who:
                 if member.target is None and member.name == flow.known:
                     member.name = flow.name
+        behaviour_properties.flow_named(flow.id_data.throng_layout, flow.known, flow.name)
     flow.known = flow.name
 
 
@@ -142,10 +104,7 @@ class ThrongFlow(bpy.types.PropertyGroup):
     end: FloatProperty(name="End", **limits("flow", "end"), description="When the last come, s")
     people: PointerProperty(type=ThrongPeople)
     arrival: EnumProperty(name="Arrival", items=_ARRIVAL)
-
-
-class ThrongMember(bpy.types.PropertyGroup):
-    target: PointerProperty(type=bpy.types.Object, name="Formation", poll=_is_kind("FORMATION"))
+    behaviour: StringProperty(name="Behaviour", description="In place of where they go")
 
 
 class ThrongEvent(bpy.types.PropertyGroup):
@@ -155,7 +114,7 @@ class ThrongEvent(bpy.types.PropertyGroup):
                                            ("go_to", "Go to", "People leave what they do and go there"),
                                            ("flow", "Flow", "A flow changes its rate")])
     time: FloatProperty(name="At", **limits("event", "at"), description="When, s")
-    wall: PointerProperty(type=bpy.types.Object, name="Wall", poll=_is_kind("WALL"))
+    wall: PointerProperty(type=bpy.types.Object, name="Wall", poll=is_kind("WALL"))
     text: StringProperty(name="By Name", description="A wall that is no object of this scene")
     destination: PointerProperty(type=ThrongDestination)
     who: CollectionProperty(type=ThrongMember)
@@ -165,7 +124,7 @@ class ThrongEvent(bpy.types.PropertyGroup):
 
 
 class ThrongBar(bpy.types.PropertyGroup):
-    figure: EnumProperty(name="Figure", items=_words(fields.BARS))
+    figure: EnumProperty(name="Figure", items=words_items(fields.BARS))
     use_least: BoolProperty(name="At Least")
     least: FloatProperty(name="At Least")
     use_most: BoolProperty(name="At Most")
@@ -203,7 +162,7 @@ class ThrongFormation(bpy.types.PropertyGroup):
                                                 ("ANYWHERE", "Anywhere", "In a box between the two ends of a line")])
     goal: PointerProperty(type=ThrongDestination)
     goal_offset: FloatVectorProperty(name="Offset", size=2, subtype="XYZ")
-    goal_line: PointerProperty(type=bpy.types.Object, name="Line", poll=_is_kind("LINE"))
+    goal_line: PointerProperty(type=bpy.types.Object, name="Line", poll=is_kind("LINE"))
     start: FloatProperty(name="Start", **limits("formation", "start"), description="When they appear, s")
     wait: PointerProperty(type=ThrongDistribution, name="Wait",
                           description="How long people stand before they set off, s")
@@ -211,6 +170,7 @@ class ThrongFormation(bpy.types.PropertyGroup):
     arrival: EnumProperty(name="Arrival", items=_ARRIVAL, default="stay")
     goal_tolerance: FloatProperty(name="Goal Tolerance", **limits("formation", "goal_tolerance"),
                                   description="This near to a point goal is arrived, m")
+    behaviour: StringProperty(name="Behaviour", description="In place of where they go")
 
 
 class ThrongObject(bpy.types.PropertyGroup):
@@ -286,8 +246,10 @@ class ThrongScene(bpy.types.PropertyGroup):
     active_flow: IntProperty()
     events: CollectionProperty(type=ThrongEvent)
     active_event: IntProperty()
+    behaviours: CollectionProperty(type=ThrongBehaviour)
+    active_behaviour: IntProperty()
     bars: CollectionProperty(type=ThrongBar)
-    expect_line: PointerProperty(type=bpy.types.Object, name="Line", poll=_is_kind("LINE"),
+    expect_line: PointerProperty(type=bpy.types.Object, name="Line", poll=is_kind("LINE"),
                                  description="Where people are counted for the bar on flow")
     tolerance: FloatProperty(name="Curve Tolerance", default=0.02, min=0.001, max=10.0, subtype="DISTANCE",
                              description="How far points on a Bezier curve may be off")
@@ -313,7 +275,7 @@ class ThrongScene(bpy.types.PropertyGroup):
     status: StringProperty(options={"SKIP_SAVE"})
 
 
-CLASSES = (ThrongDistribution, ThrongPeople, ThrongPlace, ThrongDestination, ThrongStop, ThrongFlow, ThrongMember,
+CLASSES = (*common_properties.CLASSES, *behaviour_properties.CLASSES, ThrongPeople, ThrongStop, ThrongFlow,
            ThrongEvent, ThrongBar, ThrongFormation, ThrongObject, ThrongSimulation, *_RULES.values(), ThrongMotion,
            ThrongProblem, ThrongScene)
 

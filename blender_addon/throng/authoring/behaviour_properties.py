@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Behaviours as the artist edits them: states, what people do in each, and what ends it."""
+import bpy
+from bpy.props import (BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty,
+                       StringProperty)
+
+from . import behaviours
+from .codecs import UNSET
+from .common_properties import ThrongDestination, ThrongDistribution, ThrongMember, ThrongPlace, is_kind
+from .fields import limits
+from .schema import LAYOUT, description_of, words_of
+
+_NAMES = {
+    "after": "After", "at": "At", "arrived": "In Place", "near": "Near", "crowded": "Crowded", "chance": "By Chance",
+    "empty": "Empty", "all_here": "All Here", "open": "Gate Open", "closed": "Gate Closed",
+}
+
+
+def _items(owner, keys):
+    return [(key, _NAMES.get(key) or key.replace("_", " ").title(), description_of(LAYOUT.entry(owner, key)))
+            for key in keys]
+
+
+def _state_named(state, _context):
+    """What leads to a state speaks of it by name."""
+    behaviour = _owner_of(state)
+    if behaviour and state.known and state.known != state.name:
+        if behaviour.start == state.known:
+            behaviour.start = state.name
+        for each in behaviour.states:
+            for led in (each, *each.until):
+                if led.then == state.known:
+                    led.then = state.name
+    state.known = state.name
+
+
+def _owner_of(state):
+    for behaviour in state.id_data.throng_layout.behaviours:
+        if any(each == state for each in behaviour.states):
+            return behaviour
+    return None
+
+
+def _behaviour_named(behaviour, _context):
+    """Flows and formations speak of behaviours by name."""
+    if behaviour.known and behaviour.known != behaviour.name:
+        scene = behaviour.id_data
+        people = [thing.throng_layout.formation for thing in scene.objects if thing.throng_layout.kind == "FORMATION"]
+        for each in (*scene.throng_layout.flows, *people):
+            if each.behaviour == behaviour.known:
+                each.behaviour = behaviour.name
+    behaviour.known = behaviour.name
+
+
+def flow_named(layout, before, name):
+    """Behaviours speak of flows by name."""
+    for behaviour in layout.behaviours:
+        for state in behaviour.states:
+            who = [each for rule in state.until for condition in rule.conditions for each in condition.who]
+            for member in (state.followed, *who):
+                if member.target is None and member.name == before:
+                    member.name = name
+
+
+class ThrongCondition(bpy.types.PropertyGroup):
+    kind: EnumProperty(name="When", items=_items("transition", behaviours.CONDITIONS))
+    time: PointerProperty(type=ThrongDistribution, name="Time", description="s; from a distribution each draws its own")
+    number: FloatProperty(name="Number", soft_min=0.0)
+    place: PointerProperty(type=ThrongPlace)
+    who: CollectionProperty(type=ThrongMember)
+    wall: PointerProperty(type=bpy.types.Object, name="Wall", poll=is_kind("WALL"))
+
+
+class ThrongRule(bpy.types.PropertyGroup):
+    raw: StringProperty(options={"HIDDEN"})
+    conditions: CollectionProperty(type=ThrongCondition)
+    then: StringProperty(name="Then", description="The state that comes then")
+
+
+class ThrongState(bpy.types.PropertyGroup):
+    name: StringProperty(name="Name", update=_state_named)
+    known: StringProperty(options={"HIDDEN"})
+    raw: StringProperty(options={"HIDDEN"})
+    does: EnumProperty(name="Does", items=_items("behaviour_state", behaviours.DOES), default="stay")
+    to: PointerProperty(type=ThrongDestination, name="To")
+    place: PointerProperty(type=ThrongPlace)
+    danger: PointerProperty(type=bpy.types.Object, name="Point", poll=is_kind("POINT"),
+                            description="What people get away from, where that is no place")
+    followed: PointerProperty(type=ThrongMember)
+    use_person: BoolProperty(name="Person", description="One of them; otherwise whoever is nearest")
+    person: IntProperty(name="Person", **limits("behaviour_state", "person", default=0))
+    use_count: BoolProperty(name="How Many", description="Otherwise all of the places")
+    least: IntProperty(name="At Least", default=1, soft_min=1, soft_max=32)
+    most: IntProperty(name="At Most", default=1, soft_min=1, soft_max=32)
+    lasts: PointerProperty(type=ThrongDistribution, name="For", description="How long, s; on visits, in each place")
+    pose: EnumProperty(name="There", description="What people do where they have come to rest",
+                       items=[(UNSET, "Default", "On visits they look, otherwise they stand")]
+                             + [(word, word.capitalize(), "")
+                                for word in words_of(LAYOUT.entry("behaviour_state", "do"))])
+    facing: PointerProperty(type=bpy.types.Object, name="Facing", poll=is_kind("POINT"),
+                            description="What people look at; by default what the area faces")
+    beyond: FloatProperty(name="Beyond", **limits("behaviour_state", "beyond"), subtype="DISTANCE",
+                          description="So far away people are safe")
+    distance: FloatProperty(name="Distance", **limits("behaviour_state", "distance"), subtype="DISTANCE",
+                            description="So far behind")
+    pace: FloatProperty(name="Pace", **limits("behaviour_state", "pace"),
+                        description="Of the speed that each of them prefers")
+    for_good: BoolProperty(name="For Good", description="Who has come to rest stays to the end of the shot")
+    then: StringProperty(name="Then", description="The state that comes when this one is done")
+    until: CollectionProperty(type=ThrongRule)
+
+
+class ThrongBehaviour(bpy.types.PropertyGroup):
+    name: StringProperty(name="Name", update=_behaviour_named)
+    known: StringProperty(options={"HIDDEN"})
+    raw: StringProperty(options={"HIDDEN"})
+    start: StringProperty(name="Begins With", description="The state that people begin with")
+    states: CollectionProperty(type=ThrongState)
+    active_state: IntProperty()
+
+
+CLASSES = (ThrongCondition, ThrongRule, ThrongState, ThrongBehaviour)
