@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs in Blender's windows: follows docs/tutorials/street-in-blender.md and takes its pictures. FOLDER PICTURES
+"""Runs in Blender's windows: follows docs/tutorials/street-in-blender.md and takes its pictures, or that of a
+behaviour. tutorial|behaviours FOLDER PICTURES
 
 What it does is a generator of steps; between two steps the windows are drawn. A step may yield the seconds to wait.
 """
@@ -15,7 +16,7 @@ import mathutils
 
 bake_operator = None  # of the add-on, once it is enabled
 
-folder, pictures = sys.argv[-2:]
+subject, folder, pictures = sys.argv[-3:]
 SECONDS, ENTERED = 40, 20  # how long the shot is, and when the last of a flow come
 FRAME = 500  # the streams have met by then
 
@@ -53,6 +54,7 @@ def click(x, y):
 
 
 def picture(name):
+    bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=1)  # as things are by now
     path = os.path.join(pictures, f"{name}.png")
     with bpy.context.temp_override(window=window()):
         bpy.ops.screen.screenshot(filepath=path, check_existing=False)
@@ -193,8 +195,36 @@ def still():
     print("picture", scene.render.filepath, flush=True)
 
 
+def behaviours():
+    """The market, and the panel of its behaviours alone."""
+    addon_utils.enable("throng", default_set=True)
+    yield 2
+    for thing in list(bpy.data.objects):
+        bpy.data.objects.remove(thing)
+    panels = [getattr(bpy.types, name) for name in dir(bpy.types) if name.startswith("VIEW3D_PT_throng_")]
+    for each in panels:
+        bpy.utils.unregister_class(each)
+    shown = next(each for each in panels if each.__name__ == "VIEW3D_PT_throng_behaviours")
+    shown.bl_options = set()
+    bpy.utils.register_class(shown)
+    with in_view():
+        assert bpy.ops.import_scene.throng_layout(filepath=os.path.abspath("examples/market.json")) == {"FINISHED"}
+    behaviour = bpy.context.scene.throng_layout.behaviours[0]
+    behaviour.active_state = 1
+    yield from open_sidebar()
+    settle(4.0, 2.0, 0.0, 45.0, down=60.0, turned=0.0)
+    yield 2
+    picture("behaviours-visit")
+    behaviour.active_state = 0
+    yield 2
+    picture("behaviours")
+
+
+PARTS = {"tutorial": (beginning, streets, buildings, flows, mistake, bake, crowd, still), "behaviours": (behaviours,)}
+
+
 def steps():
-    for part in (beginning, streets, buildings, flows, mistake, bake, crowd, still):
+    for part in PARTS[subject]:
         yield from part()
         yield 1
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Behaviours drawn in a real Blender: what was changed is in the layout and nothing else, names are kept up, and what is
-drawn from nothing is a layout that the program takes."""
+"""Behaviours drawn in a real Blender: what was changed is in the layout and nothing else, names are kept up, and what
+is drawn from nothing is a layout that the program takes."""
 import json
 
 import pytest

@@ -97,8 +97,8 @@ def _rules(layout, state, where, data, behaviour):
             row.prop(condition, "kind", text="When" if index == 0 else "and")
             change(row, f"{path}.conditions", "REMOVE", "X", index)
             _condition(box, condition, f"{path}.conditions[{index}]", data)
+        box.prop_search(rule, "then", behaviour, "states")
         row = box.row(align=True)
-        row.prop_search(rule, "then", behaviour, "states")
         change(row, f"{path}.conditions", "ADD", "ADD")
         for action, icon in (("UP", "TRIA_UP"), ("DOWN", "TRIA_DOWN"), ("REMOVE", "X")):
             change(row, f"{where}.until", action, icon, number)

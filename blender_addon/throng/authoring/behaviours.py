@@ -217,17 +217,22 @@ def _taken(condition, raw, world):
         result[kind] = True if old is MISSING else old
     elif kind in GATES:
         text = world.name(condition.wall) if condition.wall else condition.place.text
-        result[kind] = old if text == "" and not isinstance(old, str) and old is not MISSING else text
+        result[kind] = text if text or isinstance(old, str) or old is MISSING else old
     elif kind in PLACES:
-        who = [name_of(member, world) for member in condition.who]
-        place = place_of(condition.place, world)
-        result[kind] = who[0] if kind == "near" and who and not condition.place.target else place
-        if kind == "empty":
-            result["of"] = _people(who, raw.get("of", MISSING))
+        result = _taken_place(condition, raw, world)
     if kind in NUMBERS:
         key = NUMBERS[kind]
         result[key] = _number(kind).take(condition, raw.get(key, MISSING))
     return result
+
+
+def _taken_place(condition, raw, world):
+    who = [name_of(member, world) for member in condition.who]
+    if condition.kind == "near" and who and not condition.place.target:
+        return {"near": who[0]}
+    place = place_of(condition.place, world)
+    return {condition.kind: place, "of": _people(who, raw.get("of", MISSING))} if condition.kind == "empty" else \
+        {condition.kind: place}
 
 
 def _people(names, raw):

@@ -42,6 +42,7 @@ STYLES = {
 }
 
 
+_ROOT = 0.3      # of a hanging lock's width and of how far it is off the head, where it begins
 _PRESSED = 0.25  # of how far it is off the head, below a hat
 
 
@@ -157,7 +158,7 @@ def _locks(bodies, shape, level, style, material, scale, draw, count, wider, rin
         aside = numpy.stack([numpy.full(count, 0.5), 0.30 - points[:, 1] * 4.0, numpy.full(count, -0.8)], axis=1)
         ways = numpy.where(fringe[:, None], aside + draw.normal(0.0, 0.12, (count, 3)), ways)
     pieces = max(2, int(style.pieces * levels.DETAILS[level].pieces)) if level < 0 or style.length > 0.0 else 4
-    line, sides = _grow(points + normals * style.lift * 0.5, ways, length, style, scale, draw, pieces,
+    line, sides = _grow(points + normals * style.lift * (0.1 if style.fall >= 0.3 else 0.5), ways, length, style, scale, draw, pieces,
                         _collider(bodies, shape), fringe, bodies.joint(shape, "mouth")[2] - 0.03 * scale,
                         bodies.joint(shape, "l-eye")[[0, 2]] + (-0.050 * scale, 0.048 * scale))
     wide = style.wide * wider * scale * draw.uniform(0.7, 1.3, count)
@@ -179,6 +180,8 @@ def _grow(points, ways, length, style, scale, draw, pieces, collider, fringe, ch
         out = normals[nearest]
         off = ((points - near[nearest]) * out).sum(axis=1)
         wanted = lift * (1.0 - 0.4 * piece / pieces)
+        if style.fall >= 0.3:  # roots lie flat: locks that begin on top of others would look like leaves
+            wanted = wanted * min(1.0, _ROOT + 0.4 * piece)
         pull = 0.0 if style.comb == "out" else numpy.where(points[:, 2] > chin, 0.05, 0.01)
         points = points + out * numpy.clip(wanted - off, -pull, 0.04)[:, None]
         if style.fall >= 0.5:  # below the chin, beside the neck and not out on the shoulders
@@ -223,7 +226,10 @@ def _ribbons(bodies, line, out, wide, weights, material, draw, level, style):
     side = numpy.cross(along, out)
     side /= numpy.linalg.norm(side, axis=2, keepdims=True) + 1e-9
     share, taper = numpy.linspace(0.0, 1.0, pieces), 0.85 if style.length > 0.0 else 0.62
-    half = 0.5 * wide[:, None, None] * (1.0 - taper * share ** 2.2)[None, :, None]
+    narrow = 1.0 - taper * share ** 2.2
+    if style.fall >= 0.3:
+        narrow = narrow * numpy.minimum(1.0, _ROOT + 5.0 * share)
+    half = 0.5 * wide[:, None, None] * narrow[None, :, None]
     rows = [line - side * half, line + side * half]
     if level < 0:
         rows = [rows[0] - out * half * 0.35, line + out * half * 0.3, rows[1] - out * half * 0.35]
