@@ -35,12 +35,16 @@ struct Condition {
         all_here,     ///< everybody of the own flow or formation is in an area
         open,         ///< a gate
         closed,       ///< a gate
+        green,        ///< a crossing or lane, by its signal
+        red,          ///< likewise
     };
     Kind kind = Kind::arrived;
-    Distribution time;     ///< s; after, at
-    double number = 0.0;   ///< m; persons/m^2; share
-    Place place;           ///< near_place, empty, all_here: an area or the end of a road
-    std::size_t wall = 0;  ///< open, closed
+    Distribution time;      ///< s; after, at
+    double number = 0.0;    ///< m; persons/m^2; share
+    Place place;            ///< near_place, empty, all_here: an area or the end of a road
+    std::size_t wall = 0;   ///< open, closed
+    bool is_lane = false;   ///< green, red
+    std::size_t light = 0;  ///< green, red: index of the crossing or lane
     std::vector<GroupName> who;
     SourcePosition where;
 };

@@ -286,6 +286,7 @@ void BehaviourReader::readTransition(const JsonNode& node, SchemaRule rule, Stat
             reader.number(key, measured->number);
     readCounts(reader, node, transition);
     readGates(reader, node, transition);
+    readLights(reader, node, transition);
     const JsonNode* then = reader.require("then", "the state that comes then");
     reader.finish();
     if (transition.conditions.empty())
@@ -342,6 +343,34 @@ void BehaviourReader::readGates(ObjectReader& reader, const JsonNode& node, Tran
         gate->kind = Kind::arrived;  // so that nobody looks for the wall
         diagnostics_.error(gate->where, fmt::format("there is no wall `{}`", id),
                            hintFor(id, namesOf(walls_)));
+    }
+}
+
+void BehaviourReader::readLights(ObjectReader& reader, const JsonNode& node, Transition& transition) {
+    using Kind = Condition::Kind;
+    const auto indexOf = [](const auto& things, const std::string& id) {
+        const auto found = std::ranges::find_if(things, [&](const auto& thing) { return thing.id == id; });
+        return static_cast<std::size_t>(found - things.begin());
+    };
+    const std::vector<Zebra>& crossings = layout_.traffic.crossings;
+    const std::vector<Lane>& lanes = layout_.traffic.lanes;
+    for (const auto& [key, kind] : {std::pair{"green", Kind::green}, std::pair{"red", Kind::red}}) {
+        Condition* light = addCondition(reader, key, kind, transition);
+        if (!light) continue;
+        const std::string& id = node.find(key)->text;
+        light->light = indexOf(crossings, id);
+        if (light->light < crossings.size()) continue;
+        light->is_lane = true;
+        light->light = indexOf(lanes, id);
+        if (light->light < lanes.size()) continue;
+        light->kind = Kind::arrived;  // so that nobody looks for it
+        std::vector<std::string> known;
+        for (const Zebra& crossing : crossings)
+            known.push_back(crossing.id);
+        for (const Lane& lane : lanes)
+            known.push_back(lane.id);
+        diagnostics_.error(light->where, fmt::format("there is no crossing or lane `{}`", id),
+                           hintFor(id, known));
     }
 }
 
@@ -414,6 +443,17 @@ void BehaviourReader::checkGate(const Condition& condition) {
                        R"(let an event open it, for example {"at": 30, "open": "doors"})");
 }
 
+void BehaviourReader::checkLight(const Condition& condition) {
+    const auto named = condition.is_lane ? &Phase::lanes : &Phase::crossings;
+    for (const Signal& signal : layout_.traffic.signals)
+        for (const Phase& phase : signal.phases)
+            if (std::ranges::find(phase.*named, condition.light) != (phase.*named).end()) return;
+    const std::string& id = condition.is_lane ? layout_.traffic.lanes[condition.light].id
+                                              : layout_.traffic.crossings[condition.light].id;
+    diagnostics_.error(condition.where, fmt::format("no signal has `{}`", id),
+                       "name it under `green` in a phase of a signal");
+}
+
 void BehaviourReader::checkReferences(const Behaviour& behaviour) {
     for (const State& state : behaviour.states) {
         if (state.does == Does::follow) checkGroup(state.followed, false);
@@ -423,6 +463,8 @@ void BehaviourReader::checkReferences(const Behaviour& behaviour) {
                     checkGroup(name, condition.kind == Condition::Kind::near_people);
                 if (condition.kind == Condition::Kind::open || condition.kind == Condition::Kind::closed)
                     checkGate(condition);
+                if (condition.kind == Condition::Kind::green || condition.kind == Condition::Kind::red)
+                    checkLight(condition);
             }
     }
 }

@@ -51,12 +51,14 @@ class BehaviourReader {
     void readNearness(ObjectReader& reader, const JsonNode& node, Transition& transition);
     void readCounts(ObjectReader& reader, const JsonNode& node, Transition& transition);
     void readGates(ObjectReader& reader, const JsonNode& node, Transition& transition);
+    void readLights(ObjectReader& reader, const JsonNode& node, Transition& transition);
     void readTransition(const JsonNode& node, SchemaRule rule, State& state);
     void readPlaceOrPeople(const JsonNode& node, Condition& condition);
     void readWho(const JsonNode& list, Condition& condition);
     void checkKeys(const JsonNode& node, const State& state);
     std::optional<std::size_t> stateNamed(const JsonNode& node);
     void checkGroup(const GroupName& name, bool or_place);
+    void checkLight(const Condition& condition);
     void checkGate(const Condition& condition);
     void checkReferences(const Behaviour& behaviour);
 

@@ -8,6 +8,7 @@
 #include "authoring/scene/itineraries.h"
 #include "authoring/scene/raster.h"
 #include "authoring/scene/standing.h"
+#include "authoring/scene/traffic.h"
 
 namespace throng::authoring {
 namespace {
@@ -219,9 +220,28 @@ void BehaviourTables::fillRule(const Condition& condition, const Owner& owner, g
                 points.emplace_back(static_cast<float>(at), 0.0f);
             break;
         }
+        case Kind::green:
+        case Kind::red: {
+            const LightPlan plan = lightOf(condition);
+            rule.first = static_cast<std::uint32_t>(points.size());
+            rule.count = static_cast<std::uint32_t>(plan.green.size());
+            rule.number = static_cast<float>(plan.cycle);
+            rule.time = {0, static_cast<float>(plan.offset), 0.0f, 0.0f, 0.0f};
+            for (const LightPlan::Span& span : plan.green)
+                points.emplace_back(static_cast<float>(span.begin), static_cast<float>(span.end));
+            break;
+        }
         default:
             break;
     }
+}
+
+/// The first signal that has it counts, as for those who wait there.
+LightPlan BehaviourTables::lightOf(const Condition& condition) const {
+    const auto named = condition.is_lane ? &Phase::lanes : &Phase::crossings;
+    for (const Signal& signal : layout_.traffic.signals)
+        if (auto plan = lightPlan(signal, named, condition.light)) return *plan;
+    return {};
 }
 
 /// One rule, or of several groups that are not to be somewhere one each.

@@ -53,6 +53,7 @@ class BehaviourTables {
                   gpu::BehaviourState& result);
     std::vector<gpu::BehaviourRule> rulesOf(const Condition& condition, const Owner& owner);
     void fillRule(const Condition& condition, const Owner& owner, gpu::BehaviourRule& rule);
+    LightPlan lightOf(const Condition& condition) const;
     std::uint32_t censusOf(const Place& place, gpu::SpawnQueue rows);
     void spotsFor(gpu::BehaviourPlace& place, const LocalPolygon& outline, const Owner& owner);
     void checkWay(const Destination& to, const Place& place, std::uint32_t field, const Owner& owner);

@@ -103,16 +103,9 @@ class Builder {
 
     /// When something is green by a signal; gpu::NO_LIGHT where the signal does not have it.
     std::uint32_t lightOf(const Signal& signal, std::vector<std::size_t> Phase::*named, std::size_t index) {
-        LightPlan plan;
-        plan.offset = signal.offset;
-        plan.cycle = 0.0;
-        for (const Phase& phase : signal.phases) {
-            if (std::ranges::find(phase.*named, index) != (phase.*named).end())
-                plan.green.push_back({plan.cycle, plan.cycle + phase.seconds});
-            plan.cycle += phase.seconds;
-        }
-        if (plan.green.empty()) return gpu::NO_LIGHT;
-        scene_.lights.push_back(std::move(plan));
+        std::optional<LightPlan> plan = lightPlan(signal, named, index);
+        if (!plan) return gpu::NO_LIGHT;
+        scene_.lights.push_back(std::move(*plan));
         return static_cast<std::uint32_t>(scene_.lights.size() - 1);
     }
 
@@ -256,6 +249,19 @@ std::vector<double> vehicleTimes(const Layout& layout, const VehicleFlow& flow) 
         times.push_back(time);
     }
     return times;
+}
+
+std::optional<LightPlan> lightPlan(const Signal& signal, std::vector<std::size_t> Phase::*named,
+                                   std::size_t index) {
+    LightPlan plan;
+    plan.offset = signal.offset;
+    plan.cycle = 0.0;
+    for (const Phase& phase : signal.phases) {
+        if (std::ranges::find(phase.*named, index) != (phase.*named).end())
+            plan.green.push_back({plan.cycle, plan.cycle + phase.seconds});
+        plan.cycle += phase.seconds;
+    }
+    return plan.green.empty() ? std::nullopt : std::optional(std::move(plan));
 }
 
 SceneTraffic buildTraffic(const Layout& layout, const Rebase& rebase, Diagnostics& diagnostics) {

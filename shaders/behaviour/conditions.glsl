@@ -53,6 +53,14 @@ bool isOpen(BehaviourRule rule) {
     return open;
 }
 
+/// By a signal, which goes round for ever.
+bool isGreen(BehaviourRule rule) {
+    float into = mod(now + rule.time.mean, rule.number);
+    for (uint i = rule.first; i < rule.first + rule.count; ++i)
+        if (into >= behaviour_points[i].x && into < behaviour_points[i].y) return true;
+    return false;
+}
+
 bool holds(BehaviourRule rule, uint number, Asking who) {
     switch (rule.condition) {
         case IF_AFTER:
@@ -70,6 +78,8 @@ bool holds(BehaviourRule rule, uint number, Asking who) {
         case IF_ALL_HERE: return tallies[rule.subject].inside == tallies[rule.subject].present;
         case IF_OPEN: return isOpen(rule);
         case IF_CLOSED: return !isOpen(rule);
+        case IF_GREEN: return isGreen(rule);
+        case IF_RED: return !isGreen(rule);
     }
     return false;
 }

@@ -78,16 +78,18 @@ const uint IF_EMPTY = 7u;        // of a census, nobody else is inside
 const uint IF_ALL_HERE = 8u;     // of a census, everybody is inside
 const uint IF_OPEN = 9u;         // a gate
 const uint IF_CLOSED = 10u;      // a gate
+const uint IF_GREEN = 11u;       // a crossing or lane, by its signal
+const uint IF_RED = 12u;         // likewise
 
 /// A condition, and where it leads.
 struct BehaviourRule {
     uint condition;  // IF_*
     uint then;       // the next state; NO_INDEX: the next rule has to hold, too
     uint subject;    // a census; open, closed: 1 = the gate is open at first
-    uint first;      // corners, rows, or moments at which the gate moves
+    uint first;      // corners, rows, moments at which the gate moves, or when it is green, s into the cycle
     uint count;
-    float number;  // m, persons/m^2, or share
-    Drawn time;    // s
+    float number;  // m, persons/m^2, share, or s of a signal's cycle
+    Drawn time;    // s; green, red: its mean is how far into the cycle the signal is at time 0
     uint reserved;
 };
 

@@ -107,6 +107,25 @@ TEST(Behaviours, AGateWhereThereIsNoWallIsAnError) {
     EXPECT_EQ(said, "3: there is no wall `doors` (there are none)\n");
 }
 
+TEST(Behaviours, SignalsAreThoseOfCrossingsAndLanes) {
+    const auto toldOf = [](const std::string& condition) {
+        return told(R"({"throng": 1, "areas": [{"id": "in", "polygon": [[0, 0], [4, 0], [4, 4]]}],
+ "crossings": [{"id": "zebra", "polygon": [[0, 4], [4, 4], [4, 8], [0, 8]]},
+  {"id": "other", "polygon": [[10, 4], [14, 4], [14, 8], [10, 8]]}],
+ "lanes": [{"id": "street", "points": [[-20, 6], [20, 6]], "stops": [{"at": [-3, 6], "signal": "lights"}]}],
+ "signals": [{"id": "lights", "phases": [{"seconds": 9, "green": ["zebra"]}, {"seconds": 5, "green": ["street"]}]}],
+ "behaviours": [{"id": "b", "start": "a", "states": {"a": {"stay": true, "until": [{)" +
+                    condition + R"(, "then": "c"}]}, "c": {"stay": true, "for_good": true}}}],
+ "flows": [{"id": "people", "from": "in", "behaviour": "b", "count": 4}]})");
+    };
+    EXPECT_EQ(toldOf(R"("green": "zebra")"), "");
+    EXPECT_EQ(toldOf(R"("red": "street")"), "");
+    EXPECT_EQ(toldOf(R"("green": "zebr")"),
+              "6: there is no crossing or lane `zebr` (did you mean `zebra`?)\n");
+    EXPECT_EQ(toldOf(R"("red": "other")"),
+              "6: no signal has `other` (name it under `green` in a phase of a signal)\n");
+}
+
 TEST(Behaviours, AStateDoesOneThing) {
     expectTold(R"("a": {"stay": true, "wander": "square"})", "this one has several");
     expectTold(R"("a": {"pace": 1})", "this one has none");

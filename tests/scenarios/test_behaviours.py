@@ -147,6 +147,19 @@ def test_a_time_of_the_shot_ends_it_for_each_at_their_own(bake):
     assert times.min() > 2.8 and times.max() < 10.2 and times.std() > 0.7, times
 
 
+@pytest.mark.parametrize("condition, at", [({"green": "zebra"}, 6.0), ({"red": "street"}, 4.0)])
+def test_a_signal_ends_it(bake, condition, at):
+    """A cycle of 4 s for the street, 2 s for nobody, and the rest for people."""
+    layout = conditions(condition)
+    layout["crossings"] = [{"id": "zebra", "polygon": box(10, -8, 4, 16)}]
+    layout["lanes"] = [{"id": "street", "points": [[12, -40], [12, 40]],
+                        "stops": [{"at": [12, -9], "signal": "lights"}]}]
+    layout["signals"] = [{"id": "lights", "phases": [
+        {"seconds": 4, "green": ["street"]}, {"seconds": 2}, {"seconds": 30, "green": ["zebra"]}]}]
+    times = setting_off(bake(f"signal {at}", layout))
+    assert times.min() > at - 0.1 and times.max() < at + 1.2, times
+
+
 def test_somebody_who_comes_near_ends_it(bake):
     passer = {"id": "passer", "type": "agents", "agents": [{"position": [-10, 1.6], "goal": [12, 1.6], "speed": 1.3}]}
     times = setting_off(bake("near", conditions({"near": "passer", "within": 2.5}, extra=[passer])))

@@ -153,6 +153,12 @@ bool holds(const Crowd& crowd, std::uint32_t number, std::uint32_t row, const gp
             return rule.subject == 0;  // it has moved once by now
         case gpu::IF_CLOSED:
             return rule.subject != 0;
+        case gpu::IF_GREEN:
+        case gpu::IF_RED: {  // at time 0
+            const glm::vec2 green = points[rule.first];
+            const bool is_green = rule.time.mean >= green.x && rule.time.mean < green.y;
+            return is_green == (rule.condition == gpu::IF_GREEN);
+        }
         default:
             return false;
     }
@@ -188,6 +194,16 @@ Crowd crowdOfAllConditions(std::uint32_t count) {
     crowd.scene.behaviours.points.emplace_back(-1.0f, 0.0f);
     for (const glm::vec2 corner : {glm::vec2(-99, -99), {999, -99}, {999, 999}, {-99, 999}})
         crowd.scene.behaviours.points.push_back(corner);
+    gpu::BehaviourRule green = rule(gpu::IF_GREEN, 10.0f);  // s of the cycle
+    green.first = 9;
+    green.count = 1;
+    green.time.mean = 4.0f;
+    gpu::BehaviourRule not_yet = green, red = green;
+    not_yet.time.mean = 2.9f;
+    red.condition = gpu::IF_RED;
+    crowd.scene.behaviours.points.emplace_back(3.0f, 5.0f);
+    for (const gpu::BehaviourRule& each : {green, not_yet, red})
+        crowd.addState({each});
     for (const gpu::BehaviourRule& each :
          {after, drawn, at, later, place, people, rule(gpu::IF_CROWDED, 1.2f),
           rule(gpu::IF_CHANCE, 0.999999f), open, closed})

@@ -110,6 +110,8 @@ def _condition(box, condition, path, data):
         distribution(box, condition, "time")
     elif kind in behaviours.GATES:
         box.prop(condition, "wall")
+    elif kind in behaviours.LIGHTS:
+        box.prop(condition.place, "text", text="Crossing or Lane")
     elif kind in behaviours.PLACES and not (kind == "near" and len(condition.who)):
         place(box, condition.place, "Place")
     if kind == "empty" or kind == "near" and not condition.place.target:

@@ -13,6 +13,7 @@ from .schema import LAYOUT, description_of, words_of
 _NAMES = {
     "after": "After", "at": "At", "arrived": "In Place", "near": "Near", "crowded": "Crowded", "chance": "By Chance",
     "empty": "Empty", "all_here": "All Here", "open": "Gate Open", "closed": "Gate Closed",
+    "green": "Signal Green", "red": "Signal Red",
 }
 
 

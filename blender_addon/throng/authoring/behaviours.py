@@ -9,7 +9,8 @@ from .values import MISSING, is_number, is_point
 
 DOES = tuple(part["required"][0] for part in LAYOUT.named("behaviour_state")["oneOf"])
 CONDITIONS = tuple(key for key in LAYOUT.entries(LAYOUT.named("transition")) if key not in ("within", "of", "then"))
-TIMES, GATES, PLACES = ("after", "at"), ("open", "closed"), ("near", "empty", "all_here")  # of conditions
+# Conditions by what they speak of.
+TIMES, GATES, LIGHTS, PLACES = ("after", "at"), ("open", "closed"), ("green", "red"), ("near", "empty", "all_here")
 NUMBERS = {"near": "within", "crowded": "crowded", "chance": "chance"}  # conditions with a number, and its key
 
 
@@ -173,6 +174,8 @@ def _put_condition(condition, kind, raw, world):
     if kind in GATES:
         condition.wall = world.wall(value) if isinstance(value, str) else None
         condition.place.text = value if isinstance(value, str) and condition.wall is None else ""
+    if kind in LIGHTS:
+        condition.place.text = value if isinstance(value, str) else ""
     condition.who.clear()
     if kind in PLACES:
         is_place = kind != "near" or not isinstance(value, str) or world.find(value)
@@ -215,8 +218,8 @@ def _taken(condition, raw, world):
         result[kind] = 0 if now is MISSING else now
     elif kind == "arrived":
         result[kind] = True if old is MISSING else old
-    elif kind in GATES:
-        text = world.name(condition.wall) if condition.wall else condition.place.text
+    elif kind in GATES or kind in LIGHTS:
+        text = world.name(condition.wall) if condition.wall and kind in GATES else condition.place.text
         result[kind] = text if text or isinstance(old, str) or old is MISSING else old
     elif kind in PLACES:
         result = _taken_place(condition, raw, world)

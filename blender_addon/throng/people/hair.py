@@ -158,7 +158,8 @@ def _locks(bodies, shape, level, style, material, scale, draw, count, wider, rin
         aside = numpy.stack([numpy.full(count, 0.5), 0.30 - points[:, 1] * 4.0, numpy.full(count, -0.8)], axis=1)
         ways = numpy.where(fringe[:, None], aside + draw.normal(0.0, 0.12, (count, 3)), ways)
     pieces = max(2, int(style.pieces * levels.DETAILS[level].pieces)) if level < 0 or style.length > 0.0 else 4
-    line, sides = _grow(points + normals * style.lift * (0.1 if style.fall >= 0.3 else 0.5), ways, length, style, scale, draw, pieces,
+    roots = points + normals * style.lift * (0.1 if style.fall >= 0.3 else 0.5)
+    line, sides = _grow(roots, ways, length, style, scale, draw, pieces,
                         _collider(bodies, shape), fringe, bodies.joint(shape, "mouth")[2] - 0.03 * scale,
                         bodies.joint(shape, "l-eye")[[0, 2]] + (-0.050 * scale, 0.048 * scale))
     wide = style.wide * wider * scale * draw.uniform(0.7, 1.3, count)
