@@ -56,12 +56,14 @@ struct Transition {
 };
 
 struct BehaviourState {
-    enum class Does { walk, stay, wander, visit, gather, flee, follow };
+    enum class Does { walk, stay, wander, visit, gather, flee, follow, queue };
     std::string id;
     Does does = Does::stay;
-    Destination to;  ///< walk, gather; wander: one area; visit: its places
+    Destination to;  ///< walk, gather, queue; wander: one area; visit: its places
     std::uint64_t least = 1, most = 1;
-    std::optional<Distribution> lasts;  ///< s at each place
+    std::optional<Distribution> lasts;  ///< s at each place; queue: that one is served
+    std::vector<glm::dvec2> line;       ///< queue: where people line up, from the front
+    double spacing = 0.8;               ///< queue: m between people in line
     ActivityCode activity = ActivityCode::stands;
     std::optional<glm::dvec2> facing;
     glm::dvec2 from{0.0};  ///< flee

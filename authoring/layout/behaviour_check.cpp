@@ -51,11 +51,13 @@ bool isEnd(const BehaviourState& state) {
     return state.for_good || (state.does == Does::walk && !state.then);
 }
 
-/// A gate is not open and closed at once.
+/// A gate is not open and closed at once, and a signal not green and red.
 bool excludeEachOther(const std::vector<const Condition*>& conditions) {
     for (const Condition* one : conditions)
         for (const Condition* other : conditions)
-            if (one->kind == Kind::open && other->kind == Kind::closed && one->wall == other->wall)
+            if ((one->kind == Kind::open && other->kind == Kind::closed && one->wall == other->wall) ||
+                (one->kind == Kind::green && other->kind == Kind::red && one->is_lane == other->is_lane &&
+                 one->light == other->light))
                 return true;
     return false;
 }

@@ -22,7 +22,7 @@ struct Verb {
 constexpr std::array kVerbs = {Verb{"walk_to", Does::walk},  Verb{"stay", Does::stay},
                                Verb{"wander", Does::wander}, Verb{"visit", Does::visit},
                                Verb{"gather", Does::gather}, Verb{"flee", Does::flee},
-                               Verb{"follow", Does::follow}};
+                               Verb{"follow", Does::follow}, Verb{"queue", Does::queue}};
 
 /// Which keys belong to which activities.
 struct KeyOf {
@@ -30,14 +30,17 @@ struct KeyOf {
     std::vector<Does> does;
 };
 const std::vector<KeyOf>& keysOf() {
-    static const std::vector<KeyOf> keys = {{"count", {Does::visit}},
-                                            {"beyond", {Does::flee}},
-                                            {"distance", {Does::follow}},
-                                            {"person", {Does::follow}},
-                                            {"for", {Does::stay, Does::wander, Does::visit, Does::gather}},
-                                            {"do", {Does::stay, Does::wander, Does::visit, Does::gather}},
-                                            {"facing", {Does::stay, Does::visit, Does::gather}},
-                                            {"for_good", {Does::stay, Does::gather}}};
+    static const std::vector<KeyOf> keys = {
+        {"count", {Does::visit}},
+        {"beyond", {Does::flee}},
+        {"distance", {Does::follow}},
+        {"person", {Does::follow}},
+        {"for", {Does::stay, Does::wander, Does::visit, Does::gather, Does::queue}},
+        {"line", {Does::queue}},
+        {"spacing", {Does::queue}},
+        {"do", {Does::stay, Does::wander, Does::visit, Does::gather}},
+        {"facing", {Does::stay, Does::visit, Does::gather, Does::queue}},
+        {"for_good", {Does::stay, Does::gather}}};
     return keys;
 }
 
@@ -172,6 +175,9 @@ void BehaviourReader::readActivity(ObjectReader& reader, const JsonNode& what, S
         case Does::visit:
             readVisits(reader, what, state);
             break;
+        case Does::queue:
+            readQueue(reader, what, state);
+            break;
         case Does::flee:
             readFlight(reader, what, state);
             break;
@@ -211,6 +217,18 @@ void BehaviourReader::readVisits(ObjectReader& reader, const JsonNode& what, Sta
     else if (state.most > what.items.size())
         diagnostics_.error(count->where, fmt::format("there are only {} places to visit", what.items.size()),
                            "name more of them, or visit fewer");
+}
+
+void BehaviourReader::readQueue(ObjectReader& reader, const JsonNode& what, State& state) {
+    if (const auto place = places_.place(what)) state.to = {Destination::Kind::one, {*place}, {}, {}};
+    state.activity = ActivityCode::queues;
+    reader.number("spacing", state.spacing);
+    if (reader.get("line")) {
+        state.line = reader.points("line");
+        return;
+    }
+    diagnostics_.error(what.where, "a queue needs the `line` along which people stand, from its front",
+                       R"(for example "line": [[0, 0], [6, 0]])");
 }
 
 void BehaviourReader::readFlight(ObjectReader& reader, const JsonNode& what, State& state) {
@@ -415,7 +433,7 @@ void BehaviourReader::checkKeys(const JsonNode& node, const State& state) {
                            state.does == Does::stay || state.does == Does::gather
                                ? R"(say how long under "for", or what ends it under "until")"
                                : R"(say what ends it under "until")");
-    const bool needs_then = state.does == Does::visit ||
+    const bool needs_then = state.does == Does::visit || state.does == Does::queue ||
                             (state.lasts && (state.does == Does::stay || state.does == Does::gather));
     if (!node.find("then") && needs_then)
         diagnostics_.error(node.where, fmt::format("what comes after the state `{}`?", state.id),
@@ -423,6 +441,9 @@ void BehaviourReader::checkKeys(const JsonNode& node, const State& state) {
     if (state.does == Does::visit && !state.lasts)
         diagnostics_.error(node.where, "how long do people stay at each place?",
                            R"(write for example "for": {"uniform": [5, 15]})");
+    if (state.does == Does::queue && !state.lasts)
+        diagnostics_.error(node.where, "how long is one served?",
+                           R"(write for example "for": {"uniform": [10, 20]})");
 }
 
 void BehaviourReader::checkGroup(const GroupName& name, bool or_place) {

@@ -41,6 +41,7 @@ class BehaviourReader {
     std::optional<Does> activityOf(ObjectReader& reader, const JsonNode& node, const JsonNode*& what);
     void readActivity(ObjectReader& reader, const JsonNode& what, State& state);
     void readVisits(ObjectReader& reader, const JsonNode& what, State& state);
+    void readQueue(ObjectReader& reader, const JsonNode& what, State& state);
     void readFlight(ObjectReader& reader, const JsonNode& what, State& state);
     void readFollowing(ObjectReader& reader, const JsonNode& what, State& state);
     void readManner(ObjectReader& reader, State& state);

@@ -36,11 +36,13 @@ gpu::Drawn stayOf(const BehaviourState& state) {
 }  // namespace
 
 BehaviourTables::BehaviourTables(const Layout& layout, const Rebase& rebase, const WalkGeometry& geometry,
-                                 Routes& routes, Diagnostics& diagnostics, Scene& scene)
+                                 Routes& routes, Itineraries& itineraries, Diagnostics& diagnostics,
+                                 Scene& scene)
     : layout_(layout),
       rebase_(rebase),
       geometry_(geometry),
       routes_(routes),
+      itineraries_(itineraries),
       diagnostics_(diagnostics),
       scene_(scene) {}
 
@@ -88,10 +90,29 @@ std::uint32_t BehaviourTables::add(const Behaviour& behaviour, const Owner& owne
                 result.row_count = std::min(1u, rows.first_row + rows.row_count - result.first_row);
             }
         }
+        if (state.does == Does::queue) addLine(state, owner, result);
         addRules(state, owner, first, result);
         tables.states[first + i] = result;
     }
     return first + static_cast<std::uint32_t>(behaviour.start);
+}
+
+/// Everybody of the flow or formation may stand in it at once.
+void BehaviourTables::addLine(const BehaviourState& state, const Owner& owner, gpu::BehaviourState& result) {
+    const Place& place = state.to.places.front();
+    const LocalPolygon area = routes_.outline(place, Routes::kTargetDepth);
+    for (const glm::dvec2 point : state.line)
+        if (!insidePolygon(area, rebase_.local(point)))
+            diagnostics_.error(state.where,
+                               fmt::format("the line at `{}` leaves its area at [{:.6g}, {:.6g}]",
+                                           routes_.name(place), point.x, point.y),
+                               "the whole line has to lie in the area of its queue");
+    result.line = itineraries_.lineFor(state.line, state.spacing);
+    const std::uint32_t count = scene_.queues[owner.group].row_count;
+    scene_.lines[result.line].ticket_count += count;
+    scene_.ticket_count += count;
+    gpu::BehaviourPlace& there = scene_.behaviours.places[result.first_place];
+    there.middle = there.facing = rebase_.local(state.line.front());
 }
 
 void BehaviourTables::addPlaces(const BehaviourState& state, const Owner& owner,

@@ -8,6 +8,7 @@
 #include "authoring/diagnostics.h"
 #include "authoring/layout.h"
 #include "authoring/scene.h"
+#include "authoring/scene/itineraries.h"
 #include "authoring/scene/rebase.h"
 #include "authoring/scene/routes.h"
 #include "authoring/scene/traffic.h"
@@ -19,7 +20,7 @@ namespace throng::authoring {
 class BehaviourTables {
   public:
     BehaviourTables(const Layout& layout, const Rebase& rebase, const WalkGeometry& geometry, Routes& routes,
-                    Diagnostics& diagnostics, Scene& scene);
+                    Itineraries& itineraries, Diagnostics& diagnostics, Scene& scene);
 
     /// Whose behaviour it is.
     struct Owner {
@@ -53,6 +54,7 @@ class BehaviourTables {
                   gpu::BehaviourState& result);
     std::vector<gpu::BehaviourRule> rulesOf(const Condition& condition, const Owner& owner);
     void fillRule(const Condition& condition, const Owner& owner, gpu::BehaviourRule& rule);
+    void addLine(const BehaviourState& state, const Owner& owner, gpu::BehaviourState& result);
     LightPlan lightOf(const Condition& condition) const;
     std::uint32_t censusOf(const Place& place, gpu::SpawnQueue rows);
     void spotsFor(gpu::BehaviourPlace& place, const LocalPolygon& outline, const Owner& owner);
@@ -63,6 +65,7 @@ class BehaviourTables {
     const Rebase& rebase_;
     const WalkGeometry& geometry_;
     Routes& routes_;
+    Itineraries& itineraries_;
     Diagnostics& diagnostics_;
     Scene& scene_;
     std::map<std::string, Outline> outlines_;  // by place

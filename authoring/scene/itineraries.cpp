@@ -217,7 +217,7 @@ gpu::Stage Itineraries::stopStage(const Stop& stop, const Place& place, std::uin
     stage.activity = activityOf(stop.activity);
     stage.flags = gpu::STAGE_ANYWHERE | gpu::STAGE_IN_AREA;
     if (stop.activity == Activity::queue) {
-        stage.line = lineFor(stop);
+        stage.line = lineFor(stop.line, stop.spacing);
         stage.point = rebase_.local(stop.line.front());
         stage.facing = stop.facing ? stage.facing : stage.point;
         stage.flags = 0;
@@ -252,20 +252,19 @@ glm::vec2 Itineraries::spotFor(const Place& place, const Traveller& traveller, g
     return fits ? place_in_ring : spot;
 }
 
-/// Stops of several flows with the same line are one line.
-std::uint32_t Itineraries::lineFor(const Stop& stop) {
-    std::string key = fmt::format("{}", stop.spacing);
-    for (const glm::dvec2 point : stop.line)
+std::uint32_t Itineraries::lineFor(const std::vector<glm::dvec2>& points, double spacing) {
+    std::string key = fmt::format("{}", spacing);
+    for (const glm::dvec2 point : points)
         key += fmt::format(" {} {}", point.x, point.y);
     const auto [entry, is_new] = lines_.try_emplace(key, static_cast<std::uint32_t>(scene_.lines.size()));
     if (is_new) {
         gpu::WaitingLine line{};
         line.first_point = static_cast<std::uint32_t>(scene_.line_points.size());
-        line.point_count = static_cast<std::uint32_t>(stop.line.size());
-        line.spacing = static_cast<float>(stop.spacing);
+        line.point_count = static_cast<std::uint32_t>(points.size());
+        line.spacing = static_cast<float>(spacing);
         line.candidate = gpu::NO_INDEX;
         scene_.lines.push_back(line);
-        for (const glm::vec2 point : rebase_.local(stop.line))
+        for (const glm::vec2 point : rebase_.local(points))
             scene_.line_points.push_back(point);
     }
     return entry->second;

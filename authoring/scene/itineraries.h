@@ -54,6 +54,9 @@ class Itineraries {
     void prepare();
     /// How many fields these are.
     static std::size_t destinationCount(const Layout& layout);
+    /// A line that people wait in; what has the same points and spacing is the same one. Its tickets are the
+    /// caller's to count.
+    std::uint32_t lineFor(const std::vector<glm::dvec2>& points, double spacing);
     /// The field of a destination. @param choice which of its places, where one is chosen
     std::uint32_t fieldTo(const Destination& to, bool keep_to_roads, std::size_t choice = 0);
 
@@ -77,7 +80,6 @@ class Itineraries {
     gpu::Stage stopStage(const Stop& stop, const Place& place, std::uint32_t field, double wait,
                          const Traveller& traveller);
     glm::vec2 spotFor(const Place& place, const Traveller& traveller, glm::vec2& middle);
-    std::uint32_t lineFor(const Stop& stop);
     using Destinations = std::vector<std::vector<Place>>;
     static std::array<Destinations, 2> wanted(const Layout& layout);
     std::size_t chosen(const Destination& to, const GroupRandom& random, std::uint64_t leader,

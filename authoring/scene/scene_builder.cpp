@@ -111,7 +111,7 @@ class SceneAssembly {
         Itineraries itineraries(layout_, rebase_, geometry_, routes, diagnostics_, scene_);
         itineraries.prepare();
         routes.solvePlanned();
-        BehaviourTables behaviours(layout_, rebase_, geometry_, routes, diagnostics_, scene_);
+        BehaviourTables behaviours(layout_, rebase_, geometry_, routes, itineraries, diagnostics_, scene_);
         for (std::size_t i = 0; i < layout_.flows.size(); ++i)
             routeFlow(layout_.flows[i], i, routes, itineraries, behaviours);
         for (std::size_t i = 0; i < layout_.formations.size(); ++i)

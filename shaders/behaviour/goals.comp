@@ -45,6 +45,7 @@ void setOff(Seeker seeker, Mind mind, BehaviourState doing, Stage stage) {
     Stage after = stage;
     after.dwell = DWELL_WHILE;
     after.flags = STAND_ANYWHERE;
+    after.line = NO_INDEX;
     stages[mind.first_stage + 1u] = after;
     bool leaves = (doing.flags & STATE_LEAVES) != 0u;
     states[seeker.row].stage = walkers[seeker.slot].stage = mind.first_stage;
@@ -106,6 +107,16 @@ Stage stageWandering(BehaviourState doing, Seeker seeker, Mind mind, vec2 spot) 
     return stage;
 }
 
+/// The place's middle is the front of the line.
+Stage stageInLine(BehaviourState doing, Seeker seeker, Mind mind) {
+    BehaviourPlace place = behaviour_places[mind.place];
+    Stage stage = stageTo(place.middle, place.field | FIELD_THEN_POINT, doing);
+    stage.facing = (doing.flags & STATE_FACES) != 0u ? doing.facing : place.facing;
+    stage.line = doing.line;
+    stage.dwell = stayAt(doing, seeker, mind);
+    return stage;
+}
+
 void beginState(Seeker seeker, inout Mind mind, BehaviourState doing) {
     mind.flags &= ~MIND_NEEDS_GOAL;
     switch (doing.does) {
@@ -125,6 +136,10 @@ void beginState(Seeker seeker, inout Mind mind, BehaviourState doing) {
         case DOES_WANDER:
             mind.place = doing.first_place;
             setOff(seeker, mind, doing, stageWandering(doing, seeker, mind, nextSpot(seeker, mind)));
+            break;
+        case DOES_QUEUE:
+            mind.place = doing.first_place;
+            setOff(seeker, mind, doing, stageInLine(doing, seeker, mind));
             break;
         default:
             setOff(seeker, mind, doing, stageHere(doing, seeker, mind));

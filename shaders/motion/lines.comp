@@ -9,18 +9,21 @@ layout(std430) buffer States { AgentState states[]; };
 layout(std430) readonly buffer Stages { Stage stages[]; };
 uniform uint line_count;
 
+/// Where a number's row is kept: as many at once as there are people who may wait there.
+uint placeOf(WaitingLine line, uint number) { return line.first_ticket + number % line.ticket_count; }
+
 void main() {
     uint index = gl_GlobalInvocationID.x;
     if (index >= line_count) return;
     WaitingLine line = waiting_lines[index];
     // Whoever was served, or was called away, has given its ticket back.
-    while (line.served < line.given && states[tickets[line.first_ticket + line.served]].ticket != line.served)
+    while (line.served < line.given && states[tickets[placeOf(line, line.served)]].ticket != line.served)
         ++line.served;
     // One joins per step. Who was called away in this very step does not.
     uint row = line.candidate;
     line.candidate = NO_INDEX;
-    if (row != NO_INDEX && line.given < line.ticket_count && stages[states[row].stage].line == index) {
-        tickets[line.first_ticket + line.given] = row;
+    if (row != NO_INDEX && line.given - line.served < line.ticket_count && stages[states[row].stage].line == index) {
+        tickets[placeOf(line, line.given)] = row;
         states[row].ticket = line.given++;
     }
     waiting_lines[index] = line;

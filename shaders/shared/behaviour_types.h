@@ -15,6 +15,7 @@ const uint DOES_VISIT = 3u;   // some of several places
 const uint DOES_GATHER = 4u;  // at a spot of its own in a place
 const uint DOES_FLEE = 5u;    // from a point
 const uint DOES_FOLLOW = 6u;  // the nearest of some rows
+const uint DOES_QUEUE = 7u;   // in a line, whose first one is served
 
 const uint STATE_LEAVES = 1u;    // at the end of its way one leaves the scene
 const uint STATE_FOR_GOOD = 2u;  // who has come to rest in it has arrived
@@ -49,7 +50,7 @@ struct BehaviourState {
     float distance;  // m; flee: so far is enough; follow: so far behind
     float pace;      // of the preferred speed
     Drawn lasts;     // s at each place; DWELL_WHILE: until something else happens
-    uint reserved;
+    uint line;       // queue: index into the waiting lines
 };
 
 /// Longer than any shot: who stands for so long goes on only when a rule says so.

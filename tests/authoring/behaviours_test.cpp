@@ -126,6 +126,18 @@ TEST(Behaviours, SignalsAreThoseOfCrossingsAndLanes) {
               "6: no signal has `other` (name it under `green` in a phase of a signal)\n");
 }
 
+TEST(Behaviours, QueuesHaveALineAndServe) {
+    const std::string line = R"("a": {"queue": "square", "line": [[1, 1], [3, 1]], )";
+    EXPECT_EQ(told(withStates(line + R"("for": 9, "then": "leave"}, )" + kLeave)), "");
+    expectTold(R"("a": {"queue": "square", "for": 9, "then": "leave"}, )" + kLeave,
+               "6: a queue needs the `line` along which people stand, from its front");
+    expectTold(line + R"("then": "leave"}, )" + kLeave, "6: how long is one served?");
+    expectTold(line + R"("for": 9}, )" + kLeave, "6: what comes after the state `a`?");
+    expectTold(
+        R"("a": {"wander": "square", "spacing": 1, "until": [{"after": 3, "then": "leave"}]}, )" + kLeave,
+        "6: `spacing` says nothing beside `wander`");
+}
+
 TEST(Behaviours, AStateDoesOneThing) {
     expectTold(R"("a": {"stay": true, "wander": "square"})", "this one has several");
     expectTold(R"("a": {"pace": 1})", "this one has none");

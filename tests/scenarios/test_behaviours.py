@@ -9,7 +9,7 @@ import pytest
 
 from conftest import EXAMPLES, ROOT
 
-WALKED, STOOD, LOOKED = 1, 2, 3  # activities
+WALKED, STOOD, LOOKED, QUEUED = 1, 2, 3, 4  # activities
 
 
 def box(x, y, width, height):
@@ -158,6 +158,23 @@ def test_a_signal_ends_it(bake, condition, at):
         {"seconds": 4, "green": ["street"]}, {"seconds": 2}, {"seconds": 30, "green": ["zebra"]}]}]
     times = setting_off(bake(f"signal {at}", layout))
     assert times.min() > at - 0.1 and times.max() < at + 1.2, times
+
+
+def test_people_are_served_in_the_order_in_which_they_came_again_and_again(bake):
+    """More often than there are people: who has been served comes back to the end of the line."""
+    layout = conditions({"after": 100})
+    layout["simulation"]["duration"] = 90
+    layout["behaviours"][0].update(start="line", states={
+        "line": {"queue": "here", "line": [[8, 0], [-3, 0]], "spacing": 0.8, "for": 3, "then": "walk"},
+        "walk": {"gather": "away", "for": 1, "then": "line"}})
+    baked = bake("queue", layout)
+    waits = [each for each in baked.spells(QUEUED) if each[2] < len(baked.doing) - 1]  # who was served by then
+    served = sorted(waits, key=lambda each: each[2])
+    assert len(waits) > 12 and (numpy.diff([first for _, first, _ in served]) >= 0).all(), served
+    between = numpy.diff([last for _, _, last in served]) / baked.fps
+    assert between.min() > 2.9 and numpy.median(between) < 6.0, between
+    first = baked.places[served[0][2], served[0][0]]
+    assert numpy.linalg.norm(first - [8, 0]) < 0.5, "one is served at the front"
 
 
 def test_somebody_who_comes_near_ends_it(bake):

@@ -88,7 +88,7 @@ std::map<std::string, Layout> layoutsInCpp() {
                                      MEMBER(lasts.deviation),
                                      MEMBER(lasts.minimum),
                                      MEMBER(lasts.maximum),
-                                     MEMBER(reserved)}};
+                                     MEMBER(line)}};
     }
     {
         using T = gpu::BehaviourPlace;

@@ -4,7 +4,6 @@ import bpy
 
 from ..blender.panels import InSidebar
 from . import behaviours
-from .codecs import UNSET
 from .panel_parts import change, destination, distribution, list_of, one_of, optional, place, places, problems_of, who
 
 _WORDS = {"near": "Within", "crowded": "Persons/m²", "chance": "Share/s"}
@@ -48,7 +47,7 @@ def _state(column, state, where, data, behaviour):
     column.prop(state, "does")
     if state.does in ("walk_to", "gather"):
         destination(column, state.to, f"{where}.to")
-    elif state.does == "wander":
+    elif state.does in ("wander", "queue"):
         place(column, state.place, "In")
     elif state.does == "visit":
         places(column, state.to, f"{where}.to")
@@ -71,9 +70,7 @@ def _further(column, state, key):
         distribution(column, state, "lasts")
     elif key == "do":
         column.prop(state, "pose")
-        if state.does != "stay" or state.pose != UNSET:
-            column.prop(state, "facing")
-    elif key in ("beyond", "distance", "pace", "for_good"):
+    elif key in ("facing", "line", "spacing", "beyond", "distance", "pace", "for_good"):
         column.prop(state, key)
 
 

@@ -104,6 +104,10 @@ class ThrongState(bpy.types.PropertyGroup):
                           description="So far away people are safe")
     distance: FloatProperty(name="Distance", **limits("behaviour_state", "distance"), subtype="DISTANCE",
                             description="So far behind")
+    line: PointerProperty(type=bpy.types.Object, name="Line", poll=is_kind("LINE"),
+                          description="Where people queue, from the front on")
+    spacing: FloatProperty(name="Spacing", **limits("behaviour_state", "spacing"),
+                           description="Metres from one to the next")
     pace: FloatProperty(name="Pace", **limits("behaviour_state", "pace"),
                         description="Of the speed that each of them prefers")
     for_good: BoolProperty(name="For Good", description="Who has come to rest stays to the end of the shot")

@@ -110,6 +110,8 @@ KEYS = {
     "gather": (Destination("gather", "to"), *_STANDS, _PACE, _GOOD, _THEN),
     "flee": (_Danger("flee"), _of_state("beyond"), _PACE, _THEN),
     "follow": (_Followed("follow"), _of_state("distance"), Optional(fields.Whole("person", 0)), _PACE),
+    "queue": (Place("queue", "place"), Target("line", "LINE"), _of_state("spacing"), _STANDS[0], _STANDS[2], _PACE,
+              _THEN),
 }
 
 
