@@ -7,6 +7,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "authoring/scene/patches.h"
 #include "authoring/scene/walls.h"
 
 namespace throng::authoring {
@@ -65,6 +66,11 @@ std::string keyOf(const WalkGeometry& geometry, const GroundResolution& resoluti
     }
     for (const LocalPolygon& area : geometry.areas)
         appendAll(key, area);
+    for (const CostlyGround& ground : geometry.costly) {
+        appendAll(key, ground.outline);
+        append(key, ground.cost);
+        append(key, ground.is_for_a_time);
+    }
     if (geometry.charts) {
         appendAll(key, geometry.charts->cells);
         appendAll(key, geometry.charts->shifts);
@@ -171,9 +177,20 @@ const Sight& Ground::sight() {
     const std::vector<float>& cost = costFor(kAnywhere);
     const float roomy = 1.0f + WallCost(geometry_, cells.cell_size)(geometry_.largest_radius);
     sight_.emplace(cells);
+    // Nobody goes straight over ground that is worth a way round it.
+    std::vector<bool> costly(geometry_.costly.empty() ? 0 : cellCount(cells));
+    visitCostly(geometry_.costly, cells, [&](std::uint32_t cell) { costly[cell] = true; });
+    const auto isCostly = [&](std::uint32_t x, std::uint32_t y) {
+        return !costly.empty() && costly[std::size_t{y} * cells.width + x];
+    };
     const auto set = [&](std::uint32_t x, std::uint32_t y, float here) {
         if (here < kUnreachable) sight_->setFree(x, y);
-        if (here < kUnreachable && here <= roomy) sight_->setRoomy(x, y);
+        if (here < kUnreachable && here <= roomy && !isCostly(x, y)) sight_->setRoomy(x, y);
+    };
+    const auto setTileFree = [&](std::uint32_t x, std::uint32_t y) {
+        for (std::uint32_t j = 0; j < FieldBlocks::kSide; ++j)
+            for (std::uint32_t i = 0; i < FieldBlocks::kSide; ++i)
+                sight_->setFree(x + i, y + j);
     };
     for (std::uint32_t y = 0; y < cells.height; ++y)
         for (std::uint32_t x = 0; x < cells.width; ++x) {
@@ -183,7 +200,10 @@ const Sight& Ground::sight() {
                 set(x, y, cost[node]);
             } else if (x % FieldBlocks::kSide == 0 && y % FieldBlocks::kSide == 0 &&
                        blocks_.isOpen(x / FieldBlocks::kSide, y / FieldBlocks::kSide)) {
-                sight_->setTileOpen(x / FieldBlocks::kSide, y / FieldBlocks::kSide);
+                if (!isCostly(x, y))
+                    sight_->setTileOpen(x / FieldBlocks::kSide, y / FieldBlocks::kSide);
+                else
+                    setTileFree(x, y);
             }
         }
     sight_->finish();

@@ -17,6 +17,7 @@
 #include "authoring/scene/chart_map.h"
 #include "authoring/scene/itineraries.h"
 #include "authoring/scene/narrow_places.h"
+#include "authoring/scene/patches.h"
 #include "authoring/scene/people.h"
 #include "authoring/scene/raster.h"
 #include "authoring/scene/rebase.h"
@@ -173,7 +174,7 @@ class SceneAssembly {
     /// Without walls, the straight way is all there is to know.
     std::vector<Routes::PointGoal> pointGoals() {
         std::vector<Routes::PointGoal> goals;
-        if (geometry_.walls.empty()) return goals;
+        if (!geometry_.hasObstacles()) return goals;
         for (std::size_t index = 0; index < layout_.formations.size(); ++index) {
             const Formation& formation = layout_.formations[index];
             if (formation.behaviour) continue;
@@ -197,7 +198,9 @@ class SceneAssembly {
     }
 
     bool isStraight(glm::vec2 from, glm::vec2 to, float radius) const {
-        return straightIsClear(geometry_, from, to, radius);
+        return straightIsClear(geometry_, from, to, radius) &&
+               std::ranges::none_of(geometry_.costly,
+                                    [&](const CostlyGround& ground) { return ground.meets(from, to); });
     }
 
     /// Bodies and times of everybody, because the walls' clearance depends on the smallest and the largest
@@ -357,6 +360,7 @@ class SceneAssembly {
             geometry_.areas.push_back(rebase_.local(area.polygon));
         for (const Zebra& crossing : layout_.traffic.crossings)
             geometry_.areas.push_back(rebase_.local(crossing.polygon));
+        geometry_.costly = costlyGround(layout_, rebase_);
         geometry_.has_crossings = keepsOffStreets(layout_);
         scene_.wall_segments = geometry_.walls;
         openGates();
@@ -726,7 +730,7 @@ class SceneAssembly {
     void findWay(const Formation& formation, std::uint64_t i, const Waypoint* waypoint,
                  const gpu::Person& person, glm::vec2 from, Routes& routes, gpu::Stage& stage) {
         const glm::vec2 goal = stage.point;
-        if (geometry_.walls.empty()) return;
+        if (!geometry_.hasObstacles()) return;
         if (const auto near = whyUnattainable(formation, person, goal)) {
             complain(i, waypoint ? "has a place of its way in a wall" : "has its goal in a wall",
                      near->empty() ? "move the goal, or the wall"
@@ -815,6 +819,7 @@ class SceneAssembly {
         scene_.field_count = routes.fieldCount();
         if (layout_.simulation.avoid_congestion && layout_.simulation.motion.isOn("routes_round_jams"))
             scene_.detours = routes.detours();
+        scene_.patches = buildPatches(layout_, rebase_, scene_.detours.grid);
         scene_.fields = routes.store();
         scene_.road_distance = ground_->roadDistances();
         const MotionSettings& motion = layout_.simulation.motion;

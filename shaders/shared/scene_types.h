@@ -109,6 +109,29 @@ struct WallSegment {
     uint wall;             // index into the layout's walls
 };
 
+/// Ground that people walk on at another pace.
+struct Patch {
+    vec2 lower;   // m, its bounds
+    vec2 upper;
+    float pace;   // times the preferred speed
+    float from;   // s
+    float until;  // s
+    uint first_point;
+    uint point_count;
+    uint reserved;
+};
+
+/// Somebody whose way is given: consecutive places, at least two of them.
+struct GivenWay {
+    uint first_place;
+    uint place_count;
+};
+struct GivenPlace {
+    vec2 position;  // m
+    float time;     // s, later than that of the place before
+    uint reserved;
+};
+
 /// A site of the diagram that stands for a piece of wall. Its site id is the number of people plus its index.
 struct WallTile {
     vec2 position;      // m
