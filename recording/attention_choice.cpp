@@ -113,7 +113,7 @@ bool AttentionTrack::isTalking(std::uint32_t index) const {
     return std::ranges::any_of(company_.of(index), [&](std::uint32_t other) {
         return other != index && people_[other].stands() &&
                glm::distance(self.place, people_[other].place) < kTalkReach &&
-               areOnOneGround(self.height, people_[other].height);
+               areOnOneGround(self.height, people_[other].height) && sees(self, people_[other].place);
     });
 }
 
@@ -213,7 +213,8 @@ void AttentionTrack::talk(std::uint32_t index) {
     const bool attends = chance < (speaks ? kAddresses : kListens);
     const std::uint32_t at = attends || chance > 0.96 ? faced : somebody;
     const double angle = angleTo(self, people_[at].place) - self.twist;
-    if ((attends || members.size() > 2) && isBefore(self, people_[at].place, kTalkReach, kField))
+    if ((attends || members.size() > 2) && isBefore(self, people_[at].place, kTalkReach, kField) &&
+        sees(self, people_[at].place))
         turnTo(self, Target::company, people_[at].row,
                attends ? between(self.row, 1.2, 3.6) : between(self.row, 0.5, 1.4));
     else
@@ -238,6 +239,7 @@ void AttentionTrack::stroll(std::uint32_t index) {
             return turnTo(self, Target::thing, draws.at,
                           stands ? between(self.row, 2.0, 7.0) : between(self.row, 0.9, 2.6));
         case Target::company:
+            if (!sees(self, people_[index_[draws.at]].place)) break;
             return turnTo(self, Target::company, draws.at, between(self.row, 0.8, stands ? 3.5 : 2.2));
         case Target::other:
             if (!sees(self, people_[index_[draws.at]].place)) break;

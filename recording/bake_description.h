@@ -26,6 +26,7 @@ namespace throng::recording {
 struct BakeGroup {
     std::string id;
     bool is_flow = false;
+    bool is_given = false;     ///< its people follow given ways
     std::string look = {};     ///< what its people wear
     std::string colours = {};  ///< of fans: two, apart by a space; empty: the look's own
 };

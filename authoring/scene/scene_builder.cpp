@@ -15,6 +15,7 @@
 #include "authoring/scene/behaviours.h"
 #include "authoring/scene/boarding.h"
 #include "authoring/scene/chart_map.h"
+#include "authoring/scene/given.h"
 #include "authoring/scene/itineraries.h"
 #include "authoring/scene/narrow_places.h"
 #include "authoring/scene/patches.h"
@@ -117,6 +118,7 @@ class SceneAssembly {
             routeFlow(layout_.flows[i], i, routes, itineraries, behaviours);
         for (std::size_t i = 0; i < layout_.formations.size(); ++i)
             placeFormation(layout_.formations[i], i, routes, itineraries, behaviours);
+        addWays(layout_, rebase_, scene_);
         numberTickets();
         if (routes.tooManyFields())
             diagnostics_.error({},
@@ -210,6 +212,14 @@ class SceneAssembly {
             drawFlow(layout_.flows[i], i);
         for (const Formation& formation : layout_.formations)
             drawFormation(formation);
+        for (const GivenPeople& given : layout_.given) {
+            beginGroup(given.id, false, given.people);
+            scene_.groups.back().is_given = true;
+            for (gpu::Person& person : givenPeople(given, layout_, rebase_, group())) {
+                person.party_first = static_cast<std::uint32_t>(scene_.people.size());
+                addPerson(person);
+            }
+        }
     }
 
     void drawFlow(const Flow& flow, std::size_t index) {
@@ -313,7 +323,7 @@ class SceneAssembly {
     }
 
     void beginGroup(const std::string& id, bool is_flow, const People& people) {
-        scene_.groups.push_back({id, is_flow, people.look, people.colours, {}});
+        scene_.groups.push_back({id, is_flow, false, people.look, people.colours, {}});
         for (const PeopleShare& share : people.kinds)
             scene_.groups.back().profiles.push_back(share.profile);
         scene_.queues.push_back({static_cast<gpu::uint>(scene_.people.size()), 0});
@@ -363,6 +373,10 @@ class SceneAssembly {
         geometry_.costly = costlyGround(layout_, rebase_);
         geometry_.has_crossings = keepsOffStreets(layout_);
         scene_.wall_segments = geometry_.walls;
+        if (layout_.simulation.walls_hide)
+            for (std::uint32_t i = 0; i < geometry_.walls.size(); ++i)
+                if (layout_.walls[geometry_.walls[i].wall].height >= kSeenOver)
+                    scene_.hiding_walls.push_back(i);
         openGates();
         sortWalls(geometry_);
         if (!hasRoomForTiles()) return;
