@@ -69,13 +69,17 @@ void AttentionTrack::turnTo(const Onlooker& self, Target target, std::uint32_t a
     head.settles = kAtOnce;
 }
 
-bool AttentionTrack::sees(const Onlooker& self, glm::dvec2 place) const {
-    if (walls_.empty()) return true;
-    // What is in a wall, as a shop window is, is seen from before it.
+/// What is in a wall, as a shop window is, is seen from before it.
+bool AttentionTrack::seesThing(const Onlooker& self, glm::dvec2 place) const {
     constexpr double kBefore = 0.5;  // m
     const double away = glm::distance(self.place, place);
+    return away <= kBefore || sees(self, glm::mix(place, self.place, kBefore / away));
+}
+
+bool AttentionTrack::sees(const Onlooker& self, glm::dvec2 place) const {
+    if (walls_.empty()) return true;
     walls_.standAt(self.height);
-    return away <= kBefore || !walls_.crosses(self.place, glm::mix(place, self.place, kBefore / away));
+    return !walls_.crosses(self.place, place);
 }
 
 void AttentionTrack::decide(std::uint32_t index) {
@@ -235,7 +239,7 @@ void AttentionTrack::stroll(std::uint32_t index) {
         case Target::aside:
             return glanceAside(self);
         case Target::thing:
-            if (!sees(self, things_[draws.at].place)) break;
+            if (!seesThing(self, things_[draws.at].place)) break;
             return turnTo(self, Target::thing, draws.at,
                           stands ? between(self.row, 2.0, 7.0) : between(self.row, 0.9, 2.6));
         case Target::company:

@@ -10,7 +10,7 @@ const gl::Declaration kWish = {"avoidance",
                                {"Walkers", "PreferredVelocities"}};
 const gl::Declaration kHold = {"contacts",
                                {"shaders/given/hold.comp"},
-                               {"LiveDispatch", "Bodies", "Walkers", "GivenWays", "GivenPlaces"},
+                               {"LiveDispatch", "Bodies", "Walkers", "Targets", "GivenWays", "GivenPlaces"},
                                {"Targets"}};
 const gl::Declaration kPlace = {"motion",
                                 {"shaders/given/place.comp"},

@@ -21,7 +21,7 @@ def bake(throng, folder, told, *options, files=()):
 def winding(seconds, step=0.1):
     """A way that no walker would choose, [time, x, y]."""
     time = numpy.arange(2, 2 + seconds, step)
-    return numpy.stack([time, -5 + 1.2 * (time - 2), numpy.sin(3 * time)], 1).round(4)
+    return numpy.stack([time, -5 + 1.2 * (time - 2), numpy.sin(1.5 * time)], 1).round(4)
 
 
 def csv_of(ways):
@@ -50,7 +50,7 @@ def test_they_are_where_their_ways_say(throng, tmp_path, source):
     # With strides like everybody else's, and facing where it goes.
     there, _ = expected(way, len(pos))
     phase, speed = state[there, 0, 2], dir[there, 0, 2]
-    assert phase[-1] - phase[0] > 3 and 1 < numpy.median(speed) < 4
+    assert phase[-1] - phase[0] > 3 and 1 < numpy.median(speed) < 2
     velocity = numpy.diff(pos[there, 0, :2], axis=0)
     facing = dir[there, 0, :2][:-1]
     assert (velocity * facing).sum(1).mean() > 0.8 * numpy.hypot(*velocity.T).mean()
@@ -62,9 +62,9 @@ def test_they_are_where_their_ways_say(throng, tmp_path, source):
 def test_others_walk_round_them(throng, tmp_path):
     """One stands in the way, and one comes along it."""
     told = {"given": [{"id": "given", "people": {"radius": 0.25},
-                       "ways": [[[0, 0, 0.05], [60, 0, 0.05]], [[0, 12, -0.05], [24, -12, -0.05]]]}],
+                       "ways": [[[0, 0, 0.05], [60, 0, 0.05]], [[0, 12, -0.05], [10.8, 1.2, -0.05]]]}],
             "formations": [{"id": "walker", "type": "agents", "arrival": "leave",
-                            "agents": [{"position": [-6, 0], "goal": [9, 0], "speed": 1.3, "radius": 0.25}]}]}
+                            "agents": [{"position": [-6, 0], "goal": [8, 0], "speed": 1.3, "radius": 0.25}]}]}
     pos, _, state = bake(throng, tmp_path, told)
     walker, there = pos[:, 0, :2], state[:, 0, 0] > 0.5
     for row in (1, 2):
@@ -84,7 +84,7 @@ def test_what_they_walk_through_is_theirs(throng, tmp_path):
     bake(throng, tmp_path, told)
     figures = json.loads(throng("measure", tmp_path / "bake", "--json").stdout)
     assert figures["wall_crossings"] == 0 and figures["overlapping_percent"] == 0
-    assert figures["given"]["wall_crossings"] == 2 and figures["given"]["deepest_overlap_percent"] > 90
+    assert figures["given"]["wall_crossings"] >= 2 and figures["given"]["deepest_overlap_percent"] > 90
 
 
 @pytest.mark.quick
@@ -107,7 +107,8 @@ BAD = {
     "id,frame,x,y\n0,0,0,0\n0,1,1,0\n": "frames a second",
     "id,time,x,y\n0,0,0,0\n0,1,1,0\n0,1,2,0\n": "two places",
     "id,time,x,y\n0,0,0,0\n": "frames a second",
-    "": "no people",
+    "": "frames a second",
+    "id,time,x,y\n0,0,0,0\n1,1,1,0\n": "nobody in",
 }
 
 

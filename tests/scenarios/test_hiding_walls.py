@@ -10,7 +10,8 @@ def way(throng, folder, name, height, hide, others):
     """Of somebody who walks along a wall, and perhaps others on its other side."""
     agent = lambda x, y, goal: {"position": [x, y], "goal": [goal, y], "speed": 1.3, "radius": 0.25}
     told = {"throng": 1, "simulation": {"duration": 10, "walls_hide": hide, "avoid_congestion": False},
-            "walls": [{"points": [[-9, 0], [9, 0]], "thickness": 0.1, "height": height}],
+            "walls": [{"points": [[-9, 0], [9, 0]], "thickness": 0.1, "height": height},
+                      *({"points": [[-12, y], [12, y]]} for y in (-9, 9))],  # so that the site is as large
             "formations": [{"id": "one", "type": "agents", "agents": [agent(-6, -0.5, 6)]}]}
     if others:
         told["formations"].append({"id": "others", "type": "agents",

@@ -115,8 +115,8 @@ SQUARE = [[0, 0], [2, 0], [2, 2], [0, 2]]
 
 @pytest.mark.parametrize("patch, others, words", [
     ({"polygon": SQUARE}, {}, "neither `cost` nor `pace`"),
-    ({"polygon": SQUARE, "cost": 0.5}, {}, "expected 1 to 20"),
-    ({"polygon": SQUARE, "pace": 0.1}, {}, "expected 0.2 to 1.5"),
+    ({"polygon": SQUARE, "cost": 0.5}, {}, "expected at least 1 and at most 20"),
+    ({"polygon": SQUARE, "pace": 0.1}, {}, "expected at least 0.2 and at most 1.5"),
     ({"polygon": SQUARE, "cost": 2, "from": 5, "until": 5}, {}, "ends before it begins"),
     ({"polygon": [[0, 0], [2, 2], [2, 0], [0, 2]], "cost": 2}, {}, "cross"),
     ({"polygon": SQUARE, "cost": 2, "until": 5}, {"simulation": {"avoid_congestion": False}}, "avoid_congestion"),
