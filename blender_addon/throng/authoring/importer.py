@@ -13,7 +13,8 @@ from .values import MISSING, are_points, is_number, is_point
 
 COLLECTION = "Throng Layout"
 _FAR = 2048.0  # m: further out, single floats are coarser than a quarter of a millimetre
-_SHAPES = {"roads": ("centreline", 2), "areas": ("polygon", 3), "walls": ("points", 2)}
+_SHAPES = {"roads": ("centreline", 2), "areas": ("polygon", 3), "walls": ("points", 2),
+           "patches": ("polygon", 3)}
 
 
 def read_layout(path):
@@ -146,7 +147,7 @@ def _shaped(world, key, kind, entry):
             turn = entry.get("rotation") if entry["type"] == "grid" else None
             thing.rotation_euler.z = math.radians(turn) if is_number(turn) else 0.0
         return thing
-    closed = kind == "AREA" or (kind == "WALL" and entry.get("closed") is True)
+    closed = kind in ("AREA", "PATCH") or (kind == "WALL" and entry.get("closed") is True)
     return geometry.new_curve(name, world.local(entry[_SHAPES[key][0]]), closed)
 
 
@@ -172,6 +173,8 @@ def _add_objects(world, document):
         part = thing.throng_layout
         if kind == "FORMATION":
             _put_formation(part.formation, entry, world)
+        elif kind == "PATCH":
+            codecs.put_all(fields.PATCH, part.patch, entry)
         elif kind in ("ROAD", "WALL"):
             codecs.put_all(fields.ROAD if kind == "ROAD" else fields.OPEN_WALL, part, entry)
     return [thing for thing, _, _ in things]
