@@ -316,7 +316,8 @@ struct ListedAgent {
     SourcePosition where;
     std::vector<Waypoint> via{};   ///< in order, before the goal
     double start = 0.0;            ///< s: when the person appears
-    std::optional<double> wait{};  ///< s before it sets off; otherwise drawn
+    std::optional<double> wait{};     ///< s before it sets off; otherwise drawn
+    std::optional<Destination> to{};  ///< in place of the goal
 };
 
 struct ListFormation {

@@ -188,6 +188,15 @@ void readGeometry(const ManifestReader& reader, Bake& bake) {
     reader.each("/geometry/areas", [&](const ManifestReader& area) {
         bake.areas.push_back({area.text("/id"), area.points("/polygon", 3), {}, levelOf(area, bake)});
     });
+    reader.each("/geometry/patches", [&](const ManifestReader& patch) {
+        authoring::Patch read;
+        read.id = patch.text("/id");
+        read.polygon = patch.points("/polygon", 3);
+        read.cost = patch.length("/cost");
+        read.pace = patch.length("/pace");
+        read.level = levelOf(patch, bake);
+        bake.patches.push_back(std::move(read));
+    });
     reader.each("/geometry/walls", [&](const ManifestReader& wall) {
         bake.walls.push_back(wallOf(wall));
         if (bake.hasStoreys()) bake.wall_ground.push_back(wall.point("/ground"));

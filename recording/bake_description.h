@@ -148,6 +148,7 @@ struct BakeDescription {
     std::vector<EyeCatcher> eye_catchers;  ///< in the frame of reference of the frames
     std::vector<authoring::Road> roads;
     std::vector<authoring::Area> areas;
+    std::vector<authoring::Patch> patches;
     std::vector<authoring::Wall> walls;
     authoring::Traffic traffic;  ///< where lanes, crossings and signals are
     std::vector<VehicleIdentity> vehicles;

@@ -645,7 +645,7 @@ class Reader {
             if (!inner.isObject()) return;
             inner.point("position", "[x, y] in metres", agent.position);
             agent.goal = agent.position;
-            if (!behaves || node.find("goal")) inner.point("goal", "[x, y] in metres", agent.goal);
+            readGoal(inner, node, behaves, agent);
             if (behaves) behaviours_.refuseBeside(node, {"goal", "via", "wait"});
             readVia(inner, agent);
             agent.start = start;
@@ -660,6 +660,17 @@ class Reader {
         // Rows of people come in one after the other.
         std::ranges::stable_sort(list.agents, {}, &ListedAgent::start);
         return list;
+    }
+
+    /// A point, or what flows may go to.
+    void readGoal(ObjectReader& reader, const JsonNode& node, bool behaves, ListedAgent& agent) {
+        const JsonNode* goal = node.find("goal");
+        if (goal && (goal->kind == JsonNode::Kind::text || goal->kind == JsonNode::Kind::object)) {
+            reader.get("goal");
+            agent.to = places_.destination(*goal);
+        } else if (goal || !behaves) {
+            reader.point("goal", "[x, y] in metres, or a place", agent.goal);
+        }
     }
 
     void readVia(ObjectReader& reader, ListedAgent& agent) {

@@ -193,7 +193,8 @@ class SceneAssembly {
                 };
                 for (const Waypoint& waypoint : wayOf(formation, i))
                     goOn(waypoint.point);
-                goOn(goalOf(formation, places, i++, traveller.leader));
+                if (!ownDestination(formation, i)) goOn(goalOf(formation, places, i, traveller.leader));
+                ++i;
             });
         }
         return goals;
@@ -297,6 +298,11 @@ class SceneAssembly {
         const auto* list = std::get_if<ListFormation>(&formation.shape);
         return list ? &list->agents[i] : nullptr;
     }
+    /// Of somebody who is listed with a place to go to.
+    static const Destination* ownDestination(const Formation& formation, std::uint64_t i) {
+        const ListedAgent* agent = listed(formation, i);
+        return agent && agent->to ? &*agent->to : nullptr;
+    }
     static double startOf(const Formation& formation, std::uint64_t i) {
         const ListedAgent* agent = listed(formation, i);
         return agent ? agent->start : formation.start;
@@ -307,7 +313,14 @@ class SceneAssembly {
     }
 
     static bool goAlike(const ListedAgent& a, const ListedAgent& b) {
+        const auto same = [](const Place& one, const Place& other) {
+            return one.kind == other.kind && one.index == other.index;
+        };
+        const auto placesOf = [](const ListedAgent& agent) {
+            return agent.to ? std::span<const Place>(agent.to->places) : std::span<const Place>();
+        };
         return a.start == b.start && a.wait == b.wait &&
+               std::ranges::equal(placesOf(a), placesOf(b), same) &&
                std::ranges::equal(a.via, b.via, {}, &Waypoint::point, &Waypoint::point) &&
                std::ranges::equal(a.via, b.via, {}, &Waypoint::wait, &Waypoint::wait);
     }
@@ -589,9 +602,9 @@ class SceneAssembly {
         const FormationPlaces places = formationPlaces(formation, layout_.simulation.seed);
         const GroupRandom random(layout_.simulation.seed, formation.id);
         const auto* grid = std::get_if<GridFormation>(&formation.shape);
-        const auto* destination = grid ? std::get_if<Destination>(&grid->goal) : nullptr;
+        const auto* shared = grid ? std::get_if<Destination>(&grid->goal) : nullptr;
         Journey journey{fmt::format("formation `{}`", formation.id), formation.where};
-        if (destination) journey.stops.push_back(Journey::goalStop(*destination, formation.arrival));
+        if (shared) journey.stops.push_back(Journey::goalStop(*shared, formation.arrival));
         const std::uint32_t state =
             formation.behaviour ? addBehaviour(formation, index, journey, behaviours) : 0;
         PlacedBodies later;  // who comes in at the same time
@@ -606,14 +619,19 @@ class SceneAssembly {
             addPause(formation, i, random, traveller, person);
             if (formation.behaviour) {
                 behaviours.begin(person, rowOf(person), state);
-            } else if (destination) {
-                person.stage_count += itineraries.appendStages(journey, random, traveller);
-                const std::uint32_t field = scene_.stages.back().field & ~gpu::FIELD_THEN_POINT;
-                if (routes.reachable(field, person.spawn_position) == kUnreachable)
-                    complain(i, "cannot reach its goal", "look for walls all round it");
             } else {
-                addWay(formation, i, rebase_.local(goalOf(formation, places, i, traveller.leader)), routes,
-                       person);
+                const Destination* own = ownDestination(formation, i);
+                if (own) journey.stops = {Journey::goalStop(*own, formation.arrival)};
+                const glm::vec2 from = addWay(formation, i, routes, person);
+                if (own || shared) {
+                    person.stage_count += itineraries.appendStages(journey, random, traveller);
+                    const std::uint32_t field = scene_.stages.back().field & ~gpu::FIELD_THEN_POINT;
+                    if (routes.reachable(field, from) == kUnreachable)
+                        complain(i, "cannot reach its goal", "look for walls all round it");
+                } else {
+                    addGoal(formation, i, from,
+                            rebase_.local(goalOf(formation, places, i, traveller.leader)), routes, person);
+                }
             }
             scene_.goals.push_back(scene_.stages.back().point);
             const std::size_t first = scene_.stages.size() - 1 - wayOf(formation, i).size();
@@ -719,24 +737,34 @@ class SceneAssembly {
             person.heading = static_cast<float>(*agent->heading * 3.14159265358979 / 180.0);
     }
 
-    /// The places on the way of somebody whose goal is a point, and that.
-    void addWay(const Formation& formation, std::uint64_t i, glm::vec2 goal, Routes& routes,
-                gpu::Person& person) {
+    /// The places on somebody's way. @returns the last of them, or where it begins
+    glm::vec2 addWay(const Formation& formation, std::uint64_t i, Routes& routes, gpu::Person& person) {
         glm::vec2 from = person.spawn_position;
-        const auto goOn = [&](glm::vec2 to, float dwell, const Waypoint* waypoint) {
-            gpu::Stage stage = pointStage(to, static_cast<float>(formation.goal_tolerance));
-            stage.dwell = dwell;
-            findWay(formation, i, waypoint, person, from, routes, stage);
-            scene_.stages.push_back(stage);
-            ++person.stage_count;
-            from = to;
-        };
         for (const Waypoint& waypoint : wayOf(formation, i))
-            goOn(rebase_.local(waypoint.point), static_cast<float>(waypoint.wait), &waypoint);
-        goOn(goal, formation.arrival == Arrival::stay ? gpu::DWELL_FOR_GOOD : 0.0f, nullptr);
+            from = addLeg(formation, i, from, rebase_.local(waypoint.point),
+                          static_cast<float>(waypoint.wait), &waypoint, routes, person);
+        return from;
+    }
+
+    /// A goal that is a point.
+    void addGoal(const Formation& formation, std::uint64_t i, glm::vec2 from, glm::vec2 goal, Routes& routes,
+                 gpu::Person& person) {
+        const float dwell = formation.arrival == Arrival::stay ? gpu::DWELL_FOR_GOOD : 0.0f;
+        addLeg(formation, i, from, goal, dwell, nullptr, routes, person);
         const auto* grid = std::get_if<GridFormation>(&formation.shape);
         if (grid && std::holds_alternative<Extent>(grid->goal))
             scene_.stages.back().flags |= gpu::STAGE_ANYWHERE;
+    }
+
+    /// @param waypoint null: it is the goal
+    glm::vec2 addLeg(const Formation& formation, std::uint64_t i, glm::vec2 from, glm::vec2 to, float dwell,
+                     const Waypoint* waypoint, Routes& routes, gpu::Person& person) {
+        gpu::Stage stage = pointStage(to, static_cast<float>(formation.goal_tolerance));
+        stage.dwell = dwell;
+        findWay(formation, i, waypoint, person, from, routes, stage);
+        scene_.stages.push_back(stage);
+        ++person.stage_count;
+        return to;
     }
 
     /// By which field somebody goes from one place to that of a stage, where there are walls.

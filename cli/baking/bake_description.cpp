@@ -214,6 +214,7 @@ recording::BakeDescription describeBake(const LoadedLayout& loaded, const BakeOp
     describeAudience(loaded.layout, scene, bake);
     bake.roads = loaded.layout.roads;
     bake.areas = loaded.layout.areas;
+    bake.patches = loaded.layout.patches;
     bake.walls = loaded.layout.walls;
     bake.traffic = loaded.layout.traffic;
     describeVehicles(scene, bake);

@@ -233,6 +233,7 @@ class Application {
         description.maximum = source_.origin + maximum_;
         description.roads = source_.roads;
         description.areas = source_.areas;
+        description.patches = source_.patches;
         description.walls = source_.walls;
         description.traffic = source_.traffic;
         description.vehicles = source_.vehicles;

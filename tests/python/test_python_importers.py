@@ -205,7 +205,7 @@ def test_vadere_brings_sources_targets_and_single_people(tmp_path):
     assert first["via"] == [{"at": "target 2", "wait": 2.0}] and first["people"]["speed"]["normal"] == [1.3, 0.26]
     assert (second["count"], second["start"], second["arrival"]) == (1, 1, "leave")
     single = found.layout["formations"][0]["agents"][0]
-    assert single["via"] == [{"point": [6, 2], "wait": 2}] and single["goal"] == [12, 6]
+    assert single["via"] == [{"point": [6, 2], "wait": 2}] and single["goal"] == "target 1"
     border = next(wall for wall in found.layout["walls"] if wall.get("id") == "border")
     assert min(border["points"]) == [0.4, 0.4] and border["thickness"] == 0.2
     assert found.report.left["sources", "people without a target"] == 1

@@ -48,7 +48,8 @@ TEST_P(PatchesTest, SlowDownThoseOnThemAsPlainCodeHasIt) {
             ASSERT_EQ(wishes[slot], pace * glm::vec2(1.0f, -2.0f)) << now << " s, slot " << slot;
         }
     }
-    if (GetParam() > 63) EXPECT_GT(slowed, 100u);
+    if (GetParam() <= 63) return;
+    EXPECT_GT(slowed, 100u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, PatchesTest, ::testing::Values(1u, 63u, 1234u));

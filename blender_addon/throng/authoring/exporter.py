@@ -42,6 +42,26 @@ class ExportWorld:
         self.origin = origin_of(scene)
         self.tolerance = scene.throng_layout.tolerance
         self._names = {}
+        # Those of places in the layout that was imported, and what they are called now.
+        self._places = {_raw(thing).get("id"): thing for thing in scene.objects
+                        if thing.throng_layout.kind in ("ROAD", "AREA") and thing.throng_layout.raw}
+
+    def place_named(self, text):
+        """A place by its name in the layout that was imported."""
+        name, _, end = text.rpartition(":")
+        for known, ending in ((text, ""), (name, f":{end}")):
+            if known in self._places:
+                return self.name(self._places[known]) + ending
+        return text
+
+    def destination_named(self, raw):
+        """A place, the nearest of several or a choice, likewise."""
+        if isinstance(raw, str):
+            return self.place_named(raw)
+        named = {"nearest": lambda places: [self.place_named(each) for each in places],
+                 "choose": lambda shares: {self.place_named(each): share for each, share in shares.items()}}
+        return {key: named[key](value) if key in named and isinstance(value, (list, dict)) else value
+                for key, value in raw.items()}
 
     def name(self, thing):
         if thing not in self._names:
@@ -186,6 +206,9 @@ def _agents(thing, raw, world):
         known = [point if is_point(point) else [math.inf, math.inf] for point in before]
         for entry, point in zip(result, keep_points([person[end] for person in people], known, world.origin)):
             entry[key] = point
+    for entry, old in zip(result, olds):
+        if isinstance(old.get("goal"), (str, dict)):  # a place, that has no end of an edge
+            entry["goal"] = world.destination_named(old["goal"])
     return result
 
 

@@ -53,12 +53,15 @@ def _problems(document):
 
 def _is_person(entry, behaves):
     """@param behaves a behaviour stands in place of goals"""
-    goes = isinstance(entry, dict) and (is_point(entry.get("goal")) or behaves and "goal" not in entry)
+    goes = isinstance(entry, dict) and (is_point(entry.get("goal")) or isinstance(entry.get("goal"), (str, dict))
+                                        or behaves and "goal" not in entry)
     return goes and is_point(entry.get("position"))
 
 
 def _way_of(person):
-    return [person["position"], person.get("goal", person["position"])]
+    """Who goes to a place is shown where it stands."""
+    goal = person.get("goal")
+    return [person["position"], goal if is_point(goal) else person["position"]]
 
 
 def _formation_problems(entry, pointer):
@@ -68,7 +71,7 @@ def _formation_problems(entry, pointer):
     elif kind == "agents":
         people = entry.get("agents")
         if not isinstance(people, list) or not all(_is_person(each, "behaviour" in entry) for each in people):
-            yield f"{pointer}/agents", "expected people with a position and a goal [x, y]"
+            yield f"{pointer}/agents", "expected people with a position [x, y] and a goal"
     elif not is_point(entry.get("centre" if kind == "circle" else "origin")):
         yield f"{pointer}/{'centre' if kind == 'circle' else 'origin'}", "expected a point [x, y]"
 
