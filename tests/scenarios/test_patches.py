@@ -120,7 +120,7 @@ SQUARE = [[0, 0], [2, 0], [2, 2], [0, 2]]
     ({"polygon": SQUARE, "cost": 2, "from": 5, "until": 5}, {}, "ends before it begins"),
     ({"polygon": [[0, 0], [2, 2], [2, 0], [0, 2]], "cost": 2}, {}, "cross"),
     ({"polygon": SQUARE, "cost": 2, "until": 5}, {"simulation": {"avoid_congestion": False}}, "avoid_congestion"),
-    ({"polygon": SQUARE, "cost": 2}, {"levels": [{"id": "a", "height": 0, "floor": [[-1, -1], [1, -1], [1, 1], [-1, 1]]}]},
+    ({"polygon": SQUARE, "cost": 2}, {"levels": [{"id": "a", "height": 0, "floor": [[-1, -1], [1, -1], [1, 1]]}]},
      "beyond the floor"),
 ])
 @pytest.mark.quick

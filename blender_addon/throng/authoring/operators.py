@@ -186,7 +186,8 @@ class THRONG_OT_mark(bpy.types.Operator):
 
     def execute(self, context):
         fitting = {"NONE": None, "ROAD": ("CURVE",), "LINE": ("CURVE",), "AREA": ("CURVE", "MESH"),
-                   "PATCH": ("CURVE", "MESH"), "WALL": ("CURVE", "MESH"), "FORMATION": ("MESH",), "POINT": ("EMPTY",)}[self.kind]
+                   "PATCH": ("CURVE", "MESH"), "WALL": ("CURVE", "MESH"), "FORMATION": ("MESH",),
+                   "POINT": ("EMPTY",)}[self.kind]
         unfit = [thing.name for thing in context.selected_objects if fitting and thing.type not in fitting]
         if unfit:
             words = " or ".join(word.lower() for word in fitting)

@@ -327,8 +327,8 @@ class ThrongScene(bpy.types.PropertyGroup):
 
 
 CLASSES = (ThrongDistribution, ThrongPeople, ThrongPlace, ThrongDestination, ThrongStop, ThrongFlow, ThrongMember,
-           ThrongEvent, ThrongBar, ThrongFormation, ThrongPatch, ThrongObject, ThrongSimulation, *_RULES.values(), ThrongMotion,
-           ThrongProblem, ThrongScene)
+           ThrongEvent, ThrongBar, ThrongFormation, ThrongPatch, ThrongObject, ThrongSimulation, *_RULES.values(),
+           ThrongMotion, ThrongProblem, ThrongScene)
 
 _register_classes, _unregister_classes = bpy.utils.register_classes_factory(CLASSES)
 
