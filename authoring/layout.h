@@ -109,8 +109,8 @@ struct SimulationSettings {
     /// s, [0, 1]: what is recorded is averaged over nearly as much before and after (recording/); 0: not at
     /// all
     double smoothing = 0.25;
-    bool walls_hide = false;  ///< nobody makes room for those behind walls that cannot be looked over
-    bool avoid_congestion = true;       ///< routes lead round jams, as far as people could see them coming
+    bool walls_hide = false;       ///< nobody makes room for those behind walls that cannot be looked over
+    bool avoid_congestion = true;  ///< routes lead round jams, as far as people could see them coming
     double maximum_acceleration = 4.0;  ///< m/s^2, [0.1, 100]
     MotionSettings motion;              ///< the layout's `motion`
 
@@ -314,8 +314,8 @@ struct ListedAgent {
     std::optional<double> radius;   ///< m; otherwise drawn
     std::optional<double> heading;  ///< degrees; otherwise towards the first place of its way
     SourcePosition where;
-    std::vector<Waypoint> via{};   ///< in order, before the goal
-    double start = 0.0;            ///< s: when the person appears
+    std::vector<Waypoint> via{};      ///< in order, before the goal
+    double start = 0.0;               ///< s: when the person appears
     std::optional<double> wait{};     ///< s before it sets off; otherwise drawn
     std::optional<Destination> to{};  ///< in place of the goal
 };

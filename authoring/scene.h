@@ -168,8 +168,8 @@ struct Scene {
     GivenRows given;
 
     std::vector<gpu::WallSegment> wall_segments;
-    std::vector<std::uint32_t> hiding_walls;   ///< indices of those segments that nobody looks over
-    std::vector<glm::vec2> narrow_places;  ///< m: middles of narrow passages, if people take turns there
+    std::vector<std::uint32_t> hiding_walls;  ///< indices of those segments that nobody looks over
+    std::vector<glm::vec2> narrow_places;     ///< m: middles of narrow passages, if people take turns there
     std::vector<gpu::WallTile> wall_tiles;
     std::vector<GateMove> gate_moves;          ///< in the order of their times
     std::vector<std::uint32_t> open_at_start;  ///< walls

@@ -10,15 +10,15 @@ namespace {
 
 const gl::Declaration kHiding = {"sensing",
                                  {"shaders/sensing/out_of_sight.comp"},
-                                 {"ParametersBlock", "LiveDispatch", "Bodies", "WallSegments", "HidingStarts",
-                                  "HidingItems", "Neighbours", "NeighbourCounts"},
+                                 {"ParametersBlock", "LiveDispatch", "SlotImages", "Bodies", "WallSegments",
+                                  "HidingStarts", "HidingItems", "Neighbours", "NeighbourCounts"},
                                  {"Neighbours", "NeighbourCounts"}};
 
 }  // namespace
 
 Hiding::Hiding(const gl::ShaderLibrary& library, const Buffers& buffers, const authoring::Scene& scene,
                const gpu::Parameters& parameters, float reach)
-    : buffers_(buffers), program_(buffers.connect(library, kHiding)) {
+    : buffers_(buffers), program_(buffers.connect(library, kHiding, buffers.definitions())) {
     std::vector<gpu::WallSegment> walls;
     for (const std::uint32_t segment : scene.hiding_walls)
         walls.push_back(scene.wall_segments[segment]);

@@ -79,8 +79,7 @@ class Contacts {
     Contacts(const gl::ShaderLibrary& library, const Buffers& buffers, int iterations,
              const MotionSettings& rules, const Places& places);
     /// @param hold is called after each round with the positions that it has made
-    void run(
-        const std::function<void(const gl::Buffer&)>& hold = [](const gl::Buffer&) {});
+    void run(const std::function<void(const gl::Buffer&)>& hold = [](const gl::Buffer&) {});
     /// Where run() leaves the positions.
     const gl::Buffer& result() const { return iterations_ % 2 ? places_.targets_after : places_.targets; }
 

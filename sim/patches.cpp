@@ -4,11 +4,10 @@
 namespace throng::sim {
 namespace {
 
-const gl::Declaration kPatches = {
-    "avoidance",
-    {"shaders/motion/patches.comp"},
-    {"LiveDispatch", "Bodies", "Patches", "PatchPoints", "PreferredVelocities"},
-    {"PreferredVelocities"}};
+const gl::Declaration kPatches = {"avoidance",
+                                  {"shaders/motion/patches.comp"},
+                                  {"LiveDispatch", "Bodies", "Patches", "PatchPoints", "PreferredVelocities"},
+                                  {"PreferredVelocities"}};
 
 }  // namespace
 

@@ -82,9 +82,9 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
       sensing(library, buffers, diagram, sensingFor(scene, parameters), scene, parameters),
       hiding(scene.hiding_walls.empty()
                  ? std::nullopt
-                 : std::optional<Hiding>(
-                       std::in_place, library, buffers, scene, parameters,
-                       std::max(sensingReach(sensingFor(scene, parameters).geometry), parameters.contact_range))),
+                 : std::optional<Hiding>(std::in_place, library, buffers, scene, parameters,
+                                         std::max(sensingReach(sensingFor(scene, parameters).geometry),
+                                                  parameters.contact_range))),
       slopes(scene.terrain && settings.motion.isOn("slope_pace") ? std::optional<TerrainSlopes>(scene.terrain)
                                                                  : std::nullopt),
       seams(buffers.hasCharts() ? std::optional<Seams>(std::in_place, library, buffers, settings.motion)

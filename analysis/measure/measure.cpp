@@ -113,8 +113,7 @@ class Measurer {
                 if (j <= i || !areOnOneGround(heights_[i], heights_[j])) return;
                 const double depth = overlapOf(bodies_[i], bodies_[j]);
                 const bool theirs = isGiven(i) || isGiven(j);
-                double& deepest =
-                    theirs ? given_.deepest_overlap_percent : result_.deepest_overlap_percent;
+                double& deepest = theirs ? given_.deepest_overlap_percent : result_.deepest_overlap_percent;
                 deepest = std::max(deepest, 100.0 * depth);
                 (theirs ? given_pairs : pairs) += depth > kOverlap ? 1 : 0;
             });
@@ -149,8 +148,7 @@ class Measurer {
         for (std::size_t i = 0; i < present_.size(); ++i) {
             const std::uint32_t row = present_[i];
             walls_.standAt(heights_[i]);
-            double& deepest =
-                isGiven(i) ? given_.deepest_wall_penetration : result_.deepest_wall_penetration;
+            double& deepest = isGiven(i) ? given_.deepest_wall_penetration : result_.deepest_wall_penetration;
             deepest = std::max(deepest, walls_.empty() ? 0.0 : walls_.penetration(bodies_[i]));
             if (!vehicles_.empty() && !isGiven(i)) vehicles_.look(frame, row, bodies_[i]);
             if (!heads_.empty()) heads_.look(now(), aliveSince(row, 1) ? &before(1) : nullptr, row);

@@ -77,7 +77,7 @@ struct Measurement {
 
     std::optional<GivenFigures> given;  ///< none where nobody's way is; all other figures of single people
                                         ///< and of what they are in are of the others
-    std::vector<LinkFlow> links;  ///< none where there are no levels
+    std::vector<LinkFlow> links;        ///< none where there are no levels
 
     std::vector<glm::dvec2> speed_by_density;  ///< (persons/m^2, mean m/s)
     std::vector<glm::dvec2> arrivals;          ///< (s, people arrived)

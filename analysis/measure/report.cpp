@@ -170,10 +170,11 @@ std::string measurementText(const Measurement& m) {
                               m.deepest_wall_penetration));
     if (m.given)
         line("given people",
-             fmt::format("{}: in others {:.3f} % of them (mean), deepest {:.2f} % of the radii; {} crossings of "
-                         "walls, deepest {:.3f} m",
-                         m.given->people, m.given->overlapping_percent, m.given->deepest_overlap_percent,
-                         m.given->wall_crossings, m.given->deepest_wall_penetration));
+             fmt::format(
+                 "{}: in others {:.3f} % of them (mean), deepest {:.2f} % of the radii; {} crossings of "
+                 "walls, deepest {:.3f} m",
+                 m.given->people, m.given->overlapping_percent, m.given->deepest_overlap_percent,
+                 m.given->wall_crossings, m.given->deepest_wall_penetration));
     if (m.vehicles > 0)
         line("vehicles",
              fmt::format("{}: {} people run over, {}", m.vehicles, m.run_over,

@@ -46,9 +46,10 @@ void PatchReader::check(const JsonNode& node, const Patch& patch) const {
     const bool heeds =
         layout_.simulation.avoid_congestion && layout_.simulation.motion.isOn("routes_round_jams");
     if (patch.isForATime() && patch.cost > 1.0 && !heeds)
-        diagnostics_.error(
-            node.where, "what is avoided for a time needs routes that change, and these are switched off",
-            "leave out simulation.avoid_congestion, or the patch's `from` and `until`, or give it \"cost\": 1");
+        diagnostics_.error(node.where,
+                           "what is avoided for a time needs routes that change, and these are switched off",
+                           "leave out simulation.avoid_congestion, or the patch's `from` and `until`, or "
+                           "give it \"cost\": 1");
 }
 
 /// Beyond a floor there is nothing, and in the plane that people are simulated in perhaps another one.

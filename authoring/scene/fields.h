@@ -27,7 +27,7 @@ using LocalPolygon = std::vector<glm::vec2>;
 /// Ground that is worth a way round it.
 struct CostlyGround {
     LocalPolygon outline;
-    float cost = 1.0f;        ///< per metre
+    float cost = 1.0f;           ///< per metre
     bool is_for_a_time = false;  ///< then only detours know (Patches::Costs)
 
     /// Whether somebody who walks straight from a to b walks on it.

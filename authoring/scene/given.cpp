@@ -94,11 +94,10 @@ void addWays(const Layout& layout, const Rebase& rebase, Scene& scene) {
     scene.given.first_row = row;
     for (const GivenPeople& given : layout.given)
         for (const Way& way : given.ways) {
-            scene.given.ways.push_back({static_cast<gpu::uint>(scene.given.places.size()),
-                                        static_cast<gpu::uint>(way.size())});
+            scene.given.ways.push_back(
+                {static_cast<gpu::uint>(scene.given.places.size()), static_cast<gpu::uint>(way.size())});
             for (const GivenPoint& point : way)
-                scene.given.places.push_back(
-                    {rebase.local(point.place), static_cast<float>(point.time), 0});
+                scene.given.places.push_back({rebase.local(point.place), static_cast<float>(point.time), 0});
             gpu::Person& person = scene.people[row++];
             person.first_stage = static_cast<gpu::uint>(scene.stages.size());
             person.stage_count = 1;

@@ -27,8 +27,7 @@ bool cross(glm::vec2 a, glm::vec2 b, glm::vec2 c, glm::vec2 d) {
 /// Which share of a cell lies within an outline.
 float shareWithin(const FieldGrid& grid, std::uint32_t cell, const LocalPolygon& outline) {
     constexpr int kAcross = 4;
-    const glm::vec2 corner =
-        grid.minimum + glm::vec2(cell % grid.width, cell / grid.width) * grid.cell_size;
+    const glm::vec2 corner = grid.minimum + glm::vec2(cell % grid.width, cell / grid.width) * grid.cell_size;
     int within = 0;
     for (int y = 0; y < kAcross; ++y)
         for (int x = 0; x < kAcross; ++x) {
@@ -75,11 +74,10 @@ Patches buildPatches(const Layout& layout, const Rebase& rebase, const FieldGrid
         const LocalPolygon outline = rebase.local(patch.polygon);
         if (patch.pace != 1.0) {
             const Box box = boundsOf(outline, 0.0f);
-            patches.slow.push_back({box.lower, box.upper, static_cast<float>(patch.pace),
-                                    static_cast<float>(beginOf(patch)),
-                                    static_cast<float>(patch.until.value_or(kAlways)),
-                                    static_cast<gpu::uint>(patches.points.size()),
-                                    static_cast<gpu::uint>(outline.size()), 0});
+            patches.slow.push_back(
+                {box.lower, box.upper, static_cast<float>(patch.pace), static_cast<float>(beginOf(patch)),
+                 static_cast<float>(patch.until.value_or(kAlways)),
+                 static_cast<gpu::uint>(patches.points.size()), static_cast<gpu::uint>(outline.size()), 0});
             patches.points.insert(patches.points.end(), outline.begin(), outline.end());
         }
         if (patch.cost > 1.0 && patch.isForATime())

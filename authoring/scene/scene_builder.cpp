@@ -319,8 +319,7 @@ class SceneAssembly {
         const auto placesOf = [](const ListedAgent& agent) {
             return agent.to ? std::span<const Place>(agent.to->places) : std::span<const Place>();
         };
-        return a.start == b.start && a.wait == b.wait &&
-               std::ranges::equal(placesOf(a), placesOf(b), same) &&
+        return a.start == b.start && a.wait == b.wait && std::ranges::equal(placesOf(a), placesOf(b), same) &&
                std::ranges::equal(a.via, b.via, {}, &Waypoint::point, &Waypoint::point) &&
                std::ranges::equal(a.via, b.via, {}, &Waypoint::wait, &Waypoint::wait);
     }
@@ -629,8 +628,8 @@ class SceneAssembly {
                     if (routes.reachable(field, from) == kUnreachable)
                         complain(i, "cannot reach its goal", "look for walls all round it");
                 } else {
-                    addGoal(formation, i, from,
-                            rebase_.local(goalOf(formation, places, i, traveller.leader)), routes, person);
+                    addGoal(formation, i, from, rebase_.local(goalOf(formation, places, i, traveller.leader)),
+                            routes, person);
                 }
             }
             scene_.goals.push_back(scene_.stages.back().point);

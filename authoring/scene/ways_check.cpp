@@ -110,8 +110,7 @@ class WaysChecker {
         for (std::uint32_t i = 0; i < queue.row_count; i += stride) {
             const Cells from = cellsNear(scene_.people[queue.first_row + i].spawn_position, body);
             const auto* list = std::get_if<ListFormation>(&formation.shape);
-            const Destination* own =
-                list && list->agents[i].to ? &*list->agents[i].to : nullptr;
+            const Destination* own = list && list->agents[i].to ? &*list->agents[i].to : nullptr;
             if (place || own)
                 checkLeg(formation.id, kind, from, own ? *own : *place);
             else

@@ -40,8 +40,7 @@ std::size_t readFile(const std::filesystem::path& path, GivenPeople& given) {
 }
 
 void tellOfMany(const authoring::Layout& layout, authoring::Diagnostics& diagnostics) {
-    const double most =
-        authoring::layoutRules().definition("flow").property("count").limits().most;
+    const double most = authoring::layoutRules().definition("flow").property("count").limits().most;
     double people = 0.0;
     for (const GivenPeople& given : layout.given) {
         people += static_cast<double>(given.ways.size());

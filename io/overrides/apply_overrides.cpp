@@ -258,8 +258,9 @@ class Application {
             const std::string& group = table_.at(row, "group");
             const auto [known, is_new] =
                 groups.emplace(group, static_cast<std::uint32_t>(description.groups.size()));
-            if (is_new) description.groups.push_back({group, table_.at(row, "kind") == "flow",
-                                               table_.at(row, "kind") == "given"});
+            if (is_new)
+                description.groups.push_back(
+                    {group, table_.at(row, "kind") == "flow", table_.at(row, "kind") == "given"});
             recording::BakeAgent agent;
             agent.group = known->second;
             agent.radius = static_cast<float>(table_.number(row, "radius"));

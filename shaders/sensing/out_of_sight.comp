@@ -14,6 +14,7 @@ layout(std430) buffer NeighbourCounts { uint neighbour_counts[]; };
 uniform uint slot_capacity;
 
 #include "shaders/cells/cells.glsl"
+#include "shaders/charts/slot_images.glsl"
 
 float side(vec2 from, vec2 to, vec2 point) {
     vec2 way = to - from, off = point - from;
@@ -34,7 +35,7 @@ bool isHidden(uint cell, vec2 from, vec2 to) {
 
 void main() {
     uint slot = gl_GlobalInvocationID.x;
-    if (slot >= live_count) return;
+    if (slot >= live_count || holdsImage(slot)) return;
     vec2 place = bodies[slot].position;
     uint cell = cellIndex(cellOf(place));
     if (hiding_starts[cell] == hiding_starts[cell + 1u]) return;
