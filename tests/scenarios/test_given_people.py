@@ -88,9 +88,8 @@ def test_what_they_walk_through_is_theirs(throng, tmp_path):
 
 
 @pytest.mark.quick
-def test_a_crowd_makes_room_and_bakes_go_on(throng, tmp_path):
-    """Somebody given walks through a dense crowd that stands, and nobody moves it; a bake that was stopped goes on to
-    the same bytes."""
+def test_a_crowd_makes_room(throng, tmp_path):
+    """Somebody given walks through a dense crowd that stands, and nobody moves it."""
     told = {"given": [{"id": "given", "ways": [[[1, -4, 0.02], [9, 4, 0.02]]]}],
             "formations": [{"id": "crowd", "type": "grid", "origin": [-2, -2], "rows": 7, "columns": 7, "spacing": 0.66,
                             "goal": {"offset": [0, 0]}, "people": {"radius": 0.25}}]}
@@ -100,6 +99,21 @@ def test_a_crowd_makes_room_and_bakes_go_on(throng, tmp_path):
     assert numpy.abs(pos[there, 49, 0] - (-4 + (at[there] - 1))).max() < 1e-4
     figures = json.loads(throng("measure", tmp_path / "bake", "--json").stdout)
     assert figures["given"]["deepest_overlap_percent"] < 8, figures["given"]
+
+
+@pytest.mark.quick
+def test_another_bake_is_a_file_of_ways(throng, tmp_path):
+    """Its people walk where they walked, two seconds later and aside."""
+    people = [{"position": [0, y], "goal": [9, 2 - y], "speed": 1.3} for y in (0, 1, 2)]
+    (tmp_path / "first").mkdir()
+    first, *_ = bake(throng, tmp_path / "first", {"simulation": {"duration": 6}, "formations": [
+        {"id": "people", "type": "agents", "agents": people}]})
+    again, _, state = bake(throng, tmp_path, {"given": [
+        {"id": "given", "file": "first/bake", "start": 2, "offset": [0, 5]}]})
+    there = state[:, :, 0] > 0.5
+    assert not there[:2 * RATE].any() and there[2 * RATE:2 * RATE + len(first)].all()
+    shown = again[2 * RATE:2 * RATE + len(first), :, :2]
+    assert numpy.abs(shown - first[:, :, :2] - [0, 5]).max() < 1e-3
 
 
 BAD = {
