@@ -27,9 +27,6 @@ void GivenReader::read(const JsonNode& node) {
     for (std::vector<GivenPoint>& way : given.ways)
         for (GivenPoint& point : way)
             point = {point.time + given.start, point.place + given.offset};
-    if (!layout_.levels.empty())
-        diagnostics_.error(node.where, "layouts with levels have no given people yet",
-                           "leave out the levels, or the given people");
     claimId(node, given.id, groups_, std::string::npos, "a flow, formation or given people", diagnostics_);
     layout_.given.push_back(std::move(given));
 }

@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <glm/common.hpp>
-#include <limits>
 #include <optional>
 
 #include "authoring/layout/polygon_check.h"
@@ -42,7 +40,6 @@ void PatchReader::check(const JsonNode& node, const Patch& patch) const {
     if (patch.until && *patch.until <= patch.from)
         diagnostics_.error(node.find("until")->where, "the patch ends before it begins, or when it does",
                            "`until` is a time of the shot, as `from` is");
-    if (!layout_.levels.empty() && patch.level < layout_.levels.size()) checkFloor(node, patch);
     const bool heeds =
         layout_.simulation.avoid_congestion && layout_.simulation.motion.isOn("routes_round_jams");
     if (patch.isForATime() && patch.cost > 1.0 && !heeds)
@@ -50,23 +47,6 @@ void PatchReader::check(const JsonNode& node, const Patch& patch) const {
                            "what is avoided for a time needs routes that change, and these are switched off",
                            "leave out simulation.avoid_congestion, or the patch's `from` and `until`, or "
                            "give it \"cost\": 1");
-}
-
-/// Beyond a floor there is nothing, and in the plane that people are simulated in perhaps another one.
-void PatchReader::checkFloor(const JsonNode& node, const Patch& patch) const {
-    const Level& level = layout_.levels[patch.level];
-    glm::dvec2 lower(std::numeric_limits<double>::max()), upper = -lower;
-    for (const glm::dvec2 point : level.floor) {
-        lower = glm::min(lower, point);
-        upper = glm::max(upper, point);
-    }
-    for (const glm::dvec2 point : patch.polygon)
-        if (point != glm::clamp(point, lower, upper))
-            return diagnostics_.error(
-                node.find("polygon")->where,
-                fmt::format("the patch has a point [{:.6g}, {:.6g}] beyond the floor of level `{}`", point.x,
-                            point.y, level.id),
-                "end it at the floor's edge, or move it to another level");
 }
 
 }  // namespace throng::authoring

@@ -21,7 +21,6 @@ class PatchReader {
 
   private:
     void check(const JsonNode& node, const Patch& patch) const;
-    void checkFloor(const JsonNode& node, const Patch& patch) const;
 
     const Schema& schema_;
     Layout& layout_;

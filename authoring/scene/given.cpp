@@ -63,6 +63,13 @@ gpu::Stage lastStage(glm::vec2 place) {
 
 }  // namespace
 
+bool isWithoutGivenPeople(const Layout& layout, Diagnostics& diagnostics) {
+    for (const GivenPeople& given : layout.given)
+        diagnostics.error(given.where, "layouts with levels have no given people yet",
+                          "leave out the levels, or the given people");
+    return layout.given.empty();
+}
+
 std::vector<gpu::Person> givenPeople(const GivenPeople& given, const Layout& layout, const Rebase& rebase,
                                      std::uint32_t group) {
     const GroupRandom random(layout.simulation.seed, given.id);

@@ -3,11 +3,15 @@
 
 #include <vector>
 
+#include "authoring/diagnostics.h"
 #include "authoring/layout.h"
 #include "authoring/scene.h"
 #include "authoring/scene/rebase.h"
 
 namespace throng::authoring {
+
+/// Tells of given people in a layout with levels: on which of them they are, nobody says yet.
+bool isWithoutGivenPeople(const Layout& layout, Diagnostics& diagnostics);
 
 /// People whose ways are given, in the order of the ways.
 std::vector<gpu::Person> givenPeople(const GivenPeople& given, const Layout& layout, const Rebase& rebase,

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "authoring/scene/patches.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/common.hpp>
 #include <limits>
 
 #include "authoring/scene/raster.h"
@@ -57,6 +61,28 @@ bool CostlyGround::meets(glm::vec2 a, glm::vec2 b) const {
     for (std::size_t i = 0; i < outline.size(); ++i)
         if (cross(a, b, outline[i], outline[(i + 1) % outline.size()])) return true;
     return false;
+}
+
+bool areOnTheirFloors(const Layout& layout, Diagnostics& diagnostics) {
+    bool all = true;
+    for (const Patch& patch : layout.patches) {
+        const Level& level = layout.levels[patch.level];
+        glm::dvec2 lower(std::numeric_limits<double>::max()), upper = -lower;
+        for (const glm::dvec2 point : level.floor) {
+            lower = glm::min(lower, point);
+            upper = glm::max(upper, point);
+        }
+        const auto beyond = std::ranges::find_if(
+            patch.polygon, [&](glm::dvec2 point) { return point != glm::clamp(point, lower, upper); });
+        if (beyond == patch.polygon.end()) continue;
+        all = false;
+        diagnostics.error(
+            patch.where,
+            fmt::format("patch `{}` has a point [{:.6g}, {:.6g}] beyond the floor of level `{}`", patch.id,
+                        beyond->x, beyond->y, level.id),
+            "end it at the floor's edge, or move it to another level");
+    }
+    return all;
 }
 
 std::vector<CostlyGround> costlyGround(const Layout& layout, const Rebase& rebase) {

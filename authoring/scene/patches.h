@@ -3,12 +3,17 @@
 
 #include <functional>
 
+#include "authoring/diagnostics.h"
 #include "authoring/layout.h"
 #include "authoring/scene.h"
 #include "authoring/scene/fields.h"
 #include "authoring/scene/rebase.h"
 
 namespace throng::authoring {
+
+/// Whether patches end where the floors do that they lie on; tells of others: beyond a floor there is
+/// nothing, and in the plane that people are simulated in perhaps another one.
+bool areOnTheirFloors(const Layout& layout, Diagnostics& diagnostics);
 
 /// The layout's patches that cost something.
 std::vector<CostlyGround> costlyGround(const Layout& layout, const Rebase& rebase);

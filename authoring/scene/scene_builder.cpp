@@ -891,6 +891,8 @@ std::optional<Scene> buildScene(const Layout& layout, Diagnostics& diagnostics, 
     GroundCache own;
     std::shared_ptr<const Charts> charts;
     if (!layout.levels.empty() && !isWithoutTraffic(layout, diagnostics)) return std::nullopt;
+    if (!layout.levels.empty() && !isWithoutGivenPeople(layout, diagnostics)) return std::nullopt;
+    if (!layout.levels.empty() && !areOnTheirFloors(layout, diagnostics)) return std::nullopt;
     if (!layout.levels.empty()) {
         charts = layOut(layout, diagnostics);
         if (!charts) return std::nullopt;

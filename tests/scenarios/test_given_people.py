@@ -150,3 +150,11 @@ def test_mistakes_are_told(throng, tmp_path, given, words):
     (tmp_path / "layout.json").write_text(json.dumps({"throng": 1, "given": [{"id": "given", **given}]}))
     told = throng("check", tmp_path / "layout.json", expect=3).stderr
     assert words in told and "layout.json:1:" in told
+
+
+@pytest.mark.quick
+def test_layouts_with_levels_have_none_yet(throng, tmp_path):
+    floor = [{"id": "low", "height": 0, "floor": [[0, 0], [9, 0], [9, 9], [0, 9]]}]
+    told = {"throng": 1, "levels": floor, "given": [{"id": "given", "ways": [[[0, 1, 1], [3, 5, 5]]]}]}
+    (tmp_path / "layout.json").write_text(json.dumps(told))
+    assert "no given people yet" in throng("check", tmp_path / "layout.json", expect=3).stderr
