@@ -79,6 +79,37 @@ TEST_P(GivenTest, AreWhereTheirWaysSayInEveryStep) {
     }
 }
 
+TEST_P(GivenTest, WishForWhatTheyWillDoAndAreHeldThere) {
+    const std::vector<Way> ways = randomWays(GetParam());
+    const authoring::Scene scene = sceneOf(ways);
+    sim::Simulation simulation(scene, library);
+    sim::Simulation::Parts& parts = simulation.parts();
+    const auto decision = static_cast<std::uint32_t>(scene.settings.stepsPerDecision());
+    std::size_t seen = 0;
+    for (std::uint32_t steps = 0; steps < 24; ++steps) {
+        const float now = parts.now(), until = parts.timeAfter(steps + decision);
+        const float end = parts.timeAfter(steps + 1);
+        const auto before = parts.buffers.states.download<gpu::AgentState>(scene.people.size());
+        simulation.step();
+        if (steps % decision != 0) continue;
+        const auto bodies = parts.buffers.bodies.download<gpu::Body>(scene.people.size());
+        const auto wishes = parts.buffers.preferred_velocities.download<glm::vec2>(scene.people.size());
+        const auto places = parts.contacts.result().download<glm::vec2>(scene.people.size());
+        const auto there = static_cast<std::size_t>(std::ranges::count_if(before, [](const auto& state) {
+            return state.status == gpu::STATUS_WALKING || state.status == gpu::STATUS_ARRIVED;
+        }));
+        for (std::size_t slot = 0; slot < there; ++slot) {
+            if (bodies[slot].row == 0) continue;
+            const Way& way = ways[bodies[slot].row - 1];
+            const glm::vec2 wish = (way.at(until) - way.at(now)) / (until - now);
+            ASSERT_LT(glm::distance(wishes[slot], wish), 0.02f + 1.0e-3f * glm::length(wish));
+            ASSERT_LT(glm::distance(places[slot], way.at(end)), 1.0e-4f);
+            ++seen;
+        }
+    }
+    EXPECT_GT(seen, 5 * ways.size() / 2);
+}
+
 INSTANTIATE_TEST_SUITE_P(Sizes, GivenTest, ::testing::Values(1u, 63u, 1234u));
 
 }  // namespace
