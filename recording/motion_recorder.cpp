@@ -71,7 +71,7 @@ MotionRecorder::MotionRecorder(const BakeDescription& description, Sink sink)
     }
     for (const BakeAgent& agent : description.agents) {
         parties_.push_back(agent.party);
-        given_.push_back(description.groups.at(agent.group).is_given);
+        given_.push_back(agent.group < description.groups.size() && description.groups[agent.group].is_given);
         radii_.push_back(agent.body.isDisc() ? agent.radius : static_cast<float>(agent.body.radius()));
         half_axes_.push_back(static_cast<float>(agent.body.halfAxis()));
         speeds_.push_back(agent.preferred_speed);
