@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "authoring/scene/given.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -68,6 +70,25 @@ bool isWithoutGivenPeople(const Layout& layout, Diagnostics& diagnostics) {
         diagnostics.error(given.where, "layouts with levels have no given people yet",
                           "leave out the levels, or the given people");
     return layout.given.empty();
+}
+
+void tellOfFastWays(const Layout& layout, Diagnostics& diagnostics) {
+    constexpr double kOnceInAWhile = 0.05;  // of a way's time: measured people leap now and then
+    for (const GivenPeople& given : layout.given) {
+        const auto fast = std::ranges::count_if(given.ways, [&](const Way& way) {
+            double seconds = 0.0;
+            for (std::size_t i = 1; i < way.size(); ++i)
+                if (const double time = way[i].time - way[i - 1].time;
+                    glm::distance(way[i].place, way[i - 1].place) > kFastest * time)
+                    seconds += time;
+            return seconds > kOnceInAWhile * (way.back().time - way.front().time);
+        });
+        if (fast > 0)
+            diagnostics.warning(given.file.empty() ? given.where : given.file_where,
+                                fmt::format("`{}`: {} of {} people are faster than {:g} m/s", given.id, fast,
+                                            given.ways.size(), kFastest),
+                                "ways are metres and seconds; files may need another `fps`");
+    }
 }
 
 std::vector<gpu::Person> givenPeople(const GivenPeople& given, const Layout& layout, const Rebase& rebase,

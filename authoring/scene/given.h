@@ -13,6 +13,9 @@ namespace throng::authoring {
 /// Tells of given people in a layout with levels: on which of them they are, nobody says yet.
 bool isWithoutGivenPeople(const Layout& layout, Diagnostics& diagnostics);
 
+/// Warns of people who are faster than people are: units or frame rates are wrong then.
+void tellOfFastWays(const Layout& layout, Diagnostics& diagnostics);
+
 /// People whose ways are given, in the order of the ways.
 std::vector<gpu::Person> givenPeople(const GivenPeople& given, const Layout& layout, const Rebase& rebase,
                                      std::uint32_t group);

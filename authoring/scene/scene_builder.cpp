@@ -119,6 +119,7 @@ class SceneAssembly {
         for (std::size_t i = 0; i < layout_.formations.size(); ++i)
             placeFormation(layout_.formations[i], i, routes, itineraries, behaviours);
         addWays(layout_, rebase_, scene_);
+        tellOfFastWays(layout_, diagnostics_);
         numberTickets();
         if (routes.tooManyFields())
             diagnostics_.error({},
