@@ -173,7 +173,8 @@ def test_one_way_of_coming_in_is_told(throng, tmp_path, keys, words):
 @pytest.mark.quick
 def test_listed_people_go_to_places_and_each_draws_its_own(bake):
     """One of two rooms by weight, the nearest of both, a room by name, and all of that after places on the way."""
-    square = lambda name, x, y: {"id": name, "polygon": [[x + i, y + j] for i, j in ((-1, -1), (1, -1), (1, 1), (-1, 1))]}
+    corners = ((-1, -1), (1, -1), (1, 1), (-1, 1))
+    square = lambda name, x, y: {"id": name, "polygon": [[x + i, y + j] for i, j in corners]}
     areas = [square("north", 0, 16), square("south", 0, -16), square("east", 22, 0)]
     drawn = {"choose": {"north": 3, "south": 1}}
     agents = [{"position": [0.8 * (i % 8) - 3, 0.8 * (i // 8) - 3], "goal": drawn} for i in range(64)]

@@ -59,7 +59,8 @@ def test_flows_walk_round_a_lawn_too(throng, tmp_path, half, beside):
 def test_on_large_sites_too(throng, tmp_path, half, beside):
     """Three times as large, on fields in blocks: a wall makes these."""
     patch = {"polygon": [[-9, -half], [9, -half], [9, half], [-9, half]], "cost": 3}
-    told = layout([patch], [walker((-10.5, 0), (10.5, 0), speed=2)], 40, walls=[{"points": [[-180, -180], [180, -180]]}])
+    far = {"points": [[-180, -180], [180, -180]]}
+    told = layout([patch], [walker((-10.5, 0), (10.5, 0), speed=2)], 40, walls=[far])
     places, _ = ways(throng, tmp_path, told)
     assert passed_at(places[:, 0]) == pytest.approx(beside, abs=1)
 

@@ -156,8 +156,8 @@ class Scene:
 
     def person(self, position: Point, goal: Point | str, speed: float | None = None, radius: float | None = None,
                heading: float | None = None, via: Sequence[tuple[Point, float]] = (), start: float = 0.0) -> dict:
-        """One of a list of agents. `goal`: a point, or the name of a place; `via`: places on the way and how long to wait
-        there; `start`: when it comes; s."""
+        """One of a list of agents. `goal`: a point, or the name of a place; `via`: places on the way and how long to
+        wait there; `start`: when it comes; s."""
         self._more(1)
         person: dict[str, Any] = {"position": self.point(*position[:2]),
                                   "goal": goal if isinstance(goal, str) else self.point(*goal[:2])}
