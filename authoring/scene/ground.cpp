@@ -177,20 +177,9 @@ const Sight& Ground::sight() {
     const std::vector<float>& cost = costFor(kAnywhere);
     const float roomy = 1.0f + WallCost(geometry_, cells.cell_size)(geometry_.largest_radius);
     sight_.emplace(cells);
-    // Nobody goes straight over ground that is worth a way round it.
-    std::vector<bool> costly(geometry_.costly.empty() ? 0 : cellCount(cells));
-    visitCostly(geometry_.costly, cells, [&](std::uint32_t cell) { costly[cell] = true; });
-    const auto isCostly = [&](std::uint32_t x, std::uint32_t y) {
-        return !costly.empty() && costly[std::size_t{y} * cells.width + x];
-    };
     const auto set = [&](std::uint32_t x, std::uint32_t y, float here) {
         if (here < kUnreachable) sight_->setFree(x, y);
-        if (here < kUnreachable && here <= roomy && !isCostly(x, y)) sight_->setRoomy(x, y);
-    };
-    const auto setTileFree = [&](std::uint32_t x, std::uint32_t y) {
-        for (std::uint32_t j = 0; j < FieldBlocks::kSide; ++j)
-            for (std::uint32_t i = 0; i < FieldBlocks::kSide; ++i)
-                sight_->setFree(x + i, y + j);
+        if (here < kUnreachable && here <= roomy) sight_->setRoomy(x, y);
     };
     for (std::uint32_t y = 0; y < cells.height; ++y)
         for (std::uint32_t x = 0; x < cells.width; ++x) {
@@ -200,12 +189,12 @@ const Sight& Ground::sight() {
                 set(x, y, cost[node]);
             } else if (x % FieldBlocks::kSide == 0 && y % FieldBlocks::kSide == 0 &&
                        blocks_.isOpen(x / FieldBlocks::kSide, y / FieldBlocks::kSide)) {
-                if (!isCostly(x, y))
-                    sight_->setTileOpen(x / FieldBlocks::kSide, y / FieldBlocks::kSide);
-                else
-                    setTileFree(x, y);
+                sight_->setTileOpen(x / FieldBlocks::kSide, y / FieldBlocks::kSide);
             }
         }
+    // Nobody goes straight over ground that is worth a way round it.
+    visitCostly(geometry_.costly, cells,
+                [&](std::uint32_t cell) { sight_->setNarrow(cell % cells.width, cell / cells.width); });
     sight_->finish();
     return *sight_;
 }
