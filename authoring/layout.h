@@ -109,7 +109,8 @@ struct SimulationSettings {
     /// s, [0, 1]: what is recorded is averaged over nearly as much before and after (recording/); 0: not at
     /// all
     double smoothing = 0.25;
-    bool avoid_congestion = true;       ///< routes lead round jams, as far as people could see them coming
+    bool walls_hide = false;       ///< nobody makes room for those behind walls that cannot be looked over
+    bool avoid_congestion = true;  ///< routes lead round jams, as far as people could see them coming
     double maximum_acceleration = 4.0;  ///< m/s^2, [0.1, 100]
     MotionSettings motion;              ///< the layout's `motion`
 
@@ -198,6 +199,22 @@ struct Wall {
             std::count_if(toggles.begin(), toggles.end(), [&](double at) { return at <= time; });
         return open_at_start != (passed % 2 == 1);
     }
+};
+
+/// m: nobody looks over what is higher.
+inline constexpr double kSeenOver = 1.5;
+
+/// Ground that people would rather not walk on, or walk on at another pace.
+struct Patch {
+    std::string id;
+    std::vector<glm::dvec2> polygon;  ///< simple, any winding, not closed by a repeated point
+    SourcePosition where;
+    double cost = 1.0;              ///< m of another way that a metre of it is worth
+    double pace = 1.0;              ///< times the preferred speed
+    double from = 0.0;              ///< s; 0: always, also in the warm-up
+    std::optional<double> until{};  ///< s; none: to the end
+    std::size_t level = 0;
+    bool isForATime() const { return from > 0.0 || until.has_value(); }
 };
 
 /// A mesh that people stand on, and how it lies in the layout: world = offset + scale * (x, -z, y) of the
@@ -297,9 +314,10 @@ struct ListedAgent {
     std::optional<double> radius;   ///< m; otherwise drawn
     std::optional<double> heading;  ///< degrees; otherwise towards the first place of its way
     SourcePosition where;
-    std::vector<Waypoint> via{};   ///< in order, before the goal
-    double start = 0.0;            ///< s: when the person appears
-    std::optional<double> wait{};  ///< s before it sets off; otherwise drawn
+    std::vector<Waypoint> via{};      ///< in order, before the goal
+    double start = 0.0;               ///< s: when the person appears
+    std::optional<double> wait{};     ///< s before it sets off; otherwise drawn
+    std::optional<Destination> to{};  ///< in place of the goal
 };
 
 struct ListFormation {
@@ -317,6 +335,25 @@ struct Formation {
     std::size_t level = 0;
     SourcePosition where;
     std::optional<std::size_t> behaviour{};  ///< in place of goals
+};
+
+/// Where somebody is whose way is given, and when.
+struct GivenPoint {
+    double time = 0.0;  ///< s
+    glm::dvec2 place{0.0};
+    bool operator==(const GivenPoint&) const = default;
+};
+
+/// People who follow ways that are given, whatever is in them; others make room for them.
+struct GivenPeople {
+    std::string id;
+    std::string file;                             ///< relative to the layout; empty: the layout has the ways
+    std::optional<double> fps{};                  ///< frames/s of the file, where it does not say so
+    double start = 0.0;                           ///< s: added to its times
+    glm::dvec2 offset{0.0};                       ///< m: added to its places
+    std::vector<std::vector<GivenPoint>> ways{};  ///< each of two points or more, in the order of their times
+    People people;
+    SourcePosition where, file_where{};
 };
 
 /// Rows of seats, one behind the other. People look to the left of the first row, from its first point to its
@@ -395,10 +432,12 @@ struct Layout {
     std::vector<Road> roads;
     std::vector<Area> areas;
     std::vector<Wall> walls;
+    std::vector<Patch> patches;
     std::optional<TerrainSettings> terrain;  ///< none: flat ground at height 0
     std::vector<Behaviour> behaviours;
     std::vector<Flow> flows;
     std::vector<Formation> formations;
+    std::vector<GivenPeople> given;
     std::vector<Event> events;  ///< in the order of their times
     std::vector<SeatBlock> seats;
     std::vector<Show> shows;

@@ -4,6 +4,7 @@
 #include <glm/vec2.hpp>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "authoring/layout.h"
@@ -49,6 +50,7 @@ struct GateMove {
 struct Group {
     std::string id;  ///< the flow's or formation's id
     bool is_flow = false;
+    bool is_given = false;                   ///< its people follow given ways
     std::string look = {};                   ///< People::look
     std::vector<std::string> colours = {};   ///< People::colours
     std::vector<std::string> profiles = {};  ///< by gpu::Person::kind
@@ -106,6 +108,27 @@ struct ChartMap {
     bool leadsAgainstBelt(glm::vec2 image) const;
 };
 
+/// Ground that people walk on at another pace, as the device has it, and what some of it costs for a time.
+struct Patches {
+    std::vector<gpu::Patch> slow;
+    std::vector<glm::vec2> points;  ///< of their outlines
+    struct Costs {
+        double from = 0.0, until = 0.0;  ///< s
+        /// Cells of the coarse map, and how many times what it costs otherwise a metre costs there.
+        std::vector<std::pair<std::uint32_t, float>> cells;
+    };
+    std::vector<Costs> for_a_time;
+};
+
+/// People whose ways are given: the last rows.
+struct GivenRows {
+    std::uint32_t first_row = 0;
+    std::vector<gpu::GivenWay> ways;  ///< per row from there on
+    std::vector<gpu::GivenPlace> places;
+
+    bool empty() const { return ways.empty(); }
+};
+
 /// What people do, as the device has it. Without behaviours, empty.
 struct Behaviours {
     std::vector<gpu::BehaviourState> states;
@@ -142,9 +165,11 @@ struct Scene {
     std::vector<gpu::SpawnQueue> queues;
     std::vector<Group> groups;
     Behaviours behaviours;
+    GivenRows given;
 
     std::vector<gpu::WallSegment> wall_segments;
-    std::vector<glm::vec2> narrow_places;  ///< m: middles of narrow passages, if people take turns there
+    std::vector<std::uint32_t> hiding_walls;  ///< indices of those segments that nobody looks over
+    std::vector<glm::vec2> narrow_places;     ///< m: middles of narrow passages, if people take turns there
     std::vector<gpu::WallTile> wall_tiles;
     std::vector<GateMove> gate_moves;          ///< in the order of their times
     std::vector<std::uint32_t> open_at_start;  ///< walls
@@ -154,6 +179,7 @@ struct Scene {
     FieldStore fields;
     std::uint32_t field_count = 0;
     Detours detours;
+    Patches patches;
     std::vector<float> road_distance;  ///< m, per grid cell: positive on roads and areas, negative off them;
                                        ///< empty without roads
 

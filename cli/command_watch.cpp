@@ -76,6 +76,8 @@ class LayoutWatch {
         attempt.loaded.file = fs::path(options_.input).filename().string();
         if (attempt.loaded.layout.terrain)
             files_.add({fs::path(options_.input).parent_path() / attempt.loaded.layout.terrain->file});
+        for (const authoring::GivenPeople& given : attempt.loaded.layout.given)
+            if (!given.file.empty()) files_.add({fs::path(options_.input).parent_path() / given.file});
         printDiagnostics(attempt.loaded);
         tellMistakes(attempt.loaded, attempt.valid);
         if (!attempt.valid) return std::nullopt;

@@ -28,6 +28,8 @@ class Columns {
         }
         if (const auto found = std::ranges::find(names, "party"); found != names.end())
             party_at_ = static_cast<std::size_t>(found - names.begin());
+        if (const auto found = std::ranges::find(names, "kind"); found != names.end())
+            kind_at_ = static_cast<std::size_t>(found - names.begin());
         for (std::size_t i = 0; i < kSides.size(); ++i)
             if (const auto found = std::ranges::find(names, kSides[i]); found != names.end())
                 side_at_[i] = static_cast<std::size_t>(found - names.begin());
@@ -57,6 +59,7 @@ class Columns {
         result.outcome = text(fields, outcome, line);
         result.shortest_way = number(fields, shortest_way, line);
         result.party = party(fields, line);
+        result.is_given = kind_at_ && *kind_at_ < fields.size() && fields[*kind_at_] == "given";
         for (const auto& [name, frame] :
              {std::pair{spawn_frame, &result.spawn_frame}, std::pair{arrival_frame, &result.arrival_frame}})
             if (!text(fields, name, line).empty())
@@ -110,7 +113,7 @@ class Columns {
     const std::filesystem::path& path_;
     std::array<std::size_t, kNames.size()> at_{};
     std::array<std::optional<std::size_t>, 2> side_at_{};  ///< bakes of discs have none
-    std::optional<std::size_t> party_at_;
+    std::optional<std::size_t> party_at_, kind_at_;
 };
 
 }  // namespace

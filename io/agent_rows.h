@@ -20,6 +20,7 @@ struct AgentRow {
     std::uint32_t spawn_frame = 0xffffffffu;    ///< from 0; all bits set: never
     std::uint32_t arrival_frame = 0xffffffffu;  ///< likewise
     std::string outcome;                        ///< walking, arrived or refused
+    bool is_given = false;                      ///< follows a given way
     double shortest_way = 0.0;                  ///< m, round walls
     glm::dvec2 goal{0.0};                       ///< m, in the frame of the streams
 

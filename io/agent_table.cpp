@@ -46,6 +46,15 @@ AccountTotals countOutcomes(const Account& account) {
     return totals;
 }
 
+namespace {
+
+const char* kindOf(const recording::BakeGroup& group) {
+    if (group.is_given) return "given";
+    return group.is_flow ? "flow" : "formation";
+}
+
+}  // namespace
+
 std::string agentTable(const recording::BakeDescription& description, const Account& account) {
     if (account.agents.size() != description.agents.size())
         throw std::invalid_argument("the account and the description differ in their number of people");
@@ -62,8 +71,8 @@ std::string agentTable(const recording::BakeDescription& description, const Acco
         const recording::BakeGroup& group = description.groups.at(agent.group);
         const AgentOutcome& outcome = account.agents[row];
         fmt::format_to(std::back_inserter(table), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
-                       row, csvField(group.id), group.is_flow ? "flow" : "formation", agent.radius,
-                       agent.preferred_speed, agent.variation, agent.party, frameNumber(outcome.spawn_frame),
+                       row, csvField(group.id), kindOf(group), agent.radius, agent.preferred_speed,
+                       agent.variation, agent.party, frameNumber(outcome.spawn_frame),
                        frameNumber(outcome.arrival_frame), outcomeName(outcome.status),
                        csvField(reasonOf(outcome)), agent.goal.x, agent.goal.y, outcome.distance_walked,
                        outcome.shortest_way, agent.profile, group.look, group.colours);

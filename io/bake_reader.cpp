@@ -174,6 +174,21 @@ void readLinks(const ManifestReader& reader, Bake& bake) {
     });
 }
 
+void readPatches(const ManifestReader& reader, Bake& bake) {
+    if (!reader.has("/geometry/patches")) return;
+    reader.each("/geometry/patches", [&](const ManifestReader& each) {
+        authoring::Patch patch;
+        patch.id = each.text("/id");
+        patch.polygon = each.points("/polygon", 3);
+        patch.cost = each.length("/cost");
+        patch.pace = each.length("/pace");
+        patch.from = each.length("/from");
+        if (each.has("/until")) patch.until = each.length("/until");
+        patch.level = levelOf(each, bake);
+        bake.patches.push_back(std::move(patch));
+    });
+}
+
 void readGeometry(const ManifestReader& reader, Bake& bake) {
     readLevels(reader, bake);
     readLinks(reader, bake);
@@ -188,6 +203,7 @@ void readGeometry(const ManifestReader& reader, Bake& bake) {
     reader.each("/geometry/areas", [&](const ManifestReader& area) {
         bake.areas.push_back({area.text("/id"), area.points("/polygon", 3), {}, levelOf(area, bake)});
     });
+    readPatches(reader, bake);
     reader.each("/geometry/walls", [&](const ManifestReader& wall) {
         bake.walls.push_back(wallOf(wall));
         if (bake.hasStoreys()) bake.wall_ground.push_back(wall.point("/ground"));

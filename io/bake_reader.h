@@ -32,6 +32,7 @@ struct Bake {
     glm::dvec2 maximum{0.0};
     std::vector<authoring::Road> roads;
     std::vector<authoring::Area> areas;
+    std::vector<authoring::Patch> patches;
     std::vector<authoring::Wall> walls;
     authoring::Traffic traffic;  ///< lanes, crossings and signals
     std::vector<VehicleIdentity> vehicles;

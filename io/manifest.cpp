@@ -46,6 +46,20 @@ Json seatsToJson(const recording::BakeDescription& description) {
     return list;
 }
 
+Json patchesToJson(const recording::BakeDescription& description) {
+    Json list = Json::array();
+    for (const authoring::Patch& patch : description.patches) {
+        list.push_back({{"id", patch.id},
+                        {"polygon", pointsToJson(patch.polygon, description.output_origin)},
+                        {"cost", patch.cost},
+                        {"pace", patch.pace},
+                        {"from", patch.from}});
+        if (patch.until) list.back()["until"] = *patch.until;
+        if (!description.levels.empty()) list.back()["level"] = description.levels.at(patch.level).id;
+    }
+    return list;
+}
+
 Json geometryToJson(const recording::BakeDescription& description) {
     const glm::dvec2 origin = description.output_origin;
     Json geometry{{"walls", Json::array()}, {"roads", Json::array()}, {"areas", Json::array()}};
@@ -69,6 +83,7 @@ Json geometryToJson(const recording::BakeDescription& description) {
                                      {"one_way", road.one_way}});
     for (const authoring::Area& area : description.areas)
         geometry["areas"].push_back({{"id", area.id}, {"polygon", pointsToJson(area.polygon, origin)}});
+    if (!description.patches.empty()) geometry["patches"] = patchesToJson(description);
     if (!description.seats.empty()) geometry["seats"] = seatsToJson(description);
     if (!description.traffic.empty()) geometry["traffic"] = trafficToJson(description.traffic, origin);
     if (description.levels.empty()) return geometry;

@@ -31,11 +31,10 @@ double directionOf(const Onlooker& self) {
 
 /// Low ones are looked over.
 std::vector<authoring::Wall> high(std::vector<authoring::Wall> walls, std::vector<glm::dvec2>& along) {
-    constexpr double kSeenOver = 1.5;  // m
     std::vector<authoring::Wall> kept;
     std::vector<glm::dvec2> kept_along;
     for (std::size_t i = 0; i < walls.size(); ++i) {
-        if (walls[i].height < kSeenOver) continue;
+        if (walls[i].height < authoring::kSeenOver) continue;
         kept.push_back(std::move(walls[i]));
         if (!along.empty()) kept_along.push_back(along[i]);
     }

@@ -99,6 +99,7 @@ class AttentionTrack {
 
     bool isTalking(std::uint32_t index) const;
     bool sees(const Onlooker& self, glm::dvec2 place) const;
+    bool seesThing(const Onlooker& self, glm::dvec2 place) const;
     const Onlooker* personAt(const Head& head) const;
     Aim aimOf(const Onlooker& self) const;
     static double keepWithin(Head& head, double chest, double rate, double least, double most);

@@ -69,13 +69,17 @@ void AttentionTrack::turnTo(const Onlooker& self, Target target, std::uint32_t a
     head.settles = kAtOnce;
 }
 
-bool AttentionTrack::sees(const Onlooker& self, glm::dvec2 place) const {
-    if (walls_.empty()) return true;
-    // What is in a wall, as a shop window is, is seen from before it.
+/// What is in a wall, as a shop window is, is seen from before it.
+bool AttentionTrack::seesThing(const Onlooker& self, glm::dvec2 place) const {
     constexpr double kBefore = 0.5;  // m
     const double away = glm::distance(self.place, place);
+    return away <= kBefore || sees(self, glm::mix(place, self.place, kBefore / away));
+}
+
+bool AttentionTrack::sees(const Onlooker& self, glm::dvec2 place) const {
+    if (walls_.empty()) return true;
     walls_.standAt(self.height);
-    return away <= kBefore || !walls_.crosses(self.place, glm::mix(place, self.place, kBefore / away));
+    return !walls_.crosses(self.place, place);
 }
 
 void AttentionTrack::decide(std::uint32_t index) {
@@ -113,7 +117,7 @@ bool AttentionTrack::isTalking(std::uint32_t index) const {
     return std::ranges::any_of(company_.of(index), [&](std::uint32_t other) {
         return other != index && people_[other].stands() &&
                glm::distance(self.place, people_[other].place) < kTalkReach &&
-               areOnOneGround(self.height, people_[other].height);
+               areOnOneGround(self.height, people_[other].height) && sees(self, people_[other].place);
     });
 }
 
@@ -213,7 +217,8 @@ void AttentionTrack::talk(std::uint32_t index) {
     const bool attends = chance < (speaks ? kAddresses : kListens);
     const std::uint32_t at = attends || chance > 0.96 ? faced : somebody;
     const double angle = angleTo(self, people_[at].place) - self.twist;
-    if ((attends || members.size() > 2) && isBefore(self, people_[at].place, kTalkReach, kField))
+    if ((attends || members.size() > 2) && isBefore(self, people_[at].place, kTalkReach, kField) &&
+        sees(self, people_[at].place))
         turnTo(self, Target::company, people_[at].row,
                attends ? between(self.row, 1.2, 3.6) : between(self.row, 0.5, 1.4));
     else
@@ -234,10 +239,11 @@ void AttentionTrack::stroll(std::uint32_t index) {
         case Target::aside:
             return glanceAside(self);
         case Target::thing:
-            if (!sees(self, things_[draws.at].place)) break;
+            if (!seesThing(self, things_[draws.at].place)) break;
             return turnTo(self, Target::thing, draws.at,
                           stands ? between(self.row, 2.0, 7.0) : between(self.row, 0.9, 2.6));
         case Target::company:
+            if (!sees(self, people_[index_[draws.at]].place)) break;
             return turnTo(self, Target::company, draws.at, between(self.row, 0.8, stands ? 3.5 : 2.2));
         case Target::other:
             if (!sees(self, people_[index_[draws.at]].place)) break;

@@ -26,6 +26,7 @@ namespace throng::recording {
 struct BakeGroup {
     std::string id;
     bool is_flow = false;
+    bool is_given = false;     ///< its people follow given ways
     std::string look = {};     ///< what its people wear
     std::string colours = {};  ///< of fans: two, apart by a space; empty: the look's own
 };
@@ -147,6 +148,7 @@ struct BakeDescription {
     std::vector<EyeCatcher> eye_catchers;  ///< in the frame of reference of the frames
     std::vector<authoring::Road> roads;
     std::vector<authoring::Area> areas;
+    std::vector<authoring::Patch> patches;
     std::vector<authoring::Wall> walls;
     authoring::Traffic traffic;  ///< where lanes, crossings and signals are
     std::vector<VehicleIdentity> vehicles;

@@ -86,8 +86,7 @@ void KeepApart::findPairs(const std::vector<MovedBody>& bodies) {
 
 void KeepApart::separate(std::vector<MovedBody>& bodies) const {
     for (const Pair& pair : pairs_) {
-        glm::dvec2& a = bodies[pair.first].place;
-        glm::dvec2& b = bodies[pair.second].place;
+        MovedBody &a = bodies[pair.first], &b = bodies[pair.second];
         const glm::dvec2 gap = between(bodies[pair.first], bodies[pair.second]);
         const double apart = glm::length(gap);
         if (apart >= pair.reach) continue;
@@ -97,8 +96,8 @@ void KeepApart::separate(std::vector<MovedBody>& bodies) const {
                                    : glm::normalize(bodies[pair.second].simulated -
                                                     bodies[pair.first].simulated + glm::dvec2(1.0e-12, 0.0));
         const glm::dvec2 push = 0.5 * (pair.reach - apart) * way;
-        a -= push;
-        b += push;
+        if (!a.stays) a.place -= b.stays ? 2.0 * push : push;
+        if (!b.stays) b.place += a.stays ? 2.0 * push : push;
     }
 }
 

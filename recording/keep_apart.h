@@ -19,6 +19,7 @@ struct MovedBody {
     double radius = 0.0;        ///< m
     glm::dvec2 axis{0.0};  ///< m, of a body that is no disc: half of its segment; `radius` holds all of it
     double height = 0.0;   ///< m, of the ground; matters where floors lie above each other
+    bool stays = false;    ///< nobody moves it
 
     Capsule shapeAt(glm::dvec2 middle) const { return {middle, axis, radius - glm::length(axis)}; }
 };

@@ -71,6 +71,7 @@ MotionRecorder::MotionRecorder(const BakeDescription& description, Sink sink)
     }
     for (const BakeAgent& agent : description.agents) {
         parties_.push_back(agent.party);
+        given_.push_back(agent.group < description.groups.size() && description.groups[agent.group].is_given);
         radii_.push_back(agent.body.isDisc() ? agent.radius : static_cast<float>(agent.body.radius()));
         half_axes_.push_back(static_cast<float>(agent.body.halfAxis()));
         speeds_.push_back(agent.preferred_speed);
@@ -187,11 +188,10 @@ void MotionRecorder::average(const KeptFrame& frame) {
         const std::size_t at = row * kComponents;
         const Average average = window_.average(row);
         present_.push_back(row);
-        bodies_.push_back({{positions_[at], positions_[at + 1]},
-                           {average.position[0], average.position[1]},
-                           radii_[row],
-                           axisOf(frame, row),
-                           heightOf(row)});
+        const glm::dvec2 simulated(positions_[at], positions_[at + 1]);
+        const glm::dvec2 shown(average.position[0], average.position[1]);
+        bodies_.push_back({simulated, given_[row] ? simulated : shown, radii_[row], axisOf(frame, row),
+                           heightOf(row), given_[row]});
         if (shifts_.empty()) positions_[at + 2] = static_cast<float>(average.position[2]);
         directions_[at] = static_cast<float>(average.heading[0]);
         directions_[at + 1] = static_cast<float>(average.heading[1]);

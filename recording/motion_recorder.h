@@ -94,6 +94,7 @@ class MotionRecorder {
     std::vector<MovedBody> bodies_;
     std::vector<Onlooker> onlookers_;
     std::vector<std::uint32_t> parties_;  ///< by row
+    std::vector<bool> given_;             ///< by row: its places are given, and shown as they are
 };
 
 }  // namespace throng::recording

@@ -103,6 +103,9 @@ Congestion::Congestion(const gl::ShaderLibrary& library, Buffers& buffers, const
     if (!detours.shown.empty()) showOverSeams(library, buffers, detours.shown);
     if (!detours.rides.empty()) takeLifts(library, buffers, detours.rides);
     const auto memory = static_cast<float>(rules.number("routes_round_jams", "memory"));
+    costs_ = scene.patches.for_a_time;
+    charged_.assign(costs_.size(), false);
+    if (!costs_.empty()) free_ground_ = detours.ground;
     flow_.set("fading",
               1.0f - std::exp(-static_cast<float>(runs_per_round_) * parameters.decision_seconds / memory));
 }
@@ -146,6 +149,23 @@ void Congestion::show(gl::ComputeProgram& program, std::uint32_t count) {
     program.set("first_field", clock_.next_field);
     program.set("field_count", count);
     program.dispatch(std::uint64_t{shown_count_} * count);
+}
+
+void Congestion::chargeGround(double now) {
+    std::vector<bool> holds;
+    for (const authoring::Patches::Costs& costs : costs_)
+        holds.push_back(now >= costs.from && now < costs.until);
+    if (fields_ == 0 || holds == charged_) return;
+    charged_ = holds;
+    std::vector<gpu::GroundCell> ground = free_ground_;
+    for (std::size_t i = 0; i < costs_.size(); ++i)
+        for (const auto& [cell, cost] : costs_[i].cells)
+            for (std::size_t at = cell; charged_[i] && at < ground.size(); at += cells_)
+                ground[at].cost = std::min(ground[at].cost * cost, gpu::BLOCKED_COST);
+    ground_.upload(ground);
+    // Distances may change everywhere.
+    changed_before_.fill(1);
+    changed_now_.fill(1);
 }
 
 void Congestion::run() {

@@ -19,6 +19,8 @@ class Congestion {
     Congestion(const gl::ShaderLibrary& library, Buffers& buffers, const authoring::Scene& scene,
                const gpu::Parameters& parameters);
     void run();
+    /// Some ground costs more for a time. @param now s, simulation time
+    void chargeGround(double now);
 
     /// Where it stands in its rounds: with the buffers, all that it remembers.
     struct Clock {
@@ -42,6 +44,9 @@ class Congestion {
     std::uint32_t runs_per_round_ = 1;  // once a round, the crowd is looked at and every field is relaxed
     std::uint32_t fields_per_run_ = 0;
     Clock clock_;
+    std::vector<authoring::Patches::Costs> costs_;  // for a time
+    std::vector<bool> charged_;                     // which of them the ground has
+    std::vector<gpu::GroundCell> free_ground_;      // without them
     gl::Buffer ground_, free_distances_, distances_, next_distances_, flows_;
     gl::Buffer field_maps_, dense_blocks_;
     gl::Buffer changed_before_, changed_now_;  // blocks of each field, the last time round and this time

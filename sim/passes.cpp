@@ -117,21 +117,17 @@ void WaitingLines::run() {
 }
 
 Avoidance::Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, int neighbours,
-                     const TerrainSlopes* ground, const MotionSettings& rules, Seams* seams, Lifts* lifts,
-                     Boarding* boarding)
+                     const TerrainSlopes* ground, const MotionSettings& rules, Seams* seams)
     : buffers_(buffers),
       seams_(seams),
-      lifts_(lifts),
-      boarding_(boarding),
       steer_(makeSteer(library, buffers, ground, rules)),
       avoid_(makeAvoid(library, buffers, neighbours, rules)),
       carry_on_(makeCarryOn(library, buffers, rules)) {}
 
-void Avoidance::run(std::uint32_t steps_done) {
+void Avoidance::run(std::uint32_t steps_done, const std::function<void()>& change_wishes) {
     steer_.setIfUsed("steps_done", steps_done);
     steer_.dispatchUpTo(buffers_.slotCapacity(), buffers_.live_dispatch);
-    if (lifts_) lifts_->wish();
-    if (boarding_) boarding_->wish();
+    change_wishes();
     if (seams_) seams_->takeAlong(Seams::After::steering);
     avoid_.dispatchUpTo(buffers_.slotCapacity(), buffers_.live_dispatch);
     if (seams_) seams_->takeAlong(Seams::After::avoiding);
@@ -169,7 +165,7 @@ Contacts::Contacts(const gl::ShaderLibrary& library, const Buffers& buffers, int
         program->bind("TouchWords", places.touch_words);
 }
 
-void Contacts::run() {
+void Contacts::run(const std::function<void(const gl::Buffer&)>& hold) {
     if (braced_ > 0) weigh_.dispatchUpTo(buffers_.slotCapacity(), buffers_.live_dispatch);
     const float squared = spectral_radius_ * spectral_radius_;
     float momentum = 1.0f;
@@ -181,6 +177,7 @@ void Contacts::run() {
         round.set("momentum", momentum);
         round.setIfUsed("bracing", iteration < braced_ ? 1.0f : 0.0f);
         round.dispatchUpTo(buffers_.slotCapacity(), buffers_.touch_dispatch);
+        hold(iteration % 2 ? places_.targets : places_.targets_after);
         if (seams_) seams_->takeAlong(iteration % 2 ? Seams::After::round_back : Seams::After::round_forth);
     }
 }

@@ -2,11 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
-#include "sim/boarding.h"
 #include "sim/buffers.h"
 #include "sim/gl/program.h"
-#include "sim/lifts.h"
 #include "sim/seams.h"
 #include "sim/terrain_slopes.h"
 
@@ -53,19 +52,18 @@ class WaitingLines {
 class Avoidance {
   public:
     /// @param ground that slows people down where it slopes, or null where it is flat
-    /// @param seams, lifts, boarding null: there are none
+    /// @param seams null: there are none
     Avoidance(const gl::ShaderLibrary& library, Buffers& buffers, int neighbours, const TerrainSlopes* ground,
-              const MotionSettings& rules, Seams* seams = nullptr, Lifts* lifts = nullptr,
-              Boarding* boarding = nullptr);
-    void run(std::uint32_t steps_done);
+              const MotionSettings& rules, Seams* seams = nullptr);
+    /// @param change_wishes runs what else decides on wished velocities, before anybody avoids anybody
+    void run(
+        std::uint32_t steps_done, const std::function<void()>& change_wishes = [] {});
     /// Steps between two decisions: as was decided.
     void carryOn();
 
   private:
     Buffers& buffers_;
     Seams* seams_;
-    Lifts* lifts_;
-    Boarding* boarding_;
     gl::ComputeProgram steer_, avoid_, carry_on_;
 };
 
@@ -80,7 +78,8 @@ class Contacts {
              Seams* seams = nullptr);
     Contacts(const gl::ShaderLibrary& library, const Buffers& buffers, int iterations,
              const MotionSettings& rules, const Places& places);
-    void run();
+    /// @param hold is called after each round with the positions that it has made
+    void run(const std::function<void(const gl::Buffer&)>& hold = [](const gl::Buffer&) {});
     /// Where run() leaves the positions.
     const gl::Buffer& result() const { return iterations_ % 2 ? places_.targets_after : places_.targets; }
 

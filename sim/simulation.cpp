@@ -49,10 +49,12 @@ AgentOutcome outcomeOf(const gpu::AgentState& state, const gpu::Person& person, 
     outcome.shortest_way = state.shortest_way;
     if (state.status == gpu::STATUS_WAITING) {
         outcome.status = AgentStatus::refused;
+        const bool is_given = (person.flags & gpu::PERSON_IS_GIVEN) != 0;
         const bool called_off = person.change_count > 0 && end > person.spawn_time;
         outcome.reason = (person.flags & gpu::PERSON_ALIGHTS) != 0
                              ? "it could not get off before the bake ended, or before its vehicle went on"
                          : person.spawn_time > end ? "the bake ended before its time to enter"
+                         : is_given                ? "its way ends before the bake begins"
                          : called_off ? "no free room at its entry before it was told to go elsewhere"
                                       : "no free room at its entry before the bake ended";
     } else {
@@ -116,6 +118,9 @@ void Simulation::restore(const State& state) {
             if (known == name && content.size() == bytes) return content;
         throw std::runtime_error("this is the state of another scene: its `" + name + "` does not fit");
     };
+    // Ground as the last step left it: which of its news has spread, the state tells.
+    p.steps_done = std::max(state.steps_done, 1u) - 1;
+    if (state.steps_done > 0) p.congestion.chargeGround(p.now());
     for (const auto& [name, buffer] : p.remembered())
         buffer->upload(part(name, buffer->bytes()));
     Congestion::Clock clock;

@@ -80,6 +80,11 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
       congestion(library, buffers, scene, parameters),
       spawner(library, buffers, parameters, settings.motion),
       sensing(library, buffers, diagram, sensingFor(scene, parameters), scene, parameters),
+      hiding(scene.hiding_walls.empty()
+                 ? std::nullopt
+                 : std::optional<Hiding>(std::in_place, library, buffers, scene, parameters,
+                                         std::max(sensingReach(sensingFor(scene, parameters).geometry),
+                                                  parameters.contact_range))),
       slopes(scene.terrain && settings.motion.isOn("slope_pace") ? std::optional<TerrainSlopes>(scene.terrain)
                                                                  : std::nullopt),
       seams(buffers.hasCharts() ? std::optional<Seams>(std::in_place, library, buffers, settings.motion)
@@ -90,8 +95,12 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
       boarding(scene.traffic.hasDoors()
                    ? std::optional<Boarding>(std::in_place, library, buffers, scene, settings.motion)
                    : std::nullopt),
+      patches(scene.patches.slow.empty() ? std::nullopt
+                                         : std::optional<Patches>(std::in_place, library, buffers, scene)),
+      given(scene.given.empty() ? std::nullopt
+                                : std::optional<Given>(std::in_place, library, buffers, scene)),
       avoidance(library, buffers, settings.neighbours, slopes ? &*slopes : nullptr, settings.motion,
-                seams ? &*seams : nullptr, lifts ? &*lifts : nullptr, boarding ? &*boarding : nullptr),
+                seams ? &*seams : nullptr),
       contacts(library, buffers, settings.contact_iterations, settings.motion, seams ? &*seams : nullptr),
       motion(library, buffers, contacts.result(), settings.motion),
       lines(library, buffers, static_cast<std::uint32_t>(scene.lines.size())),
@@ -127,9 +136,13 @@ std::vector<Pass> Simulation::Parts::passesOfStep() {
     const auto build = [this] {
         if (sensing.needsDiagram()) stopped = !diagram.build(extent);
     };
+    const auto sense = [this] {
+        sensing.run();
+        if (hiding) hiding->run();
+    };
     const auto decide = [this] {
         if (decides)
-            avoidance.run(steps_done);
+            avoidance.run(steps_done, [this] { changeWishes(); });
         else
             avoidance.carryOn();
     };
@@ -141,6 +154,7 @@ std::vector<Pass> Simulation::Parts::passesOfStep() {
     const auto move = [this] {
         motion.run(steps_done);
         lines.run();
+        if (given) given->place(steps_done, endOfStep(), parameters.step_seconds);
     };
     const auto sort = [this] {
         if (seams) seams->cross();
@@ -150,15 +164,19 @@ std::vector<Pass> Simulation::Parts::passesOfStep() {
         if (lifts) lifts->serve();
     };
     const auto touch = [this] {
-        contacts.run();
+        const auto hold = [this](const gl::Buffer& targets) {
+            if (given) given->hold(targets, endOfStep());
+        };
+        contacts.run(hold);
         if (traffic) traffic->keepOff();
         if (lifts) lifts->keepOut(contacts.result());
+        if (traffic) hold(contacts.result());
     };
     std::vector<Pass> all = {{"cells", when_deciding(sort)},
                              {"routes", when_deciding([this] { congestion.run(); })},
                              {"spawn", when_deciding(enter)},
                              {"diagram", when_deciding(build)},
-                             {"sensing", when_deciding([this] { sensing.run(); })},
+                             {"sensing", when_deciding(sense)},
                              {"avoidance", decide},
                              {"contacts", touch},
                              {"motion", move}};
@@ -181,13 +199,27 @@ void Simulation::Parts::beginStep() {
     step_start = now();
     ++steps_done;
     gates.move(step_start);
+    congestion.chargeGround(step_start);
     if (traffic) traffic->switchLights(step_start);
 }
 
 float Simulation::Parts::now() const {
+    return timeAfter(steps_done);
+}
+
+float Simulation::Parts::timeAfter(std::uint32_t steps) const {
     const auto warmup = static_cast<double>(warmupSteps(settings));
-    return static_cast<float>((static_cast<double>(steps_done) - warmup) /
-                              (settings.fps * settings.substeps));
+    return static_cast<float>((static_cast<double>(steps) - warmup) / (settings.fps * settings.substeps));
+}
+
+/// What people like who have to do with more than their way.
+void Simulation::Parts::changeWishes() {
+    if (patches) patches->run(step_start);
+    if (lifts) lifts->wish();
+    if (boarding) boarding->wish();
+    if (given)
+        given->wish(step_start,
+                    timeAfter(steps_done - 1 + static_cast<std::uint32_t>(settings.stepsPerDecision())));
 }
 
 std::vector<std::pair<std::string, gl::Buffer*>> Simulation::Parts::remembered() {

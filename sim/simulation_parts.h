@@ -14,8 +14,11 @@
 #include "sim/congestion.h"
 #include "sim/diagram/diagram.h"
 #include "sim/gates.h"
+#include "sim/given.h"
+#include "sim/hiding.h"
 #include "sim/lifts.h"
 #include "sim/passes.h"
+#include "sim/patches.h"
 #include "sim/sensing.h"
 #include "sim/simulation.h"
 #include "sim/traffic.h"
@@ -43,10 +46,13 @@ struct Simulation::Parts {
     Congestion congestion;
     Spawner spawner;
     Sensing sensing;
+    std::optional<Hiding> hiding;         // none where walls hide nobody
     std::optional<TerrainSlopes> slopes;  // none on flat ground
     std::optional<Seams> seams;           // none without charts
     std::optional<Lifts> lifts;           // none without lifts
     std::optional<Boarding> boarding;     // none without doors of vehicles
+    std::optional<Patches> patches;       // none where nobody walks at another pace
+    std::optional<Given> given;           // none without given people
     std::vector<float> platform_sides;    // above 0: left
     Avoidance avoidance;
     Contacts contacts;
@@ -84,6 +90,10 @@ struct Simulation::Parts {
 
     /// Simulation time at the start of the coming step, s; negative during the warm-up.
     float now() const;
+    /// The same, at the end of the present step.
+    float endOfStep() const { return timeAfter(steps_done); }
+    float timeAfter(std::uint32_t steps) const;
+    void changeWishes();
 };
 
 }  // namespace throng::sim

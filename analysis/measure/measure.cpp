@@ -103,19 +103,32 @@ class Measurer {
         grid_.sort(places_);
     }
 
+    /// Of those present.
+    bool isGiven(std::size_t i) const { return rows_[present_[i]].is_given; }
+
     void observeOverlaps(std::uint32_t frame) {
-        std::uint64_t pairs = 0;
+        std::uint64_t pairs = 0, given_pairs = 0;
         for (std::uint32_t i = 0; i < present_.size(); ++i) {
             grid_.near(places_[i], rows_[present_[i]].reach() + largest_radius_, [&](std::uint32_t j) {
                 if (j <= i || !areOnOneGround(heights_[i], heights_[j])) return;
                 const double depth = overlapOf(bodies_[i], bodies_[j]);
-                result_.deepest_overlap_percent = std::max(result_.deepest_overlap_percent, 100.0 * depth);
-                pairs += depth > kOverlap ? 1 : 0;
+                const bool theirs = isGiven(i) || isGiven(j);
+                double& deepest = theirs ? given_.deepest_overlap_percent : result_.deepest_overlap_percent;
+                deepest = std::max(deepest, 100.0 * depth);
+                (theirs ? given_pairs : pairs) += depth > kOverlap ? 1 : 0;
             });
         }
         result_.overlaps.emplace_back(frame * dt_, static_cast<double>(pairs));
-        if (present_.empty()) return;
-        const double percent = 100.0 * static_cast<double>(pairs) / static_cast<double>(present_.size());
+        std::size_t given = 0;
+        for (std::size_t i = 0; i < present_.size(); ++i)
+            given += isGiven(i) ? 1 : 0;
+        if (given > 0) {
+            given_sum_ += 100.0 * static_cast<double>(given_pairs) / static_cast<double>(given);
+            ++given_frames_;
+        }
+        const std::size_t others = present_.size() - given;
+        if (others == 0) return;
+        const double percent = 100.0 * static_cast<double>(pairs) / static_cast<double>(others);
         overlapping_sum_ += percent;
         ++overlapping_frames_;
         result_.worst_overlapping_percent = std::max(result_.worst_overlapping_percent, percent);
@@ -135,21 +148,22 @@ class Measurer {
         for (std::size_t i = 0; i < present_.size(); ++i) {
             const std::uint32_t row = present_[i];
             walls_.standAt(heights_[i]);
-            result_.deepest_wall_penetration = std::max(
-                result_.deepest_wall_penetration, walls_.empty() ? 0.0 : walls_.penetration(bodies_[i]));
-            if (!vehicles_.empty()) vehicles_.look(frame, row, bodies_[i]);
+            double& deepest = isGiven(i) ? given_.deepest_wall_penetration : result_.deepest_wall_penetration;
+            deepest = std::max(deepest, walls_.empty() ? 0.0 : walls_.penetration(bodies_[i]));
+            if (!vehicles_.empty() && !isGiven(i)) vehicles_.look(frame, row, bodies_[i]);
             if (!heads_.empty()) heads_.look(now(), aliveSince(row, 1) ? &before(1) : nullptr, row);
             if (!aliveSince(row, 1)) continue;
             const glm::dvec2 from = before(1).place(row);
             const glm::dvec2 to = now().place(row);
             const double step = glm::distance(from, to);
             const double speed = step / dt_;
-            if (!walls_.empty() && walls_.crosses(from, to)) ++result_.wall_crossings;
+            if (!walls_.empty() && walls_.crosses(from, to))
+                ++(isGiven(i) ? given_.wall_crossings : result_.wall_crossings);
             if (options_.line) across += crossesLine(from, to) ? 1 : 0;
             countOverLinks(from, to, heights_[i], frame);
             speed_sum_ += speed;
             ++speed_count_;
-            if (hasArrived(row, frame)) continue;
+            if (hasArrived(row, frame) || isGiven(i)) continue;
             way_[row] += step;
             effort_[row] += (2.23 + 1.26 * speed * speed) * dt_;
             observeMotion(row, speed);
@@ -265,13 +279,15 @@ class Measurer {
     }
 
     void account() {
-        result_.agents = static_cast<std::uint32_t>(rows_.size());
+        given_.people = static_cast<std::uint32_t>(std::ranges::count_if(rows_, &io::AgentRow::is_given));
+        result_.agents = static_cast<std::uint32_t>(rows_.size()) - given_.people;
         result_.duration = bake_.frames * dt_;
         std::vector<double> time_ratios, detours, efforts;
         std::vector<std::uint32_t> arrival_frames;
         std::uint32_t last = 0;
         for (std::size_t row = 0; row < rows_.size(); ++row) {
             const io::AgentRow& agent = rows_[row];
+            if (agent.is_given) continue;
             result_.arrived += agent.outcome == wordFor(Fate::arrived) ? 1 : 0;
             result_.walking += agent.outcome == wordFor(Fate::walking) ? 1 : 0;
             result_.refused += agent.outcome == wordFor(Fate::refused) ? 1 : 0;
@@ -306,6 +322,8 @@ class Measurer {
         const auto mean = [](double sum, std::uint64_t count) {
             return count ? sum / static_cast<double>(count) : 0.0;
         };
+        given_.overlapping_percent = mean(given_sum_, given_frames_);
+        if (given_.people > 0) result_.given = given_;
         result_.overlapping_percent = mean(overlapping_sum_, overlapping_frames_);
         result_.heading_rate = spreadOf(heading_rate_);
         if (heads_.hasRates()) result_.head_rate = spreadOf(heads_.rates());
@@ -351,6 +369,9 @@ class Measurer {
     Histogram heading_rate_{3600.0, 7200}, acceleration_{100.0, 10000}, jerk_{5000.0, 10000},
         density_{20.0, 2000};
     std::map<int, std::pair<double, std::uint64_t>> speeds_;
+    GivenFigures given_;
+    double given_sum_ = 0.0;
+    std::uint64_t given_frames_ = 0;
     double overlapping_sum_ = 0.0, lane_sum_ = 0.0, density_sum_ = 0.0, speed_sum_ = 0.0;
     std::uint64_t overlapping_frames_ = 0, lane_frames_ = 0, speed_count_ = 0, walked_frames_ = 0,
                   backward_frames_ = 0;

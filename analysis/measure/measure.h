@@ -32,9 +32,18 @@ struct LinkFlow {
     std::optional<double> specific_flow = {};  ///< persons/(s m)
 };
 
+/// People whose ways are given: what they are in is no doing of the crowd's.
+struct GivenFigures {
+    std::uint32_t people = 0;
+    double overlapping_percent = 0.0;  ///< pairs of theirs deeper than 1 %, per given person present
+    double deepest_overlap_percent = 0.0;
+    std::uint64_t wall_crossings = 0;
+    double deepest_wall_penetration = 0.0;  ///< m
+};
+
 /// How well a crowd moves, from the written files alone (docs/measure.md). Metres, seconds, degrees.
 struct Measurement {
-    std::uint32_t agents = 0, arrived = 0, walking = 0, refused = 0;
+    std::uint32_t agents = 0, arrived = 0, walking = 0, refused = 0;  ///< but for given people
     std::uint32_t seated = 0;  ///< at the end; figures of motion, density and overlaps are of the others
     std::uint32_t stuck = 0;   ///< StuckWatch
     double seconds = 0.0;      ///< until the last arrival; the bake's length where somebody has not arrived
@@ -66,7 +75,9 @@ struct Measurement {
     std::optional<double> flow;                     ///< persons/s across the line, while anybody crosses
     std::optional<double> specific_flow;            ///< persons/(s m) across the line, while anybody crosses
 
-    std::vector<LinkFlow> links;  ///< none where there are no levels
+    std::optional<GivenFigures> given;  ///< none where nobody's way is; all other figures of single people
+                                        ///< and of what they are in are of the others
+    std::vector<LinkFlow> links;        ///< none where there are no levels
 
     std::vector<glm::dvec2> speed_by_density;  ///< (persons/m^2, mean m/s)
     std::vector<glm::dvec2> arrivals;          ///< (s, people arrived)

@@ -125,6 +125,12 @@ Json measurementJson(const Measurement& m) {
                  {"high_density", readable(m.high_density)},
                  {"mean_speed", readable(m.mean_speed)}};
     if (m.seated > 0) json[keyFor(Fate::seated)] = m.seated;
+    if (m.given)
+        json["given"] = {{"people", m.given->people},
+                         {"overlapping_percent", readable(m.given->overlapping_percent)},
+                         {"deepest_overlap_percent", readable(m.given->deepest_overlap_percent)},
+                         {"wall_crossings", m.given->wall_crossings},
+                         {"deepest_wall_penetration", readable(m.given->deepest_wall_penetration)}};
     if (m.vehicles > 0) json["run_over"] = m.run_over;
     if (m.vehicle_clearance) json["vehicle_clearance"] = readable(*m.vehicle_clearance);
     if (m.head_rate) json["head_rate"] = spreadJson(*m.head_rate);
@@ -162,6 +168,13 @@ std::string measurementText(const Measurement& m) {
                      m.overlapping_percent, m.worst_overlapping_percent, m.deepest_overlap_percent));
     line("walls", fmt::format("{} crossings, deepest body in a wall {:.3f} m", m.wall_crossings,
                               m.deepest_wall_penetration));
+    if (m.given)
+        line("given people",
+             fmt::format(
+                 "{}: in others {:.3f} % of them (mean), deepest {:.2f} % of the radii; {} crossings of "
+                 "walls, deepest {:.3f} m",
+                 m.given->people, m.given->overlapping_percent, m.given->deepest_overlap_percent,
+                 m.given->wall_crossings, m.given->deepest_wall_penetration));
     if (m.vehicles > 0)
         line("vehicles",
              fmt::format("{}: {} people run over, {}", m.vehicles, m.run_over,

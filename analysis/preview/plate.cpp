@@ -29,6 +29,7 @@ constexpr double kHalfStorey = 1.6;   // m: who is nowhere is drawn with a level
 constexpr double kMostDensity = 3.0;  // persons per m^2 at the warm end of the scale
 constexpr Colour kPaper = colourFromHex(0xf6f4ef), kInk = colourFromHex(0x22252b),
                  kRoad = colourFromHex(0xe2dfd6), kArea = colourFromHex(0xece6d3),
+                 kAvoided = colourFromHex(0xcfdcc0), kSlow = colourFromHex(0xd9d3df),
                  kWall = colourFromHex(0x3d424c), kSolid = colourFromHex(0xc9c6be);
 
 /// From paper through yellow to red, transparent where nobody is.
@@ -202,6 +203,12 @@ void Plate::drawLayout() {
         if (!isShown(area.level)) continue;
         path(context, area.polygon, true);
         setColour(context, kArea);
+        cairo_fill(context);
+    }
+    for (const authoring::Patch& patch : bake_.patches) {
+        if (!isShown(patch.level)) continue;
+        path(context, patch.polygon, true);
+        setColour(context, patch.cost > 1.0 && patch.pace == 1.0 ? kAvoided : kSlow);
         cairo_fill(context);
     }
     traffic_.drawStreet(context, view());

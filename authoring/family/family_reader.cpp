@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "authoring/family/named_files.h"
 #include "authoring/layout/json_document.h"
 #include "authoring/layout/layout_reader.h"
 #include "authoring/layout/object_reader.h"
@@ -74,7 +75,7 @@ class Reader {
         if (generate) return readGenerator(*generate);
         if (base->kind == JsonNode::Kind::object) {
             family_.base = plainJson(*base);
-            placeTerrain(folder_);
+            placeFiles(folder_);
             family_.base_name = "the base layout";
         } else if (base->kind == JsonNode::Kind::text) {
             readBaseFile(*base);
@@ -106,17 +107,15 @@ class Reader {
                      {}});
         if (layout) family_.base = Json::parse(text);
         if (family_.base.is_object()) family_.base.erase("$schema");  // its path would lead nowhere
-        placeTerrain(path.parent_path());
+        placeFiles(path.parent_path());
     }
 
     /// Scenarios are read without a folder of their own.
-    void placeTerrain(const std::filesystem::path& folder) {
-        const auto pointer = "/terrain/file"_json_pointer;
-        if (!family_.base.is_object() || !family_.base.contains(pointer) ||
-            !family_.base[pointer].is_string())
-            return;
-        const std::filesystem::path file = folder / family_.base[pointer].get<std::string>();
-        family_.base[pointer] = std::filesystem::absolute(file).lexically_normal().string();
+    void placeFiles(const std::filesystem::path& folder) {
+        for (const auto& pointer : namedFiles(family_.base)) {
+            const std::filesystem::path file = folder / family_.base[pointer].get<std::string>();
+            family_.base[pointer] = std::filesystem::absolute(file).lexically_normal().string();
+        }
     }
 
     void readGenerator(const JsonNode& node) {

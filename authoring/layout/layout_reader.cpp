@@ -12,8 +12,10 @@
 #include "authoring/layout/amounts.h"
 #include "authoring/layout/behaviour_reader.h"
 #include "authoring/layout/boarding_reader.h"
+#include "authoring/layout/given_reader.h"
 #include "authoring/layout/level_reader.h"
 #include "authoring/layout/object_reader.h"
+#include "authoring/layout/patch_reader.h"
 #include "authoring/layout/people_reader.h"
 #include "authoring/layout/place_reader.h"
 #include "authoring/layout/polygon_check.h"
@@ -43,6 +45,7 @@ class Reader {
         eachOf(reader, "areas", [this](const JsonNode& node) { readArea(node); });
         eachOf(reader, "walls", [this](const JsonNode& node) { readWall(node); });
         nameWalls();
+        eachOf(reader, "patches", [this](const JsonNode& node) { patches_.read(node); });
         eachOf(reader, "crossings", [this](const JsonNode& node) { traffic_.readCrossing(node); });
         eachOf(reader, "lanes", [this](const JsonNode& node) { traffic_.readLane(node); });
         eachOf(reader, "signals", [this](const JsonNode& node) { traffic_.readSignal(node); });
@@ -52,6 +55,7 @@ class Reader {
         eachOf(reader, "behaviours", [this](const JsonNode& node) { behaviours_.read(node); });
         eachOf(reader, "flows", [this](const JsonNode& node) { readFlow(node); });
         eachOf(reader, "formations", [this](const JsonNode& node) { readFormation(node); });
+        eachOf(reader, "given", [this](const JsonNode& node) { given_.read(node); });
         eachOf(reader, "seats", [this](const JsonNode& node) { seats_.readBlock(node); });
         eachOf(reader, "events", [this](const JsonNode& node) { readEvent(node); });
         eachOf(reader, "shows", [this](const JsonNode& node) { seats_.readShow(node); });
@@ -101,6 +105,7 @@ class Reader {
         reader.number("contact_range", s.contact_range);
         reader.integer("contact_iterations", s.contact_iterations);
         reader.number("smoothing", s.smoothing);
+        reader.boolean("walls_hide", s.walls_hide);
         reader.boolean("avoid_congestion", s.avoid_congestion);
         reader.number("maximum_acceleration", s.maximum_acceleration);
         reader.finish();
@@ -477,6 +482,9 @@ class Reader {
                 diagnostics_.error(item.where,
                                    fmt::format("`{}` is a block of seats: its people keep them", item.text),
                                    "what they do is told under `shows`");
+            else if (item.kind == JsonNode::Kind::text && given_.has(item.text))
+                diagnostics_.error(item.where, fmt::format("`{}` are people whose ways are given", item.text),
+                                   "nothing sends them elsewhere");
             else if (item.kind == JsonNode::Kind::text && groups_.count(item.text))
                 event.who.push_back(item.text);
             else
@@ -637,7 +645,7 @@ class Reader {
             if (!inner.isObject()) return;
             inner.point("position", "[x, y] in metres", agent.position);
             agent.goal = agent.position;
-            if (!behaves || node.find("goal")) inner.point("goal", "[x, y] in metres", agent.goal);
+            readGoal(inner, node, behaves, agent);
             if (behaves) behaviours_.refuseBeside(node, {"goal", "via", "wait"});
             readVia(inner, agent);
             agent.start = start;
@@ -652,6 +660,17 @@ class Reader {
         // Rows of people come in one after the other.
         std::ranges::stable_sort(list.agents, {}, &ListedAgent::start);
         return list;
+    }
+
+    /// A point, or what flows may go to.
+    void readGoal(ObjectReader& reader, const JsonNode& node, bool behaves, ListedAgent& agent) {
+        const JsonNode* goal = node.find("goal");
+        if (goal && (goal->kind == JsonNode::Kind::text || goal->kind == JsonNode::Kind::object)) {
+            reader.get("goal");
+            agent.to = places_.destination(*goal);
+        } else if (goal || !behaves) {
+            reader.point("goal", "[x, y] in metres, or a place", agent.goal);
+        }
     }
 
     void readVia(ObjectReader& reader, ListedAgent& agent) {
@@ -681,6 +700,10 @@ class Reader {
             if (const auto* list = std::get_if<ListFormation>(&formation.shape))
                 for (const ListedAgent& agent : list->agents)
                     largest = std::max(largest, agent.radius.value_or(0.0));
+        }
+        for (const GivenPeople& given : layout_.given) {
+            people += given.file.empty() ? static_cast<double>(given.ways.size()) : 1.0;
+            largest = std::max(largest, given.people.largestRadius());
         }
         if (!diagnostics_.hasErrors())
             for (const SeatBlock& block : layout_.seats)
@@ -742,6 +765,8 @@ class Reader {
     std::map<std::string, std::size_t> groups_;  // flows by index, formations
     PlaceReader places_{schema_, roads_, areas_, diagnostics_};
     LevelReader levels_{schema_, layout_, diagnostics_};
+    PatchReader patches_{schema_, layout_, levels_, diagnostics_};
+    GivenReader given_{schema_, layout_, groups_, diagnostics_};
     SeatReader seats_{schema_, layout_, groups_, walls_, diagnostics_};
     BoardingReader boarding_{schema_, layout_, areas_, diagnostics_};
     TrafficReader traffic_{schema_, layout_, boarding_, diagnostics_};

@@ -42,6 +42,9 @@ class BlockMaker {
         for (const LocalPolygon& area : geometry_.areas)
             for (std::size_t i = 0; i < area.size(); ++i)
                 markFine(area[i], area[(i + 1) % area.size()], kAround);
+        for (const CostlyGround& ground : geometry_.costly)
+            for (std::size_t i = 0; i < ground.outline.size(); ++i)
+                markFine(ground.outline[i], ground.outline[(i + 1) % ground.outline.size()], kAround);
         number();
         return std::move(blocks_);
     }
@@ -153,6 +156,16 @@ void visitAreas(const WalkGeometry& geometry, const FieldBlocks& blocks, Visit v
     }
 }
 
+void chargePatches(const WalkGeometry& geometry, const FieldBlocks& blocks, std::vector<float>& cost) {
+    for (const CostlyGround& ground : geometry.costly) {
+        if (ground.is_for_a_time) continue;
+        const Box box = boundsOf(ground.outline, 0.0f);
+        blocks.visitNodes(box.lower, box.upper, [&](std::uint32_t node, glm::vec2 at) {
+            if (insidePolygon(ground.outline, at)) cost[node] *= ground.cost;
+        });
+    }
+}
+
 void keepToRoads(const WalkGeometry& geometry, const FieldBlocks& blocks, BlockMap& map) {
     map.cost.assign(blocks.nodeCount(), kOffRoadCost);
     bool one_way = false;
@@ -216,6 +229,7 @@ BlockMap makeBlockMap(const WalkGeometry& geometry, const FieldBlocks& blocks, b
     else
         map.cost.assign(blocks.nodeCount(), 1.0f);
     addWallCosts(geometry, blocks, map.cost);
+    chargePatches(geometry, blocks, map.cost);
     return map;
 }
 

@@ -24,6 +24,16 @@ struct LocalRoad {
 };
 using LocalPolygon = std::vector<glm::vec2>;
 
+/// Ground that is worth a way round it.
+struct CostlyGround {
+    LocalPolygon outline;
+    float cost = 1.0f;           ///< per metre
+    bool is_for_a_time = false;  ///< then only detours know (Patches::Costs)
+
+    /// Whether somebody who walks straight from a to b walks on it.
+    bool meets(glm::vec2 a, glm::vec2 b) const;
+};
+
 inline constexpr float kWallComfort = 0.2f;  // m
 
 /// What the rasters are made from, all in the scene frame.
@@ -34,6 +44,7 @@ struct WalkGeometry {
     std::vector<LocalPolygon> solids;  ///< closed walls: nobody is inside
     std::vector<LocalRoad> roads;
     std::vector<LocalPolygon> areas;
+    std::vector<CostlyGround> costly;
     bool has_crossings = false;  ///< among the areas: then people keep to the ground without roads, too
     float smallest_radius =
         0.25f;  ///< of all people, m; of bodies that are no discs, half of the shorter side
@@ -46,6 +57,8 @@ struct WalkGeometry {
     std::vector<Box> solid_boxes = {};            ///< of each solid, if sortWalls() has made them
     std::shared_ptr<const ChartMap> charts = {};  ///< null: a layout without levels
 
+    /// Whether the straight way may not be the best one.
+    bool hasObstacles() const { return !walls.empty() || !costly.empty(); }
     /// Whether there is anything to keep to.
     bool hasKerbs() const { return !roads.empty() || has_crossings; }
 };

@@ -7,6 +7,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "authoring/scene/patches.h"
 #include "authoring/scene/walls.h"
 
 namespace throng::authoring {
@@ -65,6 +66,11 @@ std::string keyOf(const WalkGeometry& geometry, const GroundResolution& resoluti
     }
     for (const LocalPolygon& area : geometry.areas)
         appendAll(key, area);
+    for (const CostlyGround& ground : geometry.costly) {
+        appendAll(key, ground.outline);
+        append(key, ground.cost);
+        append(key, ground.is_for_a_time);
+    }
     if (geometry.charts) {
         appendAll(key, geometry.charts->cells);
         appendAll(key, geometry.charts->shifts);
@@ -186,6 +192,9 @@ const Sight& Ground::sight() {
                 sight_->setTileOpen(x / FieldBlocks::kSide, y / FieldBlocks::kSide);
             }
         }
+    // Nobody goes straight over ground that is worth a way round it.
+    visitCostly(geometry_.costly, cells,
+                [&](std::uint32_t cell) { sight_->setNarrow(cell % cells.width, cell / cells.width); });
     sight_->finish();
     return *sight_;
 }

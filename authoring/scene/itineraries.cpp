@@ -89,9 +89,13 @@ std::array<Itineraries::Destinations, 2> Itineraries::wanted(const Layout& layou
         if (!flow.behaviour) want(flow.to, keepsToRoads(layout));
     }
     BehaviourTables::destinations(layout, want);
-    for (const Formation& formation : layout.formations)
+    for (const Formation& formation : layout.formations) {
         if (const auto* grid = std::get_if<GridFormation>(&formation.shape))
             if (const auto* to = std::get_if<Destination>(&grid->goal)) want(*to, false);
+        if (const auto* list = std::get_if<ListFormation>(&formation.shape))
+            for (const ListedAgent& agent : list->agents)
+                if (agent.to) want(*agent.to, false);
+    }
     return wanted;
 }
 

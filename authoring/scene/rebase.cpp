@@ -55,6 +55,13 @@ Bounds boundsOf(const Layout& layout) {
     for (const Zebra& crossing : layout.traffic.crossings)
         for (const glm::dvec2 point : crossing.polygon)
             bounds.add(point, crossing.where);
+    for (const Patch& patch : layout.patches)
+        for (const glm::dvec2 point : patch.polygon)
+            bounds.add(point, patch.where);
+    for (const GivenPeople& given : layout.given)
+        for (const std::vector<GivenPoint>& way : given.ways)
+            for (const GivenPoint& point : way)
+                bounds.add(point.place, given.where, 1.0);
     for (const Wall& wall : layout.walls)
         for (const glm::dvec2 point : wall.points)
             bounds.add(point, wall.where, wall.closed ? 0.0 : 0.5 * wall.thickness);

@@ -15,8 +15,10 @@
 #include "authoring/scene/behaviours.h"
 #include "authoring/scene/boarding.h"
 #include "authoring/scene/chart_map.h"
+#include "authoring/scene/given.h"
 #include "authoring/scene/itineraries.h"
 #include "authoring/scene/narrow_places.h"
+#include "authoring/scene/patches.h"
 #include "authoring/scene/people.h"
 #include "authoring/scene/raster.h"
 #include "authoring/scene/rebase.h"
@@ -116,6 +118,8 @@ class SceneAssembly {
             routeFlow(layout_.flows[i], i, routes, itineraries, behaviours);
         for (std::size_t i = 0; i < layout_.formations.size(); ++i)
             placeFormation(layout_.formations[i], i, routes, itineraries, behaviours);
+        addWays(layout_, rebase_, scene_);
+        tellOfFastWays(layout_, diagnostics_);
         numberTickets();
         if (routes.tooManyFields())
             diagnostics_.error({},
@@ -173,7 +177,7 @@ class SceneAssembly {
     /// Without walls, the straight way is all there is to know.
     std::vector<Routes::PointGoal> pointGoals() {
         std::vector<Routes::PointGoal> goals;
-        if (geometry_.walls.empty()) return goals;
+        if (!geometry_.hasObstacles()) return goals;
         for (std::size_t index = 0; index < layout_.formations.size(); ++index) {
             const Formation& formation = layout_.formations[index];
             if (formation.behaviour) continue;
@@ -190,14 +194,17 @@ class SceneAssembly {
                 };
                 for (const Waypoint& waypoint : wayOf(formation, i))
                     goOn(waypoint.point);
-                goOn(goalOf(formation, places, i++, traveller.leader));
+                if (!ownDestination(formation, i)) goOn(goalOf(formation, places, i, traveller.leader));
+                ++i;
             });
         }
         return goals;
     }
 
     bool isStraight(glm::vec2 from, glm::vec2 to, float radius) const {
-        return straightIsClear(geometry_, from, to, radius);
+        return straightIsClear(geometry_, from, to, radius) &&
+               std::ranges::none_of(geometry_.costly,
+                                    [&](const CostlyGround& ground) { return ground.meets(from, to); });
     }
 
     /// Bodies and times of everybody, because the walls' clearance depends on the smallest and the largest
@@ -207,6 +214,14 @@ class SceneAssembly {
             drawFlow(layout_.flows[i], i);
         for (const Formation& formation : layout_.formations)
             drawFormation(formation);
+        for (const GivenPeople& given : layout_.given) {
+            beginGroup(given.id, false, given.people);
+            scene_.groups.back().is_given = true;
+            for (gpu::Person& person : givenPeople(given, layout_, rebase_, group())) {
+                person.party_first = static_cast<std::uint32_t>(scene_.people.size());
+                addPerson(person);
+            }
+        }
     }
 
     void drawFlow(const Flow& flow, std::size_t index) {
@@ -284,6 +299,11 @@ class SceneAssembly {
         const auto* list = std::get_if<ListFormation>(&formation.shape);
         return list ? &list->agents[i] : nullptr;
     }
+    /// Of somebody who is listed with a place to go to.
+    static const Destination* ownDestination(const Formation& formation, std::uint64_t i) {
+        const ListedAgent* agent = listed(formation, i);
+        return agent && agent->to ? &*agent->to : nullptr;
+    }
     static double startOf(const Formation& formation, std::uint64_t i) {
         const ListedAgent* agent = listed(formation, i);
         return agent ? agent->start : formation.start;
@@ -294,7 +314,13 @@ class SceneAssembly {
     }
 
     static bool goAlike(const ListedAgent& a, const ListedAgent& b) {
-        return a.start == b.start && a.wait == b.wait &&
+        const auto same = [](const Place& one, const Place& other) {
+            return one.kind == other.kind && one.index == other.index;
+        };
+        const auto placesOf = [](const ListedAgent& agent) {
+            return agent.to ? std::span<const Place>(agent.to->places) : std::span<const Place>();
+        };
+        return a.start == b.start && a.wait == b.wait && std::ranges::equal(placesOf(a), placesOf(b), same) &&
                std::ranges::equal(a.via, b.via, {}, &Waypoint::point, &Waypoint::point) &&
                std::ranges::equal(a.via, b.via, {}, &Waypoint::wait, &Waypoint::wait);
     }
@@ -310,7 +336,7 @@ class SceneAssembly {
     }
 
     void beginGroup(const std::string& id, bool is_flow, const People& people) {
-        scene_.groups.push_back({id, is_flow, people.look, people.colours, {}});
+        scene_.groups.push_back({id, is_flow, false, people.look, people.colours, {}});
         for (const PeopleShare& share : people.kinds)
             scene_.groups.back().profiles.push_back(share.profile);
         scene_.queues.push_back({static_cast<gpu::uint>(scene_.people.size()), 0});
@@ -357,8 +383,13 @@ class SceneAssembly {
             geometry_.areas.push_back(rebase_.local(area.polygon));
         for (const Zebra& crossing : layout_.traffic.crossings)
             geometry_.areas.push_back(rebase_.local(crossing.polygon));
+        geometry_.costly = costlyGround(layout_, rebase_);
         geometry_.has_crossings = keepsOffStreets(layout_);
         scene_.wall_segments = geometry_.walls;
+        if (layout_.simulation.walls_hide)
+            for (std::uint32_t i = 0; i < geometry_.walls.size(); ++i)
+                if (layout_.walls[geometry_.walls[i].wall].height >= kSeenOver)
+                    scene_.hiding_walls.push_back(i);
         openGates();
         sortWalls(geometry_);
         if (!hasRoomForTiles()) return;
@@ -571,9 +602,9 @@ class SceneAssembly {
         const FormationPlaces places = formationPlaces(formation, layout_.simulation.seed);
         const GroupRandom random(layout_.simulation.seed, formation.id);
         const auto* grid = std::get_if<GridFormation>(&formation.shape);
-        const auto* destination = grid ? std::get_if<Destination>(&grid->goal) : nullptr;
+        const auto* shared = grid ? std::get_if<Destination>(&grid->goal) : nullptr;
         Journey journey{fmt::format("formation `{}`", formation.id), formation.where};
-        if (destination) journey.stops.push_back(Journey::goalStop(*destination, formation.arrival));
+        if (shared) journey.stops.push_back(Journey::goalStop(*shared, formation.arrival));
         const std::uint32_t state =
             formation.behaviour ? addBehaviour(formation, index, journey, behaviours) : 0;
         PlacedBodies later;  // who comes in at the same time
@@ -588,14 +619,19 @@ class SceneAssembly {
             addPause(formation, i, random, traveller, person);
             if (formation.behaviour) {
                 behaviours.begin(person, rowOf(person), state);
-            } else if (destination) {
-                person.stage_count += itineraries.appendStages(journey, random, traveller);
-                const std::uint32_t field = scene_.stages.back().field & ~gpu::FIELD_THEN_POINT;
-                if (routes.reachable(field, person.spawn_position) == kUnreachable)
-                    complain(i, "cannot reach its goal", "look for walls all round it");
             } else {
-                addWay(formation, i, rebase_.local(goalOf(formation, places, i, traveller.leader)), routes,
-                       person);
+                const Destination* own = ownDestination(formation, i);
+                if (own) journey.stops = {Journey::goalStop(*own, formation.arrival)};
+                const glm::vec2 from = addWay(formation, i, routes, person);
+                if (own || shared) {
+                    person.stage_count += itineraries.appendStages(journey, random, traveller);
+                    const std::uint32_t field = scene_.stages.back().field & ~gpu::FIELD_THEN_POINT;
+                    if (routes.reachable(field, from) == kUnreachable)
+                        complain(i, "cannot reach its goal", "look for walls all round it");
+                } else {
+                    addGoal(formation, i, from, rebase_.local(goalOf(formation, places, i, traveller.leader)),
+                            routes, person);
+                }
             }
             scene_.goals.push_back(scene_.stages.back().point);
             const std::size_t first = scene_.stages.size() - 1 - wayOf(formation, i).size();
@@ -701,24 +737,34 @@ class SceneAssembly {
             person.heading = static_cast<float>(*agent->heading * 3.14159265358979 / 180.0);
     }
 
-    /// The places on the way of somebody whose goal is a point, and that.
-    void addWay(const Formation& formation, std::uint64_t i, glm::vec2 goal, Routes& routes,
-                gpu::Person& person) {
+    /// The places on somebody's way. @returns the last of them, or where it begins
+    glm::vec2 addWay(const Formation& formation, std::uint64_t i, Routes& routes, gpu::Person& person) {
         glm::vec2 from = person.spawn_position;
-        const auto goOn = [&](glm::vec2 to, float dwell, const Waypoint* waypoint) {
-            gpu::Stage stage = pointStage(to, static_cast<float>(formation.goal_tolerance));
-            stage.dwell = dwell;
-            findWay(formation, i, waypoint, person, from, routes, stage);
-            scene_.stages.push_back(stage);
-            ++person.stage_count;
-            from = to;
-        };
         for (const Waypoint& waypoint : wayOf(formation, i))
-            goOn(rebase_.local(waypoint.point), static_cast<float>(waypoint.wait), &waypoint);
-        goOn(goal, formation.arrival == Arrival::stay ? gpu::DWELL_FOR_GOOD : 0.0f, nullptr);
+            from = addLeg(formation, i, from, rebase_.local(waypoint.point),
+                          static_cast<float>(waypoint.wait), &waypoint, routes, person);
+        return from;
+    }
+
+    /// A goal that is a point.
+    void addGoal(const Formation& formation, std::uint64_t i, glm::vec2 from, glm::vec2 goal, Routes& routes,
+                 gpu::Person& person) {
+        const float dwell = formation.arrival == Arrival::stay ? gpu::DWELL_FOR_GOOD : 0.0f;
+        addLeg(formation, i, from, goal, dwell, nullptr, routes, person);
         const auto* grid = std::get_if<GridFormation>(&formation.shape);
         if (grid && std::holds_alternative<Extent>(grid->goal))
             scene_.stages.back().flags |= gpu::STAGE_ANYWHERE;
+    }
+
+    /// @param waypoint null: it is the goal
+    glm::vec2 addLeg(const Formation& formation, std::uint64_t i, glm::vec2 from, glm::vec2 to, float dwell,
+                     const Waypoint* waypoint, Routes& routes, gpu::Person& person) {
+        gpu::Stage stage = pointStage(to, static_cast<float>(formation.goal_tolerance));
+        stage.dwell = dwell;
+        findWay(formation, i, waypoint, person, from, routes, stage);
+        scene_.stages.push_back(stage);
+        ++person.stage_count;
+        return to;
     }
 
     /// By which field somebody goes from one place to that of a stage, where there are walls.
@@ -726,7 +772,7 @@ class SceneAssembly {
     void findWay(const Formation& formation, std::uint64_t i, const Waypoint* waypoint,
                  const gpu::Person& person, glm::vec2 from, Routes& routes, gpu::Stage& stage) {
         const glm::vec2 goal = stage.point;
-        if (geometry_.walls.empty()) return;
+        if (!geometry_.hasObstacles()) return;
         if (const auto near = whyUnattainable(formation, person, goal)) {
             complain(i, waypoint ? "has a place of its way in a wall" : "has its goal in a wall",
                      near->empty() ? "move the goal, or the wall"
@@ -815,6 +861,7 @@ class SceneAssembly {
         scene_.field_count = routes.fieldCount();
         if (layout_.simulation.avoid_congestion && layout_.simulation.motion.isOn("routes_round_jams"))
             scene_.detours = routes.detours();
+        scene_.patches = buildPatches(layout_, rebase_, scene_.detours.grid);
         scene_.fields = routes.store();
         scene_.road_distance = ground_->roadDistances();
         const MotionSettings& motion = layout_.simulation.motion;
@@ -845,6 +892,8 @@ std::optional<Scene> buildScene(const Layout& layout, Diagnostics& diagnostics, 
     GroundCache own;
     std::shared_ptr<const Charts> charts;
     if (!layout.levels.empty() && !isWithoutTraffic(layout, diagnostics)) return std::nullopt;
+    if (!layout.levels.empty() && !isWithoutGivenPeople(layout, diagnostics)) return std::nullopt;
+    if (!layout.levels.empty() && !areOnTheirFloors(layout, diagnostics)) return std::nullopt;
     if (!layout.levels.empty()) {
         charts = layOut(layout, diagnostics);
         if (!charts) return std::nullopt;

@@ -17,6 +17,7 @@ class Sight {
 
     void setFree(std::uint32_t x, std::uint32_t y) { free_[tileOf(x, y)] |= bitOf(x, y); }
     void setRoomy(std::uint32_t x, std::uint32_t y) { roomy_[tileOf(x, y)] |= bitOf(x, y); }
+    void setNarrow(std::uint32_t x, std::uint32_t y) { roomy_[tileOf(x, y)] &= ~bitOf(x, y); }
     void setTileOpen(std::uint32_t tile_x, std::uint32_t tile_y);
     /// All is set; before the first question.
     /// @param most_pieces counted, a cell each or as many cells as it takes; 4 bytes each

@@ -2,6 +2,7 @@
 #include <functional>
 
 #include "authoring/scene/chart_map.h"
+#include "authoring/scene/patches.h"
 #include "authoring/scene/raster.h"
 
 namespace throng::authoring {
@@ -135,6 +136,7 @@ WalkMap makeWalkMap(const WalkGeometry& geometry, const FieldGrid& grid, bool ke
         markOneWays(geometry, map);
     }
     blockWalls(geometry, map);
+    chargePatches(geometry.costly, grid, map.cost);
     if (geometry.charts) {
         blockOthers(*geometry.charts, map);
         chargeLinks(*geometry.charts, map);

@@ -109,8 +109,10 @@ class WaysChecker {
         const std::uint32_t stride = 1 + queue.row_count / static_cast<std::uint32_t>(kMostPoints);
         for (std::uint32_t i = 0; i < queue.row_count; i += stride) {
             const Cells from = cellsNear(scene_.people[queue.first_row + i].spawn_position, body);
-            if (place)
-                checkLeg(formation.id, kind, from, *place);
+            const auto* list = std::get_if<ListFormation>(&formation.shape);
+            const Destination* own = list && list->agents[i].to ? &*list->agents[i].to : nullptr;
+            if (place || own)
+                checkLeg(formation.id, kind, from, own ? *own : *place);
             else
                 follow(formation.id, kind, from,
                        cellsNear(scene_.goals[queue.first_row + i],

@@ -102,6 +102,8 @@ Layout moved(const Layout& layout, const std::vector<Chart>& charts) {
         move(area.polygon, charts[area.level].shift);
         if (area.facing) *area.facing += charts[area.level].shift;
     }
+    for (Patch& patch : plane.patches)
+        move(patch.polygon, charts[patch.level].shift);
     for (Behaviour& behaviour : plane.behaviours)
         for (BehaviourState& state : behaviour.states)
             if (state.facing && !state.to.places.empty())

@@ -38,6 +38,7 @@ std::string identityOf(const LoadedLayout& loaded, const BakeJob& job, const gl:
         text += fmt::format("streams as {}\n", wordsOf(job.options.formats));
     if (loaded.fields_on_device) text += "fields on the device\n";  // other bits than the CPU's
     if (loaded.terrain) text += fmt::format("{:016x}\n", loaded.terrain_identity);
+    if (loaded.given_identity != 0) text += fmt::format("{:016x}\n", loaded.given_identity);
     return hashText(text + loaded.text);
 }
 

@@ -11,6 +11,7 @@
 #include "base/files/errors.h"
 #include "base/files/hash.h"
 #include "base/files/input_file.h"
+#include "cli/baking/given_files.h"
 #include "cli/terminal/exit_codes.h"
 #include "cli/terminal/failure.h"
 #include "cli/terminal/say.h"
@@ -53,6 +54,7 @@ LoadAttempt tryReadLayout(std::string text, const std::string& name, std::vector
     if (!layout) return attempt;
     loaded.layout = std::move(*layout);
     if (loaded.layout.terrain) readTerrain(name, loaded);
+    loaded.given_identity = readGivenFiles(name, loaded.layout, loaded.diagnostics);
     if (loaded.diagnostics.hasErrors()) return attempt;
     const auto solver = make_solver ? make_solver() : nullptr;
     loaded.fields_on_device = solver != nullptr;

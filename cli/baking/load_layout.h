@@ -23,6 +23,7 @@ struct LoadedLayout {
     std::shared_ptr<const authoring::TerrainMesh> terrain;  ///< null: flat ground
     std::string terrain_hash;                               ///< of the terrain's file
     std::uint64_t terrain_identity = 0;                     ///< of all that was read of it
+    std::uint64_t given_identity = 0;                       ///< of all given ways that files tell; 0: none
     authoring::Scene scene;
     bool fields_on_device = false;       ///< where distance fields were solved
     authoring::Diagnostics diagnostics;  ///< warnings

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "authoring/family/family_reader.h"
+#include "authoring/family/named_files.h"
 #include "authoring/layout/amounts.h"
 #include "authoring/layout/layout_reader.h"
 #include "base/files/hash.h"
@@ -87,21 +88,26 @@ std::string BatchPlan::inputHash(const std::string& layout_text) const {
     const std::string formats =
         bake.formats == StreamFormats::standard() ? "" : "\nstreams as " + wordsOf(bake.formats);
     return hashText(fmt::format("{}\n{} {} {} {}{}{}", layout_text, bake.keep, bake.gltf,
-                                identityOf(bake.streams), bake.diagrams, terrainOf(layout_text), formats));
+                                identityOf(bake.streams), bake.diagrams, filesOf(layout_text), formats));
 }
 
-/// What the terrain's file holds, for a layout that has one: a result is out of date when it changes.
-std::string BatchPlan::terrainOf(const std::string& layout_text) const {
-    if (layout_text.find("\"terrain\"") == std::string::npos) return "";
+/// What the files hold that a layout names: a result is out of date when they change.
+std::string BatchPlan::filesOf(const std::string& layout_text) const {
+    if (layout_text.find("\"file\"") == std::string::npos) return "";
     const Json layout = Json::parse(layout_text, nullptr, false);
-    const Json::json_pointer pointer("/terrain/file");
-    if (!layout.is_object() || !layout.contains(pointer) || !layout.at(pointer).is_string()) return "";
-    const std::string file = layout.at(pointer);
-    const auto known = terrains_.find(file);
-    if (known != terrains_.end()) return known->second;
-    std::error_code none;
-    const std::string hash = std::filesystem::is_regular_file(file, none) ? "\n" + hashFile(file).xxh3 : "";
-    return terrains_[file] = hash;
+    std::string hashes;
+    for (const auto& pointer : authoring::namedFiles(layout)) {
+        const std::string file = layout.at(pointer);
+        const auto [known, is_new] = files_.try_emplace(file);
+        if (is_new) {
+            std::error_code none;
+            std::filesystem::path path = file;
+            if (std::filesystem::is_directory(path, none)) path /= "bake.json";
+            if (std::filesystem::is_regular_file(path, none)) known->second = "\n" + hashFile(path).xxh3;
+        }
+        hashes += known->second;
+    }
+    return hashes;
 }
 
 std::size_t BatchPlan::tryLayouts() {

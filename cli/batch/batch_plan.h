@@ -55,13 +55,13 @@ class BatchPlan {
 
   private:
     void addLoad(const authoring::Layout& layout, double share);
-    std::string terrainOf(const std::string& layout_text) const;
+    std::string filesOf(const std::string& layout_text) const;
 
     std::string path_;
     authoring::Family family_;
     std::vector<PlannedScenario> scenarios_;
     BatchLoad load_;
-    mutable std::map<std::string, std::string> terrains_;  ///< hashes of their files, by path
+    mutable std::map<std::string, std::string> files_;  ///< hashes of those that layouts name, by path
     std::string self_contained_;
 };
 

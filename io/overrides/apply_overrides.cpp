@@ -233,6 +233,7 @@ class Application {
         description.maximum = source_.origin + maximum_;
         description.roads = source_.roads;
         description.areas = source_.areas;
+        description.patches = source_.patches;
         description.walls = source_.walls;
         description.traffic = source_.traffic;
         description.vehicles = source_.vehicles;
@@ -257,7 +258,9 @@ class Application {
             const std::string& group = table_.at(row, "group");
             const auto [known, is_new] =
                 groups.emplace(group, static_cast<std::uint32_t>(description.groups.size()));
-            if (is_new) description.groups.push_back({group, table_.at(row, "kind") == "flow"});
+            if (is_new)
+                description.groups.push_back(
+                    {group, table_.at(row, "kind") == "flow", table_.at(row, "kind") == "given"});
             recording::BakeAgent agent;
             agent.group = known->second;
             agent.radius = static_cast<float>(table_.number(row, "radius"));

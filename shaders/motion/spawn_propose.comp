@@ -43,6 +43,9 @@ bool isCalledOff(Person person) {
     return person.change_count > 0u && plan_changes[person.first_change].start_step <= steps_done;
 }
 
+/// Who is given comes when its way begins, whoever stands there (shaders/given).
+bool isGiven(Person person) { return (person.flags & PERSON_IS_GIVEN) != 0u; }
+
 /// The first of a party comes in first, and the others beside it.
 bool isFirstAwaited(uint row, Person person) {
     return (person.flags & PERSON_FIXED_SPAWN) == 0u && person.party_first != row &&
@@ -92,8 +95,8 @@ void main() {
     if (place < rows) {
         uint row = queues[queue].first_row + place;
         Person person = people[row];
-        if (states[row].status == STATUS_WAITING && person.spawn_time <= now && !isCalledOff(person) &&
-            !isFirstAwaited(row, person)) {
+        if (states[row].status == STATUS_WAITING && person.spawn_time <= now && !isGiven(person) &&
+            !isCalledOff(person) && !isFirstAwaited(row, person)) {
             bool fixed_place = (person.flags & PERSON_FIXED_SPAWN) != 0u;
             vec2 position = fixed_place ? person.spawn_position : chooseEntry(row, person);
             states[row].attempts += 1u;

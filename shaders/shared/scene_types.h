@@ -15,6 +15,8 @@ const uint PERSON_ALIGHTS = 2u;           // comes out of a vehicle
 const uint PERSON_PRESENT_AT_START = 4u;  // stands at spawn_position when the simulation begins
 const uint PERSON_FIXED_SPAWN = 8u;       // appears at spawn_position; otherwise at a point of its entry
 
+const uint PERSON_IS_GIVEN = 16u;  // follows a way that is given (GivenWay)
+
 /// One row per lifetime; the row index is the agent's stable id.
 struct Person {
     vec2 spawn_position;    // m, scene frame; only with PERSON_FIXED_SPAWN
@@ -107,6 +109,29 @@ struct WallSegment {
     vec2 b;
     float half_thickness;  // m; 0 for the outline of a solid polygon
     uint wall;             // index into the layout's walls
+};
+
+/// Ground that people walk on at another pace.
+struct Patch {
+    vec2 lower;  // m, its bounds
+    vec2 upper;
+    float pace;   // times the preferred speed
+    float from;   // s
+    float until;  // s
+    uint first_point;
+    uint point_count;
+    uint reserved;
+};
+
+/// Somebody whose way is given: consecutive places, at least two of them.
+struct GivenWay {
+    uint first_place;
+    uint place_count;
+};
+struct GivenPlace {
+    vec2 position;  // m
+    float time;     // s, later than that of the place before
+    uint reserved;
 };
 
 /// A site of the diagram that stands for a piece of wall. Its site id is the number of people plus its index.

@@ -187,6 +187,7 @@ class Follower::Eye {
         chain.to("coming_to_rest", bare);
         for (std::size_t rung = 1; rung < wishes.size(); ++rung)
             chain.to(wishes[rung].rule, wishes[rung].values[slot]);
+        if (parts_.patches && !parts_.lifts && !parts_.boarding) chain.to("slow_ground", now.wish);
     }
 
     /// Legs go on as was decided, each rule with what it has done to that; what contact has done since comes

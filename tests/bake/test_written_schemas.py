@@ -39,9 +39,12 @@ def test_bakes_and_measures_are_as_their_schemas_say(throng, checked, bakes, tmp
     ground = terrain_files.glb(*terrain_files.surface(lambda x, y: 0.05 * x, (-20, -20), (40, 40), 10.0))
     (tmp_path / "slope.glb").write_bytes(ground)
     layout = {**RING, "terrain": {"file": "slope.glb"}, "events": [{"at": 0.2, "open": "gate"}],
-              "walls": [{"id": "gate", "points": [[10, 10], [11, 10]], "thickness": 0.2}]}
+              "walls": [{"id": "gate", "points": [[10, 10], [11, 10]], "thickness": 0.2}],
+              "patches": [{"polygon": [[0, 0], [9, 0], [9, 9]], "cost": 2, "until": 0.4}],
+              "given": [{"id": "given", "people": {"body": "adult"}, "ways": [[[0, 2, 2], [9, 9, 2]]]}]}
     (tmp_path / "ring.json").write_text(json.dumps(layout))
-    throng("bake", tmp_path / "ring.json", "-o", tmp_path / "ring", "-q", "--density", "--set", "simulation.seed=3")
+    throng("bake", tmp_path / "ring.json", "-o", tmp_path / "ring", "-q", "--density", "--feet",
+           "--gaze", "--attention", "--wish", "--set", "simulation.seed=3")
     checked("bake", manifest_of(tmp_path / "ring"))
     (tmp_path / "changes.json").write_text(json.dumps({"throng_overrides": 1, "overrides": [
         {"id": 0, "group": "ring", "spawn": {"frame": 0, "position": [14, 10, 0.7]}, "hide": True}]}))

@@ -274,6 +274,18 @@ def test_a_changed_terrain_makes_results_out_of_date(throng, tmp_path):
     assert "6 are out of date" in told and "to bake: 6" in told
 
 
+def test_ways_of_a_file_are_found_and_make_results_out_of_date_when_they_change(throng, tmp_path):
+    ways = tmp_path / "seen.csv"
+    ways.write_text("id,time,x,y\n0,0,0,1\n0,1,1,1\n0,2,2,1\n")
+    given = [{"id": "seen", "file": "seen.csv"}, {"id": "told", "ways": [[[0, 0, 3], [2, 2, 3]]]}]
+    (tmp_path / "base.json").write_text(json.dumps({**BASE, "given": given}))
+    plan = family(tmp_path, base="base.json")
+    throng("batch", plan, "-o", tmp_path / "out", "-q")
+    assert "to bake: 0" in throng("batch", plan, "-o", tmp_path / "out", "--dry-run").stdout
+    ways.write_text("id,time,x,y\n0,0,0,1\n0,1,1,1\n0,2,2,2\n")
+    assert "6 are out of date" in throng("batch", plan, "-o", tmp_path / "out", "--dry-run").stdout
+
+
 def test_a_changed_family_says_what_it_invalidates(throng, tmp_path):
     throng("batch", family(tmp_path), "-o", tmp_path / "out", "-q")
     changed = family(tmp_path, base={**BASE, "simulation": {"duration": 3, "seed": 1}},

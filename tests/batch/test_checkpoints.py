@@ -19,6 +19,11 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 LAYOUT = json.loads((ROOT / "examples" / "station.json").read_text())
 LAYOUT["simulation"].update(duration=30, seed=11)
 LAYOUT["attractions"] = [{"id": "bang", "at": LAYOUT["areas"][0]["polygon"][0], "from": 9, "reach": 60, "loud": True}]
+# Ground that is slow and avoided for a time, and somebody who walks across the hall by a way that is given.
+LAYOUT["patches"] = [{"id": "wet", "polygon": [[-4, -4], [4, -4], [4, 4], [-4, 4]], "cost": 6, "pace": 0.7, "from": 6,
+                      "until": 20}]
+LAYOUT["given"] = [{"id": "cleaner", "ways": [[[3, -8, -3], [12, 2, 0], [16, 2, 0], [27, 9, 4]]]}]
+LAYOUT["simulation"]["walls_hide"] = True
 # A tram stop beside it, too: doors, and who gets on and off.
 LAYOUT["areas"] += [{"id": "stop", "polygon": [[0, 14], [30, 14], [30, 18], [0, 18]]},
                     {"id": "behind it", "polygon": [[0, 18], [30, 18], [30, 20], [0, 20]]}]

@@ -44,6 +44,15 @@ def insert_a_point():
         point.co = co
 
 
+def change_patch():
+    patch = things["lawn"].throng_layout.patch
+    patch.use_cost, patch.pace, patch.use_ends, patch.ends = False, 0.5, True, 30.0
+
+
+def move_patch():
+    things["paint"].location.x += 2.0
+
+
 def change_width():
     things["a:b"].throng_layout.width = 4.3
 

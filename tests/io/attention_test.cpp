@@ -247,6 +247,20 @@ TEST(Attention, IsDrawnByThingsUnlessAWallIsBefore) {
     EXPECT_EQ(share(tell(stands, 40.0, site).of(0), looks), 0.0) << "it is upstairs";
 }
 
+TEST(Attention, IsNotWithCompanyBehindAWallUnlessItIsLookedOver) {
+    AttentionTrack::Site site;
+    authoring::Wall wall;
+    wall.points = {{0.4, -2.0}, {0.4, 2.0}};
+    site.walls = {wall};
+    for (const std::uint32_t row : {0u, 1u}) {
+        const auto looks = [row](const Attention& head) { return head.at == static_cast<float>(2 - row); };
+        site.walls[0].height = 2.0;
+        EXPECT_EQ(share(tell(twoWhoTalk, 60.0, site).of(row), looks), 0.0) << "row " << row;
+        site.walls[0].height = 1.0;
+        EXPECT_GT(share(tell(twoWhoTalk, 60.0, site).of(row), looks), 0.5) << "row " << row;
+    }
+}
+
 std::vector<Onlooker> turbulent(double t) {
     std::vector<Onlooker> people;
     for (std::uint32_t row = 0; row < 64; ++row) {

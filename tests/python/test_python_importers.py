@@ -165,6 +165,39 @@ def test_menge_follows_profiles_and_states(tmp_path):
     assert found.report.left["obstacles of the type nav_mesh", "are in a file of their own"] == 1
 
 
+MENGE_DRAWN = """<BFSM><GoalSet id="0"><Goal type="point" id="0" x="5" y="5"/><Goal type="point" id="1" x="-5" y="5"/>
+</GoalSet><GoalSet id="1"><Goal type="point" id="0" x="9" y="0" weight="3"/><Goal type="point" id="1" x="-9" y="0"/>
+<Goal type="point" id="2" x="0" y="9"/><Goal type="point" id="3" x="0" y="-9"/></GoalSet>
+<State name="Walk"><GoalSelector type="explicit" goal_set="0" goal="0"/></State>
+<State name="Cross"><GoalSelector type="explicit" goal_set="0" goal="0"/></State>
+<State name="Look"><GoalSelector type="identity"/></State>
+<State name="Back"><GoalSelector type="explicit" goal_set="0" goal="1"/></State>
+<State name="Out"><GoalSelector type="weighted" goal_set="1"/></State>
+<Transition from="Walk,Cross"><Condition type="goal_reached" distance="1"/>
+<Target type="prob"><State name="Look" weight="2"/><State name="Back"/></Target></Transition>
+<Transition from="Look" to="Out"><Condition type="timer" dist="u" min="2" max="4"/></Transition>
+<Transition from="Back" to="Out"><Condition type="space"/></Transition>
+<Transition from="Out" to="Walk"><Condition type="timer" dist="c" value="3"/></Transition></BFSM>"""
+
+
+def test_menge_draws_for_everybody_and_keeps_timers_of_who_stands(tmp_path):
+    (tmp_path / "project.xml").write_text(MENGE)
+    (tmp_path / "s.xml").write_text(MENGE_SCENE.replace('count_x="2" count_y="3"', 'count_x="10" count_y="10"'))
+    (tmp_path / "b.xml").write_text(MENGE_DRAWN)
+    found = read_scene(tmp_path / "project.xml")
+    people = found.layout["formations"][0]["agents"]
+    stood = [person["via"] for person in people if "wait" in person["via"][0]]
+    back = [person["via"] for person in people if "wait" not in person["via"][0]]
+    assert 50 < len(stood) < 85 and len(stood) + len(back) == 100  # two thirds
+    assert all(2 <= via[0]["wait"] <= 4 and via[0]["point"] == [5, 5] and len(via) == 1 for via in stood)
+    assert all([stop["point"] for stop in via] == [[5, 5], [-5, 5]] for via in back)
+    assert len({tuple(person["goal"]) for person in people}) == 4
+    assert 35 < sum(person["goal"] == [9, 0] for person in people) < 65  # weighs as much as all others
+    told = "\n".join(" ".join(key) for key in found.report.changed)
+    for words in ("by space", "whose way a timer ends", "in a circle: once"):
+        assert words in told
+
+
 def test_vadere_brings_sources_targets_and_single_people(tmp_path):
     found = read_scene(write_scene("vadere", tmp_path))
     first, second = found.layout["flows"]
@@ -172,7 +205,7 @@ def test_vadere_brings_sources_targets_and_single_people(tmp_path):
     assert first["via"] == [{"at": "target 2", "wait": 2.0}] and first["people"]["speed"]["normal"] == [1.3, 0.26]
     assert (second["count"], second["start"], second["arrival"]) == (1, 1, "leave")
     single = found.layout["formations"][0]["agents"][0]
-    assert single["via"] == [{"point": [6, 2], "wait": 2}] and single["goal"] == [12, 6]
+    assert single["via"] == [{"point": [6, 2], "wait": 2}] and single["goal"] == "target 1"
     border = next(wall for wall in found.layout["walls"] if wall.get("id") == "border")
     assert min(border["points"]) == [0.4, 0.4] and border["thickness"] == 0.2
     assert found.report.left["sources", "people without a target"] == 1

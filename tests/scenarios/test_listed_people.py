@@ -168,3 +168,28 @@ def test_one_way_of_coming_in_is_told(throng, tmp_path, keys, words):
     layout = {**STREET, "flows": [{"id": "f", "from": "west", "to": "east", **keys}]}
     (tmp_path / "layout.json").write_text(json.dumps(layout, indent=0))
     assert words in throng("check", tmp_path / "layout.json", expect=3).stderr
+
+
+@pytest.mark.quick
+def test_listed_people_go_to_places_and_each_draws_its_own(bake):
+    """One of two rooms by weight, the nearest of both, a room by name, and all of that after places on the way."""
+    corners = ((-1, -1), (1, -1), (1, 1), (-1, 1))
+    square = lambda name, x, y: {"id": name, "polygon": [[x + i, y + j] for i, j in corners]}
+    areas = [square("north", 0, 16), square("south", 0, -16), square("east", 22, 0)]
+    drawn = {"choose": {"north": 3, "south": 1}}
+    agents = [{"position": [0.8 * (i % 8) - 3, 0.8 * (i // 8) - 3], "goal": drawn} for i in range(64)]
+    agents += [{"position": [4, 9], "goal": {"nearest": ["north", "south"]}}, {"position": [4, -9], "goal": "east"},
+               {"position": [-5, 0], "via": [{"point": [-5, -12]}], "goal": drawn}]
+    found = bake(agents, areas=areas)
+    ends = numpy.array([found.places[found.doing[:, row] > 0, row][-1] for row in range(len(agents))])
+    in_area = lambda which: (numpy.abs(ends - which["polygon"][0] - 1) < 1.6).all(1)
+    north, south, east = (in_area(each) for each in areas)
+    assert (north[:64] | south[:64]).all() and 39 <= north[:64].sum() <= 57  # 48, three deviations
+    assert north[64] and east[65] and (north[66] or south[66])
+    assert len(found.near(66, numpy.array([-5, -12]))) > 0
+    assert all(row["outcome"] == "arrived" for row in found.rows)
+
+
+def test_a_place_that_listed_people_cannot_go_to_is_told(throng, tmp_path):
+    told = refusal(throng, tmp_path, [{"position": [0, 0], "goal": "nowhere"}])
+    assert "nowhere" in told and "layout.json:" in told

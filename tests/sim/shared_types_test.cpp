@@ -146,6 +146,20 @@ std::map<std::string, Layout> layoutsInCpp() {
         result["WallSegment"] = {sizeof(T), {MEMBER(a), MEMBER(b), MEMBER(half_thickness), MEMBER(wall)}};
     }
     {
+        using T = gpu::Patch;
+        result["Patch"] = {sizeof(T),
+                           {MEMBER(lower), MEMBER(upper), MEMBER(pace), MEMBER(from), MEMBER(until),
+                            MEMBER(first_point), MEMBER(point_count), MEMBER(reserved)}};
+    }
+    {
+        using T = gpu::GivenWay;
+        result["GivenWay"] = {sizeof(T), {MEMBER(first_place), MEMBER(place_count)}};
+    }
+    {
+        using T = gpu::GivenPlace;
+        result["GivenPlace"] = {sizeof(T), {MEMBER(position), MEMBER(time), MEMBER(reserved)}};
+    }
+    {
         using T = gpu::WallTile;
         result["WallTile"] = {sizeof(T), {MEMBER(position), MEMBER(tile_radius), MEMBER(segment)}};
     }

@@ -11,8 +11,9 @@ from ..blender.nodes import Maths, new_tree, own_tree, set_input, socket
 MODIFIER = "Throng drawing"
 _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
 COLOURS = {"ROAD": (0.16, 0.20, 0.26, 1.0), "ARROW": (0.85, 0.85, 0.80, 1.0), "AREA": (0.16, 0.42, 0.36, 1.0),
-           "WALL": (0.62, 0.55, 0.45, 1.0), "FORMATION": (0.85, 0.45, 0.10, 1.0)}
-_HEIGHTS = {"AREA": 0.005, "ROAD": 0.01, "ARROW": 0.02}
+           "WALL": (0.62, 0.55, 0.45, 1.0), "PATCH": (0.30, 0.42, 0.12, 1.0), "FORMATION": (0.85, 0.45, 0.10, 1.0)}
+_HEIGHTS = {"AREA": 0.005, "ROAD": 0.01, "PATCH": 0.015, "ARROW": 0.02}
+DRAWN = ("ROAD", "AREA", "WALL", "PATCH")  # as curves
 _MOST_SHOWN = 20000  # people of a formation
 _state = {"quiet": False}
 
@@ -118,10 +119,10 @@ def _wall_tree():
     return tree
 
 
-def _area_tree():
-    tree, inputs, outputs = new_tree("Throng drawing area", _GEOMETRY, _GEOMETRY)
+def _filled_tree(kind):
+    tree, inputs, outputs = new_tree(f"Throng drawing {kind.lower()}", _GEOMETRY, _GEOMETRY)
     draw = _Drawing(tree)
-    draw.link(draw.finish(draw.made("GeometryNodeFillCurve", [("Curve", inputs.outputs[0])]).outputs[0], "AREA"),
+    draw.link(draw.finish(draw.made("GeometryNodeFillCurve", [("Curve", inputs.outputs[0])]).outputs[0], kind),
               outputs.inputs[0])
     return tree
 
@@ -142,8 +143,8 @@ def _people_tree():
     return tree
 
 
-_TREES = {"Throng drawing road": _road_tree, "Throng drawing wall": _wall_tree, "Throng drawing area": _area_tree,
-          "Throng drawing people": _people_tree}
+_TREES = {"Throng drawing road": _road_tree, "Throng drawing wall": _wall_tree, "Throng drawing people": _people_tree,
+          "Throng drawing area": lambda: _filled_tree("AREA"), "Throng drawing patch": lambda: _filled_tree("PATCH")}
 
 
 def _tree(name):
@@ -152,7 +153,7 @@ def _tree(name):
 
 def _tree_for(thing):
     kind = thing.throng_layout.kind
-    if thing.type == "CURVE" and kind in ("ROAD", "WALL", "AREA"):
+    if thing.type == "CURVE" and kind in DRAWN:
         return f"Throng drawing {kind.lower()}"
     return "Throng drawing people" if kind == "FORMATION" and thing.type == "MESH" else None
 

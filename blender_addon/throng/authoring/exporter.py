@@ -12,8 +12,8 @@ from .codecs import take_all
 from .geometry import AuthoringError, outlines_of, people_of, splines_of
 from .values import MISSING, are_points, is_number, is_point, keep_points, short, world_point
 
-LISTS = {"ROAD": "roads", "AREA": "areas", "WALL": "walls", "FORMATION": "formations"}
-LISTED = ("roads", "areas", "walls", "behaviours", "flows", "formations", "events")
+LISTS = {"ROAD": "roads", "AREA": "areas", "WALL": "walls", "PATCH": "patches", "FORMATION": "formations"}
+LISTED = ("roads", "areas", "walls", "patches", "behaviours", "flows", "formations", "events")
 
 
 def origin_of(scene):
@@ -42,6 +42,26 @@ class ExportWorld:
         self.origin = origin_of(scene)
         self.tolerance = scene.throng_layout.tolerance
         self._names = {}
+        # Those of places in the layout that was imported, and what they are called now.
+        self._places = {_raw(thing).get("id"): thing for thing in scene.objects
+                        if thing.throng_layout.kind in ("ROAD", "AREA") and thing.throng_layout.raw}
+
+    def place_named(self, text):
+        """A place by its name in the layout that was imported."""
+        name, _, end = text.rpartition(":")
+        for known, ending in ((text, ""), (name, f":{end}")):
+            if known in self._places:
+                return self.name(self._places[known]) + ending
+        return text
+
+    def destination_named(self, raw):
+        """A place, the nearest of several or a choice, likewise."""
+        if isinstance(raw, str):
+            return self.place_named(raw)
+        named = {"nearest": lambda places: [self.place_named(each) for each in places],
+                 "choose": lambda shares: {self.place_named(each): share for each, share in shares.items()}}
+        return {key: named[key](value) if key in named and isinstance(value, (list, dict)) else value
+                for key, value in raw.items()}
 
     def name(self, thing):
         if thing not in self._names:
@@ -86,16 +106,28 @@ def _road(thing, world):
     return [result]
 
 
-def _area(thing, world):
-    raw = _raw(thing)
+def _outline(thing, world, what, raw):
+    """The only one that a curve or a mesh has."""
     if thing.type == "CURVE":
         outlines = [points for points, _ in splines_of(thing, world.tolerance)]
     else:
         outlines = _mesh(thing)[0]
     if len(outlines) != 1:
-        raise AuthoringError(f"{thing.name} has {len(outlines)} outlines: an area is one polygon; separate its parts",
+        raise AuthoringError(f"{thing.name} has {len(outlines)} outlines: {what} is one polygon; separate its parts",
                              thing)
-    return [{**_named(thing, raw), "polygon": world.kept(outlines[0], raw.get("polygon"))}]
+    return world.kept(outlines[0], raw.get("polygon"))
+
+
+def _area(thing, world):
+    raw = _raw(thing)
+    return [{**_named(thing, raw), "polygon": _outline(thing, world, "an area", raw)}]
+
+
+def _patch(thing, world):
+    raw = _raw(thing)
+    result = take_all(fields.PATCH, thing.throng_layout.patch, _named(thing, raw))
+    result["polygon"] = _outline(thing, world, "a patch", raw)
+    return [result]
 
 
 def _mesh(thing):
@@ -175,10 +207,13 @@ def _agents(thing, raw, world):
         known = [point if is_point(point) else [math.inf, math.inf] for point in before]
         for entry, point in zip(result, keep_points([person[end] for person in people], known, world.origin)):
             entry[key] = point
+    for entry, old in zip(result, olds):
+        if isinstance(old.get("goal"), (str, dict)):  # a place, that has no end of an edge
+            entry["goal"] = world.destination_named(old["goal"])
     return result
 
 
-_WRITERS = {"ROAD": _road, "AREA": _area, "WALL": _walls, "FORMATION": _formation}
+_WRITERS = {"ROAD": _road, "AREA": _area, "WALL": _walls, "PATCH": _patch, "FORMATION": _formation}
 
 
 def _settings(layout, raw):
@@ -235,7 +270,10 @@ def write_text(path, text):
 def folder_of_files(scene, document):
     """The folder where files that a layout names are looked for; None when it names none, or came from nowhere."""
     source = bpy.path.abspath(scene.throng_layout.source)
-    return os.path.dirname(source) if source and "terrain" in document else None
+    given = document.get("given")
+    named = "terrain" in document or any(isinstance(each, dict) and "file" in each
+                                         for each in (given if isinstance(given, list) else ()))
+    return os.path.dirname(source) if source and named else None
 
 
 def default_name(scene):

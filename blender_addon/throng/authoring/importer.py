@@ -13,7 +13,8 @@ from .values import MISSING, are_points, is_number, is_point
 
 COLLECTION = "Throng Layout"
 _FAR = 2048.0  # m: further out, single floats are coarser than a quarter of a millimetre
-_SHAPES = {"roads": ("centreline", 2), "areas": ("polygon", 3), "walls": ("points", 2)}
+_SHAPES = {"roads": ("centreline", 2), "areas": ("polygon", 3), "walls": ("points", 2),
+           "patches": ("polygon", 3)}
 
 
 def read_layout(path):
@@ -52,12 +53,15 @@ def _problems(document):
 
 def _is_person(entry, behaves):
     """@param behaves a behaviour stands in place of goals"""
-    goes = isinstance(entry, dict) and (is_point(entry.get("goal")) or behaves and "goal" not in entry)
+    goes = isinstance(entry, dict) and (is_point(entry.get("goal")) or isinstance(entry.get("goal"), (str, dict))
+                                        or behaves and "goal" not in entry)
     return goes and is_point(entry.get("position"))
 
 
 def _way_of(person):
-    return [person["position"], person.get("goal", person["position"])]
+    """Who goes to a place is shown where it stands."""
+    goal = person.get("goal")
+    return [person["position"], goal if is_point(goal) else person["position"]]
 
 
 def _formation_problems(entry, pointer):
@@ -67,7 +71,7 @@ def _formation_problems(entry, pointer):
     elif kind == "agents":
         people = entry.get("agents")
         if not isinstance(people, list) or not all(_is_person(each, "behaviour" in entry) for each in people):
-            yield f"{pointer}/agents", "expected people with a position and a goal [x, y]"
+            yield f"{pointer}/agents", "expected people with a position [x, y] and a goal"
     elif not is_point(entry.get("centre" if kind == "circle" else "origin")):
         yield f"{pointer}/{'centre' if kind == 'circle' else 'origin'}", "expected a point [x, y]"
 
@@ -146,7 +150,7 @@ def _shaped(world, key, kind, entry):
             turn = entry.get("rotation") if entry["type"] == "grid" else None
             thing.rotation_euler.z = math.radians(turn) if is_number(turn) else 0.0
         return thing
-    closed = kind == "AREA" or (kind == "WALL" and entry.get("closed") is True)
+    closed = kind in ("AREA", "PATCH") or (kind == "WALL" and entry.get("closed") is True)
     return geometry.new_curve(name, world.local(entry[_SHAPES[key][0]]), closed)
 
 
@@ -172,6 +176,8 @@ def _add_objects(world, document):
         part = thing.throng_layout
         if kind == "FORMATION":
             _put_formation(part.formation, entry, world)
+        elif kind == "PATCH":
+            codecs.put_all(fields.PATCH, part.patch, entry)
         elif kind in ("ROAD", "WALL"):
             codecs.put_all(fields.ROAD if kind == "ROAD" else fields.OPEN_WALL, part, entry)
     return [thing for thing, _, _ in things]

@@ -123,6 +123,20 @@ class THRONG_OT_add_area(_Adds, bpy.types.Operator):
         return {"FINISHED"}
 
 
+class THRONG_OT_add_patch(_Adds, bpy.types.Operator):
+    """Add ground that people avoid, or walk on at another pace: a lawn, mud"""
+
+    bl_idname = "throng.add_patch"
+    bl_label = "Add Patch"
+    length: FloatProperty(name="Length", default=8.0, min=0.1, subtype="DISTANCE")
+    depth: FloatProperty(name="Depth", default=8.0, min=0.1, subtype="DISTANCE")
+    angle: FloatProperty(name="Angle", subtype="ANGLE")
+
+    def execute(self, context):
+        self.add_curve(context, "Patch", _rectangle(self.length, self.depth), True, "PATCH")
+        return {"FINISHED"}
+
+
 class THRONG_OT_add_line(_Adds, bpy.types.Operator):
     """Add a line: where people queue, are mirrored or are counted"""
 
@@ -172,7 +186,8 @@ class THRONG_OT_mark(bpy.types.Operator):
 
     def execute(self, context):
         fitting = {"NONE": None, "ROAD": ("CURVE",), "LINE": ("CURVE",), "AREA": ("CURVE", "MESH"),
-                   "WALL": ("CURVE", "MESH"), "FORMATION": ("MESH",), "POINT": ("EMPTY",)}[self.kind]
+                   "PATCH": ("CURVE", "MESH"), "WALL": ("CURVE", "MESH"), "FORMATION": ("MESH",),
+                   "POINT": ("EMPTY",)}[self.kind]
         unfit = [thing.name for thing in context.selected_objects if fitting and thing.type not in fitting]
         if unfit:
             words = " or ".join(word.lower() for word in fitting)
@@ -312,7 +327,8 @@ class IMPORT_SCENE_OT_throng_layout(bpy.types.Operator, ImportHelper):
         return {"FINISHED"}
 
 
-CLASSES = (THRONG_OT_add_road, THRONG_OT_add_wall, THRONG_OT_add_area, THRONG_OT_add_line, THRONG_OT_add_formation,
+CLASSES = (THRONG_OT_add_road, THRONG_OT_add_wall, THRONG_OT_add_area, THRONG_OT_add_patch,
+           THRONG_OT_add_line, THRONG_OT_add_formation,
            THRONG_OT_mark, THRONG_OT_add_flow, THRONG_OT_list, THRONG_OT_settings_from_scene,
            EXPORT_SCENE_OT_throng_layout, IMPORT_SCENE_OT_throng_layout)
 

@@ -33,7 +33,7 @@ class VIEW3D_PT_throng_layout(InSidebar, bpy.types.Panel):
         layout = self.layout
         grid = layout.grid_flow(columns=2, align=True)
         for part, icon in (("road", "CURVE_PATH"), ("wall", "MOD_SOLIDIFY"), ("area", "MESH_PLANE"),
-                           ("formation", "COMMUNITY"), ("line", "IPO_LINEAR")):
+                           ("patch", "SHADING_TEXTURE"), ("formation", "COMMUNITY"), ("line", "IPO_LINEAR")):
             grid.operator(f"throng.add_{part}", icon=icon)
         layout.operator_menu_enum("throng.mark", "kind")
         if context.object:
@@ -51,6 +51,11 @@ class VIEW3D_PT_throng_layout(InSidebar, bpy.types.Panel):
         names = {"ROAD": ("width", "one_way"), "WALL": ("thickness", "height") if thing.type == "CURVE" else ()}
         for name in names.get(part.kind, ()):
             box.prop(part, name)
+        if part.kind == "PATCH":
+            _optional(box, part.patch, "cost")
+            box.prop(part.patch, "pace")
+            box.prop(part.patch, "begins")
+            _optional(box, part.patch, "ends")
         if part.kind == "FORMATION":
             self._formation(box, part.formation, context.scene.throng_layout)
         problems_of(context, box, lambda problem: problem.target == thing)

@@ -18,6 +18,7 @@ from .fields import limits
 KINDS = (("NONE", "None", "No part of the layout"), ("ROAD", "Road", "A curve with a width, on which people walk"),
          ("AREA", "Area", "A cyclic curve or a mesh: a plaza, an entry, an exit"),
          ("WALL", "Wall", "An open curve with a thickness, a cyclic one, or a mesh"),
+         ("PATCH", "Patch", "A cyclic curve or a mesh: ground that people avoid, or walk on at another pace"),
          ("FORMATION", "Formation", "People who stand here at a given moment"),
          ("LINE", "Line", "A queue, a mirror, the corners of a box, or where people are counted"),
          ("POINT", "Point", "Something to look at"))
@@ -29,7 +30,7 @@ def _refresh(group, _context):
 
 def _show_solid(layout, _context):
     for thing in layout.id_data.objects:
-        if thing.type == "CURVE" and thing.throng_layout.kind in ("ROAD", "AREA", "WALL"):
+        if thing.type == "CURVE" and thing.throng_layout.kind in display.DRAWN:
             thing.display_type = "TEXTURED" if layout.show_solid else "WIRE"
 
 
@@ -173,6 +174,17 @@ class ThrongFormation(bpy.types.PropertyGroup):
     behaviour: StringProperty(name="Behaviour", description="In place of where they go")
 
 
+class ThrongPatch(bpy.types.PropertyGroup):
+    use_cost: BoolProperty(name="Cost", default=True, description="Otherwise as much as being slow there costs")
+    cost: FloatProperty(name="Cost", **limits("patch", "cost"),
+                        description="How many metres of another way one metre of it is worth")
+    pace: FloatProperty(name="Pace", **limits("patch", "pace"),
+                        description="How fast people walk there, times their preferred speed")
+    begins: FloatProperty(name="From", **limits("patch", "from"), description="From when it holds, s; 0: always")
+    use_ends: BoolProperty(name="Until", description="Otherwise it holds to the end")
+    ends: FloatProperty(name="Until", **limits("patch", "until"), description="Until when it holds, s")
+
+
 class ThrongObject(bpy.types.PropertyGroup):
     """Marks an object as a part of the layout. Its name is its id there."""
 
@@ -185,6 +197,7 @@ class ThrongObject(bpy.types.PropertyGroup):
     thickness: FloatProperty(name="Thickness", **limits("wall", "thickness"), subtype="DISTANCE", update=_refresh)
     height: FloatProperty(name="Height", **limits("wall", "height"), subtype="DISTANCE", update=_refresh)
     formation: PointerProperty(type=ThrongFormation)
+    patch: PointerProperty(type=ThrongPatch)
 
 
 class ThrongSimulation(bpy.types.PropertyGroup):
@@ -276,8 +289,8 @@ class ThrongScene(bpy.types.PropertyGroup):
 
 
 CLASSES = (*common_properties.CLASSES, *behaviour_properties.CLASSES, ThrongPeople, ThrongStop, ThrongFlow,
-           ThrongEvent, ThrongBar, ThrongFormation, ThrongObject, ThrongSimulation, *_RULES.values(), ThrongMotion,
-           ThrongProblem, ThrongScene)
+           ThrongEvent, ThrongBar, ThrongFormation, ThrongPatch, ThrongObject, ThrongSimulation, *_RULES.values(),
+           ThrongMotion, ThrongProblem, ThrongScene)
 
 _register_classes, _unregister_classes = bpy.utils.register_classes_factory(CLASSES)
 

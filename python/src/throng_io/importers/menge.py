@@ -2,6 +2,7 @@
 """Menge: a project's scene and behaviour."""
 from __future__ import annotations
 
+import dataclasses
 import math
 import pathlib
 import random
@@ -117,8 +118,8 @@ class Experiment:
             profile, state = self.drawn(profiles), self.drawn(states)
             speed, radius = (value() if callable(value) else value for value in (
                 self.value(profile, "pref_speed", SPEED), self.value(profile, "r", RADIUS)))
-            *via, goal = self.behaviour.goals_of(state, place)
-            people.append(self.scene.person(place, goal, speed, radius, via=[(point, 0.0) for point in via]))
+            *via, (goal, _) = self.behaviour.goals_of(state, place)
+            people.append(self.scene.person(place, goal, speed, radius, via=via))
         self.scene.agents(profiles[0][0] or "agents", people, "stay")
 
     def drawn(self, choices: list[tuple[str, float]]) -> str:
@@ -157,6 +158,14 @@ class Experiment:
         return [(anchor_x + cosine * x - sine * y, anchor_y + sine * x + cosine * y) for x, y in offsets]
 
 
+@dataclasses.dataclass
+class Transition:
+    """Out of a state: where to, each with a weight, and after how long if that is told."""
+
+    targets: list[tuple[str, float]]
+    seconds: Callable[[], float] | None
+
+
 class Behaviour:
     """The state machine: where the people of a state go in the end."""
 
@@ -167,7 +176,7 @@ class Behaviour:
         self.goals: dict[str, dict[str, tuple[Callable[[], Point], float]]] = {}
         for goals in children(self.root, "GoalSet"):
             self.goals[goals.get("id")] = {each.get("id"): self.place(each) for each in children(goals, "Goal")}
-        self.next: dict[str, str] = {}
+        self.next: dict[str, Transition] = {}
         for transition in children(self.root, "Transition"):
             self.transition(transition)
         for state in self.states.values():
@@ -203,33 +212,79 @@ class Behaviour:
         return (in_disc if radius else lambda: (x, y)), weight
 
     def transition(self, transition) -> None:
-        target = transition.get("to")
-        within = child(transition, "Target")
-        if target is None and within is not None and len(children(within, "State")):
-            likely = max(children(within, "State"), key=lambda each: self.reader.attribute(each, "weight", 1.0))
-            target = likely.get("name")
-            self.scene.report.altered("transitions", "at random: the likeliest is taken")
+        targets = self.targets(transition)
+        condition = child(transition, "Condition")
+        kind = None if condition is None else condition.get("type")
+        self.scene.report.altered("transitions", f"by {kind}: people go on when they are there",
+                                  kind not in (None, "goal_reached", "auto", "timer"))
+        seconds = self.seconds(condition) if kind == "timer" else None
         for state in (transition.get("from") or "").split(","):
-            if target is None:
+            if not targets:
                 self.scene.report.left_out("transitions", "without a state to go to")
             elif state.strip() in self.next:
                 self.scene.report.left_out("further transitions of a state", "the first is taken")
             else:
-                self.next[state.strip()] = target
+                self.next[state.strip()] = Transition(targets, seconds)
 
-    def goals_of(self, state: str, place: Point) -> list[Point]:
-        """Through the states, until one comes again or no more follow."""
+    def targets(self, transition) -> list[tuple[str, float]]:
+        """[(state, weight)] of those that it leads to: everybody draws one of them."""
+        if transition.get("to") is not None:
+            return [(transition.get("to"), 1.0)]
+        within = child(transition, "Target")
+        states = [] if within is None else children(within, "State")
+        found = [(each.get("name"), self.reader.attribute(each, "weight", 1.0)) for each in states]
+        if found and (min(weight for _, weight in found) < 0 or not sum(weight for _, weight in found) > 0):
+            raise ImportFailed("weights: expected numbers of which one is above 0", self.reader.file, within.sourceline)
+        return found
+
+    def seconds(self, timer) -> Callable[[], float] | None:
+        """How long people are in a state, where a timer says so."""
+        number, kind = self.reader.attribute, timer.get("dist", "c")
+        if kind == "c":
+            value = number(timer, "value")
+            return lambda: value
+        if kind == "u":
+            least, most = number(timer, "min"), number(timer, "max")
+            return lambda: self.random.uniform(least, most)
+        self.scene.report.altered("transitions", f"by a timer of the distribution {kind}: people go on when they are "
+                                                 "there")
+        return None
+
+    def goals_of(self, state: str, place: Point) -> list[tuple[Point, float]]:
+        """Places, and for how many seconds to stand there: through the states, until one comes again or no more
+        follow."""
         seen, found = set(), []
         while state in self.states and state not in seen:
             seen.add(state)
-            goal = self.selected(self.states[state], place)
-            if goal is not None and (not found or goal != found[-1]):
-                found.append(goal)
-            state = self.next.get(state, "")
+            here = found[-1][0] if found else place
+            goal = self.selected(self.states[state], here)
+            following = self.next.get(state)
+            wait = 0.0
+            if following is not None and following.seconds is not None:
+                wait = self.standing(goal, following.seconds())
+            if goal is None and wait > 0:
+                goal = here
+            if goal is not None:
+                if found and goal == found[-1][0]:
+                    wait += found.pop()[1]
+                found.append((goal, wait))
+            state = self.drawn(following)
+        self.scene.report.altered("people", "who go round states in a circle: once", state in seen)
         if state and state not in self.states:
             raise ImportFailed(f"there is no state {state!r}", self.reader.file)
         self.scene.report.altered("people", "without a goal: they stay where they are", not found)
-        return found or [place]
+        return found or [(place, 0.0)]
+
+    def standing(self, goal: Point | None, seconds: float) -> float:
+        """A timer of people who go nowhere is how long they stand; of others, it cuts their way short."""
+        self.scene.report.altered("people", "whose way a timer ends: they go on when they are there", goal is not None)
+        return 0.0 if goal is not None else max(seconds, 0.0)
+
+    def drawn(self, following: Transition | None) -> str:
+        if following is None:
+            return ""
+        names, weights = zip(*following.targets)
+        return names[0] if len(names) == 1 else self.random.choices(names, weights)[0]
 
     def selected(self, state, place: Point) -> Point | None:
         selector = child(state, "GoalSelector")

@@ -154,11 +154,13 @@ class Scene:
         self.flows.append({"id": self.unique(name), **keys, "count": count})
         self.report.took("people", count)
 
-    def person(self, position: Point, goal: Point, speed: float | None = None, radius: float | None = None,
+    def person(self, position: Point, goal: Point | str, speed: float | None = None, radius: float | None = None,
                heading: float | None = None, via: Sequence[tuple[Point, float]] = (), start: float = 0.0) -> dict:
-        """One of a list of agents. `via`: places on the way and how long to wait there; `start`: when it comes; s."""
+        """One of a list of agents. `goal`: a point, or the name of a place; `via`: places on the way and how long to
+        wait there; `start`: when it comes; s."""
         self._more(1)
-        person: dict[str, Any] = {"position": self.point(*position[:2]), "goal": self.point(*goal[:2])}
+        person: dict[str, Any] = {"position": self.point(*position[:2]),
+                                  "goal": goal if isinstance(goal, str) else self.point(*goal[:2])}
         if via:
             person["via"] = [{"point": self.point(*point[:2]), **({"wait": round(wait, 4)} if wait > 0 else {})}
                              for point, wait in via]
@@ -203,7 +205,7 @@ class Scene:
         known += [point for area in self.areas for point in area["polygon"]]
         known += [point for road in self.roads for point in road["centreline"]]
         people = self._listed()
-        known += [person[key] for person in people for key in ("position", "goal")]
+        known += [person[key] for person in people for key in ("position", "goal") if not isinstance(person[key], str)]
         known += [stop["point"] for person in people for stop in person.get("via", ())]
         return math.dist(*_corners(known)) if known else 1.0
 

@@ -198,7 +198,7 @@ class Scenario:
             self.scene.report.altered("targets on the way of single people", "their middles", len(ids) > 1)
             if not ids:
                 self.scene.report.altered("people", "without a target: they stay where they are")
-            goal = self.middle(ids[-1]) if ids else place
+            goal = self.names[ids[-1]] if ids else place
             speed = person.get("freeFlowSpeed")
             people.append(self.scene.person(
                 place, goal, None if speed is None else number(speed, "freeFlowSpeed", self.file),
