@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Which of a crowd's people go into a file, as their streams tell: who is there in some frames, and how near they come
+to a place."""
+import os
+
+import bpy
+import numpy
+
+from ..formats import check_pc2
+from . import own
+from .queries import absolute, figure
+
+_HEADER = 32  # bytes of a point cache before its numbers
+SHARE = 2 ** 24  # numbers that are looked at together
+
+
+class Streams:
+    """The streams of a crowd in frames of the scene, from the first to the last."""
+
+    def __init__(self, crowd, first, last):
+        self.crowd, self.people = crowd, len(crowd.data.vertices)
+        start = int(crowd.modifiers["throng pos"].frame_start)
+        frames = self._open("state").shape[0]
+        # what is before the first frame and after the last one is shown as these are
+        self.frames = numpy.clip(numpy.arange(first, last + 1) - start, 0, frames - 1)
+
+    def _open(self, stream):
+        path = absolute(self.crowd, self.crowd.modifiers[f"throng {stream}"].filepath)
+        samples = max(1, (os.path.getsize(path) - _HEADER) // (12 * max(1, self.people)))
+        check_pc2(path, self.people, samples)
+        return numpy.memmap(path, "<f4", "r", _HEADER, (samples, self.people, 3))
+
+    def _pieces(self):
+        step = max(1, SHARE // (3 * max(1, self.people)))
+        return (self.frames[first:first + step] for first in range(0, len(self.frames), step))
+
+    def presence(self):
+        """In how many of the frames everybody is there."""
+        state = self._open("state")
+        return sum((state[frames, :, 0] > 0.5).sum(axis=0) for frames in self._pieces())
+
+    def nearest(self, place):
+        """How near everybody comes to a place on the ground, m; infinity for who is never there."""
+        state, pos = self._open("state"), self._open("pos")
+        found = numpy.full(self.people, numpy.inf)
+        for frames in self._pieces():
+            away = numpy.linalg.norm(pos[frames][:, :, :2] - numpy.asarray(place[:2], numpy.float32), axis=2)
+            found = numpy.minimum(found, numpy.where(state[frames, :, 0] > 0.5, away, numpy.inf).min(axis=0))
+        return found
+
+    def variations(self):
+        return self._open("state")[self.frames[-1], :, 1].astype(int)
+
+
+def rows_of(streams, most, place=None):
+    """At most so many of those who are there: the nearest to a place, or the first ones."""
+    there = numpy.nonzero(streams.presence() > 0)[0]
+    if place is not None:
+        there = there[numpy.argsort(streams.nearest(place)[there], kind="stable")]
+    return numpy.sort(there[:most])
+
+
+def vertices_of(crowd, rows, variations, level):
+    """How many vertices the meshes of some people have, at a level of detail."""
+    swaps = crowd.data.attributes.get("throng_swap")
+    counts, found = {}, numpy.zeros(len(rows), int)
+    for place, row in enumerate(rows.tolist()):
+        swapped = int(swaps.data[row].value) if swaps else -1
+        member = own.member_of(crowd, row, swapped if swapped >= 0 else int(variations[row]), swapped >= 0)
+        if member not in counts:
+            shown = figure(crowd, member, level) or figure(crowd, member)
+            counts[member] = len(shown.data.vertices) if shown else 0
+        found[place] = counts[member]
+    return found
+
+
+def mark(name, people, rows, level, bends):
+    """A mesh of a point for each of the people, which says who is shown, and how (names.py)."""
+    chosen = numpy.zeros(people, bool)
+    chosen[rows] = True
+    mesh = bpy.data.meshes.new(name)
+    mesh.vertices.add(people)
+    for attribute, values in (("hidden", ~chosen), ("near", chosen & bends), ("level", numpy.full(people, level))):
+        mesh.attributes.new(attribute, "FLOAT", "POINT").data.foreach_set("value", values.astype(numpy.float32))
+    return mesh
