@@ -39,6 +39,17 @@ class Streams:
         state = self._open("state")
         return sum((state[frames, :, 0] > 0.5).sum(axis=0) for frames in self._pieces())
 
+    def anew(self, rows, counts):
+        """The sum of what people count for, over the frames in which others are there than in the frame before: then
+        all of a mesh is written."""
+        state, total, before = self._open("state"), 0, None
+        for frames in self._pieces():
+            there = state[frames][:, rows, 0] > 0.5
+            after = numpy.concatenate([~there[:1] if before is None else before[None], there[:-1]])
+            total += int((there[(there != after).any(axis=1)] @ counts).sum())
+            before = there[-1]
+        return total
+
     def nearest(self, place):
         """How near everybody comes to a place on the ground, m; infinity for who is never there."""
         state, pos = self._open("state"), self._open("pos")

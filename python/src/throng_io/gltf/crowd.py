@@ -81,7 +81,7 @@ class Crowd:
         self.written: set[int] = set()
 
     def surroundings(self) -> None:
-        for thing in things_of(self.shot.bake.about, self.shot.bake.origin):
+        for thing in things_of(self.shot.bake):
             mesh = self._thing(thing)
             self.to.root(name=thing.name or thing.place.rpartition("/")[2], mesh=mesh)
 

@@ -13,7 +13,9 @@ from ..bakes.surroundings import GREY, things_of
 from ..base.errors import ThrongError, need
 from ..base.whole_files import whole_file
 from ..skinned.members import bodies_of_library
-from .figures import PHASES, Mesh, figure
+from ..skinned.motions import seats_of
+from .figures import PHASES, Mesh, figure, seated_poses
+from .moving import MovingThings
 from .skeletons import SkeletonCrowd, Skeletons
 
 SUFFIXES = (".usd", ".usda", ".usdc")
@@ -67,6 +69,7 @@ class Stage:
         world.AddTranslateOp().Set(self.gf.Vec3d(*bake.origin.tolist()))
         self.material = self.painted()
         self.surroundings()
+        MovingThings(self).write()
         if self.skeletons:
             SkeletonCrowd(self, self.skeletons).write()
         else:
@@ -94,7 +97,7 @@ class Stage:
     # ---- what stands still
 
     def surroundings(self) -> None:
-        for thing in things_of(self.bake.about, self.bake.origin):
+        for thing in things_of(self.bake):
             self.mesh(f"/World/{thing.place}", thing.points, thing.faces, thing.colour, thing.name)
 
     def mesh(self, path: str, points: numpy.ndarray, faces: list[list[int]], colour, name: str | None = None) -> None:
@@ -126,6 +129,8 @@ class Stage:
         for gait in self.gaits:
             poses += [(f"stride{gait}_pose{pose}", figure(pose / PHASES, strides[min(gait, len(strides) - 1)]))
                       for pose in range(PHASES)]
+        self.upright = len(poses)
+        poses += seated_poses() if self.bake.about["geometry"].get("seats") else []
         self.geom.Scope.Define(self.stage, "/World/Crowd/Prototypes")
         self.stage.CreateClassPrim("/World/Crowd/Poses")
         for name, mesh in poses:
@@ -193,7 +198,8 @@ class Stage:
             attributes["Extent"].Set(self.extent(here[there], self.sizes[there]), time)
 
     def poses(self, frame: int) -> numpy.ndarray:
-        """The prototype of everybody: who walks has the pose of its phase, in the gait of its stride."""
+        """The prototype of everybody: who walks has the pose of its phase, in the gait of its stride; who has a seat that
+        of what it does."""
         state = self.bake.state[frame]
         activity = numpy.floor(state[:, 0] + 1e-4)
         gait = numpy.rint(16 * (state[:, 0] - activity)).astype(int)
@@ -201,6 +207,9 @@ class Stage:
         pose = numpy.floor((state[:, 2] % 1.0) * PHASES + 0.5).astype(int) % PHASES
         walks = (activity == WALKING) & (self.bake.dir[frame][:, 2] > 0.1)
         shown = numpy.where(walks, 1 + PHASES * place + pose, 0)
+        if self.poses_of_one > self.upright:
+            has, here, there, share = seats_of(state)
+            shown = numpy.where(has, self.upright + numpy.where(share < 0.5, here, there), shown)
         return (self.poses_of_one * self.costume + shown).astype(numpy.int32)
 
     def turned(self, heading: numpy.ndarray):
