@@ -163,13 +163,17 @@ def _wheel(radius: float, start: float, end: float) -> tuple[numpy.ndarray, Face
 
 
 def _doors(what: dict[str, Any], doors: dict[str, Any], rows: numpy.ndarray, shapes: dict[tuple, Shape]) -> list[Part]:
-    """Two leaves at each door, which slide apart."""
+    """Two leaves at each door, which slide apart, and the dark behind them."""
     found = []
     width = doors.get("width", 0.0)
     leaf = _shared(shapes, ("leaf", width), lambda: Shape("door", *_box(
         -0.245 * width, 0.245 * width, -0.5 * LEAF, 0.5 * LEAF, DOOR_LOW, DOOR_TOP), COLOURS["door"]))
+    behind_it = _shared(shapes, ("doorway", width), lambda: Shape("doorway", *_box(
+        -0.49 * width, 0.49 * width, -0.01, 0.01, DOOR_LOW, DOOR_TOP), COLOURS["tyre"]))
     for column, side, sign in ((0, "left", 1.0), (1, "right", -1.0)):
         for door, behind in enumerate(doors.get("at", ()) if doors.get(side) else ()):
+            found.append(Part(f"{side}_doorway{door}", behind_it, numpy.array(
+                [0.5 * what["length"] - behind, sign * (0.5 * what["width"] + 0.012), 0.0])))
             for way in (-1.0, 1.0):
                 slides = 0.48 * way * width * rows[:, column].astype(float)
                 middle = [0.5 * what["length"] - behind + 0.25 * way * width, sign * (0.5 * what["width"] + LEAF), 0.0]
