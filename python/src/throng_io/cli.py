@@ -40,7 +40,7 @@ def to_usd(given: argparse.Namespace) -> None:
         raise ThrongError("--most, --near and --copies are about skeletons", "add --skeletons")
     wanted = Skeletons(given.most, tuple(given.near) if given.near else None,
                        not given.copies) if given.skeletons else None
-    export_usd(Bake(given.bake), given.output, given.every, wanted)
+    export_usd(Bake(given.bake), given.output, given.every, wanted, given.bare)
 
 
 def wanted_of(given: argparse.Namespace) -> Wanted:
@@ -157,6 +157,7 @@ def form_options(command: argparse.ArgumentParser) -> None:
 
 
 def usd_options(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--bare", action="store_true", help="without ground, walls, camera and lights")
     command.add_argument("--skeletons", action="store_true",
                          help="people with skeletons and motions (UsdSkel), shaped from the library of bodies")
     command.add_argument("--most", type=positive, metavar="N",

@@ -20,6 +20,7 @@ from .bake import Bake
 GROUND_MARGIN = 2.0           # m round everything
 ROAD_HEIGHT = 0.005           # m over the ground, so that they do not fight for the same pixels
 LANE_HEIGHT = 0.003           # m, likewise
+ABOVE = 0.0002                # m
 GREY = {"walls": (0.55, 0.55, 0.53), "ground": (0.32, 0.33, 0.32), "roads": (0.42, 0.42, 0.41),
         "lanes": (0.09, 0.09, 0.1), "crossings": (0.4, 0.4, 0.37), "stands": (0.28, 0.28, 0.27),
         "seats": (0.04, 0.1, 0.23)}
@@ -40,9 +41,10 @@ def things_of(bake: Bake) -> list[Thing]:
     with levels, too."""
     about, origin = bake.about, bake.origin
     told = about["geometry"]
-    hidden = {f"{block.get('id', '')} stand" for block in told.get("seats", ())}  # outlines of what is shown itself
+    hidden = {f"{block.get('id', '')} stand" for block in told.get("seats", ())}  # outlines of what is shown itself:
+    # one for each piece of it, told apart by `_` at the end
     found = [Thing(f"Walls/wall{number}", *wall_prism(wall, origin), GREY["walls"], wall.get("id"))
-             for number, wall in enumerate(told["walls"]) if wall.get("id") not in hidden]
+             for number, wall in enumerate(told["walls"]) if str(wall.get("id")).rstrip("_") not in hidden]
     found += [each for number, block in enumerate(told.get("seats", ()))
               for each in _stand_of(number, block, origin)]
     if about.get("terrain"):
@@ -64,8 +66,8 @@ def _flat_ground(about: dict[str, Any], told: dict[str, Any], origin: numpy.ndar
                 for each in traffic.get("crossings", ())])
     numbers: dict[str, int] = {}
     for kind, shape, height, colour, name in flats:
-        points, faces = flat(shape, height)
         numbers[kind] = numbers.get(kind, -1) + 1
+        points, faces = flat(shape, height + ABOVE * numbers[kind])  # each of them, too, where they cross
         found.append(Thing(f"Ground/{kind}{numbers[kind]}", points - origin, faces, GREY[colour], name))
     return found
 

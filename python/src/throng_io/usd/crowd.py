@@ -17,6 +17,7 @@ from ..skinned.motions import seats_of
 from .figures import PHASES, Mesh, figure, seated_poses
 from .moving import MovingThings
 from .skeletons import SkeletonCrowd, Skeletons
+from .staging import add_staging
 
 SUFFIXES = (".usd", ".usda", ".usdc")
 WALKING = 1
@@ -30,10 +31,12 @@ TOPS = ((0.42, 0.09, 0.07), (0.07, 0.16, 0.36), (0.1, 0.26, 0.16), (0.55, 0.44, 
 MOST_COSTUMES = 64
 
 
-def export_usd(bake: Bake, path: str | os.PathLike, every: int = 1, skeletons: Skeletons | None = None) -> None:
+def export_usd(bake: Bake, path: str | os.PathLike, every: int = 1, skeletons: Skeletons | None = None,
+               bare: bool = False) -> None:
     """All frames, or every N-th, at the time codes of the shot: frame i of the bake is time code i + 1.
 
     @param skeletons whose; without, people are a point instancer's simple figures
+    @param bare without the ground, walls, camera and lights
     """
     if pathlib.Path(path).suffix.lower() not in SUFFIXES:
         raise ThrongError(f"{os.fspath(path)}: expected a name that ends in {', '.join(SUFFIXES)}")
@@ -44,14 +47,14 @@ def export_usd(bake: Bake, path: str | os.PathLike, every: int = 1, skeletons: S
         bodies_of_library()
     need("pxr", "usd")
     with whole_file(path) as beside:
-        Stage(bake, str(beside), every, skeletons).write()
+        Stage(bake, str(beside), every, skeletons, bare).write()
 
 
 class Stage:
-    def __init__(self, bake: Bake, path: str, every: int, skeletons: Skeletons | None = None):
-        self.usd, self.geom, self.shade, self.skel, self.sdf, self.gf, self.vt = (
-            need(f"pxr.{name}", "usd") for name in ("Usd", "UsdGeom", "UsdShade", "UsdSkel", "Sdf", "Gf", "Vt"))
-        self.bake, self.every, self.skeletons = bake, every, skeletons
+    def __init__(self, bake: Bake, path: str, every: int, skeletons: Skeletons | None, bare: bool):
+        self.usd, self.geom, self.shade, self.skel, self.lux, self.sdf, self.gf, self.vt = (
+            need(f"pxr.{name}", "usd") for name in ("Usd", "UsdGeom", "UsdShade", "UsdSkel", "UsdLux", "Sdf", "Gf", "Vt"))
+        self.bake, self.every, self.skeletons, self.bare = bake, every, skeletons, bare
         self.stage = self.usd.Stage.CreateNew(path)
 
     def write(self) -> None:
@@ -68,7 +71,9 @@ class Stage:
         self.usd.ModelAPI(world.GetPrim()).SetKind("component")
         world.AddTranslateOp().Set(self.gf.Vec3d(*bake.origin.tolist()))
         self.material = self.painted()
-        self.surroundings()
+        if not self.bare:
+            self.surroundings()
+            add_staging(self)
         MovingThings(self).write()
         if self.skeletons:
             SkeletonCrowd(self, self.skeletons).write()
@@ -172,6 +177,8 @@ class Stage:
             self.vectors(self.tops[self.costume]))
         primvars.CreatePrimvar("personId", types.IntArray, self.geom.Tokens.vertex).Set(
             self.vt.IntArray.FromNumpy(rows.astype(numpy.int32)))
+        primvars.CreatePrimvar("crypto_object", types.StringArray, self.geom.Tokens.vertex).Set(
+            self.vt.StringArray([f"{self.bake.name}/{row:05d}" for row in rows]))
         self.sizes = numpy.clip(people["radius"] / USUAL_RADIUS, *SIZES)
         if "scale" in people.dtype.names:
             self.sizes = numpy.where(numpy.isfinite(people["scale"]), self.sizes * people["scale"], self.sizes)
