@@ -2,12 +2,13 @@
 """What is in files besides people who walk: seats and those in them, vehicles with wheels and doors, floors and lifts,
 and heads that look."""
 import json
+import subprocess
 
 import numpy
 import pytest
 
 import throng_io
-from conftest import khronos_issues
+from conftest import ROOT, blender_module, khronos_issues
 from glb_reader import Glb, z_up
 from posed_people import expected, off
 from throng_io import cli
@@ -305,3 +306,43 @@ def test_heads_look_where_the_bake_says(made, bodies, monkeypatch):
         hips = carried.bent(member, repertoire, track)[:, 0] - motions.matrices_of(member.poses, repertoire, track)[:, 0]
         assert numpy.abs(hips).max() < 1e-9  # these stay
     assert looked > 0.8
+
+
+# ---- in Blender
+
+@pytest.fixture
+def opened():
+    """(file, frames of the bake) gives what a current Blender makes of it."""
+    command = blender_module()
+
+    def run(path, frames):
+        script = ROOT / "tests" / "blender" / "check_usd.py"
+        given = command(script, [str(path), *(str(frame + 1) for frame in frames)], None, True)
+        process = subprocess.run(given, capture_output=True, text=True)
+        assert process.returncode == 0, process.stderr[-2000:]
+        return json.loads(next(line for line in process.stdout.splitlines() if line.startswith("RESULT "))[7:])
+    return run
+
+
+@pytest.mark.parametrize("name", ["seats", "tram", "house"])
+def test_blender_has_everything_where_it_is(made, opened, name):
+    bake, folder = made(name)
+    frames = [20, 100, 140, 410][:3 if name == "seats" else 4]
+    for frame, shot in zip(frames, opened(folder / "crowd.usdc", frames)):
+        there = bake.there(frame)
+        people = numpy.array(shot["people"]).reshape(-1, 3)
+        wanted = bake.world(frame)[there]
+        assert len(people) == len(wanted)
+        near = 6e-4 if name == "tram" else 1e-4  # m: 5 km away, numbers of Blender are that far apart
+        for person in people:
+            assert numpy.linalg.norm(wanted - person, axis=1).min() < near
+        places = {key.rpartition("/")[2]: place for key, (place, _) in shot["things"].items()}
+        if name == "tram":
+            track = numpy.load(bake.folder / "vehicles.npy")[frame, 0]
+            assert numpy.abs(places["tram0000"] - (bake.origin + track[:3])).max() < near
+        if name == "house":
+            height = numpy.load(bake.folder / "lifts.npy")[frame, 0, 0]
+            assert numpy.abs(numpy.array(places["cabin"]) - [0, 4.5, height]).max() < 1e-4
+            assert {"terrain", "cabin", "left_leaf", "right_leaf"} <= set(places)
+        if name == "seats":
+            assert {"stand0", "seats0"} <= set(places)
