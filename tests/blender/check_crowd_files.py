@@ -9,6 +9,7 @@ import bpy
 import numpy
 
 sys.path.insert(0, os.path.dirname(__file__))
+os.environ.pop("THRONG_BODIES", None)  # people who are made without a library come in a tenth of the time
 from asking import refused  # noqa: E402
 
 addon, bake, folder = sys.argv[-3:]

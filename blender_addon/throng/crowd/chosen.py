@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Which of a crowd's people go into a file, as their streams tell: who is there in some frames, and how near they come
-to a place."""
+to a camera."""
 import os
+from dataclasses import dataclass
 
 import bpy
 import numpy
@@ -11,7 +12,9 @@ from . import own
 from .queries import absolute, figure
 
 _HEADER = 32  # bytes of a point cache before its numbers
-SHARE = 2 ** 24  # numbers that are looked at together
+SHARE = 2 ** 22  # numbers that are looked at together
+OUT = 1e6        # m, that who is not in the picture counts as further away
+_MIDDLE, _MARGIN = 1.0, 1.0  # m: of a person over the ground, and round the picture
 
 
 class Streams:
@@ -50,12 +53,13 @@ class Streams:
             before = there[-1]
         return total
 
-    def nearest(self, place):
-        """How near everybody comes to a place on the ground, m; infinity for who is never there."""
+    def nearest(self, view):
+        """How near everybody comes to a camera, m: those who are in its view for a while before all others; infinity
+        for who is never there."""
         state, pos = self._open("state"), self._open("pos")
         found = numpy.full(self.people, numpy.inf)
         for frames in self._pieces():
-            away = numpy.linalg.norm(pos[frames][:, :, :2] - numpy.asarray(place[:2], numpy.float32), axis=2)
+            away = view.away(pos[frames])
             found = numpy.minimum(found, numpy.where(state[frames, :, 0] > 0.5, away, numpy.inf).min(axis=0))
         return found
 
@@ -63,11 +67,28 @@ class Streams:
         return self._open("state")[self.frames[-1], :, 1].astype(int)
 
 
-def rows_of(streams, most, place=None):
-    """At most so many of those who are there: the nearest to a place, or the first ones."""
+@dataclass(frozen=True)
+class View:
+    """Where a camera looks."""
+    place: tuple    # m
+    axes: tuple     # its own x, y and z in the world, as rows
+    reach: tuple    # half of what it sees at one metre, across and up
+
+    def away(self, places):
+        """m, of people (..., 3); more than OUT of those who are not in the picture, with a margin."""
+        steps = (places + (0.0, 0.0, _MIDDLE) - self.place) @ numpy.array(self.axes).T
+        ahead = -steps[..., 2]
+        inside = ahead > 0.0
+        for axis in (0, 1):
+            inside &= numpy.abs(steps[..., axis]) < ahead * self.reach[axis] + _MARGIN
+        return numpy.linalg.norm(steps, axis=-1) + numpy.where(inside, 0.0, OUT)
+
+
+def rows_of(streams, most, view=None):
+    """At most so many of those who are there: the nearest to a camera, or the first ones."""
     there = numpy.nonzero(streams.presence() > 0)[0]
-    if place is not None:
-        there = there[numpy.argsort(streams.nearest(place)[there], kind="stable")]
+    if view:
+        there = there[numpy.argsort(streams.nearest(view)[there], kind="stable")]
     return numpy.sort(there[:most])
 
 

@@ -8,9 +8,9 @@ import bpy
 import numpy
 
 from ..crowd import copies
-from ..crowd.chosen import Streams, rows_of, vertices_of
+from ..crowd.chosen import Streams, View, rows_of, vertices_of
 from ..crowd.queries import cast_of
-from . import export
+from . import culling, export
 
 LEVELS = {"fine": 0, "middle": 1, "far": 2}
 # Bytes of a file, measured: of a vertex in a frame (its place and velocity), of a vertex where people come or go (faces
@@ -32,7 +32,7 @@ class Plan:
         for crowd in crowds:
             streams = Streams(crowd, first, last)
             presence = streams.presence()
-            rows = rows_of(streams, wanted.most, wanted.near)
+            rows = rows_of(streams, wanted.most, wanted.view)
             self.rows[crowd] = rows
             self.there += int((presence > 0).sum())
             self.people += len(rows)
@@ -65,9 +65,19 @@ class Plan:
 class Wanted:
     """What goes into a file."""
 
-    def __init__(self, bodies=True, points=True, setting=False, most=100, detail="fine", near=None):
+    def __init__(self, bodies=True, points=True, setting=False, most=100, detail="fine", view=None):
         self.bodies, self.points, self.setting = bodies, points, setting
-        self.most, self.detail, self.near = most, detail, near
+        self.most, self.detail, self.view = most, detail, view
+
+
+def view_of(scene):
+    """Of the scene's camera as it is now, where there is one."""
+    camera = scene.camera
+    if not camera or camera.type != "CAMERA":
+        return None
+    matrix = camera.matrix_world
+    return View(tuple(matrix.translation), tuple(tuple(axis.normalized()) for axis in matrix.to_3x3().col),
+                culling.field_of_view(camera, scene))
 
 
 def megabytes(size):

@@ -9,7 +9,7 @@ from bpy_extras.io_utils import ExportHelper
 from ..blender.polls import available
 from ..crowd.queries import OnCrowds, chosen_crowds
 from ..formats import BakeError
-from .export_files import Plan, Unwritten, Wanted, megabytes, there, write
+from .export_files import Plan, Unwritten, Wanted, megabytes, there, view_of, write
 
 
 class ExportsCrowds(ExportHelper):
@@ -25,8 +25,8 @@ class ExportsCrowds(ExportHelper):
                          description="For each person a small arrow, which has what the streams say as maps of UV")
     setting: BoolProperty(name="Set", default=False, description="All other meshes, cameras and lights of the scene")
     most: IntProperty(name="Most People", default=100, min=1, soft_max=20000,
-                      description="At most so many: those who come nearest to the camera, or the first ones where the "
-                                  "scene has none")
+                      description="At most so many: those who come nearest to the camera in its picture, or the first "
+                                  "ones where the scene has none")
     detail: EnumProperty(name="Detail", items=[
         ("fine", "Fine", "As near the camera: bent into the pose of the moment where the crowd has bones"),
         ("middle", "Middle", "A third of the triangles, where the crowd has levels of detail"),
@@ -47,10 +47,9 @@ class ExportsCrowds(ExportHelper):
             raise Unwritten(f"the last frame ({self.frame_end}) is before the first one ({self.frame_start})")
         if not (self.bodies or self.points):
             raise Unwritten("nothing is asked for: neither bodies nor points")
-        camera = context.scene.camera
-        near = tuple(camera.matrix_world.translation) if camera else None
+        view = view_of(context.scene)
         return Plan(chosen_crowds(context), self.frame_start, self.frame_end,
-                    Wanted(self.bodies, self.points, self.setting, self.most, self.detail, near))
+                    Wanted(self.bodies, self.points, self.setting, self.most, self.detail, view))
 
     def draw(self, context):
         layout = self.layout
