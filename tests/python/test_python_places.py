@@ -303,7 +303,7 @@ def test_heads_look_where_the_bake_says(made, bodies, monkeypatch):
         assert numpy.abs(yaw - 0.8 * (0.9 + 0.25)).max() < 0.05
         assert numpy.abs(pitch - 0.8 * 0.3).max() < 0.05
         looked = max(looked, float(yaw.max()))
-        hips = carried.bent(member, repertoire, track)[:, 0] - motions.matrices_of(member.poses, repertoire, track)[:, 0]
+        hips = (carried.bent(member, repertoire, track) - motions.matrices_of(member.poses, repertoire, track))[:, 0]
         assert numpy.abs(hips).max() < 1e-9  # these stay
     assert looked > 0.8
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What moves besides people: vehicles with their wheels and doors, cabins of lifts and the doors of their stops. Metres;
-a thing's own x is where it looks, and z is up."""
+"""What moves besides people: vehicles with their wheels and doors, cabins of lifts and the doors of their stops.
+Metres; a thing's own x is where it looks, and z is up."""
 from __future__ import annotations
 
 import dataclasses

@@ -90,10 +90,9 @@ def _stand_of(number: int, block: dict, origin: numpy.ndarray) -> list[Thing]:
         steps += [[tuple(points[corner]) for corner in side] for side in sides]
         seats += [face for place, along in seat_rows.seats_of(block, row)
                   for face in seat_rows.seat_faces(place, along, height, seat_rows.SIDE * float(block["width"]))]
-    name = block.get("id")
-    return [Thing(f"Stands/{kind}{number}", points - origin, faces, GREY[colour], name)
-            for kind, colour, (points, faces) in (("stand", "stands", _joined(steps)), ("seats", "seats", _joined(seats)))
-            if faces]
+    kinds = (("stand", "stands", _joined(steps)), ("seats", "seats", _joined(seats)))
+    return [Thing(f"Stands/{kind}{number}", points - origin, faces, GREY[colour], block.get("id"))
+            for kind, colour, (points, faces) in kinds if faces]
 
 
 def _terrain_of(told: dict[str, Any], folder: pathlib.Path) -> Thing:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How trunks turn and lean and heads look, as a bake's streams say, on top of the poses: as the add-on bends people near
-the camera (blender_addon/throng/crowd/trunks.py and heads.py), as numbers."""
+"""How trunks turn and lean and heads look, as a bake's streams say, on top of the poses: as the add-on bends people
+near the camera (blender_addon/throng/crowd/trunks.py and heads.py), as numbers."""
 from __future__ import annotations
 
 import numpy

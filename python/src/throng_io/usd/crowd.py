@@ -53,7 +53,8 @@ def export_usd(bake: Bake, path: str | os.PathLike, every: int = 1, skeletons: S
 class Stage:
     def __init__(self, bake: Bake, path: str, every: int, skeletons: Skeletons | None, bare: bool):
         self.usd, self.geom, self.shade, self.skel, self.lux, self.sdf, self.gf, self.vt = (
-            need(f"pxr.{name}", "usd") for name in ("Usd", "UsdGeom", "UsdShade", "UsdSkel", "UsdLux", "Sdf", "Gf", "Vt"))
+            need(f"pxr.{name}", "usd")
+            for name in ("Usd", "UsdGeom", "UsdShade", "UsdSkel", "UsdLux", "Sdf", "Gf", "Vt"))
         self.bake, self.every, self.skeletons, self.bare = bake, every, skeletons, bare
         self.stage = self.usd.Stage.CreateNew(path)
 
@@ -205,8 +206,8 @@ class Stage:
             attributes["Extent"].Set(self.extent(here[there], self.sizes[there]), time)
 
     def poses(self, frame: int) -> numpy.ndarray:
-        """The prototype of everybody: who walks has the pose of its phase, in the gait of its stride; who has a seat that
-        of what it does."""
+        """The prototype of everybody: who walks has the pose of its phase, in the gait of its stride; who has a seat
+        that of what it does."""
         state = self.bake.state[frame]
         activity = numpy.floor(state[:, 0] + 1e-4)
         gait = numpy.rint(16 * (state[:, 0] - activity)).astype(int)

@@ -103,7 +103,8 @@ class _Side:
 def _body(sides: list[_Side], waist: Vector, chest: Vector, neck: Vector, head: Vector) -> Mesh:
     parts = []
     for side in sides:
-        parts += [_limb(TROUSERS, side.hip, side.knee, 0.095, 0.065), _limb(TROUSERS, side.knee, side.ankle, 0.062, 0.042),
+        parts += [_limb(TROUSERS, side.hip, side.knee, 0.095, 0.065),
+                  _limb(TROUSERS, side.knee, side.ankle, 0.062, 0.042),
                   _limb(SHOES, side.ankle, side.toe, 0.045, 0.035),
                   _limb(TOP, side.shoulder, side.elbow, 0.057, 0.045), _limb(SKIN, side.elbow, side.hand, 0.042, 0.038)]
     parts.append(_scaled(_limb(TOP, waist, chest, 0.115, 0.13), 0.5 * (chest + waist),
@@ -163,5 +164,5 @@ def _outwards(angle: float, aside: Vector, length: float) -> Vector:
 
 def seated_poses() -> list[tuple[str, Mesh]]:
     """All of them, in the order of cast.sitting.poses_of()."""
-    return [(f"{clip.name}{index}", seated_figure(number, index / (clip.poses - 1 if clip.there_and_back else clip.poses)))
+    return [(f"{clip.name}{index}", seated_figure(number, index / (clip.poses - clip.there_and_back)))
             for number, clip in enumerate(sitting.CLIPS) for index in range(clip.poses)]
