@@ -70,10 +70,36 @@ def mesh_of(thing):
             "colours": colours, "turns": [list(row)[:3] for row in thing.matrix_world][:3]}
 
 
+class Layout:
+    """What a dialog shows."""
+
+    def __init__(self):
+        self.lines, self.fields = [], []
+
+    def prop(self, _owner, name):
+        self.fields.append(name)
+
+    def label(self, text, icon):
+        self.lines.append(f"{icon}: {text}")
+
+
+def dialogue(**changes):
+    """What the dialog of an exporter says."""
+    shown = type("Dialogue", (export_operators.ExportsCrowds,), {})()
+    for name, value in {"frame_start": FIRST, "bodies": True, "points": True, "setting": False, "most": 1000,
+                        "detail": "fine", "layout": Layout(), **changes}.items():
+        setattr(shown, name, value)
+    shown.draw(bpy.context)
+    return [shown.layout.lines, shown.layout.fields]
+
+
 fresh()
+from throng.crowd.chosen import View  # noqa: E402
 from throng.tools import export_files, export_operators  # noqa: E402
 result = {"there": {operator.format_name: export_files.there(operator.exporter())
                     for operator in export_operators.CLASSES}}
+view = View((0.0, -10.0, 1.0), ((1.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.0, -1.0, 0.0)), (0.5, 0.3))  # along y
+result["away"] = view.away(numpy.array([[0.0, 0, 0], [4.0, 0, 0], [0.0, -20, 0], [8.0, 0, 0], [0.0, 0, 9]])).tolist()
 scene_with_crowd()
 alembic, usd = bpy.ops.throng.export_alembic, bpy.ops.throng.export_usd
 result["asked"] = {"Alembic": alembic.poll(), "USD": usd.poll()}
@@ -84,6 +110,7 @@ if result["there"]["Alembic"]:
     plan = export_files.Plan([thing for thing in bpy.context.scene.objects if "throng_cast" in thing], FIRST, LAST,
                              export_files.Wanted())
     result["told"] = list(plan.lines())
+    result["dialogue"] = [dialogue(frame_end=LAST), dialogue(frame_end=FIRST - 1)]
     open(path, "w").close()
     result["refused"] = [refused(alembic, filepath=os.path.join(folder, "none", "people.abc"), **wanted),
                          refused(alembic, filepath=folder, **wanted),

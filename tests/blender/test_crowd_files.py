@@ -99,6 +99,12 @@ def test_usd_by_blender_has_the_same(written):
     assert all(len(bodies_of(frame)["places"]) > SMALLEST for frame in found["usd"].values())
 
 
+def test_who_is_in_the_picture_comes_before_all_others(written):
+    found, _ = written
+    ahead, aside, behind, beside, above = found["away"]
+    assert ahead == 10.0 and 10.0 < aside < 11.0 and min(behind, beside, above) > 1e6
+
+
 def test_the_nearest_alone_and_the_set(alembic):
     found, (pos, _, _) = alembic
     for frame in found["few"].values():
@@ -118,6 +124,10 @@ def test_it_says_beforehand_what_it_takes(alembic):
     found, _ = alembic
     people, vertices, size = found["told"]
     assert people == "27 of 27 people, 29 frames" and "vertices a frame" in vertices and size.startswith("About ")
+    (lines, fields), (wrong, _) = found["dialogue"]
+    assert [line.removeprefix("INFO: ") for line in lines] == found["told"]
+    assert {"frame_start", "frame_end", "bodies", "points", "setting", "most", "detail"} == set(fields)
+    assert wrong == ["ERROR: the last frame (3) is before the first one (4)"]
     told, written_ = found["size"]
     assert abs(told / written_ - 1.0) < 0.25
 

@@ -7,7 +7,7 @@ from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
 from ..blender.polls import available
-from ..crowd.queries import OnCrowds, chosen_crowds
+from ..crowd.queries import OnCrowds, bake_path, chosen_crowds
 from ..formats import BakeError
 from .export_files import Plan, Unwritten, Wanted, megabytes, there, view_of, write
 
@@ -67,7 +67,8 @@ class ExportsCrowds(ExportHelper):
 
     def _told(self, context):
         """Looked up anew when something is changed: it reads the streams."""
-        key = (self.frame_start, self.frame_end, self.bodies, self.points, self.setting, self.most, self.detail)
+        key = (self.frame_start, self.frame_end, self.bodies, self.points, self.setting, self.most, self.detail,
+               view_of(context.scene), *(f"{crowd.name} {bake_path(crowd)}" for crowd in chosen_crowds(context)))
         if self._known[0] != key:
             type(self)._known = (key, tuple(self.plan(context).lines()))
         return self._known[1]
