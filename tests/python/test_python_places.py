@@ -280,6 +280,20 @@ def test_crowd_glb_has_stands_and_people_are_lower_while_they_sit(made):
             assert high == pytest.approx(0.76 if activity in (5, 6, 7) else 1.0, abs=1e-6) or activity == 8
 
 
+@pytest.mark.parametrize("name, things", [("seats", {"stand south", "seats south"}), ("house", {"lift lift"})])
+def test_they_stay_where_overrides_are_applied(made, throng, tmp_path, name, things):
+    bake, _ = made(name)
+    (tmp_path / "none.json").write_text('{"throng_overrides": 1, "overrides": []}')
+    throng("apply", bake.folder, "--overrides", tmp_path / "none.json", "-o", tmp_path / "final", "-q", "--gltf", "yes")
+    before, after = (Glb(folder / "crowd.glb") for folder in (bake.folder, tmp_path / "final"))
+    assert things <= set(after.named) and set(before.named) == set(after.named)
+    for frame in (0, 77, 140):
+        poses = [each.sampled(each.animation("crowd"), frame / bake.fps) for each in (before, after)]
+        for thing in things | {"person 0"}:
+            places = [each.place_of(each.named[thing], pose) for each, pose in zip((before, after), poses)]
+            assert numpy.abs(places[0] - places[1]).max() < 1e-6
+
+
 # ---- heads
 
 def test_heads_look_where_the_bake_says(made, bodies, monkeypatch):
