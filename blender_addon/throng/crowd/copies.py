@@ -2,7 +2,6 @@
 """Copies of a crowd that exporters know: everybody's body as one mesh, and everybody as a small arrow that says of them
 what the streams do. A crowd is left as it is; whoever makes copies throws them away (drop)."""
 import bpy
-import numpy
 
 from ..blender.modifiers import move_modifier
 from ..blender.nodes import Maths, drop_object, drop_tree, new_tree, socket
@@ -181,10 +180,3 @@ def _on_corners(maths, arrows, name, kind):
     maths.link(arrows, node.inputs["Geometry"])
     maths.link(maths.attribute(name, "FLOAT_VECTOR"), socket(node.inputs, "Value"))
     return node.outputs[0]
-
-
-def corners_of(mesh, name):
-    """What the arrows of a mesh say: P x 2, of a map of UV. For whoever reads such a file in Blender."""
-    values = numpy.empty(2 * len(mesh.loops), numpy.float32)
-    mesh.uv_layers[name].data.foreach_get("uv", values)
-    return values.reshape(-1, len(ARROW), 2)[:, 0]
