@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "base/activities.h"
 
@@ -101,17 +102,28 @@ void writeScales(OutputFile& file, const Tile& states, std::size_t i, std::uint3
 
 }  // namespace
 
-void findScaledRows(const StreamReader& states, std::vector<TrackRow>& rows) {
+void findScaledRows(const StreamSet& streams, std::vector<TrackRow>& rows) {
+    const StreamReader& states = streams[Stream::state];
+    if (rows.empty() || states.frames() == 0) return;
     std::vector<float> values(std::size_t{states.rows()} * kComponents);
+    for (TrackRow& row : rows)
+        row.stays = true;
     for (std::uint32_t frame = 0; frame < states.frames(); ++frame) {
         states.readFrame(frame, values);
+        for (TrackRow& row : rows) {
+            const float state = values[std::size_t{row.row} * kComponents];
+            row.has_scales = row.has_scales || state <= 0.5f || hasSeat(state);
+            row.stays = row.stays && hasSeat(state);
+        }
+    }
+    for (const auto& [stream, told] :
+         {std::pair(Stream::pos, &TrackRow::place), std::pair(Stream::dir, &TrackRow::direction)}) {
+        streams[stream].readFrame(0, values);
         for (TrackRow& row : rows)
-            if (const float state = values[std::size_t{row.row} * kComponents];
-                state <= 0.5f || hasSeat(state))
-                row.has_scales = true;
+            std::copy_n(values.begin() + std::ptrdiff_t{row.row} * std::ptrdiff_t{kComponents}, kComponents,
+                        (row.*told).begin());
     }
 }
-
 void writeTracks(OutputFile& file, const StreamSet& streams, const std::vector<TrackRow>& rows) {
     const std::uint32_t frames = streams.frames();
     if (rows.empty() || frames == 0) return;
@@ -123,8 +135,10 @@ void writeTracks(OutputFile& file, const StreamSet& streams, const std::vector<T
         const Tile directions(streams[Stream::dir], tile);
         const Tile states(streams[Stream::state], tile);
         for (std::size_t i = 0; i < tile.size(); ++i) {
-            writeTranslations(file, positions, i, frames);
-            writeRotations(file, directions, i, frames);
+            if (!tile[i].stays) {
+                writeTranslations(file, positions, i, frames);
+                writeRotations(file, directions, i, frames);
+            }
             if (tile[i].has_scales) writeScales(file, states, i, frames, tile[i]);
         }
     }

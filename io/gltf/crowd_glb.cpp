@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
 #include "base/files/output_file.h"
@@ -168,9 +169,15 @@ void addPeople(GlbDocument& document, const recording::BakeDescription& descript
     const int people = rows.empty() ? -1 : document.addEmptyNode("people");
     const int times = document.addTimes(frames, description.fps);
     for (const TrackRow& row : rows) {
-        document.addAnimatedNode(people, "person " + std::to_string(row.row),
-                                 bodies.of(description.agents.at(row.row)), row.width_scale, row.height_scale,
-                                 times, frames, row.has_scales);
+        const std::string name = "person " + std::to_string(row.row);
+        const int body = bodies.of(description.agents.at(row.row));
+        const auto& [x, y, z] = row.place;
+        if (row.stays)
+            document.addSeatedNode(people, name, body, {double{x}, double{z}, -double{y}},
+                                   std::atan2(row.direction[1], row.direction[0]), times, frames);
+        else
+            document.addAnimatedNode(people, name, body, row.width_scale, row.height_scale, times, frames,
+                                     row.has_scales);
     }
     vehicles.addNodes(document, times);
     lifts.addNodes(document, times);
@@ -188,7 +195,7 @@ GltfSummary writeCrowdGlb(const std::filesystem::path& path, const recording::Ba
         rows.push_back({row, static_cast<float>(agent.scale * agent.radius / kBodyRadius),
                         static_cast<float>(agent.scale), false});
     }
-    findScaledRows(streams[Stream::state], rows);
+    findScaledRows(streams, rows);
 
     GlbDocument document = documentFor(description);
     addScenery(document, description);

@@ -277,6 +277,10 @@ def test_crowd_glb_has_stands_and_people_are_lower_while_they_sit(made):
         for row in seated(bake):
             high = pose[glb.named[f"person {row}"], "scale"][1]
             activity = int(bake.state[frame, row, 0])
+            place = glb.place_of(glb.named[f"person {row}"], pose)
+            assert numpy.abs(z_up(place[None, :3, 3])[0] - bake.pos[frame, row]).max() < 1e-5
+            ahead = z_up(place[None, :3, 0])[0][:2] / numpy.linalg.norm(place[:3, 0])
+            assert numpy.abs(ahead - bake.dir[frame, row, :2]).max() < 1e-5
             assert high == pytest.approx(0.76 if activity in (5, 6, 7) else 1.0, abs=1e-6) or activity == 8
 
 
