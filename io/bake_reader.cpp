@@ -294,6 +294,41 @@ void readDoorList(const ManifestReader& reader, Bake& bake) {
         reader.fail("/doors/list", "as many as there are vehicles");
 }
 
+void readLiftList(const ManifestReader& reader, Bake& bake) {
+    if (!reader.has("/lifts")) return;
+    reader.each("/lifts/list", [&](const ManifestReader& each) {
+        const auto angle = [](const ManifestReader& of) { return of.number("/doors", -720.0, 720.0); };
+        LiftIdentity lift{
+            each.text("/id"),
+            {each.number("/at/0", -kFurthest, kFurthest), each.number("/at/1", -kFurthest, kFurthest)},
+            {each.length("/size/0"), each.length("/size/1")},
+            angle(each),
+            each.length("/door_width"),
+            static_cast<std::uint32_t>(each.count("/capacity", 100000)),
+            {}};
+        each.each("/stops", [&](const ManifestReader& stop) {
+            lift.stops.push_back(
+                {stop.text("/level"), stop.number("/height", -kFurthest, kFurthest), angle(stop)});
+        });
+        bake.lifts.push_back(std::move(lift));
+    });
+}
+
+void readSeats(const ManifestReader& reader, Bake& bake) {
+    if (!reader.has("/geometry/seats")) return;
+    reader.each("/geometry/seats", [&](const ManifestReader& block) {
+        recording::BakeSeats seats{block.text("/id"),
+                                   block.length("/pitch"),
+                                   block.length("/width"),
+                                   block.number("/rise", 0.0, kFurthest),
+                                   {}};
+        block.each("/rows", [&](const ManifestReader& row) {
+            seats.rows.push_back({row.points("/line", 2), row.number("/height", -kFurthest, kFurthest)});
+        });
+        bake.seats.push_back(std::move(seats));
+    });
+}
+
 void readExtent(const ManifestReader& reader, Bake& bake) {
     bake.fps = reader.number("/fps", kLeastRate, kMostRate);
     bake.frames = reader.count("/frames");
@@ -392,6 +427,8 @@ Bake bakeOf(ManifestFile file) {
     readTraffic(reader, bake);
     readVehicleList(reader, bake);
     readDoorList(reader, bake);
+    readLiftList(reader, bake);
+    readSeats(reader, bake);
     bake.account = {reader.count("/account/agents"), reader.count("/account/spawned"),
                     reader.count("/account/walking"), reader.count("/account/arrived"),
                     reader.count("/account/refused")};

@@ -11,8 +11,10 @@
 #include "authoring/layout.h"
 #include "base/door_track.h"
 #include "base/files/errors.h"
+#include "base/lift_track.h"
 #include "base/vehicle_track.h"
 #include "io/streams/stream_format.h"
+#include "recording/bake_description.h"
 
 namespace throng::io {
 
@@ -37,6 +39,8 @@ struct Bake {
     authoring::Traffic traffic;  ///< lanes, crossings and signals
     std::vector<VehicleIdentity> vehicles;
     std::vector<DoorIdentity> doors;  ///< per vehicle; empty: there is no such file
+    std::vector<LiftIdentity> lifts;
+    std::vector<recording::BakeSeats> seats;
     /// Floors above each other, if there are any; then also the lowest and highest ground along each wall, m.
     std::vector<authoring::Level> levels;
     std::vector<authoring::Link> links;

@@ -308,7 +308,7 @@ BakeOutcome BakeWriter::writeAll(const Account& account, const BakeTiming& timin
         outcome.gltf = writeCrowdGlb(folder_->path() / files.back(), description_,
                                      {folder_->path(), description_.streams(), description_.formats, frames_,
                                       static_cast<std::uint32_t>(description_.agents.size())},
-                                     {vehicles, door_track_});
+                                     {{vehicles, door_track_}, {liftsOf(description_), lift_track_}});
     }
     for (const std::string& file : files)
         outcome.files.push_back({file, hashFile(folder_->path() / file)});

@@ -12,22 +12,42 @@ void writeLifts(const std::filesystem::path& path, std::span<const float> track,
     writeTrack(path, track, {frames, lifts, kLiftFloats});
 }
 
-Json liftsToJson(const recording::BakeDescription& description) {
-    Json list = Json::array();
+std::vector<float> readLifts(const Bake& bake) {
+    return readTrack(bake.folder / kLiftFile, {bake.frames, bake.lifts.size(), kLiftFloats}, "lifts");
+}
+
+std::vector<LiftIdentity> liftsOf(const recording::BakeDescription& description) {
+    std::vector<LiftIdentity> lifts;
     for (const authoring::Link& link : description.lifts) {
         const authoring::Lift& lift = link.lift;
+        LiftIdentity made{link.id,
+                          lift.at - description.output_origin,
+                          lift.size,
+                          lift.doors,
+                          lift.door_width,
+                          static_cast<std::uint32_t>(lift.capacity.value_or(0)),
+                          {}};
+        for (std::size_t stop = 0; stop < lift.levels.size(); ++stop) {
+            const authoring::Level& level = description.levels.at(lift.levels[stop]);
+            made.stops.push_back({level.id, level.height, lift.doors + (lift.opposite[stop] ? 180.0 : 0.0)});
+        }
+        lifts.push_back(std::move(made));
+    }
+    return lifts;
+}
+
+Json liftsToJson(const std::vector<LiftIdentity>& lifts) {
+    Json list = Json::array();
+    for (const LiftIdentity& lift : lifts) {
         Json stops = Json::array();
-        for (std::size_t stop = 0; stop < lift.levels.size(); ++stop)
-            stops.push_back({{"level", description.levels.at(lift.levels[stop]).id},
-                             {"height", description.levels.at(lift.levels[stop]).height},
-                             {"doors", lift.doors + (lift.opposite[stop] ? 180.0 : 0.0)}});
-        const glm::dvec2 at = lift.at - description.output_origin;
-        list.push_back({{"id", link.id},
-                        {"at", {at.x, at.y}},
+        for (const LiftIdentity::Stop& stop : lift.stops)
+            stops.push_back({{"level", stop.level}, {"height", stop.height}, {"doors", stop.doors}});
+        list.push_back({{"id", lift.id},
+                        {"at", {lift.at.x, lift.at.y}},
                         {"size", {lift.size.x, lift.size.y}},
                         {"doors", lift.doors},
                         {"door_width", lift.door_width},
-                        {"capacity", lift.capacity.value_or(0)},
+                        {"capacity", lift.capacity},
                         {"stops", std::move(stops)}});
     }
     return {{"file", kLiftFile}, {"columns", kLiftColumns}, {"list", std::move(list)}};

@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <vector>
 
 #include "base/lift_track.h"
+#include "io/bake_reader.h"
 #include "recording/bake_description.h"
 
 namespace throng::io {
@@ -18,6 +20,11 @@ inline constexpr const char* kLiftFile = "lifts.npy";
 void writeLifts(const std::filesystem::path& path, std::span<const float> track, std::uint32_t frames,
                 std::size_t lifts);
 
-nlohmann::ordered_json liftsToJson(const recording::BakeDescription& description);
+std::vector<LiftIdentity> liftsOf(const recording::BakeDescription& description);
+
+/// Reads that file. Throws InputError.
+std::vector<float> readLifts(const Bake& bake);
+
+nlohmann::ordered_json liftsToJson(const std::vector<LiftIdentity>& lifts);
 
 }  // namespace throng::io

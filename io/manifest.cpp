@@ -288,7 +288,7 @@ Json bakeManifest(const recording::BakeDescription& description, const BakeOutco
         json["terrain"] = terrainToJson(*description.terrain, !description.levels.empty());
     if (!description.levels.empty()) json["levels"] = levelsToJson(description);
     if (!description.links.empty()) json["links"] = linksToJson(description);
-    if (!description.lifts.empty()) json["lifts"] = liftsToJson(description);
+    if (!description.lifts.empty()) json["lifts"] = liftsToJson(liftsOf(description));
     if (!description.vehicles.empty()) json["vehicles"] = vehiclesToJson(description.vehicles);
     if (!description.doors.empty()) json["doors"] = doorsToJson(description.doors);
     json["table"] = "agents.csv";

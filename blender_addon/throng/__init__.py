@@ -23,13 +23,13 @@ else:
     from .live import operators as live_operators, panel as live_panel
     from .motions import operators as motions_operators
     from .overrides import operators as overrides_operators
-    from .tools import cells, close, export, ground, levels, near, operators, staging
+    from .tools import cells, close, export, export_operators, ground, levels, near, operators, staging
     from .tools.export import glTF2_pre_export_callback  # noqa: F401, Blender's glTF exporter looks for it here
 
     # What registers classes of its own, in order: panels appear in it.
     _PARTS = (preferences, operators, staging, cells, levels, near, close, ground, properties, authoring_operators,
               bake_operator, overlay, panels, behaviour_panel, live_operators, live_panel, characters_operators,
-              motions_operators, overrides_operators, layers_operators, export)
+              motions_operators, overrides_operators, layers_operators, export_operators, export)
 
 
 def register():

@@ -5,6 +5,9 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <utility>
+
+#include "base/activities.h"
 
 namespace throng::io {
 namespace {
@@ -74,28 +77,53 @@ void writeRotations(OutputFile& file, const Tile& directions, std::size_t i, std
     file.write(std::as_bytes(std::span(track)));
 }
 
+/// How high somebody is, of its height: less in a seat.
+float uprightAt(std::span<const float, kComponents> state) {
+    constexpr float kSits = 0.76f;
+    if (!hasSeat(state[0])) return 1.0f;
+    const auto activity = static_cast<ActivityCode>(static_cast<int>(std::floor(state[0])));
+    if (activity == ActivityCode::cheers || activity == ActivityCode::sings) return 1.0f;
+    if (activity != ActivityCode::rises) return kSits;
+    const float phase = state[2] - std::floor(state[2]);
+    return kSits + (1.0f - kSits) * (1.0f - std::abs(2.0f * phase - 1.0f));
+}
+
 void writeScales(OutputFile& file, const Tile& states, std::size_t i, std::uint32_t frames,
                  const TrackRow& row) {
     std::vector<float> track;
     for (std::uint32_t frame = 0; frame < frames; ++frame) {
-        const bool alive = states.at(i, frame)[0] > 0.5f;
+        const auto state = states.at(i, frame);
+        const bool alive = state[0] > 0.5f;
         const float width = alive ? row.width_scale : 0.0f;
-        track.insert(track.end(), {width, alive ? row.height_scale : 0.0f, width});
+        track.insert(track.end(), {width, alive ? row.height_scale * uprightAt(state) : 0.0f, width});
     }
     file.write(std::as_bytes(std::span(track)));
 }
 
 }  // namespace
 
-void findDeadRows(const StreamReader& states, std::vector<TrackRow>& rows) {
+void findScaledRows(const StreamSet& streams, std::vector<TrackRow>& rows) {
+    const StreamReader& states = streams[Stream::state];
+    if (rows.empty() || states.frames() == 0) return;
     std::vector<float> values(std::size_t{states.rows()} * kComponents);
+    for (TrackRow& row : rows)
+        row.stays = true;
     for (std::uint32_t frame = 0; frame < states.frames(); ++frame) {
         states.readFrame(frame, values);
+        for (TrackRow& row : rows) {
+            const float state = values[std::size_t{row.row} * kComponents];
+            row.has_scales = row.has_scales || state <= 0.5f || hasSeat(state);
+            row.stays = row.stays && hasSeat(state);
+        }
+    }
+    for (const auto& [stream, told] :
+         {std::pair(Stream::pos, &TrackRow::place), std::pair(Stream::dir, &TrackRow::direction)}) {
+        streams[stream].readFrame(0, values);
         for (TrackRow& row : rows)
-            if (values[std::size_t{row.row} * kComponents] <= 0.5f) row.is_ever_dead = true;
+            std::copy_n(values.begin() + std::ptrdiff_t{row.row} * std::ptrdiff_t{kComponents}, kComponents,
+                        (row.*told).begin());
     }
 }
-
 void writeTracks(OutputFile& file, const StreamSet& streams, const std::vector<TrackRow>& rows) {
     const std::uint32_t frames = streams.frames();
     if (rows.empty() || frames == 0) return;
@@ -107,9 +135,11 @@ void writeTracks(OutputFile& file, const StreamSet& streams, const std::vector<T
         const Tile directions(streams[Stream::dir], tile);
         const Tile states(streams[Stream::state], tile);
         for (std::size_t i = 0; i < tile.size(); ++i) {
-            writeTranslations(file, positions, i, frames);
-            writeRotations(file, directions, i, frames);
-            if (tile[i].is_ever_dead) writeScales(file, states, i, frames, tile[i]);
+            if (!tile[i].stays) {
+                writeTranslations(file, positions, i, frames);
+                writeRotations(file, directions, i, frames);
+            }
+            if (tile[i].has_scales) writeScales(file, states, i, frames, tile[i]);
         }
     }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -14,7 +15,9 @@ struct TrackRow {
     std::uint32_t row = 0;
     float width_scale = 1.0f;   ///< of the body mesh, horizontally
     float height_scale = 1.0f;  ///< likewise, vertically
-    bool is_ever_dead = false;  ///< then it has a scale track, 0 while it is not alive
+    bool has_scales = false;    ///< a track of them: 0 while it is not alive, less high while it sits
+    bool stays = false;         ///< in a seat all the time: it has no tracks of places and turns, but
+    std::array<float, kComponents> place{}, direction{};  ///< as the streams have them
 };
 
 inline constexpr std::uint32_t kTranslationBytes = 3 * sizeof(float);
@@ -23,10 +26,11 @@ inline constexpr std::uint32_t kRotationBytes =
 inline constexpr std::uint32_t kScaleBytes = 3 * sizeof(float);
 inline constexpr std::uint32_t kLargestKeyBytes = kTranslationBytes + kRotationBytes + kScaleBytes;
 
-/// Marks the rows that are not alive in some frame.
-void findDeadRows(const StreamReader& states, std::vector<TrackRow>& rows);
+/// Marks the rows that are not alive in some frame, or have a seat, and those that stay in it.
+void findScaledRows(const StreamSet& streams, std::vector<TrackRow>& rows);
 
-/// Writes for each row in turn: its translations, its rotations and, if it is ever dead, its scales; Y up.
+/// Writes for each row in turn: its translations and rotations, if it does not stay, and its scales, if it
+/// has any; Y up.
 void writeTracks(OutputFile& file, const StreamSet& streams, const std::vector<TrackRow>& rows);
 
 }  // namespace throng::io

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
 #include "base/files/output_file.h"
@@ -22,6 +23,8 @@ constexpr double kGroundMargin = 5.0;  // m
 constexpr double kAreaHeight = 0.01;   // m
 constexpr double kRoadHeight = 0.02;   // m
 constexpr double kLaneHeight = 0.015;  // m
+
+constexpr double kSeat = 0.42, kBench = 0.4;  // m: high and deep
 
 constexpr std::uint64_t kLargestTracks = std::uint64_t{2'000} << 20;
 
@@ -48,12 +51,6 @@ GlbDocument documentFor(const recording::BakeDescription& description) {
 }
 
 /// From below the lowest ground along a wall to its height over the highest.
-Mesh raised(Mesh mesh, double base) {
-    for (glm::vec3& position : mesh.positions)
-        position.z += static_cast<float>(base);
-    return mesh;
-}
-
 void addWalls(GlbDocument& document, const recording::BakeDescription& description) {
     const int material = document.addMaterial("wall", colourFromHex(0xcfc8bb), 0.8);
     for (std::size_t i = 0; i < description.walls.size(); ++i) {
@@ -63,10 +60,27 @@ void addWalls(GlbDocument& document, const recording::BakeDescription& descripti
             description.terrain ? description.terrain->along_walls.at(i) : glm::dvec2(0.0);
         const double height = wall.height + ground.y - ground.x;
         document.addMeshNode("wall " + wall.id,
-                             raised(wall.closed ? closedWallMesh(points, height)
-                                                : openWallMesh(points, wall.thickness, height),
-                                    ground.x),
+                             raisedMesh(wall.closed ? closedWallMesh(points, height)
+                                                    : openWallMesh(points, wall.thickness, height),
+                                        ground.x),
                              material);
+    }
+}
+
+/// A step for each row of seats, and a bench on it.
+void addStands(GlbDocument& document, const recording::BakeDescription& description) {
+    if (description.seats.empty()) return;
+    const int stone = document.addMaterial("stand", colourFromHex(0x8f8d88), 0.9);
+    const int shell = document.addMaterial("seats", colourFromHex(0x38587f), 0.5);
+    for (const recording::BakeSeats& seats : description.seats) {
+        Mesh steps, benches;
+        for (const recording::BakeSeatRow& row : seats.rows) {
+            const std::vector<glm::dvec2> line = relative(row.line, description.output_origin);
+            if (row.height > kAreaHeight) append(steps, openWallMesh(line, seats.pitch, row.height));
+            append(benches, raisedMesh(openWallMesh(line, kBench, kSeat), row.height));
+        }
+        document.addMeshNode("stand " + seats.id, steps, stone);
+        document.addMeshNode("seats " + seats.id, benches, shell);
     }
 }
 
@@ -86,6 +100,7 @@ void addStreet(GlbDocument& document, const authoring::Traffic& traffic, glm::dv
 void addScenery(GlbDocument& document, const recording::BakeDescription& description) {
     const glm::dvec2 origin = description.output_origin;
     const int ground = document.addMaterial("ground", colourFromHex(0x9a978f), 0.95);
+    addStands(document, description);
     if (description.terrain) {
         document.addMeshNode("ground", terrainMesh(description), ground);
         return addWalls(document, description);
@@ -145,24 +160,33 @@ std::vector<std::uint32_t> chooseRows(std::uint32_t rows, std::uint32_t frames, 
 }
 
 void addPeople(GlbDocument& document, const recording::BakeDescription& description,
-               const std::vector<TrackRow>& rows, std::uint32_t frames, VehicleNodes& vehicles) {
+               const std::vector<TrackRow>& rows, std::uint32_t frames, VehicleNodes& vehicles,
+               LiftNodes& lifts) {
     const Bodies bodies = addBodies(document, description, rows);
     vehicles.addMeshes(document);
-    if (rows.empty() && vehicles.empty()) return;
+    lifts.addMeshes(document);
+    if (rows.empty() && vehicles.empty() && lifts.empty()) return;
     const int people = rows.empty() ? -1 : document.addEmptyNode("people");
     const int times = document.addTimes(frames, description.fps);
     for (const TrackRow& row : rows) {
-        document.addAnimatedNode(people, "person " + std::to_string(row.row),
-                                 bodies.of(description.agents.at(row.row)), row.width_scale, row.height_scale,
-                                 times, frames, row.is_ever_dead);
+        const std::string name = "person " + std::to_string(row.row);
+        const int body = bodies.of(description.agents.at(row.row));
+        const auto& [x, y, z] = row.place;
+        if (row.stays)
+            document.addSeatedNode(people, name, body, {double{x}, double{z}, -double{y}},
+                                   std::atan2(row.direction[1], row.direction[0]), times, frames);
+        else
+            document.addAnimatedNode(people, name, body, row.width_scale, row.height_scale, times, frames,
+                                     row.has_scales);
     }
     vehicles.addNodes(document, times);
+    lifts.addNodes(document, times);
 }
 
 }  // namespace
 
 GltfSummary writeCrowdGlb(const std::filesystem::path& path, const recording::BakeDescription& description,
-                          const StreamSet& streams, const VehicleTracks& vehicle_tracks) {
+                          const StreamSet& streams, const MovingTracks& moving) {
     const std::uint32_t frames = streams.frames();
     const std::uint32_t all_rows = streams.rows();
     std::vector<TrackRow> rows;
@@ -171,17 +195,19 @@ GltfSummary writeCrowdGlb(const std::filesystem::path& path, const recording::Ba
         rows.push_back({row, static_cast<float>(agent.scale * agent.radius / kBodyRadius),
                         static_cast<float>(agent.scale), false});
     }
-    findDeadRows(streams[Stream::state], rows);
+    findScaledRows(streams, rows);
 
     GlbDocument document = documentFor(description);
     addScenery(document, description);
-    VehicleNodes vehicles(description, vehicle_tracks, frames);
-    addPeople(document, description, rows, frames, vehicles);
+    VehicleNodes vehicles(description, moving.vehicles, frames);
+    LiftNodes lifts(moving.lifts, frames);
+    addPeople(document, description, rows, frames, vehicles, lifts);
 
     OutputFile file(path);
     document.writeHead(file);
     writeTracks(file, streams, rows);
     vehicles.writeTracks(file);
+    lifts.writeTracks(file);
     if (file.position() != document.fileSize())
         throw OutputError(path, "came out with another size than its header says");
     file.finish();

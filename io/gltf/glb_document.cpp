@@ -201,6 +201,16 @@ int GlbDocument::addAnimatedNode(int parent, const std::string& name, int mesh, 
     return index;
 }
 
+void GlbDocument::addSeatedNode(int parent, const std::string& name, int mesh,
+                                const std::array<double, 3>& place, double turn, int times,
+                                std::uint32_t frames) {
+    const int node = addPlacedNode(parent, name, mesh, place);
+    model_->nodes[static_cast<std::size_t>(node)].rotation = {0.0, std::sin(0.5 * turn), 0.0,
+                                                              std::cos(0.5 * turn)};
+    addChannel(node, "scale", times, addTrack(12, frames, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3),
+               "STEP");
+}
+
 int GlbDocument::addPlacedNode(int parent, const std::string& name, int mesh,
                                const std::array<double, 3>& place) {
     tinygltf::Node node;

@@ -50,6 +50,9 @@ class GlbDocument {
     int addAnimatedNode(int parent, const std::string& name, int mesh, double width_scale,
                         double height_scale, int times, std::uint32_t frames, bool has_scales);
 
+    /// A person's node that stays where it is, turned about the vertical (rad). Announces a track of scales.
+    void addSeatedNode(int parent, const std::string& name, int mesh, const std::array<double, 3>& place,
+                       double turn, int times, std::uint32_t frames);
     /// A node that goes along with its parent. Returns it.
     int addPlacedNode(int parent, const std::string& name, int mesh, const std::array<double, 3>& place);
     /// Announces a track of a node's rotations, as those of addAnimatedNode().

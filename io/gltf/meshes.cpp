@@ -175,6 +175,31 @@ Mesh closedWallMesh(std::span<const glm::dvec2> polygon, double height) {
     return mesh;
 }
 
+Mesh raisedMesh(Mesh mesh, double height) {
+    for (glm::vec3& position : mesh.positions)
+        position.z += static_cast<float>(height);
+    return mesh;
+}
+
+Mesh turnedMesh(Mesh mesh, double angle) {
+    const double cosine = std::cos(angle), sine = std::sin(angle);
+    const auto turn = [&](glm::vec3& v) {
+        v = glm::vec3(static_cast<float>(cosine * v.x - sine * v.y),
+                      static_cast<float>(sine * v.x + cosine * v.y), v.z);
+    };
+    std::ranges::for_each(mesh.positions, turn);
+    std::ranges::for_each(mesh.normals, turn);
+    return mesh;
+}
+
+void append(Mesh& mesh, const Mesh& more) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(), more.positions.begin(), more.positions.end());
+    mesh.normals.insert(mesh.normals.end(), more.normals.begin(), more.normals.end());
+    for (const std::uint32_t index : more.indices)
+        mesh.indices.push_back(first + index);
+}
+
 Mesh bodyMesh() {
     constexpr std::uint32_t kSides = 10;
     constexpr std::uint32_t kRings = 8;  // from the south pole to the north pole

@@ -46,6 +46,12 @@ Mesh closedWallMesh(std::span<const glm::dvec2> polygon, double height);
 inline constexpr double kBodyRadius = 0.25;  ///< m
 inline constexpr double kBodyHeight = 1.75;  ///< m
 
+/// The same, higher.
+Mesh raisedMesh(Mesh mesh, double height);
+/// The same, turned counter-clockwise about the vertical, rad.
+Mesh turnedMesh(Mesh mesh, double angle);
+void append(Mesh& mesh, const Mesh& more);
+
 /// A person: an upright capsule on the ground with a nose that points along +X.
 Mesh bodyMesh();
 

@@ -19,12 +19,6 @@ constexpr int kSides = 16;                                      // of a wheel
 constexpr double kBicycleTyre = 0.04;                           // m
 constexpr double kLeaf = 0.05, kDoorLow = 0.3, kDoorTop = 2.3;  // m: thick, and over the ground
 
-Mesh between(Mesh mesh, double low) {
-    for (glm::vec3& position : mesh.positions)
-        position.z += static_cast<float>(low);
-    return mesh;
-}
-
 /// A hull whose ends narrow.
 Mesh hull(double length, double width, double low, double high) {
     const double x = 0.5 * length, y = 0.5 * width, cut = std::min(0.25 * width, 0.3);
@@ -36,7 +30,7 @@ Mesh hull(double length, double width, double low, double high) {
                                              {x - cut, y},
                                              {-x + cut, y},
                                              {-x, y - cut}}};
-    return between(closedWallMesh(outline, high - low), low);
+    return raisedMesh(closedWallMesh(outline, high - low), low);
 }
 
 /// A wheel's disc, lying on its side before it is put up.
@@ -53,14 +47,6 @@ Mesh wheelAt(double radius, double from, double to) {
     for (glm::vec3& normal : mesh.normals)
         normal = up(normal);
     return mesh;
-}
-
-void append(Mesh& mesh, const Mesh& more) {
-    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    mesh.positions.insert(mesh.positions.end(), more.positions.begin(), more.positions.end());
-    mesh.normals.insert(mesh.normals.end(), more.normals.begin(), more.normals.end());
-    for (const std::uint32_t index : more.indices)
-        mesh.indices.push_back(first + index);
 }
 
 Mesh axleMesh(const VehicleIdentity& vehicle) {
@@ -143,7 +129,7 @@ int VehicleNodes::leafMesh(GlbDocument& document, double width) {
     const double x = 0.245 * width, y = 0.5 * kLeaf;
     const std::array<glm::dvec2, 4> outline{{{-x, -y}, {x, -y}, {x, y}, {-x, y}}};
     const int material = document.addMaterial("door", colourFromHex(0x23282d), 0.3);
-    const Mesh mesh = between(closedWallMesh(outline, kDoorTop - kDoorLow), kDoorLow);
+    const Mesh mesh = raisedMesh(closedWallMesh(outline, kDoorTop - kDoorLow), kDoorLow);
     leaves_.emplace_back(width, document.addMesh("door", document.addGeometry(mesh), material));
     return leaves_.back().second;
 }

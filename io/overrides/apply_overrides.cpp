@@ -17,6 +17,7 @@
 #include "io/door_file.h"
 #include "io/gltf/crowd_glb.h"
 #include "io/gltf/terrain_file.h"
+#include "io/lift_file.h"
 #include "io/manifest.h"
 #include "io/overrides/applied_rows.h"
 #include "io/streams/stream_files.h"
@@ -215,10 +216,11 @@ class Application {
         const std::vector<float> vehicles =
             source_.vehicles.empty() ? std::vector<float>() : readVehicles(source_);
         const std::vector<float> doors = source_.doors.empty() ? std::vector<float>() : readDoors(source_);
+        const std::vector<float> lifts = source_.lifts.empty() ? std::vector<float>() : readLifts(source_);
         const GltfSummary summary =
             writeCrowdGlb(folder_.path() / "crowd.glb", description,
                           {folder_.path(), source_.streams, source_.formats, source_.frames, crowd_.rows()},
-                          {vehicles, doors});
+                          {{vehicles, doors}, {source_.lifts, lifts}});
         return {{"file", "crowd.glb"}, {"agents", summary.agents}, {"of", summary.of}};
     }
 
@@ -238,6 +240,7 @@ class Application {
         description.traffic = source_.traffic;
         description.vehicles = source_.vehicles;
         description.doors = source_.doors;
+        description.seats = source_.seats;
         const auto toWorld = [&](std::vector<glm::dvec2>& points) {
             for (glm::dvec2& point : points)
                 point += source_.origin;
@@ -248,6 +251,9 @@ class Application {
             toWorld(area.polygon);
         for (authoring::Wall& wall : description.walls)
             toWorld(wall.points);
+        for (recording::BakeSeats& seats : description.seats)
+            for (recording::BakeSeatRow& row : seats.rows)
+                toWorld(row.line);
         for (authoring::Lane& lane : description.traffic.lanes)
             toWorld(lane.points);
         for (authoring::Zebra& crossing : description.traffic.crossings)

@@ -28,54 +28,63 @@ std::string sealed(std::string_view content) {
     return file.append(content);
 }
 
-const test::SampleCrowd& crowd() {
-    static const test::SampleCrowd made([] {
-        test::SampleOptions options;
-        options.rows = 6;
-        options.frames = 8;
-        options.gltf = false;
-        options.diagram_every = 4;
-        return options;
-    }());
-    return made;
+/// @param formats the forms of its streams
+test::SampleCrowd crowdWith(const StreamFormats& formats) {
+    test::SampleOptions options;
+    options.rows = 6;
+    options.frames = 8;
+    options.gltf = false;
+    options.diagram_every = 4;
+    options.formats = formats;
+    return test::SampleCrowd(options);
+}
+
+/// In the forms that a checkpoint tells of: it says more of packed streams.
+const test::SampleCrowd& crowdOf(const io::Checkpoint& checkpoint) {
+    static const test::SampleCrowd usual = crowdWith(StreamFormats::standard());
+    static const test::SampleCrowd packed = crowdWith(readFormats("packed").formats);
+    return checkpoint.find("packed pos") ? packed : usual;
 }
 
 /// What a bake has written when it leaves its checkpoint.
-void leaveUnfinished(const recording::BakeDescription& description) {
+void leaveUnfinished(const test::SampleCrowd& crowd, const recording::BakeDescription& description) {
     std::filesystem::remove_all(io::BakeFolder::unfinishedPath(description.output));
     std::filesystem::remove_all(description.output);
     io::BakeWriter writer(description, nullptr);
-    crowd().writeTo(writer, 5);
+    crowd.writeTo(writer, 5);
     writer.save({});
 }
 
-void goOn(const recording::BakeDescription& description, const io::Checkpoint& checkpoint) {
+void goOn(const test::SampleCrowd& crowd, const recording::BakeDescription& description,
+          const io::Checkpoint& checkpoint) {
     io::BakeWriter writer(description, &checkpoint);
     recording::MotionRecorder recorder(description, [&](const Frame& frame) { writer.write(frame); });
     if (const auto* motion = checkpoint.find("motion")) recorder.restore(*motion);
     const std::uint32_t taken = recorder.framesTaken();
-    crowd().makeFrames(description.frames, [&](const Frame& frame) {
+    crowd.makeFrames(description.frames, [&](const Frame& frame) {
         if (frame.index < taken) return;
         writer.writeDiagram(frame);
         recorder.take(frame);
     });
     recorder.finish();
-    writer.finish(crowd().account(), {});
+    writer.finish(crowd.account(), {});
 }
 
 }  // namespace
 
 void fuzz::readOne(std::string_view input) {
-    const recording::BakeDescription description = crowd().description(folder() / "bake");
-    const std::filesystem::path unfinished = io::BakeFolder::unfinishedPath(description.output);
+    const std::filesystem::path output = folder() / "bake";
+    const std::filesystem::path unfinished = io::BakeFolder::unfinishedPath(output);
     std::filesystem::remove_all(unfinished);
     put(unfinished.filename() / "checkpoint.a",
         input.starts_with(kMagic) ? std::string(input) : sealed(input));
     const auto checkpoint = io::loadCheckpoint(unfinished);
     if (!checkpoint) return;
-    leaveUnfinished(description);
+    const test::SampleCrowd& crowd = crowdOf(*checkpoint);
+    const recording::BakeDescription description = crowd.description(output);
+    leaveUnfinished(crowd, description);
     try {
-        goOn(description, *checkpoint);
+        goOn(crowd, description, *checkpoint);
     } catch (const std::runtime_error&) {
         // One of another bake, in words.
     }

@@ -212,8 +212,20 @@ def streams(folders):
     yield b"POINTCACHE2\0" + struct.pack("<iiffi", 1, 0, 1, 1, 1000)
 
 
-def checkpoints():
-    """What io/checkpoint.cpp writes behind its header, for the bake of checkpoint.cpp: six people, eight frames."""
+CHECKPOINT_HEADER = 24  # bytes: the magic word, how long the content is, and its hash
+
+
+def checkpoints(build, folder):
+    """What io/checkpoint.cpp writes behind its header, for the bake of checkpoint.cpp: six people, eight frames. Some
+    are real ones, of streams in both kinds of forms."""
+    for number, words in enumerate((("packed=0", "checkpoint=5"), ("packed=1", "checkpoint=5"),
+                                    ("packed=1", "checkpoint=0"))):
+        made = subprocess.run([next(build.glob("tests/*/write_sample_bake")), folder / f"unfinished{number}", "agents=6",
+                               "frames=8", "diagrams=4", "gltf=-1", *words], check=True, capture_output=True, text=True)
+        for file in sorted(pathlib.Path(made.stdout.strip()).glob("checkpoint.*")):
+            yield file.read_bytes()
+            yield file.read_bytes()[CHECKPOINT_HEADER:]
+
     def piece(content):
         return struct.pack("<Q", len(content)) + content
 
@@ -280,7 +292,8 @@ DICTIONARIES = {
                         "zeroblob(",
                         "printf('%.*c', 1000000000, 'x')", "scenarios", "results", "batch", "WITHOUT ROWID",
                         "PRIMARY KEY"},
-    "checkpoint": lambda: {"THRONGC1", "first alive", "gaits walked", "diagrams", "motion", "seconds"},
+    "checkpoint": lambda: {"THRONGC1", "first alive", "gaits walked", "diagrams", "motion", "seconds", "packed pos",
+                           "packed dir", "packed state", "hash of pos", "hash of dir", "hash of state"},
     "bake": lambda: {"id,group,kind,radius,preferred_speed", "spawn_frame", "arrival_frame", "nan", "inf", "1e308",
                      "walking", "arrived",
                      "refused", "\\x93NUMPY\\x01\\x00", "'shape': ("},
@@ -295,7 +308,8 @@ def corpora(build, folder):
         "layout": [compact(layout) for layout in layouts() + wrong_layouts(9)],
         "scene": [compact(small(layout)) for layout in layouts() + wrong_layouts(40)],
         "settings": settings(), "family": families(), "overrides": overrides(), "terrain": terrains(),
-        "bake": folders, "analysis": folders, "streams": streams(baked), "packed": packed(), "checkpoint": checkpoints(),
+        "bake": folders, "analysis": folders, "streams": streams(baked), "packed": packed(),
+        "checkpoint": checkpoints(build, folder),
         "results": databases(folder), "calibration": calibrations(),
     }
 

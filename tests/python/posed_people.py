@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Where the points of a bake's people are, by the add-on's own modules: what files with skeletons give again."""
+import types
+
 import numpy
 
 from throng_io.cast import poses_of_build, skinning
 from throng_io.people import person
-from throng_io.skinned import members, motions
+from throng_io.skinned import carried as carried_
+from throng_io.skinned import chosen, members, motions
 
 
 def frames_of(bake, row):
@@ -13,14 +16,17 @@ def frames_of(bake, row):
 
 
 def model_of(bake, number, bodies, level=0):
-    """(points at rest, weights, poses) of a member."""
+    """(points at rest, weights, joints as carried.bent() takes them) of a member."""
     roles, _ = members.cast_of(bake)
     maker, repertoire = person.Maker(bodies, roles[number].person()), members.repertoire_of(bake)
     model = maker.model(level)
     every = maker.rig.all_matrices(poses_of_build(maker.rig.build, repertoire))
     leaders = skinning.leaders_of(bodies.parents, every[::7], maker.rig.leading())
     rest, weights = skinning.hinged(model.points, model.weights, leaders[0], every[::19])
-    return rest, weights, every[:, numpy.unique(leaders[0])]
+    used = numpy.unique(leaders[0])
+    names = ["stick" if bodies.bones[bone] == "Root" else bodies.bones[bone] for bone in used]
+    return rest, weights, types.SimpleNamespace(
+        joints=names, places=numpy.array([maker.rig.heads[bodies.bones[bone]] for bone in used]), poses=every[:, used])
 
 
 def in_the_world(bake, row, frame, points):
@@ -29,14 +35,15 @@ def in_the_world(bake, row, frame, points):
     return turned + bake.world(frame, row)
 
 
-def expected(bake, row, frame, bodies):
-    """Points of the add-on's person, in the world: bent as one is near the camera."""
+def expected(bake, row, frame, bodies, carried=True):
+    """Points of the add-on's person, in the world: bent as one is near the camera. @param carried with a trunk that
+    turns and a head that looks"""
     _, member_of = members.cast_of(bake)
-    rest, weights, poses = model_of(bake, member_of[row], bodies)
-    track = motions.Track(row, numpy.array([frame + 1]), bake.state[[frame], row].astype(float),
-                          bake.dir[[frame], row, 2], bake.stream("carriage")[[frame], row, 0])
-    bent = motions.matrices_of(poses, members.repertoire_of(bake), track)[0]
-    return in_the_world(bake, row, frame, person.skinned(rest, weights, bent[None])[0])
+    rest, weights, joints = model_of(bake, member_of[row], bodies)
+    streams = {name: each[:, 0] for name, each in chosen.streams_of(bake, numpy.array([frame]), [row]).items()}
+    track, repertoire = motions.track_of(row, numpy.array([frame + 1]), streams), members.repertoire_of(bake)
+    bent = carried_.bent(joints, repertoire, track) if carried else motions.matrices_of(joints.poses, repertoire, track)
+    return in_the_world(bake, row, frame, person.skinned(rest, weights, bent[:1])[0])
 
 
 def off(found, wanted):

@@ -205,3 +205,43 @@ def test_fewer_frames_are_as_right(crowd, tmp_path):
     both = bake.there(60)
     places = transforms(instancer, 63)[:, 3, :3]  # halfway from frame 60 to 64
     assert numpy.abs(places - 0.5 * (bake.pos[60] + bake.pos[64])[both]).max() < 1e-4
+
+
+def test_long_shots_are_in_files_of_their_own(crowd, tmp_path, capsys):
+    """Value clips: the same at every moment, also between two files."""
+    bake, whole = crowd
+    path = tmp_path / "long.usdc"
+    assert cli.main(["export-usd", str(bake.folder), "-o", str(path), "--chunk", "50", "--every", "2"]) == 0
+    names = {each.name for each in (tmp_path / "long.clips").iterdir()}
+    assert names == {"manifest.usda", *(f"{number:04d}.usdc" for number in range(1, -(-bake.frames // 50) + 1))}
+    assert cli.main(["export-usd", str(bake.folder), "-o", str(tmp_path / "one.usdc"), "--every", "2"]) == 0
+    stages = [Usd.Stage.Open(str(tmp_path / name)) for name in ("long.usdc", "one.usdc")]
+    first, second = (UsdGeom.PointInstancer(each.GetPrimAtPath("/World/Crowd")) for each in stages)
+    for time in (41, 49, 50, 50.5, 51, 52, 99.25, 101, 150.7, bake.frames - 1):
+        assert (transforms(first, time) == transforms(second, time)).all()
+        assert list(first.GetProtoIndicesAttr().Get(time)) == list(second.GetProtoIndicesAttr().Get(time))
+        assert list(first.GetInvisibleIdsAttr().Get(time)) == list(second.GetInvisibleIdsAttr().Get(time))
+    assert len(transforms(first, 101)) > 3
+    # what is there already is not replaced, and nothing of a second one is left
+    assert cli.main(["export-usd", str(bake.folder), "-o", str(tmp_path / "long.usdc"), "--chunk", "50"]) == 3
+    assert "is there already" in capsys.readouterr().err
+    assert {each.name for each in tmp_path.iterdir()} == {"long.usdc", "long.clips", "one.usdc"}
+
+
+def test_a_camera_sees_the_crowd_and_bare_stages_have_no_set(crowd, tmp_path):
+    bake, stage = crowd
+    camera = UsdGeom.Camera(stage.GetPrimAtPath("/World/Camera")).GetCamera(1)
+    frame = int(0.4 * (bake.frames - 1))
+    places = bake.world(frame)[bake.there(frame)]
+    seen = [camera.frustum.Intersects(type(camera.frustum.GetPosition())(*place.tolist())) for place in places]
+    assert sum(seen) > 0.6 * len(seen) and len(seen) > 3
+    walls = [shapely.Polygon(shape.exterior) for shape in bake.walls.values()]
+    assert not any(wall.contains(shapely.Point(*camera.frustum.GetPosition()[:2])) for wall in walls)
+    assert camera.focalLength == pytest.approx(0.36)  # tenths of a metre: 36 mm
+    lights = [prim.GetTypeName() for prim in stage.GetPrimAtPath("/World/Lights").GetChildren()]
+    assert lights == ["DistantLight", "DomeLight"]
+    names = UsdGeom.PrimvarsAPI(stage.GetPrimAtPath("/World/Crowd")).GetPrimvar("crypto_object").Get()
+    assert list(names) == [f"{bake.name}/{row:05d}" for row in range(bake.agents)]
+    assert cli.main(["export-usd", str(bake.folder), "-o", str(tmp_path / "bare.usda"), "--bare"]) == 0
+    bare = Usd.Stage.Open(str(tmp_path / "bare.usda"))
+    assert [prim.GetName() for prim in bare.GetPrimAtPath("/World").GetChildren()] == ["Looks", "Crowd"]

@@ -187,7 +187,7 @@ FLAT = numpy.concatenate([numpy.tile(numpy.eye(3), (REPERTOIRE.count, 1, 1, 1)),
 
 def pose_at(state, phase=0.0, walking=1.0, row=0, time=0.0):
     track = motions.Track(row, numpy.array([time]), numpy.array([[state, 0.0, phase]]), numpy.array([0.0]),
-                          numpy.array([walking]))
+                          numpy.array([[walking, 0.0, 0.0]]))
     return motions.matrices_of(FLAT, REPERTOIRE, track)[0, 0, 0, 3]
 
 

@@ -71,7 +71,7 @@ def test_pixels_are_points_of_the_cast(written, bodies, monkeypatch, kind):
     monkeypatch.setenv("THRONG_BODIES", str(bodies))
     told = json.loads((folders[kind] / "crowd.json").read_text())
     member, = told["textures"]["members"].values()
-    rest, weights, poses = model_of(bake, 0, members.bodies_of_library(), level=2)
+    rest, weights, joints = model_of(bake, 0, members.bodies_of_library(), level=2)
     repertoire = members.repertoire_of(bake)
     every = {clip.name: clip for clip in clips.clips_of(repertoire, bake.fps)}
     assert set(every) == set(member["clips"]) == {clip["name"] for clip in told["clips"]}
@@ -81,7 +81,7 @@ def test_pixels_are_points_of_the_cast(written, bodies, monkeypatch, kind):
         looks = pixels_of(folders[kind] / files["normal"], -1.0, numpy.ones(3))
         assert places.shape == looks.shape == (clip["keys"] * member["rows"], member["width"], 3)
         assert numpy.abs(numpy.linalg.norm(looks, axis=2) - 1).max() < 2e-3
-        wanted = person.skinned(rest, weights, clips.poses_of_clip(every[clip["name"]], poses, repertoire))
+        wanted = person.skinned(rest, weights, clips.poses_of_clip(every[clip["name"]], joints.poses, repertoire))
         for key in (0, clip["keys"] // 2, clip["keys"] - 1):
             assert off(places[key], wanted[key][:, OWN]) < ALLOWED[kind]
             assert numpy.abs(places[key].max(axis=0) - wanted[key][:, OWN].max(axis=0)).max() < ALLOWED[kind]

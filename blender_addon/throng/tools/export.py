@@ -11,7 +11,7 @@ from ..blender.panels import Below
 from ..crowd.queries import ChangesCrowds, OnCrowds, changed_crowds, crowd_objects
 
 MODIFIER = "throng realize"
-_WHERE = "Realize for Export (sidebar, Throng, To Other Programs) before"
+_WHERE = "Realize for Export before, or Export Crowd instead (sidebar, Throng, To Other Programs)"
 # What each exporter makes of people who are instances.
 LEAVE_OUT = {"WM_OT_usd_export": f"USD gets no bodies of people: {_WHERE}",
              "WM_OT_alembic_export": f"Alembic gets no bodies of people: {_WHERE}",
@@ -29,7 +29,7 @@ def instanced(scene):
     return [crowd for crowd in crowd_objects(scene) if not is_realised(crowd)]
 
 
-def _tree():
+def realising_tree():
     found = own_tree("Throng realize")
     if found:
         return found
@@ -45,7 +45,7 @@ def _tree():
 def realise(crowd, wanted):
     """Makes everybody's pose a part of one mesh, which every exporter knows; or instances again."""
     if wanted and not is_realised(crowd):
-        crowd.modifiers.new(MODIFIER, "NODES").node_group = _tree()
+        crowd.modifiers.new(MODIFIER, "NODES").node_group = realising_tree()
     elif not wanted and is_realised(crowd):
         crowd.modifiers.remove(crowd.modifiers[MODIFIER])
     crowd.update_tag()
@@ -151,6 +151,9 @@ class VIEW3D_PT_throng_export(OnCrowds, Below, bpy.types.Panel):
         else:
             _wrapped(layout, "People are realised: slow, and nobody can be picked", "INFO")
         _wrapped(layout, "glTF: take the bake's crowd.glb, in which people walk", "INFO")
+        column = layout.column(align=True)
+        for operator in ("throng.export_alembic", "throng.export_usd"):
+            column.operator(operator)
         row = layout.row(align=True)
         row.operator(THRONG_OT_realize.bl_idname).realize = True
         row.operator(THRONG_OT_realize.bl_idname, text="Instances Again").realize = False

@@ -36,11 +36,13 @@ def export(given: argparse.Namespace) -> None:
 
 
 def to_usd(given: argparse.Namespace) -> None:
+    if given.skeletons and given.chunk:
+        raise ThrongError("--chunk is about simple figures", "leave --skeletons out")
     if not given.skeletons and (given.most or given.near or given.copies):
         raise ThrongError("--most, --near and --copies are about skeletons", "add --skeletons")
     wanted = Skeletons(given.most, tuple(given.near) if given.near else None,
                        not given.copies) if given.skeletons else None
-    export_usd(Bake(given.bake), given.output, given.every, wanted)
+    export_usd(Bake(given.bake), given.output, given.every, wanted, given.bare, given.chunk)
 
 
 def wanted_of(given: argparse.Namespace) -> Wanted:
@@ -157,6 +159,9 @@ def form_options(command: argparse.ArgumentParser) -> None:
 
 
 def usd_options(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--bare", action="store_true", help="without ground, walls, camera and lights")
+    command.add_argument("--chunk", type=positive, metavar="N",
+                         help="long shots: what people do in a file of its own for every N frames, beside the stage")
     command.add_argument("--skeletons", action="store_true",
                          help="people with skeletons and motions (UsdSkel), shaped from the library of bodies")
     command.add_argument("--most", type=positive, metavar="N",

@@ -1,19 +1,29 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Walls and ground as meshes."""
+"""Walls, ground, floors and stands as meshes."""
 from __future__ import annotations
 
 import dataclasses
+import json
+import pathlib
+import struct
 from typing import Any
 
 import numpy
 import shapely
 import shapely.geometry
 
-from ..base.geometry import polygons, road_shape, wall_shape
+from ..base.errors import BakeError
+from ..base.geometry import area_shape, polygons, road_shape, wall_shape
+from ..cast import seat_rows
+from .bake import Bake
 
 GROUND_MARGIN = 2.0           # m round everything
 ROAD_HEIGHT = 0.005           # m over the ground, so that they do not fight for the same pixels
-GREY = {"walls": (0.55, 0.55, 0.53), "ground": (0.32, 0.33, 0.32), "roads": (0.42, 0.42, 0.41)}
+LANE_HEIGHT = 0.003           # m, likewise
+ABOVE = 0.0002                # m
+GREY = {"walls": (0.55, 0.55, 0.53), "ground": (0.32, 0.33, 0.32), "roads": (0.42, 0.42, 0.41),
+        "lanes": (0.09, 0.09, 0.1), "crossings": (0.4, 0.4, 0.37), "stands": (0.28, 0.28, 0.27),
+        "seats": (0.04, 0.1, 0.23)}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -26,19 +36,86 @@ class Thing:
     name: str | None = None    # in the layout
 
 
-def things_of(about: dict[str, Any], origin: numpy.ndarray) -> list[Thing]:
-    """Walls, and where there is no terrain, which is a file of its own, ground and roads. @param about bake.json"""
+def things_of(bake: Bake) -> list[Thing]:
+    """Walls and stands, ground with roads and streets, or in their place the terrain, which has the floors of a layout
+    with levels, too."""
+    about, origin = bake.about, bake.origin
     told = about["geometry"]
+    hidden = {f"{block.get('id', '')} stand" for block in told.get("seats", ())}  # outlines of what is shown itself:
+    # one for each piece of it, told apart by `_` at the end
     found = [Thing(f"Walls/wall{number}", *wall_prism(wall, origin), GREY["walls"], wall.get("id"))
-             for number, wall in enumerate(told["walls"])]
-    if not about.get("terrain"):
-        low, high = about["bounds"]["min"], about["bounds"]["max"]
-        shape = shapely.box(*low, *high).buffer(GROUND_MARGIN, join_style="mitre")
-        found.append(Thing("Ground/ground", *flat(shape, 0.0), GREY["ground"]))
-        for number, road in enumerate(told["roads"]):
-            points, faces = flat(road_shape(road), ROAD_HEIGHT)
-            found.append(Thing(f"Ground/road{number}", points - origin, faces, GREY["roads"], road.get("id")))
+             for number, wall in enumerate(told["walls"]) if str(wall.get("id")).rstrip("_") not in hidden]
+    found += [each for number, block in enumerate(told.get("seats", ()))
+              for each in _stand_of(number, block, origin)]
+    if about.get("terrain"):
+        found.append(_terrain_of(about["terrain"], bake.folder))
+    else:
+        found += _flat_ground(about, told, origin)
     return [thing for thing in found if len(thing.points)]
+
+
+def _flat_ground(about: dict[str, Any], told: dict[str, Any], origin: numpy.ndarray) -> list[Thing]:
+    low, high = about["bounds"]["min"], about["bounds"]["max"]
+    shape = shapely.box(*low, *high).buffer(GROUND_MARGIN, join_style="mitre")
+    found = [Thing("Ground/ground", *flat(shape, 0.0), GREY["ground"])]
+    traffic = told.get("traffic") or {}
+    flats = ([("road", road_shape(road), ROAD_HEIGHT, "roads", road.get("id")) for road in told["roads"]]
+             + [("lane", road_shape({"centreline": lane["points"], "width": lane["width"]}), LANE_HEIGHT, "lanes",
+                 lane.get("id")) for lane in traffic.get("lanes", ())]
+             + [("crossing", area_shape(each), ROAD_HEIGHT, "crossings", each.get("id"))
+                for each in traffic.get("crossings", ())])
+    numbers: dict[str, int] = {}
+    for kind, shape, height, colour, name in flats:
+        numbers[kind] = numbers.get(kind, -1) + 1
+        points, faces = flat(shape, height + ABOVE * numbers[kind])  # each of them, too, where they cross
+        found.append(Thing(f"Ground/{kind}{numbers[kind]}", points - origin, faces, GREY[colour], name))
+    return found
+
+
+def _joined(faces: list[list[tuple[float, float, float]]]) -> tuple[numpy.ndarray, list[list[int]]]:
+    """Points and faces of faces that are told by corners."""
+    firsts = numpy.cumsum([0] + [len(face) for face in faces]).tolist()
+    return (numpy.array([corner for face in faces for corner in face], dtype=float).reshape(-1, 3),
+            [list(range(first, first + len(face))) for first, face in zip(firsts, faces)])
+
+
+def _stand_of(number: int, block: dict, origin: numpy.ndarray) -> list[Thing]:
+    """The steps of a block, and its seats."""
+    steps: list = []
+    seats: list = []
+    for row in block["rows"]:
+        height = float(row["height"])
+        front, back = seat_rows.step_of(block, row)
+        points, sides = prism(shapely.Polygon([*front, *back[::-1]]), 0.0, height)
+        steps += [[tuple(points[corner]) for corner in side] for side in sides]
+        seats += [face for place, along in seat_rows.seats_of(block, row)
+                  for face in seat_rows.seat_faces(place, along, height, seat_rows.SIDE * float(block["width"]))]
+    kinds = (("stand", "stands", _joined(steps)), ("seats", "seats", _joined(seats)))
+    return [Thing(f"Stands/{kind}{number}", points - origin, faces, GREY[colour], block.get("id"))
+            for kind, colour, (points, faces) in kinds if faces]
+
+
+def _terrain_of(told: dict[str, Any], folder: pathlib.Path) -> Thing:
+    """The mesh of terrain.glb, which `throng` writes: places of 3 float32 and triangles; y is up in it."""
+    path = folder / pathlib.PurePosixPath(str(told.get("file"))).name
+    try:
+        data = path.read_bytes()
+        text = struct.unpack_from("<I", data, 12)[0]
+        document, binary = json.loads(data[20:20 + text]), data[28 + text:]
+        part = document["meshes"][0]["primitives"][0]
+        points = _numbers(document, binary, part["attributes"]["POSITION"]).reshape(-1, 3)
+        faces = _numbers(document, binary, part["indices"]).reshape(-1, 3)
+    except (OSError, ValueError, LookupError, TypeError, struct.error) as error:
+        raise BakeError(f"{path} cannot be read: {error}", "`throng verify` says what is wrong with a bake") from error
+    return Thing("Ground/terrain", points[:, [0, 2, 1]] * [1.0, -1.0, 1.0], faces.tolist(), GREY["ground"])
+
+
+def _numbers(document: dict, binary: bytes, accessor: int) -> numpy.ndarray:
+    told = document["accessors"][accessor]
+    view = document["bufferViews"][told["bufferView"]]
+    kind = {5123: "<u2", 5125: "<u4", 5126: "<f4"}[told["componentType"]]
+    count = told["count"] * {"SCALAR": 1, "VEC3": 3}[told["type"]]
+    return numpy.frombuffer(binary, kind, count, view.get("byteOffset", 0) + told.get("byteOffset", 0))
 
 
 def prism(shape: shapely.Geometry, low: float, high: float) -> tuple[numpy.ndarray, list[list[int]]]:

@@ -10,11 +10,12 @@ import pathlib
 import numpy
 
 from ..bakes.bake import Bake
-from ..bakes.surroundings import Thing, things_of
+from ..bakes.surroundings import things_of
 from ..base.errors import ThrongError
 from ..base.whole_files import whole_file
+from ..skinned.carried import bent
 from ..skinned.members import LEVELS
-from ..skinned.motions import joints_of, matrices_of, track_of
+from ..skinned.motions import joints_of, track_of
 from ..skinned.shot import Shot, Wanted
 from . import axes, meshopt
 from .document import Document
@@ -22,6 +23,7 @@ from .figures import Figure
 from .instances import Instances
 from .meshes import Meshes
 from .moves import Moves, beside_those_above
+from .moving import MovingThings
 
 SUFFIX = ".glb"
 MOST_BYTES = 100_000_000     # of a file, where nobody says how many people are wanted
@@ -81,18 +83,12 @@ class Crowd:
         self.written: set[int] = set()
 
     def surroundings(self) -> None:
-        for thing in things_of(self.shot.bake.about, self.shot.bake.origin):
-            mesh = self._thing(thing)
+        """What stands there, and what moves besides people."""
+        for thing in things_of(self.shot.bake):
+            kind = thing.place.partition("/")[2].rstrip("0123456789")
+            mesh = self.meshes.solid(thing.place, thing.points, thing.faces, kind, thing.colour)
             self.to.root(name=thing.name or thing.place.rpartition("/")[2], mesh=mesh)
-
-    def _thing(self, thing: Thing) -> int:
-        faces = numpy.array([[face[0], *face[corner:corner + 2]] for face in thing.faces
-                             for corner in range(1, len(face) - 1)])
-        points = self.to.vertices(axes.world(thing.points).astype(numpy.float32), bounds=True)
-        kind = thing.place.partition("/")[2].rstrip("0123456789")
-        return self.to.add("meshes", name=thing.place, primitives=[{
-            "attributes": {"POSITION": points}, "indices": self.to.indices(faces),
-            "material": self.meshes.material(kind, thing.colour)}])
+        MovingThings(self.meshes, self.moves, self.shot).write()
 
     # ---- people
 
@@ -129,7 +125,7 @@ class Crowd:
         self._is_there(root, there, float(self.shot.sizes[row]))
         member = figure.member
         track = track_of(row, self.shot.frames[there] + 1, shown)
-        joints = joints_of(matrices_of(member.poses, self.shot.repertoire, track), member.places, member.parents)
+        joints = joints_of(bent(member, self.shot.repertoire, track), member.places, member.parents)
         self.moves.joints(nodes, beside_those_above(member.places, member.parents), times, joints)
 
     def _times(self, there: numpy.ndarray) -> int:

@@ -7,7 +7,7 @@ import numpy
 from ..cast import POSES
 from ..people import palettes
 from ..skinned.members import LEVELS
-from ..skinned.motions import WALKS_FROM
+from ..skinned.motions import WALKS_FROM, seats_of
 from ..skinned.posed import posed
 from ..skinned.shot import Shot
 from . import axes
@@ -46,11 +46,16 @@ class Instances:
         return {name: numpy.array(bake.stream(name)[frame][:, rows], dtype=float) for name in ("pos", "dir", "state")}
 
     def _poses(self, streams: dict[str, numpy.ndarray]) -> numpy.ndarray:
-        """Of the cast: for each of them a phase of the usual walk, or the first in which somebody stands."""
+        """Of the cast: for each of them a phase of the usual walk, or the first in which somebody stands; of who has a
+        seat what it does."""
         repertoire = self.shot.repertoire
         first = POSES * int(numpy.abs(numpy.array(repertoire.strides) - USUAL_STRIDE).argmin())
         phases = numpy.rint(streams["state"][:, 2] % 1.0 * PHASES).astype(int) % PHASES
-        return numpy.where(streams["dir"][:, 2] > WALKS_FROM, first + phases * (POSES // PHASES), repertoire.walking())
+        found = numpy.where(streams["dir"][:, 2] > WALKS_FROM, first + phases * (POSES // PHASES), repertoire.walking())
+        if not repertoire.seats:
+            return found
+        has, here, there, share = seats_of(streams["state"])
+        return numpy.where(has, repertoire.upright() + numpy.where(share < 0.5, here, there), found)
 
     def _prototype(self, number: int, pose: int) -> tuple[int, Box | None]:
         member = self.shot.member(number)

@@ -101,6 +101,15 @@ class Meshes:
             return self.to.vertices(normals.astype(numpy.float32))
         return self.to.vertices(numpy.rint(normals * FULL8).astype(numpy.int8), normalized=True)
 
+    def solid(self, name: str, points: numpy.ndarray, faces: list[list[int]], kind: str, colour: Colour) -> int:
+        """A mesh of the world's, with convex faces, which are shown as flat as they are. @param kind its material's"""
+        triangles = numpy.array([[face[0], *face[corner:corner + 2]] for face in faces
+                                 for corner in range(1, len(face) - 1)])
+        places = self.to.vertices(axes.world(points).astype(numpy.float32), bounds=True)
+        return self.to.add("meshes", name=name, primitives=[{
+            "attributes": {"POSITION": places}, "indices": self.to.indices(triangles),
+            "material": self.material(kind, colour)}])
+
     def material(self, name: str, colour: Colour | None = None) -> int:
         """What shows a colour, or those of points."""
         key = (name, colour)

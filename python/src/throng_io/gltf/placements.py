@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import numpy
 
+from ..cast import gait, sitting
 from ..skinned.clips import Clip
 from ..skinned.motions import stands_of, track_of, walking_of, walks_of
 from ..skinned.shot import Shot
@@ -17,12 +18,12 @@ MEANINGS = {
     "place": "m, x, y (up), z, without the origin",
     "heading": "turns / 65536 about +y, of somebody who looks along +z",
     "phase": "cycles / 65536, in both walks",
-    "stand_phase": "rounds / 65536, in the standing clip",
+    "stand_phase": "rounds / 65536, in that clip",
     "walk": "number of a clip",
     "before": "number of the clip that the walk comes from",
     "left": "share / 255 of that one in the walk",
-    "walking": "share / 255 of the walk beside the standing clip",
-    "stand": "number of a clip",
+    "walking": "share / 255 of the walk beside the clip of who stands or sits",
+    "stand": "number of a clip, of who stands or has a seat",
     "there": "1: is there, 0: is not, and the record is 0",
 }
 SOME = 64  # people at a time
@@ -56,6 +57,11 @@ def _person(shot: Shot, row: int, streams: dict[str, numpy.ndarray]) -> numpy.nd
         found[name] = numpy.rint(numpy.clip(share, 0.0, 1.0) * 255.0)
     found["walk"], found["before"] = walks.gait, walks.before
     found["stand"] = len(shot.repertoire.strides) + stand
+    if shot.repertoire.seats:
+        sits = track.state[:, 0] > sitting.FIRST - 0.5
+        clip = numpy.floor(track.state[:, 0] + 1e-4) - sitting.FIRST
+        found["stand"][sits] += (len(gait.STANDING_CLIPS) - stand + clip)[sits].astype(numpy.uint8)
+        found["stand_phase"][sits] = found["phase"][sits]
     found["there"] = 1
     return found
 

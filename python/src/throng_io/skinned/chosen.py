@@ -39,7 +39,7 @@ def rows_by_nearness(bake: Bake, frames: numpy.ndarray, there: numpy.ndarray, ne
 
 def streams_of(bake: Bake, frames: numpy.ndarray, rows: list[int]) -> dict[str, numpy.ndarray]:
     """Those frames of those people, copied once."""
-    names = ["pos", "dir", "state", *(["carriage"] if "carriage" in bake.streams else [])]
+    names = ["pos", "dir", "state", *(name for name in ("carriage", "attention") if name in bake.streams)]
     return {name: numpy.array(bake.stream(name)[frames][:, rows], dtype=float) for name in names}
 
 

@@ -25,7 +25,12 @@ class Track:
     times: Array               # F: time codes
     state: Array               # F x 3
     speed: Array               # F, m/s
-    walking: Array | None      # F: of the stream `carriage`, where the bake has it
+    carriage: Array | None = None   # F x 3: of that stream, where the bake has it
+    attention: Array | None = None  # likewise
+
+    @property
+    def walking(self) -> Array | None:
+        return None if self.carriage is None else self.carriage[:, 0]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -37,8 +42,7 @@ class Joints:
 
 def track_of(row: int, times: Array, streams: dict[str, Array]) -> Track:
     """@param streams of this person in these frames"""
-    return Track(row, times, streams["state"], streams["dir"][:, 2],
-                 streams["carriage"][:, 0] if "carriage" in streams else None)
+    return Track(row, times, streams["state"], streams["dir"][:, 2], streams.get("carriage"), streams.get("attention"))
 
 
 def smooth(value: Array, low: float, high: float) -> Array:

@@ -2,6 +2,7 @@
 """A bake as a USD stage: a point instancer whose prototypes are poses, walls, and ground."""
 from __future__ import annotations
 
+import contextlib
 import os
 import pathlib
 import string
@@ -11,10 +12,14 @@ import numpy
 from ..bakes.bake import Bake
 from ..bakes.surroundings import GREY, things_of
 from ..base.errors import ThrongError, need
-from ..base.whole_files import whole_file
+from ..base.whole_files import whole_file, whole_folder
 from ..skinned.members import bodies_of_library
-from .figures import PHASES, Mesh, figure
+from ..skinned.motions import seats_of
+from .clips import folder_of, write_clips
+from .figures import PHASES, Mesh, figure, seated_poses
+from .moving import MovingThings
 from .skeletons import SkeletonCrowd, Skeletons
+from .staging import add_staging
 
 SUFFIXES = (".usd", ".usda", ".usdc")
 WALKING = 1
@@ -28,10 +33,13 @@ TOPS = ((0.42, 0.09, 0.07), (0.07, 0.16, 0.36), (0.1, 0.26, 0.16), (0.55, 0.44, 
 MOST_COSTUMES = 64
 
 
-def export_usd(bake: Bake, path: str | os.PathLike, every: int = 1, skeletons: Skeletons | None = None) -> None:
+def export_usd(bake: Bake, path: str | os.PathLike, every: int = 1, skeletons: Skeletons | None = None,
+               bare: bool = False, chunk: int | None = None) -> None:
     """All frames, or every N-th, at the time codes of the shot: frame i of the bake is time code i + 1.
 
     @param skeletons whose; without, people are a point instancer's simple figures
+    @param bare without the ground, walls, camera and lights
+    @param chunk so many frames in a file of their own each; without, all are in one
     """
     if pathlib.Path(path).suffix.lower() not in SUFFIXES:
         raise ThrongError(f"{os.fspath(path)}: expected a name that ends in {', '.join(SUFFIXES)}")
@@ -41,18 +49,25 @@ def export_usd(bake: Bake, path: str | os.PathLike, every: int = 1, skeletons: S
         skeletons.check()
         bodies_of_library()
     need("pxr", "usd")
+    if chunk is not None and (skeletons or chunk < 1):
+        raise ThrongError("chunk: expected 1 or more frames, of a crowd without skeletons")
     with whole_file(path) as beside:
-        Stage(bake, str(beside), every, skeletons).write()
+        stage = Stage(bake, str(beside), every, skeletons, bare, chunk)
+        with whole_folder(folder_of(path)) if chunk else contextlib.nullcontext() as clips:
+            stage.write(clips)
 
 
 class Stage:
-    def __init__(self, bake: Bake, path: str, every: int, skeletons: Skeletons | None = None):
-        self.usd, self.geom, self.shade, self.skel, self.sdf, self.gf, self.vt = (
-            need(f"pxr.{name}", "usd") for name in ("Usd", "UsdGeom", "UsdShade", "UsdSkel", "Sdf", "Gf", "Vt"))
-        self.bake, self.every, self.skeletons = bake, every, skeletons
+    def __init__(self, bake: Bake, path: str, every: int, skeletons: Skeletons | None, bare: bool,
+                 chunk: int | None):
+        self.usd, self.geom, self.shade, self.skel, self.lux, self.sdf, self.gf, self.vt = (
+            need(f"pxr.{name}", "usd")
+            for name in ("Usd", "UsdGeom", "UsdShade", "UsdSkel", "UsdLux", "Sdf", "Gf", "Vt"))
+        self.bake, self.every, self.skeletons, self.bare, self.chunk = bake, every, skeletons, bare, chunk
         self.stage = self.usd.Stage.CreateNew(path)
 
-    def write(self) -> None:
+    def write(self, clips: pathlib.Path | None) -> None:
+        """@param clips the folder of what people do, where that is in files of its own"""
         bake, stage, geom = self.bake, self.stage, self.geom
         geom.SetStageUpAxis(stage, geom.Tokens.z)
         geom.SetStageMetersPerUnit(stage, 1.0)
@@ -66,11 +81,14 @@ class Stage:
         self.usd.ModelAPI(world.GetPrim()).SetKind("component")
         world.AddTranslateOp().Set(self.gf.Vec3d(*bake.origin.tolist()))
         self.material = self.painted()
-        self.surroundings()
+        if not self.bare:
+            self.surroundings()
+            add_staging(self)
+        MovingThings(self).write()
         if self.skeletons:
             SkeletonCrowd(self, self.skeletons).write()
         else:
-            self.crowd()
+            self.crowd(clips)
         stage.GetRootLayer().Save()
 
     def painted(self):
@@ -94,7 +112,7 @@ class Stage:
     # ---- what stands still
 
     def surroundings(self) -> None:
-        for thing in things_of(self.bake.about, self.bake.origin):
+        for thing in things_of(self.bake):
             self.mesh(f"/World/{thing.place}", thing.points, thing.faces, thing.colour, thing.name)
 
     def mesh(self, path: str, points: numpy.ndarray, faces: list[list[int]], colour, name: str | None = None) -> None:
@@ -118,7 +136,7 @@ class Stage:
 
     # ---- people
 
-    def crowd(self) -> None:
+    def crowd(self, clips: pathlib.Path | None) -> None:
         crowd = self.geom.PointInstancer.Define(self.stage, "/World/Crowd")
         self.gaits = [int(gait) for gait in self.bake.about.get("gaits", [])] or [0]
         strides = self.bake.about.get("strides") or [1.4]
@@ -126,6 +144,8 @@ class Stage:
         for gait in self.gaits:
             poses += [(f"stride{gait}_pose{pose}", figure(pose / PHASES, strides[min(gait, len(strides) - 1)]))
                       for pose in range(PHASES)]
+        self.upright = len(poses)
+        poses += seated_poses() if self.bake.about["geometry"].get("seats") else []
         self.geom.Scope.Define(self.stage, "/World/Crowd/Prototypes")
         self.stage.CreateClassPrim("/World/Crowd/Poses")
         for name, mesh in poses:
@@ -138,7 +158,10 @@ class Stage:
         self.low = numpy.min([mesh.points.min(axis=0) for _, mesh in poses], axis=0)
         self.high = numpy.max([mesh.points.max(axis=0) for _, mesh in poses], axis=0)
         self.looks(crowd)
-        self.frames(crowd)
+        if clips:
+            write_clips(self, crowd, clips, clips.name)
+        else:
+            self.samples(crowd, range(0, self.bake.frames, self.every))
 
     def pose(self, name: str, made: Mesh) -> None:
         """The shape of all prototypes that are in this pose."""
@@ -167,16 +190,19 @@ class Stage:
             self.vectors(self.tops[self.costume]))
         primvars.CreatePrimvar("personId", types.IntArray, self.geom.Tokens.vertex).Set(
             self.vt.IntArray.FromNumpy(rows.astype(numpy.int32)))
+        primvars.CreatePrimvar("crypto_object", types.StringArray, self.geom.Tokens.vertex).Set(
+            self.vt.StringArray([f"{self.bake.name}/{row:05d}" for row in rows]))
         self.sizes = numpy.clip(people["radius"] / USUAL_RADIUS, *SIZES)
         if "scale" in people.dtype.names:
             self.sizes = numpy.where(numpy.isfinite(people["scale"]), self.sizes * people["scale"], self.sizes)
         crowd.CreateScalesAttr(self.vectors(numpy.repeat(self.sizes[:, None], 3, axis=1)))
 
-    def frames(self, crowd) -> None:
+    def samples(self, crowd, frames) -> None:
+        """What people do in some frames."""
         attributes = {name: getattr(crowd, f"Create{name}Attr")() for name in (
             "ProtoIndices", "Positions", "Orientations", "Velocities", "AngularVelocities", "InvisibleIds", "Extent")}
         seconds, last = self.every / self.bake.fps, self.bake.frames - 1
-        for frame in range(0, self.bake.frames, self.every):
+        for frame in frames:
             time, after = frame + 1, min(frame + self.every, last)
             here, there = self.bake.pos[frame], self.bake.there(frame)
             heading, later = (numpy.arctan2(*self.bake.dir[each][:, 1::-1].T) for each in (frame, after))
@@ -193,7 +219,8 @@ class Stage:
             attributes["Extent"].Set(self.extent(here[there], self.sizes[there]), time)
 
     def poses(self, frame: int) -> numpy.ndarray:
-        """The prototype of everybody: who walks has the pose of its phase, in the gait of its stride."""
+        """The prototype of everybody: who walks has the pose of its phase, in the gait of its stride; who has a seat
+        that of what it does."""
         state = self.bake.state[frame]
         activity = numpy.floor(state[:, 0] + 1e-4)
         gait = numpy.rint(16 * (state[:, 0] - activity)).astype(int)
@@ -201,6 +228,9 @@ class Stage:
         pose = numpy.floor((state[:, 2] % 1.0) * PHASES + 0.5).astype(int) % PHASES
         walks = (activity == WALKING) & (self.bake.dir[frame][:, 2] > 0.1)
         shown = numpy.where(walks, 1 + PHASES * place + pose, 0)
+        if self.poses_of_one > self.upright:
+            has, here, there, share = seats_of(state)
+            shown = numpy.where(has, self.upright + numpy.where(share < 0.5, here, there), shown)
         return (self.poses_of_one * self.costume + shown).astype(numpy.int32)
 
     def turned(self, heading: numpy.ndarray):

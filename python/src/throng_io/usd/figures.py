@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Simple figures that walk: a mesh for each pose. They look along +x, and stand on z = 0."""
+"""Simple figures that walk, stand and sit: a mesh for each pose. They look along +x, and stand on z = 0."""
 from __future__ import annotations
 
 import dataclasses
 import math
 
 import numpy
+
+from ..cast import gait, sitting
 
 HEIGHT = 1.75
 HIP, KNEE, SHOULDER = 0.92, 0.46, 1.42            # heights, m
@@ -86,11 +88,40 @@ def _leg_angles(phase: float, swing: float) -> tuple[float, float]:
     return -swing * math.cos(math.pi * along), KNEE_WALK + (KNEE_MOST - KNEE_WALK) * math.sin(math.pi * along)
 
 
+@dataclasses.dataclass(frozen=True)
+class _Side:
+    """Joints of a leg and an arm."""
+    hip: Vector
+    knee: Vector
+    ankle: Vector
+    toe: Vector
+    shoulder: Vector
+    elbow: Vector
+    hand: Vector
+
+
+def _body(sides: list[_Side], waist: Vector, chest: Vector, neck: Vector, head: Vector) -> Mesh:
+    parts = []
+    for side in sides:
+        parts += [_limb(TROUSERS, side.hip, side.knee, 0.095, 0.065),
+                  _limb(TROUSERS, side.knee, side.ankle, 0.062, 0.042),
+                  _limb(SHOES, side.ankle, side.toe, 0.045, 0.035),
+                  _limb(TOP, side.shoulder, side.elbow, 0.057, 0.045), _limb(SKIN, side.elbow, side.hand, 0.042, 0.038)]
+    parts.append(_scaled(_limb(TOP, waist, chest, 0.115, 0.13), 0.5 * (chest + waist),
+                         numpy.array([0.88, 1.45, 1.0])))
+    parts += [_limb(SKIN, neck, head, 0.05, 0.05),
+              _scaled(_limb(SKIN, head - [0, 0, 0.02], head + [0, 0, 0.02], 0.095, 0.095), head,
+                      numpy.array([1, 0.85, 1]))]
+    mesh = _joined(parts)
+    # The lower foot is on the ground.
+    return Mesh(mesh.points - [0.0, 0.0, mesh.points[:, 2].min()], mesh.normals, mesh.faces, mesh.parts)
+
+
 def figure(phase: float | None, stride: float = 1.4) -> Mesh:
     """A pose of the walk with so many metres a cycle, or somebody who stands."""
     reach = 0.0 if phase is None else min(stride * PLANTED / (2 * (HIP - 0.02)), 0.8)
     swing = math.asin(reach)
-    parts = []
+    sides = []
     for sign, offset in ((1, 0.0), (-1, 0.5)):
         thigh, knee = (0.0, 0.0) if phase is None else _leg_angles(phase + offset, swing)
         arm = 0.0 if phase is None else -ARM_SHARE * thigh
@@ -100,17 +131,38 @@ def figure(phase: float | None, stride: float = 1.4) -> Mesh:
         toe = ankle + numpy.array([FOOT * math.cos(0.5 * knee), 0.0, -0.02 - FOOT * math.sin(0.5 * knee)])
         shoulder = numpy.array([0.0, sign * SHOULDER_HALF, SHOULDER])
         elbow = shoulder + _along(arm, UPPER_ARM) + [0.0, sign * 0.03, 0.0]
-        hand = elbow + _along(arm + ELBOW, FOREARM)
-        parts += [_limb(TROUSERS, hip, joint, 0.095, 0.065), _limb(TROUSERS, joint, ankle, 0.062, 0.042),
-                  _limb(SHOES, ankle, toe, 0.045, 0.035),
-                  _limb(TOP, shoulder, elbow, 0.057, 0.045), _limb(SKIN, elbow, hand, 0.042, 0.038)]
-    chest, waist = numpy.array([0.0, 0.0, SHOULDER - 0.07]), numpy.array([0.0, 0.0, HIP + 0.04])
-    parts.append(_scaled(_limb(TOP, waist, chest, 0.115, 0.13), 0.5 * (chest + waist),
-                         numpy.array([0.88, 1.45, 1.0])))
-    neck, head = numpy.array([0.0, 0.0, SHOULDER + 0.04]), numpy.array([0.01, 0.0, HEIGHT - 0.115])
-    parts += [_limb(SKIN, neck, head, 0.05, 0.05),
-              _scaled(_limb(SKIN, head - [0, 0, 0.02], head + [0, 0, 0.02], 0.095, 0.095), head,
-                      numpy.array([1, 0.85, 1]))]
-    mesh = _joined(parts)
-    # The lower foot is on the ground.
-    return Mesh(mesh.points - [0.0, 0.0, mesh.points[:, 2].min()], mesh.normals, mesh.faces, mesh.parts)
+        sides.append(_Side(hip, joint, ankle, toe, shoulder, elbow, elbow + _along(arm + ELBOW, FOREARM)))
+    return _body(sides, numpy.array([0.0, 0.0, HIP + 0.04]), numpy.array([0.0, 0.0, SHOULDER - 0.07]),
+                 numpy.array([0.0, 0.0, SHOULDER + 0.04]), numpy.array([0.01, 0.0, HEIGHT - 0.115]))
+
+
+def seated_figure(clip: int, share: float) -> Mesh:
+    """A pose of somebody who has a seat, whose middle is over (0, 0). @param clip by number, share as in
+    cast.sitting"""
+    build = gait.Build(thigh=THIGH, shank=SHIN, ankle=0.07)
+    pose = sitting.seated_pose(clip, share, build)
+    middle = numpy.array(pose.pelvis) - [0.0, 0.0, gait.HIP_DROP]
+    trunk = numpy.array([math.sin(pose.lean), -math.sin(pose.tilt), math.cos(pose.lean) * math.cos(pose.tilt)])
+    up = lambda height: middle + trunk * (height - HIP)
+    sides = []
+    for number, sign in ((1, 1), (0, -1)):  # left, right
+        aside = numpy.array([0.0, sign, 0.0])
+        (x, z), hip, shoulder = pose.feet[number].ankle, middle + HIP_HALF * aside, up(SHOULDER) + SHOULDER_HALF * aside
+        knee_x, knee_z = gait.knee_of((hip[0], hip[2]), (x, z), build)
+        (swing, bend), (upper, fore) = pose.arms[number], pose.aside[number]
+        elbow = shoulder + _outwards(swing, upper * aside, UPPER_ARM)
+        ankle = numpy.array([x, hip[1], z])
+        sides.append(_Side(hip, numpy.array([knee_x, hip[1], knee_z]), ankle, ankle + [FOOT, 0.0, -0.02], shoulder,
+                           elbow, elbow + _outwards(swing + bend, fore * aside, FOREARM)))
+    return _body(sides, up(HIP + 0.04), up(SHOULDER - 0.07), up(SHOULDER + 0.04), up(HEIGHT - 0.115) + [0.01, 0.0, 0.0])
+
+
+def _outwards(angle: float, aside: Vector, length: float) -> Vector:
+    way = _along(angle, 1.0) + aside
+    return way * (length / numpy.linalg.norm(way))
+
+
+def seated_poses() -> list[tuple[str, Mesh]]:
+    """All of them, in the order of cast.sitting.poses_of()."""
+    return [(f"{clip.name}{index}", seated_figure(number, index / (clip.poses - clip.there_and_back)))
+            for number, clip in enumerate(sitting.CLIPS) for index in range(clip.poses)]

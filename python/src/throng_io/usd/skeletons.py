@@ -9,8 +9,9 @@ import math
 import numpy
 
 from ..skinned import chosen
+from ..skinned.carried import bent, box_of
 from ..skinned.members import LEVELS, Member, Part
-from ..skinned.motions import joints_of, matrices_of, track_of
+from ..skinned.motions import joints_of, track_of
 from ..skinned.shot import Shot, Wanted
 
 CROWD = "/World/Crowd"
@@ -63,7 +64,7 @@ class SkeletonCrowd:
         root = self.stage.CreateClassPrim(path)
         root.SetTypeName("SkelRoot")
         root.SetMetadata("comment", f"{member.role.look}, {member.role.profile or 'anybody'}")
-        self.geom.Boundable(root).CreateExtentAttr(self.to.vectors(member.box))
+        self.geom.Boundable(root).CreateExtentAttr(self.to.vectors(box_of(member, self.bake.streams)))
         skeleton = self.skel.Skeleton.Define(self.stage, f"{path}/skeleton")
         skeleton.CreateJointsAttr(member.joints)
         skeleton.CreateBindTransformsAttr(self._placed(member.places))
@@ -111,7 +112,7 @@ class SkeletonCrowd:
         places = self.bake.pos[self.frames][:, self.rows][self.there[:, self.rows]]
         if not len(places):
             return
-        boxes = numpy.abs([member.box for member in members])
+        boxes = numpy.abs([box_of(member, self.bake.streams) for member in members])
         largest = float(self.sizes[self.rows].max())
         reach, up = largest * boxes[..., :2].max() * math.sqrt(2), largest * boxes[..., 2].max()
         self.geom.ModelAPI.Apply(crowd.GetPrim()).SetExtentsHint(self.to.vectors(numpy.array(
@@ -189,8 +190,8 @@ class SkeletonCrowd:
     def _motion(self, path: str, row: int, member: Member, codes, streams) -> None:
         types = self.sdf.ValueTypeNames
         self._prim(path, "SkelAnimation")
-        bent = matrices_of(member.poses, self.repertoire, track_of(row, codes, streams))
-        joints = joints_of(bent, member.places, member.parents)
+        matrices = bent(member, self.repertoire, track_of(row, codes, streams))
+        joints = joints_of(matrices, member.places, member.parents)
         self._attribute(path, "joints", types.TokenArray, self.vt.TokenArray(member.joints), True)
         self._attribute(path, "scales", types.Half3Array, self.vt.Vec3hArray(len(member.joints), self.gf.Vec3h(1.0)))
         turned = self._attribute(path, "rotations", types.QuatfArray)
