@@ -51,7 +51,11 @@ void leaveUnfinished(const test::SampleCrowd& crowd, const recording::BakeDescri
     std::filesystem::remove_all(io::BakeFolder::unfinishedPath(description.output));
     std::filesystem::remove_all(description.output);
     io::BakeWriter writer(description, nullptr);
-    crowd.writeTo(writer, 5);
+    recording::MotionRecorder recorder(description, [&](const Frame& frame) { writer.write(frame); });
+    crowd.makeFrames(5, [&](const Frame& frame) {
+        writer.writeDiagram(frame);
+        recorder.take(frame);
+    });
     writer.save({});
 }
 
