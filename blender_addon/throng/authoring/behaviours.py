@@ -168,26 +168,30 @@ def _put_rule(rule, raw, world):
 
 def _put_condition(condition, kind, raw, world):
     condition.kind = kind
+    condition.who.clear()
     value = raw[kind]
+    text = value if isinstance(value, str) else ""
     if kind in TIMES:
         Distribution("time").put(condition, value)
     elif kind in NUMBERS:
         _number(kind).put(condition, raw.get(NUMBERS[kind], MISSING))
     if kind in GATES:
-        condition.wall = world.wall(value) if isinstance(value, str) else None
-        condition.place.text = value if isinstance(value, str) and condition.wall is None else ""
-    if kind in LIGHTS:
-        condition.place.text = value if isinstance(value, str) else ""
-    condition.who.clear()
-    if kind in PLACES:
-        is_place = kind != "near" or not isinstance(value, str) or world.find(value)
-        put_place(condition.place, value if is_place else "", world)
-        if not is_place:
-            put_member(condition.who.add(), value, world)
+        condition.wall = world.wall(text)
+        condition.place.text = "" if condition.wall else text
+    elif kind in LIGHTS:
+        condition.place.text = text
+    elif kind in PLACES:
+        _put_where(condition, kind, value, raw, world)
+
+
+def _put_where(condition, kind, value, raw, world):
+    is_place = kind != "near" or not isinstance(value, str) or world.find(value)
+    put_place(condition.place, value if is_place else "", world)
+    people = [] if is_place else [value]
     if kind == "empty":
         people = raw.get("of", [])
-        for text in people if isinstance(people, list) else [people]:
-            put_member(condition.who.add(), text, world)
+    for text in people if isinstance(people, list) else [people]:
+        put_member(condition.who.add(), text, world)
 
 
 def _number(kind):
