@@ -42,8 +42,8 @@ class StuckWatch {
     }
 
     bool isStuck(std::size_t row) const {
-        return before_ && !rows_[row].is_given && rows_[row].outcome == wordFor(Fate::walking) && under_way_[row] &&
-               glm::distance(before_->place(row), end_->place(row)) < kStuckMetres;
+        return before_ && !rows_[row].is_given && rows_[row].outcome == wordFor(Fate::walking) &&
+               under_way_[row] && glm::distance(before_->place(row), end_->place(row)) < kStuckMetres;
     }
 
   private:

@@ -50,8 +50,8 @@ void describeAudience(const authoring::Layout& layout, const authoring::Scene& s
                       recording::BakeDescription& bake) {
     const std::size_t first_group = bake.groups.size(), first_row = bake.agents.size();
     for (const authoring::SeatBlock& block : layout.seats) {
-        bake.groups.push_back(
-            {block.id, false, false, block.people.look, fmt::format("{}", fmt::join(block.people.colours, " "))});
+        bake.groups.push_back({block.id, false, false, block.people.look,
+                               fmt::format("{}", fmt::join(block.people.colours, " "))});
         bake.seats.push_back({block.id, block.pitch, block.width, block.rise, {}});
         for (const authoring::SeatRow& row : authoring::seatRows(block))
             bake.seats.back().rows.push_back({row.line, row.height});
@@ -208,8 +208,8 @@ recording::BakeDescription describeBake(const LoadedLayout& loaded, const BakeOp
     bake.minimum = scene.origin + glm::dvec2(scene.minimum);
     bake.maximum = scene.origin + glm::dvec2(scene.maximum);
     for (const authoring::Group& group : scene.groups)
-        bake.groups.push_back(
-            {group.id, group.is_flow, group.is_given, group.look, fmt::format("{}", fmt::join(group.colours, " "))});
+        bake.groups.push_back({group.id, group.is_flow, group.is_given, group.look,
+                               fmt::format("{}", fmt::join(group.colours, " "))});
     bake.agents = describeAgents(scene);
     describeAudience(loaded.layout, scene, bake);
     bake.roads = loaded.layout.roads;
