@@ -53,8 +53,9 @@ AgentOutcome outcomeOf(const gpu::AgentState& state, const gpu::Person& person, 
         const bool called_off = person.change_count > 0 && end > person.spawn_time;
         outcome.reason = (person.flags & gpu::PERSON_ALIGHTS) != 0
                              ? "it could not get off before the bake ended, or before its vehicle went on"
-                         : person.spawn_time > end ? "the bake ended before its time to enter"
-                         : is_given                ? "its way ends before the bake begins"
+                         : person.spawn_time > end              ? "the bake ended before its time to enter"
+                         : is_given && person.spawn_time > 0.0f ? "its way lies between two steps"
+                         : is_given                             ? "its way ends before the bake begins"
                          : called_off ? "no free room at its entry before it was told to go elsewhere"
                                       : "no free room at its entry before the bake ended";
     } else {

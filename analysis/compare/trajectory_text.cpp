@@ -165,7 +165,15 @@ class TextReader {
         double least = 1.0 / kLeastRate;
         for (auto it = moments.begin(), next = it; it != moments.end() && ++next != moments.end(); ++it)
             if (*next - *it > 1.0 / kMostRate) least = std::min(least, *next - *it);
-        return moments.size() > 1 ? std::optional(1.0 / least) : std::nullopt;
+        if (moments.size() < 2) return std::nullopt;
+        // Seconds may be rounded: the mean of the gaps between frames that follow each other is not.
+        double sum = 0.0, count = 0.0;
+        for (auto it = moments.begin(), next = it; it != moments.end() && ++next != moments.end(); ++it)
+            if (const double gap = *next - *it; gap > 1.0 / kMostRate && gap < 1.5 * least) {
+                sum += gap;
+                count += 1.0;
+            }
+        return count / sum;
     }
 
     const std::filesystem::path& path_;

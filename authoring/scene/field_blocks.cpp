@@ -161,7 +161,7 @@ void chargePatches(const WalkGeometry& geometry, const FieldBlocks& blocks, std:
         if (ground.is_for_a_time) continue;
         const Box box = boundsOf(ground.outline, 0.0f);
         blocks.visitNodes(box.lower, box.upper, [&](std::uint32_t node, glm::vec2 at) {
-            if (insidePolygon(ground.outline, at)) cost[node] *= ground.cost;
+            if (insidePolygon(ground.outline, at)) cost[node] = charged(cost[node], ground.cost);
         });
     }
 }

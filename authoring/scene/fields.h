@@ -71,6 +71,15 @@ inline constexpr double kMostCells = 400'000.0;  ///< about
 FieldGrid makeGrid(const WalkGeometry& geometry, float smallest_cell = kSmallestCell,
                    double most_cells = kMostCells);
 
+/// Per metre, where patches lie over each other: a front goes on by small steps, so costs may not grow for
+/// ever.
+inline constexpr float kMostPatchCost = 400.0f;
+
+/// What ground costs with one more patch on it.
+inline float charged(float cost, float patch) {
+    return cost < kMostPatchCost ? std::min(cost * patch, kMostPatchCost) : cost;
+}
+
 inline constexpr float kOffRoadCost = 6.0f;  ///< per metre off the roads, for those who keep to them
 
 /// What walking near a wall costs more, per metre.

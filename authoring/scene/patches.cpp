@@ -115,8 +115,9 @@ Patches buildPatches(const Layout& layout, const Rebase& rebase, const FieldGrid
 void chargePatches(const std::vector<CostlyGround>& costly, const FieldGrid& grid, std::vector<float>& cost) {
     for (const CostlyGround& ground : costly)
         if (!ground.is_for_a_time)
-            visitInside(grid, ground.outline,
-                        [&](std::uint32_t cell, glm::vec2) { cost[cell] *= ground.cost; });
+            visitInside(grid, ground.outline, [&](std::uint32_t cell, glm::vec2) {
+                cost[cell] = charged(cost[cell], ground.cost);
+            });
 }
 
 void visitCostly(const std::vector<CostlyGround>& costly, const FieldGrid& grid,

@@ -61,6 +61,8 @@ class TerrainChecker {
             checkArea(area);
         for (const Formation& formation : layout_.formations)
             checkFormation(formation);
+        for (const GivenPeople& given : layout_.given)
+            checkGiven(given);
         checkWalkedGround();
     }
 
@@ -92,6 +94,20 @@ class TerrainChecker {
     }
 
     bool isOver(glm::dvec2 world) const { return hasGround(terrain_, rebase_.local(world)); }
+
+    /// They go where they went, ground or not.
+    void checkGiven(const GivenPeople& given) const {
+        for (const std::vector<GivenPoint>& way : given.ways)
+            for (const GivenPoint& point : way) {
+                if (isOver(point.place)) continue;
+                diagnostics_.warning(
+                    given.where,
+                    fmt::format("given `{}`: there is no ground of the terrain at ({:.2f}, {:.2f})", given.id,
+                                point.place.x, point.place.y),
+                    fmt::format("the terrain covers {}: set their `offset`", extent()));
+                return;
+            }
+    }
 
     void checkRoad(const Road& road) const {
         for (std::size_t i = 0; i + 1 < road.centreline.size(); ++i) {

@@ -105,9 +105,12 @@ Layout moved(const Layout& layout, const std::vector<Chart>& charts) {
     for (Patch& patch : plane.patches)
         move(patch.polygon, charts[patch.level].shift);
     for (Behaviour& behaviour : plane.behaviours)
-        for (BehaviourState& state : behaviour.states)
-            if (state.facing && !state.to.places.empty())
-                *state.facing += charts[levelOf(layout, state.to.places.front())].shift;
+        for (BehaviourState& state : behaviour.states) {
+            if (state.to.places.empty()) continue;
+            const glm::dvec2 shift = charts[levelOf(layout, state.to.places.front())].shift;
+            move(state.line, shift);
+            if (state.facing) *state.facing += shift;
+        }
     for (Wall& wall : plane.walls)
         move(wall.points, charts[wall.level].shift);
     for (Flow& flow : plane.flows)

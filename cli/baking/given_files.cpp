@@ -75,8 +75,11 @@ std::uint64_t readGivenFiles(const std::string& name, authoring::Layout& layout,
                               "`file` is relative to the layout's folder; files that do not tell their frame "
                               "rate need `fps`");
         }
-        for (const std::vector<GivenPoint>& way : given.ways)
+        for (const std::vector<GivenPoint>& way : given.ways) {
+            const std::size_t points = way.size();
+            hasher.add(std::as_bytes(std::span(&points, 1)));
             hasher.add(std::as_bytes(std::span(way)));
+        }
     }
     if (any) tellOfMany(layout, diagnostics);
     return any ? hasher.digest() : 0;

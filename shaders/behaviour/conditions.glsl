@@ -56,6 +56,7 @@ bool isOpen(BehaviourRule rule) {
 /// By a signal, which goes round for ever.
 bool isGreen(BehaviourRule rule) {
     float into = mod(now + rule.time.mean, rule.number);
+    if (into >= rule.number) into -= rule.number;  // as it may come out, where division is not exact
     for (uint i = rule.first; i < rule.first + rule.count; ++i)
         if (into >= behaviour_points[i].x && into < behaviour_points[i].y) return true;
     return false;

@@ -12,12 +12,17 @@ uniform uint line_count;
 /// Where a number's row is kept: as many at once as there are people who may wait there.
 uint placeOf(WaitingLine line, uint number) { return line.first_ticket + number % line.ticket_count; }
 
+/// Whether whoever is next is no longer there: served, called away, or in another line by now.
+bool isGone(WaitingLine line, uint index) {
+    AgentState next = states[tickets[placeOf(line, line.served)]];
+    return next.ticket != line.served || stages[next.stage].line != index;
+}
+
 void main() {
     uint index = gl_GlobalInvocationID.x;
     if (index >= line_count) return;
     WaitingLine line = waiting_lines[index];
-    // Whoever was served, or was called away, has given its ticket back.
-    while (line.served < line.given && states[tickets[placeOf(line, line.served)]].ticket != line.served)
+    while (line.served < line.given && isGone(line, index))
         ++line.served;
     // One joins per step. Who was called away in this very step does not.
     uint row = line.candidate;

@@ -68,6 +68,22 @@ def rename_flow_in_a_rule():
     data().flows["from the west"].name = "westerners"
 
 
+def rename_to_a_name_that_is_taken():
+    state("shop").name = "leave"
+    assert [each.name for each in data().behaviours["visitor"].states] == ["stroll", "leave.001", "leave"]
+    state("leave.001").name = ""
+    assert state("leave.001").known == "leave.001"
+
+
+def add_a_condition_twice():
+    for _ in range(2):
+        change("behaviours[0].states[0].until[0].conditions")
+    kinds = [each.kind for each in state("stroll").until[0].conditions]
+    assert len(set(kinds)) == 3 and kinds[0] == "after"
+    state("stroll").until[0].conditions[1].kind = "after"
+    assert len({each.kind for each in state("stroll").until[0].conditions}) == 3
+
+
 def draw_one():
     """From nothing, as an artist does."""
     change("behaviours")
@@ -98,7 +114,7 @@ def give_a_flow_a_behaviour():
 
 
 EDITS = (rename_area, rename_state, rename_behaviour, change_what_is_done, change_times, add_a_rule, remove_a_rule,
-         rename_flow_in_a_rule, draw_one, give_a_flow_a_behaviour)
+         rename_flow_in_a_rule, rename_to_a_name_that_is_taken, add_a_condition_twice, draw_one, give_a_flow_a_behaviour)
 found = {}
 for edit in EDITS:
     assert bpy.ops.import_scene.throng_layout(filepath=layout, replace=True) == {"FINISHED"}

@@ -20,6 +20,8 @@ EDITS = {
     "add_a_rule": {f"{STATES}/shop/until"},
     "remove_a_rule": {f"{STATES}/stroll/until"},
     "rename_flow_in_a_rule": {f"{STATES}/shop/until", "/flows/0/id"},
+    "rename_to_a_name_that_is_taken": {f"{STATES}/shop", f"{STATES}/leave.001", f"{STATES}/stroll/until/0/then"},
+    "add_a_condition_twice": {f"{STATES}/stroll/until/0/{key}" for key in ("at", "arrived")},
     "draw_one": {"/behaviours/1", "/flows/0/behaviour"},
     "give_a_flow_a_behaviour": {"/flows/2"},
 }

@@ -177,6 +177,46 @@ def test_people_are_served_in_the_order_in_which_they_came_again_and_again(bake)
     assert numpy.linalg.norm(first - [8, 0]) < 0.5, "one is served at the front"
 
 
+def test_who_changes_lines_holds_up_nobody(bake):
+    """Seven stand in each line; the eighth of one becomes the eighth of the other, with the same number."""
+    def queue(place, y, seconds, **more):
+        return {"queue": place, "line": [[1, y], [13, y]], "for": seconds, "then": "off", **more}
+
+    def standing(group, behaviour, places, **more):
+        return {"id": group, "type": "agents", "behaviour": behaviour,
+                "agents": [{"position": place} for place in places], **more}
+
+    off = {"walk_to": "out"}
+    layout = {"throng": 1, "simulation": {"duration": 60, "fps": 10},
+              "areas": [{"id": "a", "polygon": box(0, -2, 14, 4)}, {"id": "b", "polygon": box(0, 4, 14, 4)},
+                        {"id": "out", "polygon": box(-10, -10, 2, 4)}],
+              "behaviours": [
+                  {"id": "first", "start": "q", "states": {"q": queue("a", 0, 4), "off": off}},
+                  {"id": "second", "start": "q", "states": {"q": queue("b", 6, 40), "off": off}},
+                  {"id": "change", "start": "q", "states": {
+                      "q": queue("a", 0, 4, until=[{"after": 22, "then": "b"}]), "b": queue("b", 6, 30), "off": off}}],
+              "formations": [standing("seven", "first", [[2 + i, 0] for i in range(7)]),
+                             standing("changes", "change", [[9, 0.5]]),
+                             standing("last", "first", [[11 + i, 0.5] for i in range(3)], start=10),
+                             standing("others", "second", [[2 + i, 6] for i in range(7)])]}
+    baked = bake("lines", layout)
+    assert (baked.doing[-1, baked.of("last")] == 0).all(), "they have been served, and are gone"
+
+
+def test_queues_are_on_other_levels_too(throng, tmp_path):
+    (tmp_path / "layout.json").write_text(json.dumps({
+        "throng": 1, "simulation": {"duration": 4},
+        "levels": [{"id": "ground", "height": 0, "floor": box(0, 0, 14, 20)},
+                   {"id": "upper", "height": 4, "floor": box(20, 0, 30, 20)}],
+        "links": [{"id": "stairs", "from": "ground", "to": "upper", "path": [[14, 10], [20, 10]], "width": 3}],
+        "areas": [{"id": "in", "level": "upper", "polygon": box(21, 1, 7, 7)},
+                  {"id": "till", "level": "upper", "polygon": box(42, 1, 7, 7)}],
+        "behaviours": [{"id": "b", "start": "line", "states": {
+            "line": {"queue": "till", "line": [[43, 2], [43, 7]], "for": 3, "then": "off"}, "off": {"walk_to": "in"}}}],
+        "flows": [{"id": "people", "from": "in", "behaviour": "b", "count": 5}]}))
+    throng("check", tmp_path / "layout.json")
+
+
 def test_somebody_who_comes_near_ends_it(bake):
     passer = {"id": "passer", "type": "agents", "agents": [{"position": [-10, 1.6], "goal": [12, 1.6], "speed": 1.3}]}
     times = setting_off(bake("near", conditions({"near": "passer", "within": 2.5}, extra=[passer])))

@@ -59,6 +59,17 @@ def test_they_are_where_their_ways_say(throng, tmp_path, source):
 
 
 @pytest.mark.quick
+def test_rounded_seconds_make_nobody_vanish(throng, tmp_path):
+    """A file of 30 frames a second, whose times have two decimals."""
+    time = (2 + numpy.arange(150) / 30).round(2)
+    way = numpy.stack([time, 1.2 * (time - 2), 0 * time], 1)
+    pos, _, state = bake(throng, tmp_path, {"given": [{"id": "given", "file": "seen.csv"}]},
+                         files={"seen.csv": csv_of([way])})
+    there, places = expected(way, len(pos))
+    assert pos.shape[1] == 1 and numpy.array_equal(state[1:-1, 0, 0] > 0.5, there[1:-1])
+    assert numpy.abs(pos[there, 0, :2] - places[there]).max() < 0.02
+
+
 def test_others_walk_round_them(throng, tmp_path):
     """One stands in the way, and one comes along it."""
     told = {"given": [{"id": "given", "people": {"radius": 0.25},

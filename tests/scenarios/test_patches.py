@@ -114,6 +114,13 @@ def test_patches_of_a_level_are_on_it_alone(throng, tmp_path):
 SQUARE = [[0, 0], [2, 0], [2, 2], [0, 2]]
 
 
+def test_many_over_each_other_are_no_more_than_so_costly(throng, tmp_path):
+    wide = {"polygon": [[-3, -20], [3, -20], [3, 20], [-3, 20]], "cost": 20}
+    told = layout(8 * [wide], [walker()], walls=[FAR_WALL, {"points": [[-14, 16], [14, 16]]}])
+    (tmp_path / "layout.json").write_text(json.dumps(told))
+    throng("check", tmp_path / "layout.json", timeout=20)
+
+
 @pytest.mark.parametrize("patch, others, words", [
     ({"polygon": SQUARE}, {}, "neither `cost` nor `pace`"),
     ({"polygon": SQUARE, "cost": 0.5}, {}, "expected at least 1 and at most 20"),

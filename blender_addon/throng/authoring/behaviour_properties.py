@@ -25,6 +25,10 @@ def _items(owner, keys):
 def _state_named(state, _context):
     """What leads to a state speaks of it by name."""
     behaviour = _owner_of(state)
+    taken = {each.name for each in behaviour.states if each != state} if behaviour else set()
+    if state.known and (not state.name or state.name in taken):
+        state.name = state.known if not state.name else _free(state.name, taken)
+        return
     if behaviour and state.known and state.known != state.name:
         if behaviour.start == state.known:
             behaviour.start = state.name
@@ -33,6 +37,20 @@ def _state_named(state, _context):
                 if led.then == state.known:
                     led.then = state.name
     state.known = state.name
+
+
+def _free(name, taken):
+    return next(each for each in (f"{name}.{number:03d}" for number in range(1, 1000)) if each not in taken)
+
+
+def _once(condition, _context):
+    """A rule has a key once: of another condition of its kind this one becomes the next kind that there is none of."""
+    for behaviour in condition.id_data.throng_layout.behaviours:
+        for rule in (rule for state in behaviour.states for rule in state.until):
+            others = {each.kind for each in rule.conditions if each != condition}
+            if condition.kind in others and any(each == condition for each in rule.conditions):
+                condition.kind = next(kind for kind in behaviours.CONDITIONS if kind not in others)
+                return
 
 
 def _owner_of(state):
@@ -64,7 +82,7 @@ def flow_named(layout, before, name):
 
 
 class ThrongCondition(bpy.types.PropertyGroup):
-    kind: EnumProperty(name="When", items=_items("transition", behaviours.CONDITIONS))
+    kind: EnumProperty(name="When", items=_items("transition", behaviours.CONDITIONS), update=_once)
     time: PointerProperty(type=ThrongDistribution, name="Time", description="s; from a distribution each draws its own")
     number: FloatProperty(name="Number", soft_min=0.0)
     place: PointerProperty(type=ThrongPlace)

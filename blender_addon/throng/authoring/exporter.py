@@ -43,8 +43,11 @@ class ExportWorld:
         self.tolerance = scene.throng_layout.tolerance
         self._names = {}
         # Those of places in the layout that was imported, and what they are called now.
-        self._places = {_raw(thing).get("id"): thing for thing in scene.objects
-                        if thing.throng_layout.kind in ("ROAD", "AREA") and thing.throng_layout.raw}
+        # Copies have what they were copied from in mind, and do not count.
+        places = [thing for thing in scene.objects
+                  if thing.throng_layout.kind in ("ROAD", "AREA") and thing.throng_layout.raw]
+        places.sort(key=lambda thing: thing.name == thing.throng_layout.imported_name)
+        self._places = {_raw(thing).get("id"): thing for thing in places}
 
     def place_named(self, text):
         """A place by its name in the layout that was imported."""

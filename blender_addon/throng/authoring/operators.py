@@ -260,6 +260,8 @@ class THRONG_OT_list(bpy.types.Operator):
     def _name(self, group, added):
         """Behaviours and states are spoken of by name, and a behaviour begins with its first state."""
         what = self.where.rpartition(".")[2]
+        if what == "conditions":
+            added.kind = added.kind  # one that the rule has not yet
         if what not in ("behaviours", "states"):
             return
         names, word = {each.name for each in group}, what[:-1].capitalize()

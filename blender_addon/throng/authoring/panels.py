@@ -11,6 +11,7 @@ from .codecs import MIX, UNSET
 from .panel_parts import change, destination, distribution, letters, list_of, one_of, optional, place, problems_of
 from .values import MISSING
 
+
 def _people(layout, people):
     distribution(layout, people, "speed")
     distribution(layout, people, "radius")
@@ -52,10 +53,10 @@ class VIEW3D_PT_throng_layout(InSidebar, bpy.types.Panel):
         for name in names.get(part.kind, ()):
             box.prop(part, name)
         if part.kind == "PATCH":
-            _optional(box, part.patch, "cost")
+            optional(box, part.patch, "cost")
             box.prop(part.patch, "pace")
             box.prop(part.patch, "begins")
-            _optional(box, part.patch, "ends")
+            optional(box, part.patch, "ends")
         if part.kind == "FORMATION":
             self._formation(box, part.formation, context.scene.throng_layout)
         problems_of(context, box, lambda problem: problem.target == thing)
