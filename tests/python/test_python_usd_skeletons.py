@@ -9,7 +9,7 @@ import numpy
 import pytest
 
 import throng_io
-from conftest import ROOT
+from conftest import ROOT, blender_module
 from posed_people import expected, frames_of, off
 from throng_io import cli
 from throng_io.cast import BEATS, POSES, Repertoire, gait
@@ -265,3 +265,25 @@ def test_packages_hold_files_and_no_links(tmp_path):
             assert not (package / name).is_symlink()
             assert (package / name).read_bytes() == (ROOT / "blender_addon" / "throng" / name).read_bytes()
         assert not (package / "people" / "materials.py").exists()
+
+
+def test_blenders_picture_of_it_is_that_of_the_bake(throng, tmp_path, bodies, monkeypatch):
+    """Whom a camera sees in Blender, pixel by pixel: the bake as the add-on shows it, and what USD's import makes."""
+    layout = {"throng": 1, "simulation": {"duration": 6, "seed": 2},
+              "roads": [{"id": "road", "centreline": [[0, 0], [16, 0]], "width": 6}],
+              "flows": [{"id": "east", "from": "road:start", "to": "road:end", "count": 5, "end": 2},
+                        {"id": "west", "from": "road:end", "to": "road:start", "count": 3, "end": 2}]}
+    throng_io.bake(layout, tmp_path / "bake", program=throng.binary)
+    monkeypatch.setenv("THRONG_BODIES", str(bodies))
+    usd, command, seen = tmp_path / "crowd.usdc", blender_module(), []
+    assert cli.main(["export-usd", str(tmp_path / "bake"), "-o", str(usd), "--skeletons", "--copies", "--bare"]) == 0
+    script, addon = ROOT / "tests" / "python" / "picture_of_crowd.py", ROOT / "blender_addon"
+    for kind, path in (("native", tmp_path / "bake" / "bake.json"), ("usd", usd)):
+        arguments = [str(each) for each in (addon, kind, path, 100, tmp_path / f"{kind}.png")]
+        process = subprocess.run(command(script, arguments, None, True), capture_output=True, text=True)
+        assert process.returncode == 0, process.stderr[-4000:]
+        line = next(each for each in process.stdout.splitlines() if each.startswith("RESULT "))
+        seen.append(numpy.array(list(line.removeprefix("RESULT "))) == "1")
+    native, imported = seen
+    assert native.mean() > 0.02
+    assert (native & imported).sum() > 0.99 * (native | imported).sum()

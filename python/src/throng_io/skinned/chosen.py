@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+import random
 import re
+from functools import lru_cache
 
 import numpy
 
@@ -54,4 +56,11 @@ def tint(people: numpy.ndarray, row: int, look: str) -> tuple[float, float, floa
     if _COLOUR.fullmatch(told):
         return palettes.linear(told)
     choice = palettes.tops(look)
-    return choice[int(row * 0.61803398875 % 1.0 * len(choice))]
+    return choice[int(_draws(len(people))[3 * row] * len(choice))]
+
+
+@lru_cache(maxsize=2)
+def _draws(count: int) -> list[float]:
+    """Three numbers of each person's own, as the add-on draws them (crowd/playback.py), so that pictures agree."""
+    draw = random.Random(7)
+    return [draw.random() for _ in range(3 * count)]

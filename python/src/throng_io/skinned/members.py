@@ -152,7 +152,7 @@ def _colour_of(material: str, role: roster.Role) -> tuple[float, float, float]:
 
 def _cloths(slot: str, fabric: str, look: str) -> tuple:
     if slot == "eyes":
-        return palettes.EYES
+        return palettes.BROWN_EYES if fabric == "brown" else palettes.EYES
     if slot in ("top", "bottom") and fabric == "denim":
         return palettes.DENIMS
     if slot == "top":
