@@ -187,7 +187,7 @@ def test_who_changes_lines_holds_up_nobody(bake):
                 "agents": [{"position": place} for place in places], **more}
 
     off = {"walk_to": "out"}
-    layout = {"throng": 1, "simulation": {"duration": 60, "fps": 10},
+    layout = {"throng": 1, "simulation": {"duration": 80, "fps": 10},
               "areas": [{"id": "a", "polygon": box(0, -2, 14, 4)}, {"id": "b", "polygon": box(0, 4, 14, 4)},
                         {"id": "out", "polygon": box(-10, -10, 2, 4)}],
               "behaviours": [

@@ -38,9 +38,11 @@ def _box(bodies, centre, half, bone, material, level, round_=0.55, axes=None):
     return loose(bodies, points, faces, bone, material)
 
 
-def _strap(top, field, wide, material, scale):
+def _strap(top, field, wide, material, scale, level):
     trunk = clipped(top, regions.but_arms(top.places, 1.0))
-    return strap_on(trunk, field(trunk.places), wide, 0.0055 * scale, material) if len(trunk.faces) else []
+    if not len(trunk.faces):
+        return []
+    return strap_on(trunk, field(trunk.places), wide, 0.0055 * scale, material, level == levels.NEAR)
 
 
 def bag(bodies, kind, tops, rig, level):
@@ -61,7 +63,7 @@ def bag(bodies, kind, tops, rig, level):
                               level))
         for top in tops if level < 2 else ():
             for side in (-1.0, 1.0):  # over the shoulder, and under the arm
-                found += _strap(top, regions.strap(side), 0.036 * scale, "extra pack", scale)
+                found += _strap(top, regions.strap(side), 0.036 * scale, "extra pack", scale, level)
     else:
         high = 0.10 if kind == "satchel" else 0.16
         side = -1.0
@@ -70,7 +72,8 @@ def bag(bodies, kind, tops, rig, level):
         centre = (hips[0] - 0.03, side * (min(edge, rig.widest + 0.05) + 0.035 * scale), hips[2] + 0.02 * scale)
         found.append(_box(bodies, centre, numpy.array([0.13, 0.040, high]) * scale, "pelvis", "extra leather", level))
         for top in tops if level < 2 else ():  # from the left shoulder to the right hip
-            found += _strap(top, regions.line((-0.13, 0.10), (0.115, 0.56)), 0.030 * scale, "extra leather", scale)
+            across = regions.line((-0.13, 0.10), (0.115, 0.56))
+            found += _strap(top, across, 0.030 * scale, "extra leather", scale, level)
     return found
 
 

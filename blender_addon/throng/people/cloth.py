@@ -296,7 +296,8 @@ class Tailor:
         if not len(trunk.faces):
             return []
         line = self._above(trunk, garment, middle)
-        return strap_on(trunk, line, 0.034 * self.scale, 0.0055 * self.scale, garment.belt)
+        return strap_on(trunk, line, 0.034 * self.scale, 0.0055 * self.scale, garment.belt,
+                        self.level == levels.NEAR)
 
     def _folds(self, part, garment):
         """How far the cloth goes out, m: ridges, here and there, across limbs where joints bend and where cloth piles

@@ -183,13 +183,14 @@ def lines_on(part, field, least=8):
     return found
 
 
-# Across a strap (share of half its width, height): flat, with two edges that light shows.
-_SECTION = ((-1.0, -0.9), (-1.0, 0.55), (-0.93, 0.95), (-0.80, 1.0),
+# Across a strap (share of half its width, height): flat, with two edges that light shows in the finest.
+_PLAIN = ((-1.0, -0.9), (-0.95, 0.95), (0.95, 0.95), (1.0, -0.9))
+_FINE = ((-1.0, -0.9), (-1.0, 0.55), (-0.93, 0.95), (-0.80, 1.0),
             (0.80, 1.0), (0.93, 0.95), (1.0, 0.55), (1.0, -0.9))
 
 
-def strap_on(part, field, wide, lift, material, rounds=30):
-    """A strap of even width along the lines where a field is zero."""
+def strap_on(part, field, wide, lift, material, fine=False, rounds=30):
+    """A strap of even width along the lines where a field is zero. @param fine with round edges"""
     found = []
     for line, normals, closed in lines_on(part, field):
         points, faces = line.points, []
@@ -206,7 +207,8 @@ def strap_on(part, field, wide, lift, material, rounds=30):
             numpy.gradient(points, axis=0)
         aside = numpy.cross(normals, along)
         aside /= numpy.linalg.norm(aside, axis=1, keepdims=True) + 1e-12
-        rows = [points + aside * (0.5 * wide * share) + normals * (lift * height) for share, height in _SECTION]
+        rows = [points + aside * (0.5 * wide * share) + normals * (lift * height)
+                for share, height in (_FINE if fine else _PLAIN)]
         count, across = len(points), len(rows)
         columns = numpy.tile(line.columns(), (across, 1))
         columns[:, :3] = numpy.concatenate(rows)
