@@ -4,7 +4,8 @@ import bpy
 
 from ..blender.panels import InSidebar
 from . import behaviours
-from .panel_parts import change, destination, distribution, list_of, one_of, optional, place, places, problems_of, who
+from .panel_parts import (
+    change, destination, distribution, list_of, one_of, optional, order, place, places, problems_of, who)
 
 _WORDS = {"near": "Within", "crowded": "Persons/m²", "chance": "Share/s"}
 
@@ -97,8 +98,7 @@ def _rules(layout, state, where, data, behaviour):
         box.prop_search(rule, "then", behaviour, "states")
         row = box.row(align=True)
         change(row, f"{path}.conditions", "ADD", "ADD")
-        for action, icon in (("UP", "TRIA_UP"), ("DOWN", "TRIA_DOWN"), ("REMOVE", "X")):
-            change(row, f"{where}.until", action, icon, number)
+        order(row, f"{where}.until", number)
 
 
 def _condition(box, condition, path, data):
@@ -112,8 +112,7 @@ def _condition(box, condition, path, data):
     elif kind in behaviours.PLACES and not (kind == "near" and len(condition.who)):
         place(box, condition.place, "Place")
     if kind == "empty" or kind == "near" and not condition.place.target:
-        box.label(text="Of" if kind == "empty" else "Or anybody of")
-        who(box, condition.who, f"{path}.who", data)
+        who(box, condition.who, f"{path}.who", data, "Of" if kind == "empty" else "Or anybody of")
     if kind in behaviours.NUMBERS:
         box.prop(condition, "number", text=_WORDS[kind])
 

@@ -2,8 +2,8 @@
 """Behaviours: what people do, state by state, and what ends it. Pure Python; for the world between names and objects
 see places.py."""
 from . import fields
-from .codecs import Codec, Distribution, Optional, put_all, take_all
-from .places import Destination, Place, Target, keep_raw, place_of, put_place, raw_of
+from .codecs import Codec, Distribution, Optional, Text, put_all, take_all
+from .places import Destination, Place, Target, keep_raw, name_of, place_of, put_member, put_place, raw_of
 from .schema import LAYOUT
 from .values import MISSING, is_number, is_point
 
@@ -12,16 +12,6 @@ CONDITIONS = tuple(key for key in LAYOUT.entries(LAYOUT.named("transition")) if 
 # Conditions by what they speak of.
 TIMES, GATES, LIGHTS, PLACES = ("after", "at"), ("open", "closed"), ("green", "red"), ("near", "empty", "all_here")
 NUMBERS = {"near": "within", "crowded": "crowded", "chance": "chance"}  # conditions with a number, and its key
-
-
-class Text(Codec):
-    """A name; none is no key."""
-
-    def shown(self, raw):
-        return raw if isinstance(raw, str) else ""
-
-    def written(self, value):
-        return value or MISSING
 
 
 class _Fixed(Codec):
@@ -115,16 +105,6 @@ KEYS = {
 }
 
 
-def put_member(member, raw, world):
-    """A flow or a formation: the flow by its name, the formation as an object."""
-    member.target = world.member(raw) if isinstance(raw, str) else None
-    member.name = raw if isinstance(raw, str) and member.target is None else ""
-
-
-def name_of(member, world):
-    return world.name(member.target) if member.target else member.name
-
-
 def _does(raw):
     return next((key for key in DOES if key in raw), "stay")
 
@@ -149,9 +129,9 @@ def _take_state(state, world):
         raw = {key: value for key, value in raw.items() if key in own}
     result = take_all(codecs, state, raw, world)
     rules = [_take_rule(rule, world) for rule in state.until]
-    if rules or isinstance(raw.get("until"), list):
+    if rules or raw.get("until") == []:
         result["until"] = rules
-    if not result.get("until", True) and raw.get("until") != []:
+    elif isinstance(raw.get("until"), list):
         del result["until"]
     return result
 
@@ -239,9 +219,10 @@ def _taken_place(condition, raw, world):
     who = [name_of(member, world) for member in condition.who]
     if condition.kind == "near" and who and not condition.place.target:
         return {"near": who[0]}
-    place = place_of(condition.place, world)
-    return {condition.kind: place, "of": _people(who, raw.get("of", MISSING))} if condition.kind == "empty" else \
-        {condition.kind: place}
+    result = {condition.kind: place_of(condition.place, world)}
+    if condition.kind == "empty":
+        result["of"] = _people(who, raw.get("of", MISSING))
+    return result
 
 
 def _people(names, raw):

@@ -36,6 +36,16 @@ class Codec:
         return value
 
 
+class Text(Codec):
+    """A name; none is no key."""
+
+    def shown(self, raw):
+        return raw if isinstance(raw, str) else ""
+
+    def written(self, value):
+        return value or MISSING
+
+
 class Number(Codec):
     def __init__(self, key, default, attribute=None, required=False):
         super().__init__(key, attribute)

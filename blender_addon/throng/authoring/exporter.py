@@ -179,7 +179,7 @@ def _scaled(result, thing, keys):
 def _formation(thing, world):
     part, raw = thing.throng_layout.formation, _raw(thing)
     old = raw if raw.get("type") == part.type else {key: raw[key] for key in ("id",) if key in raw}
-    codecs = (*fields.FORMATION[part.type], places.Behaviour())
+    codecs = (*fields.FORMATION[part.type], places.BEHAVIOUR)
     result = take_all(codecs, part, {**_named(thing, old), "type": part.type}, world)
     if part.type == "circle":
         result["centre"] = world.point_of(thing, old.get("centre"))

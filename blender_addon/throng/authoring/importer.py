@@ -156,7 +156,7 @@ def _shaped(world, key, kind, entry):
 
 def _put_formation(part, entry, world):
     part.type = entry["type"]
-    codecs.put_all((*fields.FORMATION[part.type], places.Behaviour()), part, entry, world)
+    codecs.put_all((*fields.FORMATION[part.type], places.BEHAVIOUR), part, entry, world)
     if part.type == "grid":
         places.put_goal(part, entry.get("goal", MISSING), world)
 

@@ -109,32 +109,30 @@ class THRONG_OT_add_wall(_Adds, bpy.types.Operator):
         return {"FINISHED"}
 
 
-class THRONG_OT_add_area(_Adds, bpy.types.Operator):
+class _AddsRectangle(_Adds):
+    length: FloatProperty(name="Length", default=8.0, min=0.1, subtype="DISTANCE")
+    depth: FloatProperty(name="Depth", default=8.0, min=0.1, subtype="DISTANCE")
+    angle: FloatProperty(name="Angle", subtype="ANGLE")
+
+    def execute(self, context):
+        self.add_curve(context, self.kind.capitalize(), _rectangle(self.length, self.depth), True, self.kind)
+        return {"FINISHED"}
+
+
+class THRONG_OT_add_area(_AddsRectangle, bpy.types.Operator):
     """Add an area: a plaza, an entry, an exit"""
 
     bl_idname = "throng.add_area"
     bl_label = "Add Area"
-    length: FloatProperty(name="Length", default=8.0, min=0.1, subtype="DISTANCE")
-    depth: FloatProperty(name="Depth", default=8.0, min=0.1, subtype="DISTANCE")
-    angle: FloatProperty(name="Angle", subtype="ANGLE")
-
-    def execute(self, context):
-        self.add_curve(context, "Area", _rectangle(self.length, self.depth), True, "AREA")
-        return {"FINISHED"}
+    kind = "AREA"
 
 
-class THRONG_OT_add_patch(_Adds, bpy.types.Operator):
+class THRONG_OT_add_patch(_AddsRectangle, bpy.types.Operator):
     """Add ground that people avoid, or walk on at another pace: a lawn, mud"""
 
     bl_idname = "throng.add_patch"
     bl_label = "Add Patch"
-    length: FloatProperty(name="Length", default=8.0, min=0.1, subtype="DISTANCE")
-    depth: FloatProperty(name="Depth", default=8.0, min=0.1, subtype="DISTANCE")
-    angle: FloatProperty(name="Angle", subtype="ANGLE")
-
-    def execute(self, context):
-        self.add_curve(context, "Patch", _rectangle(self.length, self.depth), True, "PATCH")
-        return {"FINISHED"}
+    kind = "PATCH"
 
 
 class THRONG_OT_add_line(_Adds, bpy.types.Operator):

@@ -46,6 +46,12 @@ def change(layout, where, action, icon, index=-1):
     operator.where, operator.action, operator.index = where, action, index
 
 
+def order(row, where, index):
+    """Earlier, later, or out of a list."""
+    for action, icon in (("UP", "TRIA_UP"), ("DOWN", "TRIA_DOWN"), ("REMOVE", "X")):
+        change(row, where, action, icon, index)
+
+
 def destination(layout, chosen, where, text="To"):
     column = layout.column(align=True)
     column.prop(chosen, "mode", text=text)
@@ -61,11 +67,13 @@ def places(layout, chosen, where, weight=False):
     change(layout, f"{where}.places", "ADD", "ADD")
 
 
-def who(layout, people, where, data):
+def who(layout, people, where, data, text):
     """Flows by name, formations as objects."""
+    row = layout.row()
+    row.label(text=text)
+    change(row, where, "ADD", "ADD")
     for index, member in enumerate(people):
         change(one_of(layout, member, data), where, "REMOVE", "X", index)
-    change(layout, where, "ADD", "ADD")
 
 
 def one_of(layout, member, data):

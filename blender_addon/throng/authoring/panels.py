@@ -8,7 +8,7 @@ from ..blender.panels import InSidebar
 from . import fields
 from .bake_operator import running
 from .codecs import MIX, UNSET
-from .panel_parts import change, destination, distribution, letters, list_of, one_of, optional, place, problems_of
+from .panel_parts import change, destination, distribution, letters, list_of, optional, order, place, problems_of, who
 from .values import MISSING
 
 
@@ -144,9 +144,7 @@ class VIEW3D_PT_throng_flows(InSidebar, bpy.types.Panel):
                     box.prop(stop, "spacing")
                 else:
                     box.prop(stop, "facing")
-            row = box.row(align=True)
-            for action, icon in (("UP", "TRIA_UP"), ("DOWN", "TRIA_DOWN"), ("REMOVE", "X")):
-                change(row, f"{where}.via", action, icon, index)
+            order(box.row(align=True), f"{where}.via", index)
 
 
 class VIEW3D_PT_throng_events(InSidebar, bpy.types.Panel):
@@ -171,11 +169,7 @@ class VIEW3D_PT_throng_events(InSidebar, bpy.types.Panel):
             where = f"events[{data.active_event}]"
             destination(layout, event.destination, f"{where}.destination")
             layout.prop(event, "arrival")
-            row = layout.row()
-            row.label(text="Who (by default everybody)")
-            change(row, f"{where}.who", "ADD", "ADD")
-            for index, member in enumerate(event.who):
-                change(one_of(layout, member, data), f"{where}.who", "REMOVE", "X", index)
+            who(layout, event.who, f"{where}.who", data, "Who (by default everybody)")
 
 
 class VIEW3D_PT_throng_simulation(InSidebar, bpy.types.Panel):

@@ -8,7 +8,7 @@ point_of(object, raw) and line_of(object, raw).
 import json
 
 from . import fields
-from .codecs import Codec, Number, put_all, take_all
+from .codecs import Codec, Number, Text, put_all, take_all
 from .values import MISSING, are_points, is_number, is_point, short, single
 
 _WEIGHT = Number("weight", 1.0)
@@ -31,6 +31,16 @@ def put_place(ref, text, world):
 
 def place_of(ref, world):
     return world.place(ref.target, ref.end) if ref.target else ref.text
+
+
+def put_member(member, raw, world):
+    """A flow or a formation: the flow by its name, the formation as an object."""
+    member.target = world.member(raw) if isinstance(raw, str) else None
+    member.name = raw if isinstance(raw, str) and member.target is None else ""
+
+
+def name_of(member, world):
+    return world.name(member.target) if member.target else member.name
 
 
 class Destination(Codec):
@@ -159,20 +169,8 @@ class Amount(Codec):
 
 
 AMOUNT = Amount()
-class Behaviour(Codec):
-    """The name of one; none is no key."""
-
-    def __init__(self):
-        super().__init__("behaviour")
-
-    def shown(self, raw):
-        return raw if isinstance(raw, str) else ""
-
-    def written(self, value):
-        return value or MISSING
-
-
-FLOW = (Place("from", "source"), Stops("via"), Destination("to"), Behaviour()) + fields.FLOW
+BEHAVIOUR = Text("behaviour")
+FLOW = (Place("from", "source"), Stops("via"), Destination("to"), BEHAVIOUR) + fields.FLOW
 
 
 def put_flow(flow, raw, world):
@@ -232,9 +230,7 @@ def put_event(event, raw, world):
     _EVENT_ARRIVAL.put(event, raw.get("arrival", MISSING))
     event.who.clear()
     for text in raw["who"] if isinstance(raw.get("who"), list) else []:
-        member = event.who.add()
-        member.target = world.member(text) if isinstance(text, str) else None
-        member.name = text if isinstance(text, str) and member.target is None else ""
+        put_member(event.who.add(), text, world)
 
 
 def take_event(event, world):
@@ -253,7 +249,7 @@ def take_event(event, world):
     else:
         values["go_to"] = _GO_TO.take(event, raw.get("go_to", MISSING), world)
         values["arrival"] = _EVENT_ARRIVAL.take(event, raw.get("arrival", MISSING))
-        values["who"] = [world.name(each.target) if each.target else each.name for each in event.who]
+        values["who"] = [name_of(each, world) for each in event.who]
         if not values["who"] and "who" not in raw:
             values["who"] = MISSING
     for key, value in values.items():
