@@ -10,6 +10,7 @@
 #include "authoring/destination.h"
 #include "authoring/distribution.h"
 #include "authoring/source_position.h"
+#include "authoring/traffic.h"
 #include "base/activities.h"
 
 /// What people do, state by state, and what leads them from one to the next.
@@ -39,12 +40,11 @@ struct Condition {
         red,          ///< likewise
     };
     Kind kind = Kind::arrived;
-    Distribution time;      ///< s; after, at
-    double number = 0.0;    ///< m; persons/m^2; share
-    Place place;            ///< near_place, empty, all_here: an area or the end of a road
-    std::size_t wall = 0;   ///< open, closed
-    bool is_lane = false;   ///< green, red
-    std::size_t light = 0;  ///< green, red: index of the crossing or lane
+    Distribution time;     ///< s; after, at
+    double number = 0.0;   ///< m; persons/m^2; share
+    Place place;           ///< near_place, empty, all_here: an area or the end of a road
+    std::size_t wall = 0;  ///< open, closed
+    Lit light;             ///< green, red
     std::vector<GroupName> who;
     SourcePosition where;
 };

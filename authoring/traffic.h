@@ -22,11 +22,19 @@ struct Zebra {
     SourcePosition where;
 };
 
+/// What a signal can hold: a crossing or a lane, by its index.
+struct Lit {
+    bool is_lane = false;
+    std::size_t index = 0;
+    bool operator==(const Lit&) const = default;
+};
+
 /// A part of a signal's cycle.
 struct Phase {
     std::string name;
     double seconds = 0.0;
     std::vector<std::size_t> crossings, lanes;  ///< that are green in it: indices
+    bool isGreen(const Lit& what) const;
 };
 
 /// Goes round through its phases for ever. What is green in one of them is red in all others that do not name
@@ -38,6 +46,8 @@ struct Signal {
     SourcePosition where;
 
     double cycle() const;
+    /// Whether any phase of it is green for that.
+    bool holds(const Lit& what) const;
     /// Index of the phase at a time, s.
     std::size_t phaseAt(double time) const;
 };

@@ -56,8 +56,7 @@ bool excludeEachOther(const std::vector<const Condition*>& conditions) {
     for (const Condition* one : conditions)
         for (const Condition* other : conditions)
             if ((one->kind == Kind::open && other->kind == Kind::closed && one->wall == other->wall) ||
-                (one->kind == Kind::green && other->kind == Kind::red && one->is_lane == other->is_lane &&
-                 one->light == other->light))
+                (one->kind == Kind::green && other->kind == Kind::red && one->light == other->light))
                 return true;
     return false;
 }

@@ -366,29 +366,13 @@ void BehaviourReader::readGates(ObjectReader& reader, const JsonNode& node, Tran
 
 void BehaviourReader::readLights(ObjectReader& reader, const JsonNode& node, Transition& transition) {
     using Kind = Condition::Kind;
-    const auto indexOf = [](const auto& things, const std::string& id) {
-        const auto found = std::ranges::find_if(things, [&](const auto& thing) { return thing.id == id; });
-        return static_cast<std::size_t>(found - things.begin());
-    };
-    const std::vector<Zebra>& crossings = layout_.traffic.crossings;
-    const std::vector<Lane>& lanes = layout_.traffic.lanes;
     for (const auto& [key, kind] : {std::pair{"green", Kind::green}, std::pair{"red", Kind::red}}) {
         Condition* light = addCondition(reader, key, kind, transition);
         if (!light) continue;
-        const std::string& id = node.find(key)->text;
-        light->light = indexOf(crossings, id);
-        if (light->light < crossings.size()) continue;
-        light->is_lane = true;
-        light->light = indexOf(lanes, id);
-        if (light->light < lanes.size()) continue;
-        light->kind = Kind::arrived;  // so that nobody looks for it
-        std::vector<std::string> known;
-        for (const Zebra& crossing : crossings)
-            known.push_back(crossing.id);
-        for (const Lane& lane : lanes)
-            known.push_back(lane.id);
-        diagnostics_.error(light->where, fmt::format("there is no crossing or lane `{}`", id),
-                           hintFor(id, known));
+        if (const auto named = traffic_.litBy(*node.find(key)))
+            light->light = *named;
+        else
+            light->kind = Kind::arrived;  // so that nobody looks for it
     }
 }
 
@@ -465,12 +449,12 @@ void BehaviourReader::checkGate(const Condition& condition) {
 }
 
 void BehaviourReader::checkLight(const Condition& condition) {
-    const auto named = condition.is_lane ? &Phase::lanes : &Phase::crossings;
-    for (const Signal& signal : layout_.traffic.signals)
-        for (const Phase& phase : signal.phases)
-            if (std::ranges::find(phase.*named, condition.light) != (phase.*named).end()) return;
-    const std::string& id = condition.is_lane ? layout_.traffic.lanes[condition.light].id
-                                              : layout_.traffic.crossings[condition.light].id;
+    if (std::ranges::any_of(layout_.traffic.signals,
+                            [&](const Signal& signal) { return signal.holds(condition.light); }))
+        return;
+    const std::size_t index = condition.light.index;
+    const std::string& id =
+        condition.light.is_lane ? layout_.traffic.lanes[index].id : layout_.traffic.crossings[index].id;
     diagnostics_.error(condition.where, fmt::format("no signal has `{}`", id),
                        "name it under `green` in a phase of a signal");
 }

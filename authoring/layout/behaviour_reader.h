@@ -8,6 +8,7 @@
 #include "authoring/layout.h"
 #include "authoring/layout/object_reader.h"
 #include "authoring/layout/place_reader.h"
+#include "authoring/layout/traffic_reader.h"
 
 namespace throng::authoring {
 
@@ -17,12 +18,13 @@ class BehaviourReader {
     using Indices = std::map<std::string, std::size_t>;  // by id
     /// @param groups ids of flows and formations, known once these are read; @param walls likewise, of walls
     BehaviourReader(const Schema& schema, Layout& layout, const PlaceReader& places, const Indices& groups,
-                    const Indices& walls, Diagnostics& diagnostics)
+                    const Indices& walls, const TrafficReader& traffic, Diagnostics& diagnostics)
         : schema_(schema),
           layout_(layout),
           places_(places),
           groups_(groups),
           walls_(walls),
+          traffic_(traffic),
           diagnostics_(diagnostics) {}
 
     void read(const JsonNode& node);
@@ -68,6 +70,7 @@ class BehaviourReader {
     const PlaceReader& places_;
     const Indices& groups_;
     const Indices& walls_;
+    const TrafficReader& traffic_;
     Diagnostics& diagnostics_;
     Indices behaviours_;
     Indices states_;  // of the behaviour at hand

@@ -770,7 +770,7 @@ class Reader {
     SeatReader seats_{schema_, layout_, groups_, walls_, diagnostics_};
     BoardingReader boarding_{schema_, layout_, areas_, diagnostics_};
     TrafficReader traffic_{schema_, layout_, boarding_, diagnostics_};
-    BehaviourReader behaviours_{schema_, layout_, places_, groups_, walls_, diagnostics_};
+    BehaviourReader behaviours_{schema_, layout_, places_, groups_, walls_, traffic_, diagnostics_};
 };
 
 }  // namespace

@@ -11,13 +11,15 @@
 #include "shaders/shared/traffic_types.h"
 
 namespace throng::authoring {
-namespace {
 
-bool has(const std::vector<std::size_t>& indices, std::size_t index) {
-    return std::ranges::find(indices, index) != indices.end();
+bool Phase::isGreen(const Lit& what) const {
+    const std::vector<std::size_t>& all = what.is_lane ? lanes : crossings;
+    return std::ranges::find(all, what.index) != all.end();
 }
 
-}  // namespace
+bool Signal::holds(const Lit& what) const {
+    return std::ranges::any_of(phases, [&](const Phase& phase) { return phase.isGreen(what); });
+}
 
 double Signal::cycle() const {
     double seconds = 0.0;
@@ -128,15 +130,20 @@ void TrafficReader::readPhase(const JsonNode& node, Signal& signal) {
 }
 
 void TrafficReader::readGreen(const JsonNode& node, Phase& phase) {
+    if (const auto lit = litBy(node)) (lit->is_lane ? phase.lanes : phase.crossings).push_back(lit->index);
+}
+
+std::optional<Lit> TrafficReader::litBy(const JsonNode& node) const {
     const bool is_text = node.kind == JsonNode::Kind::text;
     if (const auto known = crossings_.find(node.text); is_text && known != crossings_.end())
-        return phase.crossings.push_back(known->second);
+        return Lit{false, known->second};
     if (const auto known = lanes_.find(node.text); is_text && known != lanes_.end())
-        return phase.lanes.push_back(known->second);
+        return Lit{true, known->second};
     std::vector<std::string> names = namesOf(crossings_);
     std::ranges::copy(namesOf(lanes_), std::back_inserter(names));
     diagnostics_.error(node.where, fmt::format("there is no crossing or lane `{}`", node.text),
                        names.empty() ? "list it under `crossings` or `lanes`" : hintFor(node.text, names));
+    return std::nullopt;
 }
 
 void TrafficReader::readVehicles(const JsonNode& node) {
@@ -230,8 +237,7 @@ void TrafficReader::checkLights() {
     const Traffic& traffic = layout_.traffic;
     for (std::size_t crossing = 0; crossing < traffic.crossings.size(); ++crossing) {
         const auto count = std::ranges::count_if(traffic.signals, [&](const Signal& signal) {
-            return std::ranges::any_of(signal.phases,
-                                       [&](const Phase& phase) { return has(phase.crossings, crossing); });
+            return signal.holds({false, crossing});
         });
         if (count > 1)
             diagnostics_.error(
@@ -244,8 +250,7 @@ void TrafficReader::checkLights() {
             if (!stop.signal) continue;
             const Signal& signal = traffic.signals[*stop.signal];
             const auto index = static_cast<std::size_t>(&lane - traffic.lanes.data());
-            if (std::ranges::none_of(signal.phases,
-                                     [&](const Phase& phase) { return has(phase.lanes, index); }))
+            if (!signal.holds({true, index}))
                 diagnostics_.error(stop.where,
                                    fmt::format("signal `{}` is never green for lane `{}`: its vehicles would "
                                                "stand there for ever",

@@ -24,6 +24,8 @@ class TrafficReader {
     void readSignal(const JsonNode& node);
     /// After all lanes.
     void readVehicles(const JsonNode& node);
+    /// What a signal can hold, by its name; told where there is none. After all crossings and lanes.
+    std::optional<Lit> litBy(const JsonNode& node) const;
     /// After everything.
     void finish();
 

@@ -259,9 +259,8 @@ void BehaviourTables::fillRule(const Condition& condition, const Owner& owner, g
 
 /// The first signal that has it counts, as for those who wait there.
 LightPlan BehaviourTables::lightOf(const Condition& condition) const {
-    const auto named = condition.is_lane ? &Phase::lanes : &Phase::crossings;
     for (const Signal& signal : layout_.traffic.signals)
-        if (auto plan = lightPlan(signal, named, condition.light)) return *plan;
+        if (auto plan = lightPlan(signal, condition.light)) return *plan;
     return {};
 }
 

@@ -70,7 +70,7 @@ class Builder {
         made.point_count = static_cast<std::uint32_t>(crossing.polygon.size());
         made.light = gpu::NO_LIGHT;
         for (const Signal& signal : traffic_.signals)
-            if (made.light == gpu::NO_LIGHT) made.light = lightOf(signal, &Phase::crossings, index);
+            if (made.light == gpu::NO_LIGHT) made.light = lightOf(signal, {false, index});
         made.entries = entriesOf(crossing);
         for (const glm::dvec2 point : crossing.polygon)
             scene_.crossing_points.push_back(rebase_.local(point));
@@ -102,8 +102,8 @@ class Builder {
     }
 
     /// When something is green by a signal; gpu::NO_LIGHT where the signal does not have it.
-    std::uint32_t lightOf(const Signal& signal, std::vector<std::size_t> Phase::*named, std::size_t index) {
-        std::optional<LightPlan> plan = lightPlan(signal, named, index);
+    std::uint32_t lightOf(const Signal& signal, const Lit& what) {
+        std::optional<LightPlan> plan = lightPlan(signal, what);
         if (!plan) return gpu::NO_LIGHT;
         scene_.lights.push_back(std::move(*plan));
         return static_cast<std::uint32_t>(scene_.lights.size() - 1);
@@ -137,8 +137,7 @@ class Builder {
         made.along = static_cast<float>(LaneLine(lane.points).alongAt(stop.at));
         made.seconds = static_cast<float>(stop.seconds);
         made.kind = stop.signal ? gpu::STOP_AT_RED : gpu::STOP_FOR_TIME;
-        made.light =
-            stop.signal ? lightOf(traffic_.signals[*stop.signal], &Phase::lanes, index) : gpu::NO_LIGHT;
+        made.light = stop.signal ? lightOf(traffic_.signals[*stop.signal], {true, index}) : gpu::NO_LIGHT;
         made.crossing = gpu::NO_INDEX;
         if (stop.platform) {
             made.kind = gpu::STOP_AT_PLATFORM;
@@ -251,14 +250,12 @@ std::vector<double> vehicleTimes(const Layout& layout, const VehicleFlow& flow) 
     return times;
 }
 
-std::optional<LightPlan> lightPlan(const Signal& signal, std::vector<std::size_t> Phase::*named,
-                                   std::size_t index) {
+std::optional<LightPlan> lightPlan(const Signal& signal, const Lit& what) {
     LightPlan plan;
     plan.offset = signal.offset;
     plan.cycle = 0.0;
     for (const Phase& phase : signal.phases) {
-        if (std::ranges::find(phase.*named, index) != (phase.*named).end())
-            plan.green.push_back({plan.cycle, plan.cycle + phase.seconds});
+        if (phase.isGreen(what)) plan.green.push_back({plan.cycle, plan.cycle + phase.seconds});
         plan.cycle += phase.seconds;
     }
     return plan.green.empty() ? std::nullopt : std::optional(std::move(plan));

@@ -23,10 +23,8 @@ bool isWithoutTraffic(const Layout& layout, Diagnostics& diagnostics);
 /// When vehicles of a flow come, s, in order.
 std::vector<double> vehicleTimes(const Layout& layout, const VehicleFlow& flow);
 
-/// When a crossing or lane is green by a signal; nothing where the signal does not have it.
-/// @param named of a phase, what is green in it
-std::optional<LightPlan> lightPlan(const Signal& signal, std::vector<std::size_t> Phase::*named,
-                                   std::size_t index);
+/// When something is green by a signal; nothing where the signal does not have it.
+std::optional<LightPlan> lightPlan(const Signal& signal, const Lit& what);
 
 /// Lanes, stops, crossings and everybody who drives. Tells of more vehicles than a bake can hold.
 SceneTraffic buildTraffic(const Layout& layout, const Rebase& rebase, Diagnostics& diagnostics);

@@ -100,7 +100,7 @@ def _colours(slot, fabric, look):
 
 def _printed(made, colour, tint, club):
     """Some have stripes, checks or flowers: those whose tint says so. @param club two colours, or None"""
-    shade, (_, left, up) = made.shade, made.place
+    shade, up = made.shade, made.place[2]
     picks = shade.math("FRACT", shade.math("MULTIPLY", tint[0], 37.0))
     light = shade.mix(made.base, (0.75, 0.73, 0.68), 0.7)
     if made.fabric == "cotton":

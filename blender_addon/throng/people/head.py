@@ -6,7 +6,7 @@ import numpy
 
 from . import levels, regions
 from .cloth import covered
-from .parts import Part, clipped, cut_out, joined, smoothed, subdivided
+from .parts import Part, clipped, joined, smoothed
 
 
 def bound_to(bodies, bone, count):
