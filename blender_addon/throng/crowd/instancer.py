@@ -3,15 +3,18 @@
 import bpy
 
 from ..blender.nodes import Maths, new_tree, socket
+from ..cast import LEVEL_BEATS, LEVEL_POSES
 from ..cast.library import shown_figures
 from . import footing
-from .names import BIGGER, FIGURE, HIDDEN, LEVEL, NATURE, NEAR
+from .names import BIGGER, COARSE, FIGURE, HIDDEN, LEVEL, NATURE, NEAR
 from .near import boned_members, near_tree
 from .pose_lists import list_of
 from .poses import member_in, pose_index
 
-BUNCH = 4  # figures that share a node, from 4.0 on
+BUNCH = 544  # poses that share a node, about so many from 4.0 on
+_COARSEST = 2  # the level of those who are far away on the screen
 _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
+_INPUTS = _GEOMETRY + [("Share", "NodeSocketFloat"), ("Blur", "NodeSocketBool")]
 
 
 def _present(maths, alive, nature, share):
@@ -21,16 +24,17 @@ def _present(maths, alive, nature, share):
     return maths.math("GREATER_THAN", maths.math("MULTIPLY", maths.math("GREATER_THAN", alive, 0.5), seen), 0.5)
 
 
-def _chosen(maths, levels, values, member, bent):
-    """Of values by level those of everybody's own level. @param bent how many members have no poses at level 0"""
+def _levels_of(maths, levels, member, bent, blurs):
+    """Everybody's level. @param bent how many members have no poses at level 0; @param blurs false on the screen"""
     if len(levels) == 1:
-        return values[0]
-    level, total = maths.attribute(LEVEL), 0.0
-    if bent:
-        level = maths.math("MAXIMUM", level, maths.math("LESS_THAN", member, bent - 0.5))
-    for number, value in zip(levels, values):
-        total = maths.math("MULTIPLY_ADD", value, maths.math("COMPARE", level, float(number), 0.5), total)
-    return total
+        return float(levels[0])
+    level = maths.attribute(LEVEL)
+    if not bent:
+        return level
+    far = maths.math("GREATER_THAN", maths.attribute(COARSE), _COARSEST + 0.5)
+    coarsest = maths.math("MULTIPLY", maths.math("MULTIPLY", far, float(_COARSEST)), maths.math("SUBTRACT", 1.0, blurs))
+    level = maths.math("MAXIMUM", level, maths.math("LESS_THAN", member, bent - 0.5))
+    return maths.math("MAXIMUM", level, coarsest)
 
 
 def _figure_number(level, member):
@@ -38,11 +42,17 @@ def _figure_number(level, member):
     return 1 + 1000 * level + member
 
 
-def _figures_and_poses(maths, state, phase, speed, variation, nature, repertoire, levels, bent):
-    """Everybody's figure (_figure_number), and which of its poses."""
-    poses = [pose_index(maths, speed, state, phase, nature, repertoire, level) for level in levels]
-    figures = [maths.math("ADD", variation, float(_figure_number(level, 0))) for level in levels]
-    return _chosen(maths, levels, figures, variation, bent), _chosen(maths, levels, poses, variation, bent)
+def _poses(maths, level, levels, pose_at):
+    """Everybody's pose at their level. @param pose_at (level), which is worked out once for levels with the same"""
+    alike = {}
+    for each in levels:
+        alike.setdefault((LEVEL_POSES[each], LEVEL_BEATS[each]), each)
+    first, *others = alike.values()
+    pose = pose_at(first)
+    for each in others:  # it is of the coarser ones from there on
+        change = maths.math("SUBTRACT", pose_at(each), pose)
+        pose = maths.math("MULTIPLY_ADD", maths.math("GREATER_THAN", level, each - 0.5), change, pose)
+    return pose
 
 
 def instancer_tree(cast, repertoire, leans, near=None, streams=(), most_close=0):
@@ -55,17 +65,16 @@ def instancer_tree(cast, repertoire, leans, near=None, streams=(), most_close=0)
 
     While a crowd is on screen, Blender notes down all attributes of what goes through a socket, those of every pose
     included, which takes longer than the work itself. From 4.0 on it does so for sockets outside of groups only, so
-    there the figures are in a group; before for all, so there should be few. And later versions look up every pose
-    among those before it, in time that grows with their square: there bunches are small, and the people of each are
-    handed on as one instance.
+    there all is in a group; before for all, so there should be few. And later versions look up every pose among those
+    before it, in time that grows with their square: there bunches are small, and the people of each are handed on as
+    one instance. Who is far away on the screen takes the few poses of the coarsest level (near.py).
     """
     bent = len(boned_members(cast)) if near else 0
     figures = {(level, member): thing for (level, member), thing in shown_figures(cast).items()
                if level > 0 or member >= bent}
     levels = sorted({level for level, _ in figures})
-    tree, inputs, outputs = new_tree("Throng instancer", _GEOMETRY + [("Share", "NodeSocketFloat"),
-                                                                    ("Blur", "NodeSocketBool")], _GEOMETRY)
-    maths = Maths(tree)
+    tree, inputs, outputs = new_tree("Throng instancer", _INPUTS, _GEOMETRY)
+    maths, blurs = Maths(tree), inputs.outputs["Blur"]
     cosine, sine, speed = maths.components("throng_dir")
     state, variation, phase = maths.components("throng_state")
     nature = maths.components(NATURE)
@@ -81,11 +90,13 @@ def instancer_tree(cast, repertoire, leans, near=None, streams=(), most_close=0)
         group = maths.node("GeometryNodeGroup")
         group.node_tree = near_tree(cast, repertoire, near, streams, most_close)
         maths.link(apart.outputs["Selection"], group.inputs[0])
-        maths.link(inputs.outputs["Blur"], group.inputs["Blur"])
+        maths.link(blurs, group.inputs["Blur"])
         points, people = apart.outputs["Inverted"], [if_any(maths, apart.outputs["Selection"], group.outputs[0])]
     rotation = maths.node("ShaderNodeCombineXYZ")
     maths.link(maths.math("ARCTAN2", sine, cosine), rotation.inputs[2])
-    figure, pose = _figures_and_poses(maths, state, phase, speed, member, nature, repertoire, levels, bent)
+    level = _levels_of(maths, levels, member, bent, blurs)
+    figure = maths.math("ADD", 1.0, maths.math("MULTIPLY_ADD", level, 1000.0, member))  # _figure_number
+    pose = _poses(maths, level, levels, lambda each: pose_index(maths, speed, state, phase, nature, repertoire, each))
     there = _present(maths, state, nature, share)
     points = maths.store(points, FIGURE, maths.math("MULTIPLY", figure, there), "INT")
     points = maths.store(points, "throng_pose", pose, "INT")
@@ -97,36 +108,39 @@ def instancer_tree(cast, repertoire, leans, near=None, streams=(), most_close=0)
         maths.link(points, remove.inputs[0])
         points = remove.outputs[0]
 
-    if bpy.app.version < (4, 0, 0):
-        instances = _instances(maths, points, cast, figures, leans, False, repertoire)
-        _together(maths, [*people, instances], outputs.inputs[0])
-        return tree
-    inside = maths.node("GeometryNodeGroup")
-    inside.node_tree, inner_inputs, inner_outputs = new_tree("Throng figures", _GEOMETRY, _GEOMETRY)
-    within = Maths(inside.node_tree)
-    everybody = _instances(within, inner_inputs.outputs[0], cast, figures, leans, True, repertoire)
-    within.link(everybody, inner_outputs.inputs[0])
-    maths.link(points, inside.inputs[0])
-    _together(maths, [*people, inside.outputs[0]], outputs.inputs[0])
-    return tree
+    apart = bpy.app.version >= (4, 0, 0)
+    people += _instances(maths, points, cast, figures, leans, apart, repertoire)
+    maths.link(_together(maths, people), outputs.inputs[0])
+    return _wrapped(tree) if apart else tree
 
 
-def _together(maths, geometries, target):
+def _wrapped(tree):
+    """A tree that is nothing but another as a group."""
+    outer, inputs, outputs = new_tree("Throng crowd", _INPUTS, _GEOMETRY)
+    inside = outer.nodes.new("GeometryNodeGroup")
+    inside.node_tree = tree
+    for given, slot in zip(inputs.outputs, inside.inputs):
+        outer.links.new(given, slot)
+    outer.links.new(inside.outputs[0], outputs.inputs[0])
+    return outer
+
+
+def _together(maths, geometries):
     if len(geometries) == 1:
-        maths.link(geometries[0], target)
-        return
+        return geometries[0]
     join = maths.node("GeometryNodeJoinGeometry")
     for geometry in geometries:
         maths.link(geometry, join.inputs[0])
-    maths.link(join.outputs[0], target)
+    return join.outputs[0]
 
 
 def _instances(maths, points, cast, figures, leans, apart, repertoire):
-    """Everybody's pose, level by level. @param apart whether the people of each bunch are one instance"""
+    """Everybody's pose, as one geometry for each level. @param apart whether the people of each bunch are one
+    instance"""
     levels = sorted({level for level, _ in figures})
     if len(levels) == 1:
-        return _instances_of(maths, points, cast, figures, leans, apart, repertoire)
-    everybody, figure = maths.node("GeometryNodeJoinGeometry"), maths.attribute(FIGURE, "INT")
+        return [_instances_of(maths, points, cast, figures, leans, apart, repertoire)]
+    found, figure = [], maths.attribute(FIGURE, "INT")
     for number in levels:
         own = {(level, member): thing for (level, member), thing in figures.items() if level == number}
         some = maths.node("GeometryNodeSeparateGeometry", domain="POINT")
@@ -135,9 +149,8 @@ def _instances(maths, points, cast, figures, leans, apart, repertoire):
         maths.link(maths.between(figure, _figure_number(number, 0), _figure_number(number, last)),
                    some.inputs["Selection"])
         here = some.outputs["Selection"]
-        people = _instances_of(maths, here, cast, own, leans, apart, repertoire)
-        maths.link(if_any(maths, here, people), everybody.inputs[0])
-    return everybody.outputs[0]
+        found.append(if_any(maths, here, _instances_of(maths, here, cast, own, leans, apart, repertoire)))
+    return found
 
 
 def if_any(maths, points, people):
@@ -150,9 +163,10 @@ def if_any(maths, points, people):
     return socket(switch.outputs)
 
 
-def _bunches(figures):
+def _bunches(figures, repertoire):
     """Figures of one level whose numbers follow each other, so many at a time."""
-    most = BUNCH if bpy.app.version >= (4, 0, 0) else len(figures)
+    level = next(iter(figures))[0]
+    most = max(1, BUNCH // repertoire.poses(level)) if bpy.app.version >= (4, 0, 0) else len(figures)
     found = []
     for (level, member), thing in sorted(figures.items()):
         if not found or len(found[-1]) == most or (level, member - 1) != found[-1][-1][0]:
@@ -165,9 +179,8 @@ def _instances_of(maths, points, cast, figures, leans, apart, repertoire):
     """The people of some figures, a bunch of these at a time."""
     figure, pose, turn = (maths.attribute(name, kind)
                           for name, kind in ((FIGURE, "INT"), ("throng_pose", "INT"), ("throng_turn", "FLOAT_VECTOR")))
-    size = maths.math("ADD", maths.attribute(BIGGER), 1.0)
-    everybody = maths.node("GeometryNodeJoinGeometry")
-    for bunch in _bunches(figures):
+    size, everybody = maths.math("ADD", maths.attribute(BIGGER), 1.0), []
+    for bunch in _bunches(figures, repertoire):
         (level, first), (_, last) = bunch[0][0], bunch[-1][0]
         place = maths.node("GeometryNodeInstanceOnPoints")
         place.inputs["Pick Instance"].default_value = True
@@ -185,5 +198,5 @@ def _instances_of(maths, points, cast, figures, leans, apart, repertoire):
             one = maths.node("GeometryNodeGeometryToInstance")
             maths.link(people, one.inputs[0])
             people = one.outputs[0]
-        maths.link(people, everybody.inputs[0])
-    return everybody.outputs[0]
+        everybody.append(people)
+    return _together(maths, everybody)

@@ -11,10 +11,12 @@ What comes out is one mesh, and what the people's points say of them (`tint`, an
 `id` is elsewhere) is on its vertices. It has a
 `velocity`, for the whole way of every vertex, so it blurs though it is another mesh in every frame.
 
-On the screen, where time is short, only those within some metres have meshes as fine as final pictures have.
+On the screen, where time is short, only those within some metres have meshes as fine as final pictures have, and
+everybody who is further away than some more takes the poses of the coarsest: Blender goes over all poses that a crowd
+could show in every frame, shown or not.
 
 Who is near, a modifier files away on the points: whoever is within so many metres before the camera. Where these are
-more than there may be, the distance shrinks, in sixteen steps, until they are not. The nearest of them can have meshes
+more than there may be, the distance shrinks, by sixteenths, until they are not. The nearest of them can have meshes
 of more detail in final pictures (close.py).
 """
 import bpy
@@ -30,10 +32,11 @@ from .names import BIGGER, BONE, COARSE, GROUND, HIDDEN, LEVEL, NATURE, NEAR, RO
 from .own import FIRST, OWN
 
 MODIFIER = "throng near"
-STEPS = 16             # of the distance
+HALVINGS = 4           # of the distance: 16 steps
 STANDS_BELOW = 0.03    # m/s: where no stream tells it, slower people stand, those faster than WALKS_FROM walk, and
 WALKS_FROM = 0.35      # between them both are blended
-COARSER_FROM = (4.5, 9.0)  # m: on the screen, near people who are further away have meshes of level 1, and 2
+COARSER_FROM = (4.5, 9.0)  # m: on the screen, near people who are further away have meshes of level 1, and 2,
+PICKED_COARSER_FROM = 30.0  # m: and from here on all others those of level 2
 _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
 _ALL, _JOINTS, _REST = "throng_all_bones", "throng_all_joints", "throng_rest"  # marks of objects in the cast
 _RANK, _TURN = "throng_rank", "throng_turn"
@@ -44,7 +47,7 @@ _WALKS, _BEFORE, _STANDS, _RATES = "throng_walks", "throng_before", "throng_stan
 
 def selection_tree():
     """The modifier's nodes: who is near."""
-    name = "Throng near, close and coarse by distance"
+    name = "Throng near, close, coarse and coarsest by distance"
     found = own_tree(name)
     if found:
         return found
@@ -72,22 +75,29 @@ def selection_tree():
     near = maths.math("LESS_THAN", share, fitting(maths, points, share, given["Most"]))
     closer = maths.math("SUBTRACT", 1.0, maths.math("DIVIDE", distance, maths.math("MAXIMUM", given["Close"], 1e-3)))
     near = maths.math("MULTIPLY", near, maths.math("ADD", maths.math("MAXIMUM", closer, 0.0), 1.0))
-    coarse = maths.math("ADD", *(maths.math("GREATER_THAN", distance, each) for each in COARSER_FROM))
+    first, second, third = (maths.math("GREATER_THAN", distance, each) for each in (*COARSER_FROM, PICKED_COARSER_FROM))
+    coarse = maths.math("ADD", maths.math("ADD", first, second), third)
     points = maths.store(points, COARSE, maths.math("MULTIPLY", coarse, maths.math("SUBTRACT", 1.0, given["Whole"])))
     maths.link(maths.store(points, NEAR, near), outputs.inputs[0])
     return tree
 
 
 def fitting(maths, points, share, most):
-    """The largest of STEPS even steps from 0 to 1 that at most so many points' shares are below."""
+    """The largest of even steps from 0 to 1 that at most so many points' shares are below, found by halves."""
     found = 0.0
-    for step in range(1, STEPS + 1):
-        count = maths.node("GeometryNodeAttributeStatistic", data_type="FLOAT", domain="POINT")
-        maths.link(points, count.inputs["Geometry"])
-        maths.link(maths.math("LESS_THAN", share, step / STEPS), socket(count.inputs, "Attribute"))
-        fits = maths.math("LESS_THAN", socket(count.outputs, "Sum"), maths.math("ADD", most, 0.5))
-        found = maths.math("ADD", fits, found)
-    return maths.math("DIVIDE", found, float(STEPS))
+    for halving in range(1, HALVINGS + 1):
+        tried = maths.math("ADD", found, 0.5 ** halving)
+        found = maths.math("MULTIPLY_ADD", _fits(maths, points, share, tried, most), 0.5 ** halving, found)
+    last = maths.math("ADD", found, 0.5 ** HALVINGS)
+    return maths.math("MULTIPLY_ADD", _fits(maths, points, share, last, most), 0.5 ** HALVINGS, found)
+
+
+def _fits(maths, points, share, below, most):
+    """1 where at most so many points' shares are below something."""
+    count = maths.node("GeometryNodeAttributeStatistic", data_type="FLOAT", domain="POINT")
+    maths.link(points, count.inputs["Geometry"])
+    maths.link(maths.math("LESS_THAN", share, below), socket(count.inputs, "Attribute"))
+    return maths.math("LESS_THAN", socket(count.outputs, "Sum"), maths.math("ADD", most, 0.5))
 
 
 def bones_for(crowd, cast):
@@ -441,7 +451,8 @@ def near_tree(cast, repertoire, sheet, streams, most_close):
     hung_on = _bent(maths, people, hung_on, blurs, joints, figures, streams)
     rests, *coarser = ([_rest_of(cast, figure) for figure in those] for those in _levels(cast, figures))
     shapes = sum(coarser, rests)
-    detail = maths.math("MULTIPLY", maths.attribute(COARSE), maths.math("SUBTRACT", 1.0, blurs))
+    coarse = maths.math("MINIMUM", maths.attribute(COARSE), float(len(COARSER_FROM)))
+    detail = maths.math("MULTIPLY", coarse, maths.math("SUBTRACT", 1.0, blurs))
     finer = close.meshes_of(cast) if most_close else {}
     if finer:
         shapes += [finer.get(member, rest) for member, rest in enumerate(rests)]
