@@ -54,6 +54,20 @@ def instanced(crowd):
             if i.is_instance and i.parent and i.parent.original == crowd}
 
 
+def picked(crowd):
+    """[distance from the camera, the level of the figure whose pose it is] of those who are not bent."""
+    scene.frame_set(FRAME)
+    figures, found = library.figures_of(cast_of(crowd)), []
+    for i in bpy.context.evaluated_depsgraph_get().object_instances:
+        if i.is_instance and i.parent and i.parent.original == crowd:
+            row, count = i.persistent_id[1], len(i.object.data.vertices)
+            member = own.member_of(crowd, row, int(state[FRAME - 1, row, 1]), False)
+            sizes = [len(figures[level, member].data.vertices) for level in range(3)]
+            found.append([float(numpy.linalg.norm(pos[FRAME - 1, row] - numpy.array(camera.location))),
+                          sizes.index(count)])
+    return found
+
+
 def smooth(value, low, high):
     share = numpy.clip((value - low) / (high - low), 0.0, 1.0)
     return share * share * (3.0 - 2.0 * share)
@@ -119,6 +133,20 @@ wanted = numpy.array([each.vector for each in crowd.data.attributes["tint"].data
 result["tints"] = float(numpy.abs(tints.reshape(-1, 3) - wanted[rows]).max())
 result["blurs on screen"] = "velocity" in mesh.attributes
 result["materials"] = len(mesh.materials)
+
+# others, on the screen and as rendered
+camera.location = (0.0, -30.0, 3.0)
+bpy.ops.throng.near(by="camera", reach=5.0, most=1000)
+result["picked on screen"] = picked(crowd)
+for flip in (False, True):
+    for name, shown in zip(INSTANCERS, (not flip, flip)):
+        crowd.modifiers[name].show_viewport = shown
+    if not flip:
+        result["picked as rendered"] = picked(crowd)
+bpy.ops.throng.near(by="camera", reach=5.0, most=1000, whole=True)
+result["picked whole"] = picked(crowd)
+camera.location = (0.0, -12.0, 3.0)
+bpy.ops.throng.near(by="camera", reach=14.0, most=1000, whole=True)
 
 # on ground that slopes
 slope = crowd.data.attributes.new("throng_ground", "FLOAT_VECTOR", "POINT")

@@ -67,6 +67,14 @@ def test_where_there_are_too_many_the_nearest_are_bent(seen):
     assert 1 <= count <= 5 and furthest < nearest_other and seen["all are there"]
 
 
+def test_on_the_screen_who_is_far_away_takes_the_coarsest_poses(seen):
+    on_screen = seen["picked on screen"]
+    assert {distance > 30.0 for distance, _ in on_screen} == {False, True}
+    assert all(level == (2 if distance > 30.0 else 1) for distance, level in on_screen)
+    for name in ("picked as rendered", "picked whole"):
+        assert len(seen[name]) == len(on_screen) and {level for _, level in seen[name]} == {1}, name
+
+
 def test_on_the_screen_meshes_are_coarser_further_away(seen):
     levels = []
     for distance, count, by_level in seen["on screen"]:

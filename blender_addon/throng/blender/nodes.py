@@ -173,11 +173,19 @@ class Maths:
         return everything.outputs[0]
 
     def where(self, flag, one, other):
-        """One geometry where a flag is set, or the other; what is not shown is not worked out."""
+        """One geometry where a flag is set, or the other or None; what is not shown is not worked out."""
         switch = self.node("GeometryNodeSwitch", input_type="GEOMETRY")
         for value, name in ((flag, "Switch"), (one, "True"), (other, "False")):
-            self.link(value, socket(switch.inputs, name))
+            if value is not None:
+                self.link(value, socket(switch.inputs, name))
         return socket(switch.outputs)
+
+    def any_of(self, points, flags):
+        """Whether there are points for whom a number is not 0."""
+        count = self.node("GeometryNodeAttributeStatistic", data_type="FLOAT", domain="POINT")
+        self.link(points, count.inputs["Geometry"])
+        self.link(flags, socket(count.inputs, "Attribute"))
+        return self.greater(socket(count.outputs, "Sum"), 0.5)
 
     def greater(self, value, threshold):
         node = self.node("FunctionNodeCompare", data_type="FLOAT", operation="GREATER_THAN")

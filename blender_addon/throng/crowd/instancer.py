@@ -2,7 +2,7 @@
 """The instancer: nodes that put a pose of their figure on every vertex that is alive."""
 import bpy
 
-from ..blender.nodes import Maths, new_tree, socket
+from ..blender.nodes import Maths, new_tree
 from ..cast import LEVEL_BEATS, LEVEL_POSES
 from ..cast.library import shown_figures
 from . import footing
@@ -11,7 +11,7 @@ from .near import boned_members, near_tree
 from .pose_lists import list_of
 from .poses import member_in, pose_index
 
-BUNCH = 544  # poses that share a node, about so many from 4.0 on
+BUNCHES = (4, 4, 12)  # figures that share a node at each level, from 4.0 on
 _COARSEST = 2  # the level of those who are far away on the screen
 _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
 _INPUTS = _GEOMETRY + [("Share", "NodeSocketFloat"), ("Blur", "NodeSocketBool")]
@@ -79,25 +79,25 @@ def instancer_tree(cast, repertoire, leans, near=None, streams=(), most_close=0)
     state, variation, phase = maths.components("throng_state")
     nature = maths.components(NATURE)
     points, people, share = inputs.outputs[0], [], inputs.outputs["Share"]
-    member = member_in(maths, cast, variation)
+    member, there = member_in(maths, cast, variation), _present(maths, state, nature, share)
     if near:
-        who = maths.math("MULTIPLY", maths.attribute(NEAR), _present(maths, state, nature, share))
+        near_ones = maths.math("MULTIPLY", maths.math("GREATER_THAN", maths.attribute(NEAR), 0.5), there)
         if bent < cast["throng_variations"]:  # others who joined have poses only
-            who = maths.math("MULTIPLY", who, maths.math("LESS_THAN", member, bent - 0.5))
+            near_ones = maths.math("MULTIPLY", near_ones, maths.math("LESS_THAN", member, bent - 0.5))
         apart = maths.node("GeometryNodeSeparateGeometry", domain="POINT")
         maths.link(points, apart.inputs["Geometry"])
-        maths.link(maths.greater(who, 0.5), apart.inputs["Selection"])
+        maths.link(maths.greater(near_ones, 0.5), apart.inputs["Selection"])
         group = maths.node("GeometryNodeGroup")
         group.node_tree = near_tree(cast, repertoire, near, streams, most_close)
         maths.link(apart.outputs["Selection"], group.inputs[0])
         maths.link(blurs, group.inputs["Blur"])
-        points, people = apart.outputs["Inverted"], [if_any(maths, apart.outputs["Selection"], group.outputs[0])]
+        people = [maths.where(maths.any_of(points, near_ones), group.outputs[0], None)]
+        there = maths.math("SUBTRACT", there, near_ones)
     rotation = maths.node("ShaderNodeCombineXYZ")
     maths.link(maths.math("ARCTAN2", sine, cosine), rotation.inputs[2])
     level = _levels_of(maths, levels, member, bent, blurs)
     figure = maths.math("ADD", 1.0, maths.math("MULTIPLY_ADD", level, 1000.0, member))  # _figure_number
     pose = _poses(maths, level, levels, lambda each: pose_index(maths, speed, state, phase, nature, repertoire, each))
-    there = _present(maths, state, nature, share)
     points = maths.store(points, FIGURE, maths.math("MULTIPLY", figure, there), "INT")
     points = maths.store(points, "throng_pose", pose, "INT")
     points = maths.store(points, "throng_turn", rotation.outputs[0], "FLOAT_VECTOR")
@@ -143,30 +143,17 @@ def _instances(maths, points, cast, figures, leans, apart, repertoire):
     found, figure = [], maths.attribute(FIGURE, "INT")
     for number in levels:
         own = {(level, member): thing for (level, member), thing in figures.items() if level == number}
-        some = maths.node("GeometryNodeSeparateGeometry", domain="POINT")
-        maths.link(points, some.inputs["Geometry"])
         last = max(member for _, member in own)
-        maths.link(maths.between(figure, _figure_number(number, 0), _figure_number(number, last)),
-                   some.inputs["Selection"])
-        here = some.outputs["Selection"]
-        found.append(if_any(maths, here, _instances_of(maths, here, cast, own, leans, apart, repertoire)))
+        some = maths.between(figure, _figure_number(number, 0), _figure_number(number, last))
+        people = _instances_of(maths, points, cast, own, leans, apart, repertoire)
+        found.append(maths.where(maths.any_of(points, some), people, None))
     return found
 
 
-def if_any(maths, points, people):
-    """`people` where there are any points, or nothing, without looking: most levels are empty in most pictures."""
-    size = maths.node("GeometryNodeAttributeDomainSize")
-    maths.link(points, size.inputs[0])
-    switch = maths.node("GeometryNodeSwitch", input_type="GEOMETRY")
-    maths.link(maths.greater(socket(size.outputs, "Point Count"), 0.5), socket(switch.inputs, "Switch"))
-    maths.link(people, socket(switch.inputs, "True"))
-    return socket(switch.outputs)
-
-
-def _bunches(figures, repertoire):
+def _bunches(figures):
     """Figures of one level whose numbers follow each other, so many at a time."""
     level = next(iter(figures))[0]
-    most = max(1, BUNCH // repertoire.poses(level)) if bpy.app.version >= (4, 0, 0) else len(figures)
+    most = BUNCHES[level] if bpy.app.version >= (4, 0, 0) else len(figures)
     found = []
     for (level, member), thing in sorted(figures.items()):
         if not found or len(found[-1]) == most or (level, member - 1) != found[-1][-1][0]:
@@ -180,7 +167,7 @@ def _instances_of(maths, points, cast, figures, leans, apart, repertoire):
     figure, pose, turn = (maths.attribute(name, kind)
                           for name, kind in ((FIGURE, "INT"), ("throng_pose", "INT"), ("throng_turn", "FLOAT_VECTOR")))
     size, everybody = maths.math("ADD", maths.attribute(BIGGER), 1.0), []
-    for bunch in _bunches(figures, repertoire):
+    for bunch in _bunches(figures):
         (level, first), (_, last) = bunch[0][0], bunch[-1][0]
         place = maths.node("GeometryNodeInstanceOnPoints")
         place.inputs["Pick Instance"].default_value = True
