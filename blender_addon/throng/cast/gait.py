@@ -68,8 +68,22 @@ def gait_of(stride):
 
 
 @dataclass(frozen=True)
+class Manner:
+    """How somebody moves beside all others, by which friends are known from afar: shares of what the gait has, and
+    angles (rad) on top of it. How far apart people are in this is chosen by eye, the means stay those of the gait."""
+    swing: tuple = (1.0, 1.0)  # of the right arm and of the left one
+    elbow: float = 0.0         # more bent
+    yaw: float = 1.0           # of pelvis and shoulders
+    sway: float = 1.0          # of the pelvis, from side to side
+    lean: float = 0.0          # of the trunk, forwards
+    nod: float = 0.0           # of the head, forwards
+    toes: float = 0.09         # outwards
+    rests_on: float = 1.0      # 1 who likes to stand on the right leg, -1 on the left one
+
+
+@dataclass(frozen=True)
 class Build:
-    """Lengths of one person, metres, and how much the left leg is spared in walking."""
+    """Lengths of one person, metres, how much the left leg is spared in walking, and how they move."""
     thigh: float = 0.435
     shank: float = 0.425
     ankle: float = 0.085        # height of the ankle joint over the sole
@@ -77,9 +91,10 @@ class Build:
     ball: float = 0.125         # from the ankle forward to the ball of the foot
     hip_width: float = 0.17     # between the hip joints
     limp: float = 0.0           # 0 (none) to 1
+    manner: Manner = Manner()
 
     def scaled(self, factor):
-        lengths = [name for name in self.__dataclass_fields__ if name != "limp"]
+        lengths = [name for name in self.__dataclass_fields__ if name not in ("limp", "manner")]
         return replace(self, **{name: factor * getattr(self, name) for name in lengths})
 
 
@@ -194,12 +209,14 @@ def walk_pose(phase, build, gait):
         height = min(top - gait.bob - gait.bob * math.cos(2.0 * tau * (phase - 0.02)), _reach((right, left), leg))
     height -= 0.022 * bears
     # towards the standing leg (right leg stands in the first half)
-    sway = -0.022 * math.sin(tau * phase + 0.3) + 0.012 * bears
+    manner = build.manner
+    sway = -0.022 * manner.sway * math.sin(tau * phase + 0.3) + 0.012 * bears
     turn = math.cos(tau * (phase - gait.down))   # the right hip is ahead when the right foot comes down
-    arms = ((-gait.swing * turn + 0.03, gait.elbow + 0.22 * max(0.0, -turn)),
-            (gait.swing * turn + 0.03, gait.elbow + 0.22 * max(0.0, turn)))
-    return Pose((0.0, sway, height), gait.yaw * turn, -1.15 * gait.yaw * turn, gait.lean + 0.03 * bears, (right, left),
-                arms, -0.11 * bears, gait.runs)
+    elbow, yaw = gait.elbow + manner.elbow, gait.yaw * manner.yaw
+    arms = tuple((gait.swing * share * ahead + 0.03, elbow + 0.22 * share * max(0.0, ahead))
+                 for share, ahead in zip(manner.swing, (-turn, turn)))
+    return Pose((0.0, sway, height), yaw * turn, -1.15 * yaw * turn, gait.lean + manner.lean + 0.03 * bears,
+                (right, left), arms, -0.11 * bears, gait.runs)
 
 
 STANDING_CLIPS = ("idle", "shift", "talk", "phone")
@@ -208,18 +225,18 @@ STANDING_CLIPS = ("idle", "shift", "talk", "phone")
 def standing_pose(clip, beat, build):
     """A pose of those who stand; `beat` goes through one slow round in [0, 1)."""
     wave = math.sin(2.0 * math.pi * beat)
-    if clip == "shift":  # weight on the left leg, thumbs in the pockets
-        pose = idle_pose(build, -1.0, 0.010 * wave)
+    if clip == "shift":  # weight on the other leg, thumbs in the pockets
+        pose = idle_pose(build, -build.manner.rests_on, 0.010 * wave)
         return Pose(pose.pelvis, pose.pelvis_yaw, -0.10 + 0.05 * wave, 0.02, pose.feet,
                     ((-0.14, 0.62 + 0.04 * wave), (-0.16, 0.66)))
     if clip == "talk":  # one hand speaks
-        pose = idle_pose(build, 1.0, 0.008 * wave)
+        pose = idle_pose(build, build.manner.rests_on, 0.008 * wave)
         return Pose(pose.pelvis, pose.pelvis_yaw, 0.08 * wave, 0.03 + 0.02 * wave, pose.feet,
                     ((0.42 + 0.16 * wave, 1.35 - 0.30 * wave), (0.05, 0.28)))
     if clip == "phone":  # looks at what it holds
-        pose = idle_pose(build, -1.0, 0.004 * wave)
+        pose = idle_pose(build, -build.manner.rests_on, 0.004 * wave)
         return Pose(pose.pelvis, pose.pelvis_yaw, 0.0, 0.07, pose.feet, ((0.40, 1.95 + 0.03 * wave), (0.04, 0.25)))
-    return idle_pose(build, 1.0, 0.010 * wave)
+    return idle_pose(build, build.manner.rests_on, 0.010 * wave)
 
 
 def idle_pose(build, side=1.0, sway=0.0):
@@ -227,8 +244,9 @@ def idle_pose(build, side=1.0, sway=0.0):
     right = Foot((0.01 if side > 0.0 else 0.05, build.ankle), 0.0, "flat")
     left = Foot((0.05 if side > 0.0 else 0.01, build.ankle), 0.0, "flat")
     height = 0.985 * (build.thigh + build.shank) + build.ankle
-    return Pose((0.0, -0.02 * side + sway, height), 0.06 * side, 0.0, 0.01, (right, left),
-                ((0.04 + sway, 0.22), (0.06 - sway, 0.30)))
+    elbow = 0.5 * build.manner.elbow
+    return Pose((0.0, -0.02 * side + sway, height), 0.06 * side, 0.0, 0.01 + 0.5 * build.manner.lean, (right, left),
+                ((0.04 + sway, 0.22 + elbow), (0.06 - sway, 0.30 + elbow)))
 
 
 def knee_of(hip, ankle, build):

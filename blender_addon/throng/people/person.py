@@ -33,7 +33,7 @@ class Maker:
         self.bodies, self.person = bodies, person
         self.shape = shape_of(bodies, person.body)
         self.rig = Rig(bodies, self.shape, person.body.height, stoop=person.stoop, stick=person.stick,
-                       holds=person.holds, limp=person.limp)
+                       holds=person.holds, limp=person.limp, manner=person.manner)
         self._surfaces = {}
 
     def model(self, level):

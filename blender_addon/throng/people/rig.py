@@ -39,11 +39,12 @@ class _Poses:
 class Rig:
     """Somebody's bones at rest, and how they go with a pose."""
 
-    def __init__(self, bodies, shape, height, sole=SOLE, stoop=0.0, stick=False, holds="", limp=0.0):
+    def __init__(self, bodies, shape, height, sole=SOLE, stoop=0.0, stick=False, holds="", limp=0.0,
+                 manner=gait.Manner()):
         """@param stoop rad, that the back bends forward; @param stick whether somebody walks with one; @param holds one
         of holding.THINGS, or nothing; @param limp how much the left leg is spared, 0 to 1"""
         self.bodies, self.sole, self.stoop, self.stick = bodies, sole, stoop, stick
-        self.holds, self.limp = holds, limp
+        self.holds, self.limp, self.manner = holds, limp, manner
         joints = bodies.joints(shape)
         self.heads = {bone: joints[bodies.heads[number]] for bone, number in bodies.bone.items()}
         self.tails = {bone: joints[bodies.tails[number]] for bone, number in bodies.bone.items()}
@@ -61,7 +62,7 @@ class Rig:
         return gait.Build(thigh=float(math.dist(hip, knee)), shank=float(math.dist(knee, ankle)),
                           ankle=float(ankle[2] + self.sole), heel=float(0.85 * (ankle[0] - foot[:, 0].min())),
                           ball=float(ball[0] - ankle[0]), hip_width=float(hip[1] - self.heads["thigh_r"][1]),
-                          limp=self.limp)
+                          limp=self.limp, manner=self.manner)
 
     def _widest(self, shape):
         """Half the width of the hips, where hands pass."""
@@ -106,6 +107,7 @@ class Rig:
     def _trunk(self, poses):
         stoop, straight = self.stoop, poses.lean
         nod, aside = holding.head(self.holds, poses.runs | poses.seated)
+        nod = nod + self.manner.nod
         lean = turn(_Y, straight + 0.9 * stoop)
         shoulders = turn(_X, poses.tilt) @ turn(_Z, poses.shoulder_yaw)
         half = turn(_X, 0.6 * poses.tilt) @ turn(_Z, 0.5 * (poses.pelvis_yaw + poses.shoulder_yaw))
@@ -138,7 +140,7 @@ class Rig:
                              for start, stop in zip(hip[:, [0, 2]].tolist(), ankles.tolist())])
         end = vector(ankles[:, 0], aside, ankles[:, 1])
         knee = vector(knees[:, 0], 0.5 * (hip[:, 1] + aside), knees[:, 1])
-        toes_out = turn(_Z, 0.09 if side == "l" else -0.09)
+        toes_out = turn(_Z, self.manner.toes if side == "l" else -self.manner.toes)
         hinge = toes_out @ _Y
         for bone, start, stop, rest in ((thigh, hip, knee, self.heads[calf]), (calf, knee, end, self.heads[ankle])):
             turns[bone] = frame(stop - start, hinge) @ frame(rest - self.heads[bone], _Y).T

@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy
 
+from ..cast.gait import Manner
 from . import holding, wardrobe
 from .shape import Body
 
@@ -69,6 +70,7 @@ class Person:
     stick: bool = False  # walks with one
     holds: str = ""     # one of holding.THINGS
     limp: float = 0.0   # how much the left leg is spared, 0 to 1
+    manner: Manner = Manner()
 
     @property
     def child(self):
@@ -103,10 +105,21 @@ def draw_person(look, number, years=None, male=None, height=None, shoulders=None
                    str(draw.choice(_SKINS[race])), hair, colour, _beard(draw, years, male),
                    "" if draw.random() > (0.2 if years < 55 else 0.5) else str(draw.choice(["round", "square"])),
                    "" if runs else _bag(draw, word, years, male), hat, *_frailty(number, years))
-    return _with_manner(found, word, number, runs)
+    return _with_hands_full(replace(found, manner=_manner(body, number)), word, number, runs)
 
 
-def _with_manner(who, look, number, runs):
+def _manner(body, number):
+    """How somebody moves: children freely, the old with less of everything."""
+    draw = numpy.random.default_rng([83, number])
+    near = lambda mean, spread: float(numpy.clip(draw.normal(mean, spread), mean - 2.0 * spread, mean + 2.0 * spread))
+    age = numpy.interp(body.years, (6.0, 14.0, 45.0, 85.0), (1.15, 1.0, 1.0, 0.72))
+    arms, apart = age * near(1.0, 0.24), near(0.0, 0.09)
+    return Manner(swing=(arms * (1.0 - apart), arms * (1.0 + apart)), elbow=near(0.04, 0.10),
+                  yaw=near(1.0 + 0.15 * (body.male < 0.5), 0.18), sway=near(1.0, 0.22), lean=near(0.0, 0.018),
+                  nod=near(0.02, 0.045), toes=near(0.09, 0.035), rests_on=float(draw.choice([-1.0, 1.0])))
+
+
+def _with_hands_full(who, look, number, runs):
     """The same with what the right hand holds, if anything, and a limp, if they have one."""
     if runs or who.stick:
         return who
