@@ -164,7 +164,7 @@ class Rig:
         reach = math.dist(self.heads[upper], self.heads[lower]) + math.dist(self.heads[lower], self.heads[hand])
         held_out, roll = holding.hand(self.holds, side)
         # outwards enough for the hand to pass beside the hips
-        room = (self.widest + 0.076 * self.scale + held_out - abs(self.heads[upper][1])) / reach
+        room = (self.widest + 0.092 * self.scale + held_out - abs(self.heads[upper][1])) / reach
         out = sign * min(max(0.10, room), 0.34)
         shoulders = turn(_Z, yaw)
 

@@ -114,7 +114,7 @@ def _manner(body, number):
     near = lambda mean, spread: float(numpy.clip(draw.normal(mean, spread), mean - 2.0 * spread, mean + 2.0 * spread))
     age = numpy.interp(body.years, (6.0, 14.0, 45.0, 85.0), (1.15, 1.0, 1.0, 0.72))
     arms, apart = age * near(1.0, 0.24), near(0.0, 0.09)
-    return Manner(swing=(arms * (1.0 - apart), arms * (1.0 + apart)), elbow=near(0.04, 0.10),
+    return Manner(swing=(arms * (1.0 - apart), arms * (1.0 + apart)), elbow=near(0.07, 0.07),
                   yaw=near(1.0 + 0.15 * (body.male < 0.5), 0.18), sway=near(1.0, 0.22), lean=near(0.0, 0.018),
                   nod=near(0.02, 0.045), toes=near(0.09, 0.035), rests_on=float(draw.choice([-1.0, 1.0])))
 
