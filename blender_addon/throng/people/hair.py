@@ -25,7 +25,7 @@ class Style:
 
 
 STYLES = {
-    "crop": Style(500, 0.016, 0.007, 0.004, 0.006, 0.0, 0.10),
+    "crop": Style(0, 0.013, 0.0042, 0.003, 0.004, 0.02, 0.12),
     "short": Style(1500, 0.042, 0.0085, 0.012, 0.010, 0.06, 0.10, fringe=0.030),
     "quiff": Style(1300, 0.062, 0.010, 0.014, 0.010, 0.03, 0.05, "back"),
     "side": Style(1300, 0.080, 0.011, 0.012, 0.011, 0.08, 0.04, "side"),
@@ -38,10 +38,12 @@ STYLES = {
     "waves": Style(1700, -0.15, 0.021, 0.017, 0.013, 0.55, 0.075, "parted", 0.0, 11),
     "knot": Style(800, 0.110, 0.013, 0.006, 0.008, 0.06, 0.015, "knot"),
     "tail": Style(800, 0.115, 0.013, 0.006, 0.008, 0.06, 0.015, "knot"),
-    "ring": Style(600, 0.035, 0.009, 0.005, 0.006, 0.20, 0.05, raised=0.0),
+    "ring": Style(0, 0.015, 0.0042, 0.002, 0.003, 0.06, 0.10),
 }
 
 
+SOFT = " soft"   # what the material of hair is called whose edge is ragged: what is left of it is in its pattern
+_EDGE = 0.016    # m, of that
 _ROOT = 0.3      # of a hanging lock's width and of how far it is off the head, where it begins
 _PRESSED = 0.25  # of how far it is off the head, below a hat
 
@@ -57,7 +59,7 @@ def hair(bodies, shape, level, name, material, scale, seed, hat=""):
     skin = _skin(bodies, shape, level, style, scale, name == "ring")
     if not len(skin.faces):
         return []
-    parts = [replace(skin, material=material)]
+    parts = [replace(skin, material=material + (SOFT if level < 0 else ""))]
     count = 0 if _is_cap(style, level) else int(style.count * levels.DETAILS[level].locks)
     if style.length < 0.0 and level == 2:
         count = 12
@@ -77,22 +79,25 @@ def _is_cap(style, level):
     return level >= 0 and style.length > 0.0 and style.comb != "knot"
 
 
-def _scalp(bodies, shape, level, style, ring):
+def _grows(places, style, ring):
+    """How far inside of the hairlines."""
+    field = numpy.minimum(regions.scalp(places, style.raised), -regions.ear(places) + 0.002)
+    return numpy.minimum(field, 0.772 - places[:, regions.Z]) if ring else field  # bald on top
+
+
+def _scalp(bodies, shape, level, style, ring, further=0.0):
     piece = head_of(bodies, shape, level)
-    field = numpy.minimum(regions.scalp(piece.places, style.raised), -regions.ear(piece.places) + 0.002)
-    if ring:  # bald on top
-        field = numpy.minimum(field, 0.772 - piece.places[:, regions.Z])
-    return clipped(piece, field)
+    return clipped(piece, _grows(piece.places, style, ring) + further)
 
 
 def _skin(bodies, shape, level, style, scale, ring):
-    """Thinnest at the hairline, so that no edge shows."""
-    piece = _scalp(bodies, shape, level, style, ring)
+    """Thinnest at the hairline, so that no edge shows; near the camera it goes beyond that, and frays."""
+    piece = _scalp(bodies, shape, level, style, ring, 0.4 * _EDGE if level < 0 else 0.0)
     if not len(piece.faces):
         return piece
     if level < 0:
         piece = subdivided(piece, 0.2)
-    above = regions.scalp(piece.places, style.raised)
+    above = _grows(piece.places, style, ring) if level < 0 else regions.scalp(piece.places, style.raised)
     plain = (0.8 if style.comb == "out" else 0.5) * style.lift if _is_cap(style, level) else 0.0  # instead of locks
     thick = (style.thick * (1.0 if level < 1 else 1.35) + plain) * numpy.clip(above / 0.03, 0.04, 1.0) ** 0.8
     if plain and level < 2:  # tufts and curls
@@ -100,7 +105,10 @@ def _skin(bodies, shape, level, style, scale, ring):
         thick = thick * (1.0 + size * numpy.sin(piece.places[:, :3] * often + (0.0, 1.0, 2.0)).sum(axis=1))
     points = piece.points + piece.normals * (thick * scale)[:, None]
     strands = numpy.stack([regions.angle_of(piece.places) / 12.0, piece.places[:, regions.Z] * 5.0], axis=1)
-    return replace(piece.moved(smoothed(points, piece.faces, 1, 0.3)), flat=strands)
+    found = replace(piece.moved(smoothed(points, piece.faces, 1, 0.3)), flat=strands)
+    if level < 0:  # the third number of the pattern
+        found.places[:, regions.X] = numpy.clip((above + 0.4 * _EDGE) / _EDGE, 0.0, 1.0)
+    return found
 
 
 def _ways(style, points, normals, places, crown, back, draw):

@@ -6,7 +6,7 @@ import numpy
 
 from ..blender.builds import can_denoise
 from ..blender.nodes import of_person
-from . import fabrics, masks, palettes
+from . import fabrics, hair, masks, palettes
 from .shades import Shade
 
 PICTURE = "throng faces"
@@ -83,9 +83,9 @@ def _skin(shade, tint, pattern, kind, _look, bodies):
 
 
 def _hair(shade, tint, pattern, kind, _look, _bodies):
-    slot, *rest = kind.split()
-    base = shade.palette(tint[2], 7.0, palettes.HAIR[rest[0] if rest else slot])
-    across, along, _ = shade.split(pattern)
+    soft, kind = kind.endswith(hair.SOFT), kind.removesuffix(hair.SOFT)
+    base = shade.palette(tint[2], 7.0, palettes.HAIR[kind.removeprefix("hair ")])
+    across, along, inside = shade.split(pattern)
     strands = shade.noise(shade.combine(shade.math("MULTIPLY", across, 26.0), shade.math("MULTIPLY", along, 2.2), 0.0),
                           1.0, 3.0)
     lock = shade.noise(shade.combine(shade.math("MULTIPLY", across, 2.3), along, 3.0), 1.0, 1.0)
@@ -100,6 +100,12 @@ def _hair(shade, tint, pattern, kind, _look, _bodies):
     shade.set(0.34, "Specular", "Specular IOR Level")
     shade.set(0.6, "Anisotropic")
     shade.set(shade.bump(strands, 0.65, 0.004), "Normal")
+    if soft:  # single hairs at its edge
+        fine = shade.combine(shade.math("MULTIPLY", across, 70.0), shade.math("MULTIPLY", along, 6.0), 0.0)
+        hairs = shade.noise(fine, 1.0, 1.0)
+        there = shade.math("SUBTRACT", shade.math("MULTIPLY", inside, 1.4), hairs)
+        shade.set(shade.math("MULTIPLY_ADD", there, 3.5, 0.5), "Alpha")
+        shade.see_through()
 
 
 def _lashes(shade, *_):

@@ -14,6 +14,13 @@ class Shade:
         self.tree = self.material.node_tree
         self.shader = next(node for node in self.tree.nodes if node.type == "BSDF_PRINCIPLED")
 
+    def see_through(self):
+        """For a shader whose alpha is not 1 everywhere."""
+        if bpy.app.version < (4, 2, 0):
+            self.material.blend_method, self.material.shadow_method = "HASHED", "HASHED"
+        else:
+            self.material.surface_render_method = "DITHERED"
+
     def node(self, kind, **settings):
         made = self.tree.nodes.new(kind)
         for name, value in settings.items():
