@@ -14,6 +14,7 @@ import pytest
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 EXAMPLES = ROOT / "examples"
 sys.path.insert(0, str(ROOT / "python" / "src"))  # the package throng_io, as it lies there
+os.environ.setdefault("THRONG_CACHE", str(ROOT / "build" / "kept"))  # what is worked out of people, and not the user's
 
 
 @pytest.fixture(scope="session")

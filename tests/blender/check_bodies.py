@@ -55,6 +55,19 @@ old = [casting.person_of(role) for role in roles][3]
 result["old"] = [old.body.years, old.stoop]
 
 repertoire = repertoire_of(crowd)
+told, shaped = [], []
+for where in (os.path.join(folder, "kept"), os.path.join(folder, "kept"), ""):  # made, found again, and made anew
+    os.environ["THRONG_CACHE"] = where
+    for each in (members.maker_of, members._of_all_poses, members._leaders, members._bones):
+        each.cache_clear()
+    one = members.boned_of(str(roles[1]), 0, repertoire)
+    points = numpy.empty(3 * len(one.mesh.vertices), numpy.float32)
+    one.mesh.vertices.foreach_get("co", points)
+    told.append([points, one.hangs, one.matrices(), *one.limbs])
+    shaped.append(members.maker_of.cache_info().misses)
+away = [max(float(numpy.abs(numpy.asarray(one, float) - numpy.asarray(other, float)).max())
+            for one, other in zip(told[0], others)) for others in told[1:]]
+result["kept"] = [shaped, away]
 os.environ["THRONG_BODIES"] = os.path.join(folder, "none.npz")
 result["no levels"] = refused(bpy.ops.throng.levels, by="camera"), len(library.figures_of(shape))
 os.environ["THRONG_BODIES"] = found_at

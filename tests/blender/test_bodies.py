@@ -65,6 +65,11 @@ def test_figures_have_all_poses_and_levels(seen):
     assert seen["between levels"] < 0.06
 
 
+def test_what_is_kept_of_people_is_what_they_are(seen):
+    shaped, (kept, anew) = seen["kept"]
+    assert shaped == [1, 0, 1] and kept == 0.0 and anew < 1e-12, "vectors are summed in another order now and then"
+
+
 def test_few_bones_pose_people_as_all_bones_do(seen):
     upright, bent = seen["off bones"][:OLD], seen["off bones"][OLD]
     assert all(nearly < 2.5e-3 and most < 5e-3 for nearly, most in upright), "where collarbones meet arms"

@@ -15,7 +15,7 @@ import numpy
 
 from ..blender.nodes import Maths, new_tree, own_tree, socket
 from ..blender.vectors import rotated, scaled, vector
-from .skinning import MOST, hangs_of, matrices_of, turns_of, within_half_a_round
+from .skinning import MOST, matrices_of, turns_of, within_half_a_round
 
 HANGS, TURN = "throng_bones", "throng_turned"
 LIMBS, JOINTS = "throng_limbs", "throng_joints"  # of a sheet; LIMBS are thigh, calf, foot and toes of the left leg,
@@ -30,7 +30,8 @@ _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
 class Boned:
     """A mesh at rest on B bones."""
     mesh: bpy.types.Mesh
-    weights: numpy.ndarray    # (V, B), at most MOST of a vertex
+    hangs: numpy.ndarray      # (V, MOST) as HANGS has them (skinning.hangs_of)
+    count: int                # B
     matrices: object          # () gives (P, B, 3, 4), of the bones in all poses of level 0: one level of somebody asks
     sources: tuple            # for each pose of this level the one of level 0 that it is
     cycles: tuple = ()        # as those of sheets.Posed
@@ -92,10 +93,10 @@ def bones_of(sheet):
     return matrices_of(turns.astype(float), moves.astype(float))
 
 
-def hang(mesh, weights):
-    """Writes down which bones the vertices of a mesh hang on."""
-    hangs = mesh.attributes.new(HANGS, "FLOAT_COLOR", "POINT")
-    hangs.data.foreach_set("color", hangs_of(weights).astype(numpy.float32).ravel())
+def hang(mesh, hangs):
+    """Writes down which bones the vertices of a mesh hang on. @param hangs as Boned has them"""
+    made = mesh.attributes.new(HANGS, "FLOAT_COLOR", "POINT")
+    made.data.foreach_set("color", numpy.ascontiguousarray(hangs, numpy.float32).ravel())
 
 
 def posed_points(figure, sheet, sources):
@@ -163,7 +164,7 @@ def skinned(maths, figure, sheet, boned):
     group.node_tree = _skin_tree()
     maths.link(figure, group.inputs["Figure"])
     maths.link(sheet, group.inputs["Sheet"])
-    for name, number in (("Poses", len(boned.sources)), ("Bones", boned.weights.shape[1]),
+    for name, number in (("Poses", len(boned.sources)), ("Bones", boned.count),
                          *zip(_RUNS, runs_of(tuple(boned.sources)))):
         group.inputs[name].default_value = number
     remove = maths.node("GeometryNodeRemoveAttribute")

@@ -73,7 +73,7 @@ def make_figure(name, posed, sheet=None):
 
 
 def _boned_figure(name, boned, sheet):
-    bones.hang(boned.mesh, boned.weights)
+    bones.hang(boned.mesh, boned.hangs)
     boned.mesh.name = name
     figure = bpy.data.objects.new(name, boned.mesh)
     figure["throng_sources"] = list(boned.sources)
@@ -183,7 +183,7 @@ def _poses_tree(poses, blurring, cycles, boned=None):
     neighbours = _neighbours(cycles)
     name = f"Throng {poses} poses, {blurring} blur"
     if cycles or boned:  # names have room for 63 letters
-        which = (cycles, boned and (tuple(boned.sources), boned.weights.shape[1]))
+        which = (cycles, boned and (tuple(boned.sources), boned.count))
         name = f"Throng {poses} poses{' of bones' if boned else ''}, blur {zlib.crc32(repr(which).encode()):08x}"
     found = own_tree(name)
     if found:

@@ -17,8 +17,8 @@ def meshes_of(cast):
 
 
 def add(cast, member, repertoire):
-    mesh, weights = members.mesh_on_bones(members.role_of(cast, member), levels.CLOSE, repertoire)
-    bones.hang(mesh, weights)
+    mesh, hangs = members.mesh_on_bones(members.role_of(cast, member), levels.CLOSE, repertoire)
+    bones.hang(mesh, hangs)
     mesh.name = f"Throng person {member:02d} close"
     made = bpy.data.objects.new(mesh.name, mesh)
     made[_MEMBER] = member

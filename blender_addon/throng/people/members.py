@@ -3,6 +3,7 @@
 (cast/__init__.py)."""
 from collections import Counter
 from functools import lru_cache
+from types import SimpleNamespace
 
 import numpy
 
@@ -11,6 +12,7 @@ from ..cast.library import BLURS_UNTIL, shaped
 from ..cast.bones import Boned
 from . import figures, library
 from .casting import person_of
+from .kept import kept
 from .person import Maker
 from .roster import Role
 
@@ -62,9 +64,17 @@ def leading(role, repertoire):
     return numpy.unique(_leaders(role, repertoire)[0])
 
 
+@lru_cache(maxsize=_KEPT)
+def _bones(role, repertoire):
+    """{"matrices", and "limbs", "joints", "trunk" as cast.bones.Boned has them in `limbs`}, of the bones that lead."""
+    return kept(library.library_path(), ("bones", str(role), repertoire), lambda: {
+        "matrices": _of_all_poses(role, repertoire)[:, leading(role, repertoire)],
+        **dict(zip(("limbs", "joints", "trunk"), map(numpy.asarray, _limbs_of(role, repertoire))))})
+
+
 def matrices_of(role, repertoire):
     """(P, B, 3, 4) of the bones that lead, in all poses of level 0."""
-    return _of_all_poses(role, repertoire)[:, leading(role, repertoire)]
+    return _bones(role, repertoire)["matrices"]
 
 
 def of_all_bones(role, repertoire, led):
@@ -73,8 +83,7 @@ def of_all_bones(role, repertoire, led):
     return led[numpy.searchsorted(leading(role, repertoire), leaders)] @ turns
 
 
-def limbs_of(role, repertoire):
-    """(bones, joints, trunk) as cast.bones.Boned has them."""
+def _limbs_of(role, repertoire):
     library_, rig = bodies(), maker_of(role).rig
     used = leading(role, repertoire).tolist()
     legs = [[f"{bone}_{side}" for bone in ("thigh", "calf", "foot", "ball")] for side in "lr"]
@@ -85,22 +94,34 @@ def limbs_of(role, repertoire):
              for bone in (library_.bones[number] for number in used)])
 
 
-def mesh_on_bones(role, level, repertoire):
-    """(somebody's mesh at rest, (V, B) how its vertices hang on the bones that lead)"""
+def _at_rest(role, level, repertoire):
+    """{"points", "faces", "pattern", "materials", "material_of" as person.Model has them, and "hangs"} of somebody at
+    rest on the bones that lead."""
     model, leaders = maker_of(role).model(level), _leaders(role, repertoire)[0]
     poses = _of_all_poses(role, repertoire)[::_FEW]
     points, weights = skinning.hinged(model.points, model.weights, leaders, poses)
     points = (numpy.rint(points * FINE) / FINE + 0.0).astype(numpy.float32)  # no zero is negative
-    return figures.mesh_of("throng figure", model, points, person_of(role).look, bodies()), weights
+    return {"points": points, "faces": model.faces.astype(numpy.int32), "pattern": model.pattern,
+            "materials": numpy.array(model.materials), "material_of": model.material_of.astype(numpy.int32),
+            "hangs": skinning.hangs_of(weights).astype(numpy.float32)}
+
+
+def mesh_on_bones(role, level, repertoire):
+    """(somebody's mesh at rest, (V, MOST) how its vertices hang on the bones that lead)"""
+    found = SimpleNamespace(**kept(library.library_path(), ("mesh", str(role), level, repertoire),
+                                   lambda: _at_rest(role, level, repertoire)))
+    found.materials = found.materials.tolist()
+    return figures.mesh_of("throng figure", found, found.points, person_of(role).look, bodies()), found.hangs
 
 
 def boned_of(text, level, repertoire):
     """A member at a level, for cast.sheets. @param text of its role"""
     role = Role.of(text)
-    mesh, weights = mesh_on_bones(role, level, repertoire)
+    mesh, hangs = mesh_on_bones(role, level, repertoire)
     cycles = tuple((POSES, gait.gait_of(stride).seconds / POSES) for stride in repertoire.strides)
-    return Boned(mesh, weights, lambda: matrices_of(role, repertoire), tuple(repertoire.sources(level)),
-                 cycles if level <= BLURS_UNTIL else (), limbs_of(role, repertoire))
+    told = _bones(role, repertoire)
+    return Boned(mesh, hangs, told["matrices"].shape[1], lambda: told["matrices"], tuple(repertoire.sources(level)),
+                 cycles if level <= BLURS_UNTIL else (), tuple(told[name] for name in ("limbs", "joints", "trunk")))
 
 
 def write_roles(cast, roles):
