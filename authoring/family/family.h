@@ -59,6 +59,7 @@ struct Family {
     std::string name;
     std::string base_name;  ///< the layout's file, or the generator's name
     Json base;              ///< the layout; null where a generator makes it
+    std::string folder;     ///< absolute: where the paths of files start from that axes set
     const Generator* generator = nullptr;
     std::vector<std::pair<std::string, double>> generator_values;
     std::vector<Axis> axes;

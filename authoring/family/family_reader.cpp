@@ -43,6 +43,8 @@ class Reader {
             diagnostics_.error(version->where, "this program reads families of version 1",
                                "write \"throng_family\": 1");
         reader.text("name", family_.name);
+        reader.text("folder", family_.folder);
+        family_.folder = std::filesystem::absolute(folder_ / family_.folder).lexically_normal().string();
         readBase(reader);
         readSampling(reader);
         if (const JsonNode* axes = reader.require("axes", "what varies"); axes && isList(*axes, "axes"))
@@ -75,7 +77,7 @@ class Reader {
         if (generate) return readGenerator(*generate);
         if (base->kind == JsonNode::Kind::object) {
             family_.base = plainJson(*base);
-            placeFiles(folder_);
+            placeFiles(family_.base, folder_);
             family_.base_name = "the base layout";
         } else if (base->kind == JsonNode::Kind::text) {
             readBaseFile(*base);
@@ -107,15 +109,7 @@ class Reader {
                      {}});
         if (layout) family_.base = Json::parse(text);
         if (family_.base.is_object()) family_.base.erase("$schema");  // its path would lead nowhere
-        placeFiles(path.parent_path());
-    }
-
-    /// Scenarios are read without a folder of their own.
-    void placeFiles(const std::filesystem::path& folder) {
-        for (const auto& pointer : namedFiles(family_.base)) {
-            const std::filesystem::path file = folder / family_.base[pointer].get<std::string>();
-            family_.base[pointer] = std::filesystem::absolute(file).lexically_normal().string();
-        }
+        placeFiles(family_.base, path.parent_path());  // scenarios are read without a folder of their own
     }
 
     void readGenerator(const JsonNode& node) {

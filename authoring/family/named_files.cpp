@@ -19,4 +19,11 @@ std::vector<Json::json_pointer> namedFiles(const Json& layout) {
     return found;
 }
 
+void placeFiles(Json& layout, const std::filesystem::path& folder) {
+    for (const auto& pointer : namedFiles(layout)) {
+        const std::filesystem::path file = folder / layout[pointer].get<std::string>();
+        layout[pointer] = std::filesystem::absolute(file).lexically_normal().string();
+    }
+}
+
 }  // namespace throng::authoring

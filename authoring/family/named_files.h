@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -8,5 +9,8 @@ namespace throng::authoring {
 
 /// Where a layout names files that belong to it: its terrain's, and those of given people.
 std::vector<nlohmann::ordered_json::json_pointer> namedFiles(const nlohmann::ordered_json& layout);
+
+/// Makes the paths of those files absolute. @param folder that they start from
+void placeFiles(nlohmann::ordered_json& layout, const std::filesystem::path& folder);
 
 }  // namespace throng::authoring

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "authoring/family/family.h"
+#include "authoring/family/named_files.h"
 #include "authoring/layout/json_document.h"
 #include "authoring/scene/random.h"
 #include "base/numbers.h"
@@ -245,6 +246,7 @@ Json composeLayout(const Family& family, const Scenario& scenario) {
         for (const auto& [pointer, its] : axis.cases[static_cast<std::size_t>(name - axis.values.begin())])
             setAt(layout, pointer, its);
     }
+    placeFiles(layout, family.folder);
     return layout;
 }
 

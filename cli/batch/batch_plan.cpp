@@ -43,6 +43,16 @@ double peopleOf(const authoring::Layout& layout) {
     return people;
 }
 
+bool setsFiles(const authoring::Family& family) {
+    const auto is_file = [](const std::string& pointer) { return pointer.ends_with("/file"); };
+    return std::ranges::any_of(family.axes, [&](const authoring::Axis& axis) {
+        return std::ranges::any_of(axis.pointers, is_file) ||
+               std::ranges::any_of(axis.cases, [&](const auto& sets) {
+                   return std::ranges::any_of(sets, [&](const auto& set) { return is_file(set.first); });
+               });
+    });
+}
+
 }  // namespace
 
 bool isScenarioId(std::string_view text) {
@@ -73,6 +83,7 @@ BatchPlan::BatchPlan(const std::string& path) : path_(path) {
     Json whole = Json::parse(text);
     whole["name"] = family_.name;
     if (whole.contains("base")) whole["base"] = family_.base;
+    if (setsFiles(family_)) whole["folder"] = family_.folder;
     whole.erase("$schema");
     self_contained_ = whole.dump(1) + "\n";
 }

@@ -286,6 +286,22 @@ def test_ways_of_a_file_are_found_and_make_results_out_of_date_when_they_change(
     assert "6 are out of date" in throng("batch", plan, "-o", tmp_path / "out", "--dry-run").stdout
 
 
+def test_files_that_axes_name_start_from_the_familys_folder(throng, tmp_path):
+    for name, far in (("near.csv", 2), ("far.csv", 4)):
+        (tmp_path / name).write_text(f"id,time,x,y\n0,0,0,1\n0,2,{far},1\n")
+    (tmp_path / "bases").mkdir()
+    (tmp_path / "bases" / "base.json").write_text(json.dumps({**BASE, "given": [{"id": "seen", "file": "none.csv"}]}))
+    (tmp_path / "bases" / "none.csv").write_text("id,time,x,y\n0,0,0,1\n0,2,0,1\n")
+    plan = family(tmp_path, base="bases/base.json",
+                  axes=[{"name": "seen", "set": "/given/by-id/seen/file", "values": ["near.csv", "far.csv"]}])
+    throng("batch", plan, "-o", tmp_path / "out", "-q")
+    assert sorted(row["seen"] for row in rows(tmp_path / "out")) == ["far.csv", "near.csv"]
+    layouts = [json.loads(path.read_text()) for path in (tmp_path / "out" / "bakes").glob("*/layout.json")]
+    assert {each["given"][0]["file"] for each in layouts} == {str(tmp_path / name) for name in ("near.csv", "far.csv")}
+    (tmp_path / "far.csv").write_text("id,time,x,y\n0,0,0,1\n0,2,5,1\n")
+    assert "to bake: 1 " in throng("batch", plan, "-o", tmp_path / "out", "--dry-run").stdout
+
+
 def test_a_changed_family_says_what_it_invalidates(throng, tmp_path):
     throng("batch", family(tmp_path), "-o", tmp_path / "out", "-q")
     changed = family(tmp_path, base={**BASE, "simulation": {"duration": 3, "seed": 1}},
