@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -20,7 +21,7 @@ namespace throng::authoring {
 namespace {
 
 constexpr double kAround = 50.0;          // m: so far from all that the layout has, ground counts
-constexpr double kMostCells = 4.0e6;      // of the lattice
+constexpr double kMostLatticeCells = 4.0e6;      // of the lattice
 constexpr double kStoreysApart = 2.0;     // m
 constexpr double kMostLooks = 400'000.0;  // at the mesh, for storeys
 constexpr double kEdgeHeight = 1.1;       // m: people see over the ends of ground
@@ -88,7 +89,7 @@ class TerrainLayingOut {
         if (!places_.findLevels(diagnostics_)) return nullptr;
         const std::vector<bool> used = usedPieces();
         if (layout_.levels.empty() && !lieAboveEachOther(*ground_, pieces_, used)) return nullptr;
-        std::vector<Surface> surfaces = cutIntoSurfaces(ground_, pieces_, used);
+        std::vector<Surface> surfaces = cutIntoSurfaces(ground_, pieces_, used, reachOf(layout_));
         if (surfaces.empty()) return nullptr;
         if (surfaces.size() >= kMostCharts) {
             diagnostics_.error(layout_.terrain->where,
@@ -410,7 +411,7 @@ std::shared_ptr<const Charts> layOutTerrain(const Layout& layout, const TerrainM
     const glm::dvec2 size = bounds.second - bounds.first;
     if (!(size.x > 0.0 && size.y > 0.0)) return nullptr;
     if (layout.levels.empty() && !mayHaveStoreys(mesh, bounds)) return nullptr;
-    if (size.x * size.y / (kChartCell * kChartCell) > kMostCells) {
+    if (size.x * size.y / (kChartCell * kChartCell) > kMostLatticeCells) {
         diagnostics.warning(layout.terrain->file_where,
                             fmt::format("the terrain has faces above each other, but {:.0f} x {:.0f} m of it are "
                                         "too much to find people's ways over and under them",

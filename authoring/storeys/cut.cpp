@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <queue>
+
+#include "authoring/storeys/chart_raster.h"
 
 namespace throng::authoring {
 namespace {
@@ -24,23 +27,30 @@ Spots reachedFrom(const Walkable& ground, std::uint32_t from, May may, std::vect
     return reached;
 }
 
-/// A part that grows, and the cells that it has.
+/// A part that grows, and which spot it has in each cell.
 class Part {
   public:
     explicit Part(const Walkable& ground)
         : ground_(ground),
-          taken_(static_cast<std::size_t>(ground.size().x) * static_cast<std::size_t>(ground.size().y)) {}
+          holders_(static_cast<std::size_t>(ground.size().x) * static_cast<std::size_t>(ground.size().y),
+                   kNoSpot) {}
 
-    bool take(std::uint32_t spot) {
-        const std::size_t cell = cellOf(spot);
-        if (taken_[cell]) return false;
-        taken_[cell] = true;
+    /// The spot that has the cell of another one.
+    std::uint32_t holderAt(std::uint32_t spot) const { return holders_[cellOf(spot)]; }
+    bool has(std::uint32_t spot) const { return holderAt(spot) == spot; }
+    void take(std::uint32_t spot) {
+        holders_[cellOf(spot)] = spot;
         spots_.push_back(spot);
-        return true;
+    }
+    void leave(const std::vector<bool>& left) {
+        std::erase_if(spots_, [&](std::uint32_t spot) {
+            if (left[spot]) holders_[cellOf(spot)] = kNoSpot;
+            return bool{left[spot]};
+        });
     }
     void clear() {
         for (const std::uint32_t spot : spots_)
-            taken_[cellOf(spot)] = false;
+            holders_[cellOf(spot)] = kNoSpot;
         spots_.clear();
     }
     const Spots& spots() const { return spots_; }
@@ -52,8 +62,7 @@ class Part {
                static_cast<std::size_t>(at.x);
     }
     const Walkable& ground_;
-    std::vector<bool> taken_;
-    Spots spots_;
+    Spots holders_, spots_;
 };
 
 /// The lowest first, and of several as high the first.
@@ -65,16 +74,62 @@ struct IsHigher {
     }
 };
 
-void grow(const Walkable& ground, const Spots& among, const std::vector<bool>& is_left, Part& part) {
+/// @returns where it would have come to lie over itself
+Spots grow(const Walkable& ground, const Spots& among, const std::vector<bool>& is_left, Part& part) {
     const IsHigher is_higher{&ground};
+    Spots over;
     std::priority_queue<std::uint32_t, Spots, IsHigher> shore(is_higher);
     shore.push(*std::max_element(among.begin(), among.end(), is_higher));
     while (!shore.empty()) {
         const std::uint32_t spot = shore.top();
         shore.pop();
-        if (!part.take(spot)) continue;
+        if (part.has(spot)) continue;
+        if (part.holderAt(spot) != kNoSpot) {
+            over.push_back(spot);
+            continue;
+        }
+        part.take(spot);
         for (const std::uint32_t next : ground.spots()[spot].next)
             if (next != kNoSpot && is_left[next]) shore.push(next);
+    }
+    return over;
+}
+
+/// What of a part is nearer than a margin, on foot, to where it would lie over itself: beyond its seam, people
+/// on it look into the next part, and so none of its own ground may be there.
+/// @returns by spot, whether it is too near
+std::vector<bool> nearTo(const Walkable& ground, const Spots& over, const Part& part, double margin) {
+    struct Reached {
+        std::uint32_t spot;
+        glm::ivec2 from;
+    };
+    std::vector<bool> near(ground.spots().size(), false);
+    std::vector<Reached> reached;
+    for (const std::uint32_t spot : over)
+        reached.push_back({spot, ground.spots()[spot].cell});
+    for (std::size_t i = 0; i < reached.size(); ++i) {
+        const auto [spot, from] = reached[i];
+        for (const std::uint32_t next : ground.spots()[spot].next) {
+            if (next == kNoSpot || near[next] || !part.has(next)) continue;
+            const glm::dvec2 way(ground.spots()[next].cell - from);
+            if (glm::length(way) * kChartCell > margin) continue;
+            near[next] = true;
+            reached.push_back({next, from});
+        }
+    }
+    return near;
+}
+
+/// Draws back from where a part would lie over itself; not as far where not much would be left of it.
+void drawBack(const Walkable& ground, const Spots& over, double margin, Part& part) {
+    constexpr double kLeast = 0.25;  // of it
+    for (; !over.empty() && margin > kChartCell; margin *= 0.5) {
+        const std::vector<bool> near = nearTo(ground, over, part, margin);
+        const auto kept = std::count_if(part.spots().begin(), part.spots().end(),
+                                        [&](std::uint32_t spot) { return !near[spot]; });
+        if (static_cast<double>(kept) < kLeast * static_cast<double>(part.spots().size())) continue;
+        part.leave(near);
+        return;
     }
 }
 
@@ -128,7 +183,7 @@ bool lieAboveEachOther(const Walkable& ground, const Pieces& pieces, const std::
 }
 
 std::vector<Surface> cutIntoSurfaces(const std::shared_ptr<const Walkable>& ground, const Pieces& pieces,
-                                     const std::vector<bool>& used) {
+                                     const std::vector<bool>& used, double margin) {
     std::vector<bool> is_left(ground->spots().size(), false);
     for (std::uint32_t spot = 0; spot < is_left.size(); ++spot)
         is_left[spot] = used[pieces.piece_of[spot]];
@@ -147,7 +202,7 @@ std::vector<Surface> cutIntoSurfaces(const std::shared_ptr<const Walkable>& grou
                          [](const Spots& a, const Spots& b) { return a.size() > b.size(); });
         for (const Spots& rest : rests) {
             part.clear();
-            grow(*ground, rest, is_left, part);
+            drawBack(*ground, grow(*ground, rest, is_left, part), margin, part);
             for (const std::uint32_t spot : part.spots())
                 is_left[spot] = false;
             surfaces.push_back(surfaceOf(ground, part.spots()));

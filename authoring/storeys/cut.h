@@ -20,9 +20,10 @@ Pieces piecesOf(const Walkable& ground);
 bool lieAboveEachOther(const Walkable& ground, const Pieces& pieces, const std::vector<bool>& used);
 
 /// Parts of these pieces with one height at a place, as large as can be. As water rises, each part grows from
-/// the lowest place that is left: so what is below comes first, and a part ends where it would come to lie
+/// the lowest place that is left: so what is below comes first, and a part ends before it would come to lie
 /// above itself.
+/// @param margin m: how far before
 std::vector<Surface> cutIntoSurfaces(const std::shared_ptr<const Walkable>& ground, const Pieces& pieces,
-                                     const std::vector<bool>& used);
+                                     const std::vector<bool>& used, double margin);
 
 }  // namespace throng::authoring

@@ -81,10 +81,22 @@ class Tracer {
             loop.push_back({placeOf(*at), *at});
             at = after(*at);
         }
-        if (at) loop.push_back({placeOf(*at), *at});
+        if (at && at->spot == first.spot && at->side == first.side) beginOnStraight(loop);
+        if (at) loop.push_back(at->spot == first.spot && at->side == first.side ? loop.front()
+                                                                               : EdgePoint{placeOf(*at), *at});
         restoreCorners(loop);
         for (std::size_t begin = 0; begin + 1 < loop.size();)
             begin = addEdge(loop, begin);
+    }
+
+    /// A closed line may begin anywhere: not at a corner.
+    static void beginOnStraight(std::vector<EdgePoint>& loop) {
+        for (std::size_t i = 0; i + 3 < loop.size(); ++i) {
+            const glm::dvec2 a = loop[i].at, b = loop[i + 1].at, c = loop[i + 2].at, d = loop[i + 3].at;
+            if (distanceToLine(b, a, d) > kStraight || distanceToLine(c, a, d) > kStraight) continue;
+            std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(i + 1), loop.end());
+            return;
+        }
     }
 
     /// Between two straight edges the corner itself is on neither cell's line.

@@ -35,6 +35,9 @@ class Terrain {
     /// @param origin, minimum, maximum as Scene's: only what lies there is kept
     /// @throws std::invalid_argument for what would take minutes to sample
     Terrain(const TerrainMesh& mesh, bool highest, glm::dvec2 origin, glm::vec2 minimum, glm::vec2 maximum);
+    /// Of charts in their plane. @param minimum, maximum the plane's, multiples of gpu::SHIFT_STEP
+    Terrain(const TerrainMesh& mesh, PlaneGround ground, glm::dvec2 origin, glm::vec2 minimum,
+            glm::vec2 maximum);
 
     /// The very ground (m); nothing where there is none.
     std::optional<float> groundAt(glm::vec2 point) const;
