@@ -44,10 +44,14 @@ Bounds boundsOf(const Layout& layout, const TerrainMesh& mesh) {
         lower = glm::min(lower, glm::dvec2(point));
         upper = glm::max(upper, glm::dvec2(point));
     }
-    for (const Level& level : layout.levels)
-        if (level.at && mesh.positions.empty()) lower = upper = glm::dvec2(*level.at);
-    return {glm::max(lower, rebase.origin() + glm::dvec2(rebase.minimum()) - kAround),
-            glm::min(upper, rebase.origin() + glm::dvec2(rebase.maximum()) + kAround)};
+    glm::dvec2 least = rebase.origin() + glm::dvec2(rebase.minimum()),
+               most = rebase.origin() + glm::dvec2(rebase.maximum());
+    for (const Level& level : layout.levels) {
+        const glm::dvec2 at(level.at.value_or(glm::dvec3(least, 0.0)));
+        least = glm::min(least, at);
+        most = glm::max(most, at);
+    }
+    return {glm::max(lower, least - kAround), glm::min(upper, most + kAround)};
 }
 
 /// A quick look, for the many terrains that have one storey.

@@ -45,7 +45,10 @@ bool TerrainPlaces::findLevels(Diagnostics& diagnostics) {
                 ? std::string("there is no ground there with 2 m of headroom that slopes less than 45 degrees")
                 : fmt::format("there is ground at z = {}: name one of these", heights));
     }
-    return !diagnostics.hasErrors();
+    if (diagnostics.hasErrors()) return false;
+    for (const std::uint32_t spot : level_spots_)
+        steps_.push_back(stepsFrom(spot));
+    return true;
 }
 
 bool TerrainPlaces::counts(std::uint32_t spot) const {
@@ -53,9 +56,16 @@ bool TerrainPlaces::counts(std::uint32_t spot) const {
     return !layout_.levels.empty() || pieces_.spots[pieces_.piece_of[spot]] >= kLeastSpots;
 }
 
-bool TerrainPlaces::isOnLevel(std::uint32_t spot, std::uint32_t level_spot) const {
-    return chart_of_.empty() ? pieces_.piece_of[spot] == pieces_.piece_of[level_spot]
-                             : chart_of_[spot] == chart_of_[level_spot];
+std::vector<std::uint32_t> TerrainPlaces::stepsFrom(std::uint32_t spot) const {
+    std::vector<std::uint32_t> steps(ground_.spots().size(), kNoSpot), reached = {spot};
+    steps[spot] = 0;
+    for (std::size_t i = 0; i < reached.size(); ++i)
+        for (const std::uint32_t next : ground_.spots()[reached[i]].next)
+            if (next != kNoSpot && steps[next] == kNoSpot) {
+                steps[next] = steps[reached[i]] + 1;
+                reached.push_back(next);
+            }
+    return steps;
 }
 
 std::uint32_t TerrainPlaces::spotOf(glm::ivec2 cell, std::size_t level) const {
@@ -70,12 +80,11 @@ std::uint32_t TerrainPlaces::spotOf(glm::ivec2 cell, std::size_t level) const {
     const auto apart = [&](std::uint32_t spot) {
         return std::abs(ground_.spots()[spot].height - ground_.spots()[wanted].height);
     };
-    for (std::uint32_t spot = begin; spot < end; ++spot) {
-        if (!counts(spot)) continue;
-        const bool is_on = isOnLevel(spot, wanted);
-        if (best == kNoSpot || std::pair(!is_on, apart(spot)) < std::pair(!isOnLevel(best, wanted), apart(best)))
+    const std::vector<std::uint32_t>& steps = steps_[level];
+    for (std::uint32_t spot = begin; spot < end; ++spot)
+        if (counts(spot) && (best == kNoSpot || std::pair(steps[spot], apart(spot)) <
+                                                    std::pair(steps[best], apart(best))))
             best = spot;
-    }
     return best;
 }
 

@@ -13,8 +13,9 @@ namespace throng::authoring {
 
 /// On which of a terrain's grounds above each other something lies.
 ///
-/// What names a level lies where that level's ground is; where this has none, on what is nearest to it in
-/// height. Where a layout names no levels, everything lies on the lowest ground.
+/// What names a level lies on that of several grounds which is nearest on foot to the level's own place; where
+/// nobody gets there from it, on that which is nearest in height. Where a layout names no levels, everything
+/// lies on the lowest ground.
 class TerrainPlaces {
   public:
     TerrainPlaces(const Layout& layout, const Walkable& ground, const Pieces& pieces);
@@ -25,7 +26,7 @@ class TerrainPlaces {
     std::uint32_t spotAt(glm::dvec2 place, std::size_t level) const;
     /// In the middle of an outline, as far as there is ground.
     std::uint32_t spotIn(const std::vector<glm::dvec2>& outline, std::size_t level) const;
-    /// From now on only charts count, and levels are the charts of their grounds.
+    /// From now on only what is on a chart counts.
     void keepTo(const std::vector<Surface>& surfaces);
     /// By spot, kNoSpot of those that are on no chart.
     const std::vector<std::uint32_t>& chartOf() const { return chart_of_; }
@@ -34,12 +35,13 @@ class TerrainPlaces {
   private:
     std::uint32_t spotOf(glm::ivec2 cell, std::size_t level) const;
     bool counts(std::uint32_t spot) const;
-    bool isOnLevel(std::uint32_t spot, std::uint32_t level_spot) const;
+    std::vector<std::uint32_t> stepsFrom(std::uint32_t spot) const;
 
     const Layout& layout_;
     const Walkable& ground_;
     const Pieces& pieces_;
     std::vector<std::uint32_t> level_spots_;
+    std::vector<std::vector<std::uint32_t>> steps_;  // by level and spot: cells on foot from the level's place
     std::vector<std::uint32_t> chart_of_;  // empty: not cut yet
 };
 

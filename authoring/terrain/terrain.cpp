@@ -2,6 +2,7 @@
 #include "authoring/terrain/terrain.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -17,6 +18,8 @@ constexpr double kMostSamples = 8'000'000.0;  // of the ground, for the lattice
 constexpr double kMostLooks = 1.0e9;  // at faces, while the lattice is made
 constexpr float kMargin = 1.0f;       // m round the scene
 constexpr float kPlaneMargin = 4.0f;  // m round the plane of charts: a step of shifts
+constexpr float kLedge = 0.3f;        // m in a quarter of a metre: what is higher is no step of stairs
+constexpr float kNearNode = 0.5f;     // m: nodes round a place of charts further from its ground are beyond a ledge
 constexpr float kNearFace = 0.8f;     // m: faces further from a cell's height are another storey's
 constexpr float kSteepFace = 1.5f;    // rise over run: steeper faces are risers
 constexpr float kLeastClimb = 0.08f;  // slopes below are nobody's stairs
@@ -37,8 +40,10 @@ TerrainRaster fittingRaster(glm::vec2 extent, double most) {
 /// Values on the lattice's nodes, of which some may be missing.
 class Lattice {
   public:
-    Lattice(const TerrainRaster& raster, std::vector<float> values)
-        : raster_(raster), values_(std::move(values)) {}
+    /// @param ledge m: nodes beside each other that differ by more are not each other's ground
+    Lattice(const TerrainRaster& raster, std::vector<float> values,
+            float ledge = std::numeric_limits<float>::infinity())
+        : raster_(raster), values_(std::move(values)), ledge_(ledge) {}
 
     /// Goes on beyond what is known: first as it slopes, then level.
     void fill() {
@@ -113,16 +118,29 @@ class Lattice {
             return values_[static_cast<std::size_t>(std::clamp(y, 0, h - 1)) * raster_.width +
                            static_cast<std::size_t>(std::clamp(x, 0, w - 1))];
         };
+        const auto at = [&](int x, int y, int steps) { return value(x + steps * dx, y + steps * dy); };
         for (int y = 0; y < h; ++y)
             for (int x = 0; x < w; ++x)
                 result[static_cast<std::size_t>(y) * raster_.width + static_cast<std::size_t>(x)] =
-                    0.375f * value(x, y) + 0.25f * (value(x - dx, y - dy) + value(x + dx, y + dy)) +
-                    0.0625f * (value(x - 2 * dx, y - 2 * dy) + value(x + 2 * dx, y + 2 * dy));
+                    weighted(value(x, y), {at(x, y, -1), at(x, y, 1)}, {at(x, y, -2), at(x, y, 2)});
         values_ = std::move(result);
+    }
+
+    /// Beyond a ledge, the ground is taken to go on as it slopes on this side of it.
+    float weighted(float here, std::array<float, 2> near, std::array<float, 2> far) const {
+        const bool goes_on[] = {std::abs(near[0] - here) <= ledge_, std::abs(near[1] - here) <= ledge_};
+        for (const std::size_t side : {0u, 1u}) {
+            const float slope = goes_on[1 - side] ? here - near[1 - side] : 0.0f;
+            if (!goes_on[side]) near[side] = here + slope;
+            if (!goes_on[side] || std::abs(far[side] - near[side]) > ledge_)
+                far[side] = near[side] + (goes_on[side] ? near[side] - here : slope);
+        }
+        return 0.375f * here + 0.25f * (near[0] + near[1]) + 0.0625f * (far[0] + far[1]);
     }
 
     const TerrainRaster& raster_;
     std::vector<float> values_;
+    float ledge_;
 };
 
 }  // namespace
@@ -204,12 +222,17 @@ void Terrain::sampleLattice() {
     for (std::uint32_t y = 0; y < lattice_.height; ++y)
         for (std::uint32_t x = 0; x < lattice_.width; ++x) {
             float height = 0.0f, slope = 0.0f;
-            int hits = 0;
+            int hits = 0, looks = side * side;
+            const std::optional<Face> middle = plane_ ? hitAt(nodePlace(x, y)) : std::nullopt;
             for (int i = 0; i < side * side; ++i) {
                 const glm::vec2 offset =
                     (glm::vec2(i % side, i / side) + 0.5f) / static_cast<float>(side) - 0.5f;
                 const std::optional<Face> hit = hitAt(nodePlace(x, y) + offset * lattice_.cell);
                 if (!hit) continue;
+                if (middle && std::abs(hit->height - middle->height) > kLedge) {
+                    --looks;
+                    continue;
+                }
                 ++hits;
                 height += hit->height;
                 const float rise = glm::length(hit->slope);
@@ -217,13 +240,15 @@ void Terrain::sampleLattice() {
             }
             const std::size_t node = std::size_t{y} * lattice_.width + x;
             if (hits > 0) partial[node] = height / static_cast<float>(hits);
-            if (hits < side * side) continue;
+            if (hits == 0 || hits < looks) continue;
             heights[node] = partial[node];
             slopes[node] = slope / static_cast<float>(hits);
         }
     if (std::all_of(heights.begin(), heights.end(), [](float value) { return std::isnan(value); }))
         heights = partial;
-    Lattice smooth(lattice_, std::move(heights)), faces(lattice_, std::move(slopes));
+    const float ledge =
+        plane_ ? std::max(kLedge, 1.2f * lattice_.cell) : std::numeric_limits<float>::infinity();
+    Lattice smooth(lattice_, std::move(heights), ledge), faces(lattice_, std::move(slopes));
     for (Lattice* each : {&smooth, &faces}) {
         each->fill();
         each->smooth();
@@ -249,8 +274,25 @@ float Terrain::smoothAt(glm::vec2 point) const {
     const glm::vec2 f = at - glm::vec2(cell);
     const gpu::TerrainNode* low = &nodes_[std::size_t{cell.y} * lattice_.width + cell.x];
     const gpu::TerrainNode* high = low + lattice_.width;
-    return glm::mix(glm::mix(low[0].height, low[1].height, f.x),
-                    glm::mix(high[0].height, high[1].height, f.x), f.y);
+    std::array<float, 4> heights = {low[0].height, low[1].height, high[0].height, high[1].height};
+    if (plane_) leaveOutOthers(point, heights);
+    return glm::mix(glm::mix(heights[0], heights[1], f.x), glm::mix(heights[2], heights[3], f.x), f.y);
+}
+
+/// Of the nodes round a place, those beyond a ledge take the mean of the others.
+void Terrain::leaveOutOthers(glm::vec2 point, std::array<float, 4>& heights) const {
+    const std::optional<Face> here = hitAt(point);
+    if (!here) return;
+    const auto is_near = [&](float height) { return std::abs(height - here->height) < kNearNode; };
+    float sum = 0.0f, count = 0.0f;
+    for (const float height : heights)
+        if (is_near(height)) {
+            sum += height;
+            count += 1.0f;
+        }
+    if (count == 4.0f) return;
+    for (float& height : heights)
+        if (!is_near(height)) height = count > 0.0f ? sum / count : here->height;
 }
 
 glm::vec2 Terrain::slopeAt(glm::vec2 point) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <optional>
@@ -66,6 +67,7 @@ class Terrain {
   private:
     std::optional<Face> hitAt(glm::vec2 point) const;
     std::optional<Face> hitInPlane(glm::vec2 point) const;
+    void leaveOutOthers(glm::vec2 point, std::array<float, 4>& heights) const;
     void sampleLattice();
     glm::vec2 nodePlace(std::uint32_t x, std::uint32_t y) const {
         return minimum_ + glm::vec2(x, y) * lattice_.cell;

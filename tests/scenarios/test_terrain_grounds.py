@@ -52,7 +52,7 @@ AREAS = [{"id": "west", "polygon": box(-38, -3, -34, 3)}, {"id": "east", "polygo
 
 
 def layout(levels=LEVELS, **members):
-    return {"throng": 1, "simulation": {"duration": 70}, "terrain": {"file": "ground.glb"}, "levels": levels,
+    return {"throng": 1, "simulation": {"duration": 120}, "terrain": {"file": "ground.glb"}, "levels": levels,
             "areas": AREAS, **members}
 
 
@@ -143,7 +143,7 @@ def spiral():
 
 
 def test_a_ramp_may_wind_over_itself(throng, tmp_path):
-    given = {"throng": 1, "simulation": {"duration": 150}, "terrain": {"file": "ground.glb"},
+    given = {"throng": 1, "simulation": {"duration": 220}, "terrain": {"file": "ground.glb"},
              "levels": [{"id": "plain", "at": [-15, 0, 0]}, {"id": "top", "at": [8, 5, TURNS * PER_TURN]}],
              "areas": [{"id": "foot", "polygon": box(12, -8, 16, -4)},
                        {"id": "head", "level": "top", "polygon": box(7, 5, 9, 7.5)}],
@@ -161,9 +161,12 @@ def test_a_ramp_may_wind_over_itself(throng, tmp_path):
     assert abs(over * PER_TURN)[on_ramp].max() < 0.02  # chords are a little below the arc of the middle
 
 
-@pytest.mark.parametrize("outline", [box(-14, -14, 1.25, 14), [(-14, -14), (14, -14), (14, 7.1), (-14, -5.3)]])
+FAR = box(-28, -28, -25, 28)
+
+
+@pytest.mark.parametrize("outline", [box(-28, -28, -3.8, 28), [(-28, -28), (28, -28), (28, 4.1), (-28, -14.3)]])
 def test_nobody_notices_where_a_flat_ground_is_cut(throng, once, tmp_path, outline):
-    """A plate 5 m up, which a plate below it cuts wherever that one ends; and the same alone, in one part."""
+    """A plate 5 m up, which a plate below it cuts near where that one ends: among people, and far from them."""
     random = numpy.random.default_rng(4)
     kept = []
     for point in random.uniform(-9, 9, (300, 2)):
@@ -172,7 +175,7 @@ def test_nobody_notices_where_a_flat_ground_is_cut(throng, once, tmp_path, outli
     gates = {"w": box(-11.5, -2, -10.5, 2), "e": box(10.5, -2, 11.5, 2), "s": box(-2, -11.5, 0.3, -10.5),
              "n": box(-2, 10.5, 0.3, 11.5)}
     given = {"throng": 1, "simulation": {"duration": 5, "smoothing": 0, "avoid_congestion": False},
-             "terrain": {"file": "ground.glb"}, "levels": [{"id": "deck", "at": [11, 0, 5]}],
+             "terrain": {"file": "ground.glb"}, "levels": [{"id": "deck", "at": [11, 11, 5]}],
              "areas": [{"id": name, "polygon": polygon} for name, polygon in gates.items()],
              "formations": [{"id": f"p{i}", "type": "grid", "origin": [round(float(x), 3), round(float(y), 3)],
                              "rows": 1, "columns": 1, "goal": "wesn"[i % 4], "arrival": "leave"}
@@ -180,16 +183,15 @@ def test_nobody_notices_where_a_flat_ground_is_cut(throng, once, tmp_path, outli
 
     def plates(below):
         mesh = Mesh()
-        mesh.flat(-12, -12, 12, 12, 5)
-        mesh.ramp(12, -12, 52, -8, 5, 0)  # the way down, so that the lower one is walked on
-        mesh.flat(52, -12, 56, -8, 0)
-        if below:
-            mesh.flat(-14, -18, 56, -14, 0)
-            mesh.flat(52, -14, 56, -12, 0)
-            mesh.face(*((x, y, 0) for x, y in outline))
+        mesh.flat(-26, -26, 26, 26, 5)
+        mesh.ramp(26, -26, 50, -22, 5, 0)  # the way down, so that the lower one is walked on
+        mesh.flat(50, -26, 54, -22, 0)
+        mesh.flat(-28, -32, 54, -28, 0)
+        mesh.flat(50, -28, 54, -26, 0)
+        mesh.face(*((x, y, 0) for x, y in below))
         return mesh
-    whole = once("uncut plate", lambda folder: bake(throng, folder, plates(False), given)) / "bake"
-    parts = bake(throng, tmp_path, plates(True), given)
+    whole = once("uncut plate", lambda folder: bake(throng, folder, plates(FAR), given)) / "bake"
+    parts = bake(throng, tmp_path, plates(outline), given)
     grounds = json.loads(throng("check", tmp_path / "layout.json", "--json").stdout)[0]["grounds"]
     assert len(grounds) == 2 and min(ground["area"] for ground in grounds) > 150
     there = stream(whole, "state")[..., 0] > 0
