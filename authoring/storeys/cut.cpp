@@ -2,8 +2,10 @@
 #include "authoring/storeys/cut.h"
 
 #include <algorithm>
+#include <functional>
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
 #include <queue>
 
 #include "authoring/storeys/chart_raster.h"
@@ -99,22 +101,29 @@ Spots grow(const Walkable& ground, const Spots& among, const std::vector<bool>& 
 /// on it look into the next part, and so none of its own ground may be there.
 /// @returns by spot, whether it is too near
 std::vector<bool> nearTo(const Walkable& ground, const Spots& over, const Part& part, double margin) {
-    struct Reached {
-        std::uint32_t spot;
-        glm::ivec2 from;
-    };
+    using Reached = std::pair<double, std::uint32_t>;
+    std::priority_queue<Reached, std::vector<Reached>, std::greater<>> reached;
+    std::vector<double> away(ground.spots().size(), std::numeric_limits<double>::infinity());
     std::vector<bool> near(ground.spots().size(), false);
-    std::vector<Reached> reached;
+    const auto reach = [&](std::uint32_t spot, double distance) {
+        if (spot == kNoSpot || distance > margin || distance >= away[spot]) return;
+        away[spot] = distance;
+        reached.push({distance, spot});
+    };
     for (const std::uint32_t spot : over)
-        reached.push_back({spot, ground.spots()[spot].cell});
-    for (std::size_t i = 0; i < reached.size(); ++i) {
-        const auto [spot, from] = reached[i];
-        for (const std::uint32_t next : ground.spots()[spot].next) {
-            if (next == kNoSpot || near[next] || !part.has(next)) continue;
-            const glm::dvec2 way(ground.spots()[next].cell - from);
-            if (glm::length(way) * kChartCell > margin) continue;
-            near[next] = true;
-            reached.push_back({next, from});
+        reach(spot, 0.0);
+    while (!reached.empty()) {
+        const auto [distance, spot] = reached.top();
+        reached.pop();
+        if (distance > away[spot]) continue;
+        near[spot] = part.has(spot);
+        for (std::size_t side = 0; side < kSides.size(); ++side) {
+            const std::uint32_t next = ground.spots()[spot].next[side];
+            if (next == kNoSpot || !part.has(next)) continue;
+            reach(next, distance + kChartCell);
+            const std::uint32_t aside = ground.spots()[next].next[(side + 1) % kSides.size()];
+            if (aside != kNoSpot && part.has(aside))
+                reach(aside, distance + kChartCell * std::numbers::sqrt2);
         }
     }
     return near;
