@@ -42,8 +42,8 @@ std::uint64_t bytesOfBake(const LoadedLayout& loaded) {
 
 /// m^2
 double areaOf(const authoring::Surface& surface) {
-    const auto spots = std::ranges::count_if(
-        surface.spots, [](std::uint32_t spot) { return spot != authoring::kNoSpot; });
+    const auto spots =
+        std::ranges::count_if(surface.spots, [](std::uint32_t spot) { return spot != authoring::kNoSpot; });
     return static_cast<double>(spots) * authoring::kChartCell * authoring::kChartCell;
 }
 
@@ -51,7 +51,8 @@ double areaOf(const authoring::Surface& surface) {
 std::vector<std::string> joinedTo(const authoring::Charts& charts, std::size_t chart) {
     std::vector<std::string> names;
     for (std::size_t other = 0; other < charts.charts.size(); ++other)
-        if (other != chart && charts.rasters[chart].isJoinedTo(other)) names.push_back(charts.charts[other].name);
+        if (other != chart && charts.rasters[chart].isJoinedTo(other))
+            names.push_back(charts.charts[other].name);
     return names;
 }
 

@@ -149,7 +149,7 @@ Json terrainToJson(const recording::BakeTerrain& terrain, bool storeys) {
             {"source", terrain.source},
             {"hash", "xxh3:" + terrain.hash},
             {"surface", terrain.is_cut               ? "grounds"
-                        : storeys                ? "levels"
+                        : storeys                    ? "levels"
                         : terrain.surface->highest() ? "highest"
                                                      : "lowest"},
             {"triangles", terrain.mesh->indices.size() / 3},

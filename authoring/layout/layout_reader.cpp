@@ -292,7 +292,8 @@ class Reader {
         terrain.is_single = surface != nullptr;
         reader.finish();
         if (surface && !layout_.levels.empty())
-            diagnostics_.error(surface->where, "a terrain of which people walk on one `surface` has no levels",
+            diagnostics_.error(surface->where,
+                               "a terrain of which people walk on one `surface` has no levels",
                                "leave out `surface`, or the levels");
         if (!layout_.links.empty())
             diagnostics_.error(layout_.links.front().where, "a terrain has no links: its ways are its own",

@@ -20,13 +20,13 @@
 namespace throng::authoring {
 namespace {
 
-constexpr double kAround = 50.0;          // m: so far from all that the layout has, ground counts
-constexpr double kMostLatticeCells = 4.0e6;      // of the lattice
-constexpr double kStoreysApart = 2.0;     // m
-constexpr double kMostLooks = 400'000.0;  // at the mesh, for storeys
-constexpr double kEdgeHeight = 1.1;       // m: people see over the ends of ground
-constexpr double kEdge = 0.02;            // m
-constexpr double kWorthTelling = 4.0;     // m^2 of ground that nobody gets to
+constexpr double kAround = 50.0;             // m: so far from all that the layout has, ground counts
+constexpr double kMostLatticeCells = 4.0e6;  // of the lattice
+constexpr double kStoreysApart = 2.0;        // m
+constexpr double kMostLooks = 400'000.0;     // at the mesh, for storeys
+constexpr double kEdgeHeight = 1.1;          // m: people see over the ends of ground
+constexpr double kEdge = 0.02;               // m
+constexpr double kWorthTelling = 4.0;        // m^2 of ground that nobody gets to
 constexpr std::size_t kMostTold = 10;
 constexpr double kAlong = 0.25;  // m between looks at what a line lies on
 
@@ -96,11 +96,12 @@ class TerrainLayingOut {
         std::vector<Surface> surfaces = cutIntoSurfaces(ground_, pieces_, used, reachOf(layout_));
         if (surfaces.empty()) return nullptr;
         if (surfaces.size() >= kMostCharts) {
-            diagnostics_.error(layout_.terrain->where,
-                               fmt::format("the terrain is {} grounds above each other, more than the {} that "
-                                           "can be",
-                                           surfaces.size(), kMostCharts - 1),
-                               "export the ground alone (`node`), or name the `surface` that people walk on");
+            diagnostics_.error(
+                layout_.terrain->where,
+                fmt::format("the terrain is {} grounds above each other, more than the {} that "
+                            "can be",
+                            surfaces.size(), kMostCharts - 1),
+                "export the ground alone (`node`), or name the `surface` that people walk on");
             return nullptr;
         }
         places_.keepTo(surfaces);
@@ -241,10 +242,11 @@ class TerrainLayingOut {
         if (on_others > within)
             diagnostics_.warning(
                 area.where,
-                fmt::format("area `{}` lies for the most part beyond its ground, `{}`: {:.1f} of {:.1f} m^2 are "
-                            "on it",
-                            area.id, result_->charts[area.level].name, areaOfSpots(within),
-                            areaOfSpots(within + on_others)),
+                fmt::format(
+                    "area `{}` lies for the most part beyond its ground, `{}`: {:.1f} of {:.1f} m^2 are "
+                    "on it",
+                    area.id, result_->charts[area.level].name, areaOfSpots(within),
+                    areaOfSpots(within + on_others)),
                 "people come and go on that part of it alone");
     }
 
@@ -416,11 +418,12 @@ std::shared_ptr<const Charts> layOutTerrain(const Layout& layout, const TerrainM
     if (!(size.x > 0.0 && size.y > 0.0)) return nullptr;
     if (layout.levels.empty() && !mayHaveStoreys(mesh, bounds)) return nullptr;
     if (size.x * size.y / (kChartCell * kChartCell) > kMostLatticeCells) {
-        diagnostics.warning(layout.terrain->file_where,
-                            fmt::format("the terrain has faces above each other, but {:.0f} x {:.0f} m of it are "
-                                        "too much to find people's ways over and under them",
-                                        size.x, size.y),
-                            "people walk on one of them, see `surface`; or export a part of it");
+        diagnostics.warning(
+            layout.terrain->file_where,
+            fmt::format("the terrain has faces above each other, but {:.0f} x {:.0f} m of it are "
+                        "too much to find people's ways over and under them",
+                        size.x, size.y),
+            "people walk on one of them, see `surface`; or export a part of it");
         return nullptr;
     }
     return TerrainLayingOut(layout, mesh, bounds, diagnostics).run();
@@ -453,11 +456,12 @@ PlaneGround planeGroundOf(const Charts& charts, const ChartMap& map, glm::dvec2 
     for (int round = 0; round < kSpread; ++round) {
         const std::vector<PlaneGround::Cell> before = plane.cells;
         for (std::size_t i = 0; i < before.size(); ++i) {
-            if (!std::isnan(before[i].height) || (map.cells[i].charts & gpu::NO_CHART) == gpu::NO_CHART) continue;
+            if (!std::isnan(before[i].height) || (map.cells[i].charts & gpu::NO_CHART) == gpu::NO_CHART)
+                continue;
             const std::size_t x = i % plane.width;
-            for (const std::size_t beside : {x > 0 ? i - 1 : i, x + 1 < plane.width ? i + 1 : i,
-                                             i >= plane.width ? i - plane.width : i,
-                                             i + plane.width < before.size() ? i + plane.width : i})
+            for (const std::size_t beside :
+                 {x > 0 ? i - 1 : i, x + 1 < plane.width ? i + 1 : i, i >= plane.width ? i - plane.width : i,
+                  i + plane.width < before.size() ? i + plane.width : i})
                 if (!std::isnan(before[beside].height)) {
                     plane.cells[i] = before[beside];
                     break;
@@ -468,7 +472,7 @@ PlaneGround planeGroundOf(const Charts& charts, const ChartMap& map, glm::dvec2 
 }
 
 std::vector<float> slopeCosts(const Terrain& terrain, const ChartMap& map, const MotionSettings& motion) {
-    constexpr float kFlat = 0.02f;     // rise over run: costs nothing
+    constexpr float kFlat = 0.02f;  // rise over run: costs nothing
     constexpr float kSteepest = 1.0f;
     constexpr int kSlopes = 50;  // in so many steps
     std::array<std::array<float, kSlopes + 1>, 2> costs{};
@@ -479,8 +483,8 @@ std::vector<float> slopeCosts(const Terrain& terrain, const ChartMap& map, const
     std::vector<float> result(map.cells.size(), 1.0f);
     for (std::size_t i = 0; i < map.cells.size(); ++i) {
         if ((map.cells[i].charts >> 8 & gpu::NO_CHART) == gpu::NO_CHART) continue;
-        const glm::vec2 at = map.grid.minimum + (glm::vec2(i % map.grid.width, i / map.grid.width) + 0.5f) *
-                                                    map.grid.cell_size;
+        const glm::vec2 at = map.grid.minimum +
+                             (glm::vec2(i % map.grid.width, i / map.grid.width) + 0.5f) * map.grid.cell_size;
         const float slope = std::min(glm::length(terrain.slopeAt(at)), kSteepest);
         if (slope < kFlat) continue;
         const auto step = static_cast<std::size_t>(std::lround(slope / kSteepest * kSlopes));

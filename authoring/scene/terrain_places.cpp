@@ -40,9 +40,11 @@ bool TerrainPlaces::findLevels(Diagnostics& diagnostics) {
             heights += fmt::format("{}{:.2f}", each == begin ? "" : ", ", ground_.spots()[each].height);
         diagnostics.error(
             level.where,
-            fmt::format("level `{}`: nobody can stand at [{:.2f}, {:.2f}, {:.2f}]", level.id, at.x, at.y, at.z),
+            fmt::format("level `{}`: nobody can stand at [{:.2f}, {:.2f}, {:.2f}]", level.id, at.x, at.y,
+                        at.z),
             heights.empty()
-                ? std::string("there is no ground there with 2 m of headroom that slopes less than 45 degrees")
+                ? std::string(
+                      "there is no ground there with 2 m of headroom that slopes less than 45 degrees")
                 : fmt::format("there is ground at z = {}: name one of these", heights));
     }
     if (diagnostics.hasErrors()) return false;
@@ -82,8 +84,8 @@ std::uint32_t TerrainPlaces::spotOf(glm::ivec2 cell, std::size_t level) const {
     };
     const std::vector<std::uint32_t>& steps = steps_[level];
     for (std::uint32_t spot = begin; spot < end; ++spot)
-        if (counts(spot) && (best == kNoSpot || std::pair(steps[spot], apart(spot)) <
-                                                    std::pair(steps[best], apart(best))))
+        if (counts(spot) &&
+            (best == kNoSpot || std::pair(steps[spot], apart(spot)) < std::pair(steps[best], apart(best))))
             best = spot;
     return best;
 }

@@ -13,9 +13,9 @@ namespace throng::authoring {
 
 /// On which of a terrain's grounds above each other something lies.
 ///
-/// What names a level lies on that of several grounds which is nearest on foot to the level's own place; where
-/// nobody gets there from it, on that which is nearest in height. Where a layout names no levels, everything
-/// lies on the lowest ground.
+/// What names a level lies on that of several grounds which is nearest on foot to the level's own place;
+/// where nobody gets there from it, on that which is nearest in height. Where a layout names no levels,
+/// everything lies on the lowest ground.
 class TerrainPlaces {
   public:
     TerrainPlaces(const Layout& layout, const Walkable& ground, const Pieces& pieces);
@@ -41,7 +41,8 @@ class TerrainPlaces {
     const Walkable& ground_;
     const Pieces& pieces_;
     std::vector<std::uint32_t> level_spots_;
-    std::vector<std::vector<std::uint32_t>> steps_;  // by level and spot: cells on foot from the level's place
+    std::vector<std::vector<std::uint32_t>>
+        steps_;                            // by level and spot: cells on foot from the level's place
     std::vector<std::uint32_t> chart_of_;  // empty: not cut yet
 };
 

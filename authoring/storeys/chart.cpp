@@ -134,7 +134,8 @@ double Chart::heightAt(glm::dvec2 home) const {
 
 std::pair<glm::dvec2, glm::dvec2> Chart::bounds() const {
     if (surface)
-        return {kChartCell * glm::dvec2(surface->first), kChartCell * glm::dvec2(surface->first + surface->size)};
+        return {kChartCell * glm::dvec2(surface->first),
+                kChartCell * glm::dvec2(surface->first + surface->size)};
     const std::vector<glm::dvec2>& corners = is_link ? link.outline(0.0, link.length) : floor;
     glm::dvec2 lower = corners.front(), upper = corners.front();
     for (const glm::dvec2 corner : corners) {

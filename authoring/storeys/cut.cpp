@@ -97,8 +97,8 @@ Spots grow(const Walkable& ground, const Spots& among, const std::vector<bool>& 
     return over;
 }
 
-/// What of a part is nearer than a margin, on foot, to where it would lie over itself: beyond its seam, people
-/// on it look into the next part, and so none of its own ground may be there.
+/// What of a part is nearer than a margin, on foot, to where it would lie over itself: beyond its seam,
+/// people on it look into the next part, and so none of its own ground may be there.
 /// @returns by spot, whether it is too near
 std::vector<bool> nearTo(const Walkable& ground, const Spots& over, const Part& part, double margin) {
     using Reached = std::pair<double, std::uint32_t>;
@@ -152,8 +152,8 @@ Surface surfaceOf(const std::shared_ptr<const Walkable>& ground, const Spots& sp
     }
     surface.first = lower;
     surface.size = upper + 1 - lower;
-    surface.spots.assign(
-        static_cast<std::size_t>(surface.size.x) * static_cast<std::size_t>(surface.size.y), kNoSpot);
+    surface.spots.assign(static_cast<std::size_t>(surface.size.x) * static_cast<std::size_t>(surface.size.y),
+                         kNoSpot);
     for (const std::uint32_t spot : spots) {
         const glm::ivec2 at = ground->spots()[spot].cell - lower;
         surface.spots[static_cast<std::size_t>(at.y) * static_cast<std::size_t>(surface.size.x) +
@@ -170,7 +170,8 @@ Pieces piecesOf(const Walkable& ground) {
     std::vector<bool> seen(ground.spots().size(), false);
     for (std::uint32_t spot = 0; spot < ground.spots().size(); ++spot) {
         if (seen[spot]) continue;
-        const Spots reached = reachedFrom(ground, spot, [](std::uint32_t) { return true; }, seen);
+        const Spots reached = reachedFrom(
+            ground, spot, [](std::uint32_t) { return true; }, seen);
         for (const std::uint32_t each : reached)
             pieces.piece_of[each] = static_cast<std::uint32_t>(pieces.spots.size());
         pieces.spots.push_back(reached.size());
@@ -204,8 +205,8 @@ std::vector<Surface> cutIntoSurfaces(const std::shared_ptr<const Walkable>& grou
         std::vector<bool> seen(is_left.size(), false);
         for (std::uint32_t spot = 0; spot < is_left.size(); ++spot)
             if (is_left[spot] && !seen[spot])
-                rests.push_back(
-                    reachedFrom(*ground, spot, [&](std::uint32_t next) { return bool{is_left[next]}; }, seen));
+                rests.push_back(reachedFrom(
+                    *ground, spot, [&](std::uint32_t next) { return bool{is_left[next]}; }, seen));
         if (rests.empty()) return surfaces;
         std::stable_sort(rests.begin(), rests.end(),
                          [](const Spots& a, const Spots& b) { return a.size() > b.size(); });

@@ -46,7 +46,6 @@ void shiftCharts(std::vector<Chart>& charts, double reach) {
     }
 }
 
-
 void moveFormation(Formation& formation, glm::dvec2 by) {
     if (auto* circle = std::get_if<CircleFormation>(&formation.shape)) circle->centre += by;
     if (auto* grid = std::get_if<GridFormation>(&formation.shape)) {
@@ -139,8 +138,8 @@ void copyWallsIntoMargins(Charts& charts, const std::vector<StandingWall>& stand
             for (std::vector<glm::dvec2>& part :
                  partsInMargin(charts.charts[chart], raster, owner, line, 0.5 * thickness)) {
                 Wall copy = wall;
-                copy.id = fmt::format("{}:{}:{}", wall.id, charts.charts[chart].name,
-                                      charts.plane.walls.size());
+                copy.id =
+                    fmt::format("{}:{}:{}", wall.id, charts.charts[chart].name, charts.plane.walls.size());
                 copy.closed = false;
                 copy.thickness = thickness;
                 copy.points = std::move(part);

@@ -82,8 +82,9 @@ class Tracer {
             at = after(*at);
         }
         if (at && at->spot == first.spot && at->side == first.side) beginOnStraight(loop);
-        if (at) loop.push_back(at->spot == first.spot && at->side == first.side ? loop.front()
-                                                                               : EdgePoint{placeOf(*at), *at});
+        if (at)
+            loop.push_back(at->spot == first.spot && at->side == first.side ? loop.front()
+                                                                            : EdgePoint{placeOf(*at), *at});
         restoreCorners(loop);
         for (std::size_t begin = 0; begin + 1 < loop.size();)
             begin = addEdge(loop, begin);

@@ -10,11 +10,11 @@
 namespace throng::authoring {
 namespace {
 
-constexpr float kOverHead = 2.0f;   // m: over what people walk on
-constexpr float kSteepest = 1.0f;   // rise over run: 45 degrees
-constexpr float kStep = 0.25f;      // m
-constexpr float kHair = 1.0e-3f;    // m and rise over run, of rounding
-constexpr int kLooks = 4;           // at the ground, from one cell's middle to the next
+constexpr float kOverHead = 2.0f;                   // m: over what people walk on
+constexpr float kSteepest = 1.0f;                   // rise over run: 45 degrees
+constexpr float kStep = 0.25f;                      // m
+constexpr float kHair = 1.0e-3f;                    // m and rise over run, of rounding
+constexpr int kLooks = 4;                           // at the ground, from one cell's middle to the next
 constexpr std::array kBody = {0.35f, 0.7f, 1.05f};  // m over the ground: what is upright there is in the way
 
 constexpr float kCell = static_cast<float>(kChartCell);
@@ -50,8 +50,8 @@ glm::vec2 Walkable::middleOf(glm::ivec2 cell) const {
 std::pair<std::uint32_t, std::uint32_t> Walkable::spotsOf(glm::ivec2 cell) const {
     const glm::ivec2 at = cell - first_;
     if (at.x < 0 || at.y < 0 || at.x >= size_.x || at.y >= size_.y) return {0, 0};
-    const std::size_t index = static_cast<std::size_t>(at.y) * static_cast<std::size_t>(size_.x) +
-                              static_cast<std::size_t>(at.x);
+    const std::size_t index =
+        static_cast<std::size_t>(at.y) * static_cast<std::size_t>(size_.x) + static_cast<std::size_t>(at.x);
     return {starts_[index], starts_[index + 1]};
 }
 
@@ -59,8 +59,8 @@ std::uint32_t Walkable::nearestSpot(glm::ivec2 cell, double height) const {
     const auto [begin, end] = spotsOf(cell);
     std::uint32_t nearest = kNoSpot;
     for (std::uint32_t spot = begin; spot < end; ++spot)
-        if (nearest == kNoSpot ||
-            std::abs(double{spots_[spot].height} - height) < std::abs(double{spots_[nearest].height} - height))
+        if (nearest == kNoSpot || std::abs(double{spots_[spot].height} - height) <
+                                      std::abs(double{spots_[nearest].height} - height))
             nearest = spot;
     return nearest;
 }

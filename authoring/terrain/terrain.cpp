@@ -15,19 +15,20 @@ namespace {
 constexpr float kSmallestNode = 0.25f;        // m between the lattice's nodes
 constexpr double kMostNodes = 2'000'000.0;    // of the lattice
 constexpr double kMostSamples = 8'000'000.0;  // of the ground, for the lattice
-constexpr double kMostLooks = 1.0e9;  // at faces, while the lattice is made
-constexpr float kMargin = 1.0f;       // m round the scene
-constexpr float kPlaneMargin = 4.0f;  // m round the plane of charts: a step of shifts
-constexpr float kLedge = 0.3f;        // m in a quarter of a metre: what is higher is no step of stairs
-constexpr float kNearNode = 0.5f;     // m: nodes round a place of charts further from its ground are beyond a ledge
+constexpr double kMostLooks = 1.0e9;          // at faces, while the lattice is made
+constexpr float kMargin = 1.0f;               // m round the scene
+constexpr float kPlaneMargin = 4.0f;          // m round the plane of charts: a step of shifts
+constexpr float kLedge = 0.3f;  // m in a quarter of a metre: what is higher is no step of stairs
+constexpr float kNearNode =
+    0.5f;  // m: nodes round a place of charts further from its ground are beyond a ledge
 constexpr float kNearFace = 0.8f;     // m: faces further from a cell's height are another storey's
 constexpr float kSteepFace = 1.5f;    // rise over run: steeper faces are risers
 constexpr float kLeastClimb = 0.08f;  // slopes below are nobody's stairs
 constexpr int kGoesOn = 6;            // nodes beyond the edge for which the slope goes on
 constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
 
-/// Lattices of all charts fit together: their cells are a power of two of a metre, and at most as large as the
-/// step of shifts.
+/// Lattices of all charts fit together: their cells are a power of two of a metre, and at most as large as
+/// the step of shifts.
 TerrainRaster fittingRaster(glm::vec2 extent, double most) {
     constexpr float kLargest = 4.0f;  // m
     TerrainRaster raster = rasterOf(extent, kSmallestNode, most);

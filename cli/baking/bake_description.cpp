@@ -90,8 +90,7 @@ recording::EyeCatcher cheering(const authoring::Show& show, const authoring::Sea
 void describeEyeCatchers(const LoadedLayout& loaded, recording::BakeDescription& bake) {
     const authoring::Layout& layout = loaded.layout;
     constexpr double kNever = 1.0e9;  // s
-    const authoring::TerrainGrounds* cut =
-        loaded.scene.charts ? loaded.scene.charts->grounds.get() : nullptr;
+    const authoring::TerrainGrounds* cut = loaded.scene.charts ? loaded.scene.charts->grounds.get() : nullptr;
     const auto heightOf = [&](const authoring::Attraction& each) {
         return cut->attraction_heights[static_cast<std::size_t>(&each - layout.attractions.data())];
     };
@@ -158,8 +157,9 @@ void describeGrounds(const LoadedLayout& loaded, recording::BakeDescription& bak
     bake.roads = charts.grounds->home.roads;
     bake.areas = charts.grounds->home.areas;
     bake.patches = charts.grounds->home.patches;
-    bake.terrain = recording::BakeTerrain{loaded.terrain, loaded.scene.terrain, loaded.layout.terrain->file,
-                                          loaded.terrain_hash, charts.ground_along_walls, true};
+    bake.terrain =
+        recording::BakeTerrain{loaded.terrain,      loaded.scene.terrain,      loaded.layout.terrain->file,
+                               loaded.terrain_hash, charts.ground_along_walls, true};
 }
 
 /// Of a layout with levels: its floors and links are the ground, and end in railings.
