@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes examples/bridge-terrain.glb: a street between pavements, and over it a footbridge with stairs of two flights at
-either end and a ramp that turns.
+"""Writes examples/bridge-terrain.glb: a street between pavements, and over it a footbridge with stairs of two flights
+at either end and a ramp that turns.
 
 Usage: make_bridge.py
 """
@@ -112,8 +112,9 @@ def bridge():
     for a, b in (((34.6, -2.0), (37.4, -2.0)), ((37.4, -2.0), (37.4, 5.0)), ((37.4, 5.0), (34.6, 5.0)),
                  ((34.6, -2.0), (34.6, -1.7)), ((34.6, 0.5), (34.6, 2.5)), ((34.6, 4.7), (34.6, 5.0))):
         mesh.rail(a, b, HALF)
-    for x, y, half, z in ((-9.6, 0.0, 1.2, DECK), (9.6, 0.0, 1.2, DECK), (-18.5, 0.0, 1.2, HALF), (11.5, -7.5, 0.9, HALF),
-                          (20.0, -0.6, 0.7, 4.3), (27.5, -0.6, 0.7, 3.4), (36.0, 1.5, 1.5, HALF)):
+    for x, y, half, z in ((-9.6, 0.0, 1.2, DECK), (9.6, 0.0, 1.2, DECK), (-18.5, 0.0, 1.2, HALF),
+                          (11.5, -7.5, 0.9, HALF), (20.0, -0.6, 0.7, 4.3), (27.5, -0.6, 0.7, 3.4),
+                          (36.0, 1.5, 1.5, HALF)):
         mesh.box(x - 0.3, y - half, x + 0.3, y + half, 0.0, z - 0.1)
     return mesh
 

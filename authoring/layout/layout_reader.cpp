@@ -39,8 +39,7 @@ class Reader {
         reader.text("name", layout_.name);
         if (const JsonNode* node = reader.get("simulation")) readSimulation(*node, reader.rule("simulation"));
         if (const JsonNode* node = reader.get("motion")) readMotion(*node, reader.rule("motion"));
-        const bool has_terrain = root_.find("terrain") != nullptr;
-        eachOf(reader, "levels", [&](const JsonNode& node) { levels_.readLevel(node, has_terrain); });
+        eachOf(reader, "levels", [this](const JsonNode& node) { levels_.readLevel(node); });
         eachOf(reader, "links", [this](const JsonNode& node) { levels_.readLink(node); });
         eachOf(reader, "roads", [this](const JsonNode& node) { readRoad(node); });
         eachOf(reader, "areas", [this](const JsonNode& node) { readArea(node); });
@@ -288,16 +287,8 @@ class Reader {
         reader.offset("offset", terrain.offset);
         reader.number("scale", terrain.scale);
         reader.choice("surface", {{"highest", true}, {"lowest", false}}, terrain.highest);
-        const JsonNode* surface = node.find("surface");
-        terrain.is_single = surface != nullptr;
+        terrain.is_single = node.find("surface") != nullptr;
         reader.finish();
-        if (surface && !layout_.levels.empty())
-            diagnostics_.error(surface->where,
-                               "a terrain of which people walk on one `surface` has no levels",
-                               "leave out `surface`, or the levels");
-        if (!layout_.links.empty())
-            diagnostics_.error(layout_.links.front().where, "a terrain has no links: its ways are its own",
-                               "leave out the links, or the terrain");
         layout_.terrain = std::move(terrain);
     }
 

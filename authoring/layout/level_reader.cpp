@@ -43,41 +43,24 @@ Climb climbOf(Link::Kind kind) {
 
 }  // namespace
 
-void LevelReader::readLevel(const JsonNode& node, bool of_terrain) {
+/// Which of the two a level has to have depends on whether there is a terrain (scene/terrain_check.h).
+void LevelReader::readLevel(const JsonNode& node) {
     Level level;
     level.where = node.where;
     ObjectReader reader(node, schema_.definition("level"), "a level", diagnostics_);
     if (!reader.isObject()) return;
     reader.requiredText("id", "the name that others use", level.id);
-    if (of_terrain)
-        readPlace(reader, level);
-    else
-        readFloor(reader, node, level);
+    reader.number("height", level.height);
+    const JsonNode* floor = node.find("floor");
+    if (floor) level.floor = reader.points("floor");
+    if (node.find("at")) {
+        level.at.emplace(0.0);
+        reader.offset("at", *level.at);
+    }
+    reader.finish();
+    if (floor) checkPolygon(level.floor, floor, diagnostics_);
     claimId(node, level.id, levels_, layout_.levels.size(), "a level", diagnostics_);
     layout_.levels.push_back(std::move(level));
-}
-
-void LevelReader::readFloor(ObjectReader& reader, const JsonNode& node, Level& level) const {
-    reader.number("height", level.height);
-    if (const JsonNode* at = reader.get("at"))
-        diagnostics_.error(at->where, "`at` names a ground of a terrain, and the layout has none",
-                           "give the level a `floor`, or the layout a `terrain`");
-    level.floor = reader.points("floor");
-    reader.finish();
-    checkPolygon(level.floor, node.find("floor"), diagnostics_);
-}
-
-void LevelReader::readPlace(ObjectReader& reader, Level& level) const {
-    for (const char* key : {"floor", "height"})
-        if (const JsonNode* given = reader.get(key))
-            diagnostics_.error(given->where,
-                               fmt::format("a layout with a terrain has no floors of its own: `{}`", key),
-                               R"(name a ground of the terrain by a place on it, "at": [x, y, z])");
-    glm::dvec3 at(0.0);
-    if (reader.require("at", "a place on the terrain, [x, y, z] in metres")) reader.offset("at", at);
-    reader.finish();
-    level.at = at;
-    level.height = at.z;
 }
 
 std::size_t LevelReader::levelNamed(const JsonNode& node) const {

@@ -15,8 +15,7 @@ class LevelReader {
     LevelReader(const Schema& schema, Layout& layout, Diagnostics& diagnostics)
         : schema_(schema), layout_(layout), diagnostics_(diagnostics) {}
 
-    /// @param of_terrain whether the layout has one: then levels name its grounds
-    void readLevel(const JsonNode& node, bool of_terrain);
+    void readLevel(const JsonNode& node);
     /// After all levels.
     void readLink(const JsonNode& node);
     /// The object's `level`.
@@ -24,8 +23,6 @@ class LevelReader {
 
   private:
     std::size_t levelNamed(const JsonNode& node) const;
-    void readFloor(ObjectReader& reader, const JsonNode& node, Level& level) const;
-    void readPlace(ObjectReader& reader, Level& level) const;
     /// What is said of ground that moves.
     void readBelt(ObjectReader& reader, const JsonNode& node, Link& link) const;
     /// What is said of cabins.

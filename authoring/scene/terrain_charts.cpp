@@ -415,15 +415,24 @@ std::shared_ptr<const Charts> layOutTerrain(const Layout& layout, const TerrainM
     if (layout.terrain->is_single) return nullptr;
     const Bounds bounds = boundsOf(layout, mesh);
     const glm::dvec2 size = bounds.second - bounds.first;
-    if (!(size.x > 0.0 && size.y > 0.0)) return nullptr;
-    if (layout.levels.empty() && !mayHaveStoreys(mesh, bounds)) return nullptr;
+    const bool has_names = !layout.levels.empty();
+    if (!(size.x > 0.0 && size.y > 0.0)) {
+        if (has_names)
+            diagnostics.error(layout.terrain->file_where, "no face of the terrain lies where this layout is",
+                              "set its `offset` or `scale`");
+        return nullptr;
+    }
+    if (!has_names && !mayHaveStoreys(mesh, bounds)) return nullptr;
     if (size.x * size.y / (kChartCell * kChartCell) > kMostLatticeCells) {
-        diagnostics.warning(
-            layout.terrain->file_where,
-            fmt::format("the terrain has faces above each other, but {:.0f} x {:.0f} m of it are "
-                        "too much to find people's ways over and under them",
-                        size.x, size.y),
-            "people walk on one of them, see `surface`; or export a part of it");
+        const std::string what =
+            fmt::format("{:.0f} x {:.0f} m of terrain are too much to find people's ways over and under it",
+                        size.x, size.y);
+        if (has_names)
+            diagnostics.error(layout.terrain->file_where, what, "export a part of it, or leave out the levels");
+        else
+            diagnostics.warning(layout.terrain->file_where, what,
+                                "people walk on one of its faces above each other, see `surface`; or export a "
+                                "part of it");
         return nullptr;
     }
     return TerrainLayingOut(layout, mesh, bounds, diagnostics).run();

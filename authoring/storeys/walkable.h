@@ -27,7 +27,7 @@ class Walkable {
   public:
     struct Spot {
         glm::ivec2 cell{0};
-        float height = 0.0f;                                                       ///< m
+        float height = 0.0f;                                                  ///< m
         std::array<std::uint32_t, 4> next = {kNoSpot, kNoSpot, kNoSpot, kNoSpot};  ///< by side
     };
 

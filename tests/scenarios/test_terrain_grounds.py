@@ -212,7 +212,8 @@ def passage(floor, over=None):
 
 
 PASSAGES = {
-    "headroom of 2.1 m": (passage([(-10, 10, 0)], 2.1), True), "headroom of 1.8 m": (passage([(-10, 10, 0)], 1.8), False),
+    "headroom of 2.1 m": (passage([(-10, 10, 0)], 2.1), True),
+    "headroom of 1.8 m": (passage([(-10, 10, 0)], 1.8), False),
     "a step of 0.2 m": (passage([(-10, 0, 0), (0, 10, 0.2)]), True),
     "a step of 0.3 m": (passage([(-10, 0, 0), (0, 10, 0.3)]), False),
     "a slope of 40 degrees": (passage([(-10, 0, 0)]), True), "a slope of 50 degrees": (passage([(-10, 0, 0)]), False)}
@@ -253,7 +254,7 @@ def test_check_tells_what_it_found(throng, tmp_path):
     ({"levels": [{"id": "deck", "at": [0, 0, 2]}]}, "level `deck`: nobody can stand at [0.00, 0.00, 2.00]"),
     ({"levels": [{"id": "deck", "at": [90, 0, 2]}]}, "there is no ground there with 2 m of headroom"),
     ({"levels": [{"id": "deck", "floor": box(0, 0, 1, 1)}]}, "no floors of its own"),
-    ({"levels": [{"id": "deck"}]}, "a place on the terrain, [x, y, z]"),
+    ({"levels": [{"id": "deck"}]}, "`at` is missing"),
     ({"terrain": {"file": "ground.glb", "surface": "highest"}}, "has no levels"),
     ({"areas": [{"id": "off", "polygon": box(60, 0, 62, 2)}]}, "area `off`: there is no ground of the terrain"),
 ])
@@ -266,4 +267,4 @@ def test_mistakes_are_told(throng, tmp_path, change, message):
 def test_a_level_at_a_place_needs_a_terrain(throng, tmp_path):
     (tmp_path / "layout.json").write_text(json.dumps({"throng": 1, "levels": [{"id": "deck", "at": [0, 0, 2]}]}))
     failed = throng("check", tmp_path / "layout.json", expect=None)
-    assert failed.returncode == 3 and "`at` names a ground of a terrain" in failed.stderr
+    assert failed.returncode == 3 and "level `deck` has no `floor`" in failed.stderr
