@@ -9,6 +9,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <stdexcept>
 
 #include "authoring/scene/chart_map.h"
 #include "authoring/scene/rebase.h"
@@ -22,6 +23,7 @@ namespace {
 
 constexpr double kAround = 50.0;             // m: so far from all that the layout has, ground counts
 constexpr double kMostLatticeCells = 4.0e6;  // of the lattice
+constexpr double kMostFaces = 2.0e9;         // to look at
 constexpr double kStoreysApart = 2.0;        // m
 constexpr double kMostLooks = 400'000.0;     // at the mesh, for storeys
 constexpr double kEdgeHeight = 1.1;          // m: people see over the ends of ground
@@ -60,6 +62,7 @@ bool mayHaveStoreys(const TerrainMesh& mesh, const Bounds& bounds) {
     const glm::dvec2 size = upper - lower;
     const double step = std::max(0.5, std::sqrt(size.x * size.y / kMostLooks));
     const FaceGrid faces(mesh, lower, glm::vec2(0.0f), glm::vec2(size), FaceGrid::Keep::looking_up);
+    if (faces.layers() * size.x * size.y > kMostFaces * step * step) return false;
     for (double y = 0.5 * step; y < size.y; y += step)
         for (double x = 0.5 * step; x < size.x; x += step) {
             float low = std::numeric_limits<float>::max(), high = std::numeric_limits<float>::lowest();
@@ -423,19 +426,31 @@ std::shared_ptr<const Charts> layOutTerrain(const Layout& layout, const TerrainM
         return nullptr;
     }
     if (!has_names && !mayHaveStoreys(mesh, bounds)) return nullptr;
-    if (size.x * size.y / (kChartCell * kChartCell) > kMostLatticeCells) {
+    constexpr double kLooksPerCell = 10.0;
+    const double cells = size.x * size.y / (kChartCell * kChartCell);
+    const FaceGrid faces(mesh, bounds.first, glm::vec2(0.0f), glm::vec2(size), FaceGrid::Keep::all);
+    if (cells > kMostLatticeCells || cells * kLooksPerCell * faces.layers() > kMostFaces) {
         const std::string what =
             fmt::format("{:.0f} x {:.0f} m of terrain are too much to find people's ways over and under it",
                         size.x, size.y);
         if (has_names)
-            diagnostics.error(layout.terrain->file_where, what, "export a part of it, or leave out the levels");
+            diagnostics.error(layout.terrain->file_where, what,
+                              "export a part of it, or leave out the levels");
         else
-            diagnostics.warning(layout.terrain->file_where, what,
-                                "people walk on one of its faces above each other, see `surface`; or export a "
-                                "part of it");
+            diagnostics.warning(
+                layout.terrain->file_where, what,
+                "people walk on one of its faces above each other, see `surface`; or export a "
+                "part of it");
         return nullptr;
     }
-    return TerrainLayingOut(layout, mesh, bounds, diagnostics).run();
+    try {
+        return TerrainLayingOut(layout, mesh, bounds, diagnostics).run();
+    } catch (const std::invalid_argument& error) {
+        diagnostics.error(layout.terrain->file_where,
+                          fmt::format("the terrain cannot be used: {}", error.what()),
+                          "name the `surface` that people walk on, or export the ground alone");
+        return nullptr;
+    }
 }
 
 PlaneGround planeGroundOf(const Charts& charts, const ChartMap& map, glm::dvec2 origin) {

@@ -4,16 +4,18 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <stdexcept>
 
 #include "authoring/storeys/chart_raster.h"
 
 namespace throng::authoring {
 namespace {
 
-constexpr float kOverHead = 2.0f;                   // m: over what people walk on
-constexpr float kSteepest = 1.0f;                   // rise over run: 45 degrees
-constexpr float kStep = 0.25f;                      // m
-constexpr float kHair = 1.0e-3f;                    // m and rise over run, of rounding
+constexpr float kOverHead = 2.0f;  // m: over what people walk on
+constexpr float kSteepest = 1.0f;  // rise over run: 45 degrees
+constexpr float kStep = 0.25f;     // m
+constexpr float kHair = 1.0e-3f;   // m and rise over run, of rounding
+constexpr std::size_t kMostSpots = 6'000'000;
 constexpr int kLooks = 4;                           // at the ground, from one cell's middle to the next
 constexpr std::array kBody = {0.35f, 0.7f, 1.05f};  // m over the ground: what is upright there is in the way
 
@@ -114,6 +116,8 @@ void Walkable::findSpots() {
             const glm::ivec2 cell = first_ + glm::ivec2(x, y);
             for (const float height : heightsAt(middleOf(cell)))
                 spots_.push_back({cell, height});
+            if (spots_.size() > kMostSpots)
+                throw std::invalid_argument("its faces lie above each other in too many layers");
         }
     starts_.push_back(static_cast<std::uint32_t>(spots_.size()));
 }
