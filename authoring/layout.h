@@ -130,6 +130,7 @@ struct Level {
     double height = 0.0;            ///< m
     std::vector<glm::dvec2> floor;  ///< simple, any winding, not closed by a repeated point
     SourcePosition where;
+    std::optional<glm::dvec3> at{};  ///< m: a place on it, of a part of a terrain, which has no floor
 };
 
 /// What a link is that is a cabin going up and down.
@@ -194,6 +195,7 @@ struct Wall {
     bool open_at_start = false;     ///< a gate that is closed later
     std::vector<double> toggles{};  ///< s, increasing: when events open or close it, in turn
     std::size_t level = 0;
+    bool is_edge = false;  ///< where a terrain ends: not to be seen
     bool isOpen(double time) const {
         const auto passed =
             std::count_if(toggles.begin(), toggles.end(), [&](double at) { return at <= time; });
@@ -225,6 +227,7 @@ struct TerrainSettings {
     glm::dvec3 offset{0.0};
     double scale = 1.0;
     bool highest = true;  ///< of several surfaces above each other; otherwise the lowest
+    bool is_single = false;  ///< the layout says which of them: then the others are nobody's ground
     SourcePosition where, file_where, node_where;
 };
 

@@ -91,6 +91,7 @@ struct ChartMap {
     std::vector<glm::vec2> shifts;  ///< m, by chart: place in the plane - home
     std::vector<bool> is_link;      ///< by chart
     std::vector<float> costs;       ///< by chart: how many metres on the flat take as long as one of it
+    std::vector<float> cell_costs;  ///< the same by cell; empty: each chart costs the same everywhere
     std::vector<gpu::Belt> belts;   ///< by chart; empty: no ground moves
     LiftMap lifts;
     std::uint32_t most_images = 0;  ///< of one person
@@ -102,6 +103,9 @@ struct ChartMap {
     std::uint32_t chartAt(glm::vec2 place) const { return at(place).charts & gpu::NO_CHART; }
     /// From the plane to home coordinates.
     glm::vec2 home(glm::vec2 place) const;
+    float slopeCostAt(glm::vec2 place) const;
+    /// Whether a place lies on the ground of its own chart: not beyond a seam, nor off all ground.
+    bool isGround(glm::vec2 place) const;
     bool isBelt(std::uint32_t chart) const { return !belts.empty() && belts[chart].length > 0.0f; }
     /// Whether a cell that shows another chart's ground shows what one would have to go to against ground
     /// that moves: what is before its beginning, seen from it, or its end, seen from beyond.

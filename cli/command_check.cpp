@@ -6,6 +6,7 @@
 
 #include "authoring/layout/layout_reader.h"
 #include "authoring/scene/audience.h"
+#include "authoring/storeys/charts.h"
 #include "base/files/input_file.h"
 #include "base/numbers.h"
 #include "base/streams.h"
@@ -39,11 +40,57 @@ std::uint64_t bytesOfBake(const LoadedLayout& loaded) {
                               peopleIn(loaded));
 }
 
+/// m^2
+double areaOf(const authoring::Surface& surface) {
+    const auto spots =
+        std::ranges::count_if(surface.spots, [](std::uint32_t spot) { return spot != authoring::kNoSpot; });
+    return static_cast<double>(spots) * authoring::kChartCell * authoring::kChartCell;
+}
+
+/// The names of those that a ground of a terrain goes on to.
+std::vector<std::string> joinedTo(const authoring::Charts& charts, std::size_t chart) {
+    std::vector<std::string> names;
+    for (std::size_t other = 0; other < charts.charts.size(); ++other)
+        if (other != chart && charts.rasters[chart].isJoinedTo(other))
+            names.push_back(charts.charts[other].name);
+    return names;
+}
+
+nlohmann::ordered_json groundsJson(const authoring::Charts& charts) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < charts.charts.size(); ++i)
+        list.push_back({{"id", charts.charts[i].name},
+                        {"area", areaOf(*charts.charts[i].surface)},
+                        {"joined_to", joinedTo(charts, i)}});
+    return list;
+}
+
+/// What a terrain with faces above each other was cut into.
+void printGrounds(const LoadedLayout& loaded) {
+    if (!loaded.scene.charts || !loaded.scene.charts->grounds) return;
+    const authoring::Charts& charts = *loaded.scene.charts;
+    say(stdout, "{}: terrain `{}`: {} grounds of one height at a place each\n", loaded.diagnostics.file,
+        loaded.layout.terrain->file, charts.charts.size());
+    for (std::size_t i = 0; i < charts.charts.size(); ++i) {
+        const std::vector<std::string> joined = joinedTo(charts, i);
+        say(stdout, "  {}: {:.1f} m^2, {}\n", charts.charts[i].name, areaOf(*charts.charts[i].surface),
+            joined.empty() ? "joined to none" : fmt::format("joined to {}", fmt::join(joined, ", ")));
+    }
+    const authoring::TerrainFindings& findings = charts.grounds->findings;
+    for (const authoring::TerrainFindings::Piece& piece : findings.unreached)
+        say(stdout, "  nobody gets to {:.1f} m^2 round ({:.2f}, {:.2f}, {:.2f})\n", piece.area, piece.at.x,
+            piece.at.y, piece.at.z);
+    if (findings.unreached_count > findings.unreached.size())
+        say(stdout, "  nor to {} smaller ones\n", findings.unreached_count - findings.unreached.size());
+}
+
 nlohmann::ordered_json toJson(const LoadAttempt& attempt) {
     nlohmann::ordered_json result = {{"file", attempt.loaded.diagnostics.file}, {"valid", attempt.valid}};
     if (attempt.valid) {
         result["agents"] = peopleIn(attempt.loaded);
         result["stream_bytes"] = bytesOfBake(attempt.loaded);
+        if (const auto& charts = attempt.loaded.scene.charts; charts && charts->grounds)
+            result["grounds"] = groundsJson(*charts);
     }
     result["diagnostics"] = diagnosticsJson(attempt.loaded.diagnostics);
     return result;
@@ -99,6 +146,7 @@ bool checkLayoutText(const std::string& path, std::string text, const CheckOptio
     }
     printDiagnostics(attempt.loaded);
     if (attempt.valid) printSummary(attempt.loaded);
+    if (attempt.valid) printGrounds(attempt.loaded);
     return attempt.valid;
 }
 

@@ -127,12 +127,14 @@ authoring::Wall wallOf(const ManifestReader& reader) {
         wall.open_at_start = reader.flag("/gate/open_at_start");
         wall.toggles = reader.numbers("/gate/toggles");
     }
+    if (reader.has("/edge")) wall.is_edge = reader.flag("/edge");
     if (reader.has("/ground")) reader.point("/ground");
     return wall;
 }
 
 void readLevels(const ManifestReader& reader, Bake& bake) {
     if (!reader.has("/levels")) return;
+    bake.has_grounds = reader.has("/terrain/surface") && reader.text("/terrain/surface") == "grounds";
     reader.each("/levels", [&](const ManifestReader& level) {
         bake.levels.push_back({level.text("/id"),
                                level.number("/height", -kFurthest, kFurthest),

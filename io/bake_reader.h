@@ -46,6 +46,7 @@ struct Bake {
     std::vector<authoring::Link> links;
     std::vector<glm::dvec2> wall_ground;
     bool hasStoreys() const { return !levels.empty(); }
+    bool has_grounds = false;  ///< levels are a terrain's: their floors are outlines, and not level
 
     struct Account {
         std::uint32_t agents = 0;

@@ -72,6 +72,7 @@ Json geometryToJson(const recording::BakeDescription& description) {
                                      {"height", wall.height}});
         if (description.terrain)
             geometry["walls"].back()["ground"] = pointToJson(description.terrain->along_walls.at(i));
+        if (wall.is_edge) geometry["walls"].back()["edge"] = true;
         if (!wall.toggles.empty())
             geometry["walls"].back()["gate"] = {{"open_at_start", wall.open_at_start},
                                                 {"toggles", wall.toggles}};
@@ -147,7 +148,8 @@ Json terrainToJson(const recording::BakeTerrain& terrain, bool storeys) {
     return {{"file", "terrain.glb"},
             {"source", terrain.source},
             {"hash", "xxh3:" + terrain.hash},
-            {"surface", storeys                      ? "levels"
+            {"surface", terrain.is_cut               ? "grounds"
+                        : storeys                    ? "levels"
                         : terrain.surface->highest() ? "highest"
                                                      : "lowest"},
             {"triangles", terrain.mesh->indices.size() / 3},

@@ -17,7 +17,13 @@ constexpr double kShoulder = 0.3;  // m: from a link's width to its railings, or
 
 }  // namespace
 
+std::size_t Storeys::nearestLevel(double height) const {
+    const auto apart = [&](const authoring::Level& level) { return std::abs(level.height - height); };
+    return static_cast<std::size_t>(std::ranges::min_element(bake_.levels, {}, apart) - bake_.levels.begin());
+}
+
 std::optional<std::size_t> Storeys::levelAt(glm::dvec2 place, double height) const {
+    if (bake_.has_grounds) return nearestLevel(height);
     for (std::size_t i = 0; i < bake_.levels.size(); ++i)
         if (std::abs(bake_.levels[i].height - height) < kStep && isWithin(bake_.levels[i].floor, place)) {
             // The first tread of a link that begins within a floor is as low.
@@ -71,6 +77,8 @@ bool Storeys::isBeside(std::size_t level, glm::dvec2 place, glm::dvec2 heights) 
 }
 
 bool Storeys::isWallBeside(std::size_t level, std::size_t wall) const {
+    if (bake_.has_grounds)
+        return nearestLevel(0.5 * (bake_.wall_ground[wall].x + bake_.wall_ground[wall].y)) == level;
     return std::ranges::any_of(bake_.walls[wall].points, [&](glm::dvec2 point) {
         return isBeside(level, point, bake_.wall_ground[wall]);
     });

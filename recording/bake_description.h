@@ -93,6 +93,7 @@ struct BakeTerrain {
     std::string source;                                 ///< the file, as the layout names it
     std::string hash;                                   ///< of that file
     std::vector<glm::dvec2> along_walls;  ///< per wall, the lowest and the highest ground along it, m
+    bool is_cut = false;                  ///< people walk on several of its faces above each other
 };
 
 /// How the simulation's plane and the places of a layout with levels belong together

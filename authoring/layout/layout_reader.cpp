@@ -287,6 +287,7 @@ class Reader {
         reader.offset("offset", terrain.offset);
         reader.number("scale", terrain.scale);
         reader.choice("surface", {{"highest", true}, {"lowest", false}}, terrain.highest);
+        terrain.is_single = node.find("surface") != nullptr;
         reader.finish();
         layout_.terrain = std::move(terrain);
     }

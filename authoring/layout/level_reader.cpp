@@ -43,6 +43,7 @@ Climb climbOf(Link::Kind kind) {
 
 }  // namespace
 
+/// Which of the two a level has to have depends on whether there is a terrain (scene/terrain_check.h).
 void LevelReader::readLevel(const JsonNode& node) {
     Level level;
     level.where = node.where;
@@ -50,9 +51,14 @@ void LevelReader::readLevel(const JsonNode& node) {
     if (!reader.isObject()) return;
     reader.requiredText("id", "the name that others use", level.id);
     reader.number("height", level.height);
-    level.floor = reader.points("floor");
+    const JsonNode* floor = node.find("floor");
+    if (floor) level.floor = reader.points("floor");
+    if (node.find("at")) {
+        level.at.emplace(0.0);
+        reader.offset("at", *level.at);
+    }
     reader.finish();
-    checkPolygon(level.floor, node.find("floor"), diagnostics_);
+    if (floor) checkPolygon(level.floor, floor, diagnostics_);
     claimId(node, level.id, levels_, layout_.levels.size(), "a level", diagnostics_);
     layout_.levels.push_back(std::move(level));
 }

@@ -15,6 +15,17 @@ const gpu::ChartCell& ChartMap::at(glm::vec2 place) const {
     return cells[row(grid, place.y) * grid.width + column(grid, place.x)];
 }
 
+float ChartMap::slopeCostAt(glm::vec2 place) const {
+    if (cell_costs.empty()) return 1.0f;
+    return cell_costs[row(grid, place.y) * grid.width + column(grid, place.x)];
+}
+
+bool ChartMap::isGround(glm::vec2 place) const {
+    const std::uint32_t charts = at(place).charts;
+    return (charts & gpu::NO_CHART) != gpu::NO_CHART &&
+           (charts & gpu::NO_CHART) == (charts >> 8 & gpu::NO_CHART);
+}
+
 glm::vec2 ChartMap::home(glm::vec2 place) const {
     if (empty()) return place;
     const std::uint32_t chart = chartAt(place);

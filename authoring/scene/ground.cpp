@@ -74,6 +74,7 @@ std::string keyOf(const WalkGeometry& geometry, const GroundResolution& resoluti
     if (geometry.charts) {
         appendAll(key, geometry.charts->cells);
         appendAll(key, geometry.charts->shifts);
+        appendAll(key, geometry.charts->cell_costs);
         appendAll(key, geometry.charts->lifts.plans);
     }
     return key;

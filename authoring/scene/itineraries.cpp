@@ -57,6 +57,7 @@ std::optional<glm::vec2> Itineraries::Spread::next() {
             (box.upper - box.lower) * glm::vec2(static_cast<float>(x_), static_cast<float>(y_));
         if (geometry_->charts) within = snapped(within);
         const glm::vec2 point = box.lower + within;
+        if (geometry_->charts && !geometry_->charts->isGround(point)) continue;
         if (insidePolygon(outline_, point) && edgeDistance(outline_, point) >= inset_ &&
             wallDepth(*geometry_, point, clearance_) <= 0.0f)
             return point;

@@ -23,6 +23,7 @@
 #include "authoring/scene/raster.h"
 #include "authoring/scene/rebase.h"
 #include "authoring/scene/routes.h"
+#include "authoring/scene/terrain_charts.h"
 #include "authoring/scene/terrain_check.h"
 #include "authoring/scene/traffic.h"
 #include "authoring/scene/walls.h"
@@ -140,8 +141,22 @@ class SceneAssembly {
         scene_.minimum = glm::floor((scene_.minimum - static_cast<float>(charts->reach)) / step) * step;
         scene_.maximum = glm::ceil((scene_.maximum + static_cast<float>(charts->reach)) / step) * step;
         scene_.chart_map = makeChartMap(*charts, scene_.minimum, scene_.maximum, scene_.origin);
+        if (charts->grounds) standOnTerrain(*charts);
         geometry_.charts = std::make_shared<const ChartMap>(scene_.chart_map);
         scene_.charts = std::move(charts);
+    }
+
+    void standOnTerrain(const Charts& charts) {
+        PlaneGround ground = planeGroundOf(charts, scene_.chart_map, scene_.origin);
+        try {
+            scene_.terrain = std::make_shared<const Terrain>(*terrain_mesh_, std::move(ground), scene_.origin,
+                                                             scene_.minimum, scene_.maximum);
+            scene_.chart_map.cell_costs =
+                slopeCosts(*scene_.terrain, scene_.chart_map, layout_.simulation.motion);
+        } catch (const std::invalid_argument& error) {
+            diagnostics_.error(layout_.terrain->file_where,
+                               fmt::format("the terrain cannot be used: {}", error.what()));
+        }
     }
 
     /// Floats keep a centimetre up to here, and everything has as many parts as it is long.
@@ -417,6 +432,7 @@ class SceneAssembly {
     }
 
     void buildTerrain() {
+        if (scene_.charts && scene_.charts->grounds) return;
         if (scene_.charts)
             scene_.terrain = std::make_shared<const Terrain>(scene_.charts->plane_mesh, true, scene_.origin,
                                                              scene_.minimum, scene_.maximum);
@@ -891,10 +907,15 @@ std::optional<Scene> buildScene(const Layout& layout, Diagnostics& diagnostics, 
                                 const TerrainMesh* terrain, DistanceSolver* solver) {
     GroundCache own;
     std::shared_ptr<const Charts> charts;
+    if (!areLevelsComplete(layout, diagnostics)) return std::nullopt;
     if (!layout.levels.empty() && !isWithoutTraffic(layout, diagnostics)) return std::nullopt;
     if (!layout.levels.empty() && !isWithoutGivenPeople(layout, diagnostics)) return std::nullopt;
-    if (!layout.levels.empty() && !areOnTheirFloors(layout, diagnostics)) return std::nullopt;
-    if (!layout.levels.empty()) {
+    if (layout.terrain) {
+        const bool is_for_charts = layout.traffic.empty() && layout.given.empty();
+        if (terrain && is_for_charts) charts = layOutTerrain(layout, *terrain, diagnostics);
+        if (diagnostics.hasErrors()) return std::nullopt;
+    } else if (!layout.levels.empty()) {
+        if (!areOnTheirFloors(layout, diagnostics)) return std::nullopt;
         charts = layOut(layout, diagnostics);
         if (!charts) return std::nullopt;
     }

@@ -13,6 +13,9 @@ namespace throng::authoring {
 void checkTerrain(const Layout& layout, const Rebase& rebase, const WalkGeometry& geometry,
                   const TerrainMesh& mesh, const Terrain& terrain, Diagnostics& diagnostics);
 
+/// That levels have a floor each where there is no terrain, and name grounds of it where there is one.
+bool areLevelsComplete(const Layout& layout, Diagnostics& diagnostics);
+
 /// The lowest and the highest ground along a wall, m.
 glm::dvec2 groundAlong(const Wall& wall, const Rebase& rebase, const Terrain& terrain);
 

@@ -68,9 +68,9 @@ float chartCellSize(float wanted) {
 /// Stairs and ramps cost the time that they take.
 void chargeLinks(const ChartMap& charts, WalkMap& map) {
     for (std::uint32_t cell = 0; cell < map.cost.size(); ++cell) {
-        const std::uint32_t chart =
-            charts.chartAt(cellCentre(map.grid, cell % map.grid.width, cell / map.grid.width));
-        if (chart != gpu::NO_CHART) map.cost[cell] *= charts.costs[chart];
+        const glm::vec2 at = cellCentre(map.grid, cell % map.grid.width, cell / map.grid.width);
+        const std::uint32_t chart = charts.chartAt(at);
+        if (chart != gpu::NO_CHART) map.cost[cell] *= charts.costs[chart] * charts.slopeCostAt(at);
     }
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "authoring/storeys/cabin.h"
+#include "authoring/storeys/chart_raster.h"
 #include "base/polygon.h"
 
 namespace throng::authoring {
@@ -114,6 +115,7 @@ std::vector<glm::dvec2> Footprint::outline(double from, double to) const {
 }
 
 bool Chart::contains(glm::dvec2 home) const {
+    if (surface) return surface->contains(home);
     if (is_link) {
         constexpr double kHair = 1.0e-9;  // m: no gap is left between it and the floor
         const double forward = link.alongOf(home);
@@ -126,10 +128,14 @@ bool Chart::contains(glm::dvec2 home) const {
 }
 
 double Chart::heightAt(glm::dvec2 home) const {
+    if (surface) return surface->heightAt(home);
     return is_link ? link.heightAt(std::clamp(link.alongOf(home), 0.0, link.length)) : height;
 }
 
 std::pair<glm::dvec2, glm::dvec2> Chart::bounds() const {
+    if (surface)
+        return {kChartCell * glm::dvec2(surface->first),
+                kChartCell * glm::dvec2(surface->first + surface->size)};
     const std::vector<glm::dvec2>& corners = is_link ? link.outline(0.0, link.length) : floor;
     glm::dvec2 lower = corners.front(), upper = corners.front();
     for (const glm::dvec2 corner : corners) {
@@ -141,6 +147,7 @@ std::pair<glm::dvec2, glm::dvec2> Chart::bounds() const {
 
 bool areJoined(const Chart& a, std::size_t a_index, glm::dvec2 in_a, const Chart& b, std::size_t b_index,
                glm::dvec2 in_b) {
+    if (a.surface && b.surface) return areJoined(*a.surface, in_a, *b.surface, in_b);
     if (a.is_link && b.is_link) return false;
     if (b.is_link) return areJoined(b, b_index, in_b, a, a_index, in_a);
     if (!a.is_link) return std::abs(a.height - b.height) <= kMostStep;

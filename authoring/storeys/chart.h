@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <glm/vec2.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "authoring/layout.h"
+#include "authoring/storeys/surface.h"
 
 namespace throng::authoring {
 
@@ -34,7 +36,7 @@ struct Footprint {
 };
 
 /// A part of the walkable ground that is single-valued over the plane: a floor without the openings of links,
-/// or a link. Home coordinates are those of the layout; see Charts for the plane.
+/// a link, or a part of a terrain. Home coordinates are those of the layout; see Charts for the plane.
 struct Chart {
     std::string name;  ///< of the level or link
     bool is_link = false;
@@ -47,6 +49,7 @@ struct Chart {
     bool is_cabin = false;   ///< of a lift, at one of the levels that it serves: it begins at the doors there
     std::size_t stop = 0;    ///< which of them, in the lift's order
     double half_door = 0.0;  ///< m
+    std::shared_ptr<const Surface> surface = {};  ///< of a part of a terrain
     glm::dvec2 shift{0.0};   ///< plane = home + shift, m
 
     bool contains(glm::dvec2 home) const;

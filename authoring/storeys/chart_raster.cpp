@@ -11,7 +11,7 @@
 namespace throng::authoring {
 namespace {
 
-constexpr std::array kSides = {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)};
+constexpr std::array kBeside = {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)};
 
 }  // namespace
 
@@ -90,7 +90,7 @@ void ChartRaster::goOn(const std::vector<Chart>& charts, std::size_t own, double
         for (int x = 0; x < size_.x; ++x) {
             const glm::ivec2 cell = first_ + glm::ivec2(x, y);
             if (ownerAt(cell) != own) continue;
-            for (const glm::ivec2 side : kSides)
+            for (const glm::ivec2 side : kBeside)
                 if (isInside(cell + side) && ownerAt(cell + side) == gpu::NO_CHART &&
                     enter(cell, own, cell + side))
                     reached.push({cell + side, cell});
@@ -99,7 +99,7 @@ void ChartRaster::goOn(const std::vector<Chart>& charts, std::size_t own, double
         const auto [cell, seam] = reached.front();
         reached.pop();
         const std::size_t chart = ownerAt(cell);
-        for (const glm::ivec2 side : kSides) {
+        for (const glm::ivec2 side : kBeside) {
             const glm::ivec2 next = cell + side;
             if (!isInside(next) || ownerAt(next) != gpu::NO_CHART ||
                 glm::distance(glm::dvec2(next), glm::dvec2(seam)) * kChartCell > reach)

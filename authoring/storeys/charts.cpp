@@ -10,6 +10,7 @@
 
 #include "authoring/storeys/cabin.h"
 #include "authoring/storeys/chart_mesh.h"
+#include "authoring/storeys/plane.h"
 #include "authoring/storeys/railings.h"
 #include "base/polygon.h"
 
@@ -19,119 +20,12 @@ namespace {
 constexpr double kRailingHeight = 1.1;  // m
 constexpr double kShaftHeight = 2.3;    // m, of a lift's sides at each of its stops
 constexpr double kBeforeDoors = 0.8;    // m: what stays free before a lift
-constexpr std::size_t kMostCharts = gpu::NO_CHART;
-
-/// m: as far as people sense, and the tiles of those whom they sense there.
-double reachOf(const Layout& layout) {
-    double largest = 0.3;
-    for (const Flow& flow : layout.flows)
-        largest = std::max(largest, flow.people.largestRadius());
-    for (const Formation& formation : layout.formations)
-        largest = std::max(largest, formation.people.largestRadius());
-    const double tile = std::max(layout.simulation.tile_radius, largest);
-    const double sight = largest + layout.simulation.samples_per_ray * tile;
-    return std::max(sight, layout.simulation.contact_range + 2.0 * largest) + tile;
-}
-
-double upwards(double value) {
-    return std::ceil(value / double{gpu::SHIFT_STEP}) * double{gpu::SHIFT_STEP};
-}
-
-/// Side by side in rows, the first chart where it is: of two margins and a little more between any two, so
-/// that nobody senses from one into the other.
-void shiftCharts(std::vector<Chart>& charts, double reach) {
-    const double margin = reach + 2.0;
-    double area = 0.0, widest = 0.0;
-    for (const Chart& chart : charts) {
-        const auto [lower, upper] = chart.bounds();
-        const glm::dvec2 size = upper - lower + 2.0 * margin;
-        area += size.x * size.y;
-        widest = std::max(widest, size.x);
-    }
-    const double row_width = std::max(widest, std::sqrt(area));
-    const auto [origin, first_upper] = charts.front().bounds();
-    glm::dvec2 corner(origin.x - margin, origin.y - margin);
-    double row_height = 0.0, x = corner.x, y = corner.y;
-    for (Chart& chart : charts) {
-        const auto [lower, upper] = chart.bounds();
-        const glm::dvec2 size = upper - lower + 2.0 * margin;
-        if (x > corner.x && x + size.x > corner.x + row_width) {
-            x = corner.x;
-            y += row_height;
-            row_height = 0.0;
-        }
-        chart.shift = {upwards(x + margin - lower.x), upwards(y + margin - lower.y)};
-        if (&chart == &charts.front()) chart.shift = glm::dvec2(0.0);
-        x += size.x + double{gpu::SHIFT_STEP};
-        row_height = std::max(row_height, size.y + double{gpu::SHIFT_STEP});
-    }
-}
-
-void move(std::vector<glm::dvec2>& points, glm::dvec2 by) {
-    for (glm::dvec2& point : points)
-        point += by;
-}
-
-void moveFormation(Formation& formation, glm::dvec2 by) {
-    if (auto* circle = std::get_if<CircleFormation>(&formation.shape)) circle->centre += by;
-    if (auto* grid = std::get_if<GridFormation>(&formation.shape)) {
-        grid->origin += by;
-        if (auto* line = std::get_if<Line>(&grid->goal)) *line = {line->a + by, line->b + by};
-        if (auto* box = std::get_if<Extent>(&grid->goal)) *box = {box->a + by, box->b + by};
-    }
-    if (auto* list = std::get_if<ListFormation>(&formation.shape))
-        for (ListedAgent& agent : list->agents) {
-            agent.position += by;
-            agent.goal += by;
-            for (Waypoint& waypoint : agent.via)
-                waypoint.point += by;
-        }
-}
-
-std::size_t levelOf(const Layout& layout, const Place& place) {
-    return place.kind == Place::Kind::area ? layout.areas[place.index].level
-                                           : layout.roads[place.index].level;
-}
-
-/// Everything of the layout to where its chart lies.
-Layout moved(const Layout& layout, const std::vector<Chart>& charts) {
-    Layout plane = layout;
-    for (Road& road : plane.roads)
-        move(road.centreline, charts[road.level].shift);
-    for (Area& area : plane.areas) {
-        move(area.polygon, charts[area.level].shift);
-        if (area.facing) *area.facing += charts[area.level].shift;
-    }
-    for (Patch& patch : plane.patches)
-        move(patch.polygon, charts[patch.level].shift);
-    for (Behaviour& behaviour : plane.behaviours)
-        for (BehaviourState& state : behaviour.states) {
-            if (state.to.places.empty()) continue;
-            const glm::dvec2 shift = charts[levelOf(layout, state.to.places.front())].shift;
-            move(state.line, shift);
-            if (state.facing) *state.facing += shift;
-        }
-    for (Wall& wall : plane.walls)
-        move(wall.points, charts[wall.level].shift);
-    for (Flow& flow : plane.flows)
-        for (Stop& stop : flow.via) {
-            const glm::dvec2 shift = charts[levelOf(layout, stop.at.places.front())].shift;
-            move(stop.line, shift);
-            if (stop.facing) *stop.facing += shift;
-        }
-    for (Formation& formation : plane.formations)
-        moveFormation(formation, charts[formation.level].shift);
-    return plane;
-}
 
 class LayingOut {
   public:
     LayingOut(const Layout& layout, Diagnostics& diagnostics) : layout_(layout), diagnostics_(diagnostics) {}
 
     std::shared_ptr<const Charts> run() {
-        if (layout_.terrain)
-            diagnostics_.error(layout_.terrain->where, "a layout has levels or a terrain, not both",
-                               "leave one of the two out");
         if (layout_.levels.size() + layout_.links.size() >= kMostCharts)
             diagnostics_.error(layout_.levels.back().where,
                                fmt::format("there are {} levels and links, more than the {} that can be",
@@ -146,16 +40,12 @@ class LayingOut {
         result_->reach = reachOf(layout_);
         checkStoreys();
         if (diagnostics_.hasErrors()) return nullptr;
-        shiftCharts(result_->charts, result_->reach);
-        for (std::size_t i = 0; i < result_->charts.size(); ++i) {
-            result_->rasters.emplace_back(result_->charts, i, result_->reach);
-            result_->most_images = std::max(result_->most_images, result_->rasters[i].mostImages());
-        }
+        layInPlane(*result_);
         checkLinks();
         if (diagnostics_.hasErrors()) return nullptr;
         result_->plane = moved(layout_, result_->charts);
         raiseWalls();
-        copyWallsIntoMargins();
+        copyWallsIntoMargins(*result_, standing_);
         thinRailingsBesideLinks();
         result_->home_mesh = homeMesh(result_->charts, layout_);
         result_->plane_mesh = planeMesh(result_->charts, layout_, result_->reach);
@@ -308,7 +198,7 @@ class LayingOut {
                     result_->ground_along_walls.emplace_back(railing.low, railing.high);
                     addWall(chart, wall);
                 }
-                move(wall.points, result_->charts[chart].shift);
+                movePoints(wall.points, result_->charts[chart].shift);
                 result_->plane.walls.push_back(std::move(wall));
             }
         }
@@ -336,38 +226,10 @@ class LayingOut {
             result_->walls[wall].thickness *= kShare;
     }
 
-    void copyWallsIntoMargins() {
-        for (std::size_t chart = 0; chart < result_->charts.size(); ++chart) {
-            const ChartRaster& raster = result_->rasters[chart];
-            for (const auto& [index, owner] : standing_) {
-                if (owner == chart || !raster.isJoinedTo(owner)) continue;
-                const Wall& wall = result_->walls[index];
-                if (!wall.toggles.empty()) continue;
-                std::vector<glm::dvec2> line = wall.points;
-                if (wall.closed) line.push_back(line.front());
-                const double thickness = wall.closed ? 0.0 : wall.thickness;
-                for (std::vector<glm::dvec2>& part :
-                     partsInMargin(result_->charts[chart], raster, owner, line, 0.5 * thickness)) {
-                    Wall copy = wall;
-                    copy.id = fmt::format("{}:{}:{}", wall.id, result_->charts[chart].name,
-                                          result_->plane.walls.size());
-                    copy.closed = false;
-                    copy.thickness = thickness;
-                    copy.points = std::move(part);
-                    move(copy.points, result_->charts[chart].shift);
-                    result_->plane.walls.push_back(std::move(copy));
-                }
-            }
-        }
-    }
-
-    struct Standing {
-        std::size_t wall, chart;
-    };
     const Layout& layout_;
     Diagnostics& diagnostics_;
     std::shared_ptr<Charts> result_ = std::make_shared<Charts>();
-    std::vector<Standing> standing_;
+    std::vector<StandingWall> standing_;
     std::vector<std::size_t> beside_links_;  // of the walls: railings of floors
 };
 

@@ -36,6 +36,25 @@ struct Railing {
     double low = 0.0, high = 0.0;    ///< m, of the ground along it
 };
 
+/// What was found on a terrain that is cut.
+struct TerrainFindings {
+    struct Piece {
+        double area = 0.0;  ///< m^2
+        glm::dvec3 at{0.0};
+    };
+    std::size_t unreached_count = 0;
+    std::vector<Piece> unreached;  ///< grounds that nobody of the layout gets to, the largest of them first
+};
+
+/// What of a layout that is cut from a terrain is not in the plane.
+struct TerrainGrounds {
+    /// As the layout names them, and if it names none, one for each chart; their floors are outlines.
+    std::vector<Level> levels;
+    Layout home;  ///< the layout, everything on one of these levels
+    std::vector<double> attraction_heights;  ///< m, of the ground there
+    TerrainFindings findings;
+};
+
 struct Charts {
     std::vector<Chart> charts;
     std::vector<ChartRaster> rasters;  ///< one per chart
@@ -49,7 +68,8 @@ struct Charts {
 
     TerrainMesh home_mesh;   ///< slabs and stairs as they are built
     TerrainMesh plane_mesh;  ///< what people stand on, in the plane
-    double reach = 0.0;      ///< m: the width of margins
+    std::shared_ptr<const TerrainGrounds> grounds = {};  ///< of a terrain; then there are no such meshes
+    double reach = 0.0;                                   ///< m: the width of margins
     std::uint32_t most_images = 0;
 };
 

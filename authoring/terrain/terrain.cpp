@@ -2,6 +2,7 @@
 #include "authoring/terrain/terrain.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -14,32 +15,24 @@ namespace {
 constexpr float kSmallestNode = 0.25f;        // m between the lattice's nodes
 constexpr double kMostNodes = 2'000'000.0;    // of the lattice
 constexpr double kMostSamples = 8'000'000.0;  // of the ground, for the lattice
-constexpr double kMostCells = 1'000'000.0;
-constexpr double kMostLooks = 1.0e9;  // at faces, while the lattice is made
-constexpr std::size_t kMostItems = 32'000'000;
-constexpr float kMargin = 1.0f;       // m round the scene
+constexpr double kMostLooks = 1.0e9;          // at faces, while the lattice is made
+constexpr float kMargin = 1.0f;               // m round the scene
+constexpr float kPlaneMargin = 4.0f;          // m round the plane of charts: a step of shifts
+constexpr float kLedge = 0.3f;  // m in a quarter of a metre: what is higher is no step of stairs
+constexpr float kNearNode =
+    0.5f;  // m: nodes round a place of charts further from its ground are beyond a ledge
+constexpr float kNearFace = 0.8f;     // m: faces further from a cell's height are another storey's
 constexpr float kSteepFace = 1.5f;    // rise over run: steeper faces are risers
 constexpr float kLeastClimb = 0.08f;  // slopes below are nobody's stairs
 constexpr int kGoesOn = 6;            // nodes beyond the edge for which the slope goes on
 constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
 
-float cross(glm::vec2 a, glm::vec2 b) {
-    return a.x * b.y - a.y * b.x;
-}
-
-/// Rise over run, both axes.
-glm::vec2 slopeOf(const TerrainTriangle& t) {
-    const float area = cross(t.b, t.c);
-    return glm::vec2(t.zb * t.c.y - t.zc * t.b.y, t.zc * t.b.x - t.zb * t.c.x) / area;
-}
-
-TerrainRaster rasterOf(glm::vec2 extent, float least, double most) {
-    TerrainRaster raster;
-    raster.cell = std::max(least, static_cast<float>(std::sqrt(double{extent.x} * double{extent.y} / most)));
-    // What is long and thin has more of them along its edges than its area tells.
-    const auto along = [&](float length) { return std::ceil(double{length} / double{raster.cell}) + 1.0; };
-    while (along(extent.x) * along(extent.y) > 1.5 * most + 1024.0)
-        raster.cell *= 1.25f;
+/// Lattices of all charts fit together: their cells are a power of two of a metre, and at most as large as
+/// the step of shifts.
+TerrainRaster fittingRaster(glm::vec2 extent, double most) {
+    constexpr float kLargest = 4.0f;  // m
+    TerrainRaster raster = rasterOf(extent, kSmallestNode, most);
+    raster.cell = std::min(std::exp2(std::ceil(std::log2(raster.cell) - 1.0e-4f)), kLargest);
     raster.width = static_cast<std::uint32_t>(std::ceil(extent.x / raster.cell)) + 1;
     raster.height = static_cast<std::uint32_t>(std::ceil(extent.y / raster.cell)) + 1;
     return raster;
@@ -48,8 +41,10 @@ TerrainRaster rasterOf(glm::vec2 extent, float least, double most) {
 /// Values on the lattice's nodes, of which some may be missing.
 class Lattice {
   public:
-    Lattice(const TerrainRaster& raster, std::vector<float> values)
-        : raster_(raster), values_(std::move(values)) {}
+    /// @param ledge m: nodes beside each other that differ by more are not each other's ground
+    Lattice(const TerrainRaster& raster, std::vector<float> values,
+            float ledge = std::numeric_limits<float>::infinity())
+        : raster_(raster), values_(std::move(values)), ledge_(ledge) {}
 
     /// Goes on beyond what is known: first as it slopes, then level.
     void fill() {
@@ -124,114 +119,76 @@ class Lattice {
             return values_[static_cast<std::size_t>(std::clamp(y, 0, h - 1)) * raster_.width +
                            static_cast<std::size_t>(std::clamp(x, 0, w - 1))];
         };
+        const auto at = [&](int x, int y, int steps) { return value(x + steps * dx, y + steps * dy); };
         for (int y = 0; y < h; ++y)
             for (int x = 0; x < w; ++x)
                 result[static_cast<std::size_t>(y) * raster_.width + static_cast<std::size_t>(x)] =
-                    0.375f * value(x, y) + 0.25f * (value(x - dx, y - dy) + value(x + dx, y + dy)) +
-                    0.0625f * (value(x - 2 * dx, y - 2 * dy) + value(x + 2 * dx, y + 2 * dy));
+                    weighted(value(x, y), {at(x, y, -1), at(x, y, 1)}, {at(x, y, -2), at(x, y, 2)});
         values_ = std::move(result);
+    }
+
+    /// Beyond a ledge, the ground is taken to go on as it slopes on this side of it.
+    float weighted(float here, std::array<float, 2> near, std::array<float, 2> far) const {
+        const bool goes_on[] = {std::abs(near[0] - here) <= ledge_, std::abs(near[1] - here) <= ledge_};
+        for (const std::size_t side : {0u, 1u}) {
+            const float slope = goes_on[1 - side] ? here - near[1 - side] : 0.0f;
+            if (!goes_on[side]) near[side] = here + slope;
+            if (!goes_on[side] || std::abs(far[side] - near[side]) > ledge_)
+                far[side] = near[side] + (goes_on[side] ? near[side] - here : slope);
+        }
+        return 0.375f * here + 0.25f * (near[0] + near[1]) + 0.0625f * (far[0] + far[1]);
     }
 
     const TerrainRaster& raster_;
     std::vector<float> values_;
+    float ledge_;
 };
 
 }  // namespace
 
+const PlaneGround::Cell& PlaneGround::at(glm::vec2 place) const {
+    const glm::vec2 most(static_cast<float>(width) - 1.0f, static_cast<float>(height) - 1.0f);
+    const glm::uvec2 at(glm::clamp(glm::floor((place - minimum) / cell), glm::vec2(0.0f), most));
+    return cells[std::size_t{at.y} * width + at.x];
+}
+
 Terrain::Terrain(const TerrainMesh& mesh, bool highest, glm::dvec2 origin, glm::vec2 minimum,
                  glm::vec2 maximum)
-    : highest_(highest), minimum_(minimum - kMargin), maximum_(maximum + kMargin) {
-    keepTriangles(mesh, origin);
-    sortIntoCells();
+    : highest_(highest),
+      minimum_(minimum - kMargin),
+      maximum_(maximum + kMargin),
+      faces_(mesh, origin, minimum_, maximum_, FaceGrid::Keep::looking_up) {
     sampleLattice();
 }
 
-void Terrain::keepTriangles(const TerrainMesh& mesh, glm::dvec2 origin) {
-    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-        const glm::dvec3& a = mesh.positions[mesh.indices[i]];
-        const glm::dvec3& b = mesh.positions[mesh.indices[i + 1]];
-        const glm::dvec3& c = mesh.positions[mesh.indices[i + 2]];
-        TerrainTriangle t{};
-        t.a = glm::vec2(glm::dvec2(a) - origin);
-        t.b = glm::vec2(glm::dvec2(b - a));
-        t.c = glm::vec2(glm::dvec2(c - a));
-        const glm::vec2 lower = t.a + glm::min(glm::vec2(0.0f), glm::min(t.b, t.c));
-        const glm::vec2 upper = t.a + glm::max(glm::vec2(0.0f), glm::max(t.b, t.c));
-        if (lower.x > maximum_.x || lower.y > maximum_.y || upper.x < minimum_.x || upper.y < minimum_.y)
-            continue;
-        // Upright and overhanging faces, and slivers, carry nobody.
-        if (!(cross(t.b, t.c) > 1.0e-7f)) continue;
-        t.za = static_cast<float>(a.z);
-        t.zb = static_cast<float>(b.z - a.z);
-        t.zc = static_cast<float>(c.z - a.z);
-        triangles_.push_back(t);
-    }
-}
-
-void Terrain::sortIntoCells() {
-    const glm::vec2 extent = maximum_ - minimum_;
-    const double about = std::clamp(static_cast<double>(triangles_.size()), 16.0, kMostCells);
-    float least = 0.25f;
-    const auto range = [&](const TerrainTriangle& t, auto&& visit) {
-        const auto cellOf = [&](glm::vec2 p) {
-            const glm::vec2 at = (p - minimum_) / cells_.cell;
-            return glm::uvec2(
-                glm::clamp(at, glm::vec2(0.0f), glm::vec2(cells_.width - 1, cells_.height - 1)));
-        };
-        // A hair wider, so that rounding loses no face at a cell's edge.
-        const glm::vec2 hair(1.0e-4f * cells_.cell);
-        const glm::uvec2 first = cellOf(t.a + glm::min(glm::vec2(0.0f), glm::min(t.b, t.c)) - hair);
-        const glm::uvec2 last = cellOf(t.a + glm::max(glm::vec2(0.0f), glm::max(t.b, t.c)) + hair);
-        visit(first, last);
-    };
-    for (;; least = 2.0f * cells_.cell) {
-        cells_ = rasterOf(extent, least, about);
-        std::size_t items = 0;
-        for (const TerrainTriangle& t : triangles_)
-            range(t, [&](glm::uvec2 first, glm::uvec2 last) {
-                items += std::size_t{last.x - first.x + 1} * (last.y - first.y + 1);
-            });
-        if (items <= std::max(kMostItems, 2 * triangles_.size()) || cells_.count() <= 4) break;
-    }
-    starts_.assign(cells_.count() + 1, 0);
-    const auto each = [&](auto&& visit) {
-        for (std::uint32_t i = 0; i < triangles_.size(); ++i)
-            range(triangles_[i], [&](glm::uvec2 first, glm::uvec2 last) {
-                for (std::uint32_t y = first.y; y <= last.y; ++y)
-                    for (std::uint32_t x = first.x; x <= last.x; ++x)
-                        visit(std::size_t{y} * cells_.width + x, i);
-            });
-    };
-    each([&](std::size_t cell, std::uint32_t) { ++starts_[cell + 1]; });
-    for (std::size_t cell = 0; cell < cells_.count(); ++cell)
-        starts_[cell + 1] += starts_[cell];
-    items_.resize(starts_.back());
-    std::vector<std::uint32_t> cursors(starts_.begin(), starts_.end() - 1);
-    each([&](std::size_t cell, std::uint32_t i) { items_[cursors[cell]++] = i; });
-}
-
-template <class Visit>
-void Terrain::visitHits(glm::vec2 point, Visit visit) const {
-    const glm::vec2 at = (point - minimum_) / cells_.cell;
-    if (!(at.x >= 0.0f && at.y >= 0.0f && at.x < static_cast<float>(cells_.width) &&
-          at.y < static_cast<float>(cells_.height)))
-        return;
-    const std::size_t cell = static_cast<std::size_t>(at.y) * cells_.width + static_cast<std::size_t>(at.x);
-    for (std::uint32_t i = starts_[cell]; i < starts_[cell + 1]; ++i) {
-        const TerrainTriangle& t = triangles_[items_[i]];
-        const glm::vec2 p = point - t.a;
-        const float area = cross(t.b, t.c);
-        const float v = cross(p, t.c) / area, w = cross(t.b, p) / area;
-        constexpr float kHair = 1.0e-5f;  // neighbours overlap by it, so that no point falls between them
-        if (v >= -kHair && w >= -kHair && v + w <= 1.0f + kHair) visit(t, t.za + v * t.zb + w * t.zc);
-    }
+Terrain::Terrain(const TerrainMesh& mesh, PlaneGround ground, glm::dvec2 origin, glm::vec2 minimum,
+                 glm::vec2 maximum)
+    : highest_(true),
+      minimum_(minimum - kPlaneMargin),
+      maximum_(maximum + kPlaneMargin),
+      faces_(mesh, origin, ground.lower, ground.upper, FaceGrid::Keep::looking_up),
+      plane_(std::move(ground)) {
+    sampleLattice();
 }
 
 std::optional<Terrain::Face> Terrain::hitAt(glm::vec2 point) const {
+    if (plane_) return hitInPlane(point);
     std::optional<Face> best;
-    visitHits(point, [&](const TerrainTriangle& t, float height) {
+    faces_.visitHits(point, [&](const TerrainTriangle& t, float height) {
         if (best && (highest_ ? height <= best->height : height >= best->height)) return;
-        best = Face{height, slopeOf(t)};
+        best = Face{height, t.slope()};
+    });
+    return best;
+}
+
+std::optional<Terrain::Face> Terrain::hitInPlane(glm::vec2 point) const {
+    const PlaneGround::Cell& cell = plane_->at(point);
+    std::optional<Face> best;
+    if (std::isnan(cell.height)) return best;
+    faces_.visitHits(point - cell.shift, [&](const TerrainTriangle& t, float height) {
+        const float away = std::abs(height - cell.height);
+        if (away < kNearFace && (!best || away < std::abs(best->height - cell.height)))
+            best = Face{height, t.slope()};
     });
     return best;
 }
@@ -243,7 +200,7 @@ std::optional<float> Terrain::groundAt(glm::vec2 point) const {
 
 float Terrain::storeysAt(glm::vec2 point) const {
     float lowest = std::numeric_limits<float>::max(), highest = std::numeric_limits<float>::lowest();
-    visitHits(point, [&](const TerrainTriangle&, float height) {
+    faces_.visitHits(point, [&](const TerrainTriangle&, float height) {
         lowest = std::min(lowest, height);
         highest = std::max(highest, height);
     });
@@ -253,10 +210,11 @@ float Terrain::storeysAt(glm::vec2 point) const {
 /// Each node holds the mean round it, so that treads and risers count by their share; where the ground covers
 /// only a part of that, it is guessed from the nodes beside it.
 void Terrain::sampleLattice() {
-    lattice_ = rasterOf(maximum_ - minimum_, kSmallestNode, kMostNodes);
+    lattice_ = plane_ ? fittingRaster(maximum_ - minimum_, kMostNodes)
+                      : rasterOf(maximum_ - minimum_, kSmallestNode, kMostNodes);
     const int side =
         std::clamp(static_cast<int>(std::sqrt(kMostSamples / static_cast<double>(lattice_.count()))), 1, 4);
-    const double layers = static_cast<double>(items_.size()) / static_cast<double>(cells_.count());
+    const double layers = faces_.layers();
     if (static_cast<double>(lattice_.count()) * side * side * layers > kMostLooks)
         throw std::invalid_argument(
             "its faces lie above each other in too many layers: export the ground alone");
@@ -265,12 +223,17 @@ void Terrain::sampleLattice() {
     for (std::uint32_t y = 0; y < lattice_.height; ++y)
         for (std::uint32_t x = 0; x < lattice_.width; ++x) {
             float height = 0.0f, slope = 0.0f;
-            int hits = 0;
+            int hits = 0, looks = side * side;
+            const std::optional<Face> middle = plane_ ? hitAt(nodePlace(x, y)) : std::nullopt;
             for (int i = 0; i < side * side; ++i) {
                 const glm::vec2 offset =
                     (glm::vec2(i % side, i / side) + 0.5f) / static_cast<float>(side) - 0.5f;
                 const std::optional<Face> hit = hitAt(nodePlace(x, y) + offset * lattice_.cell);
                 if (!hit) continue;
+                if (middle && std::abs(hit->height - middle->height) > kLedge) {
+                    --looks;
+                    continue;
+                }
                 ++hits;
                 height += hit->height;
                 const float rise = glm::length(hit->slope);
@@ -278,13 +241,15 @@ void Terrain::sampleLattice() {
             }
             const std::size_t node = std::size_t{y} * lattice_.width + x;
             if (hits > 0) partial[node] = height / static_cast<float>(hits);
-            if (hits < side * side) continue;
+            if (hits == 0 || hits < looks) continue;
             heights[node] = partial[node];
             slopes[node] = slope / static_cast<float>(hits);
         }
     if (std::all_of(heights.begin(), heights.end(), [](float value) { return std::isnan(value); }))
         heights = partial;
-    Lattice smooth(lattice_, std::move(heights)), faces(lattice_, std::move(slopes));
+    const float ledge =
+        plane_ ? std::max(kLedge, 1.2f * lattice_.cell) : std::numeric_limits<float>::infinity();
+    Lattice smooth(lattice_, std::move(heights), ledge), faces(lattice_, std::move(slopes));
     for (Lattice* each : {&smooth, &faces}) {
         each->fill();
         each->smooth();
@@ -310,8 +275,25 @@ float Terrain::smoothAt(glm::vec2 point) const {
     const glm::vec2 f = at - glm::vec2(cell);
     const gpu::TerrainNode* low = &nodes_[std::size_t{cell.y} * lattice_.width + cell.x];
     const gpu::TerrainNode* high = low + lattice_.width;
-    return glm::mix(glm::mix(low[0].height, low[1].height, f.x),
-                    glm::mix(high[0].height, high[1].height, f.x), f.y);
+    std::array<float, 4> heights = {low[0].height, low[1].height, high[0].height, high[1].height};
+    if (plane_) leaveOutOthers(point, heights);
+    return glm::mix(glm::mix(heights[0], heights[1], f.x), glm::mix(heights[2], heights[3], f.x), f.y);
+}
+
+/// Of the nodes round a place, those beyond a ledge take the mean of the others.
+void Terrain::leaveOutOthers(glm::vec2 point, std::array<float, 4>& heights) const {
+    const std::optional<Face> here = hitAt(point);
+    if (!here) return;
+    const auto is_near = [&](float height) { return std::abs(height - here->height) < kNearNode; };
+    float sum = 0.0f, count = 0.0f;
+    for (const float height : heights)
+        if (is_near(height)) {
+            sum += height;
+            count += 1.0f;
+        }
+    if (count == 4.0f) return;
+    for (float& height : heights)
+        if (!is_near(height)) height = count > 0.0f ? sum / count : here->height;
 }
 
 glm::vec2 Terrain::slopeAt(glm::vec2 point) const {
@@ -319,6 +301,13 @@ glm::vec2 Terrain::slopeAt(glm::vec2 point) const {
     return glm::vec2(smoothAt(point + glm::vec2(d, 0.0f)) - smoothAt(point - glm::vec2(d, 0.0f)),
                      smoothAt(point + glm::vec2(0.0f, d)) - smoothAt(point - glm::vec2(0.0f, d))) /
            (2.0f * d);
+}
+
+float Terrain::stepsAt(glm::vec2 point) const {
+    const glm::vec2 most(static_cast<float>(lattice_.width) - 1.0f,
+                         static_cast<float>(lattice_.height) - 1.0f);
+    const glm::uvec2 node(glm::clamp(glm::round((point - minimum_) / lattice_.cell), glm::vec2(0.0f), most));
+    return nodes_[std::size_t{node.y} * lattice_.width + node.x].steps;
 }
 
 Terrain::Face Terrain::faceAt(glm::vec2 point) const {

@@ -1,28 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <vector>
 
-#include "authoring/terrain/terrain_mesh.h"
+#include "authoring/terrain/face_grid.h"
 #include "shaders/shared/terrain_types.h"
 
 namespace throng::authoring {
 
-/// A face, in plan.
-struct TerrainTriangle {
-    glm::vec2 a, b, c;  ///< m: a in the scene frame, b and c from a
-    float za, zb, zc;   ///< m: b and c over a
-};
+/// Which of a mesh's faces people stand on where the ground is cut into charts
+/// (authoring/storeys/charts.h), in the cells of a raster over their plane.
+struct PlaneGround {
+    struct Cell {
+        float height;     ///< m: of several faces the nearest to it counts; NaN where nobody stands
+        glm::vec2 shift;  ///< m: from home to the plane
+    };
+    glm::vec2 minimum{0.0f};  ///< m, scene frame
+    float cell = 0.25f;       ///< m
+    std::uint32_t width = 0, height = 0;
+    std::vector<Cell> cells;
+    glm::vec2 lower{0.0f}, upper{0.0f};  ///< m, scene frame: the bounds of all that is ground, at home
 
-/// A raster that begins at the terrain's minimum.
-struct TerrainRaster {
-    float cell = 1.0f;  ///< m
-    std::uint32_t width = 0;
-    std::uint32_t height = 0;
-    std::size_t count() const { return std::size_t{width} * height; }
+    const Cell& at(glm::vec2 place) const;
 };
 
 /// The ground that people of one scene stand on: the faces of a terrain that look up, and the same without
@@ -33,6 +36,9 @@ class Terrain {
     /// @param origin, minimum, maximum as Scene's: only what lies there is kept
     /// @throws std::invalid_argument for what would take minutes to sample
     Terrain(const TerrainMesh& mesh, bool highest, glm::dvec2 origin, glm::vec2 minimum, glm::vec2 maximum);
+    /// Of charts in their plane. @param minimum, maximum the plane's, multiples of gpu::SHIFT_STEP
+    Terrain(const TerrainMesh& mesh, PlaneGround ground, glm::dvec2 origin, glm::vec2 minimum,
+            glm::vec2 maximum);
 
     /// The very ground (m); nothing where there is none.
     std::optional<float> groundAt(glm::vec2 point) const;
@@ -41,6 +47,8 @@ class Terrain {
     /// The ground without its steps (m): anywhere, going on beyond the terrain's edge.
     float smoothAt(glm::vec2 point) const;
     glm::vec2 slopeAt(glm::vec2 point) const;
+    /// How much of the slope there is that of stairs, 0 to 1: at the nearest of the lattice's nodes.
+    float stepsAt(glm::vec2 point) const;
     struct Face {
         float height = 0.0f;    ///< m
         glm::vec2 slope{0.0f};  ///< rise over run
@@ -50,18 +58,16 @@ class Terrain {
     float heightAt(glm::vec2 point) const { return faceAt(point).height; }
 
     bool highest() const { return highest_; }
-    bool isEmpty() const { return triangles_.empty(); }
+    bool isEmpty() const { return faces_.isEmpty(); }
     /// Where the lattice begins, m, scene frame.
     glm::vec2 minimum() const { return minimum_; }
     const TerrainRaster& lattice() const { return lattice_; }
     const std::vector<gpu::TerrainNode>& nodes() const { return nodes_; }
 
   private:
-    template <class Visit>
-    void visitHits(glm::vec2 point, Visit visit) const;
     std::optional<Face> hitAt(glm::vec2 point) const;
-    void keepTriangles(const TerrainMesh& mesh, glm::dvec2 origin);
-    void sortIntoCells();
+    std::optional<Face> hitInPlane(glm::vec2 point) const;
+    void leaveOutOthers(glm::vec2 point, std::array<float, 4>& heights) const;
     void sampleLattice();
     glm::vec2 nodePlace(std::uint32_t x, std::uint32_t y) const {
         return minimum_ + glm::vec2(x, y) * lattice_.cell;
@@ -69,9 +75,8 @@ class Terrain {
 
     bool highest_;
     glm::vec2 minimum_, maximum_;
-    std::vector<TerrainTriangle> triangles_;
-    TerrainRaster cells_;
-    std::vector<std::uint32_t> starts_, items_;
+    FaceGrid faces_;
+    std::optional<PlaneGround> plane_;  // none: the ground is not cut
     TerrainRaster lattice_;
     std::vector<gpu::TerrainNode> nodes_;
 };

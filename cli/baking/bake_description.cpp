@@ -90,15 +90,20 @@ recording::EyeCatcher cheering(const authoring::Show& show, const authoring::Sea
 void describeEyeCatchers(const LoadedLayout& loaded, recording::BakeDescription& bake) {
     const authoring::Layout& layout = loaded.layout;
     constexpr double kNever = 1.0e9;  // s
+    const authoring::TerrainGrounds* cut = loaded.scene.charts ? loaded.scene.charts->grounds.get() : nullptr;
+    const auto heightOf = [&](const authoring::Attraction& each) {
+        return cut->attraction_heights[static_cast<std::size_t>(&each - layout.attractions.data())];
+    };
     for (const authoring::Attraction& each : layout.attractions) {
         const glm::dvec2 place = each.at - loaded.scene.origin;
-        const double ground = !layout.levels.empty() ? layout.levels[each.level].height
+        const double ground = cut                      ? heightOf(each)
+                              : !layout.levels.empty() ? layout.levels[each.level].height
                               : loaded.scene.terrain
                                   ? double{loaded.scene.terrain->smoothAt(glm::vec2(place))}
                                   : 0.0;
         bake.eye_catchers.push_back({place, ground + each.height, each.weight, each.reach, each.from,
                                      each.until.value_or(each.loud ? each.from : kNever), each.loud});
-        if (!layout.levels.empty()) bake.eye_catchers.back().storey = ground;
+        if (cut || !layout.levels.empty()) bake.eye_catchers.back().storey = ground;
     }
     for (const authoring::Show& show : layout.shows) {
         if (show.kind != authoring::Show::Kind::cheer || show.share == 0.0) continue;
@@ -145,6 +150,18 @@ void describeCabins(const LoadedLayout& loaded, recording::BakeDescription& bake
         bake.lifts[i].lift.capacity = lifts.plans.at(i).capacity;
 }
 
+/// Of a terrain that is cut: it is the ground as it is, and has names.
+void describeGrounds(const LoadedLayout& loaded, recording::BakeDescription& bake) {
+    const authoring::Charts& charts = *loaded.scene.charts;
+    bake.levels = charts.grounds->levels;
+    bake.roads = charts.grounds->home.roads;
+    bake.areas = charts.grounds->home.areas;
+    bake.patches = charts.grounds->home.patches;
+    bake.terrain =
+        recording::BakeTerrain{loaded.terrain,      loaded.scene.terrain,      loaded.layout.terrain->file,
+                               loaded.terrain_hash, charts.ground_along_walls, true};
+}
+
 /// Of a layout with levels: its floors and links are the ground, and end in railings.
 void describeCharts(const LoadedLayout& loaded, recording::BakeDescription& bake) {
     constexpr double kMargin = 3.0;  // m
@@ -160,11 +177,15 @@ void describeCharts(const LoadedLayout& loaded, recording::BakeDescription& bake
     }
     for (const gpu::Belt& belt : scene.chart_map.belts)
         bake.charts->belts.emplace_back(belt.velocity);
+    bake.walls = charts.walls;
+    if (charts.grounds) {
+        describeGrounds(loaded, bake);
+        return;
+    }
     bake.levels = loaded.layout.levels;
     for (const authoring::Link& link : loaded.layout.links)
         (link.isLift() ? bake.lifts : bake.links).push_back(link);
     describeCabins(loaded, bake);
-    bake.walls = charts.walls;
     bake.terrain =
         recording::BakeTerrain{std::shared_ptr<const authoring::TerrainMesh>(scene.charts, &charts.home_mesh),
                                scene.terrain, "levels", hashText(loaded.text), charts.ground_along_walls};
@@ -220,7 +241,7 @@ recording::BakeDescription describeBake(const LoadedLayout& loaded, const BakeOp
     describeVehicles(scene, bake);
     describeDoors(loaded.layout, scene, bake);
     if (scene.charts) describeCharts(loaded, bake);
-    if (loaded.terrain) {
+    if (loaded.terrain && !scene.charts) {
         const authoring::Rebase rebase(loaded.layout);
         bake.terrain = recording::BakeTerrain{
             loaded.terrain, scene.terrain, loaded.layout.terrain->file, loaded.terrain_hash, {}};

@@ -55,6 +55,7 @@ void addWalls(GlbDocument& document, const recording::BakeDescription& descripti
     const int material = document.addMaterial("wall", colourFromHex(0xcfc8bb), 0.8);
     for (std::size_t i = 0; i < description.walls.size(); ++i) {
         const authoring::Wall& wall = description.walls[i];
+        if (wall.is_edge) continue;
         const std::vector<glm::dvec2> points = relative(wall.points, description.output_origin);
         const glm::dvec2 ground =
             description.terrain ? description.terrain->along_walls.at(i) : glm::dvec2(0.0);

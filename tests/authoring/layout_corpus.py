@@ -7,7 +7,7 @@ import pathlib
 from typing import NamedTuple
 
 EVERY_OBJECT = pathlib.Path(__file__).parent / "layouts" / "every_object.json"
-LEVELS = EVERY_OBJECT.with_name("levels.json")  # which are none where there is a terrain
+LEVELS = EVERY_OBJECT.with_name("levels.json")  # whose floors and links are none where there is a terrain
 UNKNOWN_KEY = "zzz"
 
 

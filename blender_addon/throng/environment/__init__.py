@@ -22,7 +22,7 @@ def build_environment(context, manifest, collection, *, walls=True, roads=True, 
     if walls:
         outlines = stands.stand_names(geometry)
         for wall in geometry.get("walls", []):
-            if wall.get("id", "").rstrip("_") in outlines:
+            if wall.get("id", "").rstrip("_") in outlines or wall.get("edge"):
                 continue
             thing = walls_module.build_wall(wall)
             walls_module.key_gate(thing, wall, float(manifest["fps"]), frame_start)

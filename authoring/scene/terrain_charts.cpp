@@ -1,0 +1,520 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "authoring/scene/terrain_charts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <stdexcept>
+
+#include "authoring/scene/chart_map.h"
+#include "authoring/scene/rebase.h"
+#include "authoring/scene/terrain_places.h"
+#include "authoring/storeys/plane.h"
+#include "authoring/storeys/surface_edges.h"
+#include "base/polygon.h"
+
+namespace throng::authoring {
+namespace {
+
+constexpr double kAround = 50.0;             // m: so far from all that the layout has, ground counts
+constexpr double kMostLatticeCells = 4.0e6;  // of the lattice
+constexpr double kMostFaces = 2.0e9;         // to look at
+constexpr double kStoreysApart = 2.0;        // m
+constexpr double kMostLooks = 400'000.0;     // at the mesh, for storeys
+constexpr double kEdgeHeight = 1.1;          // m: people see over the ends of ground
+constexpr double kEdge = 0.02;               // m
+constexpr double kWorthTelling = 4.0;        // m^2 of ground that nobody gets to
+constexpr std::size_t kMostTold = 10;
+constexpr double kAlong = 0.25;  // m between looks at what a line lies on
+
+using Bounds = std::pair<glm::dvec2, glm::dvec2>;
+
+double areaOfSpots(std::size_t count) {
+    return static_cast<double>(count) * kChartCell * kChartCell;
+}
+
+/// Of the mesh, as far as the layout could have to do with it.
+Bounds boundsOf(const Layout& layout, const TerrainMesh& mesh) {
+    const Rebase rebase(layout);
+    glm::dvec2 lower(std::numeric_limits<double>::max()), upper = -lower;
+    for (const glm::dvec3& point : mesh.positions) {
+        lower = glm::min(lower, glm::dvec2(point));
+        upper = glm::max(upper, glm::dvec2(point));
+    }
+    glm::dvec2 least = rebase.origin() + glm::dvec2(rebase.minimum()),
+               most = rebase.origin() + glm::dvec2(rebase.maximum());
+    for (const Level& level : layout.levels) {
+        const glm::dvec2 at(level.at.value_or(glm::dvec3(least, 0.0)));
+        least = glm::min(least, at);
+        most = glm::max(most, at);
+    }
+    return {glm::max(lower, least - kAround), glm::min(upper, most + kAround)};
+}
+
+/// A quick look, for the many terrains that have one storey.
+bool mayHaveStoreys(const TerrainMesh& mesh, const Bounds& bounds) {
+    const auto [lower, upper] = bounds;
+    const glm::dvec2 size = upper - lower;
+    const double step = std::max(0.5, std::sqrt(size.x * size.y / kMostLooks));
+    const FaceGrid faces(mesh, lower, glm::vec2(0.0f), glm::vec2(size), FaceGrid::Keep::looking_up);
+    if (faces.layers() * size.x * size.y > kMostFaces * step * step) return false;
+    for (double y = 0.5 * step; y < size.y; y += step)
+        for (double x = 0.5 * step; x < size.x; x += step) {
+            float low = std::numeric_limits<float>::max(), high = std::numeric_limits<float>::lowest();
+            faces.visitHits({static_cast<float>(x), static_cast<float>(y)},
+                            [&](const TerrainTriangle&, float height) {
+                                low = std::min(low, height);
+                                high = std::max(high, height);
+                            });
+            if (double{high} - double{low} > kStoreysApart) return true;
+        }
+    return false;
+}
+
+/// A part of a line that lies on one chart.
+struct Stretch {
+    std::size_t chart;
+    std::vector<glm::dvec2> points;
+    double low, high;  // m, of the ground along it
+};
+
+class TerrainLayingOut {
+  public:
+    TerrainLayingOut(const Layout& layout, const TerrainMesh& mesh, Bounds bounds, Diagnostics& diagnostics)
+        : layout_(layout),
+          diagnostics_(diagnostics),
+          ground_(std::make_shared<const Walkable>(mesh, bounds.first, bounds.second)),
+          pieces_(piecesOf(*ground_)),
+          places_(layout, *ground_, pieces_) {}
+
+    std::shared_ptr<const Charts> run() {
+        if (!places_.findLevels(diagnostics_)) return nullptr;
+        const std::vector<bool> used = usedPieces();
+        if (layout_.levels.empty() && !lieAboveEachOther(*ground_, pieces_, used)) return nullptr;
+        std::vector<Surface> surfaces = cutIntoSurfaces(ground_, pieces_, used, reachOf(layout_));
+        if (surfaces.empty()) return nullptr;
+        if (surfaces.size() >= kMostCharts) {
+            diagnostics_.error(
+                layout_.terrain->where,
+                fmt::format("the terrain is {} grounds above each other, more than the {} that "
+                            "can be",
+                            surfaces.size(), kMostCharts - 1),
+                "export the ground alone (`node`), or name the `surface` that people walk on");
+            return nullptr;
+        }
+        places_.keepTo(surfaces);
+        for (const Surface& surface : surfaces)
+            addChart(surface);
+        result_->reach = reachOf(layout_);
+        layInPlane(*result_);
+        nameGrounds(used);
+        Layout placed = layout_;
+        grounds_->home = layout_;
+        placeAll(placed);
+        if (diagnostics_.hasErrors()) return nullptr;
+        standWalls(placed, edgesOf(surfaces));
+        result_->grounds = grounds_;
+        return result_;
+    }
+
+  private:
+    std::vector<bool> usedPieces() const {
+        std::vector<bool> used(pieces_.spots.size(), false);
+        const auto use = [&](std::uint32_t spot) {
+            if (spot != kNoSpot) used[pieces_.piece_of[spot]] = true;
+        };
+        for (const std::uint32_t spot : places_.levelSpots())
+            use(spot);
+        for (const Area& area : layout_.areas)
+            use(places_.spotIn(area.polygon, area.level));
+        for (const Road& road : layout_.roads)
+            for (const glm::dvec2 point : road.centreline)
+                use(places_.spotAt(point, road.level));
+        for (const Formation& formation : layout_.formations)
+            for (const glm::dvec2 place : formationPlaces(formation, layout_.simulation.seed).positions)
+                use(places_.spotAt(place, formation.level));
+        return used;
+    }
+
+    void addChart(const Surface& surface) {
+        Chart chart;
+        chart.index = result_->charts.size();
+        chart.surface = std::make_shared<const Surface>(surface);
+        chart.name = fmt::format("surface-{}", chart.index + 1);
+        result_->charts.push_back(std::move(chart));
+    }
+
+    void nameGrounds(const std::vector<bool>& used) {
+        for (std::size_t level = layout_.levels.size(); level-- > 0;)
+            result_->charts[chartOf(places_.levelSpots()[level])].name = layout_.levels[level].id;
+        for (const Chart& chart : result_->charts) {
+            const Surface& surface = *chart.surface;
+            double sum = 0.0, count = 0.0;
+            for (const std::uint32_t spot : surface.spots)
+                if (spot != kNoSpot) {
+                    sum += ground_->spots()[spot].height;
+                    count += 1.0;
+                }
+            if (layout_.levels.empty())
+                grounds_->levels.push_back(
+                    {chart.name, sum / count, outlineOf(surface), layout_.terrain->where, {}});
+        }
+        for (std::size_t level = 0; level < layout_.levels.size(); ++level) {
+            grounds_->levels.push_back(layout_.levels[level]);
+            grounds_->levels.back().height = ground_->spots()[places_.levelSpots()[level]].height;
+            grounds_->levels.back().floor =
+                outlineOf(*result_->charts[chartOf(places_.levelSpots()[level])].surface);
+        }
+        tellUnreached(used);
+    }
+
+    void tellUnreached(const std::vector<bool>& used) {
+        TerrainFindings& findings = grounds_->findings;
+        std::vector<bool> seen(pieces_.spots.size(), false);
+        for (std::uint32_t spot = 0; spot < ground_->spots().size(); ++spot) {
+            const std::uint32_t piece = pieces_.piece_of[spot];
+            const double area = areaOfSpots(pieces_.spots[piece]);
+            if (used[piece] || seen[piece] || area < kWorthTelling) continue;
+            seen[piece] = true;
+            const Walkable::Spot& there = ground_->spots()[spot];
+            findings.unreached.push_back({area, {chartCellMiddle(there.cell), there.height}});
+        }
+        findings.unreached_count = findings.unreached.size();
+        std::stable_sort(findings.unreached.begin(), findings.unreached.end(),
+                         [](const auto& a, const auto& b) { return a.area > b.area; });
+        if (findings.unreached.size() > kMostTold) findings.unreached.resize(kMostTold);
+    }
+
+    std::size_t chartOf(std::uint32_t spot) const { return places_.chartOf()[spot]; }
+
+    /// Sets an object's level to its chart, and where the layout names none, at home as well.
+    template <class Thing>
+    void setChart(Thing& thing, Thing& home, std::uint32_t spot) const {
+        thing.level = chartOf(spot);
+        if (layout_.levels.empty()) home.level = thing.level;
+    }
+
+    void complain(const SourcePosition& where, const std::string& what, glm::dvec2 at) {
+        diagnostics_.error(
+            where, fmt::format("{}: there is no ground of the terrain at ({:.2f}, {:.2f})", what, at.x, at.y),
+            "people need 2 m over their heads, and less than 45 degrees; move the one or the other");
+    }
+
+    void placeAll(Layout& placed) {
+        Layout& home = grounds_->home;
+        for (std::size_t i = 0; i < placed.areas.size(); ++i)
+            placeArea(placed.areas[i], home.areas[i]);
+        for (std::size_t i = 0; i < placed.patches.size(); ++i) {
+            const std::uint32_t spot = places_.spotIn(placed.patches[i].polygon, placed.patches[i].level);
+            if (spot == kNoSpot)
+                complain(placed.patches[i].where, fmt::format("patch `{}`", placed.patches[i].id),
+                         placed.patches[i].polygon.front());
+            else
+                setChart(placed.patches[i], home.patches[i], spot);
+        }
+        for (std::size_t i = 0; i < placed.formations.size(); ++i)
+            placeFormation(placed.formations[i], home.formations[i]);
+        for (const Attraction& attraction : layout_.attractions) {
+            const std::uint32_t spot = places_.spotAt(attraction.at, attraction.level);
+            grounds_->attraction_heights.push_back(spot == kNoSpot ? 0.0 : heightOf(spot));
+        }
+        placeRoads(placed);
+    }
+
+    void placeArea(Area& area, Area& home) {
+        const std::uint32_t spot = places_.spotIn(area.polygon, area.level);
+        if (spot == kNoSpot) {
+            complain(area.where, fmt::format("area `{}`", area.id), area.polygon.front());
+            return;
+        }
+        setChart(area, home, spot);
+        const Surface& surface = *result_->charts[area.level].surface;
+        std::size_t within = 0, on_others = 0;
+        for (const Chart& chart : result_->charts)
+            for (const std::uint32_t each : chart.surface->spots)
+                if (each != kNoSpot && isWithin(area.polygon, chartCellMiddle(ground_->spots()[each].cell))) {
+                    const glm::ivec2 cell = ground_->spots()[each].cell;
+                    within += chart.surface.get() == &surface ? 1 : 0;
+                    on_others += chart.surface.get() != &surface && surface.spotAt(cell) == kNoSpot ? 1 : 0;
+                }
+        if (on_others > within)
+            diagnostics_.warning(
+                area.where,
+                fmt::format(
+                    "area `{}` lies for the most part beyond its ground, `{}`: {:.1f} of {:.1f} m^2 are "
+                    "on it",
+                    area.id, result_->charts[area.level].name, areaOfSpots(within),
+                    areaOfSpots(within + on_others)),
+                "people come and go on that part of it alone");
+    }
+
+    /// Everybody on one chart, or where it shows the next.
+    void placeFormation(Formation& formation, Formation& home) {
+        const FormationPlaces places = formationPlaces(formation, layout_.simulation.seed);
+        if (places.positions.empty()) return;
+        const auto* list = std::get_if<ListFormation>(&formation.shape);
+        const std::uint32_t first = places_.spotAt(places.positions.front(), formation.level);
+        if (first == kNoSpot) {
+            complain(formation.where, fmt::format("formation `{}`: person 0", formation.id),
+                     places.positions.front());
+            return;
+        }
+        setChart(formation, home, first);
+        const ChartRaster& raster = result_->rasters[formation.level];
+        for (const auto& [points, what] : {std::pair{&places.positions, "person {} stands"},
+                                           {&places.goals, "the goal of person {} lies"}})
+            for (std::size_t i = 0; i < points->size(); ++i) {
+                if (raster.ownerOf((*points)[i]) != gpu::NO_CHART) continue;
+                diagnostics_.error(
+                    list ? list->agents[i].where : formation.where,
+                    fmt::format("formation `{}`: {} off the ground of person 0, `{}`, at ({:.2f}, {:.2f})",
+                                formation.id, fmt::format(fmt::runtime(what), i),
+                                result_->charts[formation.level].name, (*points)[i].x, (*points)[i].y),
+                    "write a formation for each ground, and areas as goals on another one");
+                return;
+            }
+    }
+
+    double heightOf(std::uint32_t spot) const { return ground_->spots()[spot].height; }
+
+    /// A line, cut where it goes on on another chart. Where there is no ground, it goes on as before.
+    std::vector<Stretch> stretchesOf(const std::vector<glm::dvec2>& line, std::size_t level) const {
+        std::vector<Stretch> stretches;
+        const auto add = [&](glm::dvec2 point, bool is_corner) {
+            const std::uint32_t spot = places_.spotAt(point, level);
+            if (spot == kNoSpot && stretches.empty()) return;
+            const std::size_t chart = spot == kNoSpot ? stretches.back().chart : chartOf(spot);
+            const double height = spot == kNoSpot ? stretches.back().low : heightOf(spot);
+            if (stretches.empty() || stretches.back().chart != chart) {
+                if (!stretches.empty()) stretches.back().points.push_back(point);
+                stretches.push_back({chart, {point}, height, height});
+            } else if (is_corner) {
+                stretches.back().points.push_back(point);
+            }
+            stretches.back().low = std::min(stretches.back().low, height);
+            stretches.back().high = std::max(stretches.back().high, height);
+        };
+        add(line.front(), true);
+        for (std::size_t i = 1; i < line.size(); ++i) {
+            const int looks =
+                std::max(1, static_cast<int>(std::ceil(glm::distance(line[i - 1], line[i]) / kAlong)));
+            for (int look = 1; look <= looks; ++look)
+                add(glm::mix(line[i - 1], line[i], static_cast<double>(look) / looks), look == looks);
+        }
+        if (!stretches.empty() && stretches.front().points.front() != line.front())
+            stretches.front().points.insert(stretches.front().points.begin(), line.front());
+        std::erase_if(stretches, [](const Stretch& stretch) { return stretch.points.size() < 2; });
+        return stretches;
+    }
+
+    /// A road that leads from one chart to another is one on each.
+    void placeRoads(Layout& placed) {
+        std::vector<std::size_t> ends(placed.roads.size());
+        for (std::size_t i = 0; i < layout_.roads.size(); ++i) {
+            ends[i] = i;
+            const std::vector<Stretch> stretches =
+                stretchesOf(layout_.roads[i].centreline, layout_.roads[i].level);
+            if (stretches.empty()) {
+                complain(layout_.roads[i].where, fmt::format("road `{}`", layout_.roads[i].id),
+                         layout_.roads[i].centreline.front());
+                continue;
+            }
+            if (layout_.levels.empty()) grounds_->home.roads[i].level = stretches.front().chart;
+            for (std::size_t part = 0; part < stretches.size(); ++part) {
+                if (part > 0) {
+                    ends[i] = placed.roads.size();
+                    placed.roads.push_back(placed.roads[i]);
+                }
+                placed.roads[ends[i]].level = stretches[part].chart;
+                placed.roads[ends[i]].centreline = stretches[part].points;
+            }
+        }
+        visitPlaces(placed, [&](Place& place) {
+            if (place.kind == Place::Kind::road_end && place.index < ends.size())
+                place.index = ends[place.index];
+        });
+    }
+
+    /// The layout's walls on their grounds, and where these end.
+    void standWalls(Layout& placed, const std::vector<SurfaceEdge>& edges) {
+        std::vector<Wall> plane;
+        for (const Wall& wall : layout_.walls)
+            standWall(wall, plane);
+        for (auto& [part, ground] : further_) {
+            addWall(part.level, part, ground);
+            plane.push_back(std::move(part));
+        }
+        placed.walls = std::move(plane);
+        std::size_t count = 0;
+        result_->plane = moved(placed, result_->charts);
+        for (const SurfaceEdge& edge : edges) {
+            Wall wall;
+            wall.id = fmt::format("edge:{}:{}", result_->charts[edge.surface].name, count++);
+            wall.points = edge.points;
+            wall.thickness = kEdge;
+            wall.height = kEdgeHeight;
+            wall.where = layout_.terrain->where;
+            wall.is_edge = true;
+            addWall(edge.surface, wall, {edge.low, edge.high});
+            movePoints(wall.points, result_->charts[edge.surface].shift);
+            result_->plane.walls.push_back(std::move(wall));
+        }
+        copyWallsIntoMargins(*result_, standing_);
+    }
+
+    void addWall(std::size_t chart, Wall wall, glm::dvec2 ground) {
+        wall.level = chart;
+        standing_.push_back({result_->walls.size(), chart});
+        result_->walls.push_back(std::move(wall));
+        result_->ground_along_walls.push_back(ground);
+    }
+
+    /// Walls keep their number, as gates do: what goes on on another chart is a wall of its own behind them.
+    void standWall(const Wall& wall, std::vector<Wall>& plane) {
+        std::vector<glm::dvec2> line = wall.points;
+        if (wall.closed) line.push_back(line.front());
+        std::vector<Stretch> stretches = stretchesOf(line, wall.level);
+        if (stretches.empty()) {
+            diagnostics_.warning(wall.where, fmt::format("wall `{}` does not stand on the terrain", wall.id));
+            stretches.push_back({0, line, 0.0, 0.0});
+        }
+        for (std::size_t i = 0; i < stretches.size(); ++i) {
+            Wall part = wall;
+            part.level = stretches[i].chart;
+            if (stretches.size() > 1) {
+                part.closed = false;
+                part.points = stretches[i].points;
+            }
+            if (i > 0) {
+                part.id = fmt::format("{}:{}", wall.id, i + 1);
+                further_.push_back({part, {stretches[i].low, stretches[i].high}});
+                continue;
+            }
+            addWall(part.level, part, {stretches[i].low, stretches[i].high});
+            plane.push_back(std::move(part));
+        }
+    }
+
+    const Layout& layout_;
+    Diagnostics& diagnostics_;
+    std::shared_ptr<const Walkable> ground_;
+    Pieces pieces_;
+    TerrainPlaces places_;
+    std::shared_ptr<Charts> result_ = std::make_shared<Charts>();
+    std::shared_ptr<TerrainGrounds> grounds_ = std::make_shared<TerrainGrounds>();
+    std::vector<StandingWall> standing_;
+    std::vector<std::pair<Wall, glm::dvec2>> further_;
+};
+
+}  // namespace
+
+std::shared_ptr<const Charts> layOutTerrain(const Layout& layout, const TerrainMesh& mesh,
+                                            Diagnostics& diagnostics) {
+    if (layout.terrain->is_single) return nullptr;
+    const Bounds bounds = boundsOf(layout, mesh);
+    const glm::dvec2 size = bounds.second - bounds.first;
+    const bool has_names = !layout.levels.empty();
+    if (!(size.x > 0.0 && size.y > 0.0)) {
+        if (has_names)
+            diagnostics.error(layout.terrain->file_where, "no face of the terrain lies where this layout is",
+                              "set its `offset` or `scale`");
+        return nullptr;
+    }
+    if (!has_names && !mayHaveStoreys(mesh, bounds)) return nullptr;
+    constexpr double kLooksPerCell = 10.0;
+    const double cells = size.x * size.y / (kChartCell * kChartCell);
+    const FaceGrid faces(mesh, bounds.first, glm::vec2(0.0f), glm::vec2(size), FaceGrid::Keep::all);
+    if (cells > kMostLatticeCells || cells * kLooksPerCell * faces.layers() > kMostFaces) {
+        const std::string what =
+            fmt::format("{:.0f} x {:.0f} m of terrain are too much to find people's ways over and under it",
+                        size.x, size.y);
+        if (has_names)
+            diagnostics.error(layout.terrain->file_where, what,
+                              "export a part of it, or leave out the levels");
+        else
+            diagnostics.warning(
+                layout.terrain->file_where, what,
+                "people walk on one of its faces above each other, see `surface`; or export a "
+                "part of it");
+        return nullptr;
+    }
+    try {
+        return TerrainLayingOut(layout, mesh, bounds, diagnostics).run();
+    } catch (const std::invalid_argument& error) {
+        diagnostics.error(layout.terrain->file_where,
+                          fmt::format("the terrain cannot be used: {}", error.what()),
+                          "name the `surface` that people walk on, or export the ground alone");
+        return nullptr;
+    }
+}
+
+PlaneGround planeGroundOf(const Charts& charts, const ChartMap& map, glm::dvec2 origin) {
+    constexpr int kSpread = 2;  // cells: so far beyond its edges, ground has a height
+    PlaneGround plane;
+    plane.minimum = map.grid.minimum;
+    plane.cell = map.grid.cell_size;
+    plane.width = map.grid.width;
+    plane.height = map.grid.height;
+    plane.cells.assign(map.cells.size(), {std::numeric_limits<float>::quiet_NaN(), glm::vec2(0.0f)});
+    glm::dvec2 lower(std::numeric_limits<double>::max()), upper = -lower;
+    for (const Chart& chart : charts.charts) {
+        lower = glm::min(lower, chart.bounds().first - charts.reach - 1.0);
+        upper = glm::max(upper, chart.bounds().second + charts.reach + 1.0);
+    }
+    plane.lower = glm::vec2(lower - origin);
+    plane.upper = glm::vec2(upper - origin);
+    for (std::size_t i = 0; i < map.cells.size(); ++i) {
+        const std::uint32_t chart = map.cells[i].charts & gpu::NO_CHART,
+                            owner = map.cells[i].charts >> 8 & gpu::NO_CHART;
+        if (chart == gpu::NO_CHART || owner == gpu::NO_CHART) continue;
+        const glm::uvec2 at(i % map.grid.width, i / map.grid.width);
+        const glm::vec2 place = map.grid.minimum + (glm::vec2(at) + 0.5f) * map.grid.cell_size;
+        const glm::dvec2 home = origin + glm::dvec2(place - map.shifts[chart]);
+        plane.cells[i] = {static_cast<float>(charts.charts[owner].heightAt(home)), map.shifts[chart]};
+    }
+    for (int round = 0; round < kSpread; ++round) {
+        const std::vector<PlaneGround::Cell> before = plane.cells;
+        for (std::size_t i = 0; i < before.size(); ++i) {
+            if (!std::isnan(before[i].height) || (map.cells[i].charts & gpu::NO_CHART) == gpu::NO_CHART)
+                continue;
+            const std::size_t x = i % plane.width;
+            for (const std::size_t beside :
+                 {x > 0 ? i - 1 : i, x + 1 < plane.width ? i + 1 : i, i >= plane.width ? i - plane.width : i,
+                  i + plane.width < before.size() ? i + plane.width : i})
+                if (!std::isnan(before[beside].height)) {
+                    plane.cells[i] = before[beside];
+                    break;
+                }
+        }
+    }
+    return plane;
+}
+
+std::vector<float> slopeCosts(const Terrain& terrain, const ChartMap& map, const MotionSettings& motion) {
+    constexpr float kFlat = 0.02f;  // rise over run: costs nothing
+    constexpr float kSteepest = 1.0f;
+    constexpr int kSlopes = 50;  // in so many steps
+    std::array<std::array<float, kSlopes + 1>, 2> costs{};
+    for (int stairs = 0; stairs < 2; ++stairs)
+        for (int i = 0; i <= kSlopes; ++i)
+            costs[static_cast<std::size_t>(stairs)][static_cast<std::size_t>(i)] =
+                costOfLink(motion, stairs == 1, double{kSteepest} * i / kSlopes);
+    std::vector<float> result(map.cells.size(), 1.0f);
+    for (std::size_t i = 0; i < map.cells.size(); ++i) {
+        if ((map.cells[i].charts >> 8 & gpu::NO_CHART) == gpu::NO_CHART) continue;
+        const glm::vec2 at = map.grid.minimum +
+                             (glm::vec2(i % map.grid.width, i / map.grid.width) + 0.5f) * map.grid.cell_size;
+        const float slope = std::min(glm::length(terrain.slopeAt(at)), kSteepest);
+        if (slope < kFlat) continue;
+        const auto step = static_cast<std::size_t>(std::lround(slope / kSteepest * kSlopes));
+        result[i] = costs[terrain.stepsAt(at) > 0.5f ? 1 : 0][step];
+    }
+    return result;
+}
+
+}  // namespace throng::authoring
