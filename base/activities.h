@@ -18,10 +18,22 @@ enum class ActivityCode {
     rises = 8,  ///< stands up, arms up, and sits down again
     cheers = 9,
     sings = 10,
+    settles = 11,  ///< stands up, arms down, and sits down again
+    raises = 12,   ///< of who stands: its hands, and lets them down again
+    applauds = 13,
+    jubilates = 14,
+    sways = 15,
+    waves = 16,
 };
 
 /// Whether a value of that component is of somebody who has a seat: it sits in it, or stands before it.
 inline bool hasSeat(float state) {
+    return std::floor(state) >= static_cast<float>(ActivityCode::sits) &&
+           std::floor(state) <= static_cast<float>(ActivityCode::settles);
+}
+
+/// Whether it is of somebody with a pose of its own: in a seat, or with its hands up.
+inline bool hasPose(float state) {
     return std::floor(state) >= static_cast<float>(ActivityCode::sits);
 }
 
