@@ -108,6 +108,20 @@ void SeatReader::open() {
     if (diagnostics_.hasErrors()) return;
     for (std::size_t i = 0; i < opens.size(); ++i)
         if (opens[i]) openBlock(layout_.seats[i]);
+    for (Behaviour& behaviour : layout_.behaviours)
+        for (BehaviourState& state : behaviour.states)
+            if (state.does == BehaviourState::Does::sit) leadTo(state);
+}
+
+/// People go to the aisles.
+void SeatReader::leadTo(BehaviourState& state) const {
+    state.to = {Destination::Kind::choose, {}, {}, state.where};
+    for (const GroupName& name : state.blocks) {
+        const std::size_t block = blocks_.at(name.id);
+        for (std::size_t aisle = 0; aisle < countAisles(layout_.seats[block]); ++aisle)
+            state.to.places.push_back({Place::Kind::aisle, block, name.where, aisle});
+    }
+    state.to.weights.assign(state.to.places.size(), 1.0);
 }
 
 /// Those who sit there are simulated, and nobody else walks through its aisles.

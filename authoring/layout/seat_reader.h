@@ -37,6 +37,7 @@ class SeatReader {
   private:
     void readLeave(const JsonNode& node, SeatBlock& block);
     void openBlock(SeatBlock& block);
+    void leadTo(BehaviourState& state) const;
     void readArc(ObjectReader& reader, const JsonNode& node, SeatBlock& block);
     void checkBlock(const SeatBlock& block, const JsonNode& node) const;
     void addStands(const SeatBlock& block);

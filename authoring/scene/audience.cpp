@@ -76,7 +76,7 @@ void seatBlock(const Layout& layout, std::size_t index, std::vector<Spectator>& 
     }
     const auto before = static_cast<std::uint32_t>(audience.size());
     for (const std::size_t seat : seating.taken)
-        audience.push_back({index, seats[seat], drawPerson(block.people, random, seat, 0), 0, {}});
+        audience.push_back({index, seat, seats[seat], drawPerson(block.people, random, seat, 0), 0, {}});
     for (const Party& party : seating.parties)
         for (std::uint32_t i = 0; i < party.size; ++i)
             audience[before + party.first + i].party = before + static_cast<std::uint32_t>(party.first);
@@ -222,10 +222,16 @@ void addCues(const Layout& layout, std::size_t number, const std::vector<Spectat
 
 }  // namespace
 
+std::vector<Spectator> audienceIn(const Layout& layout, std::size_t block) {
+    std::vector<Spectator> audience;
+    seatBlock(layout, block, audience);
+    return audience;
+}
+
 std::vector<Spectator> audienceOf(const Layout& layout) {
     std::vector<Spectator> audience;
     for (std::size_t block = 0; block < layout.seats.size(); ++block)
-        seatBlock(layout, block, audience);
+        if (!layout.seats[block].isOpen()) seatBlock(layout, block, audience);
     std::vector<std::vector<Cue>> cues(audience.size());
     for (std::size_t show = 0; show < layout.shows.size(); ++show)
         addCues(layout, show, audience, cues);

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// From the plane in which people avoid each other to an aisle, and back.
+// Needs the blocks ParametersBlock and Bodies, the uniform steps_done, and shaders/cells/cell_runs.glsl and
+// shaders/seats/ways.glsl.
+
+/// Whether somebody has come before its aisle. @param stays further off it does not count as gone
+bool isBefore(AgentState state, Mind mind, vec2 foot, bool stays) {
+    const float BEFORE = 1.0, STILL_BEFORE = 1.8;  // m
+    return state.stage - mind.first_stage <= 1u && distance(state.position, foot) < (stays ? STILL_BEFORE : BEFORE);
+}
+
+void stepIn(inout Sitter self, inout AgentState state, SeatWay way) {
+    self.mode = SITTER_ENTERS;
+    self.since = steps_done;
+    self.along = 0.0;
+    self.speed = min(length(state.velocity), 0.8);
+    self.off = state.position - placeOnWay(way, 0.0, true);
+    state.status = STATUS_SEATED;
+    state.leave_step = 0u;
+    state.nervousness = 0.0;
+}
+
+/// Whether a body has room in the plane; who has waited for long makes do with less, and others make room.
+bool hasRoom(vec2 place, float radius, Sitter self) {
+    const float SQUEEZES = 0.6;     // of what it would take
+    ivec2 cell = cellOf(place);
+    for (int y = cell.y - 1; y <= cell.y + 1; ++y) {
+        uvec2 run = slotRun(cell.x, y);
+        for (uint slot = run.x; slot < run.y; ++slot) {
+            float apart = radius + bodies[slot].radius;
+            if (distance(bodies[slot].position, place) < (self.speed > 0.0 ? apart : SQUEEZES * apart)) return false;
+        }
+    }
+    return true;
+}
+
+void stepOut(inout Sitter self, inout AgentState state, uint first_stage) {
+    self.mode = SITTER_WALKS;
+    self.seated = NO_INDEX;
+    state.status = STATUS_WALKING;
+    state.stage = first_stage;
+    state.stage_end = first_stage + 2u;
+    state.leave_step = 0u;
+    state.arrival_step = NO_INDEX;
+}
