@@ -72,11 +72,18 @@ struct EyeCatcher {
         {};  ///< m: nobody sees it but from a floor of this height; none: there are no floors
 };
 
+/// Steps between rows of seats that people walk to, for whoever shows them.
+struct BakeAisle {
+    std::vector<glm::dvec2> line;  ///< m, its middle: on the ground before the block, and before each row
+    double width = 1.2;            ///< m
+};
+
 /// A block of seats.
 struct BakeSeats {
     std::string id;
     double pitch = 0.8, width = 0.5, rise = 0.0;  ///< m
     std::vector<BakeSeatRow> rows;
+    std::vector<BakeAisle> aisles = {};  ///< empty: nobody walks to its seats or leaves them
 };
 
 /// What the layout was made from.
@@ -145,6 +152,7 @@ struct BakeDescription {
     std::vector<BakeAgent> agents;        ///< one per row
     std::vector<BakeSpectator> audience;  ///< of the last rows: they are not simulated
     std::vector<BakeSeats> seats;
+    bool has_poses = false;  ///< of those who are simulated, some sit, or do things with their hands
     std::vector<EyeCatcher> eye_catchers;  ///< in the frame of reference of the frames
     std::vector<authoring::Road> roads;
     std::vector<authoring::Area> areas;

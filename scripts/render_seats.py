@@ -49,7 +49,7 @@ def seat(scene, plain, repertoire, numbers):
     names = [clip.name for clip in sitting.CLIPS]
     for row, member in enumerate(numbers):
         for place, (name, pose) in enumerate(SHOWN):
-            number = repertoire.upright() + sitting.first_pose(names.index(name)) + pose
+            number = repertoire.upright() + sitting.poses_in(names.index(name)) + pose
             shown = bpy.data.objects.new(name, pose_mesh(library.figures_of(plain)[0, member], number))
             shown.location = (-ROWS * row, -APART * place, 0.0)
             shown["tint"] = [(member * share + 0.1) % 1.0 for share in (0.618, 0.414, 0.303)]

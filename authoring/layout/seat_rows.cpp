@@ -247,6 +247,11 @@ std::vector<glm::dvec2> aisleLine(const SeatBlock& block, std::size_t aisle) {
     return line;
 }
 
+double aisleWidth(const SeatBlock& block) {
+    constexpr double kBesideTheBlock = 0.9;
+    return block.aisles > 0 ? block.aisle_width : kBesideTheBlock;
+}
+
 std::vector<glm::dvec2> wayAlongRow(const SeatBlock& block, std::size_t aisle, const Seat& seat) {
     const double back = static_cast<double>(seat.row) * block.pitch - passingAhead(block);
     const RowLine line(block, back);

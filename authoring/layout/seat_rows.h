@@ -50,6 +50,8 @@ std::size_t aisleOf(const SeatBlock& block, const Seat& seat);
 std::vector<glm::dvec2> aisleLine(const SeatBlock& block, std::size_t aisle);
 /// The way along a row from an aisle to before a seat. @returns its points, the first in the aisle
 std::vector<glm::dvec2> wayAlongRow(const SeatBlock& block, std::size_t aisle, const Seat& seat);
+/// m
+double aisleWidth(const SeatBlock& block);
 /// Where people wait until they can go in, a square before an aisle.
 std::vector<glm::dvec2> footOf(const SeatBlock& block, std::size_t aisle);
 /// The aisles as outlines that keep others out.

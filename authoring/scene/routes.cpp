@@ -11,6 +11,7 @@
 #include <set>
 #include <thread>
 
+#include "authoring/layout/seat_rows.h"
 #include "authoring/scene/raster.h"
 
 namespace throng::authoring {

@@ -120,7 +120,7 @@ class SeatBuilder {
         way.stand = rebase_.local(seat.place + kStandsAhead * seat.ahead);
         way.height = static_cast<float>(seat.height);
         way.heading = static_cast<float>(std::atan2(seat.ahead.y, seat.ahead.x));
-        way.aside = static_cast<float>(std::min(0.3, 0.25 * block.aisle_width));
+        way.aside = static_cast<float>(std::min(0.3, 0.25 * aisleWidth(block)));
         way.row = owner.row;
         way.first_of_aisle = static_cast<std::uint32_t>(first);
         way.count_of_aisle = static_cast<std::uint32_t>(end - first);

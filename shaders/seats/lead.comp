@@ -23,6 +23,10 @@ uniform uint sitter_count;
 uniform uint steps_done;  // counted with this one
 uniform uint may_cross;   // 1: people decide in this step, and who steps into their plane is seen at once
 
+#ifdef BODIES
+layout(std430) writeonly buffer Chests { Chest chests[]; };
+#endif
+
 #include "shaders/shared/alive.glsl"
 #include "shaders/cells/cells.glsl"
 #include "shaders/cells/cell_runs.glsl"
@@ -91,4 +95,8 @@ void main() {
     sitters_next[index] = self;
     if (in_plane && self.mode <= SITTER_ASKS) return;  // moved by others
     states[way.row] = state;
+#ifdef BODIES
+    chests[way.row].angle = state.heading;
+    chests[way.row].rate = 0.0;
+#endif
 }

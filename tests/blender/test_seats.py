@@ -48,8 +48,8 @@ def test_a_childs_feet_dangle():
 
 
 def test_clips_begin_and_end_where_others_do():
-    first = {clip.name: sitting.first_pose(number) for number, clip in enumerate(sitting.CLIPS)}
-    last = {clip.name: sitting.first_pose(number) + clip.poses - 1 for number, clip in enumerate(sitting.CLIPS)}
+    first = {clip.name: sitting.poses_in(number) for number, clip in enumerate(sitting.CLIPS)}
+    last = {clip.name: sitting.poses_in(number) + clip.poses - 1 for number, clip in enumerate(sitting.CLIPS)}
     poses = sitting.poses_of(BUILD)
     apart = lambda one, other: max(abs(a - b) for a, b in zip(flat(poses[one]), flat(poses[other])))
     assert apart(first["sit"], first["ready"]) < 0.01 and apart(first["sit"], first["rise"]) < 0.01
@@ -61,7 +61,7 @@ def test_clips_begin_and_end_where_others_do():
 def test_nobody_jumps_within_a_clip():
     poses = sitting.poses_of(BUILD)
     for number, clip in enumerate(sitting.CLIPS):
-        own = [flat(each) for each in poses[sitting.first_pose(number):][:clip.poses]]
+        own = [flat(each) for each in poses[sitting.poses_in(number):][:clip.poses]]
         steps = [max(abs(a - b) for a, b in zip(one, other)) for one, other in zip(own, own[1:])]
         assert max(steps) < 0.55, clip.name
 
@@ -121,7 +121,7 @@ def expected(state, row, level):
     else:
         near = {min(math.floor(phase * count + hair), count - 1) for hair in (-1e-3, 0.0, 1e-3)}
     repertoire = cast.Repertoire((1.0,), 1, True)
-    first = repertoire.upright(level) + sitting.first_pose(clip) // share
+    first = repertoire.upright(level) + sitting.poses_in(clip) // share
     return {pose_name(int(state[row, 1]), first + each, level) for each in near}
 
 
