@@ -72,17 +72,12 @@ void PoseTrack::set(Code activity, double phase) {
 /// There and back: up in the first half of a cycle, down in the second.
 void PoseTrack::settle(double share) {
     const bool begins = activity() != Code::settles;
-    const double base = begins ? wholeFrom(phase_) : std::floor(phase_ + kHair);
     if (begins) goes_down_ = share >= 1.0 ? 1 : 0;
-    else if (share < share_) goes_down_ = 1;
-    const bool turns_up = !begins && share > share_ && goes_down_ != 0;
-    if (share > share_ && !begins) goes_down_ = 0;
+    if (!begins && share != share_) goes_down_ = share < share_ ? 1 : 0;
     share_ = share;
-    // At the very end of the way down the cycle is over, and at its beginning, too.
+    // The next moment at which it is so far up, or down.
     const double into = goes_down_ ? 1.0 - kHalf * share : kHalf * share;
-    double phase = base + into;
-    if (turns_up) phase += 1.0;
-    set(Code::settles, std::max(phase, begins ? phase : phase_));
+    set(Code::settles, std::max(phase_, std::ceil(phase_ - into - kHair) + into));
 }
 
 void PoseTrack::step(const PoseWish& wish, double phase) {

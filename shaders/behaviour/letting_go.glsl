@@ -6,6 +6,9 @@ const float LETTING_GO = 0.9;  // s; what recordings show in it: recording/pose_
 
 bool hasHandsUp(uint activity) { return activity >= ACTIVITY_CLAP && activity <= ACTIVITY_WAVE; }
 
+/// Where it stands, so that there is nothing to let down.
+bool goesOnWithHands(BehaviourState next) { return next.does == DOES_STAY && hasHandsUp(next.activity); }
+
 /// @param stands whether it does what its state says; on the way there it has nothing to end
 bool isLettingGo(inout Mind mind, BehaviourState doing, bool stands) {
     if (!stands || !hasHandsUp(doing.activity)) return false;

@@ -49,7 +49,8 @@ void main() {
     else if (next == NO_INDEX)
         next = nextState(doing, who, has_been_there);
     if (next == NO_INDEX) return;
-    if (mind.entered > 0u && isLettingGo(mind, doing, arrived)) {
+    bool goes_on = goesOnWithHands(behaviour_states[next]);
+    if (mind.entered > 0u && !goes_on && isLettingGo(mind, doing, arrived)) {
         mind.next = next;
         minds[row] = mind;
         return;

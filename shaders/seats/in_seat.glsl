@@ -40,6 +40,7 @@ void beginToLeave(inout Sitter self, SeatWay way) {
     self.along = way.length;
     self.speed = 0.0;
     self.off = way.stand - placeOnWay(way, way.length, false);
+    self.side = 0u;
     self.seated = NO_INDEX;
     setMode(self, SITTER_LEAVES);
 }

@@ -48,11 +48,12 @@ void begin(inout Sitter self, uint mode) {
 float secondsIn(Sitter self) { return float(steps_done - self.since) * parameters.step_seconds; }
 
 void walkOnWay(inout Sitter self, inout AgentState state, SeatWay way, Others seen, float preferred) {
-    bool inwards = self.mode == SITTER_ENTERS;
+    bool inwards = self.mode == SITTER_ENTERS || self.side != 0u;  // which side it keeps to
     vec2 before = state.position;
     walk(self, way, seen, preferred);
     state.position = placeOnWay(way, self.along, inwards) + self.off;
     takeSteps(state, before);
+    inwards = self.mode == SITTER_ENTERS;
     if (inwards && way.length - self.along < THERE) begin(self, SITTER_TURNS);
     if (!inwards && self.along < THERE && may_cross != 0u && hasRoom(state.position, people[way.row].radius, self))
         stepOut(self, state, minds[way.row].first_stage);
@@ -66,7 +67,8 @@ void goToSeat(uint index, inout Sitter self, inout AgentState state, SeatWay way
     if (self.mode != SITTER_ASKS || may_cross == 0u) return;
     if (!comes)
         self.mode = SITTER_WALKS;
-    else if (self.since != steps_done && !seen.comes_first && seen.gap > AISLE_GAP &&
+    else if (self.since != steps_done && !seen.comes_first && !seen.against &&
+             seen.gap > AISLE_GAP &&
              !(seen.comes_out && way.mouth < BEFORE_ROW + 0.1))
         stepIn(self, state, way);
 }

@@ -19,7 +19,12 @@ struct Others {
     bool line_taken;   // somebody walks before one's seat
     bool aisle_taken;  // somebody is where one steps into the aisle
     bool comes_first;  // somebody has asked to go in before
+    bool comes_in;     // somebody is on the way in, or has asked to go in
+    bool against;      // somebody comes out where those walk who go in
 };
+
+/// Rows on the side of the aisle on which people come in.
+bool isWayIn(SeatWay way) { return way.lane % 2u == 0u; }
 
 bool isEarlier(Sitter other, uint number, Sitter self, uint index) {
     return other.since < self.since || (other.since == self.since && number < index);
@@ -47,6 +52,7 @@ void seeAhead(inout Others seen, Sitter self, SeatWay way, uint index, Sitter ot
     if (other.mode != (inwards ? SITTER_ENTERS : SITTER_LEAVES)) return;
     bool same_row = theirs.lane == way.lane;
     bool own_row = self.along > way.mouth;
+    if (!inwards && !same_row && other.side != self.side) return;
     if (!same_row && (own_row || other.along > theirs.mouth + (inwards ? STILL_IN_AISLE : 0.0))) return;
     float place = same_row ? other.along : min(other.along, theirs.mouth);
     float ahead = inwards ? place - self.along : self.along - place;
@@ -72,7 +78,15 @@ void seeRow(inout Others seen, Sitter self, SeatWay way, Sitter other, SeatWay t
 void seeAisle(inout Others seen, Sitter self, SeatWay way, uint index, Sitter other, SeatWay theirs, uint number) {
     const float BELOW = 0.55, ABOVE = 0.8;  // m
     const float AT_MOUTH = 0.5;             // m into a row
+    const float DUE = 0.4;                  // of its patience left
+    if (other.mode == SITTER_ENTERS || other.mode == SITTER_ASKS) seen.comes_in = true;
     if (other.mode != SITTER_LEAVES || theirs.lane == way.lane) return;
+    if (other.side != 0u && other.along <= theirs.mouth) seen.against = true;
+    if (other.side != self.side) return;
+    // Who has waited for long is let in.
+    bool is_due = other.along > theirs.mouth && other.along < theirs.mouth + AT_MOUTH && other.share < DUE;
+    if (is_due && self.along <= way.mouth && self.along > theirs.mouth + ABOVE)
+        seen.halt = max(seen.halt, theirs.mouth + ABOVE);
     float beyond = other.along - way.mouth;
     bool in_aisle = other.along <= theirs.mouth;
     bool waits = !in_aisle && other.along < theirs.mouth + AT_MOUTH && abs(theirs.mouth - way.mouth) < BELOW;
@@ -82,7 +96,7 @@ void seeAisle(inout Others seen, Sitter self, SeatWay way, uint index, Sitter ot
 
 Others lookAround(uint index, Sitter self, SeatWay way) {
     Others seen = Others(FAR_ENOUGH, self.mode == SITTER_LEAVES ? -FAR_ENOUGH : FAR_ENOUGH, false, false, false, false,
-                         false, false);
+                         false, false, false, false);
     for (uint number = way.first_of_aisle; number < way.first_of_aisle + way.count_of_aisle; ++number) {
         if (number == index) continue;
         Sitter other = sitters[number];

@@ -4,10 +4,11 @@
 
 const float IN_AISLE = 0.8;      // m/s at most
 const float IN_ROW = 0.6;        // m/s at most
-const float AISLE_GAP = 0.65;    // m from one to the next
-const float ROW_GAP = 0.5;
-const float AFTER = 0.7;         // s behind the next
+const float AISLE_GAP = 0.55;    // m from one to the next
+const float ROW_GAP = 0.45;
+const float AFTER = 0.5;         // s behind the next
 const float GAINS = 1.5;         // m/s^2
+const float PATIENCE = 4.0;      // s
 const float THERE = 0.02;        // m
 const float BEFORE_AISLE = 0.4;  // m into the row, where one waits to step into the aisle
 const float COMES_TO_WAY = 0.5;  // m walked, until one is on it
@@ -30,6 +31,11 @@ void walk(inout Sitter self, SeatWay way, Others seen, float preferred) {
     float most = min(preferred, self.along > way.mouth ? IN_ROW : IN_AISLE);
     self.speed = min(min(most, self.speed + GAINS * dt), max(room / AFTER, min(room / dt, 0.1)));
     float step = min(self.speed * dt, room);
+    if (self.mode == SITTER_LEAVES) {
+        self.share = step > 0.0 ? 1.0 : max(0.0, self.share - dt / PATIENCE);
+        // Out on the side of its row, while nobody comes in there.
+        if (self.along > way.mouth) self.side = isWayIn(way) && !seen.comes_in ? 1u : 0u;
+    }
     self.along += self.mode == SITTER_ENTERS ? step : -step;
     float away = length(self.off);
     if (away > 0.0) self.off *= max(0.0, 1.0 - step / (COMES_TO_WAY * max(away, 0.3)));

@@ -1,32 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 // The way to a seat: places along it. Needs the block SeatPoints.
 
-/// The number of the point before a place on the way.
-uint pointBefore(SeatWay way, float along) {
-    uint last = way.first_point + way.point_count - 2u;
-    uint point = way.first_point;
-    while (point < last && seat_points[point + 1u].along <= along) ++point;
-    return point;
-}
+/// The two points around a place on the way, and how far from the one to the other it is.
+struct PieceOfWay {
+    SeatPoint before, after;
+    float share;
+};
 
-float shareOfPiece(uint point, float along) {
-    float size = seat_points[point + 1u].along - seat_points[point].along;
-    return clamp((along - seat_points[point].along) / max(size, 1.0e-6), 0.0, 1.0);
+PieceOfWay pieceAt(SeatWay way, float along) {
+    SeatPoint before = seat_points[way.first_point];
+    SeatPoint after = seat_points[way.first_point + 1u];
+    for (uint point = way.first_point + 2u; point < way.first_point + way.point_count; ++point) {
+        if (after.along > along) break;
+        before = after;
+        after = seat_points[point];
+    }
+    float share = (along - before.along) / max(after.along - before.along, 1.0e-6);
+    return PieceOfWay(before, after, clamp(share, 0.0, 1.0));
 }
 
 float heightOnWay(SeatWay way, float along) {
-    uint point = pointBefore(way, along);
-    return mix(seat_points[point].height, seat_points[point + 1u].height, shareOfPiece(point, along));
+    PieceOfWay piece = pieceAt(way, along);
+    return mix(piece.before.height, piece.after.height, piece.share);
 }
 
 /// @param inwards whether one goes in, or out: both keep to their right in the aisle
 vec2 placeOnWay(SeatWay way, float along, bool inwards) {
     const float LEAVES_SIDE = 0.6;  // m before the row
-    uint point = pointBefore(way, along);
-    vec2 a = seat_points[point].place, b = seat_points[point + 1u].place;
-    vec2 ahead = (b - a) / max(length(b - a), 1.0e-6);
+    PieceOfWay piece = pieceAt(way, along);
+    vec2 ahead = piece.after.place - piece.before.place;
+    ahead /= max(length(ahead), 1.0e-6);
     float aside = way.aside * clamp((way.mouth - along) / LEAVES_SIDE, 0.0, 1.0);
-    return mix(a, b, shareOfPiece(point, along)) + (inwards ? aside : -aside) * vec2(ahead.y, -ahead.x);
+    return mix(piece.before.place, piece.after.place, piece.share) +
+           (inwards ? aside : -aside) * vec2(ahead.y, -ahead.x);
 }
 
 bool risesOrSettles(uint mode) {

@@ -53,7 +53,7 @@ struct Sitter {
     uint since;     // how many steps were done when that began
     uint activity;  // ACTIVITY_* of who sits
     uint seated;    // how many steps were done when it sat down; NO_INDEX: it does not sit
-    uint reserved;
+    uint side;      // of the aisle, on the way out: 0 its right, 1 its left, where those walk who come in
 };
 
 THRONG_SHARED_END
