@@ -197,6 +197,8 @@ void goOn(Seeker seeker, inout Mind mind, BehaviourState doing, AgentState state
     } else if (doing.does == DOES_WANDER && (has_been_there || choosesAnew(seeker, mind, state.nervousness))) {
         mind.picks += 1u;
         setOff(seeker, mind, doing, stageWandering(doing, seeker, mind, nextSpot(seeker, mind)));
+    } else if (doing.does == DOES_SIT && looksRoundAgain(seeker)) {
+        keepUp(seeker, mind, behaviour_places[mind.place].middle);
     } else if (doing.does == DOES_FLEE) {
         keepUp(seeker, mind, awayFromDanger(seeker, doing));
     } else if (doing.does == DOES_FOLLOW) {

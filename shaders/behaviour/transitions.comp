@@ -43,10 +43,10 @@ void main() {
     if (behaviour_states[mind.state].does == DOES_SIT) arrived = false;  // it is before the aisle
     Asking who = Asking(row, walkers[slot].party_first, bodies[slot].position, mind, arrived);
     BehaviourState doing = behaviour_states[mind.state];
-    uint next = mind.next;
-    if (mind.entered == 0u)
-        next = mind.state;
-    else if (next == NO_INDEX)
+    uint next = mind.state;
+    if (mind.let_go != 0u && mind.next != NO_INDEX)
+        next = mind.next;
+    else if (mind.entered > 0u)
         next = nextState(doing, who, has_been_there);
     if (next == NO_INDEX) return;
     bool goes_on = goesOnWithHands(behaviour_states[next]);

@@ -6,6 +6,8 @@ const float IN_AISLE = 0.8;      // m/s at most
 const float IN_ROW = 0.6;        // m/s at most
 const float AISLE_GAP = 0.55;    // m from one to the next
 const float ROW_GAP = 0.45;
+const float CORNER = 0.7;        // m around the mouth of a row: ways are shorter round it than along the lines
+const float CORNER_GAP = 0.75;
 const float AFTER = 0.5;         // s behind the next
 const float GAINS = 1.5;         // m/s^2
 const float PATIENCE = 4.0;      // s
@@ -17,7 +19,9 @@ const float COMES_TO_WAY = 0.5;  // m walked, until one is on it
 float roomAhead(Sitter self, SeatWay way, Others seen) {
     bool inwards = self.mode == SITTER_ENTERS;
     float room = inwards ? min(way.length, seen.halt) - self.along : self.along - max(seen.halt, 0.0);
-    room = min(room, seen.gap - (self.along > way.mouth ? ROW_GAP : AISLE_GAP));
+    float gap = self.along > way.mouth ? ROW_GAP : AISLE_GAP;
+    if (abs(self.along - way.mouth) < CORNER) gap = CORNER_GAP;
+    room = min(room, seen.gap - gap);
     float line = way.mouth - BEFORE_ROW;
     if (inwards && seen.comes_out && self.along < line + THERE) room = min(room, line - self.along);
     float waits = way.mouth + BEFORE_AISLE;

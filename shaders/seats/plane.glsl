@@ -22,7 +22,7 @@ void stepIn(inout Sitter self, inout AgentState state, SeatWay way) {
 
 /// Whether a body has room in the plane; who has waited for long makes do with less, and others make room.
 bool hasRoom(vec2 place, float radius, Sitter self) {
-    const float LEAST = 0.7;  // of what it would take
+    const float LEAST = 0.85;  // of what it would take
     ivec2 cell = cellOf(place);
     float share = mix(LEAST, 1.0, self.share);
     for (int y = cell.y - 1; y <= cell.y + 1; ++y) {

@@ -24,15 +24,21 @@ float heightOnWay(SeatWay way, float along) {
     return mix(piece.before.height, piece.after.height, piece.share);
 }
 
-/// @param inwards whether one goes in, or out: both keep to their right in the aisle
-vec2 placeOnWay(SeatWay way, float along, bool inwards) {
-    const float LEAVES_SIDE = 0.6;  // m before the row
-    PieceOfWay piece = pieceAt(way, along);
+/// To the right of who goes up the aisle, at a place on the way; of who is in the row, at its mouth.
+vec2 besideOnWay(SeatWay way, float along) {
+    const float HAIR = 0.01;  // m
+    PieceOfWay piece = pieceAt(way, min(along, way.mouth - HAIR));
     vec2 ahead = piece.after.place - piece.before.place;
-    ahead /= max(length(ahead), 1.0e-6);
-    float aside = way.aside * clamp((way.mouth - along) / LEAVES_SIDE, 0.0, 1.0);
+    return vec2(ahead.y, -ahead.x) / max(length(ahead), 1.0e-6);
+}
+
+/// @param inwards whether one keeps to the side on which people go in, or to the other
+vec2 placeOnWay(SeatWay way, float along, bool inwards) {
+    const float COMES_TO_SIDE = 0.6;  // m of the row
+    PieceOfWay piece = pieceAt(way, along);
+    float aside = way.aside * clamp(1.0 - (along - way.mouth) / COMES_TO_SIDE, 0.0, 1.0);
     return mix(piece.before.place, piece.after.place, piece.share) +
-           (inwards ? aside : -aside) * vec2(ahead.y, -ahead.x);
+           (inwards ? aside : -aside) * besideOnWay(way, along);
 }
 
 bool risesOrSettles(uint mode) {
