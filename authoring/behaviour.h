@@ -69,7 +69,7 @@ struct BehaviourState {
     glm::dvec2 from{0.0};  ///< flee
     double distance = 0.0;
     GroupName followed;
-    std::vector<GroupName> blocks;  ///< sit: of seats; in any of them
+    std::vector<GroupName> blocks;        ///< sit: of seats; in any of them
     std::optional<std::uint64_t> person;  ///< follow: of the formation or flow, from 0
     double pace = 1.0;
     bool for_good = false;

@@ -10,6 +10,7 @@
 #include "authoring/layout.h"
 #include "authoring/scene_traffic.h"
 #include "authoring/terrain/terrain.h"
+#include "base/activities.h"
 #include "shaders/shared/behaviour_types.h"
 #include "shaders/shared/chart_types.h"
 #include "shaders/shared/lift_types.h"
@@ -138,6 +139,8 @@ struct SeatWays {
     std::vector<gpu::SeatPoint> points;
     std::vector<gpu::Sitter> sitters;          ///< as many as ways
     std::vector<std::uint32_t> sitter_of_row;  ///< gpu::NO_INDEX: it has no seat
+    /// What each of them is to do in shows while it sits.
+    std::vector<std::vector<SeatCue>> cues;
 
     bool empty() const { return ways.empty(); }
 };

@@ -37,6 +37,14 @@ inline bool hasPose(float state) {
     return std::floor(state) >= static_cast<float>(ActivityCode::sits);
 }
 
+/// One appearance of somebody in a show, where it has come to its seat, or may have left it.
+struct SeatCue {
+    double at = 0.0;                              ///< s
+    double lasts = 0.0;                           ///< s
+    double beat = 0.0;                            ///< s: sings: a moment at which a cycle begins
+    ActivityCode activity = ActivityCode::claps;  ///< rises: once up and down, as a wave passes
+};
+
 /// Something that somebody does for a while. The phase goes evenly from the one to the other.
 struct Deed {
     double begin = 0.0;  ///< s; it ends when the next begins

@@ -72,6 +72,9 @@ MotionRecorder::MotionRecorder(const BakeDescription& description, Sink sink)
         for (std::size_t row = 0; row < walkers_.size(); ++row)
             paces_.push_back(fractionOf(scramble(description.seed ^ scramble(row ^ wordOf("poses")))));
     }
+    if (!description.sitters.empty()) cues_.resize(walkers_.size());
+    for (const BakeSitter& sitter : description.sitters)
+        cues_[sitter.row] = sitter.cues;
     if (description.terrain) {
         ground_ = description.terrain->surface;
         footing_.emplace(ground_, walkers_.size(), fps_);
@@ -212,7 +215,7 @@ void MotionRecorder::average(const KeptFrame& frame) {
         const glm::dvec2 shown(average.position[0], average.position[1]);
         if (!led)
             bodies_.push_back({simulated, given_[row] ? simulated : shown, radii_[row], axisOf(frame, row),
-                           heightOf(row), given_[row]});
+                               heightOf(row), given_[row]});
         if (shifts_.empty()) positions_[at + 2] = static_cast<float>(average.position[2]);
         if (led) {
             positions_[at] = static_cast<float>(shown.x);
@@ -314,12 +317,30 @@ void MotionRecorder::pose(std::size_t row) {
     Walker& walker = walkers_[row];
     PoseWish wish{static_cast<ActivityCode>(static_cast<int>(states_[at])), double{states_[at + 2]},
                   double{directions_[at + 2]}, paces_[row], 1.0 / fps_};
+    if (!cues_.empty()) takeCue(row, window_.middle().index / fps_, wish);
     const bool was_shown = track.isShown();
     track.step(wish, walker.gait.phase);
     if (was_shown && !track.isShown()) walker.gait.phase = std::max(walker.gait.phase, track.phase());
     if (!track.isShown()) return;
     states_[at] = static_cast<float>(track.activity());
     states_[at + 2] = static_cast<float>(track.phase());
+}
+
+/// Who sits takes part in shows, unless it is about to stand up.
+void MotionRecorder::takeCue(std::size_t row, double time, PoseWish& wish) const {
+    if (wish.activity != ActivityCode::sits || wish.share < 0.0) return;
+    for (const SeatCue& cue : cues_[row]) {
+        if (time < cue.at || time >= cue.at + cue.lasts) continue;
+        const bool is_wave = cue.activity == ActivityCode::rises;
+        const bool begins = time - cue.at < 2.0 / fps_;
+        if (is_wave && !begins && poses_[row].activity() != ActivityCode::rises) continue;
+        wish.activity = cue.activity;
+        wish.lasts = cue.lasts;
+        const double into = (time - cue.beat) / kSwaySeconds;
+        wish.waits =
+            cue.activity == ActivityCode::sings && (into - std::floor(into)) * kSwaySeconds > 1.0 / fps_;
+        return;
+    }
 }
 
 void MotionRecorder::putStance(std::size_t at, const Stance& stance) {

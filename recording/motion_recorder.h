@@ -58,6 +58,7 @@ class MotionRecorder {
     void takeOutOfPlane();
     double phaseAtFirst(std::size_t row) const;
     void pose(std::size_t row);
+    void takeCue(std::size_t row, double time, PoseWish& wish) const;
     void record(const KeptFrame& frame);
     void putStance(std::size_t at, const Stance& stance);
     glm::dvec2 axisOf(const KeptFrame& frame, std::size_t row) const;
@@ -100,9 +101,10 @@ class MotionRecorder {
     std::vector<std::uint32_t> parties_;  ///< by row
     std::vector<bool> given_;             ///< by row: its places are given, and shown as they are
     // Where people sit, or do things with their hands; otherwise empty.
-    std::vector<PoseTrack> poses_;  ///< by row
-    std::vector<double> paces_;     ///< by row, 0 to 1
-    std::vector<bool> led_;         ///< by row, in the frame being given out: out of others' way
+    std::vector<PoseTrack> poses_;            ///< by row
+    std::vector<double> paces_;               ///< by row, 0 to 1
+    std::vector<std::vector<SeatCue>> cues_;  ///< by row; empty: there are no shows
+    std::vector<bool> led_;                   ///< by row, in the frame being given out: out of others' way
 };
 
 }  // namespace throng::recording

@@ -14,7 +14,7 @@ constexpr double kHalf = 0.5;
 constexpr double kStandsBelow = 0.12;  // m/s: who is slower raises its hands
 constexpr double kWalksFrom = 0.35;    // m/s: who is faster has let them down
 constexpr double kEndsWithin = 0.4;    // s: a cycle, before something else (with the way down, what
-                                       // shaders/behaviour/letting_go.glsl and shaders/seats/in_seat.glsl give)
+                                     // shaders/behaviour/letting_go.glsl and shaders/seats/in_seat.glsl give)
 
 bool isSeated(Code code) {
     return code >= Code::sits && code <= Code::settles;
@@ -54,7 +54,7 @@ double rateOf(Code code, double pace) {
         case Code::waves:
             return among(0.55, 0.75);
         default:
-            return 1.0 / 2.4;
+            return 1.0 / kSwaySeconds;
     }
 }
 
@@ -103,7 +103,9 @@ void PoseTrack::step(const PoseWish& wish, double phase) {
 }
 
 void PoseTrack::goOn(Code wanted, const PoseWish& how) {
-    if (!isShown()) {
+    if (wanted == Code::rises) {
+        riseOnce(how);
+    } else if (!isShown()) {
         set(Code::raises, wholeFrom(phase_));
     } else if (isWay(activity())) {
         swing(wanted, how);
@@ -112,6 +114,14 @@ void PoseTrack::goOn(Code wanted, const PoseWish& how) {
     } else {
         phase_ += rateOf(wanted, how.pace) * how.seconds;
     }
+}
+
+/// Up and down again, as a wave passes.
+void PoseTrack::riseOnce(const PoseWish& how) {
+    if (activity() == Code::sits) set(Code::rises, wholeFrom(phase_));
+    const double end = std::floor(phase_ + kHair) + 1.0;
+    phase_ += how.seconds / how.lasts;
+    if (phase_ >= end - kHair) set(Code::sits, end);
 }
 
 /// Comes to the end of a cycle, soon; who sways is upright in its middle, too.
@@ -139,6 +149,7 @@ void PoseTrack::swing(Code wanted, const PoseWish& how) {
     const Times times = timesOf(way);
     const double whole = std::floor(phase_ + kHair);
     phase_ += kHalf * how.seconds / (on ? times.up : times.down);
+    if (on && how.waits) phase_ = std::min(phase_, whole + kHalf - 2.0 * kHair);
     if (on && phase_ >= whole + kHalf - kHair) {
         set(wanted, whole + 1.0);
     } else if (!on && phase_ >= whole + 1.0 - kHair) {

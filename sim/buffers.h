@@ -33,7 +33,7 @@ struct Buffers {
     gl::Buffer lines, line_points, tickets;  // people who wait in line
     gl::Buffer behaviour_states, behaviour_rules, behaviour_places, behaviour_points;  // what people do
     gl::Buffer censuses, tallies, minds;
-    gl::Buffer seat_ways, seat_points, sitters, sitter_of_row;  // seats that people walk to
+    gl::Buffer seat_ways, seat_points, sitters, sitter_of_row;         // seats that people walk to
     gl::Buffer detour_slopes;                                          // what jams add to them
     gl::Buffer queues, queue_heads, entries, entry_points, proposals;  // entering
     gl::Buffer wall_segments, wall_tiles, wall_starts, wall_items, narrow_cells;

@@ -4,12 +4,11 @@
 namespace throng::sim {
 namespace {
 
-const gl::Declaration kLead = {
-    "seats",
-    {"shaders/seats/lead.comp"},
-    {"ParametersBlock", "People", "States", "Bodies", "StripStarts", "CellOffsets", "BehaviourStates", "Minds",
-     "SeatWays", "SeatPoints", "Sitters"},
-    {"States", "Chests", "SittersNext"}};
+const gl::Declaration kLead = {"seats",
+                               {"shaders/seats/lead.comp"},
+                               {"ParametersBlock", "People", "States", "Bodies", "StripStarts", "CellOffsets",
+                                "BehaviourStates", "Minds", "SeatWays", "SeatPoints", "Sitters"},
+                               {"States", "Chests", "SittersNext"}};
 const gl::Declaration kMinds = {
     "behaviour",
     {"shaders/seats/minds.comp"},

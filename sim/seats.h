@@ -17,8 +17,8 @@ class Seats {
   public:
     Seats(const gl::ShaderLibrary& library, Buffers& buffers, const authoring::Scene& scene,
           const MotionSettings& rules);
-    /// Before people are sorted into cells. @param decides whether they are in this step, so that who comes in
-    /// or goes out is seen at once; @param steps_done counted with this step
+    /// Before people are sorted into cells. @param decides whether they are in this step, so that who comes
+    /// in or goes out is seen at once; @param steps_done counted with this step
     void lead(bool decides, std::uint32_t steps_done);
     /// Who does what next of those between the rows. @param now s, simulation time at the start of the step
     void think(float now, std::uint32_t steps_done);

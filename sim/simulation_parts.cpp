@@ -185,11 +185,10 @@ std::vector<Pass> Simulation::Parts::passesOfStep() {
                              {"contacts", touch},
                              {"motion", move}};
     if (behaviour)
-        all.insert(all.begin() + 1,
-                   {"behaviour", when_deciding([this] {
-                        if (seats) seats->think(step_start, steps_done);
-                        behaviour->run(step_start, steps_done);
-                    })});
+        all.insert(all.begin() + 1, {"behaviour", when_deciding([this] {
+                                         if (seats) seats->think(step_start, steps_done);
+                                         behaviour->run(step_start, steps_done);
+                                     })});
     if (lifts) all.insert(all.begin() + 1, {"lifts", when_deciding(serve)});
     if (boarding)
         all.insert(all.begin() + 1,

@@ -19,11 +19,10 @@ struct Verb {
     const char* key;
     Does does;
 };
-constexpr std::array kVerbs = {Verb{"walk_to", Does::walk},  Verb{"stay", Does::stay},
-                               Verb{"wander", Does::wander}, Verb{"visit", Does::visit},
-                               Verb{"gather", Does::gather}, Verb{"flee", Does::flee},
-                               Verb{"follow", Does::follow}, Verb{"queue", Does::queue},
-                               Verb{"sit", Does::sit}};
+constexpr std::array kVerbs = {
+    Verb{"walk_to", Does::walk},  Verb{"stay", Does::stay},     Verb{"wander", Does::wander},
+    Verb{"visit", Does::visit},   Verb{"gather", Does::gather}, Verb{"flee", Does::flee},
+    Verb{"follow", Does::follow}, Verb{"queue", Does::queue},   Verb{"sit", Does::sit}};
 
 /// Which keys belong to which activities.
 struct KeyOf {
@@ -205,7 +204,8 @@ void BehaviourReader::readSeats(const JsonNode& what, std::vector<GroupName>& bl
         if (item.kind == JsonNode::Kind::text)
             blocks.push_back({item.text, item.where});
         else
-            diagnostics_.error(item.where, fmt::format("expected a block of seats, found {}", item.kindName()),
+            diagnostics_.error(item.where,
+                               fmt::format("expected a block of seats, found {}", item.kindName()),
                                R"(for example "south", or ["south", "west"])");
     if (what.kind == JsonNode::Kind::array && what.items.empty())
         diagnostics_.error(what.where, "in which block of seats?", R"(for example ["south", "west"])");
@@ -471,16 +471,15 @@ void BehaviourReader::checkKeys(const JsonNode& node, const State& state) {
                            fmt::format("`{}` says nothing beside `{}`", each.key, keyOf(state.does)),
                            fmt::format("it belongs to {}", fmt::join(verbs, ", ")));
     }
-    const bool never_done = state.does == Does::wander || state.does == Does::follow ||
-                            (isStay(state.does) && !state.lasts);
+    const bool never_done =
+        state.does == Does::wander || state.does == Does::follow || (isStay(state.does) && !state.lasts);
     if (state.then && never_done)
         diagnostics_.error(node.find("then")->where,
                            fmt::format("`{}` is never done: `then` would never come", keyOf(state.does)),
-                           isStay(state.does)
-                               ? R"(say how long under "for", or what ends it under "until")"
-                               : R"(say what ends it under "until")");
-    const bool needs_then = state.does == Does::visit || state.does == Does::queue ||
-                            (state.lasts && isStay(state.does));
+                           isStay(state.does) ? R"(say how long under "for", or what ends it under "until")"
+                                              : R"(say what ends it under "until")");
+    const bool needs_then =
+        state.does == Does::visit || state.does == Does::queue || (state.lasts && isStay(state.does));
     if (!node.find("then") && needs_then)
         diagnostics_.error(node.where, fmt::format("what comes after the state `{}`?", state.id),
                            R"(write "then": the name of a state)");
@@ -544,8 +543,8 @@ void BehaviourReader::checkSeatsOf(const Behaviour& behaviour, Diagnostics& diag
         if (!first) first = &state;
         if (!std::ranges::equal(state.blocks, first->blocks, {}, &GroupName::id, &GroupName::id))
             diagnostics.error(state.where,
-                              fmt::format("the states `{}` and `{}` of behaviour `{}` have other seats", first->id,
-                                          state.id, behaviour.id),
+                              fmt::format("the states `{}` and `{}` of behaviour `{}` have other seats",
+                                          first->id, state.id, behaviour.id),
                               "everybody has one seat: name the same blocks in both");
     }
 }

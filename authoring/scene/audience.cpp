@@ -228,6 +228,32 @@ std::vector<Spectator> audienceIn(const Layout& layout, std::size_t block) {
     return audience;
 }
 
+std::vector<std::vector<SeatCue>> cuesIn(const Layout& layout, const std::vector<Spectator>& seated) {
+    const auto activityOf = [](Show::Kind kind) {
+        switch (kind) {
+            case Show::Kind::clap:
+                return ActivityCode::claps;
+            case Show::Kind::cheer:
+                return ActivityCode::cheers;
+            case Show::Kind::sing:
+                return ActivityCode::sings;
+            case Show::Kind::wave:
+                break;
+        }
+        return ActivityCode::rises;
+    };
+    std::vector<std::vector<Cue>> cues(seated.size());
+    for (std::size_t show = 0; show < layout.shows.size(); ++show)
+        addCues(layout, show, seated, cues);
+    std::vector<std::vector<SeatCue>> result(seated.size());
+    for (std::size_t i = 0; i < seated.size(); ++i) {
+        std::ranges::stable_sort(cues[i], {}, &Cue::at);
+        for (const Cue& cue : cues[i])
+            result[i].push_back({cue.at, cue.lasts, cue.beat, activityOf(cue.kind)});
+    }
+    return result;
+}
+
 std::vector<Spectator> audienceOf(const Layout& layout) {
     std::vector<Spectator> audience;
     for (std::size_t block = 0; block < layout.seats.size(); ++block)

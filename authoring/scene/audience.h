@@ -27,6 +27,9 @@ std::vector<Spectator> audienceOf(const Layout& layout);
 /// Who sits in one block from the beginning; parties are as above.
 std::vector<Spectator> audienceIn(const Layout& layout, std::size_t block);
 
+/// What everybody is to do in shows who has one of these seats, in the order of time.
+std::vector<std::vector<SeatCue>> cuesIn(const Layout& layout, const std::vector<Spectator>& seated);
+
 /// How long one stands up, and how long one sits down, s.
 inline constexpr double kRisesFor = 0.6, kSitsDownFor = 0.8;
 

@@ -37,7 +37,8 @@ Routes::Routes(const Layout& layout, const Rebase& rebase, Ground& ground)
 
 LocalPolygon Routes::outline(const Place& place, float depth) const {
     if (place.kind == Place::Kind::area) return rebase_.local(layout_.areas[place.index].polygon);
-    if (place.kind == Place::Kind::aisle) return rebase_.local(footOf(layout_.seats[place.index], place.number));
+    if (place.kind == Place::Kind::aisle)
+        return rebase_.local(footOf(layout_.seats[place.index], place.number));
     const Road& road = layout_.roads[place.index];
     const std::vector<glm::vec2> line = rebase_.local(road.centreline);
     const bool start = place.kind == Place::Kind::road_start;

@@ -62,8 +62,8 @@ std::vector<SeatPlan::Run> SeatPlan::runsOf(const std::vector<std::size_t>& bloc
     return runs;
 }
 
-std::vector<SeatNumber> SeatPlan::seat(const std::vector<Party>& drawn, const std::vector<std::size_t>& blocks,
-                                       const GroupRandom& random) {
+std::vector<SeatNumber> SeatPlan::seat(const std::vector<Party>& drawn,
+                                       const std::vector<std::size_t>& blocks, const GroupRandom& random) {
     std::vector<Run> runs = runsOf(blocks);
     std::vector<Party> parties = drawn;
     std::size_t people = 0;

@@ -28,8 +28,7 @@ struct Owner {
 
 const BehaviourState* sittingState(const Behaviour* behaviour) {
     if (!behaviour) return nullptr;
-    const auto found =
-        std::ranges::find(behaviour->states, BehaviourState::Does::sit, &BehaviourState::does);
+    const auto found = std::ranges::find(behaviour->states, BehaviourState::Does::sit, &BehaviourState::does);
     return found == behaviour->states.end() ? nullptr : &*found;
 }
 
@@ -42,9 +41,8 @@ std::vector<std::size_t> blocksOf(const BehaviourState& state) {
 
 /// Which of the places that a state leads to is an aisle.
 std::uint32_t placeOf(const BehaviourState& state, std::size_t block, std::size_t aisle) {
-    const auto found = std::ranges::find_if(state.to.places, [&](const Place& place) {
-        return place.index == block && place.number == aisle;
-    });
+    const auto found = std::ranges::find_if(
+        state.to.places, [&](const Place& place) { return place.index == block && place.number == aisle; });
     return static_cast<std::uint32_t>(found - state.to.places.begin());
 }
 
@@ -68,6 +66,7 @@ class SeatBuilder {
             for (std::size_t i = first; i < end; ++i)
                 addWay(owners_[i], first, end);
         }
+        if (!layout_.shows.empty()) addCues();
     }
 
   private:
@@ -135,6 +134,13 @@ class SeatBuilder {
         sitter.seated = owner.sits_at_start ? 0 : gpu::NO_INDEX;
         scene_.seats.sitters.push_back(sitter);
         scene_.behaviours.minds[owner.row].seat = owner.place;
+    }
+
+    void addCues() {
+        std::vector<Spectator> seated;
+        for (const Owner& owner : owners_)
+            seated.push_back({owner.seat.block, owner.seat.seat, plan_.at(owner.seat), {}, 0, {}});
+        scene_.seats.cues = cuesIn(layout_, seated);
     }
 
     /// Up the aisle, step by step, and along the row.

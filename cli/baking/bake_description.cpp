@@ -215,6 +215,9 @@ recording::BakeDescription describeBake(const LoadedLayout& loaded, const BakeOp
                                fmt::format("{}", fmt::join(group.colours, " "))});
     bake.agents = describeAgents(scene);
     describeAudience(loaded.layout, scene, bake);
+    for (std::size_t i = 0; i < scene.seats.cues.size(); ++i)
+        if (!scene.seats.cues[i].empty())
+            bake.sitters.push_back({scene.seats.ways[i].row, scene.seats.cues[i]});
     bake.has_poses = std::ranges::any_of(scene.behaviours.states, [](const gpu::BehaviourState& state) {
         return state.activity >= gpu::ACTIVITY_SIT;
     });

@@ -45,8 +45,8 @@ uint activityOf(AgentState state) {
 }
 
 #ifdef SEATS
-/// Who is in its seat or on its way there is somewhere above the plane, and may be on its way from sitting to
-/// standing: the phase tells how far.
+/// Who is in its seat or on its way there is somewhere above the plane. How far up it is between sitting and standing
+/// comes in place of the phase; below 0 it is about to get up.
 void putSeated(uint row, AgentState state) {
     uint index = sitter_of_row[row];
     Sitter sitter = sitters[index];
@@ -55,9 +55,10 @@ void putSeated(uint row, AgentState state) {
     if (sitter.mode == SITTER_LETS_GO) activity = ACTIVITY_SIT;
     if (risesOrSettles(sitter.mode)) activity = ACTIVITY_SETTLE;
     bool walks = activity == ACTIVITY_WALK;
+    float told = walks ? 0.0 : sitter.mode == SITTER_LETS_GO ? -1.0 : sitter.share;
     put(0u, row, vec3(state.position, heightOnWay(seat_ways[index], sitter.along)));
     put(1u, row, vec3(cos(state.heading), sin(state.heading), walks ? length(state.velocity) : 0.0));
-    put(2u, row, vec3(float(activity + ACTIVITY_LED), float(people[row].variation), walks ? 0.0 : sitter.share));
+    put(2u, row, vec3(float(activity + ACTIVITY_LED), float(people[row].variation), told));
 }
 #endif
 

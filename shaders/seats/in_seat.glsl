@@ -6,7 +6,6 @@ const float TURNS_FOR = 0.8;       // s
 const float STANDS_UP_FOR = 0.7;   // s
 const float SITS_DOWN_FOR = 0.9;   // s
 const float LETS_GO_FOR = 0.9;     // s; as of who stands (shaders/behaviour/letting_go.glsl)
-const float LETS_GO_QUICKLY = 0.35;  // s, of who only sits
 
 float smoothed(float share) { return share * share * (3.0 - 2.0 * share); }
 
@@ -62,7 +61,7 @@ void stayInSeat(inout Sitter self, inout AgentState state, SeatWay way, Others s
             if (seen.passes || (!wants && !seen.goes_in)) setMode(self, SITTER_LETS_GO);
             break;
         case SITTER_LETS_GO:
-            if (seconds < (self.activity == ACTIVITY_SIT ? LETS_GO_QUICKLY : LETS_GO_FOR)) break;
+            if (seconds < LETS_GO_FOR) break;
             self.activity = ACTIVITY_SIT;
             if (seen.passes)
                 setMode(self, SITTER_STANDS_FOR);

@@ -77,7 +77,7 @@ void seeRow(inout Others seen, Sitter self, SeatWay way, Sitter other, SeatWay t
 /// Who comes out of a row lets those by who are in the aisle, and at the same height who has left before.
 void seeAisle(inout Others seen, Sitter self, SeatWay way, uint index, Sitter other, SeatWay theirs, uint number) {
     const float BELOW = 0.55, ABOVE = 0.8;  // m
-    const float AT_MOUTH = 0.5;             // m into a row
+    const float AT_MOUTH = 0.85;            // m into a row
     const float DUE = 0.4;                  // of its patience left
     if (other.mode == SITTER_ENTERS || other.mode == SITTER_ASKS) seen.comes_in = true;
     if (other.mode != SITTER_LEAVES || theirs.lane == way.lane) return;
@@ -100,6 +100,8 @@ Others lookAround(uint index, Sitter self, SeatWay way) {
     for (uint number = way.first_of_aisle; number < way.first_of_aisle + way.count_of_aisle; ++number) {
         if (number == index) continue;
         Sitter other = sitters[number];
+        bool walks = other.mode == SITTER_ASKS || other.mode == SITTER_ENTERS || other.mode == SITTER_LEAVES;
+        if (!walks && seat_ways[number].lane != way.lane) continue;
         SeatWay theirs = seat_ways[number];
         seeAhead(seen, self, way, index, other, theirs, number);
         seeAisle(seen, self, way, index, other, theirs, number);

@@ -123,9 +123,9 @@ struct Mind {
     uint flags;        // MIND_*
     uint first_stage;  // of two of its own: where it goes, and what comes when it has been there
     uint followed;     // row
-    uint let_go;       // how many steps were done when it began to end what it did with its hands; 0: it does not
-    uint next;         // the state that comes then
-    uint seat;         // sit: the aisle to its seat, of the state's places
+    uint let_go;  // how many steps were done when it began to end what it did with its hands; 0: it does not
+    uint next;    // the state that comes then
+    uint seat;    // sit: the aisle to its seat, of the state's places
 };
 
 THRONG_SHARED_END

@@ -15,7 +15,7 @@ const uint PERSON_ALIGHTS = 2u;           // comes out of a vehicle
 const uint PERSON_PRESENT_AT_START = 4u;  // stands at spawn_position when the simulation begins
 const uint PERSON_FIXED_SPAWN = 8u;       // appears at spawn_position; otherwise at a point of its entry
 
-const uint PERSON_IS_GIVEN = 16u;  // follows a way that is given (GivenWay)
+const uint PERSON_IS_GIVEN = 16u;       // follows a way that is given (GivenWay)
 const uint PERSON_SITS_AT_START = 32u;  // in its seat
 
 /// One row per lifetime; the row index is the agent's stable id.

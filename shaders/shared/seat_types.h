@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Structures of seats that people walk to and leave, read by the C++ compiler and by the GLSL compiler alike (std430).
+// Structures of seats that people walk to and leave, read by the C++ compiler and by the GLSL compiler alike
+// (std430).
 #ifndef THRONG_SHARED_SEAT_TYPES_H
 #define THRONG_SHARED_SEAT_TYPES_H
 

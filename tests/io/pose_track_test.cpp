@@ -24,7 +24,8 @@ std::vector<Shown> shownOf(const std::vector<PoseWish>& wishes, double phase = 3
     std::vector<Shown> shown;
     for (const PoseWish& wish : wishes) {
         track.step(wish, phase);
-        shown.push_back(track.isShown() ? Shown{track.activity(), track.phase()} : Shown{Code::stands, phase});
+        shown.push_back(track.isShown() ? Shown{track.activity(), track.phase()}
+                                        : Shown{Code::stands, phase});
     }
     return shown;
 }

@@ -16,8 +16,8 @@ namespace {
 Layout layoutOf(const std::string& rest) {
     Diagnostics diagnostics;
     const auto layout = readLayout(
-        R"({"throng": 1, "areas": [{"id": "gate", "polygon": [[-12, 6], [-8, 6], [-8, 10], [-12, 10]]}], )" + rest +
-            "}",
+        R"({"throng": 1, "areas": [{"id": "gate", "polygon": [[-12, 6], [-8, 6], [-8, 10], [-12, 10]]}], )" +
+            rest + "}",
         {}, diagnostics);
     for (const Diagnostic& entry : diagnostics.entries)
         ADD_FAILURE() << entry.message;

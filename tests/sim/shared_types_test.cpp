@@ -117,11 +117,11 @@ std::map<std::string, Layout> layoutsInCpp() {
     }
     {
         using T = gpu::SeatWay;
-        result["SeatWay"] = {sizeof(T),
-                             {MEMBER(place), MEMBER(stand), MEMBER(height), MEMBER(heading), MEMBER(length),
-                              MEMBER(mouth), MEMBER(aside), MEMBER(row), MEMBER(first_point),
-                              MEMBER(point_count), MEMBER(lane), MEMBER(first_of_aisle),
-                              MEMBER(count_of_aisle), MEMBER(reserved)}};
+        result["SeatWay"] = {
+            sizeof(T),
+            {MEMBER(place), MEMBER(stand), MEMBER(height), MEMBER(heading), MEMBER(length), MEMBER(mouth),
+             MEMBER(aside), MEMBER(row), MEMBER(first_point), MEMBER(point_count), MEMBER(lane),
+             MEMBER(first_of_aisle), MEMBER(count_of_aisle), MEMBER(reserved)}};
     }
     {
         using T = gpu::SeatPoint;

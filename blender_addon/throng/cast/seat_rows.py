@@ -40,8 +40,8 @@ def step_of(block, row):
 
 
 def treads_of(block, aisle):
-    """(front edge, back edge, height) of each step of an aisle, two to a row: the higher one is where one walks into the
-    row, the other is half as high over the row before."""
+    """(front edge, back edge, height) of each step of an aisle, two to a row: the higher one is where one walks into
+    the row, the other is half as high over the row before."""
     line, half = [tuple(point[:2]) for point in aisle["line"]], 0.5 * float(aisle["width"])
     pitch, rise = float(block["pitch"]), float(block["rise"])
     height, below, found = min(float(row["height"]) for row in block["rows"]), 0.0, []
