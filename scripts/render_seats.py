@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Renders what people in seats do, one pose beside the other: sitting, ready, clapping, rising, cheering, singing. Or
-how they get up (`--what settling`), or what they do with their hands where they stand (`--what hands`). Where THRONG_BODIES names a library of bodies, of people shaped from it.
+how they get up (`--what settling`), or what they do with their hands where they stand (`--what hands`).
+Where THRONG_BODIES names a library of bodies, of people shaped from it.
 
 blender -b --factory-startup --python-exit-code 1 -P scripts/render_seats.py -- OUT.png [--members N,N,...] [--width W]
         [--height H] [--samples N] [--denoise] [--what seats|settling|hands]
@@ -24,7 +25,7 @@ from throng.people import casting, members  # noqa: E402
 SHOWN = {
     "seats": (("sit", 0), ("ready", 2), ("clap", 4), ("rise", 3), ("rise", 6), ("cheer", 0), ("cheer", 4), ("sing", 2)),
     "settling": (("settle", 0), ("settle", 2), ("settle", 4), ("settle", 6), ("settle", 8), ("settle", 11)),
-    "hands": (("raise", 0), ("raise", 3), ("applaud", 4), ("jubilate", 4), ("sway", 2), ("wave", 3), ("wave", 6)),
+    "hands": (("raise", 0), ("raise", 3), ("applaud", 4), ("jubilate", 8), ("sway", 2), ("wave", 3), ("wave", 6)),
 }
 APART, ROWS = 0.95, 1.7  # m
 

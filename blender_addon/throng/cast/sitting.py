@@ -32,7 +32,7 @@ class Clip:
 CLIPS = (Clip("sit", 4, False), Clip("ready", 4, True), Clip("clap", 8, False), Clip("rise", 12, True),
          Clip("cheer", 8, False), Clip("sing", 8, False),
          # Of those who walk to their seats, and of who stands.
-         Clip("settle", 12, True), Clip("raise", 4, True), Clip("applaud", 8, False), Clip("jubilate", 8, False),
+         Clip("settle", 12, True), Clip("raise", 4, True), Clip("applaud", 8, False), Clip("jubilate", 16, False),
          Clip("sway", 8, False), Clip("wave", 12, False))
 AUDIENCE = 6  # so many of them are all that audiences do who only ever sit there
 AHEAD = 0.10  # m, from the middle of a seat to where who settles stands before (authoring/layout/seat_rows.h)
@@ -191,7 +191,7 @@ def seated_pose(clip, share, build):
     if name == "rise":
         return _rising(build, share)
     if name == "raise":
-        return _hands_ready(build, _smooth(share))
+        return _hands_ready(build, share)
     return _OTHERS[name](build, share)
 
 
