@@ -25,7 +25,7 @@ from throng.people import casting, members  # noqa: E402
 SHOWN = {
     "seats": (("sit", 0), ("ready", 2), ("clap", 4), ("rise", 3), ("rise", 6), ("cheer", 0), ("cheer", 4), ("sing", 2)),
     "settling": (("settle", 0), ("settle", 2), ("settle", 4), ("settle", 6), ("settle", 8), ("settle", 11)),
-    "hands": (("raise", 0), ("raise", 3), ("applaud", 4), ("jubilate", 8), ("sway", 2), ("wave", 3), ("wave", 6)),
+    "hands": (("raise", 0), ("raise", 3), ("applaud", 4), ("jubilate", 8), ("sway", 2), ("wave", 3), ("wave", 10)),
 }
 APART, ROWS = 0.95, 1.7  # m
 

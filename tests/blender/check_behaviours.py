@@ -123,8 +123,8 @@ def give_a_flow_a_behaviour():
 
 
 EDITS = (rename_area, rename_state, rename_behaviour, change_what_is_done, clap_there, sit_down, change_times,
-         add_a_rule, remove_a_rule, rename_flow_in_a_rule, rename_to_a_name_that_is_taken, add_a_condition_twice, draw_one,
-         give_a_flow_a_behaviour)
+         add_a_rule, remove_a_rule, rename_flow_in_a_rule, rename_to_a_name_that_is_taken, add_a_condition_twice,
+         draw_one, give_a_flow_a_behaviour)
 found = {}
 for edit in EDITS:
     assert bpy.ops.import_scene.throng_layout(filepath=layout, replace=True) == {"FINISHED"}

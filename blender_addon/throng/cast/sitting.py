@@ -33,7 +33,7 @@ CLIPS = (Clip("sit", 4, False), Clip("ready", 4, True), Clip("clap", 8, False), 
          Clip("cheer", 8, False), Clip("sing", 8, False),
          # Of those who walk to their seats, and of who stands.
          Clip("settle", 12, True), Clip("raise", 4, True), Clip("applaud", 8, False), Clip("jubilate", 16, False),
-         Clip("sway", 8, False), Clip("wave", 12, False))
+         Clip("sway", 8, False), Clip("wave", 20, False))
 AUDIENCE = 6  # so many of them are all that audiences do who only ever sit there
 AHEAD = 0.10  # m, from the middle of a seat to where who settles stands before (authoring/layout/seat_rows.h)
 
@@ -165,7 +165,7 @@ def _swaying(build, phase):
 
 def _waving(build, phase):
     """The right hand goes up, to and fro, and down; the other one goes down and up again."""
-    up = _smooth(min(1.0, 4.0 * min(phase, 1.0 - phase)))
+    up = _smooth(min(1.0, 3.0 * min(phase, 1.0 - phase)))
     fro = up * math.sin(6.0 * math.pi * phase)
     pose = _hands_ready(build, 1.0)
     raised = ((2.30, 0.55), (0.30, 0.10 + 0.45 * fro))
