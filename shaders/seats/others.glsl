@@ -48,12 +48,13 @@ bool isInTheWay(Sitter other) {
 
 void seeAhead(inout Others seen, Sitter self, SeatWay way, uint index, Sitter other, SeatWay theirs, uint number) {
     const float STILL_IN_AISLE = 0.3;  // m into a row
+    const float STEPS_OUT = 0.7;       // m from the aisle, which is its own from there on
     bool inwards = self.mode != SITTER_LEAVES;
     if (other.mode != (inwards ? SITTER_ENTERS : SITTER_LEAVES)) return;
     bool same_row = theirs.lane == way.lane;
     bool own_row = self.along > way.mouth;
     if (!inwards && !same_row && other.side != self.side) return;
-    if (!same_row && (own_row || other.along > theirs.mouth + (inwards ? STILL_IN_AISLE : 0.0))) return;
+    if (!same_row && (own_row || other.along > theirs.mouth + (inwards ? STILL_IN_AISLE : STEPS_OUT))) return;
     float place = same_row ? other.along : min(other.along, theirs.mouth);
     float ahead = inwards ? place - self.along : self.along - place;
     if (ahead > 0.0 || (ahead == 0.0 && number < index)) seen.gap = min(seen.gap, ahead);

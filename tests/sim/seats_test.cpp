@@ -2,6 +2,7 @@
 // People between rows of seats: a step of theirs against plain C++.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <random>
 #include <set>
 #include <utility>
@@ -18,7 +19,8 @@ constexpr float kFar = 1.0e6f;
 /// A block whose people are everywhere on their ways, in all modes of those who are led.
 struct Block {
     explicit Block(std::uint32_t count) : scene(emptyScene({-40, -40}, {40, 40})) {
-        std::mt19937 random(count);
+        std::mt19937 generator(count);
+        const auto random = [&] { return static_cast<std::uint32_t>(generator()); };
         const auto draw = [&](float from, float to) {
             return from + (to - from) * static_cast<float>(random() % 4096) / 4096.0f;
         };
@@ -56,7 +58,8 @@ struct Block {
         }
     }
 
-    void addWay(std::uint32_t i, std::uint32_t aisles, std::uint32_t count, std::mt19937& random) {
+    void addWay(std::uint32_t i, std::uint32_t aisles, std::uint32_t count,
+                const std::function<std::uint32_t()>& random) {
         const std::uint32_t each = (count + aisles - 1) / aisles, aisle = i / each;
         gpu::SeatWay way{};
         const auto seat_row = static_cast<float>(random() % 3);
@@ -107,7 +110,7 @@ Seen around(const authoring::SeatWays& seats, std::uint32_t index) {
         seen.comes_in = seen.comes_in || other.mode == gpu::SITTER_ENTERS;
         if (isWalking(other) && leaves == out) {
             const bool apart = out && !same && other.side != self.side;
-            const float in_aisle = theirs.mouth + (out ? 0.0f : 0.3f);
+            const float in_aisle = theirs.mouth + (out ? 0.7f : 0.3f);
             const bool elsewhere = !same && (self.along > way.mouth || other.along > in_aisle);
             const float place = same ? other.along : std::min(other.along, theirs.mouth);
             const float ahead = out ? self.along - place : place - self.along;
