@@ -10,8 +10,9 @@ namespace {
 
 constexpr std::uint64_t kRunDraw = 2, kOrderDraw = 3, kGapDraw = 4;  // of Purpose::seat
 
-bool isBeside(const Seat& one, const Seat& other) {
-    return one.row == other.row && one.section == other.section;
+/// In a row, and reached from one aisle.
+bool isBeside(const SeatBlock& block, const Seat& one, const Seat& other) {
+    return one.row == other.row && one.section == other.section && aisleOf(block, one) == aisleOf(block, other);
 }
 
 /// Larger ones first, as long as there is room for them; then as the seed has it.
@@ -35,7 +36,7 @@ std::vector<Party> inOnes(const Party& party) {
 
 }  // namespace
 
-SeatPlan::SeatPlan(const Layout& layout) {
+SeatPlan::SeatPlan(const Layout& layout) : layout_(layout) {
     for (const SeatBlock& block : layout.seats) {
         seats_.push_back(block.isOpen() ? seatsOf(block) : std::vector<Seat>{});
         free_.emplace_back(seats_.back().size(), true);
@@ -55,7 +56,7 @@ std::vector<SeatPlan::Run> SeatPlan::runsOf(const std::vector<std::size_t>& bloc
         for (std::size_t i = 0; i < seats_[block].size(); ++i) {
             if (!free_[block][i]) continue;
             const bool goes_on =
-                i > 0 && free_[block][i - 1] && isBeside(seats_[block][i - 1], seats_[block][i]);
+                i > 0 && free_[block][i - 1] && isBeside(layout_.seats[block], seats_[block][i - 1], seats_[block][i]);
             if (!goes_on) runs.push_back({{block, i}, 0, 0, {}});
             runs.back().left = ++runs.back().count;
         }

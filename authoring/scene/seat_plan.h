@@ -44,6 +44,7 @@ class SeatPlan {
     void spread(const Run& run, const std::vector<Party>& parties, const GroupRandom& random,
                 std::vector<SeatNumber>& seats);
 
+    const Layout& layout_;
     std::vector<std::vector<Seat>> seats_;
     std::vector<std::vector<bool>> free_;
 };

@@ -57,6 +57,10 @@ class SeatBuilder {
             for (std::size_t group = 0; group < scene_.groups.size(); ++group)
                 if (scene_.groups[group].block.has_value() == at_start) seatGroup(group);
         if (owners_.empty() || diagnostics_.hasErrors()) return;
+        for (const std::uint32_t row : parting_) {
+            scene_.people[row].party_first = row;
+            scene_.people[row].party_size = 1;
+        }
         std::ranges::sort(owners_, {}, &Owner::order);
         scene_.seats.sitter_of_row.assign(scene_.people.size(), gpu::NO_INDEX);
         for (std::size_t first = 0, end = 0; first < owners_.size(); first = end) {
@@ -84,6 +88,20 @@ class SeatBuilder {
             owners_.push_back({seats[i], aisle, rows.first_row + i, placeOf(*sits, seats[i].block, aisle),
                                scene_.groups[group].block.has_value()});
         }
+        for (std::size_t i = 0; i < seats.size(); ++i)
+            partWhoSitApart(owners_[owners_.size() - seats.size() + i]);
+    }
+
+    /// Nobody waits for company that goes to another aisle.
+    void partWhoSitApart(const Owner& owner) {
+        gpu::Person& person = scene_.people[owner.row];
+        const auto is_of_party = [&](const Owner& other) {
+            return other.row - person.party_first < person.party_size;
+        };
+        const bool apart = std::ranges::any_of(owners_, [&](const Owner& other) {
+            return is_of_party(other) && (other.seat.block != owner.seat.block || other.aisle != owner.aisle);
+        });
+        if (apart) parting_.push_back(owner.row);
     }
 
     std::vector<SeatNumber> seatsAtStart(std::size_t block) const {
@@ -172,6 +190,7 @@ class SeatBuilder {
     Diagnostics& diagnostics_;
     SeatPlan plan_;
     std::vector<Owner> owners_;
+    std::vector<std::uint32_t> parting_;  // rows
 };
 
 }  // namespace

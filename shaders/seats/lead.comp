@@ -67,7 +67,8 @@ void walkOnWay(inout Sitter self, inout AgentState state, SeatWay way, Others se
 void goToSeat(uint index, inout Sitter self, inout AgentState state, SeatWay way, Others seen) {
     Mind mind = minds[way.row];
     vec2 foot = seat_points[way.first_point].place;
-    bool comes = wantsSeat(mind) && may_cross != 0u && isBefore(state, mind, foot, self.mode == SITTER_ASKS);
+    bool comes = wantsSeat(mind) && may_cross != 0u && isBefore(state, mind, foot, self.mode == SITTER_ASKS) &&
+                 hasClearWay(way, state.position, people[way.row].radius);
     if (self.mode == SITTER_WALKS && comes) begin(self, SITTER_ASKS);
     if (self.mode != SITTER_ASKS || may_cross == 0u) return;
     if (!comes)

@@ -5,8 +5,28 @@
 
 /// Whether somebody has come before its aisle. @param stays further off it does not count as gone
 bool isBefore(AgentState state, Mind mind, vec2 foot, bool stays) {
-    const float BEFORE = 1.0, STILL_BEFORE = 1.8;  // m
+    const float BEFORE = 1.0, STILL_BEFORE = 1.2;  // m
     return state.stage - mind.first_stage <= 1u && distance(state.position, foot) < (stays ? STILL_BEFORE : BEFORE);
+}
+
+/// Whether nobody stands between somebody and the block, on the way in.
+bool hasClearWay(SeatWay way, vec2 place, float radius) {
+    const float TO_BLOCK = 0.75;  // m of the way
+    const float SQUEEZES = 0.8;   // of two bodies
+    vec2 end = placeOnWay(way, TO_BLOCK, true);
+    vec2 ahead = end - place;
+    ivec2 cell = cellOf(end);
+    for (int y = cell.y - 1; y <= cell.y + 1; ++y) {
+        uvec2 run = slotRun(cell.x, y);
+        for (uint slot = run.x; slot < run.y; ++slot) {
+            if (bodies[slot].row == way.row) continue;
+            vec2 offset = bodies[slot].position - place;
+            float along = clamp(dot(offset, ahead) / dot(ahead, ahead), 0.0, 1.0);
+            float apart = radius + bodies[slot].radius;
+            if (along > 0.0 && length(offset - along * ahead) < SQUEEZES * apart) return false;
+        }
+    }
+    return true;
 }
 
 void stepIn(inout Sitter self, inout AgentState state, SeatWay way) {
