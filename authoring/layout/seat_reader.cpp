@@ -127,13 +127,6 @@ void SeatReader::leadTo(BehaviourState& state) const {
 /// Those who sit there are simulated, and nobody else walks through its aisles.
 void SeatReader::openBlock(SeatBlock& block) {
     constexpr double kTogether = 0.5;  // m
-    if (layout_.terrain || !layout_.levels.empty())
-        diagnostics_.error(
-            block.where,
-            fmt::format("people walk to the seats of block `{}`, or leave them: this is for flat "
-                        "ground only",
-                        block.id),
-            layout_.terrain ? "leave out the `terrain`" : "leave out the `levels`");
     if (block.aisles == 0 && glm::distance(block.front.front(), block.front.back()) < kTogether)
         diagnostics_.error(block.where,
                            fmt::format("nobody gets into block `{}`: it goes all round", block.id),

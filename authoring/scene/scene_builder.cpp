@@ -937,6 +937,7 @@ std::optional<Scene> buildScene(const Layout& layout, Diagnostics& diagnostics, 
                                 const TerrainMesh* terrain, DistanceSolver* solver) {
     GroundCache own;
     std::shared_ptr<const Charts> charts;
+    if (!haveFlatGround(layout, diagnostics)) return std::nullopt;
     if (!layout.levels.empty() && !isWithoutTraffic(layout, diagnostics)) return std::nullopt;
     if (!layout.levels.empty() && !isWithoutGivenPeople(layout, diagnostics)) return std::nullopt;
     if (!layout.levels.empty() && !areOnTheirFloors(layout, diagnostics)) return std::nullopt;

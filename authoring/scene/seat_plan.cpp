@@ -12,7 +12,8 @@ constexpr std::uint64_t kRunDraw = 2, kOrderDraw = 3, kGapDraw = 4;  // of Purpo
 
 /// In a row, and reached from one aisle.
 bool isBeside(const SeatBlock& block, const Seat& one, const Seat& other) {
-    return one.row == other.row && one.section == other.section && aisleOf(block, one) == aisleOf(block, other);
+    return one.row == other.row && one.section == other.section &&
+           aisleOf(block, one) == aisleOf(block, other);
 }
 
 /// Larger ones first, as long as there is room for them; then as the seed has it.
@@ -55,8 +56,8 @@ std::vector<SeatPlan::Run> SeatPlan::runsOf(const std::vector<std::size_t>& bloc
     for (const std::size_t block : blocks)
         for (std::size_t i = 0; i < seats_[block].size(); ++i) {
             if (!free_[block][i]) continue;
-            const bool goes_on =
-                i > 0 && free_[block][i - 1] && isBeside(layout_.seats[block], seats_[block][i - 1], seats_[block][i]);
+            const bool goes_on = i > 0 && free_[block][i - 1] &&
+                                 isBeside(layout_.seats[block], seats_[block][i - 1], seats_[block][i]);
             if (!goes_on) runs.push_back({{block, i}, 0, 0, {}});
             runs.back().left = ++runs.back().count;
         }

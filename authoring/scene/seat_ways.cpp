@@ -195,6 +195,18 @@ class SeatBuilder {
 
 }  // namespace
 
+bool haveFlatGround(const Layout& layout, Diagnostics& diagnostics) {
+    if (!layout.terrain && layout.levels.empty()) return true;
+    const auto open = std::ranges::find_if(layout.seats, &SeatBlock::isOpen);
+    if (open == layout.seats.end()) return true;
+    diagnostics.error(
+        open->where,
+        fmt::format("people walk to the seats of block `{}`, or leave them: this is for flat ground only",
+                    open->id),
+        layout.terrain ? "leave out the `terrain`" : "leave out the `levels`");
+    return false;
+}
+
 const Behaviour* behaviourOf(const Layout& layout, const Scene& scene, std::size_t group) {
     std::optional<std::size_t> found;
     if (group < layout.flows.size())
