@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "analysis/between_rows.h"
 #include "base/outcomes.h"
 #include "io/crowd_reader.h"
 
@@ -19,10 +20,10 @@ inline bool isUnderWay(const io::CrowdFrame& frame, std::size_t row) {
 }
 
 /// Who is stuck when a bake ends (Fate::stuck). Looks at its frames in their order, the last seconds of which
-/// matter: who stood at a stop meanwhile has not been held up.
+/// matter: who stood at a stop meanwhile has not been held up, nor who waits between rows of seats.
 class StuckWatch {
   public:
-    explicit StuckWatch(io::CrowdReader& crowd) : rows_(crowd.people()) {
+    explicit StuckWatch(io::CrowdReader& crowd) : rows_(crowd.people()), between_rows_(crowd.bake()) {
         const auto wait = static_cast<std::uint32_t>(kStuckSeconds * crowd.bake().fps);
         if (crowd.frames() > wait) first_ = crowd.frames() - 1 - wait;
     }
@@ -37,7 +38,8 @@ class StuckWatch {
             under_way_.assign(rows_.size(), true);
         }
         for (std::size_t row = 0; row < rows_.size(); ++row)
-            under_way_[row] = under_way_[row] && isUnderWay(frame, row);
+            under_way_[row] =
+                under_way_[row] && isUnderWay(frame, row) && !between_rows_.has(frame.place(row));
         end_ = frame;
     }
 
@@ -48,6 +50,7 @@ class StuckWatch {
 
   private:
     const std::vector<io::AgentRow>& rows_;
+    BetweenRows between_rows_;
     std::optional<std::uint32_t> first_;
     std::optional<io::CrowdFrame> before_, end_;
     std::vector<bool> under_way_;

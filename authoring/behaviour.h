@@ -56,7 +56,7 @@ struct Transition {
 };
 
 struct BehaviourState {
-    enum class Does { walk, stay, wander, visit, gather, flee, follow, queue };
+    enum class Does { walk, stay, wander, visit, gather, flee, follow, queue, sit };
     std::string id;
     Does does = Does::stay;
     Destination to;  ///< walk, gather, queue; wander: one area; visit: its places
@@ -69,6 +69,7 @@ struct BehaviourState {
     glm::dvec2 from{0.0};  ///< flee
     double distance = 0.0;
     GroupName followed;
+    std::vector<GroupName> blocks;        ///< sit: of seats; in any of them
     std::optional<std::uint64_t> person;  ///< follow: of the formation or flow, from 0
     double pace = 1.0;
     bool for_good = false;

@@ -375,6 +375,10 @@ struct SeatBlock {
     double occupancy = 1.0;    ///< share of the seats
     People people;
     SourcePosition where;
+    /// People walk to its seats or leave them: what those do who sit in it from the beginning. None: they
+    /// only ever sit there, and are not simulated.
+    std::optional<std::size_t> behaviour{};
+    bool isOpen() const { return behaviour.has_value(); }
 };
 
 /// What an audience does, from a time on.

@@ -10,10 +10,12 @@
 #include "authoring/layout.h"
 #include "authoring/scene_traffic.h"
 #include "authoring/terrain/terrain.h"
+#include "base/activities.h"
 #include "shaders/shared/behaviour_types.h"
 #include "shaders/shared/chart_types.h"
 #include "shaders/shared/lift_types.h"
 #include "shaders/shared/scene_types.h"
+#include "shaders/shared/seat_types.h"
 
 namespace throng::authoring {
 
@@ -54,6 +56,7 @@ struct Group {
     std::string look = {};                   ///< People::look
     std::vector<std::string> colours = {};   ///< People::colours
     std::vector<std::string> profiles = {};  ///< by gpu::Person::kind
+    std::optional<std::size_t> block = {};   ///< of seats, in which its people sit from the beginning
 };
 
 /// What routes round jams are worked out on: a coarse map, and walking distances on it without any crowd.
@@ -133,6 +136,19 @@ struct GivenRows {
     bool empty() const { return ways.empty(); }
 };
 
+/// Seats that people walk to or leave, as the device has them, and who they belong to. Those who share an
+/// aisle come one behind the other.
+struct SeatWays {
+    std::vector<gpu::SeatWay> ways;
+    std::vector<gpu::SeatPoint> points;
+    std::vector<gpu::Sitter> sitters;          ///< as many as ways
+    std::vector<std::uint32_t> sitter_of_row;  ///< gpu::NO_INDEX: it has no seat
+    /// What each of them is to do in shows while it sits.
+    std::vector<std::vector<SeatCue>> cues;
+
+    bool empty() const { return ways.empty(); }
+};
+
 /// What people do, as the device has it. Without behaviours, empty.
 struct Behaviours {
     std::vector<gpu::BehaviourState> states;
@@ -169,6 +185,7 @@ struct Scene {
     std::vector<gpu::SpawnQueue> queues;
     std::vector<Group> groups;
     Behaviours behaviours;
+    SeatWays seats;
     GivenRows given;
 
     std::vector<gpu::WallSegment> wall_segments;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -31,6 +32,13 @@ struct CheckOptions {
 /// With those who have seats.
 std::size_t peopleIn(const LoadedLayout& loaded) {
     return loaded.scene.people.size() + authoring::audienceOf(loaded.layout).size();
+}
+
+/// Those of blocks that people walk to or leave are among the scene's.
+std::size_t groupsIn(const LoadedLayout& loaded) {
+    const auto closed =
+        std::ranges::count_if(loaded.layout.seats, [](const auto& block) { return !block.isOpen(); });
+    return loaded.scene.groups.size() + static_cast<std::size_t>(closed);
 }
 
 /// Of the streams that every bake of it has, in the forms that are written unless told.
@@ -131,9 +139,9 @@ void printSummary(const LoadedLayout& loaded) {
     say(stdout,
         "{}: ok: {} people in {} groups, {} wall segments, {:.0f} x {:.0f} m, {:.4g} s at {:.4g} frames/s; "
         "its streams will take {}\n",
-        loaded.diagnostics.file, peopleIn(loaded), scene.groups.size() + loaded.layout.seats.size(),
-        scene.wall_segments.size(), scene.maximum.x - scene.minimum.x, scene.maximum.y - scene.minimum.y,
-        scene.settings.duration, scene.settings.fps, readableBytes(bytesOfBake(loaded)));
+        loaded.diagnostics.file, peopleIn(loaded), groupsIn(loaded), scene.wall_segments.size(),
+        scene.maximum.x - scene.minimum.x, scene.maximum.y - scene.minimum.y, scene.settings.duration,
+        scene.settings.fps, readableBytes(bytesOfBake(loaded)));
 }
 
 bool checkLayoutText(const std::string& path, std::string text, const CheckOptions& options,

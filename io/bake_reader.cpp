@@ -327,6 +327,10 @@ void readSeats(const ManifestReader& reader, Bake& bake) {
         block.each("/rows", [&](const ManifestReader& row) {
             seats.rows.push_back({row.points("/line", 2), row.number("/height", -kFurthest, kFurthest)});
         });
+        if (block.has("/aisles"))
+            block.each("/aisles", [&](const ManifestReader& aisle) {
+                seats.aisles.push_back({aisle.points("/line", 2), aisle.length("/width")});
+            });
         bake.seats.push_back(std::move(seats));
     });
 }
@@ -431,6 +435,7 @@ Bake bakeOf(ManifestFile file) {
     readDoorList(reader, bake);
     readLiftList(reader, bake);
     readSeats(reader, bake);
+    bake.has_poses = bake.manifest.value("poses", false);
     bake.account = {reader.count("/account/agents"), reader.count("/account/spawned"),
                     reader.count("/account/walking"), reader.count("/account/arrived"),
                     reader.count("/account/refused")};

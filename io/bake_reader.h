@@ -41,6 +41,7 @@ struct Bake {
     std::vector<DoorIdentity> doors;  ///< per vehicle; empty: there is no such file
     std::vector<LiftIdentity> lifts;
     std::vector<recording::BakeSeats> seats;
+    bool has_poses = false;
     /// Floors above each other, if there are any; then also the lowest and highest ground along each wall, m.
     std::vector<authoring::Level> levels;
     std::vector<authoring::Link> links;

@@ -246,7 +246,7 @@ void BakeWriter::trackPeople(const Frame& frame) {
         const float activity = frame[Stream::state][row * kComponents];
         if (activity <= 0.5f) continue;
         if (first_alive_[row] == kNone) first_alive_[row] = frame.index;
-        if (!hasSeat(activity)) gaits_ |= 1u << recording::gaitOf(activity);
+        if (!hasPose(activity)) gaits_ |= 1u << recording::gaitOf(activity);
     }
 }
 

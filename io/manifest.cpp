@@ -42,6 +42,9 @@ Json seatsToJson(const recording::BakeDescription& description) {
                         {"width", seats.width},
                         {"rise", seats.rise},
                         {"rows", std::move(rows)}});
+        for (const recording::BakeAisle& aisle : seats.aisles)
+            list.back()["aisles"].push_back(
+                {{"line", pointsToJson(aisle.line, description.output_origin)}, {"width", aisle.width}});
     }
     return list;
 }
@@ -280,6 +283,7 @@ Json bakeManifest(const recording::BakeDescription& description, const BakeOutco
     json["variations"] = description.variations;
     json["strides"] = description.strides;
     json["gaits"] = gaitsToJson(outcome.gaits);
+    if (description.has_poses) json["poses"] = true;
     json["units"] = "metres";
     json["up_axis"] = "Z";
     json["origin"] = {origin.x, origin.y, 0.0};

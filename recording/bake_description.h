@@ -53,6 +53,12 @@ struct BakeSpectator {
     std::vector<Deed> deeds;  ///< in the order of their times
 };
 
+/// Somebody who is simulated and has a seat, and what it is to do in shows while it sits there.
+struct BakeSitter {
+    std::uint32_t row = 0;
+    std::vector<SeatCue> cues;  ///< in the order of their times
+};
+
 /// A line of seats from aisle to aisle, for whoever shows it.
 struct BakeSeatRow {
     std::vector<glm::dvec2> line;  ///< m, in the middle of the seats
@@ -72,11 +78,18 @@ struct EyeCatcher {
         {};  ///< m: nobody sees it but from a floor of this height; none: there are no floors
 };
 
+/// Steps between rows of seats that people walk to, for whoever shows them.
+struct BakeAisle {
+    std::vector<glm::dvec2> line;  ///< m, its middle: on the ground before the block, and before each row
+    double width = 1.2;            ///< m
+};
+
 /// A block of seats.
 struct BakeSeats {
     std::string id;
     double pitch = 0.8, width = 0.5, rise = 0.0;  ///< m
     std::vector<BakeSeatRow> rows;
+    std::vector<BakeAisle> aisles = {};  ///< empty: nobody walks to its seats or leaves them
 };
 
 /// What the layout was made from.
@@ -146,6 +159,8 @@ struct BakeDescription {
     std::vector<BakeAgent> agents;        ///< one per row
     std::vector<BakeSpectator> audience;  ///< of the last rows: they are not simulated
     std::vector<BakeSeats> seats;
+    std::vector<BakeSitter> sitters;  ///< those who take part in shows
+    bool has_poses = false;           ///< of those who are simulated, some sit, or do things with their hands
     std::vector<EyeCatcher> eye_catchers;  ///< in the frame of reference of the frames
     std::vector<authoring::Road> roads;
     std::vector<authoring::Area> areas;

@@ -11,7 +11,9 @@
 #include <utility>
 
 #include "base/lift_track.h"
+#include "base/random.h"
 #include "base/wide_site.h"
+#include "shaders/shared/scene_types.h"
 
 namespace throng::recording {
 namespace {
@@ -64,6 +66,15 @@ MotionRecorder::MotionRecorder(const BakeDescription& description, Sink sink)
         cabins_ = description.charts->cabins;
         lift_count_ = description.lifts.size();
     }
+    if (description.has_poses) {
+        poses_.resize(walkers_.size());
+        led_.resize(walkers_.size());
+        for (std::size_t row = 0; row < walkers_.size(); ++row)
+            paces_.push_back(fractionOf(scramble(description.seed ^ scramble(row ^ wordOf("poses")))));
+    }
+    if (!description.sitters.empty()) cues_.resize(walkers_.size());
+    for (const BakeSitter& sitter : description.sitters)
+        cues_[sitter.row] = sitter.cues;
     if (description.terrain) {
         ground_ = description.terrain->surface;
         footing_.emplace(ground_, walkers_.size(), fps_);
@@ -159,6 +170,7 @@ void MotionRecorder::giveOut() {
     chests_ = frame[Stream::chest];
     for (std::size_t row = 0; row < charts_.size(); ++row)
         charts_[row] = static_cast<std::uint32_t>(std::exchange(positions_[row * kComponents + 2], 0.0f));
+    takeOutOfPlane();
     if (window_.reach() > 0) average(frame);
     turnChests(frame);
     record(frame);
@@ -180,6 +192,16 @@ void MotionRecorder::giveOut() {
     window_.advance();
 }
 
+/// Who is led between rows of seats says so beside what it does.
+void MotionRecorder::takeOutOfPlane() {
+    constexpr auto kLed = static_cast<float>(gpu::ACTIVITY_LED);
+    for (std::size_t row = 0; row < led_.size(); ++row) {
+        float& activity = states_[row * kComponents];
+        led_[row] = activity >= kLed;
+        if (led_[row]) activity -= kLed;
+    }
+}
+
 void MotionRecorder::average(const KeptFrame& frame) {
     present_.clear();
     bodies_.clear();
@@ -187,12 +209,18 @@ void MotionRecorder::average(const KeptFrame& frame) {
         if (!frame.isAlive(row)) continue;
         const std::size_t at = row * kComponents;
         const Average average = window_.average(row);
-        present_.push_back(row);
+        const bool led = !led_.empty() && led_[row];
+        if (!led) present_.push_back(row);
         const glm::dvec2 simulated(positions_[at], positions_[at + 1]);
         const glm::dvec2 shown(average.position[0], average.position[1]);
-        bodies_.push_back({simulated, given_[row] ? simulated : shown, radii_[row], axisOf(frame, row),
-                           heightOf(row), given_[row]});
+        if (!led)
+            bodies_.push_back({simulated, given_[row] ? simulated : shown, radii_[row], axisOf(frame, row),
+                               heightOf(row), given_[row]});
         if (shifts_.empty()) positions_[at + 2] = static_cast<float>(average.position[2]);
+        if (led) {
+            positions_[at] = static_cast<float>(shown.x);
+            positions_[at + 1] = static_cast<float>(shown.y);
+        }
         directions_[at] = static_cast<float>(average.heading[0]);
         directions_[at + 1] = static_cast<float>(average.heading[1]);
         directions_[at + 2] = static_cast<float>(average.speed);
@@ -251,12 +279,15 @@ void MotionRecorder::record(const KeptFrame& frame) {
             if (window_.reach() > 0 && !wide_) directions_[at + 2] = static_cast<float>(way * fps_);
             walker.gait.advance(way, 1.0 / fps_);
         } else {
-            walker.gait = GaitTrack{states_[at + 2], gaitFor(speeds_[row])};
+            walker.gait = GaitTrack{phaseAtFirst(row), gaitFor(speeds_[row])};
             walker.walks = 1;
         }
         walker.place = place;
-        states_[at] += walker.gait.inState();
-        states_[at + 2] = static_cast<float>(walker.gait.phase);
+        if (!poses_.empty()) pose(row);
+        if (poses_.empty() || !poses_[row].isShown()) {
+            states_[at] += walker.gait.inState();
+            states_[at + 2] = static_cast<float>(walker.gait.phase);
+        }
         const glm::vec2 heading(directions_[at], directions_[at + 1]);
         const float speed = directions_[at + 2];
         if (footsteps_)
@@ -264,12 +295,51 @@ void MotionRecorder::record(const KeptFrame& frame) {
                                          {place, heading, moved, speed, carriages_->step(row, speed),
                                           scales_[row], carried},
                                          walker.gait));
+        if (footsteps_ && hasSeat(states_[at])) putFeet(at, {});
         if (footing_)
             putStance(at,
                       footing_->stand(
                           row, {place + glm::vec2(toPlane(row)), heading, moved, carried != glm::vec2(0.0f)},
                           walker.gait));
         if (footing_) positions_[at + 2] += liftedBy(row);
+    }
+}
+
+/// Of who sits from the beginning, one of its own: the simulation tells how far up it is.
+double MotionRecorder::phaseAtFirst(std::size_t row) const {
+    return !led_.empty() && led_[row] ? paces_[row] : double{states_[row * kComponents + 2]};
+}
+
+/// What somebody does beside walking and standing. Its gait goes on from where that ends.
+void MotionRecorder::pose(std::size_t row) {
+    const std::size_t at = row * kComponents;
+    PoseTrack& track = poses_[row];
+    Walker& walker = walkers_[row];
+    PoseWish wish{static_cast<ActivityCode>(static_cast<int>(states_[at])), double{states_[at + 2]},
+                  double{directions_[at + 2]}, paces_[row], 1.0 / fps_};
+    if (!cues_.empty()) takeCue(row, window_.middle().index / fps_, wish);
+    const bool was_shown = track.isShown();
+    track.step(wish, walker.gait.phase);
+    if (was_shown && !track.isShown()) walker.gait.phase = std::max(walker.gait.phase, track.phase());
+    if (!track.isShown()) return;
+    states_[at] = static_cast<float>(track.activity());
+    states_[at + 2] = static_cast<float>(track.phase());
+}
+
+/// Who sits takes part in shows, unless it is about to stand up.
+void MotionRecorder::takeCue(std::size_t row, double time, PoseWish& wish) const {
+    if (wish.activity != ActivityCode::sits || wish.share < 0.0) return;
+    for (const SeatCue& cue : cues_[row]) {
+        if (time < cue.at || time >= cue.at + cue.lasts) continue;
+        const bool is_wave = cue.activity == ActivityCode::rises;
+        const bool begins = time - cue.at < 2.0 / fps_;
+        if (is_wave && !begins && poses_[row].activity() != ActivityCode::rises) continue;
+        wish.activity = cue.activity;
+        wish.lasts = cue.lasts;
+        const double into = (time - cue.beat) / kSwaySeconds;
+        wish.waits =
+            cue.activity == ActivityCode::sings && (into - std::floor(into)) * kSwaySeconds > 1.0 / fps_;
+        return;
     }
 }
 
@@ -313,6 +383,7 @@ void MotionRecorder::putAll(std::vector<float>& stream, ValuesOf&& of) {
 void MotionRecorder::carry() {
     carriages_->squeeze(onlookers_);
     putAll(carriage_values_, [this](std::size_t row) {
+        if (hasSeat(states_[row * kComponents])) return std::array{0.0f, 0.0f, 0.0f};
         const Carriage carriage = (*carriages_)[row];
         // Who has a body turned its chest in the simulation; the hips take what a spine does not.
         const bool simulated = half_axes_[row] > 0.0f && !chests_.empty();
@@ -355,6 +426,8 @@ std::vector<std::byte> MotionRecorder::save() const {
     if (footsteps_) bytes.insert(bytes.end(), footsteps_->state().begin(), footsteps_->state().end());
     if (carriages_) bytes.insert(bytes.end(), carriages_->state().begin(), carriages_->state().end());
     if (attention_) bytes.insert(bytes.end(), attention_->state().begin(), attention_->state().end());
+    const auto poses = std::as_bytes(std::span(poses_));
+    bytes.insert(bytes.end(), poses.begin(), poses.end());
     window_.save(bytes);
     return bytes;
 }
@@ -375,6 +448,7 @@ void MotionRecorder::restore(std::span<const std::byte> bytes) {
     if (footsteps_) take(footsteps_->state());
     if (carriages_) take(carriages_->state());
     if (attention_) take(attention_->state());
+    take(std::as_writable_bytes(std::span(poses_)));
     window_.restore(bytes, walkers_.size(), carried_, lift_count_);
 }
 

@@ -14,6 +14,7 @@
 #include "recording/frame_window.h"
 #include "recording/gaits.h"
 #include "recording/keep_apart.h"
+#include "recording/pose_track.h"
 
 namespace throng::recording {
 
@@ -54,6 +55,10 @@ class MotionRecorder {
     /// How far the ground has carried somebody since the frame before, m.
     glm::dvec2 carriedBy(std::size_t row) const;
     void average(const KeptFrame& frame);
+    void takeOutOfPlane();
+    double phaseAtFirst(std::size_t row) const;
+    void pose(std::size_t row);
+    void takeCue(std::size_t row, double time, PoseWish& wish) const;
     void record(const KeptFrame& frame);
     void putStance(std::size_t at, const Stance& stance);
     glm::dvec2 axisOf(const KeptFrame& frame, std::size_t row) const;
@@ -95,6 +100,11 @@ class MotionRecorder {
     std::vector<Onlooker> onlookers_;
     std::vector<std::uint32_t> parties_;  ///< by row
     std::vector<bool> given_;             ///< by row: its places are given, and shown as they are
+    // Where people sit, or do things with their hands; otherwise empty.
+    std::vector<PoseTrack> poses_;            ///< by row
+    std::vector<double> paces_;               ///< by row, 0 to 1
+    std::vector<std::vector<SeatCue>> cues_;  ///< by row; empty: there are no shows
+    std::vector<bool> led_;                   ///< by row, in the frame being given out: out of others' way
 };
 
 }  // namespace throng::recording

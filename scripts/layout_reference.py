@@ -12,6 +12,7 @@ PAGE = ROOT / "docs" / "layout.md"
 SCHEMA = ROOT / "authoring" / "layout" / "throng-layout.schema.json"
 # Where the page speaks of a definition, and what one of them is called.
 SECTIONS = {"point": ("point", "places-and-points"), "destination": ("destination", "destinations"),
+            "seat_goal": ("seat", "destinations"),
             "stop": ("stop", "stops"), "people": ("people", "people"), "bar": ("bar", "expectations"),
             "expect": ("bars", "expectations"), "terrain": ("terrain", "terrain"), "level": ("level", "levels"),
             "link": ("link", "links"), "road": ("road", "roads"),

@@ -12,9 +12,9 @@ const gl::Declaration kBehaviourCensus = {
 const gl::Declaration kTransitions = {
     "behaviour",
     {"shaders/behaviour/transitions.comp"},
-    {"ParametersBlock", "LiveDispatch", "States", "Bodies", "Walkers", "StripStarts", "CellOffsets",
+    {"ParametersBlock", "LiveDispatch", "States", "Bodies", "Walkers", "Stages", "StripStarts", "CellOffsets",
      "BehaviourStates", "BehaviourRules", "BehaviourPoints", "Censuses", "Tallies", "Minds"},
-    {"Minds"}};
+    {"Stages", "Minds"}};
 const gl::Declaration kGoals = {
     "behaviour",
     {"shaders/behaviour/goals.comp"},

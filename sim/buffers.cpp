@@ -19,6 +19,8 @@ namespace {
 // How far contact may move somebody in one step and still be sure to meet everybody it is moved into, m.
 constexpr float kPushAllowance = 0.05f;
 
+constexpr const char* kSitter = "person with a seat";
+
 float fastest(const authoring::Scene& scene) {
     float speed = 0.0f;
     for (const gpu::Person& person : scene.people)
@@ -37,6 +39,7 @@ std::vector<gpu::AgentState> initialStates(const authoring::Scene& scene) {
             fixed ? person.spawn_position : scene.entry_points.at(scene.entries.at(person.entry).first_point);
         state.heading = person.heading;
         state.status = present ? gpu::STATUS_WALKING : gpu::STATUS_WAITING;
+        if (person.flags & gpu::PERSON_SITS_AT_START) state.status = gpu::STATUS_SEATED;
         state.spawn_step = present ? 0 : gpu::NO_INDEX;
         state.arrival_step = gpu::NO_INDEX;
         state.stage = person.first_stage;
@@ -220,6 +223,10 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
       censuses(gl::makeBuffer("censuses", scene.behaviours.censuses, "census")),
       tallies("tallies", {scene.behaviours.censuses.size(), sizeof(gpu::Tally), "census"}),
       minds(gl::makeBuffer("minds", mindsOf(scene), kPerson)),
+      seat_ways(gl::makeBuffer("ways to seats", scene.seats.ways, kSitter)),
+      seat_points(gl::makeBuffer("points of ways to seats", scene.seats.points, "point of a way to a seat")),
+      sitters(gl::makeBuffer("sitters", scene.seats.sitters, kSitter)),
+      sitter_of_row(gl::makeBuffer("sitters by row", scene.seats.sitter_of_row, kPerson)),
       detour_slopes("detour slopes",
                     {scene.detours.distances.size(), sizeof(glm::vec2), "cell of a detour field"}),
       queues(gl::makeBuffer("queues", scene.queues, "queue")),
@@ -235,7 +242,8 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
       belts(gl::makeBuffer("belts", roomForAll(scene.chart_map.belts), "chart")),
       has_bodies_(!std::ranges::all_of(scene.people, isDisc)),
       has_charts_(!scene.chart_map.empty()),
-      has_belts_(!scene.chart_map.belts.empty()) {
+      has_belts_(!scene.chart_map.belts.empty()),
+      has_seats_(!scene.seats.empty()) {
     const std::size_t rows = parameter_values.site_rows;
     const std::size_t cells = std::size_t{parameter_values.cells_width} * parameter_values.cells_height;
     const WallIndex walls = indexWalls(scene.wall_segments, parameter_values,
@@ -392,6 +400,7 @@ gl::Definitions Buffers::definitions() const {
     if (has_bodies_) all.emplace_back("BODIES", "1");
     if (hasCharts()) all.emplace_back("CHARTS", "1");
     if (has_belts_) all.emplace_back("BELTS", "1");
+    if (has_seats_) all.emplace_back("SEATS", "1");
     all.insert(all.end(), lifts_.begin(), lifts_.end());
     all.insert(all.end(), traffic_.begin(), traffic_.end());
     return all;
@@ -448,6 +457,10 @@ std::vector<std::pair<std::string, const gl::Buffer*>> Buffers::named() const {
             {"Censuses", &censuses},
             {"Tallies", &tallies},
             {"Minds", &minds},
+            {"SeatWays", &seat_ways},
+            {"SeatPoints", &seat_points},
+            {"Sitters", &sitters},
+            {"SitterOfRow", &sitter_of_row},
             {"DetourSlopes", &detour_slopes},
             {"Queues", &queues},
             {"QueueHeads", &queue_heads},

@@ -33,6 +33,7 @@ struct Buffers {
     gl::Buffer lines, line_points, tickets;  // people who wait in line
     gl::Buffer behaviour_states, behaviour_rules, behaviour_places, behaviour_points;  // what people do
     gl::Buffer censuses, tallies, minds;
+    gl::Buffer seat_ways, seat_points, sitters, sitter_of_row;         // seats that people walk to
     gl::Buffer detour_slopes;                                          // what jams add to them
     gl::Buffer queues, queue_heads, entries, entry_points, proposals;  // entering
     gl::Buffer wall_segments, wall_tiles, wall_starts, wall_items, narrow_cells;
@@ -77,7 +78,7 @@ struct Buffers {
     void makeTraffic(const authoring::SceneTraffic& traffic);
     void makeBoarding(const authoring::SceneTraffic& traffic, std::size_t people);
 
-    bool has_bodies_, has_charts_, has_belts_;
+    bool has_bodies_, has_charts_, has_belts_, has_seats_;
     gl::Definitions traffic_;  // how much of it there is
     gl::Definitions lifts_;    // likewise
 };

@@ -59,7 +59,9 @@ AgentOutcome outcomeOf(const gpu::AgentState& state, const gpu::Person& person, 
                          : called_off ? "no free room at its entry before it was told to go elsewhere"
                                       : "no free room at its entry before the bake ended";
     } else {
-        outcome.status = state.status == gpu::STATUS_WALKING ? AgentStatus::walking : AgentStatus::arrived;
+        const bool under_way = state.status == gpu::STATUS_WALKING ||
+                               (state.status == gpu::STATUS_SEATED && state.arrival_step == gpu::NO_INDEX);
+        outcome.status = under_way ? AgentStatus::walking : AgentStatus::arrived;
     }
     return outcome;
 }

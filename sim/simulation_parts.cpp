@@ -9,7 +9,8 @@ namespace {
 
 const gl::Declaration kPack = {"frame",
                                {"shaders/frame/pack_frame.comp"},
-                               {"ParametersBlock", "People", "States", "Stages", "ChartCells", "ChartShifts"},
+                               {"ParametersBlock", "People", "States", "Stages", "ChartCells", "ChartShifts",
+                                "SitterOfRow", "SeatWays", "SeatPoints", "Sitters"},
                                {"FrameBlock"}};
 
 SensingOptions sensingFor(const authoring::Scene& scene, const gpu::Parameters& parameters) {
@@ -99,6 +100,9 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
                                          : std::optional<Patches>(std::in_place, library, buffers, scene)),
       given(scene.given.empty() ? std::nullopt
                                 : std::optional<Given>(std::in_place, library, buffers, scene)),
+      seats(scene.seats.empty()
+                ? std::nullopt
+                : std::optional<Seats>(std::in_place, library, buffers, scene, settings.motion)),
       avoidance(library, buffers, settings.neighbours, slopes ? &*slopes : nullptr, settings.motion,
                 seams ? &*seams : nullptr),
       contacts(library, buffers, settings.contact_iterations, settings.motion, seams ? &*seams : nullptr),
@@ -181,12 +185,15 @@ std::vector<Pass> Simulation::Parts::passesOfStep() {
                              {"contacts", touch},
                              {"motion", move}};
     if (behaviour)
-        all.insert(all.begin() + 1,
-                   {"behaviour", when_deciding([this] { behaviour->run(step_start, steps_done); })});
+        all.insert(all.begin() + 1, {"behaviour", when_deciding([this] {
+                                         if (seats) seats->think(step_start, steps_done);
+                                         behaviour->run(step_start, steps_done);
+                                     })});
     if (lifts) all.insert(all.begin() + 1, {"lifts", when_deciding(serve)});
     if (boarding)
         all.insert(all.begin() + 1,
                    {"boarding", when_deciding([this] { boarding->serve(step_start, steps_done); })});
+    if (seats) all.insert(all.begin(), Pass{"seats", [this] { seats->lead(decides, steps_done); }});
     // Before anybody looks where they are.
     if (traffic && traffic->vehicles() > 0)
         all.insert(all.begin(), Pass{"vehicles", [this] { traffic->drive(step_start); }});
@@ -243,6 +250,9 @@ std::vector<std::pair<std::string, gl::Buffer*>> Simulation::Parts::remembered()
     }
     if (behaviour)
         for (const auto& each : behaviour->remembered())
+            found.push_back(each);
+    if (seats)
+        for (const auto& each : seats->remembered())
             found.push_back(each);
     for (const auto& each : congestion.remembered())
         found.push_back(each);

@@ -19,6 +19,7 @@
 #include "sim/lifts.h"
 #include "sim/passes.h"
 #include "sim/patches.h"
+#include "sim/seats.h"
 #include "sim/sensing.h"
 #include "sim/simulation.h"
 #include "sim/traffic.h"
@@ -53,6 +54,7 @@ struct Simulation::Parts {
     std::optional<Boarding> boarding;     // none without doors of vehicles
     std::optional<Patches> patches;       // none where nobody walks at another pace
     std::optional<Given> given;           // none without given people
+    std::optional<Seats> seats;           // none where nobody walks to a seat or leaves one
     std::vector<float> platform_sides;    // above 0: left
     Avoidance avoidance;
     Contacts contacts;

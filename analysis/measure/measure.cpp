@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 
+#include "analysis/between_rows.h"
 #include "analysis/measure/head_watch.h"
 #include "analysis/measure/histogram.h"
 #include "analysis/measure/vehicle_watch.h"
@@ -47,6 +48,7 @@ class Measurer {
           grid_(bake_.minimum, bake_.maximum, 1.0, cellsFor(rows_.size())),
           dt_(1.0 / bake_.fps),
           stuck_(crowd),
+          between_rows_(bake_),
           way_(rows_.size(), 0.0),
           effort_(rows_.size(), 0.0),
           start_(rows_.size()),
@@ -94,7 +96,7 @@ class Measurer {
         bodies_.clear();
         heights_.clear();
         for (std::uint32_t row = 0; row < rows_.size(); ++row)
-            if (now().isThere(row) && !hasSeat(now().activity(row))) {
+            if (now().isThere(row) && !hasSeat(now().activity(row)) && !between_rows_.has(now().place(row))) {
                 present_.push_back(row);
                 places_.push_back(now().place(row));
                 bodies_.push_back(now().body(row, rows_[row]));
@@ -363,6 +365,7 @@ class Measurer {
     std::vector<glm::dvec2> places_;      // of those
     std::vector<double> heights_;         // likewise, m; all zero where there is one storey
     StuckWatch stuck_;
+    BetweenRows between_rows_;
     std::vector<double> way_, effort_;
     std::vector<std::optional<glm::dvec2>> start_;  // where somebody was first seen
     std::vector<double> straight_;                  // m, from there to where it arrived

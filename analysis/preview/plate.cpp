@@ -87,7 +87,7 @@ double strengthOf(const io::CrowdFrame& now, std::size_t row) {
     const auto activity = static_cast<ActivityCode>(static_cast<int>(now.activity(row)));
     if (activity == ActivityCode::sits) return kSits;
     if (activity == ActivityCode::readies || activity == ActivityCode::claps) return kClaps;
-    if (activity != ActivityCode::rises) return 1.0;
+    if (activity != ActivityCode::rises && activity != ActivityCode::settles) return 1.0;
     const double phase = now[Stream::state][row * kComponents + 2];
     const double up = 1.0 - std::abs(2.0 * (phase - std::floor(phase)) - 1.0);
     return kSits + (1.0 - kSits) * up;

@@ -157,7 +157,7 @@ void tellOfDeadEnds(const Behaviour& behaviour, const Graph& graph, const std::v
         diagnostics.warning(
             state.where,
             fmt::format("the state `{}` of behaviour `{}` cannot be left", state.id, behaviour.id),
-            state.does == Does::stay || state.does == Does::gather
+            state.does == Does::stay || state.does == Does::gather || state.does == Does::sit
                 ? R"(say what ends it under "until", or write "for_good": true)"
                 : R"(say what ends it under "until")");
     }

@@ -19,10 +19,10 @@ struct Verb {
     const char* key;
     Does does;
 };
-constexpr std::array kVerbs = {Verb{"walk_to", Does::walk},  Verb{"stay", Does::stay},
-                               Verb{"wander", Does::wander}, Verb{"visit", Does::visit},
-                               Verb{"gather", Does::gather}, Verb{"flee", Does::flee},
-                               Verb{"follow", Does::follow}, Verb{"queue", Does::queue}};
+constexpr std::array kVerbs = {
+    Verb{"walk_to", Does::walk},  Verb{"stay", Does::stay},     Verb{"wander", Does::wander},
+    Verb{"visit", Does::visit},   Verb{"gather", Does::gather}, Verb{"flee", Does::flee},
+    Verb{"follow", Does::follow}, Verb{"queue", Does::queue},   Verb{"sit", Does::sit}};
 
 /// Which keys belong to which activities.
 struct KeyOf {
@@ -35,12 +35,12 @@ const std::vector<KeyOf>& keysOf() {
         {"beyond", {Does::flee}},
         {"distance", {Does::follow}},
         {"person", {Does::follow}},
-        {"for", {Does::stay, Does::wander, Does::visit, Does::gather, Does::queue}},
+        {"for", {Does::stay, Does::wander, Does::visit, Does::gather, Does::queue, Does::sit}},
         {"line", {Does::queue}},
         {"spacing", {Does::queue}},
-        {"do", {Does::stay, Does::wander, Does::visit, Does::gather}},
+        {"do", {Does::stay, Does::wander, Does::visit, Does::gather, Does::sit}},
         {"facing", {Does::stay, Does::visit, Does::gather, Does::queue}},
-        {"for_good", {Does::stay, Does::gather}}};
+        {"for_good", {Does::stay, Does::gather, Does::sit}}};
     return keys;
 }
 
@@ -51,6 +51,11 @@ std::optional<std::uint64_t> wholeOf(const JsonNode& node, Limits limits, Diagno
         return std::nullopt;
     }
     return number ? std::optional(static_cast<std::uint64_t>(*number)) : std::nullopt;
+}
+
+/// Where people are until something happens, or for a time.
+bool isStay(Does does) {
+    return does == Does::stay || does == Does::gather || does == Does::sit;
 }
 
 const char* keyOf(Does does) {
@@ -184,10 +189,43 @@ void BehaviourReader::readActivity(ObjectReader& reader, const JsonNode& what, S
         case Does::follow:
             readFollowing(reader, what, state);
             break;
+        case Does::sit:
+            readSeats(what, state.blocks);
+            break;
         case Does::stay:
             break;
     }
     if (!state.to.places.empty()) state.to.where = what.where;
+}
+
+void BehaviourReader::readSeats(const JsonNode& what, std::vector<GroupName>& blocks) {
+    const std::vector<JsonNode> one = {what};
+    for (const JsonNode& item : what.kind == JsonNode::Kind::array ? what.items : one)
+        if (item.kind == JsonNode::Kind::text)
+            blocks.push_back({item.text, item.where});
+        else
+            diagnostics_.error(item.where,
+                               fmt::format("expected a block of seats, found {}", item.kindName()),
+                               R"(for example "south", or ["south", "west"])");
+    if (what.kind == JsonNode::Kind::array && what.items.empty())
+        diagnostics_.error(what.where, "in which block of seats?", R"(for example ["south", "west"])");
+}
+
+std::optional<std::size_t> BehaviourReader::sittingIn(const JsonNode& goal, const std::string& owner) {
+    const JsonNode* seats = goal.find("seats");
+    if (!seats) return std::nullopt;
+    State state;
+    state.id = "sit";
+    state.does = Does::sit;
+    state.activity = ActivityCode::sits;
+    state.for_good = true;
+    state.where = goal.where;
+    ObjectReader reader(goal, schema_.definition("seat_goal"), "a goal", diagnostics_);
+    reader.get("seats");
+    reader.finish();
+    readSeats(*seats, state.blocks);
+    layout_.behaviours.push_back({owner, {std::move(state)}, 0, goal.where});
+    return layout_.behaviours.size() - 1;
 }
 
 void BehaviourReader::readVisits(ObjectReader& reader, const JsonNode& what, State& state) {
@@ -252,11 +290,35 @@ void BehaviourReader::readFollowing(ObjectReader& reader, const JsonNode& what, 
         state.person = wholeOf(*person, reader.rule("person").limits(), diagnostics_);
 }
 
+/// What people do where they are; in a seat they do it there.
+void BehaviourReader::readPose(ObjectReader& reader, State& state) {
+    using Code = ActivityCode;
+    const bool sits = state.does == Does::sit;
+    if (sits) state.activity = Code::sits;
+    std::optional<Code> told;
+    reader.choice("do",
+                  {{"stand", Code::stands},
+                   {"look", Code::looks},
+                   {"sit", Code::sits},
+                   {"clap", sits ? Code::claps : Code::applauds},
+                   {"cheer", sits ? Code::cheers : Code::jubilates},
+                   {"sing", sits ? Code::sings : Code::sways},
+                   {"wave", Code::waves}},
+                  told);
+    if (!told) return;
+    state.activity = *told;
+    const JsonNode& where = *reader.get("do");
+    if (*told == Code::sits && !sits)
+        diagnostics_.error(where.where, "there is nothing to sit on here",
+                           R"(write "sit": the id of a block of seats; a bench is a block of one row)");
+    if (sits && (*told == Code::stands || *told == Code::looks || *told == Code::waves))
+        diagnostics_.error(where.where, fmt::format("who sits does not {}", where.text),
+                           "in seats people sit, clap, cheer or sing");
+}
+
 void BehaviourReader::readManner(ObjectReader& reader, State& state) {
     if (state.does == Does::visit) state.activity = ActivityCode::looks;
-    std::optional<ActivityCode> told;
-    reader.choice("do", {{"stand", ActivityCode::stands}, {"look", ActivityCode::looks}}, told);
-    if (told) state.activity = *told;
+    readPose(reader, state);
     reader.point("facing", state.facing);
     reader.number("pace", state.pace);
     reader.boolean("for_good", state.for_good);
@@ -409,16 +471,15 @@ void BehaviourReader::checkKeys(const JsonNode& node, const State& state) {
                            fmt::format("`{}` says nothing beside `{}`", each.key, keyOf(state.does)),
                            fmt::format("it belongs to {}", fmt::join(verbs, ", ")));
     }
-    const bool never_done = state.does == Does::wander || state.does == Does::follow ||
-                            ((state.does == Does::stay || state.does == Does::gather) && !state.lasts);
+    const bool never_done =
+        state.does == Does::wander || state.does == Does::follow || (isStay(state.does) && !state.lasts);
     if (state.then && never_done)
         diagnostics_.error(node.find("then")->where,
                            fmt::format("`{}` is never done: `then` would never come", keyOf(state.does)),
-                           state.does == Does::stay || state.does == Does::gather
-                               ? R"(say how long under "for", or what ends it under "until")"
-                               : R"(say what ends it under "until")");
-    const bool needs_then = state.does == Does::visit || state.does == Does::queue ||
-                            (state.lasts && (state.does == Does::stay || state.does == Does::gather));
+                           isStay(state.does) ? R"(say how long under "for", or what ends it under "until")"
+                                              : R"(say what ends it under "until")");
+    const bool needs_then =
+        state.does == Does::visit || state.does == Does::queue || (state.lasts && isStay(state.does));
     if (!node.find("then") && needs_then)
         diagnostics_.error(node.where, fmt::format("what comes after the state `{}`?", state.id),
                            R"(write "then": the name of a state)");
@@ -474,15 +535,33 @@ void BehaviourReader::checkReferences(const Behaviour& behaviour) {
     }
 }
 
+/// Everybody has one seat.
+void BehaviourReader::checkSeatsOf(const Behaviour& behaviour, Diagnostics& diagnostics) {
+    const State* first = nullptr;
+    for (const State& state : behaviour.states) {
+        if (state.does != Does::sit) continue;
+        if (!first) first = &state;
+        if (!std::ranges::equal(state.blocks, first->blocks, {}, &GroupName::id, &GroupName::id))
+            diagnostics.error(state.where,
+                              fmt::format("the states `{}` and `{}` of behaviour `{}` have other seats",
+                                          first->id, state.id, behaviour.id),
+                              "everybody has one seat: name the same blocks in both");
+    }
+}
+
 void BehaviourReader::finish() {
-    for (const Behaviour& behaviour : layout_.behaviours)
+    for (const Behaviour& behaviour : layout_.behaviours) {
         checkReferences(behaviour);
+        checkSeatsOf(behaviour, diagnostics_);
+    }
     if (diagnostics_.hasErrors()) return;
     std::vector<bool> used(layout_.behaviours.size(), false);
     for (const Flow& flow : layout_.flows)
         if (flow.behaviour) used[*flow.behaviour] = true;
     for (const Formation& formation : layout_.formations)
         if (formation.behaviour) used[*formation.behaviour] = true;
+    for (const SeatBlock& block : layout_.seats)
+        if (block.behaviour) used[*block.behaviour] = true;
     for (std::size_t i = 0; i < layout_.behaviours.size(); ++i) {
         const Behaviour& behaviour = layout_.behaviours[i];
         if (!used[i])

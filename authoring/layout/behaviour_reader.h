@@ -31,6 +31,8 @@ class BehaviourReader {
     /// The behaviour of a flow or formation. @param instead keys that say what the behaviour says
     std::optional<std::size_t> behaviourOf(ObjectReader& reader, const JsonNode& owner,
                                            const std::vector<std::string>& instead) const;
+    /// What people do whose goal is {"seats": ...}: as a behaviour. @returns nothing where it is none
+    std::optional<std::size_t> sittingIn(const JsonNode& goal, const std::string& owner);
     /// What is said of somebody who has a behaviour, and only that says it.
     void refuseBeside(const JsonNode& owner, const std::vector<std::string>& keys) const;
     /// After all else: the flows, formations and gates that behaviours speak of, and what leads where.
@@ -43,9 +45,12 @@ class BehaviourReader {
     std::optional<Does> activityOf(ObjectReader& reader, const JsonNode& node, const JsonNode*& what);
     void readActivity(ObjectReader& reader, const JsonNode& what, State& state);
     void readVisits(ObjectReader& reader, const JsonNode& what, State& state);
+    void readSeats(const JsonNode& what, std::vector<GroupName>& blocks);
     void readQueue(ObjectReader& reader, const JsonNode& what, State& state);
     void readFlight(ObjectReader& reader, const JsonNode& what, State& state);
     void readFollowing(ObjectReader& reader, const JsonNode& what, State& state);
+    static void checkSeatsOf(const Behaviour& behaviour, Diagnostics& diagnostics);
+    void readPose(ObjectReader& reader, State& state);
     void readManner(ObjectReader& reader, State& state);
     void readExits(ObjectReader& reader, const JsonNode& node, State& state);
     static Condition* addCondition(ObjectReader& reader, const char* key, Condition::Kind kind,

@@ -61,6 +61,7 @@ class Reader {
         eachOf(reader, "shows", [this](const JsonNode& node) { seats_.readShow(node); });
         eachOf(reader, "attractions", [this](const JsonNode& node) { readAttraction(node); });
         sortEvents();
+        seats_.open();
         behaviours_.finish();
         if (const JsonNode* node = reader.get("expect")) readExpectations(*node);
         reader.finish();
@@ -334,7 +335,8 @@ class Reader {
         if (!reader.isObject()) return;
         reader.requiredText("id", "its name in the account", flow.id);
         flow.behaviour = behaviours_.behaviourOf(reader, node, {"via", "to", "board", "arrival"});
-        const bool behaves = node.find("behaviour") != nullptr;
+        const bool behaves = node.find("behaviour") != nullptr || sits(node, "to");
+        if (sits(node, "to")) flow.behaviour = seatsFor(reader, node, "to", {"via", "arrival"}, flow.id);
         const std::optional<Place> from_place = readBeginning(reader, node, flow);
         const std::optional<Destination> destination = readEnd(reader, node, flow);
         eachOf(reader, "via", [&](const JsonNode& item) {
@@ -358,6 +360,20 @@ class Reader {
         layout_.flows.push_back(std::move(flow));
     }
 
+    /// Whether a goal is a seat.
+    static bool sits(const JsonNode& node, const char* key) {
+        const JsonNode* goal = node.find(key);
+        return goal && goal->kind == JsonNode::Kind::object && goal->find("seats");
+    }
+    std::optional<std::size_t> seatsFor(ObjectReader& reader, const JsonNode& node, const char* key,
+                                        const std::vector<std::string>& instead, const std::string& owner) {
+        refuseKeys(node, instead, "who goes to a seat stays there: `{}` has no meaning",
+                   "leave `{}` out, or write a behaviour", diagnostics_);
+        if (node.find("behaviour")) behaviours_.refuseBeside(node, {key});
+        if (node.find("board")) return std::nullopt;
+        return behaviours_.sittingIn(*reader.get(key), owner);
+    }
+
     /// Where people come from: a place, or out of vehicles.
     std::optional<Place> readBeginning(ObjectReader& reader, const JsonNode& node, Flow& flow) {
         const JsonNode* alight = reader.get("alight");
@@ -371,6 +387,7 @@ class Reader {
     /// Where people go: a place, or into vehicles; nothing where a behaviour tells.
     std::optional<Destination> readEnd(ObjectReader& reader, const JsonNode& node, Flow& flow) {
         const JsonNode* board = reader.get("board");
+        if (sits(node, "to")) return std::nullopt;
         const bool told = board || node.find("behaviour") != nullptr;
         const JsonNode* to = told ? reader.get("to") : reader.require("to", "where people go");
         if (!board) return to ? places_.destination(*to) : std::nullopt;
@@ -547,7 +564,9 @@ class Reader {
         reader.choice("type", {{"circle", Shape::circle}, {"grid", Shape::grid}, {"agents", Shape::agents}},
                       type);
         formation.behaviour = behaviours_.behaviourOf(reader, node, {"goal", "wait", "arrival"});
-        const bool behaves = node.find("behaviour") != nullptr;
+        const bool behaves = node.find("behaviour") != nullptr || sits(node, "goal");
+        if (sits(node, "goal") && type == Shape::grid)
+            formation.behaviour = seatsFor(reader, node, "goal", {"arrival"}, formation.id);
         if (type == Shape::circle) formation.shape = readCircle(reader);
         if (type == Shape::grid) formation.shape = readGrid(reader, behaves);
         reader.number("start", formation.start);
@@ -609,7 +628,7 @@ class Reader {
         reader.number("rotation", grid.rotation);
         constexpr const char* kMeaning = "{\"offset\": [dx, dy]} or a place";
         const JsonNode* goal = behaves ? reader.get("goal") : reader.require("goal", kMeaning);
-        if (!goal) return grid;
+        if (!goal || behaves) return grid;
         if (goal->kind != JsonNode::Kind::object || goal->find("nearest") || goal->find("choose")) {
             if (auto destination = places_.destination(*goal)) grid.goal = std::move(*destination);
             return grid;
@@ -768,7 +787,7 @@ class Reader {
     LevelReader levels_{schema_, layout_, diagnostics_};
     PatchReader patches_{schema_, layout_, levels_, diagnostics_};
     GivenReader given_{schema_, layout_, groups_, diagnostics_};
-    SeatReader seats_{schema_, layout_, groups_, walls_, diagnostics_};
+    SeatReader seats_{schema_, layout_, places_, groups_, walls_, diagnostics_};
     BoardingReader boarding_{schema_, layout_, areas_, diagnostics_};
     TrafficReader traffic_{schema_, layout_, boarding_, diagnostics_};
     BehaviourReader behaviours_{schema_, layout_, places_, groups_, walls_, traffic_, diagnostics_};

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <glm/geometric.hpp>
 #include <numeric>
 
 #include "authoring/layout/people_reader.h"
@@ -15,6 +16,16 @@ namespace {
 
 constexpr double kStandHeight = 0.01;  // m, of the outline: what is seen of a stand are its rows
 constexpr double kWholeRound = 360.0;
+
+BehaviourState sittingIn(const SeatBlock& block) {
+    BehaviourState state;
+    state.id = "sit";
+    state.does = BehaviourState::Does::sit;
+    state.activity = ActivityCode::sits;
+    state.blocks = {{block.id, block.where}};
+    state.where = block.where;
+    return state;
+}
 
 }  // namespace
 
@@ -45,6 +56,7 @@ void SeatReader::readBlock(const JsonNode& node) {
     reader.number("aisle_width", block.aisle_width);
     reader.number("occupancy", block.occupancy);
     block.people = readPeople(reader, diagnostics_);
+    if (const JsonNode* leave = reader.get("leave")) readLeave(*leave, block);
     reader.finish();
     claimId(node, block.id, blocks_, layout_.seats.size(), "a block of seats", diagnostics_);
     claimId(node, block.id, groups_, std::string::npos, "a flow, formation or block of seats", diagnostics_);
@@ -53,6 +65,79 @@ void SeatReader::readBlock(const JsonNode& node) {
         if (!diagnostics_.hasErrors()) addStands(block);
     }
     layout_.seats.push_back(std::move(block));
+}
+
+/// As a behaviour: who sits there does until then.
+void SeatReader::readLeave(const JsonNode& node, SeatBlock& block) {
+    ObjectReader reader(node, schema_.definition("seat_block").property("leave"), "`leave`", diagnostics_);
+    if (!reader.isObject()) return;
+    Condition when;
+    when.kind = Condition::Kind::at;
+    when.where = node.where;
+    reader.require("at", "when, in seconds");
+    when.time = readDistribution(reader, "at", when.time, diagnostics_);
+    const JsonNode* to = reader.require("to", "where people go");
+    const auto destination = to ? places_.destination(*to) : std::nullopt;
+    reader.finish();
+    if (!destination) return;
+    Behaviour behaviour{block.id, {sittingIn(block), {}}, 0, node.where};
+    behaviour.states[0].until = {{{when}, 1}};
+    BehaviourState& leaves = behaviour.states[1];
+    leaves.id = "leave";
+    leaves.does = BehaviourState::Does::walk;
+    leaves.to = *destination;
+    leaves.where = node.where;
+    block.behaviour = layout_.behaviours.size();
+    layout_.behaviours.push_back(std::move(behaviour));
+}
+
+void SeatReader::open() {
+    const std::vector<Behaviour> all = layout_.behaviours;
+    std::vector<bool> opens(layout_.seats.size(), false);
+    for (const Behaviour& behaviour : all)
+        for (const BehaviourState& state : behaviour.states)
+            for (const GroupName& name : state.blocks) {
+                const auto found = blocks_.find(name.id);
+                if (found != blocks_.end())
+                    opens[found->second] = true;
+                else
+                    diagnostics_.error(
+                        name.where, fmt::format("there is no block of seats `{}`", name.id),
+                        blocks_.empty() ? "list it under `seats`" : hintFor(name.id, namesOf(blocks_)));
+            }
+    if (diagnostics_.hasErrors()) return;
+    for (std::size_t i = 0; i < opens.size(); ++i)
+        if (opens[i]) openBlock(layout_.seats[i]);
+    for (Behaviour& behaviour : layout_.behaviours)
+        for (BehaviourState& state : behaviour.states)
+            if (state.does == BehaviourState::Does::sit) leadTo(state);
+}
+
+/// People go to the aisles.
+void SeatReader::leadTo(BehaviourState& state) const {
+    state.to = {Destination::Kind::choose, {}, {}, state.where};
+    for (const GroupName& name : state.blocks) {
+        const std::size_t block = blocks_.at(name.id);
+        for (std::size_t aisle = 0; aisle < countAisles(layout_.seats[block]); ++aisle)
+            state.to.places.push_back({Place::Kind::aisle, block, name.where, aisle});
+    }
+    state.to.weights.assign(state.to.places.size(), 1.0);
+}
+
+/// Those who sit there are simulated, and nobody else walks through its aisles.
+void SeatReader::openBlock(SeatBlock& block) {
+    constexpr double kTogether = 0.5;  // m
+    if (block.aisles == 0 && glm::distance(block.front.front(), block.front.back()) < kTogether)
+        diagnostics_.error(block.where,
+                           fmt::format("nobody gets into block `{}`: it goes all round", block.id),
+                           R"(give it "aisles")");
+    if (!block.behaviour) {
+        block.behaviour = layout_.behaviours.size();
+        layout_.behaviours.push_back({block.id, {sittingIn(block)}, 0, block.where});
+        layout_.behaviours.back().states[0].for_good = true;
+    }
+    for (std::vector<glm::dvec2>& outline : aisleOutlines(block))
+        addStand(block, std::move(outline));
 }
 
 void SeatReader::readArc(ObjectReader& reader, const JsonNode& node, SeatBlock& block) {
@@ -101,17 +186,20 @@ void SeatReader::checkBlock(const SeatBlock& block, const JsonNode& node) const 
 
 /// Others walk round the stand and through its aisles.
 void SeatReader::addStands(const SeatBlock& block) {
-    for (std::vector<glm::dvec2>& outline : standOutlines(block)) {
-        Wall wall;
-        wall.id = block.id + " stand";
-        while (!walls_.emplace(wall.id, layout_.walls.size()).second)
-            wall.id += "_";
-        wall.points = std::move(outline);
-        wall.closed = true;
-        wall.height = kStandHeight;
-        wall.where = block.where;
-        layout_.walls.push_back(std::move(wall));
-    }
+    for (std::vector<glm::dvec2>& outline : standOutlines(block))
+        addStand(block, std::move(outline));
+}
+
+void SeatReader::addStand(const SeatBlock& block, std::vector<glm::dvec2> outline) {
+    Wall wall;
+    wall.id = block.id + " stand";
+    while (!walls_.emplace(wall.id, layout_.walls.size()).second)
+        wall.id += "_";
+    wall.points = std::move(outline);
+    wall.closed = true;
+    wall.height = kStandHeight;
+    wall.where = block.where;
+    layout_.walls.push_back(std::move(wall));
 }
 
 void SeatReader::readShow(const JsonNode& node) {

@@ -121,6 +121,22 @@ double middleRow(const SeatBlock& block) {
     return 0.5 * static_cast<double>(block.rows - 1) * block.pitch;
 }
 
+double aisleShare(const SeatBlock& block, std::size_t aisle) {
+    if (block.aisles == 0) return static_cast<double>(aisle);
+    return static_cast<double>(aisle + 1) / static_cast<double>(block.aisles + 1);
+}
+
+/// The middle of an aisle, so far behind the first row; of a block without any, beside its rows.
+glm::dvec2 inAisle(const SeatBlock& block, std::size_t aisle, double back) {
+    constexpr double kBeside = 0.45;  // m
+    const RowLine line(block, back);
+    const glm::dvec2 place = line.at(aisleShare(block, aisle));
+    if (block.aisles > 0) return place;
+    const glm::dvec2 ahead = line.aheadAt(aisleShare(block, aisle));
+    const glm::dvec2 onwards(ahead.y, -ahead.x);  // along the row
+    return place + (aisle == 0 ? -kBeside : kBeside) * onwards;
+}
+
 }  // namespace
 
 std::vector<Seat> seatsOf(const SeatBlock& block) {
@@ -202,6 +218,66 @@ std::vector<SeatRow> seatRows(const SeatBlock& block) {
                                 block.height + static_cast<double>(row) * block.rise});
     }
     return rows;
+}
+
+double passingAhead(const SeatBlock& block) {
+    constexpr double kOfTheNextRow = 0.5;  // m: its backs, and half of a body
+    return std::clamp(block.pitch - kOfTheNextRow, 0.3, 0.42);
+}
+
+std::size_t countAisles(const SeatBlock& block) {
+    return block.aisles > 0 ? static_cast<std::size_t>(block.aisles) : 2;
+}
+
+std::size_t aisleOf(const SeatBlock& block, const Seat& seat) {
+    const double share = seat.along / lengthOf(block);
+    if (block.aisles == 0) return share > 0.5 ? 1 : 0;
+    if (seat.section == 0) return 0;
+    if (seat.section == block.aisles) return seat.section - 1;
+    const double middle = (static_cast<double>(seat.section) + 0.5) / static_cast<double>(block.aisles + 1);
+    return share > middle ? seat.section : seat.section - 1;
+}
+
+std::vector<glm::dvec2> aisleLine(const SeatBlock& block, std::size_t aisle) {
+    constexpr double kBeforeTheBlock = 0.7;  // m: room for a body between it and the block
+    const double ahead = passingAhead(block);
+    std::vector<glm::dvec2> line{inAisle(block, aisle, -0.5 * block.pitch - kBeforeTheBlock)};
+    for (std::uint64_t row = 0; row < block.rows; ++row)
+        line.push_back(inAisle(block, aisle, static_cast<double>(row) * block.pitch - ahead));
+    return line;
+}
+
+double aisleWidth(const SeatBlock& block) {
+    constexpr double kBesideTheBlock = 0.9;
+    return block.aisles > 0 ? block.aisle_width : kBesideTheBlock;
+}
+
+std::vector<glm::dvec2> wayAlongRow(const SeatBlock& block, std::size_t aisle, const Seat& seat) {
+    const double back = static_cast<double>(seat.row) * block.pitch - passingAhead(block);
+    const RowLine line(block, back);
+    const double from = aisleShare(block, aisle), to = seat.along / lengthOf(block);
+    std::vector<glm::dvec2> way = line.between(std::min(from, to), std::max(from, to));
+    if (to < from) std::ranges::reverse(way);
+    if (block.aisles == 0) way.insert(way.begin(), inAisle(block, aisle, back));
+    return way;
+}
+
+std::vector<glm::dvec2> footOf(const SeatBlock& block, std::size_t aisle) {
+    constexpr double kHalf = 0.45;  // m
+    const glm::dvec2 foot = aisleLine(block, aisle).front();
+    return {foot + glm::dvec2(-kHalf, -kHalf), foot + glm::dvec2(kHalf, -kHalf),
+            foot + glm::dvec2(kHalf, kHalf), foot + glm::dvec2(-kHalf, kHalf)};
+}
+
+std::vector<std::vector<glm::dvec2>> aisleOutlines(const SeatBlock& block) {
+    const double before = -0.5 * block.pitch, behind = (static_cast<double>(block.rows) - 0.5) * block.pitch;
+    const RowLine front(block, before), back(block, behind);
+    const std::vector<Section> near = sectionsOf(block, front), far = sectionsOf(block, back);
+    std::vector<std::vector<glm::dvec2>> outlines;
+    for (std::size_t i = 0; i + 1 < near.size(); ++i)
+        outlines.push_back(
+            {front.at(near[i].to), back.at(far[i].to), back.at(far[i + 1].from), front.at(near[i + 1].from)});
+    return outlines;
 }
 
 std::vector<glm::dvec2> arcFront(glm::dvec2 centre, double radius, double from, double to) {

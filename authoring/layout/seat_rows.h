@@ -38,6 +38,25 @@ struct SeatRow {
 };
 std::vector<SeatRow> seatRows(const SeatBlock& block);
 
+/// m from the middle of a seat: where its people stand before it, and where others pass.
+inline constexpr double kStandsAhead = 0.1;
+double passingAhead(const SeatBlock& block);
+
+/// Aisles by which people come to the seats: those through the block, or, where there are none, its two ends.
+std::size_t countAisles(const SeatBlock& block);
+/// The one that is nearest to a seat.
+std::size_t aisleOf(const SeatBlock& block, const Seat& seat);
+/// The middle of an aisle: before the first row, where people step off the ground, and then before each row.
+std::vector<glm::dvec2> aisleLine(const SeatBlock& block, std::size_t aisle);
+/// The way along a row from an aisle to before a seat. @returns its points, the first in the aisle
+std::vector<glm::dvec2> wayAlongRow(const SeatBlock& block, std::size_t aisle, const Seat& seat);
+/// m
+double aisleWidth(const SeatBlock& block);
+/// Where people wait until they can go in, a square before an aisle.
+std::vector<glm::dvec2> footOf(const SeatBlock& block, std::size_t aisle);
+/// The aisles as outlines that keep others out.
+std::vector<std::vector<glm::dvec2>> aisleOutlines(const SeatBlock& block);
+
 /// The first row of an arc. @param from, to: degrees, counter-clockwise
 std::vector<glm::dvec2> arcFront(glm::dvec2 centre, double radius, double from, double to);
 

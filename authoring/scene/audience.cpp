@@ -76,7 +76,7 @@ void seatBlock(const Layout& layout, std::size_t index, std::vector<Spectator>& 
     }
     const auto before = static_cast<std::uint32_t>(audience.size());
     for (const std::size_t seat : seating.taken)
-        audience.push_back({index, seats[seat], drawPerson(block.people, random, seat, 0), 0, {}});
+        audience.push_back({index, seat, seats[seat], drawPerson(block.people, random, seat, 0), 0, {}});
     for (const Party& party : seating.parties)
         for (std::uint32_t i = 0; i < party.size; ++i)
             audience[before + party.first + i].party = before + static_cast<std::uint32_t>(party.first);
@@ -222,10 +222,42 @@ void addCues(const Layout& layout, std::size_t number, const std::vector<Spectat
 
 }  // namespace
 
+std::vector<Spectator> audienceIn(const Layout& layout, std::size_t block) {
+    std::vector<Spectator> audience;
+    seatBlock(layout, block, audience);
+    return audience;
+}
+
+std::vector<std::vector<SeatCue>> cuesIn(const Layout& layout, const std::vector<Spectator>& seated) {
+    const auto activityOf = [](Show::Kind kind) {
+        switch (kind) {
+            case Show::Kind::clap:
+                return ActivityCode::claps;
+            case Show::Kind::cheer:
+                return ActivityCode::cheers;
+            case Show::Kind::sing:
+                return ActivityCode::sings;
+            case Show::Kind::wave:
+                break;
+        }
+        return ActivityCode::rises;
+    };
+    std::vector<std::vector<Cue>> cues(seated.size());
+    for (std::size_t show = 0; show < layout.shows.size(); ++show)
+        addCues(layout, show, seated, cues);
+    std::vector<std::vector<SeatCue>> result(seated.size());
+    for (std::size_t i = 0; i < seated.size(); ++i) {
+        std::ranges::stable_sort(cues[i], {}, &Cue::at);
+        for (const Cue& cue : cues[i])
+            result[i].push_back({cue.at, cue.lasts, cue.beat, activityOf(cue.kind)});
+    }
+    return result;
+}
+
 std::vector<Spectator> audienceOf(const Layout& layout) {
     std::vector<Spectator> audience;
     for (std::size_t block = 0; block < layout.seats.size(); ++block)
-        seatBlock(layout, block, audience);
+        if (!layout.seats[block].isOpen()) seatBlock(layout, block, audience);
     std::vector<std::vector<Cue>> cues(audience.size());
     for (std::size_t show = 0; show < layout.shows.size(); ++show)
         addCues(layout, show, audience, cues);

@@ -315,6 +315,7 @@ void BehaviourTables::begin(gpu::Person& person, std::size_t row, std::uint32_t 
     stage.dwell = gpu::DWELL_WHILE;
     stage.line = gpu::NO_INDEX;
     stage.activity = gpu::ACTIVITY_STAND;
+    if (begun.does == gpu::DOES_SIT) stage.field |= gpu::FIELD_THEN_POINT;
     person.first_stage = static_cast<std::uint32_t>(scene_.stages.size());
     person.stage_count = 2;
     scene_.stages.insert(scene_.stages.end(), 2, stage);
@@ -322,6 +323,7 @@ void BehaviourTables::begin(gpu::Person& person, std::size_t row, std::uint32_t 
     mind.state = state;
     mind.place = mind.followed = gpu::NO_INDEX;
     mind.first_stage = person.first_stage;
+    mind.next = mind.seat = gpu::NO_INDEX;
     gpu::Mind none{};
     none.state = gpu::NO_INDEX;
     scene_.behaviours.minds.resize(scene_.people.size(), none);

@@ -83,6 +83,8 @@ void BehaviourTables::destinations(const Layout& layout, Want want) {
         wantAll(flow.behaviour, keepsToRoads(layout));
     for (const Formation& formation : layout.formations)
         wantAll(formation.behaviour, false);
+    for (const SeatBlock& block : layout.seats)
+        wantAll(block.behaviour, false);
 }
 
 }  // namespace throng::authoring

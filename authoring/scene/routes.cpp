@@ -11,6 +11,7 @@
 #include <set>
 #include <thread>
 
+#include "authoring/layout/seat_rows.h"
 #include "authoring/scene/raster.h"
 
 namespace throng::authoring {
@@ -36,6 +37,8 @@ Routes::Routes(const Layout& layout, const Rebase& rebase, Ground& ground)
 
 LocalPolygon Routes::outline(const Place& place, float depth) const {
     if (place.kind == Place::Kind::area) return rebase_.local(layout_.areas[place.index].polygon);
+    if (place.kind == Place::Kind::aisle)
+        return rebase_.local(footOf(layout_.seats[place.index], place.number));
     const Road& road = layout_.roads[place.index];
     const std::vector<glm::vec2> line = rebase_.local(road.centreline);
     const bool start = place.kind == Place::Kind::road_start;
@@ -49,6 +52,8 @@ LocalPolygon Routes::outline(const Place& place, float depth) const {
 
 std::string Routes::name(const Place& place) const {
     if (place.kind == Place::Kind::area) return layout_.areas[place.index].id;
+    if (place.kind == Place::Kind::aisle)
+        return fmt::format("{}, aisle {}", layout_.seats[place.index].id, place.number + 1);
     return layout_.roads[place.index].id + (place.kind == Place::Kind::road_start ? ":start" : ":end");
 }
 

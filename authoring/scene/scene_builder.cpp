@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "authoring/layout/layout_reader.h"
+#include "authoring/scene/audience.h"
 #include "authoring/scene/behaviours.h"
 #include "authoring/scene/boarding.h"
 #include "authoring/scene/chart_map.h"
@@ -23,6 +24,7 @@
 #include "authoring/scene/raster.h"
 #include "authoring/scene/rebase.h"
 #include "authoring/scene/routes.h"
+#include "authoring/scene/seat_ways.h"
 #include "authoring/scene/terrain_charts.h"
 #include "authoring/scene/terrain_check.h"
 #include "authoring/scene/traffic.h"
@@ -119,6 +121,9 @@ class SceneAssembly {
             routeFlow(layout_.flows[i], i, routes, itineraries, behaviours);
         for (std::size_t i = 0; i < layout_.formations.size(); ++i)
             placeFormation(layout_.formations[i], i, routes, itineraries, behaviours);
+        for (std::size_t group = 0; group < scene_.groups.size(); ++group)
+            if (scene_.groups[group].block) seatAudience(group, behaviours);
+        buildSeats(layout_, rebase_, scene_, diagnostics_);
         addWays(layout_, rebase_, scene_);
         tellOfFastWays(layout_, diagnostics_);
         numberTickets();
@@ -229,6 +234,8 @@ class SceneAssembly {
             drawFlow(layout_.flows[i], i);
         for (const Formation& formation : layout_.formations)
             drawFormation(formation);
+        for (std::size_t block = 0; block < layout_.seats.size(); ++block)
+            if (layout_.seats[block].isOpen()) drawAudience(block);
         for (const GivenPeople& given : layout_.given) {
             beginGroup(given.id, false, given.people);
             scene_.groups.back().is_given = true;
@@ -290,6 +297,27 @@ class SceneAssembly {
                 addPerson(person);
             }
             bringTogether(party);
+        }
+    }
+
+    /// Those who sit in a block that people walk to or leave.
+    void drawAudience(std::size_t index) {
+        const SeatBlock& block = layout_.seats[index];
+        beginGroup(block.id, false, block.people);
+        scene_.groups.back().block = index;
+        const std::vector<Spectator> audience = audienceIn(layout_, index);
+        for (std::size_t i = 0; i < audience.size(); ++i) {
+            const Spectator& each = audience[i];
+            gpu::Person person = each.person;
+            person.group = group();
+            person.spawn_position = rebase_.local(each.seat.place);
+            person.spawn_time = static_cast<float>(-layout_.simulation.warmup);
+            person.heading = static_cast<float>(std::atan2(each.seat.ahead.y, each.seat.ahead.x));
+            person.flags |=
+                gpu::PERSON_FIXED_SPAWN | gpu::PERSON_PRESENT_AT_START | gpu::PERSON_SITS_AT_START;
+            addPerson(person);
+            const bool is_last = i + 1 == audience.size() || audience[i + 1].party != each.party;
+            if (is_last) bringTogether({each.party, static_cast<std::uint32_t>(i + 1 - each.party)});
         }
     }
 
@@ -396,6 +424,9 @@ class SceneAssembly {
                 {rebase_.local(road.centreline), static_cast<float>(road.width), road.one_way});
         for (const Area& area : layout_.areas)
             geometry_.areas.push_back(rebase_.local(area.polygon));
+        for (const SeatBlock& block : layout_.seats)
+            for (std::size_t aisle = 0; block.isOpen() && aisle < countAisles(block); ++aisle)
+                geometry_.areas.push_back(rebase_.local(footOf(block, aisle)));
         for (const Zebra& crossing : layout_.traffic.crossings)
             geometry_.areas.push_back(rebase_.local(crossing.polygon));
         geometry_.costly = costlyGround(layout_, rebase_);
@@ -665,6 +696,21 @@ class SceneAssembly {
         reportComplaints(formation);
     }
 
+    /// What they do begins in their seats.
+    void seatAudience(std::size_t group_index, BehaviourTables& behaviours) {
+        const SeatBlock& block = layout_.seats[*scene_.groups[group_index].block];
+        std::vector<LocalPolygon> feet;
+        for (std::size_t aisle = 0; aisle < countAisles(block); ++aisle)
+            feet.push_back(rebase_.local(footOf(block, aisle)));
+        const std::uint32_t state = behaviours.add(
+            layout_.behaviours[*block.behaviour],
+            {fmt::format("block `{}`", block.id), group_index, false, "its aisles", std::move(feet)});
+        forEachRow(group_index, [&](gpu::Person& person) {
+            behaviours.begin(person, rowOf(person), state);
+            scene_.goals.push_back(person.spawn_position);
+        });
+    }
+
     /// m: how far into walls somebody stands.
     float depthInWalls(const gpu::Person& person) const {
         const Capsule shape = shapeOf(person);
@@ -908,6 +954,7 @@ std::optional<Scene> buildScene(const Layout& layout, Diagnostics& diagnostics, 
     GroundCache own;
     std::shared_ptr<const Charts> charts;
     if (!areLevelsComplete(layout, diagnostics)) return std::nullopt;
+    if (!haveFlatGround(layout, diagnostics)) return std::nullopt;
     if (!layout.levels.empty() && !isWithoutTraffic(layout, diagnostics)) return std::nullopt;
     if (!layout.levels.empty() && !isWithoutGivenPeople(layout, diagnostics)) return std::nullopt;
     if (layout.terrain) {

@@ -55,6 +55,9 @@ void describeAudience(const authoring::Layout& layout, const authoring::Scene& s
         bake.seats.push_back({block.id, block.pitch, block.width, block.rise, {}});
         for (const authoring::SeatRow& row : authoring::seatRows(block))
             bake.seats.back().rows.push_back({row.line, row.height});
+        for (std::size_t aisle = 0; block.isOpen() && aisle < authoring::countAisles(block); ++aisle)
+            bake.seats.back().aisles.push_back(
+                {authoring::aisleLine(block, aisle), authoring::aisleWidth(block)});
     }
     for (authoring::Spectator& each : authoring::audienceOf(layout)) {
         const authoring::SeatBlock& block = layout.seats[each.block];
@@ -233,6 +236,12 @@ recording::BakeDescription describeBake(const LoadedLayout& loaded, const BakeOp
                                fmt::format("{}", fmt::join(group.colours, " "))});
     bake.agents = describeAgents(scene);
     describeAudience(loaded.layout, scene, bake);
+    for (std::size_t i = 0; i < scene.seats.cues.size(); ++i)
+        if (!scene.seats.cues[i].empty())
+            bake.sitters.push_back({scene.seats.ways[i].row, scene.seats.cues[i]});
+    bake.has_poses = std::ranges::any_of(scene.behaviours.states, [](const gpu::BehaviourState& state) {
+        return state.activity >= gpu::ACTIVITY_SIT;
+    });
     bake.roads = loaded.layout.roads;
     bake.areas = loaded.layout.areas;
     bake.patches = loaded.layout.patches;

@@ -83,7 +83,7 @@ float uprightAt(std::span<const float, kComponents> state) {
     if (!hasSeat(state[0])) return 1.0f;
     const auto activity = static_cast<ActivityCode>(static_cast<int>(std::floor(state[0])));
     if (activity == ActivityCode::cheers || activity == ActivityCode::sings) return 1.0f;
-    if (activity != ActivityCode::rises) return kSits;
+    if (activity != ActivityCode::rises && activity != ActivityCode::settles) return kSits;
     const float phase = state[2] - std::floor(state[2]);
     return kSits + (1.0f - kSits) * (1.0f - std::abs(2.0f * phase - 1.0f));
 }

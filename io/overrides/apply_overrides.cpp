@@ -241,6 +241,7 @@ class Application {
         description.vehicles = source_.vehicles;
         description.doors = source_.doors;
         description.seats = source_.seats;
+        description.has_poses = source_.has_poses;
         const auto toWorld = [&](std::vector<glm::dvec2>& points) {
             for (glm::dvec2& point : points)
                 point += source_.origin;
@@ -254,6 +255,9 @@ class Application {
         for (recording::BakeSeats& seats : description.seats)
             for (recording::BakeSeatRow& row : seats.rows)
                 toWorld(row.line);
+        for (recording::BakeSeats& seats : description.seats)
+            for (recording::BakeAisle& aisle : seats.aisles)
+                toWorld(aisle.line);
         for (authoring::Lane& lane : description.traffic.lanes)
             toWorld(lane.points);
         for (authoring::Zebra& crossing : description.traffic.crossings)

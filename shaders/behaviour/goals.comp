@@ -36,6 +36,7 @@ uniform uint steps_done;             // counted with this one
 #include "shaders/behaviour/places.glsl"
 #include "shaders/behaviour/wandering.glsl"
 #include "shaders/behaviour/moving_goals.glsl"
+#include "shaders/behaviour/letting_go.glsl"
 
 const uint STAND_ANYWHERE = STAGE_ANYWHERE | STAGE_IN_AREA;
 
@@ -107,6 +108,16 @@ Stage stageWandering(BehaviourState doing, Seeker seeker, Mind mind, vec2 spot) 
     return stage;
 }
 
+/// Where one waits until one can go in (shaders/seats/lead.comp); those who cannot get nearer stop beside it.
+Stage stageBeforeAisle(BehaviourState doing, Mind mind) {
+    BehaviourPlace place = behaviour_places[mind.place];
+    Stage stage = stageTo(place.middle, place.field | FIELD_THEN_POINT, doing);
+    stage.dwell = DWELL_WHILE;
+    stage.activity = ACTIVITY_STAND;
+    stage.flags = STAGE_ANYWHERE;
+    return stage;
+}
+
 /// The place's middle is the front of the line.
 Stage stageInLine(BehaviourState doing, Seeker seeker, Mind mind) {
     BehaviourPlace place = behaviour_places[mind.place];
@@ -136,6 +147,10 @@ void beginState(Seeker seeker, inout Mind mind, BehaviourState doing) {
         case DOES_WANDER:
             mind.place = doing.first_place;
             setOff(seeker, mind, doing, stageWandering(doing, seeker, mind, nextSpot(seeker, mind)));
+            break;
+        case DOES_SIT:
+            mind.place = doing.first_place + mind.seat;
+            setOff(seeker, mind, doing, stageBeforeAisle(doing, mind));
             break;
         case DOES_QUEUE:
             mind.place = doing.first_place;
@@ -167,6 +182,11 @@ bool hasLostSpot(Seeker seeker, AgentState state, vec2 goal) {
 void goOn(Seeker seeker, inout Mind mind, BehaviourState doing, AgentState state) {
     bool has_been_there = state.stage != mind.first_stage;
     bool at_spot = doing.does == DOES_GATHER || doing.does == DOES_VISIT;
+    bool goes_on = doing.does == DOES_VISIT && mind.visits_left > 0u || doing.does == DOES_WANDER;
+    if (goes_on && has_been_there) {
+        if (isLettingGo(mind, doing, true)) return;
+        mind.let_go = 0u;
+    }
     if (doing.does == DOES_VISIT && has_been_there && mind.visits_left > 0u) {
         visitNext(doing, seeker, mind);
         setOff(seeker, mind, doing, stageAtSpot(doing, seeker, mind));
@@ -177,6 +197,8 @@ void goOn(Seeker seeker, inout Mind mind, BehaviourState doing, AgentState state
     } else if (doing.does == DOES_WANDER && (has_been_there || choosesAnew(seeker, mind, state.nervousness))) {
         mind.picks += 1u;
         setOff(seeker, mind, doing, stageWandering(doing, seeker, mind, nextSpot(seeker, mind)));
+    } else if (doing.does == DOES_SIT && looksRoundAgain(seeker)) {
+        keepUp(seeker, mind, behaviour_places[mind.place].middle);
     } else if (doing.does == DOES_FLEE) {
         keepUp(seeker, mind, awayFromDanger(seeker, doing));
     } else if (doing.does == DOES_FOLLOW) {

@@ -10,6 +10,7 @@ layout(std430) readonly buffer LiveDispatch { uint live_groups[3]; uint live_cou
 layout(std430) readonly buffer States { AgentState states[]; };
 layout(std430) readonly buffer Bodies { Body bodies[]; };
 layout(std430) readonly buffer Walkers { Walker walkers[]; };
+layout(std430) buffer Stages { Stage stages[]; };
 layout(std430) readonly buffer BehaviourStates { BehaviourState behaviour_states[]; };
 layout(std430) readonly buffer BehaviourRules { BehaviourRule behaviour_rules[]; };
 layout(std430) readonly buffer BehaviourPoints { vec2 behaviour_points[]; };
@@ -26,39 +27,8 @@ uniform uint steps_done;  // counted with this one
 #include "shaders/behaviour/draws.glsl"
 #include "shaders/behaviour/outlines.glsl"
 #include "shaders/behaviour/conditions.glsl"
-
-bool isDone(BehaviourState doing, Asking who, bool has_been_there) {
-    if (doing.does == DOES_FLEE) return distance(who.position, doing.from) >= doing.distance;
-    return has_been_there && who.mind.visits_left == 0u;
-}
-
-/// @returns NO_INDEX: goes on as it does
-uint nextState(BehaviourState doing, Asking who, bool has_been_there) {
-    bool all_hold = true;
-    for (uint i = doing.first_rule; i < doing.first_rule + doing.rule_count; ++i) {
-        BehaviourRule rule = behaviour_rules[i];
-        all_hold = all_hold && holds(rule, i, who);
-        if (rule.then == NO_INDEX) continue;
-        if (all_hold) return rule.then;
-        all_hold = true;
-    }
-    return doing.then != NO_INDEX && isDone(doing, who, has_been_there) ? doing.then : NO_INDEX;
-}
-
-void enterState(inout Mind mind, uint next, uint leader) {
-    mind.state = next;
-    mind.since = steps_done;
-    mind.entered += 1u;
-    mind.visited = 0u;
-    BehaviourState doing = behaviour_states[next];
-    uint choices = doing.most - doing.least + 1u;
-    uint extra = min(uint(chanceOf(PURPOSE_COUNT, leader, mind.entered) * float(choices)), choices - 1u);
-    mind.visits_left = doing.does == DOES_VISIT ? doing.least + extra : 0u;
-    mind.place = NO_INDEX;
-    mind.followed = NO_INDEX;
-    mind.picks = 0u;
-    mind.flags = MIND_NEEDS_GOAL;
-}
+#include "shaders/behaviour/next_state.glsl"
+#include "shaders/behaviour/letting_go.glsl"
 
 void main() {
     uint slot = gl_GlobalInvocationID.x;
@@ -70,9 +40,21 @@ void main() {
     if (state.stage - mind.first_stage > 1u) return;  // an event has sent it elsewhere
     bool has_been_there = state.stage != mind.first_stage;
     bool arrived = has_been_there || state.leave_step != 0u || state.status == STATUS_ARRIVED;
+    if (behaviour_states[mind.state].does == DOES_SIT) arrived = false;  // it is before the aisle
     Asking who = Asking(row, walkers[slot].party_first, bodies[slot].position, mind, arrived);
-    uint next = mind.entered == 0u ? mind.state : nextState(behaviour_states[mind.state], who, has_been_there);
+    BehaviourState doing = behaviour_states[mind.state];
+    uint next = mind.state;
+    if (mind.let_go != 0u && mind.next != NO_INDEX)
+        next = mind.next;
+    else if (mind.entered > 0u)
+        next = nextState(doing, who, has_been_there);
     if (next == NO_INDEX) return;
+    bool goes_on = goesOnWithHands(behaviour_states[next]);
+    if (mind.entered > 0u && !goes_on && isLettingGo(mind, doing, arrived)) {
+        mind.next = next;
+        minds[row] = mind;
+        return;
+    }
     enterState(mind, next, who.leader);
     minds[row] = mind;
 }

@@ -8,6 +8,14 @@ layout(std140) uniform ParametersBlock { Parameters parameters; };
 layout(std430) readonly buffer People { Person people[]; };
 layout(std430) readonly buffer States { AgentState states[]; };
 layout(std430) readonly buffer Stages { Stage stages[]; };
+#ifdef SEATS
+#include "shaders/shared/seat_types.h"
+layout(std430) readonly buffer SitterOfRow { uint sitter_of_row[]; };
+layout(std430) readonly buffer SeatWays { SeatWay seat_ways[]; };
+layout(std430) readonly buffer SeatPoints { SeatPoint seat_points[]; };
+layout(std430) readonly buffer Sitters { Sitter sitters[]; };
+#include "shaders/seats/ways.glsl"
+#endif
 layout(std430) writeonly buffer FrameBlock { float frame[]; };  // positions of all rows, then directions, then states
 
 #include "shaders/shared/alive.glsl"
@@ -36,10 +44,34 @@ uint activityOf(AgentState state) {
     return state.ticket != NO_INDEX ? ACTIVITY_QUEUE : ACTIVITY_WALK;
 }
 
+#ifdef SEATS
+/// Who is in its seat or on its way there is somewhere above the plane. How far up it is between sitting and standing
+/// comes in place of the phase; below 0 it is about to get up.
+void putSeated(uint row, AgentState state) {
+    uint index = sitter_of_row[row];
+    Sitter sitter = sitters[index];
+    uint activity = ACTIVITY_WALK;
+    if (sitter.mode == SITTER_SITS) activity = sitter.activity;
+    if (sitter.mode == SITTER_LETS_GO) activity = ACTIVITY_SIT;
+    if (risesOrSettles(sitter.mode)) activity = ACTIVITY_SETTLE;
+    bool walks = activity == ACTIVITY_WALK;
+    float told = walks ? 0.0 : sitter.mode == SITTER_LETS_GO ? -1.0 : sitter.share;
+    put(0u, row, vec3(state.position, heightOnWay(seat_ways[index], sitter.along)));
+    put(1u, row, vec3(cos(state.heading), sin(state.heading), walks ? length(state.velocity) : 0.0));
+    put(2u, row, vec3(float(activity + ACTIVITY_LED), float(people[row].variation), told));
+}
+#endif
+
 void main() {
     uint row = gl_GlobalInvocationID.x;
     if (row >= parameters.row_count) return;
     AgentState state = states[row];
+#ifdef SEATS
+    if (state.status == STATUS_SEATED) {
+        putSeated(row, state);
+        return;
+    }
+#endif
     bool alive = isAlive(state.status);
     put(0u, row, vec3(state.position, chartNumberAt(state.position)));
     put(1u, row, vec3(cos(state.heading), sin(state.heading), alive ? length(state.velocity) : 0.0));

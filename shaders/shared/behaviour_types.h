@@ -16,6 +16,7 @@ const uint DOES_GATHER = 4u;  // at a spot of its own in a place
 const uint DOES_FLEE = 5u;    // from a point
 const uint DOES_FOLLOW = 6u;  // the nearest of some rows
 const uint DOES_QUEUE = 7u;   // in a line, whose first one is served
+const uint DOES_SIT = 8u;     // in a seat of its own
 
 const uint STATE_LEAVES = 1u;    // at the end of its way one leaves the scene
 const uint STATE_FOR_GOOD = 2u;  // who has come to rest in it has arrived
@@ -122,6 +123,9 @@ struct Mind {
     uint flags;        // MIND_*
     uint first_stage;  // of two of its own: where it goes, and what comes when it has been there
     uint followed;     // row
+    uint let_go;  // how many steps were done when it began to end what it did with its hands; 0: it does not
+    uint next;    // the state that comes then
+    uint seat;    // sit: the aisle to its seat, of the state's places
 };
 
 THRONG_SHARED_END

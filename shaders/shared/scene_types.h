@@ -15,7 +15,8 @@ const uint PERSON_ALIGHTS = 2u;           // comes out of a vehicle
 const uint PERSON_PRESENT_AT_START = 4u;  // stands at spawn_position when the simulation begins
 const uint PERSON_FIXED_SPAWN = 8u;       // appears at spawn_position; otherwise at a point of its entry
 
-const uint PERSON_IS_GIVEN = 16u;  // follows a way that is given (GivenWay)
+const uint PERSON_IS_GIVEN = 16u;       // follows a way that is given (GivenWay)
+const uint PERSON_SITS_AT_START = 32u;  // in its seat
 
 /// One row per lifetime; the row index is the agent's stable id.
 struct Person {
@@ -67,6 +68,16 @@ const uint ACTIVITY_WALK = 1u;  // what the stream of states says of people who 
 const uint ACTIVITY_STAND = 2u;
 const uint ACTIVITY_LOOK = 3u;
 const uint ACTIVITY_QUEUE = 4u;
+const uint ACTIVITY_SIT = 5u;  // in a seat, as those up to 10 (base/activities.h)
+const uint ACTIVITY_CLAP_SEATED = 7u;
+const uint ACTIVITY_CHEER_SEATED = 9u;
+const uint ACTIVITY_SING_SEATED = 10u;
+const uint ACTIVITY_SETTLE = 11u;
+const uint ACTIVITY_CLAP = 13u;  // on one's feet, as all from here on
+const uint ACTIVITY_CHEER = 14u;
+const uint ACTIVITY_SING = 15u;
+const uint ACTIVITY_WAVE = 16u;
+const uint ACTIVITY_LED = 32u;  // added for those who are led to or from a seat; recordings take it out again
 
 /// From a time on, a row has other stages.
 struct PlanChange {

@@ -27,6 +27,7 @@ const uint STATUS_WAITING = 0u;  // to enter
 const uint STATUS_WALKING = 1u;  // under way, or at a stop
 const uint STATUS_ARRIVED = 2u;  // and stays there
 const uint STATUS_GONE = 3u;     // arrived, and has left the scene
+const uint STATUS_SEATED = 4u;   // has a seat, or is on its way between rows: out of everybody's way
 
 /// A neighbour key is a slot, or a wall segment with this bit.
 const uint NEIGHBOUR_IS_WALL = 0x80000000u;

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 EVERY_OBJECT = pathlib.Path(__file__).parent / "layouts" / "every_object.json"
 LEVELS = EVERY_OBJECT.with_name("levels.json")  # whose floors and links are none where there is a terrain
+SEATS = EVERY_OBJECT.with_name("seats.json")  # which are none where there is a terrain
 UNKNOWN_KEY = "zzz"
 
 
@@ -171,7 +172,9 @@ def base_of(schema):
     """The layout from which all cases grow."""
     levels = json.loads(LEVELS.read_text("utf-8"))
     every_object = json.loads(EVERY_OBJECT.read_text("utf-8"))
-    return Rules(schema).fill(schema, {**every_object, **{key: levels[key] for key in ("levels", "links")}})
+    seats = json.loads(SEATS.read_text("utf-8"))  # that people walk to
+    more = {key: every_object[key] + seats[key] for key in ("behaviours", "flows", "formations", "seats")}
+    return Rules(schema).fill(schema, {**every_object, **more, **{key: levels[key] for key in ("levels", "links")}})
 
 
 def cases_of(schema):

@@ -37,7 +37,7 @@ std::vector<Format> formats() {
     return {
         {"Layouts",
          layoutSchema(),
-         {layoutNamed("every_object"), layoutNamed("levels")},
+         {layoutNamed("every_object"), layoutNamed("levels"), layoutNamed("seats")},
          [](const std::string& text, const Schema& schema, Diagnostics& diagnostics) {
              readLayout(text, {}, diagnostics, schema);
          }},

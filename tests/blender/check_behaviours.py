@@ -40,6 +40,15 @@ def change_what_is_done():
     here.to.mode = "NEAREST"
 
 
+def clap_there():
+    state("shop").pose = "clap"
+
+
+def sit_down():
+    here = state("shop")
+    here.does, here.seats, here.pose = "sit", "south, east", "cheer"
+
+
 def change_times():
     state("shop").lasts.b = 12.0
     state("shop").most = 3
@@ -113,9 +122,9 @@ def give_a_flow_a_behaviour():
     flow.behaviour = "visitor"
 
 
-EDITS = (rename_area, rename_state, rename_behaviour, change_what_is_done, change_times, add_a_rule, remove_a_rule,
-         rename_flow_in_a_rule, rename_to_a_name_that_is_taken, add_a_condition_twice, draw_one,
-         give_a_flow_a_behaviour)
+EDITS = (rename_area, rename_state, rename_behaviour, change_what_is_done, clap_there, sit_down, change_times,
+         add_a_rule, remove_a_rule, rename_flow_in_a_rule, rename_to_a_name_that_is_taken, add_a_condition_twice,
+         draw_one, give_a_flow_a_behaviour)
 found = {}
 for edit in EDITS:
     assert bpy.ops.import_scene.throng_layout(filepath=layout, replace=True) == {"FINISHED"}

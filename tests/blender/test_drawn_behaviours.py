@@ -16,6 +16,8 @@ EDITS = {
     "rename_state": {f"{STATES}/shop", f"{STATES}/browse", f"{STATES}/stroll/until/0/then"},
     "rename_behaviour": {"/behaviours/0/id", "/flows/0/behaviour", "/flows/1/behaviour"},
     "change_what_is_done": {f"{STATES}/shop/{key}" for key in ("visit", "count", "gather")},
+    "clap_there": {f"{STATES}/shop/do"},
+    "sit_down": {f"{STATES}/shop/{key}" for key in ("visit", "count", "sit", "do")},
     "change_times": {f"{STATES}/shop/for/uniform/1", f"{STATES}/shop/count/1"},
     "add_a_rule": {f"{STATES}/shop/until"},
     "remove_a_rule": {f"{STATES}/stroll/until"},
@@ -32,7 +34,7 @@ def drawn(blender, throng, tmp_path_factory):
     """(the market before, {edit: the market after it}); the program takes whatever an artist draws."""
     folder = tmp_path_factory.mktemp("behaviours")
     after = result_of(blender(HERE / "check_behaviours.py", ADDON, MARKET, folder))
-    throng("check", *(folder / f"{edit}.json" for edit in EDITS if edit != "remove_a_rule"))
+    throng("check", *(folder / f"{edit}.json" for edit in EDITS if edit not in ("remove_a_rule", "sit_down")))
     return json.loads(MARKET.read_text(encoding="utf-8")), after
 
 
@@ -56,6 +58,12 @@ def test_states_keep_what_other_activities_know_of_alone(drawn):
     states = drawn[1]["change_what_is_done"]["behaviours"][0]["states"]
     assert states["shop"]["gather"] == {"nearest": [f"stall-{number}" for number in range(1, 13)]}
     assert states["shop"]["for"] == {"uniform": [5, 10]} and states["shop"]["then"] == "leave"
+
+
+def test_people_clap_where_they_stand_and_sit_in_seats(drawn):
+    assert drawn[1]["clap_there"]["behaviours"][0]["states"]["shop"]["do"] == "clap"
+    shop = drawn[1]["sit_down"]["behaviours"][0]["states"]["shop"]
+    assert (shop["sit"], shop["do"]) == (["south", "east"], "cheer")
 
 
 def test_a_behaviour_is_drawn_from_nothing(drawn):

@@ -17,6 +17,7 @@ from throng.cast import gait, people, sitting
 HERE = pathlib.Path(__file__).resolve().parent
 ADDON = HERE.parent.parent / "blender_addon"
 BUILD = gait.Build()
+ALL = len(sitting.CLIPS)
 
 
 def angle(a, b, c):
@@ -34,7 +35,7 @@ def leg_of(pose, build):
 @pytest.mark.parametrize("size", [0.92, 1.0, 1.08])
 def test_who_sits_has_bent_knees_level_thighs_and_feet_on_the_ground(size):
     build = BUILD.scaled(size)
-    for pose in sitting.poses_of(build)[:4]:
+    for pose in sitting.poses_of(build, 1):
         hip, knee, ankle = leg_of(pose, build)
         assert abs(angle(hip, knee, ankle) - 90.0) < 10.0
         assert abs(math.degrees(math.asin((knee[1] - hip[1]) / build.thigh))) < 9.0
@@ -48,20 +49,40 @@ def test_a_childs_feet_dangle():
 
 
 def test_clips_begin_and_end_where_others_do():
-    first = {clip.name: sitting.first_pose(number) for number, clip in enumerate(sitting.CLIPS)}
-    last = {clip.name: sitting.first_pose(number) + clip.poses - 1 for number, clip in enumerate(sitting.CLIPS)}
-    poses = sitting.poses_of(BUILD)
+    first = {clip.name: sitting.poses_in(number) for number, clip in enumerate(sitting.CLIPS)}
+    last = {clip.name: sitting.poses_in(number) + clip.poses - 1 for number, clip in enumerate(sitting.CLIPS)}
+    poses = sitting.poses_of(BUILD, ALL)
     apart = lambda one, other: max(abs(a - b) for a, b in zip(flat(poses[one]), flat(poses[other])))
     assert apart(first["sit"], first["ready"]) < 0.01 and apart(first["sit"], first["rise"]) < 0.01
     assert apart(last["ready"], first["clap"]) < 0.01
     assert apart(last["rise"], first["cheer"]) < 0.01 and apart(last["rise"], first["sing"]) < 0.01
     assert apart(first["sit"], last["rise"]) > 0.3
+    assert apart(first["sit"], first["settle"]) < 0.01
+    for name in ("applaud", "jubilate", "sway", "wave"):
+        assert apart(last["raise"], first[name]) < 0.01, name
+    standing = flat(gait.idle_pose(BUILD))
+    for pose in (last["settle"], first["raise"]):  # who stands has its arms at its sides
+        assert max(abs(a - b) for a, b in zip(flat(poses[pose]), standing)) < 0.01
+
+
+def test_feet_are_drawn_back_and_then_stay_while_one_gets_up():
+    """In the bake the place moves, by as much as the pose takes back."""
+    clip = next(number for number, clip in enumerate(sitting.CLIPS) if clip.name == "settle")
+    feet = []
+    for index in range(25):
+        share = index / 24
+        pose = sitting.seated_pose(clip, share, BUILD)
+        feet.append(pose.feet[0].ankle[0] + sitting.AHEAD * share * share * (3.0 - 2.0 * share))
+    moved = numpy.diff(feet)
+    assert (moved < 1e-9).all(), "back only"
+    assert numpy.abs(moved[17:]).max() < 1e-9 and abs(feet[-1] - sitting.AHEAD) < 0.03
+    assert abs(feet[0] - sitting.sitting(BUILD).feet[0].ankle[0]) < 1e-9
 
 
 def test_nobody_jumps_within_a_clip():
-    poses = sitting.poses_of(BUILD)
+    poses = sitting.poses_of(BUILD, ALL)
     for number, clip in enumerate(sitting.CLIPS):
-        own = [flat(each) for each in poses[sitting.first_pose(number):][:clip.poses]]
+        own = [flat(each) for each in poses[sitting.poses_in(number):][:clip.poses]]
         steps = [max(abs(a - b) for a, b in zip(one, other)) for one, other in zip(own, own[1:])]
         assert max(steps) < 0.55, clip.name
 
@@ -79,24 +100,28 @@ def flat(value):
 
 def test_clips_are_the_activities_of_the_bake():
     text = (HERE.parent.parent / "base" / "activities.h").read_text()
-    for number, word in enumerate(("sits", "readies", "claps", "rises", "cheers", "sings")):
+    for number, word in enumerate(("sits", "readies", "claps", "rises", "cheers", "sings", "settles", "raises",
+                                   "applauds", "jubilates", "sways", "waves")):
         assert f"{word} = {sitting.FIRST + number}," in text
     assert all(clip.poses % cast.BEATS == 0 for clip in sitting.CLIPS)
 
 
 def test_only_casts_of_bakes_with_seats_sit():
-    with_seats, without = cast.Repertoire((1.4,), 0, True), cast.Repertoire((1.4,), 0)
-    assert with_seats.count == without.count + sitting.POSES
-    for level in range(cast.LEVELS):
-        assert len(with_seats.sources(level)) == with_seats.poses(level)
-        assert with_seats.upright(level) == without.poses(level)
+    without = cast.Repertoire((1.4,), 0)
+    audience, everything = (cast.Repertoire((1.4,), 0, sitting.clips_for(poses)) for poses in ("audience", "all"))
+    assert audience.count == without.count + 44 and everything.count == audience.count + 68
+    for with_seats in (audience, everything):
+        for level in range(cast.LEVELS):
+            assert len(with_seats.sources(level)) == with_seats.poses(level)
+            assert with_seats.upright(level) == without.poses(level)
 
 
-def seated_bake(folder, agents=24, frames=40):
-    """A sample bake all of whose people have a seat, each in another clip. Returns the states."""
+def seated_bake(folder, agents=24, frames=40, clips=ALL):
+    """A sample bake all of whose people have a seat or do something with their hands, each in another clip. Returns the
+    states."""
     _, direction, state = write_bake(folder, agents=agents, frames=frames, **SMALL_CAST)
     rows = numpy.arange(agents)
-    state[..., 0] = sitting.FIRST + rows % len(sitting.CLIPS)
+    state[..., 0] = sitting.FIRST + rows % clips
     state[..., 2] = 0.03 * numpy.arange(len(state))[:, None] + 0.37 * rows
     direction[..., 2] = 0.0
     for name, stream in (("state", state), ("dir", direction)):
@@ -107,6 +132,9 @@ def seated_bake(folder, agents=24, frames=40):
         {"line": [[0, 0], [5, 0]], "height": 0.5}, {"line": [[0, -0.8], [5, -0.8]], "height": 0.9}]}]
     manifest["geometry"]["walls"].append({"id": "north stand", "closed": True, "height": 0.01, "thickness": 0.2,
                                           "points": [[0, 0.4], [5, 0.4], [5, -1.2], [0, -1.2]]})
+    if clips == ALL:
+        manifest["poses"] = True
+        manifest["geometry"]["seats"][0]["aisles"] = [{"line": [[6, 1.1], [6, 0.3], [6, -0.5]], "width": 1.2}]
     (folder / "bake.json").write_text(json.dumps(manifest))
     return state
 
@@ -120,8 +148,8 @@ def expected(state, row, level):
         near = {math.floor(place + 0.5 + hair) for hair in (-1e-3, 0.0, 1e-3)}
     else:
         near = {min(math.floor(phase * count + hair), count - 1) for hair in (-1e-3, 0.0, 1e-3)}
-    repertoire = cast.Repertoire((1.0,), 1, True)
-    first = repertoire.upright(level) + sitting.first_pose(clip) // share
+    repertoire = cast.Repertoire((1.0,), 1, ALL)
+    first = repertoire.upright(level) + sitting.poses_in(clip) // share
     return {pose_name(int(state[row, 1]), first + each, level) for each in near}
 
 
@@ -136,13 +164,13 @@ def test_blender_shows_everybody_in_the_pose_of_the_moment(blender, tmp_path):
     sits, risen, cheers, stands = result["hips"]
     assert sits < stands - 0.3 and abs(risen - stands) < 0.03 and abs(cheers - stands) < 0.03, "heroes do the same"
     assert list(result["stands"]) == ["Throng stand north"]
-    assert result["stands"]["Throng stand north"]["faces"] > 20 * 8
+    assert result["stands"]["Throng stand north"]["faces"] > 20 * 8 + 4 * 5
     assert result["stands"]["Throng stand north"]["top"] == pytest.approx(0.9 + 0.42 + 0.36, abs=0.01)
     assert "Throng wall north stand" not in result["walls"] and len(result["walls"]) == 3
 
 
 def test_a_full_stadium_scrubs_as_quickly_as_a_walking_crowd(blender, tmp_path):
     """The bar that 16,384 who walk have, in processor time."""
-    seated_bake(tmp_path / "bake", agents=16384, frames=28)
+    seated_bake(tmp_path / "bake", agents=16384, frames=28, clips=sitting.AUDIENCE)
     found = result_of(blender(HERE / "check_speed.py", ADDON, tmp_path / "bake"))
     assert found["people"] == 16384 and 1000.0 * found["frame"] < 18.0, found

@@ -14,6 +14,7 @@
 #include "shaders/shared/boarding_types.h"
 #include "shaders/shared/chart_types.h"
 #include "shaders/shared/lift_types.h"
+#include "shaders/shared/seat_types.h"
 #include "shaders/shared/simulation_types.h"
 #include "shaders/shared/terrain_types.h"
 #include "shaders/shared/traffic_types.h"
@@ -115,11 +116,30 @@ std::map<std::string, Layout> layoutsInCpp() {
         result["Tally"] = {sizeof(T), {MEMBER(present), MEMBER(inside)}};
     }
     {
+        using T = gpu::SeatWay;
+        result["SeatWay"] = {
+            sizeof(T),
+            {MEMBER(place), MEMBER(stand), MEMBER(height), MEMBER(heading), MEMBER(length), MEMBER(mouth),
+             MEMBER(aside), MEMBER(row), MEMBER(first_point), MEMBER(point_count), MEMBER(lane),
+             MEMBER(first_of_aisle), MEMBER(count_of_aisle), MEMBER(reserved)}};
+    }
+    {
+        using T = gpu::SeatPoint;
+        result["SeatPoint"] = {sizeof(T), {MEMBER(place), MEMBER(height), MEMBER(along)}};
+    }
+    {
+        using T = gpu::Sitter;
+        result["Sitter"] = {sizeof(T),
+                            {MEMBER(off), MEMBER(along), MEMBER(speed), MEMBER(share), MEMBER(mode),
+                             MEMBER(since), MEMBER(activity), MEMBER(seated), MEMBER(side)}};
+    }
+    {
         using T = gpu::Mind;
         result["Mind"] = {
             sizeof(T),
             {MEMBER(state), MEMBER(since), MEMBER(entered), MEMBER(visited), MEMBER(visits_left),
-             MEMBER(place), MEMBER(picks), MEMBER(flags), MEMBER(first_stage), MEMBER(followed)}};
+             MEMBER(place), MEMBER(picks), MEMBER(flags), MEMBER(first_stage), MEMBER(followed),
+             MEMBER(let_go), MEMBER(next), MEMBER(seat)}};
     }
     {
         using T = gpu::PlanChange;

@@ -57,6 +57,8 @@ def _state(column, state, where, data, behaviour):
         column.prop(state, "danger")
         if state.danger is None:
             place(column, state.place, "Place")
+    elif state.does == "sit":
+        column.prop(state, "seats")
     elif state.does == "follow":
         one_of(column, state.followed, data)
         optional(column, state, "person")

@@ -106,6 +106,7 @@ class ThrongState(bpy.types.PropertyGroup):
     danger: PointerProperty(type=bpy.types.Object, name="Point", poll=is_kind("POINT"),
                             description="What people get away from, where that is no place")
     followed: PointerProperty(type=ThrongMember)
+    seats: StringProperty(name="Seats", description="Ids of the layout's blocks of seats, with commas between them")
     use_person: BoolProperty(name="Person", description="One of them; otherwise whoever is nearest")
     person: IntProperty(name="Person", **limits("behaviour_state", "person", default=0))
     use_count: BoolProperty(name="How Many", description="Otherwise all of the places")
@@ -113,7 +114,7 @@ class ThrongState(bpy.types.PropertyGroup):
     most: IntProperty(name="At Most", default=1, soft_min=1, soft_max=32)
     lasts: PointerProperty(type=ThrongDistribution, name="For", description="How long, s; on visits, in each place")
     pose: EnumProperty(name="There", description="What people do where they have come to rest",
-                       items=[(UNSET, "Default", "On visits they look, otherwise they stand")]
+                       items=[(UNSET, "Default", "On visits they look, in seats they sit, otherwise they stand")]
                              + [(word, word.capitalize(), "")
                                 for word in words_of(LAYOUT.entry("behaviour_state", "do"))])
     facing: PointerProperty(type=bpy.types.Object, name="Facing", poll=is_kind("POINT"),

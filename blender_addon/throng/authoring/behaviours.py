@@ -63,6 +63,24 @@ class _Followed(Codec):
         return raw if text == "" and raw is not MISSING and not isinstance(raw, str) else text
 
 
+class _Seats(Codec):
+    """Ids of blocks of seats, which are not drawn in Blender: as one text, with commas between them."""
+
+    @staticmethod
+    def shown(raw):
+        names = raw if isinstance(raw, list) else [raw]
+        return ", ".join(name for name in names if isinstance(name, str))
+
+    def put(self, group, raw, _world=None):
+        group.seats = self.shown(raw)
+
+    def take(self, group, raw, _world=None):
+        if raw is not MISSING and group.seats == self.shown(raw):
+            return raw
+        names = [name.strip() for name in group.seats.split(",") if name.strip()]
+        return names[0] if len(names) == 1 else names or ""
+
+
 class _Some(Codec):
     """A whole number, or two: at least, at most."""
 
@@ -102,6 +120,7 @@ KEYS = {
     "follow": (_Followed("follow"), _of_state("distance"), Optional(fields.Whole("person", 0)), _PACE),
     "queue": (Place("queue", "place"), Target("line", "LINE"), _of_state("spacing"), _STANDS[0], _STANDS[2], _PACE,
               _THEN),
+    "sit": (_Seats("sit"), *_STANDS[:2], _PACE, _GOOD, _THEN),
 }
 
 

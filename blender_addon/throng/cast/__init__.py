@@ -30,13 +30,13 @@ class Repertoire:
     """What everybody in a cast can do, and which pose is where, at each level of detail."""
     strides: tuple  # m, of each gait that there is
     first: int = 0  # the number that the bake gives the first of them
-    seats: bool = False  # whether somebody has one
+    clips: int = 0  # how many of sitting.CLIPS there are: none where nobody sits, or does things with its hands
 
     @classmethod
-    def of(cls, strides, gaits, seats=False):
+    def of(cls, strides, gaits, clips=0):
         """@param strides of all gaits that the bake knows of; @param gaits the first and the last that the cast has"""
         first, last = gaits
-        return cls(tuple(strides[first:last + 1]), first, bool(seats))
+        return cls(tuple(strides[first:last + 1]), first, int(clips))
 
     def walking(self, level=0):
         """How many poses walk; the standing ones come after, and those of who has a seat last."""
@@ -47,7 +47,7 @@ class Repertoire:
         return self.walking(level) + len(gait.STANDING_CLIPS) * LEVEL_BEATS[level]
 
     def poses(self, level=0):
-        return self.upright(level) + (sitting.POSES * LEVEL_BEATS[level] // BEATS if self.seats else 0)
+        return self.upright(level) + sitting.poses_in(self.clips) * LEVEL_BEATS[level] // BEATS
 
     @property
     def count(self):
@@ -79,7 +79,7 @@ def poses_of_build(build, repertoire):
     gaits = [gait.gait_of(stride) for stride in repertoire.strides]
     return ([gait.walk_pose(index / POSES, build, each) for each in gaits for index in range(POSES)]
             + [gait.standing_pose(clip, beat / BEATS, build) for clip in gait.STANDING_CLIPS for beat in range(BEATS)]
-            + (sitting.poses_of(build) if repertoire.seats else []))
+            + sitting.poses_of(build, repertoire.clips))
 
 
 def plan_of(figures, repertoire, level):

@@ -39,6 +39,22 @@ def step_of(block, row):
                  for off in (0.5 * pitch + ledge, -0.5 * pitch))
 
 
+def treads_of(block, aisle):
+    """(front edge, back edge, height) of each step of an aisle, two to a row: the higher one is where one walks into
+    the row, the other is half as high over the row before."""
+    line, half = [tuple(point[:2]) for point in aisle["line"]], 0.5 * float(aisle["width"])
+    pitch, rise = float(block["pitch"]), float(block["rise"])
+    height, below, found = min(float(row["height"]) for row in block["rows"]), 0.0, []
+    for before, (x, y) in zip(line, line[1:]):
+        (u, v), _ = _direction(before, (x, y))
+        for begin, end, level in ((-0.65, -0.15, 0.5 * (below + height)), (-0.15, 0.35, height)):
+            front, back = ([(x + at * pitch * u + side * half * v, y + at * pitch * v - side * half * u)
+                            for side in (-1.0, 1.0)] for at in (begin, end))
+            found.append((front, back, level))
+        below, height = height, height + rise
+    return found
+
+
 def seats_of(block, row):
     """(place, way along the row) of all seats of a row, in its middle as the bake has them."""
     line, width = [tuple(point[:2]) for point in row["line"]], float(block["width"])

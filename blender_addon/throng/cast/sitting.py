@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Poses of those who have a seat: sitting, clapping, and what they stand up for. Pure Python.
+"""Poses of those who have a seat, sitting, clapping, and what they stand up for; and of who does something with its
+hands where it stands. Pure Python.
 
 Clips follow each other in the order of the bake's activities from FIRST on (docs/bake.md). A clip is a cycle, or a way
 there and back: at half of a cycle somebody is there. So whoever goes from one to the next at whole and half cycles does
 not jump: sitting, hands ready to clap, clapping, ready, sitting; or sitting, rising, cheering, rising, sitting.
 
-The bake has people where their seats are. Feet stay where they are: who stands does so before the seat.
+The bake has people where their seats are. Feet stay where they are: who stands does so before the seat. Only who
+settles comes from somewhere: its place goes from before the seat to the seat's, and its feet stay.
 """
 import math
 from dataclasses import dataclass, replace
 
-from .gait import HIP_DROP, Foot, Pose
+from .gait import HIP_DROP, Foot, Pose, idle_pose
 
 FIRST = 5     # the bake's activity of the first clip
 SEAT = 0.42   # m, of the seat over the floor
@@ -28,18 +30,28 @@ class Clip:
 
 
 CLIPS = (Clip("sit", 4, False), Clip("ready", 4, True), Clip("clap", 8, False), Clip("rise", 12, True),
-         Clip("cheer", 8, False), Clip("sing", 8, False))
-POSES = sum(clip.poses for clip in CLIPS)
+         Clip("cheer", 8, False), Clip("sing", 8, False),
+         # Of those who walk to their seats, and of who stands.
+         Clip("settle", 12, True), Clip("raise", 4, True), Clip("applaud", 8, False), Clip("jubilate", 16, False),
+         Clip("sway", 8, False), Clip("wave", 20, False))
+AUDIENCE = 6  # so many of them are all that audiences do who only ever sit there
+AHEAD = 0.10  # m, from the middle of a seat to where who settles stands before (authoring/layout/seat_rows.h)
+
+
+def clips_for(poses):
+    """How many clips a bake needs. @param poses Bake.poses (formats)"""
+    return {"all": len(CLIPS), "audience": AUDIENCE}.get(poses, 0)
+
+
+def poses_in(clips):
+    """How many there are in the first so many clips."""
+    return sum(each.poses for each in CLIPS[:clips])
+
 
 # Of both arms: (swing, elbow), and how far upper arm and forearm go aside, outwards.
 _LAP = ((0.22, 1.05), (0.02, -0.20))
 _READY = ((0.35, 1.42), (0.02, -0.42))
 _UP = ((2.78, 0.22), (0.26, 0.20))
-
-
-def first_pose(clip):
-    """Of a clip by number, behind the standing ones."""
-    return sum(each.poses for each in CLIPS[:clip])
 
 
 def _mixed(one, other, share):
@@ -107,6 +119,59 @@ def _singing(build, phase):
                       (_UP[0], (upper - 0.30 * sway, fore - 0.42 * sway)))
 
 
+def _settling(build, share):
+    """On the way from sitting (0) to standing, arms hanging (1), over feet that are drawn back a little."""
+    low, high = sitting(build), idle_pose(build)
+    moved = AHEAD * _smooth(share)  # what the bake's place has gone
+    forward, up = _smooth(min(1.0, 1.5 * share)), _smooth(max(0.0, 1.3 * share - 0.3))
+    x = _mixed(low.pelvis[0], high.pelvis[0] + AHEAD, 0.3 * forward + 0.7 * up) - moved
+    lean = _mixed(low.lean, high.lean, share) + 0.55 * math.sin(math.pi * min(1.0, 1.1 * share)) ** 2
+    feet = tuple(Foot((_mixed(one.ankle[0], other.ankle[0] + AHEAD, forward) - moved,
+                       _mixed(one.ankle[1], other.ankle[1], forward)), 0.0, "flat")
+                 for one, other in zip(low.feet, high.feet))
+    y, z = (_mixed(low.pelvis[part], high.pelvis[part], up) for part in (1, 2))
+    pose = Pose((x, y, z), _mixed(0.0, high.pelvis_yaw, up), 0.0, lean, feet, (), seated=True)
+    arms = tuple(_mixed(_LAP[0], arm, _smooth(share)) for arm in high.arms)
+    aside = _mixed(_LAP[1], (0.0, 0.0), _smooth(share))
+    return replace(pose, arms=arms, aside=(aside, aside))
+
+
+def _hands_ready(build, share):
+    """Who stands, hands on the way from hanging down (0) to before the chest (1)."""
+    pose = idle_pose(build)
+    arms = tuple(_mixed(arm, _READY[0], share) for arm in pose.arms)
+    aside = _mixed((0.0, 0.0), _READY[1], share)
+    return replace(pose, arms=arms, aside=(aside, aside), seated=True)
+
+
+def _applauding(build, phase):
+    shut = 0.5 - 0.5 * math.cos(2.0 * math.pi * phase)
+    return _with_arms(_hands_ready(build, 1.0), (_READY[0], (_READY[1][0], _READY[1][1] - 0.40 * shut)))
+
+
+def _jubilating(build, phase):
+    """Up and down again."""
+    high = 0.5 - 0.5 * math.cos(2.0 * math.pi * phase)
+    pose = _hands_ready(build, 1.0)
+    return _with_arms(replace(pose, lean=pose.lean - 0.05 * high), _mixed(_READY, _UP, high))
+
+
+def _swaying(build, phase):
+    """From one foot to the other, hands together."""
+    pose, sway = _hands_ready(build, 1.0), math.sin(2.0 * math.pi * phase)
+    x, y, z = pose.pelvis
+    return replace(pose, pelvis=(x, y - 0.045 * sway, z - 0.012 * abs(sway)), tilt=0.10 * sway)
+
+
+def _waving(build, phase):
+    """The right hand goes up, to and fro, and down; the other one goes down and up again."""
+    up = _smooth(min(1.0, 3.0 * min(phase, 1.0 - phase)))
+    fro = up * math.sin(6.0 * math.pi * phase)
+    pose = _hands_ready(build, 1.0)
+    raised = ((2.30, 0.55), (0.30, 0.10 + 0.45 * fro))
+    return _with_arms(pose, _mixed(_READY, raised, up), _mixed(_READY, (idle_pose(build).arms[1], (0.0, 0.0)), up))
+
+
 def place_at(activity, phase):
     """(clip, share) of seated_pose() at a moment, as the bake has it."""
     clip, place = min(max(int(activity) - FIRST, 0), len(CLIPS) - 1), phase % 1.0
@@ -125,10 +190,16 @@ def seated_pose(clip, share, build):
         return _with_arms(sitting(build, 0.05), (_READY[0], (_READY[1][0], _READY[1][1] - 0.40 * shut)))
     if name == "rise":
         return _rising(build, share)
-    return _cheering(build, share) if name == "cheer" else _singing(build, share)
+    if name == "raise":
+        return _hands_ready(build, share)
+    return _OTHERS[name](build, share)
 
 
-def poses_of(build):
-    """All of them, in order."""
+_OTHERS = {"cheer": _cheering, "sing": _singing, "settle": _settling, "applaud": _applauding,
+           "jubilate": _jubilating, "sway": _swaying, "wave": _waving}
+
+
+def poses_of(build, clips):
+    """All of the first so many clips, in order."""
     return [seated_pose(number, index / (clip.poses - 1 if clip.there_and_back else clip.poses), build)
-            for number, clip in enumerate(CLIPS) for index in range(clip.poses)]
+            for number, clip in enumerate(CLIPS[:clips]) for index in range(clip.poses)]

@@ -18,4 +18,4 @@ COARSE = "throng_coarse"  # how coarse somebody is on the screen, 0 is as in fin
 ROW = "throng_row"        # on the vertices of those: which of the bake's people
 WHO = "throng_who"        # of those: which member of the cast
 BONE = "throng_bone"      # of a point for each of their bones: which one
-SEATS = "throng_seats"      # of a cast: whether its figures have poses for who has a seat
+SEATS = "throng_seats"      # of a cast: how many clips its figures have for who has a seat

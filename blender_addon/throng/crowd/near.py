@@ -194,9 +194,9 @@ def _stands(maths, state, nature, walking):
 def _rests(maths, state, phase, nature, repertoire):
     """The same of whoever does not walk, in a seat or not."""
     stands = _stands(maths, state, nature, repertoire.walking())
-    if not repertoire.seats:
+    if not repertoire.clips:
         return stands
-    first, along, count, returns = poses.seated_place(maths, state, phase)
+    first, along, count, returns = poses.seated_place(maths, state, phase, repertoire.clips)
     first = maths.math("ADD", first, float(repertoire.upright()))
     last = maths.math("SUBTRACT", count, maths.math("ADD", returns, 1.0))  # there and back, the last is only gone to
     pose = maths.math("MINIMUM", maths.math("FLOOR", along), last)

@@ -12,6 +12,7 @@ import bpy
 
 from ..blender.modifiers import move_modifier
 from ..blender.nodes import Maths, drop_tree, get_input, new_tree, set_input
+from ..cast import sitting
 from ..formats import FEET, POSE, STREAMS
 from . import close, footing, near, own, pose_lists
 from .instancer import instancer_tree
@@ -122,7 +123,7 @@ def build_crowd(bake, name, cast, frame_start, paths):
     for name, hidden in zip(INSTANCERS, ("show_viewport", "show_render")):
         setattr(crowd.modifiers.new(name, "NODES"), hidden, False)
     crowd["throng_strides"], cast["throng_gaits"] = list(bake.strides), list(bake.gaits)
-    cast[SEATS] = bake.has_seats
+    cast[SEATS] = sitting.clips_for(bake.poses)
     cast["throng_drawn"], cast["throng_shipped"] = bake.variations, cast["throng_variations"]
     crowd["throng_frame_start"], crowd["throng_offset"], crowd["throng_percent"] = frame_start, 0, 100.0
     own.give(crowd, cast, bake.folder)

@@ -70,7 +70,7 @@ def _standing_pose(maths, state, nature, beats, walking):
 
 
 def has_seat(maths, state):
-    """1 for whoever has one."""
+    """1 for whoever has one, or does something with its hands."""
     return maths.math("GREATER_THAN", state, sitting.FIRST - 0.5)
 
 
@@ -82,13 +82,14 @@ def _of_clip(maths, clip, values):
     return total
 
 
-def seated_place(maths, state, phase, share=1):
+def seated_place(maths, state, phase, clips, share=1):
     """(the first pose of everybody's clip behind the standing ones, how far in it somebody is, how many it has, whether
     it goes there and back); one pose in `share` is kept."""
     clip = maths.math("SUBTRACT", maths.math("FLOOR", state), float(sitting.FIRST))
-    count = _of_clip(maths, clip, [each.poses // share for each in sitting.CLIPS])
-    first = _of_clip(maths, clip, [sitting.first_pose(number) // share for number in range(len(sitting.CLIPS))])
-    returns = _of_clip(maths, clip, [each.there_and_back for each in sitting.CLIPS])
+    known = sitting.CLIPS[:clips]
+    count = _of_clip(maths, clip, [each.poses // share for each in known])
+    first = _of_clip(maths, clip, [sitting.poses_in(number) // share for number in range(clips)])
+    returns = _of_clip(maths, clip, [each.there_and_back for each in known])
     place = maths.math("FRACT", phase)
     there = maths.math("SUBTRACT", 1.0, maths.math("ABSOLUTE", maths.math("MULTIPLY_ADD", place, 2.0, -1.0)))
     cycle, way = maths.math("MULTIPLY", place, count), maths.math("MULTIPLY", there, maths.math("SUBTRACT", count, 1.0))
@@ -96,8 +97,8 @@ def seated_place(maths, state, phase, share=1):
     return first, along, count, returns
 
 
-def _seated_pose(maths, state, phase, share, upright):
-    first, along, count, returns = seated_place(maths, state, phase, share)
+def _seated_pose(maths, state, phase, share, upright, clips):
+    first, along, count, returns = seated_place(maths, state, phase, clips, share)
     nearest = maths.math("FLOOR", maths.math("MULTIPLY_ADD", returns, 0.5, along))
     pose = maths.math("MINIMUM", nearest, maths.math("SUBTRACT", count, 1.0))
     return maths.math("ADD", maths.math("ADD", first, pose), float(upright))
@@ -105,9 +106,10 @@ def _seated_pose(maths, state, phase, share, upright):
 
 def pose_index(maths, speed, state, phase, nature, repertoire, level):
     upright = _upright_pose(maths, speed, state, phase, nature, repertoire, level)
-    if not repertoire.seats:
+    if not repertoire.clips:
         return upright
-    seated = _seated_pose(maths, state, phase, BEATS // LEVEL_BEATS[level], repertoire.upright(level))
+    seated = _seated_pose(maths, state, phase, BEATS // LEVEL_BEATS[level], repertoire.upright(level),
+                          repertoire.clips)
     return maths.math("MULTIPLY_ADD", has_seat(maths, state), maths.math("SUBTRACT", seated, upright), upright)
 
 

@@ -130,7 +130,7 @@ def gaits_of(crowd):
 
 def repertoire_of(crowd):
     """What everybody in a crowd's cast can do."""
-    return cast.Repertoire.of(tuple(crowd["throng_strides"]), gaits_of(crowd), cast_of(crowd).get(SEATS, False))
+    return cast.Repertoire.of(tuple(crowd["throng_strides"]), gaits_of(crowd), cast_of(crowd).get(SEATS, 0))
 
 
 def figure(crowd, number, level=0):

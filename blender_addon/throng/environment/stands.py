@@ -26,7 +26,16 @@ def _build(block):
         _step(shape, *seat_rows.step_of(block, row), height, stone)
         for number, (place, way) in enumerate(seat_rows.seats_of(block, row)):
             add_seat(shape, place, way, height, seat_rows.SIDE * float(block["width"]), shells[number % len(shells)])
+    for aisle in block.get("aisles", ()):
+        _steps(shape, block, aisle, stone)
     return shape.to_object()
+
+
+def _steps(shape, block, aisle, stone):
+    """Steps of an aisle, two to a row."""
+    for front, back, height in seat_rows.treads_of(block, aisle):
+        if height > seat_rows.HAIR:
+            _step(shape, front, back, height, stone)
 
 
 def _step(shape, front, back, height, stone):

@@ -34,7 +34,9 @@ class Bake:
         self.gaits = _gaits(manifest, len(self.strides))
         self.variations = max(1, int(manifest.get("variations", 1)))
         geometry = manifest.get("geometry")
-        self.has_seats = bool(isinstance(geometry, dict) and geometry.get("seats"))
+        has_seats = bool(isinstance(geometry, dict) and geometry.get("seats"))
+        # What people do in seats and with their hands: nothing, what audiences do there, or all of it.
+        self.poses = "all" if manifest.get("poses") else "audience" if has_seats else ""
         self.complete = bool(manifest.get("complete", False))
         self.origin = tuple(float(value) for value in manifest.get("origin", (0.0, 0.0, 0.0)))
 

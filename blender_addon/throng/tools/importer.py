@@ -6,7 +6,7 @@ import bpy
 
 from .. import cast, environment
 from ..blender.paths import stored_path
-from ..cast import library
+from ..cast import library, sitting
 from ..crowd import playback
 from ..formats import BakeError, load_bake
 from ..overrides.layer import Arrival
@@ -54,7 +54,7 @@ def import_bake(context, path, *, frame_start=1, walls=True, roads=True, scenery
     collection["throng_bake"] = os.path.join(bake.folder, "bake.json")
     collection["throng_origin"] = bake.origin
 
-    repertoire, dress = cast.Repertoire.of(bake.strides, bake.gaits, bake.has_seats), None
+    repertoire, dress = cast.Repertoire.of(bake.strides, bake.gaits, sitting.clips_for(bake.poses)), None
     variations = min(bake.variations, cast.VARIATIONS)
     if members.found():
         variations = min(people, max(1, bake.agents))

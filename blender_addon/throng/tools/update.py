@@ -4,6 +4,7 @@ import os
 
 from ..blender.nodes import set_input
 from ..blender.paths import stored_path
+from ..cast import sitting
 from ..characters import members
 from ..crowd import own, playback
 from ..crowd.names import SEATS
@@ -42,7 +43,7 @@ def reload(crowd, scene, path=None):
     played = {cache.name.removeprefix("throng ") for cache in caches(crowd)}
     if played - set(POSE) != set(bake.streams) - set(POSE):
         raise BakeError("one of the two bakes has a terrain and the other has none: import it anew")
-    if bake.has_seats and not cast_of(crowd).get(SEATS):
+    if sitting.clips_for(bake.poses) > cast_of(crowd).get(SEATS, 0):
         raise BakeError("in this bake people sit, and nobody in the cast was made for it: import it anew")
     overrides = Arrival(bake, crowd)
     members.widen(crowd, bake.gaits)

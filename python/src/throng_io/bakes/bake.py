@@ -28,6 +28,18 @@ class Activity(enum.IntEnum):
     STANDING = 2  # at the goal or at a stop
     LOOKING = 3
     QUEUING = 4
+    SITTING = 5
+    READYING = 6  # its hands, to clap in its seat
+    CLAPPING = 7
+    RISING = 8
+    CHEERING = 9
+    SINGING = 10
+    SETTLING = 11  # in its seat, or getting up from it
+    RAISING = 12   # its hands, on its feet, as what follows
+    APPLAUDING = 13
+    JUBILATING = 14
+    SWAYING = 15
+    WAVING = 16
 
 
 class Bake:

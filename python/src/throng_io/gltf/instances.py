@@ -52,7 +52,7 @@ class Instances:
         first = POSES * int(numpy.abs(numpy.array(repertoire.strides) - USUAL_STRIDE).argmin())
         phases = numpy.rint(streams["state"][:, 2] % 1.0 * PHASES).astype(int) % PHASES
         found = numpy.where(streams["dir"][:, 2] > WALKS_FROM, first + phases * (POSES // PHASES), repertoire.walking())
-        if not repertoire.seats:
+        if not repertoire.clips:
             return found
         has, here, there, share = seats_of(streams["state"])
         return numpy.where(has, repertoire.upright() + numpy.where(share < 0.5, here, there), found)

@@ -57,7 +57,7 @@ def _person(shot: Shot, row: int, streams: dict[str, numpy.ndarray]) -> numpy.nd
         found[name] = numpy.rint(numpy.clip(share, 0.0, 1.0) * 255.0)
     found["walk"], found["before"] = walks.gait, walks.before
     found["stand"] = len(shot.repertoire.strides) + stand
-    if shot.repertoire.seats:
+    if shot.repertoire.clips:
         sits = track.state[:, 0] > sitting.FIRST - 0.5
         clip = numpy.floor(track.state[:, 0] + 1e-4) - sitting.FIRST
         found["stand"][sits] += (len(gait.STANDING_CLIPS) - stand + clip)[sits].astype(numpy.uint8)

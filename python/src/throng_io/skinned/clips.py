@@ -13,7 +13,8 @@ from .motions import FRAMES_A_ROUND, GATHERS, Track, matrices_of
 
 STANDING_KEYS = 40   # of a round
 # s, of what is done in seats: bakes tell phases, so these are for who plays clips without them.
-SEATED = {"sit": 6.5, "ready": 1.2, "clap": 0.25, "rise": 1.6, "cheer": 0.65, "sing": 2.4}
+SEATED = {"sit": 6.5, "ready": 1.2, "clap": 0.25, "rise": 1.6, "cheer": 0.65, "sing": 2.4, "settle": 1.6,
+          "raise": 0.8, "applaud": 0.25, "jubilate": 0.65, "sway": 2.4, "wave": 1.5}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -38,8 +39,9 @@ def clips_of(repertoire: Repertoire, fps: float) -> list[Clip]:
     walks = [Clip(f"walk{repertoire.first + number}", gait.gait_of(stride).seconds, stride,
                   _walk(repertoire.first + number)) for number, stride in enumerate(repertoire.strides)]
     stands = [Clip(name, FRAMES_A_ROUND / fps, 0.0, _stand(number)) for number, name in enumerate(gait.STANDING_CLIPS)]
-    seats = [Clip(clip.name, SEATED[clip.name], 0.0, _sits(number)) for number, clip in enumerate(sitting.CLIPS)]
-    return walks + stands + (seats if repertoire.seats else [])
+    seats = [Clip(clip.name, SEATED[clip.name], 0.0, _sits(number))
+             for number, clip in enumerate(sitting.CLIPS[:repertoire.clips])]
+    return walks + stands + seats
 
 
 def _carried(keys: int, walking: float) -> numpy.ndarray:

@@ -13,7 +13,7 @@ import numpy
 
 from ..bakes.bake import Bake
 from ..base.errors import ThrongError
-from ..cast import Repertoire, poses_of_build, skinning
+from ..cast import Repertoire, poses_of_build, sitting, skinning
 from ..people import casting, library, palettes, parts, person, roster
 from ..people.holding import BAGS
 
@@ -55,8 +55,8 @@ class Member:
 def repertoire_of(bake: Bake) -> Repertoire:
     strides = [float(stride) for stride in bake.about.get("strides") or [1.446]]
     gaits = bake.about.get("gaits") or range(len(strides))
-    seats = bake.about["geometry"].get("seats")
-    return Repertoire.of(strides, (min(gaits), min(max(gaits), len(strides) - 1)), bool(seats))
+    poses = "all" if bake.about.get("poses") else "audience" if bake.about["geometry"].get("seats") else ""
+    return Repertoire.of(strides, (min(gaits), min(max(gaits), len(strides) - 1)), sitting.clips_for(poses))
 
 
 def bodies_of_library() -> library.Bodies:

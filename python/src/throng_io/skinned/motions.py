@@ -115,7 +115,7 @@ def seats_of(state: Array) -> tuple[Array, Array, Array, Array]:
     has = state[:, 0] > sitting.FIRST - 0.5
     clip = numpy.clip(numpy.floor(state[:, 0]) - sitting.FIRST, 0, len(sitting.CLIPS) - 1).astype(int)
     first, count, returns = (numpy.array(each)[clip] for each in (
-        [sitting.first_pose(number) for number in range(len(sitting.CLIPS))],
+        [sitting.poses_in(number) for number in range(len(sitting.CLIPS))],
         [each.poses for each in sitting.CLIPS], [each.there_and_back for each in sitting.CLIPS]))
     phase = state[:, 2] % 1.0
     place = numpy.where(returns, (1.0 - numpy.abs(2.0 * phase - 1.0)) * (count - 1), phase * count)
@@ -126,7 +126,7 @@ def seats_of(state: Array) -> tuple[Array, Array, Array, Array]:
 def _rest(poses: Array, repertoire: Repertoire, track: Track) -> Array:
     """Of who does not walk, in a seat or not."""
     stands = _stand(poses, repertoire, track)
-    if not repertoire.seats:
+    if not repertoire.clips:
         return stands
     has, here, there, share = seats_of(track.state)
     first = repertoire.upright()

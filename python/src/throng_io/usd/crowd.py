@@ -13,7 +13,7 @@ from ..bakes.bake import Bake
 from ..bakes.surroundings import GREY, things_of
 from ..base.errors import ThrongError, need
 from ..base.whole_files import whole_file, whole_folder
-from ..skinned.members import bodies_of_library
+from ..skinned.members import bodies_of_library, repertoire_of
 from ..skinned.motions import seats_of
 from .clips import folder_of, write_clips
 from .figures import PHASES, Mesh, figure, seated_poses
@@ -145,7 +145,7 @@ class Stage:
             poses += [(f"stride{gait}_pose{pose}", figure(pose / PHASES, strides[min(gait, len(strides) - 1)]))
                       for pose in range(PHASES)]
         self.upright = len(poses)
-        poses += seated_poses() if self.bake.about["geometry"].get("seats") else []
+        poses += seated_poses(repertoire_of(self.bake).clips)
         self.geom.Scope.Define(self.stage, "/World/Crowd/Prototypes")
         self.stage.CreateClassPrim("/World/Crowd/Poses")
         for name, mesh in poses:

@@ -162,7 +162,7 @@ def _outwards(angle: float, aside: Vector, length: float) -> Vector:
     return way * (length / numpy.linalg.norm(way))
 
 
-def seated_poses() -> list[tuple[str, Mesh]]:
-    """All of them, in the order of cast.sitting.poses_of()."""
+def seated_poses(clips: int) -> list[tuple[str, Mesh]]:
+    """All of the first so many clips, in the order of cast.sitting.poses_of()."""
     return [(f"{clip.name}{index}", seated_figure(number, index / (clip.poses - clip.there_and_back)))
-            for number, clip in enumerate(sitting.CLIPS) for index in range(clip.poses)]
+            for number, clip in enumerate(sitting.CLIPS[:clips]) for index in range(clip.poses)]
