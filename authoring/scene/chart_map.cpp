@@ -21,9 +21,7 @@ float ChartMap::slopeCostAt(glm::vec2 place) const {
 }
 
 bool ChartMap::isGround(glm::vec2 place) const {
-    const std::uint32_t charts = at(place).charts;
-    return (charts & gpu::NO_CHART) != gpu::NO_CHART &&
-           (charts & gpu::NO_CHART) == (charts >> 8 & gpu::NO_CHART);
+    return cell_costs.empty() || (at(place).charts >> 8 & gpu::NO_CHART) != gpu::NO_CHART;
 }
 
 glm::vec2 ChartMap::home(glm::vec2 place) const {

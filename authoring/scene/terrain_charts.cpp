@@ -63,10 +63,11 @@ bool mayHaveStoreys(const TerrainMesh& mesh, const Bounds& bounds) {
     const double step = std::max(0.5, std::sqrt(size.x * size.y / kMostLooks));
     const FaceGrid faces(mesh, lower, glm::vec2(0.0f), glm::vec2(size), FaceGrid::Keep::looking_up);
     if (faces.layers() * size.x * size.y > kMostFaces * step * step) return false;
-    for (double y = 0.5 * step; y < size.y; y += step)
-        for (double x = 0.5 * step; x < size.x; x += step) {
+    const glm::ivec2 looks(glm::ceil(size / step - 0.5));
+    for (int y = 0; y < looks.y; ++y)
+        for (int x = 0; x < looks.x; ++x) {
             float low = std::numeric_limits<float>::max(), high = std::numeric_limits<float>::lowest();
-            faces.visitHits({static_cast<float>(x), static_cast<float>(y)},
+            faces.visitHits(glm::vec2(step * (glm::dvec2(x, y) + 0.5)),
                             [&](const TerrainTriangle&, float height) {
                                 low = std::min(low, height);
                                 high = std::max(high, height);

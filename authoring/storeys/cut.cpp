@@ -132,13 +132,13 @@ std::vector<bool> nearTo(const Walkable& ground, const Spots& over, const Part& 
 /// Draws back from where a part would lie over itself; not as far where not much would be left of it.
 void drawBack(const Walkable& ground, const Spots& over, double margin, Part& part) {
     constexpr double kLeast = 0.25;  // of it
-    for (; !over.empty() && margin > kChartCell; margin *= 0.5) {
+    while (!over.empty() && margin > kChartCell) {
         const std::vector<bool> near = nearTo(ground, over, part, margin);
         const auto kept = std::count_if(part.spots().begin(), part.spots().end(),
                                         [&](std::uint32_t spot) { return !near[spot]; });
-        if (static_cast<double>(kept) < kLeast * static_cast<double>(part.spots().size())) continue;
-        part.leave(near);
-        return;
+        if (static_cast<double>(kept) >= kLeast * static_cast<double>(part.spots().size()))
+            return part.leave(near);
+        margin *= 0.5;
     }
 }
 

@@ -384,7 +384,8 @@ TEST(Storeys, MistakesAreToldWhereTheyAre) {
                         ",\n{\"id\": \"mezzanine\", \"height\": 1.5, \"floor\": [[0, 0], [5, 0], [5, 5]]}]"),
         Texts{"4: levels `ground` and `mezzanine` lie over each other at [0.12, 0.12], 1.50 m apart"});
     EXPECT_EQ(complaintsAbout(levels + R"("terrain": {"file": "ground.glb"})"),
-              Texts{"4: a layout has levels or a terrain, not both"});
+              (Texts{"3: level `ground`: a layout with a terrain has no floors of its own",
+                     "3: level `upper`: a layout with a terrain has no floors of its own"}));
     EXPECT_EQ(
         complaintsAbout(levels + R"("walls": [{"id": "w", "points": [[0, 1], [1, 1]], "level": "upper"}])"),
         Texts{"4: wall `w` does not stand on the floor of level `upper`"});
