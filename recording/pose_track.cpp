@@ -11,9 +11,9 @@ using Code = ActivityCode;
 
 constexpr double kHair = 1.0e-9;
 constexpr double kHalf = 0.5;
-constexpr double kStandsBelow = 0.12;  // m/s: who is slower raises its hands
-constexpr double kWalksFrom = 0.35;    // m/s: who is faster has let them down
-constexpr double kEndsWithin = 0.4;    // s: a cycle, before something else (with the way down, what
+constexpr double kRaisesHandsBelow = 0.12;  // m/s: who is slower raises its hands
+constexpr double kLowersHandsFrom = 0.35;   // m/s: who is faster has let them down
+constexpr double kEndsWithin = 0.4;         // s: a cycle, before something else (with the way down, what
                                      // shaders/behaviour/letting_go.glsl and shaders/seats/in_seat.glsl give)
 
 bool isSeated(Code code) {
@@ -88,7 +88,7 @@ void PoseTrack::step(const PoseWish& wish, double phase) {
         settle(wish.share);
         return;
     }
-    const bool walks = wish.speed > (was_shown ? kWalksFrom : kStandsBelow);
+    const bool walks = wish.speed > (was_shown ? kLowersHandsFrom : kRaisesHandsBelow);
     if (isSeated(wanted)) {
         if (!was_shown || !isSeated(activity()) || activity() == Code::settles) {
             set(Code::sits, wholeFrom(phase_));

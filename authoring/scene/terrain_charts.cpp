@@ -21,14 +21,14 @@
 namespace throng::authoring {
 namespace {
 
-constexpr double kAround = 50.0;             // m: so far from all that the layout has, ground counts
-constexpr double kMostLatticeCells = 4.0e6;  // of the lattice
-constexpr double kMostFaces = 2.0e9;         // to look at
-constexpr double kStoreysApart = 2.0;        // m
-constexpr double kMostLooks = 400'000.0;     // at the mesh, for storeys
-constexpr double kEdgeHeight = 1.1;          // m: people see over the ends of ground
-constexpr double kEdge = 0.02;               // m
-constexpr double kWorthTelling = 4.0;        // m^2 of ground that nobody gets to
+constexpr double kAround = 50.0;                // m: so far from all that the layout has, ground counts
+constexpr double kMostLatticeCells = 4.0e6;     // of the lattice
+constexpr double kMostFaces = 2.0e9;            // to look at
+constexpr double kStoreysApart = 2.0;           // m
+constexpr double kMostLooks = 400'000.0;        // at the mesh, for storeys
+constexpr double kEdgeHeight = 1.1;             // m: people see over the ends of ground
+constexpr double kEdge = 0.02;                  // m
+constexpr double kUnreachedWorthTelling = 4.0;  // m^2 of ground that nobody gets to
 constexpr std::size_t kMostTold = 10;
 constexpr double kAlong = 0.25;  // m between looks at what a line lies on
 
@@ -180,7 +180,7 @@ class TerrainLayingOut {
         for (std::uint32_t spot = 0; spot < ground_->spots().size(); ++spot) {
             const std::uint32_t piece = pieces_.piece_of[spot];
             const double area = areaOfSpots(pieces_.spots[piece]);
-            if (used[piece] || seen[piece] || area < kWorthTelling) continue;
+            if (used[piece] || seen[piece] || area < kUnreachedWorthTelling) continue;
             seen[piece] = true;
             const Walkable::Spot& there = ground_->spots()[spot];
             findings.unreached.push_back({area, {chartCellMiddle(there.cell), there.height}});

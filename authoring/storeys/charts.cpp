@@ -156,15 +156,15 @@ class LayingOut {
 
     /// A wall that nobody can come near to was meant for another level, or is out of place.
     void tellOfWallBeside(const Wall& wall) const {
-        constexpr double kBeside = 0.5;  // m
+        constexpr double kNearby = 0.5;  // m
         const Chart& chart = result_->charts[wall.level];
         for (std::size_t i = 0; i + 1 < wall.points.size() + (wall.closed ? 1 : 0); ++i)
             for (const double along : {0.0, 0.25, 0.5, 0.75, 1.0}) {
                 const glm::dvec2 at =
                     glm::mix(wall.points[i], wall.points[(i + 1) % wall.points.size()], along);
                 for (const glm::dvec2 aside :
-                     {glm::dvec2(0.0), glm::dvec2(kBeside, 0.0), glm::dvec2(-kBeside, 0.0),
-                      glm::dvec2(0.0, kBeside), glm::dvec2(0.0, -kBeside)})
+                     {glm::dvec2(0.0), glm::dvec2(kNearby, 0.0), glm::dvec2(-kNearby, 0.0),
+                      glm::dvec2(0.0, kNearby), glm::dvec2(0.0, -kNearby)})
                     if (chart.contains(at + aside)) return;
             }
         diagnostics_.warning(

@@ -11,7 +11,7 @@ namespace throng::authoring {
 namespace {
 
 constexpr double kSample = 0.1;   // m
-constexpr double kBeside = 0.02;  // m: beyond an edge
+constexpr double kBeyond = 0.02;  // m: beyond an edge
 constexpr double kPiece = 1.0;    // m: railings of links go up in pieces
 
 using Test = std::function<bool(double)>;
@@ -49,7 +49,7 @@ void addRailings(const std::vector<Chart>& charts, std::size_t index, glm::dvec2
     const Chart& chart = charts[index];
     const auto is_needed = [&](double along) {
         const glm::dvec2 at = glm::mix(a, b, along);
-        const glm::dvec2 within = at - kBeside * outward, beyond = at + kBeside * outward;
+        const glm::dvec2 within = at - kBeyond * outward, beyond = at + kBeyond * outward;
         if (!chart.contains(within) || chart.contains(beyond)) return false;
         for (std::size_t other = 0; other < charts.size(); ++other)
             if (other != index && charts[other].contains(beyond) &&
