@@ -226,7 +226,7 @@ struct TerrainSettings {
     std::string node;  ///< only nodes or meshes of this name; empty = all
     glm::dvec3 offset{0.0};
     double scale = 1.0;
-    bool highest = true;  ///< of several surfaces above each other; otherwise the lowest
+    bool highest = true;     ///< of several surfaces above each other; otherwise the lowest
     bool is_single = false;  ///< the layout says which of them: then the others are nobody's ground
     SourcePosition where, file_where, node_where;
 };

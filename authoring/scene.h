@@ -107,7 +107,7 @@ struct ChartMap {
     /// From the plane to home coordinates.
     glm::vec2 home(glm::vec2 place) const;
     float slopeCostAt(glm::vec2 place) const;
-    /// Whether a place lies on the ground of its own chart: not beyond a seam, nor off all ground.
+    /// Whether a place lies on the ground of a terrain, also beyond a seam; of floors nobody asks.
     bool isGround(glm::vec2 place) const;
     bool isBelt(std::uint32_t chart) const { return !belts.empty() && belts[chart].length > 0.0f; }
     /// Whether a cell that shows another chart's ground shows what one would have to go to against ground

@@ -50,7 +50,7 @@ struct Chart {
     std::size_t stop = 0;    ///< which of them, in the lift's order
     double half_door = 0.0;  ///< m
     std::shared_ptr<const Surface> surface = {};  ///< of a part of a terrain
-    glm::dvec2 shift{0.0};   ///< plane = home + shift, m
+    glm::dvec2 shift{0.0};                        ///< plane = home + shift, m
 
     bool contains(glm::dvec2 home) const;
     double heightAt(glm::dvec2 home) const;

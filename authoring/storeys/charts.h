@@ -50,7 +50,7 @@ struct TerrainFindings {
 struct TerrainGrounds {
     /// As the layout names them, and if it names none, one for each chart; their floors are outlines.
     std::vector<Level> levels;
-    Layout home;  ///< the layout, everything on one of these levels
+    Layout home;                             ///< the layout, everything on one of these levels
     std::vector<double> attraction_heights;  ///< m, of the ground there
     TerrainFindings findings;
 };
@@ -66,10 +66,10 @@ struct Charts {
     std::vector<Wall> walls;
     std::vector<glm::dvec2> ground_along_walls;  ///< m, lowest and highest, one per wall
 
-    TerrainMesh home_mesh;   ///< slabs and stairs as they are built
-    TerrainMesh plane_mesh;  ///< what people stand on, in the plane
+    TerrainMesh home_mesh;                               ///< slabs and stairs as they are built
+    TerrainMesh plane_mesh;                              ///< what people stand on, in the plane
     std::shared_ptr<const TerrainGrounds> grounds = {};  ///< of a terrain; then there are no such meshes
-    double reach = 0.0;                                   ///< m: the width of margins
+    double reach = 0.0;                                  ///< m: the width of margins
     std::uint32_t most_images = 0;
 };
 

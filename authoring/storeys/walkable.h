@@ -27,11 +27,12 @@ class Walkable {
   public:
     struct Spot {
         glm::ivec2 cell{0};
-        float height = 0.0f;                                                  ///< m
+        float height = 0.0f;                                                       ///< m
         std::array<std::uint32_t, 4> next = {kNoSpot, kNoSpot, kNoSpot, kNoSpot};  ///< by side
     };
 
     /// @param lower, upper home: what lies beyond is left out
+    /// @throws std::invalid_argument for very many spots
     Walkable(const TerrainMesh& mesh, glm::dvec2 lower, glm::dvec2 upper);
 
     const std::vector<Spot>& spots() const { return spots_; }

@@ -19,9 +19,7 @@ struct TerrainTriangle {
     /// Twice its area in plan; positive of faces that look up.
     float area() const { return b.x * c.y - b.y * c.x; }
     /// Rise over run, both axes.
-    glm::vec2 slope() const {
-        return glm::vec2(zb * c.y - zc * b.y, zc * b.x - zb * c.x) / area();
-    }
+    glm::vec2 slope() const { return glm::vec2(zb * c.y - zc * b.y, zc * b.x - zb * c.x) / area(); }
 };
 
 /// A raster that begins at the terrain's minimum.

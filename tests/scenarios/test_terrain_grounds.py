@@ -268,3 +268,14 @@ def test_a_level_at_a_place_needs_a_terrain(throng, tmp_path):
     (tmp_path / "layout.json").write_text(json.dumps({"throng": 1, "levels": [{"id": "deck", "at": [0, 0, 2]}]}))
     failed = throng("check", tmp_path / "layout.json", expect=None)
     assert failed.returncode == 3 and "level `deck` has no `floor`" in failed.stderr
+
+
+def test_the_bridge_of_the_examples_is_walked_over_and_under(throng, bakes):
+    """Everybody arrives, also those who watch from the deck, and at one moment some are right above others."""
+    folder = bakes("bridge-terrain")
+    figures = measured(throng, folder)
+    assert (figures["arrived"], figures["agents"], figures["wall_crossings"]) == (518, 518, 0)
+    assert figures["deepest_overlap_percent"] < 2
+    places, there = stream(folder, "pos")[900], stream(folder, "state")[900, :, 0] > 0
+    deck, street = (places[there & those] for those in (places[:, 2] > 5.1, places[:, 2] < 0.2))
+    assert (numpy.linalg.norm(deck[:, None, :2] - street[None, :, :2], axis=2) < 0.5).any()

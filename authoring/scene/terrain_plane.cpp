@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "authoring/scene/chart_map.h"
+#include "authoring/scene/terrain_charts.h"
+
+namespace throng::authoring {
+
+PlaneGround planeGroundOf(const Charts& charts, const ChartMap& map, glm::dvec2 origin) {
+    constexpr int kSpread = 2;  // cells: so far beyond its edges, ground has a height
+    PlaneGround plane;
+    plane.minimum = map.grid.minimum;
+    plane.cell = map.grid.cell_size;
+    plane.width = map.grid.width;
+    plane.height = map.grid.height;
+    plane.cells.assign(map.cells.size(), {std::numeric_limits<float>::quiet_NaN(), glm::vec2(0.0f)});
+    glm::dvec2 lower(std::numeric_limits<double>::max()), upper = -lower;
+    for (const Chart& chart : charts.charts) {
+        lower = glm::min(lower, chart.bounds().first - charts.reach - 1.0);
+        upper = glm::max(upper, chart.bounds().second + charts.reach + 1.0);
+    }
+    plane.lower = glm::vec2(lower - origin);
+    plane.upper = glm::vec2(upper - origin);
+    for (std::size_t i = 0; i < map.cells.size(); ++i) {
+        const std::uint32_t chart = map.cells[i].charts & gpu::NO_CHART,
+                            owner = map.cells[i].charts >> 8 & gpu::NO_CHART;
+        if (chart == gpu::NO_CHART || owner == gpu::NO_CHART) continue;
+        const glm::uvec2 at(i % map.grid.width, i / map.grid.width);
+        const glm::vec2 place = map.grid.minimum + (glm::vec2(at) + 0.5f) * map.grid.cell_size;
+        const glm::dvec2 home = origin + glm::dvec2(place - map.shifts[chart]);
+        plane.cells[i] = {static_cast<float>(charts.charts[owner].heightAt(home)), map.shifts[chart]};
+    }
+    for (int round = 0; round < kSpread; ++round) {
+        const std::vector<PlaneGround::Cell> before = plane.cells;
+        for (std::size_t i = 0; i < before.size(); ++i) {
+            if (!std::isnan(before[i].height) || (map.cells[i].charts & gpu::NO_CHART) == gpu::NO_CHART)
+                continue;
+            const std::size_t x = i % plane.width;
+            for (const std::size_t beside :
+                 {x > 0 ? i - 1 : i, x + 1 < plane.width ? i + 1 : i, i >= plane.width ? i - plane.width : i,
+                  i + plane.width < before.size() ? i + plane.width : i})
+                if (!std::isnan(before[beside].height)) {
+                    plane.cells[i] = before[beside];
+                    break;
+                }
+        }
+    }
+    return plane;
+}
+
+std::vector<float> slopeCosts(const Terrain& terrain, const ChartMap& map, const MotionSettings& motion) {
+    constexpr float kFlat = 0.02f;  // rise over run: costs nothing
+    constexpr float kSteepest = 1.0f;
+    constexpr int kSlopes = 50;  // in so many steps
+    std::array<std::array<float, kSlopes + 1>, 2> costs{};
+    for (int stairs = 0; stairs < 2; ++stairs)
+        for (int i = 0; i <= kSlopes; ++i)
+            costs[static_cast<std::size_t>(stairs)][static_cast<std::size_t>(i)] =
+                costOfLink(motion, stairs == 1, double{kSteepest} * i / kSlopes);
+    std::vector<float> result(map.cells.size(), 1.0f);
+    for (std::size_t i = 0; i < map.cells.size(); ++i) {
+        if ((map.cells[i].charts >> 8 & gpu::NO_CHART) == gpu::NO_CHART) continue;
+        const glm::vec2 at = map.grid.minimum +
+                             (glm::vec2(i % map.grid.width, i / map.grid.width) + 0.5f) * map.grid.cell_size;
+        const float slope = std::min(glm::length(terrain.slopeAt(at)), kSteepest);
+        if (slope < kFlat) continue;
+        const auto step = static_cast<std::size_t>(std::lround(slope / kSteepest * kSlopes));
+        result[i] = costs[terrain.stepsAt(at) > 0.5f ? 1 : 0][step];
+    }
+    return result;
+}
+
+}  // namespace throng::authoring
