@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // To a seat and away from it, between rows that nobody else walks in: up the aisle, along the row, turn, sit down;
-// stand up to let somebody pass, sit down again; and the same way back. Who is on it is led, and out of the plane in which
-// people avoid each other; it leaves that plane, and comes back to it, where the aisle ends on the ground.
+// stand up to let somebody pass, sit down again; and the same way back. Who is on it is led, and out of the plane in
+// which people avoid each other; it leaves that plane, and comes back to it, where the aisle ends on the ground.
 //
 // One thread for each who has a seat: it reads what all did before, and writes what it does itself.
 #include "shaders/shared/simulation_types.h"

@@ -13,7 +13,7 @@ const float GAINS = 1.5;         // m/s^2
 const float PATIENCE = 4.0;      // s
 const float THERE = 0.02;        // m
 const float BEFORE_AISLE = 0.75; // m into the row, where one waits to step into the aisle
-const float BEFORE_END = 0.5;    // m of the aisle, where one waits for room on the ground
+const float BEFORE_END = 0.12;   // m of the aisle, where one waits for room on the ground
 const float COMES_TO_WAY = 0.5;  // m walked, until one is on it
 
 /// m that somebody may still go.

@@ -125,16 +125,19 @@ Seen around(const authoring::SeatWays& seats, std::uint32_t index) {
             const float beyond = other.along - way.mouth;
             const bool earlier = other.since < self.since || (other.since == self.since && i < index);
             if (in_aisle && beyond > -0.55f && beyond < 0.8f) seen.aisle_taken = true;
-            if (!in_aisle && at_mouth && std::abs(theirs.mouth - way.mouth) < 0.55f && earlier) seen.aisle_taken = true;
+            if (!in_aisle && at_mouth && std::abs(theirs.mouth - way.mouth) < 0.55f && earlier)
+                seen.aisle_taken = true;
         }
         if (!same) continue;
-        if (other.mode == gpu::SITTER_RISES || (leaves && other.along > theirs.mouth - 0.05f)) seen.comes_out = true;
+        if (other.mode == gpu::SITTER_RISES || (leaves && other.along > theirs.mouth - 0.05f))
+            seen.comes_out = true;
         if (other.mode == gpu::SITTER_ENTERS && other.along > theirs.mouth - 0.75f) seen.goes_in = true;
         const float to_seat = leaves ? other.along - way.length : way.length - other.along;
         if (isWalking(other) && theirs.length > way.length + 0.1f && to_seat > -0.4f && to_seat < 1.3f)
             seen.passes = true;
         if (isWalking(other) && std::abs(other.along - way.length) < 0.6f) seen.line_taken = true;
-        const bool up = (other.mode == gpu::SITTER_STANDS_FOR || other.mode == gpu::SITTER_RISES) && other.share >= 0.85f;
+        const bool up =
+            (other.mode == gpu::SITTER_STANDS_FOR || other.mode == gpu::SITTER_RISES) && other.share >= 0.85f;
         if (isWalking(other) || up || theirs.length > way.length - 0.1f) continue;
         if (self.mode == gpu::SITTER_ENTERS && theirs.length > self.along - 0.1f)
             seen.halt = std::min(seen.halt, theirs.length - 0.45f);
@@ -146,7 +149,9 @@ Seen around(const authoring::SeatWays& seats, std::uint32_t index) {
 float roomFor(const gpu::Sitter& self, const gpu::SeatWay& way, const Seen& seen) {
     const bool in = self.mode == gpu::SITTER_ENTERS;
     float room = in ? std::min(way.length, seen.halt) - self.along : self.along - std::max(seen.halt, 0.0f);
-    const float gap = std::abs(self.along - way.mouth) < 0.7f ? 0.75f : self.along > way.mouth ? 0.45f : 0.55f;
+    const float gap = std::abs(self.along - way.mouth) < 0.7f ? 0.75f
+                      : self.along > way.mouth                ? 0.45f
+                                                              : 0.55f;
     room = std::min(room, seen.gap - gap);
     const float line = way.mouth - 0.75f, waits = way.mouth + 0.75f;
     if (in && seen.comes_out && self.along < line + 0.02f) room = std::min(room, line - self.along);
@@ -155,7 +160,8 @@ float roomFor(const gpu::Sitter& self, const gpu::SeatWay& way, const Seen& seen
 }
 
 /// What becomes of somebody in a step. @param wants to be in its seat
-gpu::Sitter after(const authoring::SeatWays& seats, std::uint32_t index, bool wants, float preferred, float dt) {
+gpu::Sitter after(const authoring::SeatWays& seats, std::uint32_t index, bool wants, float preferred,
+                  float dt) {
     gpu::Sitter self = seats.sitters[index];
     const gpu::SeatWay& way = seats.ways[index];
     const Seen seen = around(seats, index);
@@ -166,7 +172,8 @@ gpu::Sitter after(const authoring::SeatWays& seats, std::uint32_t index, bool wa
         case gpu::SITTER_LEAVES: {
             const float room = roomFor(self, way, seen);
             const float most = std::min(preferred, self.along > way.mouth ? 0.6f : 0.8f);
-            self.speed = std::min(std::min(most, self.speed + 1.5f * dt), std::max(room / 0.5f, std::min(room / dt, 0.1f)));
+            self.speed = std::min(std::min(most, self.speed + 1.5f * dt),
+                                  std::max(room / 0.5f, std::min(room / dt, 0.1f)));
             const float step = std::min(self.speed * dt, room);
             if (self.mode == gpu::SITTER_ENTERS) {
                 self.along += step;
@@ -196,7 +203,9 @@ gpu::Sitter after(const authoring::SeatWays& seats, std::uint32_t index, bool wa
             break;
         case gpu::SITTER_LETS_GO:
             if (seconds >= 0.9f)
-                self.mode = seen.passes ? gpu::SITTER_STANDS_FOR : wants ? gpu::SITTER_SITS : gpu::SITTER_RISES;
+                self.mode = seen.passes ? gpu::SITTER_STANDS_FOR
+                            : wants     ? gpu::SITTER_SITS
+                                        : gpu::SITTER_RISES;
             break;
         case gpu::SITTER_STANDS_FOR:
             move(seen.passes ? 0.7f : -0.9f);
@@ -226,7 +235,8 @@ TEST_P(SeatsTest, AStepIsThatOfPlainCpp) {
         const float preferred = block.scene.people[i].preferred_speed;
         const bool wants = block.scene.behaviours.minds[i].state == 0;
         const gpu::Sitter expected = after(seats, i, wants, preferred, simulation.parameters().step_seconds);
-        ASSERT_EQ(found[i].mode, expected.mode) << "of " << i << ", who was in mode " << seats.sitters[i].mode;
+        ASSERT_EQ(found[i].mode, expected.mode)
+            << "of " << i << ", who was in mode " << seats.sitters[i].mode;
         ASSERT_NEAR(found[i].along, expected.along, 1e-5f) << i;
         ASSERT_NEAR(found[i].share, expected.share, 1e-5f) << i;
         if (isWalking(expected)) {
