@@ -241,24 +241,29 @@ void checkTerrain(const Layout& layout, const Rebase& rebase, const WalkGeometry
 bool areLevelsComplete(const Layout& layout, Diagnostics& diagnostics) {
     for (const Level& level : layout.levels) {
         if (layout.terrain && !level.floor.empty())
-            diagnostics.error(level.where,
-                              fmt::format("level `{}`: a layout with a terrain has no floors of its own", level.id),
-                              R"(name a ground of the terrain by a place on it, "at": [x, y, z])");
+            diagnostics.error(
+                level.where,
+                fmt::format("level `{}`: a layout with a terrain has no floors of its own", level.id),
+                R"(name a ground of the terrain by a place on it, "at": [x, y, z])");
         else if (layout.terrain && !level.at)
-            diagnostics.error(level.where,
-                              fmt::format("level `{}` names no ground of the terrain: `at` is missing", level.id),
-                              "give a place on it, [x, y, z] in metres");
+            diagnostics.error(
+                level.where,
+                fmt::format("level `{}` names no ground of the terrain: `at` is missing", level.id),
+                "give a place on it, [x, y, z] in metres");
         else if (!layout.terrain && level.floor.empty())
             diagnostics.error(level.where, fmt::format("level `{}` has no `floor`", level.id),
-                              level.at ? "give it one, or the layout a `terrain`: `at` names a ground of a terrain"
-                                       : "its outline, points [x, y] in metres");
+                              level.at
+                                  ? "give it one, or the layout a `terrain`: `at` names a ground of a terrain"
+                                  : "its outline, points [x, y] in metres");
         else if (!layout.terrain && level.at)
-            diagnostics.error(level.where,
-                              fmt::format("level `{}`: `at` names a ground of a terrain, and there is none", level.id),
-                              "leave it out, or give the layout a `terrain`");
+            diagnostics.error(
+                level.where,
+                fmt::format("level `{}`: `at` names a ground of a terrain, and there is none", level.id),
+                "leave it out, or give the layout a `terrain`");
     }
     if (layout.terrain && layout.terrain->is_single && !layout.levels.empty())
-        diagnostics.error(layout.terrain->where, "a terrain of which people walk on one `surface` has no levels",
+        diagnostics.error(layout.terrain->where,
+                          "a terrain of which people walk on one `surface` has no levels",
                           "leave out `surface`, or the levels");
     if (layout.terrain && !layout.links.empty())
         diagnostics.error(layout.links.front().where, "a terrain has no links: its ways are its own",
