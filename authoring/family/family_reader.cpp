@@ -44,7 +44,8 @@ class Reader {
                                "write \"throng_family\": 1");
         reader.text("name", family_.name);
         reader.text("folder", family_.folder);
-        family_.folder = std::filesystem::absolute(folder_ / family_.folder).lexically_normal().string();
+        const std::filesystem::path own = folder_.empty() ? "." : folder_;
+        family_.folder = std::filesystem::absolute(own / family_.folder).lexically_normal().string();
         readBase(reader);
         readSampling(reader);
         if (const JsonNode* axes = reader.require("axes", "what varies"); axes && isList(*axes, "axes"))

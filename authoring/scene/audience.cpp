@@ -164,20 +164,21 @@ void perform(const Cue& cue, const GroupRandom& random, std::size_t person, Time
 /// Where a wave passes, along the blocks of a show, m.
 class WaveCourse {
   public:
-    WaveCourse(const Layout& layout, const Show& show, const std::vector<Spectator>& audience)
-        : begins_(layout.seats.size(), -1.0) {
+    WaveCourse(const Layout& layout, const Show& show) : begins_(layout.seats.size(), -1.0) {
         for (const std::size_t block : show.blocks) {
             begins_[block] = length_;
             length_ += lengthOf(layout.seats[block]);
         }
         if (!show.from) return;
         double nearest = std::numeric_limits<double>::max();
-        for (const Spectator& each : audience) {
-            const double away = glm::distance(each.seat.place, *show.from);
-            if (begins_[each.block] < 0.0 || away >= nearest) continue;
-            nearest = away;
-            start_ = begins_[each.block] + each.seat.along;
-        }
+        for (const std::size_t block :
+             show.blocks)  // of all of them, those who are led to their seats or not
+            for (const Spectator& each : audienceIn(layout, block)) {
+                const double away = glm::distance(each.seat.place, *show.from);
+                if (away >= nearest) continue;
+                nearest = away;
+                start_ = begins_[each.block] + each.seat.along;
+            }
     }
     double length() const { return length_; }
     /// m from its beginning.
@@ -197,7 +198,7 @@ void addCues(const Layout& layout, std::size_t number, const std::vector<Spectat
              std::vector<std::vector<Cue>>& cues) {
     const Show& show = layout.shows[number];
     const GroupRandom random(layout.simulation.seed, fmt::format("show {}", number));
-    const WaveCourse course(layout, show, audience);
+    const WaveCourse course(layout, show);
     std::vector<bool> takes_part(layout.seats.size(), false);
     for (const std::size_t block : show.blocks)
         takes_part[block] = true;

@@ -35,7 +35,7 @@ const BehaviourState* sittingState(const Behaviour* behaviour) {
 std::vector<std::size_t> blocksOf(const BehaviourState& state) {
     std::vector<std::size_t> blocks;
     for (const Place& place : state.to.places)
-        if (blocks.empty() || blocks.back() != place.index) blocks.push_back(place.index);
+        if (std::ranges::find(blocks, place.index) == blocks.end()) blocks.push_back(place.index);
     return blocks;
 }
 

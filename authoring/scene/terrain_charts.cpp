@@ -21,6 +21,7 @@ namespace {
 
 constexpr double kAround = 50.0;                // m: so far from all that the layout has, ground counts
 constexpr double kMostLatticeCells = 4.0e6;     // of the lattice
+constexpr double kMostPlaneCells = 2.0e7;       // of the plane
 constexpr double kMostFaces = 2.0e9;            // to look at
 constexpr double kStoreysApart = 2.0;           // m
 constexpr double kMostLooks = 400'000.0;        // at the mesh, for storeys
@@ -191,6 +192,43 @@ class TerrainLayingOut {
 
     std::size_t chartOf(std::uint32_t spot) const { return places_.chartOf()[spot]; }
 
+    /// For what stands where nobody can: as high as people are.
+    double meanHeight() const {
+        double sum = 0.0;
+        for (const Walkable::Spot& spot : ground_->spots())
+            sum += spot.height;
+        return sum / static_cast<double>(std::max<std::size_t>(ground_->spots().size(), 1));
+    }
+
+    /// What of an outline lies beyond its ground would lie on other grounds in the plane.
+    void keepToGround(std::vector<glm::dvec2>& outline, std::size_t chart) const {
+        constexpr double kBeyond = 0.5;  // m: less than there is between charts
+        const auto [lower, upper] = result_->charts[chart].bounds();
+        for (const int axis : {0, 1})
+            for (const bool is_upper : {false, true}) {
+                const double edge = is_upper ? upper[axis] + kBeyond : lower[axis] - kBeyond;
+                outline = clipped(outline, axis, edge, is_upper);
+            }
+    }
+
+    /// The part of an outline on one side of a line across an axis (Sutherland and Hodgman 1974).
+    static std::vector<glm::dvec2> clipped(const std::vector<glm::dvec2>& outline, int axis, double edge,
+                                           bool is_upper) {
+        const auto within = [&](glm::dvec2 point) {
+            return is_upper ? point[axis] <= edge : point[axis] >= edge;
+        };
+        std::vector<glm::dvec2> found;
+        for (std::size_t i = 0; i < outline.size(); ++i) {
+            const glm::dvec2 from = outline[i], to = outline[(i + 1) % outline.size()];
+            if (within(from)) found.push_back(from);
+            if (within(from) == within(to)) continue;
+            glm::dvec2 crossing = glm::mix(from, to, (edge - from[axis]) / (to[axis] - from[axis]));
+            crossing[axis] = edge;
+            found.push_back(crossing);
+        }
+        return found;
+    }
+
     /// Sets an object's level to its chart, and where the layout names none, at home as well.
     template <class Thing>
     void setChart(Thing& thing, Thing& home, std::uint32_t spot) const {
@@ -213,14 +251,16 @@ class TerrainLayingOut {
             if (spot == kNoSpot)
                 complain(placed.patches[i].where, fmt::format("patch `{}`", placed.patches[i].id),
                          placed.patches[i].polygon.front());
-            else
+            else {
                 setChart(placed.patches[i], home.patches[i], spot);
+                keepToGround(placed.patches[i].polygon, placed.patches[i].level);
+            }
         }
         for (std::size_t i = 0; i < placed.formations.size(); ++i)
             placeFormation(placed.formations[i], home.formations[i]);
         for (const Attraction& attraction : layout_.attractions) {
             const std::uint32_t spot = places_.spotAt(attraction.at, attraction.level);
-            grounds_->attraction_heights.push_back(spot == kNoSpot ? 0.0 : heightOf(spot));
+            grounds_->attraction_heights.push_back(spot == kNoSpot ? meanHeight() : heightOf(spot));
         }
         placeRoads(placed);
     }
@@ -250,6 +290,7 @@ class TerrainLayingOut {
                     area.id, result_->charts[area.level].name, areaOfSpots(within),
                     areaOfSpots(within + on_others)),
                 "people come and go on that part of it alone");
+        keepToGround(area.polygon, area.level);
     }
 
     /// Everybody on one chart, or where it shows the next.
@@ -428,10 +469,19 @@ std::shared_ptr<const Charts> layOutTerrain(const Layout& layout, const TerrainM
     constexpr double kLooksPerCell = 10.0;
     const double cells = size.x * size.y / (kChartCell * kChartCell);
     const FaceGrid faces(mesh, bounds.first, glm::vec2(0.0f), glm::vec2(size), FaceGrid::Keep::all);
-    if (cells > kMostLatticeCells || cells * kLooksPerCell * faces.layers() > kMostFaces) {
+    // The plane of charts has cells wherever the layout is.
+    const Rebase rebase(layout);
+    const glm::dvec2 whole = rebase.maximum() - rebase.minimum();
+    const bool is_too_wide = whole.x * whole.y / (kChartCell * kChartCell) > kMostPlaneCells;
+    if (is_too_wide || cells > kMostLatticeCells || cells * kLooksPerCell * faces.layers() > kMostFaces) {
         const std::string what =
-            fmt::format("{:.0f} x {:.0f} m of terrain are too much to find people's ways over and under it",
-                        size.x, size.y);
+            is_too_wide
+                ? fmt::format(
+                      "a layout of {:.0f} x {:.0f} m is too much to find ways over and under each other",
+                      whole.x, whole.y)
+                : fmt::format(
+                      "{:.0f} x {:.0f} m of terrain are too much to find people's ways over and under it",
+                      size.x, size.y);
         if (has_names)
             diagnostics.error(layout.terrain->file_where, what,
                               "export a part of it, or leave out the levels");

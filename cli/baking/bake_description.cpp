@@ -106,7 +106,8 @@ void describeEyeCatchers(const LoadedLayout& loaded, recording::BakeDescription&
                                   : 0.0;
         bake.eye_catchers.push_back({place, ground + each.height, each.weight, each.reach, each.from,
                                      each.until.value_or(each.loud ? each.from : kNever), each.loud});
-        if (cut || !layout.levels.empty()) bake.eye_catchers.back().storey = ground;
+        // Floors are level; terrain that is cut is not.
+        if (!cut && !layout.levels.empty()) bake.eye_catchers.back().storey = ground;
     }
     for (const authoring::Show& show : layout.shows) {
         if (show.kind != authoring::Show::Kind::cheer || show.share == 0.0) continue;

@@ -13,6 +13,7 @@ struct Asking {
     vec2 position;
     Mind mind;
     bool arrived;
+    bool is_counted;  // in censuses: who is between rows is in none
 };
 
 /// How many people stand no further than this from a place: of some rows, or of all.
@@ -41,7 +42,7 @@ bool isCrowded(Asking who, float density) {
 /// Whether nobody else of the census is inside.
 bool isEmpty(Asking who, uint number) {
     Census census = censuses[number];
-    bool counted = who.row - census.first_row < census.row_count &&
+    bool counted = who.is_counted && who.row - census.first_row < census.row_count &&
                    isInside(who.position, census.first_corner, census.corner_count);
     return tallies[number].inside == (counted ? 1u : 0u);
 }

@@ -41,7 +41,7 @@ void main() {
     bool has_been_there = state.stage != mind.first_stage;
     bool arrived = has_been_there || state.leave_step != 0u || state.status == STATUS_ARRIVED;
     if (behaviour_states[mind.state].does == DOES_SIT) arrived = false;  // it is before the aisle
-    Asking who = Asking(row, walkers[slot].party_first, bodies[slot].position, mind, arrived);
+    Asking who = Asking(row, walkers[slot].party_first, bodies[slot].position, mind, arrived, true);
     BehaviourState doing = behaviour_states[mind.state];
     uint next = mind.state;
     if (mind.let_go != 0u && mind.next != NO_INDEX)

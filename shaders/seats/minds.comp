@@ -46,7 +46,8 @@ void main() {
     uint leader = people[row].party_first;
     Mind mind = minds[row];
     BehaviourState doing = behaviour_states[mind.state];
-    Asking who = Asking(row, leader, states[row].position, mind, doing.does == DOES_SIT && sitter.seated != NO_INDEX);
+    bool sits = doing.does == DOES_SIT && sitter.seated != NO_INDEX;
+    Asking who = Asking(row, leader, states[row].position, mind, sits, false);
     uint next = mind.entered == 0u ? mind.state : nextState(doing, who, hasSat(sitter, mind, doing, leader));
     if (next == NO_INDEX) return;
     enterState(mind, next, leader);

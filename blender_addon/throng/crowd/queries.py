@@ -6,7 +6,7 @@ import bpy
 
 from .. import cast
 from ..blender.polls import available
-from ..cast import library
+from ..cast import library, sitting
 from .names import CACHES, SEATS
 
 LAYERED_OF = "throng_layered_of"  # on a crowd that shows the layers of another: that one
@@ -130,7 +130,13 @@ def gaits_of(crowd):
 
 def repertoire_of(crowd):
     """What everybody in a crowd's cast can do."""
-    return cast.Repertoire.of(tuple(crowd["throng_strides"]), gaits_of(crowd), cast_of(crowd).get(SEATS, 0))
+    return cast.Repertoire.of(tuple(crowd["throng_strides"]), gaits_of(crowd), clips_of(cast_of(crowd)))
+
+
+def clips_of(shown):
+    """How many clips of those who sit or raise their hands a cast has. Files of old say whether it has an audience's."""
+    clips = shown.get(SEATS, 0)
+    return sitting.AUDIENCE if clips == 1 else int(clips)
 
 
 def figure(crowd, number, level=0):

@@ -58,8 +58,9 @@ def _name(library, what):
 
 
 def kept(library, what, make):
-    """{name: array} as make() has it. @param library the file of bodies; @param what all else that it depends on"""
-    where = folder()
+    """{name: array} as make() has it. @param library the file of bodies, if there is one; @param what all else that it
+    depends on"""
+    where = folder() if library else None  # without one, make() says so
     try:
         path = where / _name(library, what) if where else None
         found = _read(path) if path else None

@@ -7,8 +7,7 @@ from ..blender.paths import stored_path
 from ..cast import sitting
 from ..characters import members
 from ..crowd import own, playback
-from ..crowd.names import SEATS
-from ..crowd.queries import bake_path, caches, cast_of, collection_of
+from ..crowd.queries import bake_path, caches, cast_of, clips_of, collection_of
 from ..formats import POSE, BakeError, load_bake
 from ..overrides import native
 from ..overrides.layer import Arrival
@@ -43,7 +42,7 @@ def reload(crowd, scene, path=None):
     played = {cache.name.removeprefix("throng ") for cache in caches(crowd)}
     if played - set(POSE) != set(bake.streams) - set(POSE):
         raise BakeError("one of the two bakes has a terrain and the other has none: import it anew")
-    if sitting.clips_for(bake.poses) > cast_of(crowd).get(SEATS, 0):
+    if sitting.clips_for(bake.poses) > clips_of(cast_of(crowd)):
         raise BakeError("in this bake people sit, and nobody in the cast was made for it: import it anew")
     overrides = Arrival(bake, crowd)
     members.widen(crowd, bake.gaits)

@@ -44,7 +44,8 @@ def things_of(bake: Bake) -> list[Thing]:
     hidden = {f"{block.get('id', '')} stand" for block in told.get("seats", ())}  # outlines of what is shown itself:
     # one for each piece of it, told apart by `_` at the end
     found = [Thing(f"Walls/wall{number}", *wall_prism(wall, origin), GREY["walls"], wall.get("id"))
-             for number, wall in enumerate(told["walls"]) if str(wall.get("id")).rstrip("_") not in hidden]
+             for number, wall in enumerate(told["walls"])
+             if str(wall.get("id")).rstrip("_") not in hidden and not wall.get("edge")]
     found += [each for number, block in enumerate(told.get("seats", ()))
               for each in _stand_of(number, block, origin)]
     if about.get("terrain"):
