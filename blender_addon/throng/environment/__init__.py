@@ -10,6 +10,13 @@ def read_terrain(bake):
     return read_mesh(bake.terrain_path) if bake.terrain_path else None
 
 
+def _walls_seen(geometry):
+    """Not the outlines of stands, which are there themselves, nor where terrain ends."""
+    outlines = stands.stand_names(geometry)
+    return [wall for wall in geometry.get("walls", [])
+            if wall.get("id", "").rstrip("_") not in outlines and not wall.get("edge")]
+
+
 def build_environment(context, manifest, collection, *, walls=True, roads=True, ground=True, light=True, camera=True,
                       frame_start=1, terrain=None, bake=None, folder=None):
     """Everything in the bake's own frame (metres from its origin). A terrain takes the place of the flat ground,
@@ -20,10 +27,7 @@ def build_environment(context, manifest, collection, *, walls=True, roads=True, 
     """
     geometry = manifest.get("geometry") or {}
     if walls:
-        outlines = stands.stand_names(geometry)
-        for wall in geometry.get("walls", []):
-            if wall.get("id", "").rstrip("_") in outlines or wall.get("edge"):
-                continue
+        for wall in _walls_seen(geometry):
             thing = walls_module.build_wall(wall)
             walls_module.key_gate(thing, wall, float(manifest["fps"]), frame_start)
             collection.objects.link(thing)
