@@ -302,6 +302,13 @@ def test_files_that_axes_name_start_from_the_familys_folder(throng, tmp_path):
     assert "to bake: 1 " in throng("batch", plan, "-o", tmp_path / "out", "--dry-run").stdout
 
 
+def test_files_are_found_where_an_axis_sets_all_that_names_them(throng, tmp_path):
+    (tmp_path / "seen.csv").write_text("id,time,x,y\n0,0,0,1\n0,2,2,1\n")
+    axes = [{"name": "who", "cases": {"nobody": {}, "one": {"/given": [{"id": "seen", "file": "seen.csv"}]}}}]
+    throng("batch", family(tmp_path, base=BASE, axes=axes), "-o", tmp_path / "out", "-q")
+    assert {row["status"] for row in rows(tmp_path / "out")} == {"ok"}
+
+
 def test_a_changed_family_says_what_it_invalidates(throng, tmp_path):
     throng("batch", family(tmp_path), "-o", tmp_path / "out", "-q")
     changed = family(tmp_path, base={**BASE, "simulation": {"duration": 3, "seed": 1}},

@@ -279,3 +279,22 @@ def test_the_bridge_of_the_examples_is_walked_over_and_under(throng, bakes):
     places, there = stream(folder, "pos")[900], stream(folder, "state")[900, :, 0] > 0
     deck, street = (places[there & those] for those in (places[:, 2] > 5.1, places[:, 2] < 0.2))
     assert (numpy.linalg.norm(deck[:, None, :2] - street[None, :, :2], axis=2) < 0.5).any()
+
+
+def test_what_is_wider_than_its_ground_does_nothing_on_others(throng, tmp_path):
+    """An area round everything is on the lowest ground alone, and so is slow ground; the deck is beside it in the
+    plane."""
+    def over(folder, patches):
+        folder.mkdir()
+        areas = [*AREAS, {"id": "all", "level": "street", "polygon": box(-90, -90, 90, 90)}]
+        flows = [{"id": "down", "from": "top", "to": "east", "count": 10, "end": 5},
+                 {"id": "many", "from": "all", "to": "north", "count": 100, "end": 1}]
+        given = layout(areas=areas, flows=flows, patches=patches, simulation={"duration": 25})
+        baked = bake(throng, folder, bridge(), given)
+        there, speeds = stream(baked, "state")[..., 0] > 0.5, stream(baked, "dir")[..., 2]
+        up = there & (stream(baked, "ground")[..., 2] > 3.9)
+        assert not up[24, 10:].any(), "nobody comes into being on the deck"
+        return speeds[:, :10][up[:, :10]].mean()
+    alone = over(tmp_path / "alone", [])
+    slow = {"id": "slow", "level": "street", "polygon": box(-90, -90, 90, 90), "pace": 0.3}
+    assert over(tmp_path / "slow", [slow]) > 0.9 * alone
