@@ -134,7 +134,7 @@ def repertoire_of(crowd):
 
 
 def clips_of(shown):
-    """How many clips of those who sit or raise their hands a cast has; files of old say whether it has an audience's."""
+    """How many clips of those who sit or raise their hands a cast has; old files say whether it has an audience's."""
     clips = shown.get(SEATS, 0)
     return sitting.AUDIENCE if clips == 1 else int(clips)
 
