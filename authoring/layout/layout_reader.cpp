@@ -387,7 +387,7 @@ class Reader {
     /// Where people go: a place, or into vehicles; nothing where a behaviour tells.
     std::optional<Destination> readEnd(ObjectReader& reader, const JsonNode& node, Flow& flow) {
         const JsonNode* board = reader.get("board");
-        if (sits(node, "to")) return std::nullopt;
+        if (sits(node, "to") && !board) return std::nullopt;
         const bool told = board || node.find("behaviour") != nullptr;
         const JsonNode* to = told ? reader.get("to") : reader.require("to", "where people go");
         if (!board) return to ? places_.destination(*to) : std::nullopt;

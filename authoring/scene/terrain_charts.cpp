@@ -265,6 +265,18 @@ class TerrainLayingOut {
         placeRoads(placed);
     }
 
+    /// (the first, the last) cell of those round an outline; it may be far beyond all ground.
+    static std::pair<glm::ivec2, glm::ivec2> cellsRound(const std::vector<glm::dvec2>& outline) {
+        constexpr double kFarthest = 1.0e8;  // m, which whole numbers of cells hold
+        glm::dvec2 lower = outline.front(), upper = lower;
+        for (const glm::dvec2 point : outline) {
+            lower = glm::min(lower, point);
+            upper = glm::max(upper, point);
+        }
+        return {chartCellOf(glm::clamp(lower, -kFarthest, kFarthest)),
+                chartCellOf(glm::clamp(upper, -kFarthest, kFarthest))};
+    }
+
     void placeArea(Area& area, Area& home) {
         const std::uint32_t spot = places_.spotIn(area.polygon, area.level);
         if (spot == kNoSpot) {
@@ -274,13 +286,19 @@ class TerrainLayingOut {
         setChart(area, home, spot);
         const Surface& surface = *result_->charts[area.level].surface;
         std::size_t within = 0, on_others = 0;
-        for (const Chart& chart : result_->charts)
-            for (const std::uint32_t each : chart.surface->spots)
-                if (each != kNoSpot && isWithin(area.polygon, chartCellMiddle(ground_->spots()[each].cell))) {
-                    const glm::ivec2 cell = ground_->spots()[each].cell;
+        const auto [lowest, highest] = cellsRound(area.polygon);
+        for (const Chart& chart : result_->charts) {
+            const glm::ivec2 from = glm::max(lowest, chart.surface->first);
+            const glm::ivec2 to = glm::min(highest, chart.surface->first + chart.surface->size - 1);
+            for (glm::ivec2 cell(0, from.y); cell.y <= to.y; ++cell.y)
+                for (cell.x = from.x; cell.x <= to.x; ++cell.x) {
+                    if (chart.surface->spotAt(cell) == kNoSpot ||
+                        !isWithin(area.polygon, chartCellMiddle(cell)))
+                        continue;
                     within += chart.surface.get() == &surface ? 1 : 0;
                     on_others += chart.surface.get() != &surface && surface.spotAt(cell) == kNoSpot ? 1 : 0;
                 }
+        }
         if (on_others > within)
             diagnostics_.warning(
                 area.where,

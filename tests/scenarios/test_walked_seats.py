@@ -244,6 +244,8 @@ def test_check_tells_what_is_wrong(throng, tmp_path):
 
     full = layout(10, [stand(occupancy=0)], flows=[guests(70, to={"seats": "south"})])
     assert "`guests`: 70 people are to sit, and 60 of these seats are free" in told(full)
+    both = layout(10, [stand(occupancy=0)], flows=[guests(1, to={"seats": "south"}, board={"line": "none"})])
+    assert "people who `board` go nowhere else: `to` has no meaning" in told(both) and "no key `to`" not in told(both)
     twice = layout(10, [stand(occupancy=0), stand(id="other", occupancy=1)],
                    flows=[guests(70, to={"seats": ["south", "other", "south"]})])
     assert "70 people are to sit, and 60 of these seats are free" in told(twice), "seats count once"
