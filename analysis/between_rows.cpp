@@ -5,7 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "authoring/scene/raster.h"
+#include "base/polygon.h"
 
 namespace throng::analysis {
 namespace {
@@ -17,10 +17,10 @@ bool isStandOf(const authoring::Wall& wall, const recording::BakeSeats& seats) {
            wall.id.find_first_not_of('_', name.size()) == std::string::npos;
 }
 
-std::vector<glm::vec2> around(glm::dvec2 from, glm::dvec2 to, double width) {
+std::vector<glm::dvec2> around(glm::dvec2 from, glm::dvec2 to, double width) {
     const glm::dvec2 way = glm::normalize(to - from);
     const glm::dvec2 aside = 0.5 * width * glm::dvec2(-way.y, way.x);
-    return {glm::vec2(from - aside), glm::vec2(to - aside), glm::vec2(to + aside), glm::vec2(from + aside)};
+    return {from - aside, to - aside, to + aside, from + aside};
 }
 
 }  // namespace
@@ -29,7 +29,7 @@ BetweenRows::BetweenRows(const io::Bake& bake) {
     for (const recording::BakeSeats& seats : bake.seats) {
         if (seats.aisles.empty()) continue;
         for (const authoring::Wall& wall : bake.walls)
-            if (isStandOf(wall, seats)) add({wall.points.begin(), wall.points.end()});
+            if (isStandOf(wall, seats)) add(wall.points);
         for (const recording::BakeAisle& aisle : seats.aisles)
             for (std::size_t i = 0; i + 1 < aisle.line.size(); ++i)
                 if (aisle.line[i] != aisle.line[i + 1])
@@ -37,7 +37,7 @@ BetweenRows::BetweenRows(const io::Bake& bake) {
     }
 }
 
-void BetweenRows::add(std::vector<glm::vec2> outline) {
+void BetweenRows::add(std::vector<glm::dvec2> outline) {
     Piece piece{std::move(outline), {}, {}};
     piece.lower = piece.upper = piece.outline.front();
     for (const glm::dvec2 corner : piece.outline) {
@@ -50,7 +50,7 @@ void BetweenRows::add(std::vector<glm::vec2> outline) {
 bool BetweenRows::has(glm::dvec2 place) const {
     return std::ranges::any_of(pieces_, [&](const Piece& piece) {
         return place.x >= piece.lower.x && place.x <= piece.upper.x && place.y >= piece.lower.y &&
-               place.y <= piece.upper.y && authoring::insidePolygon(piece.outline, glm::vec2(place));
+               place.y <= piece.upper.y && isWithin(piece.outline, place);
     });
 }
 

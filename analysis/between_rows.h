@@ -18,10 +18,10 @@ class BetweenRows {
 
   private:
     struct Piece {
-        std::vector<glm::vec2> outline;
+        std::vector<glm::dvec2> outline;
         glm::dvec2 lower, upper;
     };
-    void add(std::vector<glm::vec2> outline);
+    void add(std::vector<glm::dvec2> outline);
 
     std::vector<Piece> pieces_;
 };

@@ -19,6 +19,10 @@ std::vector<Json::json_pointer> namedFiles(const Json& layout) {
     return found;
 }
 
+bool mayNameFiles(const std::string& pointer) {
+    return pointer.starts_with("/terrain") || pointer.starts_with("/given");
+}
+
 void placeFiles(Json& layout, const std::filesystem::path& folder) {
     for (const auto& pointer : namedFiles(layout)) {
         const std::filesystem::path file = folder / layout[pointer].get<std::string>();

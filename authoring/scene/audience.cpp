@@ -171,8 +171,8 @@ class WaveCourse {
         }
         if (!show.from) return;
         double nearest = std::numeric_limits<double>::max();
-        for (const std::size_t block :
-             show.blocks)  // of all of them, those who are led to their seats or not
+        // Of all blocks, whether people walk to them or not.
+        for (const std::size_t block : show.blocks)
             for (const Spectator& each : audienceIn(layout, block)) {
                 const double away = glm::distance(each.seat.place, *show.from);
                 if (away >= nearest) continue;

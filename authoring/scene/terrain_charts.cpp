@@ -38,8 +38,7 @@ double areaOfSpots(std::size_t count) {
 }
 
 /// Of the mesh, as far as the layout could have to do with it.
-Bounds boundsOf(const Layout& layout, const TerrainMesh& mesh) {
-    const Rebase rebase(layout);
+Bounds boundsOf(const Layout& layout, const Rebase& rebase, const TerrainMesh& mesh) {
     glm::dvec2 lower(std::numeric_limits<double>::max()), upper = -lower;
     for (const glm::dvec3& point : mesh.positions) {
         lower = glm::min(lower, glm::dvec2(point));
@@ -152,18 +151,13 @@ class TerrainLayingOut {
     void nameGrounds(const std::vector<bool>& used) {
         for (std::size_t level = layout_.levels.size(); level-- > 0;)
             result_->charts[chartOf(places_.levelSpots()[level])].name = layout_.levels[level].id;
-        for (const Chart& chart : result_->charts) {
-            const Surface& surface = *chart.surface;
-            double sum = 0.0, count = 0.0;
-            for (const std::uint32_t spot : surface.spots)
-                if (spot != kNoSpot) {
-                    sum += ground_->spots()[spot].height;
-                    count += 1.0;
-                }
-            if (layout_.levels.empty())
-                grounds_->levels.push_back(
-                    {chart.name, sum / count, outlineOf(surface), layout_.terrain->where, {}});
-        }
+        if (layout_.levels.empty())
+            for (const Chart& chart : result_->charts)
+                grounds_->levels.push_back({chart.name,
+                                            meanHeightOf(*chart.surface),
+                                            outlineOf(*chart.surface),
+                                            layout_.terrain->where,
+                                            {}});
         for (std::size_t level = 0; level < layout_.levels.size(); ++level) {
             grounds_->levels.push_back(layout_.levels[level]);
             grounds_->levels.back().height = ground_->spots()[places_.levelSpots()[level]].height;
@@ -192,12 +186,14 @@ class TerrainLayingOut {
 
     std::size_t chartOf(std::uint32_t spot) const { return places_.chartOf()[spot]; }
 
-    /// For what stands where nobody can: as high as people are.
-    double meanHeight() const {
-        double sum = 0.0;
-        for (const Walkable::Spot& spot : ground_->spots())
-            sum += spot.height;
-        return sum / static_cast<double>(std::max<std::size_t>(ground_->spots().size(), 1));
+    double meanHeightOf(const Surface& surface) const {
+        double sum = 0.0, count = 0.0;
+        for (const std::uint32_t spot : surface.spots)
+            if (spot != kNoSpot) {
+                sum += ground_->spots()[spot].height;
+                count += 1.0;
+            }
+        return sum / count;
     }
 
     /// What of an outline lies beyond its ground would lie on other grounds in the plane.
@@ -260,21 +256,11 @@ class TerrainLayingOut {
             placeFormation(placed.formations[i], home.formations[i]);
         for (const Attraction& attraction : layout_.attractions) {
             const std::uint32_t spot = places_.spotAt(attraction.at, attraction.level);
-            grounds_->attraction_heights.push_back(spot == kNoSpot ? meanHeight() : heightOf(spot));
+            // Where nobody can stand, it is as high as its ground elsewhere.
+            grounds_->attraction_heights.push_back(spot == kNoSpot ? grounds_->levels[attraction.level].height
+                                                                   : heightOf(spot));
         }
         placeRoads(placed);
-    }
-
-    /// (the first, the last) cell of those round an outline; it may be far beyond all ground.
-    static std::pair<glm::ivec2, glm::ivec2> cellsRound(const std::vector<glm::dvec2>& outline) {
-        constexpr double kFarthest = 1.0e8;  // m, which whole numbers of cells hold
-        glm::dvec2 lower = outline.front(), upper = lower;
-        for (const glm::dvec2 point : outline) {
-            lower = glm::min(lower, point);
-            upper = glm::max(upper, point);
-        }
-        return {chartCellOf(glm::clamp(lower, -kFarthest, kFarthest)),
-                chartCellOf(glm::clamp(upper, -kFarthest, kFarthest))};
     }
 
     void placeArea(Area& area, Area& home) {
@@ -474,7 +460,8 @@ class TerrainLayingOut {
 std::shared_ptr<const Charts> layOutTerrain(const Layout& layout, const TerrainMesh& mesh,
                                             Diagnostics& diagnostics) {
     if (layout.terrain->is_single) return nullptr;
-    const Bounds bounds = boundsOf(layout, mesh);
+    const Rebase rebase(layout);
+    const Bounds bounds = boundsOf(layout, rebase, mesh);
     const glm::dvec2 size = bounds.second - bounds.first;
     const bool has_names = !layout.levels.empty();
     if (!(size.x > 0.0 && size.y > 0.0)) {
@@ -486,12 +473,14 @@ std::shared_ptr<const Charts> layOutTerrain(const Layout& layout, const TerrainM
     if (!has_names && !mayHaveStoreys(mesh, bounds)) return nullptr;
     constexpr double kLooksPerCell = 10.0;
     const double cells = size.x * size.y / (kChartCell * kChartCell);
-    const FaceGrid faces(mesh, bounds.first, glm::vec2(0.0f), glm::vec2(size), FaceGrid::Keep::all);
     // The plane of charts has cells wherever the layout is.
-    const Rebase rebase(layout);
     const glm::dvec2 whole = rebase.maximum() - rebase.minimum();
     const bool is_too_wide = whole.x * whole.y / (kChartCell * kChartCell) > kMostPlaneCells;
-    if (is_too_wide || cells > kMostLatticeCells || cells * kLooksPerCell * faces.layers() > kMostFaces) {
+    const auto has_too_many_faces = [&] {
+        const FaceGrid faces(mesh, bounds.first, glm::vec2(0.0f), glm::vec2(size), FaceGrid::Keep::all);
+        return cells * kLooksPerCell * faces.layers() > kMostFaces;
+    };
+    if (is_too_wide || cells > kMostLatticeCells || has_too_many_faces()) {
         const std::string what =
             is_too_wide
                 ? fmt::format(

@@ -109,16 +109,14 @@ std::uint32_t TerrainPlaces::spotAt(glm::dvec2 place, std::size_t level) const {
 }
 
 std::uint32_t TerrainPlaces::spotIn(const std::vector<glm::dvec2>& outline, std::size_t level) const {
-    glm::dvec2 lower = outline.front(), upper = lower, middle(0.0);
-    for (const glm::dvec2 point : outline) {
-        lower = glm::min(lower, point);
-        upper = glm::max(upper, point);
+    glm::dvec2 middle(0.0);
+    for (const glm::dvec2 point : outline)
         middle += point / static_cast<double>(outline.size());
-    }
     std::uint32_t nearest = kNoSpot;
     double least = 1.0e9;
-    const glm::ivec2 first = glm::max(chartCellOf(lower), ground_.first()),
-                     last = glm::min(chartCellOf(upper), ground_.first() + ground_.size() - 1);
+    const auto [lowest, highest] = cellsRound(outline);
+    const glm::ivec2 first = glm::max(lowest, ground_.first()),
+                     last = glm::min(highest, ground_.first() + ground_.size() - 1);
     for (int y = first.y; y <= last.y; ++y)
         for (int x = first.x; x <= last.x; ++x) {
             const glm::dvec2 at = chartCellMiddle({x, y});
@@ -130,6 +128,17 @@ std::uint32_t TerrainPlaces::spotIn(const std::vector<glm::dvec2>& outline, std:
             }
         }
     return nearest != kNoSpot ? nearest : spotAt(middle, level);
+}
+
+std::pair<glm::ivec2, glm::ivec2> cellsRound(const std::vector<glm::dvec2>& outline) {
+    constexpr double kFarthest = 1.0e8;  // m, which whole numbers of cells hold
+    glm::dvec2 lower = outline.front(), upper = lower;
+    for (const glm::dvec2 point : outline) {
+        lower = glm::min(lower, point);
+        upper = glm::max(upper, point);
+    }
+    return {chartCellOf(glm::clamp(lower, -kFarthest, kFarthest)),
+            chartCellOf(glm::clamp(upper, -kFarthest, kFarthest))};
 }
 
 void TerrainPlaces::keepTo(const std::vector<Surface>& surfaces) {

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "authoring/diagnostics.h"
@@ -45,6 +46,9 @@ class TerrainPlaces {
         steps_;                            // by level and spot: cells on foot from the level's place
     std::vector<std::uint32_t> chart_of_;  // empty: not cut yet
 };
+
+/// The first and the last cell of the rectangle round an outline, which may be far beyond all ground.
+std::pair<glm::ivec2, glm::ivec2> cellsRound(const std::vector<glm::dvec2>& outline);
 
 /// Calls visit for every mention of a place of a layout.
 void visitPlaces(Layout& layout, const std::function<void(Place&)>& visit);

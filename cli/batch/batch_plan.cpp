@@ -44,13 +44,11 @@ double peopleOf(const authoring::Layout& layout) {
 }
 
 bool setsFiles(const authoring::Family& family) {
-    const auto is_file = [](const std::string& pointer) {
-        return pointer.starts_with("/terrain") || pointer.starts_with("/given");
-    };
-    return std::ranges::any_of(family.axes, [&](const authoring::Axis& axis) {
-        return std::ranges::any_of(axis.pointers, is_file) ||
-               std::ranges::any_of(axis.cases, [&](const auto& sets) {
-                   return std::ranges::any_of(sets, [&](const auto& set) { return is_file(set.first); });
+    return std::ranges::any_of(family.axes, [](const authoring::Axis& axis) {
+        return std::ranges::any_of(axis.pointers, authoring::mayNameFiles) ||
+               std::ranges::any_of(axis.cases, [](const auto& sets) {
+                   return std::ranges::any_of(
+                       sets, [](const auto& set) { return authoring::mayNameFiles(set.first); });
                });
     });
 }

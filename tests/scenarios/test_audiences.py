@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
 """People in seats: where they are in a bake, and what they do there, when."""
-import csv
 import json
 import math
 import subprocess
@@ -8,6 +7,8 @@ import time
 
 import numpy
 import pytest
+
+import written_bakes
 
 SITS, READIES, CLAPS, RISES, CHEERS = 5, 6, 7, 8, 9
 RADIUS, ROWS, PITCH = 30.0, 4, 0.8
@@ -24,14 +25,9 @@ def layout(shows=(), duration=8.0, walkers=True, fps=24):
     return made
 
 
-class Bake:
+class Bake(written_bakes.Bake):
     def __init__(self, path):
-        self.path = path
-        self.manifest = json.loads((path / "bake.json").read_text("utf-8"))
-        self.pos, self.dir, self.state = (numpy.load(path / "streams" / f"{name}.npy") for name in
-                                          ("pos", "dir", "state"))
-        with open(path / "agents.csv", encoding="utf-8", newline="") as file:
-            self.rows = list(csv.DictReader(file))
+        super().__init__(path)
         self.seated = numpy.array([row["group"] == "ring" for row in self.rows])
 
     @property
@@ -41,15 +37,8 @@ class Bake:
 
 @pytest.fixture(scope="module")
 def bake(throng, tmp_path_factory):
-    folder = tmp_path_factory.mktemp("audiences")
-
-    def make(name, given, *options):
-        path = folder / f"{name}.json"
-        path.write_text(json.dumps(given), "utf-8")
-        throng("bake", path, "-o", folder / name, "--no-gltf", "-q", *options)
-        return Bake(folder / name)
-
-    return make
+    made = written_bakes.baker(throng, tmp_path_factory.mktemp("audiences"))
+    return lambda *given: Bake(made(*given))
 
 
 @pytest.fixture(scope="module")

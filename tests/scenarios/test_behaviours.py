@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """What people do by their behaviours: a market whose visitors choose stalls, a tram that people leave before others get
 on, and gates, crowds and company that end what people do."""
-import csv
 import json
 
 import numpy
 import pytest
 
+import written_bakes
 from conftest import EXAMPLES, ROOT
 
 WALKED, STOOD, LOOKED, QUEUED = 1, 2, 3, 4  # activities
@@ -16,15 +16,12 @@ def box(x, y, width, height):
     return [[x, y], [x + width, y], [x + width, y + height], [x, y + height]]
 
 
-class Bake:
+class Bake(written_bakes.Bake):
     def __init__(self, path, layout):
-        self.layout = layout
-        self.fps = int(json.loads((path / "bake.json").read_text())["fps"])
-        self.places = numpy.load(path / "streams" / "pos.npy")[..., :2].astype(float)
-        self.facing = numpy.load(path / "streams" / "dir.npy")[..., :2].astype(float)
-        self.doing = numpy.load(path / "streams" / "state.npy")[..., 0].astype(int)
-        with open(path / "agents.csv", encoding="utf-8", newline="") as file:
-            self.rows = list(csv.DictReader(file))
+        super().__init__(path)
+        self.layout, self.fps = layout, int(self.manifest["fps"])
+        self.places, self.facing = self.pos[..., :2].astype(float), self.dir[..., :2].astype(float)
+        self.doing = self.state[..., 0].astype(int)
 
     def of(self, group):
         return numpy.array([row["group"] == group for row in self.rows])
@@ -44,15 +41,8 @@ class Bake:
 
 @pytest.fixture(scope="module")
 def bake(throng, tmp_path_factory):
-    folder = tmp_path_factory.mktemp("behaviours")
-
-    def make(name, layout, *options):
-        path = folder / f"{name}.json"
-        path.write_text(json.dumps(layout), "utf-8")
-        throng("bake", path, "-o", folder / name, "--no-gltf", "-q", *options)
-        return Bake(folder / name, layout)
-
-    return make
+    made = written_bakes.baker(throng, tmp_path_factory.mktemp("behaviours"))
+    return lambda name, layout, *options: Bake(made(name, layout, *options), layout)
 
 
 @pytest.fixture(scope="module")

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """People who are listed one by one: places on their way, times of their own, and mistakes in them."""
-import csv
 import json
 
 import numpy
 import pytest
+
+import written_bakes
 
 TOLERANCE = 0.4
 WALL = {"id": "wall", "points": [[10, -6], [10, 6]], "thickness": 0.2}
@@ -16,13 +17,11 @@ def layout_of(agents, **keys):
             "formations": [formation], **keys}
 
 
-class Bake:
+class Bake(written_bakes.Bake):
     def __init__(self, path):
-        self.fps = json.loads((path / "bake.json").read_text())["fps"]
-        self.places = numpy.load(path / "streams" / "pos.npy")[..., :2].astype(float)
-        self.doing = numpy.load(path / "streams" / "state.npy")[..., 0].astype(int)
-        with open(path / "agents.csv", encoding="utf-8", newline="") as file:
-            self.rows = list(csv.DictReader(file))
+        super().__init__(path)
+        self.fps, self.places = self.manifest["fps"], self.pos[..., :2].astype(float)
+        self.doing = self.state[..., 0].astype(int)
 
     def near(self, row, point):
         """Frames in which somebody is within the tolerance of a place."""
@@ -32,12 +31,8 @@ class Bake:
 
 @pytest.fixture
 def bake(throng, tmp_path):
-    def make(agents, name="bake", **keys):
-        (tmp_path / f"{name}.json").write_text(json.dumps(layout_of(agents, **keys)))
-        throng("bake", tmp_path / f"{name}.json", "-o", tmp_path / name, "-q", "--no-gltf")
-        return Bake(tmp_path / name)
-
-    return make
+    made = written_bakes.baker(throng, tmp_path)
+    return lambda agents, name="bake", **keys: Bake(made(name, layout_of(agents, **keys)))
 
 
 def refusal(throng, tmp_path, agents, **keys):

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """People who walk to seats, let others pass, and leave; and what people do with their hands where they stand."""
-import csv
 import json
 import signal
 import subprocess
 
 import numpy
 import pytest
+
+import written_bakes
 
 WALKS, STANDS, SITS, CLAPS, RISES, SETTLES = 1, 2, 5, 7, 8, 11
 RAISES, APPLAUDS, JUBILATES, SWAYS, WAVES = 12, 13, 14, 15, 16
@@ -29,15 +30,10 @@ def guests(count, **more):
             **more}
 
 
-class Bake:
+class Bake(written_bakes.Bake):
     def __init__(self, path):
-        self.path = path
-        self.manifest = json.loads((path / "bake.json").read_text("utf-8"))
-        self.pos, self.dir, self.state = (numpy.load(path / "streams" / f"{name}.npy") for name in
-                                          ("pos", "dir", "state"))
+        super().__init__(path)
         self.doing = numpy.floor(self.state[..., 0]).astype(int)
-        with open(path / "agents.csv", encoding="utf-8", newline="") as file:
-            self.rows = list(csv.DictReader(file))
 
     def seats(self):
         """Of the only block, as the manifest has it."""
@@ -56,15 +52,8 @@ class Bake:
 
 @pytest.fixture(scope="module")
 def bake(throng, tmp_path_factory):
-    folder = tmp_path_factory.mktemp("walked-seats")
-
-    def make(name, given, *options):
-        path = folder / f"{name}.json"
-        path.write_text(json.dumps(given), "utf-8")
-        throng("bake", path, "-o", folder / name, "--no-gltf", "-q", "--streams", "npy", *options)
-        return Bake(folder / name)
-
-    return make
+    made = written_bakes.baker(throng, tmp_path_factory.mktemp("walked-seats"), "--streams", "npy")
+    return lambda *given: Bake(made(*given))
 
 
 @pytest.fixture(scope="module")

@@ -84,12 +84,11 @@ def selection_tree():
 
 def fitting(maths, points, share, most):
     """The largest of even steps from 0 to 1 that at most so many points' shares are below, found by halves."""
-    found = 0.0
-    for halving in range(1, HALVINGS + 1):
-        tried = maths.math("ADD", found, 0.5 ** halving)
-        found = maths.math("MULTIPLY_ADD", _fits(maths, points, share, tried, most), 0.5 ** halving, found)
-    last = maths.math("ADD", found, 0.5 ** HALVINGS)
-    return maths.math("MULTIPLY_ADD", _fits(maths, points, share, last, most), 0.5 ** HALVINGS, found)
+    found, halves = 0.0, [0.5 ** number for number in range(1, HALVINGS + 1)]
+    for step in (*halves, halves[-1]):  # the last step again: all of the way is one, too
+        fits = _fits(maths, points, share, maths.math("ADD", found, step), most)
+        found = maths.math("MULTIPLY_ADD", fits, step, found)
+    return found
 
 
 def _fits(maths, points, share, below, most):

@@ -57,8 +57,7 @@ def _terrain(positions, corners, manifest):
         mesh.polygons.foreach_set("loop_total", [3] * faces)
     mesh.polygons.foreach_set("use_smooth", [True] * faces)
     # Floors above each other are paved.
-    floors = manifest.get("levels") and (manifest.get("terrain") or {}).get("surface") != "grounds"
-    shares = ([1.0] * (len(positions) // 3) if floors
+    shares = ([1.0] * (len(positions) // 3) if manifest["terrain"].get("surface") == "levels"
               else _shares(positions, manifest.get("geometry") or {}))
     mesh.attributes.new(ROAD, "FLOAT", "POINT").data.foreach_set("value", shares)
     mesh.materials.append(_material())
