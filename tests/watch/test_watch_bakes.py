@@ -19,11 +19,19 @@ def bake_of(throng, folder, *options):
                              *options], stderr=subprocess.PIPE, text=True)
 
 
+def under_way(baking, folder):
+    """Waits until there is something of it to see."""
+    def has_begun():
+        assert baking.poll() is None, baking.stderr.read()
+        return list(folder.glob("bake.*/under-way.json"))
+    until(has_begun)
+
+
 @pytest.mark.parametrize("options", [[], ["--checkpoint", "0"], ["--streams", "packed"], ["--streams", "pc2"]],
                          ids=["npy", "no checkpoints", "packed", "pc2"])
 def test_a_bake_under_way_is_seen_as_far_as_it_has_come(throng, tmp_path, options):
     baking = bake_of(throng, tmp_path, *options)
-    until(lambda: list(tmp_path.glob("bake.*/under-way.json")))
+    under_way(baking, tmp_path)
     baking.send_signal(signal.SIGSTOP)  # so that it is under way for as long as this test likes
     try:
         with watching(throng, tmp_path / "bake") as job:
@@ -61,8 +69,9 @@ def check(crowd, first, bake):
 
 
 def test_a_bake_that_is_stopped_stays_in_view(throng, tmp_path):
-    baking = bake_of(throng, tmp_path, "--set", "simulation.duration=3000")
-    until(lambda: list(tmp_path.glob("bake.*/under-way.json")))
+    # Longer than the test needs and no longer: room on the disk for all of it is asked for at its beginning.
+    baking = bake_of(throng, tmp_path, "--streams", "npy", "--set", "simulation.duration=900")
+    under_way(baking, tmp_path)
     with watching(throng, tmp_path / "bake") as job:
         until(lambda: state_of(job) == "baking" and len(job.crowd.frames) > 5, job)
         seen = job.crowd
