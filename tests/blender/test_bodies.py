@@ -4,7 +4,7 @@ import csv
 
 import pytest
 
-from conftest import blender_module, blender_program
+from conftest import ROOT, blender_module, blender_program
 from results import ADDON, HERE, result_of
 from sample_bake import write_bake
 
@@ -119,3 +119,12 @@ def test_without_the_library_nothing_is_changed(seen):
     assert "none.npz cannot be read" in seen["missing"] and "body_library.py" in seen["missing"] and seen["left"] == 0
     said, figures = seen["no levels"]
     assert "none.npz cannot be read" in said and figures == 4
+
+
+@pytest.mark.parametrize("has_library", [True, False], ids=["library", "no library"])
+def test_the_cast_is_rendered_by_one_command(blender, bodies, tmp_path, has_library):
+    environment = {"THRONG_BODIES": str(bodies) if has_library else ""}
+    told = blender(ROOT / "scripts" / "render_cast.py", tmp_path / "cast.png", "--shot", "close", "--level", "2",
+                   "--width", "96", "--height", "54", "--samples", "1", environment=environment)
+    assert ("4 meshes" in told) == has_library and ("so these are the simple figures" in told) != has_library
+    assert (tmp_path / "cast.png").read_bytes()[16:24] == b"\0\0\0\x60\0\0\0\x36", "its width and height"
