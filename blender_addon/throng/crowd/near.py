@@ -26,7 +26,7 @@ from ..blender.vectors import between, combined, parts, scaled, vector
 from ..cast import BEATS, POSES, bones, library
 from ..cast.sheets import sheet_of
 from ..formats import FEET
-from . import close, heads, legs, poses, trunks
+from . import close, faces, heads, legs, poses, trunks
 from .bent_bones import BentBones
 from .names import BIGGER, BONE, COARSE, GROUND, HIDDEN, LEVEL, NATURE, NEAR, ROW, WHO
 from .own import FIRST, OWN
@@ -457,11 +457,16 @@ def near_tree(cast, repertoire, sheet, streams, most_close):
         shapes += [finer.get(member, rest) for member, rest in enumerate(rests)]
         detail = maths.math("MULTIPLY_ADD", _close_ones(maths, people, blurs, most_close), 1.0 + len(coarser), detail)
     bodies = maths.store(people, _DETAIL, detail)
+    if finer:
+        bodies = maths.grouped("Throng near faces told", [bodies], lambda inner, points: faces.told(
+            inner, points, repertoire.clips, streams))
     for name in ("id", "throng_dir", "throng_state", NATURE, NEAR, COARSE, GROUND, LEVEL, FIRST, OWN,
                  *(f"throng_{stream}" for stream in streams)):
         bodies = _without(maths, bodies, name)
     which = maths.math("MULTIPLY_ADD", maths.attribute(_DETAIL), float(len(figures)), maths.attribute(WHO, "INT"))
     mesh = _meshes(maths, bodies, shapes, which, (WHO,))
+    if finer:
+        mesh = maths.where(blurs, maths.grouped("Throng near faces", [mesh], faces.moved), mesh)
     velocity, place = (maths.grouped("Throng near skin", [hung_on], lambda inner, bent, names=names: _hung(
         inner, bent, names, bone_count), "NodeSocketVector") for names in (_CHANGES, (*_COLUMNS, "")))
     mesh = maths.where(blurs, maths.store(mesh, "velocity", velocity, "FLOAT_VECTOR"), mesh)
@@ -469,7 +474,7 @@ def near_tree(cast, repertoire, sheet, streams, most_close):
     maths.link(mesh, put.inputs["Geometry"])
     maths.link(place, put.inputs["Position"])
     mesh = put.outputs[0]
-    for name in (WHO, _RANK, _DETAIL, bones.HANGS):
+    for name in (WHO, _RANK, _DETAIL, bones.HANGS, *(faces.SPARE if finer else ())):
         mesh = _without(maths, mesh, name)
     maths.link(mesh, outputs.inputs[0])
     return tree

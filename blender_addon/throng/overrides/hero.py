@@ -5,6 +5,7 @@ import math
 from dataclasses import replace
 
 import bpy
+import numpy
 from mathutils import Matrix, Vector
 
 from .. import cast
@@ -27,6 +28,7 @@ from ..people.puppet import Puppet
 from . import skeleton
 from .dyes import linear
 
+_SHAPE_KEYS = {"Blink": "lids", "Mouth": "mouth", "Smile": "smile"}
 HERO, HERO_OF, HERO_ROW = "throng_hero", "throng_hero_of", "throng_hero_row"
 
 
@@ -106,8 +108,8 @@ class Lofted(_ByGaits):
         return (skeleton.vertices_of(self.person, self.rest), plan.faces, plan.materials,
                 skeleton.weights_of(self.person, strides))
 
-    def finish(self, mesh):
-        """What else its mesh has."""
+    def finish(self, body):
+        """What else its mesh has. @param body the object"""
 
 
 class Shaped(_ByGaits):
@@ -126,8 +128,14 @@ class Shaped(_ByGaits):
         blends = [[(skeleton.BONES[bone], float(row[bone])) for bone in row.nonzero()[0]] for row in weights]
         return self.puppet.vertices().tolist(), model.faces.tolist(), model.material_of.tolist(), blends
 
-    def finish(self, mesh):
-        figures.add_pattern(mesh, self.puppet.model)
+    def finish(self, body):
+        model = self.puppet.model
+        figures.add_pattern(body.data, model)
+        body.shape_key_add(name="Basis", from_mix=False)
+        for name, expression in _SHAPE_KEYS.items():
+            key = body.shape_key_add(name=name, from_mix=False)
+            places = numpy.ascontiguousarray(self.puppet.vertices(model.moves[expression]), numpy.float32)
+            key.data.foreach_set("co", places.ravel())
 
 
 class Moved(Shaped):
@@ -185,9 +193,9 @@ def _build_body(name, who, strides, armature, collection):
     mesh.polygons.foreach_set("use_smooth", [True] * len(faces))
     mesh.polygons.foreach_set("material_index", material_of_faces)
     mesh.update()
-    who.finish(mesh)
     body = bpy.data.objects.new(mesh.name, mesh)
     collection.objects.link(body)
+    who.finish(body)
     groups = {bone: body.vertex_groups.new(name=bone) for bone in skeleton.BONES}
     for index, blend in enumerate(weights):
         for bone, weight in blend:

@@ -37,3 +37,10 @@ def add_pattern(mesh, model):
     pattern = mesh.attributes.new(PATTERN, "FLOAT_VECTOR", "POINT")
     rounded = numpy.rint(model.pattern * _FINE) / _FINE + 0.0
     pattern.data.foreach_set("vector", numpy.ascontiguousarray(rounded, numpy.float32).ravel())
+
+
+def add_moves(mesh, moves):
+    """What moves in a face, as attributes. @param moves as person.Model has them"""
+    for name, values in moves.items():
+        attribute = mesh.attributes.new(f"throng_{name}", "FLOAT_VECTOR", "POINT")
+        attribute.data.foreach_set("vector", numpy.ascontiguousarray(values, numpy.float32).ravel())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Skin, eyes, brows, lashes, beards and glasses."""
+"""Skin, eyes, lashes, teeth and glasses."""
 from dataclasses import replace
 
 import numpy
@@ -81,6 +81,19 @@ def lashes(bodies, shape, level):
             numbers, faces = numpy.unique(bodies.triangles(group), return_inverse=True)
             found.append(Part(faces.reshape(-1, 3), shape[numbers], bodies.weights[numbers],
                               regions.places_of(bodies)[numbers], "lashes"))
+    return found
+
+
+def teeth(bodies, shape, level):
+    """Where mouths open (faces.py), and the library has them: those that were made before it did have none."""
+    if level >= 0:
+        return []
+    found = []
+    for group in ("helper-upper-teeth", "helper-lower-teeth"):
+        if group in bodies.groups:
+            numbers, faces = numpy.unique(bodies.triangles(group), return_inverse=True)
+            found.append(Part(faces.reshape(-1, 3), shape[numbers], bodies.weights[numbers],
+                              regions.places_of(bodies)[numbers], "teeth"))
     return found
 
 

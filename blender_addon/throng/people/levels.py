@@ -6,6 +6,7 @@ from functools import lru_cache
 import numpy
 
 NEAR = -2   # for pictures from a few metres and for single people
+_THIN = 0.08  # of a triangle: its height over its longest edge
 CLOSE = -1  # for people of a crowd within some metres of the camera (crowd/near.py); all others take 0, 1 and 2
 
 
@@ -55,6 +56,40 @@ def coarser(triangles, gone, into, chosen):
     return triangles[numpy.sort(first)]
 
 
+def _lie_as(points, one, others):
+    """Whether triangles face where one does, more or less."""
+    normals = [numpy.cross(points[b] - points[a], points[c] - points[a]) for a, b, c in (one[::-1], *others)]
+    return all(normal @ normals[0] > 0.7 * numpy.linalg.norm(normal) * numpy.linalg.norm(normals[0])
+               for normal in normals[1:])
+
+
+def without_slivers(points, triangles):
+    """Triangles without those whose corners are nearly on a line: a face that moves turns them over, and they darken
+    what is around them. The longest edge of each goes, and its neighbour's other corner gets one instead."""
+    triangles = triangles.copy()
+    for _ in range(3):
+        corners = points[triangles]
+        edges = numpy.linalg.norm(corners[:, [1, 2, 0]] - corners, axis=2)
+        area = numpy.linalg.norm(numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+        slivers = numpy.flatnonzero(area < _THIN * edges.max(axis=1) ** 2)
+        if not len(slivers):
+            break
+        whose = {(a, b): number for number, (one, two, three) in enumerate(triangles.tolist())
+                 for a, b in ((one, two), (two, three), (three, one))}
+        done = set()
+        for sliver in slivers.tolist():
+            a, b, c = numpy.roll(triangles[sliver], -int(edges[sliver].argmax())).tolist()
+            other = whose.get((b, a))
+            if other is None or {sliver, other} & done:
+                continue
+            d = next(corner for corner in triangles[other].tolist() if corner not in (a, b))
+            if (c, d) in whose or (d, c) in whose or not _lie_as(points, (a, b, d), ((a, d, c), (d, b, c))):
+                continue
+            triangles[sliver], triangles[other] = (a, d, c), (d, b, c)
+            done |= {sliver, other}
+    return triangles
+
+
 @lru_cache(maxsize=32)
 def triangles_of(bodies, group, level):
     """The triangles of a group at a level, of the library's vertices."""
@@ -72,4 +107,5 @@ def triangles_of(bodies, group, level):
     for region, stay in enumerate(left):
         own = numpy.nonzero(region_of[gone] == region)[0]
         chosen[own[:max(0, int((regions == region).sum()) - stay)]] = True
-    return coarser(triangles, gone, into, chosen)
+    triangles = coarser(triangles, gone, into, chosen)
+    return without_slivers(bodies.vertices, triangles) if group == "body" and level == CLOSE else triangles

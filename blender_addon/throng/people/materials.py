@@ -23,7 +23,8 @@ def material_of(kind, look, bodies):
     shade.material["throng_people"] = True
     tint = shade.split(of_person(shade.tree, "tint")[1])
     pattern = shade.attribute("pattern")
-    make = {"skin": _skin, "hair": _hair, "grey": _hair, "eyes": _eyes, "lashes": _lashes}.get(slot, fabrics.cloth)
+    make = {"skin": _skin, "hair": _hair, "grey": _hair, "eyes": _eyes, "lashes": _lashes,
+            "teeth": _teeth}.get(slot, fabrics.cloth)
     make(shade, tint, pattern, kind, look, bodies)
     return shade.material
 
@@ -111,6 +112,11 @@ def _hair(shade, tint, pattern, kind, _look, _bodies):
 def _lashes(shade, *_):
     shade.set((0.012, 0.010, 0.009), "Base Color")
     shade.set(0.6, "Roughness")
+
+
+def _teeth(shade, *_):
+    shade.set((0.62, 0.56, 0.47), "Base Color")
+    shade.set(0.25, "Roughness")
 
 
 def _eyes(shade, tint, pattern, kind, *_):

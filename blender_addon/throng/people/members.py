@@ -19,6 +19,7 @@ from .roster import Role
 ROLES = "throng_people"  # of a cast, a line each
 MEMBERS = 64      # of a cast: women and men of all ages, some children among them
 FINE = 4096.0     # steps a metre: what is finer is not seen, and files are a third as large without it
+_MOVES = "moves "
 _SOME = 7         # of so many poses one tells which bones move
 _FEW = 19         # and one is looked at for where vertices hang best
 _KEPT = 2         # people who stay in memory: all their levels are made one after the other
@@ -95,23 +96,28 @@ def _limbs_of(role, repertoire):
 
 
 def _at_rest(role, level, repertoire):
-    """{"points", "faces", "pattern", "materials", "material_of" as person.Model has them, and "hangs"} of somebody at
-    rest on the bones that lead."""
+    """{"points", "faces", "pattern", "materials", "material_of" as person.Model has them, "hangs", and what moves in
+    the face by the name behind _MOVES} of somebody at rest on the bones that lead."""
     model, leaders = maker_of(role).model(level), _leaders(role, repertoire)[0]
     poses = _of_all_poses(role, repertoire)[::_FEW]
     points, weights = skinning.hinged(model.points, model.weights, leaders, poses)
     points = (numpy.rint(points * FINE) / FINE + 0.0).astype(numpy.float32)  # no zero is negative
     return {"points": points, "faces": model.faces.astype(numpy.int32), "pattern": model.pattern,
             "materials": numpy.array(model.materials), "material_of": model.material_of.astype(numpy.int32),
-            "hangs": skinning.hangs_of(weights).astype(numpy.float32)}
+            "hangs": skinning.hangs_of(weights).astype(numpy.float32),
+            **{_MOVES + name: values.astype(numpy.float32) for name, values in model.moves.items()}}
 
 
 def mesh_on_bones(role, level, repertoire):
     """(somebody's mesh at rest, (V, MOST) how its vertices hang on the bones that lead)"""
-    found = SimpleNamespace(**kept(library.library_path(), ("mesh", str(role), level, repertoire),
-                                   lambda: _at_rest(role, level, repertoire)))
+    arrays = kept(library.library_path(), ("mesh", str(role), level, repertoire),
+                  lambda: _at_rest(role, level, repertoire))
+    found = SimpleNamespace(**arrays)
     found.materials = found.materials.tolist()
-    return figures.mesh_of("throng figure", found, found.points, person_of(role).look, bodies()), found.hangs
+    mesh = figures.mesh_of("throng figure", found, found.points, person_of(role).look, bodies())
+    figures.add_moves(mesh, {name.removeprefix(_MOVES): values for name, values in arrays.items()
+                             if name.startswith(_MOVES)})
+    return mesh, found.hangs
 
 
 def boned_of(text, level, repertoire):

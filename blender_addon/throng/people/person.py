@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy
 
-from . import bags, cloth, hair, head, palettes, regions, whiskers
+from . import bags, cloth, faces, hair, head, levels, palettes, regions, whiskers
 from .rig import Rig, skinned
 from .shape import shape_of
 
@@ -20,6 +20,7 @@ class Model:
     materials: list
     material_of: numpy.ndarray  # (F,)
     rig: Rig
+    moves: dict               # {what moves in a face: (V, 3)} as faces.on_parts() has it, where people are seen closely
 
     def posed(self, poses):
         """(P, V, 3) in poses of cast/gait.py."""
@@ -45,7 +46,8 @@ class Maker:
             numpy.concatenate([part.faces + start for part, start in zip(parts, first)]),
             numpy.concatenate([part.points for part in parts]), numpy.concatenate([part.weights for part in parts]),
             numpy.concatenate([_pattern(part, neutral, self.rig.scale) for part in parts]), names,
-            numpy.concatenate([numpy.full(len(part.faces), names.index(part.material)) for part in parts]), self.rig)
+            numpy.concatenate([numpy.full(len(part.faces), names.index(part.material)) for part in parts]), self.rig,
+            faces.on_parts(self.bodies, self.person.body, self.shape, parts) if level <= levels.CLOSE else {})
 
     def _parts(self, level):
         person, bodies, shape, scale = self.person, self.bodies, self.shape, self.rig.scale
@@ -60,6 +62,7 @@ class Maker:
         stubble = " stubble" if person.beard else ""
         parts = [replace(skin, material=f"skin {person.skin}{stubble}")]
         parts += head.eyes(bodies, shape, level, person.skin in palettes.BROWN_EYED) + head.lashes(bodies, shape, level)
+        parts += head.teeth(bodies, shape, level)
         parts += whiskers.brows(bodies, shape, level, colour, scale, seed)
         parts += whiskers.beard(bodies, shape, level, person.beard, colour, scale, seed)
         parts += clothes

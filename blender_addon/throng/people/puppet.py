@@ -52,9 +52,9 @@ class Puppet:
         rest = self.rig.matrices(self.rest)[self.rig.bodies.bone[lead]][:, :3]
         return rest.T @ numpy.array([0.0, 1.0, 0.0])
 
-    def vertices(self):
-        """In the rest pose."""
-        return skinned(self.model.points, self.model.weights, self.rig.matrices(self.rest)[None])[0]
+    def vertices(self, moves=0.0):
+        """In the rest pose. @param moves (V, 3) m before that, of the model's points"""
+        return skinned(self.model.points + moves, self.model.weights, self.rig.matrices(self.rest)[None])[0]
 
     def weights(self, names):
         """(V, bones) in the order of the names."""
