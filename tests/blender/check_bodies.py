@@ -193,6 +193,21 @@ result["hero"] = {"off": float(numpy.abs(bounds(worn.data, worn.matrix_world) - 
                   "triangles": len(body.data.polygons), "hidden": row not in shown(),
                   "materials": all(slot.material for slot in body.material_slots),
                   "pattern": "pattern" in body.data.attributes, "tint": len(body["tint"])}
+
+
+# and faces have keys
+def places_of(data):
+    found = numpy.empty(3 * len(data), numpy.float32)
+    data.foreach_get("co", found)
+    return found.reshape(-1, 3)
+
+
+keys = body.data.shape_keys.key_blocks
+rest = places_of(keys["Basis"].data)
+for name in ("Blink", "Mouth", "Smile"):
+    moved = numpy.linalg.norm(places_of(keys[name].data) - rest, axis=1)
+    lowest = rest[moved > 1e-3, 2].min() / rest[:, 2].max()
+    result.setdefault("keys", {})[name] = float(moved.max()), float(lowest)
 # a hero's own bones take every vertex where its person's pose has it
 puppet, walk = Puppet(roles[0]), members.gait.walk_pose(0.75, members.maker_of(roles[0]).rig.build,
                                                          members.gait.gait_of(1.4))

@@ -10,8 +10,8 @@ import numpy
 addon, bake, folder = sys.argv[-3:]
 sys.path.insert(0, addon)
 import throng  # noqa: E402
-from throng.crowd import close, own  # noqa: E402
-from throng.crowd.names import INSTANCERS  # noqa: E402
+from throng.crowd import close, faces, own  # noqa: E402
+from throng.crowd.names import INSTANCERS, NATURE  # noqa: E402
 from throng.crowd.queries import cast_of, crowd_objects  # noqa: E402
 from throng.people import casting  # noqa: E402
 from throng.people.roster import Role  # noqa: E402
@@ -67,6 +67,52 @@ result["same people"] = max(float(numpy.abs(box(fine[row]) - box(coarse[row])).m
 result["on screen"] = {row: len(each) for row, each in shown(crowd, False).items()} == {
     row: len(each) for row, each in coarse.items()}
 result["triangles"] = [len(thing.data.polygons) for thing in close.meshes_of(cast).values()]
+
+# faces, after the last frame, where bodies go no further
+def marks_of(mesh):
+    """(a vertex that lids take along, one that mouths do, one of an eye, one of the skin between them that nothing
+    does), by number."""
+    moves = {name: numpy.empty(3 * len(mesh.vertices), numpy.float32) for name in (*faces.SPARE[2:],)}
+    for name, values in moves.items():
+        mesh.attributes[name].data.foreach_get("vector", values)
+    moves = {name: values.reshape(-1, 3) for name, values in moves.items()}
+    places = numpy.empty(3 * len(mesh.vertices), numpy.float32)
+    mesh.vertices.foreach_get("co", places)
+    places = places.reshape(-1, 3)
+    most = [int(numpy.abs(moves[name]).max(axis=1).argmax()) for name in (faces.LIDS, faces.MOUTH)]
+    pupil = int(moves[faces.EYE][:, 0].argmax())
+    still = numpy.all([~moves[name].any(axis=1) for name in moves], axis=0)
+    away = numpy.linalg.norm(places - places[most[0]], axis=1) + numpy.where(still, 0.0, 9.0)
+    return (*most, pupil, int(away.argmin()))
+
+
+def distances(scene, marks, frames):
+    """{row: (frames, 3) how far lids, mouths and pupils are from what nothing moves}"""
+    global FRAME
+    found = {row: [] for row in marks}
+    for FRAME in frames:
+        everybody = shown(crowd, True)
+        for row, (*moving, still) in marks.items():
+            found[row].append([numpy.linalg.norm(everybody[row][each] - everybody[row][still]) for each in moving])
+    return {row: numpy.array(each) for row, each in found.items()}
+
+
+FRAME, at = len(pos), FRAME
+finest = {number: thing.data for number, thing in close.meshes_of(cast).items()}
+marks = {row: marks_of(finest[member[row]]) for row, points in shown(crowd, True).items()
+         if member.get(row) in finest and len(points) == len(finest[member[row]].vertices)}
+marks = dict(list(marks.items())[:6])
+for each in crowd.data.attributes[NATURE].data:
+    each.vector[0] = 2.0  # whoever gathers talks
+seen = distances(scene, marks, range(len(pos), len(pos) + 120))
+result["blinks"] = [int((numpy.diff((numpy.abs(each[:, 0] - numpy.median(each[:, 0])) > 0.003).astype(int)) > 0).sum())
+                    for each in seen.values()]
+result["eyes"] = [float(numpy.ptp(each[:, 2])) for each in seen.values()]
+result["mouths"] = [float(numpy.ptp(each[:, 1])) for each in seen.values()]
+result["gather"] = [bool(state[-1, row, 0] >= 2.0) for row in seen]
+again = distances(scene, marks, [len(pos) + 77])
+result["any frame first"] = max(float(numpy.abs(again[row][0] - seen[row][77]).max()) for row in seen)
+FRAME = at
 
 # fewer than there are: the nearest
 assert bpy.ops.throng.close(by="camera", distance=distance, most=4, frames="now") == {"FINISHED"}

@@ -96,6 +96,12 @@ def test_overrides_and_heroes_work(seen):
     assert hero["triangles"] > 30000, "in full detail"
 
 
+def test_heroes_have_keys_for_their_faces(seen):
+    assert set(seen["keys"]) == {"Blink", "Mouth", "Smile"}
+    assert all(0.005 < most < 0.05 and lowest > 0.8 for most, lowest in seen["keys"].values()), seen["keys"]
+    assert seen["keys"]["Blink"][1] > 0.88 > seen["keys"]["Mouth"][1]
+
+
 def test_people_are_culled_and_tinted_as_any_are(seen):
     same, left = seen["culled"]
     assert same and 5 < left < len(seen["shown"]) - 5

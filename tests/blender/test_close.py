@@ -35,6 +35,14 @@ def test_the_screen_keeps_the_coarser_meshes(seen):
     assert seen["on screen"]
 
 
+def test_people_blink_look_about_and_open_their_mouths_when_they_talk(seen):
+    assert all(1 <= count <= 3 for count in seen["blinks"]) and len(seen["blinks"]) > 3, "in five seconds"
+    assert all(0.0004 < moved < 0.006 for moved in seen["eyes"]), "m, of pupils"
+    assert any(seen["gather"]) and all((opened > 0.001) == talks for opened, talks in
+                                       zip(seen["mouths"], seen["gather"]))
+    assert seen["any frame first"] < 1e-6, "what faces do follows from the time alone"
+
+
 def test_where_there_are_too_many_the_nearest_have_it(seen):
     count, furthest, nearest_other = seen["few"]
     assert 1 <= count <= 4 and furthest < nearest_other
