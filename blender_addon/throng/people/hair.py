@@ -45,6 +45,7 @@ STYLES = {
 SOFT = " soft"   # what the material of hair is called whose edge is ragged: what is left of it is in its pattern
 _EDGE = 0.016    # m, of that
 _ROOT = 0.3      # of a hanging lock's width and of how far it is off the head, where it begins
+_COIL = 0.6      # of a lock's width, where it is coiled
 _PRESSED = 0.25  # of how far it is off the head, below a hat
 
 
@@ -170,6 +171,9 @@ def _locks(bodies, shape, level, style, material, scale, draw, count, wider, rin
     line, sides = _grow(roots, ways, length, style, scale, draw, pieces,
                         _collider(bodies, shape), fringe, bodies.joint(shape, "mouth")[2] - 0.03 * scale,
                         bodies.joint(shape, "l-eye")[[0, 2]] + (-0.050 * scale, 0.048 * scale))
+    if style.comb == "out" and level < 0:
+        line, sides = _coils(roots, ways, 0.8 * length, scale, draw, 2 * pieces + 2)
+        wider *= _COIL
     wide = style.wide * wider * scale * draw.uniform(0.7, 1.3, count)
     wide = numpy.where(fringe, numpy.minimum(wide, 0.020 * scale), wide)  # eyes stay free
     return _ribbons(bodies, line, sides, wide, weights, material, draw, level, style)
@@ -212,6 +216,21 @@ def _grow(points, ways, length, style, scale, draw, pieces, collider, fringe, ch
     return line, numpy.stack(sides, axis=1)
 
 
+def _coils(roots, ways, length, scale, draw, pieces):
+    """Lines and sides as _grow() has them, of locks that stand off the head as coils."""
+    count = len(roots)
+    ways = ways / (numpy.linalg.norm(ways, axis=1, keepdims=True) + 1e-9)
+    across = numpy.cross(ways, draw.normal(0.0, 1.0, ways.shape))
+    across /= numpy.linalg.norm(across, axis=1, keepdims=True) + 1e-9
+    other = numpy.cross(ways, across)
+    share = numpy.linspace(0.0, 1.0, pieces + 1)[None, :]
+    angle = (draw.uniform(1.1, 1.7, count) * draw.choice((-2.0 * numpy.pi, 2.0 * numpy.pi), count))[:, None] * share
+    size = scale * draw.uniform(0.006, 0.010, count)[:, None] * numpy.minimum(1.0, 3.0 * share)
+    out = numpy.cos(angle)[..., None] * across[:, None] + numpy.sin(angle)[..., None] * other[:, None]
+    line = roots[:, None] + ways[:, None] * (length[:, None] * share)[..., None] + out * size[..., None]
+    return line, out
+
+
 def _beside(points, chin, brow, scale):
     """What hangs, beside the neck and not out on the shoulders, and beside the face: behind the cheeks."""
     points = points.copy()
@@ -240,7 +259,7 @@ def _ribbons(bodies, line, out, wide, weights, material, draw, level, style):
         narrow = narrow * numpy.minimum(1.0, _ROOT + 5.0 * share)
     half = 0.5 * wide[:, None, None] * narrow[None, :, None]
     rows = [line - side * half, line + side * half]
-    if level < 0:
+    if level < 0 and style.comb != "out":
         rows = [rows[0] - out * half * 0.35, line + out * half * 0.3, rows[1] - out * half * 0.35]
     across = len(rows)
     points = numpy.stack(rows, axis=2)
@@ -261,7 +280,13 @@ def _ribbons(bodies, line, out, wide, weights, material, draw, level, style):
         weights = weights * (1.0 - lower) + back * lower
     places = numpy.zeros((len(points), 5))
     places[:, regions.ARM] = -1.0
-    return Part(faces, points, weights, places, material, flat=flat)
+    if level < 0:  # edges and ends are of single hairs
+        edge = numpy.array([0.10, 0.85, 0.10] if across == 3 else [0.55, 0.55])[None, None, :]
+        ends = 1.0 - 0.9 * share ** 1.5
+        if style.length > 0.0:
+            ends = numpy.minimum(0.2 + 4.0 * share, ends)
+        places[:, regions.X] = numpy.broadcast_to(edge * ends[None, :, None], (count, pieces, across)).ravel()
+    return Part(faces, points, weights, places, material + (SOFT if level < 0 else ""), flat=flat)
 
 
 def _knot(bodies, shape, level, name, material, scale):
