@@ -234,8 +234,7 @@ def _poses_between(maths, people, sheet, pose_count, bone_count):
     """A point for each bone of each of the _SLOTS poses that somebody is between, as the sheet has it: all that a
     person needs of the sheet, in little room: a node that samples goes over all that it samples from, in every
     frame."""
-    for spare in (_RATES, _TURN, _RANK, ROW):
-        people = _without(maths, people, spare)
+    people = _without(maths, people, _RATES, _TURN, _RANK, ROW)
     copies = maths.node("GeometryNodeDuplicateElements", domain="POINT")
     maths.link(people, copies.inputs["Geometry"])
     copies.inputs["Amount"].default_value = _SLOTS * bone_count
@@ -339,9 +338,8 @@ def _with_changes(maths, points, x, y, changes):
 
 def _meshes(maths, people, figures, which, kept):
     """Everybody's mesh at rest, as one mesh. @param which of the figures, by point; @param kept of what points say"""
-    for spare in (WHO, _WALKS, _BEFORE, _STANDS, _RATES, _TURN):
-        if spare not in kept:
-            people = _without(maths, people, spare)
+    spare = {WHO, _WALKS, _BEFORE, _STANDS, _RATES, _TURN} - set(kept)
+    people = _without(maths, people, *sorted(spare))
     origin = maths.node("GeometryNodeSetPosition")
     maths.link(people, origin.inputs["Geometry"])
     origin.inputs["Position"].default_value = (0.0, 0.0, 0.0)
@@ -362,11 +360,13 @@ def _meshes(maths, people, figures, which, kept):
     return whole.outputs[0]
 
 
-def _without(maths, geometry, name):
-    remove = maths.node("GeometryNodeRemoveAttribute")
-    remove.inputs["Name"].default_value = name
-    maths.link(geometry, remove.inputs[0])
-    return remove.outputs[0]
+def _without(maths, geometry, *names):
+    for name in names:
+        remove = maths.node("GeometryNodeRemoveAttribute")
+        remove.inputs["Name"].default_value = name
+        maths.link(geometry, remove.inputs[0])
+        geometry = remove.outputs[0]
+    return geometry
 
 
 def _hung(maths, bones_, names, bone_count):
@@ -460,9 +460,8 @@ def near_tree(cast, repertoire, sheet, streams, most_close):
     if finer:
         bodies = maths.grouped("Throng near faces told", [bodies], lambda inner, points: faces.told(
             inner, points, repertoire.clips, streams))
-    for name in ("id", "throng_dir", "throng_state", NATURE, NEAR, COARSE, GROUND, LEVEL, FIRST, OWN,
-                 *(f"throng_{stream}" for stream in streams)):
-        bodies = _without(maths, bodies, name)
+    bodies = _without(maths, bodies, "id", "throng_dir", "throng_state", NATURE, NEAR, COARSE, GROUND, LEVEL, FIRST,
+                      OWN, *(f"throng_{stream}" for stream in streams))
     which = maths.math("MULTIPLY_ADD", maths.attribute(_DETAIL), float(len(figures)), maths.attribute(WHO, "INT"))
     mesh = _meshes(maths, bodies, shapes, which, (WHO,))
     if finer:
@@ -473,8 +472,6 @@ def near_tree(cast, repertoire, sheet, streams, most_close):
     put = maths.node("GeometryNodeSetPosition")
     maths.link(mesh, put.inputs["Geometry"])
     maths.link(place, put.inputs["Position"])
-    mesh = put.outputs[0]
-    for name in (WHO, _RANK, _DETAIL, bones.HANGS, *(faces.SPARE if finer else ())):
-        mesh = _without(maths, mesh, name)
+    mesh = _without(maths, put.outputs[0], WHO, _RANK, _DETAIL, bones.HANGS, *(faces.SPARE if finer else ()))
     maths.link(mesh, outputs.inputs[0])
     return tree
