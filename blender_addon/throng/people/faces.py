@@ -14,6 +14,7 @@ EXPRESSIONS = {"lids": ("eye-left-closure", "eye-right-closure"), "mouth": ("mou
 BALL = "ball"     # of vertices of eyes: where they are from the middle of the ball
 _REACH = 0.012    # m on the base mesh: what grows so near a place moves as it does
 _STILL = 2e-5     # m
+_OVER = 0.0004    # m, that upper lids go over the edge of lower ones
 
 
 def moves_of(bodies, body, shape):
@@ -23,7 +24,18 @@ def moves_of(bodies, body, shape):
         targets = tuple((f"expression/units/{ancestry}/{unit}", share) for unit in units
                         for ancestry, share in zip(ANCESTRIES, body.ancestry) if share > 0.0)
         found[name] = shape_of(bodies, replace(body, details=body.details + targets)) - shape
+    found["lids"] = found["lids"] * _closing(bodies, shape, found["lids"])
     return found
+
+
+def _closing(bodies, shape, lids):
+    """How much of the library's closed lids closes these eyes, which are open further or less."""
+    body = bodies.vertices_of("body")
+    body = body[shape[body, 1] > 0.0]
+    edge = body[lids[body, 2].argmin()]
+    below = body[(numpy.abs(shape[body, 1] - shape[edge, 1]) < 0.003) & (shape[body, 0] > shape[edge, 0] - 0.004)
+                 & (shape[body, 2] < shape[edge, 2] - 0.001) & ~lids[body].any(axis=1)]
+    return min(1.0, (shape[edge, 2] - shape[below, 2].max() + _OVER) / -lids[edge, 2])
 
 
 def on_parts(bodies, body, shape, parts):
