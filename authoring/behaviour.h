@@ -68,7 +68,7 @@ struct BehaviourState {
     std::optional<glm::dvec2> facing;
     glm::dvec2 from{0.0};  ///< flee
     double distance = 0.0;
-    GroupName followed;
+    GroupName followed;  ///< follow, flee: of these the nearest; flee: no id where it is from a point
     std::vector<GroupName> blocks;        ///< sit: of seats; in any of them
     std::optional<std::uint64_t> person;  ///< follow: of the formation or flow, from 0
     double pace = 1.0;

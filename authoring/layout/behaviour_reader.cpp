@@ -273,6 +273,8 @@ void BehaviourReader::readFlight(ObjectReader& reader, const JsonNode& what, Sta
     state.distance = 20.0;
     if (what.kind == JsonNode::Kind::array) {
         reader.point("flee", "what people flee from, [x, y] in metres", state.from);
+    } else if (what.kind == JsonNode::Kind::text && !places_.isPlace(what.text)) {
+        state.followed = {what.text, what.where};
     } else if (const auto place = places_.place(what)) {
         state.to = {Destination::Kind::one, {*place}, {}, what.where};
     }
@@ -282,8 +284,9 @@ void BehaviourReader::readFlight(ObjectReader& reader, const JsonNode& what, Sta
 void BehaviourReader::readFollowing(ObjectReader& reader, const JsonNode& what, State& state) {
     state.distance = 1.5;
     if (what.kind != JsonNode::Kind::text)
-        diagnostics_.error(what.where, fmt::format("expected a flow or formation, found {}", what.kindName()),
-                           "whom do people follow?");
+        diagnostics_.error(
+            what.where, fmt::format("expected a flow, formation or given people, found {}", what.kindName()),
+            "whom do people follow?");
     state.followed = {what.text, what.where};
     reader.number("distance", state.distance);
     if (const JsonNode* person = reader.get("person"))
@@ -494,11 +497,15 @@ void BehaviourReader::checkKeys(const JsonNode& node, const State& state) {
 void BehaviourReader::checkGroup(const GroupName& name, bool or_place) {
     if (groups_.contains(name.id)) return;
     std::vector<std::string> known = namesOf(groups_);
+    for (const GivenPeople& given : layout_.given)
+        known.push_back(given.id);
+    if (std::ranges::find(known, name.id) != known.end()) return;
     if (or_place)
         for (const Area& area : layout_.areas)
             known.push_back(area.id);
     diagnostics_.error(
-        name.where, fmt::format("there is no {}flow or formation `{}`", or_place ? "place, " : "", name.id),
+        name.where,
+        fmt::format("there is no {}flow, formation or given people `{}`", or_place ? "place, " : "", name.id),
         hintFor(name.id, known));
 }
 
@@ -522,7 +529,8 @@ void BehaviourReader::checkLight(const Condition& condition) {
 
 void BehaviourReader::checkReferences(const Behaviour& behaviour) {
     for (const State& state : behaviour.states) {
-        if (state.does == Does::follow) checkGroup(state.followed, false);
+        if (state.does == Does::follow || !state.followed.id.empty())
+            checkGroup(state.followed, state.does == Does::flee);
         for (const Transition& transition : state.until)
             for (const Condition& condition : transition.conditions) {
                 for (const GroupName& name : condition.who)

@@ -77,11 +77,11 @@ std::uint32_t BehaviourTables::add(const Behaviour& behaviour, const Owner& owne
             result.facing = rebase_.local(*state.facing);
         }
         addPlaces(state, owner, result);
-        if (state.does == Does::flee)
+        if (state.does == Does::flee && state.followed.id.empty())
             result.from = state.to.places.empty()
                               ? rebase_.local(state.from)
                               : middleOf(routes_.outline(state.to.places.front(), Routes::kTargetDepth));
-        if (state.does == Does::follow) {
+        if (!state.followed.id.empty()) {
             const gpu::SpawnQueue rows = rowsOf(state.followed.id);
             result.first_row = rows.first_row;
             result.row_count = rows.row_count;

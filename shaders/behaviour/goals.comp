@@ -200,7 +200,7 @@ void goOn(Seeker seeker, inout Mind mind, BehaviourState doing, AgentState state
     } else if (doing.does == DOES_SIT && looksRoundAgain(seeker)) {
         keepUp(seeker, mind, behaviour_places[mind.place].middle);
     } else if (doing.does == DOES_FLEE) {
-        keepUp(seeker, mind, awayFromDanger(seeker, doing));
+        keepUp(seeker, mind, awayFromDanger(seeker, mind, doing));
     } else if (doing.does == DOES_FOLLOW) {
         chooseLeader(seeker, mind, doing);
         keepUp(seeker, mind, behindLeader(seeker, mind, doing));

@@ -16,15 +16,7 @@ vec2 clearDirection(Seeker seeker, vec2 direction, float reach) {
     return vec2(0.0);
 }
 
-vec2 awayFromDanger(Seeker seeker, BehaviourState doing) {
-    const float REACH = 4.0;  // m
-    vec2 offset = seeker.position - doing.from;
-    float size = length(offset);
-    if (size >= doing.distance) return seeker.position;
-    return seeker.position + REACH * clearDirection(seeker, size > 1.0e-3 ? offset / size : seeker.ahead, REACH);
-}
-
-/// Whom somebody follows: the nearest who is there. It looks round again now and then.
+/// Whom somebody follows, or flees from: the nearest who is there. It looks round again now and then.
 void chooseLeader(Seeker seeker, inout Mind mind, BehaviourState doing) {
     bool gone = mind.followed == NO_INDEX || !isAlive(states[mind.followed].status);
     if (!gone && !looksRoundAgain(seeker)) return;
@@ -37,6 +29,20 @@ void chooseLeader(Seeker seeker, inout Mind mind, BehaviourState doing) {
         least = away;
         mind.followed = row;
     }
+}
+
+vec2 awayFromDanger(Seeker seeker, inout Mind mind, BehaviourState doing) {
+    const float REACH = 4.0;  // m
+    vec2 danger = doing.from;
+    if (doing.row_count > 0u) {
+        chooseLeader(seeker, mind, doing);
+        if (mind.followed == NO_INDEX) return seeker.position;
+        danger = states[mind.followed].position;
+    }
+    vec2 offset = seeker.position - danger;
+    float size = length(offset);
+    if (size >= doing.distance) return seeker.position;
+    return seeker.position + REACH * clearDirection(seeker, size > 1.0e-3 ? offset / size : seeker.ahead, REACH);
 }
 
 vec2 behindLeader(Seeker seeker, Mind mind, BehaviourState doing) {

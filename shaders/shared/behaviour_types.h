@@ -35,7 +35,7 @@ struct Drawn {
 /// What somebody does, until a rule leads to another state or it is done.
 struct BehaviourState {
     vec2 facing;  // m; with STATE_FACES
-    vec2 from;    // m; flee: what from
+    vec2 from;    // m; flee: what from, where there are no rows
     uint does;    // DOES_*
     uint flags;   // STATE_*
     uint first_rule;
@@ -46,7 +46,7 @@ struct BehaviourState {
     uint activity;   // of those who have come to rest
     uint least;      // visit: so many places
     uint most;       // visit: at most
-    uint first_row;  // follow: of these rows the nearest
+    uint first_row;  // follow, flee: of these rows the nearest
     uint row_count;
     float distance;  // m; flee: so far is enough; follow: so far behind
     float pace;      // of the preferred speed

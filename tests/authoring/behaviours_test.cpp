@@ -85,11 +85,11 @@ TEST(Behaviours, NamesThatDoNotExistAreToldWithTheNearest) {
     expectTold(R"("a": {"wander": "square", "until": [{"after": 3, "then": "leaf"}]}, )" + kLeave,
                "6: there is no state `leaf` (did you mean `leave`?)");
     expectTold(R"("a": {"follow": "peple", "until": [{"after": 3, "then": "leave"}]}, )" + kLeave,
-               "6: there is no flow or formation `peple` (did you mean `people`?)");
+               "6: there is no flow, formation or given people `peple` (did you mean `people`?)");
     expectTold(R"("a": {"stay": true, "until": [{"open": "door", "then": "leave"}]}, )" + kLeave,
                "6: there is no wall `door` (did you mean `doors`?)");
     expectTold(R"("a": {"stay": true, "until": [{"near": "pepole", "then": "leave"}]}, )" + kLeave,
-               "6: there is no place, flow or formation `pepole` (did you mean `people`?)");
+               "6: there is no place, flow, formation or given people `pepole` (did you mean `people`?)");
     expectTold(R"("a": {"strol": "square"})", "6: the state `a` has no key `strol`");
 }
 

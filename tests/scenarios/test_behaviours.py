@@ -254,3 +254,28 @@ def test_who_flees_gets_away(bake):
     baked = bake("flee", layout)
     away = numpy.linalg.norm(baked.places[-1] - [3, 0], axis=-1)
     assert away.min() > 11.5 and away.max() < 16, away
+
+
+def test_who_flees_from_somebody_keeps_away_from_where_it_goes(bake):
+    """A given way goes right through them: whoever it comes near runs, and stays away."""
+    layout = conditions({"at": 0.5})
+    layout["behaviours"][0]["states"] = {
+        "stand": {"stay": True, "until": [{"near": "bull", "within": 8, "then": "run"}]},
+        "run": {"flee": "bull", "beyond": 6, "pace": 1.6}}
+    layout["given"] = [{"id": "bull", "ways": [[[0, -4, -12], [20, 9, 12]]]}]
+    baked = bake("bull", layout)
+    bull, row = baked.places[:, baked.of("bull")], baked.places[:, baked.of("row")]
+    away = numpy.linalg.norm(row - bull, axis=-1)
+    assert numpy.nanmin(numpy.linalg.norm(row[0] - bull, axis=-1)) < 2.0, "it goes to where they stood"
+    assert numpy.linalg.norm(bull[-1] - bull[0]) > 20 and away.min() > 3.0, away.min()
+
+
+def test_given_people_are_followed(bake):
+    layout = conditions({"after": 100})
+    layout["behaviours"] = [{"id": "waits", "start": "follow", "states": {
+        "follow": {"follow": "guide", "distance": 2, "until": [{"after": 100, "then": "go"}]},
+        "go": {"walk_to": "away"}}}]
+    layout["given"] = [{"id": "guide", "ways": [[[0, 9, 0], [18, 9, 18]]]}]
+    baked = bake("follow given", layout)
+    away = numpy.linalg.norm(baked.places[-1, baked.of("row")] - [9, 18], axis=-1)
+    assert away.max() < 6, away
