@@ -29,8 +29,11 @@ for frame in (2, 10, 40):
                       "hidden": now.hide_render, "turn": axle.rotation_euler.y})
     doors = [list(thing.evaluated_get(graph).matrix_world.translation) for thing in bpy.data.objects
              if thing.name.startswith("Throng tram") and " door" in thing.name]
+    riders = [list(thing.evaluated_get(graph).matrix_world.translation) for thing in bpy.data.objects
+              if "throng_passenger" in thing and not thing.evaluated_get(graph).hide_render]
     lamps = {thing.name.split(".")[0]: not thing.hide_render for thing in bpy.data.objects if " lamp" in thing.name}
-    shots.append({"frame": frame, "vehicles": found, "lamps": lamps, "doors": doors})
+    shots.append({"frame": frame, "vehicles": found, "lamps": lamps, "doors": doors,
+                  "passengers": riders})
 lowest = min((thing.matrix_world @ vertex.co).z for thing in bpy.data.objects if " axle" in thing.name
              for vertex in thing.data.vertices)
 size = [max(v.co[i] for v in vehicles[0].data.vertices) - min(v.co[i] for v in vehicles[0].data.vertices)

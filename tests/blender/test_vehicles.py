@@ -30,6 +30,7 @@ def shown(blender, tmp_path_factory):
     track[:, 1] = (*TRAM, 0.0, 0.0, 0.0, 14.0, 2.0, 0.0)
     doors = numpy.zeros((FRAMES, 2, 5), dtype=numpy.float32)
     doors[12:, 1, 1] = numpy.minimum(numpy.arange(FRAMES - 12) / 24, 1.0)
+    doors[:, 1, 2] = numpy.where(numpy.arange(FRAMES) < 5, 9, numpy.where(numpy.arange(FRAMES) < 20, 4, 500))
     numpy.save(folder / "vehicles.npy", track)
     numpy.save(folder / "doors.npy", doors)
     manifest["doors"] = {"file": "doors.npy", "columns": ["left", "right", "aboard", "boarded", "alighted"], "list": [
@@ -86,3 +87,13 @@ def test_doors_slide_open_on_the_side_where_the_bake_has_them_open(shown):
         left = leaves[leaves[:, 1] > TRAM[1]]
         assert abs(left[:, 0, None] - middles).min(axis=1) == pytest.approx(0.0, abs=1e-4)
         assert left[:, 1] == pytest.approx(TRAM[1] + 1.2, abs=1e-4)
+
+
+def test_as_many_passengers_are_seen_as_are_aboard_and_have_room(shown):
+    for shot in shown[0]["shots"]:
+        places = numpy.array(shot["passengers"])
+        assert len(places) == {2: 9, 10: 4, 40: 48}[shot["frame"]]
+        assert (abs(places[:, 0] - TRAM[0]) < 13.0).all() and (abs(places[:, 1] - TRAM[1]) < 0.7).all()
+        middles = numpy.array([TRAM[0] + 14.0 - at for at in DOORS])
+        assert abs(places[:, :1] - middles).min() > 0.7, "doors are free"
+        assert places[:, 2] == pytest.approx(0.05)

@@ -194,6 +194,21 @@ def glass():
     return material
 
 
+def clear(name, colour, share):
+    """A pane that one sees through. @param share of it that one does not see through"""
+    found = bpy.data.materials.get(f"throng {name}")
+    if found:
+        return found
+    material, _, _, shader = _base(name, colour, 0.04)
+    _set_specular(shader, 0.6)
+    shader.inputs["Alpha"].default_value = share
+    if bpy.app.version < (4, 2, 0):
+        material.blend_method, material.shadow_method = "BLEND", "NONE"
+    else:
+        material.surface_render_method = "BLENDED"
+    return material
+
+
 def glowing(name, colour, strength):
     """A lamp of a colour that is looked at, and lights nothing."""
     found = bpy.data.materials.get(f"throng {name}")

@@ -7,6 +7,8 @@ import bpy
 import numpy
 
 from . import materials, rails, vehicle_doors
+from .keys import key_hidden
+from .passengers import VEHICLE
 from .shapes import Shape, counter_clockwise, direction
 from .streets import MARK_Z, ROAD_Z
 from .tracks import fill, read_track
@@ -128,17 +130,11 @@ def _post(place, heading, times, fps, frame_start):
         lamp.face(ring[::-1], materials.glowing(f"signal {name}", colour, 6.0))
         thing = lamp.to_object()
         for time, green in times:
-            _key_hidden(thing, green != lit, frame_start + max(math.ceil(time * fps), 0))
+            key_hidden(thing, green != lit, frame_start + max(math.ceil(time * fps), 0))
         objects.append(thing)
     for thing in objects:
         thing.location, thing.rotation_euler = (*place, 0.0), (0.0, 0.0, heading)
     return objects
-
-
-def _key_hidden(thing, hidden, frame):
-    for path in ("hide_viewport", "hide_render"):
-        setattr(thing, path, hidden)
-        thing.keyframe_insert(path, frame=frame)
 
 
 # Vehicles
@@ -175,6 +171,7 @@ def build_vehicles(manifest, track, frame_start, doors=None):
             bodies[look] = body_of(kind, number, what, opening)
         mesh, places = bodies[look]
         thing = bpy.data.objects.new(f"Throng {kind} {number}", mesh)
+        thing[VEHICLE] = number
         frames = there + frame_start
         rows = track[there, number]
         fill(thing, "location", frames, rows[:, [_X, _Y, _Z]])
@@ -204,6 +201,6 @@ def build_vehicles(manifest, track, frame_start, doors=None):
 
 def _hide_while_away(thing, frames, frame_start):
     if frames[0] > frame_start:
-        _key_hidden(thing, True, frame_start)
-    _key_hidden(thing, False, int(frames[0]))
-    _key_hidden(thing, True, int(frames[-1]) + 1)
+        key_hidden(thing, True, frame_start)
+    key_hidden(thing, False, int(frames[0]))
+    key_hidden(thing, True, int(frames[-1]) + 1)

@@ -77,16 +77,18 @@ def _wall(shape, a, b, low, high, material):
 
 def _side(shape, x1, y, high, doors, width, paint):
     """A long side between its doors, with windows."""
-    glass = materials.plain("car glass", (0.012, 0.015, 0.018), 0.05)
+    glass = materials.clear("vehicle window", (0.030, 0.038, 0.040), 0.45)
     edges = [-x1] + [x for middle in doors for x in (middle - 0.5 * width, middle + 0.5 * width)] + [x1]
     for begin, end in zip(edges[::2], edges[1::2]):
-        _wall(shape, (begin, y), (end, y), _SKIRT, high, paint)
         count = int((end - begin - _BETWEEN) / (_PANE + _BETWEEN))
         step = (end - begin - _BETWEEN) / max(count, 1)
-        for i in range(count):
-            x = begin + _BETWEEN + i * step
-            for out in (0.006, -0.006):
-                _wall(shape, (x, y + out), (x + step - _BETWEEN, y + out), _SILL, _TOP, glass)
+        panes = [(x, x + step - _BETWEEN) for x in (begin + _BETWEEN + i * step for i in range(count))]
+        for low, top in ((_SKIRT, _SILL), (_TOP, high)):
+            _wall(shape, (begin, y), (end, y), low, top, paint)
+        for left, right in zip([begin, *(pane[1] for pane in panes)], [*(pane[0] for pane in panes), end]):
+            _wall(shape, (left, y), (right, y), _SILL, _TOP, paint)
+        for left, right in panes:
+            _wall(shape, (left, y), (right, y), _SILL, _TOP, glass)
     for middle in doors:
         _wall(shape, (middle - 0.5 * width, y), (middle + 0.5 * width, y), _LINTEL, high, paint)
 
@@ -112,7 +114,7 @@ def _leaf_mesh(kind, width):
     """One leaf, from its inner edge towards -x, its outside towards -y."""
     leaf = Shape(f"Throng {kind} door")
     frame = materials.plain("car trim", (0.012, 0.012, 0.012), 0.55)
-    glass = materials.plain("car glass", (0.012, 0.015, 0.018), 0.05)
+    glass = materials.clear("vehicle window", (0.030, 0.038, 0.040), 0.45)
     half = 0.5 * width
     box = [(-half, -_LEAF), (0.0, -_LEAF), (0.0, 0.0), (-half, 0.0)]
     leaf.prism(box, _FLOOR + 0.01, _LINTEL, frame)
