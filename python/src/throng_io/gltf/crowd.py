@@ -72,6 +72,13 @@ def export_gltf(bake: Bake, path: str | os.PathLike, wanted: Wanted = Wanted(), 
     return Written(people, stand, len(crowd.shot.nearest) - people - stand)
 
 
+def write_surroundings(path: str | os.PathLike, shot: Shot, form: Form = Form()) -> None:
+    """All that is not a person, in a file of its own."""
+    around = Crowd(shot, form)
+    around.surroundings()
+    around.finish(path)
+
+
 class Crowd:
     def __init__(self, shot: Shot, form: Form):
         self.shot, self.form = shot, form
