@@ -11,6 +11,7 @@ import pytest
 import throng_io
 from conftest import ROOT, blender_module
 from posed_people import expected, frames_of, off
+from usd_people import PROXIES, people_of, skeleton_of
 from throng_io import cli
 from throng_io.cast import BEATS, POSES, Repertoire, gait
 from throng_io.skinned import members, motions
@@ -24,7 +25,6 @@ LAYOUT = {"throng": 1, "simulation": {"duration": 4, "seed": 2},
           "flows": [{"id": "east", "from": "road:start", "to": "road:end", "count": 5, "end": 2},
                     {"id": "west", "from": "road:end", "to": "road:start", "count": 3, "end": 2}]}
 MOST = 3
-PROXIES = Usd.TraverseInstanceProxies()
 
 
 @pytest.fixture(scope="module")
@@ -43,20 +43,9 @@ def crowd(throng, once, bodies):
                                               for name in ("crowd", "copies"))
 
 
-def people_of(stage):
-    """{row: prim}"""
-    people = stage.GetPrimAtPath("/World/Crowd").GetChildren()
-    return {int(prim.GetName().removeprefix("person")): prim for prim in people if prim.GetName().startswith("person")}
-
-
 def skinned(prim, time):
     """{part: points in the world} of a person, by USD's library."""
-    root = UsdSkel.Root(prim.GetChild("figure"))
-    cache = UsdSkel.Cache()
-    assert cache.Populate(root, PROXIES)
-    binding, = cache.ComputeSkelBindings(root, PROXIES)
-    query = cache.GetSkelQuery(binding.GetSkeleton())
-    assert query.GetAnimQuery().GetPrim() == prim.GetChild("motion")
+    root, binding, query = skeleton_of(prim)
     bends, found = query.ComputeSkinningTransforms(time), {}
     place = numpy.array(UsdGeom.XformCache(time).GetLocalToWorldTransform(root.GetPrim()))
     for target in binding.GetSkinningTargets():
@@ -273,7 +262,7 @@ def test_blenders_picture_of_it_is_that_of_the_bake(throng, tmp_path, bodies, mo
               "roads": [{"id": "road", "centreline": [[0, 0], [16, 0]], "width": 6}],
               "flows": [{"id": "east", "from": "road:start", "to": "road:end", "count": 5, "end": 2},
                         {"id": "west", "from": "road:end", "to": "road:start", "count": 3, "end": 2}]}
-    throng_io.bake(layout, tmp_path / "bake", program=throng.binary)
+    throng_io.bake(layout, tmp_path / "bake", program=throng.binary, options=["--feet"])
     monkeypatch.setenv("THRONG_BODIES", str(bodies))
     usd, command, seen = tmp_path / "crowd.usdc", blender_module(), []
     assert cli.main(["export-usd", str(tmp_path / "bake"), "-o", str(usd), "--skeletons", "--copies", "--bare"]) == 0

@@ -50,7 +50,7 @@ def things_of(bake: Bake) -> list[Thing]:
     found += [each for number, block in enumerate(told.get("seats", ()))
               for each in _stand_of(number, block, origin)]
     if about.get("terrain"):
-        found.append(_terrain_of(about["terrain"], bake.folder))
+        found.append(terrain_of(bake))
     else:
         found += _flat_ground(about, told, origin)
     return [thing for thing in found if len(thing.points)]
@@ -107,9 +107,9 @@ def _stand_of(number: int, block: dict, origin: numpy.ndarray) -> list[Thing]:
             for kind, colour, (points, faces) in kinds if faces]
 
 
-def _terrain_of(told: dict[str, Any], folder: pathlib.Path) -> Thing:
+def terrain_of(bake: Bake) -> Thing:
     """The mesh of terrain.glb, which `throng` writes: places of 3 float32 and triangles; y is up in it."""
-    path = folder / pathlib.PurePosixPath(str(told.get("file"))).name
+    path = bake.folder / pathlib.PurePosixPath(str(bake.about["terrain"].get("file"))).name
     try:
         data = path.read_bytes()
         text = struct.unpack_from("<I", data, 12)[0]

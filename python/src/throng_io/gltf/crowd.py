@@ -131,7 +131,8 @@ class Crowd:
         self._goes(root, row, times, shown)
         self._is_there(root, there, float(self.shot.sizes[row]))
         member = figure.member
-        track = track_of(row, self.shot.frames[there] + 1, shown)
+        track = track_of(row, self.shot.frames[there] + 1, shown, float(self.shot.sizes[row]),
+                         self.shot.ground)
         joints = joints_of(bent(member, self.shot.repertoire, track), member.places, member.parents)
         self.moves.joints(nodes, beside_those_above(member.places, member.parents), times, joints)
 

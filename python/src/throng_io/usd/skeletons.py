@@ -13,6 +13,7 @@ from ..skinned.carried import bent, box_of
 from ..skinned.members import LEVELS, Member, Part
 from ..skinned.motions import joints_of, track_of
 from ..skinned.shot import Shot, Wanted
+from .moving import SMALL
 
 CROWD = "/World/Crowd"
 LEVEL_SET = "levelOfDetail"
@@ -156,10 +157,19 @@ class SkeletonCrowd:
             self.layer.SetTimeSample(goes, code, self.gf.Vec3d(*place))
             self.layer.SetTimeSample(turns, code, turn)
         order, size = ["xformOp:translate", "xformOp:rotateZ"], float(self.sizes[row])
-        if size != 1.0:
-            self._attribute(path, "xformOp:scale", types.Float3, self.gf.Vec3f(size))
+        comes_and_goes = not self.there[:, row].all()
+        if size != 1.0 or comes_and_goes:
+            scale = self._attribute(path, "xformOp:scale", types.Float3, self.gf.Vec3f(size))
             order.append("xformOp:scale")
+        if comes_and_goes:
+            self._shrinks(scale, self.frames + 1, self.there[:, row], size)
         self._attribute(path, "xformOpOrder", types.TokenArray, self.vt.TokenArray(order), True)
+
+    def _shrinks(self, scale, codes, there, size: float) -> None:
+        """Samples on both sides of each change, as what is between two is blended."""
+        changes = numpy.nonzero(there[1:] != there[:-1])[0]
+        for place in sorted({0, *changes.tolist(), *(changes + 1).tolist()}):
+            self.layer.SetTimeSample(scale, int(codes[place]), self.gf.Vec3f(size if there[place] else SMALL * size))
 
     def _visibility(self, path: str, codes, there) -> None:
         shown = self._attribute(path, "visibility", self.sdf.ValueTypeNames.Token)
@@ -190,7 +200,8 @@ class SkeletonCrowd:
     def _motion(self, path: str, row: int, member: Member, codes, streams) -> None:
         types = self.sdf.ValueTypeNames
         self._prim(path, "SkelAnimation")
-        matrices = bent(member, self.repertoire, track_of(row, codes, streams))
+        track = track_of(row, codes, streams, float(self.sizes[row]), self.shot.ground)
+        matrices = bent(member, self.repertoire, track)
         joints = joints_of(matrices, member.places, member.parents)
         self._attribute(path, "joints", types.TokenArray, self.vt.TokenArray(member.joints), True)
         self._attribute(path, "scales", types.Half3Array, self.vt.Vec3hArray(len(member.joints), self.gf.Vec3h(1.0)))
