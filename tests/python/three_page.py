@@ -11,7 +11,6 @@ from conftest import ROOT, chromium
 
 MODULES = pathlib.Path(os.environ.get("THRONG_NODE_MODULES", ROOT / "build" / "node" / "node_modules"))
 TEXTURES = ROOT / "docs" / "examples" / "textures"
-THREE = "three@" + json.loads((ROOT / "tests" / "package.json").read_text())["dependencies"]["three"]
 PAGE = """
 <!doctype html><meta charset="utf-8"><style>body {margin: 0}</style>
 <script type="importmap">{"imports": {"three": "/three/build/three.module.js",
@@ -103,6 +102,7 @@ def opened(playwright, answer, address, size):
         browser = player.chromium.launch(executable_path=chromium(), args=[
             "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"])
         page = browser.new_page(viewport={"width": size[0], "height": size[1]})
+        page.set_default_timeout(120_000)  # on busy machines
         page.wrong = []
         page.on("console", lambda said: page.wrong.append(said.text) if said.type in ("error", "warning") else None)
         page.on("pageerror", lambda error: page.wrong.append(str(error)))
@@ -131,7 +131,7 @@ def page_of(playwright, files: dict[str, pathlib.Path], modules: pathlib.Path, s
         return route.fulfill(status=404)
 
     with opened(playwright, answer, "http://throng.test/", size) as page:
-        page.wait_for_function("window.ready === true", timeout=60_000)
+        page.wait_for_function("window.ready === true", timeout=120_000)
         yield page
 
 
@@ -140,15 +140,15 @@ def textures_page(playwright, folder: pathlib.Path, modules: pathlib.Path, size=
     """The page of docs/examples/textures, which shows a folder of vertex animation textures: `crowd` in it has
     look(from, to) and draw(seconds)."""
     def answer(route, path):
-        host, _, path = path.partition("/")
-        if host == "unpkg.com":  # where the page has three.js from
-            return answer_file(route, modules / path.replace(THREE, "three", 1))
+        path = path.removeprefix("throng.test/")
+        if path.startswith("node_modules/"):
+            return answer_file(route, modules / path.removeprefix("node_modules/"))
         if path.startswith("files/"):
             return answer_file(route, folder / path[6:])
         return answer_file(route, TEXTURES / path) if path else route.fulfill(status=404)
 
     with opened(playwright, answer, "http://throng.test/index.html?crowd=files&at=0", size) as page:
-        page.wait_for_function("window.crowd !== undefined", timeout=60_000)
+        page.wait_for_function("window.crowd !== undefined", timeout=120_000)
         yield page
 
 
