@@ -17,6 +17,8 @@ from .moving import SMALL
 
 CROWD = "/World/Crowd"
 LEVEL_SET = "levelOfDetail"
+MEMBER_SET = "member"
+ANYBODY, WITH_STICK = f"{CROWD}/Members/anybody", f"{CROWD}/Members/anybody_with_stick"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -50,6 +52,7 @@ class SkeletonCrowd:
         for number in sorted({self.member_of[row] for row in self.rows}):
             members[number] = self.shot.member(number)
             self._member(number, members[number])
+        self._choices(members)
         self._box(crowd, members.values())
         streams = self.shot.streams(self.rows)
         with self.sdf.ChangeBlock():
@@ -60,7 +63,7 @@ class SkeletonCrowd:
     # ---- members
 
     def _member(self, number: int, member: Member) -> None:
-        path = f"{CROWD}/Members/member{number:02d}"
+        path = f"{CROWD}/Members/{_name(number)}"
         self.stage.CreateClassPrim(f"{CROWD}/Members")
         root = self.stage.CreateClassPrim(path)
         root.SetTypeName("SkelRoot")
@@ -83,6 +86,22 @@ class SkeletonCrowd:
                 for part, mesh in parts.items():
                     self._mesh(f"{path}/{part}", mesh)
         levels.SetVariantSelection(LEVELS[0])
+
+    def _choices(self, members: dict[int, Member]) -> None:
+        """Who one can be: a variant for each member with the same joints, so that everybody's motion fits all of them."""
+        for path in (ANYBODY, WITH_STICK):
+            able = [number for number, member in members.items() if _choice_of(member) == path]
+            if not able:
+                continue
+            root = self.stage.CreateClassPrim(path)
+            root.SetTypeName("SkelRoot")
+            choices = root.GetVariantSets().AddVariantSet(MEMBER_SET)
+            for number in able:
+                choices.AddVariant(_name(number))
+                choices.SetVariantSelection(_name(number))
+                with choices.GetVariantEditContext():
+                    root.GetReferences().AddInternalReference(f"{CROWD}/Members/{_name(number)}")
+            choices.SetVariantSelection(_name(able[0]))
 
     def _placed(self, places: numpy.ndarray):
         whole = numpy.tile(numpy.eye(4), (len(places), 1, 1))
@@ -131,7 +150,7 @@ class SkeletonCrowd:
         self._moved(path, row, codes[there], {name: each[there] for name, each in streams.items()})
         if not there.all():
             self._visibility(path, codes, there)
-        self._figure(f"{path}/figure", row, number)
+        self._figure(f"{path}/figure", row, number, member)
         self._motion(f"{path}/motion", row, member, codes[there],
                      {name: each[there] for name, each in streams.items()})
 
@@ -177,11 +196,12 @@ class SkeletonCrowd:
             if place == 0 or there[place] != there[place - 1]:
                 self.layer.SetTimeSample(shown, code, "inherited" if there[place] else "invisible")
 
-    def _figure(self, path: str, row: int, number: int) -> None:
+    def _figure(self, path: str, row: int, number: int, member: Member) -> None:
         prim, types = self._prim(path, "SkelRoot"), self.sdf.ValueTypeNames
         if self.instances:
             prim.instanceable = True
-        prim.referenceList.Prepend(self.sdf.Reference("", f"{CROWD}/Members/member{number:02d}"))
+        prim.referenceList.Prepend(self.sdf.Reference("", _choice_of(member)))
+        prim.variantSelections[MEMBER_SET] = _name(number)
         prim.SetInfo("apiSchemas", self.sdf.TokenListOp.Create(prependedItems=["SkelBindingAPI"]))
         motion = self.sdf.RelationshipSpec(prim, "skel:animationSource", False)
         motion.targetPathList.explicitItems = [self.sdf.Path(path).GetParentPath().AppendChild("motion")]
@@ -211,3 +231,11 @@ class SkeletonCrowd:
         for code, turns, moves in zip(codes.tolist(), rotations, joints.translations):
             self.layer.SetTimeSample(turned, code, self.vt.QuatfArray.FromNumpy(turns))
             self.layer.SetTimeSample(moved, code, self.to.vectors(moves))
+
+
+def _name(number: int) -> str:
+    return f"member{number:02d}"
+
+
+def _choice_of(member: Member) -> str:
+    return WITH_STICK if "stick" in member.joints else ANYBODY
