@@ -138,8 +138,8 @@ class Under:
 
 
 def _under(footing: Footing, ankle: Array, flat: Array, down: Array) -> Under:
-    """Where no terrain is known, the line that bodies follow. Where one is, what it is below a sole that is flat, for as
-    long as the foot is down; in the air it goes over from one such place to the next.
+    """Where no terrain is known, the line that bodies follow. Where one is, what it is below a sole that is flat, for
+    as long as the foot is down; in the air it goes over from one such place to the next.
 
     @param ankle in the own frame, without what is told here
     """

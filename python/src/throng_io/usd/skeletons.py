@@ -88,7 +88,7 @@ class SkeletonCrowd:
         levels.SetVariantSelection(LEVELS[0])
 
     def _choices(self, members: dict[int, Member]) -> None:
-        """Who one can be: a variant for each member with the same joints, so that everybody's motion fits all of them."""
+        """Who one can be: a variant for each member with the same joints, so that everybody's motion fits all."""
         for path in (ANYBODY, WITH_STICK):
             able = [number for number, member in members.items() if _choice_of(member) == path]
             if not able:
