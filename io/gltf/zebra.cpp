@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
 
 namespace throng::io {
 namespace {
@@ -50,7 +51,9 @@ std::vector<Outline> zebraStripes(std::span<const glm::dvec2> crossing, glm::dve
         high = std::max(high, glm::dot(point, across));
     }
     std::vector<Outline> stripes;
-    for (double at = low + 0.5 * wide; at + wide <= high + 1.0e-6; at += 2.0 * wide) {
+    const auto count = static_cast<int>((high - low + 0.5 * wide + 1.0e-6) / (2.0 * wide));
+    for (int i = 0; i < count; ++i) {
+        const double at = low + (0.5 + 2.0 * i) * wide;
         Outline stripe = cutAt(Outline(crossing.begin(), crossing.end()), across, at + wide);
         stripe = cutAt(stripe, -across, -at);
         if (stripe.size() > 2) stripes.push_back(std::move(stripe));
