@@ -149,5 +149,18 @@ def test_soles_are_turned_to_the_slope():
             assert point[2] == pytest.approx(0.4 * point[0] + 0.2 * point[1], abs=1e-6)
 
 
+def test_ground_below_a_step_is_not_what_one_stands_on():
+    names, places, matrices = leg_of_sticks(2)
+    corners = [[-9, -9], [9, -9], [9, 9], [-9, 9]]
+    flat = legs.Stances(numpy.ones((2, 2), bool), numpy.ones((2, 2), bool))
+    for below, goes in ((0.1, 0.1), (0.4, 0.0)):
+        a, b, c, d = ([x, y, -below] for x, y in corners)
+        streams = {"state": numpy.zeros((2, 3)), "ground": numpy.zeros((2, 3)), "pos": numpy.zeros((2, 3)),
+                   "dir": numpy.tile([1.0, 0, 0], (2, 1))}
+        footing = legs.footing_of(streams, 1.0, Ground(numpy.array([[a, b, c], [a, c, d]], float)))
+        joints = ends(legs.held(matrices, places, names, footing, flat), places)
+        assert joints[0, names.index("foot_l"), 2] == pytest.approx(0.08 - goes, abs=2e-3)
+
+
 def test_without_feet_and_terrain_nothing_changes():
     assert legs.footing_of({"state": numpy.zeros((2, 3))}) is None

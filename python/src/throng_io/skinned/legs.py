@@ -20,7 +20,8 @@ SINKS = 0.15         # m, at most, on flat ground
 SINKS_ON_SLOPES = 0.35
 BENDS = 0.01         # m: how far knees are ahead of straight legs, for the direction in which these bend
 REACH = 0.45         # m, that feet are moved at most
-MOST_OFF = 0.25      # m, that ground under a foot is off the line that bodies follow
+MOST_OFF = 0.2       # m, that ground under a foot is off the line that bodies follow; what is further off is not what
+                     # somebody stands on, but below a stand's step
 _X, _Z = numpy.array([1.0, 0.0, 0.0]), numpy.array([0.0, 0.0, 1.0])
 
 Array = numpy.ndarray
@@ -153,9 +154,10 @@ def _under(footing: Footing, ankle: Array, flat: Array, down: Array) -> Under:
     own = numpy.column_stack([slopes[:, 0] * cosine + slopes[:, 1] * sine,
                               slopes[:, 1] * cosine - slopes[:, 0] * sine])
     known, told = numpy.zeros(len(ankle), bool), numpy.zeros((len(ankle), 3))
+    near = numpy.abs(heights - there[:, 2]) < MOST_OFF  # of NaN it is not
     for first, last in _runs(down):
         span = slice(first, last)
-        sure = numpy.nonzero(flat[span] & ~numpy.isnan(heights[span]))[0] + first
+        sure = numpy.nonzero(flat[span] & near[span])[0] + first
         if len(sure):
             known[span] = True
             height = numpy.median(heights[sure])
@@ -165,7 +167,7 @@ def _under(footing: Footing, ankle: Array, flat: Array, down: Array) -> Under:
         return Under(rises, footing.slopes)
     frames = numpy.arange(len(ankle))
     off, along, across = (numpy.interp(frames, frames[known], column[known]) for column in told.T)
-    return Under(rises + numpy.clip(off, -MOST_OFF, MOST_OFF), numpy.column_stack([along, across]))
+    return Under(rises + off, numpy.column_stack([along, across]))
 
 
 def _runs(mask: Array) -> list[tuple[int, int]]:

@@ -92,7 +92,8 @@ def walks_of(repertoire: Repertoire, state: Array) -> Walks:
 
 
 def stances_of(repertoire: Repertoire, track: Track) -> Stances:
-    """Of who walks as the gait has them; of who stands both feet are down but for those that make a step."""
+    """Of who walks as the gait has them; of who stands both feet are down but for those that make a step. Who has a
+    seat has none."""
     walks = walks_of(repertoire, track.state)
     gaits = [gait.gait_of(stride) for stride in repertoire.strides]
     first, flat_from, flat_until, stance = (numpy.array([getattr(each, name) for each in gaits])[walks.gait, None]
@@ -100,6 +101,7 @@ def stances_of(repertoire: Repertoire, track: Track) -> Stances:
     since = (track.state[:, 2:] + [0.5, 0.0] - first) % 1.0
     stands = (walking_of(track) < STANDS_WHERE)[:, None]
     lifted = numpy.zeros(since.shape, bool) if track.footing is None else track.footing.moves[..., 2] > LIFTED
+    lifted |= (track.state[:, 0] > sitting.FIRST - 0.5)[:, None]
     return Stances(((since >= flat_from) & (since < flat_until) | stands) & ~lifted,
                    ((since < stance) | stands) & ~lifted)
 
