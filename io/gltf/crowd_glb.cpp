@@ -14,15 +14,17 @@
 #include "io/gltf/glb_document.h"
 #include "io/gltf/meshes.h"
 #include "io/gltf/vehicle_nodes.h"
+#include "io/gltf/zebra.h"
 
 namespace throng::io {
 namespace {
 
 constexpr double kGroundMargin = 5.0;  // m
 // Flat surfaces lie a little above each other, or renderers could not tell which one is on top.
-constexpr double kAreaHeight = 0.01;   // m
-constexpr double kRoadHeight = 0.02;   // m
-constexpr double kLaneHeight = 0.015;  // m
+constexpr double kAreaHeight = 0.01;                    // m
+constexpr double kRoadHeight = 0.02;                    // m
+constexpr double kLaneHeight = 0.015;                   // m
+constexpr double kStripeHeight = 0.025, kStripe = 0.5;  // m: a zebra's, and how wide
 
 constexpr double kSeat = 0.42, kBench = 0.4;  // m: high and deep
 
@@ -92,9 +94,18 @@ void addStreet(GlbDocument& document, const authoring::Traffic& traffic, glm::dv
     for (const authoring::Lane& entry : traffic.lanes)
         document.addMeshNode("lane " + entry.id,
                              ribbonMesh(relative(entry.points, origin), entry.width, kLaneHeight), lane);
-    for (const authoring::Zebra& entry : traffic.crossings)
+    for (const authoring::Zebra& entry : traffic.crossings) {
+        glm::dvec2 middle(0.0);
+        for (const glm::dvec2 point : entry.polygon)
+            middle += point / static_cast<double>(entry.polygon.size());
+        Mesh stripes;
+        for (const std::vector<glm::dvec2>& stripe :
+             zebraStripes(relative(entry.polygon, origin), wayBeside(traffic.lanes, middle), kStripe))
+            append(stripes, polygonMesh(stripe, kStripeHeight));
         document.addMeshNode("crossing " + entry.id,
-                             polygonMesh(relative(entry.polygon, origin), kRoadHeight), paint);
+                             polygonMesh(relative(entry.polygon, origin), kRoadHeight), lane);
+        document.addMeshNode("stripes " + entry.id, stripes, paint);
+    }
 }
 
 /// A terrain takes the place of the ground, and of roads and areas, which are flat.

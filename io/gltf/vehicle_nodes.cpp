@@ -40,7 +40,12 @@ Mesh wheelAt(double radius, double from, double to) {
         const double angle = 2.0 * std::numbers::pi * i / kSides;
         circle.push_back(radius * glm::dvec2(std::cos(angle), std::sin(angle)));
     }
-    Mesh mesh = closedWallMesh(circle, to - from);
+    Mesh mesh = closedWallMesh(circle, to - from), other_side = polygonMesh(circle, 0.0);
+    for (glm::vec3& position : other_side.positions)
+        position.y = -position.y;
+    for (glm::vec3& normal : other_side.normals)
+        normal = -normal;
+    append(mesh, other_side);
     const auto up = [](glm::vec3 v) { return glm::vec3(v.x, -v.z, v.y); };
     for (glm::vec3& position : mesh.positions)
         position = up(position) - glm::vec3(0.0f, static_cast<float>(from), 0.0f);
@@ -76,8 +81,9 @@ Colour colourOf(const std::string& kind) {
 Mesh bodyOf(const VehicleIdentity& vehicle) {
     if (vehicle.kind != "bicycle")
         return hull(vehicle.length, vehicle.width, 0.25, vehicle.kind == "car" ? 0.92 : vehicle.height);
-    Mesh mesh = hull(1.1, 0.08, 0.32, 0.9);
-    append(mesh, hull(0.34, 0.42, 0.9, 1.5));
+    Mesh mesh = hull(1.1, 0.06, 0.5, 0.6);
+    append(mesh, hull(0.36, 0.34, 0.4, 0.95));
+    append(mesh, hull(0.34, 0.42, 0.95, 1.5));
     append(mesh, hull(0.22, 0.2, 1.52, vehicle.height));
     return mesh;
 }

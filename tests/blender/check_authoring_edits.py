@@ -165,6 +165,22 @@ def change_bar():
     next(bar for bar in data().bars if bar.figure == "flow").most = 4.0
 
 
+def change_given():
+    hero = data().given["hero"]
+    hero.start, hero.offset, hero.people.look = 2.5, (1.5, 0.75), "business"
+
+
+def give_a_file():
+    hero = data().given["hero"]
+    hero.source, hero.use_fps, hero.fps = "FILE", True, 12.5
+    hero.file = os.path.join(os.path.dirname(os.path.abspath(layout)), "seen", "by camera.csv")
+
+
+def add_given():
+    assert bpy.ops.throng.list(where="given", action="ADD") == {"FINISHED"}
+    data().given[1].file = "/elsewhere/walked.csv"
+
+
 def nothing():
     pass
 

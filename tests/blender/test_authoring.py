@@ -35,6 +35,8 @@ def moved(layout, x, y):
     def walk(value, key=""):
         if key in points and isinstance(value, list):
             return there(value) if isinstance(value[0], (int, float)) else [there(point) for point in value]
+        if key == "ways":
+            return [[[time, place[0] + x, place[1] + y] for time, *place in way] for way in value]
         if key == "goal" and isinstance(value, list):
             return there(value)
         if isinstance(value, dict):
@@ -109,6 +111,9 @@ EDITS = {
     "duplicate_wall": None,
     "close_wall": {"/walls/3/closed", "/walls/3/points/2"},
     "change_bar": {"/expect/flow/max"},
+    "change_given": {"/given/0/start", "/given/0/offset/1", "/given/0/people/look"},
+    "give_a_file": {"/given/0/ways", "/given/0/file", "/given/0/fps"},
+    "add_given": {"/given/1"},
 }
 
 

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """What is installed, and what is packed: it is all there, and works where it has been moved to."""
 import json
+import os
 import pathlib
 import re
 import shutil
 import subprocess
+import sys
 import zipfile
 
 import pytest
@@ -103,6 +105,30 @@ def test_the_debian_package_is_whole_and_names_what_it_needs(build, tmp_path):
     usr = tmp_path / "root/usr"
     assert bakes(usr / "bin/throng", usr / "share/throng/examples", tmp_path / "bake") == 5
     assert (usr / "share/man/man1/throng.1").exists()
+
+
+def test_a_wheel_carries_the_program(throng, tmp_path):
+    """What is put into wheels, from a copy of the sources; with it, nobody has to say where the program is."""
+    pytest.importorskip("setuptools", reason="setuptools is not installed")
+    for folder in ("python", "blender_addon"):
+        shutil.copytree(ROOT / folder, tmp_path / folder, symlinks=True, ignore=shutil.ignore_patterns("__pycache__"))
+    program = pathlib.Path(throng.binary).resolve()
+    make = [sys.executable, "setup.py", "-q", "build_py", "-d", str(tmp_path / "built")]
+
+    def made(value, **options):
+        return subprocess.run(make, cwd=tmp_path / "python", capture_output=True, text=True,
+                              env={**os.environ, "THRONG_PROGRAM": value}, **options)
+
+    refused = made("throng")
+    assert refused.returncode != 0 and "expected the whole path of a program, found 'throng'" in refused.stderr
+    made(str(program), check=True)
+    inside = tmp_path / "built/throng_io/bin/throng"
+    assert inside.read_bytes() == program.read_bytes()
+    clean = {name: value for name, value in os.environ.items() if name not in ("THRONG_BINARY", "PYTHONPATH")}
+    found = subprocess.run([sys.executable, "-c", "import throng_io.bakes.program as p; print(p.find_program())"],
+                           cwd=tmp_path / "built", env=clean, capture_output=True, text=True, check=True).stdout.strip()
+    assert pathlib.Path(found).samefile(inside)
+    assert run(found, "--version") == throng("--version").stdout
 
 
 def test_builds_are_named_after_their_checkout_and_only_theirs(tmp_path):

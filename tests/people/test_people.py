@@ -10,7 +10,7 @@ from conftest import ROOT
 
 sys.path.insert(0, str(ROOT / "blender_addon"))
 from throng.cast import gait, skinning  # noqa: E402
-from throng.people import (casting, library, levels, palettes, person, regions, roster, shape,  # noqa: E402
+from throng.people import (casting, hair, library, levels, palettes, person, regions, roster, shape,  # noqa: E402
                            wardrobe)
 from throng.people.rig import skinned  # noqa: E402
 from throng.people.parts import Part, border_of, clipped, edges_of, folded, normals_of, subdivided  # noqa: E402
@@ -409,3 +409,17 @@ def test_tops_fall_outside_of_what_is_worn_below(loaded):
             assert pokes < 0.1, (number, tops[-1], below.material, pokes)
             tried += 1
     assert tried > 6
+
+
+@pytest.mark.parametrize("name", ["short", "bob", "afro", "tail"])
+def test_hair_of_people_far_away_lies_over_their_heads(loaded, name):
+    """However few points a head has: smoothed, the skin of hair would be drawn into it."""
+    who = roster.draw_person("casual", 0)
+    body = person.Maker(loaded, who)
+    for level in CROWD:
+        cap = hair.hair(loaded, body.shape, level, name, "hair black", 1.0, 3)[0]
+        below = hair._scalp(loaded, body.shape, level, hair.STYLES[name], False)
+        assert len(cap.points) == len(below.points)
+        over = ((cap.points - below.points) * below.normals).sum(axis=1)
+        grown = regions.scalp(below.places) > 0.03
+        assert over[grown].min() > (0.004 if level == 2 else 0.0), (level, over[grown].min())

@@ -313,6 +313,7 @@ def test_heads_look_where_the_bake_says(made, bodies, monkeypatch):
         streams = {name: each[:, 0] for name, each in chosen.streams_of(bake, frames, [row]).items()}
         streams["attention"] = numpy.tile([0.9, 0.3, 0.8], (len(frames), 1))  # a clear look
         streams["carriage"][:, 1:] = (0.25, 0.08)
+        streams = {name: each for name, each in streams.items() if not name.endswith("_foot")}  # which hips follow
         track = motions.track_of(row, frames + 1, streams)
         turns = carried.bent(member, repertoire, track)[:, head, :, :3]
         before = motions.matrices_of(member.poses, repertoire, track)[:, head, :, :3]

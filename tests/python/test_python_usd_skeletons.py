@@ -11,6 +11,7 @@ import pytest
 import throng_io
 from conftest import ROOT, blender_module
 from posed_people import expected, frames_of, off
+from usd_people import PROXIES, joints_of, people_of, skeleton_of
 from throng_io import cli
 from throng_io.cast import BEATS, POSES, Repertoire, gait
 from throng_io.skinned import members, motions
@@ -24,7 +25,6 @@ LAYOUT = {"throng": 1, "simulation": {"duration": 4, "seed": 2},
           "flows": [{"id": "east", "from": "road:start", "to": "road:end", "count": 5, "end": 2},
                     {"id": "west", "from": "road:end", "to": "road:start", "count": 3, "end": 2}]}
 MOST = 3
-PROXIES = Usd.TraverseInstanceProxies()
 
 
 @pytest.fixture(scope="module")
@@ -43,20 +43,9 @@ def crowd(throng, once, bodies):
                                               for name in ("crowd", "copies"))
 
 
-def people_of(stage):
-    """{row: prim}"""
-    people = stage.GetPrimAtPath("/World/Crowd").GetChildren()
-    return {int(prim.GetName().removeprefix("person")): prim for prim in people if prim.GetName().startswith("person")}
-
-
 def skinned(prim, time):
     """{part: points in the world} of a person, by USD's library."""
-    root = UsdSkel.Root(prim.GetChild("figure"))
-    cache = UsdSkel.Cache()
-    assert cache.Populate(root, PROXIES)
-    binding, = cache.ComputeSkelBindings(root, PROXIES)
-    query = cache.GetSkelQuery(binding.GetSkeleton())
-    assert query.GetAnimQuery().GetPrim() == prim.GetChild("motion")
+    root, binding, query = skeleton_of(prim)
     bends, found = query.ComputeSkinningTransforms(time), {}
     place = numpy.array(UsdGeom.XformCache(time).GetLocalToWorldTransform(root.GetPrim()))
     for target in binding.GetSkinningTargets():
@@ -114,6 +103,34 @@ def test_members_are_shared_and_have_levels(crowd):
             sizes.append(sum(map(len, skinned(people[0], bake.frames // 2).values())))
         levels.ClearVariantSelection()
     assert sizes[0] > 1.3 * sizes[1] > 2 * sizes[2] > 200
+
+
+def test_who_somebody_is_can_be_changed(crowd):
+    """Another variant of `member`: another mesh, with the same motion, still an instance that is shared."""
+    bake, stage, _ = crowd
+    people, row, time = people_of(stage), 0, bake.frames // 2
+    figure = people[row].GetChild("figure")
+    choice = figure.GetVariantSets().GetVariantSet("member")
+    _, member_of = members.cast_of(bake)
+    own = f"member{member_of[row]:02d}"
+    other = next(f"member{member_of[each]:02d}" for each in people if member_of[each] != member_of[row])
+    assert choice.GetVariantSelection() == own and {own, other} <= set(choice.GetVariantNames())
+    before, joints, shared = skinned(people[row], time), joints_of(people[row], [time]), len(stage.GetPrototypes())
+    with Usd.EditContext(stage, stage.GetSessionLayer()):
+        choice.SetVariantSelection(other)
+        after, still = skinned(people[row], time), joints_of(people[row], [time])
+        assert figure.IsInstance() and len(stage.GetPrototypes()) == shared - 1  # the other one has it, too
+        figure.GetVariantSets().GetVariantSet("levelOfDetail").SetVariantSelection("far")
+        assert sum(map(len, skinned(people[row], time).values())) < sum(map(len, after.values())) / 3
+        figure.GetVariantSets().GetVariantSet("levelOfDetail").ClearVariantSelection()
+        choice.ClearVariantSelection()
+    assert {name: len(part) for name, part in before.items()} != {name: len(part) for name, part in after.items()}
+    for name in set(joints) & set(still):
+        assert numpy.abs(joints[name] - still[name]).max() < 1e-6  # the same motion
+    points = numpy.concatenate(list(after.values()))
+    assert -0.1 < points[:, 2].min() < 0.1 and 1.2 < points[:, 2].max() < 2.1
+    assert numpy.linalg.norm(points[:, :2].mean(axis=0) - bake.world(time, row)[:2]) < 0.3
+    assert skinned(people[row], time)["dressed"] == pytest.approx(before["dressed"])
 
 
 def test_four_weights_names_and_tints(crowd):
@@ -273,7 +290,7 @@ def test_blenders_picture_of_it_is_that_of_the_bake(throng, tmp_path, bodies, mo
               "roads": [{"id": "road", "centreline": [[0, 0], [16, 0]], "width": 6}],
               "flows": [{"id": "east", "from": "road:start", "to": "road:end", "count": 5, "end": 2},
                         {"id": "west", "from": "road:end", "to": "road:start", "count": 3, "end": 2}]}
-    throng_io.bake(layout, tmp_path / "bake", program=throng.binary)
+    throng_io.bake(layout, tmp_path / "bake", program=throng.binary, options=["--feet"])
     monkeypatch.setenv("THRONG_BODIES", str(bodies))
     usd, command, seen = tmp_path / "crowd.usdc", blender_module(), []
     assert cli.main(["export-usd", str(tmp_path / "bake"), "-o", str(usd), "--skeletons", "--copies", "--bare"]) == 0

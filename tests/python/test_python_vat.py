@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Vertex animation textures: pixels, read by OpenEXR's library, are the cast's points in each key of each clip."""
+import io
 import json
 import struct
 import sys
@@ -12,6 +13,7 @@ import throng_io
 from conftest import ROOT, chromium
 from glb_reader import Glb
 from posed_people import model_of, off
+from three_page import MODULES, call, need_three, page_of, textures_page
 from throng_io import cli
 from throng_io.gltf import textures
 from throng_io.gltf.vat import Layout
@@ -36,10 +38,12 @@ def written(throng, once, bodies):
             patch.setenv("THRONG_BODIES", str(bodies))
             for kind in ALLOWED:
                 assert cli.main(["export-vat", str(folder / "bake"), "-o", str(folder / kind), "--members", "1",
-                                 "--texture", kind]) == 0
+                                 "--texture", kind, *([] if kind == "float" else ["--no-ground"])]) == 0
+            assert cli.main(["export-gltf", str(folder / "bake"), "-o", str(folder / "glb.glb"), "--members", "1",
+                             "--level", "far", "--no-ground"]) == 0
 
     folder = once("python-vat", make)
-    return throng_io.Bake(folder / "bake"), {kind: folder / kind for kind in ALLOWED}
+    return throng_io.Bake(folder / "bake"), {kind: folder / kind for kind in ALLOWED} | {"glb": folder / "glb.glb"}
 
 
 def pixels_of(path, low=0.0, high=1.0):
@@ -101,6 +105,8 @@ def test_meshes_tell_where_their_points_are(written):
     faces = glb.accessor(primitive["indices"]).reshape(-1, 3)
     sides = [numpy.linalg.norm(each[faces[:, 0]] - each[faces[:, 1]], axis=1) for each in (points, stand)]
     assert numpy.median(numpy.abs(sides[0] - sides[1])) < 0.005
+    assert told["surroundings"] == "surroundings.glb" and not (folders["half"] / "surroundings.glb").exists()
+    assert {"ground", "road"} <= set(Glb(folders["float"] / "surroundings.glb").named)
     colours = glb.accessor(primitive["attributes"]["COLOR_0"])
     assert set(colours[:, 3]) == {0.0, 1.0} and 0.1 < (colours[:, 3] == 0).mean() < 0.5
 
@@ -177,6 +183,42 @@ def test_the_shader_of_the_docs_bends_people(written):
     assert (found[:, 4:7] == [0.5, 0.25, 0.75]).all()
     looks = looks / numpy.linalg.norm(looks, axis=1, keepdims=True)
     assert numpy.abs(found[:, 7:] - looks[:, [2, 1, 0]] * [1, 1, -1]).max() < 1e-4
+
+
+def test_the_page_of_the_docs_shows_what_skeletons_do(written):
+    """docs/examples/textures in a browser beside the same people as glTF with skeletons, which three.js bends itself:
+    in pictures they cover the same pixels, and normals have them lit alike."""
+    need_three(MODULES)
+    playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+    image = pytest.importorskip("PIL.Image", reason="Pillow is not installed")
+    bake, folders = written
+    shot = lambda page: numpy.array(image.open(io.BytesIO(page.screenshot())).convert("RGB"), float)  # noqa: E731
+    frame = 36
+    x, y, _ = bake.pos[frame, 0].tolist()
+    view = [[x, 1.2, 3.4 - y], [x, 0.9, -y]]
+    assert bake.there()[frame, 0] and bake.dir[frame, 0, 2] > 0.5  # walks
+    with page_of(playwright, {"crowd": folders["glb"]}, MODULES) as page:
+        call(page, "load", "crowd")
+        call(page, "look", *view)
+        call(page, "at", frame / bake.fps)
+        call(page, "draw")
+        assert page.wrong == []
+        wanted = shot(page)
+    with textures_page(playwright, folders["half"], MODULES) as page:
+        page.evaluate("([from, to]) => window.crowd.look(from, to)", view)
+        found = []
+        for each in (frame, frame + 1, frame + 6):
+            page.evaluate("seconds => window.crowd.draw(seconds)", each / bake.fps)
+            found.append(shot(page))
+        assert page.wrong == []
+    shown = [numpy.abs(each - each[0, 0]).max(axis=2) > 12 for each in (wanted, *found)]
+    assert 0.04 < shown[0].mean() < 0.5
+    differ = (shown[0] != shown[1]).sum() / shown[0].sum()
+    both = shown[0] & shown[1]
+    off_by = numpy.abs(wanted - found[0]).max(axis=2)[both]
+    assert differ < 0.02 and numpy.median(off_by) < 3 and (off_by > 30).mean() < 0.05, (differ, off_by)
+    changes = [(each != shown[1]).sum() / shown[0].sum() for each in shown[2:]]
+    assert 0.05 < changes[0] < 0.6 and changes[0] < 0.5 * changes[1], changes  # moves, without jumps
 
 
 def test_wide_meshes_take_several_rows():

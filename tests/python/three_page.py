@@ -2,12 +2,15 @@
 """Shows a .glb in three.js, in a headless Chromium: an engine that is not ours."""
 import contextlib
 import json
+import os
 import pathlib
 
 import pytest
 
-from conftest import chromium
+from conftest import ROOT, chromium
 
+MODULES = pathlib.Path(os.environ.get("THRONG_NODE_MODULES", ROOT / "build" / "node" / "node_modules"))
+TEXTURES = ROOT / "docs" / "examples" / "textures"
 PAGE = """
 <!doctype html><meta charset="utf-8"><style>body {margin: 0}</style>
 <script type="importmap">{"imports": {"three": "/three/build/three.module.js",
@@ -20,15 +23,16 @@ const renderer = new THREE.WebGLRenderer({antialias: true, preserveDrawingBuffer
 renderer.setSize(innerWidth, innerHeight);
 renderer.shadowMap.enabled = true;
 document.body.append(renderer.domElement);
-const scene = new THREE.Scene(), camera = new THREE.PerspectiveCamera(40, innerWidth / innerHeight, 0.1, 400);
+const scene = new THREE.Scene(), camera = new THREE.PerspectiveCamera(35, innerWidth / innerHeight, 0.1, 400);
 scene.background = new THREE.Color(0xb4c4d2);
 scene.add(new THREE.HemisphereLight(0xdfe8f2, 0x7c766c, 1.6));
 const sun = new THREE.DirectionalLight(0xfff1dc, 3);
-sun.position.set(14, 22, 10);
+sun.position.set(-14, 48, 26);
 sun.castShadow = true;
-sun.shadow.mapSize.set(2048, 2048);
-sun.shadow.normalBias = 0.03;
-Object.assign(sun.shadow.camera, {left: -16, right: 16, top: 16, bottom: -16, far: 80});
+sun.shadow.mapSize.set(4096, 4096);
+sun.shadow.bias = -0.001;
+sun.shadow.normalBias = 0.06;
+Object.assign(sun.shadow.camera, {left: -40, right: 40, top: 40, bottom: -40, far: 140});
 scene.add(sun);
 const loader = new GLTFLoader();
 loader.setMeshoptDecoder(MeshoptDecoder);
@@ -38,8 +42,7 @@ window.load = async name => {
     scene.add(gltf.scene);
     gltf.scene.traverse(node => {
         node.frustumCulled = false;
-        node.castShadow = Boolean(node.isSkinnedMesh || node.isInstancedMesh);
-        node.receiveShadow = Boolean(node.isMesh);
+        node.castShadow = node.receiveShadow = Boolean(node.isMesh);
     });
     mixer = new THREE.AnimationMixer(gltf.scene);
     for (const each of gltf.animations) mixer.clipAction(each).play();
@@ -93,30 +96,60 @@ def need_three(modules: pathlib.Path) -> None:
 
 
 @contextlib.contextmanager
-def page_of(playwright, files: dict[str, pathlib.Path], modules: pathlib.Path, size=(320, 200)):
-    """A page with three.js that answers load(file), at(seconds), look(from, to), draw(), points(node), instances()."""
-    def answer(route):
-        path = route.request.url.partition("//throng.test")[2]
-        if path == "/":
-            return route.fulfill(content_type="text/html", body=PAGE)
-        if path.startswith("/files/"):
-            return route.fulfill(path=files[path[7:]], content_type="application/octet-stream")
-        if path.startswith("/three/"):
-            return route.fulfill(path=modules / path[1:], content_type="text/javascript")
-        return route.fulfill(status=404)
-
+def opened(playwright, answer, address, size):
+    """A page in Chromium, whose requests answer(route, path) answers; `wrong` has what the browser complains of."""
     with playwright.sync_playwright() as player:
         browser = player.chromium.launch(executable_path=chromium(), args=[
             "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"])
         page = browser.new_page(viewport={"width": size[0], "height": size[1]})
+        page.set_default_timeout(120_000)  # on busy machines
         page.wrong = []
         page.on("console", lambda said: page.wrong.append(said.text) if said.type in ("error", "warning") else None)
         page.on("pageerror", lambda error: page.wrong.append(str(error)))
-        page.route("**/*", answer)
-        page.goto("http://throng.test/")
-        page.wait_for_function("window.ready === true", timeout=60_000)
+        page.route("**/*", lambda route: answer(route, route.request.url.partition("://")[2].partition("?")[0]))
+        page.goto(address)
         yield page
         browser.close()
+
+
+def answer_file(route, path: pathlib.Path):
+    kinds = {".html": "text/html", ".js": "text/javascript", ".json": "application/json"}
+    route.fulfill(path=path, content_type=kinds.get(path.suffix, "application/octet-stream"))
+
+
+@contextlib.contextmanager
+def page_of(playwright, files: dict[str, pathlib.Path], modules: pathlib.Path, size=(320, 200)):
+    """A page with three.js that answers load(file), at(seconds), look(from, to), draw(), points(node), instances()."""
+    def answer(route, path):
+        path = path.removeprefix("throng.test")
+        if path == "/":
+            return route.fulfill(content_type="text/html", body=PAGE)
+        if path.startswith("/files/"):
+            return answer_file(route, files[path[7:]])
+        if path.startswith("/three/"):
+            return answer_file(route, modules / path[1:])
+        return route.fulfill(status=404)
+
+    with opened(playwright, answer, "http://throng.test/", size) as page:
+        page.wait_for_function("window.ready === true", timeout=120_000)
+        yield page
+
+
+@contextlib.contextmanager
+def textures_page(playwright, folder: pathlib.Path, modules: pathlib.Path, size=(320, 200)):
+    """The page of docs/examples/textures, which shows a folder of vertex animation textures: `crowd` in it has
+    look(from, to) and draw(seconds)."""
+    def answer(route, path):
+        path = path.removeprefix("throng.test/")
+        if path.startswith("node_modules/"):
+            return answer_file(route, modules / path.removeprefix("node_modules/"))
+        if path.startswith("files/"):
+            return answer_file(route, folder / path[6:])
+        return answer_file(route, TEXTURES / path) if path else route.fulfill(status=404)
+
+    with opened(playwright, answer, "http://throng.test/index.html?crowd=files&at=0", size) as page:
+        page.wait_for_function("window.crowd !== undefined", timeout=120_000)
+        yield page
 
 
 def call(page, function, *arguments):

@@ -63,7 +63,7 @@ def described(layout, problem):
     owner = ""
     if problem.target:
         owner = problem.target.name
-    elif problem.where in ("flows", "behaviours") and problem.index < len(getattr(layout, problem.where)):
+    elif problem.where in ("flows", "behaviours", "given") and problem.index < len(getattr(layout, problem.where)):
         owner = getattr(layout, problem.where)[problem.index].name
     about = " ".join([owner] + problem.pointer.split("/")[3:]).strip()
     return f"{about}: {problem.message}" if about else problem.message
@@ -80,6 +80,8 @@ def show(context, problem):
         layout.active_event = problem.index
     elif problem.where == "behaviours":
         layout.active_behaviour = problem.index
+    elif problem.where == "given":
+        layout.active_given = problem.index
 
 
 def _complain(context, message, target=None, pointer=""):

@@ -7,13 +7,13 @@ import os
 import bpy
 
 from ..formats.whole_files import write_whole
-from . import behaviours, fields, places
+from . import behaviours, fields, given, places
 from .codecs import take_all
 from .geometry import AuthoringError, outlines_of, people_of, splines_of
 from .values import MISSING, are_points, is_number, is_point, keep_points, short, world_point
 
 LISTS = {"ROAD": "roads", "AREA": "areas", "WALL": "walls", "PATCH": "patches", "FORMATION": "formations"}
-LISTED = ("roads", "areas", "walls", "patches", "behaviours", "flows", "formations", "events")
+LISTED = ("roads", "areas", "walls", "patches", "behaviours", "flows", "formations", "events", "given")
 
 
 def origin_of(scene):
@@ -41,6 +41,8 @@ class ExportWorld:
     def __init__(self, scene):
         self.origin = origin_of(scene)
         self.tolerance = scene.throng_layout.tolerance
+        source = bpy.path.abspath(scene.throng_layout.source)
+        self.folder = os.path.dirname(source) if source else None
         self._names = {}
         # Those of places in the layout that was imported, and what they are called now.
         # Copies have what they were copied from in mind, and do not count.
@@ -71,6 +73,10 @@ class ExportWorld:
             name = id_of(thing)
             self._names[thing] = thing.name if name is None else name
         return self._names[thing]
+
+    def file(self, path):
+        """One that the layout names, chosen in Blender."""
+        return given.from_folder(bpy.path.abspath(path) if path.startswith("//") else path, self.folder)
 
     def place(self, thing, end):
         return f"{self.name(thing)}:{end}" if thing.throng_layout.kind == "ROAD" else self.name(thing)
@@ -240,7 +246,8 @@ def export_layout(context):
                 sources[f"/{key}/{len(lists[key])}"] = (thing, "", -1)
                 lists[key].append(entry)
     for key, group, take in (("behaviours", layout.behaviours, behaviours.take_behaviour),
-                             ("flows", layout.flows, places.take_flow), ("events", layout.events, places.take_event)):
+                             ("flows", layout.flows, places.take_flow), ("events", layout.events, places.take_event),
+                             ("given", layout.given, given.take_given)):
         for index, item in enumerate(group):
             sources[f"/{key}/{index}"] = (None, key, index)
             lists[key].append(take(item, world))
@@ -273,9 +280,7 @@ def write_text(path, text):
 def folder_of_files(scene, document):
     """The folder where files that a layout names are looked for; None when it names none, or came from nowhere."""
     source = bpy.path.abspath(scene.throng_layout.source)
-    given = document.get("given")
-    named = "terrain" in document or any(isinstance(each, dict) and "file" in each
-                                         for each in (given if isinstance(given, list) else ()))
+    named = "terrain" in document or any("file" in each for each in document.get("given", ()))
     return os.path.dirname(source) if source and named else None
 
 

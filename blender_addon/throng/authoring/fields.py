@@ -12,7 +12,7 @@ _FIRST = ("duration", "warmup", "fps", "substeps", "seed", "avoid_congestion", "
 _BEGINNINGS = {
     "flow": {"count": 100, "rate": 1.0, "end": 60.0}, "event": {"at": 0.0, "rate": 1.0},
     "formation": {"radius": 10.0, "count": 64, "ring_spacing": 1.5, "along": 1.5, "rows": 8, "columns": 8},
-    "patch": {"cost": 3.0, "until": 60.0}, "bar": {"min": 0.0, "max": 0.0},
+    "patch": {"cost": 3.0, "until": 60.0}, "bar": {"min": 0.0, "max": 0.0}, "given": {"fps": 25.0},
 }
 
 
@@ -102,6 +102,9 @@ PATCH = (Optional(_codec("patch", "cost")), _codec("patch", "pace"), _codec("pat
          Optional(_codec("patch", "until", "ends")))
 
 FLOW = (_codec("flow", "start"), Optional(_codec("flow", "end")), Nested("people", PEOPLE), _codec("flow", "arrival"))
+
+GIVEN_FPS = Optional(_codec("given", "fps"))
+GIVEN = (_codec("given", "start"), Nested("people", PEOPLE))
 
 STOP = _codecs("stop", "wait", "activity", "spacing")
 

@@ -6,7 +6,7 @@ import os
 
 import bpy
 
-from . import behaviours, codecs, display, fields, geometry, places
+from . import behaviours, codecs, display, fields, geometry, given, places
 from .exporter import LISTED, LISTS, parts_of
 from .geometry import AuthoringError
 from .values import MISSING, are_points, is_number, is_point
@@ -195,7 +195,7 @@ def clear(scene):
         else:
             bpy.data.objects.remove(thing)
     layout = scene.throng_layout
-    for group in (layout.behaviours, layout.flows, layout.events, layout.bars, layout.problems):
+    for group in (layout.behaviours, layout.flows, layout.events, layout.given, layout.bars, layout.problems):
         group.clear()
     for name in ("raw", "source", "origin", "name"):
         setattr(layout, name, "")
@@ -214,7 +214,8 @@ def layout_collection(scene):
 
 def is_empty(scene):
     layout = scene.throng_layout
-    return not (authored(scene) or len(layout.behaviours) or len(layout.flows) or len(layout.events))
+    return not (authored(scene) or len(layout.behaviours) or len(layout.flows) or len(layout.events)
+                or len(layout.given))
 
 
 def import_layout(context, path, replace=False):
@@ -239,6 +240,8 @@ def import_layout(context, path, replace=False):
             places.put_flow(layout.flows.add(), flow, world)
         for event in document.get("events", []):
             places.put_event(layout.events.add(), event, world)
+        for entry in document.get("given", []):
+            given.put_given(layout.given.add(), entry, world)
         places.put_expect(layout, document.get("expect", MISSING), world)
     for thing in things:
         display.refresh(thing)

@@ -256,13 +256,14 @@ class THRONG_OT_list(bpy.types.Operator):
 
 
     def _name(self, group, added):
-        """Behaviours and states are spoken of by name, and a behaviour begins with its first state."""
+        """Behaviours, states and given people have names, and a behaviour begins with its first state."""
         what = self.where.rpartition(".")[2]
         if what == "conditions":
             added.kind = added.kind  # one that the rule has not yet
-        if what not in ("behaviours", "states"):
+        words = {"behaviours": "Behaviour", "states": "State", "given": "Given"}
+        if what not in words:
             return
-        names, word = {each.name for each in group}, what[:-1].capitalize()
+        names, word = {each.name for each in group}, words[what]
         added.name = next(name for name in (f"{word} {number}" for number in range(len(group), 2**30))
                           if name not in names)
         if what == "states" and len(group) == 1:

@@ -3,6 +3,7 @@
 import textwrap
 
 from .bake_operator import described
+from .codecs import MIX
 
 _A = {"NUMBER": ("Value",), "uniform": ("From", "To"), "normal": ("Mean", "Deviation"),
       "log_normal": ("Mean of log", "Deviation of log")}
@@ -121,3 +122,18 @@ def list_of(layout, data, name, active, kind, add=None, owner=""):
     items = getattr(data, name)
     index = getattr(data, active)
     return items[index] if 0 <= index < len(items) else None
+
+
+def people(layout, who_):
+    """Who they are."""
+    distribution(layout, who_, "speed")
+    distribution(layout, who_, "radius")
+    for name, weights in (("profile", "profile_weights"), ("groups", "group_weights")):
+        layout.prop(who_, name)
+        if getattr(who_, name) == MIX:
+            layout.prop(who_, weights, text="")
+    layout.prop(who_, "look")
+    row = layout.row(align=True)
+    row.prop(who_, "maximum_speed_factor")
+    row.prop(who_, "headway")
+    distribution(layout, who_, "reaction")

@@ -7,23 +7,10 @@ import bpy
 from ..blender.panels import InSidebar
 from . import fields
 from .bake_operator import running
-from .codecs import MIX, UNSET
-from .panel_parts import change, destination, distribution, letters, list_of, optional, order, place, problems_of, who
+from .codecs import UNSET
+from .panel_parts import (
+    change, destination, distribution, letters, list_of, optional, order, people, place, problems_of, who)
 from .values import MISSING
-
-
-def _people(layout, people):
-    distribution(layout, people, "speed")
-    distribution(layout, people, "radius")
-    for name, weights in (("profile", "profile_weights"), ("groups", "group_weights")):
-        layout.prop(people, name)
-        if getattr(people, name) == MIX:
-            layout.prop(people, weights, text="")
-    layout.prop(people, "look")
-    row = layout.row(align=True)
-    row.prop(people, "maximum_speed_factor")
-    row.prop(people, "headway")
-    distribution(layout, people, "reaction")
 
 
 class VIEW3D_PT_throng_layout(InSidebar, bpy.types.Panel):
@@ -82,7 +69,7 @@ class VIEW3D_PT_throng_layout(InSidebar, bpy.types.Panel):
         distribution(box, formation, "wait")
         box.prop(formation, "arrival")
         box.prop(formation, "goal_tolerance")
-        _people(box.column(), formation.people)
+        people(box.column(), formation.people)
 
 
 class THRONG_UL_flows(bpy.types.UIList):
@@ -126,7 +113,7 @@ class VIEW3D_PT_throng_flows(InSidebar, bpy.types.Panel):
         layout.prop(flow, "arrival")
         if not flow.behaviour:
             self._stops(layout, flow, where)
-        _people(layout.box().column(), flow.people)
+        people(layout.box().column(), flow.people)
 
     @staticmethod
     def _stops(layout, flow, where):

@@ -174,6 +174,23 @@ class ThrongFormation(bpy.types.PropertyGroup):
     behaviour: StringProperty(name="Behaviour", description="In place of where they go")
 
 
+class ThrongGiven(bpy.types.PropertyGroup):
+    """People whose ways are given."""
+
+    name: StringProperty(name="Name")
+    raw: StringProperty(options={"HIDDEN"})
+    source: EnumProperty(name="Ways", items=[
+        ("FILE", "File", "Trajectories: CSV, the archive of Juelich, a JuPedSim database, or a bake's folder"),
+        ("WAYS", "As Loaded", "The points that the layout tells")])
+    file: StringProperty(name="File", subtype="FILE_PATH", description="Trajectories; a name alone lies beside the "
+                                                                       "layout that was imported")
+    use_fps: BoolProperty(name="Frame Rate", description="Of a file that has frames and does not say so itself")
+    fps: FloatProperty(name="Frame Rate", **limits("given", "fps"), description="Frames a second")
+    start: FloatProperty(name="Start", **limits("given", "start"), description="Added to all times, s")
+    offset: FloatVectorProperty(name="Offset", size=2, subtype="XYZ", description="Added to all places, m")
+    people: PointerProperty(type=ThrongPeople)
+
+
 class ThrongPatch(bpy.types.PropertyGroup):
     use_cost: BoolProperty(name="Cost", default=True, description="Otherwise as much as being slow there costs")
     cost: FloatProperty(name="Cost", **limits("patch", "cost"),
@@ -261,6 +278,8 @@ class ThrongScene(bpy.types.PropertyGroup):
     active_event: IntProperty()
     behaviours: CollectionProperty(type=ThrongBehaviour)
     active_behaviour: IntProperty()
+    given: CollectionProperty(type=ThrongGiven)
+    active_given: IntProperty()
     bars: CollectionProperty(type=ThrongBar)
     expect_line: PointerProperty(type=bpy.types.Object, name="Line", poll=is_kind("LINE"),
                                  description="Where people are counted for the bar on flow")
@@ -289,8 +308,8 @@ class ThrongScene(bpy.types.PropertyGroup):
 
 
 CLASSES = (*common_properties.CLASSES, *behaviour_properties.CLASSES, ThrongPeople, ThrongStop, ThrongFlow,
-           ThrongEvent, ThrongBar, ThrongFormation, ThrongPatch, ThrongObject, ThrongSimulation, *_RULES.values(),
-           ThrongMotion, ThrongProblem, ThrongScene)
+           ThrongEvent, ThrongBar, ThrongFormation, ThrongGiven, ThrongPatch, ThrongObject, ThrongSimulation,
+           *_RULES.values(), ThrongMotion, ThrongProblem, ThrongScene)
 
 _register_classes, _unregister_classes = bpy.utils.register_classes_factory(CLASSES)
 

@@ -106,7 +106,9 @@ def _skin(bodies, shape, level, style, scale, ring):
         thick = thick * (1.0 + size * numpy.sin(piece.places[:, :3] * often + (0.0, 1.0, 2.0)).sum(axis=1))
     points = piece.points + piece.normals * (thick * scale)[:, None]
     strands = numpy.stack([regions.angle_of(piece.places) / 12.0, piece.places[:, regions.Z] * 5.0], axis=1)
-    found = replace(piece.moved(smoothed(points, piece.faces, 1, 0.3)), flat=strands)
+    if level < 2:  # so few points would be drawn into the head
+        points = smoothed(points, piece.faces, 1, 0.3)
+    found = replace(piece.moved(points), flat=strands)
     if level < 0:  # the third number of the pattern
         found.places[:, regions.X] = numpy.clip((above + 0.4 * _EDGE) / _EDGE, 0.0, 1.0)
     return found

@@ -63,11 +63,11 @@ def to_gltf(given: argparse.Namespace) -> None:
 
 
 def to_kit(given: argparse.Namespace) -> None:
-    export_kit(Bake(given.bake), given.output, wanted_of(given), form_of(given, LEVELS))
+    export_kit(Bake(given.bake), given.output, wanted_of(given), form_of(given, LEVELS), not given.no_ground)
 
 
 def to_vat(given: argparse.Namespace) -> None:
-    export_vat(Bake(given.bake), given.output, wanted_of(given), given.level, given.texture)
+    export_vat(Bake(given.bake), given.output, wanted_of(given), given.level, given.texture, not given.no_ground)
 
 
 def import_scene(given: argparse.Namespace) -> None:
@@ -117,7 +117,6 @@ def parser() -> argparse.ArgumentParser:
     form_options(command)
     command.add_argument("--others", action="store_true",
                          help="who has no skeleton is an instance that stands still (EXT_mesh_gpu_instancing)")
-    command.add_argument("--no-ground", action="store_true", help="without ground, roads and walls")
     command = of_bake(commands, "export-kit", "write members of the cast with clips as glTF, and a table of who plays "
                       "which of them where", to_kit, "the folder to write")
     people_options(command)
@@ -149,6 +148,7 @@ def people_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--seconds", type=finite, nargs=2, metavar=("A", "B"), help="only from one moment to another")
     command.add_argument("--members", type=positive, default=MOST_MEMBERS, metavar="N",
                          help=f"of N different people at most (1 to {MOST_MEMBERS})")
+    command.add_argument("--no-ground", action="store_true", help="without ground, roads, walls, vehicles and lifts")
 
 
 def form_options(command: argparse.ArgumentParser) -> None:

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What moves besides people: vehicles with their wheels and doors, cabins of lifts and the doors of their stops.
-Metres; a thing's own x is where it looks, and z is up."""
+"""What moves besides people: vehicles with their wheels and doors, cabins of lifts and the doors of their stops,
+signals. Metres; a thing's own x is where it looks, and z is up."""
 from __future__ import annotations
 
-import dataclasses
 import math
 from typing import Any
 
@@ -12,6 +11,8 @@ import shapely
 
 from ..base.errors import BakeError
 from .bake import Bake
+from .shapes import Faces, Moving, Part, Shape
+from .signals import signals_of
 from .surroundings import prism
 
 SIDES = 16                                     # of a wheel
@@ -25,42 +26,11 @@ COLOURS = {"bus": (0.35, 0.04, 0.03), "tram": (0.58, 0.51, 0.31), "bicycle": (0.
 _X, _Y, _Z, _HEADING, _SPEED, _ALONG, _STATE, _BRAKING = range(8)
 _HEIGHT, _OPEN, _ABOARD, _STOP = range(4)
 
-Faces = list[list[int]]
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class Shape:
-    """What several may share."""
-    name: str
-    points: numpy.ndarray      # V x 3
-    faces: Faces
-    colour: tuple[float, float, float]  # linear
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class Part:
-    """A shape on a thing. What is None does not change."""
-    name: str
-    shape: Shape
-    places: numpy.ndarray      # 3, or F x 3 of what slides
-    rolls: numpy.ndarray | None = None   # F, rad about its own y
-    broad: numpy.ndarray | None = None   # F, along its own y: of what folds
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class Moving:
-    """Of F frames."""
-    kind: str                  # "Vehicles" or "Lifts"
-    name: str
-    places: numpy.ndarray      # F x 3
-    headings: numpy.ndarray    # F, rad
-    there: numpy.ndarray       # F
-    parts: list[Part]
-
 
 def moving_things(bake: Bake, frames: numpy.ndarray) -> list[Moving]:
     """All that are ever there in some frames."""
-    return [each for each in _vehicles(bake, frames) + _lifts(bake, frames) if each.there.any()]
+    return [each for each in _vehicles(bake, frames) + _lifts(bake, frames) + signals_of(bake, frames)
+            if each.there.any()]
 
 
 def _track(bake: Bake, name: str, columns: int) -> tuple[numpy.ndarray, list[dict[str, Any]]] | None:
@@ -129,7 +99,8 @@ def _body(what: dict[str, Any], shapes: dict[tuple, Shape]) -> list[Part]:
     kind, length, width, height = what["kind"], what["length"], what["width"], what["height"]
     size, middle = (kind, length, width, height), numpy.zeros(3)
     if kind == "bicycle":
-        solid = [_hull(1.1, 0.08, 0.32, 0.9), _hull(0.34, 0.42, 0.9, 1.5), _hull(0.22, 0.2, 1.52, height)]
+        solid = [_hull(1.1, 0.06, 0.5, 0.6), _hull(0.36, 0.34, 0.4, 0.95), _hull(0.34, 0.42, 0.95, 1.5),
+                 _hull(0.22, 0.2, 1.52, height)]
         return [Part("body", _shared(shapes, size, lambda: Shape(kind, *_together(solid), COLOURS[kind])), middle)]
     is_car = kind == "car"
     body = _shared(shapes, size, lambda: Shape(kind, *_hull(length, width, 0.25, 0.92 if is_car else height),

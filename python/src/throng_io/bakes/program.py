@@ -20,11 +20,12 @@ from .bake import Bake
 Layout = dict[str, Any] | str | os.PathLike
 Progress = Callable[[dict[str, Any]], None]
 INVALID, STOPPED = 3, 85
+INSIDE = pathlib.Path(__file__).parents[1] / "bin" / "throng"  # in wheels that carry it
 
 
 def find_program(program: str | os.PathLike | None = None) -> str:
-    """The program: as given, that of THRONG_BINARY, or the one on the path."""
-    wanted = program or os.environ.get("THRONG_BINARY") or "throng"
+    """The program: as given, that of THRONG_BINARY, the one in this package, or the one on the path."""
+    wanted = program or os.environ.get("THRONG_BINARY") or (INSIDE if INSIDE.exists() else "throng")
     found = shutil.which(os.fspath(wanted))
     if not found:
         raise ThrongError(f"the program {os.fspath(wanted)!r} is not there",

@@ -13,17 +13,18 @@ import shapely
 import shapely.geometry
 
 from ..base.errors import BakeError
-from ..base.geometry import area_shape, polygons, road_shape, wall_shape
+from ..base.geometry import area_shape, polygons, road_shape, stripes, wall_shape, way_beside
 from ..cast import seat_rows
 from .bake import Bake
 
 GROUND_MARGIN = 2.0           # m round everything
 ROAD_HEIGHT = 0.005           # m over the ground, so that they do not fight for the same pixels
 LANE_HEIGHT = 0.003           # m, likewise
+STRIPE_HEIGHT, STRIPE = 0.01, 0.5  # m: over the ground, and how wide a zebra's stripes are
 ABOVE = 0.0002                # m
 GREY = {"walls": (0.55, 0.55, 0.53), "ground": (0.32, 0.33, 0.32), "roads": (0.42, 0.42, 0.41),
-        "lanes": (0.09, 0.09, 0.1), "crossings": (0.4, 0.4, 0.37), "stands": (0.28, 0.28, 0.27),
-        "seats": (0.04, 0.1, 0.23)}
+        "lanes": (0.09, 0.09, 0.1), "crossings": (0.09, 0.09, 0.1), "stripes": (0.6, 0.6, 0.57),
+        "stands": (0.28, 0.28, 0.27), "seats": (0.04, 0.1, 0.23)}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -49,7 +50,7 @@ def things_of(bake: Bake) -> list[Thing]:
     found += [each for number, block in enumerate(told.get("seats", ()))
               for each in _stand_of(number, block, origin)]
     if about.get("terrain"):
-        found.append(_terrain_of(about["terrain"], bake.folder))
+        found.append(terrain_of(bake))
     else:
         found += _flat_ground(about, told, origin)
     return [thing for thing in found if len(thing.points)]
@@ -64,13 +65,23 @@ def _flat_ground(about: dict[str, Any], told: dict[str, Any], origin: numpy.ndar
              + [("lane", road_shape({"centreline": lane["points"], "width": lane["width"]}), LANE_HEIGHT, "lanes",
                  lane.get("id")) for lane in traffic.get("lanes", ())]
              + [("crossing", area_shape(each), ROAD_HEIGHT, "crossings", each.get("id"))
-                for each in traffic.get("crossings", ())])
+                for each in traffic.get("crossings", ())]
+             + [("stripes", _stripes(area_shape(each), traffic.get("lanes", ())), STRIPE_HEIGHT, "stripes",
+                 each.get("id")) for each in traffic.get("crossings", ())])
     numbers: dict[str, int] = {}
     for kind, shape, height, colour, name in flats:
         numbers[kind] = numbers.get(kind, -1) + 1
         points, faces = flat(shape, height + ABOVE * numbers[kind])  # each of them, too, where they cross
         found.append(Thing(f"Ground/{kind}{numbers[kind]}", points - origin, faces, GREY[colour], name))
     return found
+
+
+def _stripes(crossing: shapely.Geometry, lanes) -> shapely.Geometry:
+    """Along the nearest lane, as vehicles go."""
+    middle = crossing.centroid
+    near = min(lanes, key=lambda lane: shapely.LineString(lane["points"]).distance(middle), default=None)
+    way = way_beside(near["points"], (middle.x, middle.y))[1] if near else (1.0, 0.0)
+    return stripes(crossing, way, STRIPE)
 
 
 def _joined(faces: list[list[tuple[float, float, float]]]) -> tuple[numpy.ndarray, list[list[int]]]:
@@ -96,9 +107,9 @@ def _stand_of(number: int, block: dict, origin: numpy.ndarray) -> list[Thing]:
             for kind, colour, (points, faces) in kinds if faces]
 
 
-def _terrain_of(told: dict[str, Any], folder: pathlib.Path) -> Thing:
+def terrain_of(bake: Bake) -> Thing:
     """The mesh of terrain.glb, which `throng` writes: places of 3 float32 and triangles; y is up in it."""
-    path = folder / pathlib.PurePosixPath(str(told.get("file"))).name
+    path = bake.folder / pathlib.PurePosixPath(str(bake.about["terrain"].get("file"))).name
     try:
         data = path.read_bytes()
         text = struct.unpack_from("<I", data, 12)[0]

@@ -2,9 +2,11 @@
 """What stands and lies on the ground, as Shapely geometry."""
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 
 import shapely
+import shapely.affinity
 
 ROUND_ENDS = 8  # segments a quarter of a circle
 
@@ -23,6 +25,28 @@ def road_shape(road: dict) -> shapely.Geometry:
 
 def area_shape(area: dict) -> shapely.Geometry:
     return shapely.make_valid(shapely.Polygon(area["polygon"]))
+
+
+def way_beside(points, place) -> tuple[tuple[float, float], tuple[float, float]]:
+    """(the nearest place on a polyline, where it leads there)"""
+    line = shapely.LineString(points)
+    along = min(max(line.project(shapely.Point(place[:2])), 1e-3), line.length - 1e-3)
+    here, ahead = (line.interpolate(along + step) for step in (-1e-3, 1e-3))
+    length = here.distance(ahead)
+    at = line.interpolate(along)
+    return (at.x, at.y), ((ahead.x - here.x) / length, (ahead.y - here.y) / length)
+
+
+def stripes(crossing: shapely.Geometry, way: tuple[float, float], wide: float) -> shapely.Geometry:
+    """Of a zebra: bands along the way, as far apart as they are wide."""
+    turned = shapely.affinity.rotate(crossing, -math.atan2(way[1], way[0]), origin=(0.0, 0.0), use_radians=True)
+    low, start, high, end = turned.bounds
+    bands = [shapely.box(low, at, high, at + wide) for at in (
+        start + wide * (0.5 + 2.0 * number) for number in range(int((end - start) / (2.0 * wide)) + 1))
+        if at + wide <= end + 1e-6]
+    back = shapely.affinity.rotate(shapely.union_all(bands), math.atan2(way[1], way[0]), origin=(0.0, 0.0),
+                                   use_radians=True)
+    return back.intersection(crossing)
 
 
 def named(things: Iterable[dict], kind: str, shape) -> dict[str, shapely.Geometry]:

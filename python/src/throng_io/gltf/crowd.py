@@ -72,6 +72,13 @@ def export_gltf(bake: Bake, path: str | os.PathLike, wanted: Wanted = Wanted(), 
     return Written(people, stand, len(crowd.shot.nearest) - people - stand)
 
 
+def write_surroundings(path: str | os.PathLike, shot: Shot, form: Form = Form()) -> None:
+    """All that is not a person, in a file of its own."""
+    around = Crowd(shot, form)
+    around.surroundings()
+    around.finish(path)
+
+
 class Crowd:
     def __init__(self, shot: Shot, form: Form):
         self.shot, self.form = shot, form
@@ -124,7 +131,8 @@ class Crowd:
         self._goes(root, row, times, shown)
         self._is_there(root, there, float(self.shot.sizes[row]))
         member = figure.member
-        track = track_of(row, self.shot.frames[there] + 1, shown)
+        track = track_of(row, self.shot.frames[there] + 1, shown, float(self.shot.sizes[row]),
+                         self.shot.ground)
         joints = joints_of(bent(member, self.shot.repertoire, track), member.places, member.parents)
         self.moves.joints(nodes, beside_those_above(member.places, member.parents), times, joints)
 

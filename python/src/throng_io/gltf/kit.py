@@ -18,13 +18,14 @@ from ..skinned.members import LEVELS, Member
 from ..skinned.motions import joints_of
 from ..skinned.shot import Shot, Wanted
 from . import placements
-from .crowd import Form
+from .crowd import Form, write_surroundings
 from .document import Document
 from .figures import Figure
 from .meshes import Colour, Meshes
 from .moves import Moves, beside_those_above
 
 ALL_LEVELS = Form(LEVELS)
+SURROUNDINGS = "surroundings.glb"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -34,8 +35,9 @@ class Written:
     frames: int
 
 
-def export_kit(bake: Bake, folder: str | os.PathLike, wanted: Wanted = Wanted(), form: Form = ALL_LEVELS) -> Written:
-    """The folder must not be there yet."""
+def export_kit(bake: Bake, folder: str | os.PathLike, wanted: Wanted = Wanted(), form: Form = ALL_LEVELS,
+               ground: bool = True) -> Written:
+    """The folder must not be there yet. @param ground with what people walk among, in a file of its own"""
     form.check()
     shot = Shot(bake, wanted)
     clips, numbers = shot.clips, shot.members
@@ -43,6 +45,8 @@ def export_kit(bake: Bake, folder: str | os.PathLike, wanted: Wanted = Wanted(),
         (beside / "members").mkdir()
         for number in numbers:
             write_member(beside / "members" / f"member{number:02d}.glb", number, shot, clips, form)
+        if ground:
+            write_surroundings(beside / SURROUNDINGS, shot, form)
         write_table(beside, shot, clips, {number: f"members/member{number:02d}.glb" for number in numbers})
     return Written(len(shot.rows), len(numbers), len(shot.frames))
 
@@ -50,6 +54,8 @@ def export_kit(bake: Bake, folder: str | os.PathLike, wanted: Wanted = Wanted(),
 def write_table(folder: pathlib.Path, shot: Shot, clips: list[Clip], files: dict[int, str], **more) -> None:
     """crowd.json and crowd.bin. @param files of members"""
     told = placements.told(shot, shot.rows, clips)
+    if (folder / SURROUNDINGS).exists():
+        told["surroundings"] = SURROUNDINGS
     told["members"] = [{"member": number, "file": file, "look": shot.roles[number].look,
                         "profile": shot.roles[number].profile} for number, file in files.items()]
     (folder / "crowd.json").write_text(json.dumps(told | more, indent=1, allow_nan=False) + "\n", encoding="utf-8")

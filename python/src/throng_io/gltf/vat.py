@@ -17,8 +17,9 @@ from ..skinned.members import LEVELS, Member
 from ..skinned.posed import posed
 from ..skinned.shot import Shot, Wanted
 from . import axes, textures
+from .crowd import write_surroundings
 from .document import Document
-from .kit import top_of, write_table
+from .kit import SURROUNDINGS, top_of, write_table
 from .meshes import ALL16, Meshes, Shaped, shaped
 
 WIDEST = 4096        # columns of a texture
@@ -60,8 +61,9 @@ class Layout:
 
 
 def export_vat(bake: Bake, folder: str | os.PathLike, wanted: Wanted = Wanted(), level: str = LEVELS[-1],
-               texture: str = "float") -> Written:
-    """The folder must not be there yet. @param texture one of textures.KINDS"""
+               texture: str = "float", ground: bool = True) -> Written:
+    """The folder must not be there yet. @param texture one of textures.KINDS; @param ground with what people walk
+    among, in a file of its own"""
     textures.check(texture)
     if level not in LEVELS:
         raise ThrongError(f"level: expected one of {', '.join(LEVELS)}, found {level!r}")
@@ -71,6 +73,8 @@ def export_vat(bake: Bake, folder: str | os.PathLike, wanted: Wanted = Wanted(),
         told = {}
         for number in numbers:
             told[number] = Animated(shot, number, LEVELS.index(level)).write(beside, clips, texture)
+        if ground:
+            write_surroundings(beside / SURROUNDINGS, shot)
         write_table(beside, shot, clips, {number: f"member{number:02d}.glb" for number in numbers},
                     textures={"kind": texture, "members": told})
     return Written(len(shot.rows), len(numbers), 2 * len(numbers) * len(clips))

@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How trunks turn and lean and heads look, as a bake's streams say, on top of the poses: as the add-on bends people
-near the camera (blender_addon/throng/crowd/trunks.py and heads.py), as numbers."""
+"""How legs follow held feet, trunks turn and lean and heads look, as a bake's streams say, on top of the poses:
+as the add-on bends people near the camera (blender_addon/throng/crowd/trunks.py and heads.py), as numbers."""
 from __future__ import annotations
 
 import numpy
 
 from ..cast import Repertoire
 from ..people.turns import turn, turned
+from . import legs
 from .members import Member
-from .motions import Track, matrices_of
+from .motions import Track, matrices_of, stances_of
 
 NECK_TURNS = 0.4               # of a head's yaw
 # Bones that do less than what is above them, and those that do nothing.
@@ -24,6 +25,8 @@ def bent(member: Member, repertoire: Repertoire, track: Track) -> Array:
     """F x J x 3 x 4: where joints take what hangs on them."""
     names = [path.rpartition("/")[2] for path in member.joints]
     matrices = matrices_of(member.poses, repertoire, track)
+    if track.footing is not None:
+        matrices = legs.held(matrices, member.places, names, track.footing, stances_of(repertoire, track))
     if track.carriage is not None:
         matrices = _trunks(matrices, member.places, names, track.carriage)
     if track.attention is not None:
@@ -32,12 +35,15 @@ def bent(member: Member, repertoire: Repertoire, track: Track) -> Array:
 
 
 def box_of(member: Member, streams: list[str]) -> Array:
-    """2 x 3, round somebody in all poses, however turned and leant."""
-    if "carriage" not in streams:
-        return member.box
-    reach = float(numpy.hypot(*numpy.abs(member.box[:, :2]).max(axis=0))) + LEANS
-    low, high = member.box[:, 2]
-    return numpy.array([[-reach, -reach, low - 0.05], [reach, reach, high + 0.05]])
+    """2 x 3, round somebody in all poses, however turned and leant, and wherever feet are."""
+    box = member.box.copy()
+    if "carriage" in streams or legs.FEET[0] in streams:
+        reach = float(numpy.hypot(*numpy.abs(box[:, :2]).max(axis=0)))
+        reach += max(LEANS, legs.REACH if legs.FEET[0] in streams else 0.0)
+        box = numpy.array([[-reach, -reach, box[0, 2] - 0.05], [reach, reach, box[1, 2] + 0.05]])
+    if legs.GROUND in streams:
+        box += [[0.0, 0.0, -legs.SINKS_ON_SLOPES - legs.REACH], [0.0, 0.0, legs.REACH]]
+    return box
 
 
 def _end(matrices: Array, places: Array, joint: int) -> Array:

@@ -12,7 +12,9 @@ import numpy
 from ..bakes.bake import Bake
 from ..base.errors import ThrongError
 from ..people import palettes
+from .legs import FEET, GROUND
 
+MORE = ("carriage", "attention", *FEET, GROUND)  # streams, where a bake has them
 LARGEST = 4.0                 # times, that scales of a table may make people larger
 _COLOUR = re.compile("#[0-9a-fA-F]{6}")
 
@@ -41,7 +43,7 @@ def rows_by_nearness(bake: Bake, frames: numpy.ndarray, there: numpy.ndarray, ne
 
 def streams_of(bake: Bake, frames: numpy.ndarray, rows: list[int]) -> dict[str, numpy.ndarray]:
     """Those frames of those people, copied once."""
-    names = ["pos", "dir", "state", *(name for name in ("carriage", "attention") if name in bake.streams)]
+    names = ["pos", "dir", "state", *(name for name in MORE if name in bake.streams)]
     return {name: numpy.array(bake.stream(name)[frames][:, rows], dtype=float) for name in names}
 
 

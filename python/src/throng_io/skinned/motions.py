@@ -8,11 +8,15 @@ import dataclasses
 import numpy
 
 from ..cast import BEATS, POSES, Repertoire, gait, sitting
+from .ground import Ground
+from .legs import Footing, Stances, footing_of
 
 STANDS_BELOW = 0.03                    # m/s, where no stream tells how much of a walk is in a pose
 WALKS_FROM = 0.35
 FRAMES_A_ROUND = 80.0                  # of a standing clip
 STAYS_UNTIL = 0.67                     # share of a beat; in the rest of it people change to the next
+STANDS_WHERE = 0.3                     # share of a walk: as `throng bake --feet` has it
+LIFTED = 0.002                         # m
 GATHERS = 2                            # the activity of those who stand about
 
 Array = numpy.ndarray
@@ -27,6 +31,7 @@ class Track:
     speed: Array               # F, m/s
     carriage: Array | None = None   # F x 3: of that stream, where the bake has it
     attention: Array | None = None  # likewise
+    footing: Footing | None = None  # of feet that are held, and ground that slopes
 
     @property
     def walking(self) -> Array | None:
@@ -40,9 +45,12 @@ class Joints:
     translations: Array        # F x J x 3, m
 
 
-def track_of(row: int, times: Array, streams: dict[str, Array]) -> Track:
-    """@param streams of this person in these frames"""
-    return Track(row, times, streams["state"], streams["dir"][:, 2], streams.get("carriage"), streams.get("attention"))
+def track_of(row: int, times: Array, streams: dict[str, Array], size: float = 1.0,
+             ground: Ground | None = None) -> Track:
+    """@param streams of this person in these frames; @param size how much larger somebody is than others; @param ground
+    under the feet"""
+    return Track(row, times, streams["state"], streams["dir"][:, 2], streams.get("carriage"), streams.get("attention"),
+                 footing_of(streams, size, ground))
 
 
 def smooth(value: Array, low: float, high: float) -> Array:
@@ -81,6 +89,21 @@ def walks_of(repertoire: Repertoire, state: Array) -> Walks:
     gait, before = (numpy.clip(each - repertoire.first, 0, len(repertoire.strides) - 1).astype(int)
                     for each in (number, numpy.floor(rest)))
     return Walks(gait, before, smooth(rest % 1.0, 0.0, 1.0))
+
+
+def stances_of(repertoire: Repertoire, track: Track) -> Stances:
+    """Of who walks as the gait has them; of who stands both feet are down but for those that make a step. Who has a
+    seat has none."""
+    walks = walks_of(repertoire, track.state)
+    gaits = [gait.gait_of(stride) for stride in repertoire.strides]
+    first, flat_from, flat_until, stance = (numpy.array([getattr(each, name) for each in gaits])[walks.gait, None]
+                                            for name in ("down", "flat_from", "flat_until", "stance"))
+    since = (track.state[:, 2:] + [0.5, 0.0] - first) % 1.0
+    stands = (walking_of(track) < STANDS_WHERE)[:, None]
+    lifted = numpy.zeros(since.shape, bool) if track.footing is None else track.footing.moves[..., 2] > LIFTED
+    lifted |= (track.state[:, 0] > sitting.FIRST - 0.5)[:, None]
+    return Stances(((since >= flat_from) & (since < flat_until) | stands) & ~lifted,
+                   ((since < stance) | stands) & ~lifted)
 
 
 def _walk(poses: Array, repertoire: Repertoire, state: Array) -> Array:

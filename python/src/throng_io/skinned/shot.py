@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 import math
 
 import numpy
@@ -11,6 +12,7 @@ from ..bakes.bake import Bake
 from ..base.errors import ThrongError
 from . import chosen
 from .clips import Clip, clips_of
+from .ground import Ground
 from .members import MOST_MEMBERS, Member, bodies_of_library, cast_of, make_member, repertoire_of
 
 
@@ -74,6 +76,10 @@ class Shot:
     def members(self) -> list[int]:
         """Numbers of those whom the people who are written appear as."""
         return sorted({self.member_of[row] for row in self.rows})
+
+    @functools.cached_property
+    def ground(self) -> Ground | None:
+        return Ground.of(self.bake)
 
     def member(self, number: int) -> Member:
         if number not in self._made:

@@ -7,6 +7,8 @@ import numpy
 
 from ..bakes.moving import Moving, Part, Shape, moving_things
 
+SMALL = 1e-3  # times: who or what is not there is as small, too, for programs that show what is invisible for a time
+
 
 class MovingThings:
     """Written into a stage (crowd.Stage)."""
@@ -44,6 +46,7 @@ class MovingThings:
         if not thing.there.all():
             self._sampled(xform.CreateVisibilityAttr(), thing.there.astype(int),
                           lambda there: "inherited" if there else "invisible", steps=True)
+            self._sampled(xform.AddScaleOp(), numpy.where(thing.there, 1.0, SMALL), self.gf.Vec3f)
         for part in thing.parts:
             self._part(f"{path}/{part.name}", thing.kind, part)
 

@@ -13,9 +13,12 @@ from ..skinned.carried import bent, box_of
 from ..skinned.members import LEVELS, Member, Part
 from ..skinned.motions import joints_of, track_of
 from ..skinned.shot import Shot, Wanted
+from .moving import SMALL
 
 CROWD = "/World/Crowd"
 LEVEL_SET = "levelOfDetail"
+MEMBER_SET = "member"
+ANYBODY, WITH_STICK = f"{CROWD}/Members/anybody", f"{CROWD}/Members/anybody_with_stick"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -49,6 +52,7 @@ class SkeletonCrowd:
         for number in sorted({self.member_of[row] for row in self.rows}):
             members[number] = self.shot.member(number)
             self._member(number, members[number])
+        self._choices(members)
         self._box(crowd, members.values())
         streams = self.shot.streams(self.rows)
         with self.sdf.ChangeBlock():
@@ -59,7 +63,7 @@ class SkeletonCrowd:
     # ---- members
 
     def _member(self, number: int, member: Member) -> None:
-        path = f"{CROWD}/Members/member{number:02d}"
+        path = f"{CROWD}/Members/{_name(number)}"
         self.stage.CreateClassPrim(f"{CROWD}/Members")
         root = self.stage.CreateClassPrim(path)
         root.SetTypeName("SkelRoot")
@@ -82,6 +86,22 @@ class SkeletonCrowd:
                 for part, mesh in parts.items():
                     self._mesh(f"{path}/{part}", mesh)
         levels.SetVariantSelection(LEVELS[0])
+
+    def _choices(self, members: dict[int, Member]) -> None:
+        """Who one can be: a variant for each member with the same joints, so that everybody's motion fits all."""
+        for path in (ANYBODY, WITH_STICK):
+            able = [number for number, member in members.items() if _choice_of(member) == path]
+            if not able:
+                continue
+            root = self.stage.CreateClassPrim(path)
+            root.SetTypeName("SkelRoot")
+            choices = root.GetVariantSets().AddVariantSet(MEMBER_SET)
+            for number in able:
+                choices.AddVariant(_name(number))
+                choices.SetVariantSelection(_name(number))
+                with choices.GetVariantEditContext():
+                    root.GetReferences().AddInternalReference(f"{CROWD}/Members/{_name(number)}")
+            choices.SetVariantSelection(_name(able[0]))
 
     def _placed(self, places: numpy.ndarray):
         whole = numpy.tile(numpy.eye(4), (len(places), 1, 1))
@@ -130,7 +150,7 @@ class SkeletonCrowd:
         self._moved(path, row, codes[there], {name: each[there] for name, each in streams.items()})
         if not there.all():
             self._visibility(path, codes, there)
-        self._figure(f"{path}/figure", row, number)
+        self._figure(f"{path}/figure", row, number, member)
         self._motion(f"{path}/motion", row, member, codes[there],
                      {name: each[there] for name, each in streams.items()})
 
@@ -156,10 +176,19 @@ class SkeletonCrowd:
             self.layer.SetTimeSample(goes, code, self.gf.Vec3d(*place))
             self.layer.SetTimeSample(turns, code, turn)
         order, size = ["xformOp:translate", "xformOp:rotateZ"], float(self.sizes[row])
-        if size != 1.0:
-            self._attribute(path, "xformOp:scale", types.Float3, self.gf.Vec3f(size))
+        comes_and_goes = not self.there[:, row].all()
+        if size != 1.0 or comes_and_goes:
+            scale = self._attribute(path, "xformOp:scale", types.Float3, self.gf.Vec3f(size))
             order.append("xformOp:scale")
+        if comes_and_goes:
+            self._shrinks(scale, self.frames + 1, self.there[:, row], size)
         self._attribute(path, "xformOpOrder", types.TokenArray, self.vt.TokenArray(order), True)
+
+    def _shrinks(self, scale, codes, there, size: float) -> None:
+        """Samples on both sides of each change, as what is between two is blended."""
+        changes = numpy.nonzero(there[1:] != there[:-1])[0]
+        for place in sorted({0, *changes.tolist(), *(changes + 1).tolist()}):
+            self.layer.SetTimeSample(scale, int(codes[place]), self.gf.Vec3f(size if there[place] else SMALL * size))
 
     def _visibility(self, path: str, codes, there) -> None:
         shown = self._attribute(path, "visibility", self.sdf.ValueTypeNames.Token)
@@ -167,11 +196,12 @@ class SkeletonCrowd:
             if place == 0 or there[place] != there[place - 1]:
                 self.layer.SetTimeSample(shown, code, "inherited" if there[place] else "invisible")
 
-    def _figure(self, path: str, row: int, number: int) -> None:
+    def _figure(self, path: str, row: int, number: int, member: Member) -> None:
         prim, types = self._prim(path, "SkelRoot"), self.sdf.ValueTypeNames
         if self.instances:
             prim.instanceable = True
-        prim.referenceList.Prepend(self.sdf.Reference("", f"{CROWD}/Members/member{number:02d}"))
+        prim.referenceList.Prepend(self.sdf.Reference("", _choice_of(member)))
+        prim.variantSelections[MEMBER_SET] = _name(number)
         prim.SetInfo("apiSchemas", self.sdf.TokenListOp.Create(prependedItems=["SkelBindingAPI"]))
         motion = self.sdf.RelationshipSpec(prim, "skel:animationSource", False)
         motion.targetPathList.explicitItems = [self.sdf.Path(path).GetParentPath().AppendChild("motion")]
@@ -190,7 +220,8 @@ class SkeletonCrowd:
     def _motion(self, path: str, row: int, member: Member, codes, streams) -> None:
         types = self.sdf.ValueTypeNames
         self._prim(path, "SkelAnimation")
-        matrices = bent(member, self.repertoire, track_of(row, codes, streams))
+        track = track_of(row, codes, streams, float(self.sizes[row]), self.shot.ground)
+        matrices = bent(member, self.repertoire, track)
         joints = joints_of(matrices, member.places, member.parents)
         self._attribute(path, "joints", types.TokenArray, self.vt.TokenArray(member.joints), True)
         self._attribute(path, "scales", types.Half3Array, self.vt.Vec3hArray(len(member.joints), self.gf.Vec3h(1.0)))
@@ -200,3 +231,11 @@ class SkeletonCrowd:
         for code, turns, moves in zip(codes.tolist(), rotations, joints.translations):
             self.layer.SetTimeSample(turned, code, self.vt.QuatfArray.FromNumpy(turns))
             self.layer.SetTimeSample(moved, code, self.to.vectors(moves))
+
+
+def _name(number: int) -> str:
+    return f"member{number:02d}"
+
+
+def _choice_of(member: Member) -> str:
+    return WITH_STICK if "stick" in member.joints else ANYBODY
