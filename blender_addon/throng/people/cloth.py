@@ -243,12 +243,17 @@ class Tailor:
 
         ends = numpy.unique(border)
 
+        # where the front is open, collars end, and are narrow there
+        open_ = numpy.bincount(border.ravel(), minlength=len(part.points))[ends] == 1
+        size = numpy.minimum(1.0, 0.3 + evened(1.0 - open_[:, None], border, ends, 14))
+
         def rings(points, _normals):
             away = (points - neck) * (1.0, 1.0, 0.0)
             away = evened(away / (numpy.linalg.norm(away, axis=1, keepdims=True) + 1e-9), border, ends)
             # lower before the throat than behind
             lower = numpy.where(away[:, 0] > 0.5, 0.8, 1.0)[:, None]
-            return [points + self.scale * (lower * up * numpy.array([0.0, 0.0, 1.0]) + aside * away)
+            line = evened(points, border, ends, 6)
+            return [line + self.scale * size * (lower * up * numpy.array([0.0, 0.0, 1.0]) + aside * away)
                     for up, aside in rows]
 
         return grown(part, border, rings)
@@ -263,7 +268,7 @@ class Tailor:
         height = part.places[ends, regions.Z]
         bottom = garment.vee if garment.vee is not None else 0.18
         share = numpy.clip((height - bottom) / (0.49 - bottom), 0.0, 1.0)
-        width = garment.lapels * self.scale * numpy.where(share < 0.86, share / 0.86, 1.0 - 1.6 * (share - 0.86))
+        width = garment.lapels * self.scale * numpy.where(share < 0.80, share / 0.80, 1.0 - 4.8 * (share - 0.80))
 
         normals = evened(smooth_normals(part)[ends], border, ends, 20)
         normals /= numpy.linalg.norm(normals, axis=1, keepdims=True) + 1e-9
