@@ -128,7 +128,7 @@ def crowd(stage, _level, draw):
         if all((x - a) ** 2 + (y - b) ** 2 > 0.62 for a, b in spots):
             spots.append((x, y))
     for index, (x, y) in enumerate(spots):
-        level = 0 if y < 12.0 else 1 if y < 24.0 else 2
+        level = levels.CLOSE if y < 7.0 else 0 if y < 12.0 else 1 if y < 24.0 else 2  # as scenes have it
         towards = 0.0 if draw.random() < 0.65 else math.pi
         stage.place(stage.options.first + index % 64, level, x, y, ahead(draw, 0.3) + towards, draw.random())
     stage.camera((0.0, -1.0, 2.1), (0.0, 16.0, 1.1), 34.0, 9.0)
