@@ -22,6 +22,7 @@ float roomAhead(Sitter self, SeatWay way, Others seen) {
     float room = inwards ? min(way.length, seen.halt) - self.along : self.along - max(seen.halt, 0.0);
     float gap = self.along > way.mouth ? ROW_GAP : AISLE_GAP;
     if (abs(self.along - way.mouth) < CORNER) gap = CORNER_GAP;
+    if (way.fork != NO_FORK && self.along > way.fork - CORNER && self.along < way.fork + MERGES) gap = CORNER_GAP;
     room = min(room, seen.gap - gap);
     float line = way.mouth - BEFORE_ROW;
     if (inwards && seen.comes_out && self.along < line + THERE) room = min(room, line - self.along);
@@ -39,7 +40,8 @@ void walk(inout Sitter self, SeatWay way, Others seen, float preferred) {
     if (self.mode == SITTER_LEAVES) {
         self.share = step > 0.0 ? 1.0 : max(0.0, self.share - dt / PATIENCE);
         // Out on the side of its row, while nobody comes in there.
-        if (self.along > way.mouth) self.side = isWayIn(way) && !seen.comes_in ? 1u : 0u;
+        float decides = way.fork == NO_FORK ? way.mouth : min(way.mouth + COMES_TO_SIDE, way.length - HAIR);
+        if (self.along > decides) self.side = seen.comes_in ? 0u : way.free_side;
     }
     self.along += self.mode == SITTER_ENTERS ? step : -step;
     float away = length(self.off);
