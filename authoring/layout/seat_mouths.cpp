@@ -11,11 +11,11 @@
 namespace throng::authoring {
 namespace {
 
-constexpr double kSlab = 0.15;         // m: what goes on over a passage is so thick
-constexpr double kCheek = 0.1;         // m: the sides of a passage
+constexpr double kSlab = 0.15;           // m: what goes on over a passage is so thick
+constexpr double kCheek = 0.1;           // m: the sides of a passage
 constexpr double kBehindTheBlock = 0.7;  // m: room for a body between it and the block
 constexpr double kMostAside = 0.3;       // m
-constexpr double kComesToSide = 0.6;     // m of the row, as shaders/seats/ways.glsl has it
+constexpr double kComesToSide = 1.2;     // m of the row, as shaders/seats/pace.glsl has it
 
 double treadOf(const SeatBlock& block, std::size_t row) {
     return block.height + static_cast<double>(row) * block.rise;
@@ -161,10 +161,11 @@ class WayMaker {
         const auto pieces = way_.beyond ? line.between(beside, to) : line.between(to, beside);
         for (std::size_t i = 0; i < pieces.size(); ++i) {
             const glm::dvec2 place = way_.beyond ? pieces[i] : pieces[pieces.size() - 1 - i];
-            const double step = glm::distance(place, way_.points.back().place);
+            const AislePoint& before = way_.points.back();
+            const double step = glm::distance(place, before.place + before.alone);
             if (i > 0 && step < 1.0e-6) continue;
-            way_.points.push_back({place, treadOf(block_, seat_.row), way_.points.back().along + step,
-                                   glm::dvec2(0.0), glm::dvec2(0.0)});
+            way_.points.push_back(
+                {place, treadOf(block_, seat_.row), before.along + step, glm::dvec2(0.0), glm::dvec2(0.0)});
         }
     }
 

@@ -14,6 +14,7 @@ const float PATIENCE = 4.0;      // s
 const float THERE = 0.02;        // m
 const float BEFORE_AISLE = 0.75; // m into the row, where one waits to step into the aisle
 const float BEFORE_END = 0.12;   // m of the aisle, where one waits for room on the ground
+const float TO_SIDE = 1.2;       // m of the row, after which one keeps to a side of an aisle that forks
 const float COMES_TO_WAY = 0.5;  // m walked, until one is on it
 
 /// m that somebody may still go.
@@ -40,7 +41,7 @@ void walk(inout Sitter self, SeatWay way, Others seen, float preferred) {
     if (self.mode == SITTER_LEAVES) {
         self.share = step > 0.0 ? 1.0 : max(0.0, self.share - dt / PATIENCE);
         // Out on the side of its row, while nobody comes in there.
-        float decides = way.fork == NO_FORK ? way.mouth : min(way.mouth + COMES_TO_SIDE, way.length - HAIR);
+        float decides = way.fork == NO_FORK ? way.mouth : min(way.mouth + TO_SIDE, way.length - HAIR);
         if (self.along > decides) self.side = seen.comes_in ? 0u : way.free_side;
     }
     self.along += self.mode == SITTER_ENTERS ? step : -step;

@@ -203,7 +203,7 @@ gpu::Sitter after(const authoring::SeatWays& seats, std::uint32_t index, bool wa
                 self.share = step > 0.0f ? 1.0f : std::max(0.0f, self.share - dt / 4.0f);
                 const bool decides = way.fork == gpu::NO_FORK
                                          ? self.along > way.mouth
-                                         : self.along > std::min(way.mouth + 0.6f, way.length - 0.01f);
+                                         : self.along > std::min(way.mouth + 1.2f, way.length - 0.01f);
                 if (decides) self.side = seen.comes_in ? 0 : way.free_side;
                 self.along -= step;
                 if (self.along < 0.02f) self.mode = gpu::SITTER_WALKS;
