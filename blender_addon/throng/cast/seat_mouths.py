@@ -121,3 +121,22 @@ def passage_of(mouth):
     return faces + _prism(mouth, (-half - CHEEK, half + CHEEK), (end, mouth.length),
                           [mouth.floor(end) + HEADROOM, mouth.foot + HEADROOM],
                           [mouth.floor(end) + HEADROOM + CHEEK, mouth.foot + HEADROOM + CHEEK])
+
+
+def faces_of(block, aisle):
+    """All of it: flights of steps as slabs, the opening and the passage."""
+    mouth = Mouth(block, aisle)
+    return flights_of(mouth, aisle) + walls_of(mouth) + passage_of(mouth)
+
+
+def flights_of(mouth, aisle):
+    """Faces of the flights of steps, as slabs."""
+    return [face for flight in aisle["flights"] for front, back, height, rise in treads_of(flight, mouth.pitch)
+            for face in _step_faces(front, back, height - rise - SLAB, height)]
+
+
+def _step_faces(front, back, bottom, height):
+    """Of a straight step between two edges."""
+    (a, b), (c, d) = front, back
+    low, high = ([(*corner, z) for corner in (a, b, d, c)] for z in (bottom, height))
+    return [low[::-1], high] + [[low[i], low[(i + 1) % 4], high[(i + 1) % 4], high[i]] for i in range(4)]

@@ -39,11 +39,8 @@ def _build(block):
 def _mouth(shape, block, aisle, stone):
     """Flights of steps, an opening and the passage behind it."""
     inner = materials.plain("passage", (0.16, 0.155, 0.15), 0.8)
-    for flight in aisle["flights"]:
-        for front, back, height, rise in seat_mouths.treads_of(flight, float(block["pitch"])):
-            _step(shape, front, back, height, stone, height - rise - seat_mouths.SLAB)
     mouth = seat_mouths.Mouth(block, aisle)
-    for face in seat_mouths.walls_of(mouth):
+    for face in seat_mouths.flights_of(mouth, aisle) + seat_mouths.walls_of(mouth):
         shape.face(face, stone)
     for face in seat_mouths.passage_of(mouth):
         shape.face(face, inner)
