@@ -47,13 +47,13 @@ void BetweenRows::addWay(const std::vector<glm::dvec2>& line, const std::vector<
     constexpr double kOff = 0.3;  // m: people are on steps, and ground goes on evenly here
     for (std::size_t i = 0; i + 1 < line.size(); ++i)
         if (line[i] != line[i + 1])
-            add(around(line[i], line[i + 1], width), {std::min(heights[i], heights[i + 1]) - kOff,
-                                                      std::max(heights[i], heights[i + 1]) + kOff});
+            add(around(line[i], line[i + 1], width),
+                {std::min(heights[i], heights[i + 1]) - kOff, std::max(heights[i], heights[i + 1]) + kOff});
 }
 
 /// Others may be under the rows, and over the passages.
 void BetweenRows::addRowsWithPassages(const recording::BakeSeats& seats) {
-    constexpr double kPitches = 1.6;             // of a row: its seats, and where one walks before them
+    constexpr double kPitches = 1.6;              // of a row: its seats, and where one walks before them
     constexpr double kBeside = 2.5, kRise = 0.1;  // m, from where one flight ends to where the next begins
     for (const recording::BakeSeatRow& row : seats.rows)
         addWay(row.line, std::vector(row.line.size(), row.height), kPitches * seats.pitch);
@@ -83,10 +83,25 @@ void BetweenRows::add(std::vector<glm::dvec2> outline, Heights heights) {
     pieces_.push_back(std::move(piece));
 }
 
+recording::WallWatch watchOf(const io::Bake& bake) {
+    std::vector<authoring::Wall> walls;
+    std::vector<glm::dvec2> ground;
+    for (std::size_t i = 0; i < bake.walls.size(); ++i) {
+        const bool is_over_passages = std::ranges::any_of(bake.seats, [&](const recording::BakeSeats& seats) {
+            return !seats.aisles.empty() && seats.aisles.front().passage && isStandOf(bake.walls[i], seats);
+        });
+        if (is_over_passages) continue;
+        walls.push_back(bake.walls[i]);
+        if (!bake.wall_ground.empty()) ground.push_back(bake.wall_ground[i]);
+    }
+    return {std::move(walls), bake.minimum, bake.maximum, std::move(ground)};
+}
+
 bool BetweenRows::has(glm::dvec2 place, double height) const {
     return std::ranges::any_of(pieces_, [&](const Piece& piece) {
-        return height >= piece.heights.low && height <= piece.heights.high && place.x >= piece.lower.x && place.x <= piece.upper.x && place.y >= piece.lower.y &&
-               place.y <= piece.upper.y && isWithin(piece.outline, place);
+        return height >= piece.heights.low && height <= piece.heights.high && place.x >= piece.lower.x &&
+               place.x <= piece.upper.x && place.y >= piece.lower.y && place.y <= piece.upper.y &&
+               isWithin(piece.outline, place);
     });
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "io/bake_reader.h"
+#include "recording/wall_watch.h"
 
 namespace throng::analysis {
 
@@ -31,5 +32,8 @@ class BetweenRows {
 
     std::vector<Piece> pieces_;
 };
+
+/// The walls of a bake but for outlines of stands under which others may walk, as there is a passage.
+recording::WallWatch watchOf(const io::Bake& bake);
 
 }  // namespace throng::analysis

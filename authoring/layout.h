@@ -381,10 +381,11 @@ struct SeatBlock {
             row,    ///< through an opening in the stand (a vomitory), and a passage under the rows behind it
         };
         At at = At::front;
-        std::uint64_t row = 1;          ///< the first one is 1; people come out on it
-        std::optional<double> passage;  ///< m in plan, from the opening to its foot; none: to behind the block
-        std::size_t level = 0;          ///< of the foot
-        double height = 0.0;            ///< m, of the ground there
+        std::uint64_t row = 1;  ///< the first one is 1; people come out on it
+        std::optional<double>
+            passage;            ///< m in plan, from the opening to its foot; none: to behind the block
+        std::size_t level = 0;  ///< of the foot
+        double height = 0.0;    ///< m, of the ground there
         SourcePosition where{};
     };
     Mouths mouths{};

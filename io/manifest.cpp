@@ -31,9 +31,8 @@ Json pointsToJson(const std::vector<glm::dvec2>& points, glm::dvec2 origin) {
 }
 
 Json flightToJson(const recording::BakeFlight& flight, glm::dvec2 origin) {
-    return {{"line", pointsToJson(flight.line, origin)},
-            {"heights", flight.heights},
-            {"width", flight.width}};
+    return {
+        {"line", pointsToJson(flight.line, origin)}, {"heights", flight.heights}, {"width", flight.width}};
 }
 
 Json aisleToJson(const recording::BakeAisle& aisle, glm::dvec2 origin) {

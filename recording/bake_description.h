@@ -89,8 +89,8 @@ struct BakeFlight {
 struct BakeAisle {
     std::vector<glm::dvec2> line;  ///< m, its middle: on the ground before the block, and before each row
     double width = 1.2;            ///< m
-    /// Of an aisle that goes out behind its block or through an opening: what is before it, what is behind it,
-    /// and what is beside it; a point before each row. Its `line` is that of its passage then.
+    /// Of an aisle that goes out behind its block or through an opening: what is before it, what is behind
+    /// it, and what is beside it; a point before each row. Its `line` is that of its passage then.
     std::vector<BakeFlight> flights = {};
     std::optional<BakeFlight> passage = {};  ///< from its foot to the row on which it comes out
 };

@@ -162,7 +162,8 @@ float MotionRecorder::liftedBy(std::size_t row) const {
 }
 
 glm::dvec2 MotionRecorder::carriedBy(std::size_t row) const {
-    return belts_.empty() || (!led_.empty() && led_[row]) ? glm::dvec2(0.0) : window_.averageOfCharts(row, belts_);
+    return belts_.empty() || (!led_.empty() && led_[row]) ? glm::dvec2(0.0)
+                                                          : window_.averageOfCharts(row, belts_);
 }
 
 void MotionRecorder::finish() {

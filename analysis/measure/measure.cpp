@@ -44,7 +44,7 @@ class Measurer {
           bake_(crowd.bake()),
           options_(options),
           rows_(crowd.people()),
-          walls_(bake_.walls, bake_.minimum, bake_.maximum, bake_.wall_ground),
+          walls_(watchOf(bake_)),
           grid_(bake_.minimum, bake_.maximum, 1.0, cellsFor(rows_.size())),
           dt_(1.0 / bake_.fps),
           stuck_(crowd),

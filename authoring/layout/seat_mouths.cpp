@@ -94,8 +94,8 @@ class WayMaker {
         }
     }
 
-    /// Round the opening, up the flight on the seat's side, and on in the middle. Those of the landing's own row
-    /// come to the foot of the flight, so that nobody waits before the opening.
+    /// Round the opening, up the flight on the seat's side, and on in the middle. Those of the landing's own
+    /// row come to the foot of the flight, so that nobody waits before the opening.
     void goBack() {
         const double flight = side_ * middleOfFlight(block_), height = treadOf(block_, landing_);
         const double narrow = std::min(kMostAside, 0.25 * kFlightWidth);
@@ -125,16 +125,18 @@ class WayMaker {
 
     /// Two steps to a row, as they are built: level between them, and quickly up on each.
     void addSteps(double aside, std::size_t from, std::size_t to, glm::dvec2 beside, glm::dvec2 alone) {
-        constexpr std::array kEdges = {0.35, 0.85};  // of the pitch behind where one walks before the lower row
-        constexpr double kHalfRise = 0.08;         // m
+        constexpr std::array kEdges = {0.35,
+                                       0.85};  // of the pitch behind where one walks before the lower row
+        constexpr double kHalfRise = 0.08;     // m
         if (block_.rise == 0.0) return;
         const std::size_t lower = std::min(from, to);
         const double low = treadOf(block_, lower);
         std::vector<glm::dvec2> places;  // m behind that, and height
         for (std::size_t step = 0; step < kEdges.size(); ++step)
             for (const double end : {-1.0, 1.0})
-                places.emplace_back(kEdges[step] * block_.pitch + end * kHalfRise,
-                                    low + 0.5 * block_.rise * static_cast<double>(step + (end > 0.0 ? 1 : 0)));
+                places.emplace_back(
+                    kEdges[step] * block_.pitch + end * kHalfRise,
+                    low + 0.5 * block_.rise * static_cast<double>(step + (end > 0.0 ? 1 : 0)));
         if (from > to) std::ranges::reverse(places);
         for (const glm::dvec2 place : places)
             add({aside, walkOf(block_, lower) + place.x}, place.y, beside, alone);

@@ -42,9 +42,9 @@ std::vector<glm::dvec2> passageOutline(const SeatBlock& block, std::size_t aisle
 
 /// A place on the way to a seat.
 struct AislePoint {
-    glm::dvec2 place{0.0};  ///< m
-    double height = 0.0;    ///< m
-    double along = 0.0;     ///< m from the foot
+    glm::dvec2 place{0.0};               ///< m
+    double height = 0.0;                 ///< m
+    double along = 0.0;                  ///< m from the foot
     glm::dvec2 beside{0.0}, alone{0.0};  ///< m, as those of gpu::SeatPoint
 };
 

@@ -81,7 +81,8 @@ void SeatReader::readMouths(ObjectReader& reader, SeatBlock& block) const {
     mouths.level = block.level;
     if (const JsonNode* node = reader.get("mouths")) {
         mouths.where = node->where;
-        ObjectReader told(*node, schema_.definition("seat_block").property("mouths"), "`mouths`", diagnostics_);
+        ObjectReader told(*node, schema_.definition("seat_block").property("mouths"), "`mouths`",
+                          diagnostics_);
         if (!told.isObject()) return;
         told.choice("at", {{"front", At::front}, {"back", At::back}, {"row", At::row}}, mouths.at);
         if (mouths.at == At::row) told.require("row", "on which people come out, from 1");
@@ -241,8 +242,9 @@ void SeatReader::checkPassage(const SeatBlock& block) const {
     if (climb > kSteepest * length)
         diagnostics_.error(
             block.mouths.where,
-            fmt::format("the passages of block `{}` climb {:.2f} m over {:.2f} m: they climb at most {:.0f} %",
-                        block.id, climb, length, 100.0 * kSteepest),
+            fmt::format(
+                "the passages of block `{}` climb {:.2f} m over {:.2f} m: they climb at most {:.0f} %",
+                block.id, climb, length, 100.0 * kSteepest),
             fmt::format(R"(write "passage": {:.1f} or more, or take another row)",
                         std::ceil(10.0 * climb / kSteepest) / 10.0));
 }

@@ -190,8 +190,7 @@ std::vector<glm::dvec2> wayAlongRow(const SeatBlock& block, std::size_t aisle, c
 
 std::vector<glm::dvec2> footOf(const SeatBlock& block, std::size_t aisle) {
     constexpr double kHalf = 0.45;  // m
-    const glm::dvec2 foot =
-        hasPassages(block) ? passageFoot(block, aisle) : aisleLine(block, aisle).front();
+    const glm::dvec2 foot = hasPassages(block) ? passageFoot(block, aisle) : aisleLine(block, aisle).front();
     return {foot + glm::dvec2(-kHalf, -kHalf), foot + glm::dvec2(kHalf, -kHalf),
             foot + glm::dvec2(kHalf, kHalf), foot + glm::dvec2(-kHalf, kHalf)};
 }

@@ -31,11 +31,11 @@ class FeetCheck {
             return each.level == block.mouths.level && isInWall(each, foot);
         });
         if (wall == layout_.walls.end()) return true;
-        diagnostics_.error(
-            block.mouths.where,
-            fmt::format("aisle {} of block `{}` ends in wall `{}`, at [{:.2f}, {:.2f}]", aisle + 1, block.id,
-                        wall->id, foot.x, foot.y),
-            hasPassages(block) ? "make its `passage` longer or shorter, or let it end on another `level`"
+        diagnostics_.error(block.mouths.where,
+                           fmt::format("aisle {} of block `{}` ends in wall `{}`, at [{:.2f}, {:.2f}]",
+                                       aisle + 1, block.id, wall->id, foot.x, foot.y),
+                           hasPassages(block)
+                               ? "make its `passage` longer or shorter, or let it end on another `level`"
                                : "move the wall, or the block");
         return false;
     }

@@ -224,8 +224,9 @@ bool haveFlatGround(const Layout& layout, Diagnostics& diagnostics) {
     if (open == layout.seats.end()) return true;
     diagnostics.error(
         open->where,
-        fmt::format("people walk to the seats of block `{}`, or leave them: this is for flat ground and levels only",
-                    open->id),
+        fmt::format(
+            "people walk to the seats of block `{}`, or leave them: this is for flat ground and levels only",
+            open->id),
         "leave out the `terrain`, or make its floors `levels`");
     return false;
 }

@@ -95,18 +95,17 @@ void seeAisle(inout Others seen, Sitter self, SeatWay way, uint index, Sitter ot
     if (other.mode == SITTER_ENTERS || other.mode == SITTER_ASKS) seen.comes_in = true;
     if (other.mode != SITTER_LEAVES || theirs.lane == way.lane) return;
     if (other.side != 0u && other.along <= theirs.mouth) seen.against = true;
-    if (!areInOneFile(way, self, other)) return;
+    // Rows on other branches are out of reach; who comes out of them merges before the opening (seeAhead).
+    if (way.branch != theirs.branch || !areInOneFile(way, self, other)) return;
     // Who has waited for long is let in.
     bool is_due = other.along > theirs.mouth && other.along < theirs.mouth + AT_MOUTH && other.share < DUE;
-    if (is_due && self.along <= way.mouth && self.along > theirs.mouth + ABOVE &&
-        areTogether(way, theirs, self.along, theirs.mouth))
+    if (is_due && self.along <= way.mouth && self.along > theirs.mouth + ABOVE)
         seen.halt = max(seen.halt, theirs.mouth + ABOVE);
     float beyond = other.along - way.mouth;
     bool in_aisle = other.along <= theirs.mouth;
     bool waits = !in_aisle && other.along < theirs.mouth + AT_MOUTH && abs(theirs.mouth - way.mouth) < BELOW;
-    if (in_aisle && beyond > -BELOW && beyond < ABOVE && areTogether(way, theirs, way.mouth, other.along))
-        seen.aisle_taken = true;
-    if (waits && areTogether(way, theirs, way.mouth, theirs.mouth) && isEarlier(other, number, self, index)) seen.aisle_taken = true;
+    if (in_aisle && beyond > -BELOW && beyond < ABOVE) seen.aisle_taken = true;
+    if (waits && isEarlier(other, number, self, index)) seen.aisle_taken = true;
 }
 
 Others lookAround(uint index, Sitter self, SeatWay way) {

@@ -178,11 +178,12 @@ def generators(throng):
     return found
 
 
-@pytest.mark.parametrize("kind", ["crossing", "corridor", "streets", "plaza", "stadium"])
+@pytest.mark.parametrize("kind", ["crossing", "corridor", "streets", "plaza", "stadium", "station", "office"])
 @pytest.mark.slow
 def test_whatever_is_generated_is_valid(throng, kind, tmp_path):
     chance = random.Random(kind)
-    whole = {"arms", "pillars", "columns", "rows", "exits", "people", "seed"}
+    whole = {"arms", "pillars", "columns", "rows", "exits", "people", "seed", "stands", "platforms",
+             "escalators", "floors"}
     parameters = generators(throng)[kind]
     schema = jsonschema.Draft7Validator(json.loads(throng("schema").stdout))
     for attempt in range(12):

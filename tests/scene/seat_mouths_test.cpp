@@ -71,7 +71,8 @@ TEST(SeatMouths, WaysShareThePassageAndRiseWithTheRows) {
         EXPECT_NEAR(way.points.back().place.x, seat.place.x, 1e-6);
         for (std::size_t i = 1; i < way.points.size(); ++i) {
             EXPECT_GT(way.points[i].along, way.points[i - 1].along);
-            // Two who follow each other where nobody comes in are as far apart as `along` says, but for corners.
+            // Two who follow each other where nobody comes in are as far apart as `along` says, but for
+            // corners.
             const AislePoint &a = way.points[i - 1], &b = way.points[i];
             EXPECT_NEAR(glm::distance(a.place + a.alone, b.place + b.alone), b.along - a.along, 1e-6);
         }

@@ -121,8 +121,8 @@ Seen around(const authoring::SeatWays& seats, std::uint32_t index) {
         const auto together = [&](float place, float their_place) {
             return way.branch == theirs.branch || std::max(place, their_place) < way.fork + 1.5f;
         };
-        const bool in_file = other.side == self.side ||
-                             (way.fork != gpu::NO_FORK && (other.side == 0 || self.side == 0));
+        const bool in_file =
+            other.side == self.side || (way.fork != gpu::NO_FORK && (other.side == 0 || self.side == 0));
         if (isWalking(other) && leaves == out) {
             const float parting =
                 !out && way.branch != theirs.branch ? std::min(theirs.mouth, way.fork) : theirs.mouth;
@@ -134,17 +134,15 @@ Seen around(const authoring::SeatWays& seats, std::uint32_t index) {
             if (!apart && !elsewhere && (ahead > 0.0f || (ahead == 0.0f && i < index)))
                 seen.gap = std::min(seen.gap, ahead);
         }
-        if (leaves && !same && in_file) {
+        if (leaves && !same && in_file && way.branch == theirs.branch) {
             const bool in_aisle = other.along <= theirs.mouth, at_mouth = other.along < theirs.mouth + 0.85f;
             if (!in_aisle && at_mouth && other.share < 0.4f && self.along <= way.mouth &&
-                self.along > theirs.mouth + 0.8f && together(self.along, theirs.mouth))
+                self.along > theirs.mouth + 0.8f)
                 seen.halt = std::max(seen.halt, theirs.mouth + 0.8f);
             const float beyond = other.along - way.mouth;
             const bool earlier = other.since < self.since || (other.since == self.since && i < index);
-            if (in_aisle && beyond > -0.55f && beyond < 0.8f && together(way.mouth, other.along))
-                seen.aisle_taken = true;
-            if (!in_aisle && at_mouth && std::abs(theirs.mouth - way.mouth) < 0.55f && earlier &&
-                together(way.mouth, theirs.mouth))
+            if (in_aisle && beyond > -0.55f && beyond < 0.8f) seen.aisle_taken = true;
+            if (!in_aisle && at_mouth && std::abs(theirs.mouth - way.mouth) < 0.55f && earlier)
                 seen.aisle_taken = true;
         }
         if (!same) continue;
@@ -171,8 +169,8 @@ float roomFor(const gpu::Sitter& self, const gpu::SeatWay& way, const Seen& seen
     const bool merges =
         way.fork != gpu::NO_FORK && self.along > way.fork - 0.7f && self.along < way.fork + 1.5f;
     const float gap = merges || std::abs(self.along - way.mouth) < 0.7f ? 0.75f
-                      : self.along > way.mouth                ? 0.45f
-                                                              : 0.55f;
+                      : self.along > way.mouth                          ? 0.45f
+                                                                        : 0.55f;
     room = std::min(room, seen.gap - gap);
     const float line = way.mouth - 0.75f, waits = way.mouth + 0.75f;
     if (in && seen.comes_out && self.along < line + 0.02f) room = std::min(room, line - self.along);
