@@ -16,7 +16,9 @@ constexpr double kBeforeRows = 1.0;                           // m, between the 
 constexpr double kBetweenStands = 1.5;                        // m, half of the gap at the first row
 constexpr double kAisleEach = 9.0;                            // m of the first row
 constexpr double kGate = 3.0;                                 // m, depth of an exit
-constexpr std::uint64_t kMostRows = 30, kMostPeople = 40000, kRowsForOpenings = 6;
+// Each exit and each aisle has a field of its own, and the ground is coarser the more there are.
+constexpr double kMostRadius = 45.0;  // m
+constexpr std::uint64_t kMostRows = 16, kMostGoals = 36, kMostPeople = 40000, kRowsForOpenings = 6;
 
 double degrees(double radians) {
     return radians * 180.0 / std::numbers::pi;
@@ -43,7 +45,7 @@ class Stands {
   public:
     explicit Stands(const GeneratorValues& values)
         : count_(std::max<std::uint64_t>(values.whole("stands"), 2)),
-          front_(values["radius"] + kBeforeRows),
+          front_(std::min(values["radius"], kMostRadius) + kBeforeRows),
           step_(2.0 * std::numbers::pi / static_cast<double>(count_)) {
         const double depth = std::max(values["stand"] - kBeforeRows, 2.0 * kPitch);
         rows_ = std::clamp<std::uint64_t>(static_cast<std::uint64_t>(depth / kPitch), 2, kMostRows);
@@ -55,11 +57,14 @@ class Stands {
         block_.height = kHeight;
         block_.front = arcFront({0.0, 0.0}, front_, degrees(gap), degrees(step_ - gap));
         block_.aisles = std::clamp<std::uint64_t>(
-            static_cast<std::uint64_t>(std::lround(front_ * (step_ - 2.0 * gap) / kAisleEach)), 1, 60);
+            static_cast<std::uint64_t>(std::lround(front_ * (step_ - 2.0 * gap) / kAisleEach)), 1,
+            std::max<std::uint64_t>(1, (kMostGoals - values.whole("exits")) / count_));
         gap_ = gap;
         chooseMouths();
         const double outside = onPassage() ? back_ + *block_.mouths.passage : back_;
-        inner_ = onPassage() ? back_ + 0.3 : back_ - 0.3;
+        // The floor's railing is below the passages.
+        const double opening = front_ + (static_cast<double>(landingRow(block_)) + 0.5) * kPitch;
+        inner_ = opening + 0.3;
         outer_ = outside + std::max(8.0, 0.06 * front_) + kGate;
     }
 

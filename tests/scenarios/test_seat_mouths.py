@@ -133,6 +133,16 @@ def test_both_streams_get_out_at_the_same_time(leaving):
     assert (first < LANDING).sum() > 8 and (first > LANDING).sum() > 8
 
 
+def test_a_deep_stand_empties_to_the_last_row(bake):
+    """On flat ground: the foot is behind the block."""
+    seats = stand(front=[[-4.11, 0], [4.11, 0]], rows=17, mouths={"at": "row", "row": 6}, leave=LEAVES)
+    gate = {"id": "exit", "polygon": [[6, -30], [9, -30], [9, -27], [6, -27]]}
+    deep = bake("deep", {"throng": 1, "simulation": {"duration": 270, "fps": 12, "seed": 3}, "areas": [gate],
+                         "seats": [seats]})
+    assert deep.pos.shape[1] > 200 and {row["outcome"] for row in deep.rows} == {"arrived"}
+    assert (deep.doing[-1] == 0).all()
+
+
 def test_people_come_to_their_seats_by_it(coming):
     assert (coming.doing[-1] == SITS).all() and {row["outcome"] for row in coming.rows} == {"arrived"}
     row = numpy.round((0.25 - coming.pos[-1, :, 1]) / PITCH)
