@@ -7,6 +7,7 @@ CHEEK = 0.1     # m: sides of a passage, as authoring/layout/seat_mouths.cpp has
 SLAB = 0.15     # m: what people walk on
 HEADROOM = 2.1  # m
 _PARAPET = 0.95
+_BEFORE = 0.35  # m: so far before the first row that goes on over it, room for those who walk along there
 _RISER = 0.18   # m, of the steps of a passage that slopes
 _FLAT = 0.12    # rise over run up to which a passage is a ramp
 
@@ -96,7 +97,8 @@ def walls_of(mouth):
     """Faces of what is seen from the stand: walls beside the opening and the parapet over it, and the landing."""
     if not mouth.sides:
         return []
-    half, end, low = mouth.half, mouth.covered_from, mouth.landing
+    half, low = mouth.half, mouth.landing
+    end = max(mouth.covered_from - _BEFORE, 0.0)
     wide = half + 2.0 * CHEEK + 0.9
     faces = _prism(mouth, (-wide, wide), (-mouth.pitch, 0.0), [low - SLAB - mouth.rise] * 2, [low] * 2)
     for side in (-1.0, 1.0):
@@ -104,9 +106,10 @@ def walls_of(mouth):
         faces += _prism(mouth, beside, (0.0, end + CHEEK), [mouth.floor(0.0) - SLAB, mouth.floor(end) - SLAB],
                         [mouth.tread(0.5 * mouth.pitch) + _PARAPET, mouth.tread(end) + _PARAPET])
     over = mouth.tread(mouth.rows * mouth.pitch)
-    faces += _prism(mouth, (-half, half), (end, end + CHEEK), [mouth.floor(end) + HEADROOM] * 2,
-                    [over + _PARAPET + 0.05] * 2)
-    return faces + _prism(mouth, (-wide, wide), (end, end + mouth.pitch), [over - SLAB] * 2, [over] * 2)
+    faces += _prism(mouth, (-half, half), (end, end + CHEEK), [over - SLAB] * 2, [over + _PARAPET + 0.05] * 2)
+    faces += _prism(mouth, (-half, half), (end, mouth.covered_from), [over - SLAB] * 2, [over] * 2)
+    return faces + _prism(mouth, (-wide, wide), (mouth.covered_from, mouth.covered_from + mouth.pitch),
+                          [over - SLAB] * 2, [over] * 2)
 
 
 def passage_of(mouth):
