@@ -39,7 +39,7 @@ class StuckWatch {
         }
         for (std::size_t row = 0; row < rows_.size(); ++row)
             under_way_[row] =
-                under_way_[row] && isUnderWay(frame, row) && !between_rows_.has(frame.place(row));
+                under_way_[row] && isUnderWay(frame, row) && !between_rows_.has(frame.place(row), frame.height(row));
         end_ = frame;
     }
 

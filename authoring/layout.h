@@ -373,6 +373,24 @@ struct SeatBlock {
     std::uint64_t aisles = 0;  ///< through all rows, at even distances
     double aisle_width = 1.2;  ///< m
     double occupancy = 1.0;    ///< share of the seats
+    /// Where its aisles go out to the ground.
+    struct Mouths {
+        enum class At {
+            front,  ///< before the first row
+            back,   ///< behind the last one
+            row,    ///< through an opening in the stand (a vomitory), and a passage under the rows behind it
+        };
+        At at = At::front;
+        std::uint64_t row = 1;  ///< the first one is 1; people come out on it
+        std::optional<double>
+            passage;            ///< m in plan, from the opening to its foot; none: to behind the block
+        std::size_t level = 0;  ///< of the foot
+        double height = 0.0;    ///< m, of the ground there
+        SourcePosition where{};
+    };
+    Mouths mouths{};
+    std::size_t level = 0;  ///< that the stand keeps people off
+    glm::dvec2 shift{0.0};  ///< m: place in the plane - home (authoring/storeys)
     People people;
     SourcePosition where;
     /// People walk to its seats or leave them: what those do who sit in it from the beginning. None: they

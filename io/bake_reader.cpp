@@ -316,6 +316,13 @@ void readLiftList(const ManifestReader& reader, Bake& bake) {
     });
 }
 
+recording::BakeFlight flightFrom(const ManifestReader& reader, const std::string& at) {
+    recording::BakeFlight flight{reader.points(at + "/line", 1), reader.numbers(at + "/heights"),
+                                 reader.length(at + "/width")};
+    if (flight.heights.size() != flight.line.size()) reader.fail(at + "/heights", "one for each point");
+    return flight;
+}
+
 void readSeats(const ManifestReader& reader, Bake& bake) {
     if (!reader.has("/geometry/seats")) return;
     reader.each("/geometry/seats", [&](const ManifestReader& block) {
@@ -330,6 +337,11 @@ void readSeats(const ManifestReader& reader, Bake& bake) {
         if (block.has("/aisles"))
             block.each("/aisles", [&](const ManifestReader& aisle) {
                 seats.aisles.push_back({aisle.points("/line", 2), aisle.length("/width")});
+                if (!aisle.has("/passage")) return;
+                aisle.each("/flights", [&](const ManifestReader& flight) {
+                    seats.aisles.back().flights.push_back(flightFrom(flight, ""));
+                });
+                seats.aisles.back().passage = flightFrom(aisle, "/passage");
             });
         bake.seats.push_back(std::move(seats));
     });

@@ -30,6 +30,21 @@ Json pointsToJson(const std::vector<glm::dvec2>& points, glm::dvec2 origin) {
     return list;
 }
 
+Json flightToJson(const recording::BakeFlight& flight, glm::dvec2 origin) {
+    return {
+        {"line", pointsToJson(flight.line, origin)}, {"heights", flight.heights}, {"width", flight.width}};
+}
+
+Json aisleToJson(const recording::BakeAisle& aisle, glm::dvec2 origin) {
+    Json told = {{"line", pointsToJson(aisle.line, origin)}, {"width", aisle.width}};
+    if (!aisle.passage) return told;
+    told["passage"] = flightToJson(*aisle.passage, origin);
+    told["flights"] = Json::array();
+    for (const recording::BakeFlight& flight : aisle.flights)
+        told["flights"].push_back(flightToJson(flight, origin));
+    return told;
+}
+
 Json seatsToJson(const recording::BakeDescription& description) {
     Json list = Json::array();
     for (const recording::BakeSeats& seats : description.seats) {
@@ -43,8 +58,7 @@ Json seatsToJson(const recording::BakeDescription& description) {
                         {"rise", seats.rise},
                         {"rows", std::move(rows)}});
         for (const recording::BakeAisle& aisle : seats.aisles)
-            list.back()["aisles"].push_back(
-                {{"line", pointsToJson(aisle.line, description.output_origin)}, {"width", aisle.width}});
+            list.back()["aisles"].push_back(aisleToJson(aisle, description.output_origin));
     }
     return list;
 }

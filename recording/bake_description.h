@@ -78,10 +78,21 @@ struct EyeCatcher {
         {};  ///< m: nobody sees it but from a floor of this height; none: there are no floors
 };
 
+/// Something that people walk on in a stand.
+struct BakeFlight {
+    std::vector<glm::dvec2> line;  ///< m, its middle
+    std::vector<double> heights;   ///< m, one for each point
+    double width = 1.2;            ///< m
+};
+
 /// Steps between rows of seats that people walk to, for whoever shows them.
 struct BakeAisle {
     std::vector<glm::dvec2> line;  ///< m, its middle: on the ground before the block, and before each row
     double width = 1.2;            ///< m
+    /// Of an aisle that goes out behind its block or through an opening: what is before it, what is behind
+    /// it, and what is beside it; a point before each row. Its `line` is that of its passage then.
+    std::vector<BakeFlight> flights = {};
+    std::optional<BakeFlight> passage = {};  ///< from its foot to the row on which it comes out
 };
 
 /// A block of seats.

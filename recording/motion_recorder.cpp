@@ -13,12 +13,19 @@
 #include "base/lift_track.h"
 #include "base/random.h"
 #include "base/wide_site.h"
+#include "shaders/shared/chart_types.h"
 #include "shaders/shared/scene_types.h"
 
 namespace throng::recording {
 namespace {
 
 constexpr double kPerMetre = 65536.0;
+constexpr auto kLed = static_cast<float>(gpu::ACTIVITY_LED);
+
+/// Whether somebody is led between rows of seats. @param at where its state begins
+bool isLed(std::span<const float> states, std::size_t at) {
+    return states[at] >= kLed;
+}
 
 /// The walls in the frame of reference of the frames, as finely as the simulation has them: a layout that is
 /// moved by whole metres then has the very same.
@@ -122,6 +129,7 @@ void MotionRecorder::take(const Frame& frame) {
 void MotionRecorder::goHome(const Frame& frame) {
     homes_.assign(frame[Stream::pos].begin(), frame[Stream::pos].end());
     for (std::size_t at = 0; at < homes_.size(); at += kComponents) {
+        if (isLed(frame[Stream::state], at)) continue;  // it is at home, and at a height
         const auto chart = static_cast<std::size_t>(homes_[at + 2]);
         if (chart >= shifts_.size()) continue;
         homes_[at] -= static_cast<float>(shifts_[chart].x);
@@ -154,7 +162,8 @@ float MotionRecorder::liftedBy(std::size_t row) const {
 }
 
 glm::dvec2 MotionRecorder::carriedBy(std::size_t row) const {
-    return belts_.empty() ? glm::dvec2(0.0) : window_.averageOfCharts(row, belts_);
+    return belts_.empty() || (!led_.empty() && led_[row]) ? glm::dvec2(0.0)
+                                                          : window_.averageOfCharts(row, belts_);
 }
 
 void MotionRecorder::finish() {
@@ -169,7 +178,10 @@ void MotionRecorder::giveOut() {
     states_ = frame[Stream::state];
     chests_ = frame[Stream::chest];
     for (std::size_t row = 0; row < charts_.size(); ++row)
-        charts_[row] = static_cast<std::uint32_t>(std::exchange(positions_[row * kComponents + 2], 0.0f));
+        charts_[row] =
+            isLed(states_, row * kComponents)
+                ? gpu::NO_CHART
+                : static_cast<std::uint32_t>(std::exchange(positions_[row * kComponents + 2], 0.0f));
     takeOutOfPlane();
     if (window_.reach() > 0) average(frame);
     turnChests(frame);
@@ -194,11 +206,9 @@ void MotionRecorder::giveOut() {
 
 /// Who is led between rows of seats says so beside what it does.
 void MotionRecorder::takeOutOfPlane() {
-    constexpr auto kLed = static_cast<float>(gpu::ACTIVITY_LED);
     for (std::size_t row = 0; row < led_.size(); ++row) {
-        float& activity = states_[row * kComponents];
-        led_[row] = activity >= kLed;
-        if (led_[row]) activity -= kLed;
+        led_[row] = isLed(states_, row * kComponents);
+        if (led_[row]) states_[row * kComponents] -= kLed;
     }
 }
 
@@ -296,7 +306,9 @@ void MotionRecorder::record(const KeptFrame& frame) {
                                           scales_[row], carried},
                                          walker.gait));
         if (footsteps_ && hasSeat(states_[at])) putFeet(at, {});
-        if (footing_)
+        if (footing_ && !led_.empty() && led_[row])
+            putStance(at, {positions_[at + 2], 0.0f, 0.0f, positions_[at + 2]});
+        else if (footing_)
             putStance(at,
                       footing_->stand(
                           row, {place + glm::vec2(toPlane(row)), heading, moved, carried != glm::vec2(0.0f)},

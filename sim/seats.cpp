@@ -44,7 +44,12 @@ void Seats::think(float now, std::uint32_t steps_done) {
 }
 
 std::vector<std::pair<std::string, gl::Buffer*>> Seats::remembered() {
-    return {{"sitters", &buffers_.sitters}};
+    // Who steps out looks at the cells as the last step left them: people are led before they are sorted
+    // anew.
+    return {{"sitters", &buffers_.sitters},
+            {"bodies", &buffers_.bodies},
+            {"strip starts", &buffers_.strip_starts},
+            {"cell offsets", &buffers_.cell_offsets}};
 }
 
 }  // namespace throng::sim

@@ -44,7 +44,7 @@ class Measurer {
           bake_(crowd.bake()),
           options_(options),
           rows_(crowd.people()),
-          walls_(bake_.walls, bake_.minimum, bake_.maximum, bake_.wall_ground),
+          walls_(watchOf(bake_)),
           grid_(bake_.minimum, bake_.maximum, 1.0, cellsFor(rows_.size())),
           dt_(1.0 / bake_.fps),
           stuck_(crowd),
@@ -96,7 +96,7 @@ class Measurer {
         bodies_.clear();
         heights_.clear();
         for (std::uint32_t row = 0; row < rows_.size(); ++row)
-            if (now().isThere(row) && !hasSeat(now().activity(row)) && !between_rows_.has(now().place(row))) {
+            if (now().isThere(row) && !hasSeat(now().activity(row)) && !between_rows_.has(now().place(row), now().height(row))) {
                 present_.push_back(row);
                 places_.push_back(now().place(row));
                 bodies_.push_back(now().body(row, rows_[row]));

@@ -47,5 +47,9 @@ Json corridor(const GeneratorValues& values);
 Json streets(const GeneratorValues& values);
 Json plaza(const GeneratorValues& values);
 Json stadium(const GeneratorValues& values);
+/// A stadium with seats.
+Json stadiumOfStands(const GeneratorValues& values);
+Json station(const GeneratorValues& values);
+Json office(const GeneratorValues& values);
 
 }  // namespace throng::authoring::generate

@@ -111,6 +111,7 @@ Json plaza(const GeneratorValues& values) {
 }
 
 Json stadium(const GeneratorValues& values) {
+    if (values.whole("stands") > 0) return stadiumOfStands(values);
     const std::uint64_t exits = values.whole("exits");
     const std::uint64_t sides =
         std::max<std::uint64_t>(exits, 12) / exits * exits;  // a multiple of the exits

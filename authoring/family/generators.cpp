@@ -63,6 +63,30 @@ constexpr GeneratorParameter kStadium[] = {
     {"exit_width", 3, 1, 10, false, "m"},
     {"people", 500, 1, 100000, true, "who leave; at most 2 per square metre of the stand"},
     {"rise", 10, 0, 600, false, "s, over which people rise from their seats"},
+    {"stands", 0, 0, 12, true,
+     "blocks of seats that are left by openings to a concourse behind, two or more; a radius of 60 m, 24 "
+     "rows and "
+     "40000 people at most then; 0: a ring of ground"},
+    kDuration,
+    kSeed};
+constexpr GeneratorParameter kStation[] = {
+    {"platforms", 2, 1, 5, true, "over a concourse"},
+    {"length", 90, 90, 200, false, "m, of each"},
+    {"platform_width", 8, 5, 12, false, "m; wide enough for the stairs and a way round them at least"},
+    {"stairs", 3, 1.2, 6, false, "m, width of the two stairs to each platform"},
+    {"escalators", 1, 0, 1, true, "1: one up and one down for each platform"},
+    {"people", 400, 1, 20000, true, "half of whom come out of trains; the others go to them"},
+    {"time", 30, 0, 3600, false, "s, in which they come"},
+    kDuration,
+    kSeed};
+constexpr GeneratorParameter kOffice[] = {
+    {"floors", 3, 1, 8, true, "above each other"},
+    {"rooms", 6, 1, 12, true, "on either side of the corridor, on each floor"},
+    {"room", 4, 3, 8, false, "m, width and depth of a room"},
+    {"corridor", 2, 1.4, 4, false, "m, its width"},
+    {"stairs", 1.4, 1.2, 3, false, "m, width of the stairs at both ends"},
+    {"people", 40, 1, 1000, true, "on each floor, who leave; at most 1 per square metre of the rooms"},
+    {"rise", 10, 0, 600, false, "s, over which they set off"},
     kDuration,
     kSeed};
 
@@ -72,6 +96,8 @@ constexpr Generator kGenerators[] = {
     {"streets", "a grid of streets between blocks", kStreets, generate::streets},
     {"plaza", "a walled square with openings and random pillars", kPlaza, generate::plaza},
     {"stadium", "people leave a ring of seats by gates in the outer wall", kStadium, generate::stadium},
+    {"station", "platforms over a concourse, with stairs and escalators", kStation, generate::station},
+    {"office", "people leave the rooms of several floors by stairs at both ends", kOffice, generate::office},
 };
 
 }  // namespace

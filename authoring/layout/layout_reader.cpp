@@ -787,7 +787,7 @@ class Reader {
     LevelReader levels_{schema_, layout_, diagnostics_};
     PatchReader patches_{schema_, layout_, levels_, diagnostics_};
     GivenReader given_{schema_, layout_, groups_, diagnostics_};
-    SeatReader seats_{schema_, layout_, places_, groups_, walls_, diagnostics_};
+    SeatReader seats_{schema_, layout_, places_, levels_, groups_, walls_, diagnostics_};
     BoardingReader boarding_{schema_, layout_, areas_, diagnostics_};
     TrafficReader traffic_{schema_, layout_, boarding_, diagnostics_};
     BehaviourReader behaviours_{schema_, layout_, places_, groups_, walls_, traffic_, diagnostics_};

@@ -20,9 +20,9 @@ class LevelReader {
     void readLink(const JsonNode& node);
     /// The object's `level`.
     std::size_t levelOf(ObjectReader& reader) const;
+    std::size_t levelNamed(const JsonNode& node) const;
 
   private:
-    std::size_t levelNamed(const JsonNode& node) const;
     /// What is said of ground that moves.
     void readBelt(ObjectReader& reader, const JsonNode& node, Link& link) const;
     /// What is said of cabins.

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <numeric>
 
 #include "authoring/layout/people_reader.h"
+#include "authoring/layout/seat_mouths.h"
 #include "authoring/layout/seat_rows.h"
 
 namespace throng::authoring {
@@ -57,6 +59,11 @@ void SeatReader::readBlock(const JsonNode& node) {
     reader.number("occupancy", block.occupancy);
     block.people = readPeople(reader, diagnostics_);
     if (const JsonNode* leave = reader.get("leave")) readLeave(*leave, block);
+    if (const JsonNode* level = reader.get("level")) {
+        block.level = levels_.levelNamed(*level);
+        if (block.level < layout_.levels.size()) block.height += layout_.levels[block.level].height;
+    }
+    readMouths(reader, block);
     reader.finish();
     claimId(node, block.id, blocks_, layout_.seats.size(), "a block of seats", diagnostics_);
     claimId(node, block.id, groups_, std::string::npos, "a flow, formation or block of seats", diagnostics_);
@@ -65,6 +72,46 @@ void SeatReader::readBlock(const JsonNode& node) {
         if (!diagnostics_.hasErrors()) addStands(block);
     }
     layout_.seats.push_back(std::move(block));
+}
+
+/// Where its aisles go out.
+void SeatReader::readMouths(ObjectReader& reader, SeatBlock& block) const {
+    using At = SeatBlock::Mouths::At;
+    SeatBlock::Mouths& mouths = block.mouths;
+    mouths.level = block.level;
+    if (const JsonNode* node = reader.get("mouths")) {
+        mouths.where = node->where;
+        ObjectReader told(*node, schema_.definition("seat_block").property("mouths"), "`mouths`",
+                          diagnostics_);
+        if (!told.isObject()) return;
+        told.choice("at", {{"front", At::front}, {"back", At::back}, {"row", At::row}}, mouths.at);
+        if (mouths.at == At::row) told.require("row", "on which people come out, from 1");
+        told.integer("row", mouths.row);
+        told.number("passage", mouths.passage);
+        mouths.level = node->find("level") ? levels_.levelOf(told) : mouths.level;
+        told.finish();
+        checkMouths(*node, block);
+    }
+    if (mouths.level < layout_.levels.size()) mouths.height = layout_.levels[mouths.level].height;
+}
+
+void SeatReader::checkMouths(const JsonNode& node, const SeatBlock& block) const {
+    using At = SeatBlock::Mouths::At;
+    const JsonNode* row = node.find("row");
+    if (row && block.mouths.at != At::row)
+        diagnostics_.error(row->where, "`row` is only of mouths at a row", R"(write "at": "row")");
+    if (const JsonNode* passage = node.find("passage"); passage && block.mouths.at == At::front)
+        diagnostics_.error(passage->where, "people step from the front straight onto the ground",
+                           R"(leave it out, or write "at": "back" or "row")");
+    if (row && block.mouths.row > block.rows)
+        diagnostics_.error(row->where,
+                           fmt::format("block `{}` has {} rows: its aisles cannot come out on row {}",
+                                       block.id, block.rows, block.mouths.row),
+                           fmt::format("rows are counted from the front, from 1 to {}", block.rows));
+    if (block.mouths.at != At::front && block.aisles == 0)
+        diagnostics_.error(node.where,
+                           fmt::format("block `{}` has no aisles that could go out there", block.id),
+                           R"(give it "aisles")");
 }
 
 /// As a behaviour: who sits there does until then.
@@ -137,7 +184,10 @@ void SeatReader::openBlock(SeatBlock& block) {
         layout_.behaviours.back().states[0].for_good = true;
     }
     for (std::vector<glm::dvec2>& outline : aisleOutlines(block))
-        addStand(block, std::move(outline));
+        addStand(block, std::move(outline), block.level);
+    for (std::size_t aisle = 0; hasPassages(block) && aisle < countAisles(block); ++aisle)
+        if (std::vector<glm::dvec2> outline = passageOutline(block, aisle); !outline.empty())
+            addStand(block, std::move(outline), block.mouths.level);
 }
 
 void SeatReader::readArc(ObjectReader& reader, const JsonNode& node, SeatBlock& block) {
@@ -182,15 +232,30 @@ void SeatReader::checkBlock(const SeatBlock& block, const JsonNode& node) const 
     if (countSeats(block) == 0)
         diagnostics_.error(node.where, fmt::format("block `{}` has room for no seat", block.id),
                            "make its first row longer, its seats or aisles narrower, or its aisles fewer");
+    if (hasPassages(block)) checkPassage(block);
+}
+
+void SeatReader::checkPassage(const SeatBlock& block) const {
+    constexpr double kSteepest = 0.8;  // rise over run, as of stairs
+    const double landing = block.height + static_cast<double>(landingRow(block)) * block.rise;
+    const double climb = std::abs(landing - block.mouths.height), length = passageLength(block);
+    if (climb > kSteepest * length)
+        diagnostics_.error(
+            block.mouths.where,
+            fmt::format(
+                "the passages of block `{}` climb {:.2f} m over {:.2f} m: they climb at most {:.0f} %",
+                block.id, climb, length, 100.0 * kSteepest),
+            fmt::format(R"(write "passage": {:.1f} or more, or take another row)",
+                        std::ceil(10.0 * climb / kSteepest) / 10.0));
 }
 
 /// Others walk round the stand and through its aisles.
 void SeatReader::addStands(const SeatBlock& block) {
     for (std::vector<glm::dvec2>& outline : standOutlines(block))
-        addStand(block, std::move(outline));
+        addStand(block, std::move(outline), block.level);
 }
 
-void SeatReader::addStand(const SeatBlock& block, std::vector<glm::dvec2> outline) {
+void SeatReader::addStand(const SeatBlock& block, std::vector<glm::dvec2> outline, std::size_t level) {
     Wall wall;
     wall.id = block.id + " stand";
     while (!walls_.emplace(wall.id, layout_.walls.size()).second)
@@ -198,6 +263,7 @@ void SeatReader::addStand(const SeatBlock& block, std::vector<glm::dvec2> outlin
     wall.points = std::move(outline);
     wall.closed = true;
     wall.height = kStandHeight;
+    wall.level = level;
     wall.where = block.where;
     layout_.walls.push_back(std::move(wall));
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "authoring/layout.h"
+#include "authoring/layout/level_reader.h"
 #include "authoring/layout/object_reader.h"
 #include "authoring/layout/place_reader.h"
 
@@ -16,11 +17,12 @@ class SeatReader {
     using Indices = std::map<std::string, std::size_t>;  // by id
     /// @param groups ids of flows and formations, to which those of blocks are added; @param walls likewise,
     /// of walls
-    SeatReader(const Schema& schema, Layout& layout, const PlaceReader& places, Indices& groups,
-               Indices& walls, Diagnostics& diagnostics)
+    SeatReader(const Schema& schema, Layout& layout, const PlaceReader& places, const LevelReader& levels,
+               Indices& groups, Indices& walls, Diagnostics& diagnostics)
         : schema_(schema),
           layout_(layout),
           places_(places),
+          levels_(levels),
           groups_(groups),
           walls_(walls),
           diagnostics_(diagnostics) {}
@@ -36,18 +38,22 @@ class SeatReader {
 
   private:
     void readLeave(const JsonNode& node, SeatBlock& block);
+    void readMouths(ObjectReader& reader, SeatBlock& block) const;
+    void checkMouths(const JsonNode& node, const SeatBlock& block) const;
+    void checkPassage(const SeatBlock& block) const;
     void openBlock(SeatBlock& block);
     void leadTo(BehaviourState& state) const;
     void readArc(ObjectReader& reader, const JsonNode& node, SeatBlock& block);
     void checkBlock(const SeatBlock& block, const JsonNode& node) const;
     void addStands(const SeatBlock& block);
-    void addStand(const SeatBlock& block, std::vector<glm::dvec2> outline);
+    void addStand(const SeatBlock& block, std::vector<glm::dvec2> outline, std::size_t level);
     void readAudience(const JsonNode* list, Show& show) const;
     void readWave(ObjectReader& reader, const JsonNode& node, Show& show) const;
 
     const Schema& schema_;
     Layout& layout_;
     const PlaceReader& places_;
+    const LevelReader& levels_;
     Indices& groups_;
     Indices& walls_;
     Diagnostics& diagnostics_;

@@ -6,104 +6,29 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "authoring/layout/row_line.h"
+#include "authoring/layout/seat_mouths.h"
+
 namespace throng::authoring {
 namespace {
 
 constexpr double kArcStep = 1.0;       // degrees: of 100 m, the middle of a chord is 4 mm off
 constexpr double kOutlineTurn = 0.14;  // rad that a piece of an outline turns at most
 
-/// To the left of a direction.
-glm::dvec2 leftOf(glm::dvec2 way) {
-    return {-way.y, way.x};
-}
-
-/// The line that a row stands on, as a share of it goes from 0 to 1. A share means the same of all rows: it
-/// lies on one straight line through them.
-class RowLine {
-  public:
-    RowLine(const SeatBlock& block, double back) {
-        const std::vector<glm::dvec2>& front = block.front;
-        std::vector<glm::dvec2> left;
-        for (std::size_t i = 0; i + 1 < front.size(); ++i)
-            left.push_back(leftOf(glm::normalize(front[i + 1] - front[i])));
-        for (std::size_t i = 0; i < front.size(); ++i) {
-            const glm::dvec2 before = left[i == 0 ? 0 : i - 1], after = left[std::min(i, left.size() - 1)];
-            const glm::dvec2 sum = before + after;
-            points_.push_back(front[i] - back * 2.0 * sum / glm::dot(sum, sum));
-            shares_.push_back(i == 0 ? 0.0 : shares_.back() + glm::distance(front[i], front[i - 1]));
-        }
-        for (double& share : shares_)
-            share /= shares_.back();
-        left_ = std::move(left);
-    }
-
-    double length() const { return lengthBetween(0.0, 1.0); }
-    double lengthBetween(double from, double to) const {
-        double length = 0.0;
-        for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
-            const double low = std::max(from, shares_[i]), high = std::min(to, shares_[i + 1]);
-            if (high > low) length += lengthOfPiece(i) * (high - low) / (shares_[i + 1] - shares_[i]);
-        }
-        return length;
-    }
-    /// The share so many metres behind another.
-    double advance(double from, double metres) const {
-        for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
-            if (shares_[i + 1] <= from) continue;
-            const double low = std::max(from, shares_[i]);
-            const double per_share = lengthOfPiece(i) / (shares_[i + 1] - shares_[i]);
-            const double rest = (shares_[i + 1] - low) * per_share;
-            if (metres <= rest) return low + metres / per_share;
-            metres -= rest;
-        }
-        return 1.0;
-    }
-    glm::dvec2 at(double share) const {
-        const std::size_t i = pieceAt(share);
-        const double u = (share - shares_[i]) / (shares_[i + 1] - shares_[i]);
-        return points_[i] + u * (points_[i + 1] - points_[i]);
-    }
-    glm::dvec2 aheadAt(double share) const { return left_[pieceAt(share)]; }
-    /// From one share to another, with the corners between them.
-    std::vector<glm::dvec2> between(double from, double to) const {
-        std::vector<glm::dvec2> line{at(from)};
-        for (std::size_t i = 0; i < points_.size(); ++i)
-            if (shares_[i] > from + 1.0e-9 && shares_[i] < to - 1.0e-9) line.push_back(points_[i]);
-        line.push_back(at(to));
-        return line;
-    }
-    /// Whether it goes the way that the first row goes, everywhere.
-    bool goesOn() const {
-        for (std::size_t i = 0; i + 1 < points_.size(); ++i)
-            if (glm::dot(leftOf(points_[i + 1] - points_[i]), left_[i]) <= 0.0) return false;
-        return true;
-    }
-    const std::vector<double>& corners() const { return shares_; }
-    glm::dvec2 leftOfPiece(std::size_t piece) const { return left_[piece]; }
-
-  private:
-    double lengthOfPiece(std::size_t i) const { return glm::distance(points_[i], points_[i + 1]); }
-    std::size_t pieceAt(double share) const {
-        const auto above = std::upper_bound(shares_.begin() + 1, shares_.end() - 1, share);
-        return static_cast<std::size_t>(above - shares_.begin()) - 1;
-    }
-    std::vector<glm::dvec2> points_, left_;
-    std::vector<double> shares_;
-};
-
 /// Shares between two aisles, or an aisle and an end.
 struct Section {
     double from, to;
 };
 
-std::vector<Section> sectionsOf(const SeatBlock& block, const RowLine& line) {
+/// @param gap m between two sections, in the middle of which there is an aisle
+std::vector<Section> sectionsOf(const SeatBlock& block, const RowLine& line, double gap) {
     std::vector<Section> sections;
     const auto count = static_cast<double>(block.aisles + 1);
     for (std::uint64_t i = 0; i <= block.aisles; ++i) {
         const double middle = static_cast<double>(i) / count, next = static_cast<double>(i + 1) / count;
-        Section section{i == 0 ? 0.0 : line.advance(middle, 0.5 * block.aisle_width), next};
+        Section section{i == 0 ? 0.0 : line.advance(middle, 0.5 * gap), next};
         if (i < block.aisles) {
-            const double room = line.lengthBetween(middle, next) - 0.5 * block.aisle_width;
+            const double room = line.lengthBetween(middle, next) - 0.5 * gap;
             section.to = line.advance(middle, std::max(room, 0.0));
         }
         sections.push_back(section);
@@ -121,11 +46,6 @@ double middleRow(const SeatBlock& block) {
     return 0.5 * static_cast<double>(block.rows - 1) * block.pitch;
 }
 
-double aisleShare(const SeatBlock& block, std::size_t aisle) {
-    if (block.aisles == 0) return static_cast<double>(aisle);
-    return static_cast<double>(aisle + 1) / static_cast<double>(block.aisles + 1);
-}
-
 /// The middle of an aisle, so far behind the first row; of a block without any, beside its rows.
 glm::dvec2 inAisle(const SeatBlock& block, std::size_t aisle, double back) {
     constexpr double kBeside = 0.45;  // m
@@ -139,12 +59,17 @@ glm::dvec2 inAisle(const SeatBlock& block, std::size_t aisle, double back) {
 
 }  // namespace
 
+double aisleShare(const SeatBlock& block, std::size_t aisle) {
+    if (block.aisles == 0) return static_cast<double>(aisle);
+    return static_cast<double>(aisle + 1) / static_cast<double>(block.aisles + 1);
+}
+
 std::vector<Seat> seatsOf(const SeatBlock& block) {
     std::vector<Seat> seats;
     const double whole = lengthOf(block);
     for (std::uint64_t row = 0; row < block.rows; ++row) {
         const RowLine line(block, static_cast<double>(row) * block.pitch);
-        const std::vector<Section> sections = sectionsOf(block, line);
+        const std::vector<Section> sections = sectionsOf(block, line, gapOfRow(block, row));
         for (std::size_t number = 0; number < sections.size(); ++number) {
             const std::size_t count = seatsIn(block, line, sections[number]);
             const double spare = line.lengthBetween(sections[number].from, sections[number].to) -
@@ -175,7 +100,7 @@ std::size_t countSeats(const SeatBlock& block) {
     std::size_t count = 0;
     for (std::uint64_t row = 0; row < block.rows; ++row) {
         const RowLine line(block, static_cast<double>(row) * block.pitch);
-        for (const Section& section : sectionsOf(block, line))
+        for (const Section& section : sectionsOf(block, line, gapOfRow(block, row)))
             count += seatsIn(block, line, section);
     }
     return count;
@@ -184,7 +109,8 @@ std::size_t countSeats(const SeatBlock& block) {
 std::vector<std::vector<glm::dvec2>> standOutlines(const SeatBlock& block) {
     const double before = -0.5 * block.pitch, behind = (static_cast<double>(block.rows) - 0.5) * block.pitch;
     const RowLine front(block, before), back(block, behind);
-    const std::vector<Section> near = sectionsOf(block, front), far = sectionsOf(block, back);
+    const std::vector<Section> near = sectionsOf(block, front, block.aisle_width),
+                               far = sectionsOf(block, back, block.aisle_width);
     std::vector<std::vector<glm::dvec2>> outlines;
     for (std::size_t i = 0; i < near.size(); ++i) {
         if (near[i].to <= near[i].from || far[i].to <= far[i].from) continue;
@@ -212,7 +138,7 @@ std::vector<SeatRow> seatRows(const SeatBlock& block) {
     std::vector<SeatRow> rows;
     for (std::uint64_t row = 0; row < block.rows; ++row) {
         const RowLine line(block, static_cast<double>(row) * block.pitch);
-        for (const Section& section : sectionsOf(block, line))
+        for (const Section& section : sectionsOf(block, line, gapOfRow(block, row)))
             if (seatsIn(block, line, section) > 0)
                 rows.push_back({line.between(section.from, section.to),
                                 block.height + static_cast<double>(row) * block.rise});
@@ -264,7 +190,7 @@ std::vector<glm::dvec2> wayAlongRow(const SeatBlock& block, std::size_t aisle, c
 
 std::vector<glm::dvec2> footOf(const SeatBlock& block, std::size_t aisle) {
     constexpr double kHalf = 0.45;  // m
-    const glm::dvec2 foot = aisleLine(block, aisle).front();
+    const glm::dvec2 foot = hasPassages(block) ? passageFoot(block, aisle) : aisleLine(block, aisle).front();
     return {foot + glm::dvec2(-kHalf, -kHalf), foot + glm::dvec2(kHalf, -kHalf),
             foot + glm::dvec2(kHalf, kHalf), foot + glm::dvec2(-kHalf, kHalf)};
 }
@@ -272,7 +198,8 @@ std::vector<glm::dvec2> footOf(const SeatBlock& block, std::size_t aisle) {
 std::vector<std::vector<glm::dvec2>> aisleOutlines(const SeatBlock& block) {
     const double before = -0.5 * block.pitch, behind = (static_cast<double>(block.rows) - 0.5) * block.pitch;
     const RowLine front(block, before), back(block, behind);
-    const std::vector<Section> near = sectionsOf(block, front), far = sectionsOf(block, back);
+    const std::vector<Section> near = sectionsOf(block, front, block.aisle_width),
+                               far = sectionsOf(block, back, block.aisle_width);
     std::vector<std::vector<glm::dvec2>> outlines;
     for (std::size_t i = 0; i + 1 < near.size(); ++i)
         outlines.push_back(

@@ -44,6 +44,8 @@ double passingAhead(const SeatBlock& block);
 
 /// Aisles by which people come to the seats: those through the block, or, where there are none, its two ends.
 std::size_t countAisles(const SeatBlock& block);
+/// Where one goes through the rows, as a share of each.
+double aisleShare(const SeatBlock& block, std::size_t aisle);
 /// The one that is nearest to a seat.
 std::size_t aisleOf(const SeatBlock& block, const Seat& seat);
 /// The middle of an aisle: before the first row, where people step off the ground, and then before each row.

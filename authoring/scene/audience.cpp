@@ -174,7 +174,7 @@ class WaveCourse {
         // Of all blocks, whether people walk to them or not.
         for (const std::size_t block : show.blocks)
             for (const Spectator& each : audienceIn(layout, block)) {
-                const double away = glm::distance(each.seat.place, *show.from);
+                const double away = glm::distance(each.seat.place - layout.seats[block].shift, *show.from);
                 if (away >= nearest) continue;
                 nearest = away;
                 start_ = begins_[each.block] + each.seat.along;

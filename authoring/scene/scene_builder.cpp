@@ -24,6 +24,7 @@
 #include "authoring/scene/raster.h"
 #include "authoring/scene/rebase.h"
 #include "authoring/scene/routes.h"
+#include "authoring/scene/seat_feet.h"
 #include "authoring/scene/seat_ways.h"
 #include "authoring/scene/terrain_charts.h"
 #include "authoring/scene/terrain_check.h"
@@ -954,7 +955,7 @@ std::optional<Scene> buildScene(const Layout& layout, Diagnostics& diagnostics, 
     GroundCache own;
     std::shared_ptr<const Charts> charts;
     if (!areLevelsComplete(layout, diagnostics)) return std::nullopt;
-    if (!haveFlatGround(layout, diagnostics)) return std::nullopt;
+    if (!haveFlatGround(layout, diagnostics) || !areFeetOnGround(layout, diagnostics)) return std::nullopt;
     if (!layout.levels.empty() && !isWithoutTraffic(layout, diagnostics)) return std::nullopt;
     if (!layout.levels.empty() && !isWithoutGivenPeople(layout, diagnostics)) return std::nullopt;
     if (layout.terrain) {

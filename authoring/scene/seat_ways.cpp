@@ -9,6 +9,7 @@
 #include <map>
 #include <tuple>
 
+#include "authoring/layout/seat_mouths.h"
 #include "authoring/scene/audience.h"
 #include "authoring/scene/seat_plan.h"
 
@@ -142,7 +143,11 @@ class SeatBuilder {
         way.first_of_aisle = static_cast<std::uint32_t>(first);
         way.count_of_aisle = static_cast<std::uint32_t>(end - first);
         way.lane = static_cast<std::uint32_t>(2 * seat.row + (seat.section > owner.aisle ? 1 : 0));
-        addPoints(block, owner.aisle, seat, way);
+        way.shift = glm::vec2(block.shift);
+        if (hasPassages(block))
+            addPassage(block, owner.aisle, seat, way);
+        else
+            addPoints(block, owner.aisle, seat, way);
         scene_.seats.sitter_of_row[owner.row] = static_cast<std::uint32_t>(scene_.seats.ways.size());
         scene_.seats.ways.push_back(way);
         gpu::Sitter sitter{};
@@ -161,18 +166,34 @@ class SeatBuilder {
         scene_.seats.cues = cuesIn(layout_, seated);
     }
 
+    void addPassage(const SeatBlock& block, std::size_t aisle, const Seat& seat, gpu::SeatWay& way) {
+        const AisleWay found = wayToSeat(block, aisle, seat);
+        way.first_point = static_cast<std::uint32_t>(scene_.seats.points.size());
+        way.point_count = static_cast<std::uint32_t>(found.points.size());
+        for (const AislePoint& point : found.points)
+            scene_.seats.points.push_back({rebase_.local(point.place), glm::vec2(point.beside),
+                                           glm::vec2(point.alone), static_cast<float>(point.height),
+                                           static_cast<float>(point.along)});
+        way.fork = static_cast<float>(found.fork);
+        way.mouth = static_cast<float>(found.mouth);
+        way.length = scene_.seats.points.back().along;
+        way.branch = found.branch;
+        way.free_side = found.beyond ? 1 : 2;
+    }
+
     /// Up the aisle, step by step, and along the row.
     void addPoints(const SeatBlock& block, std::size_t aisle, const Seat& seat, gpu::SeatWay& way) {
         std::vector<gpu::SeatPoint>& points = scene_.seats.points;
         way.first_point = static_cast<std::uint32_t>(points.size());
         const auto add = [&](glm::dvec2 place, double height) {
-            gpu::SeatPoint point{rebase_.local(place), static_cast<float>(height), 0.0f};
+            gpu::SeatPoint point{rebase_.local(place), glm::vec2(0.0f), glm::vec2(0.0f),
+                                 static_cast<float>(height), 0.0f};
             if (points.size() > way.first_point)
                 point.along = points.back().along + glm::distance(points.back().place, point.place);
             points.push_back(point);
         };
         const std::vector<glm::dvec2> line = aisleLine(block, aisle);
-        add(line.front(), 0.0);
+        add(line.front(), block.mouths.height);
         for (std::size_t row = 0; row < seat.row; ++row)
             add(line[row + 1], block.height + static_cast<double>(row) * block.rise);
         const std::vector<glm::dvec2> row = wayAlongRow(block, aisle, seat);
@@ -182,6 +203,8 @@ class SeatBuilder {
             add(row[i], seat.height);
         way.point_count = static_cast<std::uint32_t>(points.size()) - way.first_point;
         way.length = points.back().along;
+        way.fork = gpu::NO_FORK;
+        way.free_side = way.lane % 2 == 0 ? 1 : 0;
     }
 
     const Layout& layout_;
@@ -196,14 +219,15 @@ class SeatBuilder {
 }  // namespace
 
 bool haveFlatGround(const Layout& layout, Diagnostics& diagnostics) {
-    if (!layout.terrain && layout.levels.empty()) return true;
+    if (!layout.terrain) return true;
     const auto open = std::ranges::find_if(layout.seats, &SeatBlock::isOpen);
     if (open == layout.seats.end()) return true;
     diagnostics.error(
         open->where,
-        fmt::format("people walk to the seats of block `{}`, or leave them: this is for flat ground only",
-                    open->id),
-        layout.terrain ? "leave out the `terrain`" : "leave out the `levels`");
+        fmt::format(
+            "people walk to the seats of block `{}`, or leave them: this is for flat ground and levels only",
+            open->id),
+        "leave out the `terrain`, or make its floors `levels`");
     return false;
 }
 

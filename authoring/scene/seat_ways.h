@@ -11,7 +11,7 @@ namespace throng::authoring {
 /// The behaviour of a group of the scene: a flow, a formation, or the audience of a block of seats.
 const Behaviour* behaviourOf(const Layout& layout, const Scene& scene, std::size_t group);
 
-/// Whether no block that people walk to or leave is where the ground is not flat; otherwise that is an error.
+/// Whether no block that people walk to or leave is on a terrain; otherwise that is an error.
 bool haveFlatGround(const Layout& layout, Diagnostics& diagnostics);
 
 /// Gives everybody who is to sit somewhere a seat, parties side by side, and works out the ways there. Those

@@ -154,6 +154,13 @@ class LayingOut {
         result_->walls.push_back(wall);
     }
 
+    /// Stands may lie behind the floor from which they keep people off.
+    bool isOfStand(const Wall& wall) const {
+        return std::ranges::any_of(layout_.seats, [&](const SeatBlock& block) {
+            return block.where.line == wall.where.line && block.where.column == wall.where.column;
+        });
+    }
+
     /// A wall that nobody can come near to was meant for another level, or is out of place.
     void tellOfWallBeside(const Wall& wall) const {
         constexpr double kNearby = 0.5;  // m
@@ -176,7 +183,7 @@ class LayingOut {
     /// The layout's walls stand on their levels; floors and links end in railings.
     void raiseWalls() {
         for (const Wall& wall : layout_.walls) {
-            tellOfWallBeside(wall);
+            if (!isOfStand(wall)) tellOfWallBeside(wall);
             result_->ground_along_walls.emplace_back(result_->charts[wall.level].height);
             addWall(wall.level, wall);
         }

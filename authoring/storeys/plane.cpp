@@ -63,6 +63,7 @@ void moveFormation(Formation& formation, glm::dvec2 by) {
 }
 
 std::size_t levelOf(const Layout& layout, const Place& place) {
+    if (place.kind == Place::Kind::aisle) return layout.seats[place.index].mouths.level;
     return place.kind == Place::Kind::area ? layout.areas[place.index].level
                                            : layout.roads[place.index].level;
 }
@@ -114,6 +115,12 @@ Layout moved(const Layout& layout, const std::vector<Chart>& charts) {
         }
     for (Formation& formation : plane.formations)
         moveFormation(formation, charts[formation.level].shift);
+    // People in rows are in nobody's way: wherever they are, they are as if on the ground from which they come.
+    for (SeatBlock& block : plane.seats) {
+        block.shift = charts[block.mouths.level].shift;
+        movePoints(block.front, block.shift);
+        if (block.facing) *block.facing += block.shift;
+    }
     return plane;
 }
 

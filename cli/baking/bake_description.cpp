@@ -10,6 +10,7 @@
 
 #include "authoring/layout/amounts.h"
 #include "authoring/layout/layout_reader.h"
+#include "authoring/layout/seat_mouths.h"
 #include "authoring/scene/audience.h"
 #include "authoring/scene/terrain_check.h"
 #include "authoring/storeys/charts.h"
@@ -23,14 +24,22 @@ namespace {
 
 constexpr double kFigureBesideThings = 0.25;  // m: half the shoulder breadth of who is with a thing
 
+/// Who begins in a seat may be where no chart is (authoring/storeys/plane.cpp).
+glm::dvec2 goalOf(const authoring::Scene& scene, std::size_t row) {
+    if (scene.people[row].flags & gpu::PERSON_SITS_AT_START) {
+        const gpu::SeatWay& way = scene.seats.ways[scene.seats.sitter_of_row[row]];
+        return scene.origin + glm::dvec2(way.place - way.shift);
+    }
+    return scene.origin + glm::dvec2(scene.chart_map.home(scene.goals[row]));
+}
+
 std::vector<recording::BakeAgent> describeAgents(const authoring::Scene& scene) {
     std::vector<recording::BakeAgent> agents;
     agents.reserve(scene.people.size());
     for (std::size_t row = 0; row < scene.people.size(); ++row) {
         const gpu::Person& person = scene.people[row];
         agents.push_back({person.group, person.radius, person.preferred_speed, person.variation,
-                          person.party_first,
-                          scene.origin + glm::dvec2(scene.chart_map.home(scene.goals[row]))});
+                          person.party_first, goalOf(scene, row)});
         if (person.half_axis != 0.0f) {
             const double thickness = double{person.radius} - std::abs(double{person.half_axis});
             const double longer = 2.0 * double{person.radius};
@@ -45,6 +54,21 @@ std::vector<recording::BakeAgent> describeAgents(const authoring::Scene& scene) 
     return agents;
 }
 
+bool isShown(const authoring::SeatBlock& block) {
+    return block.isOpen() || authoring::hasPassages(block);
+}
+
+recording::BakeAisle describeAisle(const authoring::SeatBlock& block, std::size_t aisle) {
+    if (!authoring::hasPassages(block))
+        return {authoring::aisleLine(block, aisle), authoring::aisleWidth(block)};
+    const authoring::Flight passage = authoring::passageOf(block, aisle);
+    recording::BakeAisle described{passage.line, passage.width};
+    described.passage = {passage.line, passage.heights, passage.width};
+    for (const authoring::Flight& flight : authoring::flightsOf(block, aisle))
+        described.flights.push_back({flight.line, flight.heights, flight.width});
+    return described;
+}
+
 /// Those who have seats come after all who are simulated.
 void describeAudience(const authoring::Layout& layout, const authoring::Scene& scene,
                       recording::BakeDescription& bake) {
@@ -55,9 +79,8 @@ void describeAudience(const authoring::Layout& layout, const authoring::Scene& s
         bake.seats.push_back({block.id, block.pitch, block.width, block.rise, {}});
         for (const authoring::SeatRow& row : authoring::seatRows(block))
             bake.seats.back().rows.push_back({row.line, row.height});
-        for (std::size_t aisle = 0; block.isOpen() && aisle < authoring::countAisles(block); ++aisle)
-            bake.seats.back().aisles.push_back(
-                {authoring::aisleLine(block, aisle), authoring::aisleWidth(block)});
+        for (std::size_t aisle = 0; isShown(block) && aisle < authoring::countAisles(block); ++aisle)
+            bake.seats.back().aisles.push_back(describeAisle(block, aisle));
     }
     for (authoring::Spectator& each : authoring::audienceOf(layout)) {
         const authoring::SeatBlock& block = layout.seats[each.block];

@@ -27,6 +27,7 @@ constexpr double kLaneHeight = 0.015;                   // m
 constexpr double kStripeHeight = 0.025, kStripe = 0.5;  // m: a zebra's, and how wide
 
 constexpr double kSeat = 0.42, kBench = 0.4;  // m: high and deep
+constexpr double kSlab = 0.15;                // m: rows over passages are so thick
 
 constexpr std::uint64_t kLargestTracks = std::uint64_t{2'000} << 20;
 
@@ -70,6 +71,11 @@ void addWalls(GlbDocument& document, const recording::BakeDescription& descripti
     }
 }
 
+/// People may walk under such a stand.
+bool hasPassages(const recording::BakeSeats& seats) {
+    return !seats.aisles.empty() && seats.aisles.front().passage;
+}
+
 /// A step for each row of seats, and a bench on it.
 void addStands(GlbDocument& document, const recording::BakeDescription& description) {
     if (description.seats.empty()) return;
@@ -79,7 +85,11 @@ void addStands(GlbDocument& document, const recording::BakeDescription& descript
         Mesh steps, benches;
         for (const recording::BakeSeatRow& row : seats.rows) {
             const std::vector<glm::dvec2> line = relative(row.line, description.output_origin);
-            if (row.height > kAreaHeight) append(steps, openWallMesh(line, seats.pitch, row.height));
+            if (hasPassages(seats))
+                append(steps, raisedMesh(openWallMesh(line, seats.pitch, seats.rise + kSlab),
+                                         row.height - seats.rise - kSlab));
+            else if (row.height > kAreaHeight)
+                append(steps, openWallMesh(line, seats.pitch, row.height));
             append(benches, raisedMesh(openWallMesh(line, kBench, kSeat), row.height));
         }
         document.addMeshNode("stand " + seats.id, steps, stone);

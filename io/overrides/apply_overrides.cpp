@@ -256,8 +256,12 @@ class Application {
             for (recording::BakeSeatRow& row : seats.rows)
                 toWorld(row.line);
         for (recording::BakeSeats& seats : description.seats)
-            for (recording::BakeAisle& aisle : seats.aisles)
+            for (recording::BakeAisle& aisle : seats.aisles) {
                 toWorld(aisle.line);
+                if (aisle.passage) toWorld(aisle.passage->line);
+                for (recording::BakeFlight& flight : aisle.flights)
+                    toWorld(flight.line);
+            }
         for (authoring::Lane& lane : description.traffic.lanes)
             toWorld(lane.points);
         for (authoring::Zebra& crossing : description.traffic.crossings)

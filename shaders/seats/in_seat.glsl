@@ -18,7 +18,7 @@ void setMode(inout Sitter self, uint mode) {
 void turnBack(inout Sitter self, inout AgentState state, SeatWay way, Others seen, float seconds) {
     float share = clamp(seconds / TURNS_FOR, 0.0, 1.0);
     vec2 before = state.position;
-    state.position = mix(placeOnWay(way, way.length, true) + self.off, way.stand, smoothed(share));
+    state.position = mix(placeOnWay(way, way.length, FILE_IN) + self.off, way.stand, smoothed(share));
     state.velocity = (state.position - before) / parameters.step_seconds;
     state.walked += length(state.position - before);
     state.heading = turnTowards(state.heading, vec2(cos(way.heading), sin(way.heading)));
@@ -38,7 +38,7 @@ void moveUp(inout Sitter self, float seconds) {
 void beginToLeave(inout Sitter self, SeatWay way) {
     self.along = way.length;
     self.speed = 0.0;
-    self.off = way.stand - placeOnWay(way, way.length, false);
+    self.off = way.stand - placeOnWay(way, way.length, FILE_OUT);
     self.side = 0u;
     self.seated = NO_INDEX;
     setMode(self, SITTER_LEAVES);

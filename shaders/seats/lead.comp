@@ -48,17 +48,17 @@ void begin(inout Sitter self, uint mode) {
 float secondsIn(Sitter self) { return float(steps_done - self.since) * parameters.step_seconds; }
 
 void walkOnWay(inout Sitter self, inout AgentState state, SeatWay way, Others seen, float preferred) {
-    bool inwards = self.mode == SITTER_ENTERS || self.side != 0u;  // which side it keeps to
+    uint file = fileOf(self);
     vec2 before = state.position;
     // Nobody walks into those who stand where the aisle ends.
     float radius = people[way.row].radius;
     bool near_end = self.mode == SITTER_LEAVES && self.along < BEFORE_END + THERE;
-    bool may_go = !near_end || hasRoom(placeOnWay(way, 0.0, inwards), radius, self);
+    bool may_go = !near_end || hasRoom(placeOnWay(way, 0.0, file), radius, self);
     if (!may_go) seen.halt = max(seen.halt, min(BEFORE_END, self.along));
     walk(self, way, seen, preferred);
-    state.position = placeOnWay(way, self.along, inwards) + self.off;
+    state.position = placeOnWay(way, self.along, file) + self.off;
     takeSteps(state, before);
-    inwards = self.mode == SITTER_ENTERS;
+    bool inwards = self.mode == SITTER_ENTERS;
     if (inwards && way.length - self.along < THERE) begin(self, SITTER_TURNS);
     if (!inwards && self.along < THERE && may_cross != 0u && may_go)
         stepOut(self, state, minds[way.row].first_stage);

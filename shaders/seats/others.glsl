@@ -8,6 +8,7 @@ const float BEFORE_KNEES = 0.45;   // m: so near one comes to somebody who does 
 const float BEFORE_ROW = 0.75;     // m before a row, where one waits for those who come out of it
 const float FAR_ENOUGH = 1.0e6;    // m
 const float MADE_ROOM = 0.85;      // so far up, one may be passed
+const float MERGES = 1.5;          // m behind a fork
 
 /// What of it matters to one of them.
 struct Others {
@@ -23,8 +24,16 @@ struct Others {
     bool against;      // somebody comes out where those walk who go in
 };
 
-/// Rows on the side of the aisle on which people come in.
-bool isWayIn(SeatWay way) { return way.lane % 2u == 0u; }
+/// Whether two places on the ways of two people are on what they share: where ways to the front and to the back meet,
+/// people go in in the order in which they come, as if all came along one line.
+bool areTogether(SeatWay way, SeatWay theirs, float place, float their_place) {
+    return way.branch == theirs.branch || max(place, their_place) < way.fork + MERGES;
+}
+
+/// Whether two who leave walk on one side of the aisle. Who keeps to the side beside those who come in may meet any.
+bool areInOneFile(SeatWay way, Sitter self, Sitter other) {
+    return other.side == self.side || (way.fork != NO_FORK && (other.side == 0u || self.side == 0u));
+}
 
 bool isEarlier(Sitter other, uint number, Sitter self, uint index) {
     return other.since < self.since || (other.since == self.since && number < index);
@@ -53,9 +62,12 @@ void seeAhead(inout Others seen, Sitter self, SeatWay way, uint index, Sitter ot
     if (other.mode != (inwards ? SITTER_ENTERS : SITTER_LEAVES)) return;
     bool same_row = theirs.lane == way.lane;
     bool own_row = self.along > way.mouth;
-    if (!inwards && !same_row && other.side != self.side) return;
-    if (!same_row && (own_row || other.along > theirs.mouth + (inwards ? STILL_IN_AISLE : STEPS_OUT))) return;
-    float place = same_row ? other.along : min(other.along, theirs.mouth);
+    if (!inwards && !same_row && !areInOneFile(way, self, other)) return;
+    bool apart = inwards && way.branch != theirs.branch;
+    float parting = apart ? min(theirs.mouth, way.fork) : theirs.mouth;
+    if (!same_row && (own_row || other.along > parting + (inwards ? STILL_IN_AISLE : STEPS_OUT))) return;
+    float place = same_row ? other.along : min(other.along, parting);
+    if (!inwards && !areTogether(way, theirs, self.along, place)) return;
     float ahead = inwards ? place - self.along : self.along - place;
     if (ahead > 0.0 || (ahead == 0.0 && number < index)) seen.gap = min(seen.gap, ahead);
 }
@@ -83,7 +95,8 @@ void seeAisle(inout Others seen, Sitter self, SeatWay way, uint index, Sitter ot
     if (other.mode == SITTER_ENTERS || other.mode == SITTER_ASKS) seen.comes_in = true;
     if (other.mode != SITTER_LEAVES || theirs.lane == way.lane) return;
     if (other.side != 0u && other.along <= theirs.mouth) seen.against = true;
-    if (other.side != self.side) return;
+    // Rows on other branches are out of reach; who comes out of them merges before the opening (seeAhead).
+    if (way.branch != theirs.branch || !areInOneFile(way, self, other)) return;
     // Who has waited for long is let in.
     bool is_due = other.along > theirs.mouth && other.along < theirs.mouth + AT_MOUTH && other.share < DUE;
     if (is_due && self.along <= way.mouth && self.along > theirs.mouth + ABOVE)

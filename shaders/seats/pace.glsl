@@ -14,6 +14,7 @@ const float PATIENCE = 4.0;      // s
 const float THERE = 0.02;        // m
 const float BEFORE_AISLE = 0.75; // m into the row, where one waits to step into the aisle
 const float BEFORE_END = 0.12;   // m of the aisle, where one waits for room on the ground
+const float TO_SIDE = 1.2;       // m of the row, after which one keeps to a side of an aisle that forks
 const float COMES_TO_WAY = 0.5;  // m walked, until one is on it
 
 /// m that somebody may still go.
@@ -22,6 +23,7 @@ float roomAhead(Sitter self, SeatWay way, Others seen) {
     float room = inwards ? min(way.length, seen.halt) - self.along : self.along - max(seen.halt, 0.0);
     float gap = self.along > way.mouth ? ROW_GAP : AISLE_GAP;
     if (abs(self.along - way.mouth) < CORNER) gap = CORNER_GAP;
+    if (way.fork != NO_FORK && self.along > way.fork - CORNER && self.along < way.fork + MERGES) gap = CORNER_GAP;
     room = min(room, seen.gap - gap);
     float line = way.mouth - BEFORE_ROW;
     if (inwards && seen.comes_out && self.along < line + THERE) room = min(room, line - self.along);
@@ -39,7 +41,8 @@ void walk(inout Sitter self, SeatWay way, Others seen, float preferred) {
     if (self.mode == SITTER_LEAVES) {
         self.share = step > 0.0 ? 1.0 : max(0.0, self.share - dt / PATIENCE);
         // Out on the side of its row, while nobody comes in there.
-        if (self.along > way.mouth) self.side = isWayIn(way) && !seen.comes_in ? 1u : 0u;
+        float decides = way.fork == NO_FORK ? way.mouth : min(way.mouth + TO_SIDE, way.length - HAIR);
+        if (self.along > decides) self.side = seen.comes_in ? 0u : way.free_side;
     }
     self.along += self.mode == SITTER_ENTERS ? step : -step;
     float away = length(self.off);

@@ -13,7 +13,7 @@ bool isBefore(AgentState state, Mind mind, vec2 foot, bool stays) {
 bool hasClearWay(SeatWay way, vec2 place, float radius) {
     const float TO_BLOCK = 0.75;  // m of the way
     const float SQUEEZES = 0.8;   // of two bodies
-    vec2 end = placeOnWay(way, TO_BLOCK, true);
+    vec2 end = placeOnWay(way, TO_BLOCK, FILE_IN);
     vec2 ahead = end - place;
     ivec2 cell = cellOf(end);
     for (int y = cell.y - 1; y <= cell.y + 1; ++y) {
@@ -34,7 +34,7 @@ void stepIn(inout Sitter self, inout AgentState state, SeatWay way) {
     self.since = steps_done;
     self.along = 0.0;
     self.speed = min(length(state.velocity), 0.8);
-    self.off = state.position - placeOnWay(way, 0.0, true);
+    self.off = state.position - placeOnWay(way, 0.0, FILE_IN);
     state.status = STATUS_SEATED;
     state.leave_step = 0u;
     state.nervousness = 0.0;

@@ -24,21 +24,37 @@ float heightOnWay(SeatWay way, float along) {
     return mix(piece.before.height, piece.after.height, piece.share);
 }
 
+const float HAIR = 0.01;  // m
+
 /// To the right of who goes up the aisle, at a place on the way; of who is in the row, at its mouth.
 vec2 besideOnWay(SeatWay way, float along) {
-    const float HAIR = 0.01;  // m
     PieceOfWay piece = pieceAt(way, min(along, way.mouth - HAIR));
     vec2 ahead = piece.after.place - piece.before.place;
     return vec2(ahead.y, -ahead.x) / max(length(ahead), 1.0e-6);
 }
 
-/// @param inwards whether one keeps to the side on which people go in, or to the other
-vec2 placeOnWay(SeatWay way, float along, bool inwards) {
-    const float COMES_TO_SIDE = 0.6;  // m of the row
+// Which side of an aisle somebody keeps to.
+const uint FILE_IN = 0u;     // that of those who come in
+const uint FILE_OUT = 1u;    // the other
+const uint FILE_ALONE = 2u;  // of those who leave while nobody comes in: that which is nearer to their seat
+
+const float COMES_TO_SIDE = 0.6;  // m of the row
+
+vec2 placeOnWay(SeatWay way, float along, uint file) {
     PieceOfWay piece = pieceAt(way, along);
+    vec2 middle = mix(piece.before.place, piece.after.place, piece.share);
+    if (way.fork != NO_FORK) {
+        if (file == FILE_ALONE) return middle + mix(piece.before.alone, piece.after.alone, piece.share);
+        vec2 beside = mix(piece.before.beside, piece.after.beside, piece.share);
+        return middle + (file == FILE_IN ? beside : -beside);
+    }
     float aside = way.aside * clamp(1.0 - (along - way.mouth) / COMES_TO_SIDE, 0.0, 1.0);
-    return mix(piece.before.place, piece.after.place, piece.share) +
-           (inwards ? aside : -aside) * besideOnWay(way, along);
+    return middle + (file == FILE_OUT ? -aside : aside) * besideOnWay(way, along);
+}
+
+uint fileOf(Sitter sitter) {
+    if (sitter.mode == SITTER_ENTERS) return FILE_IN;
+    return sitter.side == 0u ? FILE_OUT : FILE_ALONE;
 }
 
 bool risesOrSettles(uint mode) {

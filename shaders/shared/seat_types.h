@@ -20,26 +20,33 @@ const uint SITTER_STANDS_FOR = 7u;  // stands, or is about to, while somebody pa
 const uint SITTER_RISES = 8u;       // to leave
 const uint SITTER_LEAVES = 9u;      // along the row and the aisle
 
-/// The way to a seat: up an aisle, and along a row. Those who share an aisle are listed one behind the other.
+const float NO_FORK = -1.0;
+
+/// The way to a seat: along an aisle, and along a row. Those who share an aisle are listed one behind the other.
 struct SeatWay {
     vec2 place;     // m, the middle of the seat
     vec2 stand;     // m, where one stands before it
+    vec2 shift;     // m: place in the plane - home
     float height;   // m, of the floor there
     float heading;  // rad: which way one sits
     float length;   // m, from the foot of the aisle to before the seat
     float mouth;    // m along it, where the row begins
     float aside;    // m: so far to its right people keep in the aisle
+    float fork;     // m along it, where ways to the front and to the back part; NO_FORK: points tell no sides
     uint row;       // whose it is
     uint first_point;
     uint point_count;
-    uint lane;  // the same of those who go into one row from one aisle
+    uint lane;       // the same of those who go into one row from one aisle
+    uint branch;     // the same of those who share the aisle behind the fork
+    uint free_side;  // Sitter::side of who leaves while nobody comes in
     uint first_of_aisle;
     uint count_of_aisle;
-    uint reserved;
 };
 
 struct SeatPoint {
     vec2 place;    // m
+    vec2 beside;   // m, from there to where those walk who come in; the others walk as far on the other side
+    vec2 alone;    // m, likewise of those who leave while nobody comes in
     float height;  // m
     float along;   // m from the foot of the aisle
 };
@@ -54,7 +61,7 @@ struct Sitter {
     uint since;     // how many steps were done when that began
     uint activity;  // ACTIVITY_* of who sits
     uint seated;    // how many steps were done when it sat down; NO_INDEX: it does not sit
-    uint side;      // of the aisle, on the way out: 0 its right, 1 its left, where those walk who come in
+    uint side;      // of the aisle, on the way out: 0 beside those who come in, else where they would walk
 };
 
 THRONG_SHARED_END

@@ -12,7 +12,7 @@ from pose_names import pose_name
 from results import result_of
 from sample_bake import SMALL_CAST, write_bake
 from throng import cast
-from throng.cast import gait, people, sitting
+from throng.cast import gait, people, seat_mouths, sitting
 
 HERE = pathlib.Path(__file__).resolve().parent
 ADDON = HERE.parent.parent / "blender_addon"
@@ -114,6 +114,33 @@ def test_only_casts_of_bakes_with_seats_sit():
         for level in range(cast.LEVELS):
             assert len(with_seats.sources(level)) == with_seats.poses(level)
             assert with_seats.upright(level) == without.poses(level)
+
+
+OPENING = {"pitch": 0.9, "rise": 0.4}
+PASSAGE = {"line": [[0, -9.25], [0, -3.15], [0, -2.3]], "heights": [-1.5, 1.2, 1.2], "width": 1.2}
+SIDE = {"line": [[0, -2.3 - 0.9 * row] for row in range(4)], "heights": [1.2, 1.6, 2.0, 2.4], "width": 0.9}
+FLIGHTS = [{"line": [[0, 0.4 - 0.9 * row] for row in range(4)], "heights": [0, 0.4, 0.8, 1.2], "width": 1.2},
+           *({**SIDE, "line": [[x, y] for _, y in SIDE["line"]]} for x in (1.15, -1.15))]
+
+
+def test_one_walks_through_an_opening_and_over_it():
+    """Nothing stands across the passage at the height of a chest, and something lies over it where rows go on."""
+    aisle = {"line": PASSAGE["line"], "width": 1.2, "passage": PASSAGE, "flights": FLIGHTS}
+    mouth = seat_mouths.Mouth(OPENING, aisle)
+    assert mouth.rows == 3 and len(mouth.sides) == 2 and mouth.length == pytest.approx(6.1)
+    faces = [numpy.array(face) for face in seat_mouths.faces_of({**OPENING, "aisles": [aisle]}, aisle)]
+    over = []
+    for y in numpy.arange(-9.0, -2.4, 0.1):
+        floor = mouth.floor(-3.15 - y)
+        for face in faces:
+            low, high = face.min(axis=0), face.max(axis=0)
+            across = high[1] - low[1] < 1e-6 and low[0] < 0.0 < high[0]
+            assert not (across and abs(low[1] - y) < 0.05 and low[2] < floor + 1.2 < high[2]), y
+        over.append(any(face[:, 0].min() < 0 < face[:, 0].max() and face[:, 1].min() <= y <= face[:, 1].max()
+                        and floor + 2.0 < face[:, 2].mean() < floor + 3.5 for face in faces))
+    assert not over[-1] and over[0] and over[len(over) // 2]
+    tops = {round(float(face[:, 2].max()), 6) for face in faces if numpy.ptp(face[:, 2]) < 1e-6}
+    assert {0.0, 0.2, 0.4, 0.8, 1.2, 1.6, 2.0, 2.4} <= tops, "two steps to a row"
 
 
 def seated_bake(folder, agents=24, frames=40, clips=ALL):

@@ -249,8 +249,8 @@ def test_check_tells_what_is_wrong(throng, tmp_path):
     there["behaviours"][0]["states"]["a"] = {"sit": "south", "do": "wave", "for_good": True}
     assert "who sits does not wave" in told(there)
     floors = layout(10, [stand(occupancy=0)], flows=[guests(1, to={"seats": "south"})], levels=[
-        {"id": "ground", "floor": [[-20, -10], [20, -10], [20, 20], [-20, 20]]}])
-    assert "this is for flat ground only" in told(floors)
+        {"id": "ground", "floor": [[-20, 3], [20, 3], [20, 20], [-20, 20]]}])
+    assert "beside the floor of level `ground`" in told(floors)
     ring = {"id": "south", "arc": {"centre": [0, 0], "radius": 20, "from": 0, "to": 360}, "occupancy": 0}
     assert "nobody gets into block `south`: it goes all round" in told(
         layout(10, [ring], flows=[guests(1, to={"seats": "south"})]))

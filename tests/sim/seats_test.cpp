@@ -40,7 +40,8 @@ struct Block {
             sitter.since = 1u - random() % 60;
             sitter.activity = gpu::ACTIVITY_SIT;
             sitter.seated = gpu::NO_INDEX;
-            sitter.side = sitter.mode == gpu::SITTER_LEAVES ? random() % 2 : 0;
+            const bool splits = way.fork != gpu::NO_FORK && random() % 2 == 1;
+            sitter.side = sitter.mode != gpu::SITTER_LEAVES ? 0 : splits ? way.free_side : random() % 2;
             scene.seats.sitters.push_back(sitter);
             gpu::Mind mind{};
             mind.state = random() % 2;
@@ -74,10 +75,18 @@ struct Block {
         way.count_of_aisle = std::min(count, way.first_of_aisle + each) - way.first_of_aisle;
         way.first_point = static_cast<std::uint32_t>(scene.seats.points.size());
         way.point_count = 3;
+        // Every other aisle goes out in its middle: some come to that from the front, others from behind.
+        way.fork = aisle % 2 == 1 ? 0.4f : gpu::NO_FORK;
+        way.branch = aisle % 2 == 1 ? random() % 3 : 0;
+        way.free_side = aisle % 2 == 1 ? 1 + random() % 2 : right ? 0 : 1;
         const float x = 6.0f * static_cast<float>(aisle);
-        scene.seats.points.push_back({{x, 0}, 0, 0});
-        scene.seats.points.push_back({{x, -way.mouth}, 0, way.mouth});
-        scene.seats.points.push_back({{x + (right ? in_row : -in_row), -way.mouth}, 0, way.length});
+        const auto add = [&](glm::vec2 place, float along) {
+            const glm::vec2 beside(along > way.mouth ? 0.0f : -0.3f, 0.0f);
+            scene.seats.points.push_back({place, beside, -0.5f * beside, 0, along});
+        };
+        add({x, 0}, 0);
+        add({x, -way.mouth}, way.mouth);
+        add({x + (right ? in_row : -in_row), -way.mouth}, way.length);
         scene.seats.sitter_of_row.push_back(i);
         scene.seats.ways.push_back(way);
     }
@@ -108,16 +117,24 @@ Seen around(const authoring::SeatWays& seats, std::uint32_t index) {
         const gpu::SeatWay& theirs = seats.ways[i];
         const bool same = theirs.lane == way.lane, leaves = other.mode == gpu::SITTER_LEAVES;
         seen.comes_in = seen.comes_in || other.mode == gpu::SITTER_ENTERS;
+        // They share a branch, or are both where the branches meet.
+        const auto together = [&](float place, float their_place) {
+            return way.branch == theirs.branch || std::max(place, their_place) < way.fork + 1.5f;
+        };
+        const bool in_file =
+            other.side == self.side || (way.fork != gpu::NO_FORK && (other.side == 0 || self.side == 0));
         if (isWalking(other) && leaves == out) {
-            const bool apart = out && !same && other.side != self.side;
-            const float in_aisle = theirs.mouth + (out ? 0.7f : 0.3f);
+            const float parting =
+                !out && way.branch != theirs.branch ? std::min(theirs.mouth, way.fork) : theirs.mouth;
+            const float in_aisle = parting + (out ? 0.7f : 0.3f);
             const bool elsewhere = !same && (self.along > way.mouth || other.along > in_aisle);
-            const float place = same ? other.along : std::min(other.along, theirs.mouth);
+            const float place = same ? other.along : std::min(other.along, parting);
+            const bool apart = out && ((!same && !in_file) || !together(self.along, place));
             const float ahead = out ? self.along - place : place - self.along;
             if (!apart && !elsewhere && (ahead > 0.0f || (ahead == 0.0f && i < index)))
                 seen.gap = std::min(seen.gap, ahead);
         }
-        if (leaves && !same && other.side == self.side) {
+        if (leaves && !same && in_file && way.branch == theirs.branch) {
             const bool in_aisle = other.along <= theirs.mouth, at_mouth = other.along < theirs.mouth + 0.85f;
             if (!in_aisle && at_mouth && other.share < 0.4f && self.along <= way.mouth &&
                 self.along > theirs.mouth + 0.8f)
@@ -149,9 +166,11 @@ Seen around(const authoring::SeatWays& seats, std::uint32_t index) {
 float roomFor(const gpu::Sitter& self, const gpu::SeatWay& way, const Seen& seen) {
     const bool in = self.mode == gpu::SITTER_ENTERS;
     float room = in ? std::min(way.length, seen.halt) - self.along : self.along - std::max(seen.halt, 0.0f);
-    const float gap = std::abs(self.along - way.mouth) < 0.7f ? 0.75f
-                      : self.along > way.mouth                ? 0.45f
-                                                              : 0.55f;
+    const bool merges =
+        way.fork != gpu::NO_FORK && self.along > way.fork - 0.7f && self.along < way.fork + 1.5f;
+    const float gap = merges || std::abs(self.along - way.mouth) < 0.7f ? 0.75f
+                      : self.along > way.mouth                          ? 0.45f
+                                                                        : 0.55f;
     room = std::min(room, seen.gap - gap);
     const float line = way.mouth - 0.75f, waits = way.mouth + 0.75f;
     if (in && seen.comes_out && self.along < line + 0.02f) room = std::min(room, line - self.along);
@@ -180,7 +199,10 @@ gpu::Sitter after(const authoring::SeatWays& seats, std::uint32_t index, bool wa
                 if (way.length - self.along < 0.02f) self.mode = gpu::SITTER_TURNS;
             } else {
                 self.share = step > 0.0f ? 1.0f : std::max(0.0f, self.share - dt / 4.0f);
-                if (self.along > way.mouth) self.side = way.lane % 2 == 0 && !seen.comes_in ? 1 : 0;
+                const bool decides = way.fork == gpu::NO_FORK
+                                         ? self.along > way.mouth
+                                         : self.along > std::min(way.mouth + 1.2f, way.length - 0.01f);
+                if (decides) self.side = seen.comes_in ? 0 : way.free_side;
                 self.along -= step;
                 if (self.along < 0.02f) self.mode = gpu::SITTER_WALKS;
             }

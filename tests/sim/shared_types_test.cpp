@@ -117,15 +117,16 @@ std::map<std::string, Layout> layoutsInCpp() {
     }
     {
         using T = gpu::SeatWay;
-        result["SeatWay"] = {
-            sizeof(T),
-            {MEMBER(place), MEMBER(stand), MEMBER(height), MEMBER(heading), MEMBER(length), MEMBER(mouth),
-             MEMBER(aside), MEMBER(row), MEMBER(first_point), MEMBER(point_count), MEMBER(lane),
-             MEMBER(first_of_aisle), MEMBER(count_of_aisle), MEMBER(reserved)}};
+        result["SeatWay"] = {sizeof(T),
+                             {MEMBER(place), MEMBER(stand), MEMBER(shift), MEMBER(height), MEMBER(heading),
+                              MEMBER(length), MEMBER(mouth), MEMBER(aside), MEMBER(fork), MEMBER(row),
+                              MEMBER(first_point), MEMBER(point_count), MEMBER(lane), MEMBER(branch),
+                              MEMBER(free_side), MEMBER(first_of_aisle), MEMBER(count_of_aisle)}};
     }
     {
         using T = gpu::SeatPoint;
-        result["SeatPoint"] = {sizeof(T), {MEMBER(place), MEMBER(height), MEMBER(along)}};
+        result["SeatPoint"] = {sizeof(T),
+                               {MEMBER(place), MEMBER(beside), MEMBER(alone), MEMBER(height), MEMBER(along)}};
     }
     {
         using T = gpu::Sitter;

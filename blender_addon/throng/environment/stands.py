@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Stands of those who have seats: a step for each row, and the seats."""
-from ..cast import seat_rows
+from ..cast import seat_mouths, seat_rows
 from . import materials
 from .shapes import Shape
 
@@ -21,14 +21,29 @@ def _build(block):
     shape = Shape(f"Throng stand {block.get('id', '')}")
     stone = materials.mottled("stand", (0.24, 0.235, 0.225), (0.33, 0.325, 0.31), 1.6)
     shells = [materials.plain(f"seat {number}", colour, 0.45) for number, colour in enumerate(_COLOURS)]
+    slabs = seat_mouths.has_passages(block)  # people walk under them
     for row in block["rows"]:
         height = float(row["height"])
-        _step(shape, *seat_rows.step_of(block, row), height, stone)
+        bottom = height - float(block["rise"]) - seat_mouths.SLAB if slabs else 0.0
+        _step(shape, *seat_rows.step_of(block, row), height, stone, bottom)
         for number, (place, way) in enumerate(seat_rows.seats_of(block, row)):
             add_seat(shape, place, way, height, seat_rows.SIDE * float(block["width"]), shells[number % len(shells)])
     for aisle in block.get("aisles", ()):
-        _steps(shape, block, aisle, stone)
+        if slabs:
+            _mouth(shape, block, aisle, stone)
+        else:
+            _steps(shape, block, aisle, stone)
     return shape.to_object()
+
+
+def _mouth(shape, block, aisle, stone):
+    """Flights of steps, an opening and the passage behind it."""
+    inner = materials.plain("passage", (0.16, 0.155, 0.15), 0.8)
+    mouth = seat_mouths.Mouth(block, aisle)
+    for face in seat_mouths.flights_of(mouth, aisle) + seat_mouths.walls_of(mouth):
+        shape.face(face, stone)
+    for face in seat_mouths.passage_of(mouth):
+        shape.face(face, inner)
 
 
 def _steps(shape, block, aisle, stone):
@@ -38,16 +53,18 @@ def _steps(shape, block, aisle, stone):
             _step(shape, front, back, height, stone)
 
 
-def _step(shape, front, back, height, stone):
-    """From the ground up."""
+def _step(shape, front, back, height, stone, bottom=0.0):
+    """From the ground up, or a slab."""
     for (a, b), (c, d) in zip(zip(front, front[1:]), zip(back, back[1:])):
         shape.face([(*a, height), (*c, height), (*d, height), (*b, height)], stone)
-        if height > seat_rows.HAIR:
-            shape.face([(*b, 0.0), (*a, 0.0), (*a, height), (*b, height)], stone)
-            shape.face([(*c, 0.0), (*d, 0.0), (*d, height), (*c, height)], stone)
-    if height > seat_rows.HAIR:
-        shape.face([(*front[0], 0.0), (*back[0], 0.0), (*back[0], height), (*front[0], height)], stone)
-        shape.face([(*back[-1], 0.0), (*front[-1], 0.0), (*front[-1], height), (*back[-1], height)], stone)
+        if height - bottom > seat_rows.HAIR:
+            shape.face([(*b, bottom), (*a, bottom), (*a, height), (*b, height)], stone)
+            shape.face([(*c, bottom), (*d, bottom), (*d, height), (*c, height)], stone)
+        if bottom != 0.0:
+            shape.face([(*a, bottom), (*b, bottom), (*d, bottom), (*c, bottom)], stone)
+    if height - bottom > seat_rows.HAIR:
+        shape.face([(*front[0], bottom), (*back[0], bottom), (*back[0], height), (*front[0], height)], stone)
+        shape.face([(*back[-1], bottom), (*front[-1], bottom), (*front[-1], height), (*back[-1], height)], stone)
 
 
 def add_seat(shape, place, along, height, half, shell):

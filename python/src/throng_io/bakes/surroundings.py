@@ -14,7 +14,7 @@ import shapely.geometry
 
 from ..base.errors import BakeError
 from ..base.geometry import area_shape, polygons, road_shape, stripes, wall_shape, way_beside
-from ..cast import seat_rows
+from ..cast import seat_mouths, seat_rows
 from .bake import Bake
 
 GROUND_MARGIN = 2.0           # m round everything
@@ -95,13 +95,17 @@ def _stand_of(number: int, block: dict, origin: numpy.ndarray) -> list[Thing]:
     """The steps of a block, and its seats."""
     steps: list = []
     seats: list = []
+    slabs = seat_mouths.has_passages(block)
     for row in block["rows"]:
         height = float(row["height"])
         front, back = seat_rows.step_of(block, row)
-        points, sides = prism(shapely.Polygon([*front, *back[::-1]]), 0.0, height)
+        bottom = height - float(block["rise"]) - seat_mouths.SLAB if slabs else 0.0
+        points, sides = prism(shapely.Polygon([*front, *back[::-1]]), bottom, height)
         steps += [[tuple(points[corner]) for corner in side] for side in sides]
         seats += [face for place, along in seat_rows.seats_of(block, row)
                   for face in seat_rows.seat_faces(place, along, height, seat_rows.SIDE * float(block["width"]))]
+    for aisle in block["aisles"] if slabs else ():
+        steps += seat_mouths.faces_of(block, aisle)
     kinds = (("stand", "stands", _joined(steps)), ("seats", "seats", _joined(seats)))
     return [Thing(f"Stands/{kind}{number}", points - origin, faces, GREY[colour], block.get("id"))
             for kind, colour, (points, faces) in kinds if faces]

@@ -1,0 +1,1 @@
+../../../../blender_addon/throng/cast/seat_mouths.py
