@@ -38,8 +38,8 @@ class StuckWatch {
             under_way_.assign(rows_.size(), true);
         }
         for (std::size_t row = 0; row < rows_.size(); ++row)
-            under_way_[row] =
-                under_way_[row] && isUnderWay(frame, row) && !between_rows_.has(frame.place(row), frame.height(row));
+            under_way_[row] = under_way_[row] && isUnderWay(frame, row) &&
+                              !between_rows_.has(frame.place(row), frame.height(row));
         end_ = frame;
     }
 

@@ -96,7 +96,8 @@ class Measurer {
         bodies_.clear();
         heights_.clear();
         for (std::uint32_t row = 0; row < rows_.size(); ++row)
-            if (now().isThere(row) && !hasSeat(now().activity(row)) && !between_rows_.has(now().place(row), now().height(row))) {
+            if (now().isThere(row) && !hasSeat(now().activity(row)) &&
+                !between_rows_.has(now().place(row), now().height(row))) {
                 present_.push_back(row);
                 places_.push_back(now().place(row));
                 bodies_.push_back(now().body(row, rows_[row]));

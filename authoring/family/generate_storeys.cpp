@@ -27,7 +27,8 @@ Json nearestOf(const Json& places) {
 }
 
 // m
-constexpr double kRise = 5.5, kStairsRun = 10.0, kBelt = 9.5, kTracks = 8.0, kEnds = 2.0, kGate = 3.0;
+constexpr double kDeckRise = 5.5, kStairsRun = 10.0, kBelt = 9.5, kTracks = 8.0, kEnds = 2.0,
+                 kStationGate = 3.0;
 constexpr double kStairsAt = 12.0, kBeltAt = 26.0;  // from the middle of a platform to their upper ends
 
 /// Platforms over a concourse.
@@ -48,9 +49,10 @@ class Station {
         for (std::uint64_t i = 0; i < count_; ++i)
             addPlatform(layout, i);
         const double middle = 0.5 * depth_, reach = 0.5 * std::min(depth_, 12.0);
-        for (const auto& [id, x] : {std::pair{"west", -half_ + 0.5}, std::pair{"east", half_ - 0.5 - kGate}})
+        for (const auto& [id, x] :
+             {std::pair{"west", -half_ + 0.5}, std::pair{"east", half_ - 0.5 - kStationGate}})
             layout["areas"].push_back(
-                area(id, "concourse", rectangle(x, middle - reach, x + kGate, middle + reach)));
+                area(id, "concourse", rectangle(x, middle - reach, x + kStationGate, middle + reach)));
         for (std::uint64_t i = 0; i < count_; ++i)
             addPeople(layout, i);
         return layout;
@@ -62,8 +64,9 @@ class Station {
 
     void addPlatform(Json& layout, std::uint64_t i) const {
         const double low = lowerOf(i), y = low + 0.5 * width_;
-        layout["levels"].push_back(
-            {{"id", nameOf(i)}, {"height", kRise}, {"floor", rectangle(-half_, low, half_, low + width_)}});
+        layout["levels"].push_back({{"id", nameOf(i)},
+                                    {"height", kDeckRise},
+                                    {"floor", rectangle(-half_, low, half_, low + width_)}});
         for (const double side : {-1.0, 1.0})
             layout["links"].push_back(
                 {{"id", fmt::format("stairs {}{}", i + 1, side < 0.0 ? "a" : "b")},

@@ -115,7 +115,8 @@ Layout moved(const Layout& layout, const std::vector<Chart>& charts) {
         }
     for (Formation& formation : plane.formations)
         moveFormation(formation, charts[formation.level].shift);
-    // People in rows are in nobody's way: wherever they are, they are as if on the ground from which they come.
+    // People in rows are in nobody's way: wherever they are, they are as if on the ground from which they
+    // come.
     for (SeatBlock& block : plane.seats) {
         block.shift = charts[block.mouths.level].shift;
         movePoints(block.front, block.shift);

@@ -27,7 +27,7 @@ constexpr double kLaneHeight = 0.015;                   // m
 constexpr double kStripeHeight = 0.025, kStripe = 0.5;  // m: a zebra's, and how wide
 
 constexpr double kSeat = 0.42, kBench = 0.4;  // m: high and deep
-constexpr double kSlab = 0.15;                // m: rows over passages are so thick
+constexpr double kTread = 0.15;               // m: rows over passages are so thick
 
 constexpr std::uint64_t kLargestTracks = std::uint64_t{2'000} << 20;
 
@@ -86,8 +86,8 @@ void addStands(GlbDocument& document, const recording::BakeDescription& descript
         for (const recording::BakeSeatRow& row : seats.rows) {
             const std::vector<glm::dvec2> line = relative(row.line, description.output_origin);
             if (hasPassages(seats))
-                append(steps, raisedMesh(openWallMesh(line, seats.pitch, seats.rise + kSlab),
-                                         row.height - seats.rise - kSlab));
+                append(steps, raisedMesh(openWallMesh(line, seats.pitch, seats.rise + kTread),
+                                         row.height - seats.rise - kTread));
             else if (row.height > kAreaHeight)
                 append(steps, openWallMesh(line, seats.pitch, row.height));
             append(benches, raisedMesh(openWallMesh(line, kBench, kSeat), row.height));

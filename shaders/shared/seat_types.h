@@ -22,7 +22,8 @@ const uint SITTER_LEAVES = 9u;      // along the row and the aisle
 
 const float NO_FORK = -1.0;
 
-/// The way to a seat: along an aisle, and along a row. Those who share an aisle are listed one behind the other.
+/// The way to a seat: along an aisle, and along a row. Those who share an aisle are listed one behind the
+/// other.
 struct SeatWay {
     vec2 place;     // m, the middle of the seat
     vec2 stand;     // m, where one stands before it
