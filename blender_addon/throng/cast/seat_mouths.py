@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Stands whose aisles go out behind them or through openings (vomitories), as boxes and steps: the flights of steps, the
-walls beside an opening, what goes on over it, and the passage behind it. Pure Python."""
+"""Stands whose aisles go out behind them or through openings (vomitories), as boxes and steps: the flights of
+steps, the walls beside an opening, what goes on over it, and the passage behind it. Pure Python."""
 import math
 
 CHEEK = 0.1     # m: sides of a passage, as authoring/layout/seat_mouths.cpp has them
