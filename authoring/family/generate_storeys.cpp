@@ -187,7 +187,8 @@ class Office {
         const auto most = static_cast<std::uint64_t>((room_ - 1.0) * (deep_ - 1.0));
         for (std::uint64_t number = 0; number < 2 * rooms_; ++number) {
             const double side = number % 2 == 0 ? 1.0 : -1.0;
-            const double x = -half_ + static_cast<double>(number / 2) * room_, y = side * 0.5 * corridor_;
+            const std::uint64_t along = number / 2;  // on each side
+            const double x = -half_ + static_cast<double>(along) * room_, y = side * 0.5 * corridor_;
             const double back = side * (0.5 * corridor_ + deep_);
             const std::string id = fmt::format("room {}.{}", i + 1, number + 1);
             addWalls(layout, nameOf(i), id, x, y, back);

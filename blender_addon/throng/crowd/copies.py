@@ -91,7 +91,7 @@ def _going_tree(fps):
 def _started(crowd, name, rows, level, is_bent, fps):
     """A copy that shows some people only, and files away how fast they go."""
     copy = Copy(crowd, name)
-    copy.without("throng levels", "throng cull", near.MODIFIER, "throng realize")
+    copy.without("throng levels", "throng cull", "throng cutaway", near.MODIFIER, "throng realize")
     marks = bpy.data.objects.new(f"{name} chosen", mark(f"{name} chosen", len(crowd.data.vertices), rows, level,
                                                         is_bent))
     copy.spare.append(marks)

@@ -10,6 +10,7 @@ from mathutils import Vector
 from ..blender.modifiers import move_modifier
 from ..blender.nodes import Maths, get_input, new_tree, own_tree, set_input
 from ..crowd.names import HIDDEN
+from . import cutaway
 
 MODIFIER = "throng cull"
 _INPUTS = [("Geometry", "NodeSocketGeometry"), ("Object", "NodeSocketObject"), ("Margin", "NodeSocketFloat"),
@@ -97,6 +98,7 @@ def apply(crowd, scene, mode, target, margin):
         set_input(modifier, "Wide", float(wide))
         set_input(modifier, "High", float(high))
     put_before_instancer(crowd, modifier)
+    cutaway.put_last(crowd)
     crowd.update_tag()
 
 

@@ -9,7 +9,7 @@ from ..crowd.verify import verify
 from ..formats import BakeError
 from ..overrides.operators import report_orphans
 from ..people import members
-from . import cells, culling, film_look
+from . import cells, culling, cutaway, film_look
 from .importer import import_bake
 from .update import reload, set_offset, set_viewport_percent
 
@@ -175,6 +175,31 @@ class THRONG_OT_cull(_ChangesCrowds, bpy.types.Operator):
         return {"FINISHED"}
 
 
+class THRONG_OT_cutaway(_ChangesCrowds, bpy.types.Operator):
+    """Take off what is above a height, or a level with all above it, to look into the storeys below"""
+
+    bl_idname = "throng.cutaway"
+    bl_label = "Cut Storeys Away"
+
+    by: EnumProperty(name="By", items=[("height", "Height", "All that is above it"),
+                                       ("level", "Level", "This level, and all above its floor"),
+                                       ("none", "Nothing", "Everything is there")])
+    height: FloatProperty(name="Height", default=2.5, subtype="DISTANCE", description="Above the crowd's origin")
+    level: StringProperty(name="Level", description="As the layout calls it")
+
+    def execute(self, context):
+        for crowd in changed_crowds(context):
+            if self.by == "none":
+                cutaway.remove(crowd)
+                continue
+            try:
+                cutaway.apply(crowd, self.height if self.by == "height" else cutaway.floor_of(crowd, self.level))
+            except BakeError as error:
+                self.report({"ERROR"}, str(error))
+                return {"CANCELLED"}
+        return {"FINISHED"}
+
+
 class THRONG_OT_film_look(bpy.types.Operator):
     bl_idname = "throng.film_look"
     bl_label = "Film Look"
@@ -215,7 +240,8 @@ class VIEW3D_PT_throng(InSidebar, bpy.types.Panel):
         for crowd in earlier_crowds(context.scene):
             layout.label(text=f"{crowd.name}: of an earlier version, import its bake again", icon="ERROR")
         column = layout.column(align=True)
-        for operator in (THRONG_OT_show, THRONG_OT_cull, THRONG_OT_verify, THRONG_OT_reload, THRONG_OT_relink):
+        for operator in (THRONG_OT_show, THRONG_OT_cull, THRONG_OT_cutaway, THRONG_OT_verify, THRONG_OT_reload,
+                         THRONG_OT_relink):
             column.operator(operator.bl_idname)
         row = layout.row(align=True)
         for preset in ("preview", "plate", "final"):
@@ -223,7 +249,7 @@ class VIEW3D_PT_throng(InSidebar, bpy.types.Panel):
 
 
 CLASSES = (IMPORT_SCENE_OT_throng, THRONG_OT_verify, THRONG_OT_reload, THRONG_OT_relink, THRONG_OT_show, THRONG_OT_cull,
-           THRONG_OT_film_look, VIEW3D_PT_throng)
+           THRONG_OT_cutaway, THRONG_OT_film_look, VIEW3D_PT_throng)
 
 
 def _menu(self, _context):
