@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "authoring/storeys/given_ways.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <optional>
+
+namespace throng::authoring {
+namespace {
+
+/// Where a way first leaves a floor: at a point of it, or between two.
+std::optional<GivenPoint> leaves(const std::vector<GivenPoint>& way, const Chart& floor) {
+    constexpr double kLook = 0.1;  // m
+    if (!floor.contains(way.front().place)) return way.front();
+    for (std::size_t i = 1; i < way.size(); ++i) {
+        const GivenPoint &a = way[i - 1], &b = way[i];
+        const double looks = std::max(1.0, std::ceil(glm::distance(a.place, b.place) / kLook));
+        for (double look = 1.0; look <= looks; ++look)
+            if (const GivenPoint at{glm::mix(a.time, b.time, look / looks),
+                                    glm::mix(a.place, b.place, look / looks)};
+                !floor.contains(at.place))
+                return at;
+    }
+    return std::nullopt;
+}
+
+bool isWithinAnOpening(const Chart& floor, glm::dvec2 place) {
+    Chart closed = floor;
+    closed.openings.clear();
+    return closed.contains(place);
+}
+
+void tell(const GivenPeople& given, const Chart& floor, std::size_t person, const GivenPoint& at,
+          std::size_t others, Diagnostics& diagnostics) {
+    const bool is_open = isWithinAnOpening(floor, at.place);
+    std::string text =
+        fmt::format("given `{}`: person {} {} level `{}` at [{:.6g}, {:.6g}], at {:.6g} s", given.id, person,
+                    is_open ? "is where stairs or lifts leave no room on" : "is beyond the floor of",
+                    floor.name, at.place.x, at.place.y, at.time);
+    if (others > 0) text += fmt::format(", and {} more of them likewise", others);
+    diagnostics.error(given.file.empty() ? given.where : given.file_where, text,
+                      is_open
+                          ? "a way is on the floor of one level from begin to end: end it before that place"
+                          : "a way is on the floor of one level from begin to end: name its `level`, set "
+                            "their `offset`, or end it at the floor's edge");
+}
+
+}  // namespace
+
+void checkGivenWays(const Layout& layout, const std::vector<Chart>& charts, Diagnostics& diagnostics) {
+    for (const GivenPeople& given : layout.given) {
+        const Chart& floor = charts[given.level];
+        std::optional<GivenPoint> first;
+        std::size_t person = 0, count = 0;
+        for (std::size_t i = 0; i < given.ways.size(); ++i) {
+            const std::optional<GivenPoint> at = leaves(given.ways[i], floor);
+            if (!at) continue;
+            if (count++ > 0) continue;
+            first = at;
+            person = i;
+        }
+        if (first) tell(given, floor, person, *first, count - 1, diagnostics);
+    }
+}
+
+}  // namespace throng::authoring
