@@ -9,34 +9,39 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
+#include "base/polygon.h"
+
 namespace throng::authoring {
 namespace {
+
+bool isWithinOutline(const Chart& floor, glm::dvec2 place) {
+    constexpr double kHair = 1.0e-3;  // m: on the floor's edge is on the floor
+    return distanceToPolygon(floor.floor, place) <= kHair;
+}
+
+bool isOnFloor(const Chart& floor, glm::dvec2 place) {
+    return floor.contains(place) || (!isWithin(floor.floor, place) && isWithinOutline(floor, place));
+}
 
 /// Where a way first leaves a floor: at a point of it, or between two.
 std::optional<GivenPoint> leaves(const std::vector<GivenPoint>& way, const Chart& floor) {
     constexpr double kLook = 0.1;  // m
-    if (!floor.contains(way.front().place)) return way.front();
+    if (!isOnFloor(floor, way.front().place)) return way.front();
     for (std::size_t i = 1; i < way.size(); ++i) {
         const GivenPoint &a = way[i - 1], &b = way[i];
         const double looks = std::max(1.0, std::ceil(glm::distance(a.place, b.place) / kLook));
         for (double look = 1.0; look <= looks; ++look)
             if (const GivenPoint at{glm::mix(a.time, b.time, look / looks),
                                     glm::mix(a.place, b.place, look / looks)};
-                !floor.contains(at.place))
+                !isOnFloor(floor, at.place))
                 return at;
     }
     return std::nullopt;
 }
 
-bool isWithinAnOpening(const Chart& floor, glm::dvec2 place) {
-    Chart closed = floor;
-    closed.openings.clear();
-    return closed.contains(place);
-}
-
 void tell(const GivenPeople& given, const Chart& floor, std::size_t person, const GivenPoint& at,
           std::size_t others, Diagnostics& diagnostics) {
-    const bool is_open = isWithinAnOpening(floor, at.place);
+    const bool is_open = isWithinOutline(floor, at.place);
     std::string text =
         fmt::format("given `{}`: person {} {} level `{}` at [{:.6g}, {:.6g}], at {:.6g} s", given.id, person,
                     is_open ? "is where stairs or lifts leave no room on" : "is beyond the floor of",

@@ -59,7 +59,7 @@ def test_one_walks_over_another(throng, tmp_path):
     """At 7 s they are in one place of the plan. Who comes along on the deck makes room for who is given there, and who
     walks below does not know of it."""
     told = {"levels": FLOORS, "given": [given("over", OVER, level="deck"), given("under", UNDER)],
-            "formations": [walker("on deck", [8, 0.05], [-9, 0.05], "deck"), walker("below", [8, 0.05], [-11, 0.05])]}
+            "formations": [walker("on deck", [8, 0.05], [-7, 0.05], "deck"), walker("below", [8, 0.05], [-7, 0.05])]}
     places, there = bake(throng, tmp_path / "both", told)
     at = numpy.arange(len(places["over"])) / RATE
     for name, way, height in (("over", OVER, 4.2), ("under", UNDER, 0.0)):
@@ -117,12 +117,14 @@ def test_files_have_levels_and_flat_ground_has_the_same_ways(throng, tmp_path):
         rows = "".join(f"0,{t:.6f},{x:.6f},{y:.6f}\n" for t, x, y in way)
         (tmp_path / name / "seen.csv").write_text("id,time,x,y\n" + rows)
         told = {"id": "seen", "file": "seen.csv", "offset": [0.5, -0.25]}
-        bake(throng, tmp_path / name, {**levels, "given": [{**told, "level": "deck"} if levels else told]})
+        edge = given("edge", [[2, -11, 3], [10, 11, 3]])
+        bake(throng, tmp_path / name, {
+            **levels, "given": [{**each, "level": "deck"} if levels else each for each in (told, edge)]})
     deck, flat = (numpy.load(tmp_path / name / "bake" / "streams" / "pos.npy") for name in ("deck", "flat"))
-    there = numpy.load(tmp_path / "deck" / "bake" / "streams" / "state.npy")[:, 0, 0] > 0.5
-    assert there.sum() > 150
-    assert numpy.abs(deck[there, 0, :2] - flat[there, 0, :2]).max() < 1e-4
-    assert numpy.abs(deck[there, 0, 2] - 4.2).max() < 0.01 and not flat[there, 0, 2].any()
+    there = numpy.load(tmp_path / "deck" / "bake" / "streams" / "state.npy")[..., 0] > 0.5
+    assert there.sum(0).min() > 150
+    assert numpy.abs(deck - flat)[there, :2].max() < 1e-4
+    assert numpy.abs(deck[there, 2] - 4.2).max() < 0.01 and not flat[there, 2].any()
 
 
 CORNER = [[-9, -9], [9, -9], [9, 9], [0, 9], [0, 0], [-9, 0]]
@@ -138,7 +140,7 @@ STAIRS = {"levels": [{"id": "ground", "floor": box(-14, -5, 14, 5)},
      ["given `hero`: person 1 is beyond the floor of level `deck` at [0, -8], at 1 s, and 1 more of them likewise",
       "name its `level`"]),
     ({"levels": [{"id": "corner", "floor": CORNER}], "given": [given("hero", [[0, -8, -1], [10, 1, 8]])]},
-     ["person 0 is beyond the floor of level `corner` at [-7.", "s\n"]),
+     ["person 0 is beyond the floor of level `corner` at [-6.9"]),
     ({**STAIRS, "given": [given("hero", [[0, -13, 2], [10, 5, 2]])]},
      ["person 0 is where stairs or lifts leave no room on level `ground` at [-", "end it before that place"]),
 ])
@@ -155,7 +157,7 @@ def test_mistakes_with_levels_are_told(throng, tmp_path, told, words):
 def test_the_file_is_named_where_its_people_leave_the_floor(throng, tmp_path):
     told = {"levels": FLOORS, "given": [{"id": "seen", "level": "deck", "file": "seen.csv"}]}
     path = write(tmp_path / "bad", told)
-    (path.parent / "seen.csv").write_text("id,time,x,y\n0,0,0,0\n0,1,1,0\n0,9,1,9\n")
+    (path.parent / "seen.csv").write_text("id,time,x,y\n" + "".join(f"0,{t},1,{t}\n" for t in range(6)))
     said = throng("check", path, expect=3).stderr
     column = path.read_text().index('"seen.csv"') + 1
     assert f"layout.json:1:{column}:" in said and "beyond the floor of level `deck` at [1, 3." in said
