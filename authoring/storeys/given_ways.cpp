@@ -26,10 +26,11 @@ bool isOnFloor(const Chart& floor, glm::dvec2 place) {
 /// Where a way first leaves a floor: at a point of it, or between two.
 std::optional<GivenPoint> leaves(const std::vector<GivenPoint>& way, const Chart& floor) {
     constexpr double kLook = 0.1;  // m
+    constexpr double kMostLooks = 1.0e5;
     if (!isOnFloor(floor, way.front().place)) return way.front();
     for (std::size_t i = 1; i < way.size(); ++i) {
         const GivenPoint &a = way[i - 1], &b = way[i];
-        const double looks = std::max(1.0, std::ceil(glm::distance(a.place, b.place) / kLook));
+        const double looks = std::clamp(std::ceil(glm::distance(a.place, b.place) / kLook), 1.0, kMostLooks);
         for (double look = 1.0; look <= looks; ++look)
             if (const GivenPoint at{glm::mix(a.time, b.time, look / looks),
                                     glm::mix(a.place, b.place, look / looks)};
