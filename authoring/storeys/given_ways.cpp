@@ -30,12 +30,13 @@ std::optional<GivenPoint> leaves(const std::vector<GivenPoint>& way, const Chart
     if (!isOnFloor(floor, way.front().place)) return way.front();
     for (std::size_t i = 1; i < way.size(); ++i) {
         const GivenPoint &a = way[i - 1], &b = way[i];
-        const double looks = std::clamp(std::ceil(glm::distance(a.place, b.place) / kLook), 1.0, kMostLooks);
-        for (double look = 1.0; look <= looks; ++look)
-            if (const GivenPoint at{glm::mix(a.time, b.time, look / looks),
-                                    glm::mix(a.place, b.place, look / looks)};
-                !isOnFloor(floor, at.place))
-                return at;
+        const double apart = glm::distance(a.place, b.place);
+        const int looks = static_cast<int>(std::clamp(std::ceil(apart / kLook), 1.0, kMostLooks));
+        for (int look = 1; look <= looks; ++look) {
+            const double share = static_cast<double>(look) / looks;
+            const GivenPoint at{glm::mix(a.time, b.time, share), glm::mix(a.place, b.place, share)};
+            if (!isOnFloor(floor, at.place)) return at;
+        }
     }
     return std::nullopt;
 }
