@@ -356,6 +356,7 @@ struct GivenPeople {
     glm::dvec2 offset{0.0};                       ///< m: added to its places
     std::vector<std::vector<GivenPoint>> ways{};  ///< each of two points or more, in the order of their times
     People people;
+    std::size_t level = 0;
     SourcePosition where, file_where{};
 };
 

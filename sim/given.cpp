@@ -8,10 +8,11 @@ const gl::Declaration kWish = {"avoidance",
                                {"shaders/given/wish.comp"},
                                {"LiveDispatch", "Bodies", "Walkers", "GivenWays", "GivenPlaces"},
                                {"Walkers", "PreferredVelocities"}};
-const gl::Declaration kHold = {"contacts",
-                               {"shaders/given/hold.comp"},
-                               {"LiveDispatch", "Bodies", "Walkers", "Targets", "GivenWays", "GivenPlaces"},
-                               {"Targets"}};
+const gl::Declaration kHold = {
+    "contacts",
+    {"shaders/given/hold.comp"},
+    {"LiveDispatch", "Bodies", "Walkers", "States", "Targets", "GivenWays", "GivenPlaces"},
+    {"Targets"}};
 const gl::Declaration kPlace = {"motion",
                                 {"shaders/given/place.comp"},
                                 {"States", "Chests", "GivenWays", "GivenPlaces"},

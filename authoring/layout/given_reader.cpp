@@ -17,6 +17,7 @@ void GivenReader::read(const JsonNode& node) {
     ObjectReader reader(node, schema_.definition("given"), "given people", diagnostics_);
     if (!reader.isObject()) return;
     reader.requiredText("id", "their name in the account", given.id);
+    given.level = levels_.levelOf(reader);
     readSource(reader, node, given);
     reader.number("start", given.start);
     std::optional<glm::dvec2> offset;

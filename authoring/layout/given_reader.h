@@ -5,6 +5,7 @@
 #include <string>
 
 #include "authoring/layout.h"
+#include "authoring/layout/level_reader.h"
 #include "authoring/layout/object_reader.h"
 
 namespace throng::authoring {
@@ -14,8 +15,9 @@ class GivenReader {
   public:
     using Indices = std::map<std::string, std::size_t>;  // by id
     /// @param groups ids of flows and formations, to which those of given people are added
-    GivenReader(const Schema& schema, Layout& layout, Indices& groups, Diagnostics& diagnostics)
-        : schema_(schema), layout_(layout), groups_(groups), diagnostics_(diagnostics) {}
+    GivenReader(const Schema& schema, Layout& layout, LevelReader& levels, Indices& groups,
+                Diagnostics& diagnostics)
+        : schema_(schema), layout_(layout), levels_(levels), groups_(groups), diagnostics_(diagnostics) {}
 
     /// After levels, flows and formations.
     void read(const JsonNode& node);
@@ -27,6 +29,7 @@ class GivenReader {
 
     const Schema& schema_;
     Layout& layout_;
+    LevelReader& levels_;
     Indices& groups_;
     Diagnostics& diagnostics_;
 };

@@ -786,7 +786,7 @@ class Reader {
     PlaceReader places_{schema_, roads_, areas_, diagnostics_};
     LevelReader levels_{schema_, layout_, diagnostics_};
     PatchReader patches_{schema_, layout_, levels_, diagnostics_};
-    GivenReader given_{schema_, layout_, groups_, diagnostics_};
+    GivenReader given_{schema_, layout_, levels_, groups_, diagnostics_};
     SeatReader seats_{schema_, layout_, places_, levels_, groups_, walls_, diagnostics_};
     BoardingReader boarding_{schema_, layout_, areas_, diagnostics_};
     TrafficReader traffic_{schema_, layout_, boarding_, diagnostics_};

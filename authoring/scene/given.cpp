@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "authoring/scene/people.h"
+#include "authoring/storeys/charts.h"
 
 namespace throng::authoring {
 namespace {
@@ -54,6 +55,11 @@ double headingOf(const Way& way) {
     return 0.0;
 }
 
+/// m: from home to where the people of a way begin in the plane.
+glm::dvec2 shiftOf(const GivenPeople& given, const Scene& scene) {
+    return scene.charts ? scene.charts->charts[given.level].shift : glm::dvec2(0.0);
+}
+
 /// What a row needs and nobody goes by: where its way ends.
 gpu::Stage lastStage(glm::vec2 place) {
     gpu::Stage stage{};
@@ -67,8 +73,10 @@ gpu::Stage lastStage(glm::vec2 place) {
 
 bool isWithoutGivenPeople(const Layout& layout, Diagnostics& diagnostics) {
     for (const GivenPeople& given : layout.given)
-        diagnostics.error(given.where, "layouts with levels have no given people yet",
-                          "leave out the levels, or the given people");
+        diagnostics.error(
+            given.where, "layouts with levels on a terrain have no given people yet",
+            "leave out the levels, or the given people; or give the levels floors, and leave out "
+            "the terrain");
     return layout.given.empty();
 }
 
@@ -120,18 +128,21 @@ void addWays(const Layout& layout, const Rebase& rebase, Scene& scene) {
         count += given.ways.size();
     auto row = static_cast<std::uint32_t>(scene.people.size() - count);
     scene.given.first_row = row;
-    for (const GivenPeople& given : layout.given)
+    for (const GivenPeople& given : layout.given) {
+        const glm::dvec2 shift = shiftOf(given, scene);
         for (const Way& way : given.ways) {
-            scene.given.ways.push_back(
-                {static_cast<gpu::uint>(scene.given.places.size()), static_cast<gpu::uint>(way.size())});
+            scene.given.ways.push_back({static_cast<gpu::uint>(scene.given.places.size()),
+                                        static_cast<gpu::uint>(way.size()), glm::vec2(shift)});
             for (const GivenPoint& point : way)
-                scene.given.places.push_back({rebase.local(point.place), static_cast<float>(point.time), 0});
+                scene.given.places.push_back(
+                    {rebase.local(point.place - shift), static_cast<float>(point.time), 0});
             gpu::Person& person = scene.people[row++];
             person.first_stage = static_cast<gpu::uint>(scene.stages.size());
             person.stage_count = 1;
             scene.stages.push_back(lastStage(rebase.local(way.back().place)));
             scene.goals.push_back(scene.stages.back().point);
         }
+    }
 }
 
 }  // namespace throng::authoring

@@ -10,7 +10,7 @@
 
 namespace throng::authoring {
 
-/// Tells of given people in a layout with levels: on which of them they are, nobody says yet.
+/// Tells of given people in a layout whose levels are grounds of a terrain, which are not cut for them.
 bool isWithoutGivenPeople(const Layout& layout, Diagnostics& diagnostics);
 
 /// Warns of people who are faster than people are: units or frame rates are wrong then.

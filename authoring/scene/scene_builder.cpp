@@ -957,7 +957,8 @@ std::optional<Scene> buildScene(const Layout& layout, Diagnostics& diagnostics, 
     if (!areLevelsComplete(layout, diagnostics)) return std::nullopt;
     if (!haveFlatGround(layout, diagnostics) || !areFeetOnGround(layout, diagnostics)) return std::nullopt;
     if (!layout.levels.empty() && !isWithoutTraffic(layout, diagnostics)) return std::nullopt;
-    if (!layout.levels.empty() && !isWithoutGivenPeople(layout, diagnostics)) return std::nullopt;
+    if (layout.terrain && !layout.levels.empty() && !isWithoutGivenPeople(layout, diagnostics))
+        return std::nullopt;
     if (layout.terrain) {
         const bool is_for_charts = layout.traffic.empty() && layout.given.empty();
         if (terrain && is_for_charts) charts = layOutTerrain(layout, *terrain, diagnostics);

@@ -10,6 +10,7 @@
 
 #include "authoring/storeys/cabin.h"
 #include "authoring/storeys/chart_mesh.h"
+#include "authoring/storeys/given_ways.h"
 #include "authoring/storeys/plane.h"
 #include "authoring/storeys/railings.h"
 #include "base/polygon.h"
@@ -39,6 +40,7 @@ class LayingOut {
                             result_->charts.size(), kMostCharts - 1));
         result_->reach = reachOf(layout_);
         checkStoreys();
+        checkGivenWays(layout_, result_->charts, diagnostics_);
         if (diagnostics_.hasErrors()) return nullptr;
         layInPlane(*result_);
         checkLinks();

@@ -77,6 +77,8 @@ double reachOf(const Layout& layout) {
         largest = std::max(largest, flow.people.largestRadius());
     for (const Formation& formation : layout.formations)
         largest = std::max(largest, formation.people.largestRadius());
+    for (const GivenPeople& given : layout.given)
+        largest = std::max(largest, given.people.largestRadius());
     const double tile = std::max(layout.simulation.tile_radius, largest);
     const double sight = largest + layout.simulation.samples_per_ray * tile;
     return std::max(sight, layout.simulation.contact_range + 2.0 * largest) + tile;
@@ -122,6 +124,10 @@ Layout moved(const Layout& layout, const std::vector<Chart>& charts) {
         movePoints(block.front, block.shift);
         if (block.facing) *block.facing += block.shift;
     }
+    for (GivenPeople& given : plane.given)
+        for (std::vector<GivenPoint>& way : given.ways)
+            for (GivenPoint& point : way)
+                point.place += charts[given.level].shift;
     return plane;
 }
 

@@ -13,6 +13,7 @@ uniform float until;         // s: when the step ends
 uniform float step_seconds;  // s
 
 #include "shaders/shared/alive.glsl"
+#include "shaders/shared/snap.glsl"
 #include "shaders/given/ways.glsl"
 
 /// s
@@ -24,6 +25,9 @@ vec2 timesOf(uint row) {
 void come(uint row, inout AgentState state) {
     state.status = STATUS_WALKING;
     state.spawn_step = steps_done;
+#ifdef CHARTS
+    state.rest = given_ways[row - first_given].shift;
+#endif
 #ifdef BODIES
     chests[row].angle = state.heading;
     chests[row].rate = 0.0;
@@ -36,7 +40,7 @@ void main() {
     vec2 times = timesOf(row);
     AgentState state = states[row];
     if (until < times.x || state.status == STATUS_GONE && state.arrival_step != steps_done) return;
-    vec2 place = givenPlace(row, until);
+    vec2 home = givenPlace(row, until);
     bool is_over = until > times.y;
     if (state.spawn_step == NO_INDEX) {
         if (is_over) return;
@@ -48,8 +52,10 @@ void main() {
     state.leave_step = 0u;
     state.ticket = NO_INDEX;
     state.nervousness = 0.0;
-    state.position = place;
+#ifndef CHARTS
     state.rest = vec2(0.0);
-    state.velocity = (place - givenPlace(row, until - step_seconds)) / step_seconds;
+#endif
+    state.position = inPlane(home, state.rest);
+    state.velocity = (home - givenPlace(row, until - step_seconds)) / step_seconds;
     states[row] = state;
 }

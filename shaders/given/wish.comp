@@ -9,11 +9,13 @@ layout(std430) buffer Walkers { Walker walkers[]; };
 layout(std430) writeonly buffer PreferredVelocities { vec2 preferred_velocities[]; };
 uniform float now, until;  // s: of this decision, and of the next
 
+#include "shaders/shared/images.glsl"
+#include "shaders/shared/snap.glsl"
 #include "shaders/given/ways.glsl"
 
 void main() {
     uint slot = gl_GlobalInvocationID.x;
-    if (slot >= live_count || (walkers[slot].flags & PERSON_IS_GIVEN) == 0u) return;
+    if (slot >= live_count || (walkers[slot].flags & PERSON_IS_GIVEN) == 0u || isImage(walkers[slot].flags)) return;
     uint row = bodies[slot].row;
     vec2 velocity = (givenPlace(row, until) - givenPlace(row, now)) / (until - now);
     float speed = length(velocity);

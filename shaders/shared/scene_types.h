@@ -138,9 +138,10 @@ struct Patch {
 struct GivenWay {
     uint first_place;
     uint place_count;
+    vec2 shift;  // m: of the chart on which it begins; 0 where there are no charts
 };
 struct GivenPlace {
-    vec2 position;  // m
+    vec2 position;  // m, at home
     float time;     // s, later than that of the place before
     uint reserved;
 };

@@ -11,6 +11,7 @@ from conftest import EXAMPLES, ROOT
 from results import ADDON, HERE, result_of
 
 EVERYTHING = HERE / "layouts" / "everything.json"
+LEVELS = ROOT / "tests" / "authoring" / "layouts" / "levels.json"  # which are kept as they are
 UTM = (448262.123, 5411932.678)
 
 
@@ -64,7 +65,7 @@ def test_every_layout_goes_through_blender_unchanged(blender, throng, tmp_path):
             "formations": [{"id": "list", "type": "agents", "agents": people}]}
     (tmp_path / "in" / "bulk.json").write_text(json.dumps(bulk))
     (tmp_path / "in" / "bare.json").write_text('{"throng": 1, "walls": [], "expect": {}, "simulation": {}}')
-    paths = layouts() + [EVERYTHING] + sorted((tmp_path / "in").glob("*.json"))
+    paths = layouts() + [EVERYTHING, LEVELS] + sorted((tmp_path / "in").glob("*.json"))
     assert len(paths) > 35
     times = result_of(blender(HERE / "check_round_trip.py", ADDON, tmp_path / "out", *paths))
     for path in paths:

@@ -166,14 +166,6 @@ def test_mistakes_are_told(throng, tmp_path, given, words):
 
 
 @pytest.mark.quick
-def test_layouts_with_levels_have_none_yet(throng, tmp_path):
-    floor = [{"id": "low", "height": 0, "floor": [[0, 0], [9, 0], [9, 9], [0, 9]]}]
-    told = {"throng": 1, "levels": floor, "given": [{"id": "given", "ways": [[[0, 1, 1], [3, 5, 5]]]}]}
-    (tmp_path / "layout.json").write_text(json.dumps(told))
-    assert "no given people yet" in throng("check", tmp_path / "layout.json", expect=3).stderr
-
-
-@pytest.mark.quick
 def test_people_who_are_too_fast_are_told_of(throng, tmp_path):
     """As where centimetres are taken for metres."""
     ways = [[[0, 0, 0], [5, 600, 0]], [[0, 0, 2], [5, 6, 2]]]

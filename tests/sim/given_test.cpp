@@ -48,8 +48,8 @@ authoring::Scene sceneOf(const std::vector<Way>& ways) {
         if (way.begin() <= 0.0f && way.end() > 0.0f) person.flags |= gpu::PERSON_PRESENT_AT_START;
         scene.people.push_back(person);
         scene.goals.push_back(way.places.back().position);
-        scene.given.ways.push_back(
-            {static_cast<gpu::uint>(scene.given.places.size()), static_cast<gpu::uint>(way.places.size())});
+        scene.given.ways.push_back({static_cast<gpu::uint>(scene.given.places.size()),
+                                    static_cast<gpu::uint>(way.places.size()), glm::vec2(0.0f)});
         scene.given.places.insert(scene.given.places.end(), way.places.begin(), way.places.end());
     }
     return scene;

@@ -174,7 +174,7 @@ std::map<std::string, Layout> layoutsInCpp() {
     }
     {
         using T = gpu::GivenWay;
-        result["GivenWay"] = {sizeof(T), {MEMBER(first_place), MEMBER(place_count)}};
+        result["GivenWay"] = {sizeof(T), {MEMBER(first_place), MEMBER(place_count), MEMBER(shift)}};
     }
     {
         using T = gpu::GivenPlace;
