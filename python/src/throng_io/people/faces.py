@@ -1,0 +1,1 @@
+../../../../blender_addon/throng/people/faces.py
