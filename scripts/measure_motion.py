@@ -61,6 +61,8 @@ def people_at(scene, crowd, frame):
     """{row: (V, 3)} of those who are bent."""
     scene.frame_set(frame)
     mesh = crowd.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+    if "throng_row" not in mesh.attributes:
+        return {}
     rows, points = numpy.empty(len(mesh.vertices), numpy.int32), numpy.empty(3 * len(mesh.vertices), numpy.float32)
     mesh.attributes["throng_row"].data.foreach_get("value", rows)
     mesh.vertices.foreach_get("co", points)
@@ -172,9 +174,19 @@ class Jumps:
         self._ways = {row: way for row, way in self._ways.items() if row in rows}
 
 
-def measured(scene, crowd, streams, options):
+def checked(streams, options):
+    """The frames that the bake has of those asked for."""
+    last = streams.first + len(streams.places) - 1
+    frames = max(options.frames[0], streams.first), min(options.frames[1], last)
+    if frames[1] - frames[0] < 2:
+        sys.exit(f"measure_motion.py: the bake has the frames {streams.first} to {last}: of {options.frames[0]} to "
+                 f"{options.frames[1]} there are not three to look at")
+    return frames
+
+
+def measured(scene, crowd, streams, frames):
     soles, jumps, before, people = Soles(), Jumps(), {}, set()
-    for frame in range(options.frames[0], options.frames[1] + 1):
+    for frame in range(frames[0], frames[1] + 1):
         now = people_at(scene, crowd, frame)
         both = [row for row in now if row in before and len(now[row]) == len(before[row])]
         jumps.forget(both)
@@ -184,7 +196,7 @@ def measured(scene, crowd, streams, options):
             soles.add(row, frame, points, streams.of(row, frame)[0][2])
         people.update(both)
         before = now
-    soles.finish(streams, Feet(crowd, streams, options.frames[0]).of)
+    soles.finish(streams, Feet(crowd, streams, frames[0]).of)
     return {"people": len(people), "frames": len(soles.frames), "steps": len(soles.steps),
             "slide a frame, m": spread(soles.frames, 0.01), "slide a step, m": spread(soles.steps, 0.01),
             **{f"jump of {name}, m": spread(values, JUMP) for name, values in jumps.most.items()}}
@@ -201,8 +213,12 @@ def spread(values, bar):
 
 def main():
     options = arguments()
-    scene, crowd = import_people(options)
-    found = measured(scene, crowd, Streams(options.bake), options)
+    streams = Streams(options.bake)
+    frames = checked(streams, options)
+    found = measured(*import_people(options), streams, frames)
+    if not found["people"]:
+        sys.exit(f"measure_motion.py: nobody is bent within {options.reach:g} m of {options.at[0]:g}, "
+                 f"{options.at[1]:g} in the frames {frames[0]} to {frames[1]}")
     if options.json:
         print("RESULT " + json.dumps(found))
         return

@@ -64,9 +64,9 @@ constexpr GeneratorParameter kStadium[] = {
     {"people", 500, 1, 100000, true, "who leave; at most 2 per square metre of the stand"},
     {"rise", 10, 0, 600, false, "s, over which people rise from their seats"},
     {"stands", 0, 0, 12, true,
-     "blocks of seats that are left by openings to a concourse behind, two or more; a radius of 60 m, 24 "
-     "rows and "
-     "40000 people at most then; 0: a ring of ground"},
+     "blocks of seats that are left by openings to a concourse behind, two at least; at most 45 m to the "
+     "first "
+     "row, 16 rows and 40000 people then; 0: a ring of ground"},
     kDuration,
     kSeed};
 constexpr GeneratorParameter kStation[] = {

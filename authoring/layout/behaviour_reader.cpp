@@ -273,7 +273,7 @@ void BehaviourReader::readFlight(ObjectReader& reader, const JsonNode& what, Sta
     state.distance = 20.0;
     if (what.kind == JsonNode::Kind::array) {
         reader.point("flee", "what people flee from, [x, y] in metres", state.from);
-    } else if (what.kind == JsonNode::Kind::text && !places_.isPlace(what.text)) {
+    } else if (what.kind == JsonNode::Kind::text && !what.text.empty() && !places_.isPlace(what.text)) {
         state.followed = {what.text, what.where};
     } else if (const auto place = places_.place(what)) {
         state.to = {Destination::Kind::one, {*place}, {}, what.where};
@@ -497,9 +497,6 @@ void BehaviourReader::checkKeys(const JsonNode& node, const State& state) {
 void BehaviourReader::checkGroup(const GroupName& name, bool or_place) {
     if (groups_.contains(name.id)) return;
     std::vector<std::string> known = namesOf(groups_);
-    for (const GivenPeople& given : layout_.given)
-        known.push_back(given.id);
-    if (std::ranges::find(known, name.id) != known.end()) return;
     if (or_place)
         for (const Area& area : layout_.areas)
             known.push_back(area.id);

@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "authoring/layout/people_reader.h"
+#include "authoring/layout/row_line.h"
 #include "authoring/layout/seat_mouths.h"
 #include "authoring/layout/seat_rows.h"
 
@@ -233,6 +234,31 @@ void SeatReader::checkBlock(const SeatBlock& block, const JsonNode& node) const 
         diagnostics_.error(node.where, fmt::format("block `{}` has room for no seat", block.id),
                            "make its first row longer, its seats or aisles narrower, or its aisles fewer");
     if (hasPassages(block)) checkPassage(block);
+    if (hasPassages(block) && block.aisles > 0) checkOpenings(block);
+}
+
+/// Rows are cut beside openings, for the steps there: between two aisles there is room for both, and none
+/// sticks out.
+void SeatReader::checkOpenings(const SeatBlock& block) const {
+    for (std::size_t row = landingRow(block); row <= lastCutRow(block); ++row) {
+        const RowLine line(block, static_cast<double>(row) * block.pitch);
+        const double gap = gapOfRow(block, row);
+        for (std::size_t aisle = 0; aisle <= block.aisles; ++aisle) {
+            const bool first = aisle == 0, last = aisle == block.aisles;
+            const double room = line.lengthBetween(first ? 0.0 : aisleShare(block, aisle - 1),
+                                                   last ? 1.0 : aisleShare(block, aisle));
+            const double needed = (first || last ? 0.5 : 1.0) * gap;
+            if (room >= needed) continue;
+            diagnostics_.error(
+                block.mouths.where,
+                fmt::format("block `{}` has {:.2f} m of row {} {}, where its openings need {:.2f} m",
+                            block.id, room, row + 1,
+                            first || last ? "between its end and an aisle" : "from one aisle to the next",
+                            needed),
+                R"(make the row longer, "aisles" fewer or "aisle_width" narrower)");
+            return;
+        }
+    }
 }
 
 void SeatReader::checkPassage(const SeatBlock& block) const {

@@ -41,6 +41,7 @@ class SeatReader {
     void readMouths(ObjectReader& reader, SeatBlock& block) const;
     void checkMouths(const JsonNode& node, const SeatBlock& block) const;
     void checkPassage(const SeatBlock& block) const;
+    void checkOpenings(const SeatBlock& block) const;
     void openBlock(SeatBlock& block);
     void leadTo(BehaviourState& state) const;
     void readArc(ObjectReader& reader, const JsonNode& node, SeatBlock& block);

@@ -36,12 +36,14 @@ vec2 awayFromDanger(Seeker seeker, inout Mind mind, BehaviourState doing) {
     vec2 danger = doing.from;
     if (doing.row_count > 0u) {
         chooseLeader(seeker, mind, doing);
+        mind.flags |= MIND_IS_SAFE;
         if (mind.followed == NO_INDEX) return seeker.position;
         danger = states[mind.followed].position;
     }
     vec2 offset = seeker.position - danger;
     float size = length(offset);
     if (size >= doing.distance) return seeker.position;
+    mind.flags &= ~MIND_IS_SAFE;
     return seeker.position + REACH * clearDirection(seeker, size > 1.0e-3 ? offset / size : seeker.ahead, REACH);
 }
 

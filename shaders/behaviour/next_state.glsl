@@ -4,6 +4,7 @@
 // conditions.glsl.
 
 bool isDone(BehaviourState doing, Asking who, bool has_been_there) {
+    if (doing.does == DOES_FLEE && doing.row_count > 0u) return (who.mind.flags & MIND_IS_SAFE) != 0u;
     if (doing.does == DOES_FLEE) return distance(who.position, doing.from) >= doing.distance;
     return has_been_there && who.mind.visits_left == 0u;
 }

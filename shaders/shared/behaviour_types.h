@@ -110,6 +110,7 @@ struct Tally {
 
 const uint MIND_NEEDS_GOAL = 1u;  // where to go is still to be told
 const uint MIND_COMES_IN = 2u;    // wander: it is still on its way into the place
+const uint MIND_IS_SAFE = 4u;     // flee from people: none of them is near
 
 /// What a row has in mind.
 struct Mind {

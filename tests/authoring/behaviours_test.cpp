@@ -90,6 +90,7 @@ TEST(Behaviours, NamesThatDoNotExistAreToldWithTheNearest) {
                "6: there is no wall `door` (did you mean `doors`?)");
     expectTold(R"("a": {"stay": true, "until": [{"near": "pepole", "then": "leave"}]}, )" + kLeave,
                "6: there is no place, flow, formation or given people `pepole` (did you mean `people`?)");
+    expectTold(R"("a": {"flee": "", "then": "leave"}, )" + kLeave, "6: there is no place ``");
     expectTold(R"("a": {"strol": "square"})", "6: the state `a` has no key `strol`");
 }
 

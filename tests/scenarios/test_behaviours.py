@@ -270,6 +270,19 @@ def test_who_flees_from_somebody_keeps_away_from_where_it_goes(bake):
     assert numpy.linalg.norm(bull[-1] - bull[0]) > 20 and away.min() > 3.0, away.min()
 
 
+def test_who_flees_from_somebody_has_got_away_only_when_it_is_far_from_it(bake):
+    layout = conditions({"at": 0.5})
+    layout["behaviours"][0]["states"] = {
+        "stand": {"stay": True, "until": [{"near": "bull", "within": 5, "then": "run"}]},
+        "run": {"flee": "bull", "beyond": 7, "pace": 1.6, "then": "stand"}}
+    layout["given"] = [{"id": "bull", "ways": [[[0, -4, -12], [20, 9, 12]]]}]
+    baked = bake("bull and then", layout)
+    away = numpy.linalg.norm(baked.places[:, baked.of("row")] - baked.places[:, baked.of("bull")], axis=-1)
+    assert away.min() > 2.5, away.min()
+    speeds = numpy.linalg.norm(numpy.diff(baked.places[:, baked.of("row")], axis=0), axis=-1) * baked.fps
+    assert (speeds[-24:] < 0.1).any(axis=0).sum() >= 4, "and then they stand again"
+
+
 def test_given_people_are_followed(bake):
     layout = conditions({"after": 100})
     layout["behaviours"] = [{"id": "waits", "start": "follow", "states": {

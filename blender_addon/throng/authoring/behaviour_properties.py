@@ -71,14 +71,17 @@ def _behaviour_named(behaviour, _context):
     behaviour.known = behaviour.name
 
 
-def flow_named(layout, before, name):
-    """Behaviours speak of flows by name."""
+def group_named(layout, before, name):
+    """Behaviours speak of flows and given people by name: of those whom people follow, or are near, or flee from."""
     for behaviour in layout.behaviours:
         for state in behaviour.states:
-            who = [each for rule in state.until for condition in rule.conditions for each in condition.who]
-            for member in (state.followed, *who):
+            conditions = [condition for rule in state.until for condition in rule.conditions]
+            for member in (state.followed, *(each for condition in conditions for each in condition.who)):
                 if member.target is None and member.name == before:
                     member.name = name
+            for place in (state.place, *(condition.place for condition in conditions)):
+                if place.target is None and place.text == before:
+                    place.text = name
 
 
 class ThrongCondition(bpy.types.PropertyGroup):

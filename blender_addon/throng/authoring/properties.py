@@ -82,7 +82,7 @@ def _renamed(flow, context):
             for member in event.who:
                 if member.target is None and member.name == flow.known:
                     member.name = flow.name
-        behaviour_properties.flow_named(flow.id_data.throng_layout, flow.known, flow.name)
+        behaviour_properties.group_named(flow.id_data.throng_layout, flow.known, flow.name)
     flow.known = flow.name
 
 
@@ -174,10 +174,17 @@ class ThrongFormation(bpy.types.PropertyGroup):
     behaviour: StringProperty(name="Behaviour", description="In place of where they go")
 
 
+def _given_named(given, _context):
+    if given.known and given.known != given.name:
+        behaviour_properties.group_named(given.id_data.throng_layout, given.known, given.name)
+    given.known = given.name
+
+
 class ThrongGiven(bpy.types.PropertyGroup):
     """People whose ways are given."""
 
-    name: StringProperty(name="Name")
+    name: StringProperty(name="Name", update=_given_named)
+    known: StringProperty(options={"HIDDEN"})
     raw: StringProperty(options={"HIDDEN"})
     source: EnumProperty(name="Ways", items=[
         ("FILE", "File", "Trajectories: CSV, the archive of Juelich, a JuPedSim database, or a bake's folder"),

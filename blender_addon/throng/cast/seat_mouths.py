@@ -6,6 +6,7 @@ import math
 CHEEK = 0.1     # m: sides of a passage, as authoring/layout/seat_mouths.cpp has them
 SLAB = 0.15     # m: what people walk on
 HEADROOM = 2.1  # m
+WIDEST = 1.9    # m from a passage to the middle of the steps beside it, at most
 _PARAPET = 0.95
 _BEFORE = 0.35  # m: so far before the first row that goes on over it, room for those who walk along there
 _RISER = 0.18   # m, of the steps of a passage that slopes
@@ -49,9 +50,15 @@ class Mouth:
         self.origin, self.half = opening, 0.5 * float(passage["width"])
         self.foot, self.landing = passage["heights"][0], passage["heights"][1]
         self.sides = [flight for flight in aisle["flights"]
-                      if 0.5 < math.dist(flight["line"][0], landing) < 2.5 and len(flight["line"]) > 1
-                      and abs(flight["heights"][0] - self.landing) < 1e-6]
+                      if len(flight["line"]) > 1 and abs(flight["heights"][0] - self.landing) < 1e-6
+                      and self.half < self._beside(flight["line"][0]) < self.half + WIDEST
+                      and self.half < self._beside(flight["line"][1]) < self.half + WIDEST]
         self.rows = len(self.sides[0]["line"]) - 1 if self.sides else 0  # that are cut behind the landing
+
+    def _beside(self, place):
+        """m from the passage's axis."""
+        u, v = self.back
+        return abs((place[0] - self.origin[0]) * v - (place[1] - self.origin[1]) * u)
 
     def at(self, beside, behind, height):
         u, v = self.back
