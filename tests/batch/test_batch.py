@@ -183,7 +183,7 @@ def generators(throng):
 def test_whatever_is_generated_is_valid(throng, kind, tmp_path):
     chance = random.Random(kind)
     whole = {"arms", "pillars", "columns", "rows", "exits", "people", "seed", "stands", "platforms",
-             "escalators", "floors"}
+             "escalators", "floors", "rooms"}
     parameters = generators(throng)[kind]
     schema = jsonschema.Draft7Validator(json.loads(throng("schema").stdout))
     for attempt in range(12):
