@@ -174,7 +174,7 @@ def _locks(bodies, shape, level, style, material, scale, draw, count, wider, rin
                         _collider(bodies, shape), fringe, bodies.joint(shape, "mouth")[2] - 0.03 * scale,
                         bodies.joint(shape, "l-eye")[[0, 2]] + (-0.050 * scale, 0.048 * scale))
     if style.comb == "out" and level < 0:
-        line, sides = _coils(roots, ways, 0.8 * length, scale, draw, 2 * pieces + 2)
+        line, sides = _coils(roots, ways, 0.8 * length, scale, draw, 2 * pieces + 1)
         wider *= _COIL
     wide = style.wide * wider * scale * draw.uniform(0.7, 1.3, count)
     wide = numpy.where(fringe, numpy.minimum(wide, 0.020 * scale), wide)  # eyes stay free
