@@ -168,7 +168,7 @@ def test_measure_takes_them_for_what_they_are(throng, leaving, coming):
     (stand(mouths={**VOMITORY, "passage": 30}, leave=LEAVES), "beside the floor of level `concourse`"),
     (stand(mouths={**VOMITORY, "passage": 2}, leave=LEAVES), "climb 2.70 m over 2.00 m: they climb at most 80 %"),
     (stand(mouths=VOMITORY, aisles=0, leave=LEAVES), "has no aisles that could go out there"),
-    (stand(mouths=VOMITORY, aisles=5, leave=LEAVES), "from one aisle to the next, where its openings need"),
+    (stand(mouths=VOMITORY, aisles=5, leave=LEAVES), "and an aisle, where its openings need 1.60 m"),
 ])
 def test_check_tells_what_is_wrong(throng, tmp_path, seats, words):
     path = tmp_path / "wrong.json"
