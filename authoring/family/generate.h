@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -30,6 +31,22 @@ inline Json points(const std::vector<glm::dvec2>& line) {
 }
 inline Json rectangle(double x0, double y0, double x1, double y1) {
     return points({{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}});
+}
+
+/// A place on a circle round the origin, counter-clockwise from x. @param angle rad
+inline glm::dvec2 onCircle(double radius, double angle) {
+    return radius * glm::dvec2(std::cos(angle), std::sin(angle));
+}
+/// A part of a ring round the origin, counter-clockwise, in so many straight pieces. @param step rad
+std::vector<glm::dvec2> sector(double inner, double outer, double from, double step, int pieces);
+
+/// The nearest of some places, or the only one.
+inline Json nearestOf(const Json& places) {
+    return places.size() > 1 ? Json{{"nearest", places}} : places[0];
+}
+/// The share of one of several, so that all of them make the whole.
+inline std::uint64_t shareOf(std::uint64_t whole, std::uint64_t number, std::uint64_t of) {
+    return whole * (number + 1) / of - whole * number / of;
 }
 
 /// What every layout begins with.

@@ -44,8 +44,7 @@ std::vector<Side> ring(std::uint64_t sides, double radius, double opening) {
     const double step = 2.0 * std::numbers::pi / static_cast<double>(sides);
     for (std::uint64_t i = 0; i < sides; ++i) {
         const double from = (static_cast<double>(i) - 0.5) * step;
-        found.push_back({radius * glm::dvec2(std::cos(from), std::sin(from)),
-                         radius * glm::dvec2(std::cos(from + step), std::sin(from + step)), opening});
+        found.push_back({onCircle(radius, from), onCircle(radius, from + step), opening});
     }
     return found;
 }
@@ -54,12 +53,21 @@ std::vector<glm::dvec2> polygon(std::uint64_t sides, double radius) {
     std::vector<glm::dvec2> outline;
     for (std::uint64_t i = 0; i < sides; ++i) {
         const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(sides);
-        outline.push_back(radius * glm::dvec2(std::cos(angle), std::sin(angle)));
+        outline.push_back(onCircle(radius, angle));
     }
     return outline;
 }
 
 }  // namespace
+
+std::vector<glm::dvec2> sector(double inner, double outer, double from, double step, int pieces) {
+    std::vector<glm::dvec2> outline;
+    for (int i = 0; i <= pieces; ++i)
+        outline.push_back(onCircle(outer, from + step * i / pieces));
+    for (int i = pieces; i >= 0; --i)
+        outline.push_back(onCircle(inner, from + step * i / pieces));
+    return outline;
+}
 
 Json plaza(const GeneratorValues& values) {
     const std::uint64_t exits = values.whole("exits");
@@ -143,21 +151,13 @@ Json stadium(const GeneratorValues& values) {
         std::min<std::uint64_t>(values.whole("people"), static_cast<std::uint64_t>(kMostDensity * ground));
     const double step = 2.0 * std::numbers::pi / static_cast<double>(kBlocks);
     for (std::uint64_t block = 0; block < kBlocks; ++block) {
-        constexpr int kPieces = 6;
         const double from = step * static_cast<double>(block);
-        std::vector<glm::dvec2> outline;
-        for (int i = 0; i <= kPieces; ++i)
-            outline.push_back(
-                far * glm::dvec2(std::cos(from + step * i / kPieces), std::sin(from + step * i / kPieces)));
-        for (int i = kPieces; i >= 0; --i)
-            outline.push_back(
-                near * glm::dvec2(std::cos(from + step * i / kPieces), std::sin(from + step * i / kPieces)));
         const std::string id = fmt::format("block {}", block + 1);
-        layout["areas"].push_back({{"id", id}, {"polygon", points(outline)}});
-        const std::uint64_t count = people * (block + 1) / kBlocks - people * block / kBlocks;
+        layout["areas"].push_back({{"id", id}, {"polygon", points(sector(near, far, from, step, 6))}});
+        const std::uint64_t count = shareOf(people, block, kBlocks);
         if (count == 0) continue;
         Json flow = {{"id", "from " + id}, {"from", id}};
-        flow["to"] = gates.size() > 1 ? Json{{"nearest", gates}} : gates[0];
+        flow["to"] = nearestOf(gates);
         flow["count"] = count;
         flow["end"] = std::min(std::max(values["rise"], 0.05), values["duration"]);
         layout["flows"].push_back(flow);

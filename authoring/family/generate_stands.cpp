@@ -24,20 +24,11 @@ double degrees(double radians) {
     return radians * 180.0 / std::numbers::pi;
 }
 
-glm::dvec2 onCircle(double radius, double angle) {
-    return radius * glm::dvec2(std::cos(angle), std::sin(angle));
-}
-
-/// A part of a ring, counter-clockwise.
-std::vector<glm::dvec2> sector(double inner, double outer, double from, double to) {
+/// A part of a ring, in pieces of a tenth of a radian.
+std::vector<glm::dvec2> roundSector(double inner, double outer, double from, double to) {
     constexpr double kPiece = 0.1;  // rad
     const int pieces = std::max(2, static_cast<int>(std::ceil((to - from) / kPiece)));
-    std::vector<glm::dvec2> outline;
-    for (int i = 0; i <= pieces; ++i)
-        outline.push_back(onCircle(outer, from + (to - from) * i / pieces));
-    for (int i = pieces; i >= 0; --i)
-        outline.push_back(onCircle(inner, from + (to - from) * i / pieces));
-    return outline;
+    return sector(inner, outer, from, to - from, pieces);
 }
 
 /// Blocks of seats round a pitch, each with a part of the concourse behind it.
@@ -74,7 +65,7 @@ class Stands {
         for (std::uint64_t i = 0; i < count_; ++i)
             layout["levels"].push_back(
                 {{"id", concourse(i)},
-                 {"floor", points(sector(inner_, outer_, angleOf(i), angleOf(i + 1)))}});
+                 {"floor", points(roundSector(inner_, outer_, angleOf(i), angleOf(i + 1)))}});
         const Json gates = addGates(layout, values);
         const auto seats = static_cast<double>(countSeats(block_) * count_);
         const double people = static_cast<double>(std::min(values.whole("people"), kMostPeople));
@@ -122,7 +113,7 @@ class Stands {
             layout["areas"].push_back(
                 {{"id", gates.back()},
                  {"level", concourse(part)},
-                 {"polygon", points(sector(outside - kGate, outside, middle - half, middle + half))}});
+                 {"polygon", points(roundSector(outside - kGate, outside, middle - half, middle + half))}});
         }
         return gates;
     }
@@ -149,9 +140,7 @@ class Stands {
                 {"level", "pitch"},
                 {"mouths", mouths},
                 {"occupancy", std::max(rounded(occupancy), 0.001)},
-                {"leave",
-                 {{"at", {{"uniform", {0, rounded(end)}}}},
-                  {"to", gates.size() > 1 ? Json{{"nearest", gates}} : gates[0]}}}};
+                {"leave", {{"at", {{"uniform", {0, rounded(end)}}}}, {"to", nearestOf(gates)}}}};
     }
 
     std::uint64_t count_, rows_ = 2;

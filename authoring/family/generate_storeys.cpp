@@ -17,15 +17,6 @@ Json flow(const std::string& id, const std::string& from, const Json& to, std::u
     return {{"id", id}, {"from", from}, {"to", to}, {"count", count}, {"end", std::max(end, 0.05)}};
 }
 
-/// The share of one of several, so that all of them make the whole.
-std::uint64_t shareOf(std::uint64_t whole, std::uint64_t number, std::uint64_t of) {
-    return whole * (number + 1) / of - whole * number / of;
-}
-
-Json nearestOf(const Json& places) {
-    return places.size() > 1 ? Json{{"nearest", places}} : places[0];
-}
-
 // m
 constexpr double kDeckRise = 5.5, kStairsRun = 10.0, kBelt = 9.5, kTracks = 8.0, kEnds = 2.0,
                  kStationGate = 3.0;

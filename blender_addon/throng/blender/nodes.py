@@ -144,6 +144,13 @@ class Maths:
             self.feed(value, slot)
         return node.outputs[0]
 
+    def smooth(self, value, low, high):
+        """From 0 to 1 as a value goes from `low` to `high`, without corners."""
+        node = self.node("ShaderNodeMapRange", interpolation_type="SMOOTHSTEP")
+        self.link(value, node.inputs["Value"])
+        node.inputs["From Min"].default_value, node.inputs["From Max"].default_value = low, high
+        return node.outputs[0]
+
     def grouped(self, name, geometries, build, kind="NodeSocketGeometry", flag=None):
         """What `build(maths, *geometries)` makes, in a tree of its own: to write a tree takes time that grows with the
         square of its nodes. @param kind of the socket that it gives; @param flag a boolean that goes along, last"""

@@ -45,27 +45,20 @@ def _windows(maths, seconds, salt):
     return maths.math("FLOOR", now), maths.math("MULTIPLY", maths.math("FRACT", now), seconds)
 
 
-def _smooth(maths, value, low, high):
-    node = maths.node("ShaderNodeMapRange", interpolation_type="SMOOTHSTEP")
-    maths.link(value, node.inputs["Value"])
-    node.inputs["From Min"].default_value, node.inputs["From Max"].default_value = low, high
-    return node.outputs[0]
-
-
 def _blink(maths):
     window, since = _windows(maths, _BLINKS, 1)
     whole = _CLOSING + _CLOSED + _OPENING
     begins = maths.math("MULTIPLY", _draw(maths, window, 2), _BLINKS - whole)
     since = maths.math("SUBTRACT", since, begins)
-    opens = _smooth(maths, since, _CLOSING + _CLOSED, whole)
-    return maths.math("SUBTRACT", _smooth(maths, since, 0.0, _CLOSING), opens)
+    opens = maths.smooth(since, _CLOSING + _CLOSED, whole)
+    return maths.math("SUBTRACT", maths.smooth(since, 0.0, _CLOSING), opens)
 
 
 def _fixation(maths, most, salt):
     """Where eyes are, which jump from one angle to the next."""
     window, since = _windows(maths, _FIXATION, 3)
     was, is_ = (_draw(maths, maths.math("ADD", window, step), salt) for step in (-1.0, 0.0))
-    there = maths.math("MULTIPLY_ADD", _smooth(maths, since, 0.0, _SACCADE), maths.math("SUBTRACT", is_, was), was)
+    there = maths.math("MULTIPLY_ADD", maths.smooth(since, 0.0, _SACCADE), maths.math("SUBTRACT", is_, was), was)
     return maths.math("MULTIPLY_ADD", there, 2.0 * most, -most)
 
 
@@ -88,7 +81,7 @@ def _talk(maths, state):
                        maths.math("COMPARE", clip, float(_TALKS), 0.5))
     window, since = _windows(maths, _SPEECH, 6)
     speaks = maths.math("LESS_THAN", _draw(maths, window, 7), _SPEAKS)
-    begins = maths.math("SUBTRACT", _smooth(maths, since, 0.0, 0.15), _smooth(maths, since, _SPEECH - 0.4, _SPEECH))
+    begins = maths.math("SUBTRACT", maths.smooth(since, 0.0, 0.15), maths.smooth(since, _SPEECH - 0.4, _SPEECH))
     syllable, within = _windows(maths, 1.0 / _SYLLABLES, 8)
     wave = maths.math("SINE", maths.math("MULTIPLY", within, math.pi * _SYLLABLES))
     wide = maths.math("MULTIPLY_ADD", _draw(maths, syllable, 9), 0.75 * _WIDE, 0.25 * _WIDE)

@@ -149,13 +149,6 @@ def _size(figure):
     return len(sheet.data.vertices), sheet["throng_bones"]
 
 
-def _smooth(maths, value, low, high):
-    node = maths.node("ShaderNodeMapRange", interpolation_type="SMOOTHSTEP")
-    maths.link(value, node.inputs["Value"])
-    node.inputs["From Min"].default_value, node.inputs["From Max"].default_value = low, high
-    return node.outputs[0]
-
-
 def _walks(maths, state, phase, repertoire):
     """(a pose of the walk, the one after it, how far between them), the same of the gait before, but how much of that
     is left, and the gait (docs/bake.md has how the state tells all this)."""
@@ -167,7 +160,7 @@ def _walks(maths, state, phase, repertoire):
     pose = maths.math("MINIMUM", maths.math("FLOOR", place), POSES - 1.0)
     after = maths.math("MODULO", maths.math("ADD", pose, 1.0), float(POSES))
     found = []
-    for each, share in ((gait, maths.math("SUBTRACT", place, pose)), (before, _smooth(maths, left, 0.0, 1.0))):
+    for each, share in ((gait, maths.math("SUBTRACT", place, pose)), (before, maths.smooth(left, 0.0, 1.0))):
         number = maths.math("SUBTRACT", each, float(repertoire.first))
         number = maths.math("MINIMUM", maths.math("MAXIMUM", number, 0.0), len(repertoire.strides) - 1.0)
         first = maths.math("MULTIPLY", number, float(POSES))
@@ -187,7 +180,7 @@ def _stands(maths, state, nature, walking):
     first = maths.math("MULTIPLY_ADD", clip, float(BEATS), float(walking))
     after = maths.math("MODULO", maths.math("ADD", beat, 1.0), float(BEATS))
     return combined(maths, maths.math("ADD", first, beat), maths.math("ADD", first, after),
-                    _smooth(maths, maths.math("SUBTRACT", place, beat), 0.67, 1.0))
+                    maths.smooth(maths.math("SUBTRACT", place, beat), 0.67, 1.0))
 
 
 def _rests(maths, state, phase, nature, repertoire):
@@ -217,7 +210,7 @@ def _people(maths, points, repertoire, cast, is_told):
     for number, length in enumerate(repertoire.strides, repertoire.first):
         part = maths.math("MULTIPLY", maths.math("COMPARE", gait, float(number), 0.5), float(length))
         stride = part if stride is None else maths.math("ADD", stride, part)
-    walking = trunks.walking(maths) if is_told else _smooth(maths, speed, STANDS_BELOW, WALKS_FROM)
+    walking = trunks.walking(maths) if is_told else maths.smooth(speed, STANDS_BELOW, WALKS_FROM)
     rate = maths.math("DIVIDE", maths.math("MULTIPLY", speed, float(POSES)), maths.math("MAXIMUM", stride, 0.1))
     for name, value, kind in ((WHO, who, "INT"), (_RANK, maths.node("GeometryNodeInputIndex").outputs[0], "INT"),
                               (ROW, maths.node("GeometryNodeInputID").outputs[0], "INT"),

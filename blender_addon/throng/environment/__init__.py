@@ -18,11 +18,12 @@ def _walls_seen(geometry):
 
 
 def build_environment(context, manifest, collection, *, walls=True, roads=True, ground=True, light=True, camera=True,
-                      frame_start=1, terrain=None, bake=None, folder=None):
+                      frame_start=1, terrain=None, bake=None, folder=None, people=None):
     """Everything in the bake's own frame (metres from its origin). A terrain takes the place of the flat ground,
     and of roads and areas.
 
     @param folder the bake's, where it has vehicles or lifts
+    @param people (cast, repertoire) of those who are seen in vehicles, or None
     @param bake what the set is dressed for, with cars, trees and the like where nobody walks; not dressed without
     """
     geometry = manifest.get("geometry") or {}
@@ -39,7 +40,7 @@ def build_environment(context, manifest, collection, *, walls=True, roads=True, 
     if ground:
         for thing in (terrain_module.build_terrain(*terrain, manifest) if terrain else streets.build_ground(manifest)):
             collection.objects.link(thing)
-    traffic.build_traffic(collection, manifest, folder, frame_start, roads, terrain)
+    traffic.build_traffic(collection, manifest, folder, frame_start, roads, terrain, people)
     lifts.build_lifts(collection, manifest, folder, frame_start)
     if bake:
         collection["throng_dressing"] = dressing.build_dressing(bake, collection, terrain)

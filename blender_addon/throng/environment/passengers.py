@@ -9,38 +9,19 @@ import numpy
 
 from ..cast import library
 from ..cast.sheets import pose_mesh
-from . import vehicle_doors
 from .keys import hide_but
-from .tracks import read_track
+from .vehicle_doors import FLOOR
 
-PASSENGER, VEHICLE = "throng_passenger", "throng_vehicle"  # of objects: which one it is, and whose it is
+PASSENGER = "throng_passenger"  # of objects: which one of its vehicle's it is
 _MOST = 48                # in one vehicle
 _ENDS, _DOORS = 1.4, 0.9  # m that are free at the ends, and to each side of a door's middle
 _APART, _ASIDE = 0.72, (-0.42, 0.42)  # m along, and where two files stand across
-_FLOOR = 0.05             # m over the ground
 _LEVEL = 1                # of detail: they are behind panes
 _LOOKS = 12               # different people
-_ABOARD, _STATE = 2, 6    # columns of doors.npy and of vehicles.npy
 
 
-def build_passengers(collection, bake, cast, repertoire, frame_start):
-    """@param collection of the bake, with its vehicles; @param bake as formats reads it"""
-    manifest = bake.manifest
-    track = read_track(bake.folder, manifest, "vehicles")
-    doors = read_track(bake.folder, manifest, "doors") if track is not None else None
-    if doors is None:
-        return
-    meshes = _meshes(cast, repertoire)
-    for vehicle in [thing for thing in collection.objects if VEHICLE in thing]:
-        number = vehicle[VEHICLE]
-        opening = vehicle_doors.opens(manifest, number)
-        if opening:
-            _fill(collection, vehicle, _spots(manifest["vehicles"]["list"][number], opening, number),
-                  numpy.where(track[:, number, _STATE] > 0.0, doors[:, number, _ABOARD], 0.0), meshes, frame_start)
-
-
-def _meshes(cast, repertoire):
-    """People who stand, of a level of detail that is there."""
+def standing(cast, repertoire):
+    """Meshes of people who stand, of a level of detail that is there."""
     figures = library.figures_of(cast)
     level = _LEVEL if any(each == _LEVEL for each, _ in figures) else 0
     found = []
@@ -68,12 +49,14 @@ def _spots(what, opening, number):
     return [places[index] for index in draw.permutation(len(places))[:_MOST]]
 
 
-def _fill(collection, vehicle, spots, aboard, meshes, frame_start):
-    """@param aboard how many there are in each frame; 0 while it is not there"""
-    draw = numpy.random.default_rng([vehicle[VEHICLE], 8])
+def passengers_of(vehicle, what, opening, number, aboard, meshes, frame_start):
+    """Objects. @param what, opening, number as vehicle_doors has them; @param aboard how many there are in each frame,
+    0 while the vehicle is not there; @param meshes of standing()"""
+    spots, draw, found = _spots(what, opening, number), numpy.random.default_rng([number, 8]), []
     for index, (x, y, heading) in enumerate(spots[:int(aboard.max(initial=0.0))]):
         thing = bpy.data.objects.new(f"{vehicle.name} passenger {index}", meshes[draw.integers(len(meshes))])
-        thing.parent, thing.location, thing.rotation_euler = vehicle, (x, y, _FLOOR), (0.0, 0.0, heading)
+        thing.parent, thing.location, thing.rotation_euler = vehicle, (x, y, FLOOR), (0.0, 0.0, heading)
         thing["tint"], thing[PASSENGER] = draw.random(3).tolist(), index
         hide_but(thing, aboard > index, frame_start)
-        collection.objects.link(thing)
+        found.append(thing)
+    return found

@@ -6,9 +6,8 @@ import math
 import bpy
 import numpy
 
-from . import materials, rails, vehicle_doors
+from . import materials, passengers, rails, vehicle_doors
 from .keys import key_hidden
-from .passengers import VEHICLE
 from .shapes import Shape, counter_clockwise, direction
 from .streets import MARK_Z, ROAD_Z
 from .tracks import fill, read_track
@@ -139,10 +138,10 @@ def _post(place, heading, times, fps, frame_start):
 
 # Vehicles
 
-def build_traffic(collection, manifest, folder, frame_start, roads, terrain):
+def build_traffic(collection, manifest, folder, frame_start, roads, terrain, people=None):
     """All of it that a bake has.
 
-    @param roads whether the street is built; a terrain takes its place
+    @param roads whether the street is built; a terrain takes its place; @param people as build_environment() has them
     """
     traffic = (manifest.get("geometry") or {}).get("traffic")
     if not traffic:
@@ -152,14 +151,16 @@ def build_traffic(collection, manifest, folder, frame_start, roads, terrain):
     track = read_track(folder, manifest, "vehicles") if folder else None
     if track is not None:
         objects += rails.build_rails(traffic, manifest, track) if roads and not terrain else []
-        objects += build_vehicles(manifest, track, frame_start, read_track(folder, manifest, "doors"))
+        objects += build_vehicles(manifest, track, frame_start, read_track(folder, manifest, "doors"), people)
     for thing in objects:
         collection.objects.link(thing)
 
 
-def build_vehicles(manifest, track, frame_start, doors=None):
-    """All vehicles, with their axles and doors, keyed. @param doors what the bake tells of these, if anything"""
+def build_vehicles(manifest, track, frame_start, doors=None, people=None):
+    """All vehicles, with their axles, doors and passengers, keyed. @param doors what the bake tells of these, if
+    anything; @param people as build_environment() has them"""
     bodies, axles, objects = {}, {}, []
+    seen = passengers.standing(*people) if people and doors is not None else ()
     for number, what in enumerate(manifest["vehicles"]["list"]):
         there = numpy.flatnonzero(track[:, number, _STATE] > 0.0)
         if not len(there):
@@ -171,7 +172,6 @@ def build_vehicles(manifest, track, frame_start, doors=None):
             bodies[look] = body_of(kind, number, what, opening)
         mesh, places = bodies[look]
         thing = bpy.data.objects.new(f"Throng {kind} {number}", mesh)
-        thing[VEHICLE] = number
         frames = there + frame_start
         rows = track[there, number]
         fill(thing, "location", frames, rows[:, [_X, _Y, _Z]])
@@ -185,6 +185,9 @@ def build_vehicles(manifest, track, frame_start, doors=None):
             for leaf in leaves:
                 _hide_while_away(leaf, frames, frame_start)
             objects += leaves
+            aboard = numpy.zeros(len(track))
+            aboard[there] = doors[there, number, vehicle_doors.ABOARD] if seen else 0.0
+            objects += passengers.passengers_of(thing, what, opening, number, aboard, seen, frame_start)
         for x, radius, half_track, broad in places:
             shape = (radius, half_track, broad)
             if shape not in axles:

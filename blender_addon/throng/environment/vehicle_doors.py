@@ -7,7 +7,8 @@ from . import materials
 from .shapes import Shape
 from .tracks import fill
 
-_FLOOR, _SKIRT, _LINTEL = 0.05, 0.10, 2.20  # m over the ground
+FLOOR, _SKIRT, _LINTEL = 0.05, 0.10, 2.20  # m over the ground
+ABOARD = 2                                  # column of doors.npy
 _SILL, _TOP = 1.0, 2.45                     # m: of windows
 _LEAF = 0.035                               # m, thick
 _OUT = 0.06                                 # m: leaves come out so far before they slide
@@ -34,7 +35,7 @@ def body_with(what, doors):
                (x1, y1 - narrow), (x1 - nose, y1), (-x1 + nose, y1), (-x1, y1 - narrow)]
     shape.prism(outline, high - 0.12, high, paint, roof)
     shape.flat(outline, high - 0.2, materials.glowing("vehicle ceiling", (0.9, 0.86, 0.78), 2.0))
-    shape.prism(outline, _FLOOR - 0.02, _FLOOR, materials.plain("vehicle floor", (0.10, 0.10, 0.11), 0.8))
+    shape.prism(outline, FLOOR - 0.02, FLOOR, materials.plain("vehicle floor", (0.10, 0.10, 0.11), 0.8))
     eaves = high - 0.12
     for a, b in ((1, 0), (2, 3), (5, 4), (6, 7)):
         _wall(shape, outline[a], outline[b], _SKIRT, eaves, paint)
@@ -61,7 +62,7 @@ def _housings(shape, x, radius, half_track, y):
     for side in (-1.0, 1.0):
         near, far = side * (half_track - 0.3), side * (y - 0.02)
         box = [(x - long, near), (x + long, near), (x + long, far), (x - long, far)]
-        shape.prism(box, _FLOOR, 2.0 * radius + 0.06, grey)
+        shape.prism(box, FLOOR, 2.0 * radius + 0.06, grey)
 
 
 def axles_of(kind):
@@ -107,7 +108,7 @@ def _poles(shape, doors, width, high):
     for middle in doors:
         for x in (middle - 0.5 * width - 0.12, middle + 0.5 * width + 0.12):
             for y in (-0.55, 0.55):
-                shape.limb((x, y, _FLOOR), (x, y, high - 0.2), 0.018, 0.018, yellow, 8)
+                shape.limb((x, y, FLOOR), (x, y, high - 0.2), 0.018, 0.018, yellow, 8)
 
 
 def _leaf_mesh(kind, width):
@@ -117,7 +118,7 @@ def _leaf_mesh(kind, width):
     glass = materials.clear("vehicle window", (0.030, 0.038, 0.040), 0.45)
     half = 0.5 * width
     box = [(-half, -_LEAF), (0.0, -_LEAF), (0.0, 0.0), (-half, 0.0)]
-    leaf.prism(box, _FLOOR + 0.01, _LINTEL, frame)
+    leaf.prism(box, FLOOR + 0.01, _LINTEL, frame)
     for y in (-_LEAF - 0.004, 0.004):
         _wall(leaf, (-half + 0.06, y), (-0.04, y), 0.35, _LINTEL - 0.1, glass)
     return leaf.to_mesh()

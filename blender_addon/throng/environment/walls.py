@@ -8,6 +8,7 @@ from ..setting import street_ends
 from ..setting.houses import KINDS, kind_of, number_of
 from . import materials
 from .houses import GROUND_FLOOR, STOREY, build_house
+from .keys import key_hidden
 from .shapes import Shape, counter_clockwise, direction, offset_polygon, signed_area
 
 BUILDING = 6.0      # m: closed walls at least this high are buildings
@@ -86,9 +87,7 @@ def key_gate(thing, wall, fps, frame_start):
         return
     is_open = bool(gate["open_at_start"])
     for frame in [frame_start] + [frame_start + math.ceil(time * fps) for time in gate["toggles"]]:
-        for path in ("hide_viewport", "hide_render"):
-            setattr(thing, path, is_open)
-            thing.keyframe_insert(path, frame=frame)
+        key_hidden(thing, is_open, frame)
         is_open = not is_open
 
 

@@ -71,30 +71,25 @@ def _eye(bodies, points, rings, kind):
     return loose(bodies, numpy.array(made), faces, "head", kind, numpy.array(flat))
 
 
+def _of_group(bodies, shape, group, material):
+    numbers, faces = numpy.unique(bodies.triangles(group), return_inverse=True)
+    return Part(faces.reshape(-1, 3), shape[numbers], bodies.weights[numbers], regions.places_of(bodies)[numbers],
+                material)
+
+
 def lashes(bodies, shape, level):
     if level >= 0:
         return []
-    found = []
-    for side in "lr":
-        for number in (1, 2):
-            group = f"helper-{side}-eyelashes-{number}"
-            numbers, faces = numpy.unique(bodies.triangles(group), return_inverse=True)
-            found.append(Part(faces.reshape(-1, 3), shape[numbers], bodies.weights[numbers],
-                              regions.places_of(bodies)[numbers], "lashes"))
-    return found
+    return [_of_group(bodies, shape, f"helper-{side}-eyelashes-{number}", "lashes") for side in "lr"
+            for number in (1, 2)]
 
 
 def teeth(bodies, shape, level):
     """Where mouths open (faces.py), and the library has them: those that were made before it did have none."""
     if level >= 0:
         return []
-    found = []
-    for group in ("helper-upper-teeth", "helper-lower-teeth"):
-        if group in bodies.groups:
-            numbers, faces = numpy.unique(bodies.triangles(group), return_inverse=True)
-            found.append(Part(faces.reshape(-1, 3), shape[numbers], bodies.weights[numbers],
-                              regions.places_of(bodies)[numbers], "teeth"))
-    return found
+    return [_of_group(bodies, shape, group, "teeth") for group in ("helper-upper-teeth", "helper-lower-teeth")
+            if group in bodies.groups]
 
 
 def tube(points, radius, sides=5, closed=False):

@@ -6,8 +6,8 @@ from functools import lru_cache
 import numpy
 
 NEAR = -2   # for pictures from a few metres and for single people
-_THIN = 0.08  # of a triangle: its height over its longest edge
 CLOSE = -1  # for people of a crowd within some metres of the camera (crowd/near.py); all others take 0, 1 and 2
+_THIN = 0.08  # of a triangle: its height over its longest edge
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ change. Walls, stands and the like that begin above are hidden whole; what begin
 import numpy
 
 from ..blender.modifiers import move_modifier
-from ..blender.nodes import Maths, get_input, new_tree, own_tree, set_input
+from ..blender.nodes import Maths, new_tree, own_tree, set_input
 from ..crowd.names import HIDDEN
 from ..crowd.queries import bake_path, terrain_of
 from ..formats import BakeError, load_bake
@@ -43,12 +43,6 @@ def _without_faces(maths, mesh, above):
     return cut.outputs[0]
 
 
-def height_of(crowd):
-    """Where a crowd is cut, or None."""
-    modifier = crowd.modifiers.get(MODIFIER)
-    return get_input(modifier, "Height") + _LEAST if modifier else None
-
-
 def floor_of(crowd, level):
     """m: where a level's floor begins, from below. Raises formats.BakeError."""
     levels = {each["id"]: float(each["height"]) for each in load_bake(bake_path(crowd)).manifest.get("levels", ())}
@@ -62,14 +56,13 @@ def _add(thing, name, build, height):
     modifier = thing.modifiers.new(MODIFIER, "NODES")
     modifier.node_group = _tree(name, build)
     set_input(modifier, "Height", float(height) - _LEAST)
-    return modifier
 
 
 def put_last(crowd):
     """What else leaves people out begins anew, so this comes after it, just before the instancer."""
     if MODIFIER in crowd.modifiers:
-        others = crowd.modifiers.find(MODIFIER) < crowd.modifiers.find("throng people")
-        move_modifier(crowd, MODIFIER, crowd.modifiers.find("throng people") - int(others))
+        own, instancer = (crowd.modifiers.find(name) for name in (MODIFIER, "throng people"))
+        move_modifier(crowd, MODIFIER, instancer - int(own < instancer))
 
 
 def apply(crowd, height):

@@ -8,7 +8,6 @@ from .. import cast, environment
 from ..blender.paths import stored_path
 from ..cast import library, sitting
 from ..crowd import playback
-from ..environment import passengers
 from ..formats import BakeError, load_bake
 from ..overrides.layer import Arrival
 from ..people import casting, members
@@ -67,8 +66,8 @@ def import_bake(context, path, *, frame_start=1, walls=True, roads=True, scenery
     set_up_scene(scene, bake, frame_start)
     environment.build_environment(context, bake.manifest, collection, walls=walls, roads=roads, ground=scenery,
                                   light=scenery, camera=camera, frame_start=frame_start, terrain=terrain,
-                                  folder=bake.folder, bake=bake if scenery and dressing else None)
-    passengers.build_passengers(collection, bake, shown, repertoire, frame_start)
+                                  folder=bake.folder, bake=bake if scenery and dressing else None,
+                                  people=(shown, repertoire))
     if bend and dress and scene.camera:
         near.apply(crowd, scene.camera)
     collection.objects.link(crowd)  # when all is there: whatever the scene has is worked out, poses that go away, too
