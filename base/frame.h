@@ -21,12 +21,13 @@ struct DiagramImage {
     std::uint32_t height = 0;
     glm::vec2 minimum{0.0f};  ///< scene frame, m: the corner of pixel (0, 0)
     float pixels_per_metre = 1.0f;
-    std::uint32_t agent_count = 0;        ///< site ids below this are agents (rows), the others wall tiles
+    std::uint32_t agent_count = 0;        ///< site ids below this are agents (rows), the next ones wall tiles
     std::span<const std::uint32_t> site;  ///< width * height, kNone where no site's tile reaches
     std::span<const float> distance;      ///< width * height, m to the owner; undefined where site is kNone
     /// width * height, the second-nearest site that reaches, kNone where there is none; empty unless asked
     /// for
     std::span<const std::uint32_t> second;
+    std::uint32_t wall_count = kNone;  ///< wall tiles; ids above theirs are vehicles
 };
 
 /// One frame of all rows. The spans stay valid only while the receiver is being called.

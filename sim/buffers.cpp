@@ -287,8 +287,12 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
     const std::vector<gpu::DiagramSite> fixed = wallSites(scene, parameter_values);
     if (!fixed.empty()) sites.upload(std::span<const gpu::DiagramSite>(fixed), rows);
 
-    neighbours = gl::Buffer("neighbours",
-                            {rows, gl::kWord * static_cast<std::size_t>(scene.settings.neighbours), kPerson});
+    // And a word for the vehicles that somebody heeds.
+    const std::size_t heeded = scene.traffic.empty() ? 0 : 1;
+    neighbours = gl::Buffer(
+        "neighbours",
+        {rows, gl::kWord * (static_cast<std::size_t>(scene.settings.neighbours) + heeded), kPerson});
+    neighbours.fill(gpu::NO_INDEX);
     neighbour_counts = gl::Buffer("neighbour counts", {rows, gl::kWord, kPerson});
     touch_words = gl::Buffer("touch words", {rows, gl::kWord, kPerson});
     touch_lists = gl::Buffer("touch lists", {rows, gl::kWord * gpu::TOUCH_CAPACITY, kPerson});

@@ -64,6 +64,10 @@ struct Buffers {
     bool hasBodies() const { return has_bodies_; }
     /// Whether the ground is cut into charts.
     bool hasCharts() const { return has_charts_; }
+    /// Whether there are vehicles, or crossings at least.
+    bool hasTraffic() const { return !traffic_.empty(); }
+    /// What programs are compiled with that know of vehicles and of nothing else.
+    gl::Definitions trafficDefinitions() const { return traffic_; }
     /// What programs are compiled with that know what people and ground there are.
     gl::Definitions definitions() const;
     /// What programs that move people are compiled with.

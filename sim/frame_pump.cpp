@@ -140,6 +140,8 @@ FramePump::FramePump(Simulation& simulation, const Cargo& cargo, Receiver receiv
     state_->image.minimum = parameters.diagram_minimum;
     state_->image.pixels_per_metre = parameters.pixels_per_metre;
     state_->image.agent_count = parameters.row_count;
+    if (simulation.vehicles() > 0)
+        state_->image.wall_count = simulation.diagram().firstVehicle() - parameters.site_rows;
     for (Slot& slot : state_->slots) {
         slot.frame = gl::Buffer("frame read-back", simulation.frameBytes(), gl::Buffer::Use::read_back);
         for (const StreamInfo& info : kStreams)

@@ -10,13 +10,14 @@ const gl::Declaration kMarch = {
     "sensing",
     {"shaders/sensing/sense.comp"},
     {"ParametersBlock", "LiveDispatch", "SlotImages", "Bodies", "StripStarts", "CellOffsets", "WallSegments",
-     "WallStarts", "NarrowCells", "WallTiles", "owners", "page_table", "SensingPattern", "TouchDispatch"},
+     "WallStarts", "NarrowCells", "WallTiles", "owners", "page_table", "SensingPattern", "TouchDispatch",
+     "VehicleBoxes"},
     {"Neighbours", "NeighbourCounts", "TouchWords", "TouchLists", "TouchSlots", "TouchDispatch"}};
 const gl::Declaration kCompare = {
     "sensing",
     {"shaders/sensing/sense_exact.comp"},
     {"ParametersBlock", "LiveDispatch", "SlotImages", "Bodies", "StripStarts", "CellOffsets", "WallSegments",
-     "WallStarts", "NarrowCells", "FarWallStarts", "FarWallItems", "TouchDispatch"},
+     "WallStarts", "NarrowCells", "FarWallStarts", "FarWallItems", "TouchDispatch", "VehicleBoxes"},
     {"Neighbours", "NeighbourCounts", "TouchWords", "TouchLists", "TouchSlots", "TouchDispatch"}};
 
 }  // namespace
@@ -39,11 +40,14 @@ void Sensing::marchRays(const gl::ShaderLibrary& library, const Diagram& diagram
     if (pattern.size() % 2 != 0) pattern.push_back(pattern.back());
     gl::Definitions definitions = {{"NEIGHBOURS", std::to_string(options.neighbours)}};
     if (buffers_.hasCharts()) definitions.emplace_back("CHARTS", "1");
+    for (const auto& definition : buffers_.trafficDefinitions())
+        definitions.push_back(definition);
     definitions.emplace_back("SENSING_SAMPLES", std::to_string(pattern.size()));
     for (const auto& definition : diagram.lookupDefinitions())
         definitions.push_back(definition);
     program_ = buffers_.connect(library, kMarch, definitions);
     diagram.describeTo(program_);
+    program_.setIfUsed("first_vehicle", diagram.firstVehicle());
     pattern_ = gl::makeBuffer("sensing pattern", pattern);
     program_.bind("SensingPattern", pattern_);
 }
@@ -54,6 +58,8 @@ void Sensing::compareExactly(const gl::ShaderLibrary& library, const SensingOpti
     const bool everybody = proximity_ == authoring::Proximity::brute;
     gl::Definitions definitions = {{"NEIGHBOURS", std::to_string(options.neighbours)}};
     if (buffers_.hasCharts()) definitions.emplace_back("CHARTS", "1");
+    for (const auto& definition : buffers_.trafficDefinitions())
+        definitions.push_back(definition);
     if (everybody) definitions.emplace_back("EVERYBODY", "1");
     program_ = buffers_.connect(library, kCompare, definitions);
     program_.set("reach", reach);

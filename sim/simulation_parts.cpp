@@ -49,8 +49,26 @@ float lookOf(const authoring::Scene& scene, const gpu::Parameters& parameters) {
     return std::max(reach, tile) * parameters.pixels_per_metre;
 }
 
+std::optional<VehicleSites> vehiclesOf(const authoring::Scene& scene, const gpu::Parameters& parameters,
+                                       const Buffers& buffers) {
+    if (scene.traffic.vehicles.empty()) return std::nullopt;
+    VehicleSites sites;
+    sites.boxes = &buffers.vehicle_boxes;
+    sites.definitions = buffers.trafficDefinitions();
+    sites.count = static_cast<std::uint32_t>(buffers.vehicles.bytes() / sizeof(gpu::Vehicle));
+    sites.first_id = parameters.site_rows + static_cast<std::uint32_t>(scene.wall_tiles.size());
+    sites.pixels_per_metre = parameters.pixels_per_metre;
+    sites.minimum = parameters.diagram_minimum;
+    sites.reach = static_cast<float>(scene.settings.tile_radius) * sites.pixels_per_metre;
+    for (const gpu::Vehicle& vehicle : scene.traffic.vehicles) {
+        sites.longest = std::max(sites.longest, vehicle.length * sites.pixels_per_metre);
+        sites.widest = std::max(sites.widest, vehicle.half_width * sites.pixels_per_metre);
+    }
+    return sites;
+}
+
 Diagram diagramFor(const authoring::Scene& scene, const gpu::Parameters& parameters,
-                   const gl::ShaderLibrary& library) {
+                   const gl::ShaderLibrary& library, const Buffers& buffers) {
     DiagramOptions options;
     options.method = scene.settings.method;
     if (options.method == DiagramMethod::automatic) options.method = DiagramMethod::binned;
@@ -61,6 +79,7 @@ Diagram diagramFor(const authoring::Scene& scene, const gpu::Parameters& paramet
     options.largest_radius =
         std::max(parameters.tile_radius, scene.largest_radius) * parameters.pixels_per_metre;
     options.look = lookOf(scene, parameters);
+    options.vehicles = vehiclesOf(scene, parameters, buffers);
     options.paged = isBestPaged(options, scene.wall_tiles.size());
     return Diagram(library, options, wallSites(scene, parameters));
 }
@@ -73,7 +92,7 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
       settings(scene.settings),
       parameters(makeParameters(scene)),
       buffers(scene, parameters),
-      diagram(diagramFor(scene, parameters, library)),
+      diagram(diagramFor(scene, parameters, library, buffers)),
       cells(library, buffers, parameters),
       behaviour(scene.behaviours.empty()
                     ? std::nullopt

@@ -125,10 +125,17 @@ struct Lines {
             part.resize(width * kLines);
     }
 
-    static void put(std::uint32_t site, std::uint32_t agents, std::uint32_t& number, std::uint32_t& what) {
-        const bool is_wall = site != kNone && site >= agents;
-        number = is_wall ? site - agents : site;
-        what = site == kNone ? 0 : is_wall ? 2 : 1;
+    /// Each kind counts its own.
+    static void put(std::uint32_t site, const DiagramImage& image, std::uint32_t& number,
+                    std::uint32_t& what) {
+        number = site;
+        what = site == kNone ? 0 : 1;
+        if (what == 0 || site < image.agent_count) return;
+        number = site - image.agent_count;
+        what = 2;
+        if (number < image.wall_count) return;
+        number -= image.wall_count;
+        what = 3;
     }
 
     void paint(std::size_t at, std::uint32_t row, float away) {
@@ -145,11 +152,11 @@ struct Lines {
             const std::size_t to = std::size_t{line} * image.width;
             for (std::uint32_t x = 0; x < image.width; ++x) {
                 const std::uint32_t site = image.site[from + x];
-                put(site, image.agent_count, id[to + x], kind[to + x]);
+                put(site, image, id[to + x], kind[to + x]);
                 distance[to + x] = site == kNone ? -1.0f : image.distance[from + x];
                 paint(to + x, site < image.agent_count ? site : kNone, distance[to + x]);
                 if (content.hasSecond())
-                    put(image.second[from + x], image.agent_count, second[to + x], second_kind[to + x]);
+                    put(image.second[from + x], image, second[to + x], second_kind[to + x]);
                 if (content.hasDensity())
                     density[to + x] =
                         site < image.agent_count ? content.densities[std::size_t{3} * site] : 0.0f;

@@ -70,6 +70,7 @@ uniform uint slot_capacity;
 #endif
 #ifdef TRAFFIC
 #include "shaders/traffic/boxes.glsl"
+#include "shaders/traffic/way_ahead.glsl"
 #include "shaders/traffic/out_of_the_way.glsl"
 #endif
 

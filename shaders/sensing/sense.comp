@@ -18,6 +18,11 @@
 #include "shaders/diagram/owners.glsl"
 #include "shaders/charts/slot_images.glsl"
 
+#ifdef TRAFFIC
+#include "shaders/sensing/vehicles_met.glsl"
+uniform uint first_vehicle;  // of the sites' ids: those after the walls'
+#endif
+
 layout(std430) readonly buffer WallTiles { WallTile wall_tiles[]; };
 /// m, in the person's own frame: where it looks, two samples to an element. Uniforms of no block would not do: devices
 /// have room for as few as 512 of them.
@@ -71,12 +76,22 @@ void main() {
     forgetEverybody();
     uint touch_word = feelContacts(self, slot);
     marchRays(self, slot);
+#ifdef TRAFFIC
+    hearVehicles(self);
+#endif
     for (int i = 0; i < candidate_count; ++i) {
         uint site = candidates[i];
         if (site < parameters.site_rows)
             weighBody(self, site);
+#ifdef TRAFFIC
+        else if (site >= first_vehicle)
+            weighVehicle(self, site - first_vehicle, true);
+#endif
         else
             weighWall(self.position, wall_tiles[site - parameters.site_rows].segment);
     }
     publish(slot, touch_word);
+#ifdef TRAFFIC
+    publishVehicles(slot);
+#endif
 }

@@ -7,6 +7,10 @@
 #include "shaders/sensing/neighbour_list.glsl"
 #include "shaders/charts/slot_images.glsl"
 
+#ifdef TRAFFIC
+#include "shaders/sensing/vehicles_met.glsl"
+#endif
+
 #ifdef EVERYBODY
 uniform uint wall_count;
 #else
@@ -59,6 +63,18 @@ void weighSlots(Body self, vec2 forward, uint first, uint last) {
     }
 }
 
+#ifdef TRAFFIC
+void weighVehicles(Body self, vec2 forward) {
+    hearVehicles(self);
+    for (uint vehicle = 0u; vehicle < VEHICLES; ++vehicle) {
+        VehicleBox box = vehicle_boxes[vehicle];
+        vec2 outward;
+        float away = distanceToBox(self.position, box.rear, box.front, box.half_width, outward);
+        if (away <= reach && isInView(forward, -away * outward)) weighVehicle(self, vehicle, true);
+    }
+}
+#endif
+
 void main() {
     uint slot = gl_GlobalInvocationID.x;
     if (slot >= live_count || holdsImage(slot)) return;
@@ -86,4 +102,8 @@ void main() {
         if (isWallInView(self.position, forward, far_wall_items[i])) weighWall(self.position, far_wall_items[i]);
 #endif
     publish(slot, touch_word);
+#ifdef TRAFFIC
+    weighVehicles(self, forward);
+    publishVehicles(slot);
+#endif
 }

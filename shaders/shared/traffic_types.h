@@ -54,6 +54,11 @@ struct VehicleBox {
     float speed;       // m/s
 };
 
+/// Of the vehicles around somebody so many are heeded, the nearest, by their numbers in one word.
+const uint MOST_HEEDED = 3u;
+const uint HEEDED_BITS = 10u;
+const uint HEEDED_NONE = (1u << HEEDED_BITS) - 1u;
+
 struct TrafficLane {
     uint first_point;
     uint point_count;  // at least 2

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Out of the way of vehicles: nobody walks into one, or into what it may drive over within the next seconds, and who is
 // there goes to the nearer side. Drivers who are about to stop for somebody are trusted: what they drive over ends
-// there (shaders/traffic/drive.comp). Only with TRAFFIC.
-// Needs shaders/traffic/boxes.glsl, shaders/motion/linear_program.glsl and half_width.glsl.
+// there (shaders/traffic/drive.comp). Which vehicles somebody heeds, sensing has found (shaders/sensing/vehicles_met.glsl).
+// Only with TRAFFIC.
+// Needs shaders/traffic/way_ahead.glsl, shaders/motion/linear_program.glsl and half_width.glsl.
 
-const int VEHICLE_CONSTRAINTS = 3;     // the nearest ones
-const float HEEDED_WITHIN = 4.0;       // m
-const float VEHICLE_HORIZON = 0.5;     // s
-const float ROOM_TO_VEHICLES = 0.25;   // m: what people leave
-const float BRISKLY = 1.8;             // m/s: as fast as people get out of the way
-const float MEANT_SIDE = 0.6;          // s: who crosses goes on to the other side rather than back
+const float VEHICLE_HORIZON = 0.5;  // s
+const float BRISKLY = 1.8;          // m/s: as fast as people get out of the way
+const float MEANT_SIDE = 0.6;       // s: who crosses goes on to the other side rather than back
 
 /// Beside it, or behind it: as beside a wall that moves.
 vec3 besideVehicle(vec2 outward, float gap, float towards) {
@@ -19,29 +17,25 @@ vec3 besideVehicle(vec2 outward, float gap, float towards) {
 
 /// @returns m to what it will drive over, or HEEDED_WITHIN where that does not concern somebody
 float beforeVehicle(Body self, VehicleBox box, float clearance, out vec3 constraint) {
-    vec2 axis = box.ahead - box.front;
-    float reach = length(axis);
+    PlaceBefore where;
     constraint = vec3(0.0);
-    if (reach < 0.3) return HEEDED_WITHIN;
-    vec2 along = axis / reach, aside = vec2(-along.y, along.x);
-    vec2 offset = self.position - box.front;
-    float ahead = dot(offset, along), beside = dot(offset, aside);
-    if (ahead < 0.0 || ahead > reach + clearance) return HEEDED_WITHIN;
+    if (!isAhead(box, self.position, clearance, where)) return HEEDED_WITHIN;
     float half_width = box.half_width + clearance;
-    float meant = beside + dot(self.velocity, aside) * MEANT_SIDE;
-    float side = abs(beside) < half_width ? (meant < 0.0 ? -1.0 : 1.0) : (beside < 0.0 ? -1.0 : 1.0);
-    float gap = side * beside - half_width;
-    constraint = vec3(aside * side, min(-gap / VEHICLE_HORIZON, BRISKLY));
+    float meant = where.beside + dot(self.velocity, where.aside) * MEANT_SIDE;
+    float side = (abs(where.beside) < half_width ? meant : where.beside) < 0.0 ? -1.0 : 1.0;
+    float gap = side * where.beside - half_width;
+    constraint = vec3(where.aside * side, min(-gap / VEHICLE_HORIZON, BRISKLY));
     return max(gap, 0.0);
 }
 
 /// Sets constraints from number `index` on. @param in_doors it gets on or off. @returns how many
 int vehiclesAhead(Body self, uint slot, int index, bool in_doors) {
     int count = 0;
-    float gaps[VEHICLE_CONSTRAINTS];
-    for (uint i = 0u; i < VEHICLES; ++i) {
-        VehicleBox box = vehicle_boxes[i];
-        if (box.half_width <= 0.0) continue;
+    uint heeded = neighbourKey(slot, uint(NEIGHBOURS));
+    for (uint i = 0u; i < MOST_HEEDED; ++i) {
+        uint vehicle = heeded >> i * HEEDED_BITS & HEEDED_NONE;
+        if (vehicle == HEEDED_NONE) break;
+        VehicleBox box = vehicle_boxes[vehicle];
 #ifdef DOORS
         if (in_doors && box.speed == 0.0) continue;  // shaders/motion/keep_off.comp sees to that one
 #endif
@@ -55,17 +49,7 @@ int vehiclesAhead(Body self, uint slot, int index, bool in_doors) {
             vec2 forward = normalize(box.front - box.rear);
             constraint = besideVehicle(outward, gap - 0.5 * ROOM_TO_VEHICLES, box.speed * dot(forward, outward));
         }
-        if (gap >= HEEDED_WITHIN) continue;
-        int at = count;
-        if (count < VEHICLE_CONSTRAINTS) {
-            ++count;
-        } else {
-            at = 0;
-            for (int j = 1; j < count; ++j) at = gaps[j] > gaps[at] ? j : at;
-            if (gaps[at] <= gap) continue;
-        }
-        gaps[at] = gap;
-        setConstraint(index + at, constraint);
+        if (gap < HEEDED_WITHIN) setConstraint(index + count++, constraint);
     }
     return count;
 }

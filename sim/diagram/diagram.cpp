@@ -15,8 +15,10 @@ namespace {
 
 const gl::Declaration kFlatten = {
     "pictures", {"shaders/diagram/flatten.comp"}, {"owners", "page_table"}, {"WholeOwners"}};
-const gl::Declaration kMeasure = {
-    "pictures", {"shaders/diagram/measure.comp"}, {"Owners", "Sites", "SiteSlots"}, {"Distances"}};
+const gl::Declaration kMeasure = {"pictures",
+                                  {"shaders/diagram/measure.comp"},
+                                  {"Owners", "Sites", "SiteSlots", "VehicleBoxes"},
+                                  {"Distances"}};
 const gl::Declaration kFindSeconds = {
     "pictures",
     {"shaders/diagram/second.comp"},
@@ -79,7 +81,8 @@ Diagram::Diagram(const gl::ShaderLibrary& library, const DiagramOptions& options
                 "Use the method binned, which keeps only the parts with people or walls.",
                 authoring::wordFor(options_.method), options_.width, options_.height));
         pages_ = std::make_unique<Pages>(library, options_.width, options_.height, options_.largest_radius,
-                                         options_.look, options_.live_capacity, fixed_sites_);
+                                         options_.look, options_.live_capacity, fixed_sites_,
+                                         options_.vehicles ? &*options_.vehicles : nullptr);
         owners_ = std::make_unique<gl::Buffer>("diagram pages", pages_->store(), gl::Buffer::Use::in_ranges);
         table_texture_ = gl::WordTexture(pages_->table());
     } else {
@@ -87,6 +90,8 @@ Diagram::Diagram(const gl::ShaderLibrary& library, const DiagramOptions& options
     }
     owners_->fill(gpu::NO_INDEX);
     owner_texture_ = gl::WordTexture(*owners_);
+    if (options_.vehicles)
+        vehicle_cells_.emplace(library, *options_.vehicles, sizeOf(options_), *owners_, pages_.get());
     use(options_.method, options_.gather);
 }
 
@@ -149,6 +154,7 @@ void Diagram::connect(const DiagramInput& input) {
     input_ = input;
     for (Made& made : made_)
         made.implementation->connect(input);
+    if (vehicle_cells_) vehicle_cells_->connect(*input.sites, *input.site_slots);
     extras_ = std::make_unique<Extras>();
 }
 
@@ -165,6 +171,7 @@ void Diagram::changeFixedSites(std::span<const gpu::DiagramSite> fixed_sites) {
 bool Diagram::build(Extent extent) {
     long_work_->stopped = false;
     current_->build(extent);
+    if (vehicle_cells_) vehicle_cells_->run();
     return !long_work_->stopped;
 }
 
@@ -199,7 +206,9 @@ const gl::Buffer& Diagram::measureDistances() {
         extras_->distances.emplace();
         extras_->distances->distances = gl::Buffer("diagram distances", picture(options_));
         gl::ComputeProgram& measure = extras_->distances->measure;
-        measure = gl::ComputeProgram(library_, kMeasure);
+        measure = gl::ComputeProgram(library_, kMeasure,
+                                     options_.vehicles ? options_.vehicles->definitions : gl::Definitions{});
+        if (options_.vehicles) options_.vehicles->describeTo(measure);
         measure.bind("Owners", owners);
         measure.bind("Sites", *input_.sites);
         measure.bind("SiteSlots", *input_.site_slots);

@@ -13,6 +13,7 @@
 #include "shaders/shared/simulation_types.h"
 #include "sim/diagram/pages.h"
 #include "sim/diagram/site_bins.h"
+#include "sim/diagram/vehicle_cells.h"
 #include "sim/gl/buffer.h"
 #include "sim/gl/program.h"
 
@@ -40,6 +41,7 @@ struct DiagramOptions {
     GatherShape gather;                            ///< binned only
     float look = 0.0f;                             ///< px: how far from moving sites owners are looked up
     bool paged = false;                            ///< kept page by page (sim/diagram/pages.h); binned only
+    std::optional<VehicleSites> vehicles = {};     ///< that are laid over it
 };
 
 /// What every diagram reads; the buffers must stay alive and in place.
@@ -71,7 +73,8 @@ struct LongWork {
 class FixedLayers;
 
 /// The truncated Voronoi diagram of De Gyves, Toledo and Rudomin 2013: every pixel's owner is the nearest
-/// site whose tile radius reaches the pixel's centre, ties going to the smallest id, and no other.
+/// site whose tile radius reaches the pixel's centre, ties going to the smallest id, and no other. Vehicles
+/// are sites with an outline in place of a centre.
 class Diagram {
   public:
     /// @param fixed_sites sites that never move (walls), ids above those of all others
@@ -106,6 +109,10 @@ class Diagram {
     void describeTo(gl::Program& program) const;
     /// What such a program has to be compiled with.
     gl::Definitions lookupDefinitions() const;
+    /// The id of the first vehicle: those of all sites are below it.
+    std::uint32_t firstVehicle() const {
+        return options_.vehicles ? options_.vehicles->first_id : gpu::NO_INDEX;
+    }
     bool paged() const { return options_.paged; }
 
     /// What may be asked of a built diagram; each call works from the owners as they are.
@@ -139,6 +146,7 @@ class Diagram {
     std::unique_ptr<LongWork> long_work_;
     std::unique_ptr<Pages> pages_;
     std::unique_ptr<FixedLayers> fixed_layers_;
+    std::optional<VehicleCells> vehicle_cells_;
     std::unique_ptr<gl::Buffer> owners_;  // in one place for good: others bind it
     gl::WordTexture owner_texture_, table_texture_;
     struct Made {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "sim/diagram/site_bins.h"
+#include "sim/diagram/vehicle_cells.h"
 #include "sim/gl/context.h"
 
 namespace throng::sim {
@@ -20,6 +21,8 @@ const gl::Declaration kPlace = {"diagram",
                                 {"PageTable", "PageCount", "PageList"}};
 const gl::Declaration kForget = {
     "diagram", {"shaders/diagram/pages_forget.comp"}, {"PageCount", "PageList"}, {"PageTable"}};
+const gl::Declaration kCoverVehicles = {
+    "diagram", {"shaders/diagram/vehicle_tiles.comp"}, {"VehicleBoxes"}, {"VehicleTiles"}};
 constexpr float kNobodyLooks = -1.0f;
 
 std::uint32_t pagesAcross(std::uint32_t pixels) {
@@ -52,7 +55,7 @@ std::uint64_t Pages::pagesNeeded(std::uint32_t width, std::uint32_t height, floa
 
 Pages::Pages(const gl::ShaderLibrary& library, std::uint32_t width, std::uint32_t height,
              float largest_radius, float look, std::uint32_t live_capacity,
-             std::span<const gpu::DiagramSite> fixed_sites)
+             std::span<const gpu::DiagramSite> fixed_sites, const VehicleSites* vehicles)
     : per_line_(pagesAcross(width)),
       look_(look),
       table_("diagram page table", checkedTable(width, height)),
@@ -91,8 +94,9 @@ Pages::Pages(const gl::ShaderLibrary& library, std::uint32_t width, std::uint32_
     fixed_list_.copyFrom(fixed_list);
 
     const std::uint64_t all = std::uint64_t{per_line_} * pagesAcross(height) + 1;
-    const std::uint64_t needed =
-        std::min(all, fixed_pages + pagesNeeded(width, height, largest_radius, live_capacity));
+    const std::uint64_t under_vehicles = vehicles ? coverVehicles(library, *vehicles, width, height) : 0;
+    const std::uint64_t needed = std::min(
+        all, fixed_pages + pagesNeeded(width, height, largest_radius, live_capacity) + under_vehicles);
     constexpr std::uint64_t kMostPages =
         (std::uint64_t{1} << 27) / kPagePixels;  // texels of a buffer texture
     if (needed > kMostPages)
@@ -108,7 +112,22 @@ Pages::Pages(const gl::ShaderLibrary& library, std::uint32_t width, std::uint32_
     place_.set("page_capacity", capacity_);
     place_.bind("PageList", list_);
     forget_.bind("PageList", list_);
-    live_dispatch_ = nullptr;
+    live_dispatch_ = sites_ = nullptr;
+}
+
+/// @returns how many pages that takes at most
+std::uint64_t Pages::coverVehicles(const gl::ShaderLibrary& library, const VehicleSites& vehicles,
+                                   std::uint32_t width, std::uint32_t height) {
+    covers_.emplace();
+    covers_->count = vehicles.count * vehicles.tilesOfOne();
+    covers_->tiles =
+        gl::Buffer("tiles over vehicles", {covers_->count, sizeof(gpu::DiagramSite), "tile over a vehicle"});
+    covers_->dispatch = gl::makeBuffer("tiles over vehicles, dispatch", dispatchOf(covers_->count));
+    covers_->make = gl::ComputeProgram(library, kCoverVehicles, vehicles.definitions);
+    covers_->make.bind("VehicleTiles", covers_->tiles);
+    covers_->make.set("tiles_per_vehicle", vehicles.tilesOfOne());
+    vehicles.describeTo(covers_->make);
+    return pagesNeeded(width, height, vehicles.largestTile(), covers_->count);
 }
 
 gl::Room Pages::store() const {
@@ -116,9 +135,15 @@ gl::Room Pages::store() const {
 }
 
 void Pages::connect(const gl::Buffer& sites, const gl::Buffer& live_dispatch) {
-    place_.bind("Sites", sites);
-    place_.bind("LiveDispatch", live_dispatch);
+    sites_ = &sites;
     live_dispatch_ = &live_dispatch;
+}
+
+void Pages::placeUnder(const gl::Buffer& sites, const gl::Buffer& dispatch, float look) {
+    place_.bind("Sites", sites);
+    place_.bind("LiveDispatch", dispatch);
+    place_.set("look", look);
+    place_.dispatchIndirect(dispatch);
 }
 
 void Pages::place(Extent extent) {
@@ -131,8 +156,10 @@ void Pages::place(Extent extent) {
         forget_.dispatchIndirect(count_);
         count_.copyFrom(empty_count_);
     }
-    place_.set("look", everywhere ? kNobodyLooks : look_);
-    place_.dispatchIndirect(*live_dispatch_);
+    placeUnder(*sites_, *live_dispatch_, everywhere ? kNobodyLooks : look_);
+    if (!covers_) return;
+    covers_->make.dispatch(covers_->count);
+    placeUnder(covers_->tiles, covers_->dispatch, kNobodyLooks);
 }
 
 }  // namespace throng::sim

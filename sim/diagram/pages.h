@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "shaders/shared/simulation_types.h"
@@ -16,6 +17,8 @@ enum class Extent {
     near_people,  ///< at least what lies under the tiles of moving sites and as far as people look
 };
 
+struct VehicleSites;
+
 /// Room for a diagram larger than any texture: squares of PAGE_SIDE px that exist only where a tile reaches.
 ///
 /// A table says for every square of the window where its page stands in the store; place 0 is a page that is
@@ -26,9 +29,11 @@ enum class Extent {
 class Pages {
   public:
     /// @param live_capacity moving sites; @param largest_radius, @param look px
+    /// @param vehicles null: there are none
     /// @throws GraphicsError where the store would be larger than the device can address, saying so
     Pages(const gl::ShaderLibrary& library, std::uint32_t width, std::uint32_t height, float largest_radius,
-          float look, std::uint32_t live_capacity, std::span<const gpu::DiagramSite> fixed_sites);
+          float look, std::uint32_t live_capacity, std::span<const gpu::DiagramSite> fixed_sites,
+          const VehicleSites* vehicles = nullptr);
     void connect(const gl::Buffer& sites, const gl::Buffer& live_dispatch);
 
     /// The most pages that so many tiles touch, plus the empty one.
@@ -47,6 +52,16 @@ class Pages {
     gl::Room store() const;
 
   private:
+    /// Tiles that cover vehicles, whose pages are placed like people's.
+    struct Covers {
+        gl::Buffer tiles, dispatch;
+        gl::ComputeProgram make;
+        std::uint32_t count = 0;
+    };
+    std::uint64_t coverVehicles(const gl::ShaderLibrary& library, const VehicleSites& vehicles,
+                                std::uint32_t width, std::uint32_t height);
+    void placeUnder(const gl::Buffer& sites, const gl::Buffer& dispatch, float look);
+
     std::uint32_t per_line_;
     std::uint32_t capacity_ = 0;
     float look_;
@@ -57,7 +72,9 @@ class Pages {
     gl::Buffer count_;  // places taken, after the groups for a pass over them
     gl::Buffer fixed_count_, empty_count_;
     gl::ComputeProgram place_, forget_;
+    const gl::Buffer* sites_ = nullptr;
     const gl::Buffer* live_dispatch_ = nullptr;
+    std::optional<Covers> covers_;
 };
 
 }  // namespace throng::sim
