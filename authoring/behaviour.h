@@ -55,6 +55,7 @@ struct Transition {
     std::size_t then = 0;  ///< index into the behaviour's states
 };
 
+/// What somebody does for a while. A stop on a flow's way is one, too, and so is where an event sends people.
 struct BehaviourState {
     enum class Does { walk, stay, wander, visit, gather, flee, follow, queue, sit };
     std::string id;
@@ -76,6 +77,8 @@ struct BehaviourState {
     std::vector<Transition> until;
     std::optional<std::size_t> then;
     SourcePosition where;
+    /// Whether people stay there at all, or pass through.
+    bool stops() const { return lasts && (lasts->kind != Distribution::Kind::constant || lasts->mean > 0.0); }
 };
 
 struct Behaviour {

@@ -234,27 +234,13 @@ struct TerrainSettings {
 enum class Arrival { leave, stay };
 
 /// What people do where they stop.
-enum class Activity { gather, look, queue };
-
-/// A place on the way, and what happens there.
-struct Stop {
-    Destination at;
-    Distribution wait;  ///< s; people pass through where it is constant zero
-    Activity activity = Activity::gather;
-    std::optional<glm::dvec2> facing;  ///< what they look at; otherwise each other
-    std::vector<glm::dvec2> line;      ///< queue: where people line up, from the front
-    double spacing = 0.8;              ///< m between people in line, [0.4, 10]
-    SourcePosition where;
-    bool stops() const { return wait.kind != Distribution::Kind::constant || wait.mean > 0.0; }
-};
-
 /// s: two people of a flow that tells its gaps never come nearer to each other than this.
 inline constexpr double kLeastGap = 1.0e-3;
 
 struct Flow {
     std::string id;
     Place from;
-    std::vector<Stop> via;
+    std::vector<BehaviourState> via;  ///< stops: those without `lasts` are passed through
     Destination to;
     std::optional<std::uint64_t> count;  ///< people in all, spread evenly over [start, end]
     std::optional<double> rate;          ///< people per second (Poisson arrivals, seeded)
@@ -426,11 +412,10 @@ struct Event {
         rate,   ///< a flow brings more or fewer people from now on
     };
     Kind kind = Kind::go_to;
-    double at = 0.0;          ///< s
-    std::size_t subject = 0;  ///< open, close: index into walls; rate: into flows
-    double rate = 0.0;        ///< persons/s
-    Destination to;           ///< go_to
-    Arrival arrival = Arrival::leave;
+    double at = 0.0;               ///< s
+    std::size_t subject = 0;       ///< open, close: index into walls; rate: into flows
+    double rate = 0.0;             ///< persons/s
+    BehaviourState then;           ///< go_to: what they do from now on
     std::vector<std::string> who;  ///< go_to: ids of flows and formations; empty = everybody
     SourcePosition where;
 };

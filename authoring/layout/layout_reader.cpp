@@ -18,6 +18,7 @@
 #include "authoring/layout/patch_reader.h"
 #include "authoring/layout/people_reader.h"
 #include "authoring/layout/place_reader.h"
+#include "authoring/layout/plan.h"
 #include "authoring/layout/polygon_check.h"
 #include "authoring/layout/seat_reader.h"
 #include "authoring/layout/seat_rows.h"
@@ -488,13 +489,14 @@ class Reader {
         }
         reader.finish();
         if (event.kind != Event::Kind::go_to && !findSubject(*what, event)) return;
-        if (event.kind != Event::Kind::go_to || !event.to.places.empty())
+        if (event.kind != Event::Kind::go_to || !event.then.to.places.empty())
             layout_.events.push_back(std::move(event));
     }
 
     void readSending(ObjectReader& reader, const JsonNode& to, Event& event) {
-        if (auto destination = places_.destination(to)) event.to = std::move(*destination);
-        readArrival(reader, event.arrival);
+        Arrival arrival = Arrival::leave;
+        readArrival(reader, arrival);
+        if (auto destination = places_.destination(to)) event.then = goalState(*destination, arrival);
         eachOf(reader, "who", [&](const JsonNode& item) {
             if (item.kind == JsonNode::Kind::text && seats_.hasBlock(item.text))
                 diagnostics_.error(item.where,
@@ -748,13 +750,9 @@ class Reader {
 
     /// Everybody keeps each of their stops, and where events will send them.
     void checkPlans() {
-        const auto sentBy = [](const Event& event, const std::string& id) {
-            return event.kind == Event::Kind::go_to &&
-                   (event.who.empty() || std::ranges::find(event.who, id) != event.who.end());
-        };
         const auto sent = [&](const std::string& id) {
             return static_cast<double>(
-                std::ranges::count_if(layout_.events, [&](const Event& event) { return sentBy(event, id); }));
+                std::ranges::count_if(layout_.events, [&](const Event& event) { return sends(event, id); }));
         };
         double plans = 0.0;
         for (const Flow& flow : layout_.flows)

@@ -98,13 +98,14 @@ std::optional<Destination> PlaceReader::destination(const JsonNode& node) const 
     return result.places.empty() ? std::nullopt : std::optional(result);
 }
 
-std::optional<Stop> PlaceReader::stop(const JsonNode& node) const {
-    Stop stop;
+std::optional<BehaviourState> PlaceReader::stop(const JsonNode& node) const {
+    BehaviourState stop;
+    stop.does = BehaviourState::Does::walk;
     stop.where = node.where;
     if (!node.find("at")) {
         const auto at = destination(node);
         if (!at) return std::nullopt;
-        stop.at = *at;
+        stop.to = *at;
         return stop;
     }
     ObjectReader reader(node, schema_.definition("stop"), "a stop", diagnostics_);
@@ -112,22 +113,25 @@ std::optional<Stop> PlaceReader::stop(const JsonNode& node) const {
     readWhatHappens(reader, node, stop);
     reader.finish();
     if (!at) return std::nullopt;
-    stop.at = *at;
+    stop.to = *at;
     if (stop.stops() && at->kind == Destination::Kind::nearest)
         diagnostics_.error(at->where, "people cannot stop at the nearest of several places",
                            "name one place, or let them `choose`");
-    if (stop.activity == Activity::queue && at->places.size() > 1)
+    if (stop.does == BehaviourState::Does::queue && at->places.size() > 1)
         diagnostics_.error(at->where, "a line stands at one place", "write one stop for each");
     return stop;
 }
 
-void PlaceReader::readWhatHappens(ObjectReader& reader, const JsonNode& node, Stop& stop) const {
-    stop.wait = readDistribution(reader, "wait", stop.wait, diagnostics_);
-    reader.choice("activity",
-                  {{"gather", Activity::gather}, {"look", Activity::look}, {"queue", Activity::queue}},
-                  stop.activity);
+void PlaceReader::readWhatHappens(ObjectReader& reader, const JsonNode& node, BehaviourState& stop) const {
+    using Does = BehaviourState::Does;
+    stop.lasts = readDistribution(reader, "wait", {}, diagnostics_);
+    reader.choice(
+        "activity",
+        {{"gather", ActivityCode::stands}, {"look", ActivityCode::looks}, {"queue", ActivityCode::queues}},
+        stop.activity);
     reader.point("facing", stop.facing);
-    const bool queues = stop.activity == Activity::queue;
+    const bool queues = stop.activity == ActivityCode::queues;
+    if (stop.stops() || queues) stop.does = queues ? Does::queue : Does::gather;
     if (const JsonNode* line = reader.get("line")) {
         stop.line = reader.points("line");
         if (!queues)
@@ -140,10 +144,10 @@ void PlaceReader::readWhatHappens(ObjectReader& reader, const JsonNode& node, St
     if (queues && !node.find("line"))
         diagnostics_.error(node.where, "a queue needs the `line` along which people stand, from its front",
                            R"(for example "line": [[0, 0], [6, 0]])");
-    if (stop.activity != Activity::gather && !stop.stops())
+    if (stop.activity != ActivityCode::stands && !stop.stops())
         diagnostics_.error(node.where, "this stop has no `wait`: people would pass through",
                            R"(write for example "wait": {"uniform": [5, 20]})");
-    if (stop.activity == Activity::look && !stop.facing)
+    if (stop.activity == ActivityCode::looks && !stop.facing)
         diagnostics_.error(node.where, "where do people look?", R"(write "facing": [x, y])");
 }
 

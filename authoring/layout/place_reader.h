@@ -24,14 +24,14 @@ class PlaceReader {
     /// A place, {"nearest": [places]} or {"choose": {place: weight}}.
     std::optional<Destination> destination(const JsonNode& node) const;
     /// A destination, or an object with one under `at` and what happens there.
-    std::optional<Stop> stop(const JsonNode& node) const;
+    std::optional<BehaviourState> stop(const JsonNode& node) const;
 
   private:
     SchemaRule rule() const { return schema_.definition("destination"); }
     std::optional<Place> placeNamed(const std::string& name, const SourcePosition& where) const;
     Destination nearestOf(const JsonNode& list) const;
     Destination choiceOf(const JsonNode& shares) const;
-    void readWhatHappens(ObjectReader& reader, const JsonNode& node, Stop& stop) const;
+    void readWhatHappens(ObjectReader& reader, const JsonNode& node, BehaviourState& stop) const;
 
     const Schema& schema_;
     const Indices& roads_;

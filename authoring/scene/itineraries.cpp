@@ -27,21 +27,7 @@ float edgeDistance(const LocalPolygon& polygon, glm::vec2 point) {
     return least;
 }
 
-std::uint32_t activityOf(Activity activity) {
-    if (activity == Activity::look) return gpu::ACTIVITY_LOOK;
-    return activity == Activity::queue ? gpu::ACTIVITY_QUEUE : gpu::ACTIVITY_STAND;
-}
-
 }  // namespace
-
-Stop Journey::goalStop(const Destination& to, Arrival arrival) {
-    Stop stop;
-    stop.at = to;
-    stop.where = to.where;
-    if (arrival == Arrival::stay)
-        stop.wait = {Distribution::Kind::constant, double{gpu::DWELL_FOR_GOOD}, 0.0, 0.0, 0.0};
-    return stop;
-}
 
 Itineraries::Spread::Spread(LocalPolygon outline, const WalkGeometry& geometry, float clearance, float inset)
     : outline_(std::move(outline)), geometry_(&geometry), clearance_(clearance), inset_(inset) {}
@@ -85,8 +71,8 @@ std::array<Itineraries::Destinations, 2> Itineraries::wanted(const Layout& layou
                 list.push_back({place});
     };
     for (const Flow& flow : layout.flows) {
-        for (const Stop& stop : flow.via)
-            want(stop.at, keepsToRoads(layout));
+        for (const BehaviourState& stop : flow.via)
+            want(stop.to, keepsToRoads(layout));
         if (!flow.behaviour) want(flow.to, keepsToRoads(layout));
     }
     BehaviourTables::destinations(layout, want);
@@ -122,8 +108,8 @@ void Itineraries::prepare() {
 }
 
 bool Itineraries::isShared(const Journey& journey) {
-    for (const Stop& stop : journey.stops)
-        if (stop.stops() || stop.at.kind == Destination::Kind::choose) return false;
+    for (const BehaviourState& stop : journey.stops)
+        if (stop.stops() || stop.for_good || stop.to.kind == Destination::Kind::choose) return false;
     return true;
 }
 
@@ -134,11 +120,11 @@ std::uint32_t Itineraries::fieldTo(const Destination& to, bool keep_to_roads, st
 
 void Itineraries::check(const Journey& journey, const std::string& start, std::vector<LocalPolygon> from) {
     std::string before = start;
-    for (const Stop& stop : journey.stops) {
+    for (const BehaviourState& stop : journey.stops) {
         std::vector<LocalPolygon> reached;
-        for (std::size_t i = 0; i < stop.at.places.size(); ++i) {
-            const Place& place = stop.at.places[i];
-            const std::uint32_t field = fieldTo(stop.at, journey.keep_to_roads, i);
+        for (std::size_t i = 0; i < stop.to.places.size(); ++i) {
+            const Place& place = stop.to.places[i];
+            const std::uint32_t field = fieldTo(stop.to, journey.keep_to_roads, i);
             reached.push_back(routes_.outline(place, Routes::kTargetDepth));
             for (const LocalPolygon& outline : from) {
                 if (routes_.reachable(field, outline) != kUnreachable) continue;
@@ -149,17 +135,17 @@ void Itineraries::check(const Journey& journey, const std::string& start, std::v
                                    "roads that point the other way");
                 break;
             }
-            if (stop.at.kind == Destination::Kind::nearest) break;  // one field for all of them
+            if (stop.to.kind == Destination::Kind::nearest) break;  // one field for all of them
         }
-        before = fmt::format("`{}`", routes_.name(stop.at.places.front()));
+        before = fmt::format("`{}`", routes_.name(stop.to.places.front()));
         from = std::move(reached);
-        const LocalPolygon area = routes_.outline(stop.at.places.front(), Routes::kTargetDepth);
+        const LocalPolygon area = routes_.outline(stop.to.places.front(), Routes::kTargetDepth);
         for (const glm::dvec2 point : stop.line)
             if (!insidePolygon(area, rebase_.local(point)))
                 diagnostics_.error(
                     stop.where,
                     fmt::format("{}: the line at `{}` leaves its area at [{:.6g}, {:.6g}]", journey.traveller,
-                                routes_.name(stop.at.places.front()), point.x, point.y),
+                                routes_.name(stop.to.places.front()), point.x, point.y),
                     "the whole line has to lie in the area of its stop");
     }
 }
@@ -181,13 +167,15 @@ std::size_t Itineraries::chosen(const Destination& to, const GroupRandom& random
 std::uint32_t Itineraries::appendStages(const Journey& journey, const GroupRandom& random,
                                         const Traveller& traveller) {
     std::uint64_t draw = journey.first_draw;
-    for (const Stop& stop : journey.stops) {
-        const std::size_t choice = chosen(stop.at, random, traveller.leader, draw);
-        const Place& place = stop.at.places[choice];
-        const std::uint32_t field = fieldTo(stop.at, journey.keep_to_roads, choice);
-        const double wait = random.draw(stop.wait, traveller.leader, Purpose::wait, draw);
+    for (const BehaviourState& stop : journey.stops) {
+        const std::size_t choice = chosen(stop.to, random, traveller.leader, draw);
+        const Place& place = stop.to.places[choice];
+        const std::uint32_t field = fieldTo(stop.to, journey.keep_to_roads, choice);
+        const double wait = stop.for_good ? double{gpu::DWELL_FOR_GOOD}
+                            : stop.lasts  ? random.draw(*stop.lasts, traveller.leader, Purpose::wait, draw)
+                                          : 0.0;
         ++draw;
-        if (wait > 0.0 && stop.at.kind != Destination::Kind::nearest) {
+        if (wait > 0.0 && stop.to.kind != Destination::Kind::nearest) {
             scene_.stages.push_back(stopStage(stop, place, field, wait, traveller));
             continue;
         }
@@ -209,8 +197,8 @@ std::uint32_t Itineraries::appendStages(const Journey& journey, const GroupRando
     return static_cast<std::uint32_t>(journey.stops.size());
 }
 
-gpu::Stage Itineraries::stopStage(const Stop& stop, const Place& place, std::uint32_t field, double wait,
-                                  const Traveller& traveller) {
+gpu::Stage Itineraries::stopStage(const BehaviourState& stop, const Place& place, std::uint32_t field,
+                                  double wait, const Traveller& traveller) {
     gpu::Stage stage{};
     glm::vec2 middle(0.0f);
     stage.point = spotFor(place, traveller, middle);
@@ -219,9 +207,9 @@ gpu::Stage Itineraries::stopStage(const Stop& stop, const Place& place, std::uin
     stage.field = field | gpu::FIELD_THEN_POINT;
     stage.dwell = static_cast<float>(wait);
     stage.line = gpu::NO_INDEX;
-    stage.activity = activityOf(stop.activity);
+    stage.activity = static_cast<std::uint32_t>(stop.activity);
     stage.flags = gpu::STAGE_ANYWHERE | gpu::STAGE_IN_AREA;
-    if (stop.activity == Activity::queue) {
+    if (stop.does == BehaviourState::Does::queue) {
         stage.line = lineFor(stop.line, stop.spacing);
         stage.point = rebase_.local(stop.line.front());
         stage.facing = stop.facing ? stage.facing : stage.point;

@@ -15,16 +15,13 @@
 
 namespace throng::authoring {
 
-/// The way of one group of people: stops, the last of which is the goal.
+/// The way of one group of people: states that come one after the other, the last of which is the goal.
 struct Journey {
     std::string traveller{};  ///< "flow `id`", for messages
     SourcePosition where{};
     bool keep_to_roads = false;
-    std::vector<Stop> stops{};
+    std::vector<BehaviourState> stops{};
     std::uint64_t first_draw = 0;  ///< tells the draws of several journeys of one group apart
-
-    /// The goal as a stop: those who stay never go on.
-    static Stop goalStop(const Destination& to, Arrival arrival);
 };
 
 /// Who walks: draws are the party's, so that its members stay together.
@@ -35,7 +32,8 @@ struct Traveller {
     float radius = 0.25f;
 };
 
-/// Turns journeys into the stages that people walk.
+/// Turns journeys into the stages that people walk: what comes next in them depends on nobody, so they are
+/// written down beforehand, and the device's table of states (BehaviourTables) is not asked.
 class Itineraries {
   public:
     Itineraries(const Layout& layout, const Rebase& rebase, const WalkGeometry& geometry, Routes& routes,
@@ -77,7 +75,7 @@ class Itineraries {
     };
 
   private:
-    gpu::Stage stopStage(const Stop& stop, const Place& place, std::uint32_t field, double wait,
+    gpu::Stage stopStage(const BehaviourState& stop, const Place& place, std::uint32_t field, double wait,
                          const Traveller& traveller);
     glm::vec2 spotFor(const Place& place, const Traveller& traveller, glm::vec2& middle);
     using Destinations = std::vector<std::vector<Place>>;

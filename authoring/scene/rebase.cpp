@@ -66,7 +66,7 @@ Bounds boundsOf(const Layout& layout) {
         for (const glm::dvec2 point : wall.points)
             bounds.add(point, wall.where, wall.closed ? 0.0 : 0.5 * wall.thickness);
     for (const Flow& flow : layout.flows)
-        for (const Stop& stop : flow.via)
+        for (const BehaviourState& stop : flow.via)
             for (const glm::dvec2 point : stop.line)
                 bounds.add(point, stop.where);
     for (const Formation& formation : layout.formations) {

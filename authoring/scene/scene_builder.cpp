@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "authoring/layout/layout_reader.h"
+#include "authoring/layout/plan.h"
 #include "authoring/scene/audience.h"
 #include "authoring/scene/behaviours.h"
 #include "authoring/scene/boarding.h"
@@ -250,13 +251,13 @@ class SceneAssembly {
     void drawFlow(const Flow& flow, std::size_t index) {
         const GroupRandom random(layout_.simulation.seed, flow.id);
         std::vector<RateChange> changes;
-        double end = std::numeric_limits<double>::infinity();
-        for (const Event& event : layout_.events) {
+        for (const Event& event : layout_.events)
             if (event.kind == Event::Kind::rate && event.subject == index)
                 changes.push_back({event.at, event.rate});
-            // Who is told to go elsewhere does not come in any more.
-            if (concerns(event, flow.id) && event.at > flow.start) end = std::min(end, event.at);
-        }
+        // Who is told to go elsewhere does not come in any more.
+        double end = std::numeric_limits<double>::infinity();
+        for (const Turn& turn : turnsOf(planOf(layout_, flow)))
+            if (turn.at > flow.start) end = std::min(end, turn.at);
         const std::vector<double> times =
             flow.alights ? std::vector<double>(alightingPeople(layout_, flow), kComesOutByVehicle)
                          : entryTimes(flow, changes, random, layout_.simulation.warmup, end);
@@ -331,12 +332,6 @@ class SceneAssembly {
             person.party_size = party.size;
         }
         walkTogether(members);
-    }
-
-    static bool concerns(const Event& event, const std::string& group_id) {
-        return event.kind == Event::Kind::go_to &&
-               (event.who.empty() ||
-                std::find(event.who.begin(), event.who.end(), group_id) != event.who.end());
     }
 
     static const ListedAgent* listed(const Formation& formation, std::uint64_t i) {
@@ -508,18 +503,20 @@ class SceneAssembly {
         }
     }
 
-    /// Where people wait until they get on.
-    Stop boardingStop(const Flow& flow) const {
-        Stop stop = Journey::goalStop(flow.to, Arrival::leave);
-        stop.wait = {Distribution::Kind::constant, double{gpu::DWELL_WHILE}, 0.0, 0.0, 0.0};
-        stop.facing = sightAt(layout_, *flow.boards);
-        return stop;
+    /// Who gets on waits until then, and looks at the tracks.
+    std::vector<BehaviourState> wayOf(const Behaviour& plan, const Flow& flow) const {
+        std::vector<BehaviourState> way = wayFrom(plan, plan.start);
+        if (!flow.boards) return way;
+        way.back().lasts = {Distribution::Kind::constant, double{gpu::DWELL_WHILE}, 0.0, 0.0, 0.0};
+        way.back().facing = sightAt(layout_, *flow.boards);
+        return way;
     }
 
     /// Those who walk stop by stop; whoever has a behaviour begins in its first state.
     void routeFlow(const Flow& flow, std::size_t index, Routes& routes, Itineraries& itineraries,
                    BehaviourTables& behaviours) {
-        Journey journey{fmt::format("flow `{}`", flow.id), flow.where, keepsToRoads(layout_), flow.via};
+        const Behaviour plan = planOf(layout_, flow);
+        Journey journey{fmt::format("flow `{}`", flow.id), flow.where, keepsToRoads(layout_)};
         const LocalPolygon start = routes.outline(flow.from, Routes::kEntryDepth);
         const std::string from = fmt::format("`{}`", routes.name(flow.from));
         std::uint32_t state = 0, first_field = 0;
@@ -528,10 +525,9 @@ class SceneAssembly {
                                    {journey.traveller, index, journey.keep_to_roads, from, {start}});
             first_field = behaviours.fieldOf(state);
         } else {
-            journey.stops.push_back(flow.boards ? boardingStop(flow)
-                                                : Journey::goalStop(flow.to, flow.arrival));
+            journey.stops = wayOf(plan, flow);
             itineraries.check(journey, from, {start});
-            first_field = itineraries.fieldTo(journey.stops.front().at, journey.keep_to_roads);
+            first_field = itineraries.fieldTo(journey.stops.front().to, journey.keep_to_roads);
         }
         const auto entry = static_cast<std::uint32_t>(scene_.entries.size());
         scene_.entries.push_back(findEntryPoints(flow, index, routes, first_field));
@@ -554,7 +550,7 @@ class SceneAssembly {
             const glm::vec2 ahead = wayBetween(scene_.entry_points[scene_.entries[entry].first_point], goal);
             person.heading = std::atan2(ahead.y, ahead.x);
             scene_.goals.push_back(goal);
-            addChanges(flow.id, flow.people, flow.where, {start}, random, i, index, person, itineraries);
+            addChanges(plan, flow.people, {start}, random, i, index, person, itineraries);
             before = person;
             ++i;
         });
@@ -566,18 +562,15 @@ class SceneAssembly {
         return {leader, static_cast<std::uint32_t>(i - leader), person.party_size, person.radius};
     }
 
-    /// What events make of somebody's plans.
-    void addChanges(const std::string& id, const People& people, const SourcePosition& where,
-                    const std::vector<LocalPolygon>& from, const GroupRandom& random, std::uint64_t i,
-                    std::size_t group_index, gpu::Person& person, Itineraries& itineraries) {
+    /// The turns that somebody's plan takes at times of the shot.
+    void addChanges(const Behaviour& plan, const People& people, const std::vector<LocalPolygon>& from,
+                    const GroupRandom& random, std::uint64_t i, std::size_t group_index, gpu::Person& person,
+                    Itineraries& itineraries) {
         person.first_change = static_cast<std::uint32_t>(scene_.plan_changes.size());
         std::uint64_t nth = 0;
-        for (const Event& event : layout_.events) {
-            if (!concerns(event, id)) continue;
-            Journey journey{fmt::format("`{}`", id),
-                            event.where.line ? event.where : where,
-                            (person.flags & gpu::PERSON_KEEPS_TO_ROADS) != 0,
-                            {Journey::goalStop(event.to, event.arrival)}};
+        for (const Turn& turn : turnsOf(plan)) {
+            Journey journey{fmt::format("`{}`", plan.id), plan.states[turn.then].where,
+                            (person.flags & gpu::PERSON_KEEPS_TO_ROADS) != 0, wayFrom(plan, turn.then)};
             journey.first_draw = 1000 + nth;
             if (i == 0) itineraries.check(journey, "where they start", from);
             const Traveller traveller = travellerOf(person, group_index, i);
@@ -585,7 +578,7 @@ class SceneAssembly {
             const double reaction =
                 random.draw(kind.settings.reaction, traveller.leader, Purpose::reaction, nth++);
             gpu::PlanChange change{};
-            change.start_step = stepAt(event.at + reaction);
+            change.start_step = stepAt(turn.at + reaction);
             change.first_stage = static_cast<std::uint32_t>(scene_.stages.size());
             change.stage_count = itineraries.appendStages(journey, random, traveller);
             scene_.plan_changes.push_back(change);
@@ -649,10 +642,10 @@ class SceneAssembly {
         const std::size_t index = layout_.flows.size() + formation_index;
         const FormationPlaces places = formationPlaces(formation, layout_.simulation.seed);
         const GroupRandom random(layout_.simulation.seed, formation.id);
-        const auto* grid = std::get_if<GridFormation>(&formation.shape);
-        const auto* shared = grid ? std::get_if<Destination>(&grid->goal) : nullptr;
+        const Behaviour plan = planOf(layout_, formation);
         Journey journey{fmt::format("formation `{}`", formation.id), formation.where};
-        if (shared) journey.stops.push_back(Journey::goalStop(*shared, formation.arrival));
+        const bool shared = !plan.states.front().to.places.empty();
+        if (shared) journey.stops = wayFrom(plan, plan.start);
         const std::uint32_t state =
             formation.behaviour ? addBehaviour(formation, index, journey, behaviours) : 0;
         PlacedBodies later;  // who comes in at the same time
@@ -669,7 +662,7 @@ class SceneAssembly {
                 behaviours.begin(person, rowOf(person), state);
             } else {
                 const Destination* own = ownDestination(formation, i);
-                if (own) journey.stops = {Journey::goalStop(*own, formation.arrival)};
+                if (own) journey.stops = {goalState(*own, formation.arrival)};
                 const glm::vec2 from = addWay(formation, i, routes, person);
                 if (own || shared) {
                     person.stage_count += itineraries.appendStages(journey, random, traveller);
@@ -685,7 +678,7 @@ class SceneAssembly {
             const std::size_t first = scene_.stages.size() - 1 - wayOf(formation, i).size();
             turn(formation, i, scene_.stages[first], routes, person);
             checkStart(i, start, person, bodies);
-            addChanges(formation.id, formation.people, formation.where,
+            addChanges(plan, formation.people,
                        {{person.spawn_position, person.spawn_position, person.spawn_position}}, random, i,
                        index, person, itineraries);
             if (bodies.hasRoom(person)) {

@@ -152,8 +152,8 @@ void visitPlaces(Layout& layout, const std::function<void(Place&)>& visit) {
     for (Flow& flow : layout.flows) {
         visit(flow.from);
         visitAll(flow.to, visit);
-        for (Stop& stop : flow.via)
-            visitAll(stop.at, visit);
+        for (BehaviourState& stop : flow.via)
+            visitAll(stop.to, visit);
     }
     for (Formation& formation : layout.formations) {
         if (auto* grid = std::get_if<GridFormation>(&formation.shape))
@@ -163,7 +163,7 @@ void visitPlaces(Layout& layout, const std::function<void(Place&)>& visit) {
                 if (agent.to) visitAll(*agent.to, visit);
     }
     for (Event& event : layout.events)
-        visitAll(event.to, visit);
+        visitAll(event.then.to, visit);
     for (Behaviour& behaviour : layout.behaviours)
         for (BehaviourState& state : behaviour.states) {
             visitAll(state.to, visit);

@@ -93,8 +93,8 @@ class WaysChecker {
         if (scene_.queues[group].row_count == 0) return;
         const Kind kind = kindOf(group, flow.start > 0.0 ? flow.start : -layout_.simulation.warmup);
         Cells from = cellsInPolygon(grid_, routes_.outline(flow.from, Routes::kEntryDepth));
-        for (const Stop& stop : flow.via)
-            from = checkLeg(flow.id, kind, from, stop.at);
+        for (const BehaviourState& stop : flow.via)
+            from = checkLeg(flow.id, kind, from, stop.to);
         checkLeg(flow.id, kind, from, flow.to);
     }
 

@@ -110,8 +110,8 @@ Layout moved(const Layout& layout, const std::vector<Chart>& charts) {
     for (Wall& wall : plane.walls)
         movePoints(wall.points, charts[wall.level].shift);
     for (Flow& flow : plane.flows)
-        for (Stop& stop : flow.via) {
-            const glm::dvec2 shift = charts[levelOf(layout, stop.at.places.front())].shift;
+        for (BehaviourState& stop : flow.via) {
+            const glm::dvec2 shift = charts[levelOf(layout, stop.to.places.front())].shift;
             movePoints(stop.line, shift);
             if (stop.facing) *stop.facing += shift;
         }

@@ -238,10 +238,10 @@ TEST(LayoutReader, ReadsStopsDestinationsAndEvents) {
     EXPECT_EQ(flow.to.weights, (std::vector{1.0, 3.0}));
     ASSERT_EQ(flow.via.size(), 3u);
     EXPECT_FALSE(flow.via[0].stops());
-    EXPECT_EQ(flow.via[1].at.kind, Destination::Kind::nearest);
+    EXPECT_EQ(flow.via[1].to.kind, Destination::Kind::nearest);
     EXPECT_TRUE(flow.via[2].stops());
-    EXPECT_EQ(flow.via[2].wait.maximum, 9.0);
-    EXPECT_EQ(flow.via[2].activity, Activity::look);
+    EXPECT_EQ(flow.via[2].lasts->maximum, 9.0);
+    EXPECT_EQ(flow.via[2].activity, ActivityCode::looks);
     ASSERT_EQ(layout.events.size(), 4u);
     EXPECT_EQ(layout.events[0].at, 4.0) << "in the order of their times";
     EXPECT_TRUE(layout.walls[0].open_at_start);
