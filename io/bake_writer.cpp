@@ -113,7 +113,19 @@ BakeWriter::BakeWriter(recording::BakeDescription description, std::unique_ptr<B
         goOnFrom(*go_on_from);
     else if (description_.diagram_every > 0)
         folder_->addFolder("diagrams");
+    if (!description_.vehicles.empty())
+        shown_vehicles_.emplace(
+            folder_->path() / kVehicleFile,
+            TrackShape{description_.frames, description_.vehicles.size(), kVehicleFloats});
     writeFile(folder_->path() / kUnderWayFile, underWayText(description_));
+}
+
+void BakeWriter::showVehicles(std::span<const float> track) {
+    if (!shown_vehicles_) return;
+    const std::size_t values = description_.vehicles.size() * kVehicleFloats;
+    const std::span<const float> news = track.subspan(shown_vehicles_->framesWritten() * values);
+    shown_vehicles_->add(
+        placedVehicles(description_, news, static_cast<std::uint32_t>(news.size() / values)));
 }
 
 /// Those that were asked for come last, as bake.json has always listed their files.
@@ -292,6 +304,8 @@ BakeOutcome BakeWriter::writeAll(const Account& account, const BakeTiming& timin
     const std::vector<float> vehicles = placedVehicles(description_, vehicle_track_, frames_);
     if (!description_.vehicles.empty()) {
         files.push_back(kVehicleFile);
+        shown_vehicles_.reset();
+        removeFile(folder_->path() / kVehicleFile);  // there may be fewer frames than were expected
         writeVehicles(folder_->path() / files.back(), vehicles, frames_, description_.vehicles.size());
     }
     door_track_.resize(frames_ * description_.doors.size() * kDoorFloats);

@@ -44,6 +44,8 @@ class BakeWriter {
     /// Writes the frame's diagram when it has one and its index is a multiple of `diagram_every`: in order,
     /// too, but as long before write() as one likes.
     void writeDiagram(const Frame& frame);
+    /// Lets those who look on see vehicles, as far as their track is known: from the first frame on.
+    void showVehicles(std::span<const float> track);
     /// Where the vehicles of all frames were, as Frame::vehicles, before it is finished.
     void takeVehicles(std::vector<float> track) { vehicle_track_ = std::move(track); }
     /// Likewise the lifts, as Frame::lifts.
@@ -91,6 +93,7 @@ class BakeWriter {
     std::vector<float> placed_;               ///< one frame of places in the output frame of reference
     std::optional<DiagramSummary> diagrams_;
     std::vector<BakeOutcome::File> diagram_files_;
+    std::optional<TrackWriter> shown_vehicles_;
     std::vector<float> vehicle_track_, lift_track_, door_track_;
 };
 

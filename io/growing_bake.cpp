@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "io/bake_folder.h"
+#include "io/vehicle_file.h"
 
 namespace throng::io {
 namespace fs = std::filesystem;
@@ -36,6 +37,12 @@ std::optional<fs::path> writtenFolder(const fs::path& path) {
 
 GrowingBake::GrowingBake(const fs::path& path)
     : path_(path.filename() == "bake.json" ? path.parent_path() : path), folder_(path_) {
+    const auto openVehicles = [this] {
+        const Bake& bake = expected_.bake;
+        if (!bake.vehicles.empty())
+            vehicles_.emplace(folder_ / kVehicleFile,
+                              TrackShape{bake.frames, bake.vehicles.size(), kVehicleFloats});
+    };
     if (!fs::exists(path_ / "bake.json"))
         if (const auto written = writtenFolder(path_)) {
             folder_ = *written;
@@ -46,16 +53,24 @@ GrowingBake::GrowingBake(const fs::path& path)
             for (auto [stream, opened] :
                  {std::pair(Stream::pos, &places_), std::pair(Stream::state, &states_)})
                 opened->emplace(bake.streamPath(stream), infoOf(stream), format, bake.frames, bake.agents);
+            openVehicles();
             return;
         }
     remember("bake.json");
     complete_ = std::make_unique<CrowdReader>(loadBake(path_));
     expected_ = {complete_->bake(), complete_->people()};
+    openVehicles();
 }
 
 std::uint32_t GrowingBake::frames() {
     if (complete_) return complete_->frames();
-    return std::min({places_->frames(), states_->frames(), expected_.bake.frames});
+    const std::uint32_t vehicles = vehicles_ ? vehicles_->frames() : expected_.bake.frames;
+    return std::min({places_->frames(), states_->frames(), vehicles, expected_.bake.frames});
+}
+
+void GrowingBake::readVehicles(std::uint32_t frame, std::vector<float>& vehicles) {
+    vehicles.resize(expected_.bake.vehicles.size() * kVehicleFloats);
+    if (vehicles_) vehicles_->readFrame(frame, vehicles);
 }
 
 void GrowingBake::readFrame(std::uint32_t frame, std::vector<float>& places, std::vector<float>& states) {

@@ -214,6 +214,7 @@ class Run {
     void receive(const Frame& frame) {
         writer_.writeDiagram(frame);
         vehicles_.insert(vehicles_.end(), frame.vehicles.begin(), frame.vehicles.end());
+        writer_.showVehicles(vehicles_);
         lifts_.insert(lifts_.end(), frame.lifts.begin(), frame.lifts.end());
         doors_.insert(doors_.end(), frame.doors.begin(), frame.doors.end());
     }

@@ -8,7 +8,6 @@
 #include "analysis/live/moments.h"
 #include "base/stopwatch.h"
 #include "io/growing_bake.h"
-#include "io/vehicle_file.h"
 
 namespace throng::cli {
 namespace fs = std::filesystem;
@@ -23,9 +22,7 @@ class Shown {
     /// @param before whose place it takes, or null
     Shown(const fs::path& path, double per_second, LiveLog& log, const Shown* before)
         : growing_(path), packer_(growing_.bake(), per_second), log_(log) {
-        if (!growing_.isUnderWay() && !growing_.bake().vehicles.empty())
-            vehicles_ = io::readVehicles(growing_.bake());
-        nlohmann::ordered_json about = packer_.about(growing_.people(), !vehicles_.empty());
+        nlohmann::ordered_json about = packer_.about(growing_.people(), !growing_.bake().vehicles.empty());
         const auto inputs = [](const Shown& shown) {
             return shown.growing_.bake().manifest.value("inputs", "");
         };
@@ -48,10 +45,8 @@ class Shown {
   private:
     void show(std::uint32_t frame) {
         growing_.readFrame(frame, places_, states_);
-        const std::size_t values = growing_.bake().vehicles.size() * kVehicleFloats;
-        std::span<const float> vehicles = vehicles_;
-        if (!vehicles.empty()) vehicles = vehicles.subspan(frame * values, values);
-        full_ = !log_.add(packer_.pack(frame, places_, states_, vehicles));
+        growing_.readVehicles(frame, vehicles_);
+        full_ = !log_.add(packer_.pack(frame, places_, states_, vehicles_));
     }
 
     void tell() {
@@ -64,8 +59,7 @@ class Shown {
                                                         : "partial"},
                    {"frame", next_},
                    {"frames", growing_.bake().frames},
-                   {"silent_seconds", growing_.isUnderWay() ? secondsSince(grew_) : 0.0},
-                   {"vehicles_later", growing_.isUnderWay() && !growing_.bake().vehicles.empty()}});
+                   {"silent_seconds", growing_.isUnderWay() ? secondsSince(grew_) : 0.0}});
     }
 
     io::GrowingBake growing_;

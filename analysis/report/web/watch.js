@@ -70,7 +70,7 @@ function tell(bytes) {
   $("progress").value = told.state === "warming up" ? told.warmup : told.frames ? told.frame / told.frames : told.state === "complete" ? 1 : 0;
   $("progress").hidden = told.state === "mistaken" || told.state === "gone";
   const steps = told.steps_per_second, live = steps / (told.steps_per_frame * (crowd ? crowd.fps : 24));
-  $("speed").textContent = steps ? `${number(steps)} steps/s, ${number(live, 2)} times as fast as it plays` : told.vehicles_later ? "vehicles come when it is complete" : "";
+  $("speed").textContent = steps ? `${number(steps)} steps/s, ${number(live, 2)} times as fast as it plays` : "";
   if (told.texts) showMistakes(told);
 }
 
