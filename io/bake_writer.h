@@ -14,6 +14,7 @@
 #include "io/manifest.h"
 #include "io/streams/entered_hash.h"
 #include "io/streams/stream_files.h"
+#include "io/streams/track_file.h"
 #include "recording/bake_description.h"
 
 namespace throng::io {

@@ -12,7 +12,7 @@ import numpy
 import pytest
 
 from conftest import EXAMPLES
-from watching import LAYOUT, state_of, until, watching, write
+from watching import LAYOUT, check_vehicles, state_of, until, watching, write
 
 # Where in the world single-precision numbers are half a metre apart.
 FAR = {**copy.deepcopy(LAYOUT), "walls": [],
@@ -60,20 +60,6 @@ def test_moments_are_those_of_a_bake(throng, tmp_path, name):
         assert there.sum() > 500
     if name == "zebra":
         check_vehicles(crowd, numpy.load(tmp_path / "bake" / "vehicles.npy"))
-
-
-def check_vehicles(crowd, vehicles):
-    """The rest of each moment: x, y, heading and state of each vehicle, 16 bits each."""
-    ground, count = crowd.about["ground"], len(crowd.about["vehicles"])
-    assert count == vehicles.shape[1] > 0
-    for frame, content in zip(crowd.frames, crowd.contents):
-        told = numpy.frombuffer(content, "<u2", 4 * count, 4 + 5 * crowd.count).reshape(count, 4)
-        there = vehicles[frame, :, 6] > 0
-        assert (told[:, 3] == vehicles[frame, :, 6]).all()
-        found = told[there, :2] * ground["quantum"] + ground["minimum"]
-        assert numpy.abs(found - vehicles[frame, there, :2]).max(initial=0.0) < 0.51 * ground["quantum"] + 1e-4
-        turn = told[there, 2] / 65536 * 2 * numpy.pi - vehicles[frame, there, 3]
-        assert numpy.abs(numpy.sin(turn / 2)).max(initial=0.0) < 1e-4
 
 
 def test_a_change_is_seen_at_once(throng, tmp_path):

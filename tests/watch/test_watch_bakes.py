@@ -8,9 +8,11 @@ import subprocess
 import numpy
 import pytest
 
-from watching import LAYOUT, state_of, until, watching, write
+from watching import LAYOUT, check_vehicles, state_of, until, watching, write
 
-LONG = {**LAYOUT, "simulation": {"duration": 90, "seed": 4}}
+LONG = {**LAYOUT, "simulation": {"duration": 90, "seed": 4},
+        "lanes": [{"id": "street", "points": [[-60, -30], [60, -30]]}],
+        "vehicles": [{"id": "cars", "lane": "street", "times": [0, 4, 40, 80]}]}
 
 
 def bake_of(throng, folder, *options):
@@ -66,6 +68,10 @@ def check(crowd, first, bake):
             found, rows = seen.at(frame)
             assert rows.tolist() == numpy.nonzero(there[frame])[0].tolist()
             assert numpy.abs(found[:, :2] - places[frame, rows, :2]).max(initial=0.0) < 0.51 * crowd.about["quantum"]
+    vehicles = numpy.load(bake / "vehicles.npy")
+    for seen in (first, crowd):
+        check_vehicles(seen, vehicles)
+        assert (vehicles[seen.frames, :, 6] > 0).any(), "there are some to see"
 
 
 def test_a_bake_that_is_stopped_stays_in_view(throng, tmp_path):

@@ -5,6 +5,8 @@ import json
 import sys
 import time
 
+import numpy
+
 from conftest import ROOT
 
 sys.path.insert(0, str(ROOT / "blender_addon"))  # its reader of what comes needs no Blender
@@ -56,3 +58,17 @@ def write(path, layout):
     fresh = path.with_name(path.name + ".new")
     fresh.write_text(layout if isinstance(layout, str) else json.dumps(layout, indent=1))
     fresh.replace(path)
+
+
+def check_vehicles(crowd, vehicles):
+    """The rest of each moment: x, y, heading and state of each vehicle, 16 bits each."""
+    ground, count = crowd.about["ground"], len(crowd.about["vehicles"])
+    assert count == vehicles.shape[1] > 0
+    for frame, content in zip(crowd.frames, crowd.contents):
+        told = numpy.frombuffer(content, "<u2", 4 * count, 4 + 5 * crowd.count).reshape(count, 4)
+        there = vehicles[frame, :, 6] > 0
+        assert (told[:, 3] == vehicles[frame, :, 6]).all()
+        found = told[there, :2] * ground["quantum"] + ground["minimum"]
+        assert numpy.abs(found - vehicles[frame, there, :2]).max(initial=0.0) < 0.51 * ground["quantum"] + 1e-4
+        turn = told[there, 2] / 65536 * 2 * numpy.pi - vehicles[frame, there, 3]
+        assert numpy.abs(numpy.sin(turn / 2)).max(initial=0.0) < 1e-4
