@@ -37,6 +37,7 @@ TABLES = {
     "proximity": Table("benchmarks/llvmpipe/proximity.md", 3, benchmarks.proximity),
     "rvo2": Table("benchmarks/llvmpipe/rvo2.md", 10, benchmarks.rvo2),
     "step": Table("benchmarks/step.md", 2, benchmarks.step),
+    "predicted": Table("benchmarks/predicted.md", 1, benchmarks.predicted),
     "batch": Table("benchmarks/batch.md", 3, benchmarks.batch),
     "blender": Table("benchmarks/blender.md", 15, blender.blender),
 }

@@ -13,6 +13,7 @@ from runs import ROOT, output_of
 
 sys.path.insert(0, str(ROOT / "scripts"))
 import compare_rvo2  # noqa: E402
+import predict_steps  # noqa: E402
 import rvo2_peer  # noqa: E402
 
 DRAWING_ALONE = "gradient1, drawing alone"
@@ -162,6 +163,11 @@ def step(runs):
             table(["people", "step", *passes_of(whole)], rows),
         ]
     )
+
+
+def predicted(runs):
+    """Of GPUs that are not at hand: nothing of this machine is in it but counts."""
+    return predict_steps.tables(str(runs.program))
 
 
 def passes_of(bench):
