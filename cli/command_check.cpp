@@ -19,6 +19,7 @@
 #include "cli/terminal/failure.h"
 #include "cli/terminal/say.h"
 #include "io/room_on_disk.h"
+#include "sim/memory.h"
 
 namespace throng::cli {
 namespace {
@@ -97,6 +98,7 @@ nlohmann::ordered_json toJson(const LoadAttempt& attempt) {
     if (attempt.valid) {
         result["agents"] = peopleIn(attempt.loaded);
         result["stream_bytes"] = bytesOfBake(attempt.loaded);
+        result["device_bytes"] = sim::memoryNeeded(attempt.loaded.scene).all();
         if (const auto& charts = attempt.loaded.scene.charts; charts && charts->grounds)
             result["grounds"] = groundsJson(*charts);
     }
@@ -138,10 +140,11 @@ void printSummary(const LoadedLayout& loaded) {
     const authoring::Scene& scene = loaded.scene;
     say(stdout,
         "{}: ok: {} people in {} groups, {} wall segments, {:.0f} x {:.0f} m, {:.4g} s at {:.4g} frames/s; "
-        "its streams will take {}\n",
+        "it needs {} of the device's memory, and its streams will take {}\n",
         loaded.diagnostics.file, peopleIn(loaded), groupsIn(loaded), scene.wall_segments.size(),
         scene.maximum.x - scene.minimum.x, scene.maximum.y - scene.minimum.y, scene.settings.duration,
-        scene.settings.fps, readableBytes(bytesOfBake(loaded)));
+        scene.settings.fps, readableBytes(sim::memoryNeeded(scene).all()),
+        readableBytes(bytesOfBake(loaded)));
 }
 
 bool checkLayoutText(const std::string& path, std::string text, const CheckOptions& options,

@@ -23,8 +23,6 @@
 namespace throng::sim {
 namespace {
 
-constexpr std::size_t kSlots = 3;
-
 struct Slot {
     gl::Buffer frame;
     gl::Buffer owners;
@@ -82,7 +80,7 @@ struct FramePump::State {
     Simulation& simulation;
     Receiver receiver;
     Cargo cargo;
-    std::array<Slot, kSlots> slots;
+    std::array<Slot, kFramesUnderWay> slots;
     std::size_t next = 0;
     std::size_t rows = 0;
     DiagramImage image;  // all but the pixels
@@ -186,7 +184,7 @@ FramePump::~FramePump() {
 bool FramePump::submit(std::uint32_t index, bool with_diagram) {
     State& state = *state_;
     Slot& slot = state.slots[state.next];
-    state.next = (state.next + 1) % kSlots;
+    state.next = (state.next + 1) % kFramesUnderWay;
     while (!state.in_flight.empty() && state.in_flight.front() == &slot)
         state.handOver(true);
     {
@@ -208,7 +206,7 @@ bool FramePump::submit(std::uint32_t index, bool with_diagram) {
     if (state.simulation.lifts() > 0) slot.lifts.copyFrom(state.simulation.parts().buffers.lift_states);
     const Extent extent = with_diagram ? Extent::everywhere : Extent::near_people;
     if ((with_diagram || state.asksForDiagram()) && !state.simulation.buildDiagramNow(extent)) {
-        state.next = (state.next + kSlots - 1) % kSlots;
+        state.next = (state.next + kFramesUnderWay - 1) % kFramesUnderWay;
         return false;
     }
     state.packStreams(slot, true);

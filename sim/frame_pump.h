@@ -9,6 +9,9 @@
 
 namespace throng::sim {
 
+/// So many frames may be on their way at once.
+inline constexpr std::size_t kFramesUnderWay = 3;
+
 /// Carries frames from the device to a receiver on another thread, without stopping the simulation: the
 /// device packs a frame into one of a few persistently mapped buffers, a fence says when it is there, and the
 /// receiver reads it in place.

@@ -187,7 +187,7 @@ void Simulation::wait() const {
 }
 
 std::size_t Simulation::frameBytes() const {
-    return std::size_t{parts_->rows} * 9 * sizeof(float);
+    return bytesOfFrame(parts_->rows);
 }
 
 void Simulation::packFrame(const gl::Buffer& buffer) {

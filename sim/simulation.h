@@ -20,6 +20,11 @@ namespace throng::sim {
 /// Steps of the warm-up, before the first frame.
 std::uint32_t warmupSteps(const authoring::SimulationSettings& settings);
 
+/// Bytes of a frame as packFrame() writes it.
+inline std::size_t bytesOfFrame(std::uint32_t rows) {
+    return std::size_t{rows} * 9 * sizeof(float);
+}
+
 /// A crowd on the GPU. Needs a current gl::Context and stays on its thread. Nothing is read back inside a
 /// step.
 class Simulation {

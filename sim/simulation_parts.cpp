@@ -67,8 +67,10 @@ std::optional<VehicleSites> vehiclesOf(const authoring::Scene& scene, const gpu:
     return sites;
 }
 
-Diagram diagramFor(const authoring::Scene& scene, const gpu::Parameters& parameters,
-                   const gl::ShaderLibrary& library, const Buffers& buffers) {
+}  // namespace
+
+DiagramOptions diagramOptions(const authoring::Scene& scene, const gpu::Parameters& parameters,
+                              const Buffers& buffers) {
     DiagramOptions options;
     options.method = scene.settings.method;
     if (options.method == DiagramMethod::automatic) options.method = DiagramMethod::binned;
@@ -81,10 +83,8 @@ Diagram diagramFor(const authoring::Scene& scene, const gpu::Parameters& paramet
     options.look = lookOf(scene, parameters);
     options.vehicles = vehiclesOf(scene, parameters, buffers);
     options.paged = isBestPaged(options, scene.wall_tiles.size());
-    return Diagram(library, options, wallSites(scene, parameters));
+    return options;
 }
-
-}  // namespace
 
 Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary& shader_library,
                          const CostModel& cost_model)
@@ -92,7 +92,7 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
       settings(scene.settings),
       parameters(makeParameters(scene)),
       buffers(scene, parameters),
-      diagram(diagramFor(scene, parameters, library, buffers)),
+      diagram(library, diagramOptions(scene, parameters, buffers), wallSites(scene, parameters)),
       cells(library, buffers, parameters),
       behaviour(scene.behaviours.empty()
                     ? std::nullopt

@@ -33,6 +33,10 @@ struct Pass {
     std::function<void()> run;
 };
 
+/// How a scene's diagram is built.
+DiagramOptions diagramOptions(const authoring::Scene& scene, const gpu::Parameters& parameters,
+                              const Buffers& buffers);
+
 struct Simulation::Parts {
     Parts(const authoring::Scene& scene, const gl::ShaderLibrary& shader_library,
           const CostModel& cost_model);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <stdexcept>
 #include <utility>
 
@@ -12,6 +13,9 @@
 
 namespace throng::gl {
 namespace {
+
+std::atomic<std::size_t> all_bytes{0};
+thread_local BufferCount* counting = nullptr;
 
 /// A transfer: from what, if from a buffer, and to what.
 void note(const char* what, const Buffer* read, const Buffer* written) {
@@ -30,6 +34,10 @@ Buffer::Buffer(const std::string& name, std::size_t bytes, Use use) : Buffer(nam
 Buffer::Buffer(const std::string& name, const Room& room, Use use)
     : bytes_(std::max<std::size_t>(room.count * room.element_bytes, 4)),
       contents_(std::make_shared<const Contents>(Contents{name, room.per, room.element_bytes})) {
+    if (BufferCount* count = BufferCount::kept()) {
+        count->add(*contents_, bytes_);
+        return;
+    }
     GLint64 block_limit = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &block_limit);
     if (use != Use::in_ranges && bytes_ > static_cast<std::size_t>(block_limit))
@@ -47,10 +55,12 @@ Buffer::Buffer(const std::string& name, const Room& room, Use use)
         mapped_ = static_cast<const std::byte*>(
             glMapNamedBufferRange(handle_, 0, static_cast<GLsizeiptr>(bytes_), mapping));
     if (glGetError() != GL_NO_ERROR || (use == Use::read_back && !mapped_)) {
-        release();
+        glDeleteBuffers(1, &handle_);
+        handle_ = 0;
         throw GraphicsError(
             fmt::format("the device has no room for `{}` ({} bytes)", name, room.count * room.element_bytes));
     }
+    all_bytes += bytes_;
     glObjectLabel(GL_BUFFER, handle_, static_cast<GLsizei>(name.size()), name.c_str());
 }
 
@@ -76,6 +86,7 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
 }
 
 void Buffer::fill(std::uint32_t word) {
+    if (BufferCount::kept()) return;
     note("fill", nullptr, this);
     glClearNamedBufferData(handle_, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &word);
 }
@@ -88,6 +99,7 @@ void Buffer::copyFrom(const Buffer& source) {
 
 void Buffer::uploadBytes(std::span<const std::byte> bytes, std::size_t offset) {
     if (offset + bytes.size() > bytes_) throw std::out_of_range("upload past the end of a buffer");
+    if (BufferCount::kept()) return;
     note("upload", nullptr, this);
     glNamedBufferSubData(handle_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes.size()),
                          bytes.data());
@@ -102,12 +114,40 @@ void Buffer::downloadBytes(std::span<std::byte> bytes, std::size_t offset) const
 }
 
 void Buffer::release() {
-    if (handle_) glDeleteBuffers(1, &handle_);
+    if (handle_) {
+        glDeleteBuffers(1, &handle_);
+        all_bytes -= bytes_;
+    }
     handle_ = 0;
     mapped_ = nullptr;
 }
 
+std::size_t bytesOfBuffers() {
+    return all_bytes;
+}
+
+BufferCount::BufferCount() {
+    if (counting) throw std::logic_error("buffers are being counted already");
+    counting = this;
+}
+
+BufferCount::~BufferCount() {
+    counting = nullptr;
+}
+
+BufferCount* BufferCount::kept() {
+    return counting;
+}
+
+std::size_t BufferCount::bytes() const {
+    std::size_t sum = 0;
+    for (const Counted& each : buffers_)
+        sum += each.bytes;
+    return sum;
+}
+
 WordTexture::WordTexture(const Buffer& buffer, Texel texel) : contents_(buffer.contents()) {
+    if (BufferCount::kept()) return;
     const std::size_t bytes = texel == Texel::one_word ? 4 : texel == Texel::two_words ? 8 : 16;
     GLint limit = 0;
     glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);

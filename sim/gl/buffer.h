@@ -78,6 +78,35 @@ class Buffer {
     const std::byte* mapped_ = nullptr;
 };
 
+/// Bytes of all buffers that there are, of whatever context.
+std::size_t bytesOfBuffers();
+
+/// While one lives, this thread's buffers are counted and not made: what something will need is known before
+/// a device is asked for it. They can be bound to nothing. At most one lives at a time.
+class BufferCount {
+  public:
+    BufferCount();
+    ~BufferCount();
+    BufferCount(const BufferCount&) = delete;
+    BufferCount& operator=(const BufferCount&) = delete;
+
+    struct Counted {
+        std::string name, per;
+        std::size_t bytes = 0;
+    };
+    const std::vector<Counted>& buffers() const { return buffers_; }
+    std::size_t bytes() const;
+
+    /// The one that counts, or null.
+    static BufferCount* kept();
+    void add(const Contents& contents, std::size_t bytes) {
+        buffers_.push_back({contents.name, contents.per, bytes});
+    }
+
+  private:
+    std::vector<Counted> buffers_;
+};
+
 /// A view of a buffer as unsigned words that shaders fetch through a sampler: for random reads, which some
 /// devices serve faster that way. The buffer must stay in place.
 class WordTexture {

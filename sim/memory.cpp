@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/memory.h"
+
+#include <algorithm>
+
+#include "sim/buffers.h"
+#include "sim/frame_pump.h"
+#include "sim/gl/buffer.h"
+#include "sim/simulation_parts.h"
+
+namespace throng::sim {
+namespace {
+
+bool isOfPeople(const gl::BufferCount::Counted& buffer) {
+    return buffer.per == "person" || buffer.per == kSite;
+}
+
+/// The owners, and two layers of the walls where they are kept whole; a store of pages where they are not.
+std::size_t bytesOfDiagram(const authoring::Scene& scene, const gpu::Parameters& parameters,
+                           const Buffers& buffers) {
+    const DiagramOptions options = diagramOptions(scene, parameters, buffers);
+    const std::size_t whole = std::size_t{options.width} * options.height * gl::kWord;
+    if (!options.paged) return whole * (scene.wall_tiles.empty() ? 1 : 3);
+    const std::uint64_t pages = Pages::pagesNeeded(options.width, options.height, options.largest_radius,
+                                                   options.live_capacity + scene.wall_tiles.size());
+    const std::size_t squares = whole / gl::kWord / (gpu::PAGE_SIDE * gpu::PAGE_SIDE);
+    return pages * gpu::PAGE_SIDE * gpu::PAGE_SIDE * gl::kWord + 2 * squares * gl::kWord;
+}
+
+/// What routes that lead round jams keep (sim/congestion.cpp).
+std::size_t bytesOfDetours(const authoring::Scene& scene, const gpu::Parameters& parameters) {
+    const authoring::Detours& detours = scene.detours;
+    if (detours.distances.empty()) return 0;
+    const std::size_t cells = std::size_t{parameters.detour_width} * parameters.detour_height;
+    const std::size_t per_block = 4 * gl::kWord * detours.ground_of_field.size() / gpu::PIXEL_GROUP_SIZE;
+    return detours.ground.size() * sizeof(detours.ground.front()) +
+           2 * detours.distances.size() * sizeof(float) +
+           cells * (sizeof(gpu::CrowdFlow) + sizeof(float) + per_block);
+}
+
+}  // namespace
+
+MemoryNeeded memoryNeeded(const authoring::Scene& scene) {
+    const gpu::Parameters parameters = makeParameters(scene);
+    MemoryNeeded needed;
+    const gl::BufferCount count;
+    const Buffers buffers(scene, parameters);
+    for (const gl::BufferCount::Counted& buffer : count.buffers())
+        (isOfPeople(buffer) ? needed.people : needed.scene) += buffer.bytes;
+    needed.scene += bytesOfDetours(scene, parameters);
+    needed.diagram = bytesOfDiagram(scene, parameters, buffers);
+    needed.frames = kFramesUnderWay * bytesOfFrame(parameters.row_count);
+    return needed;
+}
+
+}  // namespace throng::sim

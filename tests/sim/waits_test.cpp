@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <epoxy/gl.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+
+#include "sim/frame_pump.h"
+#include "sim/simulation_parts.h"
+#include "tests/sim/gpu_test.h"
+#include "tests/sim/layout_scene.h"
+#include "tests/sim/scenes.h"
+
+namespace throng::test {
+namespace {
+
+std::map<std::string, int> calls;
+
+/// While one lives, calls of a function of OpenGL are counted on their way.
+template <auto& Function, class Type = std::remove_reference_t<decltype(Function)>>
+class Counted;
+
+template <auto& Function, class Result, class... Arguments>
+class Counted<Function, Result (*)(Arguments...)> {
+  public:
+    explicit Counted(const char* name) {
+        name_ = name;
+        real_ = Function;
+        Function = &count;
+    }
+    ~Counted() { Function = real_; }
+    Counted(const Counted&) = delete;
+    Counted& operator=(const Counted&) = delete;
+
+  private:
+    static Result count(Arguments... arguments) {
+        ++calls[name_];
+        return real_(arguments...);
+    }
+    static inline std::string name_;
+    static inline Result (*real_)(Arguments...) = nullptr;
+};
+
+/// All that makes the CPU wait for the device, or brings something back from it.
+class Trace {
+  public:
+    Trace() { calls.clear(); }
+
+  private:
+    Counted<epoxy_glFinish> finish_{"glFinish"};
+    Counted<epoxy_glFlush> flush_{"glFlush"};
+    Counted<epoxy_glClientWaitSync> wait_{"glClientWaitSync"};
+    Counted<epoxy_glGetSynciv> sync_{"glGetSynciv"};
+    Counted<epoxy_glGetBufferSubData> sub_data_{"glGetBufferSubData"};
+    Counted<epoxy_glGetNamedBufferSubData> named_data_{"glGetNamedBufferSubData"};
+    Counted<epoxy_glMapBuffer> map_{"glMapBuffer"};
+    Counted<epoxy_glMapBufferRange> map_range_{"glMapBufferRange"};
+    Counted<epoxy_glMapNamedBuffer> map_named_{"glMapNamedBuffer"};
+    Counted<epoxy_glMapNamedBufferRange> map_named_range_{"glMapNamedBufferRange"};
+    Counted<epoxy_glReadPixels> pixels_{"glReadPixels"};
+    Counted<epoxy_glGetTexImage> image_{"glGetTexImage"};
+    Counted<epoxy_glGetTextureImage> texture_image_{"glGetTextureImage"};
+    Counted<epoxy_glGetQueryObjectuiv> query_{"glGetQueryObjectuiv"};
+    Counted<epoxy_glGetQueryObjectui64v> query64_{"glGetQueryObjectui64v"};
+};
+
+std::string textOf(const std::map<std::string, int>& counted) {
+    std::string text;
+    for (const auto& [name, count] : counted)
+        text += name + " " + std::to_string(count) + " times; ";
+    return text;
+}
+
+class WaitsTest : public GpuTest {
+  protected:
+    /// What is called in so many steps, once programs are compiled.
+    std::map<std::string, int> callsInSteps(const authoring::Scene& scene, int steps) {
+        sim::Simulation simulation(scene, library);
+        for (int i = 0; i < steps; ++i)
+            simulation.step();
+        const Trace trace;
+        for (int i = 0; i < steps; ++i)
+            simulation.step();
+        return calls;
+    }
+};
+
+TEST_F(WaitsTest, TheTraceSeesWhatWaits) {
+    const authoring::Scene scene = uniformScene(63, 2.0f, 1);
+    sim::Simulation simulation(scene, library);
+    simulation.step();
+    simulation.parts().buffers.states.download<gpu::AgentState>(1);  // the functions are looked up
+    simulation.wait();
+    const Trace trace;
+    simulation.parts().buffers.states.download<gpu::AgentState>(1);
+    simulation.wait();
+    EXPECT_EQ(calls["glGetNamedBufferSubData"], 1);
+    EXPECT_EQ(calls["glFinish"], 1);
+}
+
+TEST_F(WaitsTest, NoStepReadsBackOrWaits) {
+    for (const std::uint32_t count : {1u, 63u, 1234u})
+        for (const authoring::Proximity proximity :
+             {authoring::Proximity::voronoi, authoring::Proximity::grid}) {
+            authoring::Scene scene = uniformScene(count, 2.0f, count);
+            scene.settings.proximity = proximity;
+            const auto found = callsInSteps(scene, 10);
+            EXPECT_TRUE(found.empty()) << count << " people: " << textOf(found);
+        }
+}
+
+/// Everything that layouts have: storeys and lifts, signals and vehicles, platforms, behaviours, seats,
+/// gates.
+TEST_F(WaitsTest, NoStepOfAnExampleReadsBackOrWaits) {
+    for (const char* name :
+         {"intersection", "station-levels", "zebra", "tram-stop", "market", "stadium-wave"}) {
+        std::ifstream file(std::filesystem::path(THRONG_EXAMPLES) / (std::string(name) + ".json"));
+        std::stringstream text;
+        text << file.rdbuf();
+        const auto found = callsInSteps(sceneOfLayout(text.str()), 60);
+        EXPECT_TRUE(found.empty()) << name << ": " << textOf(found);
+    }
+}
+
+/// Frames are asked for and come by themselves: the first ones without anybody waiting, later ones when there
+/// are as many under way as there is room for.
+TEST_F(WaitsTest, FramesComeWithoutAnybodyWaitingForThem) {
+    const authoring::Scene scene = uniformScene(1234, 2.0f, 9);
+    sim::Simulation simulation(scene, library);
+    simulation.step();
+    constexpr int kFrames = 24;
+    int received = 0;
+    std::map<std::string, int> found;
+    {
+        sim::FramePump pump(simulation, {}, [&](const Frame&) { ++received; });
+        for (std::uint32_t frame = 0; frame < 2; ++frame)
+            pump.submit(frame, false);
+        {
+            const Trace trace;
+            for (std::uint32_t frame = 2; frame < 2 + kFrames; ++frame) {
+                simulation.step();
+                pump.submit(frame, false);
+            }
+            found = calls;
+        }
+        pump.finish();
+    }
+    EXPECT_EQ(received, 2 + kFrames);
+    // Fences are asked, and only those: once for each frame that is under way, each time.
+    EXPECT_GE(found["glClientWaitSync"], 1);
+    EXPECT_LE(found["glClientWaitSync"], 4 * kFrames);
+    found.erase("glClientWaitSync");
+    EXPECT_TRUE(found.empty()) << textOf(found);
+}
+
+}  // namespace
+}  // namespace throng::test
