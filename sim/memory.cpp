@@ -15,12 +15,33 @@ bool isOfPeople(const gl::BufferCount::Counted& buffer) {
     return buffer.per == "person" || buffer.per == kSite;
 }
 
-/// The owners, and two layers of the walls where they are kept whole; a store of pages where they are not.
+/// Whether as many as come in over time make the level of detail build per site, which keeps distances, and
+/// walls in two layers.
+bool mayBuildPerSite(const authoring::Scene& scene, const gpu::Parameters& parameters,
+                     const DiagramOptions& options) {
+    const DiagramMethod method = scene.settings.method;
+    if (method != DiagramMethod::automatic) return method == DiagramMethod::per_site;
+    const CostModel costs = CostModel::builtIn();
+    DiagramLoad load = diagramLoad(scene, parameters);
+    const auto present = std::ranges::count_if(scene.people, [](const gpu::Person& person) {
+        return (person.flags & gpu::PERSON_PRESENT_AT_START) != 0;
+    });
+    DiagramPlan plan;
+    for (load.sites = std::max<double>(static_cast<double>(present), 1.0); load.sites <= parameters.row_count;
+         load.sites *= 2.0) {
+        plan = costs.plan(load, double{options.look}, plan);
+        if (plan.cost->method == DiagramMethod::per_site) return true;
+    }
+    return false;
+}
+
+/// The owners, and what the way to find them keeps beside; a store of pages where they are not kept whole.
 std::size_t bytesOfDiagram(const authoring::Scene& scene, const gpu::Parameters& parameters,
                            const Buffers& buffers) {
     const DiagramOptions options = diagramOptions(scene, parameters, buffers);
     const std::size_t whole = std::size_t{options.width} * options.height * gl::kWord;
-    if (!options.paged) return whole * (scene.wall_tiles.empty() ? 1 : 3);
+    if (!options.paged)
+        return whole * (mayBuildPerSite(scene, parameters, options) ? 4 : scene.wall_tiles.empty() ? 1 : 3);
     const std::uint64_t pages = Pages::pagesNeeded(options.width, options.height, options.largest_radius,
                                                    options.live_capacity + scene.wall_tiles.size());
     const std::size_t squares = whole / gl::kWord / (gpu::PAGE_SIDE * gpu::PAGE_SIDE);

@@ -86,6 +86,15 @@ DiagramOptions diagramOptions(const authoring::Scene& scene, const gpu::Paramete
     return options;
 }
 
+DiagramLoad diagramLoad(const authoring::Scene& scene, const gpu::Parameters& parameters) {
+    DiagramLoad load;
+    load.radius =
+        double{std::max(parameters.tile_radius, parameters.largest_radius)} * parameters.pixels_per_metre;
+    load.pixels = static_cast<double>(parameters.diagram_width) * parameters.diagram_height;
+    load.fixed_sites = static_cast<double>(scene.wall_tiles.size());
+    return load;
+}
+
 Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary& shader_library,
                          const CostModel& cost_model)
     : library(shader_library),
@@ -141,10 +150,7 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
                             {parameters.cells_width, parameters.cells_height});
     diagram.connect({&buffers.sites, &buffers.live_dispatch, &buffers.site_slots,
                      DiagramInput::Sorted{&buffers.strip_starts, &buffers.cell_offsets, cell_grid}});
-    load.radius =
-        double{std::max(parameters.tile_radius, parameters.largest_radius)} * parameters.pixels_per_metre;
-    load.pixels = static_cast<double>(parameters.diagram_width) * parameters.diagram_height;
-    load.fixed_sites = static_cast<double>(scene.wall_tiles.size());
+    load = diagramLoad(scene, parameters);
     for (const gpu::Platform& platform : scene.traffic.platforms)
         platform_sides.push_back(platform.side);
     anybody_enters_later = std::any_of(

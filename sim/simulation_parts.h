@@ -37,6 +37,9 @@ struct Pass {
 DiagramOptions diagramOptions(const authoring::Scene& scene, const gpu::Parameters& parameters,
                               const Buffers& buffers);
 
+/// What its way is chosen by, before anybody is there.
+DiagramLoad diagramLoad(const authoring::Scene& scene, const gpu::Parameters& parameters);
+
 struct Simulation::Parts {
     Parts(const authoring::Scene& scene, const gl::ShaderLibrary& shader_library,
           const CostModel& cost_model);

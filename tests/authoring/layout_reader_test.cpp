@@ -248,7 +248,7 @@ TEST(LayoutReader, ReadsStopsDestinationsAndEvents) {
     EXPECT_TRUE(layout.walls[0].isOpen(3.9));
     EXPECT_FALSE(layout.walls[0].isOpen(5.0));
     EXPECT_TRUE(layout.walls[0].isOpen(8.5));
-    EXPECT_EQ(layout.events[3].arrival, Arrival::stay);
+    EXPECT_TRUE(layout.events[3].then.for_good);
 }
 
 TEST(LayoutReader, ExplainsWhatIsWrongWithStopsAndEvents) {

@@ -53,9 +53,9 @@ TEST(Plan, IsAStateForEachStopAndOneForTheGoal) {
 }
 
 TEST(Plan, LeadsToWhereEventsSendPeople) {
-    const Layout layout = readPlan(R"({"id": "f", "from": "a", "via": ["b"], "to": "c", "count": 9})",
+    const Layout layout = readPlan(R"({"id": "f", "from": "a", "via": ["b"], "to": "c", "rate": 1})",
                                    R"({"at": 20, "go_to": "b", "who": ["f"], "arrival": "stay"},
-   {"at": 10, "go_to": "a"}, {"at": 5, "go_to": "a", "who": ["others"]}, {"at": 7, "flow": "others", "rate": 1})");
+   {"at": 10, "go_to": "a"}, {"at": 5, "go_to": "a", "who": ["others"]}, {"at": 7, "flow": "f", "rate": 1})");
     const Behaviour plan = planOf(layout, layout.flows.at(0));
     ASSERT_EQ(plan.states.size(), 4u);  // one stop, the goal, and two of the four events
     const std::vector<Turn> turns = turnsOf(plan);
