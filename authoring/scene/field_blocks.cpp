@@ -2,6 +2,7 @@
 #include "authoring/scene/field_blocks.h"
 
 #include "authoring/scene/raster.h"
+#include "authoring/scene/slope_costs.h"
 
 namespace throng::authoring {
 namespace {
@@ -230,6 +231,10 @@ BlockMap makeBlockMap(const WalkGeometry& geometry, const FieldBlocks& blocks, b
         map.cost.assign(blocks.nodeCount(), 1.0f);
     addWallCosts(geometry, blocks, map.cost);
     chargePatches(geometry, blocks, map.cost);
+    if (geometry.slopes)
+        blocks.visitNodes(geometry.minimum, geometry.maximum, [&](std::uint32_t node, glm::vec2 at) {
+            map.cost[node] *= geometry.slopes->at(at);
+        });
     return map;
 }
 

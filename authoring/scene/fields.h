@@ -37,6 +37,8 @@ struct CostlyGround {
 inline constexpr float kWallComfort = 0.2f;  // m
 
 /// What the rasters are made from, all in the scene frame.
+class SlopeCosts;
+
 struct WalkGeometry {
     glm::vec2 minimum{0.0f};
     glm::vec2 maximum{0.0f};
@@ -54,8 +56,9 @@ struct WalkGeometry {
     struct Box {
         glm::vec2 lower, upper;
     };
-    std::vector<Box> solid_boxes = {};            ///< of each solid, if sortWalls() has made them
-    std::shared_ptr<const ChartMap> charts = {};  ///< null: a layout without levels
+    std::vector<Box> solid_boxes = {};              ///< of each solid, if sortWalls() has made them
+    std::shared_ptr<const ChartMap> charts = {};    ///< null: a layout without levels
+    std::shared_ptr<const SlopeCosts> slopes = {};  ///< null: flat ground, or that of charts
 
     /// Whether the straight way may not be the best one.
     bool hasObstacles() const { return !walls.empty() || !costly.empty(); }

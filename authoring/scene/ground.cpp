@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "authoring/scene/patches.h"
+#include "authoring/scene/slope_costs.h"
 #include "authoring/scene/walls.h"
 
 namespace throng::authoring {
@@ -71,6 +72,7 @@ std::string keyOf(const WalkGeometry& geometry, const GroundResolution& resoluti
         append(key, ground.cost);
         append(key, ground.is_for_a_time);
     }
+    if (geometry.slopes) appendAll(key, geometry.slopes->nodes());
     if (geometry.charts) {
         appendAll(key, geometry.charts->cells);
         appendAll(key, geometry.charts->shifts);

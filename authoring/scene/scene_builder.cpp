@@ -27,6 +27,7 @@
 #include "authoring/scene/routes.h"
 #include "authoring/scene/seat_feet.h"
 #include "authoring/scene/seat_ways.h"
+#include "authoring/scene/slope_costs.h"
 #include "authoring/scene/terrain_charts.h"
 #include "authoring/scene/terrain_check.h"
 #include "authoring/scene/traffic.h"
@@ -473,6 +474,8 @@ class SceneAssembly {
             return;
         }
         checkTerrain(layout_, rebase_, geometry_, *terrain_mesh_, *scene_.terrain, diagnostics_);
+        const auto slopes = std::make_shared<const SlopeCosts>(layout_.simulation.motion, *scene_.terrain);
+        if (!slopes->isFlat()) geometry_.slopes = slopes;
     }
 
     /// Routes lead through gates whether these are open or not: people wait before a closed one.

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "authoring/scene/chart_map.h"
+#include "authoring/scene/slope_costs.h"
 #include "authoring/scene/terrain_charts.h"
 
 namespace throng::authoring {
@@ -54,23 +55,13 @@ PlaneGround planeGroundOf(const Charts& charts, const ChartMap& map, glm::dvec2 
 }
 
 std::vector<float> slopeCosts(const Terrain& terrain, const ChartMap& map, const MotionSettings& motion) {
-    constexpr float kFlat = 0.02f;  // rise over run: costs nothing
-    constexpr float kSteepest = 1.0f;
-    constexpr int kSlopes = 50;  // in so many steps
-    std::array<std::array<float, kSlopes + 1>, 2> costs{};
-    for (int stairs = 0; stairs < 2; ++stairs)
-        for (int i = 0; i <= kSlopes; ++i)
-            costs[static_cast<std::size_t>(stairs)][static_cast<std::size_t>(i)] =
-                costOfLink(motion, stairs == 1, double{kSteepest} * i / kSlopes);
+    const SlopeCosts costs(motion);
     std::vector<float> result(map.cells.size(), 1.0f);
     for (std::size_t i = 0; i < map.cells.size(); ++i) {
         if ((map.cells[i].charts >> 8 & gpu::NO_CHART) == gpu::NO_CHART) continue;
         const glm::vec2 at = map.grid.minimum +
                              (glm::vec2(i % map.grid.width, i / map.grid.width) + 0.5f) * map.grid.cell_size;
-        const float slope = std::min(glm::length(terrain.slopeAt(at)), kSteepest);
-        if (slope < kFlat) continue;
-        const auto step = static_cast<std::size_t>(std::lround(slope / kSteepest * kSlopes));
-        result[i] = costs[terrain.stepsAt(at) > 0.5f ? 1 : 0][step];
+        result[i] = costs.of(glm::length(terrain.slopeAt(at)), terrain.stepsAt(at) > 0.5f);
     }
     return result;
 }

@@ -4,6 +4,7 @@
 #include "authoring/scene/chart_map.h"
 #include "authoring/scene/patches.h"
 #include "authoring/scene/raster.h"
+#include "authoring/scene/slope_costs.h"
 
 namespace throng::authoring {
 namespace {
@@ -137,6 +138,9 @@ WalkMap makeWalkMap(const WalkGeometry& geometry, const FieldGrid& grid, bool ke
     }
     blockWalls(geometry, map);
     chargePatches(geometry.costly, grid, map.cost);
+    if (geometry.slopes)
+        for (std::uint32_t cell = 0; cell < map.cost.size(); ++cell)
+            map.cost[cell] *= geometry.slopes->at(cellCentre(grid, cell % grid.width, cell / grid.width));
     if (geometry.charts) {
         blockOthers(*geometry.charts, map);
         chargeLinks(*geometry.charts, map);
