@@ -176,3 +176,37 @@ def test_overrides_set_people_on_the_ground_anew(throng, tmp_path, manifest_of):
         assert numpy.abs(slopes[:, row, 0] - 0.1).max() < 2e-3
     throng("info", tmp_path / "changed", "--verify")
     assert manifest_of(tmp_path / "changed")["terrain"] == manifest_of(tmp_path / "bake")["terrain"]
+
+
+def ridge(height):
+    """A roof across the way from x = 10 to 30, that ends at y = -8 and 8."""
+    def surface(x, y):
+        return height * max(0.0, 1.0 - abs(x - 20.0) / 10.0) * min(max((8.0 - abs(y)) / 2.0, 0.0), 1.0)
+    return surface
+
+
+@pytest.mark.parametrize("extent", [50, 900], ids=["a small site", "a large one"])
+def test_routes_lead_round_a_hill_where_that_is_quicker(throng, tmp_path, extent):
+    """Over a roof of 60 % people would need four times as long as round its end; over one of 5 % they go straight. On
+    a large site with walls, fields are worked out block by block."""
+    walls = [{"id": "far", "points": [[extent, 40], [extent + 20, 40]]}]
+    for name, height, settings, is_round in [("steep", 6.0, [], True), ("gentle", 0.5, [], False),
+                                             ("unheeded", 6.0, ["--set", "motion.slope_pace.enabled=false"], False)]:
+        (tmp_path / f"{name}.glb").write_bytes(
+            terrain_files.glb(*terrain_files.surface(ridge(height), (-10, -30), (50, 30), 1.0)))
+        (tmp_path / f"{name}.json").write_text(json.dumps({
+            "throng": 1, "simulation": {"duration": 60, "avoid_congestion": False},
+            "terrain": {"file": f"{name}.glb"}, "walls": walls,
+            "areas": [{"id": "west", "polygon": [[-6, -1], [-4, -1], [-4, 1], [-6, 1]]},
+                      {"id": "east", "polygon": [[44, -1], [46, -1], [46, 1], [44, 1]]}],
+            "flows": [{"id": "f", "from": "west", "to": "east", "count": 3}]}))
+        throng("bake", tmp_path / f"{name}.json", "-o", tmp_path / name, "-q", "--no-gltf", *settings)
+        pos = numpy.load(tmp_path / name / "streams" / "pos.npy")
+        there = numpy.load(tmp_path / name / "streams" / "state.npy")[..., 0] > 0.5
+        aside = numpy.abs(pos[..., 1])[there & (numpy.abs(pos[..., 0] - 20.0) < 2.0)]
+        assert len(aside) > 10
+        assert aside.min() > 7.0 if is_round else aside.max() < 2.5, (name, aside.min(), aside.max())
+        with open(tmp_path / name / "agents.csv", newline="") as file:
+            for row in csv.DictReader(file):
+                # Ways are told in metres, whatever they cost.
+                assert float(row["shortest_way"]) == pytest.approx(54.0 if is_round else 49.0, abs=2.5)
