@@ -3,9 +3,9 @@
 """Predicts steps per second on a GPU that is not at hand: Markdown, for docs/benchmarks/predicted.md.
 
 The program counts the launches of a step and the bytes that each must read and write (`throng bench launches`, on any
-device). A launch takes what it takes for nobody (asking, starting, chains of dependent reads) and a time that grows with
-its bytes; both are fitted to what was measured launch by launch on one GPU (docs/benchmarks/h100/steps.md). On another
-one, the second part goes with the bandwidth of its memory, by its data sheet.
+device). A launch takes what it takes for nobody (asking, starting, chains of dependent reads) and a time that grows
+with its bytes; both are fitted to what was measured launch by launch on one GPU (docs/benchmarks/h100/steps.md). On
+another one, the second part goes with the bandwidth of its memory, by its data sheet.
 
 Usage: predict_steps.py THRONG [--gpu NAME=GB/S ...] [--people N ...]
 """
@@ -79,7 +79,8 @@ def cost_of(what, size, costs, bytes_then):
     """What is new since the measurement costs what the middle one of the others does for its bytes."""
     if what in costs:
         return costs[what]
-    per_byte = statistics.median(cost.a_person / bytes_then[each] for each, cost in costs.items() if bytes_then.get(each))
+    per_byte = statistics.median(cost.a_person / bytes_then[each] for each, cost in costs.items()
+                                 if bytes_then.get(each))
     return Cost(statistics.median(cost.alone for cost in costs.values()), per_byte * size)
 
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vehicles in the diagram, as walls that move: a pixel is a vehicle's where that is nearer than the owner, and no further
-// than a wall's tile reaches. Their outlines are boxes, so none of the ways to build a diagram has them among its sites:
-// they are laid over whatever it has built.
+// Vehicles in the diagram, as walls that move: a pixel is a vehicle's where that is nearer than the owner, and no
+// further than a wall's tile reaches. Their outlines are boxes, so none of the ways to build a diagram has them among
+// its sites: they are laid over whatever it has built.
 //
 // One group a vehicle goes through the pixels about it. Where two are near to each other, each finds the winner among
 // all of them, and only the winner reads and writes the pixel: the result does not depend on the order.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Out of the way of vehicles: nobody walks into one, or into what it may drive over within the next seconds, and who is
 // there goes to the nearer side. Drivers who are about to stop for somebody are trusted: what they drive over ends
-// there (shaders/traffic/drive.comp). Which vehicles somebody heeds, sensing has found (shaders/sensing/vehicles_met.glsl).
-// Only with TRAFFIC.
+// there (shaders/traffic/drive.comp). Which vehicles somebody heeds, sensing has found
+// (shaders/sensing/vehicles_met.glsl). Only with TRAFFIC.
 // Needs shaders/traffic/way_ahead.glsl, shaders/motion/linear_program.glsl and half_width.glsl.
 
 const float VEHICLE_HORIZON = 0.5;  // s

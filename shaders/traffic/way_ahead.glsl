@@ -2,7 +2,7 @@
 // What a vehicle may drive over within the next seconds, and who is there. Only with TRAFFIC.
 // Needs shaders/traffic/boxes.glsl.
 
-const float HEEDED_WITHIN = 4.0;      // m: no vehicle further away, and none that will not come nearer, concerns anybody
+const float HEEDED_WITHIN = 4.0;      // m: no vehicle further away concerns anybody
 const float ROOM_TO_VEHICLES = 0.25;  // m: what people leave
 
 struct PlaceBefore {
