@@ -233,7 +233,6 @@ struct TerrainSettings {
 
 enum class Arrival { leave, stay };
 
-/// What people do where they stop.
 /// s: two people of a flow that tells its gaps never come nearer to each other than this.
 inline constexpr double kLeastGap = 1.0e-3;
 

@@ -93,12 +93,22 @@ void printGrounds(const LoadedLayout& loaded) {
         say(stdout, "  nor to {} smaller ones\n", findings.unreached_count - findings.unreached.size());
 }
 
-nlohmann::ordered_json toJson(const LoadAttempt& attempt) {
+/// What is too large for one bake is a mistake of the layout like others.
+/// @returns bytes of the device's memory
+std::uint64_t tellMemory(LoadAttempt& attempt) try {
+    return attempt.valid ? sim::memoryNeeded(attempt.loaded.scene).all() : 0;
+} catch (const std::runtime_error& error) {
+    attempt.loaded.diagnostics.error({}, error.what());
+    attempt.valid = false;
+    return 0;
+}
+
+nlohmann::ordered_json toJson(const LoadAttempt& attempt, std::uint64_t device_bytes) {
     nlohmann::ordered_json result = {{"file", attempt.loaded.diagnostics.file}, {"valid", attempt.valid}};
     if (attempt.valid) {
         result["agents"] = peopleIn(attempt.loaded);
         result["stream_bytes"] = bytesOfBake(attempt.loaded);
-        result["device_bytes"] = sim::memoryNeeded(attempt.loaded.scene).all();
+        result["device_bytes"] = device_bytes;
         if (const auto& charts = attempt.loaded.scene.charts; charts && charts->grounds)
             result["grounds"] = groundsJson(*charts);
     }
@@ -136,27 +146,27 @@ bool checkFamilyFile(const std::string& path, const CheckOptions& options, nlohm
     return check.valid;
 }
 
-void printSummary(const LoadedLayout& loaded) {
+void printSummary(const LoadedLayout& loaded, std::uint64_t device_bytes) {
     const authoring::Scene& scene = loaded.scene;
     say(stdout,
         "{}: ok: {} people in {} groups, {} wall segments, {:.0f} x {:.0f} m, {:.4g} s at {:.4g} frames/s; "
         "it needs {} of the device's memory, and its streams will take {}\n",
         loaded.diagnostics.file, peopleIn(loaded), groupsIn(loaded), scene.wall_segments.size(),
         scene.maximum.x - scene.minimum.x, scene.maximum.y - scene.minimum.y, scene.settings.duration,
-        scene.settings.fps, readableBytes(sim::memoryNeeded(scene).all()),
-        readableBytes(bytesOfBake(loaded)));
+        scene.settings.fps, readableBytes(device_bytes), readableBytes(bytesOfBake(loaded)));
 }
 
 bool checkLayoutText(const std::string& path, std::string text, const CheckOptions& options,
                      nlohmann::ordered_json& list) {
-    const LoadAttempt attempt =
+    LoadAttempt attempt =
         tryReadLayout(std::move(text), path == "-" ? "standard input" : path, options.overrides);
+    const std::uint64_t device_bytes = tellMemory(attempt);
     if (options.json) {
-        list.push_back(toJson(attempt));
+        list.push_back(toJson(attempt, device_bytes));
         return attempt.valid;
     }
     printDiagnostics(attempt.loaded);
-    if (attempt.valid) printSummary(attempt.loaded);
+    if (attempt.valid) printSummary(attempt.loaded, device_bytes);
     if (attempt.valid) printGrounds(attempt.loaded);
     return attempt.valid;
 }

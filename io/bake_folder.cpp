@@ -16,7 +16,10 @@
 
 #include "base/files/output_file.h"
 #include "io/checkpoint.h"
+#include "io/door_file.h"
+#include "io/lift_file.h"
 #include "io/under_way.h"
+#include "io/vehicle_file.h"
 
 namespace throng::io {
 namespace fs = std::filesystem;
@@ -53,8 +56,9 @@ void requireReplaceable(const fs::path& path) {
 
 /// A folder that happens to have the name of an unfinished bake must not be emptied.
 void requireOurs(const fs::path& folder) {
-    const std::set<std::string> ours = {"streams",   "diagrams",    "layout.json", "agents.csv",
-                                        "crowd.glb", "terrain.glb", "bake.json",   kUnderWayFile};
+    const std::set<std::string> ours = {"streams",    "diagrams",    "layout.json", "agents.csv",
+                                        "crowd.glb",  "terrain.glb", "bake.json",   kUnderWayFile,
+                                        kVehicleFile, kDoorFile,     kLiftFile};
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
         const std::string name = entry.path().filename().string();
         if (!ours.contains(name) && !isCheckpoint(entry.path()))

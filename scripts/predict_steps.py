@@ -75,21 +75,21 @@ def counted(program):
             for each in json.loads(told.stdout)["launches"]]
 
 
-def cost_of(what, size, costs, bytes_then):
+def cost_of(what, size, costs, sizes):
     """What is new since the measurement costs what the middle one of the others does for its bytes."""
     if what in costs:
         return costs[what]
-    per_byte = statistics.median(cost.a_person / bytes_then[each] for each, cost in costs.items()
-                                 if bytes_then.get(each))
+    per_byte = statistics.median(cost.a_person / sizes[each] for each, cost in costs.items()
+                                 if sizes.get(each))
     return Cost(statistics.median(cost.alone for cost in costs.values()), per_byte * size)
 
 
 def predicted(launches, costs, people, bandwidth):
     """us a step of each launch: (pass, what, us)."""
-    bytes_then = {what: size for _, what, _, size in launches}
+    sizes = {what: size for _, what, _, size in launches}
     found = []
     for name, what, often, size in launches:
-        cost = cost_of(what, size, costs, bytes_then)
+        cost = cost_of(what, size, costs, sizes)
         found.append((name, what, often * (cost.alone + cost.a_person * people * BANDWIDTH / bandwidth)))
     return found
 

@@ -4,6 +4,8 @@
 namespace throng::sim {
 namespace {
 
+static_assert(gpu::MOST_VEHICLES < gpu::HEEDED_NONE && gpu::MOST_HEEDED * gpu::HEEDED_BITS <= 32);
+
 const gl::Declaration kLook = {
     "vehicles",
     {"shaders/traffic/people_ahead.comp"},

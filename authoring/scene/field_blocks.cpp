@@ -46,6 +46,7 @@ class BlockMaker {
         for (const CostlyGround& ground : geometry_.costly)
             for (std::size_t i = 0; i < ground.outline.size(); ++i)
                 markFine(ground.outline[i], ground.outline[(i + 1) % ground.outline.size()], kAround);
+        if (geometry_.slopes) markSlopes(*geometry_.slopes);
         number();
         return std::move(blocks_);
     }
@@ -56,6 +57,25 @@ class BlockMaker {
         visitAlong(raster_, a, b, reach + half_diagonal, [&](std::uint32_t block, glm::vec2 middle) {
             if (segmentDistance(middle, a, b) <= reach + half_diagonal) blocks_.kinds[block] = Kind::fine;
         });
+    }
+
+    /// Stairs and banks that its corners would not show.
+    void markSlopes(const SlopeCosts& slopes) {
+        constexpr float kMuchMore = 1.5f;
+        constexpr int kAcross = 8;
+        for (std::uint32_t block = 0; block < blocks_.kinds.size(); ++block) {
+            if (blocks_.kinds[block] != Kind::open) continue;
+            const glm::vec2 corner =
+                raster_.minimum + glm::vec2(block % raster_.width, block / raster_.width) * raster_.cell_size;
+            float least = kUnreachable, most = 0.0f;
+            for (int y = 0; y <= kAcross; ++y)
+                for (int x = 0; x <= kAcross; ++x) {
+                    const glm::vec2 at = corner + glm::vec2(x, y) * (raster_.cell_size / float{kAcross});
+                    least = std::min(least, slopes.at(at));
+                    most = std::max(most, slopes.at(at));
+                }
+            if (most > kMuchMore * least) blocks_.kinds[block] = Kind::fine;
+        }
     }
 
     void markKerbs(const LocalRoad& road) {

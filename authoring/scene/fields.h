@@ -36,9 +36,9 @@ struct CostlyGround {
 
 inline constexpr float kWallComfort = 0.2f;  // m
 
-/// What the rasters are made from, all in the scene frame.
 class SlopeCosts;
 
+/// What the rasters are made from, all in the scene frame.
 struct WalkGeometry {
     glm::vec2 minimum{0.0f};
     glm::vec2 maximum{0.0f};

@@ -82,6 +82,13 @@ std::string keyOf(const WalkGeometry& geometry, const GroundResolution& resoluti
     return key;
 }
 
+void narrowSlopes(const SlopeCosts& slopes, Sight& sight) {
+    const FieldGrid& cells = sight.grid();
+    for (std::uint32_t y = 0; y < cells.height; ++y)
+        for (std::uint32_t x = 0; x < cells.width; ++x)
+            if (slopes.isWorthAWayRound(cellCentre(cells, x, y))) sight.setNarrow(x, y);
+}
+
 std::size_t bytesOf(const Field& field) {
     return field.cells.size() * sizeof(gpu::FieldCell) + field.reachable.size() * sizeof(float) +
            field.is_reached.size() / 8;
@@ -198,6 +205,7 @@ const Sight& Ground::sight() {
     // Nobody goes straight over ground that is worth a way round it.
     visitCostly(geometry_.costly, cells,
                 [&](std::uint32_t cell) { sight_->setNarrow(cell % cells.width, cell / cells.width); });
+    if (geometry_.slopes) narrowSlopes(*geometry_.slopes, *sight_);
     sight_->finish();
     return *sight_;
 }

@@ -47,6 +47,13 @@ float SlopeCosts::at(glm::vec2 place) const {
     return nodes_[std::size_t{node.y} * lattice_.width + node.x];
 }
 
+bool SlopeCosts::meets(glm::vec2 a, glm::vec2 b) const {
+    const int steps = 1 + static_cast<int>(glm::distance(a, b) / lattice_.cell);
+    for (int i = 0; i <= steps; ++i)
+        if (isWorthAWayRound(glm::mix(a, b, static_cast<float>(i) / static_cast<float>(steps)))) return true;
+    return false;
+}
+
 bool SlopeCosts::isFlat() const {
     return std::ranges::all_of(nodes_, [](float cost) { return cost == 1.0f; });
 }

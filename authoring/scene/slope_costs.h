@@ -23,12 +23,18 @@ class SlopeCosts {
     /// @param slope rise over run
     float of(float slope, bool stairs) const;
     float at(glm::vec2 place) const;
+    /// Whether ground costs so much that nobody is sent straight over it without a look at the ways round it:
+    /// a slope of 16 % and more.
+    bool isWorthAWayRound(glm::vec2 place) const { return at(place) > kWorthAWayRound; }
+    /// Whether some of the way from a to b is such ground.
+    bool meets(glm::vec2 a, glm::vec2 b) const;
 
     const std::vector<float>& nodes() const { return nodes_; }
     /// Whether it costs the same everywhere.
     bool isFlat() const;
 
   private:
+    static constexpr float kWorthAWayRound = 1.5f;
     std::vector<float> slopes_[2];  // by slope; of stairs
     glm::vec2 minimum_{0.0f};
     TerrainRaster lattice_;

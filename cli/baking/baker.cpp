@@ -137,6 +137,7 @@ class Run {
         takeTrack(checkpoint, kVehicleTrack, vehicles_);
         takeTrack(checkpoint, kLiftTrack, lifts_);
         takeTrack(checkpoint, kDoorTrack, doors_);
+        writer_.showVehicles(vehicles_);
         if (const std::vector<std::byte>* bytes = checkpoint.find(kSeconds);
             bytes && bytes->size() == sizeof seconds_before_)
             std::memcpy(&seconds_before_, bytes->data(), sizeof seconds_before_);

@@ -3,8 +3,8 @@
 // further than a wall's tile reaches. Their outlines are boxes, so none of the ways to build a diagram has them among
 // its sites: they are laid over whatever it has built.
 //
-// One group a vehicle goes through the pixels about it. Where two are near to each other, each finds the winner among
-// all of them, and only the winner reads and writes the pixel: the result does not depend on the order.
+// One group a vehicle goes through the pixels about it. Where two may reach the same pixel, the first of them decides
+// for both: nobody else reads or writes that pixel, and the result does not depend on the order.
 #include "shaders/shared/simulation_types.h"
 
 layout(local_size_x = PIXEL_GROUP_SIZE) in;
@@ -22,33 +22,54 @@ uniform vec2 diagram_size;  // whole pixels
 #include "shaders/diagram/distance.glsl"
 #include "shaders/diagram/vehicle_sites.glsl"
 
-const uint MOST_BESIDE = 32u;
-uint beside[MOST_BESIDE];  // vehicles that may reach the same pixels
-uint beside_count = 0u;
+const uint MOST_LISTED = 32u;
+uint listed[MOST_LISTED];  // vehicles that may reach the same pixels
+uint listed_count = 0u;    // more than MOST_LISTED: all have to be looked at
 
-/// Pixels within its reach, clipped to the window: corner and one past the opposite corner.
-ivec4 boundsOf(VehicleBox box) {
+/// Pixels within its reach and `margin` px beyond, clipped to the window: corner and one past the opposite corner.
+ivec4 boundsOf(VehicleBox box, float margin) {
     vec2 rear = pixelsOf(box.rear), front = pixelsOf(box.front);
-    float reach = box.half_width * pixels_per_metre + vehicle_reach + 1.0;
+    float reach = box.half_width * pixels_per_metre + vehicle_reach + margin;
     vec2 lower = min(rear, front) - reach, upper = max(rear, front) + reach + 1.0;
     return ivec4(clamp(lower, vec2(0.0), diagram_size), clamp(upper, vec2(0.0), diagram_size));
 }
 
-void findThoseBeside(uint self, ivec4 bounds) {
-    for (uint other = 0u; other < VEHICLES && beside_count < MOST_BESIDE; ++other) {
-        if (other == self || vehicle_boxes[other].half_width <= 0.0) continue;
-        ivec4 theirs = boundsOf(vehicle_boxes[other]);
-        if (any(lessThan(theirs.zw, bounds.xy)) || any(lessThan(bounds.zw, theirs.xy))) continue;
-        beside[beside_count++] = other;
+// A vehicle goes through more pixels than others leave to it: however bounds are rounded, none is left out.
+const float VISITED = 2.0, LEFT_TO_IT = 1.0;  // px
+
+bool holds(ivec4 bounds, ivec2 pixel) {
+    return all(greaterThanEqual(pixel, bounds.xy)) && all(lessThan(pixel, bounds.zw));
+}
+
+bool isThereBeside(uint self, uint other) { return other != self && vehicle_boxes[other].half_width > 0.0; }
+
+void listThoseBeside(uint self, ivec4 bounds) {
+    for (uint other = 0u; other < VEHICLES; ++other) {
+        if (!isThereBeside(self, other)) continue;
+        ivec4 theirs = boundsOf(vehicle_boxes[other], VISITED);
+        if (any(lessThanEqual(theirs.zw, bounds.xy)) || any(lessThanEqual(bounds.zw, theirs.xy))) continue;
+        if (listed_count < MOST_LISTED) listed[listed_count] = other;
+        ++listed_count;
     }
 }
 
-bool isNearest(uint self, float distance_squared, ivec2 pixel) {
-    for (uint i = 0u; i < beside_count; ++i) {
-        float theirs = squaredDistanceToVehicle(beside[i], pixel);
-        if (theirs < distance_squared || (theirs == distance_squared && beside[i] < self)) return false;
+/// Of all that reach a pixel, the nearest; of several the first.
+/// @param distance_squared px^2, to it. @returns NO_INDEX where another vehicle decides
+uint nearestVehicle(uint self, ivec2 pixel, out float distance_squared) {
+    uint nearest = self;
+    distance_squared = squaredDistanceToVehicle(self, pixel);
+    bool all_of_them = listed_count > MOST_LISTED;
+    uint count = all_of_them ? VEHICLES : listed_count;
+    for (uint i = 0u; i < count; ++i) {
+        uint other = all_of_them ? i : listed[i];
+        if (all_of_them && !isThereBeside(self, other)) continue;
+        if (other < self && holds(boundsOf(vehicle_boxes[other], LEFT_TO_IT), pixel)) return NO_INDEX;
+        float theirs = squaredDistanceToVehicle(other, pixel);
+        if (theirs > distance_squared || (theirs == distance_squared && other > nearest)) continue;
+        nearest = other;
+        distance_squared = theirs;
     }
-    return true;
+    return nearest;
 }
 
 /// @returns false where the diagram has no such pixel
@@ -64,24 +85,24 @@ bool wordOf(ivec2 pixel, out uint word) {
 #endif
 }
 
+/// px^2, from whom a pixel belongs to so far. Where nobody looks, that may be somebody who has gone, or a vehicle.
+float squaredDistanceToOwner(uint owner, ivec2 pixel) {
+    uint slot = owner < first_vehicle ? site_slots[owner] : NO_INDEX;
+    return slot == NO_INDEX ? 3.0e38 : squaredDistance(sites[slot].position, pixel);
+}
+
 void take(uint self, ivec2 pixel) {
-    float distance_squared = squaredDistanceToVehicle(self, pixel);
-    uint word;
-    if (distance_squared > squaredRadius(vehicle_reach) || !wordOf(pixel, word)) return;
-    if (!isNearest(self, distance_squared, pixel)) return;
-    uint owner = owners[word];
-    // Where nobody looks, what was a vehicle's may still be so.
-    if (owner < first_vehicle &&
-        squaredDistance(sites[site_slots[owner]].position, pixel) <= distance_squared)
-        return;
-    owners[word] = first_vehicle + self;
+    float distance_squared;
+    uint word, nearest = nearestVehicle(self, pixel, distance_squared);
+    if (nearest == NO_INDEX || distance_squared > squaredRadius(vehicle_reach) || !wordOf(pixel, word)) return;
+    if (squaredDistanceToOwner(owners[word], pixel) > distance_squared) owners[word] = first_vehicle + nearest;
 }
 
 void main() {
     uint self = gl_WorkGroupID.x;
     if (self >= VEHICLES || vehicle_boxes[self].half_width <= 0.0) return;
-    ivec4 bounds = boundsOf(vehicle_boxes[self]);
-    findThoseBeside(self, bounds);
+    ivec4 bounds = boundsOf(vehicle_boxes[self], VISITED);
+    listThoseBeside(self, bounds);
     uint width = uint(bounds.z - bounds.x), height = uint(bounds.w - bounds.y);
     for (uint i = gl_LocalInvocationIndex; i < width * height; i += PIXEL_GROUP_SIZE)
         take(self, bounds.xy + ivec2(i % width, i / width));

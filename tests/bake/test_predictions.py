@@ -51,7 +51,7 @@ def test_what_a_launch_takes_for_nobody_is_all_that_is_left_on_an_endless_bandwi
 
 def test_a_program_that_is_new_costs_what_the_middle_one_does(known):
     _, costs, launches = known
-    bytes_then = {what: size for _, what, _, size in launches}
-    new = predict.cost_of("shaders/new.comp", 100, costs, bytes_then)
-    twice = predict.cost_of("shaders/new.comp", 200, costs, bytes_then)
+    sizes = {what: size for _, what, _, size in launches}
+    new = predict.cost_of("shaders/new.comp", 100, costs, sizes)
+    twice = predict.cost_of("shaders/new.comp", 200, costs, sizes)
     assert new.alone == twice.alone > 0 and twice.a_person == pytest.approx(2 * new.a_person) and new.a_person > 0

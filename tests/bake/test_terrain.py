@@ -199,14 +199,36 @@ def test_routes_lead_round_a_hill_where_that_is_quicker(throng, tmp_path, extent
             "terrain": {"file": f"{name}.glb"}, "walls": walls,
             "areas": [{"id": "west", "polygon": [[-6, -1], [-4, -1], [-4, 1], [-6, 1]]},
                       {"id": "east", "polygon": [[44, -1], [46, -1], [46, 1], [44, 1]]}],
-            "flows": [{"id": "f", "from": "west", "to": "east", "count": 3}]}))
+            "flows": [{"id": "f", "from": "west", "to": "east", "count": 3}],
+            "formations": [{"id": "own", "type": "agents", "arrival": "leave", "agents": [
+                {"position": [-5, 3], "goal": [45, -1]}, {"position": [-5, 5], "goal": [45.5, 1.2]}]}]}))
         throng("bake", tmp_path / f"{name}.json", "-o", tmp_path / name, "-q", "--no-gltf", *settings)
         pos = numpy.load(tmp_path / name / "streams" / "pos.npy")
         there = numpy.load(tmp_path / name / "streams" / "state.npy")[..., 0] > 0.5
         aside = numpy.abs(pos[..., 1])[there & (numpy.abs(pos[..., 0] - 20.0) < 2.0)]
         assert len(aside) > 10
-        assert aside.min() > 7.0 if is_round else aside.max() < 2.5, (name, aside.min(), aside.max())
+        assert aside.min() > 7.0 if is_round else aside.max() < 4.5, (name, aside.min(), aside.max())
         with open(tmp_path / name / "agents.csv", newline="") as file:
             for row in csv.DictReader(file):
                 # Ways are told in metres, whatever they cost.
-                assert float(row["shortest_way"]) == pytest.approx(54.0 if is_round else 49.0, abs=2.5)
+                assert float(row["shortest_way"]) == pytest.approx(54.0 if is_round else 50.0, abs=3.0)
+
+
+def test_a_bank_that_is_narrower_than_a_block_is_seen_on_a_large_site(throng, tmp_path):
+    """A bank of 1 m in height and 1.5 m in width across the way, from y = -8 to 8: there is a way round it."""
+    def bank(x, y):
+        return min(max((x - 20.0) / 1.5, 0.0), 1.0) * min(max((8.0 - abs(y)) / 4.0, 0.0), 1.0)
+    (tmp_path / "bank.glb").write_bytes(
+        terrain_files.glb(*terrain_files.surface(bank, (-10, -30), (50, 30), 0.5)))
+    found = {}
+    for extent in (50, 900):
+        (tmp_path / "bank.json").write_text(json.dumps({
+            "throng": 1, "simulation": {"duration": 2, "avoid_congestion": False}, "terrain": {"file": "bank.glb"},
+            "walls": [{"id": "far", "points": [[extent, 40], [extent + 20, 40]]}],
+            "areas": [{"id": "west", "polygon": [[16, -1], [17, -1], [17, 1], [16, 1]]},
+                      {"id": "east", "polygon": [[24, -1], [25, -1], [25, 1], [24, 1]]}],
+            "flows": [{"id": "f", "from": "west", "to": "east", "count": 1, "end": 0.5}]}))
+        throng("bake", tmp_path / "bank.json", "-o", tmp_path / "bake", "-q", "--no-gltf", "--force")
+        with open(tmp_path / "bake" / "agents.csv", newline="") as file:
+            found[extent] = float(next(csv.DictReader(file))["shortest_way"])
+    assert found[900] == pytest.approx(found[50], abs=1.0), found

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/diagram/vehicle_cells.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <random>
 #include <set>
+#include <string>
 
 #include "sim/benchmarks/proximity_benchmark.h"
 #include "sim/diagram/diagram.h"
@@ -41,10 +43,8 @@ double distanceTo(const gpu::VehicleBox& box, glm::dvec2 place) {
 
 class VehicleCellsTest : public GpuTest {
   protected:
-    static constexpr std::uint32_t kWidth = 301, kHeight = 197, kVehicles = 8;
+    static constexpr std::uint32_t kWidth = 301, kHeight = 197;
     static constexpr float kScale = 8.0f;  // px/m
-
-    gl::Definitions definitions() const { return {{"TRAFFIC", "1"}, {"VEHICLES", "8u"}}; }
 
     /// Some beside each other, some across the window's edge, one far outside, and one that is not there.
     std::vector<gpu::VehicleBox> boxes() const {
@@ -52,7 +52,7 @@ class VehicleCellsTest : public GpuTest {
             boxAt({8.0f, 6.0f}, 0.3f, 4.5f, 0.9f), boxAt({9.0f, 8.4f}, 0.3f, 4.5f, 0.9f),
             boxAt({20.0f, 12.0f}, 1.2f, 12.0f, 1.25f), boxAt({36.5f, 3.0f}, -2.6f, 4.5f, 0.9f),
             boxAt({-300.0f, 40.0f}, 0.0f, 28.0f, 1.2f)};
-        all.resize(kVehicles);
+        all.resize(8);
         all[6] = boxAt({18.0f, 22.0f}, 3.0f, 1.8f, 0.3f);
         return all;
     }
@@ -68,9 +68,11 @@ class VehicleCellsTest : public GpuTest {
     }
 
     /// How many pixels are not as the definition has them, those apart that are as near to one as to another.
-    std::size_t wrongPixels(std::uint32_t moving, std::uint32_t walls, DiagramMethod method, bool paged) {
+    std::size_t wrongPixels(std::uint32_t moving, std::uint32_t walls, DiagramMethod method, bool paged,
+                            const std::vector<gpu::VehicleBox>& vehicles) {
         const std::vector<gpu::DiagramSite> all = sites(moving, walls);
-        const std::vector<gpu::VehicleBox> vehicles = boxes();
+        const auto count = static_cast<std::uint32_t>(vehicles.size());
+        const gl::Definitions definitions = {{"TRAFFIC", "1"}, {"VEHICLES", std::to_string(count) + "u"}};
         const gl::Buffer box_buffer = gl::makeBuffer("boxes", [&] {
             std::vector<gpu::VehicleBox> room = vehicles;
             room.resize(gpu::MOST_VEHICLES);
@@ -85,7 +87,7 @@ class VehicleCellsTest : public GpuTest {
         options.look = 20.0f;
         options.paged = paged;
         options.vehicles =
-            sim::VehicleSites{&box_buffer,    definitions(),  kVehicles,    moving + walls, 5.0f,
+            sim::VehicleSites{&box_buffer,    definitions,    count,        moving + walls, 5.0f,
                               28.0f * kScale, 1.25f * kScale, {0.0f, 0.0f}, kScale};
         sim::Diagram diagram(library, options, std::span(all).subspan(moving));
         std::vector<std::uint32_t> slots(all.size());
@@ -108,7 +110,8 @@ class VehicleCellsTest : public GpuTest {
             std::uint32_t owner = gpu::NO_INDEX;
             bool at_an_edge = false;  // of somebody's reach
             const auto offer = [&](double distance, double reach, std::uint32_t id) {
-                at_an_edge = at_an_edge || std::abs(distance - reach) < 1.0e-3;
+                at_an_edge = at_an_edge || std::abs(distance - reach) < 1.0e-3 ||
+                             (distance > 0.0 && distance < 1.0e-3);
                 if (distance > reach) return;
                 if (distance < nearest) {
                     second = nearest;
@@ -120,11 +123,11 @@ class VehicleCellsTest : public GpuTest {
             };
             for (const gpu::DiagramSite& site : all)
                 offer(glm::distance(glm::dvec2(site.position), centre), double{site.radius}, site.id);
-            for (std::uint32_t i = 0; i < kVehicles; ++i)
+            for (std::uint32_t i = 0; i < count; ++i)
                 if (vehicles[i].half_width > 0.0f)
                     offer(distanceTo(vehicles[i], centre / double{kScale}) * kScale, 5.0, moving + walls + i);
             of_vehicles += owner != gpu::NO_INDEX && owner >= moving + walls;
-            if (at_an_edge || second - nearest < 1.0e-3) continue;
+            if (at_an_edge || (nearest > 0.0 && second - nearest < 1.0e-3)) continue;
             const bool near =
                 owner == gpu::NO_INDEX || std::abs(std::sqrt(double{distances[pixel]}) - nearest) < 1.0e-2;
             wrong += owners[pixel] != owner || !near;
@@ -138,13 +141,28 @@ TEST_F(VehicleCellsTest, AreWhatIsNearerToAVehicleThanToAnybodyElse) {
     for (const std::uint32_t people : {1u, 63u, 1234u})
         for (const DiagramMethod method : {DiagramMethod::binned, DiagramMethod::per_site,
                                            DiagramMethod::per_pixel, DiagramMethod::gradient1})
-            EXPECT_EQ(wrongPixels(people, 40, method, false), 0u)
+            EXPECT_EQ(wrongPixels(people, 40, method, false, boxes()), 0u)
                 << people << ' ' << authoring::wordFor(method);
 }
 
 TEST_F(VehicleCellsTest, AreTheSameInPages) {
     for (const std::uint32_t people : {1u, 63u, 1234u})
-        EXPECT_EQ(wrongPixels(people, 40, DiagramMethod::binned, true), 0u) << people;
+        EXPECT_EQ(wrongPixels(people, 40, DiagramMethod::binned, true, boxes()), 0u) << people;
+}
+
+/// A jam of more than anybody lists, most of them in each other, and a column that waits outside the window.
+TEST_F(VehicleCellsTest, AreRightInAJam) {
+    std::vector<gpu::VehicleBox> jam;
+    for (int i = 0; i < 40; ++i)
+        jam.push_back(boxAt({10.0f + 0.3f * static_cast<float>(i), 8.0f + 0.13f * static_cast<float>(i)},
+                            0.4f, 4.5f, 0.9f));
+    for (int i = 0; i < 40; ++i)
+        jam.push_back(boxAt({-20.0f - 6.0f * static_cast<float>(i), 8.0f}, 0.0f, 4.5f, 0.9f));
+    jam.resize(128);
+    for (const bool paged : {false, true})
+        EXPECT_EQ(wrongPixels(63, 40, DiagramMethod::binned, paged, jam), 0u) << paged;
+    std::reverse(jam.begin(), jam.begin() + 80);
+    EXPECT_EQ(wrongPixels(63, 40, DiagramMethod::binned, false, jam), 0u);
 }
 
 /// Which vehicles people heed.
