@@ -392,6 +392,7 @@ class SceneAssembly {
         scene_.largest_radius = first ? person.radius : std::max(scene_.largest_radius, person.radius);
         thinnest_ = first ? thicknessOf(person) : std::min(thinnest_, thicknessOf(person));
         scene_.people.push_back(person);
+        scene_.people.back().own_radius = person.radius;
         ++scene_.queues.back().row_count;
     }
 
@@ -411,8 +412,11 @@ class SceneAssembly {
     }
 
     void buildGeometry() {
-        checkResolution();
         if (scene_.people.empty()) scene_.smallest_radius = scene_.largest_radius = thinnest_ = 0.25f;
+        const SizeBounds sizes = sizeBounds(layout_.patches);
+        scene_.smallest_radius *= sizes.least;
+        scene_.largest_radius *= sizes.most;
+        checkResolution();
         geometry_.minimum = scene_.minimum;
         geometry_.maximum = scene_.maximum;
         // In whole centimetres, so that the ground is the same whoever is drawn to walk on it.
