@@ -345,6 +345,7 @@ struct Formation {
 struct GivenPoint {
     double time = 0.0;  ///< s
     glm::dvec2 place{0.0};
+    std::optional<double> height{};  ///< m: which ground it is on, where there are several
     bool operator==(const GivenPoint&) const = default;
 };
 

@@ -6,7 +6,8 @@ namespace {
 
 const gl::Declaration kWish = {"avoidance",
                                {"shaders/given/wish.comp"},
-                               {"LiveDispatch", "Bodies", "Walkers", "GivenWays", "GivenPlaces"},
+                               {"LiveDispatch", "Bodies", "Walkers", "GivenWays", "GivenPlaces",
+                                "ParametersBlock", "Belts"},
                                {"Walkers", "PreferredVelocities"}};
 const gl::Declaration kHold = {
     "contacts",
@@ -15,7 +16,8 @@ const gl::Declaration kHold = {
     {"Targets"}};
 const gl::Declaration kPlace = {"motion",
                                 {"shaders/given/place.comp"},
-                                {"States", "Chests", "GivenWays", "GivenPlaces"},
+                                {"States", "Chests", "GivenWays", "GivenPlaces", "ParametersBlock",
+                                 "ChartCells", "ChartShifts", "Belts"},
                                 {"States", "Chests"}};
 
 }  // namespace

@@ -18,12 +18,6 @@ bool areOnTheirFloors(const Layout& layout, Diagnostics& diagnostics);
 /// The layout's patches that cost something.
 std::vector<CostlyGround> costlyGround(const Layout& layout, const Rebase& rebase);
 
-/// What ground may at most make of bodies, times their own size, and at least: at most 1, and at least 1.
-struct SizeBounds {
-    float least = 1.0f, most = 1.0f;
-};
-SizeBounds sizeBounds(const std::vector<Patch>& patches);
-
 /// Those that people walk on at another pace or take another room on, and on the coarse map what some of them cost for a time.
 /// @param coarse without cells where routes do not change
 Patches buildPatches(const Layout& layout, const Rebase& rebase, const FieldGrid& coarse);

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "authoring/layout/layout_reader.h"
+#include "authoring/layout/patch_sizes.h"
 #include "authoring/scene/audience.h"
 #include "authoring/scene/behaviours.h"
 #include "authoring/scene/boarding.h"
@@ -237,10 +238,10 @@ class SceneAssembly {
             drawFormation(formation);
         for (std::size_t block = 0; block < layout_.seats.size(); ++block)
             if (layout_.seats[block].isOpen()) drawAudience(block);
-        for (const GivenPeople& given : layout_.given) {
-            beginGroup(given.id, false, given.people);
+        for (std::size_t index = 0; index < layout_.given.size(); ++index) {
+            beginGroup(layout_.given[index].id, false, layout_.given[index].people);
             scene_.groups.back().is_given = true;
-            for (gpu::Person& person : givenPeople(given, layout_, rebase_, group())) {
+            for (gpu::Person& person : givenPeople(layout_, index, scene_.charts.get(), rebase_, group())) {
                 person.party_first = static_cast<std::uint32_t>(scene_.people.size());
                 addPerson(person);
             }
@@ -961,11 +962,8 @@ std::optional<Scene> buildScene(const Layout& layout, Diagnostics& diagnostics, 
     if (!areLevelsComplete(layout, diagnostics)) return std::nullopt;
     if (!haveFlatGround(layout, diagnostics) || !areFeetOnGround(layout, diagnostics)) return std::nullopt;
     if (!layout.levels.empty() && !isWithoutTraffic(layout, diagnostics)) return std::nullopt;
-    if (layout.terrain && !layout.levels.empty() && !isWithoutGivenPeople(layout, diagnostics))
-        return std::nullopt;
     if (layout.terrain) {
-        const bool is_for_charts = layout.traffic.empty() && layout.given.empty();
-        if (terrain && is_for_charts) charts = layOutTerrain(layout, *terrain, diagnostics);
+        if (terrain && layout.traffic.empty()) charts = layOutTerrain(layout, *terrain, diagnostics);
         if (diagnostics.hasErrors()) return std::nullopt;
     } else if (!layout.levels.empty()) {
         if (!areOnTheirFloors(layout, diagnostics)) return std::nullopt;
