@@ -195,8 +195,7 @@ std::vector<Pass> Simulation::Parts::passesOfStep() {
     if (boarding)
         all.insert(all.begin() + 1,
                    {"boarding", when_deciding([this] { boarding->serve(step_start, steps_done); })});
-    if (sizes)
-        all.insert(all.begin() + 1, {"sizes", when_deciding([this] { sizes->run(step_start); })});
+    if (sizes) all.insert(all.begin() + 1, {"sizes", when_deciding([this] { sizes->run(step_start); })});
     if (seats) all.insert(all.begin(), Pass{"seats", [this] { seats->lead(decides, steps_done); }});
     // Before anybody looks where they are.
     if (traffic && traffic->vehicles() > 0)

@@ -11,7 +11,8 @@ namespace throng::sim {
 class Sizes {
   public:
     Sizes(const gl::ShaderLibrary& library, const Buffers& buffers, const authoring::Scene& scene);
-    /// Where people decide, once they are in their slots. @param now s, simulation time at the start of the step
+    /// Where people decide, once they are in their slots. @param now s, simulation time at the start of the
+    /// step
     void run(float now);
 
   private:

@@ -29,8 +29,9 @@ constexpr double kHalfStorey = 1.6;   // m: who is nowhere is drawn with a level
 constexpr double kMostDensity = 3.0;  // persons per m^2 at the warm end of the scale
 constexpr Colour kPaper = colourFromHex(0xf6f4ef), kInk = colourFromHex(0x22252b),
                  kRoad = colourFromHex(0xe2dfd6), kArea = colourFromHex(0xece6d3),
-                 kAvoided = colourFromHex(0xcfdcc0), kSlow = colourFromHex(0xd9d3df), kRoomy = colourFromHex(0xcadbe6),
-                 kWall = colourFromHex(0x3d424c), kSolid = colourFromHex(0xc9c6be);
+                 kAvoided = colourFromHex(0xcfdcc0), kSlow = colourFromHex(0xd9d3df),
+                 kRoomy = colourFromHex(0xcadbe6), kWall = colourFromHex(0x3d424c),
+                 kSolid = colourFromHex(0xc9c6be);
 
 /// From paper through yellow to red, transparent where nobody is.
 void setHeat(cairo_t* context, double share) {

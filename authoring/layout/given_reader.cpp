@@ -64,8 +64,9 @@ void GivenReader::readSource(ObjectReader& reader, const JsonNode& node, GivenPe
 void GivenReader::readWay(const JsonNode& node, SchemaRule rule, GivenPeople& given) {
     const std::size_t least = rule.leastItems(), most = rule.mostOf("maxItems");
     if (node.kind != JsonNode::Kind::array || node.items.size() < least || node.items.size() > most)
-        return diagnostics_.error(node.where,
-                                  fmt::format("expected a way of {} to {} points [time, x, y] or [time, x, y, z]", least, most));
+        return diagnostics_.error(
+            node.where,
+            fmt::format("expected a way of {} to {} points [time, x, y] or [time, x, y, z]", least, most));
     const Limits limits = rule.item().item().limits();
     std::vector<GivenPoint> way;
     for (const JsonNode& item : node.items) {

@@ -7,8 +7,8 @@
 
 namespace throng::authoring {
 
-/// What ground makes of bodies, times their own size: no less than `least`, which is at most 1, and no more than
-/// `most`, which is at least 1.
+/// What ground makes of bodies, times their own size: no less than `least`, which is at most 1, and no more
+/// than `most`, which is at least 1.
 struct SizeBounds {
     float least = 1.0f, most = 1.0f;
 };

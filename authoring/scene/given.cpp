@@ -117,8 +117,7 @@ std::vector<gpu::Person> givenPeople(const Layout& layout, std::size_t index, co
         person.maximum_speed *= static_cast<float>(pace.mean) / person.preferred_speed;
         person.maximum_speed = std::max(person.maximum_speed, static_cast<float>(pace.most));
         person.preferred_speed = static_cast<float>(pace.mean);
-        person.spawn_position =
-            rebase.local(placeAt(way, begin) + shiftAt(charts, index, i, way, begin));
+        person.spawn_position = rebase.local(placeAt(way, begin) + shiftAt(charts, index, i, way, begin));
         person.spawn_time = static_cast<float>(way.front().time);
         person.heading = static_cast<float>(headingOf(way));
         person.entry = gpu::NO_INDEX;
@@ -145,8 +144,7 @@ void addWays(const Layout& layout, const Rebase& rebase, Scene& scene) {
             scene.given.ways.push_back({static_cast<gpu::uint>(scene.given.places.size()),
                                         static_cast<gpu::uint>(way.size()), glm::vec2(shift)});
             for (const GivenPoint& point : way)
-                scene.given.places.push_back(
-                    {rebase.local(point.place), static_cast<float>(point.time), 0});
+                scene.given.places.push_back({rebase.local(point.place), static_cast<float>(point.time), 0});
             gpu::Person& person = scene.people[row++];
             person.first_stage = static_cast<gpu::uint>(scene.stages.size());
             person.stage_count = 1;

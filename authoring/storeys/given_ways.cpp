@@ -68,7 +68,8 @@ bool leaps(const Charts& charts, std::uint32_t from, glm::dvec2 before, std::uin
 }
 
 /// Goes along a piece of a way. @returns where it leaves the ground
-std::optional<Lost> walk(const Charts& charts, std::uint32_t& chart, const GivenPoint& a, const GivenPoint& b) {
+std::optional<Lost> walk(const Charts& charts, std::uint32_t& chart, const GivenPoint& a,
+                         const GivenPoint& b) {
     const double apart = glm::distance(a.place, b.place);
     const int looks = static_cast<int>(std::clamp(std::ceil(apart / kLook), 1.0, kMostLooks));
     glm::dvec2 before = a.place;
@@ -95,23 +96,27 @@ std::string groundName(const Charts& charts, std::uint32_t chart) {
 std::string whereLost(const Charts& charts, const Lost& lost) {
     const Chart& chart = charts.charts[lost.chart];
     if (lost.is_height)
-        return fmt::format("tells a height of {:.6g} m where its ground, {}, is at {:.6g} m,",
-                           lost.height, groundName(charts, lost.chart),
-                           chart.heightAt(lost.place));
+        return fmt::format("tells a height of {:.6g} m where its ground, {}, is at {:.6g} m,", lost.height,
+                           groundName(charts, lost.chart), chart.heightAt(lost.place));
     if (!chart.surface && !chart.is_link && isWithinOutline(chart, lost.place))
         return fmt::format("is where stairs or lifts leave no room on {}", groundName(charts, lost.chart));
-    return fmt::format("is beyond the {} {}", chart.surface ? "ground of" : chart.is_link ? "sides of" : "floor of",
+    return fmt::format("is beyond the {} {}",
+                       chart.surface   ? "ground of"
+                       : chart.is_link ? "sides of"
+                                       : "floor of",
                        groundName(charts, lost.chart));
 }
 
 std::string hintFor(const Charts& charts, const Lost& lost) {
     if (lost.is_height)
-        return fmt::format("heights are those of the ground, within {:g} m; the first one says on which ground a "
-                           "way begins",
-                           kNearGround);
+        return fmt::format(
+            "heights are those of the ground, within {:g} m; the first one says on which ground a "
+            "way begins",
+            kNearGround);
     const Chart& chart = charts.charts[lost.chart];
     if (!chart.surface && !chart.is_link && isWithinOutline(chart, lost.place))
-        return "ways lead over stairs, escalators and ramps from one end to the other, and into no lift: end it "
+        return "ways lead over stairs, escalators and ramps from one end to the other, and into no lift: end "
+               "it "
                "before that place";
     return "ways go on where people can walk on: name the `level` on which it begins, or heights, set their "
            "`offset`, or end it at the edge";
@@ -147,8 +152,8 @@ class Following {
         const std::string others =
             count_ > 1 ? fmt::format(", and {} more of them likewise", count_ - 1) : std::string();
         diagnostics.error(given_.file.empty() ? given_.where : given_.file_where,
-                          fmt::format("given `{}`: person {} {} at [{:.6g}, {:.6g}], at {:.6g} s{}", given_.id,
-                                      first_person_, whereLost(charts_, first_), first_.place.x,
+                          fmt::format("given `{}`: person {} {} at [{:.6g}, {:.6g}], at {:.6g} s{}",
+                                      given_.id, first_person_, whereLost(charts_, first_), first_.place.x,
                                       first_.place.y, first_.time, others),
                           hintFor(charts_, first_));
     }

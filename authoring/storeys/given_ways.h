@@ -22,8 +22,8 @@ std::optional<std::uint32_t> chartAfter(const Charts& charts, std::uint32_t char
 /// The chart at a place that is nearest in height, if it is near enough and no lift.
 std::optional<std::uint32_t> chartAtHeight(const Charts& charts, glm::dvec2 place, double height);
 
-/// On which charts the points of given ways lie; tells of ways that leave the ground: beyond it there is nothing, and
-/// in the plane perhaps another one.
+/// On which charts the points of given ways lie; tells of ways that leave the ground: beyond it there is
+/// nothing, and in the plane perhaps another one.
 /// @param begins the chart on which a way of a group begins that tells no height there, if there is one
 GivenCharts chartsOfWays(
     const Layout& layout, const Charts& charts,

@@ -218,7 +218,8 @@ std::map<std::string, Layout> layoutsInCpp() {
     }
     {
         using T = gpu::Chest;
-        result["Chest"] = {sizeof(T), {MEMBER(angle), MEMBER(rate), MEMBER(half_axis), MEMBER(own_half_axis)}};
+        result["Chest"] = {sizeof(T),
+                           {MEMBER(angle), MEMBER(rate), MEMBER(half_axis), MEMBER(own_half_axis)}};
     }
     {
         using T = gpu::Decision;

@@ -115,10 +115,10 @@ INSTANTIATE_TEST_SUITE_P(Crowds, SizesTest,
                          ::testing::Values(Crowd{1, 0.0f}, Crowd{63, 0.0f}, Crowd{1234, 0.0f},
                                            Crowd{1, 0.08f}, Crowd{63, 0.08f}, Crowd{1234, -0.1f}),
                          [](const auto& info) {
-                             return std::to_string(info.param.count) +
-                                    (info.param.half_axis > 0.0f   ? "Bodies"
-                                     : info.param.half_axis < 0.0f ? "Prams"
-                                                                   : "Discs");
+                             return std::to_string(info.param.count) + (info.param.half_axis > 0.0f ? "Bodies"
+                                                                        : info.param.half_axis < 0.0f
+                                                                            ? "Prams"
+                                                                            : "Discs");
                          });
 
 class SizesInTimeTest : public GpuTest {};
@@ -189,8 +189,7 @@ TEST_F(SizesInTimeTest, CrowdsSpreadAndNobodyIsInAnybody) {
                 deepest = std::max(deepest, 1.0f - glm::distance(states[i].position, states[j].position) /
                                                        (people[i].radius + people[j].radius));
             for (const gpu::WallSegment& wall : scene.wall_segments)
-                in_wall =
-                    std::max(in_wall, people[i].radius - wallDistance(states[i].position, wall));
+                in_wall = std::max(in_wall, people[i].radius - wallDistance(states[i].position, wall));
         }
     }
     EXPECT_LT(deepest, 0.02f);
