@@ -194,9 +194,9 @@ inline constexpr std::array kStreams = {
     StreamInfo{.id = Stream::size,
                .name = "size",
                .about = "how much room bodies take: times their own size, and how broad and deep they are",
-               .components = {{{"factor", "1", BackFill::keep, Between::linear, kFine},
-                               {"breadth", "m", BackFill::keep, Between::linear, kFine},
-                               {"depth", "m", BackFill::keep, Between::linear, kFine}}},
+               .components = {{{"factor", "1", BackFill::first_alive, Between::linear, kFine},
+                               {"breadth", "m", BackFill::first_alive, Between::linear, kFine},
+                               {"depth", "m", BackFill::first_alive, Between::linear, kFine}}},
                .source = StreamSource::device,
                .shader = "shaders/frame/pack_size.comp"},
 };

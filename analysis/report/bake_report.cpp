@@ -212,6 +212,7 @@ std::string bakeReport(io::CrowdReader& crowd, const Measurement& measured,
                     {"usual_error", rounded(ways.usual_error, 0.0001)},
                     {"deflated", base64(ways.deflated)}};
     if (!ways.deflated_storeys.empty()) data["ways"]["storeys"] = base64(ways.deflated_storeys);
+    if (!ways.deflated_sizes.empty()) data["ways"]["sizes"] = base64(ways.deflated_sizes);
     return makePage("bake", bake.name, data);
 }
 

@@ -213,7 +213,7 @@ def test_escalators_carry_who_stands_on_them(throng, tmp_path):
     ({**STAIRS, "given": [given("hero", [[0, 2, 0, 3.4], [5, 3, 0, 0.2]])]},
      ["person 0 tells a height of 0.2 m where its ground, level `upper`, is at 3.4 m, at [3, 0], at 5 s"]),
     ({"levels": FLOORS, "links": [LIFT], "given": [given("hero", [[0, 6, -8], [5, 6, 4.5]])]},
-     ["person 0 is where stairs or lifts leave no room on level `ground` at [6, 3."]),
+     ["person 0 is where stairs or lifts leave no room on level `ground` at [6, 3], at 4.4 s"]),
 ])
 @pytest.mark.quick
 def test_mistakes_with_levels_are_told(throng, tmp_path, told, words):

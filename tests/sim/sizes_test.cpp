@@ -114,9 +114,9 @@ TEST_P(SizesTest, AreThoseOfTheGroundAsFarAsThereIsRoomAsPlainCodeHasIt) {
 INSTANTIATE_TEST_SUITE_P(Crowds, SizesTest,
                          ::testing::Values(Crowd{1, 0.0f}, Crowd{63, 0.0f}, Crowd{1234, 0.0f},
                                            Crowd{1, 0.08f}, Crowd{63, 0.08f}, Crowd{1234, -0.1f}),
-                         [](const auto& info) {
-                             return std::to_string(info.param.count) + (info.param.half_axis > 0.0f ? "Bodies"
-                                                                        : info.param.half_axis < 0.0f
+                         [](const auto& each) {
+                             return std::to_string(each.param.count) + (each.param.half_axis > 0.0f ? "Bodies"
+                                                                        : each.param.half_axis < 0.0f
                                                                             ? "Prams"
                                                                             : "Discs");
                          });
