@@ -6,8 +6,6 @@
 #include "shaders/shared/body_shape.glsl"
 #include "shaders/shared/walls.glsl"
 
-const float GROWTH = 0.1;  // m/s, of a radius: an umbrella is open in a few steps, and contact moves people faster
-
 #ifdef BODIES
 vec2 axisIn(uint slot) { return vec2(walkers[slot].axis_x, walkers[slot].axis_y); }
 
@@ -39,7 +37,8 @@ float freeOf(uint slot, WallSegment wall) {
 }
 #endif
 
-/// m of its radius: all that is free between it and walls, and half of what is between it and others, who may grow, too.
+/// m of its radius: all that is free between it and walls, and half of what is between it and others, who may grow,
+/// too.
 float roomToGrow(uint slot) {
     float room = GROWTH;
     ivec2 cell = cellOf(bodies[slot].position);

@@ -138,6 +138,8 @@ struct Patch {
 /// size.
 const float LEAST_SIZE = 0.5f;
 const float MOST_SIZE = 2.0f;
+/// m/s, of a radius: an umbrella is open in a few steps, and contact moves people faster.
+const float GROWTH = 0.1f;
 
 /// Somebody whose way is given: consecutive places, at least two of them.
 struct GivenWay {

@@ -11,8 +11,6 @@
 namespace throng::test {
 namespace {
 
-constexpr float kGrowth = 0.1f;  // m/s
-
 void addSquare(authoring::Scene& scene, glm::vec2 middle, float half, float size, float from, float until) {
     const std::vector<glm::vec2> square = {middle + glm::vec2(-half, -half), middle + glm::vec2(half, -half),
                                            middle + glm::vec2(half, half), middle + glm::vec2(-half, half)};
@@ -85,7 +83,7 @@ TEST_P(SizesTest, AreThoseOfTheGroundAsFarAsThereIsRoomAsPlainCodeHasIt) {
         for (std::size_t slot = 0; slot < count; ++slot) {
             const gpu::Person& person = people[before[slot].row];
             const float own = scene.people[before[slot].row].radius;
-            const float step = kGrowth * parts.parameters.decision_seconds;
+            const float step = gpu::GROWTH * parts.parameters.decision_seconds;
             double room = double{step};
             for (std::size_t other = 0; other < count; ++other)
                 if (other != slot) room = std::min(room, 0.5 * freeBetween(shapes[slot], shapes[other]));

@@ -18,8 +18,8 @@ from .fields import limits
 KINDS = (("NONE", "None", "No part of the layout"), ("ROAD", "Road", "A curve with a width, on which people walk"),
          ("AREA", "Area", "A cyclic curve or a mesh: a plaza, an entry, an exit"),
          ("WALL", "Wall", "An open curve with a thickness, a cyclic one, or a mesh"),
-         ("PATCH", "Patch", "A cyclic curve or a mesh: ground that people avoid, walk on at another pace, or take another "
-                            "room on"),
+         ("PATCH", "Patch", "A cyclic curve or a mesh: ground that people avoid, walk on at another pace, or take "
+                            "another room on"),
          ("FORMATION", "Formation", "People who stand here at a given moment"),
          ("LINE", "Line", "A queue, a mirror, the corners of a box, or where people are counted"),
          ("POINT", "Point", "Something to look at"))
