@@ -165,3 +165,19 @@ def test_mistakes_are_told(throng, tmp_path, patch, words):
     (tmp_path / "layout.json").write_text(json.dumps(layout([patch], [walker((0, 0), (0, 0.5))])))
     told = throng("check", tmp_path / "layout.json", expect=3).stderr
     assert words in told and "layout.json:1:" in told
+
+
+@pytest.mark.quick
+def test_copies_are_as_large_and_are_found_in_others(throng, tmp_path):
+    """Two who stand 1.5 m apart; a copy of one stands 0.9 m from the other, which is too near at twice their size."""
+    for size, pairs in ((2, 1), (1.5, 0)):
+        folder = tmp_path / f"{size}"
+        folder.mkdir()
+        bake, _ = baked(throng, folder, layout([ground(size)], [walker((0, 0), (0, 0)), walker((1.5, 0), (1.5, 0))], 6))
+        layer = {"name": "copies", "who": {"near": {"point": [1.5, 0], "within": 0.5}},
+                 "do": {"duplicate": {"copies": 1, "by": [0.9, 0, 0]}}}
+        (folder / "changes.json").write_text(json.dumps({"throng_overrides": 1, "overrides": [], "layers": [layer]}))
+        throng("apply", bake, "--overrides", folder / "changes.json", "-o", folder / "applied", "-q")
+        about = json.loads((folder / "applied" / "bake.json").read_text())
+        assert numpy.load(folder / "applied" / "streams" / "size.npy")[-1, :, 0].tolist() == pytest.approx([size] * 3)
+        assert about["applied"]["overlaps"]["pairs"] == pairs
