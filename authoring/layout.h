@@ -206,13 +206,14 @@ struct Wall {
 /// m: nobody looks over what is higher.
 inline constexpr double kSeenOver = 1.5;
 
-/// Ground that people would rather not walk on, or walk on at another pace.
+/// Ground that people would rather not walk on, walk on at another pace, or take another room on.
 struct Patch {
     std::string id;
     std::vector<glm::dvec2> polygon;  ///< simple, any winding, not closed by a repeated point
     SourcePosition where;
     double cost = 1.0;              ///< m of another way that a metre of it is worth
     double pace = 1.0;              ///< times the preferred speed
+    double size = 1.0;              ///< times how broad and deep bodies are by themselves
     double from = 0.0;              ///< s; 0: always, also in the warm-up
     std::optional<double> until{};  ///< s; none: to the end
     std::size_t level = 0;
@@ -329,6 +330,7 @@ struct Formation {
 struct GivenPoint {
     double time = 0.0;  ///< s
     glm::dvec2 place{0.0};
+    std::optional<double> height{};  ///< m: which ground it is on, where there are several
     bool operator==(const GivenPoint&) const = default;
 };
 

@@ -115,9 +115,11 @@ struct ChartMap {
     bool leadsAgainstBelt(glm::vec2 image) const;
 };
 
-/// Ground that people walk on at another pace, as the device has it, and what some of it costs for a time.
+/// Ground that people walk on at another pace or take another room on, as the device has it, and what some of
+/// it costs for a time.
 struct Patches {
     std::vector<gpu::Patch> slow;
+    std::vector<gpu::Patch> sized;
     std::vector<glm::vec2> points;  ///< of their outlines
     struct Costs {
         double from = 0.0, until = 0.0;  ///< s

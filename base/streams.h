@@ -29,7 +29,8 @@ enum class Stream {
     carriage,
     gaze,
     chest,
-    attention
+    attention,
+    size
 };
 
 /// What a row holds in the frames before it is first alive.
@@ -190,6 +191,14 @@ inline constexpr std::array kStreams = {
                                {"pitch", "rad", BackFill::zero, Between::linear, kFine},
                                {"weight", "1", BackFill::zero, Between::linear, kFine}}},
                .source = StreamSource::pose},
+    StreamInfo{.id = Stream::size,
+               .name = "size",
+               .about = "how much room bodies take: times their own size, and how broad and deep they are",
+               .components = {{{"factor", "1", BackFill::first_alive, Between::linear, kFine},
+                               {"breadth", "m", BackFill::first_alive, Between::linear, kFine},
+                               {"depth", "m", BackFill::first_alive, Between::linear, kFine}}},
+               .source = StreamSource::device,
+               .shader = "shaders/frame/pack_size.comp"},
 };
 
 /// Something for each stream.

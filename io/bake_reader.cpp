@@ -184,6 +184,7 @@ void readPatches(const ManifestReader& reader, Bake& bake) {
         patch.polygon = each.points("/polygon", 3);
         patch.cost = each.length("/cost");
         patch.pace = each.length("/pace");
+        if (each.has("/size")) patch.size = each.length("/size");
         patch.from = each.length("/from");
         if (each.has("/until")) patch.until = each.length("/until");
         patch.level = levelOf(each, bake);

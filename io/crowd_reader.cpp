@@ -21,12 +21,13 @@ std::span<const float> CrowdFrame::operator[](Stream stream) const {
 }
 
 Capsule CrowdFrame::body(std::size_t row, const AgentRow& person) const {
-    if (person.body.isDisc()) return {place(row), glm::dvec2(0.0), person.radius};
+    const double size = this->size(row);
+    if (person.body.isDisc()) return {place(row), glm::dvec2(0.0), size * double{person.radius}};
     const bool is_told = held_->streams.has(Stream::chest);
     const double twist = is_told ? static_cast<double>((*this)[Stream::chest][row * kComponents]) : 0.0;
     const glm::dvec2 facing = this->facing(row);
     const glm::dvec2 chest = facing * std::cos(twist) + glm::dvec2(-facing.y, facing.x) * std::sin(twist);
-    return capsuleOf(place(row), chest, person.body.radius(), person.body.halfAxis());
+    return capsuleOf(place(row), chest, size * person.body.radius(), size * person.body.halfAxis());
 }
 
 CrowdReader::CrowdReader(Bake bake)

@@ -8,6 +8,7 @@
 
 #include "io/agent_rows.h"
 #include "io/streams/stream_set.h"
+#include "shaders/shared/scene_types.h"
 
 namespace throng::io {
 
@@ -27,7 +28,11 @@ class CrowdFrame {
     }  ///< m, from the bake's origin
     double height(std::size_t row) const { return (*this)[Stream::pos][row * kComponents + 2]; }  ///< m
     glm::dvec2 facing(std::size_t row) const { return inPlane(Stream::dir, row); }
-    /// The body of somebody, as its chest is turned.
+    /// How much room somebody takes, times what it takes by itself.
+    double size(std::size_t row) const {
+        return held_->streams.has(Stream::size) ? double{(*this)[Stream::size][row * kComponents]} : 1.0;
+    }
+    /// The body of somebody, as its chest is turned, and as large as it is just then.
     Capsule body(std::size_t row, const AgentRow& person) const;
     float speed(std::size_t row) const { return (*this)[Stream::dir][row * kComponents + 2]; }  ///< m/s
 
@@ -58,6 +63,8 @@ class CrowdReader {
     const Bake& bake() const { return bake_; }
     std::uint32_t frames() const { return bake_.frames; }
     std::uint32_t rows() const { return bake_.agents; }
+    /// What nobody is larger than, times what it is by itself.
+    double mostSize() const { return streams_.has(Stream::size) ? double{gpu::MOST_SIZE} : 1.0; }
     /// For single rows out of order.
     const StreamSet& streams() const { return streams_; }
 

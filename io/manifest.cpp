@@ -71,6 +71,7 @@ Json patchesToJson(const recording::BakeDescription& description) {
                         {"cost", patch.cost},
                         {"pace", patch.pace},
                         {"from", patch.from}});
+        if (patch.size != 1.0) list.back()["size"] = patch.size;
         if (patch.until) list.back()["until"] = *patch.until;
         if (!description.levels.empty()) list.back()["level"] = description.levels.at(patch.level).id;
     }

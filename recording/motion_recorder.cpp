@@ -224,8 +224,8 @@ void MotionRecorder::average(const KeptFrame& frame) {
         const glm::dvec2 simulated(positions_[at], positions_[at + 1]);
         const glm::dvec2 shown(average.position[0], average.position[1]);
         if (!led)
-            bodies_.push_back({simulated, given_[row] ? simulated : shown, radii_[row], axisOf(frame, row),
-                               heightOf(row), given_[row]});
+            bodies_.push_back({simulated, given_[row] ? simulated : shown, sizeOf(frame, row) * radii_[row],
+                               axisOf(frame, row), heightOf(row), given_[row]});
         if (shifts_.empty()) positions_[at + 2] = static_cast<float>(average.position[2]);
         if (led) {
             positions_[at] = static_cast<float>(shown.x);
@@ -242,13 +242,19 @@ void MotionRecorder::average(const KeptFrame& frame) {
     }
 }
 
+/// How large somebody is, times what it is by itself.
+float MotionRecorder::sizeOf(const KeptFrame& frame, std::size_t row) {
+    return frame[Stream::size].empty() ? 1.0f : frame[Stream::size][row * kComponents];
+}
+
 /// Half of the segment of somebody's body as it was simulated, m; zero of discs.
 glm::dvec2 MotionRecorder::axisOf(const KeptFrame& frame, std::size_t row) const {
     if (half_axes_[row] == 0.0f || frame[Stream::chest].empty()) return glm::dvec2(0.0);
     const auto facing = rowOf(std::span(frame[Stream::dir]), row);
     const double angle =
         std::atan2(double{facing[1]}, double{facing[0]}) + double{frame[Stream::chest][row * kComponents]};
-    return capsuleOf({}, {std::cos(angle), std::sin(angle)}, radii_[row], half_axes_[row]).axis;
+    const double size = sizeOf(frame, row);
+    return capsuleOf({}, {std::cos(angle), std::sin(angle)}, size * radii_[row], size * half_axes_[row]).axis;
 }
 
 /// Chests point where they were simulated to, whichever way the average faces.

@@ -61,6 +61,7 @@ class MotionRecorder {
     void takeCue(std::size_t row, double time, PoseWish& wish) const;
     void record(const KeptFrame& frame);
     void putStance(std::size_t at, const Stance& stance);
+    static float sizeOf(const KeptFrame& frame, std::size_t row);
     glm::dvec2 axisOf(const KeptFrame& frame, std::size_t row) const;
     void turnChests(const KeptFrame& frame);
     void findOnlookers(const KeptFrame& frame);

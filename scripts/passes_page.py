@@ -23,7 +23,8 @@ element and with what it has an element for: `bodies` 32/person. **Read** and **
 launch: the elements of the person's own row or slot, whole and once. What a program looks at of others, and buffers
 with elements for anything but people (and sites: people and wall tiles), are not in them. A row without a program is
 a transfer that the driver does. Layouts with [behaviours](how-to/behaviours.md) have one pass more, after the cells,
-and those with [lifts](how-to/storeys.md#lifts) or [platforms](how-to/traffic.md#get-on-and-off), too; those with
+and those with [lifts](how-to/storeys.md#lifts), [platforms](how-to/traffic.md#get-on-and-off) or [ground where people
+take another room](how-to/ground.md#ground-where-people-take-more-room), too; those with
 [seats that people walk to](how-to/audiences.md#people-who-come-and-go) have one before them: `throng devices --passes
 examples/market.json` prints it.
 """

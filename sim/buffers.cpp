@@ -54,7 +54,7 @@ std::vector<gpu::Chest> initialChests(const authoring::Scene& scene) {
     std::vector<gpu::Chest> chests;
     chests.reserve(scene.people.size());
     for (const gpu::Person& person : scene.people)
-        chests.push_back({person.heading, 0.0f, person.half_axis, 0});
+        chests.push_back({person.heading, 0.0f, person.half_axis, person.half_axis});
     return chests;
 }
 

@@ -4,19 +4,21 @@
 namespace throng::sim {
 namespace {
 
-const gl::Declaration kWish = {"avoidance",
-                               {"shaders/given/wish.comp"},
-                               {"LiveDispatch", "Bodies", "Walkers", "GivenWays", "GivenPlaces"},
-                               {"Walkers", "PreferredVelocities"}};
+const gl::Declaration kWish = {
+    "avoidance",
+    {"shaders/given/wish.comp"},
+    {"LiveDispatch", "Bodies", "Walkers", "GivenWays", "GivenPlaces", "ParametersBlock", "Belts"},
+    {"Walkers", "PreferredVelocities"}};
 const gl::Declaration kHold = {
     "contacts",
     {"shaders/given/hold.comp"},
     {"LiveDispatch", "Bodies", "Walkers", "States", "Targets", "GivenWays", "GivenPlaces"},
     {"Targets"}};
-const gl::Declaration kPlace = {"motion",
-                                {"shaders/given/place.comp"},
-                                {"States", "Chests", "GivenWays", "GivenPlaces"},
-                                {"States", "Chests"}};
+const gl::Declaration kPlace = {
+    "motion",
+    {"shaders/given/place.comp"},
+    {"States", "Chests", "GivenWays", "GivenPlaces", "ParametersBlock", "ChartCells", "ChartShifts", "Belts"},
+    {"States", "Chests"}};
 
 }  // namespace
 

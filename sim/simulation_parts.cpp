@@ -126,6 +126,8 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
                    : std::nullopt),
       patches(scene.patches.slow.empty() ? std::nullopt
                                          : std::optional<Patches>(std::in_place, library, buffers, scene)),
+      sizes(scene.patches.sized.empty() ? std::nullopt
+                                        : std::optional<Sizes>(std::in_place, library, buffers, scene)),
       given(scene.given.empty() ? std::nullopt
                                 : std::optional<Given>(std::in_place, library, buffers, scene)),
       seats(scene.seats.empty()
@@ -218,6 +220,7 @@ std::vector<Pass> Simulation::Parts::passesOfStep() {
     if (boarding)
         all.insert(all.begin() + 1,
                    {"boarding", when_deciding([this] { boarding->serve(step_start, steps_done); })});
+    if (sizes) all.insert(all.begin() + 1, {"sizes", when_deciding([this] { sizes->run(step_start); })});
     if (seats) all.insert(all.begin(), Pass{"seats", [this] { seats->lead(decides, steps_done); }});
     // Before anybody looks where they are.
     if (traffic && traffic->vehicles() > 0)
@@ -261,6 +264,7 @@ std::vector<std::pair<std::string, gl::Buffer*>> Simulation::Parts::remembered()
                                                               {"queue heads", &buffers.queue_heads},
                                                               {"detour slopes", &buffers.detour_slopes}};
     if (buffers.hasBodies()) found.emplace_back("chests", &buffers.chests);
+    if (sizes) found.emplace_back("people", &buffers.people);
     if (traffic && traffic->vehicles() > 0) found.emplace_back("vehicles", &buffers.vehicles);
     if (boarding) {
         found.emplace_back("services of vehicles", &buffers.vehicle_services);

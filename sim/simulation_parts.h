@@ -22,6 +22,7 @@
 #include "sim/seats.h"
 #include "sim/sensing.h"
 #include "sim/simulation.h"
+#include "sim/sizes.h"
 #include "sim/traffic.h"
 
 namespace throng::sim {
@@ -60,6 +61,7 @@ struct Simulation::Parts {
     std::optional<Lifts> lifts;           // none without lifts
     std::optional<Boarding> boarding;     // none without doors of vehicles
     std::optional<Patches> patches;       // none where nobody walks at another pace
+    std::optional<Sizes> sizes;           // none where nobody takes another room
     std::optional<Given> given;           // none without given people
     std::optional<Seats> seats;           // none where nobody walks to a seat or leaves one
     std::vector<float> platform_sides;    // above 0: left

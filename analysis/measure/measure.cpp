@@ -55,7 +55,7 @@ class Measurer {
           straight_(rows_.size(), 0.0),
           crossings_(bake_.links.size()) {
         for (const io::AgentRow& row : rows_)
-            largest_radius_ = std::max(largest_radius_, row.reach());
+            largest_radius_ = std::max(largest_radius_, crowd.mostSize() * row.reach());
     }
 
     Measurement run() {
@@ -106,13 +106,14 @@ class Measurer {
         grid_.sort(places_);
     }
 
-    /// Of those present.
+    /// Of those present, as the next. m
+    double reachOf(std::size_t i) const { return bodies_[i].thickness + glm::length(bodies_[i].axis); }
     bool isGiven(std::size_t i) const { return rows_[present_[i]].is_given; }
 
     void observeOverlaps(std::uint32_t frame) {
         std::uint64_t pairs = 0, given_pairs = 0;
         for (std::uint32_t i = 0; i < present_.size(); ++i) {
-            grid_.near(places_[i], rows_[present_[i]].reach() + largest_radius_, [&](std::uint32_t j) {
+            grid_.near(places_[i], reachOf(i) + largest_radius_, [&](std::uint32_t j) {
                 if (j <= i || !areOnOneGround(heights_[i], heights_[j])) return;
                 const double depth = overlapOf(bodies_[i], bodies_[j]);
                 const bool theirs = isGiven(i) || isGiven(j);

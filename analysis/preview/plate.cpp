@@ -30,7 +30,8 @@ constexpr double kMostDensity = 3.0;  // persons per m^2 at the warm end of the 
 constexpr Colour kPaper = colourFromHex(0xf6f4ef), kInk = colourFromHex(0x22252b),
                  kRoad = colourFromHex(0xe2dfd6), kArea = colourFromHex(0xece6d3),
                  kAvoided = colourFromHex(0xcfdcc0), kSlow = colourFromHex(0xd9d3df),
-                 kWall = colourFromHex(0x3d424c), kSolid = colourFromHex(0xc9c6be);
+                 kRoomy = colourFromHex(0xcadbe6), kWall = colourFromHex(0x3d424c),
+                 kSolid = colourFromHex(0xc9c6be);
 
 /// From paper through yellow to red, transparent where nobody is.
 void setHeat(cairo_t* context, double share) {
@@ -208,7 +209,7 @@ void Plate::drawLayout() {
     for (const authoring::Patch& patch : bake_.patches) {
         if (!isShown(patch.level)) continue;
         path(context, patch.polygon, true);
-        setColour(context, patch.cost > 1.0 && patch.pace == 1.0 ? kAvoided : kSlow);
+        setColour(context, patch.pace != 1.0 ? kSlow : patch.cost > 1.0 ? kAvoided : kRoomy);
         cairo_fill(context);
     }
     traffic_.drawStreet(context, view());
@@ -381,10 +382,10 @@ void Plate::drawGates(cairo_t* context, std::uint32_t frame) const {
     }
 }
 
-/// Discs all alike; bodies that are none as they are, from above.
-double Plate::drawBody(cairo_t* context, glm::dvec2 at, const Capsule& body) const {
+/// Discs all alike, but for what the ground makes of them; bodies that are none as they are, from above.
+double Plate::drawBody(cairo_t* context, glm::dvec2 at, const Capsule& body, double size) const {
     if (body.axis == glm::dvec2(0.0)) {
-        const double radius = std::max(1.6, 0.25 * scale_);
+        const double radius = std::max(1.6, 0.25 * size * scale_);
         cairo_arc(context, at.x, at.y, radius, 0.0, 2.0 * std::numbers::pi);
         cairo_fill(context);
         return radius;
@@ -407,7 +408,7 @@ void Plate::drawPeople(cairo_t* context, const io::CrowdFrame& now) const {
         const glm::dvec2 at = toPixel(now.place(row).x, now.place(row).y);
         const glm::dvec2 ahead(now.facing(row).x, -now.facing(row).y);
         setColour(context, groupColour(groups_.group_of[row]), strengthOf(now, row));
-        const double radius = drawBody(context, at, now.body(row, people_[row]));
+        const double radius = drawBody(context, at, now.body(row, people_[row]), now.size(row));
         // A nose: a white wedge tells which way somebody looks.
         cairo_set_source_rgba(context, 1.0, 1.0, 1.0, 0.9);
         cairo_move_to(context, at.x + ahead.x * radius, at.y + ahead.y * radius);

@@ -52,7 +52,7 @@ class Plate {
     void drawDensity(cairo_t* context, const io::CrowdFrame& now) const;
     void drawTrails(cairo_t* context, const io::CrowdFrame& now);
     /// @returns how far it reaches ahead, px
-    double drawBody(cairo_t* context, glm::dvec2 at, const Capsule& body) const;
+    double drawBody(cairo_t* context, glm::dvec2 at, const Capsule& body, double size) const;
     void drawPeople(cairo_t* context, const io::CrowdFrame& now) const;
     void drawCaption(cairo_t* context, const io::CrowdFrame& now) const;
     void drawScaleBar(cairo_t* context) const;

@@ -24,13 +24,13 @@ double rounded(double value, double step) {
 /// What is plotted over time, second by second, and who got in whose way.
 class Watch {
   public:
-    Watch(const io::Bake& bake, const std::vector<io::AgentRow>& rows)
+    Watch(const io::Bake& bake, const std::vector<io::AgentRow>& rows, double most_size)
         : bake_(bake),
           rows_(rows),
           per_second_(static_cast<std::uint32_t>(std::max(1.0, std::round(bake.fps)))),
           grid_(bake.minimum, bake.maximum, 1.0, cellsFor(rows.size())) {
         for (const io::AgentRow& row : rows)
-            largest_radius_ = std::max(largest_radius_, row.reach());
+            largest_radius_ = std::max(largest_radius_, most_size * row.reach());
     }
 
     void look(const io::CrowdFrame& frame) {
@@ -94,7 +94,8 @@ class Watch {
         grid_.sort(bodies_);
         for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
             const std::uint32_t row = present_[i];
-            grid_.near(bodies_[i], rows_[row].reach() + largest_radius_, [&](std::uint32_t j) {
+            const double reach = shapes_[i].thickness + glm::length(shapes_[i].axis);
+            grid_.near(bodies_[i], reach + largest_radius_, [&](std::uint32_t j) {
                 if (j <= i || !areOnOneGround(heights_[i], heights_[j])) return;
                 const std::uint32_t other = present_[j];
                 const double depth = overlapOf(shapes_[i], shapes_[j]);
@@ -180,7 +181,7 @@ std::string bakeReport(io::CrowdReader& crowd, const Measurement& measured,
                        const std::vector<std::string>& missed) {
     const io::Bake& bake = crowd.bake();
     WayPacker packer(bake);
-    Watch watch(bake, crowd.people());
+    Watch watch(bake, crowd.people(), crowd.mostSize());
     StuckWatch stuck(crowd);
     for (std::uint32_t frame = 0; frame < crowd.frames(); ++frame) {
         packer.add(crowd.frame(frame));
@@ -211,6 +212,7 @@ std::string bakeReport(io::CrowdReader& crowd, const Measurement& measured,
                     {"usual_error", rounded(ways.usual_error, 0.0001)},
                     {"deflated", base64(ways.deflated)}};
     if (!ways.deflated_storeys.empty()) data["ways"]["storeys"] = base64(ways.deflated_storeys);
+    if (!ways.deflated_sizes.empty()) data["ways"]["sizes"] = base64(ways.deflated_sizes);
     return makePage("bake", bake.name, data);
 }
 

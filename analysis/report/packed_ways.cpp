@@ -105,6 +105,7 @@ class WayPacker::State {
     PackedWays finish() {
         packed_.deflated = packer_.finish();
         if (bake_.hasStoreys()) packed_.deflated_storeys = storey_bytes_.finish();
+        if (bake_.streams[Stream::size]) packed_.deflated_sizes = size_bytes_.finish();
         packed_.usual_error = seen_ ? std::sqrt(squares_ / static_cast<double>(seen_)) : 0.0;
         return std::move(packed_);
     }
@@ -119,6 +120,7 @@ class WayPacker::State {
             compare(held_[i], to, held_.size() == 1 ? 1.0 : static_cast<double>(i) / span);
         packer_.add(to);
         if (bake_.hasStoreys()) addStoreys(held_.back());
+        if (bake_.streams[Stream::size]) addSizes(held_.back());
         ++packed_.moments;
         from_ = to;
         held_.erase(held_.begin(), held_.end() - 1);
@@ -131,6 +133,15 @@ class WayPacker::State {
             bytes.push_back(static_cast<unsigned char>(std::min(
                 storeys_.storeyAt(frame.place(row), frame.height(row)).value_or(kNowhere), kNowhere)));
         storey_bytes_.add(bytes);
+    }
+
+    void addSizes(const io::CrowdFrame& frame) {
+        const double least = gpu::LEAST_SIZE, most = gpu::MOST_SIZE;
+        std::vector<unsigned char> bytes;
+        for (std::size_t row = 0; row < frame.rows(); ++row)
+            bytes.push_back(static_cast<unsigned char>(
+                std::lround(255.0 * (std::clamp(frame.size(row), least, most) - least) / (most - least))));
+        size_bytes_.add(bytes);
     }
 
     std::vector<std::uint16_t> rounded(const io::CrowdFrame& frame) const {
@@ -163,7 +174,7 @@ class WayPacker::State {
     const io::Bake& bake_;
     io::Storeys storeys_{bake_};
     Packer packer_;
-    Deflater storey_bytes_;
+    Deflater storey_bytes_, size_bytes_;
     PackedWays packed_;
     std::vector<io::CrowdFrame> held_;  // since the last moment, it included
     std::vector<std::uint16_t> from_;

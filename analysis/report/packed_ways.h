@@ -23,6 +23,9 @@ struct PackedWays {
     /// Where there are levels, deflated as well: for one moment after the other, everybody's level by its
     /// number, or behind those the link that it is on (io::Storeys).
     std::vector<unsigned char> deflated_storeys;
+    /// Where the ground makes people larger or smaller, deflated as well: for one moment after the other, how
+    /// large everybody is, from half of its own size (0) to twice that (255).
+    std::vector<unsigned char> deflated_sizes;
     double largest_error = 0.0;  ///< m, of all people present in all frames, straight lines included
     double usual_error = 0.0;    ///< m, root of the mean square
     std::vector<std::uint32_t> first, last;  ///< frames in which each row is there; first > last: never

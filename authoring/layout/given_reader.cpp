@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <utility>
 
@@ -27,7 +28,7 @@ void GivenReader::read(const JsonNode& node) {
     reader.finish();
     for (std::vector<GivenPoint>& way : given.ways)
         for (GivenPoint& point : way)
-            point = {point.time + given.start, point.place + given.offset};
+            point = {point.time + given.start, point.place + given.offset, point.height};
     claimId(node, given.id, groups_, std::string::npos, "a flow, formation or given people", diagnostics_);
     layout_.given.push_back(std::move(given));
 }
@@ -63,23 +64,26 @@ void GivenReader::readSource(ObjectReader& reader, const JsonNode& node, GivenPe
 void GivenReader::readWay(const JsonNode& node, SchemaRule rule, GivenPeople& given) {
     const std::size_t least = rule.leastItems(), most = rule.mostOf("maxItems");
     if (node.kind != JsonNode::Kind::array || node.items.size() < least || node.items.size() > most)
-        return diagnostics_.error(node.where,
-                                  fmt::format("expected a way of {} to {} points [time, x, y]", least, most));
+        return diagnostics_.error(
+            node.where,
+            fmt::format("expected a way of {} to {} points [time, x, y] or [time, x, y, z]", least, most));
     const Limits limits = rule.item().item().limits();
     std::vector<GivenPoint> way;
     for (const JsonNode& item : node.items) {
-        if (item.kind != JsonNode::Kind::array || item.items.size() != 3)
-            return diagnostics_.error(item.where, "expected a point [time, x, y], in seconds and metres");
-        std::optional<double> numbers[3];
-        for (std::size_t i = 0; i < 3; ++i)
+        if (item.kind != JsonNode::Kind::array || item.items.size() < 3 || item.items.size() > 4)
+            return diagnostics_.error(
+                item.where, "expected a point [time, x, y] or [time, x, y, z], in seconds and metres");
+        std::array<std::optional<double>, 4> numbers;
+        for (std::size_t i = 0; i < item.items.size(); ++i) {
             numbers[i] = numberOf(item.items[i], limits, diagnostics_);
-        if (!numbers[0] || !numbers[1] || !numbers[2]) return;
+            if (!numbers[i]) return;
+        }
         if (!way.empty() && *numbers[0] <= way.back().time)
             return diagnostics_.error(item.where,
                                       fmt::format("the point at {:.6g} s comes after one at {:.6g} s",
                                                   *numbers[0], way.back().time),
                                       "each point is later than the one before");
-        way.push_back({*numbers[0], {*numbers[1], *numbers[2]}});
+        way.push_back({*numbers[0], {*numbers[1], *numbers[2]}, numbers[3]});
     }
     given.ways.push_back(std::move(way));
 }

@@ -21,6 +21,7 @@ void PatchReader::read(const JsonNode& node) {
     std::optional<double> cost;
     reader.number("cost", cost);
     reader.number("pace", patch.pace);
+    reader.number("size", patch.size);
     // Where people are slow, a way round that takes no longer is as good.
     patch.cost = cost.value_or(std::max(1.0, 1.0 / patch.pace));
     reader.number("from", patch.from);
@@ -34,9 +35,10 @@ void PatchReader::read(const JsonNode& node) {
 }
 
 void PatchReader::check(const JsonNode& node, const Patch& patch) const {
-    if (!node.find("cost") && !node.find("pace"))
-        diagnostics_.error(node.where, "a patch says neither `cost` nor `pace`: it would change nothing",
-                           R"(for example "cost": 3, or "pace": 0.6)");
+    if (!node.find("cost") && !node.find("pace") && !node.find("size"))
+        diagnostics_.error(node.where,
+                           "a patch says neither `cost` nor `pace` nor `size`: it would change nothing",
+                           R"(for example "cost": 3, "pace": 0.6, or "size": 1.3)");
     if (patch.until && *patch.until <= patch.from)
         diagnostics_.error(node.find("until")->where, "the patch ends before it begins, or when it does",
                            "`until` is a time of the shot, as `from` is");

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "authoring/scene/people.h"
-#include "authoring/storeys/charts.h"
+#include "authoring/storeys/given_ways.h"
 
 namespace throng::authoring {
 namespace {
@@ -55,9 +55,23 @@ double headingOf(const Way& way) {
     return 0.0;
 }
 
-/// m: from home to where the people of a way begin in the plane.
-glm::dvec2 shiftOf(const GivenPeople& given, const Scene& scene) {
-    return scene.charts ? scene.charts->charts[given.level].shift : glm::dvec2(0.0);
+/// A way in home coordinates: the plane has each of its points on its own chart.
+Way atHome(const Layout& layout, const Charts* charts, std::size_t group, std::size_t index) {
+    Way way = layout.given[group].ways[index];
+    for (std::size_t point = 0; charts && point < way.size(); ++point)
+        way[point].place -= charts->charts[charts->given[group][index][point]].shift;
+    return way;
+}
+
+/// m: from home to the plane, for somebody on its way at a time or, before that, at its begin.
+/// @param way at home
+glm::dvec2 shiftAt(const Charts* charts, std::size_t group, std::size_t index, const Way& way, double time) {
+    if (!charts) return glm::dvec2(0.0);
+    const auto after = std::ranges::upper_bound(way, time, {}, &GivenPoint::time);
+    const std::size_t before = after == way.begin() ? 0 : static_cast<std::size_t>(after - way.begin()) - 1;
+    const std::uint32_t chart = charts->given[group][index][before];
+    return charts->charts[chartAfter(*charts, chart, way[before].place, placeAt(way, time)).value_or(chart)]
+        .shift;
 }
 
 /// What a row needs and nobody goes by: where its way ends.
@@ -70,15 +84,6 @@ gpu::Stage lastStage(glm::vec2 place) {
 }
 
 }  // namespace
-
-bool isWithoutGivenPeople(const Layout& layout, Diagnostics& diagnostics) {
-    for (const GivenPeople& given : layout.given)
-        diagnostics.error(
-            given.where, "layouts with levels on a terrain have no given people yet",
-            "leave out the levels, or the given people; or give the levels floors, and leave out "
-            "the terrain");
-    return layout.given.empty();
-}
 
 void tellOfFastWays(const Layout& layout, Diagnostics& diagnostics) {
     constexpr double kOnceInAWhile = 0.05;  // of a way's time: measured people leap now and then
@@ -99,18 +104,20 @@ void tellOfFastWays(const Layout& layout, Diagnostics& diagnostics) {
     }
 }
 
-std::vector<gpu::Person> givenPeople(const GivenPeople& given, const Layout& layout, const Rebase& rebase,
-                                     std::uint32_t group) {
+std::vector<gpu::Person> givenPeople(const Layout& layout, std::size_t index, const Charts* charts,
+                                     const Rebase& rebase, std::uint32_t group) {
+    const GivenPeople& given = layout.given[index];
     const GroupRandom random(layout.simulation.seed, given.id);
     const double begin = -layout.simulation.warmup;
     std::vector<gpu::Person> people;
-    for (const Way& way : given.ways) {
+    for (std::size_t i = 0; i < given.ways.size(); ++i) {
+        const Way way = atHome(layout, charts, index, i);
         gpu::Person person = drawPerson(given.people, random, people.size(), group);
         const Pace pace = paceOf(way);
         person.maximum_speed *= static_cast<float>(pace.mean) / person.preferred_speed;
         person.maximum_speed = std::max(person.maximum_speed, static_cast<float>(pace.most));
         person.preferred_speed = static_cast<float>(pace.mean);
-        person.spawn_position = rebase.local(placeAt(way, begin));
+        person.spawn_position = rebase.local(placeAt(way, begin) + shiftAt(charts, index, i, way, begin));
         person.spawn_time = static_cast<float>(way.front().time);
         person.heading = static_cast<float>(headingOf(way));
         person.entry = gpu::NO_INDEX;
@@ -128,18 +135,20 @@ void addWays(const Layout& layout, const Rebase& rebase, Scene& scene) {
         count += given.ways.size();
     auto row = static_cast<std::uint32_t>(scene.people.size() - count);
     scene.given.first_row = row;
-    for (const GivenPeople& given : layout.given) {
-        const glm::dvec2 shift = shiftOf(given, scene);
-        for (const Way& way : given.ways) {
+    const double begin = -layout.simulation.warmup;
+    for (std::size_t group = 0; group < layout.given.size(); ++group) {
+        const GivenPeople& given = layout.given[group];
+        for (std::size_t i = 0; i < given.ways.size(); ++i) {
+            const Way way = atHome(layout, scene.charts.get(), group, i);
+            const glm::dvec2 shift = shiftAt(scene.charts.get(), group, i, way, begin);
             scene.given.ways.push_back({static_cast<gpu::uint>(scene.given.places.size()),
                                         static_cast<gpu::uint>(way.size()), glm::vec2(shift)});
             for (const GivenPoint& point : way)
-                scene.given.places.push_back(
-                    {rebase.local(point.place - shift), static_cast<float>(point.time), 0});
+                scene.given.places.push_back({rebase.local(point.place), static_cast<float>(point.time), 0});
             gpu::Person& person = scene.people[row++];
             person.first_stage = static_cast<gpu::uint>(scene.stages.size());
             person.stage_count = 1;
-            scene.stages.push_back(lastStage(rebase.local(way.back().place)));
+            scene.stages.push_back(lastStage(rebase.local(given.ways[i].back().place)));
             scene.goals.push_back(scene.stages.back().point);
         }
     }

@@ -10,15 +10,14 @@
 
 namespace throng::authoring {
 
-/// Tells of given people in a layout whose levels are grounds of a terrain, which are not cut for them.
-bool isWithoutGivenPeople(const Layout& layout, Diagnostics& diagnostics);
-
 /// Warns of people who are faster than people are: units or frame rates are wrong then.
 void tellOfFastWays(const Layout& layout, Diagnostics& diagnostics);
 
-/// People whose ways are given, in the order of the ways.
-std::vector<gpu::Person> givenPeople(const GivenPeople& given, const Layout& layout, const Rebase& rebase,
-                                     std::uint32_t group);
+/// The people of one of the layout's groups of given people, in the order of the ways.
+/// @param layout in the plane, where there are charts
+/// @param group of the scene
+std::vector<gpu::Person> givenPeople(const Layout& layout, std::size_t index, const Charts* charts,
+                                     const Rebase& rebase, std::uint32_t group);
 
 /// What the device knows of all ways, once the layout's given people are the last rows of the scene.
 void addWays(const Layout& layout, const Rebase& rebase, Scene& scene);

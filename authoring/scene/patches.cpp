@@ -98,12 +98,20 @@ Patches buildPatches(const Layout& layout, const Rebase& rebase, const FieldGrid
     Patches patches;
     for (const Patch& patch : layout.patches) {
         const LocalPolygon outline = rebase.local(patch.polygon);
-        if (patch.pace != 1.0) {
+        if (patch.pace != 1.0 || patch.size != 1.0) {
             const Box box = boundsOf(outline, 0.0f);
-            patches.slow.push_back(
-                {box.lower, box.upper, static_cast<float>(patch.pace), static_cast<float>(beginOf(patch)),
-                 static_cast<float>(patch.until.value_or(kAlways)),
-                 static_cast<gpu::uint>(patches.points.size()), static_cast<gpu::uint>(outline.size()), 0});
+            const gpu::Patch ground{
+                box.lower,
+                box.upper,
+                static_cast<float>(patch.pace),
+                static_cast<float>(beginOf(patch)),
+                static_cast<float>(patch.until.value_or(kAlways)),
+                static_cast<gpu::uint>(patches.points.size()),
+                static_cast<gpu::uint>(outline.size()),
+                static_cast<float>(patch.size),
+            };
+            if (patch.pace != 1.0) patches.slow.push_back(ground);
+            if (patch.size != 1.0) patches.sized.push_back(ground);
             patches.points.insert(patches.points.end(), outline.begin(), outline.end());
         }
         if (patch.cost > 1.0 && patch.isForATime())

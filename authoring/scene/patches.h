@@ -18,7 +18,8 @@ bool areOnTheirFloors(const Layout& layout, Diagnostics& diagnostics);
 /// The layout's patches that cost something.
 std::vector<CostlyGround> costlyGround(const Layout& layout, const Rebase& rebase);
 
-/// Those that people walk on at another pace, and on the coarse map what some of them cost for a time.
+/// Those that people walk on at another pace or take another room on, and on the coarse map what some of them
+/// cost for a time.
 /// @param coarse without cells where routes do not change
 Patches buildPatches(const Layout& layout, const Rebase& rebase, const FieldGrid& coarse);
 

@@ -12,6 +12,7 @@
 
 #include "authoring/scene/rebase.h"
 #include "authoring/scene/terrain_places.h"
+#include "authoring/storeys/given_ways.h"
 #include "authoring/storeys/plane.h"
 #include "authoring/storeys/surface_edges.h"
 #include "base/polygon.h"
@@ -137,6 +138,11 @@ class TerrainLayingOut {
         for (const Formation& formation : layout_.formations)
             for (const glm::dvec2 place : formationPlaces(formation, layout_.simulation.seed).positions)
                 use(places_.spotAt(place, formation.level));
+        for (const GivenPeople& given : layout_.given)
+            for (const std::vector<GivenPoint>& way : given.ways)
+                use(way.front().height
+                        ? ground_->nearestSpot(chartCellOf(way.front().place), *way.front().height)
+                        : places_.spotAt(way.front().place, given.level));
         return used;
     }
 
@@ -261,6 +267,17 @@ class TerrainLayingOut {
                                                                    : heightOf(spot));
         }
         placeRoads(placed);
+        placeGiven();
+    }
+
+    /// Where they begin; from there on they go where the ground leads.
+    void placeGiven() {
+        const auto begins = [&](const GivenPeople& given, glm::dvec2 place) {
+            const std::uint32_t spot = places_.spotAt(place, given.level);
+            return spot == kNoSpot ? std::optional<std::uint32_t>()
+                                   : static_cast<std::uint32_t>(chartOf(spot));
+        };
+        result_->given = chartsOfWays(layout_, *result_, begins, diagnostics_);
     }
 
     void placeArea(Area& area, Area& home) {
@@ -395,7 +412,7 @@ class TerrainLayingOut {
         }
         placed.walls = std::move(plane);
         std::size_t count = 0;
-        result_->plane = moved(placed, result_->charts);
+        result_->plane = moved(placed, result_->charts, result_->given);
         for (const SurfaceEdge& edge : edges) {
             Wall wall;
             wall.id = fmt::format("edge:{}:{}", result_->charts[edge.surface].name, count++);

@@ -40,12 +40,16 @@ class LayingOut {
                             result_->charts.size(), kMostCharts - 1));
         result_->reach = reachOf(layout_);
         checkStoreys();
-        checkGivenWays(layout_, result_->charts, diagnostics_);
         if (diagnostics_.hasErrors()) return nullptr;
         layInPlane(*result_);
         checkLinks();
         if (diagnostics_.hasErrors()) return nullptr;
-        result_->plane = moved(layout_, result_->charts);
+        const auto level = [](const GivenPeople& given, glm::dvec2) {
+            return std::optional(static_cast<std::uint32_t>(given.level));
+        };
+        result_->given = chartsOfWays(layout_, *result_, level, diagnostics_);
+        if (diagnostics_.hasErrors()) return nullptr;
+        result_->plane = moved(layout_, result_->charts, result_->given);
         raiseWalls();
         copyWallsIntoMargins(*result_, standing_);
         thinRailingsBesideLinks();

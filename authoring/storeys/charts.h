@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -55,6 +56,9 @@ struct TerrainGrounds {
     TerrainFindings findings;
 };
 
+/// By group of given people, way and point of it: its chart.
+using GivenCharts = std::vector<std::vector<std::vector<std::uint32_t>>>;
+
 struct Charts {
     std::vector<Chart> charts;
     std::vector<ChartRaster> rasters;  ///< one per chart
@@ -70,6 +74,7 @@ struct Charts {
     TerrainMesh plane_mesh;                              ///< what people stand on, in the plane
     std::shared_ptr<const TerrainGrounds> grounds = {};  ///< of a terrain; then there are no such meshes
     double reach = 0.0;                                  ///< m: the width of margins
+    GivenCharts given;                                   ///< where the plane has the points of given ways
     std::uint32_t most_images = 0;
 };
 

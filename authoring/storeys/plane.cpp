@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "authoring/layout/patch_sizes.h"
 #include "authoring/storeys/railings.h"
 
 namespace throng::authoring {
@@ -79,6 +80,7 @@ double reachOf(const Layout& layout) {
         largest = std::max(largest, formation.people.largestRadius());
     for (const GivenPeople& given : layout.given)
         largest = std::max(largest, given.people.largestRadius());
+    largest *= double{sizeBounds(layout.patches).most};
     const double tile = std::max(layout.simulation.tile_radius, largest);
     const double sight = largest + layout.simulation.samples_per_ray * tile;
     return std::max(sight, layout.simulation.contact_range + 2.0 * largest) + tile;
@@ -90,7 +92,7 @@ void movePoints(std::vector<glm::dvec2>& points, glm::dvec2 by) {
 }
 
 /// Everything of the layout to where its chart lies.
-Layout moved(const Layout& layout, const std::vector<Chart>& charts) {
+Layout moved(const Layout& layout, const std::vector<Chart>& charts, const GivenCharts& given) {
     Layout plane = layout;
     for (Road& road : plane.roads)
         movePoints(road.centreline, charts[road.level].shift);
@@ -124,10 +126,10 @@ Layout moved(const Layout& layout, const std::vector<Chart>& charts) {
         movePoints(block.front, block.shift);
         if (block.facing) *block.facing += block.shift;
     }
-    for (GivenPeople& given : plane.given)
-        for (std::vector<GivenPoint>& way : given.ways)
-            for (GivenPoint& point : way)
-                point.place += charts[given.level].shift;
+    for (std::size_t group = 0; group < plane.given.size(); ++group)
+        for (std::size_t way = 0; way < plane.given[group].ways.size(); ++way)
+            for (std::size_t point = 0; point < plane.given[group].ways[way].size(); ++point)
+                plane.given[group].ways[way][point].place += charts[given[group][way][point]].shift;
     return plane;
 }
 

@@ -17,7 +17,8 @@ void movePoints(std::vector<glm::dvec2>& points, glm::dvec2 by);
 
 /// Everything of the layout to where its chart lies.
 /// @param layout whose levels are charts
-Layout moved(const Layout& layout, const std::vector<Chart>& charts);
+/// @param given the charts of given ways, as Charts::given
+Layout moved(const Layout& layout, const std::vector<Chart>& charts, const GivenCharts& given);
 
 /// Gives the charts their shifts and makes their rasters.
 void layInPlane(Charts& charts);

@@ -293,6 +293,8 @@ recording::BakeDescription describeBake(const LoadedLayout& loaded, const BakeOp
 void askForBodies(recording::BakeDescription& bake) {
     for (const recording::BakeAgent& agent : bake.agents)
         bake.asked[Stream::chest] = bake.asked[Stream::chest] || !agent.body.isDisc();
+    for (const authoring::Patch& patch : bake.patches)
+        bake.asked[Stream::size] = bake.asked[Stream::size] || patch.size != 1.0;
 }
 
 std::map<std::string, std::uint32_t> refusals(const Account& account) {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <filesystem>
 #include <span>
 
@@ -21,7 +22,8 @@ std::vector<GivenPoint> wayOf(const analysis::Track& track, double rate, const G
     std::vector<GivenPoint> way;
     for (std::size_t i = 0; i < track.places.size(); ++i)
         way.push_back({static_cast<double>(track.first + static_cast<std::int64_t>(i)) / rate + given.start,
-                       track.places[i] + given.offset});
+                       track.places[i] + given.offset,
+                       {}});
     return way;
 }
 
@@ -78,7 +80,10 @@ std::uint64_t readGivenFiles(const std::string& name, authoring::Layout& layout,
         for (const std::vector<GivenPoint>& way : given.ways) {
             const std::size_t points = way.size();
             hasher.add(std::as_bytes(std::span(&points, 1)));
-            hasher.add(std::as_bytes(std::span(way)));
+            for (const GivenPoint& point : way) {
+                const std::array<double, 3> told = {point.time, point.place.x, point.place.y};
+                hasher.add(std::as_bytes(std::span(told)));
+            }
         }
     }
     if (any) tellOfMany(layout, diagnostics);

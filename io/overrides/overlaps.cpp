@@ -12,9 +12,10 @@
 namespace throng::io {
 
 OverlapWatch::OverlapWatch(const LayeredCrowd& crowd) : crowd_(crowd) {
+    const double most_size = crowd.source().mostSize();
     for (std::uint32_t row = 0; row < crowd.rows(); ++row) {
         scales_.push_back(crowd.scaleOf(row));
-        widest_ = std::max(widest_, 2.0 * crowd.person(row).reach() * scales_.back());
+        widest_ = std::max(widest_, 2.0 * crowd.person(row).reach() * scales_.back() * most_size);
         if (crowd.plan(row).stands_anew) moved_.push_back(row);
     }
     const Bake& bake = crowd.bake();
@@ -34,7 +35,9 @@ Capsule OverlapWatch::bodyIn(const PerStream<std::vector<float>>& frame, std::ui
     const AgentRow& person = crowd_.person(row);
     const auto pos = throng::rowOf(std::span(frame[Stream::pos]), row);
     const glm::dvec2 place(pos[0], pos[1]);
-    const double scale = scales_[row];
+    const bool has_size = !frame[Stream::size].empty();
+    const double size = has_size ? double{frame[Stream::size][row * kComponents]} : 1.0;
+    const double scale = size * scales_[row];
     if (person.body.isDisc()) return {place, glm::dvec2(0.0), scale * double{person.radius}};
     const auto dir = throng::rowOf(std::span(frame[Stream::dir]), row);
     const bool is_told = !frame[Stream::chest].empty();

@@ -15,6 +15,11 @@ uniform float step_seconds;  // s
 #include "shaders/shared/alive.glsl"
 #include "shaders/shared/snap.glsl"
 #include "shaders/given/ways.glsl"
+#ifdef BELTS
+layout(std140) uniform ParametersBlock { Parameters parameters; };
+#include "shaders/shared/charts.glsl"
+#include "shaders/charts/moving_ground.glsl"
+#endif
 
 /// s
 vec2 timesOf(uint row) {
@@ -57,5 +62,8 @@ void main() {
 #endif
     state.position = inPlane(home, state.rest);
     state.velocity = (home - givenPlace(row, until - step_seconds)) / step_seconds;
+#ifdef BELTS
+    state.velocity -= groundVelocity(state.position);
+#endif
     states[row] = state;
 }

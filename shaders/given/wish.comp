@@ -12,12 +12,19 @@ uniform float now, until;  // s: of this decision, and of the next
 #include "shaders/shared/images.glsl"
 #include "shaders/shared/snap.glsl"
 #include "shaders/given/ways.glsl"
+#ifdef BELTS
+layout(std140) uniform ParametersBlock { Parameters parameters; };
+#include "shaders/charts/belts.glsl"
+#endif
 
 void main() {
     uint slot = gl_GlobalInvocationID.x;
     if (slot >= live_count || (walkers[slot].flags & PERSON_IS_GIVEN) == 0u || isImage(walkers[slot].flags)) return;
     uint row = bodies[slot].row;
     vec2 velocity = (givenPlace(row, until) - givenPlace(row, now)) / (until - now);
+#ifdef BELTS
+    velocity -= groundUnder(walkers[slot].flags);
+#endif
     float speed = length(velocity);
     preferred_velocities[slot] = velocity;
     walkers[slot].flags &= ~WALKER_AT_REST;

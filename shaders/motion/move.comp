@@ -43,11 +43,12 @@ uniform uint steps_done;  // counted with this one
 layout(std430) writeonly buffer Chests { Chest chests[]; };
 #include "shaders/shared/body_shape.glsl"
 
-/// The chest, as contact has left it.
-Chest chestAfter(Walker walker, vec2 axis) {
+/// The chest is as contact has left it.
+void turnChest(uint row, Walker walker, vec2 axis) {
     vec2 start = vec2(walker.axis_x, walker.axis_y);
     float turn = walker.half_axis != 0.0 ? atan(crossOf(start, axis), dot(start, axis)) : 0.0;
-    return Chest(wrapAngle(walker.chest + turn), turn / parameters.step_seconds, walker.half_axis, 0u);
+    chests[row].angle = wrapAngle(walker.chest + turn);
+    chests[row].rate = turn / parameters.step_seconds;
 }
 #endif
 
@@ -67,7 +68,7 @@ void main() {
     moved -= carriedInStep(walkers[slot].flags);
 #endif
 #ifdef BODIES
-    chests[self.row] = chestAfter(walkers[slot], targets[slot].zw);
+    turnChest(self.row, walkers[slot], targets[slot].zw);
 #endif
     float distance_moved = length(moved);
     state.velocity = moved / parameters.step_seconds;

@@ -11,19 +11,7 @@ layout(std430) buffer PreferredVelocities { vec2 preferred_velocities[]; };
 uniform uint patch_count;
 uniform float now;  // s
 
-#include "shaders/shared/outline.glsl"
-
-bool isIn(Patch ground, vec2 place) {
-    if (any(lessThan(place, ground.lower)) || any(greaterThan(place, ground.upper))) return false;
-    bool inside = false;
-    vec2 before = patch_points[ground.first_point + ground.point_count - 1u];
-    for (uint i = 0u; i < ground.point_count; ++i) {
-        vec2 point = patch_points[ground.first_point + i];
-        if (rayGoesOver(point, before, place)) inside = !inside;
-        before = point;
-    }
-    return inside;
-}
+#include "shaders/motion/on_patch.glsl"
 
 void main() {
     uint slot = gl_GlobalInvocationID.x;
@@ -31,6 +19,6 @@ void main() {
     vec2 place = bodies[slot].position;
     float pace = 1.0;
     for (uint i = 0u; i < patch_count; ++i)
-        if (now >= patches[i].from && now < patches[i].until && isIn(patches[i], place)) pace *= patches[i].pace;
+        if (holds(patches[i], place, now)) pace *= patches[i].pace;
     if (pace != 1.0) preferred_velocities[slot] *= pace;
 }

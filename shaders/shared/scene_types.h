@@ -41,7 +41,7 @@ struct Person {
     uint kind;         // of its group's people, as the layout lists them: nothing here depends on it
     float half_axis;   // m: half of the segment that all of the body is near to; 0 = a disc, above 0 = from
                        // shoulder to shoulder, below 0 = the way it faces
-    uint reserved;
+    float own_radius;  // m: `radius` is this times what the ground makes of it (Patch::size)
 };
 
 /// A step of somebody's route: walk until at most `tolerance` metres are left, and perhaps stop there.
@@ -122,7 +122,7 @@ struct WallSegment {
     uint wall;             // index into the layout's walls
 };
 
-/// Ground that people walk on at another pace.
+/// Ground that people walk on at another pace, or take another room on.
 struct Patch {
     vec2 lower;  // m, its bounds
     vec2 upper;
@@ -131,8 +131,15 @@ struct Patch {
     float until;  // s
     uint first_point;
     uint point_count;
-    uint reserved;
+    float size;  // times how broad and deep bodies are by themselves
 };
+
+/// However many patches lie over each other, bodies are no smaller and no larger than so many times their own
+/// size.
+const float LEAST_SIZE = 0.5f;
+const float MOST_SIZE = 2.0f;
+/// m/s, of a radius: an umbrella is open in a few steps, and contact moves people faster.
+const float GROWTH = 0.1f;
 
 /// Somebody whose way is given: consecutive places, at least two of them.
 struct GivenWay {

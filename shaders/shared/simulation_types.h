@@ -118,7 +118,7 @@ struct Chest {
     float angle;      // rad
     float rate;       // rad/s
     float half_axis;  // m, as in Person
-    uint reserved;
+    float own_half_axis;  // m: likewise, before what the ground makes of it
 };
 
 const uint FEET_IN_TRAFFIC = 1u;  // it senses others who are under way

@@ -21,7 +21,7 @@ gpu::Person& addPerson(authoring::Scene& scene, glm::vec2 position, glm::vec2 go
                        float radius) {
     gpu::Person person{};
     person.spawn_position = position;
-    person.radius = radius;
+    person.radius = person.own_radius = radius;
     person.preferred_speed = speed;
     person.maximum_speed = 1.5f * speed;
     person.heading = std::atan2(goal.y - position.y, goal.x - position.x);

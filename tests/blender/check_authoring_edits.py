@@ -46,7 +46,7 @@ def insert_a_point():
 
 def change_patch():
     patch = things["lawn"].throng_layout.patch
-    patch.use_cost, patch.pace, patch.use_ends, patch.ends = False, 0.5, True, 30.0
+    patch.use_cost, patch.pace, patch.room, patch.use_ends, patch.ends = False, 0.5, 1.25, True, 30.0
 
 
 def move_patch():

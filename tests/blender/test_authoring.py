@@ -83,7 +83,7 @@ EDITS = {
     "turn_wall": {f"/walls/2/points/{i}/{j}" for i in range(4) for j in range(2)},
     "move_one_point": {"/walls/2/points/1/0"},
     "insert_a_point": {"/roads/2/centreline/1/0", "/roads/2/centreline/2"},
-    "change_patch": {"/patches/0/cost", "/patches/0/pace", "/patches/0/until"},
+    "change_patch": {"/patches/0/cost", "/patches/0/pace", "/patches/0/size", "/patches/0/until"},
     "move_patch": {f"/patches/2/polygon/{i}/0" for i in range(3)},
     "change_width": {"/roads/2/width"},
     "add_flow": {"/flows/3"},

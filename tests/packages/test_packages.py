@@ -107,6 +107,18 @@ def test_the_debian_package_is_whole_and_names_what_it_needs(build, tmp_path):
     assert (usr / "share/man/man1/throng.1").exists()
 
 
+def test_the_debian_package_works_in_a_bare_system(build, tmp_path):
+    """Installed by apt where there is nothing, used as an ordinary user, and removed: minutes, and 300 MB to fetch."""
+    if not os.environ.get("THRONG_TRY_PACKAGE"):
+        pytest.skip("fetches 300 MB and takes some minutes: asked for with THRONG_TRY_PACKAGE=1")
+    if os.geteuid() != 0 or not shutil.which("mmdebstrap") or not shutil.which("dpkg-shlibdeps"):
+        pytest.skip("needs root, mmdebstrap and dpkg-dev")
+    run("cpack", "--config", build / "CPackConfig.cmake", "-G", "DEB", "-B", tmp_path, cwd=build)
+    package, = tmp_path.glob("throng_*.deb")
+    told = run(ROOT / "scripts/try_package", package)
+    assert "step: all is well" in told and "left: nothing" in told
+
+
 def test_a_wheel_carries_the_program(throng, tmp_path):
     """What is put into wheels, from a copy of the sources; with it, nobody has to say where the program is."""
     pytest.importorskip("setuptools", reason="setuptools is not installed")

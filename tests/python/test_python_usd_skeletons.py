@@ -4,6 +4,7 @@ import os
 import shutil
 import subprocess
 import sys
+import textwrap
 
 import numpy
 import pytest
@@ -131,6 +132,31 @@ def test_who_somebody_is_can_be_changed(crowd):
     assert -0.1 < points[:, 2].min() < 0.1 and 1.2 < points[:, 2].max() < 2.1
     assert numpy.linalg.norm(points[:, :2].mean(axis=0) - bake.world(time, row)[:2]) < 0.3
     assert skinned(people[row], time)["dressed"] == pytest.approx(before["dressed"])
+
+
+def test_a_layer_above_changes_people_as_the_page_says(crowd, tmp_path):
+    """Another person in a red top, still an instance; nobody else is touched."""
+    bake, stage, _ = crowd
+    row, (_, member_of) = 0, members.cast_of(bake)
+    other = next(f"member{member_of[each]:02d}" for each in people_of(stage) if member_of[each] != member_of[row])
+    page = (ROOT / "docs/python.md").read_text("utf-8")
+    layer = textwrap.dedent(page[page.index("    #usda 1.0"):page.index("There is no variant set of tints")])
+    for told, here in (("street.usdc", stage.GetRootLayer().realPath), ("person00012", f"person{row:05d}"),
+                       ("member24", other)):
+        assert layer.count(told) == 1
+        layer = layer.replace(told, here)
+    (tmp_path / "shot.usda").write_text(layer)
+    shot = Usd.Stage.Open(str(tmp_path / "shot.usda"))
+
+    def seen(of, each):
+        figure = of.GetPrimAtPath(f"/World/Crowd/person{each:05d}/figure")
+        assert figure.IsInstance()
+        tint = UsdGeom.PrimvarsAPI(figure.GetChild("tinted")).FindPrimvarWithInheritance("displayColor").Get()
+        return figure.GetVariantSets().GetVariantSelection("member"), tuple(tint[0])
+
+    assert seen(shot, row) == (other, pytest.approx((0.55, 0.02, 0.02)))
+    for each in people_of(stage):
+        assert each == row or seen(shot, each) == seen(stage, each)
 
 
 def test_four_weights_names_and_tints(crowd):

@@ -302,3 +302,23 @@ def test_thumbnails_scatter_and_one_scenario_with_keys(visit, batch):
 
 def test_what_is_no_bake_and_no_batch_is_told(throng, tmp_path):
     assert "bake.json" in throng("report", tmp_path, expect=3).stderr
+
+
+def test_discs_are_as_large_as_the_ground_makes_people(throng, visit, tmp_path):
+    ground = {"polygon": [[-9, -9], [9, -9], [9, 9], [-9, 9]], "size": 1.6, "from": 2}
+    people = [{"position": [-3, 0], "goal": [3, 0], "radius": 0.25},
+              {"position": [20, 0], "goal": [24, 0], "radius": 0.3}]
+    (tmp_path / "layout.json").write_text(json.dumps({
+        "throng": 1, "simulation": {"duration": 5}, "patches": [ground],
+        "formations": [{"id": "two", "type": "agents", "agents": people}]}))
+    throng("bake", tmp_path / "layout.json", "-o", tmp_path / "bake", "-q", "--no-gltf")
+    throng("report", tmp_path / "bake", "-o", tmp_path / "bake.html")
+    page = visit(tmp_path / "bake.html")
+    shown = page.evaluate(
+        "() => [0, 1].map(row => Array.from({length: crowd.taken}, (_, m) => crowd.radiusOf(row, m)))")
+    every = page.evaluate("() => crowd.every")
+    told = numpy.load(tmp_path / "bake/streams/size.npy")[..., 1].T / 2
+    for row in range(2):
+        frames = numpy.minimum(numpy.arange(len(shown[row])) * every, told.shape[1] - 1)
+        assert shown[row] == pytest.approx(told[row, frames], abs=0.002)
+    assert shown[0][0] == pytest.approx(0.25, abs=0.002) and shown[0][-1] == pytest.approx(0.4, abs=0.002)

@@ -16,7 +16,7 @@ void addStar(authoring::Scene& scene, glm::vec2 middle, float pace, float from, 
     }
     const authoring::Box box = authoring::boundsOf(star, 0.0f);
     scene.patches.slow.push_back({box.lower, box.upper, pace, from, until,
-                                  static_cast<gpu::uint>(scene.patches.points.size()), 14, 0});
+                                  static_cast<gpu::uint>(scene.patches.points.size()), 14, 1.0f});
     scene.patches.points.insert(scene.patches.points.end(), star.begin(), star.end());
 }
 

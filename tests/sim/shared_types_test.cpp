@@ -52,7 +52,7 @@ std::map<std::string, Layout> layoutsInCpp() {
                                         MEMBER(flags),          MEMBER(first_stage),  MEMBER(stage_count),
                                         MEMBER(first_change),   MEMBER(change_count), MEMBER(party_first),
                                         MEMBER(party_size),     MEMBER(group),        MEMBER(headway),
-                                        MEMBER(kind),           MEMBER(half_axis),    MEMBER(reserved)}};
+                                        MEMBER(kind),           MEMBER(half_axis),    MEMBER(own_radius)}};
     }
     {
         using T = gpu::Stage;
@@ -170,7 +170,7 @@ std::map<std::string, Layout> layoutsInCpp() {
         using T = gpu::Patch;
         result["Patch"] = {sizeof(T),
                            {MEMBER(lower), MEMBER(upper), MEMBER(pace), MEMBER(from), MEMBER(until),
-                            MEMBER(first_point), MEMBER(point_count), MEMBER(reserved)}};
+                            MEMBER(first_point), MEMBER(point_count), MEMBER(size)}};
     }
     {
         using T = gpu::GivenWay;
@@ -218,7 +218,8 @@ std::map<std::string, Layout> layoutsInCpp() {
     }
     {
         using T = gpu::Chest;
-        result["Chest"] = {sizeof(T), {MEMBER(angle), MEMBER(rate), MEMBER(half_axis), MEMBER(reserved)}};
+        result["Chest"] = {sizeof(T),
+                           {MEMBER(angle), MEMBER(rate), MEMBER(half_axis), MEMBER(own_half_axis)}};
     }
     {
         using T = gpu::Decision;

@@ -13,6 +13,7 @@ async function unpacked() {
   const made = new Crowd({...data, every: ways.every, quantum: ways.quantum, group: agents.group, radii: agents.radius});
   agents.first.forEach((frame, row) => { if (frame !== null) { made.first[row] = frame; made.last[row] = agents.last[row]; } });
   if (ways.storeys) made.storeys = await inflated(ways.storeys);
+  if (ways.sizes) made.sizes = await inflated(ways.sizes);
   const raw = await inflated(ways.deflated), numbers = 2 * count, moments = new Uint16Array(numbers * ways.moments);
   for (let m = 0; m < ways.moments; m++) {
     const here = m * numbers, from = 2 * here;
@@ -27,6 +28,7 @@ async function unpacked() {
   made.taken = ways.moments;
   delete ways.deflated;
   delete ways.storeys;
+  delete ways.sizes;
   return made;
 }
 

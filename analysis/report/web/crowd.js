@@ -14,6 +14,7 @@ class Crowd {
     this.taken = 0;            // moments so far
     this.moments = new Uint16Array(0);
     this.storeys = null;       // of everybody in every moment, where there are levels
+    this.sizes = null;         // likewise, where the ground makes people larger: from half (0) to twice (255) their own
     this.tracks = new Uint16Array(0);  // of every vehicle: x, y, heading, whether it is there
     this.growing = false;      // whether there will be more
     this.words = this.colours.map(wordOf);
@@ -45,6 +46,9 @@ class Crowd {
     const a = m * 2 * this.count + 2 * row, b = this.taken > 1 ? a + 2 * this.count : a, all = this.moments;
     return {x: this.minimum[0] + this.quantum * (all[a] + share * (all[b] - all[a])),
             y: this.minimum[1] + this.quantum * (all[a + 1] + share * (all[b + 1] - all[a + 1]))};
+  }
+  radiusOf(row, m) {
+    return this.radii[row] * (this.sizes ? 0.5 + 1.5 * this.sizes[m * this.count + row] / 255 : 1);
   }
   speedOf(row, m) {
     if (this.taken < 2) return 0;

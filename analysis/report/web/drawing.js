@@ -198,7 +198,7 @@ function drawTrails(m, frame) {
   }
 }
 function drawPeople({m, share}, frame) {
-  const {count, first, last, radii, moments, quantum, minimum} = crowd;
+  const {count, first, last, moments, quantum, minimum} = crowd;
   words.fill(0);
   const wordFor = row => state.colour === "group" ? crowd.words[crowd.group[row]] : speedWords[Math.min(63, crowd.speedOf(row, m) / 2 * 63 | 0)];
   if (state.trails) drawTrails(m, frame);
@@ -208,7 +208,7 @@ function drawPeople({m, share}, frame) {
     const a = from + 2 * row, b = to + 2 * row;
     const x = minimum[0] + quantum * (moments[a] + share * (moments[b] - moments[a]));
     const y = minimum[1] + quantum * (moments[a + 1] + share * (moments[b + 1] - moments[a + 1]));
-    stamp(toX(x), toY(y), maskFor(Math.max(0.8 * pixel, radii[row] * view.scale)), wordFor(row));
+    stamp(toX(x), toY(y), maskFor(Math.max(0.8 * pixel, crowd.radiusOf(row, m) * view.scale)), wordFor(row));
   }
   $("people").getContext("2d").putImageData(image, 0, 0);
 }
@@ -219,7 +219,7 @@ function drawMarks({m, share}, frame) {
     if (row === null || crowd.first[row] > frame) continue;
     const {x, y} = crowd.placeOf(row, m, share);
     context.beginPath();
-    context.arc(toX(x), toY(y), Math.max(9 * pixel, crowd.radii[row] * view.scale + 4 * pixel), 0, 2 * Math.PI);
+    context.arc(toX(x), toY(y), Math.max(9 * pixel, crowd.radiusOf(row, m) * view.scale + 4 * pixel), 0, 2 * Math.PI);
     context.lineWidth = 2.5 * pixel; context.strokeStyle = "#b3261e"; context.stroke();
     context.font = `${12 * pixel}px system-ui, sans-serif`; context.fillStyle = "#b3261e";
     context.fillText(`${row}`, toX(x) + 12 * pixel, toY(y) - 10 * pixel);

@@ -95,7 +95,7 @@ function follow(x, y) {
   for (let row = 0; row < crowd.count; row++) {
     if (!crowd.isThere(row, frame) || !crowd.isShown(row, m, state.level)) continue;
     const at = crowd.placeOf(row, m, share), far = Math.hypot(toX(at.x) - x, toY(at.y) - y);
-    if (far < least && far < Math.max(10 * pixel, crowd.radii[row] * view.scale)) { nearest = row; least = far; }
+    if (far < least && far < Math.max(10 * pixel, crowd.radiusOf(row, m) * view.scale)) { nearest = row; least = far; }
   }
   state.chosen = nearest; state.partner = null; state.following = nearest !== null;
   redraw();

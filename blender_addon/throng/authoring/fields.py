@@ -98,7 +98,8 @@ ROAD = _codecs("road", "width", "one_way")
 OPEN_WALL = _codecs("wall", "thickness", "height")
 CLOSED_WALL = _codecs("wall", "height")
 
-PATCH = (Optional(_codec("patch", "cost")), _codec("patch", "pace"), _codec("patch", "from", "begins"),
+PATCH = (Optional(_codec("patch", "cost")), _codec("patch", "pace"), _codec("patch", "size", "room"),
+         _codec("patch", "from", "begins"),
          Optional(_codec("patch", "until", "ends")))
 
 FLOW = (_codec("flow", "start"), Optional(_codec("flow", "end")), Nested("people", PEOPLE), _codec("flow", "arrival"))

@@ -42,6 +42,7 @@ class VIEW3D_PT_throng_layout(InSidebar, bpy.types.Panel):
         if part.kind == "PATCH":
             optional(box, part.patch, "cost")
             box.prop(part.patch, "pace")
+            box.prop(part.patch, "room")
             box.prop(part.patch, "begins")
             optional(box, part.patch, "ends")
         if part.kind == "FORMATION":

@@ -18,7 +18,8 @@ from .fields import limits
 KINDS = (("NONE", "None", "No part of the layout"), ("ROAD", "Road", "A curve with a width, on which people walk"),
          ("AREA", "Area", "A cyclic curve or a mesh: a plaza, an entry, an exit"),
          ("WALL", "Wall", "An open curve with a thickness, a cyclic one, or a mesh"),
-         ("PATCH", "Patch", "A cyclic curve or a mesh: ground that people avoid, or walk on at another pace"),
+         ("PATCH", "Patch", "A cyclic curve or a mesh: ground that people avoid, walk on at another pace, or take "
+                            "another room on"),
          ("FORMATION", "Formation", "People who stand here at a given moment"),
          ("LINE", "Line", "A queue, a mirror, the corners of a box, or where people are counted"),
          ("POINT", "Point", "Something to look at"))
@@ -204,6 +205,8 @@ class ThrongPatch(bpy.types.PropertyGroup):
                         description="How many metres of another way one metre of it is worth")
     pace: FloatProperty(name="Pace", **limits("patch", "pace"),
                         description="How fast people walk there, times their preferred speed")
+    room: FloatProperty(name="Size", **limits("patch", "size"),
+                        description="How much room bodies take there, times their own size")
     begins: FloatProperty(name="From", **limits("patch", "from"), description="From when it holds, s; 0: always")
     use_ends: BoolProperty(name="Until", description="Otherwise it holds to the end")
     ends: FloatProperty(name="Until", **limits("patch", "until"), description="Until when it holds, s")
