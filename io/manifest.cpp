@@ -132,10 +132,12 @@ Json streamToJson(const StreamInfo& info, const StreamFormats& formats) {
 
 Json levelsToJson(const recording::BakeDescription& description) {
     Json list = Json::array();
-    for (const authoring::Level& level : description.levels)
+    for (const authoring::Level& level : description.levels) {
         list.push_back({{"id", level.id},
                         {"height", level.height},
                         {"floor", pointsToJson(level.floor, description.output_origin)}});
+        if (level.is_landing) list.back()["landing"] = true;
+    }
     return list;
 }
 
