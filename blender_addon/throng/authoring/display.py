@@ -15,6 +15,7 @@ COLOURS = {"ROAD": (0.16, 0.20, 0.26, 1.0), "ARROW": (0.85, 0.85, 0.80, 1.0), "A
            "LEVEL": (0.24, 0.25, 0.28, 1.0), "LINK": (0.55, 0.42, 0.20, 1.0), "FORMATION": (0.85, 0.45, 0.10, 1.0)}
 _HEIGHTS = {"AREA": 0.005, "ROAD": 0.01, "PATCH": 0.015, "ARROW": 0.02}
 DRAWN = ("LEVEL", "LINK", "ROAD", "AREA", "WALL", "PATCH")  # as curves
+_ALONG = "throng_along"  # of a link's points: from 0 to 1
 _MOST_SHOWN = 20000  # people of a formation
 _state = {"quiet": False}
 
@@ -104,12 +105,12 @@ def _link_tree():
     tree, inputs, outputs = new_tree("Throng drawing link",
                                      _GEOMETRY + [("Width", "NodeSocketFloat"), ("Rise", "NodeSocketFloat")], _GEOMETRY)
     draw = _Drawing(tree)
-    along = draw.node("GeometryNodeSplineParameter")
+    along = draw.store(inputs.outputs[0], _ALONG, draw.node("GeometryNodeSplineParameter").outputs["Factor"])
+    flat = draw.sweep(along, draw.across(inputs.outputs["Width"]))
     up = draw.node("ShaderNodeCombineXYZ")
-    draw.link(draw.math("MULTIPLY", along.outputs["Factor"], inputs.outputs["Rise"]), up.inputs[2])
-    sloped = draw.made("GeometryNodeSetPosition", [("Geometry", inputs.outputs[0]), ("Offset", up.outputs[0])])
-    band = draw.sweep(sloped.outputs[0], draw.across(inputs.outputs["Width"]))
-    draw.link(draw.finish(band, "LINK"), outputs.inputs[0])
+    draw.link(draw.math("MULTIPLY", draw.attribute(_ALONG), inputs.outputs["Rise"]), up.inputs[2])
+    sloped = draw.made("GeometryNodeSetPosition", [("Geometry", flat), ("Offset", up.outputs[0])])
+    draw.link(draw.finish(sloped.outputs[0], "LINK"), outputs.inputs[0])
     return tree
 
 
