@@ -187,8 +187,8 @@ def test_a_bake_that_goes_on_has_the_same_images(throng, tmp_path):
     layout = write(tmp_path / "layout.json", two_floors(duration=20))
     options = ["-q", "--no-gltf", "--diagrams", "6"]
     throng("bake", layout, "-o", tmp_path / "whole", *options)
-    bake = subprocess.Popen([throng.binary, "bake", layout, "-o", tmp_path / "parts", *options, "--checkpoint", "0.0002"],
-                            stderr=subprocess.PIPE, text=True)
+    bake = subprocess.Popen([throng.binary, "bake", layout, "-o", tmp_path / "parts", *options, "--checkpoint",
+                             "0.0002"], stderr=subprocess.PIPE, text=True)
     while not (tmp_path / "parts.unfinished" / "diagrams" / "storeys.0013.exr").exists():
         assert bake.poll() is None
         time.sleep(0.005)

@@ -66,8 +66,8 @@ result["drawn at"] = [thing(name).location.z for name in ("Grid", "Area", "Wall"
 bpy.context.view_layer.update()
 result["stairs"] = heights_of_drawing("Stairs")
 stair = thing("Stairs")
-stair.location.y += 1.5
-data.simulation.duration, data.simulation.fps = 25.0, 24.0
+stair.location.y += 2.7
+data.simulation.duration, data.simulation.fps = 60.0, 24.0
 bpy.context.view_layer.update()
 result["layout"] = export("drawn.json")
 bpy.ops.wm.save_as_mainfile(filepath=os.path.join(folder, "shot.blend"))
@@ -92,13 +92,12 @@ result["ground"] = [round(float(ground.bound_box[corner][2]), 3) for corner in (
 
 def places(frame):
     scene.frame_set(frame)
-    points = crowd.evaluated_get(bpy.context.evaluated_depsgraph_get())
-    return [list(vertex.co) for vertex in points.data.vertices]
+    return [list(i.matrix_world.translation) for i in bpy.context.evaluated_depsgraph_get().object_instances
+            if i.is_instance and i.parent and i.parent.original == crowd]
 
 
-crowd.modifiers["throng people"].show_viewport = False  # which makes instances of the points
 result["first"], result["last"] = places(scene.frame_start), places(scene.frame_end)
-result["middle"] = [place[2] for frame in range(scene.frame_start, scene.frame_end, 24) for place in places(frame)]
+result["middle"] = [place[2] for frame in range(scene.frame_start, scene.frame_end, 48) for place in places(frame)]
 
 # A level that is called otherwise takes everything along.
 thing("Level.001").name = "gallery"

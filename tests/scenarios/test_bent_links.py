@@ -39,7 +39,8 @@ def house(path, upper, degrees=0.0, at=(0.0, 0.0), height=3.4, duration=75, **li
                  "goal": "down here", "start": 25}]}
 
 
-GALLERY = {"half": (HALF, (-8, 0.8, 0, 8.5)), "quarter": (QUARTER, (-4, 3.4, 7, 8.5)), "along": (ALONG, (6.4, -5, 14, 5))}
+GALLERY = {"half": (HALF, (-8, 0.8, 0, 8.5)), "quarter": (QUARTER, (-4, 3.4, 7, 8.5)),
+           "along": (ALONG, (6.4, -5, 14, 5))}
 
 
 def checked(throng, tmp_path, layout, expect=3):

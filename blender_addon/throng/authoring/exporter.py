@@ -13,8 +13,10 @@ from .codecs import take_all
 from .geometry import AuthoringError, outlines_of, people_of, splines_of
 from .values import MISSING, are_points, is_number, is_point, keep_points, short, world_point
 
-LISTS = {"LEVEL": "levels", "LINK": "links", "ROAD": "roads", "AREA": "areas", "WALL": "walls", "PATCH": "patches", "FORMATION": "formations"}
-LISTED = ("levels", "links", "roads", "areas", "walls", "patches", "behaviours", "flows", "formations", "events", "given")
+LISTS = {"LEVEL": "levels", "LINK": "links", "ROAD": "roads", "AREA": "areas", "WALL": "walls", "PATCH": "patches",
+         "FORMATION": "formations"}
+LISTED = ("levels", "links", "roads", "areas", "walls", "patches", "behaviours", "flows", "formations", "events",
+          "given")
 
 
 def origin_of(scene):
@@ -276,15 +278,19 @@ def _agents(thing, raw, world):
     return result
 
 
-_WRITERS = {"LEVEL": _level, "LINK": _link, "ROAD": _road, "AREA": _area, "WALL": _walls, "PATCH": _patch, "FORMATION": _formation}
+_WRITERS = {"LEVEL": _level, "LINK": _link, "ROAD": _road, "AREA": _area, "WALL": _walls, "PATCH": _patch,
+            "FORMATION": _formation}
 
 
-def _put_on_level(entry, thing, world):
-    level = levels.take_level(thing, _raw(thing), world)
-    if level is MISSING:
-        entry.pop("level", None)
-    else:
-        entry["level"] = level
+def _entries_of(thing, kind, world):
+    """What the layout has of an object, on its level."""
+    entries = _WRITERS[kind](thing, world)
+    level = levels.take_level(thing, _raw(thing), world) if kind in levels.ON_LEVELS else MISSING
+    for entry in entries if kind in levels.ON_LEVELS else ():
+        entry.update({} if level is MISSING else {"level": level})
+        if level is MISSING:
+            entry.pop("level", None)
+    return entries
 
 
 def _settings(layout, raw):
@@ -304,9 +310,7 @@ def export_layout(context):
     lists, sources = {key: [] for key in LISTED}, {}
     for kind, key in LISTS.items():
         for thing in parts_of(scene, kind):
-            for entry in _WRITERS[kind](thing, world):
-                if kind in levels.ON_LEVELS:
-                    _put_on_level(entry, thing, world)
+            for entry in _entries_of(thing, kind, world):
                 sources[f"/{key}/{len(lists[key])}"] = (thing, "", -1)
                 lists[key].append(entry)
     for key, group, take in (("behaviours", layout.behaviours, behaviours.take_behaviour),

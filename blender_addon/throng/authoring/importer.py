@@ -13,7 +13,8 @@ from .values import MISSING, are_points, is_number, is_point
 
 COLLECTION = "Throng Layout"
 _FAR = 2048.0  # m: further out, single floats are coarser than a quarter of a millimetre
-_SHAPES = {"levels": ("floor", 3), "links": ("path", 2), "roads": ("centreline", 2), "areas": ("polygon", 3), "walls": ("points", 2),
+_SHAPES = {"levels": ("floor", 3), "links": ("path", 2),
+           "roads": ("centreline", 2), "areas": ("polygon", 3), "walls": ("points", 2),
            "patches": ("polygon", 3)}
 
 

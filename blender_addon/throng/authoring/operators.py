@@ -165,8 +165,8 @@ _TURNS = {"STRAIGHT": lambda length, apart: [(0.0, 0.0), (length, 0.0)],
 class THRONG_OT_add_link(_Adds, bpy.types.Operator):
     bl_idname = "throng.add_link"
     bl_label = "Add Link"
-    bl_description = ("Add stairs, a ramp, an escalator or a travelator from the 3D cursor on. Of two selected levels it "
-                      "leads from the lower to the higher one")
+    bl_description = ("Add stairs, a ramp, an escalator or a travelator from the 3D cursor on. Of two selected levels "
+                      "it leads from the lower to the higher one")
     type: EnumProperty(name="Type", items=[(word, word.capitalize(), "") for word in fields.LINK_TYPES])
     turn: EnumProperty(name="Turn", items=[("STRAIGHT", "Straight", "One flight"),
                                            ("QUARTER", "Quarter", "Two flights and a landing, to the left"),
@@ -253,7 +253,8 @@ class THRONG_OT_mark(bpy.types.Operator):
             cls, "" if context.selected_objects else "Nothing is selected: select curves, meshes or empties first")
 
     def execute(self, context):
-        fitting = {"NONE": None, "ROAD": ("CURVE",), "LEVEL": ("CURVE", "MESH"), "LINK": ("CURVE",), "LINE": ("CURVE",), "AREA": ("CURVE", "MESH"),
+        fitting = {"NONE": None, "ROAD": ("CURVE",), "LEVEL": ("CURVE", "MESH"), "LINK": ("CURVE",),
+                   "LINE": ("CURVE",), "AREA": ("CURVE", "MESH"),
                    "PATCH": ("CURVE", "MESH"), "WALL": ("CURVE", "MESH"), "FORMATION": ("MESH",),
                    "POINT": ("EMPTY",)}[self.kind]
         unfit = [thing.name for thing in context.selected_objects if fitting and thing.type not in fitting]
@@ -398,7 +399,8 @@ class IMPORT_SCENE_OT_throng_layout(bpy.types.Operator, ImportHelper):
         return {"FINISHED"}
 
 
-CLASSES = (THRONG_OT_add_level, THRONG_OT_add_link, THRONG_OT_add_road, THRONG_OT_add_wall, THRONG_OT_add_area, THRONG_OT_add_patch,
+CLASSES = (THRONG_OT_add_level, THRONG_OT_add_link,
+           THRONG_OT_add_road, THRONG_OT_add_wall, THRONG_OT_add_area, THRONG_OT_add_patch,
            THRONG_OT_add_line, THRONG_OT_add_formation,
            THRONG_OT_mark, THRONG_OT_add_flow, THRONG_OT_list, THRONG_OT_settings_from_scene,
            EXPORT_SCENE_OT_throng_layout, IMPORT_SCENE_OT_throng_layout)

@@ -20,7 +20,8 @@ class VIEW3D_PT_throng_layout(InSidebar, bpy.types.Panel):
     def draw(self, context):
         layout = self.layout
         grid = layout.grid_flow(columns=2, align=True)
-        for part, icon in (("level", "MESH_GRID"), ("link", "MOD_ARRAY"), ("road", "CURVE_PATH"), ("wall", "MOD_SOLIDIFY"), ("area", "MESH_PLANE"),
+        for part, icon in (("level", "MESH_GRID"), ("link", "MOD_ARRAY"), ("road", "CURVE_PATH"),
+                           ("wall", "MOD_SOLIDIFY"), ("area", "MESH_PLANE"),
                            ("patch", "SHADING_TEXTURE"), ("formation", "COMMUNITY"), ("line", "IPO_LINEAR")):
             grid.operator(f"throng.add_{part}", icon=icon)
         if any(thing.throng_layout.kind == "LEVEL" for thing in context.scene.objects):

@@ -347,8 +347,8 @@ class ThrongScene(bpy.types.PropertyGroup):
 
 
 CLASSES = (*common_properties.CLASSES, *behaviour_properties.CLASSES, ThrongPeople, ThrongStop, ThrongFlow,
-           ThrongEvent, ThrongBar, ThrongFormation, ThrongGiven, ThrongPatch, ThrongLink, ThrongObject, ThrongSimulation,
-           *_RULES.values(), ThrongMotion, ThrongProblem, ThrongScene)
+           ThrongEvent, ThrongBar, ThrongFormation, ThrongGiven, ThrongPatch, ThrongLink, ThrongObject,
+           ThrongSimulation, *_RULES.values(), ThrongMotion, ThrongProblem, ThrongScene)
 
 _register_classes, _unregister_classes = bpy.utils.register_classes_factory(CLASSES)
 

@@ -161,7 +161,8 @@ def _cells_tree(name, bake, diagrams, crowd):
     texture.image = _sequence(bake, crowd.modifiers["throng pos"].filepath.startswith("//"))
     _play(tree, texture.image_user, diagrams, int(crowd.modifiers["throng pos"].frame_start))
     out = tree.nodes.new("NodeGroupOutput")
-    for a, b in ((at, texture.inputs[0]), (texture.outputs["Color"], out.inputs["Colour"]), (texture.outputs["Alpha"], out.inputs["Mask"])):
+    for a, b in ((at, texture.inputs[0]), (texture.outputs["Color"], out.inputs["Colour"]),
+                 (texture.outputs["Alpha"], out.inputs["Mask"])):
         tree.links.new(a, b)
     return tree
 

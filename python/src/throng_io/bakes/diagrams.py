@@ -14,7 +14,7 @@ from ..base.errors import BakeError, need
 @dataclasses.dataclass(frozen=True)
 class Diagram:
     """One image. Rows go down from the largest y."""
-    name: str | None           # of the floor, link, lift or ground; None: of all of the site, or the plane of its storeys
+    name: str | None           # of the floor, link, lift or ground; None: of all, or of the plane of its storeys
     kind: str | None           # level, link, lift or ground
     level: str | None          # on which that is; of a link, that from which it leads
     lowest: float              # m, of its ground
