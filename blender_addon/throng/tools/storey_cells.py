@@ -2,9 +2,9 @@
 """The ground of a bake with levels, as a mesh that says of each corner where it is in the diagram's plane.
 
 Charts - floors, links, parts of a terrain - lie side by side in that plane, so one image texture shows all of them,
-each storey with its own cells. Faces that look up are those of the chart that has them: which one that is says the place and
-height of their middle. On a terrain, faces are cut until they are small: a chart's part of the plane shows those beyond
-its seams, too, for several metres, so nothing is seen of where they change.
+each storey with its own cells. Faces that look up are those of the chart that has them: which one that is says the
+place and height of their middle. On a terrain, faces are cut until they are small: a chart's part of the plane shows
+those beyond its seams, too, for several metres, so nothing is seen of where they change.
 """
 import numpy
 
