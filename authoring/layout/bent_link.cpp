@@ -26,8 +26,14 @@ glm::dvec2 leftOf(glm::dvec2 way) {
 }
 
 /// Counter-clockwise, without points that lie on its edges (Andrew's monotone chain).
-std::vector<glm::dvec2> hullOf(std::vector<glm::dvec2> points) {
-    constexpr double kHair = 1.0e-9;  // m^2
+std::vector<glm::dvec2> hullOf(const std::vector<glm::dvec2>& corners) {
+    constexpr double kHair = 1.0e-9, kSame = 1.0e-6;  // m^2; m
+    // Of two that are nearly in one place, the one before and the one behind a third would hide that.
+    std::vector<glm::dvec2> points;
+    for (const glm::dvec2 corner : corners)
+        if (std::ranges::none_of(points,
+                                 [&](glm::dvec2 known) { return glm::distance(known, corner) < kSame; }))
+            points.push_back(corner);
     std::ranges::sort(points,
                       [](glm::dvec2 a, glm::dvec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
     std::vector<glm::dvec2> hull;
@@ -112,7 +118,7 @@ class Bending {
             begin = path_[last] + landingAt(last) * ways_[last];
             addEnds(edge, path_[corner] - landingAt(corner) * ways_[corner - 1], ways_[corner - 1]);
             addEnds(edge, begin, ways_[last]);
-            addLanding(hullOf(std::move(edge)));
+            addLanding(hullOf(edge));
             corner = last + 1;
         }
         addFlight(begin, path_.back(), path_.size() - 2);
