@@ -131,6 +131,7 @@ struct Level {
     std::vector<glm::dvec2> floor;  ///< simple, any winding, not closed by a repeated point
     SourcePosition where;
     std::optional<glm::dvec3> at{};  ///< m: a place on it, of a part of a terrain, which has no floor
+    bool is_landing = false;         ///< of a link that turns; nothing but people is on it
 };
 
 /// What a link is that is a cabin going up and down.

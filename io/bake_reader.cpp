@@ -139,7 +139,9 @@ void readLevels(const ManifestReader& reader, Bake& bake) {
         bake.levels.push_back({level.text("/id"),
                                level.number("/height", -kFurthest, kFurthest),
                                level.points("/floor", 3),
-                               {}});
+                               {},
+                               {},
+                               level.has("/landing")});
     });
 }
 

@@ -50,10 +50,6 @@ std::span<const std::byte> packedStateIn(const Checkpoint& checkpoint, const Str
     return *bytes;
 }
 
-std::string diagramName(std::uint32_t frame) {
-    return fmt::format("diagrams/diagram.{:04}.exr", frame + 1);
-}
-
 template <class T>
 void readSection(const Checkpoint& checkpoint, const char* name, std::span<T> items) {
     const std::vector<std::byte>* bytes = checkpoint.find(name);
@@ -156,9 +152,16 @@ void BakeWriter::removeLeftovers(const Checkpoint& checkpoint) const {
     for (std::uint32_t frame = 0, kept = diagramsIn(checkpoint);
          description_.diagram_every > 0 && frame < description_.frames; frame += description_.diagram_every)
         if (frame >= kept * description_.diagram_every)
-            leftovers.push_back(folder_->path() / diagramName(frame));
+            for (const std::string& name : diagramNames(frame))
+                leftovers.push_back(folder_->path() / name);
     for (const fs::path& path : leftovers)
         removeFile(path);
+}
+
+std::vector<std::string> BakeWriter::diagramNames(std::uint32_t frame) const {
+    std::vector<std::string> names{fmt::format("diagrams/diagram.{:04}.exr", frame + 1)};
+    if (description_.charts) names.push_back(fmt::format("diagrams/storeys.{:04}.exr", frame + 1));
+    return names;
 }
 
 void BakeWriter::goOnFrom(const Checkpoint& checkpoint) {
@@ -188,14 +191,17 @@ void BakeWriter::hashAgain(std::size_t stream, std::uint64_t then) {
 }
 
 void BakeWriter::goOnWithDiagrams(const Checkpoint& checkpoint) {
-    std::vector<KnownFile> known(diagrams_->count);
+    std::vector<std::string> names;
+    for (std::uint32_t i = 0; i < diagrams_->count; ++i)
+        for (std::string& name : diagramNames(i * description_.diagram_every))
+            names.push_back(std::move(name));
+    std::vector<KnownFile> known(names.size());
     readSection(checkpoint, kDiagramHashes, std::span(known));
-    for (std::uint32_t i = 0; i < diagrams_->count; ++i) {
-        const std::string name = diagramName(i * description_.diagram_every);
+    for (std::size_t i = 0; i < names.size(); ++i) {
         const FileHash then{known[i].bytes, {std::begin(known[i].xxh3), std::end(known[i].xxh3)}};
-        if (hashFile(folder_->path() / name) != then)
-            throw InputError(folder_->path() / name, kDoesNotFitCheckpoint);
-        diagram_files_.push_back({name, then});
+        if (hashFile(folder_->path() / names[i]) != then)
+            throw InputError(folder_->path() / names[i], kDoesNotFitCheckpoint);
+        diagram_files_.push_back({names[i], then});
     }
 }
 
@@ -266,10 +272,12 @@ void BakeWriter::writeDiagram(const Frame& frame) {
     if (!frame.diagram || description_.diagram_every == 0 || frame.index % description_.diagram_every != 0)
         return;
     const DiagramImage& image = *frame.diagram;
-    const std::string name = diagramName(frame.index);
-    writeDiagramExr(folder_->path() / name, image, frame[Stream::density], description_.scene_origin,
+    const std::vector<std::string> names = diagramNames(frame.index);
+    writeDiagramExr(folder_->path() / names[0], image, frame[Stream::density], description_.scene_origin,
                     frame.index, description_.fps);
-    diagram_files_.push_back({name, hashFile(folder_->path() / name)});
+    if (description_.charts) writeChartsExr(folder_->path() / names[1], image, frame, description_);
+    for (const std::string& name : names)
+        diagram_files_.push_back({name, hashFile(folder_->path() / name)});
     if (!diagrams_) {
         const glm::dvec2 minimum =
             description_.scene_origin + glm::dvec2(image.minimum) - description_.output_origin;

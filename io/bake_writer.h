@@ -77,6 +77,8 @@ class BakeWriter {
     void goOnFrom(const Checkpoint& checkpoint);
     void hashAgain(std::size_t stream, std::uint64_t then);
     void goOnWithDiagrams(const Checkpoint& checkpoint);
+    /// Of a frame that has any: the second of them where people walk above people.
+    std::vector<std::string> diagramNames(std::uint32_t frame) const;
     void addHashes(Checkpoint& checkpoint) const;
     void removeLeftovers(const Checkpoint& checkpoint) const;
     void trackPeople(const Frame& frame);

@@ -133,10 +133,12 @@ Json streamToJson(const StreamInfo& info, const StreamFormats& formats) {
 
 Json levelsToJson(const recording::BakeDescription& description) {
     Json list = Json::array();
-    for (const authoring::Level& level : description.levels)
+    for (const authoring::Level& level : description.levels) {
         list.push_back({{"id", level.id},
                         {"height", level.height},
                         {"floor", pointsToJson(level.floor, description.output_origin)}});
+        if (level.is_landing) list.back()["landing"] = true;
+    }
     return list;
 }
 
@@ -185,16 +187,33 @@ Json accountToJson(const AccountTotals& account) {
              account.refused_reasons.empty() ? Json::object() : Json(account.refused_reasons)}};
 }
 
+/// Each chart's picture in the file of several parts, and where the chart lies in the plane.
+Json storeysToJson(const recording::BakeCharts& charts) {
+    Json parts = Json::array();
+    for (std::size_t i = 0; i < charts.pictures.size(); ++i) {
+        const recording::BakeCharts::Picture& picture = charts.pictures[i];
+        parts.push_back({{"name", picture.name},
+                         {"kind", picture.kind},
+                         {"level", picture.level},
+                         {"lowest", picture.lowest},
+                         {"highest", picture.highest},
+                         {"shift", pointToJson(charts.shifts[i])}});
+    }
+    return {{"pattern", "diagrams/storeys.####.exr"}, {"parts", parts}};
+}
+
 Json diagramsToJson(const recording::BakeDescription& description,
                     const std::optional<DiagramSummary>& diagrams) {
     if (!diagrams) return nullptr;
-    return {{"pattern", "diagrams/diagram.####.exr"},
-            {"every", description.diagram_every},
-            {"count", diagrams->count},
-            {"width", diagrams->width},
-            {"height", diagrams->height},
-            {"pixels_per_metre", diagrams->pixels_per_metre},
-            {"min", pointToJson(diagrams->minimum)}};
+    Json json{{"pattern", "diagrams/diagram.####.exr"},
+              {"every", description.diagram_every},
+              {"count", diagrams->count},
+              {"width", diagrams->width},
+              {"height", diagrams->height},
+              {"pixels_per_metre", diagrams->pixels_per_metre},
+              {"min", pointToJson(diagrams->minimum)}};
+    if (description.charts) json["storeys"] = storeysToJson(*description.charts);
+    return json;
 }
 
 Json gltfToJson(const std::optional<GltfSummary>& gltf) {

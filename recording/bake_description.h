@@ -130,6 +130,24 @@ struct BakeCharts {
         float height = 0.0f;                              ///< m
     };
     std::vector<Cabin> cabins = {};  ///< by chart; empty: there are no lifts
+
+    /// What a picture of one of them has to say.
+    struct Picture {
+        std::string name;                    ///< as the layout has it, and no other picture
+        std::string kind;                    ///< "level", "link", "lift" or "ground"
+        std::string level;                   ///< on which it is; of a link, that from which it leads
+        glm::dvec2 lower{0.0}, upper{0.0};   ///< m, world: all that its people own
+        double lowest = 0.0, highest = 0.0;  ///< m, of its ground
+    };
+    std::vector<Picture> pictures = {};  ///< by chart; empty: nobody asks for any
+    /// Whose part of the plane a cell is, and whose ground it shows, in the frame of reference of the frames.
+    struct Cells {
+        glm::vec2 minimum{0.0f};
+        float size = 0.25f;  ///< m
+        std::uint32_t width = 0, height = 0;
+        std::vector<std::uint16_t> charts;  ///< byte 0 the chart whose part it is, byte 1 that of the ground
+    };
+    Cells cells = {};  ///< with pictures
 };
 
 /// All that a bake's files say besides the frames. World coordinates unless told otherwise; metres and

@@ -4,7 +4,7 @@
 blender -b --factory-startup --python-exit-code 1 -P scripts/render_bake.py -- BAKE OUT.png [--frame N] [--samples N]
         [--width W] [--height H] [--engine cycles|eevee|workbench] [--shot crane|street|wide]
         [--view X,Y,Z,X,Y,Z] [--also SHOT=OUT.png]... [--light noon|overcast|late|night] [--wet [AMOUNT]] [--levels]
-        [--close M] [--denoise] [--film SECONDS] [--save FILE.blend]
+        [--close M] [--cells overlay|mask] [--denoise] [--film SECONDS] [--save FILE.blend]
 """
 import argparse
 import os
@@ -70,6 +70,7 @@ def arguments():
     parser.add_argument("--levels", action="store_true", help="with coarser people far away")
     parser.add_argument("--close", type=float, default=CLOSE, metavar="M",
                         help=f"people so near the camera, {CLOSE:g} m unless told, have more detail; 0: nobody has")
+    parser.add_argument("--cells", choices=("overlay", "mask"), help="with the bake's diagram images on the ground")
     parser.add_argument("--denoise", action="store_true", help="as far as this Blender has a denoiser")
     parser.add_argument("--film", type=float, metavar="SECONDS",
                         help="the picture is a film, `OUT.mp4`, that begins at the frame")
@@ -147,6 +148,8 @@ def main():
         look(scene.camera, *options.view)
     if options.wet:
         bpy.ops.throng.rain(amount=options.wet)
+    if options.cells:
+        bpy.ops.throng.cells(kind=options.cells)
     if options.levels:
         bpy.ops.throng.levels(by="camera")
     crowd = next(c for c in bpy.data.collections if "throng_bake" in c)

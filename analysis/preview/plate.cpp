@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <limits>
 #include <numbers>
 
 #include "analysis/preview/colour.h"
@@ -223,7 +224,8 @@ void Plate::drawLayout() {
 /// Floors above each other get lighter towards the top.
 void Plate::drawFloors(cairo_t* context) const {
     for (std::size_t i = 0; i < bake_.levels.size(); ++i) {
-        if (!isShown(i)) continue;
+        const bool is_landing = bake_.levels[i].is_landing;
+        if (!isShown(is_landing ? nearestFloor(bake_.levels[i].height) : i)) continue;
         path(context, bake_.levels[i].floor, true);
         setColour(context, kRoad, 0.45);
         cairo_fill(context);
@@ -235,12 +237,29 @@ bool Plate::isShown(const io::CrowdFrame& frame, std::size_t row) const {
     if (!frame.isThere(row)) return false;
     if (!level_) return true;
     const double height = frame.height(row);
-    if (const auto level = storeys_.levelAt(frame.place(row), height)) return *level == *level_;
-    const auto link = storeys_.linkAt(frame.place(row), height);
     const auto apart = [&](std::size_t level) { return std::abs(height - bake_.levels[level].height); };
-    if (!link) return apart(*level_) < kHalfStorey;
+    const auto level = storeys_.levelAt(frame.place(row), height);
+    if (level && !bake_.levels[*level].is_landing) return *level == *level_;
+    const auto link = level ? std::nullopt : storeys_.linkAt(frame.place(row), height);
+    if (!link && !level) return apart(*level_) < kHalfStorey;
+    if (level || bake_.levels[bake_.links[*link].from].is_landing ||
+        bake_.levels[bake_.links[*link].to].is_landing)
+        return *level_ == nearestFloor(height);
     const std::size_t from = bake_.links[*link].from, to = bake_.links[*link].to;
     return (*level_ == from || *level_ == to) && apart(*level_) <= std::min(apart(from), apart(to));
+}
+
+/// Of those that are no landings.
+std::size_t Plate::nearestFloor(double height) const {
+    std::size_t nearest = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < bake_.levels.size(); ++i)
+        if (const double apart = std::abs(height - bake_.levels[i].height);
+            !bake_.levels[i].is_landing && apart < least) {
+            least = apart;
+            nearest = i;
+        }
+    return nearest;
 }
 
 bool Plate::isWallShown(std::size_t wall) const {
@@ -250,13 +269,13 @@ bool Plate::isWallShown(std::size_t wall) const {
 void Plate::chooseLevel() {
     if (options_.level.empty()) return;
     const auto known = std::ranges::find(bake_.levels, options_.level, &authoring::Level::id);
-    if (known != bake_.levels.end()) {
+    if (known != bake_.levels.end() && !known->is_landing) {
         level_ = static_cast<std::size_t>(known - bake_.levels.begin());
         return;
     }
     std::vector<std::string> ids;
     for (const authoring::Level& level : bake_.levels)
-        ids.push_back(fmt::format("`{}`", level.id));
+        if (!level.is_landing) ids.push_back(fmt::format("`{}`", level.id));
     throw InputError(
         bake_.folder,
         ids.empty() ? fmt::format("has no level `{}`: its ground is one", options_.level)

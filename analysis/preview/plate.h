@@ -44,6 +44,7 @@ class Plate {
     void chooseLevel();
     bool isShown(std::size_t level) const { return !level_ || *level_ == level; }
     bool isShown(const io::CrowdFrame& frame, std::size_t row) const;
+    std::size_t nearestFloor(double height) const;
     bool isWallShown(std::size_t wall) const;
     void drawLayout();
     void drawFloors(cairo_t* context) const;

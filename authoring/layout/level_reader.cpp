@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "authoring/layout/bent_link.h"
 #include "authoring/layout/polygon_check.h"
 #include "authoring/link_kinds.h"
 
@@ -101,15 +102,38 @@ void LevelReader::readLink(const JsonNode& node) {
     reader.finish();
     if (from) link.from = levelNamed(*from);
     if (to) link.to = levelNamed(*to);
-    if (path.size() > 2)
-        diagnostics_.error(node.find("path")->where, "a link is straight: `path` is two points",
-                           "for stairs with a landing write two links, and a level for the landing");
     claimId(node, link.id, links_, layout_.links.size(), "a link", diagnostics_);
-    if (path.size() != 2 || !from || !to || diagnostics_.hasErrors()) return;
+    if (path.size() < 2 || !from || !to || diagnostics_.hasErrors()) return;
+    if (path.size() > 2) return addBentLink(link, path, node);
     link.begin = path[0];
     link.end = path[1];
-    checkLink(link, node);
+    checkLink(link, glm::distance(link.begin, link.end), node);
     layout_.links.push_back(std::move(link));
+}
+
+/// As links and levels of its own.
+void LevelReader::addBentLink(const Link& link, const std::vector<glm::dvec2>& path, const JsonNode& node) {
+    constexpr double kRiser = 0.17;  // m, as treads are
+    const double low = layout_.levels[link.from].height, high = layout_.levels[link.to].height;
+    std::optional<BentLinkFault> fault;
+    BentLink bent = bend(link, path, low, high, link.kind == Link::Kind::stairs ? kRiser : 0.0, fault);
+    if (fault) return diagnostics_.error(node.find("path")->where, fault->message, fault->hint);
+    double run = 0.0;
+    for (const Link& flight : bent.flights)
+        run += glm::distance(flight.begin, flight.end);
+    checkLink(link, run, node);
+    if (diagnostics_.hasErrors()) return;
+    const std::size_t first_landing = layout_.levels.size();
+    for (std::size_t i = 0; i < bent.flights.size(); ++i) {
+        Link& flight = bent.flights[i];
+        if (i > 0) flight.from = first_landing + i - 1;
+        if (i < bent.landings.size()) flight.to = first_landing + i;
+        layout_.links.push_back(std::move(flight));
+    }
+    for (Level& landing : bent.landings) {
+        claimId(node, landing.id, levels_, layout_.levels.size(), "a level", diagnostics_);
+        layout_.levels.push_back(std::move(landing));
+    }
 }
 
 void LevelReader::readBelt(ObjectReader& reader, const JsonNode& node, Link& link) const {
@@ -128,14 +152,13 @@ void LevelReader::readBelt(ObjectReader& reader, const JsonNode& node, Link& lin
                 R"(write "type": "escalator", or leave it out)");
 }
 
-void LevelReader::checkLink(const Link& link, const JsonNode& node) const {
+void LevelReader::checkLink(const Link& link, double run, const JsonNode& node) const {
     if (link.from == link.to && link.kind != Link::Kind::travelator) {
         diagnostics_.error(node.find("to")->where,
                            fmt::format("link `{}` begins and ends at the same level", link.id));
         return;
     }
     const double rise = std::abs(layout_.levels[link.to].height - layout_.levels[link.from].height);
-    const double run = glm::distance(link.begin, link.end);
     const Climb climb = climbOf(link.kind);
     const auto tell = [&](const char* most_or_least, double share, const std::string& hint) {
         diagnostics_.error(

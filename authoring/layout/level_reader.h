@@ -28,7 +28,9 @@ class LevelReader {
     /// What is said of cabins.
     void readLift(ObjectReader& reader, const JsonNode& node, Link link);
     void readStops(ObjectReader& reader, const JsonNode& node, Lift& lift) const;
-    void checkLink(const Link& link, const JsonNode& node) const;
+    void addBentLink(const Link& link, const std::vector<glm::dvec2>& path, const JsonNode& node);
+    /// @param run m in plan, of its slopes
+    void checkLink(const Link& link, double run, const JsonNode& node) const;
 
     const Schema& schema_;
     Layout& layout_;

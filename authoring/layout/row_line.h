@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <map>
 #include <vector>
 
 #include "authoring/layout.h"
@@ -33,6 +34,25 @@ class RowLine {
     std::size_t pieceAt(double share) const;
     std::vector<glm::dvec2> points_, left_;
     std::vector<double> shares_;
+};
+
+/// The lines of one block, each of which is made once: everybody's way crosses all rows before its own.
+class RowLines {
+  public:
+    /// @param block outlives this
+    explicit RowLines(const SeatBlock& block) : block_(&block) {}
+
+    const SeatBlock& block() const { return *block_; }
+    /// @param back m behind the first row
+    const RowLine& at(double back) {
+        const auto found = lines_.find(back);
+        return found != lines_.end() ? found->second
+                                     : lines_.emplace(back, RowLine(*block_, back)).first->second;
+    }
+
+  private:
+    const SeatBlock* block_;
+    std::map<double, RowLine> lines_;  // references to them stay good
 };
 
 }  // namespace throng::authoring

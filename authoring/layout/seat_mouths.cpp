@@ -45,16 +45,16 @@ double middleOfFlight(const SeatBlock& block) {
 /// Places round an aisle: metres along the rows from its middle, and behind the first row.
 class AislePlan {
   public:
-    AislePlan(const SeatBlock& block, std::size_t aisle) : block_(block), share_(aisleShare(block, aisle)) {}
+    AislePlan(RowLines& lines, std::size_t aisle) : lines_(lines), share_(aisleShare(lines.block(), aisle)) {}
 
-    double shareAt(double aside, double back) const { return RowLine(block_, back).advance(share_, aside); }
+    double shareAt(double aside, double back) const { return lines_.at(back).advance(share_, aside); }
     glm::dvec2 at(glm::dvec2 aside_back) const {
-        const RowLine line(block_, aside_back.y);
+        const RowLine& line = lines_.at(aside_back.y);
         return line.at(line.advance(share_, aside_back.x));
     }
 
   private:
-    const SeatBlock& block_;
+    RowLines& lines_;
     double share_;
 };
 
@@ -63,32 +63,39 @@ bool hasOpening(const SeatBlock& block) {
     return block.mouths.at == SeatBlock::Mouths::At::row && landingRow(block) + 1 < block.rows;
 }
 
+double sideOf(bool beyond) {
+    return beyond ? 1.0 : -1.0;
+}
+
+/// The way up or down an aisle to a row.
 class WayMaker {
   public:
-    WayMaker(const SeatBlock& block, std::size_t aisle, const Seat& seat)
-        : block_(block), seat_(seat), plan_(block, aisle), landing_(landingRow(block)) {
-        way_.beyond = seat.section > aisle;
-        side_ = way_.beyond ? 1.0 : -1.0;
-        aside_ = std::min(kMostAside, 0.25 * block.aisle_width);
+    WayMaker(RowLines& lines, std::size_t aisle, bool beyond, std::size_t row)
+        : block_(lines.block()),
+          row_(row),
+          plan_(lines, aisle),
+          landing_(landingRow(block_)),
+          side_(sideOf(beyond)),
+          aside_(std::min(kMostAside, 0.25 * block_.aisle_width)) {
+        way_.beyond = beyond;
     }
 
-    AisleWay make() {
+    WayToRow make() {
         const double back = openingOf(block_);
         addStraight({0.0, back + passageLength(block_)}, block_.mouths.height);
         addStraight({0.0, back}, treadOf(block_, landing_));
-        if (seat_.row >= landing_ && hasOpening(block_))
+        if (row_ >= landing_ && hasOpening(block_))
             goBack();
         else
             goToFront();
-        addRow();
-        return std::move(way_);
+        return {std::move(way_), aside_of_row_};
     }
 
   private:
     void goToFront() {
         addStraight({0.0, walkOf(block_, landing_)}, treadOf(block_, landing_));
         way_.fork = way_.points.back().along;
-        for (std::size_t row = landing_; row > seat_.row; --row) {
+        for (std::size_t row = landing_; row > row_; --row) {
             addSteps(0.0, row, row - 1, {aside_, 0.0}, {side_ * aside_, 0.0});
             addStraight({0.0, walkOf(block_, row - 1)}, treadOf(block_, row - 1));
         }
@@ -99,24 +106,24 @@ class WayMaker {
     void goBack() {
         const double flight = side_ * middleOfFlight(block_), height = treadOf(block_, landing_);
         const double narrow = std::min(kMostAside, 0.25 * kFlightWidth);
-        const std::size_t last = std::min(lastCutRow(block_), seat_.row);
+        const std::size_t last = std::min(lastCutRow(block_), row_);
         way_.branch = way_.beyond ? 1 : 2;
         add({0.0, walkOf(block_, landing_)}, height, {aside_, side_ * aside_}, {side_ * aside_, 0.0});
         way_.fork = way_.points.back().along;
-        add({flight, walkOf(block_, landing_)}, height,
-            {-narrow, seat_.row == landing_ ? 0.0 : side_ * aside_}, {0.0, 0.0});
+        add({flight, walkOf(block_, landing_)}, height, {-narrow, row_ == landing_ ? 0.0 : side_ * aside_},
+            {0.0, 0.0});
         for (std::size_t row = landing_; row < last; ++row) {
             addSteps(flight, row, row + 1, {-narrow, 0.0}, {0.0, 0.0});
-            const bool turns = row + 1 == last && seat_.row > last;
+            const bool turns = row + 1 == last && row_ > last;
             add({flight, walkOf(block_, row + 1)}, treadOf(block_, row + 1),
                 {-narrow, turns ? -side_ * aside_ : 0.0}, {0.0, 0.0});
         }
         aside_of_row_ = flight;
-        if (seat_.row == last) return;
+        if (row_ == last) return;
         aside_of_row_ = 0.0;
         add({0.0, walkOf(block_, last)}, treadOf(block_, last), {-aside_, -side_ * aside_},
             {side_ * aside_, 0.0});
-        for (std::size_t row = last; row < seat_.row; ++row) {
+        for (std::size_t row = last; row < row_; ++row) {
             addSteps(0.0, row, row + 1, {-aside_, 0.0}, {side_ * aside_, 0.0});
             add({0.0, walkOf(block_, row + 1)}, treadOf(block_, row + 1), {-aside_, 0.0},
                 {side_ * aside_, 0.0});
@@ -153,36 +160,18 @@ class WayMaker {
         way_.points.push_back(point);
     }
 
-    void addRow() {
-        const double back = walkOf(block_, seat_.row);
-        const RowLine line(block_, back);
-        way_.mouth = way_.points.back().along;
-        const double from = plan_.shareAt(aside_of_row_, back), to = seat_.along / lengthOf(block_);
-        const double beside =
-            line.advance(from, side_ * std::min(kComesToSide, std::abs(lengthTo(line, from, to))));
-        const auto pieces = way_.beyond ? line.between(beside, to) : line.between(to, beside);
-        for (std::size_t i = 0; i < pieces.size(); ++i) {
-            const glm::dvec2 place = way_.beyond ? pieces[i] : pieces[pieces.size() - 1 - i];
-            const AislePoint& before = way_.points.back();
-            const double step = glm::distance(place, before.place + before.alone);
-            if (i > 0 && step < 1.0e-6) continue;
-            way_.points.push_back(
-                {place, treadOf(block_, seat_.row), before.along + step, glm::dvec2(0.0), glm::dvec2(0.0)});
-        }
-    }
-
-    static double lengthTo(const RowLine& line, double from, double to) {
-        return line.lengthBetween(std::min(from, to), std::max(from, to));
-    }
-
     const SeatBlock& block_;
-    const Seat& seat_;
+    std::size_t row_;
     AislePlan plan_;
     std::size_t landing_;
-    double side_ = 1.0, aside_ = 0.0, aside_of_row_ = 0.0;
+    double side_, aside_, aside_of_row_ = 0.0;
     glm::dvec2 last_{0.0};
     AisleWay way_;
 };
+
+double lengthTo(const RowLine& line, double from, double to) {
+    return line.lengthBetween(std::min(from, to), std::max(from, to));
+}
 
 }  // namespace
 
@@ -217,12 +206,14 @@ double passageLength(const SeatBlock& block) {
 }
 
 glm::dvec2 passageFoot(const SeatBlock& block, std::size_t aisle) {
-    return AislePlan(block, aisle).at({0.0, openingOf(block) + passageLength(block)});
+    RowLines lines(block);
+    return AislePlan(lines, aisle).at({0.0, openingOf(block) + passageLength(block)});
 }
 
 std::vector<glm::dvec2> passageOutline(const SeatBlock& block, std::size_t aisle) {
     constexpr double kStep = 0.1;  // m
-    const AislePlan plan(block, aisle);
+    RowLines lines(block);
+    const AislePlan plan(lines, aisle);
     const double opening = openingOf(block), foot = opening + passageLength(block);
     double end = foot - kBehindTheBlock;
     while (end > opening && std::abs(floorAt(block, end) - block.mouths.height) < kPassageHeadroom + kSlab)
@@ -233,12 +224,39 @@ std::vector<glm::dvec2> passageOutline(const SeatBlock& block, std::size_t aisle
     return {plan.at({-half, begin}), plan.at({half, begin}), plan.at({half, end}), plan.at({-half, end})};
 }
 
-AisleWay wayToSeat(const SeatBlock& block, std::size_t aisle, const Seat& seat) {
-    return WayMaker(block, aisle, seat).make();
+BlockWays::BlockWays(const SeatBlock& block) : block_(block), lines_(block), length_(lengthOf(block)) {}
+
+AisleWay BlockWays::to(std::size_t aisle, const Seat& seat) {
+    const bool beyond = seat.section > aisle;
+    const auto [found, is_new] = to_rows_.try_emplace({aisle, beyond, seat.row});
+    if (is_new) found->second = WayMaker(lines_, aisle, beyond, seat.row).make();
+    AisleWay way = found->second.way;
+    addRow(way, aisle, found->second.aside, seat);
+    return way;
+}
+
+/// @param aside m from the aisle's middle, where one turns into the row
+void BlockWays::addRow(AisleWay& way, std::size_t aisle, double aside, const Seat& seat) {
+    const double back = walkOf(block_, seat.row), side = sideOf(way.beyond);
+    const RowLine& line = lines_.at(back);
+    way.mouth = way.points.back().along;
+    const double from = AislePlan(lines_, aisle).shareAt(aside, back), to = seat.along / length_;
+    const double beside =
+        line.advance(from, side * std::min(kComesToSide, std::abs(lengthTo(line, from, to))));
+    const auto pieces = way.beyond ? line.between(beside, to) : line.between(to, beside);
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const glm::dvec2 place = way.beyond ? pieces[i] : pieces[pieces.size() - 1 - i];
+        const AislePoint& before = way.points.back();
+        const double step = glm::distance(place, before.place + before.alone);
+        if (i > 0 && step < 1.0e-6) continue;
+        way.points.push_back(
+            {place, treadOf(block_, seat.row), before.along + step, glm::dvec2(0.0), glm::dvec2(0.0)});
+    }
 }
 
 std::vector<Flight> flightsOf(const SeatBlock& block, std::size_t aisle) {
-    const AislePlan plan(block, aisle);
+    RowLines lines(block);
+    const AislePlan plan(lines, aisle);
     const auto flight = [&](std::size_t from, std::size_t to, double aside, double width) {
         Flight made{{}, {}, width};
         for (std::size_t row = from; row <= to; ++row) {
@@ -258,7 +276,8 @@ std::vector<Flight> flightsOf(const SeatBlock& block, std::size_t aisle) {
 }
 
 Flight passageOf(const SeatBlock& block, std::size_t aisle) {
-    const AislePlan plan(block, aisle);
+    RowLines lines(block);
+    const AislePlan plan(lines, aisle);
     const double opening = openingOf(block), landing = treadOf(block, landingRow(block));
     return {{plan.at({0.0, opening + passageLength(block)}), plan.at({0.0, opening}),
              plan.at({0.0, walkOf(block, landingRow(block))})},

@@ -4,9 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <map>
+#include <tuple>
 #include <vector>
 
 #include "authoring/layout.h"
+#include "authoring/layout/row_line.h"
 #include "authoring/layout/seat_rows.h"
 
 // Stands whose aisles do not go out before the first row
@@ -55,7 +58,29 @@ struct AisleWay {
     std::uint32_t branch = 0;        ///< 0 to the front, 1 and 2 by the flights beside the opening
     bool beyond = false;             ///< the seat is on the side of the aisle to which the rows go on
 };
-AisleWay wayToSeat(const SeatBlock& block, std::size_t aisle, const Seat& seat);
+
+/// The way up or down an aisle, as far as a row.
+struct WayToRow {
+    AisleWay way;
+    double aside = 0.0;  ///< m from the aisle's middle, where it ends
+};
+
+/// The ways to the seats of one block. All who sit in a row walk the same way as far as that, which is made
+/// once.
+class BlockWays {
+  public:
+    /// @param block outlives this
+    explicit BlockWays(const SeatBlock& block);
+    AisleWay to(std::size_t aisle, const Seat& seat);
+
+  private:
+    void addRow(AisleWay& way, std::size_t aisle, double aside, const Seat& seat);
+
+    const SeatBlock& block_;
+    RowLines lines_;
+    double length_;                                                           ///< m, of the middle row
+    std::map<std::tuple<std::size_t, bool, std::size_t>, WayToRow> to_rows_;  ///< by aisle, side and row
+};
 
 /// What people walk on, for whoever shows it: a point before each row.
 struct Flight {

@@ -167,7 +167,7 @@ class SeatBuilder {
     }
 
     void addPassage(const SeatBlock& block, std::size_t aisle, const Seat& seat, gpu::SeatWay& way) {
-        const AisleWay found = wayToSeat(block, aisle, seat);
+        const AisleWay found = ways_.try_emplace(&block, block).first->second.to(aisle, seat);
         way.first_point = static_cast<std::uint32_t>(scene_.seats.points.size());
         way.point_count = static_cast<std::uint32_t>(found.points.size());
         for (const AislePoint& point : found.points)
@@ -213,7 +213,8 @@ class SeatBuilder {
     Diagnostics& diagnostics_;
     SeatPlan plan_;
     std::vector<Owner> owners_;
-    std::vector<std::uint32_t> parting_;  // rows
+    std::vector<std::uint32_t> parting_;          // rows
+    std::map<const SeatBlock*, BlockWays> ways_;  // of blocks with passages
 };
 
 }  // namespace

@@ -87,6 +87,16 @@ std::optional<std::pair<double, double>> tooNear(const Footprint& link, double h
     return to - from > 1.0e-6 ? std::optional(std::pair(from, to)) : std::nullopt;
 }
 
+/// Floors are open under and over the landings of links that turn, as they are along their flights.
+void openForLandings(const Layout& layout, std::vector<Chart>& charts) {
+    for (std::size_t level = 0; level < layout.levels.size(); ++level)
+        for (std::size_t landing = 0; landing < layout.levels.size(); ++landing) {
+            const double apart = std::abs(layout.levels[level].height - layout.levels[landing].height);
+            if (layout.levels[landing].is_landing && !layout.levels[level].is_landing && apart < kHeadroom)
+                charts[level].openings.push_back(layout.levels[landing].floor);
+        }
+}
+
 /// @param end that the level is at: 0 where the link begins, 1 where it ends
 bool isBeyond(const Footprint& link, int end, glm::dvec2 in_link, glm::dvec2 on_floor) {
     constexpr double kNear = 0.5;  // m: the two points are beside each other
@@ -175,6 +185,7 @@ std::vector<Chart> chartsOf(const Layout& layout) {
                     charts[level].openings.push_back(charts[i].link.outline(0.0, charts[i].link.length));
             } else if (const auto part = tooNear(charts[i].link, charts[level].height))
                 charts[level].openings.push_back(charts[i].link.outline(part->first, part->second));
+    openForLandings(layout, charts);
     return charts;
 }
 

@@ -99,7 +99,10 @@ class LayingOut {
                 continue;
             }
             for (const std::size_t level : {link.link_from, link.link_to}) {
-                if (result_->rasters[i].isJoinedTo(level)) continue;
+                if (result_->rasters[i].isJoinedTo(level)) {
+                    tellOfNarrowEnd(link, level);
+                    continue;
+                }
                 const glm::dvec2 end =
                     level == link.link_from ? link.link.at(0.0, 0.0) : link.link.at(link.link.length, 0.0);
                 diagnostics_.error(
@@ -109,6 +112,26 @@ class LayingOut {
                     "its path has to end on the floor's edge, or on the floor");
             }
         }
+    }
+
+    /// A link that only partly ends at its floor is a bottleneck that nobody sees.
+    void tellOfNarrowEnd(const Chart& link, std::size_t level) const {
+        constexpr double kLeast = 0.6, kBeyond = 0.05;  // share of its width; m
+        constexpr int kPlaces = 40;
+        const double end = level == link.link_from ? -kBeyond : link.link.length + kBeyond;
+        int on_floor = 0;
+        for (int i = 0; i < kPlaces; ++i) {
+            const double aside = link.link.half_width * ((2.0 * i + 1.0) / kPlaces - 1.0);
+            on_floor += result_->charts[level].contains(link.link.at(end, aside));
+        }
+        const double share = static_cast<double>(on_floor) / kPlaces;
+        if (share >= kLeast) return;
+        const double width = layout_.links[link.index].width;
+        diagnostics_.warning(
+            layout_.links[link.index].where,
+            fmt::format("link `{}` meets the floor of level `{}` with {:.1f} m of its {:.1f} m", link.name,
+                        result_->charts[level].name, share * width, width),
+            "move its end to where the floor is as wide");
     }
 
     /// That a lift takes people somewhere, and its cabin takes people.

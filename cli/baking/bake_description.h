@@ -31,6 +31,9 @@ std::uint32_t framesOf(const authoring::SimulationSettings& settings);
 recording::BakeDescription describeBake(const LoadedLayout& loaded, const BakeOptions& options,
                                         const gl::Device& device);
 
+/// What pictures of its charts have to say, where it has any.
+void describePictures(const LoadedLayout& loaded, recording::BakeDescription& bake);
+
 /// Asks for the stream without which nobody knows where the shoulders of people with bodies are.
 void askForBodies(recording::BakeDescription& bake);
 

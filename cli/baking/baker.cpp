@@ -272,6 +272,7 @@ BakeRun Baker::bake(const LoadedLayout& loaded, const BakeJob& job, const Interr
     const authoring::SimulationSettings& settings = loaded.scene.settings;
     recording::BakeDescription description = describeBake(loaded, job.options, device());
     description.diagram_every = job.diagram_every;
+    if (job.diagram_every > 0) describePictures(loaded, description);
     description.asked = job.streams;
     askForBodies(description);
     const std::uint32_t frames = description.frames;

@@ -28,7 +28,7 @@ std::vector<GivenPoint> wayOf(const analysis::Track& track, double rate, const G
 }
 
 /// Who is seen once only goes no way. @returns how many of these are left out
-std::size_t readFile(const std::filesystem::path& path, GivenPeople& given) {
+std::size_t readGivenFile(const std::filesystem::path& path, GivenPeople& given) {
     analysis::TrajectoryOptions options;
     options.rate = given.fps;
     const analysis::Trajectories found = analysis::readTrajectories(path, options);
@@ -64,7 +64,8 @@ std::uint64_t readGivenFiles(const std::string& name, authoring::Layout& layout,
         if (given.file.empty()) continue;
         any = true;
         try {
-            const std::size_t alone = readFile(std::filesystem::path(name).parent_path() / given.file, given);
+            const std::size_t alone =
+                readGivenFile(std::filesystem::path(name).parent_path() / given.file, given);
             if (alone > 0)
                 diagnostics.warning(given.file_where,
                                     fmt::format("{} of the people in `{}` are seen once only, and left out",

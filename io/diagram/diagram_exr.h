@@ -6,6 +6,7 @@
 
 #include "base/files/errors.h"
 #include "base/frame.h"
+#include "recording/bake_description.h"
 
 namespace throng::io {
 
@@ -25,5 +26,19 @@ namespace throng::io {
 void writeDiagramExr(const std::filesystem::path& path, const DiagramImage& image,
                      std::span<const float> densities, glm::dvec2 scene_origin, std::uint32_t frame_index,
                      double fps);
+
+/// Writes the diagram of a layout with levels once more, a part a chart (a file of several parts:
+/// OpenEXR 2.0).
+///
+/// Parts have the charts' names and the channels above, and `ground` UINT, 1 on the chart's own ground, and
+/// `height` FLOAT, m, of that, 0 elsewhere. Each has a transform of its own, `throng:worldToPixel` and, in
+/// single precision, the standard attribute `worldToNDC`; `throng:kind` (level, link, lift or ground),
+/// `throng:level`, `throng:lowest` and `throng:highest` (m, of its ground), `throng:metresPerPixel`, and
+/// `throng:chart`, its number. The display window is the whole site, seen from above; the first part's data
+/// window is as large, and those of the others lie within it.
+///
+/// @param frame with the places of people, and their densities where it has any
+void writeChartsExr(const std::filesystem::path& path, const DiagramImage& plane, const Frame& frame,
+                    const recording::BakeDescription& bake);
 
 }  // namespace throng::io

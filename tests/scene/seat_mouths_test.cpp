@@ -62,7 +62,7 @@ TEST(SeatMouths, RowsAreCutAsFarAsThePassageNeedsHeadroom) {
 TEST(SeatMouths, WaysShareThePassageAndRiseWithTheRows) {
     const SeatBlock of = block();
     for (const Seat& seat : seatsOf(of)) {
-        const AisleWay way = wayToSeat(of, 0, seat);
+        const AisleWay way = BlockWays(of).to(0, seat);
         EXPECT_NEAR(glm::distance(way.points.front().place, passageFoot(of, 0)), 0.0, 1e-9);
         EXPECT_EQ(way.points.front().height, -0.5);
         EXPECT_NEAR(way.fork, passageLength(of) + std::hypot(0.0, 0.45 + passingAhead(of)), 0.2);
@@ -85,7 +85,7 @@ TEST(SeatMouths, WaysShareThePassageAndRiseWithTheRows) {
 TEST(SeatMouths, WhoLeavesAloneKeepsToTheSideOfItsSeat) {
     const SeatBlock of = block();
     for (const Seat& seat : seatsOf(of)) {
-        const AisleWay way = wayToSeat(of, 0, seat);
+        const AisleWay way = BlockWays(of).to(0, seat);
         for (const AislePoint& point : way.points)
             EXPECT_GE((point.place + point.alone).x * (seat.place.x > 0.0 ? 1.0 : -1.0), 0.0);
         // Who comes in keeps to its right: in the passage, which leads to the front, towards the row's end.
@@ -101,7 +101,7 @@ TEST(SeatMouths, BehindTheBlockThereIsNoOpening) {
         EXPECT_EQ(gapOfRow(of, row), 1.2);
     EXPECT_NEAR(passageFoot(of, 0).y, -(11.5 * 0.9 + 0.7), 1e-9);
     for (const Seat& seat : seatsOf(of))
-        EXPECT_EQ(wayToSeat(of, 0, seat).branch, 0u);
+        EXPECT_EQ(BlockWays(of).to(0, seat).branch, 0u);
 }
 
 TEST(SeatMouths, NobodyElseWalksWhereThePassageIsTooLow) {

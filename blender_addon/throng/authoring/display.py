@@ -11,9 +11,11 @@ from ..blender.nodes import Maths, new_tree, own_tree, set_input, socket
 MODIFIER = "Throng drawing"
 _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
 COLOURS = {"ROAD": (0.16, 0.20, 0.26, 1.0), "ARROW": (0.85, 0.85, 0.80, 1.0), "AREA": (0.16, 0.42, 0.36, 1.0),
-           "WALL": (0.62, 0.55, 0.45, 1.0), "PATCH": (0.30, 0.42, 0.12, 1.0), "FORMATION": (0.85, 0.45, 0.10, 1.0)}
+           "WALL": (0.62, 0.55, 0.45, 1.0), "PATCH": (0.30, 0.42, 0.12, 1.0),
+           "LEVEL": (0.24, 0.25, 0.28, 1.0), "LINK": (0.55, 0.42, 0.20, 1.0), "FORMATION": (0.85, 0.45, 0.10, 1.0)}
 _HEIGHTS = {"AREA": 0.005, "ROAD": 0.01, "PATCH": 0.015, "ARROW": 0.02}
-DRAWN = ("ROAD", "AREA", "WALL", "PATCH")  # as curves
+DRAWN = ("LEVEL", "LINK", "ROAD", "AREA", "WALL", "PATCH")  # as curves
+_ALONG = "throng_along"  # of a link's points: from 0 to 1
 _MOST_SHOWN = 20000  # people of a formation
 _state = {"quiet": False}
 
@@ -98,6 +100,20 @@ def _road_tree():
     return tree
 
 
+def _link_tree():
+    """A band that climbs from the height of its curve."""
+    tree, inputs, outputs = new_tree("Throng drawing link",
+                                     _GEOMETRY + [("Width", "NodeSocketFloat"), ("Rise", "NodeSocketFloat")], _GEOMETRY)
+    draw = _Drawing(tree)
+    along = draw.store(inputs.outputs[0], _ALONG, draw.node("GeometryNodeSplineParameter").outputs["Factor"])
+    flat = draw.sweep(along, draw.across(inputs.outputs["Width"]))
+    up = draw.node("ShaderNodeCombineXYZ")
+    draw.link(draw.math("MULTIPLY", draw.attribute(_ALONG), inputs.outputs["Rise"]), up.inputs[2])
+    sloped = draw.made("GeometryNodeSetPosition", [("Geometry", flat), ("Offset", up.outputs[0])])
+    draw.link(draw.finish(sloped.outputs[0], "LINK"), outputs.inputs[0])
+    return tree
+
+
 def _wall_tree():
     tree, inputs, outputs = new_tree("Throng drawing wall",
                                      _GEOMETRY + [("Thickness", "NodeSocketFloat"), ("Height", "NodeSocketFloat")],
@@ -144,6 +160,7 @@ def _people_tree():
 
 
 _TREES = {"Throng drawing road": _road_tree, "Throng drawing wall": _wall_tree, "Throng drawing people": _people_tree,
+          "Throng drawing link": _link_tree, "Throng drawing level": lambda: _filled_tree("LEVEL"),
           "Throng drawing area": lambda: _filled_tree("AREA"), "Throng drawing patch": lambda: _filled_tree("PATCH")}
 
 
@@ -176,12 +193,22 @@ def refresh(thing):
     if part.kind == "ROAD":
         set_input(modifier, "Width", part.width)
         set_input(modifier, "One Way", float(part.one_way))
+    elif part.kind == "LINK":
+        set_input(modifier, "Width", part.link.width)
+        set_input(modifier, "Rise", _rise_of(part.link))
     elif part.kind == "WALL":
         set_input(modifier, "Thickness", part.thickness)
         set_input(modifier, "Height", part.height)
     elif part.kind == "FORMATION" and part.formation.type != "agents":
         _show_places(thing.data, formation_places(part.formation))
     thing.update_tag()
+
+
+def _rise_of(link):
+    """m"""
+    if link.begins is None or link.ends is None:
+        return 0.0
+    return link.ends.matrix_world.translation.z - link.begins.matrix_world.translation.z
 
 
 def _show_places(mesh, places):

@@ -5,15 +5,18 @@ import math
 import os
 
 import bpy
+from mathutils import Vector
 
 from ..formats.whole_files import write_whole
-from . import behaviours, fields, given, places
+from . import behaviours, fields, given, levels, places
 from .codecs import take_all
 from .geometry import AuthoringError, outlines_of, people_of, splines_of
 from .values import MISSING, are_points, is_number, is_point, keep_points, short, world_point
 
-LISTS = {"ROAD": "roads", "AREA": "areas", "WALL": "walls", "PATCH": "patches", "FORMATION": "formations"}
-LISTED = ("roads", "areas", "walls", "patches", "behaviours", "flows", "formations", "events", "given")
+LISTS = {"LEVEL": "levels", "LINK": "links", "ROAD": "roads", "AREA": "areas", "WALL": "walls", "PATCH": "patches",
+         "FORMATION": "formations"}
+LISTED = ("levels", "links", "roads", "areas", "walls", "patches", "behaviours", "flows", "formations", "events",
+          "given")
 
 
 def origin_of(scene):
@@ -44,6 +47,10 @@ class ExportWorld:
         source = bpy.path.abspath(scene.throng_layout.source)
         self.folder = os.path.dirname(source) if source else None
         self._names = {}
+        # In the layout's order, and by what that calls them.
+        self._levels = parts_of(scene, "LEVEL")
+        self._levels_by_id = {_raw(thing).get("id"): thing for thing in reversed(self._levels)
+                              if thing.throng_layout.raw}
         # Those of places in the layout that was imported, and what they are called now.
         # Copies have what they were copied from in mind, and do not count.
         places = [thing for thing in scene.objects
@@ -58,6 +65,16 @@ class ExportWorld:
             if known in self._places:
                 return self.name(self._places[known]) + ending
         return text
+
+    def first_level(self):
+        return self._levels[0] if self._levels else None
+
+    def is_level(self, text):
+        return text in self._levels_by_id
+
+    def level_named(self, text):
+        """A level by its name in the layout that was imported."""
+        return self.name(self._levels_by_id[text]) if text in self._levels_by_id else text
 
     def destination_named(self, raw):
         """A place, the nearest of several or a choice, likewise."""
@@ -125,6 +142,45 @@ def _outline(thing, world, what, raw):
         raise AuthoringError(f"{thing.name} has {len(outlines)} outlines: {what} is one polygon; separate its parts",
                              thing)
     return world.kept(outlines[0], raw.get("polygon"))
+
+
+def _level(thing, world):
+    raw = _raw(thing)
+    result = _named(thing, raw)
+    place = levels.place_in_ground(raw)
+    if thing.type == "EMPTY":
+        now = tuple(thing.matrix_world.translation)
+        if place and max(abs(a + o - b) for a, o, b in zip(now, (*world.origin, 0.0), place)) > 1e-3:
+            result["at"] = [*world_point(now[:2], world.origin), short(now[2])]
+        return [result]
+    result["floor"] = _outline(thing, world, "a level's floor", {"polygon": raw.get("floor")})
+    height = levels.written_height(_top_of(thing), raw)
+    if height is not MISSING:
+        result["height"] = height
+    return [result]
+
+
+def _top_of(thing):
+    """m: a curve is flat, and people walk on top of a mesh."""
+    if thing.type == "CURVE":
+        return thing.matrix_world.translation.z
+    return max((thing.matrix_world @ Vector(corner)).z for corner in thing.bound_box)
+
+
+def _link(thing, world):
+    raw = _raw(thing)
+    if thing.type == "EMPTY":
+        result = levels.take_lift(_named(thing, raw), world)
+        result["at"] = world.point_of(thing, raw.get("at"))
+        return [result]
+    if thing.type != "CURVE":
+        raise AuthoringError(f"{thing.name} is a {thing.type.lower()}: a link is a curve", thing)
+    splines = splines_of(thing, world.tolerance)
+    if len(splines) > 1 or splines[0][1]:
+        raise AuthoringError(f"{thing.name}: a link is one open curve; separate its splines", thing)
+    result = levels.take_link(thing.throng_layout.link, _named(thing, raw), world)
+    result["path"] = world.kept(splines[0][0], raw.get("path"))
+    return [result]
 
 
 def _area(thing, world):
@@ -222,7 +278,19 @@ def _agents(thing, raw, world):
     return result
 
 
-_WRITERS = {"ROAD": _road, "AREA": _area, "WALL": _walls, "PATCH": _patch, "FORMATION": _formation}
+_WRITERS = {"LEVEL": _level, "LINK": _link, "ROAD": _road, "AREA": _area, "WALL": _walls, "PATCH": _patch,
+            "FORMATION": _formation}
+
+
+def _entries_of(thing, kind, world):
+    """What the layout has of an object, on its level."""
+    entries = _WRITERS[kind](thing, world)
+    level = levels.take_level(thing, _raw(thing), world) if kind in levels.ON_LEVELS else MISSING
+    for entry in entries if kind in levels.ON_LEVELS else ():
+        entry.update({} if level is MISSING else {"level": level})
+        if level is MISSING:
+            entry.pop("level", None)
+    return entries
 
 
 def _settings(layout, raw):
@@ -242,7 +310,7 @@ def export_layout(context):
     lists, sources = {key: [] for key in LISTED}, {}
     for kind, key in LISTS.items():
         for thing in parts_of(scene, kind):
-            for entry in _WRITERS[kind](thing, world):
+            for entry in _entries_of(thing, kind, world):
                 sources[f"/{key}/{len(lists[key])}"] = (thing, "", -1)
                 lists[key].append(entry)
     for key, group, take in (("behaviours", layout.behaviours, behaviours.take_behaviour),

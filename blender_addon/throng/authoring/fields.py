@@ -94,6 +94,8 @@ PEOPLE = (*_codecs("people", "speed", "radius", "maximum_speed_factor", "headway
           Profile("profile", "profile_weights"), _codec("people", "reaction"), Groups("groups", "group_weights"),
           _codec("people", "look"))
 
+LINK = _codecs("link", "type", "width", "speed", "walking", "stand")
+LINK_TYPES = tuple(word for word in schema.words_of(schema.LAYOUT.entry("link", "type")) if word != "lift")
 ROAD = _codecs("road", "width", "one_way")
 OPEN_WALL = _codecs("wall", "thickness", "height")
 CLOSED_WALL = _codecs("wall", "height")

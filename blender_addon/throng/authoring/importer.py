@@ -6,14 +6,15 @@ import os
 
 import bpy
 
-from . import behaviours, codecs, display, fields, geometry, given, places
+from . import behaviours, codecs, display, fields, geometry, given, levels, places
 from .exporter import LISTED, LISTS, parts_of
 from .geometry import AuthoringError
 from .values import MISSING, are_points, is_number, is_point
 
 COLLECTION = "Throng Layout"
 _FAR = 2048.0  # m: further out, single floats are coarser than a quarter of a millimetre
-_SHAPES = {"roads": ("centreline", 2), "areas": ("polygon", 3), "walls": ("points", 2),
+_SHAPES = {"levels": ("floor", 3), "links": ("path", 2),
+           "roads": ("centreline", 2), "areas": ("polygon", 3), "walls": ("points", 2),
            "patches": ("polygon", 3)}
 
 
@@ -45,10 +46,18 @@ def _problems(document):
         for i, entry in enumerate(entries):
             if not isinstance(entry, dict):
                 yield f"/{key}/{i}", "expected an object"
+            elif _is_empty(key, entry):
+                continue
             elif key in _SHAPES and not are_points(entry.get(_SHAPES[key][0]), _SHAPES[key][1]):
                 yield f"/{key}/{i}/{_SHAPES[key][0]}", f"expected at least {_SHAPES[key][1]} points [x, y]"
             elif key == "formations":
                 yield from _formation_problems(entry, f"/{key}/{i}")
+
+
+def _is_empty(key, entry):
+    """Whether it has a place and no shape: lifts, and levels that are parts of a terrain."""
+    return (key == "links" and levels.is_lift(entry) and is_point(entry.get("at"))
+            or key == "levels" and levels.place_in_ground(entry) is not None)
 
 
 def _is_person(entry, behaves):
@@ -79,7 +88,7 @@ def _formation_problems(entry, pointer):
 def _all_points(document):
     for key, (shape, _) in _SHAPES.items():
         for entry in document.get(key, []):
-            yield from entry[shape]
+            yield from ([entry["at"][:2]] if _is_empty(key, entry) else entry[shape])
     for entry in document.get("formations", []):
         yield from (entry[key] for key in ("centre", "origin") if is_point(entry.get(key)))
         for each in entry["agents"] if entry["type"] == "agents" else []:
@@ -107,6 +116,9 @@ class ImportWorld:
             return self.objects["areas"][text], "start"
         name, _, end = text.rpartition(":")
         return (self.objects["roads"][name], end) if end in ("start", "end") and name in self.objects["roads"] else None
+
+    def level(self, text):
+        return self.objects["levels"].get(text) if isinstance(text, str) else None
 
     def wall(self, text):
         return self.objects["walls"].get(text)
@@ -150,8 +162,15 @@ def _shaped(world, key, kind, entry):
             turn = entry.get("rotation") if entry["type"] == "grid" else None
             thing.rotation_euler.z = math.radians(turn) if is_number(turn) else 0.0
         return thing
-    closed = kind in ("AREA", "PATCH") or (kind == "WALL" and entry.get("closed") is True)
-    return geometry.new_curve(name, world.local(entry[_SHAPES[key][0]]), closed)
+    if _is_empty(key, entry):
+        thing = bpy.data.objects.new(name, None)
+        thing.location = (*world.local([entry["at"][:2]])[0], (*entry["at"], 0.0)[2])
+        return thing
+    closed = kind in ("AREA", "PATCH", "LEVEL") or (kind == "WALL" and entry.get("closed") is True)
+    thing = geometry.new_curve(name, world.local(entry[_SHAPES[key][0]]), closed)
+    if kind == "LEVEL":
+        thing.location.z = levels.height_of(entry)
+    return thing
 
 
 def _put_formation(part, entry, world):
@@ -174,7 +193,13 @@ def _add_objects(world, document):
             things.append((thing, kind, entry))
     for thing, kind, entry in things:  # goals speak of places, which are all there by now
         part = thing.throng_layout
-        if kind == "FORMATION":
+        if kind in levels.ON_LEVELS:
+            levels.put_level(thing, entry, world)
+        if kind == "LINK" and thing.type == "CURVE":
+            levels.put_link(part.link, entry, world)
+            if part.link.begins is not None:
+                thing.location.z = part.link.begins.location.z
+        elif kind == "FORMATION":
             _put_formation(part.formation, entry, world)
         elif kind == "PATCH":
             codecs.put_all(fields.PATCH, part.patch, entry)

@@ -8,7 +8,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, St
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
 from ..blender.polls import available, in_object_mode
-from . import display, geometry, importer
+from . import display, fields, geometry, importer, levels
 from .exporter import default_name, export_layout, folder_of_files, layout_text, write_text
 from .geometry import AuthoringError
 from .properties import KINDS
@@ -41,6 +41,8 @@ def _enter(context, thing, kind, **values):
             setattr(part, name, value)
     thing.hide_render = True
     importer.layout_collection(context.scene).objects.link(thing)
+    if kind in levels.ON_LEVELS and context.scene.throng_layout.draw_on is not None:
+        part.level = context.scene.throng_layout.draw_on
     display.refresh(thing)
     select_only(context, thing)
     context.view_layer.update()
@@ -135,6 +137,74 @@ class THRONG_OT_add_patch(_AddsRectangle, bpy.types.Operator):
     kind = "PATCH"
 
 
+class THRONG_OT_add_level(_Adds, bpy.types.Operator):
+    """Add a floor on which people walk above, or below, others; what is added next is on it"""
+
+    bl_idname = "throng.add_level"
+    bl_label = "Add Level"
+    height: FloatProperty(name="Height", default=0.0, subtype="DISTANCE")
+    length: FloatProperty(name="Length", default=30.0, min=0.1, subtype="DISTANCE")
+    depth: FloatProperty(name="Depth", default=20.0, min=0.1, subtype="DISTANCE")
+    angle: FloatProperty(name="Angle", subtype="ANGLE")
+
+    def execute(self, context):
+        thing = self.add_curve(context, "Level", _rectangle(self.length, self.depth), True, "LEVEL")
+        thing.location.z = self.height
+        context.scene.throng_layout.draw_on = thing
+        context.view_layer.update()
+        return {"FINISHED"}
+
+
+_TURNS = {"STRAIGHT": lambda length, apart: [(0.0, 0.0), (length, 0.0)],
+          "QUARTER": lambda length, apart: [(0.0, 0.0), (0.5 * length + apart, 0.0),
+                                            (0.5 * length + apart, 0.5 * length + apart)],
+          "HALF": lambda length, apart: [(0.0, 0.0), (0.5 * length + 0.5 * apart, 0.0),
+                                         (0.5 * length + 0.5 * apart, apart), (0.0, apart)]}
+
+
+class THRONG_OT_add_link(_Adds, bpy.types.Operator):
+    bl_idname = "throng.add_link"
+    bl_label = "Add Link"
+    bl_description = ("Add stairs, a ramp, an escalator or a travelator from the 3D cursor on. Of two selected levels "
+                      "it leads from the lower to the higher one")
+    type: EnumProperty(name="Type", items=[(word, word.capitalize(), "") for word in fields.LINK_TYPES])
+    turn: EnumProperty(name="Turn", items=[("STRAIGHT", "Straight", "One flight"),
+                                           ("QUARTER", "Quarter", "Two flights and a landing, to the left"),
+                                           ("HALF", "Half", "Two flights beside each other and a landing")])
+    width: FloatProperty(name="Width", default=2.0, min=0.5, subtype="DISTANCE")
+    length: FloatProperty(name="Length", default=0.0, min=0.0, subtype="DISTANCE",
+                          description="Of its slopes, in plan; 0: as the rise asks for")
+    angle: FloatProperty(name="Angle", subtype="ANGLE")
+
+    def execute(self, context):
+        ends = self._levels(context)
+        if len(ends) < 2:
+            self.report({"ERROR"}, "A link joins two levels: add them first, or select two")
+            return {"CANCELLED"}
+        low, high = ends
+        rise = high.matrix_world.translation.z - low.matrix_world.translation.z
+        slope = {"stairs": 0.6, "ramp": 0.08, "escalator": 0.577, "travelator": 0.1}[self.type]
+        points = _TURNS[self.turn](self.length or max(rise / slope, 1.0), self.width + 0.3)
+        thing = self.add_curve(context, self.type.capitalize(), points, False, "LINK")
+        with display.quietly():
+            link = thing.throng_layout.link
+            link.type, link.width, link.begins, link.ends = self.type, self.width, low, high
+        thing.location.z = low.matrix_world.translation.z
+        display.refresh(thing)
+        context.view_layer.update()
+        return {"FINISHED"}
+
+    @staticmethod
+    def _levels(context):
+        """The lower and the higher: of those that are selected, or if these are not two, of all."""
+        def found(things):
+            kept = [thing for thing in things if thing.throng_layout.kind == "LEVEL"]
+            return sorted(kept, key=lambda thing: thing.matrix_world.translation.z)
+
+        chosen, every = found(context.selected_objects), found(context.scene.objects)
+        return chosen if len(chosen) == 2 else every[:2]
+
+
 class THRONG_OT_add_line(_Adds, bpy.types.Operator):
     """Add a line: where people queue, are mirrored or are counted"""
 
@@ -183,7 +253,8 @@ class THRONG_OT_mark(bpy.types.Operator):
             cls, "" if context.selected_objects else "Nothing is selected: select curves, meshes or empties first")
 
     def execute(self, context):
-        fitting = {"NONE": None, "ROAD": ("CURVE",), "LINE": ("CURVE",), "AREA": ("CURVE", "MESH"),
+        fitting = {"NONE": None, "ROAD": ("CURVE",), "LEVEL": ("CURVE", "MESH"), "LINK": ("CURVE",),
+                   "LINE": ("CURVE",), "AREA": ("CURVE", "MESH"),
                    "PATCH": ("CURVE", "MESH"), "WALL": ("CURVE", "MESH"), "FORMATION": ("MESH",),
                    "POINT": ("EMPTY",)}[self.kind]
         unfit = [thing.name for thing in context.selected_objects if fitting and thing.type not in fitting]
@@ -328,7 +399,8 @@ class IMPORT_SCENE_OT_throng_layout(bpy.types.Operator, ImportHelper):
         return {"FINISHED"}
 
 
-CLASSES = (THRONG_OT_add_road, THRONG_OT_add_wall, THRONG_OT_add_area, THRONG_OT_add_patch,
+CLASSES = (THRONG_OT_add_level, THRONG_OT_add_link,
+           THRONG_OT_add_road, THRONG_OT_add_wall, THRONG_OT_add_area, THRONG_OT_add_patch,
            THRONG_OT_add_line, THRONG_OT_add_formation,
            THRONG_OT_mark, THRONG_OT_add_flow, THRONG_OT_list, THRONG_OT_settings_from_scene,
            EXPORT_SCENE_OT_throng_layout, IMPORT_SCENE_OT_throng_layout)

@@ -5,7 +5,7 @@ import textwrap
 import bpy
 
 from ..blender.panels import InSidebar
-from . import fields
+from . import fields, levels
 from .bake_operator import running
 from .codecs import UNSET
 from .panel_parts import (
@@ -20,9 +20,12 @@ class VIEW3D_PT_throng_layout(InSidebar, bpy.types.Panel):
     def draw(self, context):
         layout = self.layout
         grid = layout.grid_flow(columns=2, align=True)
-        for part, icon in (("road", "CURVE_PATH"), ("wall", "MOD_SOLIDIFY"), ("area", "MESH_PLANE"),
+        for part, icon in (("level", "MESH_GRID"), ("link", "MOD_ARRAY"), ("road", "CURVE_PATH"),
+                           ("wall", "MOD_SOLIDIFY"), ("area", "MESH_PLANE"),
                            ("patch", "SHADING_TEXTURE"), ("formation", "COMMUNITY"), ("line", "IPO_LINEAR")):
             grid.operator(f"throng.add_{part}", icon=icon)
+        if any(thing.throng_layout.kind == "LEVEL" for thing in context.scene.objects):
+            layout.prop(context.scene.throng_layout, "draw_on")
         layout.operator_menu_enum("throng.mark", "kind")
         if context.object:
             self._part(context, context.object)
@@ -39,6 +42,12 @@ class VIEW3D_PT_throng_layout(InSidebar, bpy.types.Panel):
         names = {"ROAD": ("width", "one_way"), "WALL": ("thickness", "height") if thing.type == "CURVE" else ()}
         for name in names.get(part.kind, ()):
             box.prop(part, name)
+        if part.kind in levels.ON_LEVELS and (part.level or context.scene.throng_layout.draw_on):
+            box.prop(part, "level")
+        if part.kind == "LEVEL":
+            box.prop(thing, "location", index=2, text="Height")
+        if part.kind == "LINK":
+            self._link(box, thing, part.link)
         if part.kind == "PATCH":
             optional(box, part.patch, "cost")
             box.prop(part.patch, "pace")
@@ -48,6 +57,16 @@ class VIEW3D_PT_throng_layout(InSidebar, bpy.types.Panel):
         if part.kind == "FORMATION":
             self._formation(box, part.formation, context.scene.throng_layout)
         problems_of(context, box, lambda problem: problem.target == thing)
+
+    @staticmethod
+    def _link(box, thing, link):
+        if thing.type != "CURVE":
+            box.label(text="A lift, as the layout tells")
+            return
+        for name in ("type", "begins", "ends", "width"):
+            box.prop(link, name)
+        for name in ("speed", "walking", "stand") if link.type in levels.MOVING else ():
+            box.prop(link, name)
 
     @staticmethod
     def _formation(box, formation, data):

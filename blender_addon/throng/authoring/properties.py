@@ -9,6 +9,7 @@ from bpy.props import (BoolProperty, CollectionProperty, EnumProperty, FloatProp
                        PointerProperty, StringProperty)
 
 from . import behaviour_properties, common_properties, display, fields
+from . import levels
 from .codecs import GROUPS, LOOKS, MIX, PROFILES, UNSET, Flag, Whole
 from .behaviour_properties import ThrongBehaviour
 from .common_properties import (
@@ -21,6 +22,9 @@ KINDS = (("NONE", "None", "No part of the layout"), ("ROAD", "Road", "A curve wi
          ("PATCH", "Patch", "A cyclic curve or a mesh: ground that people avoid, walk on at another pace, or take "
                             "another room on"),
          ("FORMATION", "Formation", "People who stand here at a given moment"),
+         ("LEVEL", "Level", "A cyclic curve or a mesh at its height: a floor on which people walk above others"),
+         ("LINK", "Link", "A curve from one level to another: stairs, a ramp, an escalator; with landings at its "
+                          "corners"),
          ("LINE", "Line", "A queue, a mirror, the corners of a box, or where people are counted"),
          ("POINT", "Point", "Something to look at"))
 
@@ -212,6 +216,29 @@ class ThrongPatch(bpy.types.PropertyGroup):
     ends: FloatProperty(name="Until", **limits("patch", "until"), description="Until when it holds, s")
 
 
+def _follow_level(part, _context):
+    """What is on a level is drawn at its height."""
+    thing = part.id_data
+    if part.level is not None and part.kind in levels.ON_LEVELS:
+        thing.location.z = part.level.matrix_world.translation.z
+
+
+class ThrongLink(bpy.types.PropertyGroup):
+    type: EnumProperty(name="Type", items=words_items(fields.LINK_TYPES), update=_refresh)
+    begins: PointerProperty(type=bpy.types.Object, name="From", poll=is_kind("LEVEL"), update=_refresh,
+                            description="The level on which its curve begins")
+    ends: PointerProperty(type=bpy.types.Object, name="To", poll=is_kind("LEVEL"), update=_refresh,
+                          description="The level on which its curve ends")
+    width: FloatProperty(name="Width", **limits("link", "width"), subtype="DISTANCE", update=_refresh,
+                         description="Between its railings; of an escalator or travelator, of its steps")
+    speed: FloatProperty(name="Speed", **limits("link", "speed"), description="Of ground that moves, along its slope, "
+                                                                              "m/s")
+    walking: FloatProperty(name="Walking", **limits("link", "walking"),
+                           description="Share of its people who walk on ground that moves")
+    stand: EnumProperty(name="Stand", items=words_items(("anywhere", "right", "left")),
+                        description="On which side those stand who do not walk")
+
+
 class ThrongObject(bpy.types.PropertyGroup):
     """Marks an object as a part of the layout. Its name is its id there."""
 
@@ -225,6 +252,9 @@ class ThrongObject(bpy.types.PropertyGroup):
     height: FloatProperty(name="Height", **limits("wall", "height"), subtype="DISTANCE", update=_refresh)
     formation: PointerProperty(type=ThrongFormation)
     patch: PointerProperty(type=ThrongPatch)
+    link: PointerProperty(type=ThrongLink)
+    level: PointerProperty(type=bpy.types.Object, name="Level", poll=is_kind("LEVEL"), update=_follow_level,
+                           description="The level on which it is; by default the first")
 
 
 class ThrongSimulation(bpy.types.PropertyGroup):
@@ -291,6 +321,8 @@ class ThrongScene(bpy.types.PropertyGroup):
     given: CollectionProperty(type=ThrongGiven)
     active_given: IntProperty()
     bars: CollectionProperty(type=ThrongBar)
+    draw_on: PointerProperty(type=bpy.types.Object, name="Draw on", poll=is_kind("LEVEL"),
+                             description="The level on which new parts are; by default the first")
     expect_line: PointerProperty(type=bpy.types.Object, name="Line", poll=is_kind("LINE"),
                                  description="Where people are counted for the bar on flow")
     tolerance: FloatProperty(name="Curve Tolerance", default=0.02, min=0.001, max=10.0, subtype="DISTANCE",
@@ -318,8 +350,8 @@ class ThrongScene(bpy.types.PropertyGroup):
 
 
 CLASSES = (*common_properties.CLASSES, *behaviour_properties.CLASSES, ThrongPeople, ThrongStop, ThrongFlow,
-           ThrongEvent, ThrongBar, ThrongFormation, ThrongGiven, ThrongPatch, ThrongObject, ThrongSimulation,
-           *_RULES.values(), ThrongMotion, ThrongProblem, ThrongScene)
+           ThrongEvent, ThrongBar, ThrongFormation, ThrongGiven, ThrongPatch, ThrongLink, ThrongObject,
+           ThrongSimulation, *_RULES.values(), ThrongMotion, ThrongProblem, ThrongScene)
 
 _register_classes, _unregister_classes = bpy.utils.register_classes_factory(CLASSES)
 

@@ -18,6 +18,7 @@ from ..crowd.queries import ChangesCrowds, OnCrowds, bake_path, changed_crowds, 
 from ..environment.shapes import Shape
 from ..environment.streets import MARK_Z
 from ..formats import Bake, BakeError, read_manifest
+from . import storey_cells
 
 KINDS = ("overlay", "mask", "none")
 OVERLAY, TRODDEN = "throng_cells", "throng trodden"  # a property of the overlay's object; the nodes that darken ground
@@ -25,6 +26,7 @@ OVERLAY, TRODDEN = "throng_cells", "throng trodden"  # a property of the overlay
 SHOWN = "throng_cells_shown"
 _GROUNDS = ("Throng ground", "Throng terrain", "Throng road", "Throng area")
 _ABOVE = 0.006  # m, over the road's markings
+_DARKER = 0.3   # of its light, what is left of the ground within cells
 
 
 def show(crowd, kind, strength):
@@ -39,10 +41,15 @@ def show(crowd, kind, strength):
     path = bake_path(crowd)
     bake = Bake(read_manifest(path), os.path.dirname(path))
     diagrams = _diagrams(bake)
+    if "storeys" in diagrams and not _terrain_in(collection):
+        raise BakeError("this bake has levels, and their floors are not in the scene: import it with its ground")
     _take_away(collection)
     tree = _cells_tree(_tree_name(collection), bake, diagrams, crowd)
-    if kind == "overlay":
-        collection.objects.link(_overlay(collection, crowd, diagrams, tree, strength))
+    if "storeys" in diagrams:
+        material = _overlay_material(tree, strength) if kind == "overlay" else _darkening_material(tree, strength)
+        collection.objects.link(_storeys(collection, bake, material))
+    elif kind == "overlay":
+        collection.objects.link(_overlay(collection, crowd, diagrams, _overlay_material(tree, strength)))
     else:
         for material in _own_grounds(collection):
             _tread(material, tree, strength)
@@ -148,21 +155,35 @@ def _cells_tree(name, bake, diagrams, crowd):
                 tree.interface.new_socket(name=output, in_out="OUTPUT", socket_type=kind)
             else:
                 tree.outputs.new(kind, output)
+    at = _place_in_storeys(tree) if "storeys" in diagrams else _place_in_plan(tree, diagrams, crowd)
+    texture = tree.nodes.new("ShaderNodeTexImage")
+    texture.name, texture.extension = "cells", "CLIP"
+    texture.image = _sequence(bake, crowd.modifiers["throng pos"].filepath.startswith("//"))
+    _play(tree, texture.image_user, diagrams, int(crowd.modifiers["throng pos"].frame_start))
+    out = tree.nodes.new("NodeGroupOutput")
+    for a, b in ((at, texture.inputs[0]), (texture.outputs["Color"], out.inputs["Colour"]),
+                 (texture.outputs["Alpha"], out.inputs["Mask"])):
+        tree.links.new(a, b)
+    return tree
+
+
+def _place_in_plan(tree, diagrams, crowd):
+    """Where a point is in the image, seen from above."""
     place = tree.nodes.new("ShaderNodeTexCoord")
     place.object = crowd  # metres in the bake's own frame
     fit = tree.nodes.new("ShaderNodeMapping")
     size = [diagrams[side] / diagrams["pixels_per_metre"] for side in ("width", "height")]
     fit.inputs["Location"].default_value = (-diagrams["min"][0] / size[0], -diagrams["min"][1] / size[1], 0.0)
     fit.inputs["Scale"].default_value = (1.0 / size[0], 1.0 / size[1], 0.0)
-    texture = tree.nodes.new("ShaderNodeTexImage")
-    texture.name, texture.extension = "cells", "CLIP"
-    texture.image = _sequence(bake, crowd.modifiers["throng pos"].filepath.startswith("//"))
-    _play(tree, texture.image_user, diagrams, int(crowd.modifiers["throng pos"].frame_start))
-    out = tree.nodes.new("NodeGroupOutput")
-    for a, b in ((place.outputs["Object"], fit.inputs["Vector"]), (fit.outputs[0], texture.inputs[0]),
-                 (texture.outputs["Color"], out.inputs["Colour"]), (texture.outputs["Alpha"], out.inputs["Mask"])):
-        tree.links.new(a, b)
-    return tree
+    tree.links.new(place.outputs["Object"], fit.inputs["Vector"])
+    return fit.outputs[0]
+
+
+def _place_in_storeys(tree):
+    """The same where people walk above people: the mesh knows."""
+    place = tree.nodes.new("ShaderNodeAttribute")
+    place.attribute_name = storey_cells.AT
+    return place.outputs["Vector"]
 
 
 def _sequence(bake, relative):
@@ -191,26 +212,71 @@ def _play(tree, user, diagrams, start):
             key.interpolation = "CONSTANT"
 
 
-def _overlay(collection, crowd, diagrams, tree, strength):
-    """The cells shine a little above the ground: on the terrain's own mesh, or on a plane."""
+def _bare_material():
+    """Without nodes, for what lies above the ground."""
     material = bpy.data.materials.new("throng cells")
     material[OVERLAY] = True  # who puts another in its place keeps that
     material.use_nodes = True
     if hasattr(material, "blend_method"):
         material.blend_method = "BLEND"
-    nodes, links = material.node_tree.nodes, material.node_tree.links
-    nodes.clear()
+    material.node_tree.nodes.clear()
+    return material
+
+
+def _group_and_share(nodes, tree, strength):
     group = nodes.new("ShaderNodeGroup")
     group.node_tree = tree
     share = nodes.new("ShaderNodeMath")
     share.operation, share.inputs[1].default_value = "MULTIPLY", strength
+    return group, share
+
+
+def _overlay_material(tree, strength):
+    """The cells shine."""
+    material = _bare_material()
+    nodes, links = material.node_tree.nodes, material.node_tree.links
+    group, share = _group_and_share(nodes, tree, strength)
     see, shine, mix, out = (nodes.new(f"ShaderNode{kind}")
                             for kind in ("BsdfTransparent", "Emission", "MixShader", "OutputMaterial"))
     for a, b in ((group.outputs["Mask"], share.inputs[0]), (group.outputs["Colour"], shine.inputs["Color"]),
                  (share.outputs[0], mix.inputs[0]), (see.outputs[0], mix.inputs[1]), (shine.outputs[0], mix.inputs[2]),
                  (mix.outputs[0], out.inputs["Surface"])):
         links.new(a, b)
-    ground = next((thing for thing in collection.objects if thing.name.startswith("Throng terrain")), None)
+    return material
+
+
+def _darkening_material(tree, strength):
+    """What is below is darker in cells, as if it were trodden or wet."""
+    material = _bare_material()
+    nodes, links = material.node_tree.nodes, material.node_tree.links
+    group, share = _group_and_share(nodes, tree, strength)
+    mix, see, out = (nodes.new(f"ShaderNode{kind}") for kind in ("MixRGB", "BsdfTransparent", "OutputMaterial"))
+    mix.inputs[1].default_value, mix.inputs[2].default_value = (1.0, 1.0, 1.0, 1.0), (_DARKER, _DARKER, _DARKER, 1.0)
+    for a, b in ((group.outputs["Mask"], share.inputs[0]), (share.outputs[0], mix.inputs[0]),
+                 (mix.outputs[0], see.inputs["Color"]), (see.outputs[0], out.inputs["Surface"])):
+        links.new(a, b)
+    return material
+
+
+def _storeys(collection, bake, material):
+    """Cells a little above the ground of each storey."""
+    ground = _terrain_in(collection)
+    mesh = storey_cells.build(ground, bake.manifest["diagrams"], bake.manifest, 2.0 * _ABOVE)
+    mesh.materials.append(material)
+    thing = bpy.data.objects.new("Throng cells", mesh)
+    thing.matrix_world = ground.matrix_world
+    thing[OVERLAY] = True
+    thing.visible_shadow = False
+    return thing
+
+
+def _terrain_in(collection):
+    return next((thing for thing in collection.objects if thing.name.startswith("Throng terrain")), None)
+
+
+def _overlay(collection, crowd, diagrams, material):
+    """Cells a little above the ground: on the terrain's own mesh, or on a plane."""
+    ground = _terrain_in(collection)
     if ground:
         plane = bpy.data.objects.new("Throng cells", ground.data)
         plane.matrix_world = ground.matrix_world
@@ -237,12 +303,11 @@ def _tread(material, tree, strength):
     shader = next((node for node in nodes if node.type == "BSDF_PRINCIPLED"), None)
     if not shader:
         return
-    group, share, darker = (nodes.new(f"ShaderNode{kind}") for kind in ("Group", "Math", "HueSaturation"))
+    group, share = _group_and_share(nodes, tree, strength)
+    darker = nodes.new("ShaderNodeHueSaturation")
     for node in (group, share, darker):
         node.name = TRODDEN
-    group.node_tree = tree
-    share.operation, share.inputs[1].default_value = "MULTIPLY", strength
-    darker.inputs["Value"].default_value = 0.3
+    darker.inputs["Value"].default_value = _DARKER
     colour = shader.inputs["Base Color"]
     darker.inputs["Color"].default_value = colour.default_value
     if colour.links:

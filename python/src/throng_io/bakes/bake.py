@@ -14,7 +14,7 @@ import shapely
 
 from ..base import geometry
 from ..base.errors import BakeError, need
-from . import exports
+from . import diagrams, exports
 from .people import read_people
 from .streams import Frames, form_of, open_stream
 
@@ -148,6 +148,17 @@ class Bake:
 
     def frame_at(self, seconds: float) -> int:
         return int(numpy.clip(round(seconds * self.fps), 0, self.frames - 1))
+
+    # ---- diagram images
+
+    @property
+    def storeys(self) -> list[str]:
+        """What there are diagram images of: floors, links, lifts; none where nobody walks above anybody."""
+        return diagrams.names(self.about)
+
+    def diagram(self, frame: int, storey: str | None = None) -> diagrams.Diagram:
+        """Whose ground is whose in a frame that has an image, of all, or of one of `storeys`."""
+        return diagrams.read(self.about, self.folder, frame, storey)
 
     # ---- people
 
