@@ -245,11 +245,8 @@ def _arc(thing, part, raw, world):
         ends = (turn - ends[1], turn - ends[0])
     elif abs(turn) > 1e-3:
         ends = (turn + ends[0], turn + ends[1])
-    return {**result, "from": _same(ends[0], result["from"]), "to": _same(ends[1], result["to"])}
-
-
-def _same(value, raw):
-    return raw if value == raw else short(value)
+    return {**result, **{key: result[key] if end == result[key] else short(round(end, 5))
+                         for key, end in zip(("from", "to"), ends)}}
 
 
 def _agents(thing, raw, world):

@@ -111,7 +111,7 @@ def _signature(scene, thing):
 
 def stand_of(thing):
     """The object that holds what is drawn of a block, or None."""
-    modifier = thing.modifiers.get(MODIFIER)
+    modifier = thing.modifiers.get(MODIFIER) if thing.throng_layout.kind == "SEATS" else None
     return get_input(modifier, "Stand") if modifier and modifier.node_group else None
 
 
