@@ -514,7 +514,8 @@ class Reader {
     /// Whom an event can send somewhere.
     std::vector<std::string> namesOfSent() const {
         std::vector<std::string> names = namesOf(groups_);
-        std::erase_if(names, [&](const std::string& name) { return seats_.hasBlock(name) || given_.has(name); });
+        std::erase_if(names,
+                      [&](const std::string& name) { return seats_.hasBlock(name) || given_.has(name); });
         return names;
     }
 

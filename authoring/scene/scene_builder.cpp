@@ -25,6 +25,7 @@
 #include "authoring/scene/rebase.h"
 #include "authoring/scene/routes.h"
 #include "authoring/scene/seat_feet.h"
+#include "authoring/scene/seat_ground.h"
 #include "authoring/scene/seat_ways.h"
 #include "authoring/scene/terrain_charts.h"
 #include "authoring/scene/terrain_check.h"
@@ -955,14 +956,16 @@ std::optional<Scene> buildScene(const Layout& layout, Diagnostics& diagnostics, 
     GroundCache own;
     std::shared_ptr<const Charts> charts;
     if (!areLevelsComplete(layout, diagnostics)) return std::nullopt;
-    if (!haveFlatGround(layout, diagnostics) || !areFeetOnGround(layout, diagnostics)) return std::nullopt;
+    if (!haveGround(layout, layout.terrain && !layout.levels.empty(), diagnostics)) return std::nullopt;
+    if (!areFeetOnGround(layout, diagnostics)) return std::nullopt;
     if (!layout.levels.empty() && !isWithoutTraffic(layout, diagnostics)) return std::nullopt;
     if (layout.terrain && !layout.levels.empty() && !isWithoutGivenPeople(layout, diagnostics))
         return std::nullopt;
     if (layout.terrain) {
         const bool is_for_charts = layout.traffic.empty() && layout.given.empty();
         if (terrain && is_for_charts) charts = layOutTerrain(layout, *terrain, diagnostics);
-        if (diagnostics.hasErrors()) return std::nullopt;
+        if (diagnostics.hasErrors() || !haveGround(layout, charts != nullptr, diagnostics))
+            return std::nullopt;
     } else if (!layout.levels.empty()) {
         if (!areOnTheirFloors(layout, diagnostics)) return std::nullopt;
         charts = layOut(layout, diagnostics);

@@ -89,7 +89,8 @@ TEST(Behaviours, EndsOfRoadsAndGivenPeopleAreGuessedWhereAnythingIsMeant) {
         return told(text);
     };
     for (const auto& [states, words] : {
-             std::pair(R"("a": {"flee": "aley:end", "then": "leave"})", "`aley:end` (did you mean `alley:end`?)"),
+             std::pair(R"("a": {"flee": "aley:end", "then": "leave"})",
+                       "`aley:end` (did you mean `alley:end`?)"),
              std::pair(R"("a": {"flee": "parad", "then": "leave"})", "`parad` (did you mean `parade`?)"),
              std::pair(R"("a": {"follow": "prade", "until": [{"after": 3, "then": "leave"}]})",
                        "`prade` (did you mean `parade`?)"),
@@ -97,12 +98,14 @@ TEST(Behaviours, EndsOfRoadsAndGivenPeopleAreGuessedWhereAnythingIsMeant) {
                        "`ally:start` (did you mean `alley:start`?)"),
              std::pair(R"("a": {"stay": true, "until": [{"near": "parde", "then": "leave"}]})",
                        "`parde` (did you mean `parade`?)"),
-             std::pair(R"("a": {"stay": true, "until": [{"empty": "square", "of": "paraed", "then": "leave"}]})",
-                       "`paraed` (did you mean `parade`?)"),
+             std::pair(
+                 R"("a": {"stay": true, "until": [{"empty": "square", "of": "paraed", "then": "leave"}]})",
+                 "`paraed` (did you mean `parade`?)"),
              std::pair(R"("a": {"stay": true, "until": [{"near": "elsewhere", "then": "leave"}]})",
                        "(known here: parade, people, in, square, alley:start, alley:end)"),
          })
-        EXPECT_NE(with(states).find(words), std::string::npos) << "not `" << words << "`, but\n" << with(states);
+        EXPECT_NE(with(states).find(words), std::string::npos) << "not `" << words << "`, but\n"
+                                                               << with(states);
 }
 
 TEST(Behaviours, NamesThatDoNotExistAreToldWithTheNearest) {

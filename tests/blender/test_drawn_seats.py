@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Seats drawn in a real Blender: what is seen is what a bake builds, what was changed is in the layout and nothing else,
-mistakes are told at the block, and an audience that is drawn from nothing is baked."""
+"""Seats drawn in a real Blender: what is seen is what a bake builds, what was changed is in the layout and nothing
+else, mistakes are told at the block, and an audience that is drawn from nothing is baked."""
 import json
 
 import pytest
@@ -160,8 +160,8 @@ def near(box, expected):
 
 
 def test_the_drawing_follows_numbers_places_and_points(drawn):
-    """One seat on [0, 0.5] at y = 30: its row is 0.4 m deep on either side and has a ledge of 0.12 m before its feet, its
-    back leans back to 0.44 m and is 0.78 m high."""
+    """One seat on [0, 0.5] at y = 30: its row is 0.4 m deep on either side and has a ledge of 0.12 m before its feet,
+    its back leans back to 0.44 m and is 0.78 m high."""
     seen = drawn["seen"]
     assert near(seen["one"], [[0, 0.5], [29.56, 30.52], [0, 0.78]])
     assert near(seen["moved"], [[49.48, 50.44], [29.75, 30.25], [0, 0.78]]), "a quarter turn about its middle"

@@ -120,7 +120,7 @@ class ThrongBlock(bpy.types.PropertyGroup):
 class ThrongGoal(bpy.types.PropertyGroup):
     """Where people go in the end: a destination, or a seat."""
 
-    mode: EnumProperty(name="To", items=[*_MODES, ("SEATS", "Seats", "A free seat of their own in one of these blocks")])
+    mode: EnumProperty(name="To", items=[*_MODES, ("SEATS", "Seats", "A free seat of their own in these blocks")])
     place: PointerProperty(type=ThrongPlace)
     places: CollectionProperty(type=ThrongPlace)
     seats: CollectionProperty(type=ThrongBlock)

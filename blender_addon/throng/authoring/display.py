@@ -45,7 +45,8 @@ class _Drawing(Maths):
         return node
 
     def finish(self, geometry, kind):
-        coloured = self.made("GeometryNodeSetMaterial", [("Geometry", geometry), ("Material", colours.material_of(kind))])
+        coloured = self.made("GeometryNodeSetMaterial",
+                             [("Geometry", geometry), ("Material", colours.material_of(kind))])
         lifted = self.made("GeometryNodeTransform",
                            [("Geometry", coloured.outputs[0]), ("Translation", (0.0, 0.0, _HEIGHTS.get(kind, 0.0)))])
         return lifted.outputs[0]
@@ -139,7 +140,7 @@ def _people_tree():
 
 def _seats_tree():
     """What an object of its own holds, which Python builds (seat_drawing.py)."""
-    tree, inputs, outputs = new_tree("Throng drawing seats", _GEOMETRY + [("Stand", "NodeSocketObject")], _GEOMETRY)
+    tree, inputs, outputs = new_tree(seat_drawing.TREE, _GEOMETRY + [("Stand", "NodeSocketObject")], _GEOMETRY)
     draw = _Drawing(tree)
     read = draw.node("GeometryNodeObjectInfo", transform_space="ORIGINAL")
     draw.link(inputs.outputs["Stand"], read.inputs["Object"])
@@ -147,7 +148,8 @@ def _seats_tree():
     return tree
 
 
-_TREES = {"Throng drawing seats": _seats_tree, "Throng drawing road": _road_tree, "Throng drawing wall": _wall_tree, "Throng drawing people": _people_tree,
+_TREES = {seat_drawing.TREE: _seats_tree, "Throng drawing road": _road_tree, "Throng drawing wall": _wall_tree,
+          "Throng drawing people": _people_tree,
           "Throng drawing area": lambda: _filled_tree("AREA"), "Throng drawing patch": lambda: _filled_tree("PATCH")}
 
 

@@ -105,8 +105,8 @@ PATCH = (Optional(_codec("patch", "cost")), _codec("patch", "pace"), _codec("pat
 
 ARC = (_codec("seat_block.arc", "radius", required=True), _codec("seat_block.arc", "from", "begins", required=True),
        _codec("seat_block.arc", "to", "ends", required=True))
-SEATS = (*_codecs("seat_block", "rows", "pitch", "width", "rise", "height", "aisles", "aisle_width", "occupancy"),
-         Nested("people", PEOPLE))
+SEATS = (*_codecs("seat_block", "rows", "pitch", "width", "rise", "height", "aisles", "aisle_width", "on_terrain",
+                  "occupancy"), Nested("people", PEOPLE))
 _MOUTHS_AT = _codec("seat_block.mouths", "at")
 _PASSAGE = Optional(_codec("seat_block.mouths", "passage"))
 # What is told of where aisles go out.

@@ -11,14 +11,14 @@ import bpy
 import mathutils
 from bpy.app.handlers import persistent
 
-from ..blender.nodes import get_input, set_input
+from ..blender.nodes import get_input, own_tree, set_input
 from ..cast import seat_rows
 from ..environment import stands
 from . import colours, seat_plan
 from .geometry import AuthoringError, splines_of
 from .values import is_number
 
-MODIFIER = "Throng drawing"
+MODIFIER, TREE = "Throng drawing", "Throng drawing seats"
 _SLOTS = {"stone": 0, 0: 1, 1: 1, "passage": 2}
 _NUMBERS = ("shape", "radius", "begins", "ends", "rows", "pitch", "width", "rise", "height", "aisles", "aisle_width",
             "level", "use_leave")
@@ -30,8 +30,8 @@ def _levels(scene):
     """{id: height} of the layout's levels, which are not drawn."""
     raw = json.loads(scene.throng_layout.raw).get("levels") if scene.throng_layout.raw else ()
     entries = [each for each in raw if isinstance(each, dict)] if isinstance(raw, list) else []
-    return {each["id"]: float(each["height"]) for each in entries
-            if isinstance(each.get("id"), str) and is_number(each.get("height"))}
+    return {each["id"]: float(each["height"]) if is_number(each.get("height")) else 0.0 for each in entries
+            if isinstance(each.get("id"), str)}
 
 
 def is_walked(scene, thing):
@@ -65,11 +65,12 @@ def block_of(scene, thing):
     """The numbers of a block, for its plan. Raises AuthoringError where its curve is none."""
     seats, mouths, levels = thing.throng_layout.seats, thing.throng_layout.seats.mouths, _levels(scene)
     ground = levels.get(seats.level, 0.0)
+    beside = ground if seats.level in levels else next(iter(levels.values()), 0.0)  # unless told, the first one's
     return seat_plan.Block(
         front=_first_row(thing, scene.throng_layout.tolerance), rows=seats.rows, pitch=seats.pitch, width=seats.width,
         rise=seats.rise, height=seats.height + ground, aisles=seats.aisles, aisle_width=seats.aisle_width,
         mouths=mouths.at, mouth_row=mouths.row, passage=mouths.passage if mouths.use_passage else None,
-        foot=levels.get(mouths.level, ground), walked=is_walked(scene, thing))
+        foot=levels.get(mouths.level, beside), walked=is_walked(scene, thing))
 
 
 def _plain_seat(place, along, height, half):
@@ -106,7 +107,7 @@ def _signature(scene, thing):
     shape = [value for row in turned.transposed() @ turned for value in row] + list(turned[2])
     return repr([points, [round(value, _SEEN) for value in shape], turned.determinant() > 0.0,
                  *(getattr(seats, name) for name in _NUMBERS), *(getattr(seats.mouths, name) for name in _MOUTHS),
-                 is_walked(scene, thing), sorted(_levels(scene).items()), scene.throng_layout.tolerance])
+                 is_walked(scene, thing), list(_levels(scene).items()), scene.throng_layout.tolerance])
 
 
 def stand_of(thing):
@@ -177,6 +178,9 @@ def _keep_arc(thing):
 @persistent
 def follow(scene, graph):
     """Curves are shaped, objects are scaled, and what a block is like may hang on other things of the layout."""
+    tree = own_tree(TREE)
+    if tree is None or not tree.users:  # there are no seats
+        return
     if not any(isinstance(update.id, (bpy.types.Object, bpy.types.Curve, bpy.types.Scene)) for update in graph.updates):
         return
     for thing in scene.objects:

@@ -12,14 +12,20 @@ def block_of_seats(box, thing):
     part = thing.throng_layout.seats
     _told(box, thing)
     box.row().prop(part, "shape", expand=True)
-    if part.shape == "ARC":
-        box.prop(part, "radius")
-        _pair(box, part, "begins", "ends")
-    for names in (("rows", "pitch"), ("rise", "height"), ("width", "occupancy"), ("aisles", "aisle_width")):
-        _pair(box, part, *names)
+    column = box.column(align=True)
+    for name in ("radius", "begins", "ends") if part.shape == "ARC" else ():
+        column.prop(part, name)
+    for names in (("rows", "pitch", "rise", "height"), ("width", "occupancy")):
+        column = box.column(align=True)
+        for name in names:
+            column.prop(part, name)
+    column = box.column(align=True)
+    column.prop(part, "aisles")
     if part.aisles > 0:
+        column.prop(part, "aisle_width")
         _mouths(box, part.mouths)
     box.prop(part, "facing")
+    box.prop(part, "on_terrain")
     box.prop(part, "level")
     box.prop(part, "use_leave")
     if part.use_leave:
@@ -28,15 +34,9 @@ def block_of_seats(box, thing):
     people(box.box().column(), part.people)
 
 
-def _pair(box, owner, *names):
-    row = box.row(align=True)
-    for name in names:
-        row.prop(owner, name)
-
-
 def _mouths(box, mouths):
     column = box.column()
-    column.prop(mouths, "at")
+    column.prop(mouths, "at", text="Out")
     if mouths.at == "row":
         column.prop(mouths, "row")
     if mouths.at != "front":

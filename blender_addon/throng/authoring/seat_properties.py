@@ -46,7 +46,8 @@ class ThrongMouths(bpy.types.PropertyGroup):
     row: _number(IntProperty, "row", "Row", "seat_block.mouths")
     use_passage: BoolProperty(name="Passage", update=_refresh, description="Otherwise to just behind the block")
     passage: _number(FloatProperty, "passage", "Passage", "seat_block.mouths", subtype="DISTANCE")
-    level: StringProperty(name="Foot on Level", update=_refresh, description=_LEVEL)
+    level: StringProperty(name="Foot", update=_refresh,
+                          description="The level on which the foot of the passage is: by name, as the layout has it")
 
 
 class ThrongSeats(bpy.types.PropertyGroup):
@@ -64,6 +65,7 @@ class ThrongSeats(bpy.types.PropertyGroup):
     aisles: _number(IntProperty, "aisles", "Aisles")
     aisle_width: _number(FloatProperty, "aisle_width", "Aisle Width", subtype="DISTANCE")
     mouths: PointerProperty(type=ThrongMouths)
+    on_terrain: BoolProperty(name="On Terrain", description=_about("seat_block", "on_terrain"))
     level: StringProperty(name="Level", update=_refresh, description=_LEVEL)
     facing: PointerProperty(type=bpy.types.Object, name="Facing", poll=is_kind("POINT"),
                             description=_about("seat_block", "facing"))

@@ -33,11 +33,10 @@ def faces_of(block, seat_faces=seat_rows.seat_faces):
     """Everything that a block is built of, as (corners, "stone", "passage" or 0 and 1 of a row's seats in turns)."""
     slabs = seat_mouths.has_passages(block)  # people walk under them
     for row in block["rows"]:
-        height = float(row["height"])
-        bottom = height - float(block["rise"]) - seat_mouths.SLAB if slabs else 0.0
-        for face in _step(*seat_rows.step_of(block, row), height, bottom):
+        bottom = seat_rows.bottom_of(block, row, seat_mouths.SLAB if slabs else None)
+        for face in seat_rows.step_faces(*seat_rows.step_of(block, row), seat_rows.heights_of(row), bottom):
             yield face, "stone"
-        for number, (place, way) in enumerate(seat_rows.seats_of(block, row)):
+        for number, (place, way, height) in enumerate(seat_rows.seats_of(block, row)):
             for face in seat_faces(place, way, height, seat_rows.SIDE * float(block["width"])):
                 yield face, number % len(_COLOURS)
     for aisle in block.get("aisles", ()):
@@ -55,21 +54,8 @@ def _mouth(block, aisle):
 
 def _steps(block, aisle):
     """Steps of an aisle, two to a row."""
+    bottom = seat_rows.bottom_of(block, block["rows"][0])
     for front, back, height in seat_rows.treads_of(block, aisle):
-        if height > seat_rows.HAIR:
-            for face in _step(front, back, height):
-                yield face, "stone"
-
-
-def _step(front, back, height, bottom=0.0):
-    """Faces of one from the ground up, or of a slab."""
-    for (a, b), (c, d) in zip(zip(front, front[1:]), zip(back, back[1:])):
-        yield [(*a, height), (*c, height), (*d, height), (*b, height)]
         if height - bottom > seat_rows.HAIR:
-            yield [(*b, bottom), (*a, bottom), (*a, height), (*b, height)]
-            yield [(*c, bottom), (*d, bottom), (*d, height), (*c, height)]
-        if bottom != 0.0:
-            yield [(*a, bottom), (*b, bottom), (*d, bottom), (*c, bottom)]
-    if height - bottom > seat_rows.HAIR:
-        yield [(*front[0], bottom), (*back[0], bottom), (*back[0], height), (*front[0], height)]
-        yield [(*back[-1], bottom), (*front[-1], bottom), (*front[-1], height), (*back[-1], height)]
+            for face in seat_rows.step_faces(front, back, height, bottom):
+                yield face, "stone"
