@@ -53,21 +53,21 @@ def test_everybody_sits_on_the_floor_of_a_row(sitting, manifest_of):
     origin, last = manifest["origin"], streams["pos"][-1]
     seated = (streams["state"][-1, :, 0] // 1) % 64
     assert len(last) > 12 and (seated >= 5).all(), "all of them, those who came, too"
-    for x, y, z in last + [*origin, 0.0]:
+    for x, y, z in last + origin:
         row = round(y / PITCH)
         assert abs(y - row * PITCH) < 0.02 and 0 <= row < ROWS
-        assert z == pytest.approx(floor_of(block, row, x), abs=2e-3)
+        assert z == pytest.approx(floor_of(block, row, x), abs=6e-3), "who has come is 2 cm before the end of its way"
 
 
 def test_who_comes_is_on_the_ground_and_then_on_the_steps(sitting, manifest_of):
     block, bake, streams = sitting
     there = streams["state"][:, :, 0] > 0.5
-    x, y, z = (streams["pos"] + [*manifest_of(bake)["origin"], 0.0]).transpose(2, 0, 1)
+    x, y, z = (streams["pos"] + manifest_of(bake)["origin"]).transpose(2, 0, 1)
     outside = there & (y > -0.5) & (numpy.abs(x) > 7.5)
     assert outside.sum() > 50
     assert numpy.abs(z - plane(x, y))[outside].max() < 0.02
     change = numpy.abs(numpy.diff(z, axis=0))[there[1:] & there[:-1]]
-    assert change.max() < 0.2, "nobody jumps: at 0.8 m/s and 80 % these are 5 cm a frame, and from the ground to a step"
+    assert change.max() < 0.08, "nobody jumps: at 0.8 m/s and 80 % these are 5 cm a frame"
     over = (z - plane(x, y))[there]
     lowest = -0.05 if "on_terrain" in block else -1.5
     assert lowest < over.min() and over.max() < 1.5
@@ -76,7 +76,7 @@ def test_who_comes_is_on_the_ground_and_then_on_the_steps(sitting, manifest_of):
 def test_the_stand_is_told_with_its_heights(sitting, manifest_of):
     block, bake, _ = sitting
     manifest = manifest_of(bake)
-    told, (ox, oy) = manifest["geometry"]["seats"][0], manifest["origin"]
+    told, (ox, oy, _) = manifest["geometry"]["seats"][0], manifest["origin"]
     assert told["ground"] == pytest.approx(plane(-6.0, -0.5 * PITCH), abs=1e-3)
     assert [("heights" in row) for row in told["rows"]] == ["on_terrain" in block] * (2 * ROWS)
     for number, row in enumerate(told["rows"]):

@@ -67,7 +67,8 @@ def plans(path):
     bpy.context.view_layer.update()
     found = []
     for thing in blocks():
-        made, _ = seat_plan.plan_of(seat_drawing.block_of(bpy.context.scene, thing))
+        scene = bpy.context.scene
+        made, _ = seat_plan.plan_of(seat_drawing.block_of(scene, thing, seat_drawing.walked_in(scene)))
         found.append([made, seat_drawing.stand_of(thing)["throng_seats"], box(thing)])
     return found
 

@@ -94,7 +94,9 @@ TEST_P(SeatGround, LinesOfRowsFollowIt) {
             // Somewhere between the heights of its edges, which are half a pitch to either side.
             EXPECT_GE(row.heights[i], plane(row.line[i]) - 1e-4);
             EXPECT_LE(row.heights[i], plane(row.line[i]) + 0.4 * std::hypot(0.2, 0.1) * 1.05);
-            if (i > 0) EXPECT_LE(glm::distance(row.line[i], row.line[i - 1]), 0.51);
+            if (i > 0) {
+                EXPECT_LE(glm::distance(row.line[i], row.line[i - 1]), 0.51);
+            }
             lowest = std::min(lowest, row.heights[i]);
         }
         EXPECT_EQ(row.height, lowest);
@@ -173,7 +175,8 @@ TEST(SeatGround, WhatCannotStandThereIsTold) {
                   "block `a`: row 1 climbs 0.50 m over 0.50 m at [-5.50, 0.00]: people climb at most 80 %",
                   "less steep", planeMesh(80.0, 5.0));
     expectMistake(kGuests + block(front, 3, aisle + R"(, "on_terrain": true)"),
-                  "block `a`: aisle 1 climbs 0.90 m over 0.80 m at ", "less steep", [] {
+                  "from the ground to its first row, climbs 1.69 m over 0.80 m at [0.00, 0.30]", "less steep",
+                  [] {
                       TerrainMesh mesh = planeMesh();
                       for (glm::dvec3& at : mesh.positions)
                           at.z = -1.125 * at.y;

@@ -4,6 +4,7 @@
 They are a mesh of an object that is in no scene, which the modifier of the block's curve reads, in the curve's own
 frame: it is moved and turned with it, and built anew only when numbers or points have changed.
 """
+import functools
 import json
 import math
 
@@ -26,23 +27,30 @@ _MOUTHS = ("at", "row", "use_passage", "passage", "level")
 _SEEN = 5  # decimals of what makes a difference
 
 
-def _levels(scene):
-    """{id: height} of the layout's levels, which are not drawn."""
-    raw = json.loads(scene.throng_layout.raw).get("levels") if scene.throng_layout.raw else ()
+@functools.lru_cache(maxsize=4)
+def _heights(text):
+    raw = json.loads(text).get("levels") if text else ()
     entries = [each for each in raw if isinstance(each, dict)] if isinstance(raw, list) else []
     return {each["id"]: float(each["height"]) if is_number(each.get("height")) else 0.0 for each in entries
             if isinstance(each.get("id"), str)}
 
 
-def is_walked(scene, thing):
-    """Whether people walk to its seats or leave them."""
+def _levels(scene):
+    """{id: height} of the layout's levels, which are not drawn."""
+    return _heights(scene.throng_layout.raw)
+
+
+def walked_in(scene):
+    """Names of blocks to whose seats people walk, or leave them."""
     layout = scene.throng_layout
     goals = [flow.to for flow in layout.flows]
     goals += [each.throng_layout.formation.goal for each in scene.objects if each.throng_layout.kind == "FORMATION"]
     blocks = [block for goal in goals if goal.mode == "SEATS" for block in goal.seats]
     blocks += [block for behaviour in layout.behaviours for state in behaviour.states if state.does == "sit"
                for block in state.seats]
-    return thing.throng_layout.seats.use_leave or any(block.target == thing for block in blocks)
+    leave = [each.name for each in scene.objects if each.throng_layout.kind == "SEATS"
+             and each.throng_layout.seats.use_leave]
+    return {*leave, *(block.target.name for block in blocks if block.target)}
 
 
 def _first_row(thing, tolerance):
@@ -61,8 +69,8 @@ def _end_of(seats):
     return min(max(seats.ends, seats.begins + 1.0), seats.begins + 360.0)
 
 
-def block_of(scene, thing):
-    """The numbers of a block, for its plan. Raises AuthoringError where its curve is none."""
+def block_of(scene, thing, walked):
+    """The numbers of a block, for its plan. Raises AuthoringError where its curve is none. @param walked walked_in()"""
     seats, mouths, levels = thing.throng_layout.seats, thing.throng_layout.seats.mouths, _levels(scene)
     ground = levels.get(seats.level, 0.0)
     beside = ground if seats.level in levels else next(iter(levels.values()), 0.0)  # unless told, the first one's
@@ -70,7 +78,7 @@ def block_of(scene, thing):
         front=_first_row(thing, scene.throng_layout.tolerance), rows=seats.rows, pitch=seats.pitch, width=seats.width,
         rise=seats.rise, height=seats.height + ground, aisles=seats.aisles, aisle_width=seats.aisle_width,
         mouths=mouths.at, mouth_row=mouths.row, passage=mouths.passage if mouths.use_passage else None,
-        foot=levels.get(mouths.level, beside), walked=is_walked(scene, thing))
+        foot=levels.get(mouths.level, beside), walked=thing.name in walked)
 
 
 def _plain_seat(place, along, height, half):
@@ -91,7 +99,7 @@ def _fill(mesh, plan, matrix):
     mesh.update()
 
 
-def _signature(scene, thing):
+def _signature(scene, thing, walked):
     """What the drawing depends on."""
     seats, matrix = thing.throng_layout.seats, thing.matrix_world
     points = []
@@ -107,7 +115,7 @@ def _signature(scene, thing):
     shape = [value for row in turned.transposed() @ turned for value in row] + list(turned[2])
     return repr([points, [round(value, _SEEN) for value in shape], turned.determinant() > 0.0,
                  *(getattr(seats, name) for name in _NUMBERS), *(getattr(seats.mouths, name) for name in _MOUTHS),
-                 is_walked(scene, thing), list(_levels(scene).items()), scene.throng_layout.tolerance])
+                 thing.name in walked, list(_levels(scene).items()), scene.throng_layout.tolerance])
 
 
 def stand_of(thing):
@@ -116,13 +124,14 @@ def stand_of(thing):
     return get_input(modifier, "Stand") if modifier and modifier.node_group else None
 
 
-def show(thing, modifier):
-    """Brings what is drawn of a block up to date."""
+def show(thing, modifier, walked=None):
+    """Brings what is drawn of a block up to date. @param walked walked_in() its scene, where it is known"""
     scene = next(iter(thing.users_scene), None)
     if scene is None:
         return
+    walked = walked_in(scene) if walked is None else walked
     _keep_arc(thing)
-    signature, stand = _signature(scene, thing), get_input(modifier, "Stand")
+    signature, stand = _signature(scene, thing, walked), get_input(modifier, "Stand")
     if stand is not None and stand.get("throng_signature") == signature:
         return
     if stand is None or stand.users > 1:  # a copy shows what it was copied from until it is another
@@ -131,16 +140,16 @@ def show(thing, modifier):
             mesh.materials.append(colours.material_of(kind))
         stand = bpy.data.objects.new("Throng seats", mesh)
         set_input(modifier, "Stand", stand)
-    _draw(scene, thing, stand)
+    _draw(scene, thing, stand, walked)
     stand["throng_signature"] = signature
     thing.update_tag()
 
 
-def _draw(scene, thing, stand):
+def _draw(scene, thing, stand, walked):
     stand.data.clear_geometry()
     stand["throng_seats"], stand["throng_problem"] = 0, ""
     try:
-        made = seat_plan.plan_of(block_of(scene, thing))
+        made = seat_plan.plan_of(block_of(scene, thing, walked))
     except AuthoringError as error:
         stand["throng_problem"] = str(error)
         return
@@ -183,11 +192,12 @@ def follow(scene, graph):
         return
     if not any(isinstance(update.id, (bpy.types.Object, bpy.types.Curve, bpy.types.Scene)) for update in graph.updates):
         return
+    walked = walked_in(scene)
     for thing in scene.objects:
         if thing.type == "CURVE" and thing.throng_layout.kind == "SEATS" and thing.library is None:
             modifier = thing.modifiers.get(MODIFIER)
             if modifier and modifier.node_group:
-                show(thing, modifier)
+                show(thing, modifier, walked)
 
 
 def forget(stand):
