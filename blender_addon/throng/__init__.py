@@ -30,8 +30,8 @@ else:
     # What registers classes of its own, in order: panels appear in it.
     _PARTS = (preferences, operators, staging, cells, levels, near, close, ground, properties, authoring_operators,
               bake_operator, overlay, seat_drawing, panels, seat_panel, behaviour_panel, given_panel, live_operators,
-              live_panel, characters_operators, motions_operators, overrides_operators, layers_operators, export_operators,
-              export)
+              live_panel, characters_operators, motions_operators, overrides_operators, layers_operators,
+              export_operators, export)
 
 
 def register():

@@ -42,15 +42,22 @@ def _levels(scene):
 
 def walked_in(scene):
     """Names of blocks to whose seats people walk, or leave them."""
-    layout = scene.throng_layout
-    goals = [flow.to for flow in layout.flows]
-    goals += [each.throng_layout.formation.goal for each in scene.objects if each.throng_layout.kind == "FORMATION"]
+    layout, goals = scene.throng_layout, _goals_in(scene)
     blocks = [block for goal in goals if goal.mode == "SEATS" for block in goal.seats]
-    blocks += [block for behaviour in layout.behaviours for state in behaviour.states if state.does == "sit"
-               for block in state.seats]
-    leave = [each.name for each in scene.objects if each.throng_layout.kind == "SEATS"
-             and each.throng_layout.seats.use_leave]
-    return {*leave, *(block.target.name for block in blocks if block.target)}
+    states = [state for behaviour in layout.behaviours for state in behaviour.states]
+    blocks += [block for state in states if state.does == "sit" for block in state.seats]
+    left = (each for each in _blocks_in(scene) if each.throng_layout.seats.use_leave)
+    return {thing.name for thing in (*left, *(block.target for block in blocks)) if thing}
+
+
+def _goals_in(scene):
+    parts = [thing.throng_layout for thing in scene.objects]
+    return [*(flow.to for flow in scene.throng_layout.flows),
+            *(part.formation.goal for part in parts if part.kind == "FORMATION")]
+
+
+def _blocks_in(scene):
+    return [thing for thing in scene.objects if thing.throng_layout.kind == "SEATS"]
 
 
 def _first_row(thing, tolerance):
@@ -193,8 +200,8 @@ def follow(scene, graph):
     if not any(isinstance(update.id, (bpy.types.Object, bpy.types.Curve, bpy.types.Scene)) for update in graph.updates):
         return
     walked = walked_in(scene)
-    for thing in scene.objects:
-        if thing.type == "CURVE" and thing.throng_layout.kind == "SEATS" and thing.library is None:
+    for thing in _blocks_in(scene):
+        if thing.type == "CURVE" and thing.library is None:
             modifier = thing.modifiers.get(MODIFIER)
             if modifier and modifier.node_group:
                 show(thing, modifier, walked)
