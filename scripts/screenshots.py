@@ -229,7 +229,7 @@ def seats():
     """A corner of a stadium is drawn: a straight stand and a curve with openings, and a stand while it is changed."""
     yield from with_one_panel("layout")
     yield from open_sidebar()
-    settle(-1.5, -14.0, 1.0, 42.0, down=34.0, turned=-155.0)
+    settle(0.8, -15.0, 0.0, 44.0, down=34.0, turned=-155.0)
     cursor(-14.0, -16.0)
     run(bpy.ops.throng.add_seats, "EXEC_DEFAULT", length=28.0, rows=10, aisles=2)
     cursor(0.0, 0.0)

@@ -55,9 +55,8 @@ std::optional<double> lowestGround(const SeatBlock& block) {
     if (!block.ground) return std::nullopt;
     constexpr double kStep = 1.0;  // m
     double lowest = std::numeric_limits<double>::infinity();
-    const double behind = (static_cast<double>(block.rows) - 0.5) * block.pitch;
-    for (double back = -0.5 * block.pitch; back < behind + kStep; back += kStep) {
-        const RowLine line(block, std::min(back, behind));
+    for (std::uint64_t edge = 0; edge <= block.rows; ++edge) {
+        const RowLine line(block, (static_cast<double>(edge) - 0.5) * block.pitch);
         const double length = line.length();
         const auto pieces = std::max(1, static_cast<int>(std::ceil(length / kStep)));
         for (int i = 0; i <= pieces; ++i)
