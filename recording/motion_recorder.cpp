@@ -223,8 +223,8 @@ void MotionRecorder::takeOutOfPlane() {
     }
 }
 
-/// Who steps into an aisle comes from somewhere round its foot, where the ground has another height: so far
-/// above that of the way is it still, m.
+/// Who steps into an aisle comes from somewhere round its foot, where the ground has another height.
+/// @returns m that it is still to be shown above the way for that
 float MotionRecorder::overFoot(std::size_t row, glm::vec2 place) const {
     constexpr double kRound = 3.0;  // m
     if (aisle_feet_.empty() || leading_[row] == 0.0f) return 0.0f;

@@ -54,7 +54,7 @@ void putSeated(uint row, AgentState state) {
     if (sitter.mode == SITTER_SITS) activity = sitter.activity;
     if (sitter.mode == SITTER_LETS_GO) activity = ACTIVITY_SIT;
     if (risesOrSettles(sitter.mode)) activity = ACTIVITY_SETTLE;
-    bool walks = activity == ACTIVITY_WALK;  // then it is how much of the way to the first row is left
+    bool walks = activity == ACTIVITY_WALK;  // what is told then is how much of the way to the first row is left
     float told = walks ? beforeRows(seat_ways[index], sitter.along)
                        : sitter.mode == SITTER_LETS_GO ? -1.0 : sitter.share;
     put(0u, row, vec3(state.position - seat_ways[index].shift, heightOnWay(seat_ways[index], sitter.along)));
