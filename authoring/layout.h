@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -379,6 +380,11 @@ struct SeatBlock {
     };
     Mouths mouths{};
     std::size_t level = 0;  ///< that the stand keeps people off
+    /// Each row goes up and down with the terrain along it, and heights count over that.
+    bool on_terrain = false;
+    /// m, of the terrain at a place; NaN where there is none. Null: there is none at all
+    /// (authoring/scene/seat_ground.h).
+    std::function<double(glm::dvec2)> ground{};
     glm::dvec2 shift{0.0};  ///< m: place in the plane - home (authoring/storeys)
     People people;
     SourcePosition where;

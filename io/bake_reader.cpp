@@ -326,6 +326,12 @@ recording::BakeFlight flightFrom(const ManifestReader& reader, const std::string
     return flight;
 }
 
+std::vector<double> heightsFrom(const ManifestReader& reader, const std::vector<glm::dvec2>& line) {
+    std::vector<double> heights = reader.numbers("/heights");
+    if (heights.size() != line.size()) reader.fail("/heights", "one for each point");
+    return heights;
+}
+
 void readSeats(const ManifestReader& reader, Bake& bake) {
     if (!reader.has("/geometry/seats")) return;
     reader.each("/geometry/seats", [&](const ManifestReader& block) {
@@ -336,10 +342,14 @@ void readSeats(const ManifestReader& reader, Bake& bake) {
                                    {}};
         block.each("/rows", [&](const ManifestReader& row) {
             seats.rows.push_back({row.points("/line", 2), row.number("/height", -kFurthest, kFurthest)});
+            if (row.has("/heights")) seats.rows.back().heights = heightsFrom(row, seats.rows.back().line);
         });
+        if (block.has("/ground")) seats.ground = block.number("/ground", -kFurthest, kFurthest);
         if (block.has("/aisles"))
             block.each("/aisles", [&](const ManifestReader& aisle) {
                 seats.aisles.push_back({aisle.points("/line", 2), aisle.length("/width")});
+                if (aisle.has("/heights"))
+                    seats.aisles.back().heights = heightsFrom(aisle, seats.aisles.back().line);
                 if (!aisle.has("/passage")) return;
                 aisle.each("/flights", [&](const ManifestReader& flight) {
                     seats.aisles.back().flights.push_back(flightFrom(flight, ""));

@@ -37,6 +37,7 @@ Json flightToJson(const recording::BakeFlight& flight, glm::dvec2 origin) {
 
 Json aisleToJson(const recording::BakeAisle& aisle, glm::dvec2 origin) {
     Json told = {{"line", pointsToJson(aisle.line, origin)}, {"width", aisle.width}};
+    if (!aisle.heights.empty()) told["heights"] = aisle.heights;
     if (!aisle.passage) return told;
     told["passage"] = flightToJson(*aisle.passage, origin);
     told["flights"] = Json::array();
@@ -49,14 +50,17 @@ Json seatsToJson(const recording::BakeDescription& description) {
     Json list = Json::array();
     for (const recording::BakeSeats& seats : description.seats) {
         Json rows = Json::array();
-        for (const recording::BakeSeatRow& row : seats.rows)
+        for (const recording::BakeSeatRow& row : seats.rows) {
             rows.push_back(
                 {{"line", pointsToJson(row.line, description.output_origin)}, {"height", row.height}});
+            if (!row.heights.empty()) rows.back()["heights"] = row.heights;
+        }
         list.push_back({{"id", seats.id},
                         {"pitch", seats.pitch},
                         {"width", seats.width},
                         {"rise", seats.rise},
                         {"rows", std::move(rows)}});
+        if (seats.ground) list.back()["ground"] = *seats.ground;
         for (const recording::BakeAisle& aisle : seats.aisles)
             list.back()["aisles"].push_back(aisleToJson(aisle, description.output_origin));
     }

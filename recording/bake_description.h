@@ -61,8 +61,9 @@ struct BakeSitter {
 
 /// A line of seats from aisle to aisle, for whoever shows it.
 struct BakeSeatRow {
-    std::vector<glm::dvec2> line;  ///< m, in the middle of the seats
-    double height = 0.0;           ///< m, of the floor before them
+    std::vector<glm::dvec2> line;      ///< m, in the middle of the seats
+    double height = 0.0;               ///< m, of the floor before them; on a terrain the lowest
+    std::vector<double> heights = {};  ///< m, on a terrain, of each point
 };
 
 /// Something that draws eyes, in the frame of reference of the frames.
@@ -93,6 +94,7 @@ struct BakeAisle {
     /// it, and what is beside it; a point before each row. Its `line` is that of its passage then.
     std::vector<BakeFlight> flights = {};
     std::optional<BakeFlight> passage = {};  ///< from its foot to the row on which it comes out
+    std::vector<double> heights = {};        ///< m, on a terrain, of each point
 };
 
 /// A block of seats.
@@ -101,6 +103,7 @@ struct BakeSeats {
     double pitch = 0.8, width = 0.5, rise = 0.0;  ///< m
     std::vector<BakeSeatRow> rows;
     std::vector<BakeAisle> aisles = {};  ///< empty: nobody walks to its seats or leaves them
+    std::optional<double> ground = {};   ///< m, on a terrain: the lowest of it there
 };
 
 /// What the layout was made from.

@@ -76,6 +76,7 @@ MotionRecorder::MotionRecorder(const BakeDescription& description, Sink sink)
     if (description.has_poses) {
         poses_.resize(walkers_.size());
         led_.resize(walkers_.size());
+        leading_.resize(walkers_.size());
         for (std::size_t row = 0; row < walkers_.size(); ++row)
             paces_.push_back(fractionOf(scramble(description.seed ^ scramble(row ^ wordOf("poses")))));
     }
@@ -86,6 +87,11 @@ MotionRecorder::MotionRecorder(const BakeDescription& description, Sink sink)
         ground_ = description.terrain->surface;
         footing_.emplace(ground_, walkers_.size(), fps_);
         grounds_.resize(walkers_.size() * kComponents);
+        for (const BakeSeats& seats : description.seats)
+            for (const BakeAisle& aisle : seats.aisles)
+                if (!aisle.heights.empty() && shifts_.empty())
+                    aisle_feet_.emplace_back(aisle.line.front() - description.scene_origin,
+                                             aisle.heights.front());
     }
     for (const BakeAgent& agent : description.agents) {
         parties_.push_back(agent.party);
@@ -208,8 +214,26 @@ void MotionRecorder::giveOut() {
 void MotionRecorder::takeOutOfPlane() {
     for (std::size_t row = 0; row < led_.size(); ++row) {
         led_[row] = isLed(states_, row * kComponents);
-        if (led_[row]) states_[row * kComponents] -= kLed;
+        leading_[row] = 0.0f;
+        if (!led_[row]) continue;
+        const std::size_t at = row * kComponents;
+        states_[at] -= kLed;
+        if (states_[at] == static_cast<float>(gpu::ACTIVITY_WALK))
+            leading_[row] = std::exchange(states_[at + 2], 0.0f);
     }
+}
+
+/// Who steps into an aisle comes from somewhere round its foot, where the ground has another height.
+/// @returns m that it is still to be shown above the way for that
+float MotionRecorder::overFoot(std::size_t row, glm::vec2 place) const {
+    constexpr double kRound = 3.0;  // m
+    if (aisle_feet_.empty() || leading_[row] == 0.0f) return 0.0f;
+    const auto off = [&](const glm::dvec3& foot) {
+        return glm::distance(glm::dvec2(foot), glm::dvec2(place));
+    };
+    const auto foot = std::ranges::min_element(aisle_feet_, {}, off);
+    if (off(*foot) > kRound) return 0.0f;
+    return leading_[row] * (ground_->heightAt(place) - static_cast<float>(foot->z));
 }
 
 void MotionRecorder::average(const KeptFrame& frame) {
@@ -226,7 +250,10 @@ void MotionRecorder::average(const KeptFrame& frame) {
         if (!led)
             bodies_.push_back({simulated, given_[row] ? simulated : shown, sizeOf(frame, row) * radii_[row],
                                axisOf(frame, row), heightOf(row), given_[row]});
-        if (shifts_.empty()) positions_[at + 2] = static_cast<float>(average.position[2]);
+        // On a terrain, heights of those who walk are found later: there is nothing to average those of
+        // others with.
+        if (shifts_.empty() && !(led && ground_))
+            positions_[at + 2] = static_cast<float>(average.position[2]);
         if (led) {
             positions_[at] = static_cast<float>(shown.x);
             positions_[at + 1] = static_cast<float>(shown.y);
@@ -312,13 +339,15 @@ void MotionRecorder::record(const KeptFrame& frame) {
                                           scales_[row], carried},
                                          walker.gait));
         if (footsteps_ && hasSeat(states_[at])) putFeet(at, {});
-        if (footing_ && !led_.empty() && led_[row])
+        if (footing_ && !led_.empty() && led_[row]) {
+            positions_[at + 2] += overFoot(row, place);
             putStance(at, {positions_[at + 2], 0.0f, 0.0f, positions_[at + 2]});
-        else if (footing_)
+        } else if (footing_) {
             putStance(at,
                       footing_->stand(
                           row, {place + glm::vec2(toPlane(row)), heading, moved, carried != glm::vec2(0.0f)},
                           walker.gait));
+        }
         if (footing_) positions_[at + 2] += liftedBy(row);
     }
 }

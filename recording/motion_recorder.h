@@ -51,6 +51,7 @@ class MotionRecorder {
     void goHome(const Frame& frame);
     glm::dvec2 toPlane(std::size_t row) const;
     double heightOf(std::size_t row) const;
+    float overFoot(std::size_t row, glm::vec2 place) const;
     float liftedBy(std::size_t row) const;
     /// How far the ground has carried somebody since the frame before, m.
     glm::dvec2 carriedBy(std::size_t row) const;
@@ -106,6 +107,9 @@ class MotionRecorder {
     std::vector<double> paces_;               ///< by row, 0 to 1
     std::vector<std::vector<SeatCue>> cues_;  ///< by row; empty: there are no shows
     std::vector<bool> led_;                   ///< by row, in the frame being given out: out of others' way
+    std::vector<float> leading_;              ///< of who is led, how much of the way to the first row is left
+    std::vector<glm::dvec3>
+        aisle_feet_;  ///< on a terrain of one storey, in the frame of reference of the frames
 };
 
 }  // namespace throng::recording

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs in Blender's windows: follows docs/tutorials/street-in-blender.md and takes its pictures, or that of a
-behaviour. tutorial|behaviours FOLDER PICTURES
+"""Runs in Blender's windows: follows docs/tutorials/street-in-blender.md and takes its pictures, or those of a
+behaviour or of seats. tutorial|behaviours|seats FOLDER PICTURES
 
 What it does is a generator of steps; between two steps the windows are drawn. A step may yield the seconds to wait.
 """
@@ -195,8 +195,8 @@ def still():
     print("picture", scene.render.filepath, flush=True)
 
 
-def behaviours():
-    """The market, and the panel of its behaviours alone."""
+def with_one_panel(name):
+    """An empty scene, and of the sidebar one panel alone, unfolded."""
     addon_utils.enable("throng", default_set=True)
     yield 2
     for thing in list(bpy.data.objects):
@@ -204,9 +204,14 @@ def behaviours():
     panels = [getattr(bpy.types, name) for name in dir(bpy.types) if name.startswith("VIEW3D_PT_throng_")]
     for each in panels:
         bpy.utils.unregister_class(each)
-    shown = next(each for each in panels if each.__name__ == "VIEW3D_PT_throng_behaviours")
+    shown = next(each for each in panels if each.__name__ == f"VIEW3D_PT_throng_{name}")
     shown.bl_options = set()
     bpy.utils.register_class(shown)
+
+
+def behaviours():
+    """The market, and the panel of its behaviours alone."""
+    yield from with_one_panel("behaviours")
     with in_view():
         assert bpy.ops.import_scene.throng_layout(filepath=os.path.abspath("examples/market.json")) == {"FINISHED"}
     behaviour = bpy.context.scene.throng_layout.behaviours[0]
@@ -220,7 +225,28 @@ def behaviours():
     picture("behaviours")
 
 
-PARTS = {"tutorial": (beginning, streets, buildings, flows, mistake, bake, crowd, still), "behaviours": (behaviours,)}
+def seats():
+    """A corner of a stadium is drawn: a straight stand and a curve with openings, and a stand while it is changed."""
+    yield from with_one_panel("layout")
+    yield from open_sidebar()
+    settle(0.8, -15.0, 0.0, 44.0, down=34.0, turned=-155.0)
+    cursor(-14.0, -16.0)
+    run(bpy.ops.throng.add_seats, "EXEC_DEFAULT", length=28.0, rows=10, aisles=2)
+    cursor(0.0, 0.0)
+    run(bpy.ops.throng.add_seats, "EXEC_DEFAULT", shape="ARC", radius=16.0, span=math.radians(90.0),
+        angle=math.radians(-45.0), rows=12, aisles=3)
+    curve = bpy.data.objects["Seats.001"].throng_layout.seats
+    curve.height, curve.mouths.at, curve.mouths.row = 0.8, "row", 4
+    bpy.data.objects["Seats"].throng_layout.seats.height = 0.8
+    view().spaces.active.shading.color_type = "MATERIAL"
+    view().spaces.active.overlay.show_floor = True
+    view().tag_redraw()
+    yield 2
+    picture("seats")
+
+
+PARTS = {"tutorial": (beginning, streets, buildings, flows, mistake, bake, crowd, still), "behaviours": (behaviours,),
+         "seats": (seats,)}
 
 
 def steps():

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include "authoring/layout/behaviour_check.h"
 #include "authoring/layout/people_reader.h"
@@ -497,9 +498,7 @@ void BehaviourReader::checkKeys(const JsonNode& node, const State& state) {
 void BehaviourReader::checkGroup(const GroupName& name, bool or_place) {
     if (groups_.contains(name.id)) return;
     std::vector<std::string> known = namesOf(groups_);
-    if (or_place)
-        for (const Area& area : layout_.areas)
-            known.push_back(area.id);
+    if (or_place) std::ranges::copy(places_.names(), std::back_inserter(known));
     diagnostics_.error(
         name.where,
         fmt::format("there is no {}flow, formation or given people `{}`", or_place ? "place, " : "", name.id),

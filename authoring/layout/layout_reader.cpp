@@ -509,8 +509,23 @@ class Reader {
                 event.who.push_back(item.text);
             else
                 diagnostics_.error(item.where, fmt::format("there is no flow or formation `{}`", item.text),
-                                   hintFor(item.text, namesOf(groups_)));
+                                   hintFor(item.text, namesOfSent()));
         });
+    }
+
+    /// Whom an event can send somewhere.
+    std::vector<std::string> namesOfSent() const {
+        std::vector<std::string> names = namesOf(groups_);
+        std::erase_if(names,
+                      [&](const std::string& name) { return seats_.hasBlock(name) || given_.has(name); });
+        return names;
+    }
+
+    std::vector<std::string> namesOfFlows() const {
+        std::vector<std::string> names;
+        for (const Flow& flow : layout_.flows)
+            names.push_back(flow.id);
+        return names;
     }
 
     bool findSubject(const JsonNode& node, Event& event) {
@@ -520,7 +535,7 @@ class Reader {
         if (node.kind != JsonNode::Kind::text || found == ids.end()) {
             diagnostics_.error(node.where,
                                fmt::format("there is no {} `{}`", is_flow ? "flow" : "wall", node.text),
-                               hintFor(node.text, namesOf(ids)));
+                               hintFor(node.text, is_flow ? namesOfFlows() : namesOf(ids)));
             return false;
         }
         event.subject = found->second;

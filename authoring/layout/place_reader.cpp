@@ -33,16 +33,20 @@ std::optional<Place> PlaceReader::placeNamed(const std::string& name, const Sour
     const auto road = roads_.find(id);
     if (road != roads_.end() && (end == "start" || end == "end"))
         return Place{end == "start" ? Place::Kind::road_start : Place::Kind::road_end, road->second, where};
-    std::vector<std::string> known = namesOf(areas_);
-    for (const auto& [road_name, index] : roads_) {
-        known.push_back(road_name + ":start");
-        known.push_back(road_name + ":end");
-    }
     const std::string what = road != roads_.end()
                                  ? fmt::format("`{}` names a road, not one of its ends", name)
                                  : fmt::format("there is no place `{}`", name);
-    diagnostics_.error(where, what, hintFor(name, known));
+    diagnostics_.error(where, what, hintFor(name, names()));
     return std::nullopt;
+}
+
+std::vector<std::string> PlaceReader::names() const {
+    std::vector<std::string> names = namesOf(areas_);
+    for (const auto& [road, index] : roads_) {
+        names.push_back(road + ":start");
+        names.push_back(road + ":end");
+    }
+    return names;
 }
 
 Destination PlaceReader::nearestOf(const JsonNode& list) const {

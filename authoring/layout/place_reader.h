@@ -21,6 +21,8 @@ class PlaceReader {
     std::optional<Place> place(const JsonNode& node) const;
     /// Whether a name is an area's, or could be meant for an end of a road.
     bool isPlace(const std::string& name) const;
+    /// All places, as a layout names them.
+    std::vector<std::string> names() const;
     /// A place, {"nearest": [places]} or {"choose": {place: weight}}.
     std::optional<Destination> destination(const JsonNode& node) const;
     /// A destination, or an object with one under `at` and what happens there.

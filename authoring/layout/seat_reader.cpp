@@ -58,6 +58,7 @@ void SeatReader::readBlock(const JsonNode& node) {
     reader.integer("aisles", block.aisles);
     reader.number("aisle_width", block.aisle_width);
     reader.number("occupancy", block.occupancy);
+    reader.boolean("on_terrain", block.on_terrain);
     block.people = readPeople(reader, diagnostics_);
     if (const JsonNode* leave = reader.get("leave")) readLeave(*leave, block);
     if (const JsonNode* level = reader.get("level")) {
@@ -65,6 +66,7 @@ void SeatReader::readBlock(const JsonNode& node) {
         if (block.level < layout_.levels.size()) block.height += layout_.levels[block.level].height;
     }
     readMouths(reader, block);
+    if (block.on_terrain) checkOnTerrain(*node.find("on_terrain"), block);
     reader.finish();
     claimId(node, block.id, blocks_, layout_.seats.size(), "a block of seats", diagnostics_);
     claimId(node, block.id, groups_, std::string::npos, "a flow, formation or block of seats", diagnostics_);
@@ -73,6 +75,16 @@ void SeatReader::readBlock(const JsonNode& node) {
         if (!diagnostics_.hasErrors()) addStands(block);
     }
     layout_.seats.push_back(std::move(block));
+}
+
+void SeatReader::checkOnTerrain(const JsonNode& node, const SeatBlock& block) const {
+    if (!layout_.terrain)
+        diagnostics_.error(node.where, "there is no terrain that the block could go up and down with",
+                           "leave it out, or give the layout a `terrain`");
+    if (hasPassages(block))
+        diagnostics_.error(node.where,
+                           fmt::format("block `{}` has passages: these are of level stands only", block.id),
+                           "leave out its `mouths`, so that aisles go out before it, or `on_terrain`");
 }
 
 /// Where its aisles go out.

@@ -39,6 +39,7 @@ class SeatReader {
   private:
     void readLeave(const JsonNode& node, SeatBlock& block);
     void readMouths(ObjectReader& reader, SeatBlock& block) const;
+    void checkOnTerrain(const JsonNode& node, const SeatBlock& block) const;
     void checkMouths(const JsonNode& node, const SeatBlock& block) const;
     void checkPassage(const SeatBlock& block) const;
     void checkOpenings(const SeatBlock& block) const;

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "authoring/layout/row_floor.h"
 #include "authoring/layout/row_line.h"
 #include "authoring/layout/seat_mouths.h"
 
@@ -69,6 +70,7 @@ std::vector<Seat> seatsOf(const SeatBlock& block) {
     const double whole = lengthOf(block);
     for (std::uint64_t row = 0; row < block.rows; ++row) {
         const RowLine line(block, static_cast<double>(row) * block.pitch);
+        const RowFloor floor(block, row);
         const std::vector<Section> sections = sectionsOf(block, line, gapOfRow(block, row));
         for (std::size_t number = 0; number < sections.size(); ++number) {
             const std::size_t count = seatsIn(block, line, sections[number]);
@@ -77,12 +79,8 @@ std::vector<Seat> seatsOf(const SeatBlock& block) {
             for (std::size_t i = 0; i < count; ++i) {
                 const double share = line.advance(sections[number].from,
                                                   0.5 * spare + (static_cast<double>(i) + 0.5) * block.width);
-                Seat seat{line.at(share),
-                          block.height + static_cast<double>(row) * block.rise,
-                          line.aheadAt(share),
-                          static_cast<std::size_t>(row),
-                          number,
-                          share * whole};
+                Seat seat{line.at(share), floor.at(share), line.aheadAt(share), static_cast<std::size_t>(row),
+                          number,         share * whole};
                 if (block.facing && *block.facing != seat.place)
                     seat.ahead = glm::normalize(*block.facing - seat.place);
                 seats.push_back(seat);
@@ -138,10 +136,21 @@ std::vector<SeatRow> seatRows(const SeatBlock& block) {
     std::vector<SeatRow> rows;
     for (std::uint64_t row = 0; row < block.rows; ++row) {
         const RowLine line(block, static_cast<double>(row) * block.pitch);
-        for (const Section& section : sectionsOf(block, line, gapOfRow(block, row)))
-            if (seatsIn(block, line, section) > 0)
-                rows.push_back({line.between(section.from, section.to),
-                                block.height + static_cast<double>(row) * block.rise});
+        const RowFloor floor(block, row);
+        for (const Section& section : sectionsOf(block, line, gapOfRow(block, row))) {
+            if (seatsIn(block, line, section) == 0) continue;
+            SeatRow made{line.between(section.from, section.to), floor.at(section.from)};
+            if (block.on_terrain && block.ground) {
+                const std::vector<double> shares = sharesOnFloor(block, line, section.from, section.to);
+                made.line.clear();
+                for (const double share : shares) {
+                    made.line.push_back(line.at(share));
+                    made.heights.push_back(floor.at(share));
+                }
+                made.height = std::ranges::min(made.heights);
+            }
+            rows.push_back(std::move(made));
+        }
     }
     return rows;
 }
@@ -173,18 +182,28 @@ std::vector<glm::dvec2> aisleLine(const SeatBlock& block, std::size_t aisle) {
     return line;
 }
 
+std::vector<double> aisleHeights(const SeatBlock& block, std::size_t aisle) {
+    std::vector<double> heights{heightOfFoot(block, aisleLine(block, aisle).front())};
+    for (std::uint64_t row = 0; row < block.rows; ++row)
+        heights.push_back(RowFloor(block, row).at(aisleShare(block, aisle)));
+    return heights;
+}
+
 double aisleWidth(const SeatBlock& block) {
     constexpr double kBesideTheBlock = 0.9;
     return block.aisles > 0 ? block.aisle_width : kBesideTheBlock;
 }
 
-std::vector<glm::dvec2> wayAlongRow(const SeatBlock& block, std::size_t aisle, const Seat& seat) {
+std::vector<RowPoint> wayAlongRow(const SeatBlock& block, std::size_t aisle, const Seat& seat) {
     const double back = static_cast<double>(seat.row) * block.pitch - passingAhead(block);
     const RowLine line(block, back);
+    const RowFloor floor(block, seat.row);
     const double from = aisleShare(block, aisle), to = seat.along / lengthOf(block);
-    std::vector<glm::dvec2> way = line.between(std::min(from, to), std::max(from, to));
+    std::vector<RowPoint> way;
+    for (const double share : sharesOnFloor(block, line, std::min(from, to), std::max(from, to)))
+        way.push_back({line.at(share), floor.at(share)});
     if (to < from) std::ranges::reverse(way);
-    if (block.aisles == 0) way.insert(way.begin(), inAisle(block, aisle, back));
+    if (block.aisles == 0) way.insert(way.begin(), {inAisle(block, aisle, back), way.front().height});
     return way;
 }
 

@@ -34,7 +34,8 @@ std::vector<std::vector<glm::dvec2>> standOutlines(const SeatBlock& block);
 /// Of each row, from aisle to aisle: where its seats are, as a line in their middle.
 struct SeatRow {
     std::vector<glm::dvec2> line;
-    double height = 0.0;  ///< m
+    double height = 0.0;               ///< m; on a terrain the lowest of them
+    std::vector<double> heights = {};  ///< m, on a terrain, of each point
 };
 std::vector<SeatRow> seatRows(const SeatBlock& block);
 
@@ -50,8 +51,15 @@ double aisleShare(const SeatBlock& block, std::size_t aisle);
 std::size_t aisleOf(const SeatBlock& block, const Seat& seat);
 /// The middle of an aisle: before the first row, where people step off the ground, and then before each row.
 std::vector<glm::dvec2> aisleLine(const SeatBlock& block, std::size_t aisle);
+/// A place on the way to a seat, and its height, m.
+struct RowPoint {
+    glm::dvec2 place{0.0};
+    double height = 0.0;
+};
 /// The way along a row from an aisle to before a seat. @returns its points, the first in the aisle
-std::vector<glm::dvec2> wayAlongRow(const SeatBlock& block, std::size_t aisle, const Seat& seat);
+std::vector<RowPoint> wayAlongRow(const SeatBlock& block, std::size_t aisle, const Seat& seat);
+/// m, of each point of that.
+std::vector<double> aisleHeights(const SeatBlock& block, std::size_t aisle);
 /// m
 double aisleWidth(const SeatBlock& block);
 /// Where people wait until they can go in, a square before an aisle.

@@ -27,6 +27,7 @@
 #include "authoring/scene/rebase.h"
 #include "authoring/scene/routes.h"
 #include "authoring/scene/seat_feet.h"
+#include "authoring/scene/seat_ground.h"
 #include "authoring/scene/seat_ways.h"
 #include "authoring/scene/slope_costs.h"
 #include "authoring/scene/terrain_charts.h"
@@ -957,11 +958,13 @@ std::optional<Scene> buildScene(const Layout& layout, Diagnostics& diagnostics, 
     GroundCache own;
     std::shared_ptr<const Charts> charts;
     if (!areLevelsComplete(layout, diagnostics)) return std::nullopt;
-    if (!haveFlatGround(layout, diagnostics) || !areFeetOnGround(layout, diagnostics)) return std::nullopt;
+    if (!haveGround(layout, layout.terrain && !layout.levels.empty(), diagnostics)) return std::nullopt;
+    if (!areFeetOnGround(layout, diagnostics)) return std::nullopt;
     if (!layout.levels.empty() && !isWithoutTraffic(layout, diagnostics)) return std::nullopt;
     if (layout.terrain) {
         if (terrain && layout.traffic.empty()) charts = layOutTerrain(layout, *terrain, diagnostics);
-        if (diagnostics.hasErrors()) return std::nullopt;
+        if (diagnostics.hasErrors() || !haveGround(layout, charts != nullptr, diagnostics))
+            return std::nullopt;
     } else if (!layout.levels.empty()) {
         if (!areOnTheirFloors(layout, diagnostics)) return std::nullopt;
         charts = layOut(layout, diagnostics);

@@ -193,14 +193,14 @@ class SeatBuilder {
             points.push_back(point);
         };
         const std::vector<glm::dvec2> line = aisleLine(block, aisle);
-        add(line.front(), block.mouths.height);
-        for (std::size_t row = 0; row < seat.row; ++row)
-            add(line[row + 1], block.height + static_cast<double>(row) * block.rise);
-        const std::vector<glm::dvec2> row = wayAlongRow(block, aisle, seat);
-        add(row.front(), seat.height);
+        const std::vector<double> heights = aisleHeights(block, aisle);
+        for (std::size_t i = 0; i <= seat.row; ++i)
+            add(line[i], heights[i]);
+        const std::vector<RowPoint> row = wayAlongRow(block, aisle, seat);
+        add(row.front().place, row.front().height);
         way.mouth = points.back().along;
         for (std::size_t i = 1; i < row.size(); ++i)
-            add(row[i], seat.height);
+            add(row[i].place, row[i].height);
         way.point_count = static_cast<std::uint32_t>(points.size()) - way.first_point;
         way.length = points.back().along;
         way.fork = gpu::NO_FORK;
@@ -218,19 +218,6 @@ class SeatBuilder {
 };
 
 }  // namespace
-
-bool haveFlatGround(const Layout& layout, Diagnostics& diagnostics) {
-    if (!layout.terrain) return true;
-    const auto open = std::ranges::find_if(layout.seats, &SeatBlock::isOpen);
-    if (open == layout.seats.end()) return true;
-    diagnostics.error(
-        open->where,
-        fmt::format(
-            "people walk to the seats of block `{}`, or leave them: this is for flat ground and levels only",
-            open->id),
-        "leave out the `terrain`, or make its floors `levels`");
-    return false;
-}
 
 const Behaviour* behaviourOf(const Layout& layout, const Scene& scene, std::size_t group) {
     std::optional<std::size_t> found;

@@ -11,9 +11,6 @@ namespace throng::authoring {
 /// The behaviour of a group of the scene: a flow, a formation, or the audience of a block of seats.
 const Behaviour* behaviourOf(const Layout& layout, const Scene& scene, std::size_t group);
 
-/// Whether no block that people walk to or leave is on a terrain; otherwise that is an error.
-bool haveFlatGround(const Layout& layout, Diagnostics& diagnostics);
-
 /// Gives everybody who is to sit somewhere a seat, parties side by side, and works out the ways there. Those
 /// who sit from the beginning have theirs. Too few seats are an error.
 void buildSeats(const Layout& layout, const Rebase& rebase, Scene& scene, Diagnostics& diagnostics);

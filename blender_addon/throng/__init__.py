@@ -18,7 +18,7 @@ except ImportError:  # what needs no Blender is of use without it, too
 else:
     from .authoring import (
         bake_operator, behaviour_panel, given_panel, operators as authoring_operators, overlay, panels, preferences,
-        properties)
+        properties, seat_drawing, seat_panel)
     from .characters import operators as characters_operators
     from .layers import operators as layers_operators
     from .live import operators as live_operators, panel as live_panel
@@ -29,8 +29,9 @@ else:
 
     # What registers classes of its own, in order: panels appear in it.
     _PARTS = (preferences, operators, staging, cells, levels, near, close, ground, properties, authoring_operators,
-              bake_operator, overlay, panels, behaviour_panel, given_panel, live_operators, live_panel,
-              characters_operators, motions_operators, overrides_operators, layers_operators, export_operators, export)
+              bake_operator, overlay, seat_drawing, panels, seat_panel, behaviour_panel, given_panel, live_operators,
+              live_panel, characters_operators, motions_operators, overrides_operators, layers_operators,
+              export_operators, export)
 
 
 def register():

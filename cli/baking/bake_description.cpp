@@ -10,6 +10,7 @@
 
 #include "authoring/layout/amounts.h"
 #include "authoring/layout/layout_reader.h"
+#include "authoring/layout/row_floor.h"
 #include "authoring/layout/seat_mouths.h"
 #include "authoring/scene/audience.h"
 #include "authoring/scene/terrain_check.h"
@@ -59,8 +60,11 @@ bool isShown(const authoring::SeatBlock& block) {
 }
 
 recording::BakeAisle describeAisle(const authoring::SeatBlock& block, std::size_t aisle) {
-    if (!authoring::hasPassages(block))
-        return {authoring::aisleLine(block, aisle), authoring::aisleWidth(block)};
+    if (!authoring::hasPassages(block)) {
+        recording::BakeAisle described{authoring::aisleLine(block, aisle), authoring::aisleWidth(block)};
+        if (block.ground) described.heights = authoring::aisleHeights(block, aisle);
+        return described;
+    }
     const authoring::Flight passage = authoring::passageOf(block, aisle);
     recording::BakeAisle described{passage.line, passage.width};
     described.passage = {passage.line, passage.heights, passage.width};
@@ -78,7 +82,8 @@ void describeAudience(const authoring::Layout& layout, const authoring::Scene& s
                                fmt::format("{}", fmt::join(block.people.colours, " "))});
         bake.seats.push_back({block.id, block.pitch, block.width, block.rise, {}});
         for (const authoring::SeatRow& row : authoring::seatRows(block))
-            bake.seats.back().rows.push_back({row.line, row.height});
+            bake.seats.back().rows.push_back({row.line, row.height, row.heights});
+        bake.seats.back().ground = authoring::lowestGround(block);
         for (std::size_t aisle = 0; isShown(block) && aisle < authoring::countAisles(block); ++aisle)
             bake.seats.back().aisles.push_back(describeAisle(block, aisle));
     }
@@ -107,7 +112,8 @@ recording::EyeCatcher cheering(const authoring::Show& show, const authoring::Sea
     glm::dvec2 middle(0.0);
     for (const glm::dvec2 point : block.front)
         middle += point / static_cast<double>(block.front.size());
-    const double height = block.height + depth * block.rise;
+    const double ground = block.on_terrain && block.ground ? block.ground(middle) : 0.0;
+    const double height = block.height + depth * block.rise + (std::isnan(ground) ? 0.0 : ground);
     const double begin = authoring::meanOf(show.at);
     return {middle, height, 1.0, kCarries, begin, begin + authoring::meanOf(show.lasts), true, true};
 }

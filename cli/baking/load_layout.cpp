@@ -8,6 +8,7 @@
 
 #include "authoring/layout/layout_reader.h"
 #include "authoring/scene/scene_builder.h"
+#include "authoring/scene/seat_ground.h"
 #include "base/files/errors.h"
 #include "base/files/hash.h"
 #include "base/files/input_file.h"
@@ -55,6 +56,8 @@ LoadAttempt tryReadLayout(std::string text, const std::string& name, std::vector
     loaded.layout = std::move(*layout);
     if (loaded.layout.terrain) readTerrain(name, loaded);
     loaded.given_identity = readGivenFiles(name, loaded.layout, loaded.diagnostics);
+    if (loaded.diagnostics.hasErrors()) return attempt;
+    if (loaded.terrain) authoring::layOnTerrain(loaded.layout, *loaded.terrain, loaded.diagnostics);
     if (loaded.diagnostics.hasErrors()) return attempt;
     const auto solver = make_solver ? make_solver() : nullptr;
     loaded.fields_on_device = solver != nullptr;

@@ -76,6 +76,20 @@ bool hasPassages(const recording::BakeSeats& seats) {
     return !seats.aisles.empty() && seats.aisles.front().passage;
 }
 
+/// Piece by piece, from below the lowest ground up.
+void addRowOnTerrain(const recording::BakeSeatRow& row, const std::vector<glm::dvec2>& line,
+                     const recording::BakeSeats& seats, Mesh& steps, Mesh& benches) {
+    constexpr double kIntoGround = 0.3;  // m
+    const double bottom = *seats.ground - kIntoGround;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        const std::array piece{line[i], line[i + 1]};
+        const double height = row.heights.empty() ? row.height : 0.5 * (row.heights[i] + row.heights[i + 1]);
+        if (height > bottom)
+            append(steps, raisedMesh(openWallMesh(piece, seats.pitch, height - bottom), bottom));
+        append(benches, raisedMesh(openWallMesh(piece, kBench, kSeat), height));
+    }
+}
+
 /// A step for each row of seats, and a bench on it.
 void addStands(GlbDocument& document, const recording::BakeDescription& description) {
     if (description.seats.empty()) return;
@@ -85,6 +99,10 @@ void addStands(GlbDocument& document, const recording::BakeDescription& descript
         Mesh steps, benches;
         for (const recording::BakeSeatRow& row : seats.rows) {
             const std::vector<glm::dvec2> line = relative(row.line, description.output_origin);
+            if (seats.ground) {
+                addRowOnTerrain(row, line, seats, steps, benches);
+                continue;
+            }
             if (hasPassages(seats))
                 append(steps, raisedMesh(openWallMesh(line, seats.pitch, seats.rise + kTread),
                                          row.height - seats.rise - kTread));

@@ -54,8 +54,9 @@ void putSeated(uint row, AgentState state) {
     if (sitter.mode == SITTER_SITS) activity = sitter.activity;
     if (sitter.mode == SITTER_LETS_GO) activity = ACTIVITY_SIT;
     if (risesOrSettles(sitter.mode)) activity = ACTIVITY_SETTLE;
-    bool walks = activity == ACTIVITY_WALK;
-    float told = walks ? 0.0 : sitter.mode == SITTER_LETS_GO ? -1.0 : sitter.share;
+    bool walks = activity == ACTIVITY_WALK;  // what is told then is how much of the way to the first row is left
+    float told = walks ? beforeRows(seat_ways[index], sitter.along)
+                       : sitter.mode == SITTER_LETS_GO ? -1.0 : sitter.share;
     put(0u, row, vec3(state.position - seat_ways[index].shift, heightOnWay(seat_ways[index], sitter.along)));
     put(1u, row, vec3(cos(state.heading), sin(state.heading), walks ? length(state.velocity) : 0.0));
     put(2u, row, vec3(float(activity + ACTIVITY_LED), float(people[row].variation), told));

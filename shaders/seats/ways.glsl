@@ -24,6 +24,12 @@ float heightOnWay(SeatWay way, float along) {
     return mix(piece.before.height, piece.after.height, piece.share);
 }
 
+/// How much of the way from the foot of the aisle to the first row is left, 0 to 1.
+float beforeRows(SeatWay way, float along) {
+    float first_row = seat_points[way.first_point + 1u].along;
+    return clamp(1.0 - along / max(first_row, 1.0e-6), 0.0, 1.0);
+}
+
 const float HAIR = 0.01;  // m
 
 /// To the right of who goes up the aisle, at a place on the way; of who is in the row, at its mouth.

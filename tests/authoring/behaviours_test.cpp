@@ -79,6 +79,35 @@ TEST(Behaviours, AreReadAsTheyAreWritten) {
     EXPECT_EQ(shop.then, 2u);
 }
 
+/// Where people of a name or a place of a name can be meant, ends of roads are known as areas are, and given
+/// people as flows are.
+TEST(Behaviours, EndsOfRoadsAndGivenPeopleAreGuessedWhereAnythingIsMeant) {
+    const auto with = [](std::string_view states) {
+        std::string text = withStates(std::string(states) + ", " + kLeave);
+        text.insert(text.find(R"("flows")"), R"("roads": [{"id": "alley", "centreline": [[0, 60], [30, 60]]}],
+ "given": [{"id": "parade", "ways": [[[0, 1, 1], [9, 5, 1]]]}], )");
+        return told(text);
+    };
+    for (const auto& [states, words] : {
+             std::pair(R"("a": {"flee": "aley:end", "then": "leave"})",
+                       "`aley:end` (did you mean `alley:end`?)"),
+             std::pair(R"("a": {"flee": "parad", "then": "leave"})", "`parad` (did you mean `parade`?)"),
+             std::pair(R"("a": {"follow": "prade", "until": [{"after": 3, "then": "leave"}]})",
+                       "`prade` (did you mean `parade`?)"),
+             std::pair(R"("a": {"stay": true, "until": [{"near": "ally:start", "then": "leave"}]})",
+                       "`ally:start` (did you mean `alley:start`?)"),
+             std::pair(R"("a": {"stay": true, "until": [{"near": "parde", "then": "leave"}]})",
+                       "`parde` (did you mean `parade`?)"),
+             std::pair(
+                 R"("a": {"stay": true, "until": [{"empty": "square", "of": "paraed", "then": "leave"}]})",
+                 "`paraed` (did you mean `parade`?)"),
+             std::pair(R"("a": {"stay": true, "until": [{"near": "elsewhere", "then": "leave"}]})",
+                       "(known here: parade, people, in, square, alley:start, alley:end)"),
+         })
+        EXPECT_NE(with(states).find(words), std::string::npos) << "not `" << words << "`, but\n"
+                                                               << with(states);
+}
+
 TEST(Behaviours, NamesThatDoNotExistAreToldWithTheNearest) {
     expectTold(R"("a": {"wander": "sqare", "until": [{"after": 3, "then": "leave"}]}, )" + kLeave,
                "6: there is no place `sqare` (did you mean `square`?)");

@@ -272,6 +272,12 @@ TEST(LayoutReader, ExplainsWhatIsWrongWithStopsAndEvents) {
                 "is no flow with a `rate`");
     expectError(kTwoAreas + events + R"({"at": 1, "go_to": "a", "who": ["g"]}]})", 5, 105, "/events/0/who/0",
                 "there is no flow or formation `g`");
+    // Only those are offered that can be sent.
+    expectError(kTwoAreas + R"("given": [{"id": "gang", "ways": [[[0, 1, 1], [9, 5, 1]]]}],
+ )" + events + R"({"at": 1, "go_to": "a", "who": ["gangs"]}]})",
+                6, 105, "/events/0/who/0", "there is no flow or formation `gangs`", "known here: f");
+    expectError(kTwoAreas + events + R"({"at": 1, "flow": "gates", "rate": 2}]})", 5, 91, "/events/0/flow",
+                "there is no flow `gates`", "known here: f");
     expectError(kTwoAreas + events + R"({"at": 1, "open": "gate"}, {"at": 2, "open": "gate"}]})", 5, 100,
                 "/events/1", "already is open");
     expectError(kTwoAreas + R"("walls": [{"id": "block", "closed": true, "points": [[10,0],[12,0],[11,2]]}],

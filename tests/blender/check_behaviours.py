@@ -10,6 +10,7 @@ import bpy
 addon, layout, folder = sys.argv[-3:]
 sys.path.insert(0, addon)
 import throng  # noqa: E402
+from throng.authoring.common_properties import groups_in, offered  # noqa: E402
 
 bpy.ops.wm.read_factory_settings(use_empty=True)
 throng.register()
@@ -46,7 +47,9 @@ def clap_there():
 
 def sit_down():
     here = state("shop")
-    here.does, here.seats, here.pose = "sit", "south, east", "cheer"
+    here.does, here.pose = "sit", "cheer"
+    for name in ("south", "east"):
+        here.seats.add().name = name
 
 
 def change_times():
@@ -122,10 +125,23 @@ def give_a_flow_a_behaviour():
     flow.behaviour = "visitor"
 
 
+def follow_given_people():
+    """Whom a field offers; and who speaks of somebody by name follows a new one."""
+    change("given")
+    here, given = state("shop"), data().given[-1]
+    here.does, here.followed.name = "follow", given.name
+    change("events")
+    data().events[-1].kind = "go_to"
+    data().events[-1].who.add().name = given.name
+    offers["none typed"] = offered(groups_in(bpy.context.scene), "")
+    offers["some typed"] = offered(groups_in(bpy.context.scene), "GIV")
+    given.name = "leader"
+
+
 EDITS = (rename_area, rename_state, rename_behaviour, change_what_is_done, clap_there, sit_down, change_times,
          add_a_rule, remove_a_rule, rename_flow_in_a_rule, rename_to_a_name_that_is_taken, add_a_condition_twice,
-         draw_one, give_a_flow_a_behaviour)
-found = {}
+         draw_one, give_a_flow_a_behaviour, follow_given_people)
+found, offers = {}, {}
 for edit in EDITS:
     assert bpy.ops.import_scene.throng_layout(filepath=layout, replace=True) == {"FINISHED"}
     edit()
@@ -133,4 +149,4 @@ for edit in EDITS:
     assert bpy.ops.export_scene.throng_layout(filepath=path) == {"FINISHED"}
     with open(path, encoding="utf-8") as file:
         found[edit.__name__] = json.load(file)
-print("RESULT " + json.dumps(found))
+print("RESULT " + json.dumps([found, offers]))

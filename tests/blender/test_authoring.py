@@ -28,7 +28,8 @@ def differences(a, b, pointer=""):
 
 def moved(layout, x, y):
     """The layout elsewhere in the world."""
-    points = {"centreline", "polygon", "points", "line", "centre", "origin", "facing", "position", "mirror", "anywhere"}
+    points = {"centreline", "polygon", "points", "line", "centre", "origin", "facing", "position", "mirror", "anywhere",
+              "front", "from", "path", "floor"}
 
     def there(point):
         return [point[0] + x, point[1] + y]
@@ -52,6 +53,14 @@ def layouts():
             if "throng" in json.loads(path.read_text())]
 
 
+def others_with_seats():
+    """Layouts with seats from elsewhere, some of which are called as others are."""
+    folders = (ROOT / "scenarios" / "large", ROOT / "docs" / "examples", ROOT / "tests" / "authoring" / "layouts",
+               HERE / "layouts")
+    return [path for folder in folders for path in sorted(folder.glob("*.json"))
+            if "seats" in json.loads(path.read_text(encoding="utf-8"))]
+
+
 def test_every_layout_goes_through_blender_unchanged(blender, throng, tmp_path):
     (tmp_path / "in").mkdir()
     (tmp_path / "out").mkdir()
@@ -65,8 +74,12 @@ def test_every_layout_goes_through_blender_unchanged(blender, throng, tmp_path):
             "formations": [{"id": "list", "type": "agents", "agents": people}]}
     (tmp_path / "in" / "bulk.json").write_text(json.dumps(bulk))
     (tmp_path / "in" / "bare.json").write_text('{"throng": 1, "walls": [], "expect": {}, "simulation": {}}')
+    for path in others_with_seats():
+        (tmp_path / "in" / f"{path.parent.name}-{path.name}").write_bytes(path.read_bytes())
+    stands = json.loads((HERE / "layouts" / "stands.json").read_text(encoding="utf-8"))
+    (tmp_path / "in" / "far-stands.json").write_text(json.dumps(moved(stands, *UTM)))
     paths = layouts() + [EVERYTHING, LEVELS] + sorted((tmp_path / "in").glob("*.json"))
-    assert len(paths) > 35
+    assert len(paths) > 45 and sum("seats" in json.loads(path.read_text(encoding="utf-8")) for path in paths) > 11
     times = result_of(blender(HERE / "check_round_trip.py", ADDON, tmp_path / "out", *paths))
     for path in paths:
         before, after = (json.loads(each.read_text(encoding="utf-8")) for each in (path, tmp_path / "out" / path.name))

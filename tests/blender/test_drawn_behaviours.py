@@ -26,20 +26,24 @@ EDITS = {
     "add_a_condition_twice": {f"{STATES}/stroll/until/0/{key}" for key in ("at", "arrived")},
     "draw_one": {"/behaviours/1", "/flows/0/behaviour"},
     "give_a_flow_a_behaviour": {"/flows/2"},
+    "follow_given_people": {f"{STATES}/shop/{key}" for key in ("visit", "count", "for", "then", "follow")}
+    | {"/given", "/events"},
 }
 
 
 @pytest.fixture(scope="module")
 def drawn(blender, throng, tmp_path_factory):
-    """(the market before, {edit: the market after it}); the program takes whatever an artist draws."""
+    """(the market before, {edit: the market after it}, what was offered); the program takes whatever an artist
+    draws."""
     folder = tmp_path_factory.mktemp("behaviours")
-    after = result_of(blender(HERE / "check_behaviours.py", ADDON, MARKET, folder))
-    throng("check", *(folder / f"{edit}.json" for edit in EDITS if edit not in ("remove_a_rule", "sit_down")))
-    return json.loads(MARKET.read_text(encoding="utf-8")), after
+    after, offers = result_of(blender(HERE / "check_behaviours.py", ADDON, MARKET, folder))
+    unfinished = ("remove_a_rule", "sit_down", "follow_given_people")
+    throng("check", *(folder / f"{edit}.json" for edit in EDITS if edit not in unfinished))
+    return json.loads(MARKET.read_text(encoding="utf-8")), after, offers
 
 
 def test_changes_are_in_the_layout_and_nothing_else(drawn):
-    before, after = drawn
+    before, after, _ = drawn
     assert {name: differences(before, layout) for name, layout in after.items()} == EDITS
 
 
@@ -64,6 +68,16 @@ def test_people_clap_where_they_stand_and_sit_in_seats(drawn):
     assert drawn[1]["clap_there"]["behaviours"][0]["states"]["shop"]["do"] == "clap"
     shop = drawn[1]["sit_down"]["behaviours"][0]["states"]["shop"]
     assert (shop["sit"], shop["do"]) == (["south", "east"], "cheer")
+
+
+def test_given_people_are_offered_and_followed_by_name(drawn):
+    _, after, offers = drawn
+    flows = [["from the east", "flow"], ["from the west", "flow"]]
+    assert offers["none typed"] == sorted([*flows, ["Given 1", "given people"]])
+    assert offers["some typed"] == [["Given 1", "given people"]]
+    layout = after["follow_given_people"]
+    assert layout["behaviours"][0]["states"]["shop"] == {"follow": "leader"} and layout["given"][0]["id"] == "leader"
+    assert layout["events"][-1]["who"] == ["leader"]
 
 
 def test_a_behaviour_is_drawn_from_nothing(drawn):

@@ -12,7 +12,7 @@ from pose_names import pose_name
 from results import result_of
 from sample_bake import SMALL_CAST, write_bake
 from throng import cast
-from throng.cast import gait, people, seat_mouths, sitting
+from throng.cast import gait, people, seat_mouths, seat_rows, sitting
 
 HERE = pathlib.Path(__file__).resolve().parent
 ADDON = HERE.parent.parent / "blender_addon"
@@ -96,6 +96,28 @@ def flat(value):
         return [number for each in (value.pelvis, value.lean, value.tilt, value.feet, value.arms, value.aside)
                 for number in flat(each)]
     return [number for each in value for number in flat(each)]
+
+
+def test_rows_on_a_terrain_are_built_from_below_the_ground_up_to_their_heights():
+    row = {"line": [[0, 0], [0.5, 0], [2, 0]], "height": 3.0, "heights": [3.0, 3.2, 4.1]}
+    block = {"pitch": 0.8, "width": 0.5, "rise": 0.0, "ground": 1.5, "rows": [row]}
+    seats = seat_rows.seats_of(block, row)
+    assert [place[0] for place, _, _ in seats] == pytest.approx([0.25, 0.75, 1.25, 1.75])
+    assert [height for _, _, height in seats] == pytest.approx([3.1, 3.35, 3.65, 3.95])
+    faces = list(seat_rows.step_faces(*seat_rows.step_of(block, row), seat_rows.heights_of(row),
+                                      seat_rows.bottom_of(block, row)))
+    tops = {round(x, 6): max(z for face in faces for u, _, z in face if u == x) for face in faces for x, _, _ in face}
+    assert tops == {0.0: 3.0, 0.5: 3.2, 2.0: 4.1}
+    assert {z for face in faces for _, _, z in face} == {3.0, 3.2, 4.1, 1.2}, "0.3 m into the ground"
+
+
+def test_steps_of_an_aisle_on_a_terrain_lead_from_the_ground():
+    aisle = {"line": [[0, -1.5], [0, -0.4], [0, 0.6]], "width": 1.2, "heights": [2.0, 2.2, 2.5]}
+    block = {"pitch": 1.0, "rise": 0.0, "rows": [{"line": [[0, 0], [1, 0]], "height": 2.2}], "ground": 1.9}
+    assert [height for _, _, height in seat_rows.treads_of(block, aisle)] == pytest.approx([2.1, 2.2, 2.35, 2.5])
+    level = {key: value for key, value in aisle.items() if key != "heights"}
+    block["rise"] = 0.3
+    assert [height for _, _, height in seat_rows.treads_of(block, level)] == pytest.approx([1.1, 2.2, 2.35, 2.5])
 
 
 def test_clips_are_the_activities_of_the_bake():

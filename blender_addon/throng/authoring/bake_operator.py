@@ -27,6 +27,10 @@ def running():
     return _running.get("bake")
 
 
+_ACTIVE = {"flows": "active_flow", "events": "active_event", "behaviours": "active_behaviour", "given": "active_given",
+           "shows": "active_show"}
+
+
 def _section(pointer):
     """The first two parts of a JSON pointer: what of the layout it is about."""
     return "/".join(pointer.split("/")[:3])
@@ -74,14 +78,8 @@ def show(context, problem):
     layout = context.scene.throng_layout
     if problem.target:
         select_only(context, problem.target)
-    elif problem.where == "flows":
-        layout.active_flow = problem.index
-    elif problem.where == "events":
-        layout.active_event = problem.index
-    elif problem.where == "behaviours":
-        layout.active_behaviour = problem.index
-    elif problem.where == "given":
-        layout.active_given = problem.index
+    elif problem.where:
+        setattr(layout, _ACTIVE[problem.where], problem.index)
 
 
 def _complain(context, message, target=None, pointer=""):
@@ -96,9 +94,16 @@ _UNCHOSEN = (("from", "choose where people come from"), ("to", "choose where peo
 
 def _unchosen(document):
     """Flows without a place: what an artist forgets, said in the panel's words."""
-    return [Diagnostic("error", f"/flows/{index}/{key}", message, "a road's end or an area", 0, 0)
-            for index, flow in enumerate(document.get("flows", [])) for key, message in _UNCHOSEN
-            if flow.get(key) == ""]
+    missing = [(f"/flows/{index}/{key}", message, "a road's end or an area")
+               for index, flow in enumerate(document.get("flows", [])) for key, message in _UNCHOSEN
+               if flow.get(key) == ""]
+    missing += [(f"/flows/{index}/to", "choose to which seats people go", "a block of seats")
+                for index, flow in enumerate(document.get("flows", []))
+                if isinstance(flow.get("to"), dict) and flow["to"].get("seats") in ("", [], [""])]
+    missing += [(f"/seats/{index}/leave/to", _UNCHOSEN[1][1], "a road's end or an area")
+                for index, block in enumerate(document.get("seats", []))
+                if isinstance(block.get("leave"), dict) and block["leave"].get("to") == ""]
+    return [Diagnostic("error", pointer, message, hint, 0, 0) for pointer, message, hint in missing]
 
 
 class LayoutFile:

@@ -5,7 +5,7 @@ import bpy
 from ..blender.panels import InSidebar
 from . import behaviours
 from .panel_parts import (
-    change, destination, distribution, list_of, one_of, optional, order, place, places, problems_of, who)
+    blocks, change, destination, distribution, list_of, one_of, optional, order, place, places, problems_of, who)
 
 _WORDS = {"near": "Within", "crowded": "Persons/m²", "chance": "Share/s"}
 
@@ -40,11 +40,11 @@ class VIEW3D_PT_throng_behaviours(InSidebar, bpy.types.Panel):
         state = list_of(layout, behaviour, "states", "active_state", "THRONG_UL_states", owner=owner)
         if state is not None:
             where = f"{owner}states[{behaviour.active_state}]"
-            _state(layout.box().column(), state, where, data, behaviour)
-            _rules(layout, state, where, data, behaviour)
+            _state(layout.box().column(), state, where, behaviour)
+            _rules(layout, state, where, behaviour)
 
 
-def _state(column, state, where, data, behaviour):
+def _state(column, state, where, behaviour):
     column.prop(state, "does")
     if state.does in ("walk_to", "gather"):
         destination(column, state.to, f"{where}.to")
@@ -57,10 +57,12 @@ def _state(column, state, where, data, behaviour):
         column.prop(state, "danger")
         if state.danger is None:
             place(column, state.place, "Place")
+            if state.place.target is None:
+                one_of(column, state.followed, "Or from")
     elif state.does == "sit":
-        column.prop(state, "seats")
+        blocks(column, state.seats, f"{where}.seats")
     elif state.does == "follow":
-        one_of(column, state.followed, data)
+        one_of(column, state.followed, "Whom")
         optional(column, state, "person")
     for key in [codec.key for codec in behaviours.KEYS[state.does]]:
         _further(column, state, key)
@@ -86,7 +88,7 @@ def _some(column, state):
     inner.prop(state, "most", text="")
 
 
-def _rules(layout, state, where, data, behaviour):
+def _rules(layout, state, where, behaviour):
     row = layout.row()
     row.label(text="Until")
     change(row, f"{where}.until", "ADD", "ADD")
@@ -96,14 +98,14 @@ def _rules(layout, state, where, data, behaviour):
             row = box.row(align=True)
             row.prop(condition, "kind", text="When" if index == 0 else "and")
             change(row, f"{path}.conditions", "REMOVE", "X", index)
-            _condition(box, condition, f"{path}.conditions[{index}]", data)
+            _condition(box, condition, f"{path}.conditions[{index}]")
         box.prop_search(rule, "then", behaviour, "states")
         row = box.row(align=True)
         change(row, f"{path}.conditions", "ADD", "ADD")
         order(row, f"{where}.until", number)
 
 
-def _condition(box, condition, path, data):
+def _condition(box, condition, path):
     kind = condition.kind
     if kind in behaviours.TIMES:
         distribution(box, condition, "time")
@@ -114,7 +116,7 @@ def _condition(box, condition, path, data):
     elif kind in behaviours.PLACES and not (kind == "near" and len(condition.who)):
         place(box, condition.place, "Place")
     if kind == "empty" or kind == "near" and not condition.place.target:
-        who(box, condition.who, f"{path}.who", data, "Of" if kind == "empty" else "Or anybody of")
+        who(box, condition.who, f"{path}.who", "Of" if kind == "empty" else "Or anybody of")
     if kind in behaviours.NUMBERS:
         box.prop(condition, "number", text=_WORDS[kind])
 

@@ -6,7 +6,8 @@ from bpy.props import (BoolProperty, CollectionProperty, EnumProperty, FloatProp
 
 from . import behaviours
 from .codecs import UNSET
-from .common_properties import ThrongDestination, ThrongDistribution, ThrongMember, ThrongPlace, is_kind
+from .common_properties import (
+    Named, ThrongBlock, ThrongDestination, ThrongDistribution, ThrongMember, ThrongPlace, is_kind)
 from .fields import limits
 from .schema import LAYOUT, description_of, words_of
 
@@ -20,27 +21,6 @@ _NAMES = {
 def _items(owner, keys):
     return [(key, _NAMES.get(key) or key.replace("_", " ").title(), description_of(LAYOUT.entry(owner, key)))
             for key in keys]
-
-
-def _state_named(state, _context):
-    """What leads to a state speaks of it by name."""
-    behaviour = _owner_of(state)
-    taken = {each.name for each in behaviour.states if each != state} if behaviour else set()
-    if state.known and (not state.name or state.name in taken):
-        state.name = state.known if not state.name else _free(state.name, taken)
-        return
-    if behaviour and state.known and state.known != state.name:
-        if behaviour.start == state.known:
-            behaviour.start = state.name
-        for each in behaviour.states:
-            for led in (each, *each.until):
-                if led.then == state.known:
-                    led.then = state.name
-    state.known = state.name
-
-
-def _free(name, taken):
-    return next(each for each in (f"{name}.{number:03d}" for number in range(1, 1000)) if each not in taken)
 
 
 def _once(condition, _context):
@@ -60,28 +40,14 @@ def _owner_of(state):
     return None
 
 
-def _behaviour_named(behaviour, _context):
-    """Flows and formations speak of behaviours by name."""
-    if behaviour.known and behaviour.known != behaviour.name:
-        scene = behaviour.id_data
-        people = [thing.throng_layout.formation for thing in scene.objects if thing.throng_layout.kind == "FORMATION"]
-        for each in (*scene.throng_layout.flows, *people):
-            if each.behaviour == behaviour.known:
-                each.behaviour = behaviour.name
-    behaviour.known = behaviour.name
-
-
 def group_named(layout, before, name):
-    """Behaviours speak of flows and given people by name: of those whom people follow, or are near, or flee from."""
-    for behaviour in layout.behaviours:
-        for state in behaviour.states:
-            conditions = [condition for rule in state.until for condition in rule.conditions]
-            for member in (state.followed, *(each for condition in conditions for each in condition.who)):
-                if member.target is None and member.name == before:
-                    member.name = name
-            for place in (state.place, *(condition.place for condition in conditions)):
-                if place.target is None and place.text == before:
-                    place.text = name
+    """Behaviours and events speak of flows and given people by name."""
+    states = [state for behaviour in layout.behaviours for state in behaviour.states]
+    conditions = [condition for state in states for rule in state.until for condition in rule.conditions]
+    for member in (*(state.followed for state in states), *(each for condition in conditions for each in condition.who),
+                   *(each for event in layout.events for each in event.who)):
+        if member.target is None and member.name == before:
+            member.name = name
 
 
 class ThrongCondition(bpy.types.PropertyGroup):
@@ -99,9 +65,7 @@ class ThrongRule(bpy.types.PropertyGroup):
     then: StringProperty(name="Then", description="The state that comes then")
 
 
-class ThrongState(bpy.types.PropertyGroup):
-    name: StringProperty(name="Name", update=_state_named)
-    known: StringProperty(options={"HIDDEN"})
+class ThrongState(Named, bpy.types.PropertyGroup):
     raw: StringProperty(options={"HIDDEN"})
     does: EnumProperty(name="Does", items=_items("behaviour_state", behaviours.DOES), default="stay")
     to: PointerProperty(type=ThrongDestination, name="To")
@@ -109,7 +73,7 @@ class ThrongState(bpy.types.PropertyGroup):
     danger: PointerProperty(type=bpy.types.Object, name="Point", poll=is_kind("POINT"),
                             description="What people get away from, where that is no place")
     followed: PointerProperty(type=ThrongMember)
-    seats: StringProperty(name="Seats", description="Ids of the layout's blocks of seats, with commas between them")
+    seats: CollectionProperty(type=ThrongBlock)
     use_person: BoolProperty(name="Person", description="One of them; otherwise whoever is nearest")
     person: IntProperty(name="Person", **limits("behaviour_state", "person", default=0))
     use_count: BoolProperty(name="How Many", description="Otherwise all of the places")
@@ -136,14 +100,36 @@ class ThrongState(bpy.types.PropertyGroup):
     then: StringProperty(name="Then", description="The state that comes when this one is done")
     until: CollectionProperty(type=ThrongRule)
 
+    def siblings(self):
+        behaviour = _owner_of(self)
+        return behaviour.states if behaviour else ()
 
-class ThrongBehaviour(bpy.types.PropertyGroup):
-    name: StringProperty(name="Name", update=_behaviour_named)
-    known: StringProperty(options={"HIDDEN"})
+    def renamed(self, before):
+        """What leads to a state speaks of it by name."""
+        behaviour = _owner_of(self)
+        if behaviour is None:
+            return
+        if behaviour.start == before:
+            behaviour.start = self.name
+        for each in behaviour.states:
+            for led in (each, *each.until):
+                if led.then == before:
+                    led.then = self.name
+
+
+class ThrongBehaviour(Named, bpy.types.PropertyGroup):
     raw: StringProperty(options={"HIDDEN"})
     start: StringProperty(name="Begins With", description="The state that people begin with")
     states: CollectionProperty(type=ThrongState)
     active_state: IntProperty()
+
+    def renamed(self, before):
+        """Flows and formations speak of behaviours by name."""
+        scene = self.id_data
+        people = [thing.throng_layout.formation for thing in scene.objects if thing.throng_layout.kind == "FORMATION"]
+        for each in (*scene.throng_layout.flows, *people):
+            if each.behaviour == before:
+                each.behaviour = self.name
 
 
 CLASSES = (ThrongCondition, ThrongRule, ThrongState, ThrongBehaviour)

@@ -3,7 +3,8 @@
 see places.py."""
 from . import fields
 from .codecs import Codec, Distribution, Optional, Text, put_all, take_all
-from .places import Destination, Place, Target, keep_raw, name_of, place_of, put_member, put_place, raw_of
+from .places import (
+    Destination, Place, Target, keep_raw, name_of, names_of_blocks, place_of, put_block, put_member, put_place, raw_of)
 from .schema import LAYOUT
 from .values import MISSING, is_number, is_point
 
@@ -38,22 +39,25 @@ class _Places(Codec):
 
 
 class _Danger(Codec):
-    """A place, or a point."""
+    """A place, a point, or people."""
 
     point = Target("flee", "POINT", "danger")
 
     def put(self, group, raw, world):
-        put_place(group.place, "" if is_point(raw) else raw, world)
+        is_name = isinstance(raw, str) and not world.find(raw)
+        put_place(group.place, "" if is_name or is_point(raw) else raw, world)
+        put_member(group.followed, raw if is_name else "", world)
         self.point.put(group, raw, world)
 
     def take(self, group, raw, world):
         if group.danger:
             return self.point.take(group, raw, world)
-        return place_of(group.place, world) if group.place.target or not is_point(raw) else ""
+        text = place_of(group.place, world) or name_of(group.followed, world)
+        return raw if text == "" and not isinstance(raw, str) and raw is not MISSING and not is_point(raw) else text
 
 
 class _Followed(Codec):
-    """The name of a flow or a formation."""
+    """People."""
 
     def put(self, group, raw, world):
         put_member(group.followed, raw, world)
@@ -64,21 +68,18 @@ class _Followed(Codec):
 
 
 class _Seats(Codec):
-    """Ids of blocks of seats, which are not drawn in Blender: as one text, with commas between them."""
+    """Blocks of seats."""
 
-    @staticmethod
-    def shown(raw):
-        names = raw if isinstance(raw, list) else [raw]
-        return ", ".join(name for name in names if isinstance(name, str))
+    def put(self, group, raw, world):
+        group.seats.clear()
+        for text in raw if isinstance(raw, list) else [raw]:
+            if isinstance(text, str):
+                put_block(group.seats.add(), text, world)
 
-    def put(self, group, raw, _world=None):
-        group.seats = self.shown(raw)
-
-    def take(self, group, raw, _world=None):
-        if raw is not MISSING and group.seats == self.shown(raw):
-            return raw
-        names = [name.strip() for name in group.seats.split(",") if name.strip()]
-        return names[0] if len(names) == 1 else names or ""
+    def take(self, group, raw, world):
+        names = names_of_blocks(group.seats, raw, world)
+        kept = not names and raw is not MISSING and not isinstance(raw, (str, list))
+        return raw if kept else names or ""
 
 
 class _Some(Codec):

@@ -6,15 +6,16 @@ import math
 
 import bpy
 
+from . import colours, seat_drawing
 from ..blender.nodes import Maths, new_tree, own_tree, set_input, socket
 
-MODIFIER = "Throng drawing"
+MODIFIER = seat_drawing.MODIFIER
 _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
 COLOURS = {"ROAD": (0.16, 0.20, 0.26, 1.0), "ARROW": (0.85, 0.85, 0.80, 1.0), "AREA": (0.16, 0.42, 0.36, 1.0),
            "WALL": (0.62, 0.55, 0.45, 1.0), "PATCH": (0.30, 0.42, 0.12, 1.0),
            "LEVEL": (0.24, 0.25, 0.28, 1.0), "LINK": (0.55, 0.42, 0.20, 1.0), "FORMATION": (0.85, 0.45, 0.10, 1.0)}
 _HEIGHTS = {"AREA": 0.005, "ROAD": 0.01, "PATCH": 0.015, "ARROW": 0.02}
-DRAWN = ("LEVEL", "LINK", "ROAD", "AREA", "WALL", "PATCH")  # as curves
+DRAWN = ("LEVEL", "LINK", "ROAD", "AREA", "WALL", "PATCH", "SEATS")  # as curves
 _ALONG = "throng_along"  # of a link's points: from 0 to 1
 _MOST_SHOWN = 20000  # people of a formation
 _state = {"quiet": False}
@@ -30,13 +31,8 @@ def quietly():
         _state["quiet"] = False
 
 
-def _material(kind):
-    name = f"Throng drawing {kind.lower()}"
-    material = bpy.data.materials.get(name)
-    if material is None:
-        material = bpy.data.materials.new(name)
-        material.diffuse_color = COLOURS[kind]
-    return material
+def is_quiet():
+    return _state["quiet"]
 
 
 class _Drawing(Maths):
@@ -53,7 +49,8 @@ class _Drawing(Maths):
         return node
 
     def finish(self, geometry, kind):
-        coloured = self.made("GeometryNodeSetMaterial", [("Geometry", geometry), ("Material", _material(kind))])
+        coloured = self.made("GeometryNodeSetMaterial",
+                             [("Geometry", geometry), ("Material", colours.material_of(kind))])
         lifted = self.made("GeometryNodeTransform",
                            [("Geometry", coloured.outputs[0]), ("Translation", (0.0, 0.0, _HEIGHTS.get(kind, 0.0)))])
         return lifted.outputs[0]
@@ -159,7 +156,18 @@ def _people_tree():
     return tree
 
 
-_TREES = {"Throng drawing road": _road_tree, "Throng drawing wall": _wall_tree, "Throng drawing people": _people_tree,
+def _seats_tree():
+    """What an object of its own holds, which Python builds (seat_drawing.py)."""
+    tree, inputs, outputs = new_tree(seat_drawing.TREE, _GEOMETRY + [("Stand", "NodeSocketObject")], _GEOMETRY)
+    draw = _Drawing(tree)
+    read = draw.node("GeometryNodeObjectInfo", transform_space="ORIGINAL")
+    draw.link(inputs.outputs["Stand"], read.inputs["Object"])
+    draw.link(read.outputs["Geometry"], outputs.inputs[0])
+    return tree
+
+
+_TREES = {seat_drawing.TREE: _seats_tree, "Throng drawing road": _road_tree, "Throng drawing wall": _wall_tree,
+          "Throng drawing people": _people_tree,
           "Throng drawing link": _link_tree, "Throng drawing level": lambda: _filled_tree("LEVEL"),
           "Throng drawing area": lambda: _filled_tree("AREA"), "Throng drawing patch": lambda: _filled_tree("PATCH")}
 
@@ -199,6 +207,8 @@ def refresh(thing):
     elif part.kind == "WALL":
         set_input(modifier, "Thickness", part.thickness)
         set_input(modifier, "Height", part.height)
+    elif part.kind == "SEATS":
+        seat_drawing.show(thing, modifier)
     elif part.kind == "FORMATION" and part.formation.type != "agents":
         _show_places(thing.data, formation_places(part.formation))
     thing.update_tag()

@@ -8,15 +8,15 @@ import bpy
 from mathutils import Vector
 
 from ..formats.whole_files import write_whole
-from . import behaviours, fields, given, levels, places
+from . import behaviours, fields, given, levels, places, seats
 from .codecs import take_all
 from .geometry import AuthoringError, outlines_of, people_of, splines_of
 from .values import MISSING, are_points, is_number, is_point, keep_points, short, world_point
 
 LISTS = {"LEVEL": "levels", "LINK": "links", "ROAD": "roads", "AREA": "areas", "WALL": "walls", "PATCH": "patches",
-         "FORMATION": "formations"}
+         "SEATS": "seats", "FORMATION": "formations"}
 LISTED = ("levels", "links", "roads", "areas", "walls", "patches", "behaviours", "flows", "formations", "events",
-          "given")
+          "given", "seats", "shows")
 
 
 def origin_of(scene):
@@ -233,7 +233,7 @@ def _turn(thing, raw):
 
 def _scaled(result, thing, keys):
     """Scaling an object scales what it shows."""
-    scale = thing.matrix_world.to_scale().x
+    scale = abs(thing.matrix_world.to_scale().x)
     if abs(scale - 1.0) > 1e-5:
         result.update({key: short(scale * result[key]) for key in keys if is_number(result.get(key))})
 
@@ -262,6 +262,47 @@ def _formation(thing, world):
     return [places.without_goal(places.in_place_of(result, raw, ("goal", "arrival", "wait")), "goal")]
 
 
+def _seats(thing, world):
+    part, raw = thing.throng_layout.seats, _raw(thing)
+    is_arc = part.shape == "ARC"
+    foreign = "front" if is_arc else "arc"
+    result = {key: value for key, value in _named(thing, raw).items() if key != foreign}
+    if is_arc:
+        result["arc"] = _arc(thing, part, raw.get("arc"), world)
+    else:
+        result["front"] = world.kept(first_row(thing, world.tolerance), raw.get("front"))
+    return [take_all(seats.SEATS, part, result, world)]
+
+
+def first_row(thing, tolerance):
+    """The points of the curve that it is, in the world."""
+    if thing.type != "CURVE":
+        raise AuthoringError(f"{thing.name} is a {thing.type.lower()}: seats are a curve, their first row", thing)
+    splines = splines_of(thing, tolerance)
+    if len(splines) > 1 or splines[0][1]:
+        raise AuthoringError(f"{thing.name}: the first row of seats is one open curve; separate its splines, or make "
+                             "it an arc", thing)
+    return splines[0][0]
+
+
+def _arc(thing, part, raw, world):
+    """Moving, turning, scaling and mirroring the object counts."""
+    raw = raw if isinstance(raw, dict) else {}
+    result = {"centre": world.point_of(thing, raw.get("centre")),
+              **take_all(fields.ARC, part, {key: value for key, value in raw.items() if key != "centre"})}
+    _scaled(result, thing, ("radius",))
+    (a, b), (c, d) = (row[:2] for row in thing.matrix_world[:2])
+    turn, ends = math.degrees(math.atan2(c, a)), (result["from"], result["to"])
+    if not all(is_number(end) for end in ends):
+        return result
+    if a * d < b * c:  # mirrored
+        ends = (turn - ends[1], turn - ends[0])
+    elif abs(turn) > 1e-3:
+        ends = (turn + ends[0], turn + ends[1])
+    return {**result, **{key: result[key] if end == result[key] else short(round(end, 5))
+                         for key, end in zip(("from", "to"), ends)}}
+
+
 def _agents(thing, raw, world):
     raw = raw if isinstance(raw, list) else []
     people = people_of(thing)
@@ -279,7 +320,7 @@ def _agents(thing, raw, world):
 
 
 _WRITERS = {"LEVEL": _level, "LINK": _link, "ROAD": _road, "AREA": _area, "WALL": _walls, "PATCH": _patch,
-            "FORMATION": _formation}
+            "SEATS": _seats, "FORMATION": _formation}
 
 
 def _entries_of(thing, kind, world):
@@ -315,7 +356,7 @@ def export_layout(context):
                 lists[key].append(entry)
     for key, group, take in (("behaviours", layout.behaviours, behaviours.take_behaviour),
                              ("flows", layout.flows, places.take_flow), ("events", layout.events, places.take_event),
-                             ("given", layout.given, given.take_given)):
+                             ("given", layout.given, given.take_given), ("shows", layout.shows, seats.take_show)):
         for index, item in enumerate(group):
             sources[f"/{key}/{index}"] = (None, key, index)
             lists[key].append(take(item, world))

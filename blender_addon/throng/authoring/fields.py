@@ -11,7 +11,9 @@ _FIRST = ("duration", "warmup", "fps", "substeps", "seed", "avoid_congestion", "
 # What something new begins with where the schema has no default.
 _BEGINNINGS = {
     "flow": {"count": 100, "rate": 1.0, "end": 60.0}, "event": {"at": 0.0, "rate": 1.0},
+    "show": {"do": "clap"},
     "formation": {"radius": 10.0, "count": 64, "ring_spacing": 1.5, "along": 1.5, "rows": 8, "columns": 8},
+    "seat_block.arc": {"radius": 15.0, "from": 0.0, "to": 90.0}, "seat_block.mouths": {"passage": 5.0},
     "patch": {"cost": 3.0, "until": 60.0}, "bar": {"min": 0.0, "max": 0.0}, "given": {"fps": 25.0},
 }
 
@@ -103,6 +105,22 @@ CLOSED_WALL = _codecs("wall", "height")
 PATCH = (Optional(_codec("patch", "cost")), _codec("patch", "pace"), _codec("patch", "size", "room"),
          _codec("patch", "from", "begins"),
          Optional(_codec("patch", "until", "ends")))
+
+ARC = (_codec("seat_block.arc", "radius", required=True), _codec("seat_block.arc", "from", "begins", required=True),
+       _codec("seat_block.arc", "to", "ends", required=True))
+SEATS = (*_codecs("seat_block", "rows", "pitch", "width", "rise", "height", "aisles", "aisle_width", "on_terrain",
+                  "occupancy"), Nested("people", PEOPLE))
+_MOUTHS_AT = _codec("seat_block.mouths", "at")
+_PASSAGE = Optional(_codec("seat_block.mouths", "passage"))
+# What is told of where aisles go out.
+MOUTHS = {"front": (_MOUTHS_AT,), "back": (_MOUTHS_AT, _PASSAGE),
+          "row": (_MOUTHS_AT, _codec("seat_block.mouths", "row", required=True), _PASSAGE)}
+LEAVE_AT = _codec("seat_block.leave", "at", "leave_at")
+
+SHOW = (_codec("show", "at", "time"), _codec("show", "do", required=True))
+SHOW_OF_ALL = _codecs("show", "share", "reaction")
+SHOW_FOR = (_codec("show", "for", "lasts"),)
+WAVE = _codecs("show", "speed", "width", "laps")
 
 FLOW = (_codec("flow", "start"), Optional(_codec("flow", "end")), Nested("people", PEOPLE), _codec("flow", "arrival"))
 

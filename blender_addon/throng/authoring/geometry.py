@@ -100,6 +100,16 @@ def fill_curve(thing, points, cyclic):
     spline.use_cyclic_u = cyclic
 
 
+def new_arc(name, centre):
+    """A curve whose points are made of numbers (seat_drawing.py); its origin is the middle of the circle."""
+    data = bpy.data.curves.new(name, "CURVE")
+    data.dimensions = "2D"
+    data.fill_mode = "NONE"
+    thing = bpy.data.objects.new(name, data)
+    thing.location = (*centre, 0.0)
+    return thing
+
+
 ROLE, AGENT = "throng_role", "throng_agent"
 
 

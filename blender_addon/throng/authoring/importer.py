@@ -6,7 +6,7 @@ import os
 
 import bpy
 
-from . import behaviours, codecs, display, fields, geometry, given, levels, places
+from . import behaviours, codecs, display, fields, geometry, given, levels, places, seat_drawing, seats
 from .exporter import LISTED, LISTS, parts_of
 from .geometry import AuthoringError
 from .values import MISSING, are_points, is_number, is_point
@@ -52,6 +52,8 @@ def _problems(document):
                 yield f"/{key}/{i}/{_SHAPES[key][0]}", f"expected at least {_SHAPES[key][1]} points [x, y]"
             elif key == "formations":
                 yield from _formation_problems(entry, f"/{key}/{i}")
+            elif key == "seats":
+                yield from _seats_problems(entry, f"/{key}/{i}")
 
 
 def _is_empty(key, entry):
@@ -85,6 +87,15 @@ def _formation_problems(entry, pointer):
         yield f"{pointer}/{'centre' if kind == 'circle' else 'origin'}", "expected a point [x, y]"
 
 
+def _seats_problems(entry, pointer):
+    if ("front" in entry) == ("arc" in entry):
+        yield pointer, "expected exactly one of `front` and `arc`"
+    elif "front" in entry and not are_points(entry["front"], 2):
+        yield f"{pointer}/front", "expected at least 2 points [x, y]"
+    elif "arc" in entry and not (isinstance(entry["arc"], dict) and is_point(entry["arc"].get("centre"))):
+        yield f"{pointer}/arc", "expected an object with a centre [x, y]"
+
+
 def _all_points(document):
     for key, (shape, _) in _SHAPES.items():
         for entry in document.get(key, []):
@@ -93,6 +104,8 @@ def _all_points(document):
         yield from (entry[key] for key in ("centre", "origin") if is_point(entry.get(key)))
         for each in entry["agents"] if entry["type"] == "agents" else []:
             yield from _way_of(each)
+    for entry in document.get("seats", []):
+        yield from entry["front"] if "front" in entry else [entry["arc"]["centre"]]
 
 
 def _origin(document):
@@ -124,7 +137,10 @@ class ImportWorld:
         return self.objects["walls"].get(text)
 
     def member(self, text):
-        return self.objects["formations"].get(text)
+        return self.objects["formations"].get(text) or self.block(text)
+
+    def block(self, text):
+        return self.objects["seats"].get(text)
 
     def local(self, points):
         return [(x - self.origin[0], y - self.origin[1]) for x, y in points]
@@ -162,6 +178,10 @@ def _shaped(world, key, kind, entry):
             turn = entry.get("rotation") if entry["type"] == "grid" else None
             thing.rotation_euler.z = math.radians(turn) if is_number(turn) else 0.0
         return thing
+    if kind == "SEATS":
+        if "arc" in entry:
+            return geometry.new_arc(name, *world.local([entry["arc"]["centre"]]))
+        return geometry.new_curve(name, world.local(entry["front"]), False)
     if _is_empty(key, entry):
         thing = bpy.data.objects.new(name, None)
         thing.location = (*world.local([entry["at"][:2]])[0], (*entry["at"], 0.0)[2])
@@ -178,6 +198,12 @@ def _put_formation(part, entry, world):
     codecs.put_all((*fields.FORMATION[part.type], places.BEHAVIOUR), part, entry, world)
     if part.type == "grid":
         places.put_goal(part, entry.get("goal", MISSING), world)
+
+
+def _put_seats(part, entry, world):
+    part.shape = "ARC" if "arc" in entry else "LINE"
+    codecs.put_all(fields.ARC, part, entry.get("arc", {}))
+    codecs.put_all(seats.SEATS, part, entry, world)
 
 
 def _add_objects(world, document):
@@ -201,6 +227,8 @@ def _add_objects(world, document):
                 thing.location.z = part.link.begins.location.z
         elif kind == "FORMATION":
             _put_formation(part.formation, entry, world)
+        elif kind == "SEATS":
+            _put_seats(part.seats, entry, world)
         elif kind == "PATCH":
             codecs.put_all(fields.PATCH, part.patch, entry)
         elif kind in ("ROAD", "WALL"):
@@ -218,9 +246,12 @@ def clear(scene):
         if thing.type == "MESH" and thing.throng_layout.kind != "FORMATION":
             thing.throng_layout.kind = "NONE"
         else:
+            stand = seat_drawing.stand_of(thing) if thing.throng_layout.kind == "SEATS" else None
             bpy.data.objects.remove(thing)
+            seat_drawing.forget(stand)
     layout = scene.throng_layout
-    for group in (layout.behaviours, layout.flows, layout.events, layout.given, layout.bars, layout.problems):
+    for group in (layout.behaviours, layout.flows, layout.events, layout.given, layout.shows, layout.bars,
+                  layout.problems):
         group.clear()
     for name in ("raw", "source", "origin", "name"):
         setattr(layout, name, "")
@@ -240,7 +271,7 @@ def layout_collection(scene):
 def is_empty(scene):
     layout = scene.throng_layout
     return not (authored(scene) or len(layout.behaviours) or len(layout.flows) or len(layout.events)
-                or len(layout.given))
+                or len(layout.given) or len(layout.shows))
 
 
 def import_layout(context, path, replace=False):
@@ -267,6 +298,8 @@ def import_layout(context, path, replace=False):
             places.put_event(layout.events.add(), event, world)
         for entry in document.get("given", []):
             given.put_given(layout.given.add(), entry, world)
+        for show in document.get("shows", []):
+            seats.put_show(layout.shows.add(), show, world)
         places.put_expect(layout, document.get("expect", MISSING), world)
     for thing in things:
         display.refresh(thing)

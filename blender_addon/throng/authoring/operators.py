@@ -9,6 +9,7 @@ from bpy_extras.io_utils import ExportHelper, ImportHelper
 
 from ..blender.polls import available, in_object_mode
 from . import display, fields, geometry, importer, levels
+from .common_properties import ThrongBlock
 from .exporter import default_name, export_layout, folder_of_files, layout_text, write_text
 from .geometry import AuthoringError
 from .properties import KINDS
@@ -204,6 +205,40 @@ class THRONG_OT_add_link(_Adds, bpy.types.Operator):
         chosen, every = found(context.selected_objects), found(context.scene.objects)
         return chosen if len(chosen) == 2 else every[:2]
 
+class THRONG_OT_add_seats(_Adds, bpy.types.Operator):
+    """Add a block of seats: a curve to shape in edit mode, its first row, or part of a circle. People look to its left,
+    or at the middle"""
+
+    bl_idname = "throng.add_seats"
+    bl_label = "Add Seats"
+    shape: EnumProperty(name="First Row", items=[("LINE", "Curve", "People look to its left"),
+                                                 ("ARC", "Arc", "People look at its middle, the 3D cursor")])
+    length: FloatProperty(name="Length", default=16.0, min=0.1, subtype="DISTANCE", description="Of a curve")
+    radius: FloatProperty(name="Radius", default=15.0, min=1.0, subtype="DISTANCE", description="Of an arc")
+    span: FloatProperty(name="Span", default=math.radians(90.0), min=math.radians(1.0), max=math.tau, subtype="ANGLE",
+                        description="Of an arc")
+    rows: IntProperty(name="Rows", default=6, min=1, max=200)
+    rise: FloatProperty(name="Rise", default=0.4, min=0.0, subtype="DISTANCE")
+    aisles: IntProperty(name="Aisles", default=1, min=0, max=60)
+    angle: FloatProperty(name="Angle", subtype="ANGLE")
+
+    def execute(self, context):
+        if self.shape == "LINE":
+            half = 0.5 * self.length
+            thing = self.add_curve(context, "Seats", [(-half, 0.0), (half, 0.0)], False, "SEATS")
+        else:
+            thing = geometry.new_arc("Seats", context.scene.cursor.location[:2])
+            thing.rotation_euler.z = self.angle
+            _enter(context, thing, "SEATS")
+        with display.quietly():
+            part = thing.throng_layout.seats
+            part.shape, part.rows, part.rise, part.aisles = self.shape, self.rows, self.rise, self.aisles
+            half = 0.5 * math.degrees(self.span)
+            part.radius, part.begins, part.ends = self.radius, -half, half
+        display.refresh(thing)
+        context.view_layer.update()
+        return {"FINISHED"}
+
 
 class THRONG_OT_add_line(_Adds, bpy.types.Operator):
     """Add a line: where people queue, are mirrored or are counted"""
@@ -254,13 +289,14 @@ class THRONG_OT_mark(bpy.types.Operator):
 
     def execute(self, context):
         fitting = {"NONE": None, "ROAD": ("CURVE",), "LEVEL": ("CURVE", "MESH"), "LINK": ("CURVE",),
-                   "LINE": ("CURVE",), "AREA": ("CURVE", "MESH"),
+                   "LINE": ("CURVE",), "SEATS": ("CURVE",), "AREA": ("CURVE", "MESH"),
                    "PATCH": ("CURVE", "MESH"), "WALL": ("CURVE", "MESH"), "FORMATION": ("MESH",),
                    "POINT": ("EMPTY",)}[self.kind]
         unfit = [thing.name for thing in context.selected_objects if fitting and thing.type not in fitting]
         if unfit:
             words = " or ".join(word.lower() for word in fitting)
-            self.report({"ERROR"}, f"{', '.join(unfit)}: a {self.kind.lower()} is a {words}")
+            of = "seats are" if self.kind == "SEATS" else f"a {self.kind.lower()} is"
+            self.report({"ERROR"}, f"{', '.join(unfit)}: {of} a {words}")
             return {"CANCELLED"}
         for thing in context.selected_objects:
             part = thing.throng_layout
@@ -268,6 +304,8 @@ class THRONG_OT_mark(bpy.types.Operator):
             part.raw = part.imported_name = ""
             if self.kind == "FORMATION":
                 part.formation.type = "agents"
+            elif self.kind == "SEATS":
+                part.seats.shape = "LINE"
             part.kind = self.kind
             if thing.type == "CURVE":
                 thing.hide_render = self.kind != "NONE"
@@ -312,11 +350,14 @@ class THRONG_OT_list(bpy.types.Operator):
     index: IntProperty(default=-1)
 
     def execute(self, context):
-        owner = context.scene.throng_layout if not self.where.startswith("formation.") else context.object.throng_layout
+        of_object = self.where.startswith(("formation.", "seats."))
+        owner = context.object.throng_layout if of_object else context.scene.throng_layout
         group = owner.path_resolve(self.where)
         index = self.index if self.index >= 0 else len(group) - 1
         if self.action == "ADD":
-            self._name(group, group.add())
+            added = group.add()
+            self._name(group, added)
+            self._take_selected(context, added)
         elif not 0 <= index < len(group):
             return {"CANCELLED"}
         elif self.action == "REMOVE":
@@ -325,12 +366,20 @@ class THRONG_OT_list(bpy.types.Operator):
             group.move(index, max(0, min(len(group) - 1, index + (-1 if self.action == "UP" else 1))))
         return {"FINISHED"}
 
+    @staticmethod
+    def _take_selected(context, added):
+        """A block of seats that is selected is the one that is meant."""
+        thing = context.object
+        if isinstance(added, ThrongBlock) and thing and thing.select_get() and thing.throng_layout.kind == "SEATS":
+            added.target = thing
 
     def _name(self, group, added):
         """Behaviours, states and given people have names, and a behaviour begins with its first state."""
         what = self.where.rpartition(".")[2]
         if what == "conditions":
             added.kind = added.kind  # one that the rule has not yet
+        if what == "shows":
+            added.time.kind = "NUMBER"
         words = {"behaviours": "Behaviour", "states": "State", "given": "Given"}
         if what not in words:
             return
@@ -401,7 +450,7 @@ class IMPORT_SCENE_OT_throng_layout(bpy.types.Operator, ImportHelper):
 
 CLASSES = (THRONG_OT_add_level, THRONG_OT_add_link,
            THRONG_OT_add_road, THRONG_OT_add_wall, THRONG_OT_add_area, THRONG_OT_add_patch,
-           THRONG_OT_add_line, THRONG_OT_add_formation,
+           THRONG_OT_add_seats, THRONG_OT_add_line, THRONG_OT_add_formation,
            THRONG_OT_mark, THRONG_OT_add_flow, THRONG_OT_list, THRONG_OT_settings_from_scene,
            EXPORT_SCENE_OT_throng_layout, IMPORT_SCENE_OT_throng_layout)
 

@@ -17,7 +17,7 @@ _handle = {}
 def _position(ref, tolerance):
     """Where a place is, or None."""
     thing = ref.target
-    if thing is None or thing.throng_layout.kind not in ("ROAD", "AREA"):
+    if thing is None or thing.throng_layout.kind not in ("ROAD", "AREA", "SEATS"):
         return None
     points = splines_of(thing, tolerance)[0][0] if thing.type == "CURVE" else outlines_of(thing)[0][0]
     if thing.throng_layout.kind == "ROAD":
@@ -26,8 +26,13 @@ def _position(ref, tolerance):
 
 
 def _positions(destination, tolerance):
-    refs = [destination.place] if destination.mode == "PLACE" else destination.places
-    return [position for position in (_position(ref, tolerance) for ref in refs) if position]
+    return [position for position in (_position(ref, tolerance) for ref in _refs(destination)) if position]
+
+
+def _refs(destination):
+    if destination.mode == "SEATS":
+        return destination.seats
+    return [destination.place] if destination.mode == "PLACE" else destination.places
 
 
 def flow_lines(flow, tolerance):

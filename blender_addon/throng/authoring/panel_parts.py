@@ -58,6 +58,8 @@ def destination(layout, chosen, where, text="To"):
     column.prop(chosen, "mode", text=text)
     if chosen.mode == "PLACE":
         place(column, chosen.place)
+    elif chosen.mode == "SEATS":
+        blocks(column, chosen.seats, f"{where}.seats")
     else:
         places(column, chosen, where, chosen.mode == "CHOOSE")
 
@@ -68,21 +70,32 @@ def places(layout, chosen, where, weight=False):
     change(layout, f"{where}.places", "ADD", "ADD")
 
 
-def who(layout, people, where, data, text):
-    """Flows by name, formations as objects."""
+def blocks(layout, chosen, where, text="Seats"):
+    """Blocks of seats."""
+    row = layout.row()
+    row.label(text=text)
+    change(row, where, "ADD", "ADD")
+    for index, block in enumerate(chosen):
+        row = layout.row(align=True)
+        if block.target is None and block.name:
+            row.prop(block, "name", text="")
+        row.prop(block, "target", text="")
+        change(row, where, "REMOVE", "X", index)
+
+
+def who(layout, people, where, text):
+    """Flows and given people by name, formations and seats as objects."""
     row = layout.row()
     row.label(text=text)
     change(row, where, "ADD", "ADD")
     for index, member in enumerate(people):
-        change(one_of(layout, member, data), where, "REMOVE", "X", index)
+        change(one_of(layout, member), where, "REMOVE", "X", index)
 
 
-def one_of(layout, member, data):
+def one_of(layout, member, text=""):
+    """All of them are offered by name while one types; of what is an object, that is shown."""
     row = layout.row(align=True)
-    if not member.target:
-        row.prop_search(member, "name", data, "flows", text="")
-    if not member.name:
-        row.prop(member, "target", text="")
+    row.prop(member, "target" if member.target else "name", text=text)
     return row
 
 

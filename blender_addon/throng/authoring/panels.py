@@ -10,6 +10,7 @@ from .bake_operator import running
 from .codecs import UNSET
 from .panel_parts import (
     change, destination, distribution, letters, list_of, optional, order, people, place, problems_of, who)
+from .seat_panel import block_of_seats
 from .values import MISSING
 
 
@@ -21,8 +22,8 @@ class VIEW3D_PT_throng_layout(InSidebar, bpy.types.Panel):
         layout = self.layout
         grid = layout.grid_flow(columns=2, align=True)
         for part, icon in (("level", "MESH_GRID"), ("link", "MOD_ARRAY"), ("road", "CURVE_PATH"),
-                           ("wall", "MOD_SOLIDIFY"), ("area", "MESH_PLANE"),
-                           ("patch", "SHADING_TEXTURE"), ("formation", "COMMUNITY"), ("line", "IPO_LINEAR")):
+                           ("wall", "MOD_SOLIDIFY"), ("area", "MESH_PLANE"), ("patch", "SHADING_TEXTURE"),
+                           ("seats", "ALIGN_JUSTIFY"), ("formation", "COMMUNITY"), ("line", "IPO_LINEAR")):
             grid.operator(f"throng.add_{part}", icon=icon)
         if any(thing.throng_layout.kind == "LEVEL" for thing in context.scene.objects):
             layout.prop(context.scene.throng_layout, "draw_on")
@@ -54,6 +55,8 @@ class VIEW3D_PT_throng_layout(InSidebar, bpy.types.Panel):
             box.prop(part.patch, "room")
             box.prop(part.patch, "begins")
             optional(box, part.patch, "ends")
+        if part.kind == "SEATS":
+            block_of_seats(box, thing)
         if part.kind == "FORMATION":
             self._formation(box, part.formation, context.scene.throng_layout)
         problems_of(context, box, lambda problem: problem.target == thing)
@@ -176,7 +179,7 @@ class VIEW3D_PT_throng_events(InSidebar, bpy.types.Panel):
             where = f"events[{data.active_event}]"
             destination(layout, event.destination, f"{where}.destination")
             layout.prop(event, "arrival")
-            who(layout, event.who, f"{where}.who", data, "Who (by default everybody)")
+            who(layout, event.who, f"{where}.who", "Who (by default everybody)")
 
 
 class VIEW3D_PT_throng_simulation(InSidebar, bpy.types.Panel):

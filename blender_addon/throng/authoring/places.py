@@ -2,8 +2,8 @@
 """Places, destinations, stops and events: values that speak of other things of the layout. Pure Python.
 
 A world stands between names and objects. On import it has find(text) -> (object, end) or None, wall(text),
-member(text), point(raw) and line(raw), which make objects; on export place(object, end) -> text, name(object),
-point_of(object, raw) and line_of(object, raw).
+member(text), block(text), point(raw) and line(raw), which make objects; on export place(object, end) -> text,
+name(object), point_of(object, raw) and line_of(object, raw).
 """
 import json
 
@@ -33,8 +33,13 @@ def place_of(ref, world):
     return world.place(ref.target, ref.end) if ref.target else ref.text
 
 
+def put_block(block, text, world):
+    block.target = world.block(text)
+    block.name = "" if block.target else text
+
+
 def put_member(member, raw, world):
-    """A flow or a formation: the flow by its name, the formation as an object."""
+    """Formations and blocks of seats are objects; flows and given people have names."""
     member.target = world.member(raw) if isinstance(raw, str) else None
     member.name = raw if isinstance(raw, str) and member.target is None else ""
 
@@ -43,14 +48,25 @@ def name_of(member, world):
     return world.name(member.target) if member.target else member.name
 
 
+def names_of_blocks(blocks, raw, world):
+    """As the layout tells them: one of them without a list, where it was not in one before."""
+    names = [name_of(block, world) for block in blocks]
+    return names[0] if len(names) == 1 and not isinstance(raw, list) else names
+
+
 class Destination(Codec):
-    """One place, the nearest of several, or one of several by weight."""
+    """One place, the nearest of several, or one of several by weight; of a goal also a seat."""
 
     def put(self, group, raw, world):
         part = getattr(group, self.attribute)
         part.places.clear()
         raw = raw if isinstance(raw, (str, dict)) else ""
         nearest, choose = (raw.get("nearest"), raw.get("choose")) if isinstance(raw, dict) else (None, None)
+        if hasattr(part, "seats"):
+            part.seats.clear()
+            if isinstance(raw, dict) and "seats" in raw:
+                self._put_seats(part, raw["seats"], world)
+                return
         if isinstance(nearest, list):
             part.mode = "NEAREST"
             for text in nearest:
@@ -65,8 +81,16 @@ class Destination(Codec):
             part.mode = "PLACE"
             put_place(part.place, raw, world)
 
+    @staticmethod
+    def _put_seats(part, raw, world):
+        part.mode = "SEATS"
+        for text in raw if isinstance(raw, list) else [raw]:
+            put_block(part.seats.add(), text if isinstance(text, str) else "", world)
+
     def take(self, group, raw, world):
         part = getattr(group, self.attribute)
+        if part.mode == "SEATS":
+            return {"seats": names_of_blocks(part.seats, raw.get("seats") if isinstance(raw, dict) else MISSING, world)}
         if part.mode == "PLACE":
             text = place_of(part.place, world)
             return raw if text == "" and raw is not MISSING and not isinstance(raw, str) else text

@@ -8,19 +8,21 @@ import bpy
 from bpy.props import (BoolProperty, CollectionProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty,
                        PointerProperty, StringProperty)
 
-from . import behaviour_properties, common_properties, display, fields
-from . import levels
-from .codecs import GROUPS, LOOKS, MIX, PROFILES, UNSET, Flag, Whole
-from .behaviour_properties import ThrongBehaviour
+from . import behaviour_properties, common_properties, display, fields, levels, people_properties, seat_properties
+from .behaviour_properties import ThrongBehaviour, group_named
+from .codecs import UNSET, Flag, Whole
 from .common_properties import (
-    ThrongDestination, ThrongDistribution, ThrongMember, ThrongPlace, is_kind, words_items)
+    Named, ThrongDestination, ThrongDistribution, ThrongGoal, ThrongMember, ThrongPlace, is_kind, words_items)
 from .fields import limits
+from .people_properties import ThrongPeople
+from .seat_properties import ThrongSeats, ThrongShow
 
 KINDS = (("NONE", "None", "No part of the layout"), ("ROAD", "Road", "A curve with a width, on which people walk"),
          ("AREA", "Area", "A cyclic curve or a mesh: a plaza, an entry, an exit"),
          ("WALL", "Wall", "An open curve with a thickness, a cyclic one, or a mesh"),
          ("PATCH", "Patch", "A cyclic curve or a mesh: ground that people avoid, walk on at another pace, or take "
                             "another room on"),
+         ("SEATS", "Seats", "A curve: the first row of a block of seats, with further ones to its right"),
          ("FORMATION", "Formation", "People who stand here at a given moment"),
          ("LEVEL", "Level", "A cyclic curve or a mesh at its height: a floor on which people walk above others"),
          ("LINK", "Link", "A curve from one level to another: stairs, a ramp, an escalator; with landings at its "
@@ -42,25 +44,6 @@ def _show_solid(layout, _context):
 _ARRIVAL = [("leave", "Leave", "People leave the scene at their goal"), ("stay", "Stay", "People stay and stand there")]
 
 
-class ThrongPeople(bpy.types.PropertyGroup):
-    speed: PointerProperty(type=ThrongDistribution, name="Speed", description="Preferred walking speed, m/s")
-    radius: PointerProperty(type=ThrongDistribution, name="Radius", description="Body radius, m")
-    reaction: PointerProperty(type=ThrongDistribution, name="Reaction",
-                              description="How long people take to set off when an event sends them away, s")
-    maximum_speed_factor: FloatProperty(name="Hurry", **limits("people", "maximum_speed_factor"),
-                                        description="Highest speed as a multiple of the preferred one")
-    headway: FloatProperty(name="Headway", **limits("people", "headway"),
-                           description="Free way kept to those walked behind, s")
-    profile: EnumProperty(name="Profile", items=words_items(PROFILES, "Default") + [(MIX, "Mix", "Several, by weight")])
-    profile_weights: FloatVectorProperty(name="Weights", size=4, default=(1.0, 0.0, 0.0, 0.0), soft_min=0.0,
-                                         description="Adults, children, elderly, runners")
-    groups: EnumProperty(name="Groups", items=words_items(GROUPS, "Default")
-                                        + [(MIX, "Weights", "Of those who walk alone, in twos, threes and fours")])
-    group_weights: FloatVectorProperty(name="Weights", size=4, default=(1.0, 0.0, 0.0, 0.0), soft_min=0.0,
-                                       description="Alone, twos, threes, fours")
-    look: EnumProperty(name="Look", items=words_items(LOOKS), description="What they wear")
-
-
 class ThrongStop(bpy.types.PropertyGroup):
     raw: StringProperty(options={"HIDDEN"})
     at: PointerProperty(type=ThrongDestination)
@@ -78,25 +61,10 @@ class ThrongStop(bpy.types.PropertyGroup):
                            description="Queue: metres from one to the next")
 
 
-def _renamed(flow, context):
-    """Events speak of flows by name."""
-    if flow.known and flow.known != flow.name:
-        for event in flow.id_data.throng_layout.events:
-            if event.flow == flow.known:
-                event.flow = flow.name
-            for member in event.who:
-                if member.target is None and member.name == flow.known:
-                    member.name = flow.name
-        behaviour_properties.group_named(flow.id_data.throng_layout, flow.known, flow.name)
-    flow.known = flow.name
-
-
-class ThrongFlow(bpy.types.PropertyGroup):
-    name: StringProperty(name="Name", update=_renamed)
-    known: StringProperty(options={"HIDDEN"})
+class ThrongFlow(Named, bpy.types.PropertyGroup):
     raw: StringProperty(options={"HIDDEN"})
     source: PointerProperty(type=ThrongPlace, name="From")
-    to: PointerProperty(type=ThrongDestination, name="To")
+    to: PointerProperty(type=ThrongGoal, name="To")
     via: CollectionProperty(type=ThrongStop)
     active_stop: IntProperty()
     amount: EnumProperty(name="How Many", items=[("COUNT", "Count", "People in all, spread evenly"),
@@ -111,6 +79,13 @@ class ThrongFlow(bpy.types.PropertyGroup):
     people: PointerProperty(type=ThrongPeople)
     arrival: EnumProperty(name="Arrival", items=_ARRIVAL)
     behaviour: StringProperty(name="Behaviour", description="In place of where they go")
+
+    def renamed(self, before):
+        layout = self.id_data.throng_layout
+        for event in layout.events:
+            if event.flow == before:
+                event.flow = self.name
+        group_named(layout, before, self.name)
 
 
 class ThrongEvent(bpy.types.PropertyGroup):
@@ -166,7 +141,7 @@ class ThrongFormation(bpy.types.PropertyGroup):
                                                 ("OFFSET", "Offset", "Everybody's position plus this"),
                                                 ("MIRROR", "Mirror", "Mirrored at a line of two points"),
                                                 ("ANYWHERE", "Anywhere", "In a box between the two ends of a line")])
-    goal: PointerProperty(type=ThrongDestination)
+    goal: PointerProperty(type=ThrongGoal)
     goal_offset: FloatVectorProperty(name="Offset", size=2, subtype="XYZ")
     goal_line: PointerProperty(type=bpy.types.Object, name="Line", poll=is_kind("LINE"))
     start: FloatProperty(name="Start", **limits("formation", "start"), description="When they appear, s")
@@ -179,17 +154,9 @@ class ThrongFormation(bpy.types.PropertyGroup):
     behaviour: StringProperty(name="Behaviour", description="In place of where they go")
 
 
-def _given_named(given, _context):
-    if given.known and given.known != given.name:
-        behaviour_properties.group_named(given.id_data.throng_layout, given.known, given.name)
-    given.known = given.name
-
-
-class ThrongGiven(bpy.types.PropertyGroup):
+class ThrongGiven(Named, bpy.types.PropertyGroup):
     """People whose ways are given."""
 
-    name: StringProperty(name="Name", update=_given_named)
-    known: StringProperty(options={"HIDDEN"})
     raw: StringProperty(options={"HIDDEN"})
     source: EnumProperty(name="Ways", items=[
         ("FILE", "File", "Trajectories: CSV, the archive of Juelich, a JuPedSim database, or a bake's folder"),
@@ -201,6 +168,9 @@ class ThrongGiven(bpy.types.PropertyGroup):
     start: FloatProperty(name="Start", **limits("given", "start"), description="Added to all times, s")
     offset: FloatVectorProperty(name="Offset", size=2, subtype="XYZ", description="Added to all places, m")
     people: PointerProperty(type=ThrongPeople)
+
+    def renamed(self, before):
+        group_named(self.id_data.throng_layout, before, self.name)
 
 
 class ThrongPatch(bpy.types.PropertyGroup):
@@ -255,6 +225,7 @@ class ThrongObject(bpy.types.PropertyGroup):
     link: PointerProperty(type=ThrongLink)
     level: PointerProperty(type=bpy.types.Object, name="Level", poll=is_kind("LEVEL"), update=_follow_level,
                            description="The level on which it is; by default the first")
+    seats: PointerProperty(type=ThrongSeats)
 
 
 class ThrongSimulation(bpy.types.PropertyGroup):
@@ -320,6 +291,8 @@ class ThrongScene(bpy.types.PropertyGroup):
     active_behaviour: IntProperty()
     given: CollectionProperty(type=ThrongGiven)
     active_given: IntProperty()
+    shows: CollectionProperty(type=ThrongShow)
+    active_show: IntProperty()
     bars: CollectionProperty(type=ThrongBar)
     draw_on: PointerProperty(type=bpy.types.Object, name="Draw on", poll=is_kind("LEVEL"),
                              description="The level on which new parts are; by default the first")
@@ -349,9 +322,10 @@ class ThrongScene(bpy.types.PropertyGroup):
     status: StringProperty(options={"SKIP_SAVE"})
 
 
-CLASSES = (*common_properties.CLASSES, *behaviour_properties.CLASSES, ThrongPeople, ThrongStop, ThrongFlow,
-           ThrongEvent, ThrongBar, ThrongFormation, ThrongGiven, ThrongPatch, ThrongLink, ThrongObject,
-           ThrongSimulation, *_RULES.values(), ThrongMotion, ThrongProblem, ThrongScene)
+CLASSES = (*common_properties.CLASSES, *behaviour_properties.CLASSES, *people_properties.CLASSES,
+           *seat_properties.CLASSES, ThrongStop, ThrongFlow, ThrongEvent, ThrongBar, ThrongFormation, ThrongGiven,
+           ThrongPatch, ThrongLink, ThrongObject, ThrongSimulation, *_RULES.values(), ThrongMotion, ThrongProblem,
+           ThrongScene)
 
 _register_classes, _unregister_classes = bpy.utils.register_classes_factory(CLASSES)
 

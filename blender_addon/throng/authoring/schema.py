@@ -29,7 +29,10 @@ class Schema:
         return {**target, **{key: value for key, value in entry.items() if key != "$ref"}}
 
     def named(self, name):
-        """One of the layout's objects: a definition, or what a key of the layout itself is."""
+        """One of the layout's objects: a definition, what a key of the layout itself is, or, behind a point, an object
+        in one of them."""
+        if "." in name:
+            return self.entry(*name.split("."))
         definition = self.document.get("definitions", {}).get(name)
         return definition or self.followed(self.document["properties"][name])
 

@@ -11,6 +11,7 @@ _LEAN = 0.07                       # m, of the back
 SIDE = 0.44                        # of a seat's width: the rest is between two
 HAIR = 1e-6    # m
 _LEDGE = 0.12  # m, before the feet of the first row
+_INTO_GROUND = 0.3  # m: so far below the lowest ground what stands on a terrain begins
 
 
 def _direction(a, b):
@@ -39,33 +40,63 @@ def step_of(block, row):
                  for off in (0.5 * pitch + ledge, -0.5 * pitch))
 
 
+def heights_of(row):
+    """m, of each point of a row's line: those of a level row are the same."""
+    return [float(height) for height in row.get("heights") or [row["height"]] * len(row["line"])]
+
+
+def bottom_of(block, row, slab=None):
+    """m, where what a row stands on begins: the ground, or, where people walk under it, so far below."""
+    if slab is not None:
+        return float(row["height"]) - float(block["rise"]) - slab
+    return float(block["ground"]) - _INTO_GROUND if "ground" in block else 0.0
+
+
+def step_faces(front, back, heights, bottom=0.0):
+    """Faces of a step between two edges, from the ground up, or of a slab. @param heights of the edges' points, or one
+    for all of them"""
+    tops = heights if isinstance(heights, list) else [heights] * len(front)
+    for (a, b), (c, d), (h, k) in zip(zip(front, front[1:]), zip(back, back[1:]), zip(tops, tops[1:])):
+        yield [(*a, h), (*c, h), (*d, k), (*b, k)]
+        if max(h, k) - bottom > HAIR:
+            yield [(*b, bottom), (*a, bottom), (*a, h), (*b, k)]
+            yield [(*c, bottom), (*d, bottom), (*d, k), (*c, h)]
+        if bottom != 0.0:
+            yield [(*a, bottom), (*b, bottom), (*d, bottom), (*c, bottom)]
+    for a, c, h in ((front[0], back[0], tops[0]), (back[-1], front[-1], tops[-1])):
+        if h - bottom > HAIR:
+            yield [(*a, bottom), (*c, bottom), (*c, h), (*a, h)]
+
+
 def treads_of(block, aisle):
     """(front edge, back edge, height) of each step of an aisle, two to a row: the higher one is where one walks into
     the row, the other is half as high over the row before."""
     line, half = [tuple(point[:2]) for point in aisle["line"]], 0.5 * float(aisle["width"])
-    pitch, rise = float(block["pitch"]), float(block["rise"])
-    height, below, found = min(float(row["height"]) for row in block["rows"]), 0.0, []
-    for before, (x, y) in zip(line, line[1:]):
+    pitch, rise, found = float(block["pitch"]), float(block["rise"]), []
+    lowest = min(float(row["height"]) for row in block["rows"])
+    heights = aisle.get("heights") or [0.0, *(lowest + row * rise for row in range(len(line) - 1))]
+    for before, (x, y), below, height in zip(line, line[1:], heights, heights[1:]):
         (u, v), _ = _direction(before, (x, y))
         for begin, end, level in ((-0.65, -0.15, 0.5 * (below + height)), (-0.15, 0.35, height)):
             front, back = ([(x + at * pitch * u + side * half * v, y + at * pitch * v - side * half * u)
                             for side in (-1.0, 1.0)] for at in (begin, end))
             found.append((front, back, level))
-        below, height = height, height + rise
     return found
 
 
 def seats_of(block, row):
-    """(place, way along the row) of all seats of a row, in its middle as the bake has them."""
+    """(place, way along the row, height) of all seats of a row, in its middle as the bake has them."""
     line, width = [tuple(point[:2]) for point in row["line"]], float(block["width"])
-    pieces = [(a, *_direction(a, b)) for a, b in zip(line, line[1:])]
-    whole = sum(size for _, _, size in pieces)
+    heights = heights_of(row)
+    pieces = [(a, *_direction(a, b), low, high) for a, b, low, high in zip(line, line[1:], heights, heights[1:])]
+    whole = sum(piece[2] for piece in pieces)
     count = math.floor(whole / width + 1e-6)
     start, passed, found = 0.5 * (whole - count * width) + 0.5 * width, 0.0, []
-    for (x, y), along, size in pieces:
+    for (x, y), along, size, low, high in pieces:
         while len(found) < count and start <= passed + size + 1e-9:
             way = start - passed
-            found.append(((x + way * along[0], y + way * along[1]), along))
+            share = way / size if size else 0.0
+            found.append(((x + way * along[0], y + way * along[1]), along, low + share * (high - low)))
             start += width
         passed += size
     return found

@@ -19,54 +19,43 @@ def build_stands(geometry):
 
 def _build(block):
     shape = Shape(f"Throng stand {block.get('id', '')}")
-    stone = materials.mottled("stand", (0.24, 0.235, 0.225), (0.33, 0.325, 0.31), 1.6)
-    shells = [materials.plain(f"seat {number}", colour, 0.45) for number, colour in enumerate(_COLOURS)]
-    slabs = seat_mouths.has_passages(block)  # people walk under them
-    for row in block["rows"]:
-        height = float(row["height"])
-        bottom = height - float(block["rise"]) - seat_mouths.SLAB if slabs else 0.0
-        _step(shape, *seat_rows.step_of(block, row), height, stone, bottom)
-        for number, (place, way) in enumerate(seat_rows.seats_of(block, row)):
-            add_seat(shape, place, way, height, seat_rows.SIDE * float(block["width"]), shells[number % len(shells)])
-    for aisle in block.get("aisles", ()):
-        if slabs:
-            _mouth(shape, block, aisle, stone)
-        else:
-            _steps(shape, block, aisle, stone)
+    made = {"stone": materials.mottled("stand", (0.24, 0.235, 0.225), (0.33, 0.325, 0.31), 1.6)}
+    for number, colour in enumerate(_COLOURS):
+        made[number] = materials.plain(f"seat {number}", colour, 0.45)
+    if seat_mouths.has_passages(block):
+        made["passage"] = materials.plain("passage", (0.16, 0.155, 0.15), 0.8)
+    for face, of in faces_of(block):
+        shape.face(face, made[of])
     return shape.to_object()
 
 
-def _mouth(shape, block, aisle, stone):
+def faces_of(block, seat_faces=seat_rows.seat_faces):
+    """Everything that a block is built of, as (corners, "stone", "passage" or 0 and 1 of a row's seats in turns)."""
+    slabs = seat_mouths.has_passages(block)  # people walk under them
+    for row in block["rows"]:
+        bottom = seat_rows.bottom_of(block, row, seat_mouths.SLAB if slabs else None)
+        for face in seat_rows.step_faces(*seat_rows.step_of(block, row), seat_rows.heights_of(row), bottom):
+            yield face, "stone"
+        for number, (place, way, height) in enumerate(seat_rows.seats_of(block, row)):
+            for face in seat_faces(place, way, height, seat_rows.SIDE * float(block["width"])):
+                yield face, number % len(_COLOURS)
+    for aisle in block.get("aisles", ()):
+        yield from _mouth(block, aisle) if slabs else _steps(block, aisle)
+
+
+def _mouth(block, aisle):
     """Flights of steps, an opening and the passage behind it."""
-    inner = materials.plain("passage", (0.16, 0.155, 0.15), 0.8)
     mouth = seat_mouths.Mouth(block, aisle)
     for face in seat_mouths.flights_of(mouth, aisle) + seat_mouths.walls_of(mouth):
-        shape.face(face, stone)
+        yield face, "stone"
     for face in seat_mouths.passage_of(mouth):
-        shape.face(face, inner)
+        yield face, "passage"
 
 
-def _steps(shape, block, aisle, stone):
+def _steps(block, aisle):
     """Steps of an aisle, two to a row."""
+    bottom = seat_rows.bottom_of(block, block["rows"][0])
     for front, back, height in seat_rows.treads_of(block, aisle):
-        if height > seat_rows.HAIR:
-            _step(shape, front, back, height, stone)
-
-
-def _step(shape, front, back, height, stone, bottom=0.0):
-    """From the ground up, or a slab."""
-    for (a, b), (c, d) in zip(zip(front, front[1:]), zip(back, back[1:])):
-        shape.face([(*a, height), (*c, height), (*d, height), (*b, height)], stone)
         if height - bottom > seat_rows.HAIR:
-            shape.face([(*b, bottom), (*a, bottom), (*a, height), (*b, height)], stone)
-            shape.face([(*c, bottom), (*d, bottom), (*d, height), (*c, height)], stone)
-        if bottom != 0.0:
-            shape.face([(*a, bottom), (*b, bottom), (*d, bottom), (*c, bottom)], stone)
-    if height - bottom > seat_rows.HAIR:
-        shape.face([(*front[0], bottom), (*back[0], bottom), (*back[0], height), (*front[0], height)], stone)
-        shape.face([(*back[-1], bottom), (*front[-1], bottom), (*front[-1], height), (*back[-1], height)], stone)
-
-
-def add_seat(shape, place, along, height, half, shell):
-    for face in seat_rows.seat_faces(place, along, height, half):
-        shape.face(face, shell)
+            for face in seat_rows.step_faces(front, back, height, bottom):
+                yield face, "stone"

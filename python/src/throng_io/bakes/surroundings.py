@@ -97,12 +97,14 @@ def _stand_of(number: int, block: dict, origin: numpy.ndarray) -> list[Thing]:
     seats: list = []
     slabs = seat_mouths.has_passages(block)
     for row in block["rows"]:
-        height = float(row["height"])
         front, back = seat_rows.step_of(block, row)
-        bottom = height - float(block["rise"]) - seat_mouths.SLAB if slabs else 0.0
-        points, sides = prism(shapely.Polygon([*front, *back[::-1]]), bottom, height)
-        steps += [[tuple(points[corner]) for corner in side] for side in sides]
-        seats += [face for place, along in seat_rows.seats_of(block, row)
+        bottom = seat_rows.bottom_of(block, row, seat_mouths.SLAB if slabs else None)
+        if "heights" in row:
+            steps += list(seat_rows.step_faces(front, back, seat_rows.heights_of(row), bottom))
+        else:
+            points, sides = prism(shapely.Polygon([*front, *back[::-1]]), bottom, float(row["height"]))
+            steps += [[tuple(points[corner]) for corner in side] for side in sides]
+        seats += [face for place, along, height in seat_rows.seats_of(block, row)
                   for face in seat_rows.seat_faces(place, along, height, seat_rows.SIDE * float(block["width"]))]
     for aisle in block["aisles"] if slabs else ():
         steps += seat_mouths.faces_of(block, aisle)
