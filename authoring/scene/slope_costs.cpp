@@ -11,16 +11,17 @@
 namespace throng::authoring {
 namespace {
 
-constexpr float kFlat = 0.02f;  // rise over run: costs nothing
-constexpr float kSteepest = 1.0f;
-constexpr int kSlopes = 50;  // in so many steps
+constexpr float kFlatEnough = 0.02f;  // rise over run: costs nothing
+constexpr float kSteepestKnown = 1.0f;
+constexpr int kSlopeSteps = 50;  // in so many steps
 
 }  // namespace
 
 SlopeCosts::SlopeCosts(const MotionSettings& motion) {
     for (int stairs = 0; stairs < 2; ++stairs)
-        for (int i = 0; i <= kSlopes; ++i)
-            slopes_[stairs].push_back(costOfLink(motion, stairs == 1, double{kSteepest} * i / kSlopes));
+        for (int i = 0; i <= kSlopeSteps; ++i)
+            slopes_[stairs].push_back(
+                costOfLink(motion, stairs == 1, double{kSteepestKnown} * i / kSlopeSteps));
 }
 
 SlopeCosts::SlopeCosts(const MotionSettings& motion, const Terrain& terrain) : SlopeCosts(motion) {
@@ -35,8 +36,8 @@ SlopeCosts::SlopeCosts(const MotionSettings& motion, const Terrain& terrain) : S
 }
 
 float SlopeCosts::of(float slope, bool stairs) const {
-    if (slope < kFlat) return 1.0f;
-    const auto step = std::lround(std::min(slope, kSteepest) / kSteepest * kSlopes);
+    if (slope < kFlatEnough) return 1.0f;
+    const auto step = std::lround(std::min(slope, kSteepestKnown) / kSteepestKnown * kSlopeSteps);
     return slopes_[stairs ? 1 : 0][static_cast<std::size_t>(step)];
 }
 
