@@ -11,9 +11,6 @@ from ..blender.nodes import Maths, new_tree, own_tree, set_input, socket
 
 MODIFIER = seat_drawing.MODIFIER
 _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
-COLOURS = {"ROAD": (0.16, 0.20, 0.26, 1.0), "ARROW": (0.85, 0.85, 0.80, 1.0), "AREA": (0.16, 0.42, 0.36, 1.0),
-           "WALL": (0.62, 0.55, 0.45, 1.0), "PATCH": (0.30, 0.42, 0.12, 1.0),
-           "LEVEL": (0.24, 0.25, 0.28, 1.0), "LINK": (0.55, 0.42, 0.20, 1.0), "FORMATION": (0.85, 0.45, 0.10, 1.0)}
 _HEIGHTS = {"AREA": 0.005, "ROAD": 0.01, "PATCH": 0.015, "ARROW": 0.02}
 DRAWN = ("LEVEL", "LINK", "ROAD", "AREA", "WALL", "PATCH", "SEATS")  # as curves
 _ALONG = "throng_along"  # of a link's points: from 0 to 1

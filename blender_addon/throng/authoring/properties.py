@@ -10,7 +10,7 @@ from bpy.props import (BoolProperty, CollectionProperty, EnumProperty, FloatProp
 
 from . import behaviour_properties, common_properties, display, fields, levels, people_properties, seat_properties
 from .behaviour_properties import ThrongBehaviour, group_named
-from .codecs import UNSET, Flag, Whole
+from .codecs import Flag, Whole
 from .common_properties import (
     Named, ThrongDestination, ThrongDistribution, ThrongGoal, ThrongMember, ThrongPlace, is_kind, words_items)
 from .fields import limits

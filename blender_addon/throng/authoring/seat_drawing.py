@@ -17,7 +17,6 @@ from ..cast import seat_rows
 from ..environment import stands
 from . import colours, seat_plan
 from .geometry import AuthoringError, splines_of
-from .values import is_number
 
 MODIFIER, TREE = "Throng drawing", "Throng drawing seats"
 _SLOTS = {"stone": 0, 0: 1, 1: 1, "passage": 2}
@@ -27,17 +26,21 @@ _MOUTHS = ("at", "row", "use_passage", "passage", "level")
 _SEEN = 5  # decimals of what makes a difference
 
 
-@functools.lru_cache(maxsize=4)
-def _heights(text):
-    raw = json.loads(text).get("levels") if text else ()
-    entries = [each for each in raw if isinstance(each, dict)] if isinstance(raw, list) else []
-    return {each["id"]: float(each["height"]) if is_number(each.get("height")) else 0.0 for each in entries
-            if isinstance(each.get("id"), str)}
+@functools.lru_cache(maxsize=64)
+def _id_in(text):
+    return json.loads(text).get("id") if text else None
 
 
 def _levels(scene):
-    """{id: height} of the layout's levels, which are not drawn."""
-    return _heights(scene.throng_layout.raw)
+    """{name: height} of the layout's levels, by what they are called and by what the layout called them."""
+    drawn = [thing for thing in scene.objects if thing.throng_layout.kind == "LEVEL"]
+    drawn.sort(key=lambda thing: thing.throng_layout.order)
+    heights = {}
+    for thing in drawn:
+        height = thing.matrix_world.translation.z
+        heights[thing.name] = height
+        heights.setdefault(_id_in(thing.throng_layout.raw), height)
+    return heights
 
 
 def walked_in(scene):

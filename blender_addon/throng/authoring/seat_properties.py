@@ -12,7 +12,7 @@ from .fields import limits
 from .people_properties import ThrongPeople
 from .schema import LAYOUT, description_of, words_of
 
-_LEVEL = "By name, as the layout has it; levels are not drawn here"
+_LEVEL = "By name"
 _MOUTHS = {"front": "Before the first row", "back": "Behind the last row, by a passage to its foot",
            "row": "Through an opening in the stand, and a passage under the rows behind it"}
 
@@ -47,7 +47,7 @@ class ThrongMouths(bpy.types.PropertyGroup):
     use_passage: BoolProperty(name="Passage", update=_refresh, description="Otherwise to just behind the block")
     passage: _number(FloatProperty, "passage", "Passage", "seat_block.mouths", subtype="DISTANCE")
     level: StringProperty(name="Foot", update=_refresh,
-                          description="The level on which the foot of the passage is: by name, as the layout has it")
+                          description="The level on which the foot of the passage is: by name")
 
 
 class ThrongSeats(bpy.types.PropertyGroup):

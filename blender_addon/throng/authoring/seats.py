@@ -6,7 +6,17 @@ from .codecs import Codec, Nested, Text, put_all, take_all
 from .places import Destination, Target, keep_raw, name_of, put_block, raw_of
 from .values import MISSING
 
-_LEVEL = Text("level")
+
+
+class _LevelName(Text):
+    """By name: of one that was renamed since, the layout's name is known, too."""
+
+    def take(self, group, raw, world=None):
+        value = super().take(group, raw, world)
+        return world.level_named(value) if world and isinstance(value, str) else value
+
+
+_LEVEL = _LevelName("level")
 
 
 class _Mouths(Nested):
