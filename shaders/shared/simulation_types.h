@@ -115,9 +115,9 @@ struct Walker {
 /// Which way the chest of a row points: it follows the heading, and turns aside before gaps and where others
 /// push it. Only crowds with bodies that are no discs use it.
 struct Chest {
-    float angle;      // rad
-    float rate;       // rad/s
-    float half_axis;  // m, as in Person
+    float angle;          // rad
+    float rate;           // rad/s
+    float half_axis;      // m, as in Person
     float own_half_axis;  // m: likewise, before what the ground makes of it
 };
 
