@@ -124,15 +124,18 @@ void LevelReader::addBentLink(const Link& link, const std::vector<glm::dvec2>& p
     checkLink(link, run, node);
     if (diagnostics_.hasErrors()) return;
     const std::size_t first_landing = layout_.levels.size();
+    for (Level& landing : bent.landings) {
+        claimId(node, landing.id, levels_, layout_.levels.size(), "a level", diagnostics_);
+        layout_.levels.push_back(std::move(landing));
+    }
     for (std::size_t i = 0; i < bent.flights.size(); ++i) {
         Link& flight = bent.flights[i];
         if (i > 0) flight.from = first_landing + i - 1;
         if (i < bent.landings.size()) flight.to = first_landing + i;
+        claimId(node, flight.id, links_, layout_.links.size(), "a link", diagnostics_);
+        // Landings are as high as whole steps make them: of short flights that is much.
+        if (!diagnostics_.hasErrors()) checkLink(flight, glm::distance(flight.begin, flight.end), node);
         layout_.links.push_back(std::move(flight));
-    }
-    for (Level& landing : bent.landings) {
-        claimId(node, landing.id, levels_, layout_.levels.size(), "a level", diagnostics_);
-        layout_.levels.push_back(std::move(landing));
     }
 }
 

@@ -30,6 +30,7 @@ bool mayMeet(const Patch& one, const Patch& other) {
 
 SizeBounds sizeBounds(const std::vector<Patch>& patches) {
     SizeBounds bounds;
+    if (std::ranges::all_of(patches, [](const Patch& patch) { return patch.size == 1.0; })) return bounds;
     for (const Patch& patch : patches) {
         double least = 1.0, most = 1.0;
         for (const Patch& other : patches) {

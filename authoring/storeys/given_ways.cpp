@@ -212,7 +212,9 @@ GivenCharts chartsOfWays(
                 ways.push_back(following.follow(way, *on));
             else {
                 const std::uint32_t beside = begin.value_or(named.value_or(0));
-                following.skip(first, beside, first.height && !begin);
+                // There is ground, but not at the height that is told.
+                const bool is_height = first.height && !begin && chartAt(charts, beside, first.place);
+                following.skip(first, beside, is_height);
                 ways.emplace_back(way.size(), beside);
             }
         }

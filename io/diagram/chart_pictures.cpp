@@ -116,6 +116,7 @@ class Taking {
         image.height = static_cast<std::uint32_t>(picture_.size.y);
         image.pixels_per_metre = plane_.pixels_per_metre;
         image.agent_count = plane_.agent_count;
+        image.wall_count = plane_.wall_count;
         image.site = result_.site;
         image.distance = result_.distance;
         image.second = result_.second;

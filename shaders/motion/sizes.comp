@@ -4,7 +4,7 @@
 //
 // Whoever grows takes what is free around it, and contact, which keeps a hair between bodies, makes more of it free: so
 // a crowd spreads as fast as contact moves it, and where there is nowhere to go people stay as large as they have room
-// for. Growth itself puts nobody into anybody else, or into a wall.
+// for. Growth itself puts nobody into anybody else, or into a wall; out of vehicles keep_off.comp takes them.
 #include "shaders/shared/simulation_types.h"
 
 layout(local_size_x = AGENT_GROUP_SIZE) in;
