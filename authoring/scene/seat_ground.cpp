@@ -76,6 +76,9 @@ class GroundCheck {
             const RowLine line(block_, static_cast<double>(row) * block_.pitch);
             const RowFloor floor(block_, row);
             const std::vector<double> shares = sharesOnFloor(block_, line, 0.0, 1.0);
+            for (const double share : shares)
+                if (fine_ && std::isnan(floor.at(share)))
+                    tellOfHole(fmt::format("under an end of row {}", row + 1), line.at(share));
             for (std::size_t i = 1; fine_ && i < shares.size(); ++i)
                 checkClimb(fmt::format("row {}", row + 1), line.at(shares[i - 1]), line.at(shares[i]),
                            floor.at(shares[i - 1]), floor.at(shares[i]));
@@ -89,6 +92,8 @@ class GroundCheck {
             return;
         }
         const std::vector<double> heights = aisleHeights(block_, aisle);
+        for (std::size_t i = 0; i < line.size(); ++i)
+            if (fine_ && std::isnan(heights[i])) tellOfHole(fmt::format("under aisle {}", aisle + 1), line[i]);
         for (std::size_t i = 1; fine_ && i < line.size(); ++i)
             if (i == 1 || block_.on_terrain)
                 checkClimb(i == 1 ? fmt::format("aisle {}, from the ground to its first row,", aisle + 1)
@@ -107,7 +112,7 @@ class GroundCheck {
 
     void checkClimb(const std::string& what, glm::dvec2 from, glm::dvec2 to, double low, double high) {
         const double climb = std::abs(high - low), length = glm::distance(from, to);
-        if (std::isnan(climb) || climb <= kSteepest * length + 0.01) return;
+        if (climb <= kSteepest * length + 0.01) return;
         fine_ = false;
         diagnostics_.error(
             block_.where,

@@ -103,6 +103,8 @@ print(data[20:20 + struct.unpack_from('<I', data, 12)[0]].decode())
 @pytest.mark.parametrize("block, words, hint", [
     ({"on_terrain": True, "front": [[20, 0], [40, 0]]}, "there is no ground of the terrain under row 1",
      "move the block"),
+    ({"on_terrain": True, "front": [[30.2, 0], [20, 0]]}, "there is no ground of the terrain under an end of row 1",
+     "move the block"),
     ({"height": 9}, "aisle 1, from the ground to its first row, climbs 4.", '"on_terrain": true'),
     ({"height": 5, "mouths": {"at": "back", "passage": 9}}, "by passages: these are for flat ground", "`mouths`"),
 ])

@@ -99,11 +99,28 @@ def places(frame):
 result["first"], result["last"] = places(scene.frame_start), places(scene.frame_end)
 result["middle"] = [place[2] for frame in range(scene.frame_start, scene.frame_end, 48) for place in places(frame)]
 
-# A level that is called otherwise takes everything along.
+# A level that is called otherwise takes everything along; seats, too, whose stand is drawn on it.
+scene.throng_layout.draw_on = thing("Level.001")
+ops.add_seats(length=6.0, rows=2)
+stand = bpy.context.active_object
+stand.throng_layout.seats.mouths.at = "back"
+stand.throng_layout.seats.mouths.level = thing("Level")
 thing("Level.001").name = "gallery"
 result["renamed"] = export("renamed.json")
+from throng.authoring import seat_drawing  # noqa: E402
+graph = bpy.context.evaluated_depsgraph_get()
+drawn = seat_drawing.stand_of(stand).data
+result["stand"] = [round(value, 3) for value in (
+    min((stand.matrix_world @ vertex.co).z for vertex in drawn.vertices), thing("gallery").location.z)]
 assert bpy.ops.import_scene.throng_layout(filepath=os.path.join(folder, "renamed.json"), replace=True) == {"FINISHED"}
 result["again"] = export("again.json") == result["renamed"]
 result["heights"] = {each.name: round(each.location.z, 3) for each in scene.objects
                      if each.throng_layout.kind != "NONE"}
+# What was on a level that is gone stays where it is, and nothing more is put on it.
+scene.throng_layout.draw_on = gone = thing("gallery")
+bpy.ops.object.select_all(action="DESELECT")
+gone.select_set(True)
+bpy.ops.object.delete()
+ops.add_road(length=5.0)
+result["after"] = scene.throng_layout.draw_on is None and "level" not in export("after.json")["roads"][-1]
 print("RESULT " + json.dumps(result))

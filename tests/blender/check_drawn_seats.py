@@ -122,7 +122,7 @@ def mouths_to_the_back():
 
 def mouths_on_a_row():
     part = seats("goal").mouths
-    part.at, part.row, part.level = "row", 2, "pitch"
+    part.at, part.row, part.level = "row", 2, named("pitch")
 
 
 def nobody_leaves():
@@ -292,9 +292,6 @@ mistaken("no such row")
 part.mouths.row, part.height = 2, 5.0
 mistaken("steep passage")
 part.mouths.at, part.height = "front", 0.0
-part.level = "upstairs"
-mistaken("no such level")
-part.level = ""
 part.use_leave = True
 mistaken("nowhere to go")
 part.use_leave = False

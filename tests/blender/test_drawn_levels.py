@@ -56,3 +56,11 @@ def test_what_is_renamed_is_renamed_everywhere(drawn):
     assert renamed["levels"][1]["id"] == renamed["links"][0]["to"] == renamed["areas"][0]["level"] == "gallery"
     assert drawn["again"] and drawn["heights"]["Area"] == drawn["heights"]["gallery"] == 3.4
     assert json.dumps(renamed).count("Level.001") == 0
+    seats, = renamed["seats"]
+    assert seats["level"] == "gallery" and seats["mouths"] == {"at": "back", "level": "Level"}
+    lowest, floor = drawn["stand"]
+    assert floor - 0.4 <= lowest < floor + 0.5, "its foundation is in the floor"
+
+
+def test_what_was_on_a_level_that_is_deleted_is_not_on_it(drawn):
+    assert drawn["after"]

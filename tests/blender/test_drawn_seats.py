@@ -183,7 +183,6 @@ WRONG = {
     "no such row": ("block `Seats` has 4 rows: its aisles cannot come out on row 9", "/seats/0/mouths/row", "Seats"),
     "steep passage": ("the passages of block `Seats` climb 5.30 m over 2.50 m: they climb at most 80 %",
                       "/seats/0/mouths", "Seats"),
-    "no such level": ("there is no level `upstairs`", "/seats/0/level", "Seats"),
     "nowhere to go": ("choose where people go", "/seats/0/leave/to", "Seats"),
     "no arc": ("the arc goes from 60 to 60 degrees: counter-clockwise, at most a whole round", "/seats/1/arc/to",
                "Seats.001"),

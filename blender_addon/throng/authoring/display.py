@@ -8,6 +8,7 @@ import bpy
 
 from . import colours, seat_drawing
 from ..blender.nodes import Maths, new_tree, own_tree, set_input, socket
+from .geometry import top_of
 
 MODIFIER = seat_drawing.MODIFIER
 _GEOMETRY = [("Geometry", "NodeSocketGeometry")]
@@ -215,7 +216,7 @@ def _rise_of(link):
     """m"""
     if link.begins is None or link.ends is None:
         return 0.0
-    return link.ends.matrix_world.translation.z - link.begins.matrix_world.translation.z
+    return top_of(link.ends) - top_of(link.begins)
 
 
 def _show_places(mesh, places):

@@ -5,12 +5,11 @@ import math
 import os
 
 import bpy
-from mathutils import Vector
 
 from ..formats.whole_files import write_whole
 from . import behaviours, fields, given, levels, places, seats
 from .codecs import take_all
-from .geometry import AuthoringError, outlines_of, people_of, splines_of
+from .geometry import AuthoringError, outlines_of, people_of, splines_of, top_of
 from .values import MISSING, are_points, is_number, is_point, keep_points, short, world_point
 
 LISTS = {"LEVEL": "levels", "LINK": "links", "ROAD": "roads", "AREA": "areas", "WALL": "walls", "PATCH": "patches",
@@ -65,6 +64,10 @@ class ExportWorld:
             if known in self._places:
                 return self.name(self._places[known]) + ending
         return text
+
+    def has_level(self, thing):
+        """Whether that is a level, and has not been deleted."""
+        return thing is not None and thing in self._levels
 
     def first_level(self):
         return self._levels[0] if self._levels else None
@@ -154,17 +157,10 @@ def _level(thing, world):
             result["at"] = [*world_point(now[:2], world.origin), short(now[2])]
         return [result]
     result["floor"] = _outline(thing, world, "a level's floor", {"polygon": raw.get("floor")})
-    height = levels.written_height(_top_of(thing), raw)
+    height = levels.written_height(top_of(thing), raw)
     if height is not MISSING:
         result["height"] = height
     return [result]
-
-
-def _top_of(thing):
-    """m: a curve is flat, and people walk on top of a mesh."""
-    if thing.type == "CURVE":
-        return thing.matrix_world.translation.z
-    return max((thing.matrix_world @ Vector(corner)).z for corner in thing.bound_box)
 
 
 def _link(thing, world):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Points out of objects, and objects out of points. In bulk: no operator is called for a point."""
 import bpy
+import mathutils
 
 from . import curves
 
@@ -147,3 +148,10 @@ def people_of(thing):
     pairs = [(b, a) if roles[a] > roles[b] else (a, b) for a, b in zip(ends[::2], ends[1::2])]
     result = [(positions[a], positions[b], agents[a] - 1) for a, b in pairs]
     return sorted(result, key=lambda each: each[2] if each[2] >= 0 else len(result))
+
+
+def top_of(thing):
+    """m: how high people walk on a level. A curve is flat, and people walk on top of a mesh."""
+    if thing.type != "MESH":
+        return thing.matrix_world.translation.z
+    return max((thing.matrix_world @ mathutils.Vector(corner)).z for corner in thing.bound_box)

@@ -8,7 +8,7 @@ from .fields import LINK
 from .codecs import put_all, take_all
 from .values import MISSING, is_number, is_point, short, single
 
-ON_LEVELS = ("ROAD", "AREA", "WALL", "PATCH", "FORMATION")  # kinds of objects that are on one
+ON_LEVELS = ("ROAD", "AREA", "WALL", "PATCH", "SEATS", "FORMATION")  # kinds of objects that are on one
 MOVING = ("escalator", "travelator")
 _OF_MOVING = ("speed", "walking", "stand")
 _STEPS = 1.0  # m: how wide those are unless told
@@ -58,7 +58,7 @@ def take_link(link, raw, world):
             if key not in raw:
                 result.pop(key, None)
     for key, target in (("from", link.begins), ("to", link.ends)):
-        if target is not None:
+        if world.has_level(target):
             result[key] = world.name(target)
     return result
 
@@ -83,10 +83,15 @@ def put_level(thing, entry, world):
 def take_level(thing, raw, world):
     """The key `level`: nothing is on the first."""
     target, before = thing.throng_layout.level, raw.get("level", MISSING)
-    if target is None:
-        return MISSING if isinstance(before, str) and world.is_level(before) else before
-    name = world.name(target)
+    name = level_of(target, before, world)
     return MISSING if before is MISSING and target == world.first_level() else name
+
+
+def level_of(target, before, world):
+    """What a level is called. @param before in the layout that was imported"""
+    if not world.has_level(target):
+        return MISSING if isinstance(before, str) and world.is_level(before) else before
+    return world.name(target)
 
 
 def moved_point(point, raw, origin):

@@ -42,8 +42,11 @@ def _enter(context, thing, kind, **values):
             setattr(part, name, value)
     thing.hide_render = True
     importer.layout_collection(context.scene).objects.link(thing)
-    if kind in levels.ON_LEVELS and context.scene.throng_layout.draw_on is not None:
-        part.level = context.scene.throng_layout.draw_on
+    draw_on = context.scene.throng_layout.draw_on
+    if draw_on is not None and (draw_on.throng_layout.kind != "LEVEL" or draw_on.name not in context.scene.objects):
+        draw_on = context.scene.throng_layout.draw_on = None  # it was deleted
+    if kind in levels.ON_LEVELS and draw_on is not None:
+        part.level = draw_on
     display.refresh(thing)
     select_only(context, thing)
     context.view_layer.update()
@@ -183,14 +186,14 @@ class THRONG_OT_add_link(_Adds, bpy.types.Operator):
             self.report({"ERROR"}, "A link joins two levels: add them first, or select two")
             return {"CANCELLED"}
         low, high = ends
-        rise = high.matrix_world.translation.z - low.matrix_world.translation.z
+        rise = geometry.top_of(high) - geometry.top_of(low)
         slope = {"stairs": 0.6, "ramp": 0.08, "escalator": 0.577, "travelator": 0.1}[self.type]
         points = _TURNS[self.turn](self.length or max(rise / slope, 1.0), self.width + 0.3)
         thing = self.add_curve(context, self.type.capitalize(), points, False, "LINK")
         with display.quietly():
             link = thing.throng_layout.link
             link.type, link.width, link.begins, link.ends = self.type, self.width, low, high
-        thing.location.z = low.matrix_world.translation.z
+        thing.location.z = geometry.top_of(low)
         display.refresh(thing)
         context.view_layer.update()
         return {"FINISHED"}
@@ -200,7 +203,7 @@ class THRONG_OT_add_link(_Adds, bpy.types.Operator):
         """The lower and the higher: of those that are selected, or if these are not two, of all."""
         def found(things):
             kept = [thing for thing in things if thing.throng_layout.kind == "LEVEL"]
-            return sorted(kept, key=lambda thing: thing.matrix_world.translation.z)
+            return sorted(kept, key=geometry.top_of)
 
         chosen, every = found(context.selected_objects), found(context.scene.objects)
         return chosen if len(chosen) == 2 else every[:2]

@@ -14,6 +14,7 @@ from .codecs import Flag, Whole
 from .common_properties import (
     Named, ThrongDestination, ThrongDistribution, ThrongGoal, ThrongMember, ThrongPlace, is_kind, words_items)
 from .fields import limits
+from .geometry import top_of
 from .people_properties import ThrongPeople
 from .seat_properties import ThrongSeats, ThrongShow
 
@@ -190,7 +191,7 @@ def _follow_level(part, _context):
     """What is on a level is drawn at its height."""
     thing = part.id_data
     if part.level is not None and part.kind in levels.ON_LEVELS:
-        thing.location.z = part.level.matrix_world.translation.z
+        thing.location.z = top_of(part.level)
 
 
 class ThrongLink(bpy.types.PropertyGroup):

@@ -4,8 +4,6 @@
 They are a mesh of an object that is in no scene, which the modifier of the block's curve reads, in the curve's own
 frame: it is moved and turned with it, and built anew only when numbers or points have changed.
 """
-import functools
-import json
 import math
 
 import bpy
@@ -16,31 +14,24 @@ from ..blender.nodes import get_input, own_tree, set_input
 from ..cast import seat_rows
 from ..environment import stands
 from . import colours, seat_plan
-from .geometry import AuthoringError, splines_of
+from .geometry import AuthoringError, splines_of, top_of
 
 MODIFIER, TREE = "Throng drawing", "Throng drawing seats"
 _SLOTS = {"stone": 0, 0: 1, 1: 1, "passage": 2}
 _NUMBERS = ("shape", "radius", "begins", "ends", "rows", "pitch", "width", "rise", "height", "aisles", "aisle_width",
-            "level", "use_leave")
-_MOUTHS = ("at", "row", "use_passage", "passage", "level")
+            "use_leave")
+_MOUTHS = ("at", "row", "use_passage", "passage")
 _SEEN = 5  # decimals of what makes a difference
 
 
-@functools.lru_cache(maxsize=64)
-def _id_in(text):
-    return json.loads(text).get("id") if text else None
-
-
-def _levels(scene):
-    """{name: height} of the layout's levels, by what they are called and by what the layout called them."""
-    drawn = [thing for thing in scene.objects if thing.throng_layout.kind == "LEVEL"]
-    drawn.sort(key=lambda thing: thing.throng_layout.order)
-    heights = {}
-    for thing in drawn:
-        height = thing.matrix_world.translation.z
-        heights[thing.name] = height
-        heights.setdefault(_id_in(thing.throng_layout.raw), height)
-    return heights
+def _grounds(scene, thing):
+    """m: how high the ground is of a block, and at the foot of its passages."""
+    levels = [each for each in scene.objects if each.throng_layout.kind == "LEVEL"]
+    first = min(levels, key=lambda level: (level.throng_layout.order, level.name), default=None)
+    own, foot = thing.throng_layout.level, thing.throng_layout.seats.mouths.level
+    ground = top_of(own) if own in levels else 0.0
+    beside = own if own in levels else first  # unless told, the first one's
+    return ground, top_of(foot) if foot in levels else top_of(beside) if beside else 0.0
 
 
 def walked_in(scene):
@@ -81,14 +72,13 @@ def _end_of(seats):
 
 def block_of(scene, thing, walked):
     """The numbers of a block, for its plan. Raises AuthoringError where its curve is none. @param walked walked_in()"""
-    seats, mouths, levels = thing.throng_layout.seats, thing.throng_layout.seats.mouths, _levels(scene)
-    ground = levels.get(seats.level, 0.0)
-    beside = ground if seats.level in levels else next(iter(levels.values()), 0.0)  # unless told, the first one's
+    seats, mouths = thing.throng_layout.seats, thing.throng_layout.seats.mouths
+    ground, foot = _grounds(scene, thing)
     return seat_plan.Block(
         front=_first_row(thing, scene.throng_layout.tolerance), rows=seats.rows, pitch=seats.pitch, width=seats.width,
         rise=seats.rise, height=seats.height + ground, aisles=seats.aisles, aisle_width=seats.aisle_width,
         mouths=mouths.at, mouth_row=mouths.row, passage=mouths.passage if mouths.use_passage else None,
-        foot=levels.get(mouths.level, beside), walked=thing.name in walked)
+        foot=foot, walked=thing.name in walked)
 
 
 def _plain_seat(place, along, height, half):
@@ -125,7 +115,7 @@ def _signature(scene, thing, walked):
     shape = [value for row in turned.transposed() @ turned for value in row] + list(turned[2])
     return repr([points, [round(value, _SEEN) for value in shape], turned.determinant() > 0.0,
                  *(getattr(seats, name) for name in _NUMBERS), *(getattr(seats.mouths, name) for name in _MOUTHS),
-                 thing.name in walked, list(_levels(scene).items()), scene.throng_layout.tolerance])
+                 thing.name in walked, _grounds(scene, thing), scene.throng_layout.tolerance])
 
 
 def stand_of(thing):

@@ -26,7 +26,6 @@ def block_of_seats(box, thing):
         _mouths(box, part.mouths)
     box.prop(part, "facing")
     box.prop(part, "on_terrain")
-    box.prop(part, "level")
     box.prop(part, "use_leave")
     if part.use_leave:
         distribution(box, part, "leave_at")

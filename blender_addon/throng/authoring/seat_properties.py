@@ -12,7 +12,6 @@ from .fields import limits
 from .people_properties import ThrongPeople
 from .schema import LAYOUT, description_of, words_of
 
-_LEVEL = "By name"
 _MOUTHS = {"front": "Before the first row", "back": "Behind the last row, by a passage to its foot",
            "row": "Through an opening in the stand, and a passage under the rows behind it"}
 
@@ -46,8 +45,8 @@ class ThrongMouths(bpy.types.PropertyGroup):
     row: _number(IntProperty, "row", "Row", "seat_block.mouths")
     use_passage: BoolProperty(name="Passage", update=_refresh, description="Otherwise to just behind the block")
     passage: _number(FloatProperty, "passage", "Passage", "seat_block.mouths", subtype="DISTANCE")
-    level: StringProperty(name="Foot", update=_refresh,
-                          description="The level on which the foot of the passage is: by name")
+    level: PointerProperty(type=bpy.types.Object, name="Foot", poll=is_kind("LEVEL"), update=_refresh,
+                           description="The level on which the foot of the passage is; by default the block's")
 
 
 class ThrongSeats(bpy.types.PropertyGroup):
@@ -66,7 +65,6 @@ class ThrongSeats(bpy.types.PropertyGroup):
     aisle_width: _number(FloatProperty, "aisle_width", "Aisle Width", subtype="DISTANCE")
     mouths: PointerProperty(type=ThrongMouths)
     on_terrain: BoolProperty(name="On Terrain", description=_about("seat_block", "on_terrain"))
-    level: StringProperty(name="Level", update=_refresh, description=_LEVEL)
     facing: PointerProperty(type=bpy.types.Object, name="Facing", poll=is_kind("POINT"),
                             description=_about("seat_block", "facing"))
     occupancy: FloatProperty(name="Occupancy", **limits("seat_block", "occupancy"), subtype="FACTOR",

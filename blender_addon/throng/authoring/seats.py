@@ -1,34 +1,38 @@
 # SPDX-License-Identifier: Apache-2.0
 """Blocks of seats and what their audiences do, as properties. Pure Python; for the world between names and objects see
 places.py."""
-from . import fields
-from .codecs import Codec, Nested, Text, put_all, take_all
+from . import fields, levels
+from .codecs import Codec, Nested, put_all, take_all
 from .places import Destination, Target, keep_raw, name_of, put_block, raw_of
 from .values import MISSING
 
 
 
-class _LevelName(Text):
-    """By name: of one that was renamed since, the layout's name is known, too."""
+class _Foot(Codec):
+    """A level, which is an object."""
 
-    def take(self, group, raw, world=None):
-        value = super().take(group, raw, world)
-        return world.level_named(value) if world and isinstance(value, str) else value
+    def put(self, group, raw, world):
+        setattr(group, self.attribute, world.level(raw))
+
+    def take(self, group, raw, world):
+        return levels.level_of(getattr(group, self.attribute), raw, world)
 
 
-_LEVEL = _LevelName("level")
+_FOOT = _Foot("level")
 
 
 class _Mouths(Nested):
     """Where aisles go out: what else is told depends on it."""
 
     def __init__(self):
-        super().__init__("mouths", (*fields.MOUTHS["row"], _LEVEL))
+        super().__init__("mouths", (*fields.MOUTHS["row"], _FOOT))
 
     def take(self, group, raw, world=None):
         part = getattr(group, self.attribute)
+        if not group.aisles and not isinstance(raw, dict):
+            return raw  # nobody goes out, and nobody is asked where
         inner = raw if isinstance(raw, dict) else {}
-        codecs = (*fields.MOUTHS[part.at], _LEVEL)
+        codecs = (*fields.MOUTHS[part.at], _FOOT)
         if part.at != codecs[0].shown(inner.get("at", MISSING)):
             own = {codec.key for codec in codecs}
             inner = {key: value for key, value in inner.items() if key in own}
@@ -56,7 +60,7 @@ class _Leave(Codec):
         return take_all(self.codecs, group, raw if isinstance(raw, dict) else {}, world)
 
 
-SEATS = (*fields.SEATS, Target("facing", "POINT"), _Mouths(), _LEVEL, _Leave())
+SEATS = (*fields.SEATS, Target("facing", "POINT"), _Mouths(), _Leave())
 
 
 class _Who(Codec):
