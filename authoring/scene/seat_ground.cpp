@@ -93,7 +93,8 @@ class GroundCheck {
         }
         const std::vector<double> heights = aisleHeights(block_, aisle);
         for (std::size_t i = 0; i < line.size(); ++i)
-            if (fine_ && std::isnan(heights[i])) tellOfHole(fmt::format("under aisle {}", aisle + 1), line[i]);
+            if (fine_ && std::isnan(heights[i]))
+                tellOfHole(fmt::format("under aisle {}", aisle + 1), line[i]);
         for (std::size_t i = 1; fine_ && i < line.size(); ++i)
             if (i == 1 || block_.on_terrain)
                 checkClimb(i == 1 ? fmt::format("aisle {}, from the ground to its first row,", aisle + 1)

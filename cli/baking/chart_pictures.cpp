@@ -60,8 +60,7 @@ recording::BakeCharts::Cells cellsOf(const authoring::ChartMap& map) {
 void describePictures(const LoadedLayout& loaded, recording::BakeDescription& bake) {
     if (!bake.charts) return;
     // A person's cell reaches so far over the edge of its floor.
-    const double margin =
-        std::max(loaded.layout.simulation.tile_radius, double{loaded.scene.largest_radius});
+    const double margin = std::max(loaded.layout.simulation.tile_radius, double{loaded.scene.largest_radius});
     std::set<std::string> taken;
     for (const authoring::Chart& chart : loaded.scene.charts->charts) {
         Picture picture = pictureOf(chart, loaded.layout, margin);
