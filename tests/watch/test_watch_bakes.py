@@ -103,3 +103,17 @@ def test_a_checkpoint_is_gone_on_from_as_ever(throng, tmp_path):
         assert again.wait(120) == 0
         until(lambda: state_of(job) == "baked", job)
     throng("verify", tmp_path / "bake")
+
+
+def test_a_bake_that_was_killed_is_begun_anew(throng, tmp_path):
+    """What it leaves, its vehicles too, is known to be a bake's."""
+    baking = bake_of(throng, tmp_path)
+    under_way(baking, tmp_path)
+    until(lambda: list(tmp_path.glob("bake.*/vehicles.npy")))
+    baking.kill()
+    baking.wait(60)
+    assert not (tmp_path / "bake").exists()
+    throng("bake", tmp_path / "layout.json", "-o", tmp_path / "bake", "-q", "--no-gltf", "--force",
+           "--set", "simulation.duration=2")
+    throng("verify", tmp_path / "bake")
+    assert not list(tmp_path.glob("bake.*"))
