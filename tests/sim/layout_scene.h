@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <optional>
+#include <sstream>
 #include <string>
 
 #include "authoring/layout/layout_reader.h"
@@ -20,6 +23,14 @@ inline authoring::Scene sceneOfLayout(const std::string& text) {
     for (const authoring::Diagnostic& entry : diagnostics.entries)
         if (entry.severity == authoring::Severity::error) ADD_FAILURE() << entry.message;
     return scene.value();
+}
+
+/// The scene of one of the project's examples.
+inline authoring::Scene sceneOfExample(const std::string& name) {
+    std::ifstream file(std::filesystem::path(THRONG_EXAMPLES) / (name + ".json"));
+    std::stringstream text;
+    text << file.rdbuf();
+    return sceneOfLayout(text.str());
 }
 
 }  // namespace throng::test

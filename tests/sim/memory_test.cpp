@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/memory.h"
 
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-
 #include "sim/frame_pump.h"
 #include "sim/simulation_parts.h"
 #include "tests/sim/gpu_test.h"
@@ -39,10 +35,7 @@ TEST_F(MemoryTest, IsToldBeforeADeviceIsAskedForIt) {
 
 TEST_F(MemoryTest, OfExamplesIsTold) {
     for (const char* name : {"intersection", "station-levels", "zebra", "market", "stadium-wave"}) {
-        std::ifstream file(std::filesystem::path(THRONG_EXAMPLES) / (std::string(name) + ".json"));
-        std::stringstream text;
-        text << file.rdbuf();
-        const authoring::Scene scene = sceneOfLayout(text.str());
+        const authoring::Scene scene = sceneOfExample(name);
         const double needed = taken(scene);
         EXPECT_NEAR(told(scene), needed, 0.15 * needed) << name;
         std::printf("    %s: told %.1f MiB, took %.1f\n", name, told(scene), needed);
