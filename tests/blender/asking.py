@@ -9,3 +9,12 @@ def refused(call, **arguments):
         return "no error"
     except RuntimeError as error:
         return str(error)
+
+
+def refusal(call):
+    """The words of its complaint alone; none where it does it."""
+    try:
+        call()
+        return ""
+    except RuntimeError as error:
+        return str(error).replace("Error: ", "").strip()

@@ -9,8 +9,9 @@ import threading
 import bpy
 
 addon, folder = sys.argv[-2:]
-sys.path.insert(0, addon)
+sys.path[:0] = [addon, os.path.dirname(__file__)]
 import throng  # noqa: E402
+from asking import refusal  # noqa: E402
 from throng.authoring import bake_operator  # noqa: E402
 from throng.crowd.queries import crowd_objects  # noqa: E402
 from throng.crowd.verify import verify  # noqa: E402
@@ -20,14 +21,6 @@ throng.register()
 ops, result = bpy.ops.throng, {}
 data = lambda: bpy.context.scene.throng_layout
 thing = lambda name: bpy.data.objects[name]
-
-
-def refusal(call):
-    try:
-        call()
-        return ""
-    except RuntimeError as error:
-        return str(error).replace("Error: ", "").strip()
 
 
 def select(*names):

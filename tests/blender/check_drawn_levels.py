@@ -7,8 +7,9 @@ import sys
 import bpy
 
 addon, folder = sys.argv[-2:]
-sys.path.insert(0, addon)
+sys.path[:0] = [addon, os.path.dirname(__file__)]
 import throng  # noqa: E402
+from asking import refusal  # noqa: E402
 from throng.crowd.queries import terrain_of  # noqa: E402
 from throng.crowd.verify import verify  # noqa: E402
 
@@ -16,14 +17,6 @@ bpy.ops.wm.read_factory_settings(use_empty=True)
 throng.register()
 ops, result, scene = bpy.ops.throng, {}, bpy.context.scene
 data, thing = scene.throng_layout, lambda name: bpy.data.objects[name]
-
-
-def refusal(call):
-    try:
-        call()
-        return ""
-    except RuntimeError as error:
-        return str(error).replace("Error: ", "").strip()
 
 
 def cursor(x, y):

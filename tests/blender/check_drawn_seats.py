@@ -9,8 +9,9 @@ import sys
 import bpy
 
 addon, layout, folder, *others = sys.argv[sys.argv.index("--") + 1:]
-sys.path.insert(0, addon)
+sys.path[:0] = [addon, os.path.dirname(__file__)]
 import throng  # noqa: E402
+from asking import refusal  # noqa: E402
 from throng.authoring import seat_drawing, seat_plan  # noqa: E402
 from throng.crowd.queries import crowd_objects  # noqa: E402
 from throng.crowd.verify import verify  # noqa: E402
@@ -21,14 +22,6 @@ ops, result = bpy.ops.throng, {}
 named = lambda name: bpy.data.objects[name]
 data = lambda: bpy.context.scene.throng_layout
 seats = lambda name: named(name).throng_layout.seats
-
-
-def refusal(call):
-    try:
-        call()
-        return ""
-    except RuntimeError as error:
-        return str(error).replace("Error: ", "").strip()
 
 
 def load(path):
