@@ -9,13 +9,14 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "authoring/link_kinds.h"
+
 namespace throng::authoring {
 namespace {
 
-constexpr double kRail = 0.1, kBeside = 0.1;  // m: as authoring/storeys/chart.h has them
-constexpr double kLanding = 0.6;              // m before and behind a corner, at least
-constexpr double kShortestFlight = 0.5;       // m
-constexpr double kSharpest = 130.0;           // degrees that one corner turns at most
+constexpr double kLanding = 0.6;         // m before and behind a corner, at least
+constexpr double kShortestFlight = 0.5;  // m
+constexpr double kSharpest = 130.0;      // degrees that one corner turns at most
 
 double cross(glm::dvec2 a, glm::dvec2 b) {
     return a.x * b.y - a.y * b.x;
@@ -54,10 +55,7 @@ std::vector<glm::dvec2> hullOf(const std::vector<glm::dvec2>& corners) {
 class Bending {
   public:
     Bending(const Link& link, const std::vector<glm::dvec2>& path, std::optional<BentLinkFault>& fault)
-        : link_(link),
-          path_(path),
-          half_(0.5 * (link.width + kRail) + (link.moves() ? kBeside : 0.0)),
-          fault_(fault) {}
+        : link_(link), path_(path), half_(halfWidthOf(link)), fault_(fault) {}
 
     BentLink run(double low, double high, double riser) {
         for (std::size_t i = 0; i + 1 < path_.size(); ++i) {

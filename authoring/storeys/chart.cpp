@@ -36,7 +36,7 @@ Chart linkChart(const Layout& layout, std::size_t index) {
     chart.link.begin = link.begin;
     chart.link.length = glm::distance(link.begin, link.end);
     chart.link.along = (link.end - link.begin) / chart.link.length;
-    chart.link.half_width = 0.5 * (link.width + kRailing) + (link.moves() ? kBesideSteps : 0.0);
+    chart.link.half_width = halfWidthOf(link);
     chart.link.low = layout.levels[link.from].height;
     chart.link.high = layout.levels[link.to].height;
     return chart;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "authoring/layout.h"
+#include "authoring/link_kinds.h"
 #include "authoring/storeys/surface.h"
 
 namespace throng::authoring {
@@ -16,10 +17,6 @@ namespace throng::authoring {
 inline constexpr double kMostStep = 0.25;
 /// What people need over their heads, m. Where a link is nearer to a floor than this, the floor is open.
 inline constexpr double kHeadroom = 2.2;
-/// m: railings stand on the outer side of what they bound.
-inline constexpr double kRailing = 0.1;
-/// m: shoulders reach so far over either side of the steps of an escalator, below its handrails.
-inline constexpr double kBesideSteps = 0.1;
 
 /// The ground under a link: a rectangle from where it begins to where it ends, that rises evenly.
 struct Footprint {
