@@ -61,6 +61,16 @@ LoadedLayout layoutOf(const io::Bake& bake, const FollowRequest& request) {
     return loaded;
 }
 
+/// In the plane people are where their charts lie.
+void goHome(FollowedStep& step, const authoring::ChartMap& map) {
+    const glm::vec2 by = map.home(step.place) - step.place;
+    step.place_before = map.home(step.place_before);
+    step.place += by;
+    step.goal = map.home(step.goal);
+    for (SensedPerson& other : step.sensed)
+        other.place += by;  // as seen from there
+}
+
 /// The layout, simulated anew.
 class Run {
   public:
@@ -86,7 +96,9 @@ class Run {
                 continue;
             }
             if (!follower) follower = std::make_unique<sim::Follower>(simulation_, scene_, request_.rows);
-            const std::vector<FollowedStep> looks = follower->step();
+            std::vector<FollowedStep> looks = follower->step();
+            for (FollowedStep& look : looks)
+                goHome(look, scene_.chart_map);
             if (tables_) tables_->write(looks);
             for (const FollowedStep& look : looks)
                 take(look);

@@ -13,6 +13,36 @@ namespace {
 
 constexpr std::array kBeside = {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)};
 
+std::uint32_t imageIn(std::uint32_t images, std::uint32_t place) {
+    return images >> (8 * place) & gpu::NO_CHART;
+}
+
+std::uint32_t imageCount(std::uint32_t images) {
+    std::uint32_t count = 0;
+    while (count < gpu::MOST_IMAGES && imageIn(images, count) != gpu::NO_CHART)
+        ++count;
+    return count;
+}
+
+/// @returns the same with one more, unless it is among them or there are as many as there may be
+std::uint32_t withImage(std::uint32_t images, std::uint32_t chart) {
+    const std::uint32_t count = imageCount(images);
+    if (count == gpu::MOST_IMAGES) return images;
+    for (std::uint32_t place = 0; place < count; ++place)
+        if (imageIn(images, place) == chart) return images;
+    return (images & ~(gpu::NO_CHART << (8 * count))) | chart << (8 * count);
+}
+
+/// Whether a place lies beside a link, further down or up its slope than people there heed who is beyond its
+/// railing.
+bool isAlongside(const Chart& chart, glm::ivec2 cell) {
+    constexpr double kHeeded = 0.5;  // m: about as far as a railing hides little of who stands behind it
+    if (!chart.is_link || chart.is_cabin) return false;
+    const glm::dvec2 place = chartCellMiddle(cell);
+    const double along = chart.link.alongOf(place);
+    return !chart.contains(place) && std::min(along, chart.link.length - along) > kHeeded;
+}
+
 }  // namespace
 
 glm::ivec2 chartCellOf(glm::dvec2 home) {
@@ -101,7 +131,7 @@ void ChartRaster::goOn(const std::vector<Chart>& charts, std::size_t own, double
         const std::size_t chart = ownerAt(cell);
         for (const glm::ivec2 side : kBeside) {
             const glm::ivec2 next = cell + side;
-            if (!isInside(next) || ownerAt(next) != gpu::NO_CHART ||
+            if (!isInside(next) || ownerAt(next) != gpu::NO_CHART || isAlongside(charts[own], next) ||
                 glm::distance(glm::dvec2(next), glm::dvec2(seam)) * kChartCell > reach)
                 continue;
             if (charts[chart].contains(chartCellMiddle(next)))
@@ -121,16 +151,32 @@ void ChartRaster::castImages(double reach) {
                 const glm::ivec2 cell = gate.cell + glm::ivec2(dx, dy);
                 if (dx * dx + dy * dy > cells * cells || !isInside(cell)) continue;
                 std::uint32_t& images = images_[indexOf(cell)];
-                for (std::uint32_t place = 0; place < gpu::MOST_IMAGES; ++place) {
-                    const std::uint32_t there = images >> (8 * place) & gpu::NO_CHART;
-                    if (there == gate.chart) break;
-                    if (there != gpu::NO_CHART) continue;
-                    images &= ~(gpu::NO_CHART << (8 * place));
-                    images |= gate.chart << (8 * place);
-                    most_images_ = std::max(most_images_, place + 1);
-                    break;
-                }
+                images = withImage(images, gate.chart);
             }
+}
+
+void ChartRaster::leaveOutUnseen(const std::vector<Chart>& charts, const std::vector<ChartRaster>& rasters,
+                                 std::size_t own) {
+    for (int y = 0; y < size_.y; ++y)
+        for (int x = 0; x < size_.x; ++x) {
+            const glm::ivec2 cell = first_ + glm::ivec2(x, y);
+            if (ownerAt(cell) != own) continue;  // who is over a seam already
+            std::uint32_t& images = images_[indexOf(cell)];
+            std::uint32_t left = gpu::NO_IMAGES;
+            for (std::uint32_t place = 0; place < imageCount(images); ++place) {
+                const std::uint32_t there = imageIn(images, place), seen = rasters[there].ownerAt(cell);
+                if ((seen == gpu::NO_CHART || seen == own) && !isAlongside(charts[there], cell))
+                    left = withImage(left, there);
+            }
+            images = left;
+        }
+}
+
+std::uint32_t ChartRaster::mostImages() const {
+    std::uint32_t most = 0;
+    for (const std::uint32_t images : images_)
+        most = std::max(most, imageCount(images));
+    return most;
 }
 
 }  // namespace throng::authoring

@@ -30,8 +30,13 @@ class ChartRaster {
     std::uint32_t ownerOf(glm::dvec2 home) const;
     /// On which other charts somebody in a cell is present, too; each a byte, gpu::NO_CHART after the last.
     std::uint32_t imagesAt(glm::ivec2 cell) const;
+    /// Takes away the images that others would not see there: where they have ground of their own, above this
+    /// chart's or below it, and beside a link, down its slope.
+    /// @param rasters of all charts, this one's among them at `own`
+    void leaveOutUnseen(const std::vector<Chart>& charts, const std::vector<ChartRaster>& rasters,
+                        std::size_t own);
     /// The most of these anywhere.
-    std::uint32_t mostImages() const { return most_images_; }
+    std::uint32_t mostImages() const;
     /// Whether there is any seam to another chart.
     bool isJoinedTo(std::size_t other) const;
 
@@ -50,7 +55,6 @@ class ChartRaster {
     std::vector<std::uint8_t> owners_;
     std::vector<std::uint32_t> images_;
     std::vector<Gate> gates_;
-    std::uint32_t most_images_ = 0;
 };
 
 /// The middle of a cell of the lattice, m.

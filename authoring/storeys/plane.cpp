@@ -135,8 +135,10 @@ Layout moved(const Layout& layout, const std::vector<Chart>& charts, const Given
 
 void layInPlane(Charts& charts) {
     shiftCharts(charts.charts, charts.reach);
-    for (std::size_t i = 0; i < charts.charts.size(); ++i) {
+    for (std::size_t i = 0; i < charts.charts.size(); ++i)
         charts.rasters.emplace_back(charts.charts, i, charts.reach);
+    for (std::size_t i = 0; i < charts.charts.size(); ++i) {
+        charts.rasters[i].leaveOutUnseen(charts.charts, charts.rasters, i);
         charts.most_images = std::max(charts.most_images, charts.rasters[i].mostImages());
     }
 }

@@ -74,13 +74,16 @@ uniform uint slot_capacity;
 #include "shaders/traffic/out_of_the_way.glsl"
 #endif
 
-/// Of those sensed who are under way.
-bool anybodyIsOncoming(uint slot) {
+/// Of those sensed who are under way. @param flags one's own, or 0 where one is not on stairs
+bool anybodyIsOncoming(uint slot, uint flags) {
     bool found = false;
     for (uint i = 0u; i < neighbour_counts[slot]; ++i) {
         uint key = neighbourKey(slot, i);
         if ((key & NEIGHBOUR_IS_WALL) != 0u || length(preferred_velocities[key]) <= STANDING_SPEED) continue;
-        found = found || isOncoming(walkers[slot].way_through, walkers[key].way_through);
+        bool comes = isOnStairs(flags) ? comesOnStairs(flags, preferred_velocities[slot], walkers[key],
+                                                       preferred_velocities[key])
+                                       : isOncoming(walkers[slot].way_through, walkers[key].way_through);
+        found = found || comes;
     }
     return found;
 }
@@ -91,7 +94,7 @@ bool climbsInTurn(uint slot, uint flags) {
     uint touch_word = touch_words[slot];
     bool climbs = CLIMBING_ENABLED && isOnStairs(flags);
     if (!climbs && (touch_word & TOUCH_IN_NARROWS) == 0u) return false;
-    bool in_turn = !anybodyIsOncoming(slot);
+    bool in_turn = !anybodyIsOncoming(slot, climbs ? flags : 0u);
     touch_words[slot] = in_turn ? touch_word | TOUCH_IN_NARROWS : touch_word & ~TOUCH_IN_NARROWS;
     return climbs && in_turn;
 }

@@ -11,3 +11,11 @@ float headwayOnStairs(uint walker_flags) {
 }
 
 bool isOnStairs(uint walker_flags) { return (walker_flags & (WALKER_CLIMBS | WALKER_DESCENDS)) != 0u; }
+
+/// Whether somebody comes the other way to somebody who goes up or down. Where its way leads through tells so only of
+/// whom it is not known otherwise: those who have come down often walk back beside the stairs.
+bool comesOnStairs(uint flags, vec2 wish, Walker other, vec2 its_wish) {
+    if (isOnStairs(other.flags)) return ((flags ^ other.flags) & (WALKER_CLIMBS | WALKER_DESCENDS)) != 0u;
+    vec2 through = unpackSnorm2x16(other.way_through);
+    return dot(wish, its_wish) < 0.0 && dot(wish, through) < NEAREST_FIRST_ONCOMING * length(wish);
+}

@@ -79,6 +79,7 @@ class Follower::Eye {
         FollowedStep now;
         std::optional<std::uint32_t> slot;                           // since the last decision
         glm::vec2 velocity{0.0f};                                    // m/s, as far as the step has come
+        glm::vec2 ground{0.0f};                                      // m/s, to which velocities are relative
         std::vector<std::pair<std::string, glm::vec2>> each_step{};  // m/s: what it decided for each step
     };
 
@@ -146,12 +147,23 @@ class Follower::Eye {
             found->second.slot = slot;
             slots_ = slot + 1;
             present_[found->first] = &found->second;
+            found->second.now.place_before =
+                bodies_[slot].position;  // over a seam, where it has walked over one
             tellSenses(parts_, scene_, bodies_, slot, found->second.now);
         }
     }
 
+    /// m/s: of the ground that carries somebody (shaders/charts/belts.glsl).
+    glm::vec2 groundUnder(std::uint32_t slot) const {
+        const std::vector<gpu::Belt>& belts = scene_.chart_map.belts;
+        if (belts.empty()) return glm::vec2(0.0f);
+        const std::uint32_t flags = parts_.buffers.walkers.download<gpu::Walker>(1, slot).front().flags;
+        if ((flags & gpu::WALKER_IS_CARRIED) == 0) return glm::vec2(0.0f);
+        return belts[flags >> gpu::WALKER_CHART_AT & gpu::NO_CHART].velocity;
+    }
+
     glm::vec2 velocityTo(const Watched& watched, glm::vec2 target) const {
-        return (target - watched.now.place_before) / parts_.parameters.step_seconds;
+        return (target - watched.now.place_before) / parts_.parameters.step_seconds - watched.ground;
     }
 
     void lookAtDecision() {

@@ -72,6 +72,13 @@ def check_owners(bake, frame, tile=0.6):
     return owned
 
 
+def between_stops(parts, name, z):
+    """Whether a height is within the shaft of the lift whose part this is (`LIFT at LEVEL`)."""
+    stops = [part.lowest for other, part in parts.items()
+             if part.kind == "lift" and other.rpartition(" at ")[0] == name.rpartition(" at ")[0]]
+    return min(stops) - 0.05 < z < max(stops) + 0.05
+
+
 def check_people(bake, frame):
     """Who stands on a storey owns the pixel that it stands on in its part, and nothing there in those above it."""
     parts, found = parts_of(bake, frame), set()
@@ -88,7 +95,10 @@ def check_people(bake, frame):
             near = abs(pixels["height"][line, column] - z) < 0.45 and (diagram.kind != "lift" or
                                                                        abs(diagram.lowest - z) < 0.05)
             owner = pixels["id"][line, column] if pixels["kind"][line, column] == 1 else NOBODY
-            if near:
+            if diagram.kind == "lift" and not near and owner == row:
+                assert between_stops(parts, name, z), f"row {row} at {z:.2f} m is in {name}"
+                found.add(int(row))  # on its way: who rides is in the cabin as it will stand at its next stop
+            elif near:
                 mine.append((name, owner))
             else:
                 assert owner != row, f"row {row} at {z:.2f} m is on {name}, too"

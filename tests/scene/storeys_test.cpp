@@ -148,6 +148,34 @@ TEST(ChartRaster, CastsImagesOfThoseWhoAreNearASeamOnly) {
     EXPECT_EQ(charts->most_images, 2u);
 }
 
+/// Who stands over the foot of stairs is in nobody's way on these, nor who walks under their head.
+TEST(ChartRaster, CastsNoImagesWhereTheOtherHasGroundOfItsOwn) {
+    Layout layout = hallWithGallery();
+    layout.levels[1].floor = box(-10, -5, 10, 5);  // over all of the hall, but for the stairs' opening
+    const auto charts = chartsIn(layout);
+    const auto isOn = [&](std::uint32_t there, std::size_t chart, glm::dvec2 at) {
+        const std::uint32_t images = charts->rasters[chart].imagesAt(chartCellOf(at));
+        for (std::uint32_t place = 0; place < gpu::MOST_IMAGES; ++place)
+            if ((images >> (8 * place) & gpu::NO_CHART) == there) return true;
+        return false;
+    };
+    constexpr std::uint32_t kHall = 0, kGallery = 1, kStairs = 2;
+    // The stairs are 2.2 m below the gallery at x = -2.4, and as much over the hall at x = 0.4.
+    EXPECT_EQ(charts->rasters[kGallery].ownerOf({-2.9, 1.0}), kGallery);
+    EXPECT_FALSE(isOn(kStairs, kGallery, {-2.9, 1.0}));
+    EXPECT_FALSE(isOn(kStairs, kGallery, {-4.5, 1.0}));  // over the hall that the stairs show
+    EXPECT_FALSE(isOn(kGallery, kStairs, {-2.9, 1.0}));
+    EXPECT_TRUE(isOn(kGallery, kStairs, {-2.1, 1.0}));  // seen through the opening
+    EXPECT_EQ(charts->rasters[kHall].ownerOf({0.9, 1.0}), kHall);
+    EXPECT_FALSE(isOn(kHall, kStairs, {0.9, 1.0}));
+    EXPECT_FALSE(isOn(kStairs, kHall, {0.9, 1.0}));
+    EXPECT_TRUE(isOn(kHall, kStairs, {0.1, 1.0}));
+    // Beyond their ends all are seen, and beside them who is close to these.
+    EXPECT_TRUE(isOn(kStairs, kGallery, {4.0, 1.0}) && isOn(kStairs, kGallery, {2.4, 3.0}));
+    EXPECT_TRUE(isOn(kStairs, kGallery, {1.6, 2.6}) && isOn(kStairs, kHall, {-3.6, 2.6}));
+    EXPECT_FALSE(isOn(kStairs, kGallery, {0.9, 2.6}) || isOn(kStairs, kHall, {-2.9, 2.6}));
+}
+
 TEST(Charts, LieApartByMoreThanPeopleSense) {
     Layout layout = hallWithGallery();
     for (int i = 0; i < 20; ++i)
