@@ -141,9 +141,10 @@ class Follower::Eye {
         bodies_ = parts_.buffers.bodies.download<gpu::Body>(live);
         for (auto& [row, watched] : watched_)
             watched.slot.reset();
+        walkers_ = parts_.buffers.walkers.download<gpu::Walker>(live);
         for (std::uint32_t slot = 0; slot < live; ++slot) {
             const auto found = watched_.find(bodies_[slot].row);
-            if (found == watched_.end()) continue;
+            if (found == watched_.end() || (walkers_[slot].flags & gpu::WALKER_IS_IMAGE) != 0) continue;
             found->second.slot = slot;
             slots_ = slot + 1;
             present_[found->first] = &found->second;
@@ -157,7 +158,7 @@ class Follower::Eye {
     glm::vec2 groundUnder(std::uint32_t slot) const {
         const std::vector<gpu::Belt>& belts = scene_.chart_map.belts;
         if (belts.empty()) return glm::vec2(0.0f);
-        const std::uint32_t flags = parts_.buffers.walkers.download<gpu::Walker>(1, slot).front().flags;
+        const std::uint32_t flags = walkers_[slot].flags;
         if ((flags & gpu::WALKER_IS_CARRIED) == 0) return glm::vec2(0.0f);
         return belts[flags >> gpu::WALKER_CHART_AT & gpu::NO_CHART].velocity;
     }
@@ -256,9 +257,10 @@ class Follower::Eye {
     const authoring::Scene& scene_;
     std::vector<std::uint32_t> rows_;
     Ladders ladders_;
-    std::vector<gpu::Body> bodies_;  // of all slots, as of the last decision
-    std::uint32_t slots_ = 0;        // up to the last one that is followed
-    std::size_t left_ = 0;           // people who are no more
+    std::vector<gpu::Body> bodies_;     // of all slots, as of the last decision
+    std::vector<gpu::Walker> walkers_;  // likewise
+    std::uint32_t slots_ = 0;           // up to the last one that is followed
+    std::size_t left_ = 0;              // people who are no more
     std::map<std::uint32_t, Watched> watched_;
     std::map<std::uint32_t, Watched*> present_;  // in this step
 };

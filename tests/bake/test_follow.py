@@ -147,3 +147,41 @@ def test_people_who_are_no_discs(throng, tmp_path):
     (tmp_path / "layout.json").write_text(json.dumps(layout))
     throng("bake", tmp_path / "layout.json", "-o", tmp_path / "bake", "--no-gltf", "-q")
     assert "no discs (people.body)" in throng("measure", tmp_path / "bake", "--follow", 0, expect=3).stderr
+
+
+STOREYS = {"throng": 1, "name": "storeys", "simulation": {"duration": 30, "seed": 2},
+           "levels": [{"id": "hall", "floor": [[-20, -5], [0, -5], [0, 5], [-20, 5]]},
+                      {"id": "gallery", "height": 3, "floor": [[0, -5], [10, -5], [10, 5], [0, 5]]}],
+           "links": [{"id": "stairs", "from": "hall", "to": "gallery", "path": [[-6, 2.5], [0, 2.5]]},
+                     {"id": "escalator", "type": "escalator", "from": "hall", "to": "gallery",
+                      "path": [[-6, -2.5], [0, -2.5]]}],
+           "areas": [{"id": "below", "polygon": [[-19, 1], [-15, 1], [-15, 4], [-19, 4]]},
+                     {"id": "beside", "polygon": [[-12, -4], [-9, -4], [-9, -1], [-12, -1]]},
+                     {"id": "above", "level": "gallery", "polygon": [[6, 1], [9, 1], [9, 4], [6, 4]]},
+                     {"id": "yonder", "level": "gallery", "polygon": [[6, -4], [9, -4], [9, -1], [6, -1]]}],
+           "flows": [{"id": "climb", "from": "below", "to": "above", "count": 4, "end": 2},
+                     {"id": "ride", "from": "beside", "to": "yonder", "count": 4, "end": 2}]}
+
+
+def test_people_are_followed_from_storey_to_storey(throng, tmp_path, manifest_of):
+    """Where they are in the world, and no rule makes anybody fly where it walks over a seam or rides."""
+    (tmp_path / "storeys.json").write_text(json.dumps(STOREYS))
+    throng("bake", tmp_path / "storeys.json", "-o", tmp_path / "bake", "-q", "--no-gltf")
+    with open(tmp_path / "bake" / "agents.csv", newline="") as file:
+        groups = [row["group"] for row in csv.DictReader(file)]
+    rows = {"climb": groups.index("climb"), "ride": groups.index("ride")}
+    told = throng("measure", tmp_path / "bake", "--follow", rows["climb"], "--follow", rows["ride"], "--plots",
+                  tmp_path / "why", "--json")
+    assert json.loads(told.stdout)["furthest_off"] < 0.2 and "another device" not in told.stderr
+    places = numpy.load(tmp_path / "bake" / "streams" / "pos.npy")
+    substeps = manifest_of(tmp_path / "bake")["substeps"]
+    for row in rows.values():
+        steps = [step for step in lines(tmp_path / "why" / "follow-steps.csv")
+                 if step["row"] == str(row) and int(step["step"]) % substeps == 0]
+        heights = [places[int(step["step"]) // substeps, row, 2] for step in steps]
+        assert min(heights) < 0.1 and max(heights) > 2.9
+        assert {(float(step["goal_x_m"]) > 5, float(step["goal_y_m"]) * places[0, row, 1] >= 0)
+                for step in steps} == {(True, True)}
+    influences = [line for line in lines(tmp_path / "why" / "follow.csv") if line["changed"] == "velocity"]
+    assert len(influences) > 100
+    assert max(abs(float(line[key])) for line in influences for key in ("after_x", "after_y")) < 3  # m/s
