@@ -3,7 +3,7 @@
 """How many people stairs and an escalator take, and how fast they walk there at which density, beside published
 figures: the table of docs/motion-validation.md.
 
-Usage: stair_flows.py THRONG [--seeds 1 2 3]
+Usage: stair_flows.py THRONG [--seeds 1 2 3]; `scripts/figures stairs` does all of it
 """
 import argparse
 import json
@@ -78,12 +78,13 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
     parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3])
+    parser.add_argument("--quick", action="store_true", help="a trial: people who arrive at one rate only")
     options = parser.parse_args()
     print("| | asked for, persons/(s m) | flow, persons/(s m) | at most (IMO) | persons/m^2 | m/s along the slope "
           "| SFPE at that density |\n| --- | --- | --- | --- | --- | --- | --- |")
     slope = numpy.hypot(1.0, RISE / RUN)
     for way, most in MAXIMA.items():
-        for rate in RATES:
+        for rate in RATES[-1:] if options.quick else RATES:
             flow, density, speed = means(options.program, [layout(stairs(), way, rate * WIDTH, seed)
                                                            for seed in options.seeds])
             published = SFPE_SPEED * (1 - SFPE_AREA * max(density, 0.55))

@@ -12,6 +12,7 @@ import benchmarks
 import blender
 import motion
 import pages
+import storeys
 from runs import ROOT, Runs
 
 
@@ -31,6 +32,8 @@ TABLES = {
     "headway": Table("motion-validation.md", 3, motion.headway),
     "steadiness": Table("motion-validation.md", 8, motion.steadiness),
     "doors": Table("motion-validation.md", 5, motion.doors),
+    "stairs": Table("motion-validation.md", 5, storeys.stairs),
+    "building": Table("motion-validation.md", 4, storeys.building),
     "ablations": Table("motion-notebook.md", 80, motion.ablations),
     "ablations-doors": Table("motion-notebook.md", 60, motion.ablations_doors),
     "diagrams": Table("benchmarks/llvmpipe/diagrams.md", 15, benchmarks.diagrams),
