@@ -11,11 +11,11 @@
 namespace throng::recording {
 namespace {
 
-constexpr double kSlack = 0.004;   // of the sum of radii: overlaps this deep stay
-constexpr double kMoved = 1.0e-3;  // m: who moved less is where the simulation had it
-constexpr double kMargin = 0.05;   // m: pairs this far apart may be pushed together by others
-constexpr double kDeep = 0.005;    // of the sum of radii, beyond kSlack: not to be left
-constexpr double kRounding = 1.0e-6;   // m^2: far above rounding
+constexpr double kSlack = 0.004;      // of the sum of radii: overlaps this deep stay
+constexpr double kMoved = 1.0e-3;     // m: who moved less is where the simulation had it
+constexpr double kMargin = 0.05;      // m: pairs this far apart may be pushed together by others
+constexpr double kDeep = 0.005;       // of the sum of radii, beyond kSlack: not to be left
+constexpr double kRounding = 1.0e-6;  // m^2: far above rounding
 constexpr int kRounds = 8, kAttempts = 3, kHalvings = 12;
 
 /// From the first to the second, where they are nearest to each other: for discs, between their middles.

@@ -4,8 +4,9 @@
 namespace throng::analysis {
 namespace {
 
-// Parts of a colour in 256ths, so that 16 bits hold all sums and a processor's vectors most of them at once: 219 of
-// 255 steps are brightness (0.299 R + 0.587 G + 0.114 B), 224 are colour. Greys are exact, colours within a step.
+// Parts of a colour in 256ths, so that 16 bits hold all sums and a processor's vectors most of them at once:
+// 219 of 255 steps are brightness (0.299 R + 0.587 G + 0.114 B), 224 are colour. Greys are exact, colours
+// within a step.
 constexpr int kBits = 8;
 constexpr std::uint16_t kYRed = 66, kYGreen = 129, kYBlue = 25, kYZero = (16 << kBits) + 128;
 constexpr std::uint16_t kURed = 38, kUGreen = 74, kUBlue = 112, kVRed = 112, kVGreen = 94, kVBlue = 18;

@@ -59,7 +59,8 @@ void Marks::paint(glm::vec2 lower, glm::vec2 upper, const Cover& cover) {
     for (int y = first.y; y < last.y; ++y) {
         auto* row = reinterpret_cast<std::uint32_t*>(pixels_ + std::ptrdiff_t{y} * stride_);
         for (int x = first.x; x < last.x; ++x) {
-            const float covered = cover(glm::vec2(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
+            const float covered =
+                cover(glm::vec2(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
             const auto weight = static_cast<std::int32_t>(weight_ * covered + 0.5f);
             if (weight == 0) continue;
             const auto pixel = static_cast<std::int32_t>(row[x]);
@@ -81,7 +82,8 @@ void Marks::line(glm::vec2 from, glm::vec2 to, float width) {
     const glm::vec2 reach = half_length * glm::abs(along) + half_width * glm::abs(across);
     paint(middle - reach, middle + reach, [=](glm::vec2 at) {
         const glm::vec2 off = at - middle;
-        return coverOfStrip(half_width, glm::dot(off, across)) * coverOfStrip(half_length, glm::dot(off, along));
+        return coverOfStrip(half_width, glm::dot(off, across)) *
+               coverOfStrip(half_length, glm::dot(off, along));
     });
 }
 

@@ -10,8 +10,8 @@
 
 namespace throng::analysis {
 
-/// The small marks of a plate, of which a film has hundreds of thousands a frame: with smooth edges, but without
-/// what it takes to set up a general path for each. Where it ends, marks are cut off.
+/// The small marks of a plate, of which a film has hundreds of thousands a frame: with smooth edges, but
+/// without what it takes to set up a general path for each. Where it ends, marks are cut off.
 class Marks {
   public:
     /// @param surface CAIRO_FORMAT_RGB24; nothing else draws on it while this lives

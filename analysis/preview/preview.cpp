@@ -58,7 +58,8 @@ class Encoder {
 
     void add(cairo_surface_t* surface) {
         const auto* pixels = reinterpret_cast<const std::uint32_t*>(cairo_image_surface_get_data(surface));
-        const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(surface)) / sizeof *pixels;
+        const auto stride =
+            static_cast<std::size_t>(cairo_image_surface_get_stride(surface)) / sizeof *pixels;
         const std::vector<std::uint8_t>& planes = planes_.of(pixels, stride);
         if (const std::error_code error =
                 process_->write({reinterpret_cast<const char*>(planes.data()), planes.size()}))
